@@ -1,0 +1,15 @@
+# cmake -DSPIRV=.. -DOUTPUT=.. -DNAMESPACE=.. -DIDENTIFIER=.. -DNAME=.. -P EmbedShader.cmake: one SPIR-V file as C++.
+file(READ ${SPIRV} bytes HEX)
+string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1," words ${bytes}) # SPIR-V words are little endian here
+string(REGEX REPLACE "(0x[^,]*,0x[^,]*,0x[^,]*,0x[^,]*,0x[^,]*,0x[^,]*,0x[^,]*,0x[^,]*,)" "\\1\n    " words ${words})
+file(WRITE ${OUTPUT}
+"#include \"vk/spirv.hpp\"
+
+namespace ${NAMESPACE} {
+namespace vk = ::sinew::vk;
+static const std::uint32_t words[] = {
+    ${words}};
+extern const vk::ShaderCode ${IDENTIFIER};
+const vk::ShaderCode ${IDENTIFIER}{\"${NAME}\", words};
+} // namespace ${NAMESPACE}
+")

@@ -1,0 +1,69 @@
+# GLSL -> SPIR-V 1.5 -> arrays in the library.
+#
+#   add_kernels(<target> NAMESPACE <c++ namespace> HEADER <name.hpp> SOURCES <files...>)
+#
+# compiles every file for Vulkan 1.2, runs spirv-val on it and adds one `const vk::ShaderCode` a file to <target>:
+# solve_distance.comp becomes <namespace>::solveDistance, skin.vert becomes <namespace>::skinVert.
+find_program(GLSLANG glslangValidator REQUIRED)
+find_program(SPIRV_VAL spirv-val REQUIRED)
+set(SINEW_SHADER_INCLUDE ${PROJECT_SOURCE_DIR}/shaders/glsl)
+set(SINEW_EMBED ${CMAKE_CURRENT_LIST_DIR}/EmbedShader.cmake)
+
+function(sinew_camel_case out text)
+    string(REPLACE "_" ";" words ${text})
+    list(POP_FRONT words result)
+    foreach(word IN LISTS words)
+        string(SUBSTRING ${word} 0 1 head)
+        string(SUBSTRING ${word} 1 -1 tail)
+        string(TOUPPER ${head} head)
+        string(APPEND result ${head}${tail})
+    endforeach()
+    set(${out} ${result} PARENT_SCOPE)
+endfunction()
+
+function(add_kernels target)
+    cmake_parse_arguments(PARSE_ARGV 1 ARG "" "NAMESPACE;HEADER" "SOURCES")
+    set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}_kernels)
+    file(MAKE_DIRECTORY ${folder})
+    set(declarations "")
+    foreach(source IN LISTS ARG_SOURCES)
+        cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} NORMALIZE)
+        cmake_path(GET source STEM stem)
+        cmake_path(GET source EXTENSION stage)
+        sinew_camel_case(identifier ${stem})
+        if(stage STREQUAL ".vert")
+            string(APPEND identifier Vert)
+        elseif(stage STREQUAL ".frag")
+            string(APPEND identifier Frag)
+        endif()
+        set(spirv ${folder}/${stem}${stage}.spv)
+        set(embedded ${folder}/${stem}${stage}.cpp)
+        add_custom_command(
+            OUTPUT ${spirv}
+            COMMAND ${GLSLANG} --quiet -V --target-env vulkan1.2 -I${SINEW_SHADER_INCLUDE} --depfile ${spirv}.d -o ${spirv} ${source}
+            COMMAND ${SPIRV_VAL} --target-env vulkan1.2 ${spirv}
+            DEPENDS ${source}
+            DEPFILE ${spirv}.d
+            COMMENT "Kernel ${stem}${stage}"
+            VERBATIM)
+        add_custom_command(
+            OUTPUT ${embedded}
+            COMMAND ${CMAKE_COMMAND} -DSPIRV=${spirv} -DOUTPUT=${embedded} -DNAMESPACE=${ARG_NAMESPACE}
+                    -DIDENTIFIER=${identifier} -DNAME=${stem} -P ${SINEW_EMBED}
+            DEPENDS ${spirv} ${SINEW_EMBED}
+            VERBATIM)
+        target_sources(${target} PRIVATE ${embedded})
+        string(APPEND declarations "extern const vk::ShaderCode ${identifier};\n")
+    endforeach()
+    file(CONFIGURE OUTPUT ${folder}/${ARG_HEADER} @ONLY CONTENT
+"// Generated from the shader files by cmake/Shaders.cmake.
+#pragma once
+
+#include \"vk/spirv.hpp\"
+
+namespace @ARG_NAMESPACE@ {
+namespace vk = ::sinew::vk;
+@declarations@} // namespace @ARG_NAMESPACE@
+")
+    target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${folder}>)
+endfunction()

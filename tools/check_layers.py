@@ -1,0 +1,63 @@
+#!/usr/bin/env python3
+"""Fails when an include points up a layer, when a rule of one place is broken, or when a file or function grows too large."""
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+# Each layer may include itself and what stands to its right.
+LAYERS = {
+    "vk": [],
+    "sim": ["vk"],
+    "mesh": ["sim"],
+    "scenes": ["mesh", "sim"],
+    "app": ["mesh", "vk"],
+}
+# Finer rules inside a layer: (files, includes they may not have, why).
+SIM_MAY_USE_VK = re.compile(r"src/sim/(gpu_\w+|simulation)\.(cpp|hpp)$")
+PURE_VK = {"vk/spirv.hpp"}  # includes no Vulkan header
+MESH_MAY_USE_SIM = {"sim/scene.hpp", "sim/bodies.hpp"}
+LIMITS = {".cpp": 600, ".hpp": 600, ".h": 600, ".comp": 150, ".glsl": 150, ".vert": 150, ".frag": 150}
+INCLUDE = re.compile(r'^\s*#\s*include\s+[<"]([^>"]+)[>"]', re.M)
+STAGES = re.compile(r"vkCmdPipelineBarrier|VK_PIPELINE_STAGE_|VK_ACCESS_")
+
+
+def complaints(path, text):
+    name = path.relative_to(ROOT).as_posix()
+    lines = text.count("\n")
+    if lines > LIMITS[path.suffix]:
+        yield f"{name}: {lines} lines, at most {LIMITS[path.suffix]}"
+    if not name.startswith("src/"):
+        return
+    layer = name.split("/")[1]
+    for include in INCLUDE.findall(text):
+        head = include.split("/")[0]
+        if head in LAYERS and head != layer and head not in LAYERS[layer]:
+            yield f"{name}: {layer} must not include {include}"
+        if layer == "sim" and head == "vk" and include not in PURE_VK and not SIM_MAY_USE_VK.search(name):
+            yield f"{name}: only gpu_* and simulation may include {include}"
+        if layer == "mesh" and head == "sim" and include not in MESH_MAY_USE_SIM:
+            yield f"{name}: mesh sees only {', '.join(sorted(MESH_MAY_USE_SIM))}"
+        if head == "assimp" and not name.startswith("src/mesh/import"):
+            yield f"{name}: only mesh/import includes assimp"
+    if layer == "sim" and "/reference/" in name:
+        for include in INCLUDE.findall(text):
+            if include in ("layout.h", "kernels.hpp", "sim/compile.hpp") or include.startswith("sim/solvers"):
+                yield f"{name}: the reference shares no code with the kernels ({include})"
+    if layer in ("vk", "sim") and name != "src/vk/commands.cpp" and STAGES.search(text):
+        yield f"{name}: only vk/commands names stages, accesses and barriers"
+
+
+def main():
+    found, files = [], 0
+    for top in ("src", "apps", "tools", "tests", "shaders"):
+        for path in sorted((ROOT / top).rglob("*")):
+            if path.suffix in LIMITS:
+                files += 1
+                found += complaints(path, path.read_text(encoding="utf-8"))
+    print("\n".join(found) if found else f"layers: {files} files, all arrows point down")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,40 @@
+# Sourced by run.sh and test.sh: installs missing Debian packages, says what it does in one line, nothing when all is there.
+# need PACKAGE...
+need() {
+    local package missing=()
+    for package in "$@"; do
+        dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+    done
+    ((${#missing[@]})) || return 0
+    echo "installing ${#missing[@]} packages: ${missing[*]}"
+    local root=()
+    if ((EUID != 0)); then
+        command -v sudo >/dev/null || { echo "error: missing packages: no root rights and no sudo: install them: ${missing[*]}" >&2; exit 1; }
+        root=(sudo)
+    fi
+    local log
+    log=$(mktemp)
+    if ! { "${root[@]}" apt-get update && "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "${missing[@]}"; } >"$log" 2>&1 </dev/null; then
+        tail -n 20 "$log" >&2
+        rm -f "$log"
+        echo "error: apt-get failed: see above: mend the package sources and run this again" >&2
+        exit 1
+    fi
+    rm -f "$log"
+}
+
+# What a build of everything but the tests needs, and what the programs need to run on a machine without a GPU.
+build_packages=(ca-certificates cmake ninja-build g++ libc6-dev
+    libvulkan-dev libvulkan1 mesa-vulkan-drivers glslang-tools spirv-tools
+    libeigen3-dev libassimp-dev libglfw3-dev libstb-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev)
+# What the tests need beyond that.
+test_packages=(libgtest-dev vulkan-validationlayers spirv-cross xvfb xauth xdotool imagemagick x11-apps
+    assimp-testmodels python3-minimal binutils clang clang-format)
+
+# build PRESET [TARGET...]: configures once, then builds what changed.
+build() {
+    local preset=$1
+    shift
+    [[ -f build/$preset/build.ninja ]] || cmake --preset "$preset" >/dev/null
+    cmake --build "build/$preset" ${@:+--target "$@"} -- --quiet
+}
