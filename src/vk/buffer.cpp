@@ -1,0 +1,69 @@
+// Size checks before the allocator sees a request.
+#include "vk/buffer.hpp"
+
+#include "vk/allocator.hpp"
+#include "vk/check.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace sinew::vk {
+
+namespace {
+
+void checkRequest(const BufferRequest& request, VkDeviceSize largest) {
+    if (request.stride == 0 || request.stride % 4 != 0)
+        throw Error(Failure::misuse, "buffer " + request.name + ": a stride of " +
+                                         std::to_string(request.stride) + " bytes is no multiple of 4");
+    if (request.count > largest / request.stride)
+        throw Error(Failure::outOfMemory, "buffer " + request.name + ": " + std::to_string(request.count) +
+                                              " elements of " + std::to_string(request.stride) +
+                                              " bytes exceed the device's maxStorageBufferRange of " +
+                                              std::to_string(largest) + " bytes: use a smaller scene");
+}
+
+} // namespace
+
+Buffer::Buffer(const Device& device, const BufferRequest& request)
+    : allocator_(&device.allocator()), count_(request.count), stride_(request.stride), name_(request.name) {
+    checkRequest(request, device.limits().maxStorageBufferRange);
+    const VkBufferCreateInfo info{
+        .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
+        .size = std::max<VkDeviceSize>(count_, 1) * stride_,
+        .usage = request.usage | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+        .sharingMode = VK_SHARING_MODE_EXCLUSIVE};
+    allocation_ = allocator_->create(info, request.kind, name_.c_str());
+    device.name(VK_OBJECT_TYPE_BUFFER, handleValue(allocation_.buffer), name_);
+}
+
+Buffer::Buffer(Buffer&& other) noexcept
+    : allocator_(std::exchange(other.allocator_, nullptr)), allocation_(std::exchange(other.allocation_, {})),
+      count_(other.count_), stride_(other.stride_), name_(std::move(other.name_)) {}
+
+Buffer& Buffer::operator=(Buffer&& other) noexcept {
+    if (this != &other) {
+        release();
+        allocator_ = std::exchange(other.allocator_, nullptr);
+        allocation_ = std::exchange(other.allocation_, {});
+        count_ = other.count_;
+        stride_ = other.stride_;
+        name_ = std::move(other.name_);
+    }
+    return *this;
+}
+
+Buffer::~Buffer() {
+    release();
+}
+
+void Buffer::release() noexcept {
+    if (allocator_ != nullptr) allocator_->destroy(allocation_);
+    allocator_ = nullptr;
+}
+
+BufferView Buffer::view() const noexcept {
+    return {allocation_.buffer, 0, std::max<VkDeviceSize>(count_, 1) * stride_, stride_};
+}
+
+} // namespace sinew::vk

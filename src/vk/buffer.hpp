@@ -1,0 +1,50 @@
+// A storage buffer with an element count and a stride, both checked against what a kernel declares.
+#pragma once
+
+#include "vk/device.hpp"
+
+namespace sinew::vk {
+
+/// A range of a VkBuffer as a kernel, a copy or a vertex input reads it. Does not own anything.
+struct BufferView {
+    VkBuffer buffer = VK_NULL_HANDLE;
+    VkDeviceSize offset = 0, size = 0; ///< [B]
+    std::uint32_t stride = 0;          ///< [B]
+};
+
+struct BufferRequest {
+    std::string name;
+    VkDeviceSize count = 0;   ///< elements; at least one is allocated so that a binding is never empty
+    std::uint32_t stride = 0; ///< [B]; 4-byte multiple
+    MemoryKind kind = MemoryKind::device;
+    VkBufferUsageFlags usage = 0; ///< added to storage + transfer source + transfer destination
+};
+
+/// RAII buffer. Moves, never copies. Must not outlive its Device, which may move meanwhile.
+class Buffer {
+public:
+    /// Throws Error(outOfMemory) if count x stride exceeds maxStorageBufferRange, naming buffer and both
+    /// figures; Error(misuse) if the stride is no multiple of 4.
+    Buffer(const Device& device, const BufferRequest& request);
+    Buffer(Buffer&& other) noexcept;
+    Buffer& operator=(Buffer&& other) noexcept;
+    ~Buffer();
+
+    /// The whole buffer: max(count, 1) elements.
+    BufferView view() const noexcept;
+    VkDeviceSize count() const noexcept { return count_; }
+    std::uint32_t stride() const noexcept { return stride_; }
+    const std::string& name() const noexcept { return name_; }
+    /// Host address of a mapped buffer (upload, readback), else null. Memory is host coherent.
+    std::byte* mapped() const noexcept { return allocation_.mapped; }
+
+private:
+    void release() noexcept;
+    Allocator* allocator_ = nullptr; ///< null: moved from
+    BufferAllocation allocation_;
+    VkDeviceSize count_ = 0;
+    std::uint32_t stride_ = 0;
+    std::string name_;
+};
+
+} // namespace sinew::vk

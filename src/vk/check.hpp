@@ -1,0 +1,35 @@
+// Failures of the machine at set-up: one exception type that carries the call, its result and the object's
+// name.
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace sinew::vk {
+
+/// What a caller can do about a failure; the programs map it to their exit codes.
+enum class Failure {
+    noDevice,    ///< no loader, driver or device that can run Sinew (exit code 4)
+    outOfMemory, ///< host or device memory, or a limit of the device (exit code 5)
+    deviceLost,  ///< VK_ERROR_DEVICE_LOST (exit code 5)
+    misuse,      ///< a call that the specification forbids: a fault of ours (exit code 70)
+};
+
+class Error : public std::runtime_error {
+public:
+    Error(Failure failure, const std::string& message) : std::runtime_error(message), failure_(failure) {}
+    Failure failure() const noexcept { return failure_; }
+
+private:
+    Failure failure_;
+};
+
+/// The specification's name of a result, such as "VK_ERROR_DEVICE_LOST".
+const char* resultName(VkResult result) noexcept;
+
+/// Throws Error("<call> of <object>: <result name>") unless `result` is a success code (>= 0).
+void check(VkResult result, const char* call, const std::string& object);
+
+} // namespace sinew::vk

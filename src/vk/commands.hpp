@@ -1,0 +1,52 @@
+// Records into a caller's command buffer. The only place that names pipeline stages and barriers.
+#pragma once
+
+#include "vk/kernel.hpp"
+
+namespace sinew::vk {
+
+/// A thin view over a recording VkCommandBuffer; holds nothing, frees nothing, never throws.
+class Commands {
+public:
+    Commands(const Device& device, VkCommandBuffer commands) noexcept;
+
+    /// Binds pipeline and set; both stay bound until the next call (equal ones are not bound again).
+    void bind(const Kernel& kernel, VkDescriptorSet set) noexcept;
+    /// `size` <= the kernel's push constant block; multiple of 4 [B].
+    void push(const Kernel& kernel, const void* bytes, std::uint32_t size) noexcept;
+    void dispatch(std::uint32_t groupsX) noexcept;
+    void fill(const BufferView& target, std::uint32_t value) noexcept;
+    void copy(const BufferView& from, const BufferView& to) noexcept; ///< sizes agree
+    void update(const BufferView& target, const void* bytes,
+                VkDeviceSize size) noexcept; ///< size <= 65,536 [B]
+
+    /// Everything recorded so far by compute or transfer happens before everything after: one memory barrier,
+    /// always with the same masks (compute, transfer, indirect), which is what makes planned barriers right.
+    void barrier() noexcept;
+    /// Opens a step: waits for earlier reads by vertex input, vertex shaders, transfer and compute of this
+    /// queue.
+    void beginStep() noexcept;
+    /// Closes a step: makes all writes visible to indirect, index and vertex fetch, vertex and compute
+    /// shaders, and transfers. Stages the queue family lacks are left out.
+    void endStep() noexcept;
+    /// Makes transfer and compute writes visible to the host; validation never reports its absence.
+    void hostBarrier() noexcept;
+
+    void beginLabel(const char* label) noexcept; ///< nothing without VK_EXT_debug_utils
+    void endLabel() noexcept;
+    void resetTimestamps(VkQueryPool pool, std::uint32_t count) noexcept;
+    void timestamp(VkQueryPool pool, std::uint32_t index) noexcept; ///< after all earlier work
+
+    VkCommandBuffer handle() const noexcept { return commands_; }
+
+private:
+    void memoryBarrier(VkPipelineStageFlags from, VkPipelineStageFlags to, VkAccessFlags access) noexcept;
+    const DeviceFunctions* functions_;
+    VkPipelineStageFlags
+        allStages_; ///< those of a step and of its readers, as far as the queue family has them
+    VkCommandBuffer commands_;
+    VkPipeline boundPipeline_ = VK_NULL_HANDLE;
+    VkDescriptorSet boundSet_ = VK_NULL_HANDLE;
+};
+
+} // namespace sinew::vk

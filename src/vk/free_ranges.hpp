@@ -1,0 +1,29 @@
+// The free part of one memory block as disjoint ranges, neighbours merged. Pure arithmetic: includes no
+// Vulkan.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+
+namespace sinew::vk {
+
+class FreeRanges {
+public:
+    explicit FreeRanges(std::uint64_t size) : size_(size), free_{{0, size}} {}
+
+    /// Offset of `size` > 0 bytes at a multiple of `alignment` (a power of two), the lowest that fits; empty
+    /// if none.
+    std::optional<std::uint64_t> take(std::uint64_t size, std::uint64_t alignment);
+    /// Gives back exactly what `take` returned for this size.
+    void give(std::uint64_t offset, std::uint64_t size);
+    bool isAllFree() const noexcept { return free_.size() == 1 && free_.begin()->second == size_; }
+    /// Disjoint and not adjacent, offset to size.
+    const std::map<std::uint64_t, std::uint64_t>& ranges() const noexcept { return free_; }
+
+private:
+    std::uint64_t size_;
+    std::map<std::uint64_t, std::uint64_t> free_;
+};
+
+} // namespace sinew::vk

@@ -1,0 +1,38 @@
+// Fills the private function tables.
+#include "vk/functions.hpp"
+
+#include "vk/check.hpp"
+
+#include <string_view>
+
+namespace sinew::vk {
+
+namespace {
+
+// Extensions may be absent; a core function may not.
+template <typename Function> Function required(PFN_vkVoidFunction function, std::string_view name) {
+    if (function == nullptr && !name.ends_with("EXT"))
+        throw Error(Failure::noDevice, "the Vulkan driver lacks " + std::string(name) +
+                                           ", which Vulkan 1.2 requires: update the driver");
+    return reinterpret_cast<Function>(function);
+}
+
+} // namespace
+
+InstanceFunctions loadInstanceFunctions(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance) {
+    InstanceFunctions functions;
+#define SINEW_VK(name) functions.name = required<PFN_##name>(getInstanceProcAddr(instance, #name), #name);
+#define SINEW_VK_DEVICE(name)
+#include "vk/functions.inc"
+    return functions;
+}
+
+DeviceFunctions loadDeviceFunctions(PFN_vkGetDeviceProcAddr getDeviceProcAddr, VkDevice device) {
+    DeviceFunctions functions;
+#define SINEW_VK(name)
+#define SINEW_VK_DEVICE(name) functions.name = required<PFN_##name>(getDeviceProcAddr(device, #name), #name);
+#include "vk/functions.inc"
+    return functions;
+}
+
+} // namespace sinew::vk

@@ -1,0 +1,72 @@
+// One compute pipeline with the interface read out of its SPIR-V, and the descriptor sets that bind buffers
+// to it.
+#pragma once
+
+#include "vk/buffer.hpp"
+#include "vk/spirv.hpp"
+
+namespace sinew::vk {
+
+struct SpecialisationConstant {
+    std::uint32_t id = 0, value = 0; ///< bools and floats are passed as their 32 bits
+};
+
+/// Creates its pipeline at construction. Movable. Must not outlive its Device, which may move meanwhile.
+class Kernel {
+public:
+    /// Throws Error(noDevice) where the device's limits are below the kernel's needs (bindings, group size,
+    /// push constants, shared memory), naming both figures; Error(misuse) on a specialisation id the kernel
+    /// does not have; std::runtime_error where readInterface does.
+    Kernel(const Device& device, const ShaderCode& code, std::span<const SpecialisationConstant> constants);
+    Kernel(Kernel&& other) noexcept;
+    Kernel& operator=(Kernel&& other) noexcept;
+    ~Kernel();
+
+    /// The group size is the one with the given constants.
+    const KernelInterface& interface() const noexcept { return interface_; }
+    VkPipeline pipeline() const noexcept { return pipeline_; }
+    VkPipelineLayout layout() const noexcept { return layout_; }
+    VkDescriptorSetLayout setLayout() const noexcept { return setLayout_; }
+    const std::string& name() const noexcept { return name_; }
+
+private:
+    void create(const Device& device, const ShaderCode& code,
+                std::span<const SpecialisationConstant> constants);
+    void release() noexcept;
+    VkDevice device_ = VK_NULL_HANDLE;
+    const DeviceFunctions* functions_ = nullptr;
+    KernelInterface interface_;
+    std::string name_;
+    VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
+    VkPipelineLayout layout_ = VK_NULL_HANDLE;
+    VkPipeline pipeline_ = VK_NULL_HANDLE;
+};
+
+/// The buffers one dispatch binds, in binding order.
+struct BindingRequest {
+    const Kernel* kernel = nullptr;
+    std::vector<BufferView> buffers;
+};
+
+/// A descriptor pool made once for a known list of requests; sets are written at construction and never
+/// again.
+class BindingSets {
+public:
+    /// Throws Error(misuse) naming kernel and binding where a count, a stride or an offset's alignment
+    /// disagrees, Error(outOfMemory) where a range exceeds maxStorageBufferRange.
+    BindingSets(const Device& device, std::span<const BindingRequest> requests);
+    BindingSets(BindingSets&& other) noexcept;
+    BindingSets& operator=(BindingSets&& other) noexcept;
+    ~BindingSets();
+
+    VkDescriptorSet operator[](std::size_t request) const noexcept { return sets_[request]; }
+
+private:
+    void release() noexcept;
+    VkDevice device_ = VK_NULL_HANDLE;
+    const DeviceFunctions* functions_ = nullptr;
+    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    std::vector<VkDescriptorSet> sets_;
+};
+
+} // namespace sinew::vk

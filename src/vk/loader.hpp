@@ -1,0 +1,32 @@
+// Opens the system's Vulkan loader at run time. Part of the standalone target: the core never opens or links
+// one.
+#pragma once
+
+#include "vk/functions.hpp"
+
+#include <string>
+
+namespace sinew::vk {
+
+/// Keeps libvulkan open; must outlive every Device made through it.
+class Loader {
+public:
+    /// Opens `library` with dlopen. Throws Error(noDevice) naming the library and the reason.
+    explicit Loader(const std::string& library = "libvulkan.so.1");
+    ~Loader();
+    Loader(const Loader&) = delete;
+    Loader& operator=(const Loader&) = delete;
+
+    PFN_vkGetInstanceProcAddr getInstanceProcAddr() const noexcept { return getInstanceProcAddr_; }
+
+private:
+    void* library_ = nullptr;
+    PFN_vkGetInstanceProcAddr getInstanceProcAddr_ = nullptr;
+};
+
+/// Sets VK_LAYER_ENABLES so that synchronisation validation also looks across submissions. The layer reads it
+/// when an instance is made and has no other switch for it, so a program calls this before Device::create and
+/// before it starts threads; a library has no business with its host's environment.
+void enableQueueSubmitValidation();
+
+} // namespace sinew::vk

@@ -1,0 +1,146 @@
+// From a parsed module to the interface of a kernel.
+#include "vk/spirv.hpp"
+
+#include "vk/spirv_module.hpp"
+
+#include <algorithm>
+
+namespace sinew::vk {
+
+namespace {
+
+using spirv::Decoration;
+using spirv::Instruction;
+using spirv::Module;
+using spirv::Op;
+using spirv::Storage;
+
+std::uint32_t pointee(const Module& module, const spirv::Variable& variable) {
+    const Instruction& pointer = module.type(variable.type);
+    if (pointer.op != Op::typePointer) module.fail("a variable's type is no pointer");
+    return pointer.operands[2];
+}
+
+/// glslang puts readonly and writeonly on every member of a block, other compilers on the variable.
+bool isDecorated(const Module& module, std::uint32_t variable, std::uint32_t block, Decoration wanted) {
+    if (module.decoration(variable, wanted)) return true;
+    const std::size_t members = module.type(block).operands.size() - 1;
+    for (std::uint32_t member = 0; member < members; ++member)
+        if (!module.memberDecoration(block, member, wanted)) return false;
+    return members > 0;
+}
+
+Access accessOf(const Module& module, std::uint32_t variable, std::uint32_t block) {
+    if (isDecorated(module, variable, block, Decoration::nonWritable)) return Access::read;
+    return isDecorated(module, variable, block, Decoration::nonReadable) ? Access::write : Access::readWrite;
+}
+
+std::uint32_t strideOf(const Module& module, std::uint32_t block) {
+    const auto members = module.type(block).operands.subspan(1);
+    const auto isRuntimeArray = [&](std::uint32_t member) {
+        return module.type(member).op == Op::typeRuntimeArray;
+    };
+    if (std::none_of(members.begin(), members.end(), isRuntimeArray)) return module.size(block);
+    if (members.size() != 1)
+        module.fail("block " + module.nameOf(block) +
+                    " has fixed members and a run-time array: make two buffers");
+    const auto stride = module.decoration(members[0], Decoration::arrayStride);
+    if (!stride) module.fail("the array of block " + module.nameOf(block) + " has no stride");
+    module.size(module.type(members[0]).operands[1]); // refuses row-major members
+    return *stride;
+}
+
+KernelBinding bindingOf(const Module& module, const spirv::Variable& variable, BlockKind kind) {
+    const std::uint32_t block = pointee(module, variable);
+    if (module.type(block).op != Op::typeStruct)
+        module.fail("the variable " + module.nameOf(variable.id) + " is no buffer block");
+    const std::string name = module.nameOf(block);
+    const auto binding = module.decoration(variable.id, Decoration::binding);
+    if (!binding || module.decoration(variable.id, Decoration::descriptorSet).value_or(0) != 0)
+        module.fail("buffer " + name + " must have a binding in set 0");
+    const Access access = kind == BlockKind::uniform ? Access::read : accessOf(module, variable.id, block);
+    const std::uint32_t stride = strideOf(module, block);
+    constexpr std::uint32_t smallestLimit = 16384; // of maxUniformBufferRange, on every device
+    if (kind == BlockKind::uniform && stride > smallestLimit)
+        module.fail("uniform block " + name + " has " + std::to_string(stride) +
+                    " bytes, at most 16384 are allowed");
+    return {*binding, name, access, stride, kind};
+}
+
+void addVariable(const Module& module, const spirv::Variable& variable, KernelInterface& interface) {
+    switch (variable.storage) {
+    case Storage::storageBuffer:
+        interface.bindings.push_back(bindingOf(module, variable, BlockKind::storage));
+        break;
+    case Storage::uniform: { // before SPIR-V 1.3 storage buffers stood here too, decorated BufferBlock
+        const bool isStorage =
+            module.decoration(pointee(module, variable), Decoration::bufferBlock).has_value();
+        const BlockKind kind = isStorage ? BlockKind::storage : BlockKind::uniform;
+        interface.bindings.push_back(bindingOf(module, variable, kind));
+        break;
+    }
+    case Storage::pushConstant:
+        interface.pushConstantSize = module.size(pointee(module, variable));
+        break;
+    case Storage::workgroup:
+        interface.sharedMemory += module.size(pointee(module, variable));
+        break;
+    case Storage::input:
+    case Storage::privateToInvocation:
+        break;
+    default:
+        module.fail(module.nameOf(variable.id) + " is no storage buffer: kernels bind nothing else");
+    }
+}
+
+void checkBindings(const Module& module, const std::vector<KernelBinding>& bindings) {
+    for (std::uint32_t i = 0; i < bindings.size(); ++i)
+        if (bindings[i].binding != i)
+            module.fail("buffer " + bindings[i].name + " has binding " + std::to_string(bindings[i].binding) +
+                        " where " + std::to_string(i) + " comes next");
+}
+
+void checkCapabilities(const Module& module) {
+    constexpr std::uint32_t matrix = 0, shader = 1;
+    for (const std::uint32_t capability : module.capabilities)
+        if (capability != matrix && capability != shader)
+            module.fail("it needs the SPIR-V capability " + std::to_string(capability) +
+                        ", an optional feature that no kernel of the core may use");
+}
+
+/// layout(local_size_x_id = ...) decorates a composite of specialisation constants as the WorkgroupSize
+/// built-in.
+void readGroupSize(const Module& module, KernelInterface& interface) {
+    constexpr std::uint32_t workgroupSize = 25;
+    interface.groupSize = module.localSize;
+    for (const auto& [id, instruction] : module.constants) {
+        if (module.decoration(id, Decoration::builtIn) != workgroupSize) continue;
+        for (std::uint32_t dimension = 0; dimension < 3; ++dimension) {
+            const std::uint32_t constant = module.constituent(id, dimension);
+            interface.groupSize[dimension] = module.value(constant);
+            interface.groupSizeIds[dimension] = module.decoration(constant, Decoration::specId);
+        }
+    }
+}
+
+} // namespace
+
+KernelInterface readInterface(const ShaderCode& code) {
+    const Module module = spirv::parse(code);
+    checkCapabilities(module);
+    if (module.entryPoints != 1)
+        module.fail("it has " + std::to_string(module.entryPoints) + " entry points instead of one");
+    KernelInterface interface;
+    for (const spirv::Variable& variable : module.variables) addVariable(module, variable, interface);
+    std::sort(interface.bindings.begin(), interface.bindings.end(),
+              [](const KernelBinding& a, const KernelBinding& b) { return a.binding < b.binding; });
+    checkBindings(module, interface.bindings);
+    readGroupSize(module, interface);
+    for (const auto& [id, instruction] : module.constants)
+        if (const auto specialisation = module.decoration(id, Decoration::specId))
+            interface.specialisationIds.push_back(*specialisation);
+    std::sort(interface.specialisationIds.begin(), interface.specialisationIds.end());
+    return interface;
+}
+
+} // namespace sinew::vk

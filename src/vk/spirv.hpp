@@ -1,0 +1,50 @@
+// Reads a kernel's interface out of its SPIR-V 1.5: bindings with access and stride, push constants, group
+// size. Pure: includes no Vulkan header, so that sim/program can plan barriers from it without a device.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace sinew::vk {
+
+/// A compiled kernel as the build embeds it (cmake/Shaders.cmake). Static storage.
+struct ShaderCode {
+    const char* name;                     ///< file stem, such as "solve_distance"
+    std::span<const std::uint32_t> words; ///< SPIR-V, validated at build time
+};
+
+enum class Access : std::uint8_t { read = 1, write = 2, readWrite = 3 };
+
+/// `uniform`: a block that every invocation reads alike and none writes; software devices read it once a
+/// group, not once a lane. At most 16 KiB, which every device allows.
+enum class BlockKind : std::uint8_t { storage, uniform };
+
+struct KernelBinding {
+    std::uint32_t binding = 0;
+    std::string name;                  ///< the block's name in GLSL, such as "Positions"
+    Access access = Access::readWrite; ///< from readonly / writeonly, the only declaration of access
+    /// [B]: of the run-time array, or the size of a fixed struct rounded up to its std430 alignment
+    std::uint32_t stride = 0;
+    BlockKind kind = BlockKind::storage;
+};
+
+struct KernelInterface {
+    std::vector<KernelBinding> bindings;             ///< descriptor set 0, sorted, without gaps
+    std::uint32_t pushConstantSize = 0;              ///< [B], rounded up to the block's std430 alignment
+    std::array<std::uint32_t, 3> groupSize{1, 1, 1}; ///< with the defaults of the specialisation constants
+    /// The specialisation constant that sets a dimension of the group size; empty = fixed.
+    std::array<std::optional<std::uint32_t>, 3> groupSizeIds;
+    std::vector<std::uint32_t> specialisationIds; ///< sorted
+    std::uint32_t sharedMemory = 0;               ///< [B], workgroup storage
+};
+
+/// Throws std::runtime_error with the shader's name where the module breaks a rule: a set other than 0, a gap
+/// in the bindings, anything but storage buffers, a block of fixed members and a run-time array, a row-major
+/// matrix, a capability that is an optional feature, an unknown opcode in a type, a truncated module.
+KernelInterface readInterface(const ShaderCode& code);
+
+} // namespace sinew::vk
