@@ -1,0 +1,13 @@
+// What every kernel starts with: the shared structs, the group size, and the index of its item.
+#include "layout.h"
+
+layout(local_size_x = GROUP_ITEMS) in;
+
+// Maps invocation i to count - 1 - i. The state must not change: our race and order detector.
+layout(constant_id = 0) const bool isReversed = false;
+
+// The item of this invocation; the caller returns where it is >= count.
+uint itemIndex(uint count) {
+    const uint i = gl_GlobalInvocationID.x;
+    return isReversed && i < count ? count - 1u - i : i;
+}

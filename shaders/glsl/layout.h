@@ -1,0 +1,135 @@
+// Every struct and push constant that C++ and GLSL share, defined once. std430: scalars align to 4, vec4 to 16; a
+// struct that mixes them lists its vec4 first. C++ sees them in sinew::sim::layout with equal sizes and strides.
+#ifndef SINEW_LAYOUT_H
+#define SINEW_LAYOUT_H
+
+#ifdef __cplusplus
+#include <cstdint>
+namespace sinew::sim::layout {
+using uint = std::uint32_t;
+struct alignas(16) vec4 {
+    float x, y, z, w;
+};
+#endif
+
+// Work-group size of every kernel.
+#define GROUP_ITEMS 128
+
+// Written once per step, at the head of the command buffer.
+struct StepParams {
+    vec4 gravity;         // xyz [m/s^2]
+    float h;              // substep length [s]
+    float hPrevious;      // of the step before; 0 in the first step (half-kick)
+    float thetaH;         // `split`: stored position = x + thetaH v [s]
+    float thetaHPrevious; // of the step before
+    float velocityFactor; // exp(-damping h)
+    float restSpeed;      // impacts slower than this do not rebound: 2 |g| h [m/s]
+    uint frame;
+    uint unused0;
+};
+
+// `split` keeps the links of a work group's particles together, slot by slot: link s of particle i is element
+// (i / LINK_BLOCK * degree + s) * LINK_BLOCK + i % LINK_BLOCK. Slots of the whole scene behind one another would lie a power
+// of two apart where the particle count is one, and evict each other from a CPU's cache.
+#define LINK_BLOCK GROUP_ITEMS
+
+// One of a particle's links, in the general form.
+struct SplitLink {
+    uint other;       // the particle at the far end; i itself in padding
+    float restLength; // [m]
+    float stiffness;  // [N/m]
+    uint unused0;     // 16 bytes, so that a kernel reads a link in one load
+};
+
+// The packed form, for regular bodies: a link is one word, its far end and a code. Its slot belongs to a group with
+// one rest length and one unit of stiffness: stiffness = (code + 1) x unit.
+#define PACKED_END_BITS 24
+#define PACKED_CODES 256
+#define PACKED_GROUPS 4
+
+// `jacobi`: a distance constraint.
+struct DistanceEdge {
+    uint a, b;
+    float restLength; // [m]
+    float compliance; // [m/N]
+};
+
+// `jacobi`: the multiplier of a compliant constraint and the share of each new one that both ends really take.
+struct DistanceMultiplier {
+    float lambda; // [N s^2]
+    float share;
+};
+
+// `jacobi`: which slots of the correction buffer belong to a particle.
+struct Incidence {
+    uint first, count;
+    float weight; // over-relaxation x averaging weight
+};
+
+struct PlaneCollider {
+    vec4 normalOffset; // unit normal, offset [m]
+    float friction;
+    float restitution;
+    float unused0, unused1;
+};
+
+// `jacobi`: temporary constraints of a particle, found anew each substep.
+struct PlaneContact {
+    vec4 velocityBefore; // [m/s]; w = bit set of touched planes
+};
+
+// What a step found out about the state.
+struct StatusWords {
+    uint nonFinite;        // particles with a non-finite position or velocity
+    uint invertedFirstBad; // ~index of the first of them
+    uint frame;
+    uint unused0;
+};
+
+// A skin vertex in a lattice cell; corner k has the offset (k & 1, k >> 1 & 1, k >> 2).
+struct CellVertex {
+    vec4 weights; // xyz: local coordinates in the cell
+    uint corners[8];
+};
+
+struct SkinVertex {
+    vec4 position; // xyz [m], w = 1
+    vec4 normal;   // xyz unit length
+};
+
+// A skin vertex's triangles: entries first .. first + count - 1 of the triangle-of-vertex list.
+struct VertexTriangles {
+    uint first, count;
+};
+
+struct CountPush {
+    uint count; // items; the last group may be partly idle
+};
+
+struct SubstepPush {
+    uint count;
+    uint isFirst; // 1 in the first substep of a step
+};
+
+struct PackedSubstepPush {
+    uint count;
+    uint isFirst;
+    float restLengths[PACKED_GROUPS]; // [m]
+    float units[PACKED_GROUPS];       // of stiffness [N/m]
+};
+
+struct IterationPush {
+    uint count;
+    uint firstSlot; // of this constraint type in the correction buffer
+    uint isFirst;   // 1 in the first iteration of a substep
+};
+
+struct SkinPush {
+    uint count;
+    uint firstVertex; // of this skin in the vertex buffer
+};
+
+#ifdef __cplusplus
+} // namespace sinew::sim::layout
+#endif
+#endif

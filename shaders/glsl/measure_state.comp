@@ -1,0 +1,23 @@
+#version 460
+// Counts particles with a non-finite state. Integer atomics only, and only where something is wrong.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+
+layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
+layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; };
+layout(std430, binding = 2) buffer Status { StatusWords status; };
+layout(std140, binding = 3) uniform Step { StepParams step; };
+layout(push_constant) uniform Push { CountPush push; };
+
+// All exponent bits set: Inf or NaN. On bits, so that no compiler may assume it away.
+bool isFinite(vec3 a) {
+    return all(notEqual(floatBitsToUint(a) & uvec3(0x7f800000u), uvec3(0x7f800000u)));
+}
+
+void main() {
+    const uint i = itemIndex(push.count);
+    if (i == 0u) status.frame = step.frame;
+    if (i >= push.count || (isFinite(positions[i].xyz) && isFinite(velocities[i].xyz))) return;
+    atomicAdd(status.nonFinite, 1u);
+    atomicMax(status.invertedFirstBad, ~i);
+}

@@ -1,0 +1,35 @@
+// Boundary planes as temporary constraints: C = n . x - offset - contactOffset >= 0, found active anew each substep.
+// Projected exactly and one after another inside the particle (contacts: 0.4); a correction c of x adds c / h to v.
+layout(constant_id = 2) const uint planeCount = 1; // at most 32
+
+// Where a particle is in a substep.
+struct Motion {
+    vec3 x;            // [m]
+    vec3 v;            // [m/s]
+    vec3 displacement; // since the substep began [m]
+};
+
+// Keeps a particle in front of a plane; true if it touched. Coulomb friction in position form (Unified Particle
+// Physics, 2014): the tangential displacement of this substep is taken back up to friction x depth.
+bool projectOntoPlane(PlaneCollider plane, float contactOffset, float h, inout Motion motion) {
+    const vec3 n = plane.normalOffset.xyz;
+    const float depth = plane.normalOffset.w + contactOffset - dot(n, motion.x);
+    if (depth <= 0.0) return false;
+    const vec3 tangential = motion.displacement - dot(n, motion.displacement) * n;
+    const float slip = length(tangential);
+    const float held = slip > 0.0 ? min(1.0, plane.friction * depth / slip) : 0.0;
+    const vec3 correction = depth * n - held * tangential;
+    motion.x += correction;
+    motion.v += correction / h;
+    motion.displacement += correction;
+    return true;
+}
+
+// Newton's restitution against the velocity before the substep; impacts slower than restSpeed [m/s] do not rebound,
+// or resting contacts would tremble.
+vec3 rebound(PlaneCollider plane, float restSpeed, vec3 velocityBefore, vec3 v) {
+    const vec3 n = plane.normalOffset.xyz;
+    const float before = dot(n, velocityBefore);
+    if (before >= -restSpeed) return vec3(0.0);
+    return max(0.0, -plane.restitution * before - dot(n, v)) * n;
+}

@@ -1,0 +1,23 @@
+#version 460
+// Skin vertices in lattice cells: trilinear over the cell's eight particles (methods: H, skin), exact for affine motion.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+
+layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
+layout(std430, binding = 1) readonly buffer Cells { CellVertex cells[]; };
+layout(std430, binding = 2) buffer Vertices { SkinVertex vertices[]; };
+layout(push_constant) uniform Push { SkinPush push; };
+
+void main() {
+    const uint i = itemIndex(push.count);
+    if (i >= push.count) return;
+    const CellVertex cell = cells[i];
+    const vec3 t = cell.weights.xyz;
+    vec3 x = vec3(0.0);
+    for (uint k = 0u; k < 8u; ++k) {
+        const bvec3 isHigh = notEqual(uvec3(k) & uvec3(1u, 2u, 4u), uvec3(0u));
+        const vec3 share = mix(1.0 - t, t, isHigh);
+        x += share.x * share.y * share.z * positions[cell.corners[k]].xyz;
+    }
+    vertices[push.firstVertex + i].position = vec4(x, 1.0);
+}

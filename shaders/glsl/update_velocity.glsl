@@ -1,0 +1,28 @@
+// Closes a substep of `jacobi`: damping, and restitution at the planes touched in this substep.
+#include "kernel.glsl"
+
+layout(std430, binding = 0) buffer Velocities { vec4 velocities[]; };
+layout(std140, binding = 1) uniform Step { StepParams step; };
+#ifdef HAS_PLANES
+#include "planes.glsl"
+layout(std430, binding = 2) readonly buffer Contacts { PlaneContact contacts[]; };
+layout(std430, binding = 3) readonly buffer Planes { PlaneCollider planes[]; };
+#endif
+layout(push_constant) uniform Push { CountPush push; };
+
+void main() {
+    const uint i = itemIndex(push.count);
+    if (i >= push.count) return;
+    const vec4 velocity = velocities[i];
+    if (velocity.w == 0.0) return;
+    // Even at rest v holds the half-kick h g / 2. Damping it as if it were motion would take weight off the body.
+    vec3 v = mix(0.5 * step.h * step.gravity.xyz, velocity.xyz, step.velocityFactor);
+#ifdef HAS_PLANES
+    const PlaneContact contact = contacts[i];
+    const uint touched = floatBitsToUint(contact.velocityBefore.w);
+    for (uint p = 0u; p < planeCount; ++p) {
+        if ((touched & 1u << p) != 0u) v += rebound(planes[p], step.restSpeed, contact.velocityBefore.xyz, v);
+    }
+#endif
+    velocities[i].xyz = v;
+}

@@ -1,0 +1,23 @@
+// The resources of every picture shader, and the sample pattern they share.
+#include "viewer/frame.h"
+
+layout(set = 0, binding = 0, std140) uniform Frame { FrameParams frame; };
+
+const float pi = 3.14159265;
+
+// Even samples of a disc (Vogel's spiral): direction i + 1 is direction i turned by the golden angle, point i of n lies
+// at discRadius(i, n) along it.
+vec2 firstTurn(float phase) {
+    return vec2(cos(phase), sin(phase));
+}
+vec2 nextTurn(vec2 turn) {
+    return mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888) * turn;
+}
+float discRadius(uint i, uint n) {
+    return sqrt((float(i) + 0.5) / float(n));
+}
+
+// Interleaved gradient noise in [0, 1) [Jimenez 2014]: neighbours differ much, blocks average out.
+float pixelNoise(vec2 pixel) {
+    return fract(52.9829189 * fract(dot(floor(pixel), vec2(0.06711056, 0.00583715))));
+}

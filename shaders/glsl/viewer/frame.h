@@ -1,0 +1,38 @@
+// What the picture's shaders read, defined once for C++ (sinew::viewer::layout) and GLSL. Written once per
+// picture.
+#ifndef SINEW_VIEWER_FRAME_H
+#define SINEW_VIEWER_FRAME_H
+
+#ifdef __cplusplus
+namespace sinew::viewer::layout {
+struct alignas(16) vec4 {
+    float x, y, z, w;
+};
+struct alignas(16) mat4 {
+    float columns[16];
+};
+#endif
+
+struct FrameParams {
+    mat4 clipFromWorld;
+    mat4 shadowFromWorld; // the key light's map: xy in [-1, 1], z in [0, 1] growing away from the light
+    mat4 planFromWorld;   // the plan map, seen from below the floor: z = 0 at the floor, 1 at the stage's top
+    vec4 eye;             // xyz [m]
+    vec4 rayRight; // a pixel's view ray is rayForward + x rayRight + y rayUp, with x and y in clip space
+    vec4 rayUp;
+    vec4 rayForward;
+    vec4 toLight; // unit direction to the key light
+    vec4 stage;   // centre and radius of what is lit and shadowed [m]
+    vec4 ground; // height [m], grid spacing [m], distance from the stage where it ends in haze [m], 1 = drawn
+    vec4 shadow; // width and depth of the shadow map's volume [m]
+    vec4 floor;  // x and z of the floor map's middle, its width, the plan map's height [m]
+};
+
+struct SkinPush {
+    vec4 color; // linear RGB; w: gloss, 1 = moist tissue
+};
+
+#ifdef __cplusplus
+} // namespace sinew::viewer::layout
+#endif
+#endif

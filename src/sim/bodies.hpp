@@ -1,0 +1,59 @@
+// Bodies as particles and distance constraints: cloth sheets and voxel lattices, appended to a Scene.
+#pragma once
+
+#include "sim/scene.hpp"
+
+namespace sinew::sim {
+
+/// A rectangular sheet of columns x rows particles in the plane of `right` and `down`, with edge and diagonal
+/// links.
+struct ClothSheet {
+    std::string name = "cloth";
+    Vec3 origin;                               ///< position of particle (0, 0) [m]
+    Vec3 right{1, 0, 0}, down{0, 0, 1};        ///< unit directions of a row and of a column
+    std::array<std::uint32_t, 2> size{64, 64}; ///< particles along right and down, each >= 2
+    float spacing = 1.0f / 63;                 ///< [m]
+    float areaDensity = 0.2f;                  ///< [kg/m^2]
+    float stretchCompliance = 0;               ///< of an edge [m/N]
+    float shearCompliance = 0;                 ///< of a diagonal [m/N]
+    std::vector<std::uint32_t> pinned;         ///< particles (row-major within the sheet) held where they are
+    Vec3 color{0.16f, 0.34f, 0.58f};
+};
+
+/// Appends particles, constraints, a body and a two-sided skin. Returns the index of the first particle.
+std::uint32_t addCloth(Scene& scene, const ClothSheet& sheet);
+
+/// A voxel body: cubic cells of a regular grid, particles on their corners. Each filled cell assembles a
+/// share of the stiffness of its 12 edges and 12 face diagonals and an eighth of its mass to each corner
+/// (methods: an 18-neighbour central-force lattice with k1 = k2 = 0.4 E a is isotropic with Young's modulus E
+/// and Poisson ratio 1/4).
+struct Lattice {
+    std::string name = "lattice";
+    Vec3 origin;                                 ///< position of grid corner (0, 0, 0) [m]
+    std::array<std::uint32_t, 3> cells{1, 1, 1}; ///< grid size in cells
+    float spacing = 0.1f;                        ///< edge of a cell [m]
+    std::vector<float> fill;   ///< share of each cell that is material, 0 = empty; x fastest; empty = all 1
+    float youngModulus = 1e5f; ///< [Pa]
+    float density = 1000;      ///< [kg/m^3]
+    float restVolume = 0;      ///< of the body [m^3]; 0 = sum of fill x cell volume
+};
+
+/// What addLattice made: the particle on each grid corner, or noParticle. Corner (i, j, k) is at
+/// i + (cells[0] + 1) * (j + (cells[1] + 1) * k).
+struct LatticeCorners {
+    static constexpr std::uint32_t noParticle = 0xffffffffu;
+    std::array<std::uint32_t, 3> cells{};
+    std::vector<std::uint32_t> particle;
+    std::uint32_t at(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
+        return particle[i + (cells[0] + 1) * (j + (cells[1] + 1) * std::size_t{k})];
+    }
+};
+
+/// Appends particles, constraints and a body; adds no skin. Cells with a fill below 1/8 count as 1/8 (a
+/// sliver keeps the stiffness to mass ratio of the body and so never asks for more substeps).
+LatticeCorners addLattice(Scene& scene, const Lattice& lattice);
+
+/// Skins the boundary faces of a lattice (for bodies without a mesh of their own), creased at its edges.
+void addLatticeSkin(Scene& scene, const Lattice& lattice, const LatticeCorners& corners, Vec3 color);
+
+} // namespace sinew::sim

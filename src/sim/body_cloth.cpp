@@ -1,0 +1,101 @@
+// Cloth sheets: a grid of particles, an edge link to each neighbour in the row and in the column, two
+// diagonal links per cell. Mass is assembled per cell, a quarter to each corner, so that the sheet weighs
+// areaDensity x area exactly.
+#include "sim/bodies.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace sinew::sim {
+namespace {
+
+void check(const ClothSheet& sheet) {
+    if (sheet.size[0] < 2 || sheet.size[1] < 2)
+        throw std::invalid_argument("cloth \"" + sheet.name + "\": size must be at least 2 x 2 particles");
+    if (!(sheet.spacing > 0) || !(sheet.areaDensity > 0))
+        throw std::invalid_argument("cloth \"" + sheet.name + "\": spacing and areaDensity must be positive");
+    const std::uint64_t count = std::uint64_t{sheet.size[0]} * sheet.size[1];
+    if (count > std::numeric_limits<std::uint32_t>::max() / 8)
+        throw std::length_error("cloth \"" + sheet.name + "\": too many particles");
+    for (const std::uint32_t pinned : sheet.pinned)
+        if (pinned >= count)
+            throw std::invalid_argument("cloth \"" + sheet.name + "\": pinned particle " +
+                                        std::to_string(pinned) + " is outside the sheet");
+}
+
+float at(const ClothSheet& sheet, std::uint32_t column, std::uint32_t row, float Vec3::*axis) {
+    return static_cast<float>(double{sheet.origin.*axis} +
+                              double{sheet.spacing} * column * sheet.right.*axis +
+                              double{sheet.spacing} * row * sheet.down.*axis);
+}
+
+/// 1 inside a row, 1/2 at its ends: how many of the two cells beside a particle exist, halved.
+double half(std::uint32_t index, std::uint32_t size) {
+    return index == 0 || index + 1 == size ? 0.5 : 1.0;
+}
+
+void addParticles(Scene& scene, const ClothSheet& sheet) {
+    const double cellMass = double{sheet.areaDensity} * sheet.spacing * sheet.spacing;
+    for (std::uint32_t row = 0; row < sheet.size[1]; ++row)
+        for (std::uint32_t column = 0; column < sheet.size[0]; ++column) {
+            const double mass = cellMass * half(column, sheet.size[0]) * half(row, sheet.size[1]);
+            scene.particles.push_back(
+                {.position = {at(sheet, column, row, &Vec3::x), at(sheet, column, row, &Vec3::y),
+                              at(sheet, column, row, &Vec3::z)},
+                 .velocity = {},
+                 .inverseMass = static_cast<float>(1 / mass),
+                 .contactOffset = 0});
+        }
+}
+
+void addLinks(Scene& scene, const ClothSheet& sheet, std::uint32_t first) {
+    const float edge = sheet.spacing;
+    const float diagonal = static_cast<float>(sheet.spacing * std::sqrt(2.0));
+    const auto [columns, rows] = sheet.size;
+    for (std::uint32_t row = 0; row < rows; ++row)
+        for (std::uint32_t column = 0; column < columns; ++column) {
+            const std::uint32_t here = first + column + columns * row;
+            if (column + 1 < columns)
+                scene.distances.push_back({here, here + 1, edge, sheet.stretchCompliance});
+            if (row + 1 < rows)
+                scene.distances.push_back({here, here + columns, edge, sheet.stretchCompliance});
+            if (column + 1 < columns && row + 1 < rows) {
+                scene.distances.push_back({here, here + columns + 1, diagonal, sheet.shearCompliance});
+                scene.distances.push_back({here + 1, here + columns, diagonal, sheet.shearCompliance});
+            }
+        }
+}
+
+/// Every particle carries two skin vertices, one a side, so that each side has normals of its own.
+Skin makeSkin(const ClothSheet& sheet, std::uint32_t first) {
+    Skin skin{.name = sheet.name, .color = sheet.color};
+    const auto [columns, rows] = sheet.size;
+    const std::uint32_t count = columns * rows;
+    for (std::uint32_t vertex = 0; vertex < 2 * count; ++vertex)
+        skin.particles.push_back(first + vertex % count);
+    for (std::uint32_t row = 0; row + 1 < rows; ++row)
+        for (std::uint32_t column = 0; column + 1 < columns; ++column) {
+            const std::uint32_t a = column + columns * row, b = a + 1, c = a + columns, d = c + 1;
+            skin.triangles.push_back({a, c, d});
+            skin.triangles.push_back({a, d, b});
+            skin.triangles.push_back({count + a, count + d, count + c});
+            skin.triangles.push_back({count + a, count + b, count + d});
+        }
+    return skin;
+}
+
+} // namespace
+
+std::uint32_t addCloth(Scene& scene, const ClothSheet& sheet) {
+    check(sheet);
+    const auto first = static_cast<std::uint32_t>(scene.particles.size());
+    addParticles(scene, sheet);
+    addLinks(scene, sheet, first);
+    for (const std::uint32_t pinned : sheet.pinned) scene.fixed.push_back({first + pinned});
+    scene.bodies.push_back({sheet.name, first, sheet.size[0] * sheet.size[1], 0});
+    scene.skins.push_back(makeSkin(sheet, first));
+    return first;
+}
+
+} // namespace sinew::sim

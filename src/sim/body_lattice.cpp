@@ -1,0 +1,207 @@
+// Voxel lattices, assembled per cell: an 18-neighbour central-force lattice whose links take their stiffness
+// from the cells that hold them. Uniform instead of per-cell constants would make a one-cell plate up to 6
+// times too stiff.
+//
+// A link in direction d lies in every cell beside it: 4 cells for an edge, 2 for a face diagonal. A full cell
+// gives k1/4 to each of its edges and k2/2 to each of its face diagonals, so either way a link's stiffness is
+// k x (mean fill of the cells that may hold it), with k1 = k2 = 0.4 E a (isotropic, Poisson ratio 1/4).
+#include "sim/bodies.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <unordered_map>
+
+namespace sinew::sim {
+namespace {
+
+using Index3 = std::array<std::int32_t, 3>;
+
+constexpr float smallestFill = 0.125f;
+
+/// One of each pair of opposite directions, the one that leads to the higher grid index: 3 edges, 6 face
+/// diagonals.
+constexpr std::array<Index3, 9> directions{
+    {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {-1, 1, 0}, {1, 0, 1}, {-1, 0, 1}, {0, 1, 1}, {0, -1, 1}}};
+
+/// Read access to the cells of a lattice, with clamped fill and empty space all around.
+class Cells {
+public:
+    explicit Cells(const Lattice& lattice) : lattice_(lattice) {}
+
+    std::array<std::uint32_t, 3> size() const { return lattice_.cells; }
+
+    float fill(Index3 cell) const {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (cell[axis] < 0 || cell[axis] >= static_cast<std::int64_t>(size()[axis])) return 0;
+        if (lattice_.fill.empty()) return 1;
+        const auto [i, j, k] = cell;
+        const float raw = lattice_.fill[i + size()[0] * (j + std::size_t{size()[1]} * k)];
+        return raw > 0 ? std::max(raw, smallestFill) : 0;
+    }
+
+    /// Mean fill of the cells that hold the link from `corner` in `direction` (0, 0, 0 = the corner itself).
+    double meanFill(Index3 corner, Index3 direction) const {
+        double sum = 0;
+        int count = 0;
+        for (int side = 0; side < 8; ++side) {
+            Index3 cell = corner;
+            bool holdsLink = true;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const bool isBelow = (side >> axis & 1) != 0;
+                holdsLink =
+                    holdsLink && !(direction[axis] > 0 && isBelow) && !(direction[axis] < 0 && !isBelow);
+                cell[axis] -= isBelow ? 1 : 0;
+            }
+            if (holdsLink) {
+                sum += double{fill(cell)};
+                ++count;
+            }
+        }
+        return sum / count;
+    }
+
+private:
+    const Lattice& lattice_;
+};
+
+std::size_t cellCount(const Lattice& lattice) {
+    return std::size_t{lattice.cells[0]} * lattice.cells[1] * lattice.cells[2];
+}
+
+void check(const Lattice& lattice) {
+    const std::string head = "lattice \"" + lattice.name + "\": ";
+    if (!(lattice.spacing > 0) || !(lattice.youngModulus > 0) || !(lattice.density > 0))
+        throw std::invalid_argument(head + "spacing, youngModulus and density must be positive");
+    double corners = 1;
+    for (const std::uint32_t cells : lattice.cells) corners *= static_cast<double>(cells) + 1;
+    if (corners > std::numeric_limits<std::int32_t>::max())
+        throw std::length_error(head + "too many grid corners");
+    if (!lattice.fill.empty() && lattice.fill.size() != cellCount(lattice))
+        throw std::invalid_argument(head + "fill must hold one value for each cell");
+    const bool isFilled = lattice.fill.empty()
+                              ? cellCount(lattice) > 0
+                              : std::ranges::any_of(lattice.fill, [](float fill) { return fill > 0; });
+    if (!isFilled) throw std::invalid_argument(head + "no cell is filled");
+    if (!std::ranges::all_of(lattice.fill, [](float fill) { return fill >= 0 && fill <= 1; }))
+        throw std::invalid_argument(head + "fill must lie in [0, 1]");
+}
+
+/// Calls visit(corner) for every grid corner, in the order of LatticeCorners::particle.
+template <typename Visit> void forEachCorner(std::array<std::uint32_t, 3> cells, const Visit& visit) {
+    const Index3 last{static_cast<std::int32_t>(cells[0]), static_cast<std::int32_t>(cells[1]),
+                      static_cast<std::int32_t>(cells[2])};
+    for (std::int32_t k = 0; k <= last[2]; ++k)
+        for (std::int32_t j = 0; j <= last[1]; ++j)
+            for (std::int32_t i = 0; i <= last[0]; ++i) visit(Index3{i, j, k});
+}
+
+float along(float origin, float spacing, std::int32_t index) {
+    return static_cast<float>(double{origin} + double{spacing} * index);
+}
+
+std::vector<std::uint32_t> addParticles(Scene& scene, const Lattice& lattice, const Cells& cells) {
+    const double cellMass = double{lattice.density} * std::pow(double{lattice.spacing}, 3);
+    std::vector<std::uint32_t> particle;
+    forEachCorner(lattice.cells, [&](Index3 corner) {
+        const double mass = cellMass * cells.meanFill(corner, {0, 0, 0});
+        particle.push_back(mass > 0 ? static_cast<std::uint32_t>(scene.particles.size())
+                                    : LatticeCorners::noParticle);
+        if (mass > 0)
+            scene.particles.push_back({.position = {along(lattice.origin.x, lattice.spacing, corner[0]),
+                                                    along(lattice.origin.y, lattice.spacing, corner[1]),
+                                                    along(lattice.origin.z, lattice.spacing, corner[2])},
+                                       .velocity = {},
+                                       .inverseMass = static_cast<float>(1 / mass),
+                                       .contactOffset = 0});
+    });
+    return particle;
+}
+
+/// Rest lengths: the spacing, or its diagonal, so that a whole body has two and its links pack well. Where
+/// float32 rounds positions so far from the origin that this would stress the body (strain above 1e-4), what
+/// is stored counts.
+float restLength(const Scene& scene, const Lattice& lattice, Index3 direction, std::uint32_t a,
+                 std::uint32_t b) {
+    const Vec3 &p = scene.particles[a].position, &q = scene.particles[b].position;
+    const double stored = std::hypot(double{q.x} - p.x, double{q.y} - p.y, double{q.z} - p.z);
+    const int axes = std::abs(direction[0]) + std::abs(direction[1]) + std::abs(direction[2]);
+    const double nominal = std::sqrt(double(axes)) * lattice.spacing;
+    return static_cast<float>(std::abs(stored - nominal) < 1e-4 * nominal ? nominal : stored);
+}
+
+void addLinks(Scene& scene, const Lattice& lattice, const Cells& cells, const LatticeCorners& corners) {
+    const double stiffness = 0.4 * double{lattice.youngModulus} * lattice.spacing;
+    forEachCorner(lattice.cells, [&](Index3 corner) {
+        for (const Index3& direction : directions) {
+            const double share = cells.meanFill(corner, direction);
+            if (share == 0) continue; // also where the link would leave the grid
+            const std::uint32_t a = corners.at(corner[0], corner[1], corner[2]);
+            const std::uint32_t b =
+                corners.at(corner[0] + direction[0], corner[1] + direction[1], corner[2] + direction[2]);
+            scene.distances.push_back({a, b, restLength(scene, lattice, direction, a, b),
+                                       static_cast<float>(1 / (stiffness * share))});
+        }
+    });
+}
+
+float filledVolume(const Lattice& lattice) {
+    double cells = lattice.fill.empty() ? static_cast<double>(cellCount(lattice)) : 0;
+    for (const float fill : lattice.fill) cells += double{fill};
+    return static_cast<float>(cells * std::pow(double{lattice.spacing}, 3));
+}
+
+/// Corners of the face of `cell` on the side `isHigh` of `axis`, counter-clockwise seen from outside.
+std::array<Index3, 4> faceCorners(Index3 cell, std::size_t axis, bool isHigh) {
+    const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+    cell[axis] += isHigh ? 1 : 0;
+    std::array<Index3, 4> corners{cell, cell, cell, cell};
+    ++corners[1][u];
+    ++corners[2][u], ++corners[2][v];
+    ++corners[3][v];
+    if (!isHigh) std::swap(corners[1], corners[3]);
+    return corners;
+}
+
+} // namespace
+
+LatticeCorners addLattice(Scene& scene, const Lattice& lattice) {
+    check(lattice);
+    const Cells cells(lattice);
+    const auto first = static_cast<std::uint32_t>(scene.particles.size());
+    const LatticeCorners corners{lattice.cells, addParticles(scene, lattice, cells)};
+    addLinks(scene, lattice, cells, corners);
+    scene.bodies.push_back({lattice.name, first, static_cast<std::uint32_t>(scene.particles.size()) - first,
+                            lattice.restVolume > 0 ? lattice.restVolume : filledVolume(lattice)});
+    return corners;
+}
+
+void addLatticeSkin(Scene& scene, const Lattice& lattice, const LatticeCorners& corners, Vec3 color) {
+    const Cells cells(lattice);
+    Skin skin{.name = lattice.name, .color = color};
+    // One vertex per particle and face direction: neighbours in a plane share normals, edges stay sharp.
+    std::array<std::unordered_map<std::uint32_t, std::uint32_t>, 6> vertices;
+    forEachCorner(lattice.cells, [&](Index3 cell) {
+        for (std::size_t side = 0; side < 6 && cells.fill(cell) > 0; ++side) {
+            const std::size_t axis = side / 2;
+            const bool isHigh = side % 2 == 1;
+            Index3 neighbour = cell;
+            neighbour[axis] += isHigh ? 1 : -1;
+            if (cells.fill(neighbour) > 0) continue;
+            std::array<std::uint32_t, 4> quad{};
+            std::ranges::transform(faceCorners(cell, axis, isHigh), quad.begin(), [&](Index3 corner) {
+                const std::uint32_t particle = corners.at(corner[0], corner[1], corner[2]);
+                const auto next = static_cast<std::uint32_t>(skin.particles.size());
+                const auto [entry, isNew] = vertices[side].try_emplace(particle, next);
+                if (isNew) skin.particles.push_back(particle);
+                return entry->second;
+            });
+            skin.triangles.push_back({quad[0], quad[1], quad[2]});
+            skin.triangles.push_back({quad[0], quad[2], quad[3]});
+        }
+    });
+    scene.skins.push_back(std::move(skin));
+}
+
+} // namespace sinew::sim

@@ -1,0 +1,65 @@
+// The host side of boundary planes.
+#include "sim/collision/planes.hpp"
+
+#include "kernels.hpp"
+
+namespace sinew::sim::collision::planes {
+
+namespace {
+
+constexpr std::uint32_t planeCountId = 2; // constant_id in planes.glsl
+
+} // namespace
+
+ProgramBuilder::Constants Colliders::constants() const {
+    return {{planeCountId, count}};
+}
+
+Colliders addColliders(ProgramBuilder& program, const Scene& scene) {
+    if (scene.planes.empty()) return {};
+    std::vector<layout::PlaneCollider> items;
+    for (const Plane& plane : scene.planes) {
+        const Vec3& n = plane.normal;
+        items.push_back({{n.x, n.y, n.z, plane.offset}, plane.friction, plane.restitution, 0, 0});
+    }
+    std::vector<float> offsets;
+    for (const Particle& particle : scene.particles) offsets.push_back(particle.contactOffset);
+    offsets.resize(paddedCount(offsets.size()), 0);
+    return {.count = static_cast<std::uint32_t>(items.size()),
+            .planes = program.upload("planes", items),
+            .contactOffsets = program.upload("contact_offsets", offsets)};
+}
+
+Contacts addContacts(ProgramBuilder& program, const Scene& scene) {
+    if (scene.planes.empty()) return {};
+    return {addColliders(program, scene),
+            program.scratch<layout::PlaneContact>("contacts", scene.particles.size())};
+}
+
+void addOpen(ProgramBuilder& program, const ParticleBuffers& particles, const Contacts& contacts) {
+    if (contacts.colliders.count == 0) return;
+    program.dispatch(kernels::openPlaneContacts, particles.count, {particles.velocities, contacts.contacts},
+                     layout::CountPush{particles.count});
+}
+
+void addSolve(ProgramBuilder& program, const ParticleBuffers& particles, const Contacts& contacts) {
+    if (contacts.colliders.count == 0) return;
+    program.dispatch(kernels::solvePlanes, particles.count,
+                     {particles.positions, particles.velocities, contacts.contacts, contacts.colliders.planes,
+                      contacts.colliders.contactOffsets, particles.step},
+                     layout::CountPush{particles.count}, contacts.colliders.constants());
+}
+
+void addVelocityUpdate(ProgramBuilder& program, const ParticleBuffers& particles, const Contacts& contacts) {
+    const layout::CountPush push{particles.count};
+    if (contacts.colliders.count == 0) {
+        program.dispatch(kernels::updateVelocity, particles.count, {particles.velocities, particles.step},
+                         push);
+    } else {
+        program.dispatch(kernels::updateVelocityPlanes, particles.count,
+                         {particles.velocities, particles.step, contacts.contacts, contacts.colliders.planes},
+                         push, contacts.colliders.constants());
+    }
+}
+
+} // namespace sinew::sim::collision::planes

@@ -1,0 +1,140 @@
+// The table of contents of a step. Reads top to bottom in the order the device works.
+#include "sim/compile.hpp"
+
+#include "kernels.hpp"
+#include "layout.h"
+#include "sim/constraints/fixed.hpp"
+#include "sim/solvers/jacobi.hpp"
+#include "sim/solvers/split.hpp"
+#include "sim/surface/skin.hpp"
+
+namespace sinew::sim {
+
+namespace {
+
+struct SolverEntry {
+    Solver solver;
+    const char* name;
+    std::vector<float> (*positionW)(const Scene&, const Settings&);
+    void (*addPasses)(ProgramBuilder&, const Scene&, const Settings&, const ParticleBuffers&);
+};
+
+constexpr SolverEntry solverTable[] = {
+    {Solver::jacobi, "jacobi", solvers::jacobi::positionW, solvers::jacobi::addPasses},
+    {Solver::split, "split", solvers::split::positionW, solvers::split::addPasses},
+};
+
+const SolverEntry& entry(Solver solver) {
+    for (const SolverEntry& candidate : solverTable) {
+        if (candidate.solver == solver) return candidate;
+    }
+    return solverTable[0];
+}
+
+std::vector<layout::vec4> positionsOf(const Scene& scene, const std::vector<float>& w) {
+    std::vector<layout::vec4> result;
+    result.reserve(w.size());
+    for (std::size_t i = 0; i < w.size(); ++i) {
+        const Vec3& x = scene.particles[i].position;
+        result.push_back({x.x, x.y, x.z, w[i]});
+    }
+    return result;
+}
+
+std::vector<layout::vec4> velocitiesOf(const Scene& scene, const std::vector<float>& w) {
+    std::vector<layout::vec4> result;
+    result.reserve(w.size());
+    for (std::size_t i = 0; i < w.size(); ++i) {
+        const Vec3 v = w[i] > 0 ? scene.particles[i].velocity : Vec3{}; // what never moves has no velocity
+        result.push_back({v.x, v.y, v.z, w[i]});
+    }
+    return result;
+}
+
+std::vector<layout::vec4> padded(std::vector<layout::vec4> values) {
+    values.resize(paddedCount(values.size()), {});
+    return values;
+}
+
+// Ends a step: the finite check, then the public copy of the state, which keeps the last finite one.
+void addPublish(ProgramBuilder& program, const ParticleBuffers& particles) {
+    StepProgram& built = program.program();
+    program.dispatch(kernels::measureState, particles.count,
+                     {particles.positions, particles.velocities, built.status, particles.step},
+                     layout::CountPush{particles.count});
+    program.dispatch(kernels::publishState, particles.count,
+                     {particles.positions, particles.velocities, built.status, particles.step,
+                      built.positions, built.velocities},
+                     layout::CountPush{particles.count});
+}
+
+} // namespace
+
+std::size_t paddedCount(std::size_t particles) {
+    return (particles + GROUP_ITEMS - 1) / GROUP_ITEMS * GROUP_ITEMS;
+}
+
+std::vector<float> inverseMasses(const Scene& scene) {
+    std::vector<float> result;
+    result.reserve(scene.particles.size());
+    for (const Particle& particle : scene.particles) result.push_back(particle.inverseMass);
+    constraints::fixed::apply(scene.fixed, result);
+    return result;
+}
+
+StepProgram compile(const Scene& scene, const Settings& settings) {
+    ProgramBuilder program(settings.isReversed);
+    StepProgram& built = program.program();
+    built.particleCount = static_cast<std::uint32_t>(scene.particles.size());
+    built.constraintCount = static_cast<std::uint32_t>(scene.distances.size());
+    const std::vector<float> inverseMass = inverseMasses(scene);
+    built.positions = program.upload("positions", positionsOf(scene, inverseMass));
+    built.velocities = program.upload("velocities", velocitiesOf(scene, inverseMass));
+    built.status = program.scratch<layout::StatusWords>("status", 1);
+    built.parameters = program.scratch<layout::StepParams>("step", 1);
+    if (scene.particles.empty()) return program.finish();
+
+    const SolverEntry& solver = entry(settings.solver);
+    const ParticleBuffers particles{
+        .count = built.particleCount,
+        .step = built.parameters,
+        .positions =
+            program.upload("state.positions", padded(positionsOf(scene, solver.positionW(scene, settings)))),
+        .velocities = program.upload("state.velocities", padded(velocitiesOf(scene, inverseMass)))};
+    program.beginPhase("begin");
+    program.updateParameters(particles.step);
+    program.fill(built.status, 0);
+    program.beginPhase("solve");
+    solver.addPasses(program, scene, settings, particles);
+    program.beginPhase("publish");
+    addPublish(program, particles);
+    surface::addSkins(program, scene.skins);
+
+    if (scene.distances.empty()) program.skip("distance constraints");
+    if (scene.planes.empty()) program.skip("boundary planes");
+    if (scene.fixed.empty()) program.skip("fixed constraints");
+    if (scene.skins.empty()) program.skip("skins");
+    return program.finish();
+}
+
+const char* solverName(Solver solver) {
+    return entry(solver).name;
+}
+
+bool parseSolver(const std::string& name, Solver& solver) {
+    for (const SolverEntry& candidate : solverTable) {
+        if (name == candidate.name) {
+            solver = candidate.solver;
+            return true;
+        }
+    }
+    return false;
+}
+
+std::vector<std::string> solverNames() {
+    std::vector<std::string> names;
+    for (const SolverEntry& candidate : solverTable) names.emplace_back(candidate.name);
+    return names;
+}
+
+} // namespace sinew::sim

@@ -1,0 +1,34 @@
+// Scene + Settings -> StepProgram. The table of contents of a step: one line per feature.
+#pragma once
+
+#include "sim/program.hpp"
+#include "sim/scene.hpp"
+
+namespace sinew::sim {
+
+/// Buffers that every solver and feature shares while a program is built.
+struct ParticleBuffers {
+    std::uint32_t count = 0;
+    BufferId step;       ///< layout::StepParams
+    BufferId positions;  ///< of the solver's state, paddedCount(count) elements; meaning of w is the solver's
+    BufferId velocities; ///< likewise; w = inverse mass [1/kg]
+};
+
+/// The state is padded with immovable particles to whole work groups, so that a kernel may do without a
+/// bounds check.
+std::size_t paddedCount(std::size_t particles);
+
+/// `scene` and `settings` must be valid (validate returned nothing). Throws std::logic_error only for faults
+/// of ours.
+StepProgram compile(const Scene& scene, const Settings& settings);
+
+/// Inverse mass of every particle after fixed constraints [1/kg]; 0 = never moves.
+std::vector<float> inverseMasses(const Scene& scene);
+
+/// "jacobi" or "split".
+const char* solverName(Solver solver);
+/// Returns false for a name that is none. The list is the one place solvers are named.
+bool parseSolver(const std::string& name, Solver& solver);
+std::vector<std::string> solverNames();
+
+} // namespace sinew::sim

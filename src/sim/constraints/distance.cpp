@@ -1,0 +1,62 @@
+// The edges of the constraint pass of `jacobi`.
+#include "sim/constraints/distance.hpp"
+
+#include "kernels.hpp"
+
+#include <algorithm>
+
+namespace sinew::sim::constraints::distance {
+
+namespace {
+
+std::vector<DistanceConstraint> movable(const Scene& scene) {
+    const std::vector<float> inverseMass = inverseMasses(scene);
+    std::vector<DistanceConstraint> result;
+    std::copy_if(scene.distances.begin(), scene.distances.end(), std::back_inserter(result),
+                 [&](const DistanceConstraint& c) { return canMove(c, inverseMass); });
+    return result;
+}
+
+} // namespace
+
+bool canMove(const DistanceConstraint& constraint, std::span<const float> inverseMass) {
+    return inverseMass[constraint.a] + inverseMass[constraint.b] > 0;
+}
+
+Edges reserve(const Scene& scene, solvers::CorrectionSlots& slots) {
+    const std::vector<DistanceConstraint> constraints = movable(scene);
+    Edges edges{.count = static_cast<std::uint32_t>(constraints.size()), .firstSlot = slots.size()};
+    for (const DistanceConstraint& constraint : constraints) {
+        slots.add(constraint.a);
+        slots.add(constraint.b);
+    }
+    return edges;
+}
+
+void upload(ProgramBuilder& program, const Scene& scene, std::span<const float> weights, Edges& edges) {
+    std::vector<layout::DistanceEdge> items;
+    std::vector<layout::DistanceMultiplier> multipliers;
+    bool isCompliant = false;
+    for (const DistanceConstraint& c : movable(scene)) {
+        items.push_back({c.a, c.b, c.restLength, c.compliance});
+        multipliers.push_back({0, std::min(weights[c.a], weights[c.b])});
+        isCompliant |= c.compliance > 0;
+    }
+    edges.edges = program.upload("distance.edges", items);
+    if (isCompliant) edges.multipliers = program.upload("distance.multipliers", multipliers);
+}
+
+void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Edges& edges,
+             BufferId corrections, bool isFirstIteration) {
+    const layout::IterationPush push{edges.count, edges.firstSlot, isFirstIteration};
+    if (edges.multipliers == BufferId{}) {
+        program.dispatch(kernels::solveDistance, edges.count,
+                         {edges.edges, particles.positions, corrections, particles.step}, push);
+    } else {
+        program.dispatch(kernels::solveDistanceCompliant, edges.count,
+                         {edges.edges, particles.positions, corrections, particles.step, edges.multipliers},
+                         push);
+    }
+}
+
+} // namespace sinew::sim::constraints::distance

@@ -1,0 +1,58 @@
+// Distance constraints on the device: what each solver form needs of them. `jacobi` has a constraint pass
+// over edges, `split` gathers them per particle. Constraints whose ends both never move are left out.
+#pragma once
+
+#include "layout.h"
+#include "sim/compile.hpp"
+#include "sim/solvers/correction_slots.hpp"
+
+namespace sinew::sim::constraints::distance {
+
+/// The buffers of the constraint pass of `jacobi`.
+struct Edges {
+    std::uint32_t count = 0, firstSlot = 0;
+    BufferId edges, multipliers; ///< multipliers: invalid where every constraint is rigid
+};
+
+/// Reserves two slots a constraint: first for its end a, then for its end b.
+Edges reserve(const Scene& scene, solvers::CorrectionSlots& slots);
+
+/// Uploads the edges; `weights` are the factors the particle pass will apply, one a particle.
+void upload(ProgramBuilder& program, const Scene& scene, std::span<const float> weights, Edges& edges);
+
+/// One pass that writes every correction of this type.
+void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Edges& edges,
+             BufferId corrections, bool isFirstIteration);
+
+/// Whether a constraint has an end that moves; others are left out of every pass.
+bool canMove(const DistanceConstraint& constraint, std::span<const float> inverseMass);
+
+/// Slots of the adjacency of `split` whose links share a rest length.
+struct LinkGroup {
+    std::uint32_t endSlot = 0; ///< one past the last
+    float restLength = 0;      ///< [m]
+    float stiffest = 0;        ///< largest stiffness of its links [N/m]
+};
+
+/// The adjacency of `split`, padded to `degree` slots with links of a particle to itself. Groups: at most
+/// PACKED_GROUPS, where slots can be sorted so without much more padding, else none.
+struct GatherLinks {
+    std::uint32_t degree = 0;
+    std::vector<layout::SplitLink> links; ///< in blocks of LINK_BLOCK particles: see layout.h
+    std::vector<std::uint32_t> count;     ///< links of each particle
+    std::vector<LinkGroup> groups;
+    std::size_t element(std::size_t particle, std::uint32_t slot) const {
+        return (particle / LINK_BLOCK * degree + slot) * LINK_BLOCK + particle % LINK_BLOCK;
+    }
+};
+GatherLinks gatherLinks(const Scene& scene, std::span<const float> inverseMass);
+
+/// The links in the packed form (layout.h), with the stiffness unit of every group; no links where the scene
+/// does not fit: no groups, too many particles, or a stiffness that no code gives to within float rounding.
+struct PackedLinks {
+    std::vector<std::uint32_t> links;
+    std::vector<float> units; ///< [N/m]
+};
+PackedLinks pack(const GatherLinks& links);
+
+} // namespace sinew::sim::constraints::distance

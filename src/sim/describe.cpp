@@ -1,0 +1,120 @@
+// The printed form of a step program: what a person audits and what golden tests compare.
+#include "sim/program.hpp"
+
+#include <iomanip>
+#include <sstream>
+
+namespace sinew::sim {
+
+namespace {
+
+const char* accessName(vk::Access access) {
+    constexpr const char* names[] = {"", ":r", ":w", ":rw"};
+    return names[static_cast<std::size_t>(access)];
+}
+
+std::string line(const StepProgram& program, const Pass& pass) {
+    std::ostringstream text;
+    text << "  " << std::left << std::setw(24) << pass.label << ' ';
+    const bool isDispatch = pass.kind == PassKind::dispatch;
+    text << std::setw(10)
+         << (isDispatch ? std::string(1, 'x').append(std::to_string(pass.items)) : std::string());
+    for (const BufferUse& use : pass.uses) {
+        text << ' ' << program.buffers[use.buffer.index].label << accessName(use.access);
+    }
+    return text.str();
+}
+
+// One block of lines: the passes of one substep, or those outside.
+struct Block {
+    std::uint32_t substep = 0;
+    std::string phase, text;
+};
+
+std::vector<Block> blocks(const StepProgram& program, const std::vector<Pass>& passes) {
+    std::vector<Block> result;
+    for (const Pass& pass : passes) {
+        const std::string& phase = program.phases[pass.phase];
+        if (result.empty() || result.back().substep != pass.substep || result.back().phase != phase) {
+            result.push_back({pass.substep, phase, {}});
+        }
+        if (pass.barrierBefore) result.back().text += "  -- barrier\n";
+        result.back().text += line(program, pass) + "\n";
+    }
+    return result;
+}
+
+// The length of the shortest run starting at `first` that repeats at once, and how often it stands there.
+std::pair<std::size_t, std::size_t> repetition(const std::vector<Block>& all, std::size_t first) {
+    for (std::size_t length = 1; length <= 2; ++length) {
+        std::size_t times = 1;
+        const auto isEqual = [&](std::size_t offset) {
+            const std::size_t other = first + times * length + offset;
+            return other < all.size() && all[other].substep != 0 && all[first].substep != 0 &&
+                   all[first + offset].text == all[other].text;
+        };
+        while (isEqual(0) && (length == 1 || isEqual(1))) ++times;
+        if (times > 1) return {length, times};
+    }
+    return {1, 1};
+}
+
+void print(std::ostringstream& text, const StepProgram& program, const std::vector<Pass>& passes) {
+    const std::vector<Block> all = blocks(program, passes);
+    for (std::size_t b = 0; b < all.size();) {
+        const auto [length, times] = repetition(all, b);
+        for (std::size_t i = 0; i < length; ++i) {
+            const Block& block = all[b + i];
+            text << (block.substep != 0 ? "substep " + std::to_string(block.substep) : block.phase);
+            if (times > 1) text << " x" << times << (length == 2 ? " (alternating)" : "");
+            text << '\n' << block.text;
+        }
+        b += length * times;
+    }
+}
+
+std::string megabytes(std::uint64_t bytes) {
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(2) << static_cast<double>(bytes) / 1e6 << " MB";
+    return text.str();
+}
+
+} // namespace
+
+std::uint64_t declaredBytes(const StepProgram& program) {
+    std::uint64_t bytes = 0;
+    for (const Pass& pass : program.step) {
+        for (const BufferUse& use : pass.uses) {
+            const std::uint64_t size = program.buffers[use.buffer.index].bytes();
+            bytes += use.access == vk::Access::readWrite ? 2 * size : size;
+        }
+    }
+    return bytes;
+}
+
+std::string describe(const StepProgram& program) {
+    std::ostringstream text;
+    std::uint64_t memory = 0;
+    for (const BufferSpec& buffer : program.buffers) memory += buffer.bytes();
+    text << program.particleCount << " particles, " << program.constraintCount << " constraints, "
+         << program.buffers.size() << " buffers, " << megabytes(memory) << "\n\n";
+    for (const BufferSpec& buffer : program.buffers) {
+        text << "  " << std::left << std::setw(28) << buffer.label << std::right << std::setw(9)
+             << buffer.count << " x " << std::setw(3) << buffer.stride << " B\n";
+    }
+    text << '\n';
+    print(text, program, program.step);
+    if (!program.skin.empty()) print(text, program, program.skin);
+    std::size_t dispatches = 0, barriers = 0;
+    for (const Pass& pass : program.step) {
+        dispatches += pass.kind == PassKind::dispatch;
+        barriers += pass.barrierBefore;
+    }
+    text << "\nper step: " << dispatches << " dispatches, " << program.step.size() - dispatches
+         << " fills, copies and updates, " << barriers << " barriers, " << megabytes(declaredBytes(program))
+         << " declared, " << program.sweeps << " sweeps\n";
+    for (const std::string& feature : program.skipped) text << "skipped: " << feature << '\n';
+    return text.str();
+}
+
+} // namespace sinew::sim

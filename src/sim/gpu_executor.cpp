@@ -1,0 +1,197 @@
+// The walk from a pass list to Vulkan commands. Equal kernel and buffers share one descriptor set.
+#include "sim/gpu_executor.hpp"
+
+#include "vk/check.hpp"
+
+#include <algorithm>
+
+namespace sinew::sim {
+
+namespace {
+
+std::vector<vk::Buffer> makeBuffers(const vk::Device& device, const StepProgram& program) {
+    std::vector<vk::Buffer> buffers;
+    buffers.reserve(program.buffers.size());
+    for (std::uint32_t b = 0; b < program.buffers.size(); ++b) {
+        const BufferSpec& spec = program.buffers[b];
+        VkBufferUsageFlags usage = 0;
+        if (BufferId{b} == program.skinVertices || BufferId{b} == program.positions) {
+            usage |= VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
+        }
+        if (BufferId{b} == program.skinIndices) usage |= VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+        buffers.emplace_back(device, vk::BufferRequest{.name = spec.label,
+                                                       .count = spec.count,
+                                                       .stride = spec.stride,
+                                                       .kind = vk::MemoryKind::device,
+                                                       .usage = usage});
+    }
+    return buffers;
+}
+
+std::vector<std::pair<std::uint32_t, vk::Buffer>> makeStaging(const vk::Device& device,
+                                                              const StepProgram& program) {
+    std::vector<std::pair<std::uint32_t, vk::Buffer>> staging;
+    for (std::uint32_t b = 0; b < program.buffers.size(); ++b) {
+        const BufferSpec& spec = program.buffers[b];
+        if (spec.initial.empty()) continue;
+        vk::Buffer buffer(device, {.name = spec.label + ".initial",
+                                   .count = spec.count,
+                                   .stride = spec.stride,
+                                   .kind = vk::MemoryKind::upload});
+        std::copy(spec.initial.begin(), spec.initial.end(), buffer.mapped());
+        staging.emplace_back(b, std::move(buffer));
+    }
+    return staging;
+}
+
+std::vector<vk::Kernel> makeKernels(const vk::Device& device, const StepProgram& program) {
+    std::vector<vk::Kernel> kernels;
+    kernels.reserve(program.kernels.size());
+    for (const KernelUse& use : program.kernels) {
+        std::vector<vk::SpecialisationConstant> constants;
+        for (const auto& [id, value] : use.constants) constants.push_back({id, value});
+        kernels.emplace_back(device, *use.code, constants);
+    }
+    return kernels;
+}
+
+bool isSameDispatch(const Pass& a, const Pass& b) {
+    const auto isSameBuffer = [](const BufferUse& x, const BufferUse& y) { return x.buffer == y.buffer; };
+    return a.kernel == b.kernel &&
+           std::equal(a.uses.begin(), a.uses.end(), b.uses.begin(), b.uses.end(), isSameBuffer);
+}
+
+// Distinct (kernel, buffers) pairs of both lists, and which of them each dispatch uses.
+struct SetPlan {
+    std::vector<const Pass*> distinct;
+    std::vector<std::size_t> setOfPass;
+};
+
+SetPlan planSets(const StepProgram& program) {
+    SetPlan plan;
+    for (const std::vector<Pass>* list : {&program.step, &program.skin}) {
+        for (const Pass& pass : *list) {
+            if (pass.kind != PassKind::dispatch) continue;
+            const auto isSame = [&](const Pass* other) { return isSameDispatch(*other, pass); };
+            const auto found = std::find_if(plan.distinct.begin(), plan.distinct.end(), isSame);
+            plan.setOfPass.push_back(static_cast<std::size_t>(found - plan.distinct.begin()));
+            if (found == plan.distinct.end()) plan.distinct.push_back(&pass);
+        }
+    }
+    return plan;
+}
+
+} // namespace
+
+GpuExecutor::GpuExecutor(const vk::Device& device, const StepProgram& program)
+    : buffers_(makeBuffers(device, program)), staging_(makeStaging(device, program)),
+      kernels_(makeKernels(device, program)) {
+    const SetPlan plan = planSets(program);
+    std::vector<vk::BindingRequest> requests;
+    for (const Pass* pass : plan.distinct) {
+        vk::BindingRequest& request = requests.emplace_back();
+        request.kernel = &kernels_[pass->kernel];
+        for (const BufferUse& use : pass->uses) request.buffers.push_back(buffers_[use.buffer.index].view());
+    }
+    if (!requests.empty()) sets_.emplace_back(device, requests);
+    setOfPass_ = plan.setOfPass;
+    std::size_t nextSet = 0;
+    step_ = resolve(program.step, nextSet);
+    skin_ = resolve(program.skin, nextSet);
+    for (const Recorded& pass : step_) {
+        if (pass.groups > device.limits().maxGroupCount) {
+            throw vk::Error(vk::Failure::outOfMemory, "dispatch of " + pass.kernel->name() + ": " +
+                                                          std::to_string(pass.groups) +
+                                                          " groups, the device allows " +
+                                                          std::to_string(device.limits().maxGroupCount));
+        }
+        if (timedPhases_.empty() || timedPhases_.back() != pass.phase) timedPhases_.push_back(pass.phase);
+    }
+}
+
+std::vector<GpuExecutor::Recorded> GpuExecutor::resolve(const std::vector<Pass>& passes,
+                                                        std::size_t& nextSet) const {
+    std::vector<Recorded> result;
+    result.reserve(passes.size());
+    for (const Pass& pass : passes) {
+        Recorded recorded{.kind = pass.kind,
+                          .barrierBefore = pass.barrierBefore,
+                          .phase = pass.phase,
+                          .groups = 0,
+                          .value = pass.value,
+                          .kernel = nullptr,
+                          .set = VK_NULL_HANDLE,
+                          .push = &pass.push,
+                          .first = view(pass.uses[0].buffer),
+                          .second = pass.uses.size() > 1 ? view(pass.uses[1].buffer) : vk::BufferView{}};
+        if (pass.kind == PassKind::dispatch) {
+            recorded.kernel = &kernels_[pass.kernel];
+            recorded.set = sets_[0][setOfPass_[nextSet++]];
+            const std::uint32_t groupSize = recorded.kernel->interface().groupSize[0];
+            recorded.groups = (pass.items - 1) / groupSize + 1;
+        }
+        result.push_back(recorded);
+    }
+    return result;
+}
+
+void GpuExecutor::upload(vk::Commands& commands) noexcept {
+    commands.beginStep();
+    std::vector<bool> hasContents(buffers_.size());
+    for (const auto& [index, initial] : staging_) {
+        commands.copy(initial.view(), buffers_[index].view());
+        hasContents[index] = true;
+    }
+    for (std::size_t b = 0; b < buffers_.size(); ++b) {
+        if (!hasContents[b]) commands.fill(buffers_[b].view(), 0);
+    }
+    commands.endStep();
+}
+
+void GpuExecutor::step(vk::Commands& commands, std::span<const std::byte> parameters,
+                       vk::Timestamps* timestamps) noexcept {
+    record(commands, step_, parameters, timestamps);
+}
+
+void GpuExecutor::skin(vk::Commands& commands) noexcept {
+    record(commands, skin_, {}, nullptr);
+}
+
+void GpuExecutor::record(vk::Commands& commands, const std::vector<Recorded>& passes,
+                         std::span<const std::byte> parameters, vk::Timestamps* timestamps) noexcept {
+    std::uint32_t span = 0;
+    for (std::size_t p = 0; p < passes.size(); ++p) {
+        const bool opensPhase = p == 0 || passes[p - 1].phase != passes[p].phase;
+        const bool closesPhase = p + 1 == passes.size() || passes[p + 1].phase != passes[p].phase;
+        if (timestamps && opensPhase) timestamps->begin(commands, span);
+        recordPass(commands, passes[p], parameters);
+        if (timestamps && closesPhase) timestamps->end(commands, span++);
+    }
+}
+
+void GpuExecutor::recordPass(vk::Commands& commands, const Recorded& pass,
+                             std::span<const std::byte> parameters) noexcept {
+    if (pass.barrierBefore) commands.barrier();
+    switch (pass.kind) {
+    case PassKind::dispatch:
+        commands.bind(*pass.kernel, pass.set);
+        commands.push(*pass.kernel, pass.push->data(), static_cast<std::uint32_t>(pass.push->size()));
+        commands.dispatch(pass.groups);
+        break;
+    case PassKind::fill:
+        commands.fill(pass.first, pass.value);
+        break;
+    case PassKind::copy:
+        commands.copy(pass.first, pass.second);
+        break;
+    case PassKind::update:
+        commands.update(pass.first, parameters.data(), parameters.size());
+        break;
+    }
+}
+
+vk::BufferView GpuExecutor::view(BufferId buffer) const noexcept {
+    return buffer == BufferId{} ? vk::BufferView{} : buffers_[buffer.index].view();
+}
+
+} // namespace sinew::sim

@@ -1,0 +1,55 @@
+// Turns a StepProgram into buffers, pipelines and descriptor sets once, then records it any number of times.
+#pragma once
+
+#include "sim/program.hpp"
+#include "vk/commands.hpp"
+#include "vk/timestamps.hpp"
+
+namespace sinew::sim {
+
+/// Owns every device object of one program. Must not outlive the Device nor the program.
+class GpuExecutor {
+public:
+    /// Creates everything; throws vk::Error naming the buffer or kernel. Submits nothing: contents come with
+    /// upload().
+    GpuExecutor(const vk::Device& device, const StepProgram& program);
+
+    /// Records the copies that put every buffer into its initial state (also a reset). Ends with a barrier.
+    void upload(vk::Commands& commands) noexcept;
+    /// Records a list with its planned barriers. `parameters` is what update passes write (<= 64 KiB).
+    /// With `timestamps`, one span per phase of the step list.
+    void step(vk::Commands& commands, std::span<const std::byte> parameters,
+              vk::Timestamps* timestamps) noexcept;
+    void skin(vk::Commands& commands) noexcept;
+
+    vk::BufferView view(BufferId buffer) const noexcept; ///< empty for an invalid id
+    /// Phases of the step list that hold a pass, in order: the spans of `timestamps`.
+    const std::vector<std::uint32_t>& timedPhases() const noexcept { return timedPhases_; }
+
+private:
+    // A pass with everything looked up, so that recording is a plain walk.
+    struct Recorded {
+        PassKind kind;
+        bool barrierBefore;
+        std::uint32_t phase, groups, value;
+        const vk::Kernel* kernel;
+        VkDescriptorSet set;
+        const std::vector<std::byte>* push;
+        vk::BufferView first, second;
+    };
+    std::vector<Recorded> resolve(const std::vector<Pass>& passes, std::size_t& nextSet) const;
+    void record(vk::Commands& commands, const std::vector<Recorded>& passes,
+                std::span<const std::byte> parameters, vk::Timestamps* timestamps) noexcept;
+    void recordPass(vk::Commands& commands, const Recorded& pass,
+                    std::span<const std::byte> parameters) noexcept;
+
+    std::vector<vk::Buffer> buffers_;
+    std::vector<std::pair<std::uint32_t, vk::Buffer>> staging_; // buffer index, its initial contents
+    std::vector<vk::Kernel> kernels_;
+    std::vector<vk::BindingSets> sets_;
+    std::vector<std::size_t> setOfPass_;
+    std::vector<Recorded> step_, skin_;
+    std::vector<std::uint32_t> timedPhases_;
+};
+
+} // namespace sinew::sim

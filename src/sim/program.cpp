@@ -1,0 +1,125 @@
+// Collecting passes, checking them against their SPIR-V, and planning the barriers between them.
+#include "sim/program.hpp"
+
+#include <stdexcept>
+
+namespace sinew::sim {
+
+namespace {
+
+constexpr std::uint32_t reversedId = 0; // constant_id of isReversed in kernel.glsl
+
+bool touches(vk::Access access, vk::Access part) {
+    return (static_cast<unsigned>(access) & static_cast<unsigned>(part)) != 0;
+}
+
+[[noreturn]] void refuse(const vk::ShaderCode& code, const std::string& why) {
+    throw std::logic_error(std::string("kernel ") + code.name + ": " + why);
+}
+
+} // namespace
+
+void planBarriers(std::span<Pass> passes, std::size_t bufferCount) {
+    std::vector<bool> isRead(bufferCount), isWritten(bufferCount);
+    for (Pass& pass : passes) {
+        pass.barrierBefore = false;
+        for (const BufferUse& use : pass.uses) {
+            const bool writes = touches(use.access, vk::Access::write);
+            pass.barrierBefore |= isWritten[use.buffer.index] || (writes && isRead[use.buffer.index]);
+        }
+        if (pass.barrierBefore) {
+            isRead.assign(bufferCount, false);
+            isWritten.assign(bufferCount, false);
+        }
+        for (const BufferUse& use : pass.uses) {
+            if (touches(use.access, vk::Access::read)) isRead[use.buffer.index] = true;
+            if (touches(use.access, vk::Access::write)) isWritten[use.buffer.index] = true;
+        }
+    }
+}
+
+BufferId ProgramBuilder::add(BufferSpec spec) {
+    program_.buffers.push_back(std::move(spec));
+    return {static_cast<std::uint32_t>(program_.buffers.size() - 1)};
+}
+
+void ProgramBuilder::beginPhase(std::string name) {
+    program_.phases.push_back(std::move(name));
+}
+
+std::uint32_t ProgramBuilder::kernelIndex(const vk::ShaderCode& code, const Constants& constants) {
+    Constants all = constants;
+    all[reversedId] = isReversed_;
+    for (std::uint32_t k = 0; k < program_.kernels.size(); ++k) {
+        if (program_.kernels[k].code == &code && program_.kernels[k].constants == all) return k;
+    }
+    program_.kernels.push_back({&code, vk::readInterface(code), std::move(all)});
+    return static_cast<std::uint32_t>(program_.kernels.size() - 1);
+}
+
+void ProgramBuilder::append(Pass pass) {
+    if (program_.phases.empty()) throw std::logic_error("pass " + pass.label + " belongs to no phase");
+    pass.phase = static_cast<std::uint32_t>(program_.phases.size() - 1);
+    pass.substep = substep_;
+    (isSkin_ ? program_.skin : program_.step).push_back(std::move(pass));
+}
+
+void ProgramBuilder::dispatchBytes(const vk::ShaderCode& code, std::uint32_t items,
+                                   std::span<const BufferId> buffers, std::span<const std::byte> push,
+                                   const Constants& constants) {
+    Pass pass{.kind = PassKind::dispatch,
+              .label = code.name,
+              .kernel = kernelIndex(code, constants),
+              .items = items};
+    const vk::KernelInterface& interface = program_.kernels[pass.kernel].interface;
+    if (items == 0) refuse(code, "nothing to do: leave the pass out");
+    if (interface.bindings.size() != buffers.size()) {
+        refuse(code, "takes " + std::to_string(interface.bindings.size()) + " buffers, got " +
+                         std::to_string(buffers.size()));
+    }
+    if (interface.pushConstantSize != push.size()) {
+        refuse(code, "takes " + std::to_string(interface.pushConstantSize) +
+                         " bytes of push constants, got " + std::to_string(push.size()));
+    }
+    for (std::size_t b = 0; b < buffers.size(); ++b) {
+        if (buffers[b].index >= program_.buffers.size()) {
+            refuse(code, "binding " + interface.bindings[b].name + " got a buffer that does not exist");
+        }
+        const BufferSpec& spec = program_.buffers[buffers[b].index];
+        if (interface.bindings[b].stride != spec.stride) {
+            refuse(code, "binding " + interface.bindings[b].name + " has stride " +
+                             std::to_string(interface.bindings[b].stride) + ", buffer " + spec.label +
+                             " has " + std::to_string(spec.stride));
+        }
+        pass.uses.push_back({buffers[b], interface.bindings[b].access});
+    }
+    pass.push.assign(push.begin(), push.end());
+    append(std::move(pass));
+}
+
+void ProgramBuilder::fill(BufferId buffer, std::uint32_t value) {
+    append({.kind = PassKind::fill, .label = "fill", .uses = {{buffer, vk::Access::write}}, .value = value});
+}
+
+void ProgramBuilder::copy(BufferId from, BufferId to) {
+    const BufferSpec &source = program_.buffers.at(from.index), &target = program_.buffers.at(to.index);
+    if (source.bytes() != target.bytes()) {
+        throw std::logic_error("copy: " + source.label + " has " + std::to_string(source.bytes()) +
+                               " bytes, " + target.label + " has " + std::to_string(target.bytes()));
+    }
+    append({.kind = PassKind::copy,
+            .label = "copy",
+            .uses = {{from, vk::Access::read}, {to, vk::Access::write}}});
+}
+
+void ProgramBuilder::updateParameters(BufferId parameters) {
+    append({.kind = PassKind::update, .label = "update", .uses = {{parameters, vk::Access::write}}});
+}
+
+StepProgram ProgramBuilder::finish() {
+    planBarriers(program_.step, program_.buffers.size());
+    planBarriers(program_.skin, program_.buffers.size());
+    return std::move(program_);
+}
+
+} // namespace sinew::sim

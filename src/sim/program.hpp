@@ -1,0 +1,149 @@
+// A scene compiles to a step program: buffers and a plain list of passes, with no Vulkan handles inside. Pure
+// data: what makes it (constraints, solvers) never touches a GPU; what uses it (executor, profiler, describe)
+// walks it.
+#pragma once
+
+#include "vk/spirv.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <map>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace sinew::sim {
+
+struct BufferId {
+    std::uint32_t index = 0xffffffffu;
+    bool operator==(const BufferId&) const = default;
+};
+
+struct BufferSpec {
+    std::string label;
+    std::uint64_t count = 0;        ///< elements
+    std::uint32_t stride = 0;       ///< [B]
+    std::vector<std::byte> initial; ///< count x stride bytes, or empty = zeros
+    std::uint64_t bytes() const { return count * stride; }
+};
+
+struct BufferUse {
+    BufferId buffer;
+    vk::Access access = vk::Access::readWrite;
+};
+
+/// A kernel with the specialisation constants that make it a pipeline.
+struct KernelUse {
+    const vk::ShaderCode* code = nullptr;
+    vk::KernelInterface interface;
+    std::map<std::uint32_t, std::uint32_t> constants; ///< specialisation id -> 32 bits
+};
+
+enum class PassKind : std::uint8_t {
+    dispatch,
+    fill,   ///< sets every word of uses[0] to `value`
+    copy,   ///< uses[0] to uses[1], whole buffers of equal size
+    update, ///< writes the step parameters into uses[0]
+};
+
+/// One entry of the list.
+struct Pass {
+    PassKind kind = PassKind::dispatch;
+    std::string label;
+    std::uint32_t kernel = 0;    ///< index into StepProgram::kernels (dispatch)
+    std::uint32_t items = 0;     ///< invocations wanted (dispatch)
+    std::vector<BufferUse> uses; ///< in binding order
+    std::vector<std::byte> push;
+    std::uint32_t value = 0;
+    std::uint32_t phase = 0;    ///< index into StepProgram::phases
+    std::uint32_t substep = 0;  ///< 1-based; 0 = outside the substeps
+    bool barrierBefore = false; ///< set by planBarriers
+};
+
+/// Immutable once built.
+struct StepProgram {
+    std::vector<BufferSpec> buffers;
+    std::vector<KernelUse> kernels;
+    std::vector<std::string> phases;                    ///< what is timed, in order
+    std::vector<Pass> step;                             ///< recorded for every step
+    std::vector<Pass> skin;                             ///< recorded when somebody draws; may be empty
+    std::vector<std::string> skipped;                   ///< features this scene does not need, for reports
+    BufferId parameters, status, positions, velocities; ///< the public ones, in every program
+    BufferId skinVertices, skinIndices;                 ///< invalid without skins
+    std::uint32_t particleCount = 0, constraintCount = 0;
+    std::uint64_t sweeps = 0; ///< times every constraint is read in one step
+};
+
+/// Walks a list that runs front to back on one queue and says which passes need a barrier before them. Keeps
+/// the buffers read and written since the last barrier: a pass that touches a written one, or writes a read
+/// one, gets one and both sets are cleared; right because every barrier covers all earlier work with the same
+/// masks.
+void planBarriers(std::span<Pass> passes, std::size_t bufferCount);
+
+/// The printed form: `label xitems buffer:access ...`, barriers in between, equal substeps folded, then
+/// totals.
+std::string describe(const StepProgram& program);
+
+/// Bytes that the kernels of one step declare to touch: each used buffer once a pass, twice where read and
+/// written.
+std::uint64_t declaredBytes(const StepProgram& program);
+
+/// Collects buffers and passes; refuses (std::logic_error naming kernel and buffer) what disagrees with the
+/// SPIR-V.
+class ProgramBuilder {
+public:
+    explicit ProgramBuilder(bool isReversed) : isReversed_(isReversed) {}
+
+    template <typename T>
+    requires std::is_trivially_copyable_v<T> BufferId upload(std::string label, std::span<const T> elements) {
+        const auto bytes = std::as_bytes(elements);
+        return add({std::move(label), elements.size(), sizeof(T), {bytes.begin(), bytes.end()}});
+    }
+    template <typename T> BufferId upload(std::string label, const std::vector<T>& elements) {
+        return upload(std::move(label), std::span<const T>(elements));
+    }
+    /// Zeros at first.
+    template <typename T> BufferId scratch(std::string label, std::uint64_t count) {
+        return add({std::move(label), count, sizeof(T), {}});
+    }
+
+    void beginPhase(std::string name);
+    void beginSubstep() { ++substep_; }
+    void endSubsteps() { substep_ = 0; }
+
+    using Constants = std::map<std::uint32_t, std::uint32_t>;
+    /// `items` > 0 invocations; `buffers` in binding order; `push` is the kernel's push constant struct.
+    template <typename Push>
+    void dispatch(const vk::ShaderCode& code, std::uint32_t items, std::span<const BufferId> buffers,
+                  const Push& push, const Constants& constants = {}) {
+        dispatchBytes(code, items, buffers, std::as_bytes(std::span(&push, 1)), constants);
+    }
+    template <typename Push>
+    void dispatch(const vk::ShaderCode& code, std::uint32_t items, std::initializer_list<BufferId> buffers,
+                  const Push& push, const Constants& constants = {}) {
+        dispatch(code, items, std::span(buffers.begin(), buffers.size()), push, constants);
+    }
+    void fill(BufferId buffer, std::uint32_t value);
+    void copy(BufferId from, BufferId to);
+    void updateParameters(BufferId parameters);
+    void beginSkin() { isSkin_ = true; }
+    void skip(std::string feature) { program_.skipped.push_back(std::move(feature)); }
+
+    StepProgram& program() { return program_; }
+    StepProgram finish();
+
+private:
+    BufferId add(BufferSpec spec);
+    void append(Pass pass);
+    std::uint32_t kernelIndex(const vk::ShaderCode& code, const Constants& constants);
+    void dispatchBytes(const vk::ShaderCode& code, std::uint32_t items, std::span<const BufferId> buffers,
+                       std::span<const std::byte> push, const Constants& constants);
+
+    StepProgram program_;
+    bool isReversed_ = false, isSkin_ = false;
+    std::uint32_t substep_ = 0;
+};
+
+} // namespace sinew::sim

@@ -1,0 +1,58 @@
+// The one table of allowed numbers: validate.cpp checks scenes against it, scene files and their
+// documentation read it.
+#pragma once
+
+#include <limits>
+#include <string>
+
+namespace sinew::sim {
+
+/// An interval of finite numbers, closed unless an end is open.
+struct Range {
+    double low = std::numeric_limits<double>::lowest();
+    double high = std::numeric_limits<double>::max();
+    bool isLowOpen = false, isHighOpen = false;
+
+    /// False for NaN and infinities.
+    constexpr bool holds(double value) const {
+        return (isLowOpen ? value > low : value >= low) && (isHighOpen ? value < high : value <= high);
+    }
+};
+
+/// As in "must be ...": "from 1 to 1000", "above 0 and at most 0.1", "at least 0", "a finite number".
+std::string toText(const Range& range);
+
+namespace ranges {
+
+inline constexpr double largest = std::numeric_limits<float>::max(); // what the device can hold
+
+// Scene
+inline constexpr Range finite{-largest, largest};
+inline constexpr Range dt{.low = 0, .high = double{0.1f}, .isLowOpen = true}; // [s]
+inline constexpr Range damping{0, largest};                                   // [1/s]
+inline constexpr Range inverseMass{0, largest};                               // [1/kg]
+inline constexpr Range restLength{0, largest};                                // [m]
+inline constexpr Range compliance{0, largest};                                // [m/N]
+inline constexpr Range friction{0, largest};
+inline constexpr Range restitution{0, 1};
+inline constexpr Range normalLength{1 - 1e-3, 1 + 1e-3};
+inline constexpr Range restVolume{0, largest};           // [m^3]
+inline constexpr Range embeddingWeight{-1e-3, 1 + 1e-3}; // rounding of a vertex on a cell's face
+inline constexpr Range color{0, 1};
+inline constexpr std::size_t mostPlanes = 32; // bits of the touched set in planes.glsl
+
+// Settings
+inline constexpr Range substeps{1, 1000};
+inline constexpr Range iterations{1, 1000};
+inline constexpr Range omega{.low = 0, .high = 10, .isLowOpen = true, .isHighOpen = true};
+inline constexpr Range theta{0, 1};
+inline constexpr Range weight{0, 1};
+inline constexpr Range overRelaxation{.low = 0, .high = 2, .isLowOpen = true, .isHighOpen = true};
+
+/// `split` is stable on any graph below this (methods: D).
+constexpr double omegaBound(double thetaValue) {
+    return 4 / (1 + 2 * thetaValue);
+}
+
+} // namespace ranges
+} // namespace sinew::sim

@@ -1,0 +1,103 @@
+// The Scene in double precision and what the sequential solvers share.
+#include "sim/reference/problem.hpp"
+
+#include "sim/reference/reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sinew::sim::reference {
+
+Eigen::Vector3d toEigen(const Vec3& v) {
+    return {double{v.x}, double{v.y}, double{v.z}};
+}
+
+Problem::Problem(const Scene& scene)
+    : linkCount(scene.particles.size(), 0), gravity(toEigen(scene.gravity)), damping(double{scene.damping}) {
+    for (const Particle& particle : scene.particles) {
+        inverseMass.push_back(double{particle.inverseMass});
+        contactOffset.push_back(double{particle.contactOffset});
+    }
+    for (const FixedConstraint& constraint : scene.fixed) inverseMass[constraint.particle] = 0;
+    for (const DistanceConstraint& c : scene.distances) {
+        if (inverseMass[c.a] == 0 && inverseMass[c.b] == 0) continue;
+        links.push_back({c.a, c.b, double{c.restLength}, double{c.compliance}});
+        ++linkCount[c.a];
+        ++linkCount[c.b];
+    }
+    for (const Plane& plane : scene.planes) {
+        walls.push_back(
+            {toEigen(plane.normal), double{plane.offset}, double{plane.friction}, double{plane.restitution}});
+    }
+}
+
+State initialState(const Scene& scene) {
+    const Problem problem(scene);
+    State state;
+    for (std::size_t i = 0; i < problem.size(); ++i) {
+        const Particle& particle = scene.particles[i];
+        state.x.push_back(toEigen(particle.position));
+        state.v.push_back(problem.inverseMass[i] > 0 ? toEigen(particle.velocity) : Eigen::Vector3d::Zero());
+    }
+    return state;
+}
+
+Touched projectOntoWalls(const Problem& problem, std::size_t particle, const Eigen::Vector3d& before,
+                         Eigen::Vector3d& x) {
+    Touched touched = 0;
+    for (std::size_t k = 0; k < problem.walls.size(); ++k) {
+        const Wall& wall = problem.walls[k];
+        const double constraint = wall.normal.dot(x) - wall.offset - problem.contactOffset[particle];
+        if (constraint >= 0) continue;
+        const Eigen::Vector3d moved = x - before;
+        const Eigen::Vector3d slid = moved - wall.normal.dot(moved) * wall.normal;
+        x -= constraint * wall.normal;
+        const double reach = wall.friction * -constraint;
+        x -= slid.norm() <= reach ? slid : Eigen::Vector3d(reach * slid.normalized());
+        touched |= Touched{1} << k;
+    }
+    return touched;
+}
+
+void rebound(const Problem& problem, Touched touched, double h, const Eigen::Vector3d& before,
+             Eigen::Vector3d& v) {
+    const double slowest = 2 * problem.gravity.norm() * h;
+    for (std::size_t k = 0; k < problem.walls.size(); ++k) {
+        const Wall& wall = problem.walls[k];
+        const double approach = -wall.normal.dot(before);
+        if ((touched >> k & 1) == 0 || approach <= slowest) continue;
+        const double leave = wall.normal.dot(v);
+        v += (std::max(leave, wall.restitution * approach) - leave) * wall.normal;
+    }
+}
+
+HalfKickSubstep::HalfKickSubstep(const Problem& problem, double h, State& state)
+    : problem_(problem), h_(h), state_(state), before_(state.x), touched_(state.x.size(), 0) {
+    const Eigen::Vector3d fall = h * h / 2 * problem.gravity;
+    for (std::size_t i = 0; i < problem.size(); ++i) {
+        if (problem.inverseMass[i] > 0) state.x[i] += h * state.v[i] + fall;
+    }
+    predicted_ = state.x;
+}
+
+void HalfKickSubstep::projectWalls() {
+    if (problem_.walls.empty()) return;
+    for (std::size_t i = 0; i < problem_.size(); ++i) {
+        if (problem_.inverseMass[i] > 0)
+            touched_[i] |= projectOntoWalls(problem_, i, before_[i], state_.x[i]);
+    }
+}
+
+void HalfKickSubstep::finish() {
+    const double kept = std::exp(-problem_.damping * h_);
+    const Eigen::Vector3d halfKick = h_ / 2 * problem_.gravity;
+    for (std::size_t i = 0; i < problem_.size(); ++i) {
+        if (problem_.inverseMass[i] == 0) continue;
+        const Eigen::Vector3d vBefore = state_.v[i];
+        const Eigen::Vector3d mean = vBefore + halfKick + (state_.x[i] - predicted_[i]) / h_;
+        state_.v[i] = kept * mean + halfKick;
+        if (touched_[i] != 0) rebound(problem_, touched_[i], h_, vBefore, state_.v[i]);
+    }
+}
+
+} // namespace sinew::sim::reference

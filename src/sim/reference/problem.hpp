@@ -1,0 +1,73 @@
+// A Scene in double precision, and the parts of a substep that the sequential solvers share: half-kick
+// prediction, boundary planes, velocity update (methods: D; planes as temporary constraints: contacts, 0.4).
+#pragma once
+
+#include "sim/scene.hpp"
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+namespace sinew::sim::reference {
+
+struct State;
+
+struct Link {
+    std::uint32_t a = 0, b = 0;
+    double restLength = 0, compliance = 0; ///< [m], [m/N]
+};
+
+struct Wall {
+    Eigen::Vector3d normal;
+    double offset = 0, friction = 0, restitution = 0;
+};
+
+/// What the solvers need of a scene. Links whose ends both never move are left out.
+struct Problem {
+    explicit Problem(const Scene& scene);
+
+    std::size_t size() const { return inverseMass.size(); }
+
+    std::vector<double> inverseMass;      ///< after fixed constraints [1/kg]
+    std::vector<double> contactOffset;    ///< [m]
+    std::vector<std::uint32_t> linkCount; ///< links of each particle
+    std::vector<Link> links;
+    std::vector<Wall> walls;
+    Eigen::Vector3d gravity; ///< [m/s^2]
+    double damping = 0;      ///< [1/s]
+};
+
+Eigen::Vector3d toEigen(const Vec3& v);
+
+/// Which walls a particle touched: bit k = wall k.
+using Touched = std::uint32_t;
+
+/// Moves a particle that was at `before` when the substep began out of the walls, one after another, with
+/// Coulomb friction in position form: the substep's tangential displacement is taken back up to friction x
+/// depth.
+Touched projectOntoWalls(const Problem& problem, std::size_t particle, const Eigen::Vector3d& before,
+                         Eigen::Vector3d& x);
+
+/// Newton's restitution at the touched walls against the velocity `before` the substep; impacts slower than 2
+/// |g| h do not rebound.
+void rebound(const Problem& problem, Touched touched, double h, const Eigen::Vector3d& before,
+             Eigen::Vector3d& v);
+
+/// One substep in PBD order with the half-kick, for solvers that move positions: exact in free fall at any h.
+class HalfKickSubstep {
+public:
+    /// Predicts: x += h v + h^2 g / 2.
+    HalfKickSubstep(const Problem& problem, double h, State& state);
+    void projectWalls();
+    /// v += h g + corrections / h, then damping of the mean velocity dx / h, then restitution.
+    void finish();
+
+private:
+    const Problem& problem_;
+    double h_;
+    State& state_;
+    std::vector<Eigen::Vector3d> before_, predicted_; ///< positions
+    std::vector<Touched> touched_;
+};
+
+} // namespace sinew::sim::reference

@@ -1,0 +1,50 @@
+// The solvers again, sequentially and in double precision on the CPU, written from the Scene alone. The
+// slides' sequential row, and what a step on the device is held against. Shares no code with kernels or
+// compile.
+#pragma once
+
+#include "sim/reference/problem.hpp"
+
+namespace sinew::sim::reference {
+
+/// Positions [m] and velocities [m/s], one entry a particle.
+struct State {
+    std::vector<Eigen::Vector3d> x, v;
+    double previousH =
+        0; ///< substep of the step before [s]; 0 at the start (`split` starts with a half-kick)
+};
+
+/// The state a scene describes; particles that never move have no velocity.
+State initialState(const Scene& scene);
+
+/// One step of `dt` [s] under the scene's gravity. `split` keeps v half a substep behind x, as the device
+/// does.
+void stepGaussSeidel(const Scene& scene, const Settings& settings, double dt,
+                     State& state); ///< in constraint order
+void stepJacobi(const Scene& scene, const Settings& settings, double dt, State& state);
+void stepSplit(const Scene& scene, const Settings& settings, double dt, State& state);
+
+/// stepGaussSeidel with everything that stays the same from step to step looked up once: the sequential row
+/// of a benchmark. Copies what it needs of the scene.
+class GaussSeidel {
+public:
+    GaussSeidel(const Scene& scene, const Settings& settings);
+    void step(double dt, State& state);
+
+private:
+    // One constraint as the inner loop reads it, in one cache line.
+    struct Row {
+        std::uint32_t a = 0, b = 0;
+        double inverseMassA = 0, inverseMassB = 0;
+        double restLength = 0;
+        double alpha = 0, inverseDenominator = 0; // compliance / h^2, 1 / (w_a + w_b + alpha)
+        double lambda = 0;
+    };
+    void sweep(State& state);
+
+    Problem problem_;
+    std::uint32_t substeps_, iterations_;
+    std::vector<Row> rows_;
+};
+
+} // namespace sinew::sim::reference

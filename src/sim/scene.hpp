@@ -1,0 +1,101 @@
+// What a user describes: particles, permanent constraints, boundary planes and skins, as plain structs in SI
+// units. The only thing a caller fills in; everything else (the step program, buffers, barriers) is compiled
+// from it. y points up. Numbers are float32 so that the device and the double-precision reference start from
+// the same values.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sinew::sim {
+
+struct Vec3 {
+    float x = 0, y = 0, z = 0;
+};
+
+/// A point mass.
+struct Particle {
+    Vec3 position;         ///< [m]
+    Vec3 velocity;         ///< [m/s]
+    float inverseMass = 1; ///< [1/kg]; 0 = never moves
+    float contactOffset =
+        0; ///< [m] distance kept from colliders; negative where the particle lies outside its skin
+};
+
+/// |x_a - x_b| = restLength, with energy (|x_a - x_b| - restLength)^2 / (2 compliance). Permanent.
+struct DistanceConstraint {
+    std::uint32_t a = 0, b = 0;
+    float restLength = 0; ///< [m]
+    float compliance = 0; ///< [m/N]; 0 = rigid
+};
+
+/// Holds a particle where the scene puts it. Permanent. Compiles to inverse mass 0 and therefore to no pass.
+struct FixedConstraint {
+    std::uint32_t particle = 0;
+};
+
+/// A half space that particles must stay in: normal . x >= offset + contactOffset. Found active anew each
+/// substep.
+struct Plane {
+    Vec3 normal{0, 1, 0};  ///< unit length, pointing into the free side
+    float offset = 0;      ///< [m]
+    float friction = 0;    ///< Coulomb coefficient, >= 0
+    float restitution = 0; ///< 0 (no rebound) to 1 (elastic)
+};
+
+/// A named range of particles: what reports and messages call a body.
+struct Body {
+    std::string name;
+    std::uint32_t firstParticle = 0, particleCount = 0;
+    float restVolume = 0; ///< [m^3]; 0 = encloses none (cloth)
+};
+
+/// Where a skin vertex sits in a lattice cell: x = sum over corners k of N_k(weights) x_k, trilinear. Corner
+/// k has the offset (k & 1, k >> 1 & 1, k >> 2) in the cell.
+struct CellEmbedding {
+    std::array<std::uint32_t, 8> particles{};
+    Vec3 weights; ///< local coordinates in the cell, each in [0, 1]
+};
+
+/// The visible triangle mesh a body carries. Its vertices either are particles (`particles`) or lie in
+/// lattice cells
+/// (`cells`); exactly one of the two lists is filled, one entry a vertex.
+struct Skin {
+    std::string name;
+    std::vector<std::array<std::uint32_t, 3>> triangles; ///< counter-clockwise seen from outside
+    std::vector<std::uint32_t> particles;
+    std::vector<CellEmbedding> cells;
+    Vec3 color{0.78f, 0.36f, 0.32f}; ///< linear RGB
+    std::size_t vertexCount() const { return particles.empty() ? cells.size() : particles.size(); }
+};
+
+struct Scene {
+    std::string name;
+    Vec3 gravity{0, -9.81f, 0}; ///< [m/s^2]
+    float dt = 1.0f / 60.0f;    ///< length of a step [s], 0 < dt <= 0.1
+    float damping = 0;          ///< rate c of velocity decay exp(-c t) [1/s]
+    std::vector<Particle> particles;
+    std::vector<DistanceConstraint> distances;
+    std::vector<FixedConstraint> fixed;
+    std::vector<Plane> planes;
+    std::vector<Body> bodies;
+    std::vector<Skin> skins;
+};
+
+enum class Solver { jacobi, split };
+
+/// How to solve a scene; shapes the step program. Ranges are in the table of validate.cpp.
+struct Settings {
+    Solver solver = Solver::split;
+    std::uint32_t substeps = 32;  ///< per step, 1..1000
+    std::uint32_t iterations = 1; ///< sweeps per substep, 1..1000; `split` has one by construction
+    float omega = 2;              ///< `split`: stiffness clamp; stable below 4 / (1 + 2 theta) on any graph
+    float theta = 0.1f;           ///< `split`: 0 symplectic .. 1 PBD order; damps like theta h k
+    float weight = 0;         ///< `jacobi`: factor on a particle's summed corrections; 0 = 1 / their number
+    float overRelaxation = 1; ///< `jacobi`: second factor on that sum, below 4/3 with averaging
+    bool isReversed = false;  ///< runs every kernel in reversed invocation order; the state must not change
+};
+
+} // namespace sinew::sim

@@ -1,0 +1,142 @@
+// The façade: validates, compiles, owns the executor, and turns a Step into the parameters its kernels read.
+#include "sim/simulation.hpp"
+
+#include "layout.h"
+#include "sim/compile.hpp"
+#include "sim/gpu_executor.hpp"
+#include "sim/validate.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+namespace sinew::sim {
+
+namespace {
+
+const Scene& valid(const Scene& scene, const Settings& settings) {
+    const std::vector<std::string> complaints = validate(scene, settings);
+    if (complaints.empty()) return scene;
+    std::string text;
+    for (const std::string& complaint : complaints) text += (text.empty() ? "" : "\n") + complaint;
+    throw std::invalid_argument(text);
+}
+
+std::vector<SkinRange> rangesOf(const std::vector<Skin>& skins) {
+    std::vector<SkinRange> ranges;
+    std::uint32_t first = 0;
+    for (const Skin& skin : skins) {
+        const auto count = static_cast<std::uint32_t>(3 * skin.triangles.size());
+        ranges.push_back({skin.name, skin.color, first, count});
+        first += count;
+    }
+    return ranges;
+}
+
+} // namespace
+
+struct Simulation::State {
+    const vk::Device& device;
+    StepProgram program;
+    GpuExecutor executor;
+    vk::Buffer statusRing; // one slot a frame in flight, read by the host
+    std::vector<SkinRange> skins;
+    float theta, damping;
+    std::uint32_t substeps;
+    float previousH = 0; // 0 before the first step: the half-kick that starts the leapfrog
+
+    State(const vk::Device& d, const Scene& scene, const Settings& settings)
+        : device(d), program(compile(valid(scene, settings), settings)), executor(d, program),
+          statusRing(d, {.name = "status.ring",
+                         .count = framesInFlight,
+                         .stride = sizeof(layout::StatusWords),
+                         .kind = vk::MemoryKind::readback}),
+          skins(rangesOf(scene.skins)), theta(settings.solver == Solver::split ? settings.theta : 0),
+          damping(scene.damping), substeps(settings.substeps) {}
+
+    layout::StepParams parameters(const Step& step) const {
+        const float h = step.dt / static_cast<float>(substeps);
+        const Vec3& g = step.gravity;
+        return {.gravity = {g.x, g.y, g.z, 0},
+                .h = h,
+                .hPrevious = previousH,
+                .thetaH = theta * h,
+                .thetaHPrevious = theta * previousH,
+                .velocityFactor = std::exp(-damping * h),
+                .restSpeed = 2 * std::sqrt(g.x * g.x + g.y * g.y + g.z * g.z) * h,
+                .frame = static_cast<std::uint32_t>(step.frame)};
+    }
+
+    vk::BufferView statusSlot(std::uint64_t frame) const {
+        vk::BufferView slot = statusRing.view();
+        slot.size = slot.stride;
+        slot.offset += slot.stride * (frame % framesInFlight);
+        return slot;
+    }
+};
+
+Simulation::Simulation(const vk::Device& device, const Scene& scene, const Settings& settings)
+    : state_(std::make_unique<State>(device, scene, settings)) {}
+
+Simulation::~Simulation() = default;
+
+void Simulation::recordReset(VkCommandBuffer buffer) noexcept {
+    vk::Commands commands(state_->device, buffer);
+    state_->executor.upload(commands);
+    state_->previousH = 0;
+}
+
+void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps* timestamps) noexcept {
+    const layout::StepParams parameters = state_->parameters(step);
+    vk::Commands commands(state_->device, buffer);
+    if (timestamps) timestamps->reset(commands);
+    commands.beginStep();
+    state_->executor.step(commands, std::as_bytes(std::span(&parameters, 1)), timestamps);
+    commands.barrier();
+    commands.copy(state_->executor.view(state_->program.status), state_->statusSlot(step.frame));
+    commands.endStep();
+    commands.hostBarrier();
+    state_->previousH = parameters.h;
+}
+
+void Simulation::recordSkin(VkCommandBuffer buffer) noexcept {
+    vk::Commands commands(state_->device, buffer);
+    commands.beginStep();
+    state_->executor.skin(commands);
+    commands.endStep();
+}
+
+vk::BufferView Simulation::positions() const noexcept {
+    return state_->executor.view(state_->program.positions);
+}
+vk::BufferView Simulation::velocities() const noexcept {
+    return state_->executor.view(state_->program.velocities);
+}
+vk::BufferView Simulation::skinVertices() const noexcept {
+    return state_->executor.view(state_->program.skinVertices);
+}
+vk::BufferView Simulation::skinIndices() const noexcept {
+    return state_->executor.view(state_->program.skinIndices);
+}
+const std::vector<SkinRange>& Simulation::skins() const noexcept {
+    return state_->skins;
+}
+const StepProgram& Simulation::program() const noexcept {
+    return state_->program;
+}
+
+Status Simulation::status(std::uint64_t frame) const noexcept {
+    layout::StatusWords words;
+    const std::size_t slot = frame % framesInFlight;
+    std::memcpy(&words, state_->statusRing.mapped() + slot * sizeof(words), sizeof(words));
+    return {.frame = words.frame, .nonFinite = words.nonFinite, .firstBadParticle = ~words.invertedFirstBad};
+}
+
+std::vector<std::string> Simulation::phases() const {
+    std::vector<std::string> names;
+    for (const std::uint32_t phase : state_->executor.timedPhases())
+        names.push_back(state_->program.phases[phase]);
+    return names;
+}
+
+} // namespace sinew::sim

@@ -1,0 +1,84 @@
+// The public face of the core: construct from a Scene, record steps into a command buffer, read views.
+#pragma once
+
+#include "sim/scene.hpp"
+#include "vk/buffer.hpp"
+#include "vk/timestamps.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace sinew::sim {
+
+struct StepProgram;
+
+/// What changes from step to step.
+struct Step {
+    float dt = 1.0f / 60.0f;    ///< length of the step [s], 0 < dt <= 0.1
+    Vec3 gravity{0, -9.81f, 0}; ///< [m/s^2]
+    std::uint64_t frame = 0;    ///< grows by one from step to step
+};
+
+/// What a finished step found out about itself.
+struct Status {
+    std::uint32_t frame = 0; ///< low 32 bits of Step::frame
+    std::uint32_t nonFinite =
+        0; ///< particles with a non-finite state; the public state then stays the last finite one
+    std::uint32_t firstBadParticle = 0; ///< smallest index among them; meaningful where nonFinite > 0
+};
+
+/// A range of the skin buffers that is one Skin of the scene.
+struct SkinRange {
+    std::string name;
+    Vec3 color;
+    std::uint32_t firstIndex = 0, indexCount = 0;
+};
+
+/// Owns the buffers and pipelines of one scene. Must not outlive the Device. Never submits, waits or owns a
+/// queue. One thread per Simulation; different ones are independent.
+class Simulation {
+public:
+    static constexpr std::uint32_t framesInFlight = 4; ///< steps recorded but not finished, at most
+
+    /// Throws std::invalid_argument with the sentences of validate(), one a line, or vk::Error. Creates every
+    /// buffer and pipeline; contents arrive with the first recordReset().
+    Simulation(const vk::Device& device, const Scene& scene, const Settings& settings);
+    ~Simulation();
+    Simulation(const Simulation&) = delete;
+    Simulation& operator=(const Simulation&) = delete;
+
+    /// Records the copies that put the simulation into the state of its scene. Must be recorded once before
+    /// the first step; later it is a reset. `commands` must be recording and outside a render pass.
+    void recordReset(VkCommandBuffer commands) noexcept;
+
+    /// Records one step. Never submits, waits or allocates. Afterwards positions() and velocities() are
+    /// visible to vertex input, compute and transfer on the same queue. With `timestamps`, one span per entry
+    /// of phases().
+    void record(VkCommandBuffer commands, const Step& step, vk::Timestamps* timestamps = nullptr) noexcept;
+
+    /// Records the skins of the newest recorded state; afterwards skinVertices() is visible to vertex input.
+    void recordSkin(VkCommandBuffer commands) noexcept;
+
+    /// Public state [m], [m/s]: particleCount x vec4, stride 16, w = inverse mass [1/kg]. `split` reports the
+    /// velocity half a substep before the step's end (leapfrog).
+    vk::BufferView positions() const noexcept;
+    vk::BufferView velocities() const noexcept;
+    /// layout::SkinVertex (position, normal; stride 32) and 32-bit triangle indices; empty views without
+    /// skins.
+    vk::BufferView skinVertices() const noexcept;
+    vk::BufferView skinIndices() const noexcept;
+    const std::vector<SkinRange>& skins() const noexcept;
+
+    /// Of a step that has finished on the device and is one of the last `framesInFlight` recorded.
+    Status status(std::uint64_t frame) const noexcept;
+
+    const StepProgram& program() const noexcept;
+    std::vector<std::string> phases() const; ///< names of the spans of `timestamps`
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace sinew::sim

@@ -1,0 +1,73 @@
+// Orders the phases of `jacobi`: predict, iterations of constraint pass and particle pass and planes,
+// velocity update.
+#include "sim/solvers/jacobi.hpp"
+
+#include "kernels.hpp"
+#include "sim/collision/planes.hpp"
+#include "sim/constraints/distance.hpp"
+#include "sim/solvers/correction_slots.hpp"
+
+namespace sinew::sim::solvers::jacobi {
+
+namespace {
+
+// The permanent constraints: their corrections and how a particle collects them.
+struct Corrections {
+    constraints::distance::Edges distances;
+    BufferId corrections, incidences, slots;
+    std::uint32_t slotCount = 0;
+};
+
+Corrections addCorrections(ProgramBuilder& program, const Scene& scene, const Settings& settings) {
+    CorrectionSlots slots(scene.particles.size());
+    Corrections result{.distances = constraints::distance::reserve(scene, slots)};
+    result.slotCount = slots.size();
+    if (result.slotCount == 0) return result;
+    const std::vector<float> weights = slots.weights(settings);
+    constraints::distance::upload(program, scene, weights, result.distances);
+    const CorrectionSlots::Lists lists = slots.lists(weights);
+    result.corrections = program.scratch<layout::vec4>("corrections", result.slotCount);
+    result.incidences = program.upload("incidences", lists.incidences);
+    result.slots = program.upload("slots", lists.slots);
+    return result;
+}
+
+void addIteration(ProgramBuilder& program, const ParticleBuffers& particles, const Corrections& corrections,
+                  bool isFirst) {
+    if (corrections.slotCount == 0) return;
+    constraints::distance::addPass(program, particles, corrections.distances, corrections.corrections,
+                                   isFirst);
+    program.dispatch(kernels::applyCorrections, particles.count,
+                     {corrections.incidences, corrections.slots, corrections.corrections, particles.positions,
+                      particles.velocities, particles.step},
+                     layout::CountPush{particles.count});
+}
+
+} // namespace
+
+std::vector<float> positionW(const Scene& scene, const Settings&) {
+    return inverseMasses(scene);
+}
+
+void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& settings,
+               const ParticleBuffers& particles) {
+    const Corrections corrections = addCorrections(program, scene, settings);
+    const collision::planes::Contacts contacts = collision::planes::addContacts(program, scene);
+    const std::uint32_t iterations = corrections.slotCount > 0 ? settings.iterations : 1;
+    for (std::uint32_t substep = 0; substep < settings.substeps; ++substep) {
+        program.beginSubstep();
+        collision::planes::addOpen(program, particles, contacts);
+        program.dispatch(kernels::predict, particles.count,
+                         {particles.positions, particles.velocities, particles.step},
+                         layout::CountPush{particles.count});
+        for (std::uint32_t iteration = 0; iteration < iterations; ++iteration) {
+            addIteration(program, particles, corrections, iteration == 0);
+            collision::planes::addSolve(program, particles, contacts);
+        }
+        collision::planes::addVelocityUpdate(program, particles, contacts);
+    }
+    program.endSubsteps();
+    if (corrections.slotCount > 0) program.program().sweeps = std::uint64_t{settings.substeps} * iterations;
+}
+
+} // namespace sinew::sim::solvers::jacobi

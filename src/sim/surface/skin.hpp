@@ -1,0 +1,13 @@
+// Skins on the device: vertices from particles or lattice cells, then smooth normals. Recorded when somebody
+// draws.
+#pragma once
+
+#include "sim/compile.hpp"
+
+namespace sinew::sim::surface {
+
+/// Appends the skin passes and sets the program's skin buffers; nothing where `skins` is empty. Skins lie
+/// behind one another in one vertex and one index buffer, in the order of the scene.
+void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins);
+
+} // namespace sinew::sim::surface

@@ -1,0 +1,217 @@
+// Walks a Scene and its Settings once and collects sentences. The allowed numbers stand in ranges.hpp.
+#include "sim/validate.hpp"
+
+#include "sim/ranges.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+namespace sinew::sim {
+
+namespace {
+
+template <typename Number> std::string number(Number value) {
+    char text[32];
+    const auto end = std::to_chars(std::begin(text), std::end(text), value).ptr;
+    return {text, end};
+}
+
+/// Most values were float32: 0.1f shall read "0.1", not "0.10000000149011612".
+std::string asWritten(double value) {
+    const auto narrow = static_cast<float>(value);
+    return double{narrow} == value || std::isnan(value) ? number(narrow) : number(value);
+}
+
+std::string element(std::string_view list, std::size_t index) {
+    return std::string(list) + "[" + number(index) + "]";
+}
+
+// Keeps the first sentences and counts the rest, so that a million NaNs stay readable.
+class Complaints {
+public:
+    void add(const std::string& item, const std::string& why) {
+        if (++count_ <= most) sentences_.push_back(item + ": " + why);
+    }
+
+    // Members by pointer, so that no name is put together for the values that are right.
+    void check(double value, const Range& range, const auto& name) {
+        if (!range.holds(value)) add(name(), "is " + asWritten(value) + ", must be " + toText(range));
+    }
+
+    void checkFinite(const Vec3& v, const auto& name) {
+        for (const float value : {v.x, v.y, v.z}) {
+            if (ranges::finite.holds(double{value})) continue;
+            add(name(), "is (" + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + "), must be finite");
+            return;
+        }
+    }
+
+    void checkIndex(std::size_t index, std::size_t count, const char* counted, const auto& name) {
+        if (index >= count)
+            add(name(), "is " + number(index) + ", but there are " + number(count) + " " + counted);
+    }
+
+    std::vector<std::string> finish() {
+        if (count_ > most) sentences_.push_back("and " + number(count_ - most) + " more complaints");
+        return std::move(sentences_);
+    }
+
+private:
+    static constexpr std::size_t most = 20;
+    std::vector<std::string> sentences_;
+    std::size_t count_ = 0;
+};
+
+struct SettingRow {
+    const char* name;
+    double (*value)(const Settings&);
+    Range range;
+};
+
+constexpr SettingRow settingRows[] = {
+    {"settings.substeps", [](const Settings& s) { return static_cast<double>(s.substeps); },
+     ranges::substeps},
+    {"settings.iterations", [](const Settings& s) { return static_cast<double>(s.iterations); },
+     ranges::iterations},
+    {"settings.omega", [](const Settings& s) { return double{s.omega}; }, ranges::omega},
+    {"settings.theta", [](const Settings& s) { return double{s.theta}; }, ranges::theta},
+    {"settings.weight", [](const Settings& s) { return double{s.weight}; }, ranges::weight},
+    {"settings.overRelaxation", [](const Settings& s) { return double{s.overRelaxation}; },
+     ranges::overRelaxation},
+};
+
+void checkSettings(const Settings& settings, Complaints& complaints) {
+    for (const SettingRow& row : settingRows)
+        complaints.check(row.value(settings), row.range, [&] { return row.name; });
+    const double bound = ranges::omegaBound(double{settings.theta});
+    if (settings.solver == Solver::split && double{settings.omega} >= bound)
+        complaints.add("settings.omega", "is " + number(settings.omega) +
+                                             ", but split is stable only below 4 / (1 + 2 theta) = " +
+                                             number(static_cast<float>(bound)));
+}
+
+void checkParticles(const Scene& scene, Complaints& complaints) {
+    for (std::size_t i = 0; i < scene.particles.size(); ++i) {
+        const Particle& p = scene.particles[i];
+        const auto name = [i](const char* member) {
+            return [i, member] { return element("particle", i) + "." + member; };
+        };
+        complaints.checkFinite(p.position, name("position"));
+        complaints.checkFinite(p.velocity, name("velocity"));
+        complaints.check(double{p.inverseMass}, ranges::inverseMass, name("inverseMass"));
+        complaints.check(double{p.contactOffset}, ranges::finite, name("contactOffset"));
+    }
+}
+
+void checkConstraints(const Scene& scene, Complaints& complaints) {
+    const std::size_t count = scene.particles.size();
+    for (std::size_t i = 0; i < scene.distances.size(); ++i) {
+        const DistanceConstraint& d = scene.distances[i];
+        const auto name = [i](const char* member) {
+            return [i, member] { return element("distance", i) + member; };
+        };
+        complaints.checkIndex(d.a, count, "particles", name(".a"));
+        complaints.checkIndex(d.b, count, "particles", name(".b"));
+        if (d.a == d.b)
+            complaints.add(element("distance", i),
+                           "particles " + number(d.a) + " and " + number(d.b) + " are the same");
+        complaints.check(double{d.restLength}, ranges::restLength, name(".restLength"));
+        complaints.check(double{d.compliance}, ranges::compliance, name(".compliance"));
+    }
+    for (std::size_t i = 0; i < scene.fixed.size(); ++i)
+        complaints.checkIndex(scene.fixed[i].particle, count, "particles",
+                              [i] { return element("fixed", i) + ".particle"; });
+}
+
+void checkPlanes(const Scene& scene, Complaints& complaints) {
+    if (scene.planes.size() > ranges::mostPlanes)
+        complaints.add("planes", "are " + number(scene.planes.size()) + ", at most " +
+                                     number(ranges::mostPlanes) + " are possible");
+    for (std::size_t i = 0; i < scene.planes.size(); ++i) {
+        const Plane& plane = scene.planes[i];
+        const auto name = [i](const char* member) {
+            return [i, member] { return element("plane", i) + "." + member; };
+        };
+        const Vec3& n = plane.normal;
+        complaints.check(std::hypot(double{n.x}, double{n.y}, double{n.z}), ranges::normalLength,
+                         name("normal: length"));
+        complaints.check(double{plane.offset}, ranges::finite, name("offset"));
+        complaints.check(double{plane.friction}, ranges::friction, name("friction"));
+        complaints.check(double{plane.restitution}, ranges::restitution, name("restitution"));
+    }
+}
+
+void checkBodies(const Scene& scene, Complaints& complaints) {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const Body& body = scene.bodies[i];
+        const std::string name = element("body", i) + " \"" + body.name + "\"";
+        const std::uint64_t end = std::uint64_t{body.firstParticle} + body.particleCount;
+        if (end > scene.particles.size())
+            complaints.add(name, "ends at particle " + number(end) + ", but there are " +
+                                     number(scene.particles.size()) + " particles");
+        complaints.check(double{body.restVolume}, ranges::restVolume, [&] { return name + ".restVolume"; });
+    }
+}
+
+void checkCells(const Skin& skin, const std::string& name, std::size_t particles, Complaints& complaints) {
+    for (std::size_t v = 0; v < skin.cells.size(); ++v) {
+        const auto vertex = [&] { return name + element(".cells", v); };
+        for (const std::uint32_t corner : skin.cells[v].particles)
+            complaints.checkIndex(corner, particles, "particles", [&] { return vertex() + ".particles"; });
+        const Vec3& weights = skin.cells[v].weights;
+        for (const float weight : {weights.x, weights.y, weights.z})
+            complaints.check(double{weight}, ranges::embeddingWeight, [&] { return vertex() + ".weights"; });
+    }
+}
+
+void checkSkin(const Skin& skin, const std::string& name, std::size_t particles, Complaints& complaints) {
+    if (skin.vertexCount() == 0) {
+        complaints.add(name, "has no vertices: fill particles or cells");
+        return;
+    }
+    if (!skin.particles.empty() && !skin.cells.empty())
+        complaints.add(name, "has both particles and cells, must have one of the two");
+    for (std::size_t v = 0; v < skin.particles.size(); ++v)
+        complaints.checkIndex(skin.particles[v], particles, "particles",
+                              [&] { return name + element(".particles", v); });
+    checkCells(skin, name, particles, complaints);
+    for (std::size_t t = 0; t < skin.triangles.size(); ++t)
+        for (const std::uint32_t corner : skin.triangles[t])
+            complaints.checkIndex(corner, skin.vertexCount(), "vertices",
+                                  [&] { return name + element(".triangles", t); });
+    for (const float channel : {skin.color.x, skin.color.y, skin.color.z})
+        complaints.check(double{channel}, ranges::color, [&] { return name + ".color"; });
+}
+
+} // namespace
+
+std::string toText(const Range& range) {
+    const bool hasLow = range.low > -ranges::largest, hasHigh = range.high < ranges::largest;
+    // As float32: 0.1f is a little more than 0.1 and must still read "0.1".
+    const auto bound = [](double value) { return number(static_cast<float>(value)); };
+    const std::string low = (range.isLowOpen ? "above " : "at least ") + (hasLow ? bound(range.low) : "");
+    const std::string high = (range.isHighOpen ? "below " : "at most ") + (hasHigh ? bound(range.high) : "");
+    if (hasLow && hasHigh && !range.isLowOpen && !range.isHighOpen)
+        return "from " + bound(range.low) + " to " + bound(range.high);
+    if (hasLow && hasHigh) return low + " and " + high;
+    if (hasLow) return low;
+    return hasHigh ? high : "a finite number";
+}
+
+std::vector<std::string> validate(const Scene& scene, const Settings& settings) {
+    Complaints complaints;
+    checkSettings(settings, complaints);
+    complaints.check(double{scene.dt}, ranges::dt, [] { return "scene.dt"; });
+    complaints.check(double{scene.damping}, ranges::damping, [] { return "scene.damping"; });
+    complaints.checkFinite(scene.gravity, [] { return "scene.gravity"; });
+    checkParticles(scene, complaints);
+    checkConstraints(scene, complaints);
+    checkPlanes(scene, complaints);
+    checkBodies(scene, complaints);
+    for (std::size_t i = 0; i < scene.skins.size(); ++i)
+        checkSkin(scene.skins[i], element("skin", i), scene.particles.size(), complaints);
+    return complaints.finish();
+}
+
+} // namespace sinew::sim

@@ -1,0 +1,13 @@
+// Every complaint about a Scene or its Settings, as sentences that name the item, the value and the allowed
+// range.
+#pragma once
+
+#include "sim/scene.hpp"
+
+namespace sinew::sim {
+
+/// Errors only; an empty list means the scene can be compiled. At most 20 sentences, then a count of the
+/// rest. Example: "distance[17]: particles 4 and 4 are the same".
+std::vector<std::string> validate(const Scene& scene, const Settings& settings);
+
+} // namespace sinew::sim
