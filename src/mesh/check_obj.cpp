@@ -1,0 +1,105 @@
+// OBJ: every vertex and face is checked and written anew, so that assimp reads `v x y z` and `f i j k` alone.
+// Material libraries are never even named to it: setting a texture before any material crashes assimp 5.2.5.
+#include "mesh/import_checks.hpp"
+#include "mesh/text_scanner.hpp"
+
+namespace sinew::mesh {
+namespace {
+
+/// Joins lines that end in a backslash with the next one; keeps the count of lines.
+class JoinedLines {
+public:
+    explicit JoinedLines(std::string_view text) : lines_(text) {}
+
+    bool next(std::string_view& line) {
+        if (!lines_.next(line)) return false;
+        number_ = lines_.number();
+        if (!line.ends_with('\\')) return true;
+        joined_ = line;
+        for (std::string_view more; joined_.ends_with('\\') && lines_.next(more);) {
+            joined_.back() = ' ';
+            joined_ += more;
+        }
+        line = joined_;
+        return true;
+    }
+
+    std::size_t number() const { return number_; }
+
+private:
+    LineScanner lines_;
+    std::string joined_;
+    std::size_t number_ = 0;
+};
+
+class ObjReducer {
+public:
+    explicit ObjReducer(const ImportLimits& limits) : limits_(limits) {}
+
+    std::string reduce(std::string_view bytes) {
+        JoinedLines lines(bytes);
+        for (std::string_view line; lines.next(line);) {
+            const std::string_view word = takeWord(line);
+            if (word == "v")
+                addVertex(line, lines.number());
+            else if (word == "f")
+                addFace(line, lines.number());
+        }
+        if (highest_ > vertices_) refuseIndex(highestLine_);
+        checkTriangleCount(triangles_, limits_);
+        return std::move(result_);
+    }
+
+private:
+    void addVertex(std::string_view line, std::size_t number) {
+        result_ += 'v';
+        for (int axis = 0; axis < 3; ++axis) {
+            const std::string_view word = takeWord(line);
+            checkCoordinate(word, number);
+            (result_ += ' ') += word;
+        }
+        result_ += '\n';
+        ++vertices_;
+    }
+
+    void addFace(std::string_view line, std::size_t number) {
+        std::uint64_t corners = 0;
+        result_ += 'f';
+        for (std::string_view word = takeWord(line); !word.empty(); word = takeWord(line), ++corners) {
+            const auto index = toInteger<std::int64_t>(word.substr(0, word.find('/')));
+            if (!index)
+                throw Refusal(std::to_string(number), "a face corner is not a number: export the mesh again");
+            const std::int64_t vertex =
+                *index < 0 ? *index + static_cast<std::int64_t>(vertices_) + 1 : *index;
+            if (vertex <= 0) refuseIndex(number);
+            if (static_cast<std::uint64_t>(vertex) > highest_) { // may be defined further below
+                highest_ = static_cast<std::uint64_t>(vertex);
+                highestLine_ = number;
+            }
+            (result_ += ' ') += std::to_string(vertex);
+        }
+        result_ += '\n';
+        if (corners < 3)
+            throw Refusal(std::to_string(number), "a face has fewer than 3 corners: export the mesh again");
+        triangles_ += corners - 2;
+        if (triangles_ > limits_.triangles) checkTriangleCount(triangles_, limits_);
+    }
+
+    [[noreturn]] void refuseIndex(std::size_t line) const {
+        throw Refusal(std::to_string(line),
+                      "a face names a vertex that does not exist: export the mesh again");
+    }
+
+    const ImportLimits& limits_;
+    std::string result_;
+    std::uint64_t vertices_ = 0, triangles_ = 0, highest_ = 0;
+    std::size_t highestLine_ = 0;
+};
+
+} // namespace
+
+std::string reduceObj(std::string_view bytes, const ImportLimits& limits) {
+    return ObjReducer(limits).reduce(bytes);
+}
+
+} // namespace sinew::mesh

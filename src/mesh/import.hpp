@@ -1,0 +1,37 @@
+// Reads a mesh file behind a wall: the importer is treated as hostile to its own input. Content sniffing, own
+// header checks, one file and no other, a child process with limits and a wall clock, and an own check of
+// every index and float.
+#pragma once
+
+#include "mesh/triangle_mesh.hpp"
+
+#include <filesystem>
+#include <stdexcept>
+
+namespace sinew::mesh {
+
+/// What a file may cost. Exceeding one is an ImportError, found before memory is allocated where a header
+/// tells.
+struct ImportLimits {
+    std::uint64_t fileBytes = 512ull << 20;
+    std::uint64_t triangles = 5'000'000;
+    std::uint64_t addressSpaceBytes = 1ull << 30; ///< of the child, beyond what the parent holds
+    double cpuSeconds = 3, wallSeconds = 10;
+};
+
+/// "cannot read mesh: <file[:line or element]>: <why>: <what to do>". Exit code 3.
+class ImportError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+enum class Format { obj, stl, ply, glb, gltf };
+
+/// OBJ, STL (text and binary), PLY (text and binary), glTF 2 with embedded buffers, GLB; the content decides,
+/// not the extension. All meshes of the file joined into one, node transforms applied, triangulated, welded.
+/// Never opens a second file. Throws ImportError. Forks: call before threads that hold locks the child would
+/// need (malloc is safe).
+TriangleMesh importMesh(const std::filesystem::path& file, MeshDefects& defects,
+                        const ImportLimits& limits = {});
+
+} // namespace sinew::mesh

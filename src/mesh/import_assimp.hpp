@@ -1,0 +1,16 @@
+// The only way to assimp. Assimp 5.2.5 crashes, hangs and opens side files on hostile input: call this in a
+// child only.
+#pragma once
+
+#include "mesh/import_checks.hpp"
+
+namespace sinew::mesh {
+
+/// The corners of all triangles of a file of the given format, node transforms applied: 3 x 3 floats a
+/// triangle, counter- clockwise from outside. Throws Refusal. `bytes` have passed the checks of
+/// import_checks.hpp.
+/// `announced`, where not 0, is the number of triangles that must be there before nodes repeat them.
+std::vector<float> readTriangles(Format format, std::string_view bytes, const ImportLimits& limits,
+                                 std::uint64_t announced = 0);
+
+} // namespace sinew::mesh

@@ -1,0 +1,60 @@
+// What a mesh file must look like before assimp may see a byte of it: own checks, one per format, that
+// allocate nothing by what a header claims. They run in the child, like all that touches the bytes.
+#pragma once
+
+#include "mesh/import.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace sinew::mesh {
+
+/// Why a file is refused: where in it (a line, an element; may be empty), then "<why>: <what to do>".
+class Refusal : public std::runtime_error {
+public:
+    Refusal(std::string where, const std::string& whyAndAdvice)
+        : std::runtime_error(whyAndAdvice), where_(std::move(where)) {}
+    const std::string& where() const { return where_; }
+
+private:
+    std::string where_;
+};
+
+/// Beyond this [m], or not finite, a coordinate is refused.
+constexpr double largestCoordinate = 1e9;
+
+/// Throws Refusal unless the value is usable as a coordinate.
+void checkCoordinate(double value, const std::string& where);
+
+/// Throws Refusal unless the word is a number usable as a coordinate.
+void checkCoordinate(std::string_view word, std::size_t line);
+
+/// Throws Refusal where there are no triangles, or more than the limit.
+void checkTriangleCount(std::uint64_t count, const ImportLimits& limits);
+
+/// The four bytes at `offset`, which must be there, little endian.
+std::uint32_t readUint32(std::string_view bytes, std::size_t offset);
+
+/// The format by content alone; nothing where no known one matches.
+std::optional<Format> sniff(std::string_view bytes);
+
+/// Checks every vertex and face and returns an OBJ of nothing but those: no materials, normals, names.
+std::string reduceObj(std::string_view bytes, const ImportLimits& limits);
+
+/// STL comes as text or binary; `bytes` are one of the two. Both checks return what to read: of text every
+/// facet in one solid, of binary what the header counts (files may carry something behind it).
+bool isTextStl(std::string_view bytes);
+std::string reduceTextStl(std::string_view bytes, const ImportLimits& limits);
+std::string_view checkBinaryStl(std::string_view bytes, const ImportLimits& limits);
+
+/// Checks header, sizes, coordinates and indices of PLY.
+void checkPly(std::string_view bytes, const ImportLimits& limits);
+
+/// Checks chunks and JSON of GLB, the JSON of glTF: version 2, sizes, nesting, no buffer outside the file.
+/// Both return the number of triangles that the meshes announce: assimp drops those with an index out of
+/// range without a word.
+std::uint64_t checkGlb(std::string_view bytes, const ImportLimits& limits);
+std::uint64_t checkGltf(std::string_view json, std::uint64_t fileBytes, const ImportLimits& limits);
+
+} // namespace sinew::mesh

@@ -1,0 +1,33 @@
+// Whether the sample points of a cell grid lie inside a surface: by the votes of the lines along x, y and z,
+// and where these disagree by the generalised winding number [Jacobson 2013], |w| > 0.5.
+#pragma once
+
+#include "mesh/crossings.hpp"
+#include "mesh/triangle_tree.hpp"
+#include "mesh/voxelise.hpp"
+
+namespace sinew::mesh {
+
+/// Vertices in cell units, 0 at the low corner of the grid.
+std::vector<Vector3> toCellUnits(const TriangleMesh& mesh, const VoxelGrid& grid);
+
+class Inside {
+public:
+    /// `positions` in cell units, and `tree` over the same triangles, which must outlive this object. Each
+    /// cell edge holds `perCell` samples, at (i + 1/2) / perCell for i = 0, 1, ...
+    Inside(const std::vector<Vector3>& positions, const Crossings::Triangles& triangles,
+           const TriangleTree& tree, std::array<std::uint32_t, 3> cells, std::uint32_t perCell);
+
+    struct Answer {
+        bool isInside = false;
+        bool isDoubtful = false; ///< the votes disagreed
+    };
+    Answer operator()(const std::array<std::uint32_t, 3>& sample) const;
+
+private:
+    std::array<Crossings, 3> crossings_;
+    std::uint32_t perCell_;
+    const TriangleTree& tree_;
+};
+
+} // namespace sinew::mesh

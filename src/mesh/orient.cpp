@@ -1,0 +1,81 @@
+// Gives a mesh one consistent way round, so that winding numbers and normals mean what they should. Files
+// often hold parts that were mirrored or modelled inside out.
+#include "mesh/topology.hpp"
+#include "mesh/triangle_mesh.hpp"
+#include "mesh/vector3.hpp"
+
+namespace sinew::mesh {
+namespace {
+
+/// The triangle across a manifold edge, and whether it runs the other way round.
+struct Neighbour {
+    std::uint32_t triangle = 0;
+    bool isFlipped = false;
+};
+
+/// At most one neighbour a side; across boundary and non-manifold edges there is none.
+struct Neighbours {
+    std::array<Neighbour, 3> list{};
+    std::uint8_t count = 0;
+    void add(Neighbour neighbour) { list[count++] = neighbour; }
+};
+
+std::vector<Neighbours> findNeighbours(const TriangleMesh& mesh) {
+    std::vector<Neighbours> neighbours(mesh.triangles.size());
+    forEachEdge(mesh.triangles, [&](std::span<const HalfEdge> sides) {
+        if (sides.size() != 2) return;
+        const bool isFlipped = sides[0].isForward == sides[1].isForward;
+        neighbours[sides[0].triangle].add({sides[1].triangle, isFlipped});
+        neighbours[sides[1].triangle].add({sides[0].triangle, isFlipped});
+    });
+    return neighbours;
+}
+
+double areaOf(const TriangleMesh& mesh, std::uint32_t triangle) {
+    const auto [a, b, c] = mesh.triangles[triangle];
+    const Vector3 origin = toVector(mesh.positions[a]);
+    return (toVector(mesh.positions[b]) - origin).cross(toVector(mesh.positions[c]) - origin).norm() / 2;
+}
+
+enum class Turn : std::uint8_t { unknown, keep, flip };
+
+Turn opposite(Turn turn) {
+    return turn == Turn::keep ? Turn::flip : Turn::keep;
+}
+
+/// Decides for the connected part around `seed`. Where it has no consistent way round (a Moebius strip) the
+/// first decision stays.
+void orientPart(const TriangleMesh& mesh, const std::vector<Neighbours>& neighbours, std::uint32_t seed,
+                std::vector<Turn>& turns) {
+    std::vector<std::uint32_t> part{seed};
+    turns[seed] = Turn::keep;
+    double keptArea = 0;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+        const std::uint32_t triangle = part[i];
+        keptArea += turns[triangle] == Turn::keep ? areaOf(mesh, triangle) : -areaOf(mesh, triangle);
+        for (std::size_t side = 0; side < neighbours[triangle].count; ++side) {
+            const Neighbour& neighbour = neighbours[triangle].list[side];
+            if (turns[neighbour.triangle] != Turn::unknown) continue;
+            turns[neighbour.triangle] = neighbour.isFlipped ? opposite(turns[triangle]) : turns[triangle];
+            part.push_back(neighbour.triangle);
+        }
+    }
+    if (keptArea < 0)
+        for (const std::uint32_t triangle : part) turns[triangle] = opposite(turns[triangle]);
+}
+
+} // namespace
+
+TriangleMesh orient(TriangleMesh mesh) {
+    const std::vector<Neighbours> neighbours = findNeighbours(mesh);
+    std::vector<Turn> turns(mesh.triangles.size(), Turn::unknown);
+    for (std::uint32_t triangle = 0; triangle < turns.size(); ++triangle)
+        if (turns[triangle] == Turn::unknown) orientPart(mesh, neighbours, triangle, turns);
+    for (std::size_t i = 0; i < turns.size(); ++i)
+        if (turns[i] == Turn::flip) std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
+    if (measure(mesh).volume < 0)
+        for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+    return mesh;
+}
+
+} // namespace sinew::mesh

@@ -1,0 +1,117 @@
+// Mesh -> cells -> lattice, and every skin vertex into the cell that holds it. The hull is conservative, so
+// that cell exists; rounding at cell borders is caught by taking the neighbour.
+#include "mesh/to_scene.hpp"
+
+#include "mesh/inside.hpp"
+#include "mesh/topology.hpp"
+#include "sim/bodies.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace sinew::mesh {
+namespace {
+
+using Cell = std::array<std::int64_t, 3>;
+
+bool isFilled(const VoxelGrid& grid, const Cell& cell) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (cell[axis] < 0 || cell[axis] >= grid.cells[axis]) return false;
+    return grid.voxels[cell[0] + grid.cells[0] * (cell[1] + grid.cells[1] * cell[2])] != Voxel::empty;
+}
+
+/// The filled cell nearest to a point in cell units, among the one that holds it and its 26 neighbours.
+Cell findCell(const VoxelGrid& grid, const Vector3& point) {
+    const Cell home{std::llround(std::floor(point.x())), std::llround(std::floor(point.y())),
+                    std::llround(std::floor(point.z()))};
+    if (isFilled(grid, home)) return home;
+    Cell best = home;
+    double bestDistance = 4; // beyond any neighbour
+    for (std::int64_t k = home[2] - 1; k <= home[2] + 1; ++k)
+        for (std::int64_t j = home[1] - 1; j <= home[1] + 1; ++j)
+            for (std::int64_t i = home[0] - 1; i <= home[0] + 1; ++i) {
+                const Eigen::AlignedBox3d box(
+                    Vector3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)),
+                    Vector3(static_cast<double>(i + 1), static_cast<double>(j + 1),
+                            static_cast<double>(k + 1)));
+                const double distance = box.squaredExteriorDistance(point);
+                if (distance < bestDistance && isFilled(grid, {i, j, k})) {
+                    bestDistance = distance;
+                    best = {i, j, k};
+                }
+            }
+    if (bestDistance > 3) throw std::logic_error("addMesh: a skin vertex lies in no filled cell");
+    return best;
+}
+
+sim::CellEmbedding embed(const VoxelGrid& grid, const sim::LatticeCorners& corners, Vec3 position) {
+    const Vector3 point = (toVector(position) - toVector(grid.origin)) / double{grid.spacing};
+    const Cell cell = findCell(grid, point);
+    sim::CellEmbedding embedding;
+    for (std::uint32_t corner = 0; corner < 8; ++corner)
+        embedding.particles[corner] = corners.at(static_cast<std::uint32_t>(cell[0]) + (corner & 1),
+                                                 static_cast<std::uint32_t>(cell[1]) + (corner >> 1 & 1),
+                                                 static_cast<std::uint32_t>(cell[2]) + (corner >> 2));
+    const Vector3 low(static_cast<double>(cell[0]), static_cast<double>(cell[1]),
+                      static_cast<double>(cell[2]));
+    embedding.weights = toVec3((point - low).cwiseMax(0).cwiseMin(1));
+    return embedding;
+}
+
+/// Particles outside the surface may come closer to a collider than the surface does. Corners are the samples
+/// of a grid of one more cell each way, moved by half a cell.
+void setContactOffsets(sim::Scene& scene, const sim::LatticeCorners& corners, const VoxelGrid& grid,
+                       const TriangleMesh& mesh) {
+    std::vector<Vector3> positions = toCellUnits(mesh, grid);
+    for (Vector3& position : positions) position += Vector3::Constant(0.5);
+    const TriangleTree tree(positions, mesh.triangles);
+    const std::array<std::uint32_t, 3> count{grid.cells[0] + 1, grid.cells[1] + 1, grid.cells[2] + 1};
+    const Inside inside(positions, mesh.triangles, tree, count, 1);
+    for (std::uint32_t k = 0; k < count[2]; ++k)
+        for (std::uint32_t j = 0; j < count[1]; ++j)
+            for (std::uint32_t i = 0; i < count[0]; ++i) {
+                const std::uint32_t particle = corners.at(i, j, k);
+                if (particle == sim::LatticeCorners::noParticle || inside({i, j, k}).isInside) continue;
+                const double distance = tree.distance(Vector3(i, j, k) + Vector3::Constant(0.5));
+                scene.particles[particle].contactOffset =
+                    static_cast<float>(-distance * double{grid.spacing});
+            }
+}
+
+sim::Lattice makeLattice(const VoxelGrid& grid, const MeshBody& body, double volume) {
+    sim::Lattice lattice{.name = body.name,
+                         .origin = grid.origin,
+                         .cells = grid.cells,
+                         .spacing = grid.spacing,
+                         .fill = grid.fill,
+                         .youngModulus = body.youngModulus,
+                         .density = body.density};
+    // A hull cell may hold the surface and none of the 64 samples: it exists all the same, the skin hangs on
+    // it.
+    for (std::size_t i = 0; i < grid.voxels.size(); ++i)
+        if (grid.voxels[i] == Voxel::hull) lattice.fill[i] = std::max(lattice.fill[i], 1.0f / 64);
+    lattice.restVolume = static_cast<float>(volume);
+    return lattice;
+}
+
+} // namespace
+
+VoxelGrid addMesh(sim::Scene& scene, const TriangleMesh& mesh, const MeshBody& body) {
+    MeshDefects defects;
+    const TriangleMesh clean = orient(weld(mesh, defects));
+    if (clean.triangles.empty())
+        throw std::invalid_argument("addMesh: mesh \"" + body.name + "\" has no triangles");
+    VoxelGrid grid = voxelise(clean, body.voxels);
+    const double volume = defects.isClosed() ? measure(clean).volume : grid.filledVolume;
+    const sim::LatticeCorners corners = addLattice(scene, makeLattice(grid, body, volume));
+    setContactOffsets(scene, corners, grid, clean);
+
+    sim::Skin skin{.name = body.name, .triangles = clean.triangles, .color = body.color};
+    skin.cells.reserve(clean.positions.size());
+    for (const Vec3& position : clean.positions) skin.cells.push_back(embed(grid, corners, position));
+    scene.skins.push_back(std::move(skin));
+    return grid;
+}
+
+} // namespace sinew::mesh

@@ -1,0 +1,23 @@
+// A triangle mesh becomes a lattice body that carries it as its skin.
+#pragma once
+
+#include "mesh/voxelise.hpp"
+
+namespace sinew::mesh {
+
+struct MeshBody {
+    std::string name = "mesh";
+    VoxelRequest voxels;
+    float youngModulus = 2e4f; ///< [Pa]
+    float density = 1000;      ///< [kg/m^3]
+    Vec3 color{0.78f, 0.36f, 0.32f};
+};
+
+/// Appends particles on the corners of the filled cells, links, a body (restVolume = the mesh's volume if
+/// closed, else the filled volume) and the skin: every vertex in the cell that holds it. Corners outside the
+/// surface get a negative contact offset (minus their distance to it), so that the skin, not the hull of
+/// cells, rests on a plane. Returns the grid for reports. Throws std::invalid_argument where the mesh is
+/// empty.
+VoxelGrid addMesh(sim::Scene& scene, const TriangleMesh& mesh, const MeshBody& body);
+
+} // namespace sinew::mesh

@@ -1,0 +1,144 @@
+// Welding, topology and measures of triangle meshes. Everything is sorted, nothing hashed in order: same
+// bytes each run.
+#include "mesh/triangle_mesh.hpp"
+
+#include "mesh/topology.hpp"
+#include "mesh/vector3.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <numeric>
+
+namespace sinew::mesh {
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// Bit patterns of a position; -0 counts as 0.
+std::array<std::uint32_t, 3> bitsOf(Vec3 p) {
+    return {std::bit_cast<std::uint32_t>(p.x + 0.0f), std::bit_cast<std::uint32_t>(p.y + 0.0f),
+            std::bit_cast<std::uint32_t>(p.z + 0.0f)};
+}
+
+/// For each vertex the first vertex with the same position.
+std::vector<std::uint32_t> findTwins(const std::vector<Vec3>& positions) {
+    std::vector<std::uint32_t> order(positions.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::sort(order, {}, [&](std::uint32_t vertex) {
+        return std::pair{bitsOf(positions[vertex]), vertex};
+    });
+    std::vector<std::uint32_t> twins(positions.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const bool isTwin = i > 0 && bitsOf(positions[order[i]]) == bitsOf(positions[order[i - 1]]);
+        twins[order[i]] = isTwin ? twins[order[i - 1]] : order[i];
+    }
+    return twins;
+}
+
+/// Differences of floats and their products are exact in double wherever exponents are near each other, so a
+/// triangle is degenerate only if its corners really lie on a line; slivers stay.
+bool isDegenerate(const TriangleMesh& mesh, const Triangle& triangle) {
+    const auto [a, b, c] = triangle;
+    if (a == b || b == c || c == a) return true;
+    const Vector3 origin = toVector(mesh.positions[a]);
+    return (toVector(mesh.positions[b]) - origin).cross(toVector(mesh.positions[c]) - origin).isZero(0);
+}
+
+/// The same triangle with its lowest corner first; keeps the way round.
+Triangle rotated(Triangle triangle) {
+    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+    return triangle;
+}
+
+/// True for each triangle that repeats an earlier one.
+std::vector<bool> findDuplicates(const std::vector<Triangle>& triangles) {
+    std::vector<std::size_t> order(triangles.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair{rotated(triangles[i]), i}; });
+    std::vector<bool> isDuplicate(triangles.size());
+    for (std::size_t i = 1; i < order.size(); ++i)
+        isDuplicate[order[i]] = rotated(triangles[order[i]]) == rotated(triangles[order[i - 1]]);
+    return isDuplicate;
+}
+
+void countEdges(const std::vector<Triangle>& triangles, MeshDefects& defects) {
+    forEachEdge(triangles, [&](std::span<const HalfEdge> sides) {
+        if (sides.size() == 1)
+            ++defects.boundaryEdges;
+        else if (sides.size() > 2)
+            ++defects.nonManifoldEdges;
+        else if (sides[0].isForward == sides[1].isForward)
+            ++defects.flippedEdges;
+    });
+}
+
+/// Drops vertices no triangle uses.
+TriangleMesh compacted(const TriangleMesh& mesh) {
+    constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> number(mesh.positions.size(), unused);
+    for (const Triangle& triangle : mesh.triangles)
+        for (const std::uint32_t vertex : triangle) number[vertex] = 0;
+    TriangleMesh result{.name = mesh.name};
+    for (std::size_t vertex = 0; vertex < number.size(); ++vertex)
+        if (number[vertex] != unused) {
+            number[vertex] = static_cast<std::uint32_t>(result.positions.size());
+            result.positions.push_back(mesh.positions[vertex]);
+        }
+    result.triangles.reserve(mesh.triangles.size());
+    for (const auto& [a, b, c] : mesh.triangles)
+        result.triangles.push_back({number[a], number[b], number[c]});
+    return result;
+}
+
+} // namespace
+
+TriangleMesh weld(const TriangleMesh& mesh, MeshDefects& defects) {
+    defects = {};
+    TriangleMesh joined{.name = mesh.name, .positions = mesh.positions};
+    const std::vector<std::uint32_t> twins = findTwins(mesh.positions);
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const Triangle triangle{twins[a], twins[b], twins[c]};
+        if (isDegenerate(joined, triangle))
+            ++defects.degenerateTriangles;
+        else
+            joined.triangles.push_back(triangle);
+    }
+    const std::vector<bool> isDuplicate = findDuplicates(joined.triangles);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < isDuplicate.size(); ++i)
+        if (!isDuplicate[i]) joined.triangles[kept++] = joined.triangles[i];
+    defects.duplicateTriangles = joined.triangles.size() - kept;
+    joined.triangles.resize(kept);
+    countEdges(joined.triangles, defects);
+    return compacted(joined);
+}
+
+MeshReport measure(const TriangleMesh& mesh) {
+    MeshReport report;
+    if (mesh.positions.empty()) return report;
+    Vector3 low = toVector(mesh.positions.front()), high = low;
+    for (const Vec3& position : mesh.positions) {
+        low = low.cwiseMin(toVector(position));
+        high = high.cwiseMax(toVector(position));
+    }
+    report.low = toVec3(low);
+    report.high = toVec3(high);
+    const Vector3 middle = (low + high) / 2; // keeps the sum below accurate far from the origin
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const Vector3 x = toVector(mesh.positions[a]) - middle, y = toVector(mesh.positions[b]) - middle,
+                      z = toVector(mesh.positions[c]) - middle;
+        report.volume += x.dot(y.cross(z)) / 6;
+        report.area += (y - x).cross(z - x).norm() / 2;
+    }
+    return report;
+}
+
+MeshReport inspect(const TriangleMesh& mesh) {
+    MeshDefects defects;
+    MeshReport report = measure(weld(mesh, defects));
+    report.defects = defects;
+    return report;
+}
+
+} // namespace sinew::mesh

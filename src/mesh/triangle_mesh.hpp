@@ -1,0 +1,45 @@
+// Plain triangle mesh and what is said about one.
+#pragma once
+
+#include "sim/scene.hpp"
+
+namespace sinew::mesh {
+
+using sim::Vec3;
+
+struct TriangleMesh {
+    std::string name;
+    std::vector<Vec3> positions;                         ///< [m]
+    std::vector<std::array<std::uint32_t, 3>> triangles; ///< counter-clockwise seen from outside
+};
+
+/// Topology and quality of a mesh after identical vertices were joined.
+struct MeshDefects {
+    std::size_t boundaryEdges = 0;       ///< edges with one triangle: the mesh is open
+    std::size_t nonManifoldEdges = 0;    ///< edges with three or more
+    std::size_t flippedEdges = 0;        ///< edges whose two triangles run the same way
+    std::size_t degenerateTriangles = 0; ///< dropped: zero area or a repeated vertex
+    std::size_t duplicateTriangles = 0;  ///< dropped
+    bool isClosed() const { return boundaryEdges == 0 && nonManifoldEdges == 0; }
+};
+
+struct MeshReport {
+    MeshDefects defects;
+    double volume = 0; ///< signed, by the divergence theorem [m^3]; meaningful for closed meshes
+    double area = 0;   ///< [m^2]
+    Vec3 low, high;    ///< bounding box [m]
+};
+
+/// Topology as after weld(); `mesh` itself may hold duplicate vertices.
+MeshReport inspect(const TriangleMesh& mesh);
+
+/// Joins vertices with identical positions, drops degenerate triangles, duplicates (the same corners the same
+/// way round) and vertices that no triangle uses. Sets `defects` to what was found. Keeps the order of what
+/// stays, so that a second weld changes nothing.
+TriangleMesh weld(const TriangleMesh& mesh, MeshDefects& defects);
+
+/// Turns triangles so that neighbours run the same way round: each connected part the way most of its area
+/// already did, then all of them together so that the volume is not negative. Expects a welded mesh.
+TriangleMesh orient(TriangleMesh mesh);
+
+} // namespace sinew::mesh

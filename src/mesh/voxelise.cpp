@@ -1,0 +1,167 @@
+// Hull, then core, then fill. All geometry in double and in cell units; each stage is a loop over cells that
+// asks CellOverlap (hull) or Inside (core, fill).
+#include "mesh/voxelise.hpp"
+
+#include "mesh/hull.hpp"
+#include "mesh/inside.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace sinew::mesh {
+namespace {
+
+/// [cells] The grid ends this far beyond the mesh in all, at least: enough for the rounding of its origin.
+constexpr double margin = 1e-4;
+/// [cells] Left free along the longest side where its number of cells is asked for, so that a side of a half
+/// or a tenth of it comes out whole too.
+constexpr double slack = 0.04;
+constexpr std::uint32_t fillSamples = 4; ///< per cell edge
+
+struct Bounds {
+    Vector3 low, high;
+    Vector3 size() const { return high - low; }
+};
+
+Bounds boundsOf(const TriangleMesh& mesh) {
+    Bounds bounds{toVector(mesh.positions.front()), toVector(mesh.positions.front())};
+    for (const Vec3& position : mesh.positions) {
+        bounds.low = bounds.low.cwiseMin(toVector(position));
+        bounds.high = bounds.high.cwiseMax(toVector(position));
+    }
+    return bounds;
+}
+
+float chooseSpacing(const Bounds& bounds, const VoxelRequest& request) {
+    if (!(request.spacing >= 0) || !std::isfinite(request.spacing))
+        throw std::invalid_argument(
+            "voxelise: the spacing must be positive, or 0 to choose it by resolution");
+    if (request.spacing > 0) return request.spacing;
+    if (request.resolution == 0)
+        throw std::invalid_argument("voxelise: the resolution must be at least 1 cell");
+    const double longest = bounds.size().maxCoeff();
+    return static_cast<float>(longest / std::max(request.resolution - slack, 0.5));
+}
+
+/// An empty grid around the mesh, in the middle of it.
+VoxelGrid makeGrid(const TriangleMesh& mesh, const VoxelRequest& request) {
+    const Bounds bounds = boundsOf(mesh);
+    VoxelGrid grid{.spacing = chooseSpacing(bounds, request)};
+    const double spacing = double{grid.spacing};
+    if (!(spacing > 0)) throw std::invalid_argument("voxelise: the mesh has no extent");
+    const Vector3 needed = ((bounds.size() / spacing).array() + margin).ceil().cwiseMax(1);
+    if (needed.prod() > static_cast<double>(request.maxCells))
+        throw std::length_error("voxelise: cells of " + std::to_string(spacing) + " m make a grid of " +
+                                std::to_string(static_cast<long long>(std::min(needed.prod(), 1e18))) +
+                                " cells, the limit is " + std::to_string(request.maxCells) +
+                                ": ask for larger cells");
+    grid.origin = toVec3((bounds.low + bounds.high - needed * spacing) / 2);
+    for (Eigen::Index axis = 0; axis < 3; ++axis) grid.cells[axis] = static_cast<std::uint32_t>(needed[axis]);
+    grid.voxels.assign(static_cast<std::size_t>(needed.prod()), Voxel::empty);
+    grid.fill.assign(grid.voxels.size(), 0);
+    return grid;
+}
+
+/// Far from the origin the rounding of the grid's own origin may leave a vertex outside.
+void checkPlacement(const VoxelGrid& grid, const std::vector<Vector3>& positions) {
+    const Vector3 size(grid.cells[0], grid.cells[1], grid.cells[2]);
+    const bool isInside = std::ranges::all_of(positions, [&](const Vector3& position) {
+        return (position.array() > 0).all() && (position.array() < size.array()).all();
+    });
+    if (!isInside)
+        throw std::invalid_argument(
+            "voxelise: the mesh lies too far from the origin for its size: move it closer");
+}
+
+std::size_t indexOf(const VoxelGrid& grid, std::size_t i, std::size_t j, std::size_t k) {
+    return i + grid.cells[0] * (j + std::size_t{grid.cells[1]} * k);
+}
+
+void markHull(VoxelGrid& grid, const std::vector<Vector3>& positions, const TriangleMesh& mesh) {
+    const Eigen::Array3i last(static_cast<int>(grid.cells[0]) - 1, static_cast<int>(grid.cells[1]) - 1,
+                              static_cast<int>(grid.cells[2]) - 1);
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const CellOverlap overlap(positions[a], positions[b], positions[c]);
+        const auto range = overlap.range();
+        const Eigen::Array3i low = range[0].max(0), high = range[1].min(last);
+        for (int k = low.z(); k <= high.z(); ++k)
+            for (int j = low.y(); j <= high.y(); ++j)
+                for (int i = low.x(); i <= high.x(); ++i)
+                    if (Voxel& voxel = grid.voxels[indexOf(grid, i, j, k)];
+                        voxel == Voxel::empty && overlap.touches(Vector3(i, j, k)))
+                        voxel = Voxel::hull;
+    }
+}
+
+Inside::Answer fillCell(VoxelGrid& grid, std::size_t index, const std::array<std::uint32_t, 3>& cell,
+                        const Inside& samples) {
+    std::uint32_t count = 0;
+    bool isDoubtful = false;
+    for (std::uint32_t z = 0; z < fillSamples; ++z)
+        for (std::uint32_t y = 0; y < fillSamples; ++y)
+            for (std::uint32_t x = 0; x < fillSamples; ++x) {
+                const Inside::Answer answer = samples(
+                    {fillSamples * cell[0] + x, fillSamples * cell[1] + y, fillSamples * cell[2] + z});
+                count += answer.isInside ? 1 : 0;
+                isDoubtful = isDoubtful || answer.isDoubtful;
+            }
+    grid.fill[index] = static_cast<float>(count) / (fillSamples * fillSamples * fillSamples);
+    return {count > 0, isDoubtful};
+}
+
+void markCoreAndFill(VoxelGrid& grid, const Inside& centers, const Inside& samples) {
+    double cells = 0; // filled, as a sum of shares
+    for (std::uint32_t k = 0; k < grid.cells[2]; ++k)
+        for (std::uint32_t j = 0; j < grid.cells[1]; ++j)
+            for (std::uint32_t i = 0; i < grid.cells[0]; ++i) {
+                const std::size_t index = indexOf(grid, i, j, k);
+                const bool isHull = grid.voxels[index] == Voxel::hull;
+                const Inside::Answer answer =
+                    isHull ? fillCell(grid, index, {i, j, k}, samples) : centers({i, j, k});
+                grid.doubtful += answer.isDoubtful ? 1 : 0;
+                grid.hullCount += isHull ? 1 : 0;
+                if (!isHull && answer.isInside) {
+                    grid.voxels[index] = Voxel::core;
+                    grid.fill[index] = 1;
+                    ++grid.coreCount;
+                }
+                cells += double{grid.fill[index]};
+            }
+    grid.filledVolume = cells * std::pow(double{grid.spacing}, 3);
+}
+
+} // namespace
+
+VoxelGrid voxelise(const TriangleMesh& mesh, const VoxelRequest& request) {
+    MeshDefects defects;
+    const TriangleMesh clean = orient(weld(mesh, defects));
+    if (clean.triangles.empty()) throw std::invalid_argument("voxelise: the mesh has no triangles");
+    VoxelGrid grid = makeGrid(clean, request);
+    const std::vector<Vector3> positions = toCellUnits(clean, grid);
+    checkPlacement(grid, positions);
+    markHull(grid, positions, clean);
+    const TriangleTree tree(positions, clean.triangles);
+    markCoreAndFill(grid, Inside(positions, clean.triangles, tree, grid.cells, 1),
+                    Inside(positions, clean.triangles, tree, grid.cells, fillSamples));
+    return grid;
+}
+
+std::vector<float> signedDistance(const TriangleMesh& mesh, const std::vector<Vec3>& points) {
+    MeshDefects defects;
+    const TriangleMesh clean = orient(weld(mesh, defects));
+    std::vector<Vector3> positions;
+    positions.reserve(clean.positions.size());
+    for (const Vec3& position : clean.positions) positions.push_back(toVector(position));
+    const TriangleTree tree(positions, clean.triangles);
+    std::vector<float> distances;
+    distances.reserve(points.size());
+    for (const Vec3& point : points) {
+        const double distance = tree.distance(toVector(point));
+        const bool isInside = std::abs(tree.windingNumber(toVector(point))) > 0.5;
+        distances.push_back(static_cast<float>(isInside ? -distance : distance));
+    }
+    return distances;
+}
+
+} // namespace sinew::mesh
