@@ -1,0 +1,41 @@
+// What the programs share at their edge: exit codes, the one-line error, and stopping on signals.
+#pragma once
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+namespace sinew::app {
+
+enum ExitCode : int {
+    done = 0,
+    wrongUsage = 2,
+    badInput = 3,
+    noDevice = 4,
+    deviceFailed = 5, ///< lost or out of memory
+    outputFailed = 6,
+    diverged = 7,
+    internalFault = 70,
+    interrupted = 130,
+};
+
+/// A failure with its exit code; the text is "<what>: <where>: <why>: <what to do>".
+class Failure : public std::runtime_error {
+public:
+    Failure(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+    ExitCode code() const noexcept { return code_; }
+
+private:
+    ExitCode code_;
+};
+
+/// Runs a program's body. Whatever it throws becomes one line "error: ..." on stderr and the right exit code:
+/// Failure its own, mesh::ImportError 3, mesh::ExportError 6, vk::Error 4, 5 or 70, std::bad_alloc 5, all
+/// else 70.
+int guarded(const std::function<int()>& body) noexcept;
+
+/// Asks SIGINT, SIGTERM and SIGPIPE to set a flag instead of ending the process.
+void catchSignals();
+bool isInterrupted() noexcept;
+
+} // namespace sinew::app

@@ -1,0 +1,136 @@
+// What the schema cannot say about one key alone is checked here: sizes of bodies, directions, pinned
+// particles.
+#include "scenes/bodies.hpp"
+
+#include "sim/bodies.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sinew::scenes {
+
+namespace {
+
+void checkRoom(const LoadedScene& loaded, std::uint64_t particles, const Section& section, const char* key) {
+    const std::uint64_t total = loaded.scene.particles.size() + particles;
+    if (total > mostParticles)
+        section.fail(key, "brings the scene to " + std::to_string(total) + " particles",
+                     "at most " + std::to_string(mostParticles) + " are possible");
+}
+
+double dot(sim::Vec3 a, sim::Vec3 b) {
+    return double{a.x} * double{b.x} + double{a.y} * double{b.y} + double{a.z} * double{b.z};
+}
+
+void requireUnit(const Section& section, const char* key) {
+    const sim::Vec3 direction = section.vector(key);
+    const double length = std::sqrt(dot(direction, direction));
+    if (!sim::ranges::normalLength.holds(length))
+        section.fail(key, "has length " + std::to_string(length), "give a direction of length 1");
+}
+
+struct NamedPins {
+    std::string_view name;
+    bool (*holds)(std::uint32_t column, std::uint32_t row, std::uint32_t columns, std::uint32_t rows);
+};
+
+constexpr NamedPins namedPins[] = {
+    {"first_row_start", [](auto c, auto r, auto, auto) { return r == 0 && c == 0; }},
+    {"first_row_end", [](auto c, auto r, auto n, auto) { return r == 0 && c + 1 == n; }},
+    {"last_row_start", [](auto c, auto r, auto, auto m) { return r + 1 == m && c == 0; }},
+    {"last_row_end", [](auto c, auto r, auto n, auto m) { return r + 1 == m && c + 1 == n; }},
+    {"first_row", [](auto, auto r, auto, auto) { return r == 0; }},
+    {"last_row", [](auto, auto r, auto, auto m) { return r + 1 == m; }},
+    {"first_column", [](auto c, auto, auto, auto) { return c == 0; }},
+    {"last_column", [](auto c, auto, auto n, auto) { return c + 1 == n; }},
+};
+
+std::string pinNames() {
+    std::string names;
+    for (const NamedPins& pins : namedPins) names += (names.empty() ? "" : ", ") + std::string(pins.name);
+    return names;
+}
+
+void addNamed(const std::string& name, const Section& cloth, sim::ClothSheet& sheet) {
+    const auto found = std::ranges::find(namedPins, name, &NamedPins::name);
+    if (found == std::end(namedPins))
+        cloth.fail("pinned", "names \"" + name.substr(0, 64) + "\"", "possible are " + pinNames());
+    const auto [columns, rows] = sheet.size;
+    for (std::uint32_t row = 0; row < rows; ++row)
+        for (std::uint32_t column = 0; column < columns; ++column)
+            if (found->holds(column, row, columns, rows)) sheet.pinned.push_back(column + columns * row);
+}
+
+void addPins(const Section& cloth, sim::ClothSheet& sheet) {
+    for (const Section::Pin& pin : cloth.pins("pinned")) {
+        if (!pin.name.empty()) {
+            addNamed(pin.name, cloth, sheet);
+            continue;
+        }
+        for (std::size_t axis = 0; axis < 2; ++axis)
+            if (pin.at[axis] < 0 || pin.at[axis] >= sheet.size[axis])
+                cloth.fail("pinned",
+                           "has [" + std::to_string(pin.at[0]) + ", " + std::to_string(pin.at[1]) +
+                               "], but the sheet has " + std::to_string(sheet.size[0]) + " columns and " +
+                               std::to_string(sheet.size[1]) + " rows",
+                           "count from 0");
+        sheet.pinned.push_back(static_cast<std::uint32_t>(pin.at[0] + pin.at[1] * sheet.size[0]));
+    }
+    std::ranges::sort(sheet.pinned);
+    sheet.pinned.erase(std::unique(sheet.pinned.begin(), sheet.pinned.end()), sheet.pinned.end());
+}
+
+} // namespace
+
+void addCloth(LoadedScene& loaded, const Section& cloth) {
+    requireUnit(cloth, "right");
+    requireUnit(cloth, "down");
+    if (std::abs(dot(cloth.vector("right"), cloth.vector("down"))) > 1e-3)
+        cloth.fail("down", "is not at right angles to right", "turn one of them");
+    sim::ClothSheet sheet{.name = cloth.text("name"),
+                          .origin = cloth.vector("origin"),
+                          .right = cloth.vector("right"),
+                          .down = cloth.vector("down"),
+                          .size = cloth.counts<2>("size"),
+                          .spacing = cloth.number("spacing"),
+                          .areaDensity = cloth.number("area_density"),
+                          .stretchCompliance = cloth.number("stretch_compliance"),
+                          .shearCompliance = cloth.number("shear_compliance"),
+                          .pinned = {},
+                          .color = cloth.vector("color")};
+    checkRoom(loaded, std::uint64_t{sheet.size[0]} * sheet.size[1], cloth, "size");
+    addPins(cloth, sheet);
+    sim::addCloth(loaded.scene, sheet);
+}
+
+void addBox(LoadedScene& loaded, const Section& box) {
+    box.requireOneOf("center", "origin");
+    const auto particles = box.counts<3>("particles");
+    sim::Lattice lattice{.name = box.text("name"),
+                         .cells = {particles[0] - 1, particles[1] - 1, particles[2] - 1},
+                         .spacing = box.number("spacing"),
+                         .youngModulus = box.number("young_modulus"),
+                         .density = box.number("density")};
+    checkRoom(loaded, std::uint64_t{particles[0]} * particles[1] * particles[2], box, "particles");
+    if (box.has("origin")) {
+        lattice.origin = box.vector("origin");
+    } else {
+        const sim::Vec3 center = box.vector("center");
+        const auto low = [&](float middle, std::size_t axis) {
+            return middle - lattice.spacing * static_cast<float>(lattice.cells[axis]) / 2;
+        };
+        lattice.origin = {low(center.x, 0), low(center.y, 1), low(center.z, 2)};
+    }
+    const sim::LatticeCorners corners = sim::addLattice(loaded.scene, lattice);
+    sim::addLatticeSkin(loaded.scene, lattice, corners, box.vector("color"));
+}
+
+void addPlane(LoadedScene& loaded, const Section& plane) {
+    requireUnit(plane, "normal");
+    loaded.scene.planes.push_back({.normal = plane.vector("normal"),
+                                   .offset = plane.number("offset"),
+                                   .friction = plane.number("friction"),
+                                   .restitution = plane.number("restitution")});
+}
+
+} // namespace sinew::scenes

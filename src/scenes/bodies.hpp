@@ -1,0 +1,25 @@
+// Checked tables of a scene file become particles, links, planes and skins.
+#pragma once
+
+#include "scenes/section.hpp"
+
+namespace sinew::scenes {
+
+/// A lattice particle costs about 500 bytes on the host, with its links, and again on the device: a file must
+/// not be able to ask for all memory there is.
+inline constexpr std::uint64_t mostParticles = 2'000'000;
+
+/// Where a scene comes from and what surrounds it.
+struct Source {
+    std::string file;                                  ///< name that errors show
+    std::filesystem::path folder;                      ///< mesh files must lie in it or below
+    std::optional<std::filesystem::path> meshArgument; ///< the mesh of the command line
+};
+
+void addCloth(LoadedScene& loaded, const Section& cloth);
+void addBox(LoadedScene& loaded, const Section& box);
+/// `voxel` overrides the file's voxel size [m].
+void addMesh(LoadedScene& loaded, const Section& mesh, const Source& source, std::optional<float> voxel);
+void addPlane(LoadedScene& loaded, const Section& plane);
+
+} // namespace sinew::scenes

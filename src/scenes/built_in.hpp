@@ -1,0 +1,11 @@
+// The shipped scene files, embedded when the programs are built: what drops a mesh, and what benchmarks run.
+#pragma once
+
+#include <string_view>
+
+namespace sinew::scenes {
+
+/// The text of scenes/<name>.toml; empty for a name that is none.
+std::string_view builtInText(std::string_view name);
+
+} // namespace sinew::scenes

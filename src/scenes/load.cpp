@@ -1,0 +1,151 @@
+// From a path to a valid scene: tells scenes from meshes, reads the tables, applies the command line,
+// validates.
+#include "scenes/load.hpp"
+
+#include "scenes/bodies.hpp"
+#include "scenes/built_in.hpp"
+#include "scenes/stiffness.hpp"
+#include "sim/compile.hpp"
+#include "sim/validate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sinew::scenes {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string lowerExtension(const fs::path& path) {
+    std::string extension = path.extension().string();
+    std::ranges::transform(extension, extension.begin(), [](char c) {
+        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
+    return extension;
+}
+
+/// A scene is what is called .toml, or else any text that parses as TOML and says something: an OBJ file of
+/// comments parses as well, and says nothing.
+bool isScene(const fs::path& path) {
+    if (lowerExtension(path) == ".toml") return true;
+    try {
+        return !parse(readText(path), path.string()).empty();
+    } catch (const SceneError&) {
+        return false;
+    }
+}
+
+sim::Solver solverNamed(const std::string& name, const std::string& where) {
+    sim::Solver solver{};
+    if (sim::parseSolver(name, solver)) return solver;
+    std::string names;
+    for (const std::string& known : sim::solverNames()) names += (names.empty() ? "" : ", ") + known;
+    fail(where, "no solver is called \"" + name.substr(0, 64) + "\"", "possible are " + names);
+}
+
+void readSettings(LoadedScene& loaded, const Section& solver, const std::string& where) {
+    loaded.settings = {.solver = solverNamed(solver.text("name"), where),
+                       .substeps = solver.count("substeps"),
+                       .iterations = solver.count("iterations"),
+                       .omega = solver.number("omega"),
+                       .theta = solver.number("theta"),
+                       .weight = solver.number("weight"),
+                       .overRelaxation = solver.number("over_relaxation")};
+}
+
+void apply(const Overrides& overrides, LoadedScene& loaded) {
+    sim::Settings& settings = loaded.settings;
+    if (overrides.solver) settings.solver = solverNamed(*overrides.solver, "--solver");
+    if (overrides.substeps) settings.substeps = *overrides.substeps;
+    if (overrides.iterations) settings.iterations = *overrides.iterations;
+    if (overrides.dt) loaded.scene.dt = *overrides.dt;
+    settings.isReversed = overrides.isReversed;
+}
+
+void readBodies(LoadedScene& loaded, const Section& top, const Source& source, std::optional<float> voxel) {
+    for (const Section& cloth : top.list("cloth")) addCloth(loaded, cloth);
+    for (const Section& box : top.list("box")) addBox(loaded, box);
+    for (const Section& mesh : top.list("mesh")) addMesh(loaded, mesh, source, voxel);
+    if (loaded.scene.bodies.empty()) fail(source.file, "has no body", "add [[cloth]], [[box]] or [[mesh]]");
+    for (const Section& plane : top.list("plane")) addPlane(loaded, plane);
+}
+
+void warnAboutSize(const sim::Body& body, LoadedScene& loaded) {
+    sim::Vec3 low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
+    for (std::uint32_t i = body.firstParticle; i < body.firstParticle + body.particleCount; ++i)
+        for (float sim::Vec3::*axis : {&sim::Vec3::x, &sim::Vec3::y, &sim::Vec3::z}) {
+            const float value = loaded.scene.particles[i].position.*axis;
+            low.*axis = std::min(low.*axis, value);
+            high.*axis = std::max(high.*axis, value);
+        }
+    const double longest = double{std::max({high.x - low.x, high.y - low.y, high.z - low.z})};
+    const char* odd = longest > 1000 ? "larger than 1 km" : longest < 1e-4 ? "smaller than 0.1 mm" : nullptr;
+    if (odd) loaded.warnings.push_back("body \"" + body.name + "\" is " + odd + ": lengths are in metres");
+}
+
+void warnAboutSolver(LoadedScene& loaded) {
+    const sim::Settings& settings = loaded.settings;
+    if (settings.solver != sim::Solver::split) return;
+    if (settings.iterations > 1)
+        loaded.warnings.push_back("split makes one sweep per substep: iterations are ignored");
+    const StiffnessReport stiffness = inspectStiffness(loaded.scene, settings);
+    // A few links on light corners are no news; half of a body being too soft is.
+    if (2 * stiffness.clampedLinks > stiffness.elasticLinks)
+        loaded.warnings.push_back(
+            std::to_string(stiffness.clampedLinks) + " of " + std::to_string(stiffness.elasticLinks) +
+            " elastic links are softer than asked, down to " +
+            std::to_string(std::lround(100 * stiffness.softest)) +
+            " %: " + std::to_string(stiffness.neededSubsteps) + " substeps would be exact");
+}
+
+void requireValid(const LoadedScene& loaded, const std::string& file) {
+    const std::vector<std::string> complaints = sim::validate(loaded.scene, loaded.settings);
+    if (complaints.empty()) return;
+    const std::string more =
+        complaints.size() == 1 ? "" : " and " + std::to_string(complaints.size() - 1) + " more";
+    fail(file, complaints.front(), "correct this" + more);
+}
+
+LoadedScene read(const std::string& text, const Source& source, const Overrides& overrides) {
+    const toml::table table = parse(text, source.file);
+    const Section top(table, "", "", source.file);
+    LoadedScene loaded;
+    loaded.scene.name = top.has("name") ? top.text("name") : fs::path(source.file).stem().string();
+    loaded.scene.gravity = top.vector("gravity");
+    loaded.scene.dt = top.number("dt");
+    loaded.scene.damping = top.number("damping");
+    readSettings(loaded, top.child("solver"), source.file);
+    apply(overrides, loaded);
+    readBodies(loaded, top, source, overrides.voxel);
+    if (top.has("camera")) {
+        const Section camera = top.child("camera");
+        loaded.camera = Camera{camera.vector("eye"), camera.vector("target"), camera.number("field_of_view")};
+    }
+    requireValid(loaded, source.file);
+    for (const sim::Body& body : loaded.scene.bodies) warnAboutSize(body, loaded);
+    warnAboutSolver(loaded);
+    return loaded;
+}
+
+LoadedScene readBuiltIn(const std::string& name, const std::optional<fs::path>& mesh,
+                        const Overrides& overrides) {
+    return read(std::string(builtInText(name)), {name + ".toml (built in)", {}, mesh}, overrides);
+}
+
+} // namespace
+
+LoadedScene load(const fs::path& argument, const Overrides& overrides) {
+    requireRegularFile(argument);
+    if (isScene(argument))
+        return read(readText(argument), {argument.string(), argument.parent_path(), {}}, overrides);
+    LoadedScene loaded = readBuiltIn("drop_mesh", argument, overrides);
+    loaded.scene.name = argument.filename().string();
+    return loaded;
+}
+
+LoadedScene loadBuiltIn(const std::string& name, const Overrides& overrides) {
+    return readBuiltIn(name, {}, overrides);
+}
+
+} // namespace sinew::scenes

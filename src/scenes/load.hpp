@@ -1,0 +1,56 @@
+// Scene files: TOML with the schema of docs/scene-files.md becomes a sim::Scene and its Settings.
+#pragma once
+
+#include "mesh/import.hpp"
+#include "mesh/to_scene.hpp"
+#include "sim/scene.hpp"
+
+#include <filesystem>
+#include <optional>
+
+namespace sinew::scenes {
+
+/// "cannot read scene: <file:line>: <why>: <what to do>". Exit code 3, as for every file that cannot be read.
+class SceneError : public mesh::ImportError {
+public:
+    using mesh::ImportError::ImportError;
+};
+
+/// Where a picture is taken from, when the file says so.
+struct Camera {
+    sim::Vec3 eye{1.2f, 0.8f, 1.6f}, target{0, 0.2f, 0}; ///< [m]
+    float fieldOfView = 40;                              ///< vertical [degrees]
+};
+
+/// What a mesh body became, for reports.
+struct MeshSummary {
+    std::string body, file;
+    mesh::MeshReport surface;
+    mesh::VoxelGrid voxels;
+};
+
+struct LoadedScene {
+    sim::Scene scene;
+    sim::Settings settings;
+    std::optional<Camera> camera;
+    std::vector<MeshSummary> meshes;
+    std::vector<std::string> warnings; ///< sentences, such as "mesh bunny.obj is open: 72 boundary edges ..."
+};
+
+/// What the command line says over the file.
+struct Overrides {
+    std::optional<std::string> solver;
+    std::optional<std::uint32_t> substeps, iterations;
+    std::optional<float> dt;
+    std::optional<float> voxel; ///< cell edge of mesh bodies [m]
+    bool isReversed = false;
+};
+
+/// `argument` is a scene file (TOML) or a mesh file (anything importMesh reads), which is dropped by the
+/// scene drop_mesh.toml. Throws SceneError or mesh::ImportError. The result has passed sim::validate.
+LoadedScene load(const std::filesystem::path& argument, const Overrides& overrides = {});
+
+/// A shipped scene by the name of its file (cloth, cube, organ), from the text built into the program.
+LoadedScene loadBuiltIn(const std::string& name, const Overrides& overrides = {});
+
+} // namespace sinew::scenes

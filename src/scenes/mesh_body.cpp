@@ -1,0 +1,143 @@
+// The [[mesh]] table: finds the mesh (a file in the scene's folder, the command line's, or a generated
+// shape), places it, fills it with voxels and says what is odd about it.
+#include "scenes/bodies.hpp"
+
+#include "mesh/generate.hpp"
+#include "mesh/import.hpp"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <numbers>
+
+namespace sinew::scenes {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Found {
+    mesh::TriangleMesh mesh;
+    mesh::MeshDefects defects;
+    std::string file; // as reports show it
+};
+
+/// Resolves links first, so that none leads out of the folder.
+fs::path insideFolder(const Section& section, const Source& source) {
+    const fs::path wanted = section.text("file");
+    std::error_code error;
+    const fs::path folder =
+        fs::weakly_canonical(source.folder.empty() ? fs::path(".") : source.folder, error);
+    const fs::path file = fs::weakly_canonical(folder / wanted, error);
+    const auto [folderEnd, fileEnd] = std::ranges::mismatch(folder, file);
+    if (error || wanted.is_absolute() || folderEnd != folder.end())
+        section.fail("file", "leaves the scene's folder", "put the mesh beside the scene");
+    return file;
+}
+
+Found import(const Section& section, const Source& source) {
+    const bool isArgument = section.text("file") == "argument";
+    if (isArgument && !source.meshArgument)
+        section.fail("file", "is the mesh of the command line, but the scene was given",
+                     "give a mesh file instead of this scene");
+    const fs::path file = isArgument ? *source.meshArgument : insideFolder(section, source);
+    std::error_code error;
+    if (!isArgument && !fs::is_regular_file(file, error))
+        section.fail("file", "names no regular file", "check the path");
+    Found found;
+    found.file = file.filename().string();
+    found.mesh = mesh::importMesh(file, found.defects);
+    return found;
+}
+
+std::string shapeNames() {
+    std::string names;
+    for (const mesh::Shape& shape : mesh::shapes())
+        names += (names.empty() ? "" : ", ") + std::string(shape.name);
+    return names;
+}
+
+Found generate(const Section& section) {
+    const std::string name = section.text("generate");
+    if (std::ranges::find(mesh::shapes(), name, &mesh::Shape::name) == mesh::shapes().end())
+        section.fail("generate", "names no shape: \"" + name.substr(0, 64) + "\"",
+                     "possible are " + shapeNames());
+    Found found;
+    found.file = name;
+    found.mesh = mesh::generate(name, section.count("detail"));
+    found.defects = mesh::inspect(found.mesh).defects;
+    return found;
+}
+
+Eigen::Vector3d toEigen(sim::Vec3 v) {
+    return {double{v.x}, double{v.y}, double{v.z}};
+}
+
+/// Scales, then turns about the middle of the bounding box, then moves that middle.
+void place(mesh::TriangleMesh& mesh, const Section& section) {
+    const mesh::MeshReport report = mesh::inspect(mesh);
+    const Eigen::Vector3d low = toEigen(report.low), high = toEigen(report.high), middle = (low + high) / 2;
+    const double longest = (high - low).maxCoeff();
+    if (!(longest > 0))
+        section.fail(section.has("file") ? "file" : "generate", "has no extent", "check the mesh");
+    const double scale = section.has("size") ? double{section.number("size")} / longest : 1;
+    const Eigen::Vector3d angles = toEigen(section.vector("rotation")) * (std::numbers::pi / 180);
+    const Eigen::Matrix3d turn = (Eigen::AngleAxisd(angles.z(), Eigen::Vector3d::UnitZ()) *
+                                  Eigen::AngleAxisd(angles.y(), Eigen::Vector3d::UnitY()) *
+                                  Eigen::AngleAxisd(angles.x(), Eigen::Vector3d::UnitX()))
+                                     .toRotationMatrix();
+    const Eigen::Vector3d center = section.has("center") ? toEigen(section.vector("center")) : middle;
+    for (sim::Vec3& position : mesh.positions) {
+        const Eigen::Vector3d placed = turn * (toEigen(position) - middle) * scale + center;
+        position = {static_cast<float>(placed.x()), static_cast<float>(placed.y()),
+                    static_cast<float>(placed.z())};
+    }
+}
+
+void warn(const MeshSummary& summary, std::vector<std::string>& warnings) {
+    const mesh::MeshDefects& defects = summary.surface.defects;
+    const std::string name = "mesh " + summary.file;
+    if (defects.boundaryEdges > 0)
+        warnings.push_back(name + " is open: " + std::to_string(defects.boundaryEdges) +
+                           " boundary edges; what is inside was decided by winding numbers");
+    if (defects.nonManifoldEdges > 0)
+        warnings.push_back(name + " is not manifold: " + std::to_string(defects.nonManifoldEdges) +
+                           " edges with three or more triangles; its volume may be wrong");
+    if (summary.voxels.doubtful > 0)
+        warnings.push_back(name + ": " + std::to_string(summary.voxels.doubtful) + " of " +
+                           std::to_string(summary.voxels.hullCount + summary.voxels.coreCount) +
+                           " voxels are doubtful");
+}
+
+} // namespace
+
+void addMesh(LoadedScene& loaded, const Section& section, const Source& source, std::optional<float> voxel) {
+    section.requireOneOf("file", "generate");
+    if (section.has("voxel") && section.has("resolution"))
+        section.fail("resolution", "is given beside voxel", "give one of them");
+    Found found = section.has("file") ? import(section, source) : generate(section);
+    if (found.mesh.triangles.empty()) section.fail("file", "has no triangles", "check the mesh");
+    place(found.mesh, section);
+
+    MeshSummary summary{.body = section.has("name") ? section.text("name") : found.file, .file = found.file};
+    summary.surface = mesh::inspect(found.mesh);
+    summary.surface.defects = found.defects;
+    mesh::MeshBody body{.name = summary.body,
+                        .youngModulus = section.number("young_modulus"),
+                        .density = section.number("density"),
+                        .color = section.vector("color")};
+    body.voxels.resolution = section.count("resolution");
+    if (section.has("voxel")) body.voxels.spacing = section.number("voxel");
+    if (voxel) body.voxels.spacing = *voxel;
+    body.voxels.maxCells = mostParticles - loaded.scene.particles.size();
+    try {
+        summary.voxels = mesh::addMesh(loaded.scene, found.mesh, body);
+    } catch (const std::length_error& error) {
+        section.fail("voxel", std::string("is too small for this mesh (") + error.what() + ")",
+                     "give larger voxels");
+    }
+    warn(summary, loaded.warnings);
+    loaded.meshes.push_back(std::move(summary));
+}
+
+} // namespace sinew::scenes

@@ -1,0 +1,147 @@
+// The table itself. Ranges that the simulation shares come from sim/ranges.hpp.
+#include "scenes/schema.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <vector>
+
+namespace sinew::scenes {
+
+namespace {
+
+namespace ranges = sim::ranges;
+using sim::Range;
+
+constexpr Range coordinate{-1e6, 1e6};
+constexpr Range direction{-1, 1};
+constexpr Range length{.low = 0, .high = 1e6, .isLowOpen = true};
+constexpr Range density{.low = 0, .high = 1e6, .isLowOpen = true};
+constexpr Range stiffness{.low = 0, .high = 1e15, .isLowOpen = true};
+constexpr Range angle{-360, 360};
+constexpr Range side{2, 4096}, cellsAlong{1, 512}, detail{8, 256};
+constexpr Range view{.low = 0, .high = 180, .isLowOpen = true, .isHighOpen = true};
+
+constexpr KindRule kindRules[] = {
+    {Kind::text, "text in quotes", 0, false},
+    {Kind::number, "a number", 1, false},
+    {Kind::count, "a whole number", 1, true},
+    {Kind::vector, "three numbers [x, y, z]", 3, false},
+    {Kind::counts2, "two whole numbers", 2, true},
+    {Kind::counts3, "three whole numbers", 3, true},
+    {Kind::pins, "a list of corner or edge names and [column, row] pairs", 0, false},
+    {Kind::table, "a table", 0, false},
+    {Kind::tables, "a list of tables", 0, false},
+};
+
+// clang-format off
+constexpr Key keys[] = {
+    // section, name, kind, unit, range, fallback, meaning, isRequired
+    {"", "name", Kind::text, "", {}, "", "name of the scene in reports; the file's name where it is missing"},
+    {"", "gravity", Kind::vector, "m/s^2", coordinate, "[0, -9.81, 0]", "acceleration of everything that moves"},
+    {"", "dt", Kind::number, "s", ranges::dt, "0.016666667", "length of a step"},
+    {"", "damping", Kind::number, "1/s", ranges::damping, "0", "rate c at which velocities decay, exp(-c t)"},
+    {"", "solver", Kind::table, "", {}, "", "how to solve"},
+    {"", "cloth", Kind::tables, "", {}, "", "rectangular sheets"},
+    {"", "box", Kind::tables, "", {}, "", "cuboids of voxels"},
+    {"", "mesh", Kind::tables, "", {}, "", "triangle meshes filled with voxels"},
+    {"", "plane", Kind::tables, "", {}, "", "half spaces that particles stay in"},
+    {"", "camera", Kind::table, "", {}, "", "where a picture is taken from"},
+
+    {"solver", "name", Kind::text, "", {}, "\"split\"", "split or jacobi"},
+    {"solver", "substeps", Kind::count, "", ranges::substeps, "32", "equal parts of a step; more are stiffer and more exact"},
+    {"solver", "iterations", Kind::count, "", ranges::iterations, "1", "jacobi: sweeps per substep"},
+    {"solver", "omega", Kind::number, "", ranges::omega, "2", "split: stiffness clamp, below 4 / (1 + 2 theta)"},
+    {"solver", "theta", Kind::number, "", ranges::theta, "0.1", "split: 0 conserves energy, more damps vibrations"},
+    {"solver", "weight", Kind::number, "", ranges::weight, "0", "jacobi: factor on a particle's summed corrections; 0 = 1 / their number"},
+    {"solver", "over_relaxation", Kind::number, "", ranges::overRelaxation, "1", "jacobi: second factor on that sum"},
+
+    {"cloth", "name", Kind::text, "", {}, "\"cloth\"", "name of the body in reports and files"},
+    {"cloth", "origin", Kind::vector, "m", coordinate, "[0, 0, 0]", "position of the particle in column 0, row 0"},
+    {"cloth", "right", Kind::vector, "", direction, "[1, 0, 0]", "unit direction of a row"},
+    {"cloth", "down", Kind::vector, "", direction, "[0, 0, 1]", "unit direction of a column, at right angles to right"},
+    {"cloth", "size", Kind::counts2, "particles", side, "[64, 64]", "columns and rows"},
+    {"cloth", "spacing", Kind::number, "m", length, "", "distance of neighbours in a row or column", true},
+    {"cloth", "area_density", Kind::number, "kg/m^2", density, "0.2", "mass per area"},
+    {"cloth", "stretch_compliance", Kind::number, "m/N", ranges::compliance, "0", "of the links along rows and columns; 0 = as stiff as the solver can"},
+    {"cloth", "shear_compliance", Kind::number, "m/N", ranges::compliance, "0", "of the diagonal links"},
+    {"cloth", "pinned", Kind::pins, "", {}, "[]", "particles held where they are"},
+    {"cloth", "color", Kind::vector, "", ranges::color, "[0.16, 0.34, 0.58]", "linear red, green and blue"},
+
+    {"box", "name", Kind::text, "", {}, "\"box\"", "name of the body in reports and files"},
+    {"box", "center", Kind::vector, "m", coordinate, "", "middle of the box; give this or origin"},
+    {"box", "origin", Kind::vector, "m", coordinate, "", "lowest corner of the box; give this or center"},
+    {"box", "particles", Kind::counts3, "particles", side, "[16, 16, 16]", "particles along x, y and z"},
+    {"box", "spacing", Kind::number, "m", length, "", "distance of neighbours along an axis", true},
+    {"box", "young_modulus", Kind::number, "Pa", stiffness, "1e5", "stiffness of the material; Poisson's ratio is 1/4"},
+    {"box", "density", Kind::number, "kg/m^3", density, "1000", "mass per volume"},
+    {"box", "color", Kind::vector, "", ranges::color, "[0.78, 0.36, 0.32]", "linear red, green and blue"},
+
+    {"mesh", "name", Kind::text, "", {}, "", "name of the body in reports and files; the mesh's name where it is missing"},
+    {"mesh", "file", Kind::text, "", {}, "", "mesh file in the scene's folder or below, or \"argument\": the mesh of the command line"},
+    {"mesh", "generate", Kind::text, "", {}, "", "a built-in shape instead of a file"},
+    {"mesh", "detail", Kind::count, "edges", detail, "96", "generate: triangle edges along the longest side"},
+    {"mesh", "size", Kind::number, "m", length, "", "the longest side is scaled to this length; unscaled where it is missing"},
+    {"mesh", "center", Kind::vector, "m", coordinate, "", "where the middle of the bounding box goes; unmoved where it is missing"},
+    {"mesh", "rotation", Kind::vector, "degrees", angle, "[0, 0, 0]", "about x, then y, then z, around the middle"},
+    {"mesh", "voxel", Kind::number, "m", length, "", "edge of a voxel; give this or resolution"},
+    {"mesh", "resolution", Kind::count, "voxels", cellsAlong, "24", "voxels along the longest side"},
+    {"mesh", "young_modulus", Kind::number, "Pa", stiffness, "2e4", "stiffness of the material; Poisson's ratio is 1/4"},
+    {"mesh", "density", Kind::number, "kg/m^3", density, "1000", "mass per volume"},
+    {"mesh", "color", Kind::vector, "", ranges::color, "[0.78, 0.36, 0.32]", "linear red, green and blue"},
+
+    {"plane", "normal", Kind::vector, "", direction, "[0, 1, 0]", "unit length, points to the free side"},
+    {"plane", "offset", Kind::number, "m", coordinate, "0", "distance of the plane from the origin along the normal"},
+    {"plane", "friction", Kind::number, "", ranges::friction, "0", "Coulomb's coefficient"},
+    {"plane", "restitution", Kind::number, "", ranges::restitution, "0", "0 = no rebound, 1 = elastic"},
+
+    {"camera", "eye", Kind::vector, "m", coordinate, "[1.2, 0.8, 1.6]", "where the camera stands"},
+    {"camera", "target", Kind::vector, "m", coordinate, "[0, 0.2, 0]", "what it looks at"},
+    {"camera", "field_of_view", Kind::number, "degrees", view, "40", "vertical opening"},
+};
+// clang-format on
+
+} // namespace
+
+const KindRule& ruleOf(Kind kind) {
+    const auto found = std::ranges::find(kindRules, kind, &KindRule::kind);
+    if (found == std::end(kindRules)) throw std::logic_error("a kind of scene key has no rule");
+    return *found;
+}
+
+std::span<const Key> schema() {
+    return keys;
+}
+
+const Key* findKey(std::string_view section, std::string_view name) {
+    const auto found = std::ranges::find_if(
+        keys, [&](const Key& key) { return key.section == section && key.name == name; });
+    return found == std::end(keys) ? nullptr : &*found;
+}
+
+const Key& nearestKey(std::string_view section, std::string_view name) {
+    // Keys are short: the head of a monstrous name says as much as the whole.
+    const auto distance = [head = name.substr(0, 64), section](const Key& key) {
+        return key.section == section ? editDistance(head, key.name) : head.size() + key.name.size() + 1;
+    };
+    return *std::ranges::min_element(keys, {}, distance);
+}
+
+std::size_t editDistance(std::string_view a, std::string_view b) {
+    std::vector<std::vector<std::size_t>> cost(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+    for (std::size_t i = 0; i <= a.size(); ++i) {
+        for (std::size_t j = 0; j <= b.size(); ++j) {
+            if (i == 0 || j == 0) {
+                cost[i][j] = i + j;
+                continue;
+            }
+            const std::size_t replace = cost[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
+            cost[i][j] = std::min({cost[i - 1][j] + 1, cost[i][j - 1] + 1, replace});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                cost[i][j] = std::min(cost[i][j], cost[i - 2][j - 2] + 1);
+        }
+    }
+    return cost[a.size()][b.size()];
+}
+
+} // namespace sinew::scenes

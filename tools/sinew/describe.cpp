@@ -1,0 +1,31 @@
+// `sinew describe`: prints the step program of a scene. Needs no device.
+#include "sim/compile.hpp"
+#include "sinew/commands.hpp"
+#include "sinew/options.hpp"
+#include "sinew/outputs.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+namespace sinew::tools {
+
+namespace {
+
+int describe(const SceneOptions& options) {
+    const scenes::LoadedScene loaded = loadScene(options);
+    TextOutput("-").write(sim::describe(sim::compile(loaded.scene, loaded.settings)));
+    return 0;
+}
+
+} // namespace
+
+void addDescribe(CLI::App& app, Chosen& chosen) {
+    CLI::App& command = *app.add_subcommand(
+        "describe", "print what a step of a scene does: passes, buffers, barriers, bytes; needs no device");
+    const auto options = std::make_shared<SceneOptions>();
+    addSceneOptions(command, *options);
+    command.callback([options, &chosen] { chosen = [options] { return describe(*options); }; });
+}
+
+} // namespace sinew::tools

@@ -1,0 +1,49 @@
+// The command line: parses, then runs the chosen command under the guard that turns failures into exit codes.
+#include "app/guard.hpp"
+#include "sinew/commands.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace {
+
+using namespace sinew;
+
+constexpr const char* description =
+    R"(Soft bodies on any Vulkan device. Lengths in metres, times in seconds, masses in
+kilograms; scenes are TOML (docs/scene-files.md), reports are JSON (docs/report.md).)";
+
+constexpr const char* footer = R"(
+Exit codes: 0 done, 2 wrong usage, 3 bad scene or mesh, 4 no usable device, 5 device lost or out of memory, 6 output
+could not be written, 7 the simulation diverged, 70 a fault of ours, 130 interrupted (outputs are whole).
+Run `sinew COMMAND --help` for the options of a command.)";
+
+/// The name a user would type to get help on what they typed wrongly.
+std::string commandName(const CLI::App& app) {
+    const auto parsed = app.get_subcommands();
+    return parsed.empty() ? "sinew" : "sinew " + parsed.front()->get_name();
+}
+
+int parseAndRun(int argc, char** argv) {
+    CLI::App app(description, "sinew");
+    app.footer(footer);
+    app.set_version_flag("--version", "sinew " SINEW_VERSION);
+    app.require_subcommand(1);
+    tools::Chosen chosen;
+    for (const auto add :
+         {tools::addRun, tools::addDescribe, tools::addMesh, tools::addDevices, tools::addBench})
+        add(app, chosen);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error); // --help, --version
+        throw app::Failure(app::wrongUsage, "wrong usage: " + std::string(error.what()) + ": see `" +
+                                                commandName(app) + " --help`");
+    }
+    return chosen();
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    return sinew::app::guarded([&] { return parseAndRun(argc, argv); });
+}

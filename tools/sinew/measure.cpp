@@ -1,0 +1,119 @@
+// All sums in double and in the scene's order, whatever the device did.
+#include "sinew/measure.hpp"
+
+#include "sinew/skin_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sinew::tools {
+
+namespace {
+
+using Point = std::array<double, 3>;
+
+Point pointOf(const std::array<float, 4>& v) {
+    return {double{v[0]}, double{v[1]}, double{v[2]}};
+}
+Point pointOf(const sim::Vec3& v) {
+    return {double{v.x}, double{v.y}, double{v.z}};
+}
+double dot(const Point& a, const Point& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+double length(const Point& a) {
+    return std::sqrt(dot(a, a));
+}
+Point sum(const Point& a, const Point& b, double scale) {
+    return {a[0] + scale * b[0], a[1] + scale * b[1], a[2] + scale * b[2]};
+}
+
+void measureStrain(const sim::Scene& scene, const State& state, Errors& errors) {
+    double squares = 0, largest = 0;
+    std::size_t count = 0;
+    for (const sim::DistanceConstraint& d : scene.distances) {
+        if (d.restLength == 0) continue;
+        const Point edge = sum(pointOf(state.positions[d.b]), pointOf(state.positions[d.a]), -1);
+        const double strain = length(edge) / double{d.restLength} - 1;
+        squares += strain * strain;
+        largest = std::max(largest, std::abs(strain));
+        ++count;
+    }
+    if (count == 0) return;
+    errors.strainRms = std::sqrt(squares / static_cast<double>(count));
+    errors.strainMax = largest;
+}
+
+void measureVolume(const sim::Scene& scene, std::span<const mesh::TriangleMesh> skins, Errors& errors) {
+    for (std::size_t i = 0; i < skins.size(); ++i) {
+        const sim::Skin& skin = scene.skins[i];
+        const mesh::MeshReport rest = mesh::inspect(skinMesh(skin, restVertices(scene, skin)));
+        if (!rest.defects.isClosed() || rest.volume == 0) continue;
+        const double change = mesh::inspect(skins[i]).volume / rest.volume - 1;
+        if (!errors.volume || std::abs(change) > std::abs(*errors.volume)) errors.volume = change;
+    }
+}
+
+/// The part of a vector that gravity cannot change.
+Point across(const Point& v, const Point& gravity) {
+    const double square = dot(gravity, gravity);
+    return square > 0 ? sum(v, gravity, -dot(v, gravity) / square) : v;
+}
+
+void measureMomentum(const sim::Scene& scene, const State& state, std::uint64_t frames, Errors& errors) {
+    const bool isHeld =
+        !scene.planes.empty() || !scene.fixed.empty() ||
+        std::ranges::any_of(scene.particles, [](const sim::Particle& p) { return p.inverseMass == 0; });
+    if (isHeld || scene.particles.empty()) return;
+    Point before{}, after{};
+    double scale = 0;
+    for (std::size_t i = 0; i < scene.particles.size(); ++i) {
+        const double mass = 1 / double{scene.particles[i].inverseMass};
+        const Point v = pointOf(state.velocities[i]);
+        before = sum(before, pointOf(scene.particles[i].velocity), mass);
+        after = sum(after, v, mass);
+        scale += mass * length(v);
+    }
+    const double decay = std::exp(-double{scene.damping} * double{scene.dt} * static_cast<double>(frames));
+    const Point gravity = pointOf(scene.gravity);
+    const Point change = sum(across(after, gravity), across(before, gravity), -decay);
+    errors.momentum = scale > 0 ? length(change) / scale : 0;
+}
+
+void measurePenetration(const sim::Scene& scene, const State& state, Errors& errors) {
+    if (scene.planes.empty()) return;
+    double deepest = 0;
+    for (const sim::Plane& plane : scene.planes) {
+        for (std::size_t i = 0; i < scene.particles.size(); ++i) {
+            if (state.positions[i][3] == 0) continue; // fixed: no plane moves it
+            const double height = dot(pointOf(plane.normal), pointOf(state.positions[i]));
+            const double depth = double{plane.offset} + double{scene.particles[i].contactOffset} - height;
+            deepest = std::max(deepest, depth);
+        }
+    }
+    errors.penetrationMax = deepest;
+}
+
+} // namespace
+
+Errors measure(const sim::Scene& scene, const State& state, std::span<const mesh::TriangleMesh> skins,
+               std::uint64_t frames) {
+    Errors errors;
+    measureStrain(scene, state, errors);
+    measureVolume(scene, skins, errors);
+    measureMomentum(scene, state, frames, errors);
+    measurePenetration(scene, state, errors);
+    return errors;
+}
+
+std::uint64_t stateHash(const State& state) {
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    for (const auto* list : {&state.positions, &state.velocities})
+        for (const std::byte byte : std::as_bytes(std::span(*list))) {
+            hash ^= static_cast<std::uint64_t>(byte);
+            hash *= 0x100000001b3u;
+        }
+    return hash;
+}
+
+} // namespace sinew::tools

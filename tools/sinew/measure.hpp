@@ -1,0 +1,35 @@
+// What a state is worth: the error figures of a report, and a hash that says whether two runs ended alike.
+#pragma once
+
+#include "mesh/triangle_mesh.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace sinew::tools {
+
+/// As the device has them: positions [m] and velocities [m/s], w = inverse mass [1/kg].
+struct State {
+    std::vector<std::array<float, 4>> positions, velocities;
+};
+
+/// Empty where a figure has no meaning for the scene.
+struct Errors {
+    std::optional<double> strainRms,
+        strainMax;                ///< (length - restLength) / restLength over distance constraints
+    std::optional<double> volume; ///< relative change of the closed skin that changed most, with its sign
+    std::optional<double>
+        momentum; ///< change across gravity over sum m |v|; only where nothing holds a particle
+    std::optional<double> penetrationMax; ///< deepest particle behind a plane [m]
+};
+
+/// `frames` steps led to `state`; `skins` are the meshes of the scene's skins now, in order, or empty where
+/// nobody asked for them.
+Errors measure(const sim::Scene& scene, const State& state, std::span<const mesh::TriangleMesh> skins,
+               std::uint64_t frames);
+
+/// FNV-1a (64 bits) of the bytes of positions, then velocities.
+std::uint64_t stateHash(const State& state);
+
+} // namespace sinew::tools

@@ -1,0 +1,56 @@
+// Ranges come from the table that scenes are validated against.
+#include "sinew/options.hpp"
+
+#include "sim/compile.hpp"
+#include "sim/ranges.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+
+namespace sinew::tools {
+
+namespace {
+
+CLI::Range within(const sim::Range& range) {
+    return {static_cast<std::uint32_t>(range.low), static_cast<std::uint32_t>(range.high)};
+}
+
+} // namespace
+
+void addSceneOptions(CLI::App& command, SceneOptions& options) {
+    scenes::Overrides& overrides = options.overrides;
+    command
+        .add_option("SCENE|MESH", options.file,
+                    "scene file (TOML), or a mesh to drop (OBJ, STL, PLY, glTF, GLB)")
+        ->required();
+    command.add_option("--solver", overrides.solver, "instead of the scene's")
+        ->check(CLI::IsMember(sim::solverNames()));
+    command.add_option("--substeps", overrides.substeps, "per step, instead of the scene's")
+        ->check(within(sim::ranges::substeps));
+    command
+        .add_option("--iterations", overrides.iterations,
+                    "sweeps per substep of jacobi, instead of the scene's")
+        ->check(within(sim::ranges::iterations));
+    command
+        .add_option("--voxel", overrides.voxel,
+                    "edge of the voxels of mesh bodies [m], instead of the scene's")
+        ->check(CLI::PositiveNumber);
+    command.add_flag("--reversed", overrides.isReversed,
+                     "run kernels in reversed invocation order; the result must not change");
+}
+
+void addDeviceOptions(CLI::App& command, DeviceOptions& options) {
+    options.hasValidation = SINEW_VALIDATION_DEFAULT;
+    command.add_option("--device", options.device, "index as `sinew devices` prints it, or part of a name");
+    command.add_flag("--validation,!--no-validation", options.hasValidation,
+                     "check every Vulkan call with the Khronos validation layer (slow)");
+}
+
+scenes::LoadedScene loadScene(const SceneOptions& options) {
+    scenes::LoadedScene loaded = scenes::load(options.file, options.overrides);
+    for (const std::string& warning : loaded.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    return loaded;
+}
+
+} // namespace sinew::tools

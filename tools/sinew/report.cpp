@@ -1,0 +1,175 @@
+// One function per part of the report, in the order of docs/report.md.
+#include "sinew/report.hpp"
+
+#include "scenes/stiffness.hpp"
+#include "sim/compile.hpp"
+#include "sinew/json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include <sys/resource.h>
+
+namespace sinew::tools {
+
+namespace {
+
+/// Labels in the order of their first appearance.
+std::vector<std::string> distinctPasses(const sim::StepProgram& program) {
+    std::vector<std::string> labels;
+    std::set<std::string> seen;
+    for (const sim::Pass& pass : program.step)
+        if (seen.insert(pass.label).second) labels.push_back(pass.label);
+    return labels;
+}
+
+std::size_t dispatches(const sim::StepProgram& program) {
+    return static_cast<std::size_t>(
+        std::ranges::count(program.step, sim::PassKind::dispatch, &sim::Pass::kind));
+}
+
+double peakMemoryMib() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024; // Linux counts KiB
+}
+
+Json stepJson(const RunRecord& record) {
+    const sim::StepProgram& program = record.program;
+    return {{"dispatches", dispatches(program)},
+            {"barriers", std::ranges::count(program.step, true, &sim::Pass::barrierBefore)},
+            {"declared_bytes", sim::declaredBytes(program)},
+            {"sweeps", program.sweeps},
+            {"record_ms", record.recordMs}};
+}
+
+Json frameJson(const std::optional<Statistics>& frame) {
+    if (!frame) return {{"p50", nullptr}, {"p99", nullptr}, {"mean", nullptr}, {"stddev", nullptr}};
+    return {{"p50", frame->p50}, {"p99", frame->p99}, {"mean", frame->mean}, {"stddev", frame->stddev}};
+}
+
+Json phaseJson(const RunRecord& record) {
+    Json phases = Json::object();
+    for (std::size_t i = 0; i < record.phaseMs.size(); ++i) phases[record.phases[i]] = record.phaseMs[i];
+    return phases;
+}
+
+Json bodiesJson(const sim::Scene& scene) {
+    Json bodies = Json::array();
+    for (const sim::Body& body : scene.bodies)
+        bodies.push_back({{"name", body.name},
+                          {"first_particle", body.firstParticle},
+                          {"particles", body.particleCount},
+                          {"rest_volume", body.restVolume > 0 ? Json(body.restVolume) : Json(nullptr)}});
+    return bodies;
+}
+
+Json meshesJson(const std::vector<scenes::MeshSummary>& summaries) {
+    Json meshes = Json::array();
+    for (const scenes::MeshSummary& mesh : summaries)
+        meshes.push_back({{"body", mesh.body},
+                          {"file", mesh.file},
+                          {"boundary_edges", mesh.surface.defects.boundaryEdges},
+                          {"non_manifold_edges", mesh.surface.defects.nonManifoldEdges},
+                          {"hull_voxels", mesh.voxels.hullCount},
+                          {"core_voxels", mesh.voxels.coreCount},
+                          {"doubtful_voxels", mesh.voxels.doubtful}});
+    return meshes;
+}
+
+Json stiffnessJson(const scenes::LoadedScene& loaded) {
+    const scenes::StiffnessReport report = scenes::inspectStiffness(loaded.scene, loaded.settings);
+    if (report.elasticLinks == 0) return nullptr;
+    return {{"elastic_links", report.elasticLinks},
+            {"clamped_links", report.clampedLinks},
+            {"softest", report.softest},
+            {"needed_substeps", report.neededSubsteps}};
+}
+
+Json divergenceJson(const std::optional<Divergence>& divergence) {
+    if (!divergence) return nullptr;
+    return {{"step", divergence->step},
+            {"body", divergence->body},
+            {"particle", divergence->particle},
+            {"particles", divergence->count}};
+}
+
+} // namespace
+
+Json toJson(const Errors& errors) {
+    return {{"strain_rms", orNull(errors.strainRms)},
+            {"strain_max", orNull(errors.strainMax)},
+            {"volume", orNull(errors.volume)},
+            {"momentum", orNull(errors.momentum)},
+            {"penetration_max", orNull(errors.penetrationMax)}};
+}
+
+Json toJson(const sim::Vec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+std::string dump(const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string toJson(const RunRecord& record) {
+    const sim::Scene& scene = record.loaded.scene;
+    const sim::Settings& settings = record.loaded.settings;
+    Json json{{"schema", reportSchema}, {"scene", scene.name}};
+    json["device"] = {
+        {"name", record.device.name}, {"driver", record.device.driver}, {"type", record.device.type}};
+    json["solver"] = sim::solverName(settings.solver);
+    json["substeps"] = settings.substeps;
+    json["iterations"] = settings.solver == sim::Solver::split ? 1 : settings.iterations;
+    json["reversed"] = settings.isReversed;
+    json["dt"] = scene.dt;
+    json["particles"] = record.program.particleCount;
+    json["constraints"] = record.program.constraintCount;
+    json["bodies"] = bodiesJson(scene);
+    json["meshes"] = meshesJson(record.loaded.meshes);
+    json["passes"] = distinctPasses(record.program);
+    json["skipped"] = record.program.skipped;
+    json["step"] = stepJson(record);
+    json["frames"] = record.frames;
+    json["frames_wanted"] = record.wantedFrames;
+    json["interrupted"] = record.isInterrupted;
+    json["frame_ms"] = frameJson(summarise(record.frameMs));
+    json["phase_ms"] = phaseJson(record);
+    json["error"] = toJson(measure(scene, record.state, record.skins, record.frames));
+    json["stiffness"] = stiffnessJson(record.loaded);
+    json["finite"] = !record.divergence.has_value();
+    json["divergence"] = divergenceJson(record.divergence);
+    json["overflow"] = Json::object(); // no list of a bounded size is in use
+    json["state_hash"] = fmt::format("{:016x}", stateHash(record.state));
+    json["peak_memory_mib"] = peakMemoryMib();
+    json["validation"] = record.hasValidation;
+    json["validation_messages"] = record.validationMessages;
+    json["warnings"] = record.loaded.warnings;
+    return dump(json);
+}
+
+std::string toText(const RunRecord& record) {
+    const sim::Settings& settings = record.loaded.settings;
+    std::string text = fmt::format("{}: {} particles, {} constraints, {} with {} substeps, on {} ({})\n",
+                                   record.loaded.scene.name, record.program.particleCount,
+                                   record.program.constraintCount, sim::solverName(settings.solver),
+                                   settings.substeps, record.device.name, record.device.type);
+    if (const auto frame = summarise(record.frameMs))
+        text += fmt::format("{} steps: {:.2f} ms each (median), {:.2f} ms at most in 99 %\n", record.frames,
+                            frame->p50, frame->p99);
+    const Errors errors = measure(record.loaded.scene, record.state, record.skins, record.frames);
+    if (errors.strainRms)
+        text += fmt::format("strain: {:.3g} % rms, {:.3g} % at most\n", 100 * *errors.strainRms,
+                            100 * *errors.strainMax);
+    if (errors.volume) text += fmt::format("volume: {:+.3g} %\n", 100 * *errors.volume);
+    if (errors.penetrationMax)
+        text += fmt::format("deepest behind a plane: {:.3g} mm\n", 1000 * *errors.penetrationMax);
+    text += fmt::format("state hash: {:016x}\n", stateHash(record.state));
+    if (record.hasValidation)
+        text += fmt::format("validation: {} messages\n", record.validationMessages.size());
+    return text;
+}
+
+} // namespace sinew::tools

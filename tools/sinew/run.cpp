@@ -1,0 +1,125 @@
+// `sinew run`: simulates a scene without a window and writes what came out of it.
+#include "app/guard.hpp"
+#include "app/progress.hpp"
+#include "mesh/export.hpp"
+#include "sinew/commands.hpp"
+#include "sinew/outputs.hpp"
+#include "sinew/report.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <set>
+
+namespace sinew::tools {
+
+namespace {
+
+struct RunOptions {
+    SceneOptions scene;
+    DeviceOptions device;
+    std::uint64_t frames = 240;
+    std::optional<std::string> folder, json;
+};
+
+std::vector<mesh::ParticleState> particleStates(const State& state) {
+    std::vector<mesh::ParticleState> particles;
+    particles.reserve(state.positions.size());
+    for (std::size_t i = 0; i < state.positions.size(); ++i) {
+        const auto &x = state.positions[i], &v = state.velocities[i];
+        particles.push_back({{x[0], x[1], x[2]}, {v[0], v[1], v[2]}, x[3]});
+    }
+    return particles;
+}
+
+void writeFolder(const std::filesystem::path& folder, const RunRecord& record, const std::string& report) {
+    std::set<std::string> used;
+    for (std::size_t i = 0; i < record.skins.size(); ++i) {
+        std::string name = fileName(record.skins[i].name);
+        if (!used.insert(name).second) used.insert(name += "-" + std::to_string(i));
+        mesh::exportObj(folder / (name + ".obj"), record.skins[i]);
+        mesh::exportPly(folder / (name + ".ply"), record.skins[i]);
+    }
+    mesh::exportParticles(folder / "state.ply", particleStates(record.state));
+    mesh::writeWhole(folder / "report.json", [&](std::ostream& stream) { stream << report; });
+}
+
+/// What the device says about itself stays in `session`; everything else is copied out.
+RunRecord simulate(const RunOptions& options, const scenes::LoadedScene& loaded, Session& session,
+                   Runner& runner) {
+    {
+        app::Progress progress(options.frames, stderr);
+        runner.advance(options.frames, sim::Simulation::framesInFlight,
+                       [&](std::uint64_t done) { progress.update(done); });
+        progress.finish();
+    }
+    return {.loaded = loaded,
+            .program = runner.simulation().program(),
+            .device = session.device.description(),
+            .phases = runner.simulation().phases(),
+            .phaseMs = runner.phaseMs(),
+            .frameMs = runner.frameMs(),
+            .recordMs = runner.recordMs(),
+            .wantedFrames = options.frames,
+            .frames = runner.steps(),
+            .divergence = runner.divergence(),
+            .isInterrupted = app::isInterrupted() && runner.steps() < options.frames,
+            .state = runner.readState(),
+            .skins = runner.readSkins(),
+            .hasValidation = options.device.hasValidation,
+            .validationMessages = session.device.validationMessages()};
+}
+
+/// The exit code of a run whose outputs are written.
+int conclude(const RunRecord& record) {
+    if (const auto& divergence = record.divergence) {
+        const std::string body = divergence->body.empty() ? "" : "body \"" + divergence->body + "\", ";
+        throw app::Failure(
+            app::diverged,
+            "the simulation diverged: step " + std::to_string(divergence->step) + ", " + body + "particle " +
+                std::to_string(divergence->particle) + ": " + std::to_string(divergence->count) +
+                " particles are not finite, the last finite state was kept: use more substeps, a lower "
+                "omega or a softer material");
+    }
+    return record.isInterrupted ? app::interrupted : app::done;
+}
+
+int run(const RunOptions& options) {
+    app::catchSignals();
+    // Before anything costs time: an output that cannot be written is known now.
+    std::optional<OutputFolder> folder;
+    std::optional<TextOutput> json;
+    if (options.json) json.emplace(*options.json);
+    const scenes::LoadedScene loaded = loadScene(options.scene);
+    if (options.folder) folder.emplace(*options.folder);
+    Session session(options.device);
+    Runner runner(session, loaded.scene, loaded.settings);
+    const RunRecord record = simulate(options, loaded, session, runner);
+    for (const std::string& message : record.validationMessages)
+        std::fprintf(stderr, "validation: %s\n", message.c_str());
+
+    const std::string report = toJson(record);
+    if (folder) writeFolder(folder->path(), record, report);
+    if (json) json->write(report);
+    if (options.json != "-") TextOutput("-").write(toText(record));
+    return conclude(record);
+}
+
+} // namespace
+
+void addRun(CLI::App& app, Chosen& chosen) {
+    CLI::App& command =
+        *app.add_subcommand("run", "simulate a scene without a window; write report, meshes and state");
+    const auto options = std::make_shared<RunOptions>();
+    addSceneOptions(command, options->scene);
+    addDeviceOptions(command, options->device);
+    command.add_option("--frames", options->frames, "steps to simulate")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
+        ->capture_default_str();
+    command.add_option("--out", options->folder,
+                       "folder for report.json, state.ply, and an OBJ and a PLY of every skin at the end");
+    command.add_option("--json", options->json, "file for the report, or - for the standard output");
+    command.callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+} // namespace sinew::tools

@@ -1,0 +1,134 @@
+// The host's half of a step is recording and one submission; it waits only for steps that are `inFlight`
+// behind.
+#include "sinew/runner.hpp"
+
+#include "app/guard.hpp"
+#include "layout.h"
+#include "sinew/skin_mesh.hpp"
+
+#include <chrono>
+
+namespace sinew::tools {
+
+namespace {
+
+double nowMs() {
+    using namespace std::chrono;
+    return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
+}
+
+std::string bodyOf(const sim::Scene& scene, std::uint32_t particle) {
+    for (const sim::Body& body : scene.bodies)
+        if (particle >= body.firstParticle && particle - body.firstParticle < body.particleCount)
+            return body.name;
+    return {};
+}
+
+} // namespace
+
+Runner::Runner(Session& session, const sim::Scene& scene, const sim::Settings& settings)
+    : session_(session), scene_(scene), simulation_(session.device, scene, settings) {
+    const auto phases = static_cast<std::uint32_t>(simulation_.phases().size());
+    for (std::uint32_t i = 0; i < sim::Simulation::framesInFlight; ++i)
+        timestamps_.emplace_back(session.device, phases);
+    phaseSums_.resize(phases);
+    submitReset();
+    submitStep(0);
+    session_.queue.waitIdle();
+    submitReset();
+    session_.queue.waitIdle();
+    recordSum_ = 0;
+    recorded_ = 0;
+}
+
+void Runner::submitReset() {
+    const VkCommandBuffer commands = session_.queue.begin();
+    simulation_.recordReset(commands);
+    session_.queue.submit(commands);
+}
+
+void Runner::submitStep(std::uint64_t frame) {
+    const double start = nowMs();
+    const std::size_t slot = frame % submitted_.size();
+    const VkCommandBuffer commands = session_.queue.begin();
+    simulation_.record(commands, {.dt = scene_.dt, .gravity = scene_.gravity, .frame = frame},
+                       &timestamps_[slot]);
+    submitted_[slot] = session_.queue.submit(commands);
+    recordSum_ += nowMs() - start;
+    ++recorded_;
+}
+
+void Runner::finishStep(std::uint64_t frame) {
+    const std::size_t slot = frame % submitted_.size();
+    session_.queue.wait(submitted_[slot]);
+    if (divergence_) return; // a step that was under way already
+    const double end = nowMs();
+    const sim::Status status = simulation_.status(frame);
+    if (status.frame != static_cast<std::uint32_t>(frame))
+        throw std::logic_error("the status of step " + std::to_string(frame) + " is that of another");
+    if (status.nonFinite > 0) {
+        divergence_ = {frame + 1, status.firstBadParticle, status.nonFinite,
+                       bodyOf(scene_, status.firstBadParticle)};
+        return;
+    }
+    frameMs_.push_back(end - lastEnd_);
+    lastEnd_ = end;
+    const std::vector<double> phases = timestamps_[slot].milliseconds();
+    for (std::size_t i = 0; i < phases.size(); ++i) phaseSums_[i] += phases[i];
+    timed_ += phases.empty() ? 0 : 1;
+    ++done_;
+}
+
+void Runner::advance(std::uint64_t count, std::uint32_t inFlight,
+                     const std::function<void(std::uint64_t)>& onStep) {
+    const std::uint64_t end = done_ + count;
+    std::uint64_t next = done_, waiting = done_;
+    lastEnd_ = nowMs();
+    while (waiting < end) {
+        const bool mayGoOn = next < end && !divergence_ && !app::isInterrupted();
+        if (mayGoOn && next - waiting < inFlight) {
+            submitStep(next++);
+        } else if (waiting < next) {
+            finishStep(waiting++);
+            if (onStep) onStep(done_);
+        } else {
+            break;
+        }
+    }
+}
+
+std::vector<double> Runner::phaseMs() const {
+    std::vector<double> means;
+    for (const double sum : phaseSums_)
+        if (timed_ > 0) means.push_back(sum / static_cast<double>(timed_));
+    return means;
+}
+
+double Runner::recordMs() const {
+    return recorded_ == 0 ? 0 : recordSum_ / static_cast<double>(recorded_);
+}
+
+State Runner::readState() {
+    return {session_.queue.download<std::array<float, 4>>(simulation_.positions()),
+            session_.queue.download<std::array<float, 4>>(simulation_.velocities())};
+}
+
+std::vector<mesh::TriangleMesh> Runner::readSkins() {
+    if (scene_.skins.empty()) return {};
+    const VkCommandBuffer commands = session_.queue.begin();
+    simulation_.recordSkin(commands);
+    session_.queue.wait(session_.queue.submit(commands));
+    const auto vertices = session_.queue.download<sim::layout::SkinVertex>(simulation_.skinVertices());
+    std::vector<mesh::TriangleMesh> meshes;
+    std::size_t first = 0;
+    for (const sim::Skin& skin : scene_.skins) {
+        std::vector<sim::Vec3> positions;
+        for (std::size_t v = first; v < first + skin.vertexCount(); ++v)
+            positions.push_back({vertices[v].position.x, vertices[v].position.y, vertices[v].position.z});
+        meshes.push_back(skinMesh(skin, positions));
+        first += skin.vertexCount();
+    }
+    return meshes;
+}
+
+} // namespace sinew::tools

@@ -1,0 +1,62 @@
+// Steps a scene on a device: one submission a step, a few of them in flight, no wait inside a step.
+#pragma once
+
+#include "sim/simulation.hpp"
+#include "sinew/measure.hpp"
+#include "sinew/session.hpp"
+
+#include <functional>
+
+namespace sinew::tools {
+
+/// A step whose state was no longer finite.
+struct Divergence {
+    std::uint64_t step = 0; ///< counted from 1
+    std::uint32_t particle = 0, count = 0;
+    std::string body; ///< empty where the particle belongs to none
+};
+
+class Runner {
+public:
+    /// Creates the simulation and runs one step that is thrown away, so that drivers which compile late do so
+    /// now. `session` and `scene` must outlive the Runner.
+    Runner(Session& session, const sim::Scene& scene, const sim::Settings& settings);
+
+    /// Steps until `count` more are done, isInterrupted() or the state is no longer finite. `inFlight` is 1
+    /// to Simulation::framesInFlight. `onStep` gets the number of steps done.
+    void advance(std::uint64_t count, std::uint32_t inFlight,
+                 const std::function<void(std::uint64_t)>& onStep = {});
+
+    std::uint64_t steps() const { return done_; } ///< with a finite state
+    const std::optional<Divergence>& divergence() const { return divergence_; }
+    const sim::Simulation& simulation() const { return simulation_; }
+
+    /// Wall-clock time [ms] from the end of one step to the end of the next.
+    const std::vector<double>& frameMs() const { return frameMs_; }
+    /// Mean device time of a step [ms], one value per entry of simulation().phases(); empty without
+    /// timestamps.
+    std::vector<double> phaseMs() const;
+    double recordMs() const; ///< mean host time to record and submit a step [ms]
+
+    /// The newest finite state and the skins drawn from it, read back from the device.
+    State readState();
+    std::vector<mesh::TriangleMesh> readSkins();
+
+private:
+    void submitReset();
+    void submitStep(std::uint64_t frame);
+    void finishStep(std::uint64_t frame);
+
+    Session& session_;
+    const sim::Scene& scene_;
+    sim::Simulation simulation_;
+    std::vector<vk::Timestamps> timestamps_;                                 // one a step in flight
+    std::array<std::uint64_t, sim::Simulation::framesInFlight> submitted_{}; // timeline values
+    std::uint64_t done_ = 0;
+    std::optional<Divergence> divergence_;
+    std::vector<double> frameMs_, phaseSums_;
+    double recordSum_ = 0, lastEnd_ = 0; // [ms]
+    std::uint64_t recorded_ = 0, timed_ = 0;
+};
+
+} // namespace sinew::tools

@@ -1,0 +1,22 @@
+// A device of our own with its loader and queue, in the order in which they must be destroyed.
+#pragma once
+
+#include "sinew/options.hpp"
+#include "vk/device.hpp"
+#include "vk/loader.hpp"
+#include "vk/queue.hpp"
+
+namespace sinew::tools {
+
+struct Session {
+    vk::Loader loader;
+    vk::Device device;
+    vk::Queue queue;
+
+    /// Throws vk::Error. Call before threads start: validation sets an environment variable.
+    explicit Session(const DeviceOptions& options);
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+};
+
+} // namespace sinew::tools
