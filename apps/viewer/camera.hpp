@@ -1,0 +1,42 @@
+// An orbit camera: it looks at a target from a distance and two angles, and never rolls.
+#pragma once
+
+#include "viewer/geometry.hpp"
+
+#include <limits>
+
+namespace sinew::viewer {
+
+struct Camera {
+    Vector3 target = Vector3::Zero(); ///< [m]
+    float distance = 2;               ///< of the eye from the target [m]
+    float azimuth = 0.6f;             ///< of the eye around y, 0 = on the +z side [rad]
+    float elevation = 0.27f;          ///< of the eye above the target's level [rad]
+    float fieldOfView = 0.7f;         ///< vertical [rad]
+    float lowestEye = -std::numeric_limits<float>::infinity(); ///< the eye stays above this height [m]
+};
+
+Vector3 eye(const Camera& camera);
+Matrix4 viewMatrix(const Camera& camera);
+
+/// World to clip space for a picture `aspect` (width / height) wide; shows what lies within `reach` of the
+/// eye [m].
+Matrix4 clipMatrix(const Camera& camera, float aspect, float reach);
+
+/// The camera at `eye` that looks at `target`; `fieldOfView` in degrees as in scene files.
+Camera lookingFrom(const Vector3& eye, const Vector3& target, float fieldOfView);
+
+/// Turns around the target by a drag of (x to the right, y down) picture heights.
+Camera orbited(Camera camera, const Vector2& drag);
+
+/// Moves the target so that what lies at its depth follows a drag of (x, y) picture heights.
+Camera panned(Camera camera, const Vector2& drag);
+
+/// Multiplies the distance by `factor`. What lies at the target's depth under `pointer` (x right, y down,
+/// from the picture's middle, in picture heights) stays there.
+Camera zoomed(Camera camera, float factor, const Vector2& pointer);
+
+/// The same direction of view, with all of `box` in the picture and little around it.
+Camera framing(Camera camera, const Box& box, float aspect);
+
+} // namespace sinew::viewer

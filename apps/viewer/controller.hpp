@@ -1,0 +1,56 @@
+// What actions do to the camera and to time, without a window.
+#pragma once
+
+#include "viewer/bindings.hpp"
+#include "viewer/camera.hpp"
+
+#include <cstdint>
+
+namespace sinew::viewer {
+
+/// What to do before the next picture.
+struct Plan {
+    bool isReset = false;
+    std::uint32_t steps = 0;
+};
+
+/// Turns real time into steps of `dt` [s]. Time the machine cannot keep up with is dropped, not made up for.
+class Playback {
+public:
+    static constexpr std::uint32_t maxSteps = 2; ///< before one picture
+
+    explicit Playback(double dt) : dt_(dt) {}
+
+    /// `elapsed` is the time since the last call [s].
+    Plan plan(double elapsed);
+
+    void pause() { isPaused_ = true; }
+    void toggle();
+    void step();
+    void reset() { wantsReset_ = true; }
+    bool isPaused() const { return isPaused_; }
+
+private:
+    double dt_, owed_ = 0; // [s]
+    std::uint32_t singleSteps_ = 0;
+    bool isPaused_ = false, wantsReset_ = false;
+};
+
+class Controller {
+public:
+    Controller(const Camera& start, double dt) : camera(start), playback(dt) {}
+
+    /// Does what concerns time; false for an action that belongs to the window or the camera's drags.
+    bool act(Action action);
+
+    /// An orbit or a pan by (x, y) picture heights, y down.
+    void drag(Action action, const Vector2& heights);
+
+    /// Wheel notches towards the viewer are negative. `pointer` as zoomed() takes it.
+    void wheel(float notches, const Vector2& pointer);
+
+    Camera camera;
+    Playback playback;
+};
+
+} // namespace sinew::viewer

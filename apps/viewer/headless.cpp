@@ -1,0 +1,169 @@
+// The loop without a window. Steps are submitted ahead of the host; it waits only for pictures and for the
+// status of steps that are about to be overwritten.
+#include "viewer/headless.hpp"
+
+#include "app/guard.hpp"
+#include "app/progress.hpp"
+#include "viewer/offscreen.hpp"
+#include "viewer/opening.hpp"
+#include "viewer/picture_writer.hpp"
+#include "viewer/stage.hpp"
+#include "viewer/video.hpp"
+#include "vk/loader.hpp"
+#include "vk/queue.hpp"
+
+#include <cinttypes>
+#include <cstdio>
+#include <deque>
+
+namespace sinew::viewer {
+
+namespace {
+
+constexpr std::size_t filesAtOnce = 2;
+
+std::filesystem::path pictureFile(const std::filesystem::path& folder, std::uint64_t frame) {
+    char name[40];
+    std::snprintf(name, sizeof name, "frame_%04" PRIu64 ".png", frame);
+    return folder / name;
+}
+
+void makeFolder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (!error && !std::filesystem::is_directory(folder))
+        error = std::make_error_code(std::errc::not_a_directory);
+    if (error)
+        throw app::Failure(app::outputFailed, "cannot write pictures: " + folder.string() + ": " +
+                                                  error.message() + ": choose another folder");
+}
+
+void checkSize(const vk::Device& device, VkExtent2D size) {
+    VkPhysicalDeviceProperties properties;
+    device.instanceFunctions().vkGetPhysicalDeviceProperties(device.physical(), &properties);
+    const std::uint32_t most = properties.limits.maxImageDimension2D;
+    if (size.width > most || size.height > most)
+        throw app::Failure(app::wrongUsage, "wrong usage: --size: the device draws at most " +
+                                                std::to_string(most) + " pixels a side: choose less");
+}
+
+// What is made of the frames: PNG files, a video, or both.
+class Outputs {
+public:
+    Outputs(const Options& options, float dt) : options_(options), writer_(filesAtOnce) {
+        if (!options.folder.empty()) makeFolder(options.folder);
+        if (!options.video.empty())
+            video_.emplace(options.video, options.size.width, options.size.height,
+                           1.0 / (double{dt} * static_cast<double>(options.every)));
+    }
+
+    void add(std::uint64_t frame, Picture picture, PictureText text) {
+        ++count_;
+        if (video_) video_->add(picture);
+        if (!options_.folder.empty())
+            writer_.add(pictureFile(options_.folder, frame), std::move(picture), std::move(text));
+    }
+
+    void finish() {
+        while (writer_.take(PictureWriter::Wait::yes)) {
+        }
+        if (video_) video_->finish();
+        if (!options_.folder.empty()) std::printf("%zu pictures in %s\n", count_, options_.folder.c_str());
+        if (video_) std::printf("%zu pictures in %s\n", count_, options_.video.c_str());
+    }
+
+private:
+    const Options& options_;
+    PictureWriter writer_;
+    std::optional<Video> video_;
+    std::size_t count_ = 0;
+};
+
+// Steps and draws; a frame is a step of the simulation, frame 0 the state before the first.
+class Recorder {
+public:
+    Recorder(const Options& options, const Opening& opening, const vk::Device& device)
+        : opening_(opening), device_(device), stage_(device, opening.loaded.scene, opening.loaded.settings),
+          offscreen_(device, options.size, opening.light), queue_(device) {}
+
+    /// Submits a frame; with `isPictured`, waits for its picture.
+    std::optional<Picture> advance(std::uint64_t frame, bool isPictured) {
+        while (submissions_.size() >= sim::Simulation::framesInFlight) settleOldest();
+        VkCommandBuffer commands = queue_.begin();
+        if (frame == 0)
+            stage_.recordReset(commands);
+        else
+            stage_.recordStep(commands);
+        if (isPictured) {
+            stage_.recordSkin(commands);
+            offscreen_.record(commands, opening_.camera, stage_.simulation());
+        }
+        submissions_.push_back({frame, queue_.submit(commands)});
+        if (!isPictured) return std::nullopt;
+        settle();
+        return offscreen_.read();
+    }
+
+    /// Waits for every frame and checks it. Throws app::Failure (diverged).
+    void settle() {
+        while (!submissions_.empty()) settleOldest();
+    }
+
+    PictureText text(std::uint64_t frame) const { return pictureText(opening_, device_, frame); }
+
+private:
+    struct Submission {
+        std::uint64_t frame, value;
+    };
+
+    void settleOldest() {
+        const Submission oldest = submissions_.front();
+        submissions_.pop_front();
+        queue_.wait(oldest.value);
+        if (oldest.frame == 0) return;
+        if (const std::optional<Divergence> divergence = stage_.check(oldest.frame))
+            throw app::Failure(app::diverged, divergence->sentence());
+    }
+
+    const Opening& opening_;
+    const vk::Device& device_;
+    Stage stage_;
+    Offscreen offscreen_;
+    vk::Queue queue_; // last: waits for what still uses the others
+    std::deque<Submission> submissions_;
+};
+
+} // namespace
+
+int runHeadless(const Options& options, std::size_t& messages) {
+    const float aspect = static_cast<float>(options.size.width) / static_cast<float>(options.size.height);
+    const Opening opening = open(options, aspect);
+    if (options.hasValidation) vk::enableQueueSubmitValidation();
+    const vk::Loader loader;
+    const vk::Device device =
+        vk::Device::create(loader.getInstanceProcAddr(), deviceRequest(options, messages));
+    checkSize(device, options.size);
+    std::printf("%s\n", headline(opening, device).c_str());
+    std::fflush(stdout);
+
+    Outputs outputs(options, opening.loaded.scene.dt);
+    Recorder recorder(options, opening, device);
+    try {
+        app::Progress progress(options.frames, stderr);
+        for (std::uint64_t frame = 0; frame <= options.frames && !app::isInterrupted(); ++frame) {
+            if (std::optional<Picture> picture = recorder.advance(frame, options.wantsPicture(frame)))
+                outputs.add(frame, std::move(*picture), recorder.text(frame));
+            progress.update(frame);
+        }
+        recorder.settle();
+        progress.finish();
+    } catch (const app::Failure& failure) {
+        if (failure.code() == app::diverged) // what was drawn before is whole and stays
+            outputs.finish();
+        throw;
+    }
+    outputs.finish();
+    return app::isInterrupted() ? app::interrupted : app::done;
+}
+
+} // namespace sinew::viewer

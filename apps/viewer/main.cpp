@@ -1,0 +1,28 @@
+// sinew-viewer: shows a scene in a window, or draws it to files.
+#include "app/guard.hpp"
+#include "viewer/headless.hpp"
+#include "viewer/interactive.hpp"
+
+namespace {
+
+using namespace sinew;
+
+int view(int argc, char** argv) {
+    const std::optional<viewer::Options> options = viewer::parseOptions(argc, argv);
+    if (!options) return app::done;
+    app::catchSignals();
+    std::size_t messages = 0;
+    const int code = options->isHeadless ? viewer::runHeadless(*options, messages)
+                                         : viewer::runInteractive(*options, messages);
+    if (messages > 0)
+        throw app::Failure(app::internalFault,
+                           "the validation layer complained: " + std::to_string(messages) +
+                               " messages above: please report them");
+    return code;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    return sinew::app::guarded([&] { return view(argc, argv); });
+}

@@ -1,0 +1,76 @@
+// The first view of a scene.
+#include "viewer/opening.hpp"
+
+#include "sim/compile.hpp"
+
+#include <cstdio>
+
+namespace sinew::viewer {
+
+namespace {
+
+Vector3 toVector(const sim::Vec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+Camera firstView(const scenes::LoadedScene& loaded, float aspect) {
+    const std::optional<float> ground = groundHeight(loaded.scene);
+    const Box bounds = stageBounds(loaded.scene);
+    Camera camera;
+    if (loaded.camera)
+        camera = lookingFrom(toVector(loaded.camera->eye), toVector(loaded.camera->target),
+                             loaded.camera->fieldOfView);
+    else
+        camera = framing(camera, bounds, aspect);
+    if (ground) camera.lowestEye = *ground + 0.02f * bounds.diagonal().norm();
+    return camera;
+}
+
+// "12,345".
+std::string grouped(std::size_t number) {
+    std::string digits = std::to_string(number);
+    for (std::size_t at = digits.size(); at > 3; at -= 3) digits.insert(at - 3, 1, ',');
+    return digits;
+}
+
+} // namespace
+
+Opening open(const Options& options, float aspect) {
+    Opening opening;
+    opening.loaded = options.scene.empty() ? scenes::loadBuiltIn("organ", options.overrides)
+                                           : scenes::load(options.scene, options.overrides);
+    for (const std::string& warning : opening.loaded.warnings)
+        std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    if (opening.loaded.scene.skins.empty())
+        std::fprintf(stderr, "warning: scene %s has no skin: there is no body to see\n",
+                     opening.loaded.scene.name.c_str());
+    opening.camera = firstView(opening.loaded, aspect);
+    opening.light = lightFor(opening.loaded.scene, opening.camera);
+    return opening;
+}
+
+vk::DeviceRequest deviceRequest(const Options& options, std::size_t& messages) {
+    return {.device = options.device,
+            .hasValidation = options.hasValidation,
+            .onValidationMessage = [&messages](const std::string& message) {
+                ++messages;
+                std::fprintf(stderr, "validation: %s\n", message.c_str());
+            }};
+}
+
+std::string headline(const Opening& opening, const vk::Device& device) {
+    const sim::Settings& settings = opening.loaded.settings;
+    return opening.loaded.scene.name + ": " + grouped(opening.loaded.scene.particles.size()) +
+           " particles, solver " + sim::solverName(settings.solver) + " with " +
+           std::to_string(settings.substeps) + " substeps, on " + device.description().name + " (" +
+           device.description().type + ")";
+}
+
+PictureText pictureText(const Opening& opening, const vk::Device& device, std::uint64_t step) {
+    return {{"Software", "Sinew " SINEW_VERSION},
+            {"Scene", opening.loaded.scene.name},
+            {"Step", std::to_string(step)},
+            {"Device", device.description().name + ", " + device.description().driver}};
+}
+
+} // namespace sinew::viewer

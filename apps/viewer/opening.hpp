@@ -1,0 +1,31 @@
+// What a window and a headless run begin with: the scene, the first view of it, its light.
+#pragma once
+
+#include "viewer/options.hpp"
+#include "viewer/png.hpp"
+#include "viewer/stage_light.hpp"
+#include "vk/device.hpp"
+
+namespace sinew::viewer {
+
+struct Opening {
+    scenes::LoadedScene loaded;
+    Camera camera;
+    StageLight light;
+};
+
+/// Loads the scene, prints its warnings to stderr and looks at it: from where the file says, or with every
+/// body in a picture `aspect` wide. Throws as scenes::load.
+Opening open(const Options& options, float aspect);
+
+/// Asks for a device that draws, and for validation where the options do; each message goes to stderr and is
+/// counted in `messages`, which must outlive the device.
+vk::DeviceRequest deviceRequest(const Options& options, std::size_t& messages);
+
+/// "organ: 4,211 particles, solver split with 32 substeps, on llvmpipe (software)".
+std::string headline(const Opening& opening, const vk::Device& device);
+
+/// What every picture file says about itself.
+PictureText pictureText(const Opening& opening, const vk::Device& device, std::uint64_t step);
+
+} // namespace sinew::viewer

@@ -1,0 +1,123 @@
+// Options and what may not be combined.
+#include "viewer/options.hpp"
+
+#include "app/guard.hpp"
+#include "sim/compile.hpp"
+#include "sim/ranges.hpp"
+#include "viewer/bindings.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <charconv>
+
+namespace sinew::viewer {
+
+namespace {
+
+constexpr const char* description =
+    R"(Shows soft bodies: opens a scene (TOML) or drops a mesh (OBJ, STL, PLY, glTF, GLB), simulates it on a
+Vulkan device and draws it, in a window or, with --headless, to pictures.)";
+
+constexpr const char* exitCodes =
+    R"(Exit codes: 0 done, 2 wrong usage, 3 bad scene or mesh, 4 no usable device or display, 5 device lost or out of
+memory, 6 output could not be written, 7 the simulation diverged, 70 a fault of ours, 130 interrupted.)";
+
+[[noreturn]] void refuse(const std::string& why) {
+    throw app::Failure(app::wrongUsage, "wrong usage: " + why + ": see `sinew-viewer --help`");
+}
+
+// "1280x720".
+VkExtent2D parseSize(const std::string& text) {
+    VkExtent2D size{};
+    const char* end = text.data() + text.size();
+    const auto [afterWidth, widthError] = std::from_chars(text.data(), end, size.width);
+    const bool hasCross = widthError == std::errc() && afterWidth != end && *afterWidth == 'x';
+    const auto [afterHeight, heightError] =
+        std::from_chars(hasCross ? afterWidth + 1 : end, end, size.height);
+    const auto isSensible = [](std::uint32_t length) { return length >= 16 && length <= 8192; };
+    if (!hasCross || heightError != std::errc() || afterHeight != end || !isSensible(size.width) ||
+        !isSensible(size.height))
+        refuse("--size " + text + " is no WIDTHxHEIGHT between 16x16 and 8192x8192");
+    return size;
+}
+
+CLI::Range within(const sim::Range& range) {
+    return {static_cast<std::uint32_t>(range.low), static_cast<std::uint32_t>(range.high)};
+}
+
+void addSceneOptions(CLI::App& app, Options& options) {
+    app.add_option("SCENE|MESH", options.scene,
+                   "scene file or mesh; without one the built-in scenes/organ.toml");
+    app.add_option("--device", options.device, "index as `sinew devices` prints it, or part of a name");
+    app.add_option("--solver", options.overrides.solver, "instead of the scene's")
+        ->check(CLI::IsMember(sim::solverNames()));
+    app.add_option("--substeps", options.overrides.substeps, "per step, instead of the scene's")
+        ->check(within(sim::ranges::substeps));
+    options.hasValidation = SINEW_VALIDATION_DEFAULT;
+    app.add_flag(
+        "--validation,!--no-validation", options.hasValidation,
+        "check every Vulkan call with the Khronos validation layer (slow); a message makes the exit code 70");
+}
+
+void addHeadlessOptions(CLI::App& app, Options& options) {
+    constexpr const char* group = "Without a window";
+    CLI::Option* headless = app.add_flag("--headless", options.isHeadless, "needs no display")->group(group);
+    const CLI::Range positive(std::uint64_t{1}, std::uint64_t{1'000'000'000});
+    const auto add = [&](const char* name, auto& value, const char* help) {
+        return app.add_option(name, value, help)->group(group)->needs(headless);
+    };
+    add("--frames", options.frames, "steps to take")->check(positive)->capture_default_str();
+    add("--out", options.folder, "folder for frame_0000.png (the start) and the following pictures");
+    add("--video", options.video, "MP4 of all pictures; needs ffmpeg on the PATH");
+    CLI::Option* every = add("--every", options.every, "take a picture of each so many frames")
+                             ->check(positive)
+                             ->capture_default_str();
+    add("--picture-frames", options.pictured, "take pictures of these frames only, such as 0,60,120,240")
+        ->delimiter(',')
+        ->excludes(every);
+}
+
+void checkHeadless(Options& options, bool hasFrames) {
+    std::ranges::sort(options.pictured);
+    if (!options.isHeadless) return;
+    if (options.folder.empty() && options.video.empty())
+        refuse("--headless without --out DIR or --video FILE draws for nobody");
+    if (options.pictured.empty()) return;
+    if (!options.video.empty()) refuse("--video takes even steps: use --every, not --picture-frames");
+    const std::uint64_t last = options.pictured.back();
+    if (hasFrames && last > options.frames)
+        refuse("--picture-frames " + std::to_string(last) + " is beyond --frames " +
+               std::to_string(options.frames));
+    if (!hasFrames) options.frames = last;
+}
+
+} // namespace
+
+bool Options::wantsPicture(std::uint64_t frame) const {
+    return pictured.empty() ? frame % every == 0 : std::ranges::binary_search(pictured, frame);
+}
+
+std::optional<Options> parseOptions(int argc, const char* const* argv) {
+    Options options;
+    std::string size;
+    CLI::App app(description, "sinew-viewer");
+    app.set_version_flag("--version", "sinew-viewer " SINEW_VERSION);
+    app.footer("In the window:\n" + helpText() + "\n" + exitCodes);
+    addSceneOptions(app, options);
+    app.add_option("--size", size,
+                   "of the window or the pictures in pixels, WIDTHxHEIGHT (default 1280x720)");
+    addHeadlessOptions(app, options);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() != 0) refuse(error.what());
+        app.exit(error); // --help, --version
+        return std::nullopt;
+    }
+    if (app.count("--size") > 0) options.size = parseSize(size);
+    checkHeadless(options, app.count("--frames") > 0);
+    return options;
+}
+
+} // namespace sinew::viewer

@@ -1,0 +1,36 @@
+// The command line of sinew-viewer.
+#pragma once
+
+#include "scenes/load.hpp"
+
+#include <vulkan/vulkan_core.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sinew::viewer {
+
+struct Options {
+    std::string scene; ///< file; empty = the built-in organ
+    scenes::Overrides overrides;
+    std::string device; ///< as vk::DeviceRequest::device
+    bool hasValidation = false;
+    VkExtent2D size{1280, 720};
+
+    bool isHeadless = false;
+    std::uint64_t frames = 240;          ///< steps to take without a window
+    std::filesystem::path folder;        ///< for frame_0000.png ...; empty = no pictures
+    std::filesystem::path video;         ///< MP4; empty = none
+    std::uint64_t every = 1;             ///< a picture of each so many frames, frame 0 included
+    std::vector<std::uint64_t> pictured; ///< or of these frames only; sorted
+
+    bool wantsPicture(std::uint64_t frame) const;
+};
+
+/// Empty where help or version was asked for and printed. Throws app::Failure (wrongUsage).
+std::optional<Options> parseOptions(int argc, const char* const* argv);
+
+} // namespace sinew::viewer

@@ -1,0 +1,42 @@
+// Graphics pipelines out of the embedded shaders, with the little that differs between ours.
+#pragma once
+
+#include "vk/device.hpp"
+#include "vk/kernel.hpp"
+
+namespace sinew::viewer {
+
+struct PipelineRequest {
+    std::string name;
+    const vk::ShaderCode* vertex = nullptr;
+    const vk::ShaderCode* fragment = nullptr; ///< null: depth only
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    VkRenderPass pass = VK_NULL_HANDLE;
+    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+    enum class Input {
+        none,
+        positions,
+        positionsAndNormals
+    } input = Input::none; ///< of SkinVertex, binding 0
+    enum class Depth { none, test, testAndWrite } depth = Depth::none;
+    VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    std::span<const vk::SpecialisationConstant> constants; ///< of both stages; ids a shader lacks are ignored
+};
+
+/// A VkPipeline with dynamic viewport and scissor that draws both sides of triangles. Movable. Must not
+/// outlive its Device.
+class Pipeline {
+public:
+    Pipeline(const vk::Device& device, const PipelineRequest& request);
+    Pipeline(Pipeline&& other) noexcept;
+    Pipeline& operator=(Pipeline&&) = delete;
+    ~Pipeline();
+
+    VkPipeline handle() const noexcept { return pipeline_; }
+
+private:
+    const vk::Device* device_ = nullptr;
+    VkPipeline pipeline_ = VK_NULL_HANDLE;
+};
+
+} // namespace sinew::viewer

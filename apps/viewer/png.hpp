@@ -1,0 +1,27 @@
+// Pictures as PNG files, with what made them in their text chunks.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sinew::viewer {
+
+/// 8-bit sRGB, rows from the top, four bytes a pixel; alpha is 255.
+struct Picture {
+    std::uint32_t width = 0, height = 0;
+    std::vector<std::uint8_t> pixels;
+};
+
+/// Keyword and text of tEXt chunks, Latin-1: {"Software", "Sinew"}, {"Scene", "organ"} ...
+using PictureText = std::vector<std::pair<std::string, std::string>>;
+
+/// The file's bytes, alpha left out. Takes about a tenth of a second for a million pixels.
+std::vector<std::uint8_t> encodePng(const Picture& picture, const PictureText& text);
+
+/// Writes the whole file or none, see mesh::writeWhole. Throws mesh::ExportError.
+void writePng(const std::filesystem::path& file, const Picture& picture, const PictureText& text);
+
+} // namespace sinew::viewer

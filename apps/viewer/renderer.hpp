@@ -1,0 +1,79 @@
+// Draws the skins of a simulation, lit and shadowed, on a floor under a sky. The same code for a window and
+// for files.
+#pragma once
+
+#include "sim/simulation.hpp"
+#include "viewer/canvas.hpp"
+#include "viewer/light_maps.hpp"
+#include "viewer/pipeline.hpp"
+#include "viewer/stage_light.hpp"
+#include "vk/buffer.hpp"
+
+namespace sinew::viewer {
+
+struct Quality {
+    std::uint32_t shadowSize = 2048;                       ///< pixels a side
+    std::uint32_t floorSize = 512;                         ///< of the map of the floor's light, pixels a side
+    std::uint32_t shadowTaps = 32, skyTaps = 96;           ///< per pixel
+    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_4_BIT; ///< 1 and 4 work on every device
+};
+
+/// For a window on a software device: smaller maps, fewer taps.
+Quality reducedQuality();
+
+/// True for a device that draws on the CPU.
+bool isSoftware(const vk::Device& device);
+
+/// Owns passes, pipelines and maps, not what they draw into. Must not outlive its Device, which must not
+/// move.
+class Renderer {
+public:
+    static constexpr std::uint32_t slots = 2; ///< pictures recorded but not finished, at most
+
+    struct Target {
+        VkFormat color = VK_FORMAT_R8G8B8A8_SRGB;
+        VkImageLayout finalLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+    };
+    /// A target format without sRGB encoding gets it from the shaders. `light` is of the scene that will be
+    /// drawn.
+    Renderer(const vk::Device& device, const Target& target, const Quality& quality, const StageLight& light);
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+    ~Renderer();
+
+    Canvas makeCanvas(VkExtent2D extent, std::span<const VkImageView> pictures) const;
+
+    /// Records one picture. `commands` must be recording, outside a render pass, after recordSkin() of
+    /// `simulation` in the same queue. `slot` < slots; its previous picture must be finished. Leaves the
+    /// picture in the final layout.
+    void record(VkCommandBuffer commands, std::uint32_t slot, const Canvas& canvas, std::size_t picture,
+                const Camera& camera, const sim::Simulation& simulation) const noexcept;
+
+private:
+    void createLayouts();
+    void createPipelines(const Target& target, const Quality& quality);
+    void createSets();
+    void writeSet(std::uint32_t slot) const;
+    void release() noexcept;
+    void recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept;
+    void recordPicture(VkCommandBuffer commands, const Canvas& canvas, std::size_t picture,
+                       const sim::Simulation& simulation) const noexcept;
+    void begin(VkCommandBuffer commands, const RenderPass& pass, VkFramebuffer framebuffer, VkExtent2D extent,
+               std::span<const VkClearValue> clear) const noexcept;
+    void bind(VkCommandBuffer commands, std::size_t pipeline) const noexcept;
+    void drawSkins(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept;
+
+    const vk::Device& device_;
+    StageLight light_;
+    CanvasFormat format_;
+    LightMaps maps_;
+    RenderPass pass_;
+    VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
+    VkPipelineLayout layout_ = VK_NULL_HANDLE;
+    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    std::array<VkDescriptorSet, slots> sets_{};
+    std::vector<vk::Buffer> params_; ///< one a slot
+    std::vector<Pipeline> pipelines_;
+};
+
+} // namespace sinew::viewer

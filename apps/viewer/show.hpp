@@ -1,0 +1,83 @@
+// A scene playing in a window: input, steps in real time, one submission a frame. A paused picture is drawn
+// once and then left alone; on a software device that last one has full quality.
+#pragma once
+
+#include "viewer/bounds_probe.hpp"
+#include "viewer/controller.hpp"
+#include "viewer/offscreen.hpp"
+#include "viewer/opening.hpp"
+#include "viewer/picture_writer.hpp"
+#include "viewer/presenter.hpp"
+#include "viewer/stage.hpp"
+#include "viewer/status_line.hpp"
+#include "viewer/window.hpp"
+#include "vk/timestamps.hpp"
+
+#include <chrono>
+#include <memory>
+
+namespace sinew::viewer {
+
+/// Main thread only. Window, device and opening must outlive it; the device must not move.
+class Show {
+public:
+    Show(Window& window, const vk::Device& device, const Opening& opening);
+    ~Show(); ///< waits for the queue
+    Show(const Show&) = delete;
+    Show& operator=(const Show&) = delete;
+
+    /// Plays until the window is closed or the program is interrupted. Throws vk::Error.
+    void run();
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    // Drawing of one quality into the swapchain's images; the canvas is made when it is first needed.
+    struct View {
+        View(const vk::Device& device, VkFormat format, const Quality& quality, const StageLight& light);
+        Renderer renderer;
+        std::optional<Canvas> canvas;
+    };
+
+    // What was recorded into a frame in flight and is looked at when it has finished.
+    struct InFlight {
+        std::uint64_t firstStep = 0;
+        std::uint32_t steps = 0;
+        bool isProbed = false;
+        std::unique_ptr<Offscreen> screenshot;
+        std::uint64_t screenshotStep = 0;
+    };
+
+    enum class Shown { nothing, moving, still };
+
+    void turn();
+    void handle(const Input& input);
+    void handle(Action action);
+    bool prepareSwapchain();
+    void draw(Plan plan, View& view);
+    void recordSteps(const Presenter::Frame& frame, const Plan& plan);
+    void recordScreenshot(const Presenter::Frame& frame);
+    void settle(std::uint32_t slot);
+    void settleAll();
+    void reportFiles(PictureWriter::Wait wait);
+
+    Window& window_;
+    const vk::Device& device_;
+    const Opening& opening_;
+    Controller controller_;
+    Stage stage_;
+    BoundsProbe probe_;
+    std::vector<vk::Timestamps> times_; // one a slot
+    Presenter presenter_;
+    View moving_;
+    std::optional<View> still_; // where `moving_` has less than full quality
+    std::array<InFlight, Presenter::framesInFlight> inFlight_;
+    PictureWriter writer_{1};
+    StatusLine status_;
+    Clock::time_point lastTurn_ = Clock::now(), lastChange_ = lastTurn_;
+    VkExtent2D pixels_{};
+    Shown shown_ = Shown::nothing;
+    bool isDiverged_ = false, isVsync_ = true, wantsScreenshot_ = false, wantsProbe_ = false;
+};
+
+} // namespace sinew::viewer

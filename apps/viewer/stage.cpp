@@ -1,0 +1,41 @@
+// Counts steps and turns status words into sentences.
+#include "viewer/stage.hpp"
+
+#include <algorithm>
+
+namespace sinew::viewer {
+
+std::string Divergence::sentence() const {
+    return "the simulation diverged: step " + std::to_string(step) + ", body \"" + body + "\", particle " +
+           std::to_string(firstParticle) + ": " + std::to_string(particles) +
+           (particles == 1 ? " particle is" : " particles are") +
+           " not finite, the last finite state was kept: use more substeps, a lower omega or a softer "
+           "material";
+}
+
+Stage::Stage(const vk::Device& device, sim::Scene scene, const sim::Settings& settings)
+    : scene_(std::move(scene)), simulation_(device, scene_, settings) {}
+
+void Stage::recordReset(VkCommandBuffer commands) noexcept {
+    simulation_.recordReset(commands);
+    steps_ = 0;
+}
+
+void Stage::recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps) noexcept {
+    simulation_.record(commands, {.dt = scene_.dt, .gravity = scene_.gravity, .frame = ++steps_}, timestamps);
+}
+
+std::optional<Divergence> Stage::check(std::uint64_t step) const {
+    const sim::Status status = simulation_.status(step);
+    if (status.nonFinite == 0 || status.frame != static_cast<std::uint32_t>(step)) return std::nullopt;
+    const auto holds = [&](const sim::Body& body) {
+        return status.firstBadParticle - body.firstParticle < body.particleCount;
+    };
+    const auto body = std::ranges::find_if(scene_.bodies, holds);
+    return Divergence{.step = step,
+                      .particles = status.nonFinite,
+                      .firstParticle = status.firstBadParticle,
+                      .body = body == scene_.bodies.end() ? scene_.name : body->name};
+}
+
+} // namespace sinew::viewer

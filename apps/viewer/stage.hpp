@@ -1,0 +1,46 @@
+// The scene on show: its simulation, how many steps it has taken, and whether it still makes sense.
+#pragma once
+
+#include "sim/simulation.hpp"
+#include "viewer/camera.hpp"
+
+namespace sinew::viewer {
+
+/// Where a simulation broke.
+struct Divergence {
+    std::uint64_t step = 0;
+    std::uint32_t particles = 0;     ///< with a non-finite state
+    std::uint32_t firstParticle = 0; ///< smallest index among them
+    std::string body;                ///< that it belongs to
+    /// "the simulation diverged: step 12, body "organ", particle 417: 3 particles are not finite ...: use
+    /// more ..."
+    std::string sentence() const;
+};
+
+/// Must not outlive its Device, which must not move.
+class Stage {
+public:
+    Stage(const vk::Device& device, sim::Scene scene, const sim::Settings& settings);
+
+    /// As those of sim::Simulation. A new stage must be reset once before its first step.
+    void recordReset(VkCommandBuffer commands) noexcept;
+    void recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps = nullptr) noexcept;
+    void recordSkin(VkCommandBuffer commands) noexcept { simulation_.recordSkin(commands); }
+
+    /// Taken since the reset.
+    std::uint64_t steps() const noexcept { return steps_; }
+
+    /// What a finished step found: nothing where all is well, or where a step after a reset has taken its
+    /// place. It must be one of the last Simulation::framesInFlight recorded.
+    std::optional<Divergence> check(std::uint64_t step) const;
+
+    const sim::Scene& scene() const noexcept { return scene_; }
+    const sim::Simulation& simulation() const noexcept { return simulation_; }
+
+private:
+    sim::Scene scene_;
+    sim::Simulation simulation_;
+    std::uint64_t steps_ = 0;
+};
+
+} // namespace sinew::viewer

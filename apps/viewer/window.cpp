@@ -1,0 +1,184 @@
+// GLFW's callbacks become Input.
+#include "viewer/window.hpp"
+
+#include "app/guard.hpp"
+#include "vk/check.hpp"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+namespace sinew::viewer {
+
+namespace {
+
+[[noreturn]] void failWithoutDisplay() {
+    const char* why = nullptr;
+    glfwGetError(&why);
+    throw app::Failure(app::noDevice, std::string("cannot open a window: no display: ") +
+                                          (why ? why : "unknown cause") +
+                                          ": use --headless --frames N --out DIR");
+}
+
+// Letters by what the layout prints on them, not by where they are on an American keyboard.
+int layoutKey(int key, int scancode) {
+    const char* name = glfwGetKeyName(key, scancode);
+    const bool isOneLetter = name != nullptr && name[0] != '\0' && name[1] == '\0';
+    return isOneLetter ? std::toupper(static_cast<unsigned char>(name[0])) : key;
+}
+
+} // namespace
+
+struct Window::State {
+    GLFWwindow* window = nullptr;
+    Input input;
+    std::optional<Action> dragged;
+    int dragButton = 0;
+    Vector2 cursor = Vector2::Zero();        // screen coordinates
+    int x = 0, y = 0, width = 0, height = 0; // of the window before full screen
+
+    static State& of(GLFWwindow* window) { return *static_cast<State*>(glfwGetWindowUserPointer(window)); }
+
+    float windowHeight() const {
+        int wide = 0, high = 0;
+        glfwGetWindowSize(window, &wide, &high);
+        return static_cast<float>(std::max(high, 1));
+    }
+
+    void onKey(int key, int scancode, int event, int modifiers) {
+        if (event == GLFW_RELEASE) return;
+        const auto action = actionFor({Trigger::Kind::key, layoutKey(key, scancode), modifiers});
+        if (action && (event == GLFW_PRESS || *action == Action::step)) input.actions.push_back(*action);
+    }
+
+    void onButton(int button, int event, int modifiers) {
+        if (event == GLFW_PRESS && !dragged) {
+            dragged = actionFor({Trigger::Kind::drag, button, modifiers});
+            dragButton = button;
+        } else if (event == GLFW_RELEASE && button == dragButton) {
+            dragged.reset();
+        }
+    }
+
+    void onMove(double toX, double toY) {
+        const Vector2 to(static_cast<float>(toX), static_cast<float>(toY));
+        if (dragged) input.drags.push_back({*dragged, (to - cursor) / windowHeight()});
+        cursor = to;
+    }
+
+    void onWheel(double notches) {
+        if (actionFor({Trigger::Kind::wheel}) == Action::zoom) input.notches += static_cast<float>(notches);
+    }
+
+    void listen() {
+        glfwSetWindowUserPointer(window, this);
+        glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int event, int modifiers) {
+            of(w).onKey(key, scancode, event, modifiers);
+        });
+        glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int event, int modifiers) {
+            of(w).onButton(button, event, modifiers);
+        });
+        glfwSetCursorPosCallback(window,
+                                 [](GLFWwindow* w, double toX, double toY) { of(w).onMove(toX, toY); });
+        glfwSetScrollCallback(window, [](GLFWwindow* w, double, double notches) { of(w).onWheel(notches); });
+        glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { of(w).input.needsRedraw = true; });
+        glfwSetFramebufferSizeCallback(window,
+                                       [](GLFWwindow* w, int, int) { of(w).input.needsRedraw = true; });
+    }
+};
+
+Window::Window(VkExtent2D size) : state_(std::make_unique<State>()) {
+    if (glfwInit() != GLFW_TRUE) failWithoutDisplay();
+    glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+    state_->window = glfwCreateWindow(static_cast<int>(size.width), static_cast<int>(size.height), "Sinew",
+                                      nullptr, nullptr);
+    if (state_->window == nullptr) {
+        const char* why = nullptr;
+        glfwGetError(&why);
+        const std::string reason = why ? why : "unknown cause";
+        glfwTerminate();
+        throw app::Failure(app::noDevice,
+                           "cannot open a window: " + reason + ": use --headless --frames N --out DIR");
+    }
+    state_->listen();
+}
+
+Window::~Window() {
+    glfwDestroyWindow(state_->window);
+    glfwTerminate();
+}
+
+std::vector<std::string> Window::surfaceExtensions() const {
+    std::uint32_t count = 0;
+    const char** names = glfwGetRequiredInstanceExtensions(&count);
+    if (names == nullptr)
+        throw app::Failure(app::noDevice,
+                           "cannot open a window: no Vulkan driver draws to this display: use --headless "
+                           "--frames N --out DIR");
+    return {names, names + count};
+}
+
+bool Window::canPresent(VkInstance instance, VkPhysicalDevice device, std::uint32_t family) {
+    return glfwGetPhysicalDevicePresentationSupport(instance, device, family) == GLFW_TRUE;
+}
+
+VkSurfaceKHR Window::createSurface(VkInstance instance) const {
+    VkSurfaceKHR surface = VK_NULL_HANDLE;
+    vk::check(glfwCreateWindowSurface(instance, state_->window, nullptr, &surface), "glfwCreateWindowSurface",
+              "the window");
+    return surface;
+}
+
+Input Window::poll(double seconds) {
+    if (seconds > 0)
+        glfwWaitEventsTimeout(seconds);
+    else
+        glfwPollEvents();
+    Input input = std::exchange(state_->input, {});
+    int width = 0, height = 0;
+    glfwGetWindowSize(state_->window, &width, &height);
+    input.pointer = (state_->cursor - 0.5f * Vector2(static_cast<float>(width), static_cast<float>(height))) /
+                    state_->windowHeight();
+    return input;
+}
+
+VkExtent2D Window::pixels() const {
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(state_->window, &width, &height);
+    const bool isHidden =
+        glfwGetWindowAttrib(state_->window, GLFW_ICONIFIED) == GLFW_TRUE || width <= 0 || height <= 0;
+    return isHidden ? VkExtent2D{}
+                    : VkExtent2D{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
+}
+
+bool Window::isClosing() const {
+    return glfwWindowShouldClose(state_->window) == GLFW_TRUE;
+}
+
+void Window::close() {
+    glfwSetWindowShouldClose(state_->window, GLFW_TRUE);
+}
+
+void Window::setTitle(const std::string& title) {
+    glfwSetWindowTitle(state_->window, title.c_str());
+}
+
+void Window::toggleFullScreen() {
+    State& state = *state_;
+    if (glfwGetWindowMonitor(state.window) != nullptr) {
+        glfwSetWindowMonitor(state.window, nullptr, state.x, state.y, state.width, state.height,
+                             GLFW_DONT_CARE);
+        return;
+    }
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
+    if (mode == nullptr) return;
+    glfwGetWindowPos(state.window, &state.x, &state.y);
+    glfwGetWindowSize(state.window, &state.width, &state.height);
+    glfwSetWindowMonitor(state.window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+} // namespace sinew::viewer

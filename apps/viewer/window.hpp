@@ -1,0 +1,59 @@
+// The window and what hands do in it, by GLFW. Knows no Vulkan device beyond making a surface for one.
+#pragma once
+
+#include "viewer/bindings.hpp"
+#include "viewer/geometry.hpp"
+#include "vk/device.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+struct GLFWwindow;
+
+namespace sinew::viewer {
+
+/// Since the last poll, as actions: GLFW's keys and buttons have been looked up in the table of bindings.
+struct Input {
+    struct Drag {
+        Action action;
+        Vector2 heights; ///< x right, y down, in window heights
+    };
+    std::vector<Action> actions;
+    std::vector<Drag> drags;
+    float notches = 0;                 ///< of the wheel, forwards positive
+    Vector2 pointer = Vector2::Zero(); ///< from the middle, x right, y down, in window heights
+    bool needsRedraw = false;          ///< resized or uncovered
+    bool isEmpty() const { return actions.empty() && drags.empty() && notches == 0 && !needsRedraw; }
+};
+
+/// One at a time; main thread only.
+class Window {
+public:
+    /// Throws app::Failure (noDevice) where there is no display.
+    explicit Window(VkExtent2D size);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    /// Instance extensions a device needs to draw here. Throws app::Failure (noDevice) where there are none.
+    std::vector<std::string> surfaceExtensions() const;
+    static bool canPresent(VkInstance instance, VkPhysicalDevice device, std::uint32_t family);
+    /// The caller destroys it. Throws vk::Error.
+    VkSurfaceKHR createSurface(VkInstance instance) const;
+
+    /// Handles waiting events; waits for the first one at most `seconds`.
+    Input poll(double seconds);
+
+    VkExtent2D pixels() const; ///< 0 x 0 while minimised
+    bool isClosing() const;
+    void close();
+    void setTitle(const std::string& title);
+    void toggleFullScreen();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace sinew::viewer
