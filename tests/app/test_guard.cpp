@@ -1,0 +1,80 @@
+// Every kind of failure has its exit code and one line on stderr.
+#include "app/guard.hpp"
+
+#include "mesh/export.hpp"
+#include "scenes/load.hpp"
+#include "vk/check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <new>
+
+using namespace sinew;
+
+namespace {
+
+struct Outcome {
+    int code;
+    std::string error;
+};
+
+Outcome outcomeOf(const std::function<int()>& body) {
+    testing::internal::CaptureStderr();
+    const int code = app::guarded(body);
+    return {code, testing::internal::GetCapturedStderr()};
+}
+
+template <typename Error> Outcome outcomeOf(const Error& error) {
+    return outcomeOf(std::function<int()>([&]() -> int { throw error; }));
+}
+
+void expect(const Outcome& outcome, int code, const std::string& error) {
+    EXPECT_EQ(outcome.code, code);
+    EXPECT_EQ(outcome.error, error);
+}
+
+} // namespace
+
+TEST(Guard, PassesAResultOn) {
+    expect(outcomeOf(std::function<int()>([] { return 0; })), 0, "");
+    expect(outcomeOf(std::function<int()>([] { return 130; })), 130, "");
+}
+
+TEST(Guard, GivesEveryFailureItsCodeAndOneLine) {
+    expect(outcomeOf(app::Failure(app::wrongUsage, "a: b")), 2, "error: a: b\n");
+    expect(outcomeOf(scenes::SceneError("a")), 3, "error: a\n");
+    expect(outcomeOf(mesh::ImportError("a")), 3, "error: a\n");
+    expect(outcomeOf(vk::Error(vk::Failure::noDevice, "a")), 4, "error: a\n");
+    expect(outcomeOf(vk::Error(vk::Failure::outOfMemory, "a")), 5, "error: a\n");
+    expect(outcomeOf(vk::Error(vk::Failure::deviceLost, "a")), 5, "error: a\n");
+    expect(outcomeOf(std::bad_alloc()), 5, "error: out of memory: make the scene smaller\n");
+    expect(outcomeOf(mesh::ExportError("a")), 6, "error: a\n");
+    expect(outcomeOf(app::Failure(app::diverged, "a")), 7, "error: a\n");
+    expect(outcomeOf(vk::Error(vk::Failure::misuse, "a")), 70, "error: a\n");
+    expect(outcomeOf(std::logic_error("a")), 70, "error: internal fault: a: please report it\n");
+    expect(outcomeOf(5), 70, "error: internal fault: an unknown exception: please report it\n");
+}
+
+TEST(Guard, KeepsAMessageOnOneLine) {
+    expect(outcomeOf(app::Failure(app::badInput, "a\nb\r\033[1mc\x7f")), 3, "error: a b  [1mc \n");
+}
+
+TEST(Signals, SetAFlagAndLetTheProcessGoOn) {
+    for (const int signal : {SIGINT, SIGTERM, SIGPIPE}) {
+        app::catchSignals();
+        EXPECT_FALSE(app::isInterrupted());
+        std::raise(signal);
+        EXPECT_TRUE(app::isInterrupted());
+    }
+}
+
+TEST(Signals, EndTheProcessTheSecondTime) {
+    EXPECT_EXIT(
+        {
+            app::catchSignals();
+            std::raise(SIGINT);
+            std::raise(SIGINT);
+        },
+        testing::KilledBySignal(SIGINT), "");
+}

@@ -1,0 +1,116 @@
+// Welding, counting defects, measuring, orienting.
+#include "mesh/triangle_mesh.hpp"
+
+#include "mesh/generate.hpp"
+#include "meshes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace sinew::mesh;
+using namespace sinew::mesh::test;
+
+namespace {
+
+const TriangleMesh unitBox = box({0, 0, 0}, {1, 1, 1});
+
+} // namespace
+
+TEST(Inspect, MeasuresABox) {
+    const MeshReport report = inspect(box({1, 2, 3}, {2, 4, 6}));
+    EXPECT_TRUE(report.defects.isClosed());
+    EXPECT_EQ(report.defects.flippedEdges, 0u);
+    EXPECT_NEAR(report.volume, 6, 1e-12);
+    EXPECT_NEAR(report.area, 2 * (2 + 3 + 6), 1e-12);
+    EXPECT_EQ(report.low.y, 2);
+    EXPECT_EQ(report.high.z, 6);
+}
+
+TEST(Inspect, KeepsItsDigitsFarFromTheOrigin) {
+    EXPECT_NEAR(inspect(box({65536, 65536, 65536}, {65537, 65537, 65537})).volume, 1, 1e-12);
+}
+
+TEST(Inspect, CountsTheEdgesOfAHole) {
+    TriangleMesh open = unitBox;
+    open.triangles.resize(10); // one side of the box gone
+    const MeshDefects defects = inspect(open).defects;
+    EXPECT_EQ(defects.boundaryEdges, 4u);
+    EXPECT_FALSE(defects.isClosed());
+}
+
+TEST(Inspect, CountsFlippedAndNonManifoldEdges) {
+    EXPECT_EQ(inspect(withFlipped(unitBox, 12)).defects.flippedEdges, 3u);
+    EXPECT_TRUE(inspect(withFlipped(unitBox, 12)).defects.isClosed());
+    TriangleMesh fin = unitBox;
+    fin.positions.push_back({0.5f, 0.5f, 3});
+    fin.triangles.push_back({4, 5, 8}); // on an edge that two triangles share already
+    EXPECT_EQ(inspect(fin).defects.nonManifoldEdges, 1u);
+    EXPECT_EQ(inspect(fin).defects.boundaryEdges, 2u);
+}
+
+TEST(Inspect, SaysNothingOfAnEmptyMesh) {
+    const MeshReport report = inspect({});
+    EXPECT_EQ(report.volume, 0);
+    EXPECT_TRUE(report.defects.isClosed());
+}
+
+TEST(Weld, JoinsVerticesOfEqualPosition) {
+    TriangleMesh soup = unwelded(unitBox);
+    soup.positions[0].x = -0.0f; // is 0
+    MeshDefects defects;
+    const TriangleMesh welded = weld(soup, defects);
+    EXPECT_EQ(welded.positions.size(), 8u);
+    EXPECT_EQ(welded.triangles.size(), 12u);
+    EXPECT_TRUE(defects.isClosed());
+    EXPECT_EQ(welded.name, "box");
+}
+
+TEST(Weld, KeepsWhatIsMerelyNear) {
+    TriangleMesh tiny = scaled(unwelded(generate("sphere", 16)), 1e-7f);
+    MeshDefects defects;
+    EXPECT_EQ(weld(tiny, defects).positions.size(), generate("sphere", 16).positions.size());
+    EXPECT_EQ(defects.degenerateTriangles, 0u);
+}
+
+TEST(Weld, DropsAndCountsDegenerateAndDuplicateTriangles) {
+    TriangleMesh mesh = unitBox;
+    mesh.triangles.push_back({0, 0, 1}); // a repeated vertex
+    mesh.positions.insert(mesh.positions.end(),
+                          {{0, 0, 0}, {0.5f, 0, 0}}); // a twin of 0; the middle of an edge
+    mesh.triangles.push_back({8, 1, 0});              // a repeated position
+    mesh.triangles.push_back({0, 9, 1});              // corners on a line
+    mesh.triangles.push_back({3, 0, 2});              // the first one again, rotated
+    mesh.triangles.push_back({0, 3, 2});              // the first one from behind: no duplicate
+    MeshDefects defects;
+    const TriangleMesh welded = weld(mesh, defects);
+    EXPECT_EQ(defects.degenerateTriangles, 3u);
+    EXPECT_EQ(defects.duplicateTriangles, 1u);
+    EXPECT_EQ(welded.triangles.size(), 13u);
+    EXPECT_EQ(welded.positions.size(), 8u) << "the vertex only a dropped triangle used stays";
+}
+
+TEST(Weld, ChangesNothingTheSecondTime) {
+    MeshDefects defects;
+    const TriangleMesh once = weld(unwelded(generate("organ", 16)), defects), twice = weld(once, defects);
+    EXPECT_EQ(once.triangles, twice.triangles);
+    ASSERT_EQ(once.positions.size(), twice.positions.size());
+    for (std::size_t i = 0; i < once.positions.size(); ++i)
+        EXPECT_EQ(once.positions[i].x, twice.positions[i].x);
+}
+
+TEST(Orient, TurnsFlippedTrianglesBack) {
+    const TriangleMesh organ = generate("organ", 16);
+    const MeshReport report = inspect(orient(withFlipped(organ, 7)));
+    EXPECT_EQ(report.defects.flippedEdges, 0u);
+    EXPECT_NEAR(report.volume, inspect(organ).volume, 1e-12);
+}
+
+TEST(Orient, TurnsAMeshThatIsInsideOut) {
+    EXPECT_NEAR(inspect(orient(withFlipped(unitBox, 1))).volume, 1, 1e-12);
+}
+
+TEST(Orient, LeavesACavityACavity) {
+    const TriangleMesh hollow = joined(box({0, 0, 0}, {3, 3, 3}), withFlipped(box({1, 1, 1}, {2, 2, 2}), 1));
+    EXPECT_NEAR(inspect(orient(hollow)).volume, 26, 1e-12);
+}

@@ -1,0 +1,188 @@
+// From the tables of a file to a scene.
+#include "scenes/load_fixture.hpp"
+
+#include "sim/validate.hpp"
+
+using namespace sinew;
+namespace fs = std::filesystem;
+using test::smallCloth;
+
+namespace {
+
+class Load : public test::LoadFixture {};
+
+} // namespace
+
+TEST_F(Load, ReadsEveryShippedScene) {
+    for (const char* name : {"cloth", "cube", "organ"}) {
+        const scenes::LoadedScene loaded =
+            scenes::load(fs::path(SINEW_SOURCE_FOLDER "/scenes") / (std::string(name) + ".toml"));
+        EXPECT_EQ(loaded.scene.name, name);
+        EXPECT_TRUE(sim::validate(loaded.scene, loaded.settings).empty());
+        EXPECT_TRUE(loaded.warnings.empty()) << name << ": " << loaded.warnings.front();
+        EXPECT_TRUE(loaded.camera.has_value());
+        EXPECT_GE(loaded.scene.particles.size(), 4000u);
+        EXPECT_LE(loaded.scene.particles.size(), 8000u);
+    }
+}
+
+TEST_F(Load, FindsTheSameSceneInsideTheProgram) {
+    const scenes::LoadedScene built = scenes::loadBuiltIn("cube");
+    const scenes::LoadedScene file = scenes::load(SINEW_SOURCE_FOLDER "/scenes/cube.toml");
+    EXPECT_EQ(built.scene.particles.size(), file.scene.particles.size());
+    EXPECT_EQ(built.scene.name, file.scene.name);
+    EXPECT_EQ(built.settings.substeps, file.settings.substeps);
+}
+
+TEST_F(Load, TakesEveryNumberOfAClothFromTheFile) {
+    const scenes::LoadedScene loaded =
+        load("name = \"n\"\ngravity = [1, 2, 3]\ndt = 0.01\ndamping = 0.5\n"
+             "[solver]\nname = \"jacobi\"\nsubsteps = 7\niterations = 3\nomega = 1.5\n"
+             "theta = 0.25\nweight = 0.5\nover_relaxation = 1.25\n" +
+             smallCloth +
+             "name = \"sheet\"\norigin = [1, 2, 3]\narea_density = 0.4\n"
+             "stretch_compliance = 1e-3\nshear_compliance = 2e-3\ncolor = [0.1, 0.2, 0.3]\n"
+             "[[plane]]\nnormal = [0, 0, 1]\noffset = -2\nfriction = 0.25\nrestitution = 0.75\n"
+             "[camera]\neye = [9, 8, 7]\ntarget = [6, 5, 4]\nfield_of_view = 55\n");
+    const sim::Scene& scene = loaded.scene;
+    EXPECT_EQ(scene.name, "n");
+    EXPECT_EQ(scene.gravity.z, 3);
+    EXPECT_EQ(scene.dt, 0.01f);
+    EXPECT_EQ(scene.damping, 0.5f);
+    EXPECT_EQ(loaded.settings.solver, sim::Solver::jacobi);
+    EXPECT_EQ(loaded.settings.substeps, 7u);
+    EXPECT_EQ(loaded.settings.iterations, 3u);
+    EXPECT_EQ(loaded.settings.omega, 1.5f);
+    EXPECT_EQ(loaded.settings.theta, 0.25f);
+    EXPECT_EQ(loaded.settings.weight, 0.5f);
+    EXPECT_EQ(loaded.settings.overRelaxation, 1.25f);
+    ASSERT_EQ(scene.particles.size(), 12u);
+    EXPECT_EQ(scene.particles[0].position.y, 2);
+    EXPECT_FLOAT_EQ(scene.particles[0].inverseMass, 1 / (0.4f * 0.1f * 0.1f / 4));
+    EXPECT_EQ(scene.bodies[0].name, "sheet");
+    EXPECT_EQ(scene.distances[0].compliance, 1e-3f);
+    EXPECT_EQ(scene.skins[0].color.z, 0.3f);
+    ASSERT_EQ(scene.planes.size(), 1u);
+    EXPECT_EQ(scene.planes[0].normal.z, 1);
+    EXPECT_EQ(scene.planes[0].offset, -2);
+    EXPECT_EQ(scene.planes[0].friction, 0.25f);
+    EXPECT_EQ(scene.planes[0].restitution, 0.75f);
+    ASSERT_TRUE(loaded.camera.has_value());
+    EXPECT_EQ(loaded.camera->eye.x, 9);
+    EXPECT_EQ(loaded.camera->target.y, 5);
+    EXPECT_EQ(loaded.camera->fieldOfView, 55);
+}
+
+TEST_F(Load, NamesASceneAfterItsFile) {
+    EXPECT_EQ(load(smallCloth).scene.name, "scene");
+}
+
+TEST_F(Load, PinsByNameAndByPair) {
+    const auto pinned = [&](const std::string& pins) {
+        std::vector<std::uint32_t> particles;
+        for (const sim::FixedConstraint& fixed : load(smallCloth + "pinned = " + pins + "\n").scene.fixed)
+            particles.push_back(fixed.particle);
+        return particles;
+    };
+    using List = std::vector<std::uint32_t>;
+    EXPECT_EQ(pinned("[\"first_row_start\", \"first_row_end\"]"), (List{0, 2}));
+    EXPECT_EQ(pinned("[\"last_row_start\", \"last_row_end\"]"), (List{9, 11}));
+    EXPECT_EQ(pinned("[\"first_row\"]"), (List{0, 1, 2}));
+    EXPECT_EQ(pinned("[\"last_row\"]"), (List{9, 10, 11}));
+    EXPECT_EQ(pinned("[\"first_column\"]"), (List{0, 3, 6, 9}));
+    EXPECT_EQ(pinned("[\"last_column\"]"), (List{2, 5, 8, 11}));
+    EXPECT_EQ(pinned("[[1, 2], \"first_row_start\", [0, 0]]"), (List{0, 7}));
+    EXPECT_EQ(pinned("[]"), List{});
+}
+
+TEST_F(Load, RefusesPinsThatTheSheetLacks) {
+    expectError(smallCloth + "pinned = [[3, 0]]\n",
+                "scene.toml:4: cloth[0].pinned has [3, 0], but the sheet has 3 columns and 4 rows");
+    expectError(smallCloth + "pinned = [[0, -1]]\n", "scene.toml:4: cloth[0].pinned has [0, -1]");
+    expectError(smallCloth + "pinned = [\"top\"]\n",
+                "scene.toml:4: cloth[0].pinned names \"top\": possible are first_row_start");
+    expectError(smallCloth + "pinned = [[0.5, 1]]\n",
+                "scene.toml:4: cloth[0].pinned is a list of 1: write a list of corner");
+}
+
+TEST_F(Load, RefusesSheetsThatAreNoRectangle) {
+    expectError(smallCloth + "right = [0.5, 0, 0]\n", "scene.toml:4: cloth[0].right has length 0.5");
+    expectError(smallCloth + "right = [0, 0, 1]\n", "scene.toml:1: cloth[0].down is not at right angles");
+}
+
+TEST_F(Load, PlacesABoxByCenterOrOrigin) {
+    const std::string box = "[[box]]\nparticles = [3, 5, 2]\nspacing = 0.5\n";
+    const sim::Scene centered = load(box + "center = [1, 2, 3]\n").scene,
+                     placed = load(box + "origin = [0.5, 1, 2.75]\n").scene;
+    ASSERT_EQ(centered.particles.size(), 30u);
+    EXPECT_EQ(centered.particles[0].position.x, 0.5f);
+    EXPECT_EQ(centered.particles[0].position.y, 1);
+    EXPECT_EQ(centered.particles[0].position.z, 2.75f);
+    EXPECT_EQ(centered.particles[29].position.y, placed.particles[29].position.y);
+    EXPECT_EQ(centered.skins.size(), 1u);
+    expectError(box, "scene.toml:1: box[0].center is missing: give center or origin");
+    expectError(box + "center = [0, 0, 0]\norigin = [0, 0, 0]\n",
+                "scene.toml:5: box[0].origin is given beside center");
+}
+
+TEST_F(Load, RefusesPlanesWithoutUnitNormal) {
+    expectError(smallCloth + "[[plane]]\nnormal = [0, 1, 1]\n",
+                "scene.toml:5: plane[0].normal has length 1.414");
+    expectError(smallCloth + "[[plane]]\nnormal = [0, 0, 0]\n",
+                "scene.toml:5: plane[0].normal has length 0.0");
+}
+
+TEST_F(Load, RefusesWhatTheSimulationCannotTake) {
+    expectError("[solver]\nomega = 3.9\n" + smallCloth,
+                "scene.toml: settings.omega: is 3.9, but split is stable only below");
+    std::string planes;
+    for (int i = 0; i < 33; ++i) planes += "[[plane]]\n";
+    expectError(smallCloth + planes, "scene.toml: planes: are 33, at most 32 are possible");
+    expectError("[solver]\nname = \"magic\"\n" + smallCloth,
+                "scene.toml: no solver is called \"magic\": possible are jacobi, split");
+    expectError("", "scene.toml: has no body: add [[cloth]], [[box]] or [[mesh]]");
+    expectError("[[box]]\nparticles = [4096, 4096, 4096]\nspacing = 1\ncenter = [0, 0, 0]\n",
+                "scene.toml:2: box[0].particles brings the scene to 68719476736 particles: at most 2000000");
+}
+
+TEST_F(Load, WarnsOfOddSizes) {
+    const auto warnings = [&](const std::string& spacing) {
+        return load("[[cloth]]\nsize = [2, 2]\nspacing = " + spacing + "\n").warnings;
+    };
+    EXPECT_TRUE(warnings("1").empty());
+    ASSERT_EQ(warnings("1001").size(), 1u);
+    EXPECT_EQ(warnings("1001")[0], "body \"cloth\" is larger than 1 km: lengths are in metres");
+    ASSERT_EQ(warnings("9e-5").size(), 1u);
+    EXPECT_EQ(warnings("9e-5")[0], "body \"cloth\" is smaller than 0.1 mm: lengths are in metres");
+}
+
+TEST_F(Load, SaysHowManySubstepsAStiffBodyNeeds) {
+    const std::string box =
+        "[[box]]\nparticles = [4, 4, 4]\nspacing = 0.02\ncenter = [0, 1, 0]\nyoung_modulus = 2e7\n";
+    const std::vector<std::string> warnings = load(box).warnings;
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find(" elastic links are softer than asked"), std::string::npos);
+    // A particle on an edge of the box has mass m / 4, 9 links, and one diagonal as stiff as an inner one:
+    // 0.4 E a h^2 <= omega m / 72, so 1/60 s sqrt(14.4 E / density) / spacing = 447.2 substeps.
+    EXPECT_NE(warnings[0].find(": 448 substeps would be exact"), std::string::npos) << warnings[0];
+    EXPECT_TRUE(scenes::load(write("scene.toml", box), {.substeps = 448}).warnings.empty());
+    EXPECT_TRUE(scenes::load(write("scene.toml", box), {.solver = "jacobi"}).warnings.empty());
+}
+
+TEST_F(Load, LetsTheCommandLineHaveItsSay) {
+    const scenes::LoadedScene loaded =
+        scenes::load(write("scene.toml", smallCloth),
+                     {.solver = "jacobi", .substeps = 9, .iterations = 5, .dt = 0.02f, .isReversed = true});
+    EXPECT_EQ(loaded.settings.solver, sim::Solver::jacobi);
+    EXPECT_EQ(loaded.settings.substeps, 9u);
+    EXPECT_EQ(loaded.settings.iterations, 5u);
+    EXPECT_EQ(loaded.scene.dt, 0.02f);
+    EXPECT_TRUE(loaded.settings.isReversed);
+    const std::string mesh = "[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\nvoxel = 0.5\n";
+    EXPECT_EQ(scenes::load(write("scene.toml", mesh), {.voxel = 0.25f}).meshes[0].voxels.spacing, 0.25f);
+    EXPECT_NE(
+        errorOf(write("scene.toml", smallCloth), {.solver = "magic"}).find("--solver: no solver is called"),
+        std::string::npos);
+    EXPECT_EQ(errorOf(write("scene.toml", smallCloth), {.substeps = 0}),
+              "scene.toml: settings.substeps: is 0, must be from 1 to 1000: correct this");
+}

@@ -1,0 +1,11 @@
+#version 460
+// Writes down which item every invocation works on.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+
+layout(std430, binding = 0) writeonly buffer Items { uint items[]; };
+layout(push_constant) uniform Push { CountPush push; };
+
+void main() {
+    if (gl_GlobalInvocationID.x < push.count) items[gl_GlobalInvocationID.x] = itemIndex(push.count);
+}

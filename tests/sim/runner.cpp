@@ -1,0 +1,84 @@
+// Submits one command buffer a step and waits.
+#include "sim/runner.hpp"
+
+#include "sim/program.hpp"
+
+#include <cstdlib>
+
+namespace sinew::test {
+
+namespace {
+
+using Vec4 = std::array<float, 4>;
+
+// On a software device small scenes are several times faster without a thread pool. Whoever sets the variable
+// wins.
+[[maybe_unused]] const bool hasThreadDefault = setenv("LP_NUM_THREADS", "0", 0) == 0;
+
+std::vector<Eigen::Vector3d> download(const vk::BufferView& view, std::size_t count) {
+    std::vector<Eigen::Vector3d> result;
+    for (const Vec4& element : queue().download<Vec4>(view)) {
+        if (result.size() == count) break; // a buffer is never empty
+        result.emplace_back(double{element[0]}, double{element[1]}, double{element[2]});
+    }
+    return result;
+}
+
+} // namespace
+
+Runner::Runner(const sim::Scene& scene, const sim::Settings& settings)
+    : simulation_(device(), scene, settings), dt_(scene.dt), gravity_(scene.gravity) {
+    reset();
+}
+
+void Runner::reset() {
+    const VkCommandBuffer commands = queue().begin();
+    simulation_.recordReset(commands);
+    queue().wait(queue().submit(commands));
+    frame_ = 0;
+}
+
+sim::Status Runner::step(float dt) {
+    const VkCommandBuffer commands = queue().begin();
+    simulation_.record(commands, {.dt = dt, .gravity = gravity_, .frame = frame_});
+    queue().wait(queue().submit(commands));
+    return simulation_.status(frame_++);
+}
+
+sim::Status Runner::run(int steps) {
+    sim::Status status;
+    for (int s = 0; s < steps; ++s) status = step(dt_);
+    return status;
+}
+
+void Runner::skin() {
+    const VkCommandBuffer commands = queue().begin();
+    simulation_.recordSkin(commands);
+    queue().wait(queue().submit(commands));
+}
+
+std::vector<Eigen::Vector3d> Runner::positions() const {
+    return download(simulation_.positions(), simulation_.program().particleCount);
+}
+
+std::vector<Eigen::Vector3d> Runner::velocities() const {
+    return download(simulation_.velocities(), simulation_.program().particleCount);
+}
+
+std::vector<float> Runner::inverseMasses() const {
+    std::vector<float> result;
+    for (const Vec4& element : queue().download<Vec4>(simulation_.positions())) result.push_back(element[3]);
+    result.resize(simulation_.program().particleCount);
+    return result;
+}
+
+std::uint64_t Runner::stateHash() const {
+    std::uint64_t hash = 14695981039346656037u;
+    for (const vk::BufferView& view : {simulation_.positions(), simulation_.velocities()}) {
+        for (const std::uint8_t byte : queue().download<std::uint8_t>(view))
+            hash = (hash ^ byte) * 1099511628211u;
+    }
+    return hash;
+}
+
+} // namespace sinew::test

@@ -1,0 +1,36 @@
+// A Simulation on the shared device, stepped and read back one step at a time.
+#pragma once
+
+#include "sim/simulation.hpp"
+#include "support/device.hpp"
+
+#include <Eigen/Core>
+
+namespace sinew::test {
+
+class Runner {
+public:
+    /// Uploads the initial state.
+    explicit Runner(const sim::Scene& scene, const sim::Settings& settings = {});
+
+    /// One step under the scene's gravity; waits for it.
+    sim::Status step(float dt);
+    /// Steps of the scene's dt; returns the status of the last.
+    sim::Status run(int steps);
+    void reset();
+    void skin();
+
+    std::vector<Eigen::Vector3d> positions() const;  ///< [m]
+    std::vector<Eigen::Vector3d> velocities() const; ///< [m/s]
+    std::vector<float> inverseMasses() const;        ///< as the public state has them [1/kg]
+    std::uint64_t stateHash() const;                 ///< FNV-1a over the bits of the public state
+    sim::Simulation& simulation() { return simulation_; }
+
+private:
+    sim::Simulation simulation_;
+    float dt_;
+    sim::Vec3 gravity_;
+    std::uint64_t frame_ = 0;
+};
+
+} // namespace sinew::test

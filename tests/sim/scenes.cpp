@@ -1,0 +1,133 @@
+// Builders of the shared scenes.
+#include "sim/scenes.hpp"
+
+#include "sim/bodies.hpp"
+#include "sim/compile.hpp"
+
+#include <algorithm>
+#include <ostream>
+#include <random>
+
+namespace sinew::sim {
+
+void PrintTo(Solver solver, std::ostream* stream) {
+    *stream << solverName(solver);
+}
+
+} // namespace sinew::sim
+
+namespace sinew::test {
+
+using namespace sim;
+
+Scene chain(std::uint32_t count, const ChainLinks& links) {
+    Scene scene{.name = "chain of " + std::to_string(count)};
+    for (std::uint32_t i = 0; i < count; ++i) {
+        scene.particles.push_back({.position = {0.1f * static_cast<float>(i), 0.5f, 0},
+                                   .inverseMass = 1 + 0.25f * static_cast<float>(i % 5)});
+        if (i == 0) continue;
+        const bool isRigid = links.isEverySecond && i % 2 == 0;
+        scene.distances.push_back({i - 1, i, 0.1f, isRigid ? 0 : links.compliance});
+    }
+    return scene;
+}
+
+Scene block(std::uint32_t cells, float spacing, float youngModulus, float height) {
+    Scene scene{.name = "block of " + std::to_string(cells)};
+    const Lattice lattice{.name = "block",
+                          .origin = {0, height, 0},
+                          .cells = {cells, cells, cells},
+                          .spacing = spacing,
+                          .youngModulus = youngModulus};
+    const LatticeCorners corners = addLattice(scene, lattice);
+    addLatticeSkin(scene, lattice, corners, {0.5f, 0.5f, 0.5f});
+    return scene;
+}
+
+Scene sheet(std::uint32_t size, float compliance) {
+    Scene scene{.name = "sheet of " + std::to_string(size)};
+    addCloth(scene, {.origin = {0, 1, 0},
+                     .size = {size, size},
+                     .spacing = 0.1f,
+                     .stretchCompliance = compliance,
+                     .shearCompliance = 10 * compliance,
+                     .pinned = {0, size - 1}});
+    return scene;
+}
+
+Scene particleAt(Vec3 position, Vec3 velocity) {
+    Scene scene{.name = "particle"};
+    scene.particles.push_back({.position = position, .velocity = velocity});
+    return scene;
+}
+
+void disturb(Scene& scene, float distance, float speed) {
+    std::mt19937 random(42);
+    const auto within = [&random](float bound) {
+        // Not std::uniform_real_distribution: its values differ from library to library.
+        return bound * (static_cast<float>(random() >> 8) / 8388608.0f - 1);
+    };
+    for (Particle& particle : scene.particles) {
+        for (float* x : {&particle.position.x, &particle.position.y, &particle.position.z})
+            *x += within(distance);
+        for (float* v : {&particle.velocity.x, &particle.velocity.y, &particle.velocity.z})
+            *v += within(speed);
+    }
+}
+
+void addRoom(Scene& scene) {
+    if (scene.particles.empty()) return;
+    float lowest = scene.particles[0].position.y;
+    for (std::size_t i = 0; i < scene.particles.size(); ++i) {
+        lowest = std::min(lowest, scene.particles[i].position.y);
+        scene.particles[i].contactOffset = 0.002f * static_cast<float>(i % 3) - 0.002f;
+    }
+    scene.planes.push_back(
+        {.normal = {0, 1, 0}, .offset = lowest + 0.01f, .friction = 0.4f, .restitution = 0.6f});
+    const Vec3 normal{0.8f, 0.6f, 0};
+    const Vec3& first = scene.particles[0].position;
+    scene.planes.push_back({.normal = normal,
+                            .offset = normal.x * first.x + normal.y * first.y + 0.01f,
+                            .friction = 0.1f,
+                            .restitution = 0});
+}
+
+Eigen::Vector3d toVector(const Vec3& v) {
+    return {double{v.x}, double{v.y}, double{v.z}};
+}
+
+double sizeOf(const Scene& scene) {
+    if (scene.particles.empty()) return 0.1;
+    Eigen::Vector3d low = toVector(scene.particles[0].position), high = low;
+    for (const Particle& particle : scene.particles) {
+        low = low.cwiseMin(toVector(particle.position));
+        high = high.cwiseMax(toVector(particle.position));
+    }
+    return std::max(0.1, (high - low).norm());
+}
+
+double massOf(const Scene& scene) {
+    double mass = 0;
+    for (const Particle& particle : scene.particles) {
+        if (particle.inverseMass > 0) mass += 1 / double{particle.inverseMass};
+    }
+    return mass;
+}
+
+std::vector<NamedScene> allScenes() {
+    std::vector<NamedScene> scenes{{"empty", {}},
+                                   {"particle", particleAt({0, 1, 0})},
+                                   {"rigid_chain", chain(65)},
+                                   {"compliant_chain", chain(9, {1e-4f})},
+                                   {"mixed_chain", chain(9, {1e-4f, true})},
+                                   {"block", block(3, 0.1f, 1e5f)},
+                                   {"sheet", sheet(8)}};
+    const std::size_t kinds = scenes.size();
+    for (std::size_t k = 1; k < kinds; ++k) {
+        scenes.push_back({scenes[k].name + "_in_a_room", scenes[k].scene});
+        addRoom(scenes.back().scene);
+    }
+    return scenes;
+}
+
+} // namespace sinew::test

@@ -1,0 +1,152 @@
+// planBarriers against a brute-force oracle: on random lists of passes and on the programs of real scenes.
+#include "sim/compile.hpp"
+#include "sim/scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+using namespace sinew;
+using namespace sinew::sim;
+
+namespace {
+
+// What a pass reads and writes, a bit a buffer; at most 64 buffers.
+struct Footprint {
+    std::uint64_t reads = 0, writes = 0;
+};
+
+Footprint footprint(const Pass& pass) {
+    Footprint result;
+    for (const BufferUse& use : pass.uses) {
+        const std::uint64_t bit = std::uint64_t{1} << use.buffer.index;
+        if (use.access != vk::Access::write) result.reads |= bit;
+        if (use.access != vk::Access::read) result.writes |= bit;
+    }
+    return result;
+}
+
+// Read after write, write after write, write after read.
+bool conflict(const Footprint& first, const Footprint& second) {
+    return ((first.writes & (second.reads | second.writes)) | (first.reads & second.writes)) != 0;
+}
+
+// Whether two passes of a run without a barrier inside depend on each other.
+bool hasHazard(std::span<const Footprint> run) {
+    for (std::size_t j = 1; j < run.size(); ++j) {
+        for (std::size_t i = 0; i < j; ++i) {
+            if (conflict(run[i], run[j])) return true;
+        }
+    }
+    return false;
+}
+
+// The runs between the barriers.
+std::vector<std::span<const Footprint>> runs(std::span<const Footprint> footprints,
+                                             const std::vector<bool>& barriers) {
+    std::vector<std::span<const Footprint>> result;
+    std::size_t first = 0;
+    for (std::size_t p = 1; p <= footprints.size(); ++p) {
+        if (p < footprints.size() && !barriers[p]) continue;
+        result.push_back(footprints.subspan(first, p - first));
+        first = p;
+    }
+    return result;
+}
+
+// The smallest number of barriers that leaves no hazard, by dynamic programming over the last run.
+std::size_t fewestBarriers(std::span<const Footprint> footprints) {
+    std::vector<std::size_t> fewest(footprints.size() + 1, footprints.size());
+    fewest[0] = 0;
+    for (std::size_t end = 1; end <= footprints.size(); ++end) {
+        for (std::size_t first = 0; first < end; ++first) {
+            if (hasHazard(footprints.subspan(first, end - first))) continue;
+            fewest[end] = std::min(fewest[end], fewest[first] + (first > 0));
+        }
+    }
+    return fewest[footprints.size()];
+}
+
+std::vector<Footprint> footprintsOf(std::span<const Pass> passes) {
+    std::vector<Footprint> result;
+    for (const Pass& pass : passes) result.push_back(footprint(pass));
+    return result;
+}
+
+std::vector<bool> barriersOf(std::span<const Pass> passes) {
+    std::vector<bool> result;
+    for (const Pass& pass : passes) result.push_back(pass.barrierBefore);
+    return result;
+}
+
+// No run has a hazard inside, and without any one barrier there would be one.
+void expectSafeAndNeeded(std::span<const Pass> passes) {
+    const std::vector<Footprint> footprints = footprintsOf(passes);
+    std::vector<bool> barriers = barriersOf(passes);
+    for (const auto& run : runs(footprints, barriers)) ASSERT_FALSE(hasHazard(run)) << "a barrier is missing";
+    ASSERT_FALSE(!barriers.empty() && barriers[0]) << "nothing comes before the first pass";
+    for (std::size_t p = 1; p < barriers.size(); ++p) {
+        if (!barriers[p]) continue;
+        barriers[p] = false;
+        const auto merged = runs(footprints, barriers);
+        ASSERT_TRUE(std::any_of(merged.begin(), merged.end(), hasHazard)) << "nobody needs barrier " << p;
+        barriers[p] = true;
+    }
+}
+
+std::vector<Pass> randomPasses(std::mt19937& random, std::uint32_t buffers) {
+    std::vector<Pass> passes(random() % 24);
+    for (Pass& pass : passes) {
+        pass.barrierBefore = random() % 2 == 0; // left over from an earlier plan
+        pass.uses.resize(random() % 5);
+        for (BufferUse& use : pass.uses) {
+            use = {{static_cast<std::uint32_t>(random() % buffers)},
+                   static_cast<vk::Access>(1 + random() % 3)};
+        }
+    }
+    return passes;
+}
+
+} // namespace
+
+TEST(Barriers, AreSafeNeededAndFewestOnTwentyThousandRandomLists) {
+    std::mt19937 random(2024);
+    std::size_t barriers = 0;
+    for (int list = 0; list < 20000; ++list) {
+        const auto buffers = static_cast<std::uint32_t>(1 + random() % 12);
+        std::vector<Pass> passes = randomPasses(random, buffers);
+        planBarriers(passes, buffers);
+        ASSERT_NO_FATAL_FAILURE(expectSafeAndNeeded(passes)) << "list " << list;
+        const auto planned = barriersOf(passes);
+        const auto count = static_cast<std::size_t>(std::count(planned.begin(), planned.end(), true));
+        ASSERT_EQ(count, fewestBarriers(footprintsOf(passes))) << "list " << list;
+        barriers += count;
+    }
+    EXPECT_GT(barriers, 20000u) << "the lists are too tame to show anything";
+}
+
+TEST(Barriers, AreSafeAndNeededInTheProgramsOfAllScenes) {
+    for (const test::NamedScene& named : test::allScenes()) {
+        for (const Solver solver : {Solver::jacobi, Solver::split}) {
+            for (const std::uint32_t substeps : {1u, 2u, 5u}) {
+                const Settings settings{.solver = solver, .substeps = substeps, .iterations = 3};
+                const StepProgram program = compile(named.scene, settings);
+                SCOPED_TRACE(named.name + " " + solverName(solver) + " x" + std::to_string(substeps));
+                ASSERT_LE(program.buffers.size(), 64u);
+                ASSERT_NO_FATAL_FAILURE(expectSafeAndNeeded(program.step));
+                ASSERT_NO_FATAL_FAILURE(expectSafeAndNeeded(program.skin));
+            }
+        }
+    }
+}
+
+TEST(Barriers, OfSplitAreOneASubstepAndThreeAround) {
+    const auto count = [](std::uint32_t substeps) {
+        const StepProgram program = compile(test::block(3, 0.1f, 1e5f), {.substeps = substeps});
+        const auto barriers = barriersOf(program.step);
+        return std::count(barriers.begin(), barriers.end(), true);
+    };
+    EXPECT_EQ(count(2), 4); // one before each substep, one before measuring, one before publishing
+    EXPECT_EQ(count(32) - count(2), 30);
+}

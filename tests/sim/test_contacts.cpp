@@ -1,0 +1,151 @@
+// Boundary planes on the device: rest, restitution, friction (analytic cases 16 to 18).
+#include "sim/compile.hpp"
+#include "sim/runner.hpp"
+#include "sim/scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+using namespace sinew;
+using namespace sinew::sim;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double g = 9.81;
+
+class Contact : public testing::TestWithParam<Solver> {
+protected:
+    Settings settings(std::uint32_t substeps = 10) const {
+        return {.solver = GetParam(), .substeps = substeps};
+    }
+};
+
+// A particle at rest on a plane through the origin that falls towards +x at `degrees`, friction 0.5.
+Scene onIncline(double degrees, const Vec3& velocity = {}) {
+    const double angle = degrees * std::numbers::pi / 180;
+    Scene scene = test::particleAt({0, 0, 0}, velocity);
+    scene.planes = {{.normal = {static_cast<float>(std::sin(angle)), static_cast<float>(std::cos(angle)), 0},
+                     .friction = 0.5f}};
+    return scene;
+}
+
+struct Heights {
+    double lowest = 0, highest = 0, mean = 0;
+};
+
+Heights heightsOf(const std::vector<Vector3d>& x) {
+    const auto isLower = [](const Vector3d& a, const Vector3d& b) { return a.y() < b.y(); };
+    const auto [low, high] = std::minmax_element(x.begin(), x.end(), isLower);
+    Heights heights{.lowest = low->y(), .highest = high->y()};
+    for (const Vector3d& p : x) heights.mean += p.y() / static_cast<double>(x.size());
+    return heights;
+}
+
+} // namespace
+
+TEST_P(Contact, StopsAFallingParticleAtItsOffset) {
+    Scene scene = test::particleAt({0, 0.5f, 0}, {0, -1, 0});
+    scene.particles[0].contactOffset = 0.02f;
+    scene.planes = {{.offset = 0.1f}};
+    test::Runner runner(scene, settings());
+    runner.run(120);
+    EXPECT_NEAR(runner.positions()[0].y(), 0.12, 1e-6);
+    EXPECT_LE(runner.velocities()[0].norm(), g / 600) << "at most what gravity adds in a substep";
+}
+
+// Case 16: rebound to e^2 h_0, at 600 substeps a second.
+TEST_P(Contact, ReboundsToTheHeightOfItsRestitution) {
+    for (const double restitution : {0.0, 0.5, 1.0}) {
+        Scene scene = test::particleAt({0, 1, 0});
+        scene.planes = {{.restitution = static_cast<float>(restitution)}};
+        test::Runner runner(scene, settings());
+        runner.run(27); // the fall takes 0.4515 s
+        double apex = 0;
+        for (int step = 27; step < 80; ++step) {
+            runner.run(1);
+            apex = std::max(apex, runner.positions()[0].y());
+        }
+        const double expected = restitution * restitution;
+        EXPECT_NEAR(apex, expected, 0.02 * std::max(expected, 0.05)) << "e = " << restitution;
+    }
+}
+
+TEST_P(Contact, NeverReboundsHigherThanItFell) {
+    Scene scene = test::particleAt({0, 0.3f, 0});
+    scene.planes = {{.restitution = 1}};
+    test::Runner runner(scene, settings());
+    for (int step = 0; step < 300; ++step) {
+        runner.run(1);
+        ASSERT_LE(runner.positions()[0].y(), 0.3 * 1.001);
+        ASSERT_GE(runner.positions()[0].y(), -1e-6);
+    }
+}
+
+// Case 17: sticks up to atan 0.5 = 26.57 degrees, within one degree.
+TEST_P(Contact, SticksOnAnInclineBelowTheFrictionAngle) {
+    test::Runner runner(onIncline(25.6), settings());
+    runner.run(120);
+    EXPECT_LE(runner.positions()[0].norm(), 2e-4) << "creep of 1e-4 m/s in 2 s";
+}
+
+TEST_P(Contact, SlidesOnAnInclineAboveTheFrictionAngle) {
+    for (const double degrees : {27.5, 35.0}) {
+        test::Runner runner(onIncline(degrees), settings());
+        runner.run(120);
+        const double angle = degrees * std::numbers::pi / 180;
+        const double path = g * (std::sin(angle) - 0.5 * std::cos(angle)) * 2 * 2 / 2;
+        EXPECT_NEAR(runner.positions()[0].norm() / path, 1, 0.01) << degrees << " degrees";
+    }
+}
+
+// Case 18: d = v^2 / (2 mu g).
+TEST_P(Contact, SlidesToAStopWhereFrictionSays) {
+    test::Runner runner(onIncline(0, {2, 0, 0}), settings());
+    runner.run(90);
+    EXPECT_NEAR(runner.positions()[0].x() / (4 / (2 * 0.5 * g)), 1, 0.01);
+    EXPECT_LE(std::abs(runner.velocities()[0].x()), 1e-5);
+}
+
+TEST_P(Contact, SlidesForEverWithoutFriction) {
+    Scene scene = onIncline(0, {2, 0, 0});
+    scene.planes[0].friction = 0;
+    test::Runner runner(scene, settings());
+    runner.run(60);
+    EXPECT_NEAR(runner.positions()[0].x(), 2, 1e-4);
+}
+
+TEST_P(Contact, HoldsAParticleInACornerOfThreePlanes) {
+    Scene scene = test::particleAt({0.2f, 0.4f, 0.3f}, {-3, 0, -2});
+    scene.planes = {{.normal = {1, 0, 0}, .restitution = 0.5f},
+                    {.normal = {0, 1, 0}, .friction = 0.3f, .restitution = 0.5f},
+                    {.normal = {0, 0, 1}, .restitution = 0.5f}};
+    test::Runner runner(scene, settings());
+    for (int step = 0; step < 120; ++step) {
+        runner.run(1);
+        ASSERT_GE(runner.positions()[0].minCoeff(), -1e-6) << "step " << step;
+    }
+}
+
+TEST(RestingCube, KeepsItsHeightWithinOnePercentAfterFourSeconds) {
+    constexpr std::uint32_t cells = 8;
+    constexpr double side = 0.4;
+    Scene scene = test::block(cells, static_cast<float>(side / cells), 1e6f, 0.05f);
+    scene.planes = {{.friction = 0.5f}};
+    scene.damping = 2;
+    test::Runner runner(scene);
+    ASSERT_EQ(runner.run(240).nonFinite, 0u);
+    const Heights heights = heightsOf(runner.positions());
+    EXPECT_NEAR((heights.highest - heights.lowest) / side, 1, 0.01);
+    EXPECT_NEAR(heights.lowest, 0, 0.01 * side);
+    EXPECT_NEAR(heights.mean / (side / 2), 1, 0.01);
+    double fastest = 0;
+    for (const Vector3d& v : runner.velocities()) fastest = std::max(fastest, v.norm());
+    EXPECT_LE(fastest, 0.01) << "[m/s]";
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Contact, testing::Values(Solver::jacobi, Solver::split),
+                         [](const auto& parameter) { return solverName(parameter.param); });

@@ -1,0 +1,104 @@
+// The same bits from run to run, after a reset, and with every kernel's invocations in reversed order. How
+// many threads a software device uses is fixed for a process: compare_thread_counts.cmake runs this binary
+// once for each.
+#include "sim/compile.hpp"
+#include "sim/gpu_executor.hpp"
+#include "sim/runner.hpp"
+#include "sim/scenes.hpp"
+#include "sim_test_kernels.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cinttypes>
+
+using namespace sinew;
+using namespace sinew::sim;
+
+namespace {
+
+constexpr int steps = 20;
+
+// Several work groups each, falling onto planes with friction and restitution.
+std::vector<test::NamedScene> scenes() {
+    std::vector<test::NamedScene> result{{"block", test::block(6, 0.05f, 1e5f)},
+                                         {"sheet", test::sheet(16, 1e-5f)},
+                                         {"chain", test::chain(300, {1e-4f, true})}};
+    for (test::NamedScene& named : result) {
+        test::addRoom(named.scene);
+        test::disturb(named.scene, 0.01f, 1);
+        named.scene.damping = 0.1f;
+    }
+    return result;
+}
+
+class Determinism : public testing::TestWithParam<Solver> {
+protected:
+    Settings settings(bool isReversed = false) const {
+        return {.solver = GetParam(), .substeps = 9, .iterations = 2, .isReversed = isReversed};
+    }
+};
+
+std::uint64_t hashOfRun(const Scene& scene, const Settings& settings) {
+    test::Runner runner(scene, settings);
+    EXPECT_EQ(runner.run(steps).nonFinite, 0u);
+    return runner.stateHash();
+}
+
+// The item of every invocation of a kernel of ours, as a program runs it.
+std::vector<std::uint32_t> itemsOf(bool isReversed, std::uint32_t count) {
+    ProgramBuilder builder(isReversed);
+    const BufferId items = builder.scratch<std::uint32_t>("items", count);
+    builder.beginPhase("solve");
+    builder.dispatch(test::kernels::itemIndex, count, {items}, count);
+    const StepProgram program = builder.finish();
+    GpuExecutor executor(test::device(), program);
+    const VkCommandBuffer buffer = test::queue().begin();
+    vk::Commands commands(test::device(), buffer);
+    executor.upload(commands);
+    executor.step(commands, {}, nullptr);
+    test::queue().wait(test::queue().submit(buffer));
+    return test::queue().download<std::uint32_t>(executor.view(items));
+}
+
+} // namespace
+
+TEST(Reversal, RunsTheItemsBackwards) {
+    constexpr std::uint32_t count = 300; // the last group is partly idle
+    const auto forwards = itemsOf(false, count), backwards = itemsOf(true, count);
+    ASSERT_EQ(backwards.size(), count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        EXPECT_EQ(forwards[i], i);
+        EXPECT_EQ(backwards[i], count - 1 - i);
+    }
+}
+
+TEST_P(Determinism, ThreeRunsEndInTheSameBits) {
+    for (const test::NamedScene& named : scenes()) {
+        const std::uint64_t hash = hashOfRun(named.scene, settings());
+        EXPECT_EQ(hashOfRun(named.scene, settings()), hash) << named.name;
+        EXPECT_EQ(hashOfRun(named.scene, settings()), hash) << named.name;
+        // For compare_thread_counts.cmake.
+        std::printf("state_hash %s %s %016" PRIx64 "\n", named.name.c_str(), solverName(GetParam()), hash);
+    }
+}
+
+TEST_P(Determinism, ReversedInvocationsEndInTheSameBits) {
+    for (const test::NamedScene& named : scenes()) {
+        EXPECT_EQ(hashOfRun(named.scene, settings(true)), hashOfRun(named.scene, settings())) << named.name;
+    }
+}
+
+TEST_P(Determinism, ARunAfterAResetEndsInTheSameBits) {
+    for (const test::NamedScene& named : scenes()) {
+        test::Runner runner(named.scene, settings());
+        runner.run(steps);
+        const std::uint64_t hash = runner.stateHash();
+        runner.reset();
+        EXPECT_NE(runner.stateHash(), hash) << named.name;
+        runner.run(steps);
+        EXPECT_EQ(runner.stateHash(), hash) << named.name;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Determinism, testing::Values(Solver::jacobi, Solver::split),
+                         [](const auto& parameter) { return solverName(parameter.param); });

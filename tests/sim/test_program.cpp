@@ -1,0 +1,268 @@
+// Step programs without a device: what the builder refuses, what a scene adds, and the printed form.
+#include "kernels.hpp"
+#include "sim/compile.hpp"
+#include "sim/scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+using namespace sinew;
+using namespace sinew::sim;
+
+namespace {
+
+using Vec4 = std::array<float, 4>;
+using Words = std::array<std::uint32_t, 12>; // as large as the step parameters
+
+// What predict.comp takes: two lists of vec4, the step parameters, and a count as push constant.
+struct Predict {
+    ProgramBuilder builder{false};
+    BufferId positions = builder.scratch<Vec4>("positions", 8),
+             velocities = builder.scratch<Vec4>("velocities", 8);
+    BufferId step = builder.scratch<Words>("step", 1);
+    std::uint32_t count = 8;
+};
+
+std::string refusal(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const std::logic_error& error) {
+        return error.what();
+    }
+    return "nothing was refused";
+}
+
+void expectNames(const std::string& message, std::initializer_list<const char*> words) {
+    for (const char* word : words)
+        EXPECT_NE(message.find(word), std::string::npos) << word << " in: " << message;
+}
+
+bool hasBuffer(const StepProgram& program, const std::string& part) {
+    return std::any_of(program.buffers.begin(), program.buffers.end(), [&](const BufferSpec& buffer) {
+        return buffer.label.find(part) != std::string::npos;
+    });
+}
+
+std::size_t countPasses(const StepProgram& program, const std::string& label) {
+    return static_cast<std::size_t>(std::count_if(program.step.begin(), program.step.end(),
+                                                  [&](const Pass& pass) { return pass.label == label; }));
+}
+
+std::set<std::string> labels(const StepProgram& program) {
+    std::set<std::string> result;
+    for (const Pass& pass : program.step) result.insert(pass.label);
+    return result;
+}
+
+Scene inRoom(Scene scene) {
+    test::addRoom(scene);
+    return scene;
+}
+
+} // namespace
+
+TEST(ProgramBuilder, TakesWhatAgreesWithTheKernel) {
+    Predict p;
+    p.builder.beginPhase("solve");
+    p.builder.dispatch(kernels::predict, 8, {p.positions, p.velocities, p.step}, p.count);
+    const StepProgram program = p.builder.finish();
+    ASSERT_EQ(program.step.size(), 1u);
+    EXPECT_EQ(program.step[0].label, "predict");
+    EXPECT_EQ(program.step[0].uses[0].access, vk::Access::readWrite);
+    EXPECT_EQ(program.step[0].uses[2].access, vk::Access::read);
+}
+
+TEST(ProgramBuilder, RefusesAWrongNumberOfBuffers) {
+    Predict p;
+    p.builder.beginPhase("solve");
+    const auto message = refusal([&] {
+        p.builder.dispatch(kernels::predict, 8, {p.positions, p.step}, p.count);
+    });
+    expectNames(message, {"predict", "3 buffers", "got 2"});
+}
+
+TEST(ProgramBuilder, RefusesAWrongStrideNamingKernelBindingAndBuffer) {
+    Predict p;
+    p.builder.beginPhase("solve");
+    const BufferId slim = p.builder.scratch<float>("slim", 8);
+    const auto message = refusal([&] {
+        p.builder.dispatch(kernels::predict, 8, {p.positions, slim, p.step}, p.count);
+    });
+    expectNames(message, {"predict", "Velocities", "16", "slim", "4"});
+}
+
+TEST(ProgramBuilder, RefusesAParameterBlockOfAnotherSize) {
+    Predict p;
+    p.builder.beginPhase("solve");
+    const auto message = refusal([&] {
+        p.builder.dispatch(kernels::predict, 8, {p.positions, p.velocities, p.positions}, p.count);
+    });
+    expectNames(message, {"predict", "Step", "48", "positions", "16"});
+}
+
+TEST(ProgramBuilder, RefusesAWrongPushConstantSize) {
+    Predict p;
+    p.builder.beginPhase("solve");
+    const std::array<std::uint32_t, 2> two{8, 0};
+    const auto message = refusal([&] {
+        p.builder.dispatch(kernels::predict, 8, {p.positions, p.velocities, p.step}, two);
+    });
+    expectNames(message, {"predict", "takes 4 bytes", "got 8"});
+}
+
+TEST(ProgramBuilder, RefusesABufferThatIsNone) {
+    Predict p;
+    p.builder.beginPhase("solve");
+    const auto message = refusal([&] {
+        p.builder.dispatch(kernels::predict, 8, {p.positions, BufferId{}, p.step}, p.count);
+    });
+    expectNames(message, {"predict", "Velocities"});
+}
+
+TEST(ProgramBuilder, RefusesAnEmptyDispatchAndAPassWithoutPhase) {
+    Predict p;
+    expectNames(refusal([&] { p.builder.fill(p.positions, 0); }), {"fill", "phase"});
+    p.builder.beginPhase("solve");
+    const auto nothing = [&] {
+        p.builder.dispatch(kernels::predict, 0, {p.positions, p.velocities, p.step}, p.count);
+    };
+    expectNames(refusal(nothing), {"predict", "nothing to do"});
+}
+
+TEST(ProgramBuilder, RefusesACopyBetweenUnequalBuffers) {
+    Predict p;
+    p.builder.beginPhase("solve");
+    expectNames(refusal([&] { p.builder.copy(p.positions, p.step); }),
+                {"copy", "positions", "128", "step", "48"});
+}
+
+TEST(Program, OfASceneWithoutPlanesKnowsNoPlane) {
+    for (const Solver solver : {Solver::jacobi, Solver::split}) {
+        const StepProgram program = compile(test::chain(5, {1e-4f}), {.solver = solver, .substeps = 2});
+        EXPECT_FALSE(hasBuffer(program, "plane") || hasBuffer(program, "contact"));
+        for (const std::string& label : labels(program))
+            EXPECT_EQ(label.find("plane"), std::string::npos) << label;
+        EXPECT_EQ(std::count(program.skipped.begin(), program.skipped.end(), "boundary planes"), 1);
+    }
+}
+
+TEST(Program, OfFreeParticlesKnowsNoConstraint) {
+    for (const Solver solver : {Solver::jacobi, Solver::split}) {
+        const StepProgram program =
+            compile(inRoom(test::particleAt({0, 1, 0})), {.solver = solver, .substeps = 2, .iterations = 7});
+        for (const char* part : {"distance", "corrections", "incidences", "slots"}) {
+            EXPECT_FALSE(hasBuffer(program, part)) << part;
+        }
+        EXPECT_EQ(countPasses(program, "solve_distance") + countPasses(program, "apply_corrections"), 0u);
+        EXPECT_EQ(countPasses(program, "solve_planes"), solver == Solver::jacobi ? 2u : 0u)
+            << "planes alone converge at once";
+        EXPECT_EQ(program.sweeps, 0u);
+    }
+}
+
+TEST(Program, KeepsMultipliersOnlyForCompliantConstraints) {
+    const Settings settings{.solver = Solver::jacobi, .substeps = 1};
+    EXPECT_FALSE(hasBuffer(compile(test::chain(5), settings), "multipliers"));
+    EXPECT_TRUE(hasBuffer(compile(test::chain(5, {1e-4f}), settings), "multipliers"));
+    EXPECT_TRUE(hasBuffer(compile(test::chain(5, {1e-4f, true}), settings), "multipliers"));
+}
+
+TEST(Program, LeavesOutConstraintsBetweenFixedParticles) {
+    Scene scene = test::chain(4);
+    scene.fixed = {{0}, {1}};
+    const StepProgram program = compile(scene, {.solver = Solver::jacobi, .substeps = 1});
+    const auto edges =
+        std::find_if(program.buffers.begin(), program.buffers.end(),
+                     [](const BufferSpec& buffer) { return buffer.label == "distance.edges"; });
+    ASSERT_NE(edges, program.buffers.end());
+    EXPECT_EQ(edges->count, 2u);
+    scene.fixed = {{0}, {1}, {2}, {3}};
+    EXPECT_FALSE(hasBuffer(compile(scene, {.solver = Solver::jacobi}), "distance"));
+    EXPECT_FALSE(hasBuffer(compile(scene, {.solver = Solver::split}), "distance"));
+}
+
+TEST(Program, OfSplitIsOneDispatchASubstepAndOneCopyWhereSubstepsAreOdd) {
+    const auto isInSubstep = [](const Pass& pass) {
+        return pass.kind == PassKind::dispatch && pass.substep > 0;
+    };
+    for (const std::uint32_t substeps : {1u, 2u, 7u, 32u}) {
+        const StepProgram program = compile(inRoom(test::block(2, 0.1f, 1e5f)), {.substeps = substeps});
+        EXPECT_EQ(std::count_if(program.step.begin(), program.step.end(), isInSubstep), substeps);
+        EXPECT_EQ(countPasses(program, "copy"), substeps % 2);
+        EXPECT_EQ(program.step.size(), 2 + substeps + substeps % 2 + 2); // update, fill ... measure, publish
+        EXPECT_EQ(program.sweeps, substeps);
+    }
+}
+
+TEST(Program, OfJacobiIsTwoPassesAnIteration) {
+    const StepProgram program =
+        compile(test::block(2, 0.1f, 1e5f), {.solver = Solver::jacobi, .substeps = 3, .iterations = 5});
+    EXPECT_EQ(countPasses(program, "solve_distance_compliant"), 15u);
+    EXPECT_EQ(countPasses(program, "apply_corrections"), 15u);
+    EXPECT_EQ(countPasses(program, "predict"), 3u);
+    EXPECT_EQ(program.sweeps, 15u);
+}
+
+TEST(Program, OfAnEmptySceneHasNoPass) {
+    for (const Solver solver : {Solver::jacobi, Solver::split}) {
+        const StepProgram program = compile({}, {.solver = solver});
+        EXPECT_TRUE(program.step.empty() && program.skin.empty());
+        EXPECT_EQ(declaredBytes(program), 0u);
+    }
+}
+
+TEST(Program, RunsEveryKernelReversedWhereAsked) {
+    const StepProgram program = compile(inRoom(test::block(2, 0.1f, 1e5f)), {.isReversed = true});
+    for (const KernelUse& kernel : program.kernels)
+        EXPECT_EQ(kernel.constants.at(0), 1u) << kernel.code->name;
+}
+
+TEST(Program, DeclaresTheBytesItsKernelsTouch) {
+    // A vec4 of each of 128 particles is 2048 bytes. Parameters 48, status 16; read and written counts twice.
+    // update 48, fill 16; drift 4 x 2048 + 48; copy 2 x 2048; measure 2 x 2048 + 32 + 48; publish 4 x 2048 + 16 + 48.
+    Scene scene = test::chain(128);
+    scene.distances.clear();
+    EXPECT_EQ(declaredBytes(compile(scene, {.substeps = 1})), 12u * 2048 + 256);
+}
+
+namespace {
+
+struct Golden {
+    const char* file;
+    Scene scene;
+    Settings settings;
+};
+
+std::vector<Golden> goldens() {
+    return {{"jacobi_chain.txt", test::chain(5), {.solver = Solver::jacobi, .substeps = 2, .iterations = 2}},
+            {"jacobi_sheet_in_a_room.txt",
+             inRoom(test::sheet(4, 1e-5f)),
+             {.solver = Solver::jacobi, .substeps = 10, .iterations = 1}},
+            {"split_particle.txt", test::particleAt({0, 1, 0}), {.substeps = 1}},
+            {"split_block.txt", test::block(2, 0.1f, 1e5f), {.substeps = 32}},
+            {"split_sheet_in_a_room.txt", inRoom(test::sheet(4, 1e-5f)), {.substeps = 7}}};
+}
+
+std::string contents(const std::string& path) {
+    std::ostringstream text;
+    text << std::ifstream(path).rdbuf();
+    return text.str();
+}
+
+} // namespace
+
+// SINEW_UPDATE_GOLDEN=1 rewrites the files; a commit that does so says why the new program is right.
+TEST(Describe, PrintsTheGoldenText) {
+    for (const Golden& golden : goldens()) {
+        const std::string path = std::string(SINEW_GOLDEN_FOLDER) + "/" + golden.file;
+        const std::string text = describe(compile(golden.scene, golden.settings));
+        if (std::getenv("SINEW_UPDATE_GOLDEN")) std::ofstream(path) << text;
+        EXPECT_EQ(text, contents(path)) << golden.file;
+    }
+}

@@ -1,0 +1,118 @@
+// What recording may not do: allocate, create buffers, or cost more than its dispatches. Without validation,
+// whose layer allocates on its own.
+#include "sim/count_allocations.hpp"
+#include "sim/program.hpp"
+#include "sim/scenes.hpp"
+#include "sim/simulation.hpp"
+#include "support/host_device.hpp"
+#include "vk/allocator.hpp"
+#include "vk/loader.hpp"
+#include "vk/queue.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+using namespace sinew;
+using namespace sinew::sim;
+
+namespace {
+
+// An unvalidated device, as an application has.
+struct Application {
+    vk::Loader loader;
+    vk::Device device = vk::Device::create(loader.getInstanceProcAddr(), {});
+    vk::Queue queue{device};
+
+    void reset(Simulation& simulation) {
+        const VkCommandBuffer commands = queue.begin();
+        simulation.recordReset(commands);
+        queue.wait(queue.submit(commands));
+    }
+};
+
+Scene everything() {
+    Scene scene = test::sheet(6, 1e-5f);
+    test::addRoom(scene);
+    return scene;
+}
+
+} // namespace
+
+TEST(Recording, AllocatesNothing) {
+    std::unique_ptr<int> kept;
+    EXPECT_EQ(test::countAllocations([&] { kept = std::make_unique<int>(1); }), 1u) << "the counter counts";
+    Application application;
+    for (const Solver solver : {Solver::jacobi, Solver::split}) {
+        Simulation simulation(application.device, everything(), {.solver = solver});
+        application.reset(simulation);
+        vk::Timestamps timestamps(application.device, static_cast<std::uint32_t>(simulation.phases().size()));
+        for (std::uint64_t frame = 0; frame < 3; ++frame) {
+            const VkCommandBuffer commands = application.queue.begin();
+            EXPECT_EQ(test::countAllocations([&] {
+                          simulation.record(commands, {.frame = frame}, &timestamps);
+                          simulation.recordSkin(commands);
+                      }),
+                      0u);
+            application.queue.wait(application.queue.submit(commands));
+            EXPECT_EQ(simulation.status(frame).nonFinite, 0u);
+        }
+    }
+}
+
+TEST(Recording, OfAThousandSubstepsCostsSoMuchADispatch) {
+    Application application;
+    Simulation simulation(application.device, test::block(2, 0.1f, 1e5f), {.substeps = 1000});
+    application.reset(simulation);
+    std::size_t dispatches = 0;
+    for (const Pass& pass : simulation.program().step) dispatches += pass.kind == PassKind::dispatch;
+    ASSERT_EQ(dispatches, 1002u);
+    double best = 1e30;
+    for (std::uint64_t frame = 0; frame < 20; ++frame) {
+        const VkCommandBuffer commands = application.queue.begin();
+        const auto start = std::chrono::steady_clock::now();
+        simulation.record(commands, {.frame = frame});
+        const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - start;
+        best = std::min(best, time.count() / static_cast<double>(dispatches));
+        application.queue.wait(application.queue.submit(commands));
+        ASSERT_EQ(simulation.status(frame).nonFinite, 0u);
+    }
+    std::printf("recording takes %.0f ns a dispatch, barrier and push constants included\n", best);
+}
+
+TEST(Recording, AsksTheHostForBuffersOnlyWhenConstructed) {
+    test::HostDevice host;
+    VkPhysicalDeviceMemoryProperties memory;
+    vk::HostDevice handles = host.handles();
+    host.instanceFunctions().vkGetPhysicalDeviceMemoryProperties(handles.physicalDevice, &memory);
+    const auto allocator = vk::makeBlockAllocator(handles.device, host.functions(), memory);
+    std::size_t created = 0, destroyed = 0;
+    handles.buffers.create = [&](const VkBufferCreateInfo& info, vk::MemoryKind kind, const char* name) {
+        ++created;
+        return allocator->create(info, kind, name);
+    };
+    handles.buffers.destroy = [&](const vk::BufferAllocation& allocation) {
+        ++destroyed;
+        allocator->destroy(allocation);
+    };
+    {
+        const vk::Device device = vk::Device::borrow(handles);
+        Simulation simulation(device, everything(), {});
+        const std::size_t atStart = created;
+        EXPECT_GE(atStart, simulation.program().buffers.size());
+        host.submit([&](VkCommandBuffer commands) { simulation.recordReset(commands); });
+        for (std::uint64_t frame = 0; frame < 5; ++frame) {
+            host.submit([&](VkCommandBuffer commands) {
+                simulation.record(commands, {.frame = frame});
+                simulation.recordSkin(commands);
+            });
+            EXPECT_EQ(simulation.status(frame).nonFinite, 0u);
+        }
+        EXPECT_EQ(created, atStart);
+        EXPECT_EQ(destroyed, 0u);
+    }
+    EXPECT_EQ(destroyed, created);
+    EXPECT_EQ(allocator->statistics().buffers, 0u);
+}

@@ -1,0 +1,144 @@
+// Skins on the device: vertices in lattice cells, vertices on particles, smooth normals.
+#include "sim/bodies.hpp"
+#include "sim/runner.hpp"
+#include "sim/scenes.hpp"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+using namespace sinew;
+using namespace sinew::sim;
+using Eigen::Vector3d;
+
+namespace {
+
+// As the header of Simulation says: position and normal, stride 32.
+struct Vertex {
+    std::array<float, 4> position, normal;
+};
+static_assert(sizeof(Vertex) == 32);
+
+Vector3d xyz(const std::array<float, 4>& v) {
+    return {double{v[0]}, double{v[1]}, double{v[2]}};
+}
+
+std::vector<Vertex> skinOf(test::Runner& runner) {
+    runner.skin();
+    return test::queue().download<Vertex>(runner.simulation().skinVertices());
+}
+
+// A 4^3 lattice of the unit cube whose cells lie in a ball around its centre, without links.
+Scene ballOfCells() {
+    Scene scene;
+    Lattice lattice{.cells = {8, 8, 8}, .spacing = 0.125f, .fill = std::vector<float>(512, 0)};
+    for (std::size_t c = 0; c < 512; ++c) {
+        const Vector3d centre(double(c % 8) + 0.5, double(c / 8 % 8) + 0.5, double(c / 64) + 0.5);
+        lattice.fill[c] = (centre / 8 - Vector3d::Constant(0.5)).norm() < 0.5 ? 1.0f : 0.0f;
+    }
+    const LatticeCorners corners = addLattice(scene, lattice);
+    addLatticeSkin(scene, lattice, corners, {1, 1, 1});
+    scene.distances.clear();
+    return scene;
+}
+
+// One cell with vertices in it, the corner order of CellEmbedding.
+Scene cell(const std::vector<Vec3>& weights) {
+    Scene scene;
+    scene.gravity = {0, 0, 0};
+    Skin skin{.name = "cell"};
+    for (std::uint32_t k = 0; k < 8; ++k) {
+        scene.particles.push_back({.position = {float(k & 1), float(k >> 1 & 1), float(k >> 2)}});
+    }
+    for (const Vec3& w : weights) skin.cells.push_back({{0, 1, 2, 3, 4, 5, 6, 7}, w});
+    for (std::uint32_t v = 0; v + 2 < weights.size(); ++v) skin.triangles.push_back({v, v + 1, v + 2});
+    scene.skins = {skin};
+    return scene;
+}
+
+} // namespace
+
+TEST(SkinInCells, FollowsAnAffineMotionExactly) {
+    const std::vector<Vec3> weights{{0, 0, 0},       {1, 1, 1},    {0.25f, 0.5f, 0.75f},
+                                    {0.9f, 0.1f, 1}, {0, 1, 0.3f}, {0.5f, 0.5f, 0.5f}};
+    Scene scene = cell(weights);
+    Eigen::Matrix3d stretch;
+    stretch << 1.3, 0.2, -0.4, 0.1, 0.7, 0.3, -0.2, 0.5, 1.1;
+    const Vector3d shift(2, -1, 0.5);
+    for (Particle& particle : scene.particles) {
+        const Vector3d x = stretch * test::toVector(particle.position) + shift;
+        particle.position = {static_cast<float>(x.x()), static_cast<float>(x.y()), static_cast<float>(x.z())};
+    }
+    test::Runner runner(scene);
+    const std::vector<Vertex> vertices = skinOf(runner);
+    ASSERT_EQ(vertices.size(), weights.size());
+    for (std::size_t v = 0; v < weights.size(); ++v) {
+        const Vector3d expected = stretch * test::toVector(weights[v]) + shift;
+        EXPECT_LE((xyz(vertices[v].position) - expected).norm(), 1e-5) << v;
+        EXPECT_EQ(vertices[v].position[3], 1);
+    }
+}
+
+TEST(SkinInCells, MovesWithTheNewestRecordedState) {
+    Scene scene = cell({{0.5f, 0.5f, 0.5f}, {0, 0.5f, 0.5f}, {0, 0, 0.5f}});
+    for (Particle& particle : scene.particles) particle.velocity = {3, 0, 0};
+    test::Runner runner(scene);
+    runner.run(60);
+    EXPECT_NEAR(double{skinOf(runner)[0].position[0]}, 3.5, 1e-4);
+}
+
+TEST(SkinOnParticles, SitsOnThem) {
+    Scene scene = test::sheet(5);
+    test::disturb(scene, 0.05f, 0);
+    test::Runner runner(scene);
+    runner.run(3);
+    const auto x = runner.positions();
+    const std::vector<Vertex> vertices = skinOf(runner);
+    const Skin& skin = scene.skins[0];
+    ASSERT_EQ(vertices.size(), skin.particles.size());
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+        EXPECT_EQ(xyz(vertices[v].position), x[skin.particles[v]]);
+}
+
+TEST(SkinNormals, AreOfUnitLengthAndPointOutOfABall) {
+    test::Runner runner(ballOfCells());
+    const std::vector<Vertex> vertices = skinOf(runner);
+    ASSERT_GT(vertices.size(), 100u);
+    for (const Vertex& vertex : vertices) {
+        const Vector3d outward = xyz(vertex.position) - Vector3d::Constant(0.5), normal = xyz(vertex.normal);
+        EXPECT_NEAR(normal.norm(), 1, 1e-6);
+        EXPECT_GT(normal.dot(outward), 0) << outward.transpose();
+    }
+}
+
+TEST(SkinNormals, AreTheAreaWeightedMeanOfTheTriangles) {
+    Scene scene = test::sheet(6);
+    test::disturb(scene, 0.03f, 0);
+    test::Runner runner(scene);
+    const std::vector<Vertex> vertices = skinOf(runner);
+    std::vector<Vector3d> sums(vertices.size(), Vector3d::Zero());
+    for (const auto& [a, b, c] : scene.skins[0].triangles) {
+        const Vector3d p = xyz(vertices[a].position);
+        const Vector3d area = (xyz(vertices[b].position) - p).cross(xyz(vertices[c].position) - p);
+        for (const std::uint32_t corner : {a, b, c}) sums[corner] += area;
+    }
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+        EXPECT_LE((xyz(vertices[v].normal) - sums[v].normalized()).norm(), 1e-5) << v;
+    }
+}
+
+TEST(Skins, LieBehindOneAnotherInOneBuffer) {
+    Scene scene = test::sheet(3);
+    addCloth(scene, {.name = "second", .origin = {0, 2, 0}, .size = {4, 2}, .spacing = 0.1f});
+    test::Runner runner(scene);
+    const std::vector<Vertex> vertices = skinOf(runner);
+    const auto indices = test::queue().download<std::uint32_t>(runner.simulation().skinIndices());
+    const std::vector<SkinRange>& ranges = runner.simulation().skins();
+    ASSERT_EQ(ranges.size(), 2u);
+    EXPECT_EQ(ranges[1].name, "second");
+    EXPECT_EQ(ranges[1].firstIndex, ranges[0].indexCount);
+    ASSERT_EQ(indices.size(), ranges[0].indexCount + ranges[1].indexCount);
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        const double y = double{vertices.at(indices[i]).position[1]};
+        EXPECT_NEAR(y, i < ranges[1].firstIndex ? 1 : 2, 1e-6);
+    }
+}

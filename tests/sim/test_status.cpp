@@ -1,0 +1,79 @@
+// What a step finds out about itself: a state that is no longer finite is reported and never published.
+#include "sim/compile.hpp"
+#include "sim/runner.hpp"
+#include "sim/scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+using namespace sinew;
+using namespace sinew::sim;
+using Eigen::Vector3d;
+
+namespace {
+
+class StatusOf : public testing::TestWithParam<Solver> {
+protected:
+    Settings settings() const { return {.solver = GetParam(), .substeps = 4}; }
+};
+
+// 300 free particles, two of which leave what a float can hold within a step of 0.1 s.
+Scene absurdParticles() {
+    Scene scene = test::chain(300);
+    scene.distances.clear();
+    for (const std::size_t i : {131, 260}) {
+        scene.particles[i].position = {3.3e38f, 0, 0};
+        scene.particles[i].velocity = {3.3e38f, 0, 0};
+    }
+    return scene;
+}
+
+} // namespace
+
+TEST_P(StatusOf, AFiniteStepNamesItsFrameAndNobody) {
+    test::Runner runner(test::chain(6), settings());
+    for (std::uint32_t frame = 0; frame < 6; ++frame) {
+        const Status status = runner.run(1);
+        EXPECT_EQ(status.frame, frame);
+        EXPECT_EQ(status.nonFinite, 0u);
+    }
+}
+
+TEST_P(StatusOf, AnAbsurdStepCountsTheBadParticlesAndNamesTheFirst) {
+    test::Runner runner(absurdParticles(), settings());
+    const Status status = runner.step(0.1f);
+    EXPECT_EQ(status.nonFinite, 2u);
+    EXPECT_EQ(status.firstBadParticle, 131u);
+}
+
+TEST_P(StatusOf, ADivergedSimulationKeepsItsLastFiniteState) {
+    Scene scene = test::chain(6, {1e-4f});
+    scene.particles[5].velocity = {1e37f, 0, 0}; // overflows after some finite steps
+    scene.distances.pop_back();
+    scene.gravity = {3e37f, 0, 0};
+    test::Runner runner(scene, settings());
+    std::vector<Vector3d> x = runner.positions(), v = runner.velocities();
+    int step = 0;
+    while (runner.run(1).nonFinite == 0) {
+        ASSERT_LT(++step, 100000);
+        x = runner.positions(), v = runner.velocities();
+    }
+    EXPECT_EQ(runner.positions(), x);
+    EXPECT_EQ(runner.velocities(), v);
+    for (const Vector3d& p : x) EXPECT_TRUE(p.cast<float>().allFinite());
+    EXPECT_GT(runner.run(1).nonFinite, 0u) << "it stays reported";
+    EXPECT_EQ(runner.positions(), x);
+}
+
+TEST_P(StatusOf, AResetSimulationIsFiniteAgain) {
+    test::Runner runner(absurdParticles(), settings());
+    const std::uint64_t start = runner.stateHash();
+    ASSERT_GT(runner.step(0.1f).nonFinite, 0u);
+    runner.reset();
+    EXPECT_EQ(runner.stateHash(), start);
+    EXPECT_EQ(runner.step(1e-6f).nonFinite, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(A, StatusOf, testing::Values(Solver::jacobi, Solver::split),
+                         [](const auto& parameter) { return solverName(parameter.param); });

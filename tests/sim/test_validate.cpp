@@ -1,0 +1,164 @@
+// Every complaint about a scene names the item, the value and what is allowed.
+#include "sim/ranges.hpp"
+#include "sim/validate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+using namespace sinew::sim;
+
+namespace {
+
+constexpr float notANumber = std::numeric_limits<float>::quiet_NaN();
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// Two particles, a link, a plane, a body and a skin of each kind: one of everything.
+Scene validScene() {
+    Scene scene;
+    for (int i = 0; i < 8; ++i)
+        scene.particles.push_back(
+            {{static_cast<float>(i & 1), static_cast<float>(i >> 1 & 1), static_cast<float>(i >> 2)}});
+    scene.distances.push_back({0, 1, 1, 0});
+    scene.fixed = {{3}, {3}}; // twice is the same as once
+    scene.planes.push_back({});
+    scene.bodies.push_back({"cell", 0, 8, 1});
+    scene.skins.push_back({.name = "on particles", .triangles = {{0, 1, 2}}, .particles = {0, 1, 2}});
+    scene.skins.push_back(
+        {.name = "in a cell", .triangles = {{0, 0, 0}}, .cells = {{{0, 1, 2, 3, 4, 5, 6, 7}, {0, 0.5f, 1}}}});
+    return scene;
+}
+
+std::string firstComplaint(const Scene& scene, const Settings& settings = {}) {
+    const std::vector<std::string> complaints = validate(scene, settings);
+    return complaints.empty() ? "" : complaints.front();
+}
+
+struct Fault {
+    const char* complaint;
+    std::function<void(Scene&, Settings&)> make;
+};
+
+const Fault faults[] = {
+    {"scene.dt: is 0, must be above 0 and at most 0.1", [](Scene& s, Settings&) { s.dt = 0; }},
+    {"scene.dt: is 0.11", [](Scene& s, Settings&) { s.dt = 0.11f; }},
+    {"scene.dt: is nan", [](Scene& s, Settings&) { s.dt = notANumber; }},
+    {"scene.damping: is -1, must be at least 0", [](Scene& s, Settings&) { s.damping = -1; }},
+    {"scene.damping: is inf", [](Scene& s, Settings&) { s.damping = infinity; }},
+    {"scene.gravity: is (0, nan, 0), must be finite", [](Scene& s, Settings&) { s.gravity.y = notANumber; }},
+    {"settings.substeps: is 0, must be from 1 to 1000", [](Scene&, Settings& s) { s.substeps = 0; }},
+    {"settings.substeps: is 1001", [](Scene&, Settings& s) { s.substeps = 1001; }},
+    {"settings.iterations: is 0", [](Scene&, Settings& s) { s.iterations = 0; }},
+    {"settings.omega: is 0, must be above 0 and below 10", [](Scene&, Settings& s) { s.omega = 0; }},
+    {"settings.omega: is 10", [](Scene&, Settings& s) { s.omega = 10; }},
+    {"settings.omega: is nan", [](Scene&, Settings& s) { s.omega = notANumber; }},
+    {"settings.omega: is 3.5, but split is stable only below 4 / (1 + 2 theta) = 3.33",
+     [](Scene&, Settings& s) { s.omega = 3.5f; }},
+    {"settings.theta: is -0.5, must be from 0 to 1", [](Scene&, Settings& s) { s.theta = -0.5f; }},
+    {"settings.weight: is 2, must be from 0 to 1", [](Scene&, Settings& s) { s.weight = 2; }},
+    {"settings.overRelaxation: is 2, must be above 0 and below 2",
+     [](Scene&, Settings& s) { s.overRelaxation = 2; }},
+    {"particle[5].position: is (nan, 0, 1), must be finite",
+     [](Scene& s, Settings&) { s.particles[5].position.x = notANumber; }},
+    {"particle[2].velocity: is (0, 0, -inf)",
+     [](Scene& s, Settings&) { s.particles[2].velocity.z = -infinity; }},
+    {"particle[1].inverseMass: is -1, must be at least 0",
+     [](Scene& s, Settings&) { s.particles[1].inverseMass = -1; }},
+    {"particle[1].inverseMass: is inf", [](Scene& s, Settings&) { s.particles[1].inverseMass = infinity; }},
+    {"particle[0].contactOffset: is nan",
+     [](Scene& s, Settings&) { s.particles[0].contactOffset = notANumber; }},
+    {"distance[0].a: is 8, but there are 8 particles", [](Scene& s, Settings&) { s.distances[0].a = 8; }},
+    {"distance[0].b: is 4000000000", [](Scene& s, Settings&) { s.distances[0].b = 4'000'000'000; }},
+    {"distance[0]: particles 1 and 1 are the same", [](Scene& s, Settings&) { s.distances[0].a = 1; }},
+    {"distance[0].restLength: is -1", [](Scene& s, Settings&) { s.distances[0].restLength = -1; }},
+    {"distance[0].compliance: is -1e-06", [](Scene& s, Settings&) { s.distances[0].compliance = -1e-6f; }},
+    {"fixed[1].particle: is 8", [](Scene& s, Settings&) { s.fixed[1].particle = 8; }},
+    {"plane[0].normal: length: is 2, must be from 0.999 to 1.001",
+     [](Scene& s, Settings&) {
+         s.planes[0].normal = {0, 2, 0};
+     }},
+    {"plane[0].normal: length: is nan", [](Scene& s, Settings&) { s.planes[0].normal.x = notANumber; }},
+    {"plane[0].offset: is inf", [](Scene& s, Settings&) { s.planes[0].offset = infinity; }},
+    {"plane[0].friction: is -0.5", [](Scene& s, Settings&) { s.planes[0].friction = -0.5f; }},
+    {"plane[0].restitution: is 1.5, must be from 0 to 1",
+     [](Scene& s, Settings&) { s.planes[0].restitution = 1.5f; }},
+    {"planes: are 33, at most 32 are possible", [](Scene& s, Settings&) { s.planes.resize(33); }},
+    {"body[0] \"cell\": ends at particle 9, but there are 8",
+     [](Scene& s, Settings&) { s.bodies[0].firstParticle = 1; }},
+    {"body[0] \"cell\": ends at particle 4294967303",
+     [](Scene& s, Settings&) { s.bodies[0].firstParticle = 0xffffffff; }},
+    {"body[0] \"cell\".restVolume: is -1", [](Scene& s, Settings&) { s.bodies[0].restVolume = -1; }},
+    {"skin[0]: has no vertices", [](Scene& s, Settings&) { s.skins[0].particles.clear(); }},
+    {"skin[0]: has both particles and cells", [](Scene& s, Settings&) { s.skins[0].cells.resize(3); }},
+    {"skin[0].particles[1]: is 8", [](Scene& s, Settings&) { s.skins[0].particles[1] = 8; }},
+    {"skin[0].triangles[0]: is 3, but there are 3 vertices",
+     [](Scene& s, Settings&) { s.skins[0].triangles[0][2] = 3; }},
+    {"skin[0].color: is 1.5", [](Scene& s, Settings&) { s.skins[0].color.y = 1.5f; }},
+    {"skin[1].cells[0].particles: is 9", [](Scene& s, Settings&) { s.skins[1].cells[0].particles[7] = 9; }},
+    {"skin[1].cells[0].weights: is 1.5", [](Scene& s, Settings&) { s.skins[1].cells[0].weights.z = 1.5f; }},
+    {"skin[1].cells[0].weights: is nan",
+     [](Scene& s, Settings&) { s.skins[1].cells[0].weights.x = notANumber; }},
+};
+
+} // namespace
+
+TEST(Validate, FindsNothingWrongWithOneOfEverything) {
+    EXPECT_EQ(firstComplaint(validScene()), "");
+}
+
+TEST(Validate, AcceptsTheEndsOfEveryClosedRange) {
+    Scene scene = validScene();
+    scene.dt = 0.1f;
+    scene.damping = 0;
+    scene.planes[0].restitution = 1;
+    scene.planes.resize(32);
+    scene.particles[0].inverseMass = 0;
+    Settings settings{.substeps = 1000,
+                      .iterations = 1000,
+                      .omega = 1.3f,
+                      .theta = 1,
+                      .weight = 1,
+                      .overRelaxation = 1.99f};
+    EXPECT_EQ(firstComplaint(scene, settings), "");
+}
+
+TEST(Validate, NamesItemValueAndRangeOfEachFault) {
+    for (const Fault& fault : faults) {
+        Scene scene = validScene();
+        Settings settings;
+        fault.make(scene, settings);
+        const std::vector<std::string> complaints = validate(scene, settings);
+        ASSERT_FALSE(complaints.empty()) << fault.complaint;
+        EXPECT_EQ(complaints.front().substr(0, std::string(fault.complaint).size()), fault.complaint);
+        EXPECT_LE(complaints.size(), 2u) << fault.complaint; // one fault, not an avalanche
+    }
+}
+
+TEST(Validate, LeavesTheStabilityBoundOfSplitToSplit) {
+    EXPECT_EQ(firstComplaint(validScene(), {.solver = Solver::jacobi, .omega = 3.5f}), "");
+}
+
+TEST(Validate, CountsWhatItDoesNotSpellOut) {
+    Scene scene = validScene();
+    scene.distances.assign(100, {2, 2, 1, 0});
+    const std::vector<std::string> complaints = validate(scene, {});
+    ASSERT_EQ(complaints.size(), 21u);
+    EXPECT_EQ(complaints[19], "distance[19]: particles 2 and 2 are the same");
+    EXPECT_EQ(complaints[20], "and 80 more complaints");
+}
+
+TEST(Ranges, ReadLikeTheEndOfASentence) {
+    EXPECT_EQ(toText(ranges::dt), "above 0 and at most 0.1");
+    EXPECT_EQ(toText(ranges::substeps), "from 1 to 1000");
+    EXPECT_EQ(toText(ranges::damping), "at least 0");
+    EXPECT_EQ(toText(ranges::finite), "a finite number");
+}
+
+TEST(Ranges, HoldNeitherNaNNorInfinity) {
+    for (const float value : {notANumber, infinity, -infinity}) {
+        EXPECT_FALSE(ranges::finite.holds(double{value}));
+        EXPECT_FALSE(ranges::compliance.holds(double{value}));
+    }
+}

@@ -1,0 +1,170 @@
+// The figures of a report against states whose answer is known.
+#include "sinew/measure.hpp"
+#include "sinew/skin_mesh.hpp"
+#include "sinew/statistics.hpp"
+
+#include "sim/bodies.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace sinew;
+using tools::State;
+
+namespace {
+
+State stateOf(const sim::Scene& scene) {
+    State state;
+    for (const sim::Particle& p : scene.particles) {
+        state.positions.push_back({p.position.x, p.position.y, p.position.z, p.inverseMass});
+        state.velocities.push_back({p.velocity.x, p.velocity.y, p.velocity.z, p.inverseMass});
+    }
+    return state;
+}
+
+sim::Scene twoLinks() {
+    sim::Scene scene;
+    scene.particles = {{{0, 0, 0}}, {{1, 0, 0}}, {{1, 2, 0}}};
+    scene.distances = {{0, 1, 1, 0}, {1, 2, 2, 0}};
+    return scene;
+}
+
+sim::Scene cube() {
+    sim::Scene scene;
+    const sim::Lattice lattice{.cells = {2, 2, 2}, .spacing = 0.5f};
+    const sim::LatticeCorners corners = sim::addLattice(scene, lattice);
+    sim::addLatticeSkin(scene, lattice, corners, {});
+    return scene;
+}
+
+/// The skins of a scene whose particles are at `scale` times their place.
+std::vector<mesh::TriangleMesh> skinsOf(sim::Scene scene, float scale) {
+    for (sim::Particle& p : scene.particles)
+        p.position = {p.position.x * scale, p.position.y * scale, p.position.z * scale};
+    std::vector<mesh::TriangleMesh> meshes;
+    for (const sim::Skin& skin : scene.skins)
+        meshes.push_back(tools::skinMesh(skin, tools::restVertices(scene, skin)));
+    return meshes;
+}
+
+} // namespace
+
+TEST(Strain, IsMeanSquareAndLargestMagnitude) {
+    const sim::Scene scene = twoLinks();
+    State state = stateOf(scene);
+    state.positions[0][0] = -0.5f; // 50 % longer
+    state.positions[2][1] = 1.8f;  // 10 % shorter
+    const tools::Errors errors = tools::measure(scene, state, {}, 0);
+    EXPECT_NEAR(errors.strainRms.value(), std::sqrt((0.25 + 0.01) / 2), 1e-6);
+    EXPECT_NEAR(errors.strainMax.value(), 0.5, 1e-6);
+}
+
+TEST(Strain, HasNoMeaningWithoutConstraints) {
+    sim::Scene scene;
+    scene.particles.resize(1);
+    const tools::Errors errors = tools::measure(scene, stateOf(scene), {}, 0);
+    EXPECT_FALSE(errors.strainRms.has_value());
+    EXPECT_FALSE(errors.strainMax.has_value());
+}
+
+TEST(Volume, IsTheRelativeChangeOfAClosedSkin) {
+    const sim::Scene scene = cube();
+    EXPECT_NEAR(tools::measure(scene, stateOf(scene), skinsOf(scene, 1.1f), 0).volume.value(), 0.331, 1e-5);
+    EXPECT_NEAR(tools::measure(scene, stateOf(scene), skinsOf(scene, 0.5f), 0).volume.value(), -0.875, 1e-6);
+}
+
+TEST(Volume, HasNoMeaningForCloth) {
+    sim::Scene scene;
+    sim::addCloth(scene, {.size = {3, 3}, .spacing = 0.1f});
+    EXPECT_FALSE(tools::measure(scene, stateOf(scene), skinsOf(scene, 1), 0).volume.has_value());
+}
+
+TEST(Momentum, CountsOnlyWhatGravityCannotChange) {
+    sim::Scene scene = twoLinks();
+    State state = stateOf(scene);
+    for (auto& v : state.velocities) v[1] = -3; // falling
+    EXPECT_EQ(tools::measure(scene, state, {}, 10).momentum.value(), 0);
+    for (auto& v : state.velocities) v[0] = 4;
+    EXPECT_NEAR(tools::measure(scene, state, {}, 10).momentum.value(), 0.8, 1e-6);
+    for (sim::Particle& p : scene.particles) p.velocity.x = 4;
+    EXPECT_NEAR(tools::measure(scene, state, {}, 10).momentum.value(), 0, 1e-6);
+}
+
+TEST(Momentum, DecaysWithTheDampingOfTheScene) {
+    sim::Scene scene = twoLinks();
+    scene.damping = 0.5f;
+    scene.dt = 0.1f;
+    for (sim::Particle& p : scene.particles) p.velocity.x = 1;
+    State state = stateOf(scene);
+    for (auto& v : state.velocities) v[0] = static_cast<float>(std::exp(-0.5));
+    EXPECT_NEAR(tools::measure(scene, state, {}, 10).momentum.value(), 0, 1e-6);
+}
+
+TEST(Momentum, HasNoMeaningWhereSomethingHoldsAParticle) {
+    sim::Scene fixed = twoLinks(), plane = twoLinks(), heavy = twoLinks();
+    fixed.fixed.push_back({0});
+    plane.planes.push_back({});
+    heavy.particles[0].inverseMass = 0;
+    for (const sim::Scene& scene : {fixed, plane, heavy})
+        EXPECT_FALSE(tools::measure(scene, stateOf(scene), {}, 0).momentum.has_value());
+}
+
+TEST(Penetration, IsThatOfTheDeepestParticleWithItsOffset) {
+    sim::Scene scene = twoLinks();
+    EXPECT_FALSE(tools::measure(scene, stateOf(scene), {}, 0).penetrationMax.has_value());
+    scene.planes.push_back({.offset = 0.25f});
+    scene.particles[1].contactOffset = -0.125f;
+    scene.particles[0].inverseMass = 0; // held behind the plane: no plane is to blame
+    EXPECT_NEAR(tools::measure(scene, stateOf(scene), {}, 0).penetrationMax.value(), 0.125, 1e-6);
+}
+
+TEST(StateHash, ChangesWithEveryBitAndOrder) {
+    const State state = stateOf(twoLinks());
+    EXPECT_EQ(tools::stateHash({}), 0xcbf29ce484222325u); // FNV-1a of nothing
+    State other = state;
+    other.velocities[2][2] = std::nextafter(0.0f, 1.0f);
+    EXPECT_NE(tools::stateHash(other), tools::stateHash(state));
+    other = state;
+    std::swap(other.positions[0], other.positions[1]);
+    EXPECT_NE(tools::stateHash(other), tools::stateHash(state));
+}
+
+TEST(SkinMesh, JoinsCreasesAndTheTwoSidesOfACloth) {
+    const sim::Scene scene = cube();
+    const mesh::TriangleMesh skin = skinsOf(scene, 1)[0];
+    EXPECT_EQ(skin.positions.size(), 26u); // 27 corners but the inner one
+    EXPECT_EQ(skin.triangles.size(), 48u);
+    EXPECT_TRUE(mesh::inspect(skin).defects.isClosed());
+    sim::Scene cloth;
+    sim::addCloth(cloth, {.size = {3, 3}, .spacing = 0.1f});
+    EXPECT_EQ(skinsOf(cloth, 1)[0].positions.size(), 9u);
+    EXPECT_EQ(skinsOf(cloth, 1)[0].triangles.size(), 8u);
+}
+
+TEST(SkinMesh, PlacesVerticesInsideCells) {
+    sim::Scene scene;
+    for (int i = 0; i < 8; ++i)
+        scene.particles.push_back({{static_cast<float>(i & 1), static_cast<float>(2 * (i >> 1 & 1)),
+                                    static_cast<float>(4 * (i >> 2))}});
+    const sim::Skin skin{.cells = {{{0, 1, 2, 3, 4, 5, 6, 7}, {0.25f, 0.5f, 0.75f}}}};
+    const sim::Vec3 vertex = tools::restVertices(scene, skin)[0];
+    EXPECT_FLOAT_EQ(vertex.x, 0.25f);
+    EXPECT_FLOAT_EQ(vertex.y, 1);
+    EXPECT_FLOAT_EQ(vertex.z, 3);
+}
+
+TEST(Statistics, TakePercentilesByNearestRank) {
+    std::vector<double> values;
+    for (int i = 100; i >= 1; --i) values.push_back(i);
+    const tools::Statistics hundred = tools::summarise(values).value();
+    EXPECT_EQ(hundred.p50, 50);
+    EXPECT_EQ(hundred.p99, 99);
+    EXPECT_EQ(hundred.mean, 50.5);
+    EXPECT_NEAR(hundred.stddev, 29.011492, 1e-6);
+    const tools::Statistics one = tools::summarise({7}).value();
+    EXPECT_EQ(one.p50, 7);
+    EXPECT_EQ(one.p99, 7);
+    EXPECT_EQ(one.stddev, 0);
+    EXPECT_FALSE(tools::summarise({}).has_value());
+}

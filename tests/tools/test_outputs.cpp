@@ -1,0 +1,92 @@
+// Where results go: what is refused before a run, and what a name becomes as a file.
+#include "sinew/outputs.hpp"
+
+#include "app/guard.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include <stdlib.h>
+
+using namespace sinew;
+namespace fs = std::filesystem;
+
+namespace {
+
+class Outputs : public testing::Test {
+protected:
+    Outputs() {
+        std::string name = (fs::temp_directory_path() / "sinew-outputs-XXXXXX").string();
+        folder_ = ::mkdtemp(name.data());
+    }
+    ~Outputs() override { fs::remove_all(folder_); }
+
+    template <typename Action> int codeOf(const Action& action) const {
+        try {
+            action();
+        } catch (const app::Failure& failure) {
+            return failure.code();
+        }
+        return 0;
+    }
+
+    fs::path folder_;
+};
+
+} // namespace
+
+TEST_F(Outputs, MakeMissingFoldersAndLeaveNoLockBehind) {
+    {
+        const tools::OutputFolder folder(folder_ / "a/b");
+        EXPECT_TRUE(fs::is_directory(folder.path()));
+        EXPECT_TRUE(fs::exists(folder.path() / ".sinew-lock"));
+    }
+    EXPECT_TRUE(fs::is_empty(folder_ / "a/b"));
+}
+
+TEST_F(Outputs, LockAFolderForOneRun) {
+    const tools::OutputFolder first(folder_);
+    EXPECT_EQ(codeOf([&] { const tools::OutputFolder second(folder_); }), app::outputFailed);
+}
+
+TEST_F(Outputs, TakeOverTheLockOfARunThatDied) {
+    std::ofstream(folder_ / ".sinew-lock") << "";
+    EXPECT_EQ(codeOf([&] { const tools::OutputFolder folder(folder_); }), 0);
+}
+
+TEST_F(Outputs, DoNotFollowALinkInThePlaceOfTheLock) {
+    fs::create_symlink(folder_ / "elsewhere", folder_ / ".sinew-lock");
+    EXPECT_EQ(codeOf([&] { const tools::OutputFolder folder(folder_); }), app::outputFailed);
+    EXPECT_FALSE(fs::exists(folder_ / "elsewhere"));
+}
+
+TEST_F(Outputs, WriteTextsWholeAndReplaceOldOnes) {
+    const std::string file = (folder_ / "report.json").string();
+    for (const std::string text : {"a long first text\n", "short\n"}) {
+        tools::TextOutput(file).write(text);
+        std::ifstream stream(file);
+        EXPECT_EQ(std::string(std::istreambuf_iterator<char>(stream), {}), text);
+    }
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+}
+
+TEST_F(Outputs, RefuseFoldersAndMissingFoldersBeforeARun) {
+    EXPECT_EQ(codeOf([&] { tools::TextOutput output(folder_.string()); }), app::outputFailed);
+    EXPECT_EQ(codeOf([&] { tools::TextOutput output((folder_ / "none/report.json").string()); }),
+              app::outputFailed);
+    EXPECT_EQ(codeOf([&] { tools::TextOutput output("-"); }), 0);
+}
+
+TEST_F(Outputs, NoticeAFullDisk) {
+    const tools::TextOutput full("/dev/full");
+    EXPECT_EQ(codeOf([&] { full.write("text"); }), app::outputFailed);
+}
+
+TEST(FileName, KeepsNoPathsAndNoSpecialCharacters) {
+    EXPECT_EQ(tools::fileName("organ-2"), "organ-2");
+    EXPECT_EQ(tools::fileName("../etc/passwd"), "___etc_passwd");
+    EXPECT_EQ(tools::fileName("Herz \xc3\xa4\n"), "Herz____");
+    EXPECT_EQ(tools::fileName(""), "body");
+    EXPECT_EQ(tools::fileName(std::string(1000, 'x')).size(), 64u);
+}

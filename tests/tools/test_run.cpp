@@ -1,0 +1,201 @@
+// `sinew run`: the report, the files, and how a run ends early.
+#include "tools/program.hpp"
+
+#include "mesh/export.hpp"
+#include "mesh/import.hpp"
+
+#include <cmath>
+#include <fstream>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+using namespace sinew;
+using nlohmann::json;
+using test::expectOneError;
+using test::Outcome;
+using test::shippedScene;
+
+namespace {
+
+class Run : public test::Program {};
+
+const std::string sheet = "[[cloth]]\nname = \"sheet\"\nsize = [4, 4]\nspacing = 0.1\n";
+const std::string box = "[[box]]\nparticles = [3, 3, 3]\nspacing = 0.1\ncenter = [0, 0.3, 0]\n";
+// Compliance 0 at mass 1e-35 kg: the first correction overflows.
+const std::string bomb =
+    "name = \"bomb\"\ngravity = [0, -1e6, 0]\ndt = 0.1\n[solver]\nname = \"jacobi\"\nsubsteps = "
+    "1\nover_relaxation = 1.99\n"
+    "weight = 1\n[[cloth]]\nname = \"fuse\"\nsize = [16, 16]\nspacing = 1\npinned = [\"first_row\"]\n";
+
+// As docs/report.md lists them.
+constexpr const char* reportFields[] = {"schema",
+                                        "scene",
+                                        "device",
+                                        "solver",
+                                        "substeps",
+                                        "iterations",
+                                        "reversed",
+                                        "dt",
+                                        "particles",
+                                        "constraints",
+                                        "bodies",
+                                        "meshes",
+                                        "passes",
+                                        "skipped",
+                                        "step",
+                                        "frames",
+                                        "frames_wanted",
+                                        "interrupted",
+                                        "frame_ms",
+                                        "phase_ms",
+                                        "error",
+                                        "stiffness",
+                                        "finite",
+                                        "divergence",
+                                        "overflow",
+                                        "state_hash",
+                                        "peak_memory_mib",
+                                        "validation",
+                                        "validation_messages",
+                                        "warnings"};
+
+} // namespace
+
+TEST_F(Run, ReportHasEveryDocumentedField) {
+    write("scene.toml", sheet);
+    const json report = this->report({"scene.toml", "--frames", "3"});
+    for (const char* field : reportFields) EXPECT_TRUE(report.contains(field)) << field;
+    EXPECT_EQ(report.size(), std::size(reportFields)) << "a field that docs/report.md does not name";
+    EXPECT_EQ(report["schema"], 1);
+    EXPECT_EQ(report["scene"], "scene");
+    EXPECT_EQ(report["solver"], "split");
+    EXPECT_EQ(report["substeps"], 32);
+    EXPECT_EQ(report["particles"], 16);
+    EXPECT_EQ(report["constraints"], 42);
+    EXPECT_EQ(report["frames"], 3);
+    EXPECT_EQ(report["finite"], true);
+    EXPECT_EQ(report["bodies"][0]["name"], "sheet");
+    EXPECT_EQ(report["overflow"], json::object());
+    for (const char* field : {"name", "driver", "type"})
+        EXPECT_TRUE(report["device"][field].is_string()) << field;
+    for (const char* field : {"p50", "p99", "mean", "stddev"})
+        EXPECT_TRUE(report["frame_ms"][field].is_number()) << field;
+    EXPECT_EQ(report["state_hash"].get<std::string>().size(), 16u);
+    EXPECT_FALSE(report["phase_ms"].empty());
+}
+
+TEST_F(Run, ReportSaysNullWhereAnErrorHasNoMeaning) {
+    write("scene.toml", sheet);
+    const json falling = report({"scene.toml", "--frames", "3"})["error"];
+    EXPECT_TRUE(falling["strain_rms"].is_number());
+    EXPECT_TRUE(falling["volume"].is_null());
+    EXPECT_TRUE(falling["penetration_max"].is_null());
+    EXPECT_LT(falling["momentum"], 1e-5);
+    write("scene.toml", box + "[[plane]]\n");
+    const json landing = report({"scene.toml", "--frames", "3"})["error"];
+    EXPECT_LT(std::abs(landing["volume"].get<double>()), 1e-4);
+    EXPECT_TRUE(landing["momentum"].is_null());
+    EXPECT_EQ(landing["penetration_max"], 0);
+}
+
+TEST_F(Run, ReportListsOnlyThePassesOfTheScene) {
+    write("scene.toml", sheet);
+    const auto has = [](const json& list, const std::string& part) {
+        return std::ranges::any_of(list, [&](const json& label) {
+            return label.get<std::string>().find(part) != std::string::npos;
+        });
+    };
+    const json without = report({"scene.toml", "--frames", "1"});
+    EXPECT_FALSE(has(without["passes"], "plane"));
+    EXPECT_TRUE(has(without["skipped"], "plane"));
+    write("scene.toml", sheet + "[[plane]]\noffset = -9\n");
+    const json with = report({"scene.toml", "--frames", "1"});
+    EXPECT_TRUE(has(with["passes"], "plane"));
+    EXPECT_FALSE(has(with["skipped"], "plane"));
+}
+
+TEST_F(Run, FolderHoldsReportMeshesAndStateThatReadBack) {
+    write("scene.toml", sheet + box + "name = \"../b x\"\n");
+    const Outcome outcome = run({"run", "scene.toml", "--frames", "2", "--out", "a/b", "--json", "r.json"});
+    ASSERT_EQ(outcome.code, 0) << outcome.error;
+    EXPECT_EQ(files(), (std::vector<std::string>{"a/b/___b_x.obj", "a/b/___b_x.ply", "a/b/report.json",
+                                                 "a/b/sheet.obj", "a/b/sheet.ply", "a/b/state.ply", "r.json",
+                                                 "scene.toml"}));
+    mesh::MeshDefects defects;
+    const mesh::TriangleMesh skin = mesh::importMesh(folder_ / "a/b/___b_x.obj", defects);
+    EXPECT_TRUE(defects.isClosed());
+    EXPECT_NEAR(mesh::inspect(skin).volume, 0.008, 1e-5);
+    EXPECT_EQ(mesh::importMesh(folder_ / "a/b/sheet.ply", defects).triangles.size(), 18u);
+    const auto particles = mesh::importParticles(folder_ / "a/b/state.ply");
+    ASSERT_EQ(particles.size(), 43u);
+    EXPECT_LT(particles[0].velocity.y, -0.2f);
+    EXPECT_GT(particles[0].inverseMass, 0);
+}
+
+TEST_F(Run, TextGoesToStdoutUnlessTheReportDoes) {
+    write("scene.toml", sheet);
+    const Outcome text = run({"run", "scene.toml", "--frames", "2"});
+    EXPECT_EQ(text.out.find("scene: 16 particles, 42 constraints, split with 32 substeps"), 0u) << text.out;
+    EXPECT_NE(text.error.find("2 of 2 steps"), std::string::npos) << text.error;
+    EXPECT_EQ(text.error.find('\r'), std::string::npos) << "a bar in a pipe";
+}
+
+TEST_F(Run, DivergenceNamesStepAndBodyAndKeepsTheLastFiniteState) {
+    write("scene.toml", bomb);
+    const Outcome outcome = run({"run", "scene.toml", "--frames", "100000", "--out", "out"});
+    expectOneError(outcome, 7, "the simulation diverged: step ");
+    EXPECT_NE(outcome.error.find("body \"fuse\", particle "), std::string::npos) << outcome.error;
+    const json report = json::parse(std::ifstream(folder_ / "out/report.json"));
+    EXPECT_EQ(report["finite"], false);
+    EXPECT_EQ(report["divergence"]["body"], "fuse");
+    EXPECT_EQ(report["divergence"]["step"].get<std::uint64_t>(), report["frames"].get<std::uint64_t>() + 1);
+    for (const mesh::ParticleState& particle : mesh::importParticles(folder_ / "out/state.ply"))
+        EXPECT_TRUE(std::isfinite(particle.position.x) && std::isfinite(particle.velocity.y));
+}
+
+TEST_F(Run, AnInterruptedRunWritesWholeOutputs) {
+    write("scene.toml", sheet);
+    const Outcome outcome =
+        run({"run", "scene.toml", "--frames", "1000000000", "--out", "out", "--json", "-"}, {}, 1500);
+    EXPECT_EQ(outcome.code, 130) << outcome.error;
+    const json report = json::parse(outcome.out, nullptr, false);
+    ASSERT_FALSE(report.is_discarded()) << outcome.out;
+    EXPECT_EQ(report["interrupted"], true);
+    EXPECT_GT(report["frames"], 0);
+    EXPECT_EQ(files(), (std::vector<std::string>{"out/report.json", "out/sheet.obj", "out/sheet.ply",
+                                                 "out/state.ply", "scene.toml"}));
+}
+
+TEST_F(Run, ValidationHasNothingToSayAboutTheShippedScenes) {
+    for (const char* scene : {"cloth", "cube", "organ"})
+        for (const char* solver : {"split", "jacobi"}) {
+            const json report = this->report({shippedScene(scene), "--frames", "6", "--substeps", "4",
+                                              "--validation", "--solver", solver});
+            EXPECT_EQ(report["validation"], true);
+            EXPECT_EQ(report["validation_messages"], json::array()) << scene << " with " << solver;
+        }
+}
+
+TEST_F(Run, WarningsAreInTheReportAndOnStderr) {
+    write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");
+    const Outcome outcome = run({"run", "open.obj", "--frames", "1", "--json", "-"});
+    ASSERT_EQ(outcome.code, 0) << outcome.error;
+    EXPECT_NE(outcome.error.find("warning: mesh open.obj is open: 3 boundary edges"), std::string::npos);
+    const json report = json::parse(outcome.out);
+    EXPECT_EQ(report["meshes"][0]["boundary_edges"], 3);
+    EXPECT_FALSE(report["warnings"].empty());
+}
+
+TEST_F(Run, KeepsOutOfAFolderInUse) {
+    write("scene.toml", sheet);
+    std::filesystem::create_directory(folder_ / "out");
+    const int lock =
+        ::open((folder_ / "out/.sinew-lock").c_str(), O_CREAT | O_RDWR, 0600); // as a run holds it
+    ASSERT_EQ(::flock(lock, LOCK_EX), 0);
+    expectOneError(run({"run", "scene.toml", "--frames", "1", "--out", "out"}), 6,
+                   "out: another run writes there");
+    ::close(lock);
+    EXPECT_EQ(run({"run", "scene.toml", "--frames", "1", "--out", "out"}).code, 0);
+}

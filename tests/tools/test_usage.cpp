@@ -1,0 +1,121 @@
+// Help and wrong usage, and the commands that need no device.
+#include "tools/program.hpp"
+
+using sinew::test::expectOneError;
+using sinew::test::Outcome;
+using sinew::test::shippedScene;
+
+namespace {
+
+class Usage : public sinew::test::Program {};
+
+const sinew::test::Environment noDevice{{"VK_ICD_FILENAMES", "/nonexistent.json"},
+                                        {"VK_DRIVER_FILES", "/nonexistent.json"}};
+
+} // namespace
+
+TEST_F(Usage, HelpNamesEveryCommandOptionAndExitCode) {
+    const Outcome help = run({"--help"});
+    EXPECT_EQ(help.code, 0);
+    EXPECT_EQ(help.error, "");
+    for (const char* word : {"run", "describe", "mesh", "devices", "bench", "Exit codes", "130"})
+        EXPECT_NE(help.out.find(word), std::string::npos) << word;
+    const Outcome runHelp = run({"run", "--help"});
+    EXPECT_EQ(runHelp.code, 0);
+    for (const char* word : {"--frames", "--out", "--json", "--solver", "--substeps", "--iterations",
+                             "--device", "--reversed", "--validation", "240", "jacobi"})
+        EXPECT_NE(runHelp.out.find(word), std::string::npos) << word;
+}
+
+TEST_F(Usage, VersionIsPrinted) {
+    const Outcome version = run({"--version"});
+    EXPECT_EQ(version.code, 0);
+    EXPECT_EQ(version.out.find("sinew "), 0u);
+}
+
+TEST_F(Usage, WrongUsageIsCodeTwoAndPointsAtTheRightHelp) {
+    const std::vector<std::vector<std::string>> wrong = {
+        {},
+        {"frobnicate"},
+        {"run"},
+        {"run", "a.toml", "b.toml"},
+        {"run", "a.toml", "--frames", "0"},
+        {"run", "a.toml", "--frames", "-1"},
+        {"run", "a.toml", "--frames", "many"},
+        {"run", "a.toml", "--frames"},
+        {"run", "a.toml", "--substeps", "0"},
+        {"run", "a.toml", "--substeps", "1001"},
+        {"run", "a.toml", "--iterations", "0"},
+        {"run", "a.toml", "--solver", "magic"},
+        {"run", "a.toml", "--voxel", "-1"},
+        {"run", "a.toml", "--unknown"},
+        {"describe"},
+        {"mesh"},
+        {"mesh", "a.obj", "--resolution", "0"},
+        {"mesh", "a.obj", "--resolution", "4", "--voxel", "1"},
+        {"bench", "--scene", "clutter"},
+        {"bench", "--seconds", "0"},
+        {"devices", "extra"},
+    };
+    for (const std::vector<std::string>& arguments : wrong) {
+        const std::string command =
+            arguments.empty() || arguments[0] == "frobnicate" ? "" : arguments[0] + " ";
+        expectOneError(run(arguments), 2, "see `sinew " + command + "--help`");
+    }
+}
+
+TEST_F(Usage, DescribeNeedsNoDevice) {
+    const Outcome outcome = run({"describe", shippedScene("cube")}, noDevice);
+    EXPECT_EQ(outcome.code, 0) << outcome.error;
+    EXPECT_NE(outcome.out.find("4096 particles"), std::string::npos);
+    EXPECT_NE(outcome.out.find("-- barrier"), std::string::npos);
+    EXPECT_NE(
+        run({"describe", shippedScene("cube"), "--solver", "jacobi"}, noDevice).out.find("apply_corrections"),
+        std::string::npos);
+}
+
+TEST_F(Usage, MeshNeedsNoDeviceAndReportsWhatItFound) {
+    const auto mesh = write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");
+    const Outcome text = run({"mesh", mesh.string()}, noDevice);
+    EXPECT_EQ(text.code, 0) << text.error;
+    EXPECT_NE(text.out.find("3 boundary edges"), std::string::npos) << text.out;
+    const Outcome json = run({"mesh", mesh.string(), "--voxel", "0.25", "--json", "-"}, noDevice);
+    ASSERT_EQ(json.code, 0) << json.error;
+    const auto report = nlohmann::json::parse(json.out);
+    EXPECT_EQ(report["schema"], 1);
+    EXPECT_EQ(report["surface"]["triangles"], 3);
+    EXPECT_EQ(report["surface"]["boundary_edges"], 3);
+    EXPECT_EQ(report["surface"]["closed"], false);
+    EXPECT_TRUE(report["surface"]["volume"].is_null());
+    EXPECT_EQ(report["voxels"]["spacing"], 0.25);
+    EXPECT_GT(report["voxels"]["hull"], 0);
+}
+
+TEST_F(Usage, DevicesMarksTheOneThatWouldBeUsed) {
+    const Outcome outcome = run({"devices"});
+    EXPECT_EQ(outcome.code, 0) << outcome.error;
+    EXPECT_NE(outcome.out.find("\n* "), std::string::npos) << outcome.out;
+    if (outcome.out.find("llvmpipe") != std::string::npos) {
+        EXPECT_NE(outcome.out.find("LP_NUM_THREADS=0"), std::string::npos);
+    }
+    expectOneError(run({"devices", "--device", "no such device"}), 4, "no such device");
+}
+
+TEST_F(Usage, BenchWritesARowForEverySolver) {
+    const Outcome outcome = run({"bench", "--scene", "cloth", "--seconds", "0.01", "--json", "-"});
+    ASSERT_EQ(outcome.code, 0) << outcome.error;
+    const auto rows = nlohmann::json::parse(outcome.out)["rows"];
+    ASSERT_EQ(rows.size(), 3u);
+    const char* solvers[] = {"sequential", "jacobi", "split"};
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(rows[i]["solver"], solvers[i]);
+        EXPECT_EQ(rows[i]["constraints"], 16002);
+        for (const char* field :
+             {"scene", "size", "device", "particles", "substeps", "iterations", "fps_mean", "fps_stddev",
+              "ms_mean", "ms_stddev", "ms_p50", "ms_p99", "ns_per_constraint_sweep", "speedup"})
+            EXPECT_TRUE(rows[i].contains(field)) << field;
+        EXPECT_GT(rows[i]["ms_p50"], 0);
+        EXPECT_TRUE(rows[i]["error"]["strain_rms"].is_number());
+    }
+    EXPECT_EQ(rows[0]["speedup"], 1);
+}

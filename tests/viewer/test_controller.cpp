@@ -1,0 +1,118 @@
+// The table of bindings and what actions do, without a window.
+#include "viewer/controller.hpp"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace sinew::viewer {
+namespace {
+
+constexpr double dt = 1.0 / 60;
+
+TEST(Bindings, AreUnambiguous) {
+    for (const Binding& a : bindings())
+        for (const Binding& b : bindings())
+            EXPECT_TRUE(&a == &b || !(a.trigger == b.trigger)) << a.shown << " and " << b.shown;
+}
+
+TEST(Bindings, CoverEveryAction) {
+    std::set<Action> bound;
+    for (const Binding& binding : bindings()) bound.insert(binding.action);
+    for (int action = static_cast<int>(Action::orbit); action <= static_cast<int>(Action::quit); ++action)
+        EXPECT_EQ(bound.count(static_cast<Action>(action)), 1u) << "action " << action;
+}
+
+TEST(Bindings, AreAllInTheHelpText) {
+    const std::string text = helpText();
+    for (const Binding& binding : bindings()) {
+        EXPECT_NE(text.find(binding.shown), std::string::npos) << binding.shown;
+        EXPECT_NE(text.find(binding.help), std::string::npos) << binding.help;
+    }
+}
+
+TEST(Bindings, EscapeDoesNothingAndControlQQuits) {
+    EXPECT_FALSE(actionFor({Trigger::Kind::key, GLFW_KEY_ESCAPE, 0}));
+    EXPECT_FALSE(actionFor({Trigger::Kind::key, GLFW_KEY_Q, 0}));
+    EXPECT_EQ(actionFor({Trigger::Kind::key, GLFW_KEY_Q, GLFW_MOD_CONTROL}), Action::quit);
+}
+
+TEST(Bindings, IgnoreLocksOfTheKeyboard) {
+    EXPECT_EQ(actionFor({Trigger::Kind::key, GLFW_KEY_P, GLFW_MOD_CAPS_LOCK | GLFW_MOD_NUM_LOCK}),
+              Action::pause);
+}
+
+TEST(Playback, FollowsRealTime) {
+    Playback playback(dt);
+    std::uint32_t steps = 0;
+    for (int frame = 0; frame < 144; ++frame) // one second at 144 pictures a second
+        steps += playback.plan(1.0 / 144).steps;
+    EXPECT_GE(steps, 59u);
+    EXPECT_LE(steps, 60u);
+}
+
+TEST(Playback, DropsTimeItCannotKeepUpWith) {
+    Playback playback(dt);
+    EXPECT_EQ(playback.plan(10).steps, Playback::maxSteps);
+    EXPECT_LE(playback.plan(0).steps, 1u) << "ten seconds are not made up for";
+    EXPECT_EQ(playback.plan(0).steps, 0u);
+}
+
+TEST(Playback, StandsStillWhilePausedAndDoesNotJumpAfterwards) {
+    Playback playback(dt);
+    playback.toggle();
+    EXPECT_TRUE(playback.isPaused());
+    for (int frame = 0; frame < 10; ++frame) EXPECT_EQ(playback.plan(1).steps, 0u);
+    playback.toggle();
+    EXPECT_EQ(playback.plan(0.5 * dt).steps, 0u);
+}
+
+TEST(Playback, StepPausesAndTakesExactlyOne) {
+    Playback playback(dt);
+    playback.step();
+    EXPECT_TRUE(playback.isPaused());
+    EXPECT_EQ(playback.plan(1).steps, 1u);
+    EXPECT_EQ(playback.plan(1).steps, 0u);
+}
+
+TEST(Playback, ResetComesOnceAndAlsoWhilePaused) {
+    Playback playback(dt);
+    playback.pause();
+    playback.reset();
+    EXPECT_TRUE(playback.plan(0).isReset);
+    EXPECT_FALSE(playback.plan(0).isReset);
+    EXPECT_TRUE(playback.isPaused());
+}
+
+TEST(Controller, DoesWhatConcernsTimeAndLeavesTheRest) {
+    Controller controller(Camera{}, dt);
+    EXPECT_TRUE(controller.act(Action::pause));
+    EXPECT_TRUE(controller.playback.isPaused());
+    EXPECT_TRUE(controller.act(Action::step));
+    EXPECT_TRUE(controller.act(Action::reset));
+    for (const Action action : {Action::screenshot, Action::fullScreen, Action::quit, Action::frame})
+        EXPECT_FALSE(controller.act(action));
+}
+
+TEST(Controller, DragsMoveTheCameraByTheirKind) {
+    Controller orbiting(Camera{}, dt), panning(Camera{}, dt);
+    orbiting.drag(Action::orbit, {0.1f, 0});
+    panning.drag(Action::pan, {0.1f, 0});
+    EXPECT_EQ(orbiting.camera.target, Camera{}.target);
+    EXPECT_NE(orbiting.camera.azimuth, Camera{}.azimuth);
+    EXPECT_NE(panning.camera.target, Camera{}.target);
+    EXPECT_EQ(panning.camera.azimuth, Camera{}.azimuth);
+}
+
+TEST(Controller, WheelForwardsComesNearer) {
+    Controller controller(Camera{}, dt);
+    controller.wheel(1, Vector2::Zero());
+    EXPECT_LT(controller.camera.distance, Camera{}.distance);
+    controller.wheel(-1, Vector2::Zero());
+    EXPECT_NEAR(controller.camera.distance, Camera{}.distance, 1e-5f);
+}
+
+} // namespace
+} // namespace sinew::viewer

@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# test_headless.sh VIEWER SCENE FOLDER: pictures without a display, under validation; what is wrong costs one line.
+set -euo pipefail
+viewer=$1 scene=$2 folder=$3
+unset DISPLAY WAYLAND_DISPLAY
+rm -rf "$folder"
+mkdir -p "$folder"
+cd "$folder"
+
+fail() {
+    echo "FAILED: $1"
+    cat out err 2>/dev/null
+    exit 1
+}
+expect() { # CODE ARGUMENTS...: runs the viewer
+    local wanted=$1 code=0
+    shift
+    "$viewer" "$@" >out 2>err || code=$?
+    [[ $code == "$wanted" ]] || fail "$*: exit code $code, expected $wanted"
+    if ((wanted != 0)); then
+        (($(grep -c '^error: ' err) == 1)) || fail "$*: not one line of error"
+    fi
+}
+
+expect 0 "$scene" --headless --frames 30 --every 10 --size 320x200 --out every --validation
+[[ $(echo every/*) == "every/frame_0000.png every/frame_0010.png every/frame_0020.png every/frame_0030.png" ]] ||
+    fail "--every wrote $(echo every/*)"
+grep -q validation err && fail "validation messages"
+grep -q '^30 of 30 steps' err || fail "no progress in a pipe"
+expect 0 "$scene" --headless --picture-frames 10,30 --size 320x200 --out listed
+cmp every/frame_0010.png listed/frame_0010.png || fail "a picture depends on which others are taken"
+cmp every/frame_0030.png listed/frame_0030.png || fail "a picture depends on which others are taken"
+cmp -s every/frame_0000.png every/frame_0030.png && fail "nothing has moved"
+
+# Far too much over-relaxation.
+printf '[solver]\nname = "jacobi"\nsubsteps = 1\niterations = 200\nover_relaxation = 1.99\nweight = 1\n[[cloth]]\nname = "fuse"\nsize = [16, 16]\nspacing = 1\npinned = ["first_row"]\n' >bomb.toml
+expect 7 bomb.toml --headless --frames 100000 --every 100000 --size 64x64 --out bomb
+grep -q 'body "fuse"' err || fail "a divergence names no body"
+[[ -s bomb/frame_0000.png ]] || fail "a divergence lost the pictures before it"
+
+echo occupied >file
+expect 6 "$scene" --headless --out file/below
+expect 6 "$scene" --headless --frames 1 --video missing/film.mp4
+expect 3 missing.toml --headless --out x
+expect 3 "$folder" --headless --out x
+expect 4 "$scene" --headless --out x --device "no such device"
+expect 2 "$scene" --headless --size 20x --out x
+expect 2 --surprise
+[[ ! -e x ]] || [[ -z $(ls x) ]] || fail "a failed run left pictures"
+
+"$viewer" "$scene" --headless --frames 1000000 --every 5 --size 64x64 --out interrupted >out 2>err &
+for _ in {1..100}; do [[ -e interrupted/frame_0005.png ]] && break; sleep 0.1; done
+kill -INT $!
+code=0
+wait $! || code=$?
+[[ $code == 130 ]] || fail "interrupted: exit code $code, expected 130"
+[[ -z $(find . -name '*.tmp*' -o -name '*.part*' -o -name '.*.png*') ]] || fail "partial files: $(find .)"
+echo "passed"

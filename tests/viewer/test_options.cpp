@@ -1,0 +1,78 @@
+// The command line: what is accepted, what is refused, and which frames become pictures.
+#include "viewer/options.hpp"
+
+#include "app/guard.hpp"
+
+#include <gtest/gtest.h>
+
+namespace sinew::viewer {
+namespace {
+
+Options parse(std::vector<const char*> arguments) {
+    arguments.insert(arguments.begin(), "sinew-viewer");
+    return parseOptions(static_cast<int>(arguments.size()), arguments.data()).value();
+}
+
+std::string complaint(std::vector<const char*> arguments) {
+    try {
+        parse(std::move(arguments));
+    } catch (const app::Failure& failure) {
+        EXPECT_EQ(failure.code(), app::wrongUsage);
+        return failure.what();
+    }
+    return "accepted";
+}
+
+TEST(Options, DefaultToAWindowWithTheBuiltInOrgan) {
+    const Options options = parse({});
+    EXPECT_FALSE(options.isHeadless);
+    EXPECT_EQ(options.scene, "");
+    EXPECT_EQ(options.size.width, 1280u);
+    EXPECT_EQ(options.size.height, 720u);
+}
+
+TEST(Options, HeadlessTakesEveryFrameByDefault) {
+    const Options options = parse({"cube.toml", "--headless", "--frames", "7", "--out", "pictures"});
+    for (std::uint64_t frame = 0; frame <= 7; ++frame) EXPECT_TRUE(options.wantsPicture(frame));
+    EXPECT_EQ(options.frames, 7u);
+    EXPECT_EQ(options.folder, "pictures");
+}
+
+TEST(Options, EveryKeepsFrameZero) {
+    const Options options = parse({"--headless", "--out", "x", "--every", "3"});
+    EXPECT_TRUE(options.wantsPicture(0));
+    EXPECT_FALSE(options.wantsPicture(2));
+    EXPECT_TRUE(options.wantsPicture(3));
+}
+
+TEST(Options, AListOfFramesMayComeInAnyOrderAndSetsTheLength) {
+    const Options options = parse({"--headless", "--out", "x", "--picture-frames", "120,0,60"});
+    EXPECT_EQ(options.frames, 120u);
+    EXPECT_TRUE(options.wantsPicture(0));
+    EXPECT_TRUE(options.wantsPicture(60));
+    EXPECT_FALSE(options.wantsPicture(61));
+}
+
+TEST(Options, RefuseWhatMakesNoSense) {
+    EXPECT_NE(complaint({"--frames", "3"}).find("--headless"), std::string::npos);
+    EXPECT_NE(complaint({"--headless"}).find("--out"), std::string::npos);
+    EXPECT_NE(complaint({"--headless", "--out", "x", "--frames", "0"}).find("--frames"), std::string::npos);
+    EXPECT_NE(
+        complaint({"--headless", "--out", "x", "--frames", "5", "--picture-frames", "9"}).find("beyond"),
+        std::string::npos);
+    EXPECT_NE(complaint({"--headless", "--video", "x.mp4", "--picture-frames", "9"}).find("--every"),
+              std::string::npos);
+    EXPECT_NE(complaint({"--solver", "magic"}).find("--solver"), std::string::npos);
+    EXPECT_NE(complaint({"--substeps", "0"}).find("--substeps"), std::string::npos);
+    EXPECT_NE(complaint({"a.toml", "b.toml"}), "accepted");
+}
+
+TEST(Options, SizesAreTwoSensibleNumbers) {
+    EXPECT_EQ(parse({"--size", "640x400"}).size.height, 400u);
+    for (const char* size : {"", "640", "640x", "x400", "640x400x3", "640 x 400", "-640x400", "8x8",
+                             "9999x400", "99999999999x400", "640X400"})
+        EXPECT_NE(complaint({"--size", size}).find("--size"), std::string::npos) << size;
+}
+
+} // namespace
+} // namespace sinew::viewer

@@ -1,0 +1,223 @@
+// Pictures of small scenes, drawn under core, synchronisation and queue-submit validation (support/device.hpp
+// makes every message a failure).
+#include "viewer/bounds_probe.hpp"
+#include "viewer/offscreen.hpp"
+#include "viewer/stage.hpp"
+
+#include "sim/bodies.hpp"
+#include "support/device.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+namespace sinew::viewer {
+namespace {
+
+constexpr VkExtent2D extent{320, 200};
+constexpr float aspect = 1.6f;
+constexpr Quality quick{.shadowSize = 512, .floorSize = 256, .shadowTaps = 16, .skyTaps = 24};
+
+sim::Scene block(float height, bool hasGround) {
+    sim::Scene scene;
+    const sim::Lattice lattice{.origin = {-0.2f, height, -0.2f}, .cells = {4, 4, 4}, .spacing = 0.1f};
+    const sim::LatticeCorners corners = sim::addLattice(scene, lattice);
+    sim::addLatticeSkin(scene, lattice, corners, {0.70f, 0.12f, 0.10f});
+    if (hasGround) scene.planes.push_back({});
+    return scene;
+}
+
+// A scene with its picture taken after some steps.
+struct Shot {
+    Shot(const sim::Scene& scene, Camera view, const Quality& quality = quick)
+        : camera(view), light(lightFor(scene, view)), stage(test::device(), scene, {}),
+          offscreen(test::device(), extent, light, quality) {}
+
+    Picture take(int steps = 0) {
+        VkCommandBuffer commands = test::queue().begin();
+        if (stage.steps() == 0) stage.recordReset(commands);
+        for (int i = 0; i < steps; ++i) stage.recordStep(commands);
+        stage.recordSkin(commands);
+        offscreen.record(commands, camera, stage.simulation());
+        test::queue().wait(test::queue().submit(commands));
+        return offscreen.read();
+    }
+
+    Camera camera;
+    StageLight light;
+    Stage stage;
+    Offscreen offscreen;
+};
+
+Camera viewOf(const sim::Scene& scene) {
+    Camera camera;
+    camera.elevation = 0.5f;
+    return framing(camera, stageBounds(scene), aspect);
+}
+
+using Color = std::array<int, 3>;
+
+// The pixel that shows a place.
+Color colorAt(const Picture& picture, const Camera& camera, const Vector3& place) {
+    const Eigen::Vector4f clip = clipMatrix(camera, aspect, 100) * place.homogeneous();
+    const auto pixel = [](float ndc, std::uint32_t size) {
+        return static_cast<std::uint32_t>(std::lround((0.5f * ndc + 0.5f) * static_cast<float>(size) - 0.5f));
+    };
+    const std::uint32_t x = pixel(clip.x() / clip.w(), picture.width),
+                        y = pixel(clip.y() / clip.w(), picture.height);
+    const std::uint8_t* at = &picture.pixels.at(4 * (std::size_t{y} * picture.width + x));
+    return {at[0], at[1], at[2]};
+}
+
+int brightness(const Color& color) {
+    return color[0] + color[1] + color[2];
+}
+
+int redness(const Color& color) {
+    return color[0] - std::max(color[1], color[2]);
+}
+
+TEST(Picture, ShowsTheBodyInItsColorInFrontOfAQuietBackground) {
+    const sim::Scene scene = block(0, true);
+    Shot shot(scene, viewOf(scene));
+    const Picture picture = shot.take();
+    EXPECT_GT(redness(colorAt(picture, shot.camera, {0, 0.4f, 0})), 60) << "top of the block";
+    EXPECT_GT(redness(colorAt(picture, shot.camera, {0, 0.2f, 0.2f})), 40) << "its front";
+    const Color corner{picture.pixels[0], picture.pixels[1], picture.pixels[2]};
+    EXPECT_LT(std::abs(redness(corner)), 25) << "sky and ground are nearly grey";
+    EXPECT_GT(brightness(corner), 300) << "and bright";
+}
+
+TEST(Picture, IsDarkerOnTheGroundBesideTheBodyThanFarFromIt) {
+    const sim::Scene scene = block(0, true);
+    Camera camera = viewOf(scene);
+    camera.distance *= 2;
+    Shot shot(scene, camera);
+    const Picture picture = shot.take();
+    const Vector3 away = Vector3(-shot.light.toLight.x(), 0, -shot.light.toLight.z()).normalized();
+    const Color shadow = colorAt(picture, camera, 0.36f * away);
+    const Color open = colorAt(picture, camera, -0.8f * away);
+    EXPECT_LT(brightness(shadow), 0.75f * static_cast<float>(brightness(open)));
+}
+
+TEST(Picture, DarkensTheGroundUnderABodyThatComesNear) {
+    // Seen past the lower edge of a block in the air.
+    const auto under = [](float height) {
+        const sim::Scene scene = block(height, true);
+        Camera camera;
+        camera.elevation = 0.3f;
+        camera.distance = 3;
+        Shot shot(scene, camera);
+        return brightness(colorAt(shot.take(), camera, {0, 0, 0}));
+    };
+    EXPECT_LT(under(0.12f) + 30, under(1.0f));
+}
+
+TEST(Picture, WithoutAPlaneHasNoGround) {
+    const sim::Scene scene = block(0, false);
+    Shot shot(scene, viewOf(scene));
+    const Picture picture = shot.take();
+    const Vector3 away = Vector3(-shot.light.toLight.x(), 0, -shot.light.toLight.z()).normalized();
+    const int beside = brightness(colorAt(picture, shot.camera, 0.36f * away));
+    const int opposite = brightness(colorAt(picture, shot.camera, -0.36f * away));
+    EXPECT_LT(std::abs(beside - opposite), 40) << "no shadow falls on the backdrop";
+    EXPECT_GT(redness(colorAt(picture, shot.camera, {0, 0.4f, 0})), 60);
+}
+
+TEST(Picture, FollowsTheSimulation) {
+    const sim::Scene scene = block(0.5f, true);
+    Shot shot(scene, viewOf(scene));
+    const Vector3 start(0, 0.9f, 0.1f), landed(0, 0.1f, 0.2f);
+    const Picture before = shot.take();
+    EXPECT_GT(redness(colorAt(before, shot.camera, start)), 40);
+    EXPECT_LT(redness(colorAt(before, shot.camera, landed)), 25);
+    for (int i = 0; i < 5; ++i) shot.take(4);
+    const Picture after = shot.take(); // 1/3 s later it has just landed
+    EXPECT_LT(redness(colorAt(after, shot.camera, start)), 25);
+    EXPECT_GT(redness(colorAt(after, shot.camera, landed)), 40);
+}
+
+TEST(Picture, IsTheSameTwice) {
+    const sim::Scene scene = block(0.1f, true);
+    Shot shot(scene, viewOf(scene));
+    EXPECT_EQ(shot.take().pixels, shot.take().pixels);
+}
+
+TEST(Picture, HasSmoothEdgesWithFourSamples) {
+    const sim::Scene scene = block(0.3f, true);
+    Quality coarse = quick;
+    coarse.samples = VK_SAMPLE_COUNT_1_BIT;
+    Shot smooth(scene, viewOf(scene)), jagged(scene, viewOf(scene), coarse);
+    const Picture a = smooth.take(), b = jagged.take();
+    // Pixels between body and background: neither red nor grey.
+    const auto between = [](const Picture& picture) {
+        int count = 0;
+        for (std::size_t i = 0; i < picture.pixels.size(); i += 4) {
+            const int red = redness({picture.pixels[i], picture.pixels[i + 1], picture.pixels[i + 2]});
+            count += red > 20 && red < 50;
+        }
+        return count;
+    };
+    EXPECT_GT(between(a), 2 * between(b) + 50);
+}
+
+TEST(Picture, LightsBothSidesOfCloth) {
+    const auto seen = [](float side) {
+        sim::Scene scene;
+        sim::addCloth(
+            scene,
+            {.origin = {-0.5f, 0, -0.5f}, .size = {9, 9}, .spacing = 0.125f, .color = {0.7f, 0.1f, 0.1f}});
+        Camera camera;
+        camera.elevation = side;
+        Shot shot(scene, camera);
+        return colorAt(shot.take(), camera, {0, 0, 0});
+    };
+    EXPECT_GT(redness(seen(1.0f)), 40) << "from above";
+    EXPECT_GT(redness(seen(-1.0f)), 20) << "from below";
+}
+
+TEST(Picture, OfASceneWithoutSkinsIsAnEmptyStage) {
+    sim::Scene scene;
+    scene.particles.push_back({.position = {0, 1, 0}});
+    scene.planes.push_back({});
+    Shot shot(scene, viewOf(scene));
+    EXPECT_LT(redness(colorAt(shot.take(), shot.camera, {0, 0.5f, 0})), 25);
+}
+
+TEST(BoundsProbe, FindsTheBodyWhereItIsNow) {
+    const sim::Scene scene = block(0.5f, true);
+    Stage stage(test::device(), scene, {});
+    const BoundsProbe probe(test::device(), stage.simulation().positions());
+    VkCommandBuffer commands = test::queue().begin();
+    stage.recordReset(commands);
+    for (int i = 0; i < 4; ++i) stage.recordStep(commands);
+    probe.record(commands);
+    test::queue().wait(test::queue().submit(commands));
+    const float t = 4.0f / 60, fallen = 0.5f - 0.5f * 9.81f * t * t;
+    EXPECT_NEAR(probe.read().min().y(), fallen, 2e-3f);
+    EXPECT_NEAR(probe.read().sizes().y(), 0.4f, 1e-3f);
+}
+
+TEST(Stage, NamesBodyParticleAndStepThatBroke) {
+    sim::Scene scene = block(0.5f, false);
+    const auto first = static_cast<std::uint32_t>(scene.particles.size());
+    sim::addCloth(scene, {.name = "flag", .size = {2, 2}, .spacing = 0.1f});
+    scene.distances.clear();
+    scene.particles[first + 2].position = scene.particles[first + 2].velocity = {3.3e38f, 0, 0};
+    scene.dt = 0.1f; // leaves what a float can hold in the first step
+    Stage stage(test::device(), scene, {});
+    VkCommandBuffer commands = test::queue().begin();
+    stage.recordReset(commands);
+    for (int i = 0; i < 2; ++i) stage.recordStep(commands);
+    test::queue().wait(test::queue().submit(commands));
+    const std::optional<Divergence> divergence = stage.check(1);
+    ASSERT_TRUE(divergence);
+    EXPECT_EQ(divergence->firstParticle, first + 2);
+    EXPECT_EQ(divergence->particles, 1u);
+    EXPECT_NE(divergence->sentence().find("step 1, body \"flag\", particle " + std::to_string(first + 2)),
+              std::string::npos);
+}
+
+} // namespace
+} // namespace sinew::viewer

@@ -1,0 +1,142 @@
+#!/usr/bin/env bash
+# test_window.sh VIEWER SCENE FOLDER: plays the scene in a window under Xvfb with validation, drives it with mouse and keys
+# through a storm of sizes, and expects a picture that moves, a clean end and not one message. FOLDER keeps the screenshots.
+set -euo pipefail
+viewer=$1 scene=$2 folder=$3
+
+for program in Xvfb xdotool import convert; do
+    command -v "$program" >/dev/null || { echo "SKIPPED: $program is not installed (packages xvfb xdotool imagemagick)"; exit 77; }
+done
+rm -rf "$folder"
+mkdir -p "$folder"
+cd "$folder"
+
+processes=()
+finish() {
+    for process in "${processes[@]}"; do kill "$process" 2>/dev/null || true; done
+    wait
+}
+trap finish EXIT
+fail() {
+    echo "FAILED: $1"
+    cat viewer.out viewer.err
+    exit 1
+}
+
+exec 3<>"$folder/display"
+Xvfb -displayfd 3 -screen 0 1000x700x24 -nolisten tcp >/dev/null 2>&1 &
+processes+=($!)
+for _ in {1..100}; do [[ -s display ]] && break; sleep 0.1; done
+[[ -s display ]] || fail "Xvfb did not start"
+export DISPLAY=:$(tr -d '[:space:]' <display)
+
+start() {
+    "$viewer" "$scene" --validation --size 640x400 "$@" >viewer.out 2>viewer.err &
+    running=$!
+    processes+=("$running")
+    for _ in {1..200}; do
+        window=$(xdotool search --name '^Sinew' 2>/dev/null | head -n 1) && [[ -n $window ]] && break
+        kill -0 "$running" 2>/dev/null || fail "the viewer ended at once"
+        sleep 0.1
+    done
+    awaitTitle fps
+}
+title() { xdotool getwindowname "$window"; }
+awaitTitle() { # PATTERN
+    for _ in {1..300}; do
+        [[ $(title) =~ $1 ]] && return
+        kill -0 "$running" 2>/dev/null || fail "the viewer ended while waiting for the title $1"
+        sleep 0.1
+    done
+    fail "the title never showed $1: $(title)"
+}
+keys() { xdotool key --window "$window" "$@"; }
+drag() { # BUTTON DX DY
+    xdotool mousemove 300 200 mousedown "$1"
+    for _ in {1..5}; do xdotool mousemove_relative -- "$2" "$3"; sleep 0.05; done
+    xdotool mouseup "$1"
+}
+shoot() { import -silent -window root -crop 640x400+0+0 +repage "$1"; } # as large as the window, which stands in the corner
+awaitStill() { # FILE: a picture that stays; a paused software device draws its last one in full quality
+    shoot "$1"
+    for _ in {1..100}; do
+        sleep 0.5
+        shoot next.png
+        compare -metric AE "$1" next.png null: >/dev/null 2>&1 && return
+        mv next.png "$1"
+    done
+    fail "the paused picture never stood still"
+}
+same() { compare -metric AE "$1" "$2" null: >/dev/null 2>&1; }
+awaitEnd() { # CODE
+    local code=0
+    wait "$running" || code=$?
+    [[ $code == "$1" ]] || fail "exit code $code, expected $1"
+    [[ ! -s viewer.err ]] || fail "something was said on stderr"
+}
+
+echo "window: orbit, pan, zoom, pause"
+start
+xdotool windowmove "$window" 0 0
+keys space
+awaitTitle paused
+awaitStill paused.png
+drag 1 30 -8
+awaitStill orbited.png
+same paused.png orbited.png && fail "an orbit drag changed nothing"
+drag 3 -20 0
+drag 2 12 6
+xdotool click 4 click 4 click 5
+awaitStill moved.png
+same orbited.png moved.png && fail "pan and wheel changed nothing"
+colors=$(convert orbited.png -format %k info:)
+((colors > 500)) || fail "the picture has only $colors colours"
+
+echo "window: frame, step, reset, screenshot, help, vsync, Escape"
+keys f
+awaitStill framed.png
+same moved.png framed.png && fail "F changed nothing"
+for _ in {1..20}; do keys period; done
+awaitStill stepped.png
+same framed.png stepped.png && fail "twenty steps changed nothing"
+keys r
+awaitStill reset.png
+same stepped.png reset.png && fail "R changed nothing"
+keys F12
+for _ in {1..100}; do grep -q '^picture: ' viewer.out && break; sleep 0.1; done
+[[ $(identify -format '%wx%h' block-000000.png) == 640x400 ]] || fail "F12 wrote no picture of the window's size"
+keys h
+keys v v Escape
+awaitStill still.png
+grep -q 'Ctrl + Q' viewer.out || fail "H printed no help"
+
+echo "window: sizes, hiding, full screen"
+keys space
+awaitTitle fps
+for size in "200 300" "700 120" "1 1" "640 480" "33 500" "900 650" "123 77" "640 400"; do
+    xdotool windowsize "$window" $size
+    sleep 0.15
+done
+for size in {1..30}; do xdotool windowsize "$window" $((300 + 11 * size)) $((400 - 7 * size)); done
+xdotool windowunmap "$window"
+sleep 0.5
+xdotool windowmap "$window"
+keys F11
+sleep 0.5
+keys F11
+awaitTitle fps
+keys ctrl+q
+awaitEnd 0
+
+echo "window: interrupted"
+start
+kill -INT "$running"
+awaitEnd 130
+
+echo "window: no display"
+code=0
+DISPLAY='' WAYLAND_DISPLAY='' "$viewer" "$scene" >viewer.out 2>viewer.err || code=$?
+[[ $code == 4 ]] || fail "without a display: exit code $code, expected 4"
+[[ $(wc -l <viewer.err) == 1 ]] || fail "without a display: more than one line"
+grep -q -- '--headless' viewer.err || fail "without a display: no way out is offered"
+echo "passed"
