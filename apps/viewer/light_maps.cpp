@@ -38,12 +38,21 @@ LightMaps::LightMaps(const vk::Device& device, std::uint32_t shadowSize, std::ui
     // Filtering compared depths is optional in Vulkan; without it the taps alone soften the edge.
     const bool isFiltered = findFormat(device, std::array{depthFormat_},
                                        VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT) == depthFormat_;
-    comparing_ = makeSampler(isFiltered ? VK_FILTER_LINEAR : VK_FILTER_NEAREST, true, "light.comparing");
-    nearest_ = makeSampler(VK_FILTER_NEAREST, false, "light.nearest");
-    smooth_ = makeSampler(VK_FILTER_LINEAR, false, "light.smooth");
+    try {
+        comparing_ = makeSampler(isFiltered ? VK_FILTER_LINEAR : VK_FILTER_NEAREST, true, "light.comparing");
+        nearest_ = makeSampler(VK_FILTER_NEAREST, false, "light.nearest");
+        smooth_ = makeSampler(VK_FILTER_LINEAR, false, "light.smooth");
+    } catch (...) {
+        release();
+        throw;
+    }
 }
 
 LightMaps::~LightMaps() {
+    release();
+}
+
+void LightMaps::release() noexcept {
     for (const VkSampler sampler : {comparing_, nearest_, smooth_})
         device_.functions().vkDestroySampler(device_.handle(), sampler, nullptr);
 }

@@ -27,6 +27,7 @@ public:
     VkSampler smooth() const noexcept { return smooth_; }
 
 private:
+    void release() noexcept;
     VkSampler makeSampler(VkFilter filter, bool isComparing, const std::string& name);
     const vk::Device& device_;
     VkFormat depthFormat_;

@@ -16,12 +16,12 @@ namespace sinew::viewer {
 namespace {
 
 constexpr const char* description =
-    R"(Shows soft bodies: opens a scene (TOML) or drops a mesh (OBJ, STL, PLY, glTF, GLB), simulates it on a
-Vulkan device and draws it, in a window or, with --headless, to pictures.)";
+    R"(Shows soft bodies: opens a scene (TOML) or drops a mesh (OBJ, STL, PLY, glTF, GLB), simulates
+it on a Vulkan device and draws it, in a window or, with --headless, to pictures.)";
 
 constexpr const char* exitCodes =
-    R"(Exit codes: 0 done, 2 wrong usage, 3 bad scene or mesh, 4 no usable device or display, 5 device lost or out of
-memory, 6 output could not be written, 7 the simulation diverged, 70 a fault of ours, 130 interrupted.)";
+    R"(Exit codes: 0 done, 2 wrong usage, 3 bad scene or mesh, 4 no usable device or display, 5 device lost
+or out of memory, 6 output could not be written, 7 the simulation diverged, 70 a fault of ours, 130 interrupted.)";
 
 [[noreturn]] void refuse(const std::string& why) {
     throw app::Failure(app::wrongUsage, "wrong usage: " + why + ": see `sinew-viewer --help`");

@@ -44,10 +44,11 @@ template <typename Element, typename Call> std::vector<Element> list(const Call&
 
 } // namespace
 
-Presenter::Presenter(const vk::Device& device, VkSurfaceKHR surface)
-    : device_(device), functions_(loadFunctions(device)), surface_(surface) {
+Presenter::Presenter(const vk::Device& device, const Window& window)
+    : device_(device), functions_(loadFunctions(device)) {
     device.functions().vkGetDeviceQueue(device.handle(), device.queueFamily(), 0, &queue_);
     try {
+        surface_ = window.createSurface(device.instance());
         chooseFormat();
         createSlots();
     } catch (...) {

@@ -3,7 +3,7 @@
 // vk::Queue does not know.
 #pragma once
 
-#include "vk/device.hpp"
+#include "viewer/window.hpp"
 
 #include <array>
 #include <optional>
@@ -27,7 +27,8 @@ public:
         std::uint32_t image = 0; ///< of the swapchain
     };
 
-    Presenter(const vk::Device& device, VkSurfaceKHR surface);
+    /// Throws vk::Error. `window` is needed by the constructor only.
+    Presenter(const vk::Device& device, const Window& window);
     ~Presenter(); ///< waits for the queue
     Presenter(const Presenter&) = delete;
     Presenter& operator=(const Presenter&) = delete;
@@ -72,7 +73,7 @@ private:
 
     const vk::Device& device_;
     WindowFunctions functions_;
-    VkSurfaceKHR surface_;
+    VkSurfaceKHR surface_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
     VkCommandPool pool_ = VK_NULL_HANDLE;
     std::array<Slot, framesInFlight> slots_{};

@@ -6,8 +6,6 @@
 #include "vk/check.hpp"
 #include "vk/commands.hpp"
 
-#include <cstring>
-
 namespace sinew::viewer {
 
 namespace {
@@ -20,8 +18,6 @@ enum PipelineIndex : std::size_t {
     groundPipeline,
     skyPipeline
 };
-constexpr std::uint32_t bindingCount = 5; // frame.glsl, light.glsl, floor.frag
-constexpr VkShaderStageFlags drawingStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
 bool isSrgb(VkFormat format) {
     return format == VK_FORMAT_R8G8B8A8_SRGB || format == VK_FORMAT_B8G8R8A8_SRGB;
@@ -31,17 +27,6 @@ VkFormat canvasDepthFormat(const vk::Device& device) {
     // The specification promises one of the first two.
     constexpr std::array formats{VK_FORMAT_D32_SFLOAT, VK_FORMAT_X8_D24_UNORM_PACK32};
     return findFormat(device, formats, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT);
-}
-
-std::vector<vk::Buffer> makeParams(const vk::Device& device) {
-    std::vector<vk::Buffer> params;
-    for (std::uint32_t slot = 0; slot < Renderer::slots; ++slot)
-        params.emplace_back(device, vk::BufferRequest{.name = "picture.params",
-                                                      .count = 1,
-                                                      .stride = sizeof(layout::FrameParams),
-                                                      .kind = vk::MemoryKind::upload,
-                                                      .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT});
-    return params;
 }
 
 } // namespace
@@ -62,94 +47,8 @@ Renderer::Renderer(const vk::Device& device, const Target& target, const Quality
                                          .depth = format_.depth,
                                          .samples = format_.samples,
                                          .finalLayout = target.finalLayout})),
-      params_(makeParams(device)) {
-    try {
-        createLayouts();
-        createSets();
-        createPipelines(target, quality);
-    } catch (...) {
-        release();
-        throw;
-    }
-}
-
-Renderer::~Renderer() {
-    release();
-}
-
-void Renderer::release() noexcept {
-    const vk::DeviceFunctions& functions = device_.functions();
-    functions.vkDestroyDescriptorPool(device_.handle(), pool_, nullptr);
-    functions.vkDestroyPipelineLayout(device_.handle(), layout_, nullptr);
-    functions.vkDestroyDescriptorSetLayout(device_.handle(), setLayout_, nullptr);
-}
-
-void Renderer::createLayouts() {
-    std::array<VkDescriptorSetLayoutBinding, bindingCount> bindings{};
-    for (std::uint32_t binding = 0; binding < bindingCount; ++binding)
-        bindings[binding] = {.binding = binding,
-                             .descriptorType = binding == 0 ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
-                                                            : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                             .descriptorCount = 1,
-                             .stageFlags = drawingStages};
-    const VkDescriptorSetLayoutCreateInfo setInfo{.sType =
-                                                      VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-                                                  .bindingCount = bindingCount,
-                                                  .pBindings = bindings.data()};
-    vk::check(
-        device_.functions().vkCreateDescriptorSetLayout(device_.handle(), &setInfo, nullptr, &setLayout_),
-        "vkCreateDescriptorSetLayout", "picture");
-    const VkPushConstantRange push{VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(layout::SkinPush)};
-    const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-                                          .setLayoutCount = 1,
-                                          .pSetLayouts = &setLayout_,
-                                          .pushConstantRangeCount = 1,
-                                          .pPushConstantRanges = &push};
-    vk::check(device_.functions().vkCreatePipelineLayout(device_.handle(), &info, nullptr, &layout_),
-              "vkCreatePipelineLayout", "picture");
-}
-
-void Renderer::createSets() {
-    const std::array sizes{
-        VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, slots},
-        VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, (bindingCount - 1) * slots}};
-    const VkDescriptorPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-                                          .maxSets = slots,
-                                          .poolSizeCount = sizes.size(),
-                                          .pPoolSizes = sizes.data()};
-    vk::check(device_.functions().vkCreateDescriptorPool(device_.handle(), &info, nullptr, &pool_),
-              "vkCreateDescriptorPool", "picture");
-    std::array<VkDescriptorSetLayout, slots> layouts;
-    layouts.fill(setLayout_);
-    const VkDescriptorSetAllocateInfo allocation{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-                                                 .descriptorPool = pool_,
-                                                 .descriptorSetCount = slots,
-                                                 .pSetLayouts = layouts.data()};
-    vk::check(device_.functions().vkAllocateDescriptorSets(device_.handle(), &allocation, sets_.data()),
-              "vkAllocateDescriptorSets", "picture");
-    for (std::uint32_t slot = 0; slot < slots; ++slot) writeSet(slot);
-}
-
-void Renderer::writeSet(std::uint32_t slot) const {
-    constexpr VkImageLayout readable = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    const VkDescriptorBufferInfo params{params_[slot].view().buffer, params_[slot].view().offset,
-                                        sizeof(layout::FrameParams)};
-    const std::array<VkDescriptorImageInfo, bindingCount - 1> images{
-        VkDescriptorImageInfo{maps_.comparing(), maps_.shadow.image.view(), readable},
-        VkDescriptorImageInfo{maps_.nearest(), maps_.shadow.image.view(), readable},
-        VkDescriptorImageInfo{maps_.nearest(), maps_.plan.image.view(), readable},
-        VkDescriptorImageInfo{maps_.smooth(), maps_.floor.image.view(), readable}};
-    std::array<VkWriteDescriptorSet, bindingCount> writes{};
-    for (std::uint32_t binding = 0; binding < bindingCount; ++binding)
-        writes[binding] = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                           .dstSet = sets_[slot],
-                           .dstBinding = binding,
-                           .descriptorCount = 1,
-                           .descriptorType = binding == 0 ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
-                                                          : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                           .pImageInfo = binding == 0 ? nullptr : &images[binding - 1],
-                           .pBufferInfo = binding == 0 ? &params : nullptr};
-    device_.functions().vkUpdateDescriptorSets(device_.handle(), bindingCount, writes.data(), 0, nullptr);
+      sets_(device, maps_, slots) {
+    createPipelines(target, quality);
 }
 
 void Renderer::createPipelines(const Target& target, const Quality& quality) {
@@ -160,7 +59,7 @@ void Renderer::createPipelines(const Target& target, const Quality& quality) {
                           vk::SpecialisationConstant{2, quality.skyTaps}};
     const std::array plan{vk::SpecialisationConstant{3, 1}};
     const auto add = [&](PipelineRequest request) {
-        request.layout = layout_;
+        request.layout = sets_.layout();
         pipelines_.emplace_back(device_, request);
     };
     add({.name = "picture.shadow",
@@ -210,10 +109,8 @@ Canvas Renderer::makeCanvas(VkExtent2D extent, std::span<const VkImageView> pict
 
 void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, const Canvas& canvas, std::size_t picture,
                       const Camera& camera, const sim::Simulation& simulation) const noexcept {
-    const layout::FrameParams params = frameParams(light_, camera, canvas.aspect());
-    std::memcpy(params_[slot].mapped(), &params, sizeof(params));
-    device_.functions().vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 1,
-                                                &sets_[slot], 0, nullptr);
+    sets_.write(slot, frameParams(light_, camera, canvas.aspect()));
+    sets_.bind(commands, slot);
     vk::Commands labels(device_, commands);
     labels.beginLabel("light maps");
     recordMaps(commands, simulation);
@@ -295,7 +192,8 @@ void Renderer::drawSkins(VkCommandBuffer commands, const sim::Simulation& simula
     for (std::size_t i = 0; i < simulation.skins().size(); ++i) {
         const sim::SkinRange& skin = simulation.skins()[i];
         const layout::SkinPush push{{skin.color.x, skin.color.y, skin.color.z, light_.gloss[i]}};
-        functions.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(push), &push);
+        functions.vkCmdPushConstants(commands, sets_.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(push),
+                                     &push);
         functions.vkCmdDrawIndexed(commands, skin.indexCount, 1, skin.firstIndex, 0, 0);
     }
 }

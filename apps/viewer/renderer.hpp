@@ -4,10 +4,9 @@
 
 #include "sim/simulation.hpp"
 #include "viewer/canvas.hpp"
-#include "viewer/light_maps.hpp"
+#include "viewer/picture_sets.hpp"
 #include "viewer/pipeline.hpp"
 #include "viewer/stage_light.hpp"
-#include "vk/buffer.hpp"
 
 namespace sinew::viewer {
 
@@ -39,7 +38,6 @@ public:
     Renderer(const vk::Device& device, const Target& target, const Quality& quality, const StageLight& light);
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
-    ~Renderer();
 
     Canvas makeCanvas(VkExtent2D extent, std::span<const VkImageView> pictures) const;
 
@@ -50,11 +48,7 @@ public:
                 const Camera& camera, const sim::Simulation& simulation) const noexcept;
 
 private:
-    void createLayouts();
     void createPipelines(const Target& target, const Quality& quality);
-    void createSets();
-    void writeSet(std::uint32_t slot) const;
-    void release() noexcept;
     void recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept;
     void recordPicture(VkCommandBuffer commands, const Canvas& canvas, std::size_t picture,
                        const sim::Simulation& simulation) const noexcept;
@@ -68,11 +62,7 @@ private:
     CanvasFormat format_;
     LightMaps maps_;
     RenderPass pass_;
-    VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
-    VkPipelineLayout layout_ = VK_NULL_HANDLE;
-    VkDescriptorPool pool_ = VK_NULL_HANDLE;
-    std::array<VkDescriptorSet, slots> sets_{};
-    std::vector<vk::Buffer> params_; ///< one a slot
+    PictureSets sets_;
     std::vector<Pipeline> pipelines_;
 };
 

@@ -45,8 +45,7 @@ Show::Show(Window& window, const vk::Device& device, const Opening& opening)
     : window_(window), device_(device), opening_(opening),
       controller_(opening.camera, opening.loaded.scene.dt),
       stage_(device, opening.loaded.scene, opening.loaded.settings),
-      probe_(device, stage_.simulation().positions()),
-      presenter_(device, window.createSurface(device.instance())),
+      probe_(device, stage_.simulation().positions()), presenter_(device, window),
       moving_(device, presenter_.format(), isSoftware(device) ? reducedQuality() : Quality{}, opening.light),
       status_(opening.loaded.scene, device) {
     if (isSoftware(device)) still_.emplace(device, presenter_.format(), Quality{}, opening.light);
@@ -69,16 +68,13 @@ void Show::run() {
 }
 
 void Show::turn() {
-    const Input input = window_.poll(shown_ == Shown::still ? idleWait : 0);
+    const Input input = window_.poll(isHidden_ || shown_ == Shown::still ? idleWait : 0);
     handle(input);
     reportFiles(PictureWriter::Wait::no);
-    if (!prepareSwapchain()) {
-        window_.poll(idleWait);
-        lastTurn_ = Clock::now(); // time stands still while nobody can look
-        return;
-    }
+    isHidden_ = !prepareSwapchain();
     const auto now = Clock::now();
     const double elapsed = std::chrono::duration<double>(now - std::exchange(lastTurn_, now)).count();
+    if (isHidden_) return; // time stands still while nobody can look
     const Plan plan = controller_.playback.plan(elapsed);
     const bool isChanged = !controller_.playback.isPaused() || plan.isReset || plan.steps > 0 ||
                            !input.isEmpty() || wantsScreenshot_ || wantsProbe_ || shown_ == Shown::nothing;

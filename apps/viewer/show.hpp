@@ -77,7 +77,8 @@ private:
     Clock::time_point lastTurn_ = Clock::now(), lastChange_ = lastTurn_;
     VkExtent2D pixels_{};
     Shown shown_ = Shown::nothing;
-    bool isDiverged_ = false, isVsync_ = true, wantsScreenshot_ = false, wantsProbe_ = false;
+    bool isHidden_ = false, isDiverged_ = false, isVsync_ = true, wantsScreenshot_ = false,
+         wantsProbe_ = false;
 };
 
 } // namespace sinew::viewer

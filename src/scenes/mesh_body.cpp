@@ -119,7 +119,9 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
     if (found.mesh.triangles.empty()) section.fail("file", "has no triangles", "check the mesh");
     place(found.mesh, section);
 
-    MeshSummary summary{.body = section.has("name") ? section.text("name") : found.file, .file = found.file};
+    MeshSummary summary{.body =
+                            section.has("name") ? section.text("name") : fs::path(found.file).stem().string(),
+                        .file = found.file};
     summary.surface = mesh::inspect(found.mesh);
     summary.surface.defects = found.defects;
     mesh::MeshBody body{.name = summary.body,

@@ -77,7 +77,7 @@ constexpr Key keys[] = {
     {"box", "density", Kind::number, "kg/m^3", density, "1000", "mass per volume"},
     {"box", "color", Kind::vector, "", ranges::color, "[0.78, 0.36, 0.32]", "linear red, green and blue"},
 
-    {"mesh", "name", Kind::text, "", {}, "", "name of the body in reports and files; the mesh's name where it is missing"},
+    {"mesh", "name", Kind::text, "", {}, "", "name of the body in reports and files; that of the mesh file or shape where it is missing"},
     {"mesh", "file", Kind::text, "", {}, "", "mesh file in the scene's folder or below, or \"argument\": the mesh of the command line"},
     {"mesh", "generate", Kind::text, "", {}, "", "a built-in shape instead of a file"},
     {"mesh", "detail", Kind::count, "edges", detail, "96", "generate: triangle edges along the longest side"},

@@ -64,7 +64,7 @@ protected:
     void TearDown() override {
         EXPECT_EQ(descriptors(), descriptorsBefore_);
         EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "a child is left";
-        EXPECT_LT(peakMiB(RUSAGE_SELF), peakBefore_ + 64);
+        EXPECT_LT(peakMiB(RUSAGE_SELF), peakBefore_ + 256);
         EXPECT_LT(peakMiB(RUSAGE_CHILDREN), peakBefore_ + 1100);
     }
     const Folder folder_;

@@ -153,10 +153,23 @@ TEST(Voxelise, BreaksTiesTheSameWayAlongEveryAxis) {
     EXPECT_EQ(grid.cells[0], 5u);
     EXPECT_EQ(grid.doubtful, 0u);
     EXPECT_NEAR(grid.filledVolume, 1, 1e-6);
-    // Faces on the planes of the fill samples: each is counted on one side.
-    const VoxelGrid shifted = voxelise(box({0, 0, 0}, {1, 1, 1.0625f}), {.spacing = 0.25f});
+    // Faces on the planes of the fill samples: of two opposite ones, one counts.
+    const VoxelGrid shifted = voxelise(box({0, 0, 0}, {1.0625f, 1.0625f, 1.0625f}), {.spacing = 0.25f});
     EXPECT_EQ(shifted.doubtful, 0u);
-    EXPECT_NEAR(shifted.filledVolume, 1.0625, 0.07);
+    EXPECT_NEAR(shifted.filledVolume, std::pow(1.0625, 3), 1e-6);
+}
+
+TEST(Voxelise, BreaksTiesOnSlantedFacesTheSameWayAlongEveryAxis) {
+    // |x| + |y| + |z| = 11/8 runs exactly through many fill samples, whose coordinates are odd eighths.
+    constexpr float r = 1.375f;
+    TriangleMesh octahedron;
+    octahedron.positions = {{r, 0, 0}, {-r, 0, 0}, {0, r, 0}, {0, -r, 0}, {0, 0, r}, {0, 0, -r}};
+    octahedron.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                            {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+    const VoxelGrid grid = voxelise(octahedron, {.spacing = 1});
+    EXPECT_EQ(grid.cells[0], 3u);
+    EXPECT_EQ(grid.doubtful, 0u);
+    EXPECT_NEAR(grid.filledVolume, 4.0 / 3 * std::pow(1.375, 3), 0.3);
 }
 
 TEST(Voxelise, PutsTheMeshStrictlyInsideAndInTheMiddle) {

@@ -35,12 +35,12 @@ TEST_F(Load, ReadsByteOrderMarksAndAllLineEnds) {
     EXPECT_EQ(load(windows).scene.particles.size(), 12u);
 }
 
-TEST_F(Load, ReadsNumbersAlikeInEveryLocale) {
-    const char* locale = std::setlocale(LC_ALL, "de_DE.UTF-8");
+TEST_F(Load, ReadsNumbersAlikeInALocaleWithDecimalCommas) {
+    if (!std::setlocale(LC_ALL, "de_DE.UTF-8")) GTEST_SKIP() << "this machine has no German locale";
     const float spacing = load("[[cloth]]\nsize = [2, 2]\nspacing = 0.25\n").scene.particles[1].position.x;
     const std::string error = errorOfText("dt = -0.5\n" + smallCloth);
     std::setlocale(LC_ALL, "C");
-    EXPECT_EQ(spacing, 0.25f) << (locale ? locale : "this machine has no German locale");
+    EXPECT_EQ(spacing, 0.25f);
     EXPECT_EQ(error.find("scene.toml:1: dt is -0.5 s"), 0u) << error;
 }
 

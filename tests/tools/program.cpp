@@ -52,16 +52,21 @@ Program::~Program() {
 }
 
 Outcome Program::run(const std::vector<std::string>& arguments, const Environment& environment,
-                     int signalAfterMs) const {
+                     const fs::path& signalWhen) const {
     const fs::path out = folder_.string() + ".out", error = folder_.string() + ".error";
     const pid_t child = ::fork();
     if (child == 0) become(arguments, environment, folder_, out, error);
-    if (signalAfterMs > 0) {
-        ::usleep(static_cast<useconds_t>(signalAfterMs) * 1000);
-        ::kill(child, SIGINT);
-    }
     int status = 0;
-    ::waitpid(child, &status, 0);
+    pid_t ended = 0;
+    if (!signalWhen.empty()) {
+        while (!fs::exists(folder_ / signalWhen) && ended == 0) {
+            ::usleep(10'000);
+            ended = ::waitpid(child, &status, WNOHANG);
+        }
+        ::usleep(500'000);
+        if (ended == 0) ::kill(child, SIGINT);
+    }
+    if (ended == 0) ::waitpid(child, &status, 0);
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), contents(out), contents(error)};
 }
 

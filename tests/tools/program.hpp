@@ -24,9 +24,9 @@ protected:
     Program();
     ~Program() override;
 
-    /// Waits for the end. `signalAfterMs` > 0 sends SIGINT after that time.
+    /// Waits for the end. Sends SIGINT a moment after the file `signalWhen` exists, where one is named.
     Outcome run(const std::vector<std::string>& arguments, const Environment& environment = {},
-                int signalAfterMs = 0) const;
+                const std::filesystem::path& signalWhen = {}) const;
     /// `run SCENE --json -` and more; fails the test unless it ends with `code`.
     nlohmann::json report(std::vector<std::string> arguments, const Environment& environment = {},
                           int code = 0) const;

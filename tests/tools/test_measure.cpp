@@ -44,7 +44,7 @@ std::vector<mesh::TriangleMesh> skinsOf(sim::Scene scene, float scale) {
         p.position = {p.position.x * scale, p.position.y * scale, p.position.z * scale};
     std::vector<mesh::TriangleMesh> meshes;
     for (const sim::Skin& skin : scene.skins)
-        meshes.push_back(tools::skinMesh(skin, tools::restVertices(scene, skin)));
+        meshes.push_back(tools::skinMesh(skin, tools::skinVertices(scene, skin)));
     return meshes;
 }
 
@@ -148,7 +148,7 @@ TEST(SkinMesh, PlacesVerticesInsideCells) {
         scene.particles.push_back({{static_cast<float>(i & 1), static_cast<float>(2 * (i >> 1 & 1)),
                                     static_cast<float>(4 * (i >> 2))}});
     const sim::Skin skin{.cells = {{{0, 1, 2, 3, 4, 5, 6, 7}, {0.25f, 0.5f, 0.75f}}}};
-    const sim::Vec3 vertex = tools::restVertices(scene, skin)[0];
+    const sim::Vec3 vertex = tools::skinVertices(scene, skin)[0];
     EXPECT_FLOAT_EQ(vertex.x, 0.25f);
     EXPECT_FLOAT_EQ(vertex.y, 1);
     EXPECT_FLOAT_EQ(vertex.z, 3);

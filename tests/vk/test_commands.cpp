@@ -197,9 +197,10 @@ TEST(Barriers, CoverComputeTransferAndIndirectInTheMiddleOfAStep) {
     EXPECT_EQ(barrier.from, all);
     EXPECT_EQ(barrier.to, all);
     EXPECT_EQ(barrier.fromAccess, VkAccessFlags{VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT});
-    EXPECT_EQ(barrier.toAccess, VkAccessFlags{VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT |
-                                              VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT |
-                                              VK_ACCESS_INDIRECT_COMMAND_READ_BIT});
+    EXPECT_EQ(barrier.toAccess,
+              VkAccessFlags{VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT |
+                            VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT |
+                            VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT});
 }
 
 TEST(Barriers, ReachTheHostOnlyWhenAsked) {

@@ -140,7 +140,11 @@ nlohmann::json reflect(const std::filesystem::path& file) {
 }
 
 void compareBindings(const vk::KernelInterface& interface, const nlohmann::json& reflection) {
-    const nlohmann::json buffers = reflection.value("ssbos", nlohmann::json::array());
+    nlohmann::json buffers = reflection.value("ssbos", nlohmann::json::array());
+    for (nlohmann::json block : reflection.value("ubos", nlohmann::json::array())) {
+        block["readonly"] = block["uniform"] = true;
+        buffers.push_back(block);
+    }
     ASSERT_EQ(interface.bindings.size(), buffers.size());
     for (const nlohmann::json& buffer : buffers) {
         const auto& binding = interface.bindings.at(buffer["binding"].get<std::size_t>());
@@ -150,6 +154,7 @@ void compareBindings(const vk::KernelInterface& interface, const nlohmann::json&
                               : buffer.value("writeonly", false) ? Access::write
                                                                  : Access::readWrite;
         EXPECT_EQ(binding.access, access) << binding.name;
+        EXPECT_EQ(binding.kind == vk::BlockKind::uniform, buffer.value("uniform", false)) << binding.name;
         const nlohmann::json& last = block["members"].back();
         if (last.contains("array") && last["array"].back() == 0) {
             EXPECT_EQ(binding.stride, last["array_stride"]) << binding.name;

@@ -47,7 +47,7 @@ void measureStrain(const sim::Scene& scene, const State& state, Errors& errors) 
 void measureVolume(const sim::Scene& scene, std::span<const mesh::TriangleMesh> skins, Errors& errors) {
     for (std::size_t i = 0; i < skins.size(); ++i) {
         const sim::Skin& skin = scene.skins[i];
-        const mesh::MeshReport rest = mesh::inspect(skinMesh(skin, restVertices(scene, skin)));
+        const mesh::MeshReport rest = mesh::inspect(skinMesh(skin, skinVertices(scene, skin)));
         if (!rest.defects.isClosed() || rest.volume == 0) continue;
         const double change = mesh::inspect(skins[i]).volume / rest.volume - 1;
         if (!errors.volume || std::abs(change) > std::abs(*errors.volume)) errors.volume = change;

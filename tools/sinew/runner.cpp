@@ -12,6 +12,8 @@ namespace sinew::tools {
 
 namespace {
 
+constexpr std::size_t mostFrameTimes = 65'536;
+
 double nowMs() {
     using namespace std::chrono;
     return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
@@ -71,7 +73,8 @@ void Runner::finishStep(std::uint64_t frame) {
                        bodyOf(scene_, status.firstBadParticle)};
         return;
     }
-    frameMs_.push_back(end - lastEnd_);
+    if (frameMs_.size() < mostFrameTimes) frameMs_.emplace_back();
+    frameMs_[done_ % mostFrameTimes] = end - lastEnd_;
     lastEnd_ = end;
     const std::vector<double> phases = timestamps_[slot].milliseconds();
     for (std::size_t i = 0; i < phases.size(); ++i) phaseSums_[i] += phases[i];

@@ -31,7 +31,8 @@ public:
     const std::optional<Divergence>& divergence() const { return divergence_; }
     const sim::Simulation& simulation() const { return simulation_; }
 
-    /// Wall-clock time [ms] from the end of one step to the end of the next.
+    /// Wall-clock time [ms] from the end of one step to the end of the next, of the newest 65,536 steps at
+    /// most: an endless run must not grow. In no order.
     const std::vector<double>& frameMs() const { return frameMs_; }
     /// Mean device time of a step [ms], one value per entry of simulation().phases(); empty without
     /// timestamps.

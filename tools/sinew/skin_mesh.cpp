@@ -50,7 +50,7 @@ mesh::TriangleMesh skinMesh(const sim::Skin& skin, std::span<const sim::Vec3> ve
     return mesh;
 }
 
-std::vector<sim::Vec3> restVertices(const sim::Scene& scene, const sim::Skin& skin) {
+std::vector<sim::Vec3> skinVertices(const sim::Scene& scene, const sim::Skin& skin) {
     std::vector<sim::Vec3> vertices;
     for (const std::uint32_t particle : skin.particles)
         vertices.push_back(scene.particles[particle].position);

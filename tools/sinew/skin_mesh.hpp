@@ -11,7 +11,7 @@ namespace sinew::tools {
 /// sake of their normals), and of two triangles back to back the first stays.
 mesh::TriangleMesh skinMesh(const sim::Skin& skin, std::span<const sim::Vec3> vertices);
 
-/// Where the scene puts the skin's vertices before the first step.
-std::vector<sim::Vec3> restVertices(const sim::Scene& scene, const sim::Skin& skin);
+/// Where a skin's vertices are when every particle is where the scene has it.
+std::vector<sim::Vec3> skinVertices(const sim::Scene& scene, const sim::Skin& skin);
 
 } // namespace sinew::tools

@@ -5,8 +5,8 @@ layout(set = 0, binding = 0, std140) uniform Frame { FrameParams frame; };
 
 const float pi = 3.14159265;
 
-// Even samples of a disc (Vogel's spiral): direction i + 1 is direction i turned by the golden angle, point i of n lies
-// at discRadius(i, n) along it.
+// Even samples of a disc (Vogel's spiral): direction i + 1 is direction i turned by the golden angle, point i
+// of n lies at discRadius(i, n) along it.
 vec2 firstTurn(float phase) {
     return vec2(cos(phase), sin(phase));
 }

@@ -1,12 +1,13 @@
 #version 460
-// A quiet floor: matt, with a fine grid that fades, the body's shadow and contact, and haze up to the horizon.
+// A quiet floor: matt, with a grid that fades, the body's shadow and contact, and haze up to the horizon.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/light.glsl"
 
 layout(location = 0) in vec3 worldPosition;
 layout(location = 0) out vec4 shown;
 
-// Coverage of lines `width` pixels wide at whole multiples of `spacing`; fades where lines come too close to tell.
+// Coverage of lines `width` pixels wide at whole multiples of `spacing`; fades where they come too close to
+// tell apart.
 float gridLines(vec2 place, float spacing, float width) {
     const vec2 at = place / spacing;
     const vec2 perPixel = max(fwidth(at), vec2(1e-6));

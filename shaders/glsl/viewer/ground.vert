@@ -1,6 +1,6 @@
 #version 460
-// A square at the height of the scene's floor, wide enough to end in haze. It is pushed away from the eye by a
-// thousandth, so that cloth lying on the floor does not flicker.
+// A square at the height of the scene's floor, wide enough to end in haze. It is pushed away from the eye by
+// a thousandth, so that cloth lying on the floor does not flicker.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/frame.glsl"
 

@@ -1,4 +1,4 @@
-// The light of the studio: a warm key with a soft shadow, a cool sky, the ground's bounce, and the way to the screen.
+// The light of the studio: a warm key with a soft shadow, a cool sky, the floor, the way to the screen.
 #include "viewer/frame.glsl"
 
 layout(constant_id = 0) const bool encodesSrgb = false; // where the target does not do it itself
@@ -29,55 +29,70 @@ vec2 floorLight(vec3 position) {
     return frame.ground.w > 0.0 ? textureLod(floorMap, uv, 0.0).rg : vec2(1.0);
 }
 
-// Share of the key light that reaches a surface: percentage-closer soft shadows [Fernando 2005]. Blockers near the
-// surface give a sharp edge, far ones a soft one. Each tap is compared with the depth of the surface's own plane. `phase` turns the taps
-// [rad].
-float keyShadow(vec3 position, vec3 normal, uint taps, float phase) {
+// A surface as the shadow map sees it. `slope` is the depth its plane gains per offset [m/m]; taps beside the
+// point are compared with that plane, not with the point.
+struct MapPoint {
+    vec2 uv;
+    float depth, texel; // texel: [m]
+    vec2 slope;
+};
+
+MapPoint mapPoint(vec3 position, vec3 normal) {
     const float texel = frame.shadow.x / float(textureSize(shadowDepth, 0).x);
     const vec4 clip = frame.shadowFromWorld * vec4(position + 1.5 * texel * normal, 1.0);
-    const vec2 center = clip.xy * 0.5 + 0.5;
-    if (any(notEqual(center, clamp(center, 0.0, 1.0)))) return 1.0;
-
-    const vec3 right = vec3(frame.shadowFromWorld[0].x, frame.shadowFromWorld[1].x, frame.shadowFromWorld[2].x);
-    const vec3 down = vec3(frame.shadowFromWorld[0].y, frame.shadowFromWorld[1].y, frame.shadowFromWorld[2].y);
+    const mat3 fromWorld = mat3(frame.shadowFromWorld);
+    const vec3 right = normalize(transpose(fromWorld)[0]), down = normalize(transpose(fromWorld)[1]);
     const float facing = max(dot(normal, frame.toLight.xyz), 0.15);
-    const vec2 tilt = vec2(dot(normal, normalize(right)), dot(normal, normalize(down)));
-    const vec2 slope = clamp(tilt / facing, vec2(-4.0), vec2(4.0)); // depth per offset in the map's plane [m/m]
-    const float bias = texel / frame.shadow.y;
+    const vec2 slope = clamp(vec2(dot(normal, right), dot(normal, down)) / facing, -4.0, 4.0);
+    return MapPoint(clip.xy * 0.5 + 0.5, clip.z - texel / frame.shadow.y, texel, slope);
+}
 
+// Depth to compare at an offset [m]. What lies behind the map's volume is compared with its end.
+float depthAt(MapPoint point, vec2 offset) {
+    return min(point.depth + dot(point.slope, offset) / frame.shadow.y, 1.0);
+}
+
+// Mean depth of what stands between the light and a disc around the point; 1 where nothing does.
+float blockerDepth(MapPoint point, float radius, uint taps, vec2 turn) {
+    const float margin = 0.15 / frame.shadow.y; // per offset, against the surface's own curvature
     float blockers = 0.0, depth = 0.0;
-    const float search = min(0.10 * frame.shadow.x, lightRadius * frame.shadow.y * clip.z);
-    const uint searchTaps = taps / 2u;
-    const vec2 start = firstTurn(phase);
-    vec2 turn = start;
-    for (uint i = 0u; i < searchTaps; ++i, turn = nextTurn(turn)) {
-        const vec2 offset = search * discRadius(i, searchTaps) * turn;
-        const float here = textureLod(shadowDepth, center + offset / frame.shadow.x, 0.0).r;
-        const float plane = clip.z - bias + (dot(slope, offset) - 0.15 * length(offset)) / frame.shadow.y;
-        if (here < min(plane, 1.0)) { // 1: nothing there
-            blockers += 1.0;
-            depth += here;
-        }
-    }
-    if (blockers == 0.0) return 1.0;
-    const float gap = max(clip.z - depth / blockers, 0.0) * frame.shadow.y;
-    const float radius = clamp(lightRadius * gap, 1.5 * texel, search);
-    float lit = 0.0;
-    turn = start;
     for (uint i = 0u; i < taps; ++i, turn = nextTurn(turn)) {
         const vec2 offset = radius * discRadius(i, taps) * turn;
-        const float plane = clip.z + dot(slope, offset) / frame.shadow.y - bias;
-        lit += textureLod(shadowMap, vec3(center + offset / frame.shadow.x, min(plane, 1.0)), 0.0);
+        const float here = textureLod(shadowDepth, point.uv + offset / frame.shadow.x, 0.0).r;
+        const float isBlocker = float(here < depthAt(point, offset) - margin * length(offset));
+        blockers += isBlocker;
+        depth += isBlocker * here;
+    }
+    return blockers > 0.0 ? depth / blockers : 1.0;
+}
+
+// Share of the key light that reaches a surface: percentage-closer soft shadows [Fernando 2005]. Blockers
+// near the surface give a sharp edge, far ones a soft one. `phase` turns the taps [rad].
+float keyShadow(vec3 position, vec3 normal, uint taps, float phase) {
+    const MapPoint point = mapPoint(position, normal);
+    if (any(notEqual(point.uv, clamp(point.uv, 0.0, 1.0)))) return 1.0;
+    const vec2 start = firstTurn(phase);
+    const float search = min(0.10 * frame.shadow.x, lightRadius * frame.shadow.y * point.depth);
+    const float blocker = blockerDepth(point, search, taps / 2u, start);
+    if (blocker >= 1.0) return 1.0;
+    const float gap = max(point.depth - blocker, 0.0) * frame.shadow.y;
+    const float radius = clamp(lightRadius * gap, 1.5 * point.texel, search);
+    float lit = 0.0;
+    vec2 turn = start;
+    for (uint i = 0u; i < taps; ++i, turn = nextTurn(turn)) {
+        const vec2 offset = radius * discRadius(i, taps) * turn;
+        lit += textureLod(shadowMap, vec3(point.uv + offset / frame.shadow.x, depthAt(point, offset)), 0.0);
     }
     return lit / float(taps);
 }
 
-// Filmic tone curve [Narkowicz 2015], the target's encoding, and noise of half a step against bands in the sky.
+// Filmic tone curve [Narkowicz 2015], the target's encoding, noise of half a step against bands in the sky.
 vec4 finish(vec3 color, vec2 pixel) {
     const vec3 x = 0.66 * color;
     const vec3 shown = clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
     const float dither = (pixelNoise(pixel) - 0.5) / 255.0;
-    if (!encodesSrgb) return vec4(shown + dither * 2.0 * sqrt(shown), 1.0); // the target encodes, nearly as a root
-    const vec3 encoded = mix(12.92 * shown, 1.055 * pow(shown, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, shown));
+    if (!encodesSrgb) return vec4(shown + dither * 2.0 * sqrt(shown), 1.0); // nearly a root encodes
+    const vec3 curved = 1.055 * pow(shown, vec3(1.0 / 2.4)) - 0.055;
+    const vec3 encoded = mix(12.92 * shown, curved, step(0.0031308, shown));
     return vec4(encoded + dither, 1.0);
 }

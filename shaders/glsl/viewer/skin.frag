@@ -1,5 +1,5 @@
 #version 460
-// Soft tissue and cloth: wrapped diffuse light that reddens past the terminator, two soft highlights, a rim of sky.
+// Soft tissue and cloth: wrapped diffuse light that reddens at the terminator, two highlights, a rim of sky.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/light.glsl"
 
@@ -9,7 +9,7 @@ layout(location = 1) in vec3 worldNormal;
 layout(location = 0) out vec4 shown;
 
 const float reflectance = 0.042; // at normal incidence: moist tissue
-const uint floorTaps = shadowTaps / 4u;
+const uint floorTaps = 4u + shadowTaps / 4u;
 
 // GGX distribution with the visibility term of [Karis 2014].
 float highlight(float roughness, float nl, float nv, float nh) {
@@ -43,8 +43,8 @@ void main() {
     const float lit = nl > 0.0 ? keyShadow(worldPosition, n, shadowTaps, phase) : 0.0;
     const vec3 albedo = push.color.rgb;
 
-    // Light that enters beside the point and leaves here wraps around the terminator, further where the material is
-    // brighter. There the map is of no use: it sees the surface itself.
+    // Light that enters beside the point and leaves here wraps around the terminator, further where the
+    // material is brighter. There the map is of no use: it sees the surface itself.
     const vec3 wrap = 0.10 + 0.30 * albedo;
     const vec3 wrapped = max((facing + wrap) / (1.0 + wrap), 0.0) / (1.0 + wrap);
     const float litAround = mix(0.45, lit, smoothstep(0.0, 0.4, facing));
@@ -59,9 +59,11 @@ void main() {
     const float fresnel = reflectance + (1.0 - reflectance) * pow(1.0 - max(dot(v, halfway), 0.0), 5.0);
     const float gloss = 0.55 * highlight(0.30, nl, nv, nh) + 0.45 * highlight(0.55, nl, nv, nh);
     const vec3 r = reflect(-v, n);
-    const vec3 mirrored = mix(bounce / pi, skyColor(vec3(r.x, max(r.y, 0.0), r.z)), smoothstep(-0.3, 0.5, r.y));
-    const vec3 rim = mirrored * (push.color.w * reflectance + 0.34 * pow(1.0 - nv, 4.0)) * mix(0.3, 1.0, below.y);
+    const vec3 above = skyColor(vec3(r.x, max(r.y, 0.0), r.z));
+    const vec3 mirrored = mix(bounce / pi, above, smoothstep(-0.3, 0.5, r.y)) * mix(0.3, 1.0, below.y);
+    const float moist = push.color.w;
+    const vec3 rim = mirrored * (moist * reflectance + 0.34 * pow(1.0 - nv, 4.0));
 
-    const vec3 color = albedo * (direct + ambient) / pi + push.color.w * keyLight * nl * lit * fresnel * gloss + rim;
-    shown = finish(color, gl_FragCoord.xy);
+    const vec3 diffuse = albedo * (direct + ambient) / pi;
+    shown = finish(diffuse + moist * keyLight * nl * lit * fresnel * gloss + rim, gl_FragCoord.xy);
 }
