@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # tools/run.sh [SCENE|MESH] [viewer options]: installs what is missing, builds, and shows the scene: in a window if there is a
-# display, else as pictures in out/. The default is scenes/organ.toml.
+# display, else as pictures in out/ (or as the options say, such as --out DIR --frames 60). The default is scenes/organ.toml.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . tools/packages.sh
@@ -19,7 +19,8 @@ if [[ -n ${DISPLAY:-} ]]; then
     echo "opening $scene in the viewer"
     exec "$viewer" "$scene" "$@"
 fi
-name=$(basename "${scene%.*}")
-echo "no display: drawing $scene to out/$name"
-"$viewer" "$scene" --headless --frames 240 --every 20 --out "out/$name" "$@"
-echo "pictures: out/$name"
+name=$(basename "$scene")
+out=out/${name%.*}
+(($#)) || set -- --frames 240 --every 20 --out "$out"
+echo "no display: drawing $scene without a window: $*"
+"$viewer" "$scene" --headless "$@"

@@ -7,8 +7,10 @@ cd "$(dirname "$0")/.."
 need "${build_packages[@]}" "${test_packages[@]}"
 echo "checking layers and format"
 python3 tools/check_layers.py
-git ls-files -z '*.cpp' '*.hpp' | xargs -0 -r clang-format --dry-run --Werror
+find src apps tools tests \( -name '*.cpp' -o -name '*.hpp' \) -print0 | xargs -0 clang-format --dry-run --Werror
 echo "building (build/release)"
 build release
 echo "testing"
+# on the software device, whatever else the machine has
+for icd in /usr/share/vulkan/icd.d/lvp_icd.*.json; do export VK_ICD_FILENAMES=$icd VK_DRIVER_FILES=$icd; done
 ctest --preset release --output-on-failure -j2 "$@"

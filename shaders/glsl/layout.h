@@ -75,7 +75,8 @@ struct PlaneCollider {
 
 // `jacobi`: temporary constraints of a particle, found anew each substep.
 struct PlaneContact {
-    vec4 velocityBefore; // [m/s]; w = bit set of touched planes
+    float vx, vy, vz; // velocity before the substep [m/s]
+    uint touched;     // bit set of planes
 };
 
 // What a step found out about the state.

@@ -10,5 +10,6 @@ layout(push_constant) uniform Push { CountPush push; };
 void main() {
     const uint i = itemIndex(push.count);
     if (i >= push.count) return;
-    contacts[i].velocityBefore = vec4(velocities[i].xyz, uintBitsToFloat(0u));
+    const vec3 v = velocities[i].xyz;
+    contacts[i] = PlaneContact(v.x, v.y, v.z, 0u);
 }

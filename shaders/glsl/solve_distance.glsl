@@ -7,8 +7,8 @@
 layout(std430, binding = 0) readonly buffer Edges { DistanceEdge edges[]; };
 layout(std430, binding = 1) readonly buffer Positions { vec4 positions[]; }; // w = inverse mass [1/kg]
 layout(std430, binding = 2) writeonly buffer Corrections { vec4 corrections[]; };
-layout(std140, binding = 3) uniform Step { StepParams step; };
 #ifdef HAS_COMPLIANCE
+layout(std140, binding = 3) uniform Step { StepParams step; };
 layout(std430, binding = 4) buffer Multipliers { DistanceMultiplier multipliers[]; };
 #endif
 layout(push_constant) uniform Push { IterationPush push; };

@@ -25,5 +25,5 @@ void main() {
     if (touched == 0u) return;
     positions[i].xyz = motion.x;
     velocities[i].xyz = motion.v;
-    contacts[i].velocityBefore.w = uintBitsToFloat(floatBitsToUint(contacts[i].velocityBefore.w) | touched);
+    contacts[i].touched |= touched;
 }

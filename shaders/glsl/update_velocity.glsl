@@ -19,9 +19,9 @@ void main() {
     vec3 v = mix(0.5 * step.h * step.gravity.xyz, velocity.xyz, step.velocityFactor);
 #ifdef HAS_PLANES
     const PlaneContact contact = contacts[i];
-    const uint touched = floatBitsToUint(contact.velocityBefore.w);
+    const vec3 before = vec3(contact.vx, contact.vy, contact.vz);
     for (uint p = 0u; p < planeCount; ++p) {
-        if ((touched & 1u << p) != 0u) v += rebound(planes[p], step.restSpeed, contact.velocityBefore.xyz, v);
+        if ((contact.touched & 1u << p) != 0u) v += rebound(planes[p], step.restSpeed, before, v);
     }
 #endif
     velocities[i].xyz = v;

@@ -111,6 +111,7 @@ StepProgram compile(const Scene& scene, const Settings& settings) {
     surface::addSkins(program, scene.skins);
 
     if (scene.distances.empty()) program.skip("distance constraints");
+    if (scene.damping == 0) program.skip("damping");
     if (scene.planes.empty()) program.skip("boundary planes");
     if (scene.fixed.empty()) program.skip("fixed constraints");
     if (scene.skins.empty()) program.skip("skins");

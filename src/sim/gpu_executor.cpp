@@ -98,14 +98,19 @@ GpuExecutor::GpuExecutor(const vk::Device& device, const StepProgram& program)
     std::size_t nextSet = 0;
     step_ = resolve(program.step, nextSet);
     skin_ = resolve(program.skin, nextSet);
+    checkGroups(step_, device.limits().maxGroupCount);
+    checkGroups(skin_, device.limits().maxGroupCount);
     for (const Recorded& pass : step_) {
-        if (pass.groups > device.limits().maxGroupCount) {
-            throw vk::Error(vk::Failure::outOfMemory, "dispatch of " + pass.kernel->name() + ": " +
-                                                          std::to_string(pass.groups) +
-                                                          " groups, the device allows " +
-                                                          std::to_string(device.limits().maxGroupCount));
-        }
         if (timedPhases_.empty() || timedPhases_.back() != pass.phase) timedPhases_.push_back(pass.phase);
+    }
+}
+
+void GpuExecutor::checkGroups(const std::vector<Recorded>& passes, std::uint32_t most) {
+    for (const Recorded& pass : passes) {
+        if (pass.groups <= most) continue;
+        throw vk::Error(vk::Failure::outOfMemory, "dispatch of " + pass.kernel->name() + ": " +
+                                                      std::to_string(pass.groups) +
+                                                      " groups, the device allows " + std::to_string(most));
     }
 }
 

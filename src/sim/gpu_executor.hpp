@@ -38,6 +38,7 @@ private:
         vk::BufferView first, second;
     };
     std::vector<Recorded> resolve(const std::vector<Pass>& passes, std::size_t& nextSet) const;
+    static void checkGroups(const std::vector<Recorded>& passes, std::uint32_t most);
     void record(vk::Commands& commands, const std::vector<Recorded>& passes,
                 std::span<const std::byte> parameters, vk::Timestamps* timestamps) noexcept;
     void recordPass(vk::Commands& commands, const Recorded& pass,

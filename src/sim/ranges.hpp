@@ -2,6 +2,7 @@
 // documentation read it.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <string>
 
@@ -44,6 +45,11 @@ inline constexpr std::size_t mostPlanes = 32; // bits of the touched set in plan
 // Settings
 inline constexpr Range substeps{1, 1000};
 inline constexpr Range iterations{1, 1000};
+/// Sweeps in one step: bounds the pass list, and the work of one submission where a device has a watchdog.
+inline constexpr std::uint64_t mostSweeps = 20'000;
+/// Links of one particle. `split` unrolls them; `jacobi` loops, and some devices end a loop silently at
+/// 65,535.
+inline constexpr std::uint32_t mostLinksSplit = 128, mostLinksJacobi = 60'000;
 inline constexpr Range omega{.low = 0, .high = 10, .isLowOpen = true, .isHighOpen = true};
 inline constexpr Range theta{0, 1};
 inline constexpr Range weight{0, 1};

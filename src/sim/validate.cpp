@@ -184,6 +184,22 @@ void checkSkin(const Skin& skin, const std::string& name, std::size_t particles,
         complaints.check(double{channel}, ranges::color, [&] { return name + ".color"; });
 }
 
+void checkWork(const Scene& scene, const Settings& settings, Complaints& complaints) {
+    const bool isJacobi = settings.solver == Solver::jacobi;
+    const std::uint64_t sweeps = std::uint64_t{settings.substeps} * (isJacobi ? settings.iterations : 1);
+    if (sweeps > ranges::mostSweeps)
+        complaints.add("settings", "substeps x iterations is " + std::to_string(sweeps) +
+                                       ", must be at most " + std::to_string(ranges::mostSweeps));
+    const std::uint32_t most = isJacobi ? ranges::mostLinksJacobi : ranges::mostLinksSplit;
+    std::vector<std::uint32_t> links(scene.particles.size());
+    for (const DistanceConstraint& constraint : scene.distances)
+        for (const std::uint32_t end : {constraint.a, constraint.b})
+            if (constraint.a != constraint.b && end < links.size() && ++links[end] == most + 1)
+                complaints.add(element("particle", end),
+                               "has more than " + std::to_string(most) +
+                                   " distance constraints, the most this solver takes");
+}
+
 } // namespace
 
 std::string toText(const Range& range) {
@@ -207,6 +223,7 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings) 
     complaints.checkFinite(scene.gravity, [] { return "scene.gravity"; });
     checkParticles(scene, complaints);
     checkConstraints(scene, complaints);
+    checkWork(scene, settings, complaints);
     checkPlanes(scene, complaints);
     checkBodies(scene, complaints);
     for (std::size_t i = 0; i < scene.skins.size(); ++i)

@@ -140,6 +140,26 @@ TEST(Validate, LeavesTheStabilityBoundOfSplitToSplit) {
     EXPECT_EQ(firstComplaint(validScene(), {.solver = Solver::jacobi, .omega = 3.5f}), "");
 }
 
+TEST(Validate, BoundsTheSweepsOfOneStep) {
+    EXPECT_EQ(firstComplaint(validScene(), {.solver = Solver::jacobi, .substeps = 1000, .iterations = 20}),
+              "");
+    EXPECT_EQ(firstComplaint(validScene(), {.solver = Solver::jacobi, .substeps = 1000, .iterations = 21}),
+              "settings: substeps x iterations is 21000, must be at most 20000");
+    EXPECT_EQ(firstComplaint(validScene(), {.solver = Solver::split, .substeps = 1000, .iterations = 1000}),
+              "");
+}
+
+TEST(Validate, BoundsTheLinksOfOneParticle) {
+    Scene hub;
+    hub.particles.resize(130);
+    for (std::uint32_t spoke = 1; spoke < 129; ++spoke) hub.distances.push_back({0, spoke, 1, 0});
+    EXPECT_EQ(firstComplaint(hub), "");
+    hub.distances.push_back({0, 129, 1, 0});
+    EXPECT_EQ(firstComplaint(hub),
+              "particle[0]: has more than 128 distance constraints, the most this solver takes");
+    EXPECT_EQ(firstComplaint(hub, {.solver = Solver::jacobi}), "");
+}
+
 TEST(Validate, CountsWhatItDoesNotSpellOut) {
     Scene scene = validScene();
     scene.distances.assign(100, {2, 2, 1, 0});

@@ -50,8 +50,8 @@ void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Ed
              BufferId corrections, bool isFirstIteration) {
     const layout::IterationPush push{edges.count, edges.firstSlot, isFirstIteration};
     if (edges.multipliers == BufferId{}) {
-        program.dispatch(kernels::solveDistance, edges.count,
-                         {edges.edges, particles.positions, corrections, particles.step}, push);
+        program.dispatch(kernels::solveDistance, edges.count, {edges.edges, particles.positions, corrections},
+                         push);
     } else {
         program.dispatch(kernels::solveDistanceCompliant, edges.count,
                          {edges.edges, particles.positions, corrections, particles.step, edges.multipliers},

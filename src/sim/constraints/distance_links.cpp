@@ -1,5 +1,5 @@
 // The links of the gather of `split`, sorted so that a slot means the same kind of link for every particle:
-// regular cloth and lattices then carry one word or two a link instead of four.
+// regular cloth and lattices then carry one word a link instead of four.
 #include "sim/constraints/distance.hpp"
 
 #include <algorithm>

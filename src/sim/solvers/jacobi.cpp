@@ -64,7 +64,9 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
             addIteration(program, particles, corrections, iteration == 0);
             collision::planes::addSolve(program, particles, contacts);
         }
-        collision::planes::addVelocityUpdate(program, particles, contacts);
+        if (scene.damping > 0 || !scene.planes.empty()) {
+            collision::planes::addVelocityUpdate(program, particles, contacts);
+        }
     }
     program.endSubsteps();
     if (corrections.slotCount > 0) program.program().sweeps = std::uint64_t{settings.substeps} * iterations;

@@ -5,6 +5,8 @@
 #include "kernels.hpp"
 #include "layout.h"
 
+#include <algorithm>
+
 namespace sinew::sim::surface {
 
 namespace {
@@ -26,6 +28,10 @@ struct Fans {
     std::vector<std::uint32_t> triangles;
 };
 
+// More triangles than this around one vertex change its normal no more; some devices end loops silently at
+// 65,535.
+constexpr std::uint32_t largestFan = 60'000;
+
 Fans fansOf(const std::vector<std::uint32_t>& indices, std::size_t vertices) {
     Fans result{std::vector<layout::VertexTriangles>(vertices), std::vector<std::uint32_t>(indices.size())};
     for (const std::uint32_t vertex : indices) ++result.fans[vertex].count;
@@ -39,6 +45,7 @@ Fans fansOf(const std::vector<std::uint32_t>& indices, std::size_t vertices) {
         layout::VertexTriangles& fan = result.fans[indices[i]];
         result.triangles[fan.first + fan.count++] = i / 3;
     }
+    for (layout::VertexTriangles& fan : result.fans) fan.count = std::min(fan.count, largestFan);
     return result;
 }
 
