@@ -14,7 +14,7 @@ std::optional<Statistics> summarise(std::vector<double> values) {
     const auto percentile = [&](double share) {
         return values[static_cast<std::size_t>(std::max(1.0, std::ceil(share * count))) - 1];
     };
-    Statistics result{.p50 = percentile(0.5), .p99 = percentile(0.99)};
+    Statistics result{.min = values.front(), .p50 = percentile(0.5), .p99 = percentile(0.99)};
     result.mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
     double squares = 0;
     for (const double value : values) squares += (value - result.mean) * (value - result.mean);

@@ -7,7 +7,7 @@
 namespace sinew::tools {
 
 struct Statistics {
-    double p50 = 0, p99 = 0, mean = 0;
+    double min = 0, p50 = 0, p99 = 0, mean = 0;
     double stddev = 0; ///< of the sample (n - 1); 0 for a single value
 };
 
