@@ -26,7 +26,7 @@ need() {
 # What a build of everything but the tests needs, and what the programs need to run on a machine without a GPU.
 build_packages=(ca-certificates cmake ninja-build g++ libc6-dev
     libvulkan-dev libvulkan1 mesa-vulkan-drivers glslang-tools spirv-tools
-    libeigen3-dev libassimp-dev libglfw3-dev libstb-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev
+    libeigen3-dev libassimp-dev zlib1g-dev libglfw3-dev libstb-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev
     libgtest-dev) # the configure step looks for it, tests or not
 # What the tests need beyond that.
 test_packages=(vulkan-validationlayers spirv-cross xvfb xauth xdotool imagemagick x11-apps
