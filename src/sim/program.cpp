@@ -86,10 +86,10 @@ void ProgramBuilder::dispatchBytes(const vk::ShaderCode& code, std::uint32_t ite
             refuse(code, "binding " + interface.bindings[b].name + " got a buffer that does not exist");
         }
         const BufferSpec& spec = program_.buffers[buffers[b].index];
-        if (interface.bindings[b].stride != spec.stride) {
+        if (!interface.bindings[b].takes(spec.stride)) {
             refuse(code, "binding " + interface.bindings[b].name + " has stride " +
                              std::to_string(interface.bindings[b].stride) + ", buffer " + spec.label +
-                             " has " + std::to_string(spec.stride));
+                             " has " + std::to_string(spec.stride)); // 0: texels of 4, 8 or 16 bytes
         }
         pass.uses.push_back({buffers[b], interface.bindings[b].access});
     }

@@ -31,7 +31,8 @@ Buffer::Buffer(const Device& device, const BufferRequest& request)
         .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
         .size = std::max<VkDeviceSize>(count_, 1) * stride_,
         .usage = request.usage | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
-                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                 VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                 VK_BUFFER_USAGE_TRANSFER_DST_BIT,
         .sharingMode = VK_SHARING_MODE_EXCLUSIVE};
     allocation_ = allocator_->create(info, request.kind, name_.c_str());
     device.name(VK_OBJECT_TYPE_BUFFER, handleValue(allocation_.buffer), name_);

@@ -76,10 +76,11 @@ struct DeviceDescription {
 struct Limits {
     VkDeviceSize maxStorageBufferRange = 0; ///< [B]
     std::uint32_t maxStorageBuffersPerStage = 0;
+    std::uint32_t maxTexels = 0;     ///< elements of a texel buffer
     std::uint32_t maxGroupCount = 0; ///< in x
     std::uint32_t maxGroupInvocations = 0, maxGroupSizeX = 0;
-    std::uint32_t maxPushConstants = 0, maxSharedMemory = 0;      ///< [B]
-    VkDeviceSize storageBufferAlignment = 0, nonCoherentAtom = 0; ///< [B]
+    std::uint32_t maxPushConstants = 0, maxSharedMemory = 0;                                ///< [B]
+    VkDeviceSize storageBufferAlignment = 0, texelBufferAlignment = 0, nonCoherentAtom = 0; ///< [B]
     float timestampPeriod = 0; ///< [ns per tick]; 0 = the family writes none
     std::uint32_t timestampBits = 0;
 };

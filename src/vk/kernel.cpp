@@ -4,6 +4,7 @@
 #include "vk/check.hpp"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace sinew::vk {
@@ -18,7 +19,10 @@ void checkLimit(const std::string& kernel, const char* what, std::uint64_t need,
 
 void checkLimits(const KernelInterface& interface, const std::string& name, const Limits& limits) {
     const auto& size = interface.groupSize;
-    checkLimit(name, "storage buffers", interface.bindings.size(), limits.maxStorageBuffersPerStage);
+    const auto storage = std::count_if(interface.bindings.begin(), interface.bindings.end(),
+                                       [](const auto& b) { return b.kind == BlockKind::storage; });
+    checkLimit(name, "storage buffers", static_cast<std::uint64_t>(storage),
+               limits.maxStorageBuffersPerStage);
     checkLimit(name, "bytes of push constants", interface.pushConstantSize, limits.maxPushConstants);
     checkLimit(name, "bytes of shared memory", interface.sharedMemory, limits.maxSharedMemory);
     checkLimit(name, "invocations along x in a group", size[0], limits.maxGroupSizeX);
@@ -40,8 +44,27 @@ void specialise(KernelInterface& interface, const std::string& name,
 }
 
 VkDescriptorType descriptorType(const KernelBinding& binding) {
-    return binding.kind == BlockKind::uniform ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
-                                              : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    switch (binding.kind) {
+    case BlockKind::uniform:
+        return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    case BlockKind::texels:
+        return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+    case BlockKind::storage:
+        break;
+    }
+    return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+}
+
+/// Formats that every device can fetch from a texel buffer.
+VkFormat texelFormat(bool isFloat, std::uint32_t stride) {
+    switch (stride) {
+    case 4:
+        return isFloat ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_R32_UINT;
+    case 8:
+        return isFloat ? VK_FORMAT_R32G32_SFLOAT : VK_FORMAT_R32G32_UINT;
+    default:
+        return isFloat ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R32G32B32A32_UINT;
+    }
 }
 
 VkDescriptorSetLayout createSetLayout(VkDevice device, const DeviceFunctions& functions,
@@ -170,13 +193,21 @@ void checkView(const Kernel& kernel, const KernelBinding& binding, const BufferV
                               " (" + binding.name + ")";
     if (view.buffer == VK_NULL_HANDLE || view.size == 0)
         throw Error(Failure::misuse, where + ": no buffer is bound");
-    if (view.stride != binding.stride)
-        throw Error(Failure::misuse, where + ": the buffer's stride is " + std::to_string(view.stride) +
-                                         " bytes, the kernel's is " + std::to_string(binding.stride));
-    if (view.offset % limits.storageBufferAlignment != 0)
+    const bool isTexels = binding.kind == BlockKind::texels;
+    if (!binding.takes(view.stride))
+        throw Error(Failure::misuse,
+                    where + ": the buffer's stride is " + std::to_string(view.stride) +
+                        " bytes, the kernel's is " +
+                        (isTexels ? std::string("4, 8 or 16") : std::to_string(binding.stride)));
+    const VkDeviceSize alignment = isTexels ? limits.texelBufferAlignment : limits.storageBufferAlignment;
+    if (view.offset % alignment != 0)
         throw Error(Failure::misuse, where + ": the offset " + std::to_string(view.offset) +
-                                         " is no multiple of the device's " +
-                                         std::to_string(limits.storageBufferAlignment) + " bytes");
+                                         " is no multiple of the device's " + std::to_string(alignment) +
+                                         " bytes");
+    if (isTexels && view.size / view.stride > limits.maxTexels)
+        throw Error(Failure::outOfMemory, where + ": " + std::to_string(view.size / view.stride) +
+                                              " elements exceed the device's maxTexelBufferElements of " +
+                                              std::to_string(limits.maxTexels));
     if (view.size > limits.maxStorageBufferRange)
         throw Error(Failure::outOfMemory, where + ": " + std::to_string(view.size) +
                                               " bytes exceed the device's maxStorageBufferRange of " +
@@ -196,14 +227,12 @@ void checkRequests(std::span<const BindingRequest> requests, const Limits& limit
 }
 
 VkDescriptorPool createPool(const Device& device, std::span<const BindingRequest> requests) {
-    std::array<VkDescriptorPoolSize, 2> counts{
-        {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 0}, {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 0}}};
+    std::map<VkDescriptorType, std::uint32_t> counts;
     for (const BindingRequest& request : requests)
         for (const KernelBinding& binding : request.kernel->interface().bindings)
-            ++counts[binding.kind == BlockKind::uniform].descriptorCount;
+            ++counts[descriptorType(binding)];
     std::vector<VkDescriptorPoolSize> sizes;
-    for (const VkDescriptorPoolSize& size : counts)
-        if (size.descriptorCount > 0) sizes.push_back(size);
+    for (const auto& [type, count] : counts) sizes.push_back({type, count});
     const VkDescriptorPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                           .maxSets = static_cast<std::uint32_t>(requests.size()),
                                           .poolSizeCount = static_cast<std::uint32_t>(sizes.size()),
@@ -214,22 +243,44 @@ VkDescriptorPool createPool(const Device& device, std::span<const BindingRequest
     return pool;
 }
 
-void writeSet(const Device& device, VkDescriptorSet set, const BindingRequest& request) {
-    std::vector<VkDescriptorBufferInfo> infos;
-    for (const BufferView& view : request.buffers) infos.push_back({view.buffer, view.offset, view.size});
-    std::vector<VkWriteDescriptorSet> writes;
-    for (const KernelBinding& binding : request.kernel->interface().bindings)
-        writes.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                          .dstSet = set,
-                          .dstBinding = binding.binding,
-                          .descriptorCount = 1,
-                          .descriptorType = descriptorType(binding),
-                          .pBufferInfo = &infos[binding.binding]});
-    device.functions().vkUpdateDescriptorSets(device.handle(), static_cast<std::uint32_t>(writes.size()),
-                                              writes.data(), 0, nullptr);
+} // namespace
+
+VkBufferView BindingSets::createTexels(const BufferView& view, const KernelBinding& binding,
+                                       const Device& device) {
+    const VkBufferViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
+                                      .buffer = view.buffer,
+                                      .format = texelFormat(binding.isFloat, view.stride),
+                                      .offset = view.offset,
+                                      .range = view.size};
+    VkBufferView texels = VK_NULL_HANDLE;
+    check(functions_->vkCreateBufferView(device_, &info, nullptr, &texels), "vkCreateBufferView",
+          binding.name);
+    texels_.push_back(texels);
+    device.name(VK_OBJECT_TYPE_BUFFER_VIEW, handleValue(texels), binding.name);
+    return texels;
 }
 
-} // namespace
+void BindingSets::write(const Device& device, VkDescriptorSet set, const BindingRequest& request) {
+    const auto& bindings = request.kernel->interface().bindings;
+    std::vector<VkDescriptorBufferInfo> infos;
+    std::vector<VkBufferView> texels(bindings.size(), VK_NULL_HANDLE);
+    for (const BufferView& view : request.buffers) infos.push_back({view.buffer, view.offset, view.size});
+    std::vector<VkWriteDescriptorSet> writes;
+    for (const KernelBinding& binding : bindings) {
+        const std::uint32_t b = binding.binding;
+        const bool isTexels = binding.kind == BlockKind::texels;
+        if (isTexels) texels[b] = createTexels(request.buffers[b], binding, device);
+        writes.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                          .dstSet = set,
+                          .dstBinding = b,
+                          .descriptorCount = 1,
+                          .descriptorType = descriptorType(binding),
+                          .pBufferInfo = isTexels ? nullptr : &infos[b],
+                          .pTexelBufferView = isTexels ? &texels[b] : nullptr});
+    }
+    functions_->vkUpdateDescriptorSets(device_, static_cast<std::uint32_t>(writes.size()), writes.data(), 0,
+                                       nullptr);
+}
 
 BindingSets::BindingSets(const Device& device, std::span<const BindingRequest> requests)
     : device_(device.handle()), functions_(&device.functions()), sets_(requests.size(), VK_NULL_HANDLE) {
@@ -246,21 +297,27 @@ BindingSets::BindingSets(const Device& device, std::span<const BindingRequest> r
     const VkResult result = functions_->vkAllocateDescriptorSets(device_, &info, sets_.data());
     if (result < 0) release();
     check(result, "vkAllocateDescriptorSets", "the binding sets");
-    for (std::size_t i = 0; i < requests.size(); ++i) {
-        device.name(VK_OBJECT_TYPE_DESCRIPTOR_SET, handleValue(sets_[i]), requests[i].kernel->name());
-        writeSet(device, sets_[i], requests[i]);
+    try {
+        for (std::size_t i = 0; i < requests.size(); ++i) {
+            device.name(VK_OBJECT_TYPE_DESCRIPTOR_SET, handleValue(sets_[i]), requests[i].kernel->name());
+            write(device, sets_[i], requests[i]);
+        }
+    } catch (...) {
+        release();
+        throw;
     }
 }
 
 BindingSets::BindingSets(BindingSets&& other) noexcept
     : device_(other.device_), functions_(other.functions_), pool_(std::exchange(other.pool_, VK_NULL_HANDLE)),
-      sets_(std::move(other.sets_)) {}
+      sets_(std::move(other.sets_)), texels_(std::exchange(other.texels_, {})) {}
 
 BindingSets& BindingSets::operator=(BindingSets&& other) noexcept {
     std::swap(device_, other.device_);
     std::swap(functions_, other.functions_);
     std::swap(pool_, other.pool_);
     std::swap(sets_, other.sets_);
+    std::swap(texels_, other.texels_);
     return *this;
 }
 
@@ -269,6 +326,7 @@ BindingSets::~BindingSets() {
 }
 
 void BindingSets::release() noexcept {
+    for (const VkBufferView texels : texels_) functions_->vkDestroyBufferView(device_, texels, nullptr);
     functions_->vkDestroyDescriptorPool(device_, pool_, nullptr);
 }
 

@@ -53,7 +53,7 @@ struct BindingRequest {
 class BindingSets {
 public:
     /// Throws Error(misuse) naming kernel and binding where a count, a stride or an offset's alignment
-    /// disagrees, Error(outOfMemory) where a range exceeds maxStorageBufferRange.
+    /// disagrees, Error(outOfMemory) where a range exceeds maxStorageBufferRange or maxTexelBufferElements.
     BindingSets(const Device& device, std::span<const BindingRequest> requests);
     BindingSets(BindingSets&& other) noexcept;
     BindingSets& operator=(BindingSets&& other) noexcept;
@@ -62,11 +62,14 @@ public:
     VkDescriptorSet operator[](std::size_t request) const noexcept { return sets_[request]; }
 
 private:
+    void write(const Device& device, VkDescriptorSet set, const BindingRequest& request);
+    VkBufferView createTexels(const BufferView& view, const KernelBinding& binding, const Device& device);
     void release() noexcept;
     VkDevice device_ = VK_NULL_HANDLE;
     const DeviceFunctions* functions_ = nullptr;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     std::vector<VkDescriptorSet> sets_;
+    std::vector<VkBufferView> texels_; ///< of every texel binding
 };
 
 } // namespace sinew::vk

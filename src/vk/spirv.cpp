@@ -67,6 +67,24 @@ KernelBinding bindingOf(const Module& module, const spirv::Variable& variable, B
     return {*binding, name, access, stride, kind};
 }
 
+KernelBinding texelsOf(const Module& module, const spirv::Variable& variable) {
+    constexpr std::uint32_t buffer = 5, sampled = 1;
+    const std::string name = module.nameOf(variable.id);
+    const Instruction& type = module.type(pointee(module, variable));
+    if (type.op != Op::typeSampledImage || module.type(type.operands[1]).op != Op::typeImage)
+        module.fail(name + " is no storage buffer and no texel buffer: kernels bind nothing else");
+    const auto& image = module.type(type.operands[1]).operands; // result, component, dimension, ..., sampled
+    const Instruction& component = module.type(image[1]);
+    const bool isFloat = component.op == Op::typeFloat;
+    const bool isUnsigned = component.op == Op::typeInt && component.operands[2] == 0;
+    if (image[2] != buffer || image[6] != sampled || !(isFloat || isUnsigned) || component.operands[1] != 32)
+        module.fail(name + " is no samplerBuffer and no usamplerBuffer");
+    const auto binding = module.decoration(variable.id, Decoration::binding);
+    if (!binding || module.decoration(variable.id, Decoration::descriptorSet).value_or(0) != 0)
+        module.fail("texel buffer " + name + " must have a binding in set 0");
+    return {*binding, name, Access::read, 0, BlockKind::texels, isFloat};
+}
+
 void addVariable(const Module& module, const spirv::Variable& variable, KernelInterface& interface) {
     switch (variable.storage) {
     case Storage::storageBuffer:
@@ -79,6 +97,9 @@ void addVariable(const Module& module, const spirv::Variable& variable, KernelIn
         interface.bindings.push_back(bindingOf(module, variable, kind));
         break;
     }
+    case Storage::uniformConstant:
+        interface.bindings.push_back(texelsOf(module, variable));
+        break;
     case Storage::pushConstant:
         interface.pushConstantSize = module.size(pointee(module, variable));
         break;
@@ -101,9 +122,9 @@ void checkBindings(const Module& module, const std::vector<KernelBinding>& bindi
 }
 
 void checkCapabilities(const Module& module) {
-    constexpr std::uint32_t matrix = 0, shader = 1;
+    constexpr std::uint32_t matrix = 0, shader = 1, sampledBuffer = 46;
     for (const std::uint32_t capability : module.capabilities)
-        if (capability != matrix && capability != shader)
+        if (capability != matrix && capability != shader && capability != sampledBuffer)
             module.fail("it needs the SPIR-V capability " + std::to_string(capability) +
                         ", an optional feature that no kernel of the core may use");
 }

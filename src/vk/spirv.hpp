@@ -20,16 +20,25 @@ struct ShaderCode {
 enum class Access : std::uint8_t { read = 1, write = 2, readWrite = 3 };
 
 /// `uniform`: a block that every invocation reads alike and none writes; software devices read it once a
-/// group, not once a lane. At most 16 KiB, which every device allows.
-enum class BlockKind : std::uint8_t { storage, uniform };
+/// group, not once a lane. At most 16 KiB, which every device allows. `texels`: a samplerBuffer (float32) or
+/// usamplerBuffer (uint32): a storage buffer read element by element through the texture path, which some
+/// devices gather from faster. Its elements have 4, 8 or 16 bytes.
+enum class BlockKind : std::uint8_t { storage, uniform, texels };
 
 struct KernelBinding {
     std::uint32_t binding = 0;
     std::string name;                  ///< the block's name in GLSL, such as "Positions"
     Access access = Access::readWrite; ///< from readonly / writeonly, the only declaration of access
-    /// [B]: of the run-time array, or the size of a fixed struct rounded up to its std430 alignment
+    /// [B]: of the run-time array, or the size of a fixed struct rounded up to its std430 alignment; 0 =
+    /// texels, whose kernels do not say
     std::uint32_t stride = 0;
     BlockKind kind = BlockKind::storage;
+    bool isFloat = false; ///< of texels: float32, else uint32
+
+    /// Whether a buffer with elements of `bytes` may be bound here.
+    bool takes(std::uint32_t bytes) const {
+        return kind == BlockKind::texels ? bytes == 4 || bytes == 8 || bytes == 16 : bytes == stride;
+    }
 };
 
 struct KernelInterface {
@@ -43,7 +52,7 @@ struct KernelInterface {
 };
 
 /// Throws std::runtime_error with the shader's name where the module breaks a rule: a set other than 0, a gap
-/// in the bindings, anything but storage buffers, a block of fixed members and a run-time array, a row-major
+/// in the bindings, anything but buffers, a block of fixed members and a run-time array, a row-major
 /// matrix, a capability that is an optional feature, an unknown opcode in a type, a truncated module.
 KernelInterface readInterface(const ShaderCode& code);
 

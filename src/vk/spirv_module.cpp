@@ -37,6 +37,7 @@ std::size_t leastOperands(Op op) {
     case Op::executionMode:
     case Op::executionModeId:
     case Op::typeFloat:
+    case Op::typeSampledImage:
     case Op::typeRuntimeArray:
     case Op::decorate:
     case Op::constantTrue:
@@ -58,6 +59,8 @@ std::size_t leastOperands(Op op) {
     case Op::variable:
     case Op::memberDecorate:
         return 3;
+    case Op::typeImage:
+        return 8;
     case Op::function:
         break;
     }
@@ -71,6 +74,8 @@ void checkOrder(const Module& module, const Instruction& instruction) {
     switch (instruction.op) {
     case Op::typeVector:
     case Op::typeMatrix:
+    case Op::typeImage:
+    case Op::typeSampledImage:
     case Op::typeRuntimeArray:
         types = operands.subspan(1, 1);
         break;
@@ -155,6 +160,8 @@ void read(Module& module, const Instruction& instruction) {
     case Op::typeFloat:
     case Op::typeVector:
     case Op::typeMatrix:
+    case Op::typeImage:
+    case Op::typeSampledImage:
     case Op::typeArray:
     case Op::typeRuntimeArray:
     case Op::typeStruct:

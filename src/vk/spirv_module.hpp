@@ -21,6 +21,8 @@ enum class Op : std::uint16_t {
     typeFloat = 22,
     typeVector = 23,
     typeMatrix = 24,
+    typeImage = 25,
+    typeSampledImage = 27,
     typeArray = 28,
     typeRuntimeArray = 29,
     typeStruct = 30,

@@ -107,6 +107,36 @@ TEST(Commands, PushConstantsArriveInTheKernel) {
     EXPECT_EQ(values(buffer), (std::vector<std::uint32_t>{1, 7, 1}));
 }
 
+TEST(Commands, FetchTexelsOfEachElementSize) {
+    const vk::Kernel kernel(device(), kernels::fetchTexels, {});
+    constexpr std::uint32_t count = 100;
+    for (const std::uint32_t components : {1u, 2u, 4u}) {
+        std::vector<float> halves;
+        std::vector<std::uint32_t> thousands;
+        for (std::uint32_t k = 0; k < components * count; ++k) {
+            halves.push_back(0.5f * static_cast<float>(k));
+            thousands.push_back(1000 * k);
+        }
+        const vk::Buffer weights = upload("weights", halves), codes = upload("codes", thousands);
+        const auto elements = [&](const vk::Buffer& buffer) {
+            vk::BufferView view = buffer.view();
+            view.stride = 4 * components;
+            return view;
+        };
+        const vk::Buffer sums(device(), {.name = "sums", .count = count, .stride = 16});
+        const vk::BindingRequest request{&kernel, {elements(weights), elements(codes), sums.view()}};
+        const vk::BindingSets sets(device(), {&request, 1});
+        run([&](vk::Commands& commands) {
+            commands.bind(kernel, sets[0]);
+            commands.dispatch(2);
+        });
+        const auto result = queue().download<std::array<float, 4>>(sums.view());
+        for (std::uint32_t k = 0; k < components * count; ++k)
+            ASSERT_EQ(result[k / components][k % components], 1000.5f * static_cast<float>(k))
+                << components << " components";
+    }
+}
+
 TEST(Commands, HandStepsOverToTheHostAndToTheNextStepWithoutWaiting) {
     const vk::Kernel kernel(device(), kernels::addOne, {});
     const vk::Buffer buffer = upload<std::uint32_t>("values", {0, 0, 0});

@@ -143,4 +143,13 @@ TEST(BindingSets, MayBeEmptyAndMove) {
     EXPECT_EQ(sets[0], set);
 }
 
+TEST(Texels, AreRefusedWhereAnElementHasNoFormat) {
+    const vk::Kernel kernel(device(), kernels::fetchTexels, {});
+    const vk::Buffer three(device(), {.name = "three", .count = 4, .stride = 12});
+    const vk::Buffer four(device(), {.name = "four", .count = 4, .stride = 16});
+    const std::string message =
+        bindingComplaint(vk::Failure::misuse, kernel, {three.view(), four.view(), four.view()});
+    expectParts(message, {"fetch_texels", "weights", "12 bytes", "4, 8 or 16"});
+}
+
 } // namespace sinew::test

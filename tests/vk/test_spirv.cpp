@@ -89,6 +89,7 @@ TEST(KernelInterface, IsRefusedByNameWhereAKernelBreaksARule) {
         {kernels::bindingGap, "Third has binding 2 where 1 comes next"},
         {kernels::headerAndArray, "Contacts has fixed members and a run-time array"},
         {kernels::storageImage, "picture is no storage buffer"},
+        {kernels::texture, "picture is no samplerBuffer"},
         {kernels::doublePrecision, "capability 10"},
         {kernels::rowMajor, "row-major"},
     };
@@ -145,7 +146,14 @@ void compareBindings(const vk::KernelInterface& interface, const nlohmann::json&
         block["readonly"] = block["uniform"] = true;
         buffers.push_back(block);
     }
-    ASSERT_EQ(interface.bindings.size(), buffers.size());
+    const nlohmann::json texels = reflection.value("textures", nlohmann::json::array());
+    ASSERT_EQ(interface.bindings.size(), buffers.size() + texels.size());
+    for (const nlohmann::json& texel : texels) {
+        const auto& binding = interface.bindings.at(texel["binding"].get<std::size_t>());
+        EXPECT_EQ(binding.kind, vk::BlockKind::texels);
+        EXPECT_EQ(binding.name, texel["name"]);
+        EXPECT_EQ(binding.isFloat ? "samplerBuffer" : "usamplerBuffer", texel["type"]);
+    }
     for (const nlohmann::json& buffer : buffers) {
         const auto& binding = interface.bindings.at(buffer["binding"].get<std::size_t>());
         const nlohmann::json& block = reflection["types"][buffer["type"].get<std::string>()];
