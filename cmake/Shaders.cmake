@@ -1,6 +1,6 @@
 # GLSL -> SPIR-V 1.5 -> arrays in the library.
 #
-#   add_kernels(<target> NAMESPACE <c++ namespace> HEADER <name.hpp> SOURCES <files...>)
+#   add_kernels(<target> NAMESPACE <c++ namespace> HEADER <name.hpp> SOURCES <files...> [VARIANTS <lines...>])
 #
 # compiles every file for Vulkan 1.2, runs spirv-val on it and adds one `const vk::ShaderCode` a file to <target>:
 # solve_distance.comp becomes <namespace>::solveDistance, skin.vert becomes <namespace>::skinVert.
@@ -21,14 +21,24 @@ function(sinew_camel_case out text)
     set(${out} ${result} PARENT_SCOPE)
 endfunction()
 
+# A variant is one line, "name: file [MACRO...]": the file compiled with these macros defined, under that name.
 function(add_kernels target)
-    cmake_parse_arguments(PARSE_ARGV 1 ARG "" "NAMESPACE;HEADER" "SOURCES")
+    cmake_parse_arguments(PARSE_ARGV 1 ARG "" "NAMESPACE;HEADER" "SOURCES;VARIANTS")
     set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}_kernels)
     file(MAKE_DIRECTORY ${folder})
     set(declarations "")
-    foreach(source IN LISTS ARG_SOURCES)
+    foreach(entry IN LISTS ARG_SOURCES ARG_VARIANTS)
+        if(entry MATCHES "^([a-z0-9_]+): +([^ ]+) *(.*)$")
+            set(source ${CMAKE_MATCH_2})
+            set(stem ${CMAKE_MATCH_1})
+            string(REGEX REPLACE "([^ ]+)" "-D\\1" macros "${CMAKE_MATCH_3}")
+            separate_arguments(macros)
+        else()
+            set(source ${entry})
+            cmake_path(GET source STEM stem)
+            set(macros "")
+        endif()
         cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} NORMALIZE)
-        cmake_path(GET source STEM stem)
         cmake_path(GET source EXTENSION stage)
         sinew_camel_case(identifier ${stem})
         if(stage STREQUAL ".vert")
@@ -40,7 +50,7 @@ function(add_kernels target)
         set(embedded ${folder}/${stem}${stage}.cpp)
         add_custom_command(
             OUTPUT ${spirv}
-            COMMAND ${GLSLANG} --quiet -V --target-env vulkan1.2 -I${SINEW_SHADER_INCLUDE} --depfile ${spirv}.d -o ${spirv} ${source}
+            COMMAND ${GLSLANG} --quiet -V --target-env vulkan1.2 ${macros} -I${SINEW_SHADER_INCLUDE} --depfile ${spirv}.d -o ${spirv} ${source}
             COMMAND ${SPIRV_VAL} --target-env vulkan1.2 ${spirv}
             DEPENDS ${source}
             DEPFILE ${spirv}.d

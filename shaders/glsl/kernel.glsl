@@ -1,7 +1,10 @@
 // What every kernel starts with: the shared structs, the group size, and the index of its item.
 #include "layout.h"
 
-layout(local_size_x = GROUP_ITEMS) in;
+#ifndef GROUP_SIZE
+#define GROUP_SIZE GROUP_ITEMS
+#endif
+layout(local_size_x = GROUP_SIZE) in;
 
 // Maps invocation i to count - 1 - i. The state must not change: our race and order detector.
 layout(constant_id = 0) const bool isReversed = false;

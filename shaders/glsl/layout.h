@@ -38,11 +38,11 @@ struct SplitLink {
     uint other;       // the particle at the far end; i itself in padding
     float restLength; // [m]
     float stiffness;  // [N/m]
-    uint unused0;     // 16 bytes, so that a kernel reads a link in one load
+    float share;      // k~, its weight among the links of a particle [N/m]
 };
 
 // The packed form, for regular bodies: a link is one word, its far end and a code. Its slot belongs to a group with
-// one rest length and one unit of stiffness: stiffness = (code + 1) x unit.
+// one rest length, one unit of stiffness and one of shares: stiffness = (code + 1) x unit.
 #define PACKED_END_BITS 24
 #define PACKED_CODES 256
 #define PACKED_GROUPS 4
@@ -117,6 +117,27 @@ struct PackedSubstepPush {
     uint isFirst;
     float restLengths[PACKED_GROUPS]; // [m]
     float units[PACKED_GROUPS];       // of stiffness [N/m]
+    float shares[PACKED_GROUPS];      // of shares [N/m]
+};
+
+// Bodies on a regular grid: work-group size, and one unit in the fill of a cell.
+#define LATTICE_GROUP 32
+#define LATTICE_FULL 15
+
+// A run of slices of a block of columns: what one invocation marches.
+struct LatticeChunk {
+    uint origin; // slot of its first node
+    uint layers; // 0 = nothing to do
+};
+
+// Kinds of link: along an edge, a face diagonal, a body diagonal.
+struct LatticePush {
+    uint count;
+    uint isFirst;
+    uint rowStride, sliceStride; // slots from a node to the next in y, in z
+    float restLengths[3];        // [m]
+    float units[3];              // stiffness for each 1/15 of a cell's fill [N/m]
+    float shares[3];             // k~ likewise
 };
 
 struct IterationPush {

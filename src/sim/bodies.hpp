@@ -20,13 +20,14 @@ struct ClothSheet {
     Vec3 color{0.16f, 0.34f, 0.58f};
 };
 
-/// Appends particles, constraints, a body and a two-sided skin. Returns the index of the first particle.
+/// Appends particles, constraints, a body, a grid and a two-sided skin. Returns the index of the first
+/// particle.
 std::uint32_t addCloth(Scene& scene, const ClothSheet& sheet);
 
 /// A voxel body: cubic cells of a regular grid, particles on their corners. Each filled cell assembles a
 /// share of the stiffness of its 12 edges and 12 face diagonals and an eighth of its mass to each corner
 /// (methods: an 18-neighbour central-force lattice with k1 = k2 = 0.4 E a is isotropic with Young's modulus E
-/// and Poisson ratio 1/4).
+/// and Poisson ratio 1/4; with body diagonals k3 = k2 and k1 = 11/3 k2 are).
 struct Lattice {
     std::string name = "lattice";
     Vec3 origin;                                 ///< position of grid corner (0, 0, 0) [m]
@@ -35,7 +36,8 @@ struct Lattice {
     std::vector<float> fill;   ///< share of each cell that is material, 0 = empty; x fastest; empty = all 1
     float youngModulus = 1e5f; ///< [Pa]
     float density = 1000;      ///< [kg/m^3]
-    float restVolume = 0;      ///< of the body [m^3]; 0 = sum of fill x cell volume
+    bool hasBodyDiagonals = false; ///< 26 neighbours instead of 18
+    float restVolume = 0;          ///< of the body [m^3]; 0 = sum of fill x cell volume
 };
 
 /// What addLattice made: the particle on each grid corner, or noParticle. Corner (i, j, k) is at
@@ -49,8 +51,10 @@ struct LatticeCorners {
     }
 };
 
-/// Appends particles, constraints and a body; adds no skin. Cells with a fill below 1/8 count as 1/8 (a
-/// sliver keeps the stiffness to mass ratio of the body and so never asks for more substeps).
+/// Appends particles, constraints, a body and a grid; adds no skin. Mass follows the fill as given, stiffness
+/// the fill in steps of 1/15; cells with a fill below 1/8 count as 1/8 (a sliver keeps about the stiffness to
+/// mass ratio of the body and so asks for hardly more substeps). So far from the origin that float32 rounds
+/// positions by 1e-4 of the spacing, the links have the lengths that are stored and the body gets no grid.
 LatticeCorners addLattice(Scene& scene, const Lattice& lattice);
 
 /// Skins the boundary faces of a lattice (for bodies without a mesh of their own), creased at its edges.

@@ -67,6 +67,21 @@ void addLinks(Scene& scene, const ClothSheet& sheet, std::uint32_t first) {
         }
 }
 
+void addGrid(Scene& scene, const ClothSheet& sheet, std::uint32_t first, std::size_t firstDistance) {
+    constexpr std::uint8_t fullCell = 15;
+    const auto [columns, rows] = sheet.size;
+    Grid grid{.name = sheet.name,
+              .nodes = {columns, 1, rows},
+              .firstParticle = first,
+              .firstDistance = static_cast<std::uint32_t>(firstDistance),
+              .distanceCount = static_cast<std::uint32_t>(scene.distances.size() - firstDistance),
+              .fill = std::vector<std::uint8_t>(std::size_t{columns - 1} * (rows - 1), fullCell),
+              .compliance = {sheet.stretchCompliance, sheet.shearCompliance, 0},
+              .restLength = {sheet.spacing, static_cast<float>(sheet.spacing * std::sqrt(2.0)), 0}};
+    for (std::uint32_t node = 0; node < columns * rows; ++node) grid.node.push_back(node);
+    scene.grids.push_back(std::move(grid));
+}
+
 /// Every particle carries two skin vertices, one a side, so that each side has normals of its own.
 Skin makeSkin(const ClothSheet& sheet, std::uint32_t first) {
     Skin skin{.name = sheet.name, .color = sheet.color};
@@ -91,7 +106,9 @@ std::uint32_t addCloth(Scene& scene, const ClothSheet& sheet) {
     check(sheet);
     const auto first = static_cast<std::uint32_t>(scene.particles.size());
     addParticles(scene, sheet);
+    const std::size_t firstDistance = scene.distances.size();
     addLinks(scene, sheet, first);
+    addGrid(scene, sheet, first, firstDistance);
     for (const std::uint32_t pinned : sheet.pinned) scene.fixed.push_back({first + pinned});
     scene.bodies.push_back({sheet.name, first, sheet.size[0] * sheet.size[1], 0});
     scene.skins.push_back(makeSkin(sheet, first));

@@ -18,33 +18,73 @@ namespace {
 
 using Index3 = std::array<std::int32_t, 3>;
 
-constexpr float smallestFill = 0.125f;
+constexpr std::uint8_t fullCell = 15, smallestFill = 2; // in 1/15
 
 /// One of each pair of opposite directions, the one that leads to the higher grid index: 3 edges, 6 face
-/// diagonals.
-constexpr std::array<Index3, 9> directions{
-    {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {-1, 1, 0}, {1, 0, 1}, {-1, 0, 1}, {0, 1, 1}, {0, -1, 1}}};
+/// diagonals, 4 body diagonals.
+constexpr std::array<Index3, 13> directions{{{1, 0, 0},
+                                             {0, 1, 0},
+                                             {0, 0, 1},
+                                             {1, 1, 0},
+                                             {-1, 1, 0},
+                                             {1, 0, 1},
+                                             {-1, 0, 1},
+                                             {0, 1, 1},
+                                             {0, -1, 1},
+                                             {1, 1, 1},
+                                             {-1, 1, 1},
+                                             {1, -1, 1},
+                                             {-1, -1, 1}}};
+
+/// 0 along an edge, 1 along a face diagonal, 2 along a body diagonal.
+std::size_t kindOf(Index3 direction) {
+    return static_cast<std::size_t>(std::abs(direction[0]) + std::abs(direction[1]) + std::abs(direction[2]) -
+                                    1);
+}
+
+/// Fill of every cell in 1/15.
+std::vector<std::uint8_t> quantisedFill(const Lattice& lattice) {
+    if (lattice.fill.empty())
+        return std::vector<std::uint8_t>(std::size_t{lattice.cells[0]} * lattice.cells[1] * lattice.cells[2],
+                                         fullCell);
+    std::vector<std::uint8_t> result;
+    for (const float fill : lattice.fill) {
+        const auto steps = static_cast<std::uint8_t>(std::lround(fullCell * fill));
+        result.push_back(fill > 0 ? std::max(steps, smallestFill) : std::uint8_t{0});
+    }
+    return result;
+}
 
 /// Read access to the cells of a lattice, with clamped fill and empty space all around.
 class Cells {
 public:
-    explicit Cells(const Lattice& lattice) : lattice_(lattice) {}
+    explicit Cells(const Lattice& lattice) : lattice_(lattice), fill_(quantisedFill(lattice)) {}
 
     std::array<std::uint32_t, 3> size() const { return lattice_.cells; }
 
-    float fill(Index3 cell) const {
+    const std::vector<std::uint8_t>& all() const { return fill_; }
+    int fill(Index3 cell) const {
         for (std::size_t axis = 0; axis < 3; ++axis)
             if (cell[axis] < 0 || cell[axis] >= static_cast<std::int64_t>(size()[axis])) return 0;
-        if (lattice_.fill.empty()) return 1;
-        const auto [i, j, k] = cell;
-        const float raw = lattice_.fill[i + size()[0] * (j + std::size_t{size()[1]} * k)];
-        return raw > 0 ? std::max(raw, smallestFill) : 0;
+        return fill_[indexOf(cell)];
     }
 
-    /// Mean fill of the cells that hold the link from `corner` in `direction` (0, 0, 0 = the corner itself).
-    double meanFill(Index3 corner, Index3 direction) const {
+    /// Mean over the eight cells around `corner` of what they weigh, by the weight of a full one: the fill as
+    /// given, but no less than a sliver's stiffness stands for.
+    double massShare(Index3 corner) const {
         double sum = 0;
-        int count = 0;
+        for (int side = 0; side < 8; ++side) {
+            const Index3 cell{corner[0] - (side & 1), corner[1] - (side >> 1 & 1), corner[2] - (side >> 2)};
+            if (fill(cell) == 0) continue;
+            const double given = lattice_.fill.empty() ? 1 : double{lattice_.fill[indexOf(cell)]};
+            sum += std::max(given, 0.125);
+        }
+        return sum / 8;
+    }
+
+    /// Mean fill of the cells that hold the link from `corner` in `direction`.
+    double meanFill(Index3 corner, Index3 direction) const {
+        int sum = 0, count = 0;
         for (int side = 0; side < 8; ++side) {
             Index3 cell = corner;
             bool holdsLink = true;
@@ -55,15 +95,19 @@ public:
                 cell[axis] -= isBelow ? 1 : 0;
             }
             if (holdsLink) {
-                sum += double{fill(cell)};
+                sum += fill(cell);
                 ++count;
             }
         }
-        return sum / count;
+        return static_cast<double>(sum) / (fullCell * count);
     }
 
 private:
+    std::size_t indexOf(Index3 cell) const {
+        return cell[0] + size()[0] * (cell[1] + std::size_t{size()[1]} * cell[2]);
+    }
     const Lattice& lattice_;
+    std::vector<std::uint8_t> fill_;
 };
 
 std::size_t cellCount(const Lattice& lattice) {
@@ -105,7 +149,7 @@ std::vector<std::uint32_t> addParticles(Scene& scene, const Lattice& lattice, co
     const double cellMass = double{lattice.density} * std::pow(double{lattice.spacing}, 3);
     std::vector<std::uint32_t> particle;
     forEachCorner(lattice.cells, [&](Index3 corner) {
-        const double mass = cellMass * cells.meanFill(corner, {0, 0, 0});
+        const double mass = cellMass * cells.massShare(corner);
         particle.push_back(mass > 0 ? static_cast<std::uint32_t>(scene.particles.size())
                                     : LatticeCorners::noParticle);
         if (mass > 0)
@@ -119,31 +163,70 @@ std::vector<std::uint32_t> addParticles(Scene& scene, const Lattice& lattice, co
     return particle;
 }
 
-/// Rest lengths: the spacing, or its diagonal, so that a whole body has two and its links pack well. Where
-/// float32 rounds positions so far from the origin that this would stress the body (strain above 1e-4), what
-/// is stored counts.
-float restLength(const Scene& scene, const Lattice& lattice, Index3 direction, std::uint32_t a,
-                 std::uint32_t b) {
-    const Vec3 &p = scene.particles[a].position, &q = scene.particles[b].position;
-    const double stored = std::hypot(double{q.x} - p.x, double{q.y} - p.y, double{q.z} - p.z);
-    const int axes = std::abs(direction[0]) + std::abs(direction[1]) + std::abs(direction[2]);
-    const double nominal = std::sqrt(double(axes)) * lattice.spacing;
-    return static_cast<float>(std::abs(stored - nominal) < 1e-4 * nominal ? nominal : stored);
+/// What links are made of: by kind, for a link between full cells.
+struct LinkKinds {
+    std::uint32_t count = 0;
+    std::array<double, 3> stiffness{}; ///< [N/m]
+    std::array<float, 3> restLength{}; ///< [m]
+};
+
+LinkKinds linkKinds(const Lattice& lattice) {
+    const double scale = double{lattice.youngModulus} * lattice.spacing;
+    LinkKinds kinds;
+    kinds.count = lattice.hasBodyDiagonals ? 3 : 2;
+    kinds.stiffness = lattice.hasBodyDiagonals
+                          ? std::array{22.0 / 35 * scale, 6.0 / 35 * scale, 6.0 / 35 * scale}
+                          : std::array{0.4 * scale, 0.4 * scale, 0.0};
+    for (std::size_t kind = 0; kind < 3; ++kind)
+        kinds.restLength[kind] =
+            static_cast<float>(std::sqrt(static_cast<double>(kind + 1)) * lattice.spacing);
+    return kinds;
 }
 
-void addLinks(Scene& scene, const Lattice& lattice, const Cells& cells, const LatticeCorners& corners) {
-    const double stiffness = 0.4 * double{lattice.youngModulus} * lattice.spacing;
+double distanceBetween(const Scene& scene, std::uint32_t a, std::uint32_t b) {
+    const Vec3 &p = scene.particles[a].position, &q = scene.particles[b].position;
+    return std::hypot(double{q.x} - p.x, double{q.y} - p.y, double{q.z} - p.z);
+}
+
+/// Rest lengths are the spacing and its diagonals, so that a whole body has two or three and its links pack
+/// well. Where float32 rounds positions so far from the origin that this would stress the body (strain above
+/// 1e-4), what is stored counts. Returns whether all rest lengths are nominal.
+bool addLinks(Scene& scene, const Lattice& lattice, const Cells& cells, const LatticeCorners& corners,
+              const LinkKinds& kinds) {
+    bool isRegular = true;
     forEachCorner(lattice.cells, [&](Index3 corner) {
         for (const Index3& direction : directions) {
-            const double share = cells.meanFill(corner, direction);
+            const std::size_t kind = kindOf(direction);
+            const double share = kind < kinds.count ? cells.meanFill(corner, direction) : 0;
             if (share == 0) continue; // also where the link would leave the grid
             const std::uint32_t a = corners.at(corner[0], corner[1], corner[2]);
             const std::uint32_t b =
                 corners.at(corner[0] + direction[0], corner[1] + direction[1], corner[2] + direction[2]);
-            scene.distances.push_back({a, b, restLength(scene, lattice, direction, a, b),
-                                       static_cast<float>(1 / (stiffness * share))});
+            const double stored = distanceBetween(scene, a, b), nominal = double{kinds.restLength[kind]};
+            const bool isNominal = std::abs(stored - nominal) < 1e-4 * nominal;
+            isRegular = isRegular && isNominal;
+            scene.distances.push_back({a, b, isNominal ? kinds.restLength[kind] : static_cast<float>(stored),
+                                       static_cast<float>(1 / (kinds.stiffness[kind] * share))});
         }
     });
+    return isRegular;
+}
+
+void addGrid(Scene& scene, const Lattice& lattice, const Cells& cells, const LatticeCorners& corners,
+             const LinkKinds& kinds, std::size_t firstParticle, std::size_t firstDistance) {
+    Grid grid{.name = lattice.name,
+              .nodes = {lattice.cells[0] + 1, lattice.cells[1] + 1, lattice.cells[2] + 1},
+              .firstParticle = static_cast<std::uint32_t>(firstParticle),
+              .firstDistance = static_cast<std::uint32_t>(firstDistance),
+              .distanceCount = static_cast<std::uint32_t>(scene.distances.size() - firstDistance),
+              .fill = cells.all(),
+              .kinds = kinds.count,
+              .restLength = kinds.restLength};
+    for (std::size_t kind = 0; kind < kinds.count; ++kind)
+        grid.compliance[kind] = static_cast<float>(1 / kinds.stiffness[kind]);
+    for (std::uint32_t node = 0; node < corners.particle.size(); ++node)
+        if (corners.particle[node] != LatticeCorners::noParticle) grid.node.push_back(node);
+    scene.grids.push_back(std::move(grid));
 }
 
 float filledVolume(const Lattice& lattice) {
@@ -171,7 +254,10 @@ LatticeCorners addLattice(Scene& scene, const Lattice& lattice) {
     const Cells cells(lattice);
     const auto first = static_cast<std::uint32_t>(scene.particles.size());
     const LatticeCorners corners{lattice.cells, addParticles(scene, lattice, cells)};
-    addLinks(scene, lattice, cells, corners);
+    const LinkKinds kinds = linkKinds(lattice);
+    const std::size_t firstDistance = scene.distances.size();
+    if (addLinks(scene, lattice, cells, corners, kinds))
+        addGrid(scene, lattice, cells, corners, kinds, first, firstDistance);
     scene.bodies.push_back({lattice.name, first, static_cast<std::uint32_t>(scene.particles.size()) - first,
                             lattice.restVolume > 0 ? lattice.restVolume : filledVolume(lattice)});
     return corners;

@@ -15,13 +15,15 @@ namespace {
 struct SolverEntry {
     Solver solver;
     const char* name;
-    std::vector<float> (*positionW)(const Scene&, const Settings&);
+    std::vector<float> (*positionW)(const Scene&, const Settings&); // by particle
     void (*addPasses)(ProgramBuilder&, const Scene&, const Settings&, const ParticleBuffers&);
+    StateLayout (*layoutState)(const Scene&, const Settings&) = nullptr; // null: in the order of the scene
 };
 
 constexpr SolverEntry solverTable[] = {
     {Solver::jacobi, "jacobi", solvers::jacobi::positionW, solvers::jacobi::addPasses},
-    {Solver::split, "split", solvers::split::positionW, solvers::split::addPasses},
+    {Solver::split, "split", solvers::split::positionW, solvers::split::addPasses,
+     solvers::split::layoutState},
 };
 
 const SolverEntry& entry(Solver solver) {
@@ -51,27 +53,41 @@ std::vector<layout::vec4> velocitiesOf(const Scene& scene, const std::vector<flo
     return result;
 }
 
-std::vector<layout::vec4> padded(std::vector<layout::vec4> values) {
-    values.resize(paddedCount(values.size()), {});
-    return values;
+std::vector<layout::vec4> spread(const std::vector<layout::vec4>& values, const StateLayout& layout) {
+    std::vector<layout::vec4> result(layout.count);
+    for (std::size_t i = 0; i < values.size(); ++i) result[layout.slot[i]] = values[i];
+    return result;
 }
 
 // Ends a step: the finite check, then the public copy of the state, which keeps the last finite one.
 void addPublish(ProgramBuilder& program, const ParticleBuffers& particles) {
     StepProgram& built = program.program();
-    program.dispatch(kernels::measureState, particles.count,
-                     {particles.positions, particles.velocities, built.status, particles.step},
-                     layout::CountPush{particles.count});
-    program.dispatch(kernels::publishState, particles.count,
-                     {particles.positions, particles.velocities, built.status, particles.step,
-                      built.positions, built.velocities},
-                     layout::CountPush{particles.count});
+    const layout::CountPush push{particles.count};
+    std::vector<BufferId> measured{particles.positions, particles.velocities, built.status, particles.step};
+    std::vector<BufferId> published = measured;
+    published.insert(published.end(), {built.positions, built.velocities});
+    const bool isInOrder = particles.layout.isInOrder;
+    if (!isInOrder) {
+        const BufferId slots = program.upload("state.slots", particles.layout.slot);
+        measured.push_back(slots);
+        published.push_back(slots);
+    }
+    program.dispatch(isInOrder ? kernels::measureState : kernels::measureStateSlots, particles.count,
+                     measured, push);
+    program.dispatch(isInOrder ? kernels::publishState : kernels::publishStateSlots, particles.count,
+                     published, push);
 }
 
 } // namespace
 
 std::size_t paddedCount(std::size_t particles) {
     return (particles + GROUP_ITEMS - 1) / GROUP_ITEMS * GROUP_ITEMS;
+}
+
+StateLayout orderedLayout(std::size_t particles) {
+    StateLayout layout{.count = paddedCount(particles)};
+    for (std::uint32_t i = 0; i < particles; ++i) layout.slot.push_back(i);
+    return layout;
 }
 
 std::vector<float> inverseMasses(const Scene& scene) {
@@ -95,12 +111,15 @@ StepProgram compile(const Scene& scene, const Settings& settings) {
     if (scene.particles.empty()) return program.finish();
 
     const SolverEntry& solver = entry(settings.solver);
+    StateLayout state =
+        solver.layoutState ? solver.layoutState(scene, settings) : orderedLayout(scene.particles.size());
+    const std::vector<float> w = solver.positionW(scene, settings);
     const ParticleBuffers particles{
         .count = built.particleCount,
         .step = built.parameters,
-        .positions =
-            program.upload("state.positions", padded(positionsOf(scene, solver.positionW(scene, settings)))),
-        .velocities = program.upload("state.velocities", padded(velocitiesOf(scene, inverseMass)))};
+        .positions = program.upload("state.positions", spread(positionsOf(scene, w), state)),
+        .velocities = program.upload("state.velocities", spread(velocitiesOf(scene, inverseMass), state)),
+        .layout = std::move(state)};
     program.beginPhase("begin");
     program.updateParameters(particles.step);
     program.fill(built.status, 0);

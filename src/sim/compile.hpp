@@ -6,16 +6,25 @@
 
 namespace sinew::sim {
 
+/// Where a solver keeps its particles: most in the order of the scene, `split` spreads bodies on a grid over
+/// dense boxes. Slots that hold no particle never move.
+struct StateLayout {
+    std::vector<std::uint32_t> slot; ///< of each particle
+    std::size_t count = 0; ///< slots, whole work groups, so that a kernel may do without a bounds check
+    bool isInOrder = true; ///< slot[i] == i
+};
+StateLayout orderedLayout(std::size_t particles);
+
 /// Buffers that every solver and feature shares while a program is built.
 struct ParticleBuffers {
     std::uint32_t count = 0;
     BufferId step;       ///< layout::StepParams
-    BufferId positions;  ///< of the solver's state, paddedCount(count) elements; meaning of w is the solver's
+    BufferId positions;  ///< of the solver's state, layout.count elements; meaning of w is the solver's
     BufferId velocities; ///< likewise; w = inverse mass [1/kg]
+    StateLayout layout;
 };
 
-/// The state is padded with immovable particles to whole work groups, so that a kernel may do without a
-/// bounds check.
+/// `particles` rounded up to whole work groups.
 std::size_t paddedCount(std::size_t particles);
 
 /// `scene` and `settings` must be valid (validate returned nothing). Throws std::logic_error only for faults

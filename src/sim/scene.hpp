@@ -45,6 +45,25 @@ struct Plane {
     float restitution = 0; ///< 0 (no rebound) to 1 (elastic)
 };
 
+/// Particles on the nodes of a regular grid, linked to their neighbours by distance constraints: a body whose
+/// topology a solver may compute instead of reading it (addLattice, addCloth). Says nothing new: particles
+/// and constraints stand in the scene's lists, and validate() holds the two against each other.
+struct Grid {
+    std::string name;
+    std::array<std::uint32_t, 3> nodes{}; ///< along x, y, z; a sheet has nodes[1] = 1
+    std::uint32_t firstParticle = 0;
+    std::vector<std::uint32_t>
+        node; ///< of particle firstParticle + i: x + nodes[0] (y + nodes[1] z); ascending
+    std::uint32_t firstDistance = 0, distanceCount = 0;
+    /// How much of each cell is material, in 1/15, x fastest. A link's stiffness is the mean over the cells
+    /// that may hold it (4 for an edge, 2 for a face diagonal, 1 for a body diagonal), and it is absent where
+    /// that is 0. The links of a sheet are whole where any of its cells holds them.
+    std::vector<std::uint8_t> fill;
+    std::uint32_t kinds = 2;           ///< 2: edges and face diagonals; 3: body diagonals too
+    std::array<float, 3> compliance{}; ///< of a whole link of each kind [m/N]; 0 = rigid
+    std::array<float, 3> restLength{}; ///< [m]
+};
+
 /// A named range of particles: what reports and messages call a body.
 struct Body {
     std::string name;
@@ -81,10 +100,21 @@ struct Scene {
     std::vector<FixedConstraint> fixed;
     std::vector<Plane> planes;
     std::vector<Body> bodies;
+    std::vector<Grid> grids;
     std::vector<Skin> skins;
 };
 
 enum class Solver { jacobi, split };
+
+/// Which of several kernels for the same work a program is built from; which is fastest depends on the device
+/// (tune() measures). Only usesGrids changes rounding, because it changes the order in which links are
+/// summed.
+struct Forms {
+    bool usesTexels = true;    ///< fetch positions through the texture path instead of storage loads
+    bool usesGrids = true;     ///< compute the neighbours of bodies on a grid instead of listing them
+    std::uint32_t columns = 2; ///< of a lattice, marched by one invocation in x and in y: 1 or 2
+    std::uint32_t chunk = 16;  ///< slices marched at most, 1..65535
+};
 
 /// How to solve a scene; shapes the step program. Ranges are in the table of validate.cpp.
 struct Settings {
@@ -95,7 +125,8 @@ struct Settings {
     float theta = 0.1f;           ///< `split`: 0 symplectic .. 1 PBD order; damps like theta h k
     float weight = 0;         ///< `jacobi`: factor on a particle's summed corrections; 0 = 1 / their number
     float overRelaxation = 1; ///< `jacobi`: second factor on that sum, below 4/3 with averaging
-    bool isReversed = false;  ///< runs every kernel in reversed invocation order; the state must not change
+    Forms forms;
+    bool isReversed = false; ///< runs every kernel in reversed invocation order; the state must not change
 };
 
 } // namespace sinew::sim

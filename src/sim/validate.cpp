@@ -1,6 +1,8 @@
 // Walks a Scene and its Settings once and collects sentences. The allowed numbers stand in ranges.hpp.
 #include "sim/validate.hpp"
 
+#include "sim/lattice/check_grid.hpp"
+
 #include "sim/ranges.hpp"
 
 #include <charconv>
@@ -226,6 +228,9 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings) 
     checkWork(scene, settings, complaints);
     checkPlanes(scene, complaints);
     checkBodies(scene, complaints);
+    for (std::size_t g = 0; g < scene.grids.size(); ++g)
+        if (const auto complaint = lattice::complaintAbout(scene, scene.grids[g]))
+            complaints.add(element("grid", g), *complaint);
     for (std::size_t i = 0; i < scene.skins.size(); ++i)
         checkSkin(scene.skins[i], element("skin", i), scene.particles.size(), complaints);
     return complaints.finish();

@@ -38,6 +38,7 @@ Scene ballOfCells() {
     const LatticeCorners corners = addLattice(scene, lattice);
     addLatticeSkin(scene, lattice, corners, {1, 1, 1});
     scene.distances.clear();
+    scene.grids.clear();
     return scene;
 }
 

@@ -15,16 +15,16 @@ ProgramBuilder::Constants Colliders::constants() const {
     return {{planeCountId, count}};
 }
 
-Colliders addColliders(ProgramBuilder& program, const Scene& scene) {
+Colliders addColliders(ProgramBuilder& program, const Scene& scene, const StateLayout& layout) {
     if (scene.planes.empty()) return {};
     std::vector<layout::PlaneCollider> items;
     for (const Plane& plane : scene.planes) {
         const Vec3& n = plane.normal;
         items.push_back({{n.x, n.y, n.z, plane.offset}, plane.friction, plane.restitution, 0, 0});
     }
-    std::vector<float> offsets;
-    for (const Particle& particle : scene.particles) offsets.push_back(particle.contactOffset);
-    offsets.resize(paddedCount(offsets.size()), 0);
+    std::vector<float> offsets(layout.count, 0);
+    for (std::size_t i = 0; i < scene.particles.size(); ++i)
+        offsets[layout.slot[i]] = scene.particles[i].contactOffset;
     return {.count = static_cast<std::uint32_t>(items.size()),
             .planes = program.upload("planes", items),
             .contactOffsets = program.upload("contact_offsets", offsets)};
@@ -32,7 +32,7 @@ Colliders addColliders(ProgramBuilder& program, const Scene& scene) {
 
 Contacts addContacts(ProgramBuilder& program, const Scene& scene) {
     if (scene.planes.empty()) return {};
-    return {addColliders(program, scene),
+    return {addColliders(program, scene, orderedLayout(scene.particles.size())),
             program.scratch<layout::PlaneContact>("contacts", scene.particles.size())};
 }
 

@@ -13,7 +13,7 @@ struct Colliders {
     BufferId planes, contactOffsets;
     ProgramBuilder::Constants constants() const; ///< specialises planeCount
 };
-Colliders addColliders(ProgramBuilder& program, const Scene& scene);
+Colliders addColliders(ProgramBuilder& program, const Scene& scene, const StateLayout& layout);
 
 /// What `jacobi` keeps of them within a substep.
 struct Contacts {

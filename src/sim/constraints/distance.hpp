@@ -27,31 +27,39 @@ void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Ed
 /// Whether a constraint has an end that moves; others are left out of every pass.
 bool canMove(const DistanceConstraint& constraint, std::span<const float> inverseMass);
 
+/// A constraint as `split` lists it: between slots of the solver's state.
+struct GatherLink {
+    std::uint32_t a = 0, b = 0;
+    float restLength = 0; ///< [m]
+    float stiffness = 0;  ///< [N/m]
+    float share = 0;      ///< k~ of solvers/shares.hpp [N/m]
+};
+
 /// Slots of the adjacency of `split` whose links share a rest length.
 struct LinkGroup {
     std::uint32_t endSlot = 0; ///< one past the last
     float restLength = 0;      ///< [m]
-    float stiffest = 0;        ///< largest stiffness of its links [N/m]
+    GatherLink stiffest;       ///< of its links
 };
 
 /// The adjacency of `split`, padded to `degree` slots with links of a particle to itself. Groups: at most
 /// PACKED_GROUPS, where slots can be sorted so without much more padding, else none.
 struct GatherLinks {
+    std::size_t particles = 0;
     std::uint32_t degree = 0;
     std::vector<layout::SplitLink> links; ///< in blocks of LINK_BLOCK particles: see layout.h
-    std::vector<std::uint32_t> count;     ///< links of each particle
     std::vector<LinkGroup> groups;
     std::size_t element(std::size_t particle, std::uint32_t slot) const {
         return (particle / LINK_BLOCK * degree + slot) * LINK_BLOCK + particle % LINK_BLOCK;
     }
 };
-GatherLinks gatherLinks(const Scene& scene, std::span<const float> inverseMass);
+GatherLinks gatherLinks(std::span<const GatherLink> links, std::size_t particles);
 
 /// The links in the packed form (layout.h), with the stiffness unit of every group; no links where the scene
 /// does not fit: no groups, too many particles, or a stiffness that no code gives to within float rounding.
 struct PackedLinks {
     std::vector<std::uint32_t> links;
-    std::vector<float> units; ///< [N/m]
+    std::vector<float> units, shares; ///< for each code of each group [N/m]
 };
 PackedLinks pack(const GatherLinks& links);
 

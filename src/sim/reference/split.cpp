@@ -1,11 +1,13 @@
-// `split` in double: springs evaluated at y = x + theta h v, stiffness clamped by mass splitting with uniform
-// shares, then kick and drift (methods: D, theta form; the clamp min(k h^2, omega / (2 n_i w_i), omega / (2
-// n_j w_j))).
+// `split` in double: springs evaluated at y = x + theta h v, stiffness clamped by mass splitting, then kick
+// and drift (methods: D, theta form). Constraint c has the share k~_c / sum k~ of each of its ends, k~_c =
+// k_c / (1 + 2 w h^2 K_c), with K_c the stiffest constraint of its rest length and w the mean inverse mass;
+// it is clamped to k~_c min(tau_i, tau_j), tau_i = omega / (2 w_i sum k~).
 #include "sim/reference/reference.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace sinew::sim::reference {
 
@@ -13,24 +15,49 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// The largest k h^2 of a link that its end `particle` allows [kg].
-double clampOf(const Problem& problem, double omega, std::uint32_t particle) {
-    const double w = problem.inverseMass[particle];
-    return w > 0 ? omega / (2 * problem.linkCount[particle] * w) : infinite;
-}
+// What shares and clamp of a scene come to: constant in time.
+struct Split {
+    std::vector<double> stiffness, share; // of each link: k and k~ [N/m]
+    std::vector<double> clampTime;        // of each particle: tau [s^2]
+
+    Split(const Problem& problem, double omega, double h) {
+        double massSum = 0, moving = 0;
+        for (const double w : problem.inverseMass) {
+            massSum += w;
+            moving += w > 0 ? 1 : 0;
+        }
+        const double softening = moving > 0 ? 2 * massSum / moving * h * h : 0;
+        std::map<double, double> stiffest; // by rest length
+        for (const Link& link : problem.links) {
+            stiffness.push_back(link.compliance > 0 ? std::min(1 / link.compliance, 1e20) : 1e20);
+            double& most = stiffest[link.restLength];
+            most = std::max(most, stiffness.back());
+        }
+        std::vector<double> sums(problem.size(), 0);
+        for (std::size_t c = 0; c < problem.links.size(); ++c) {
+            share.push_back(stiffness[c] / (1 + softening * stiffest[problem.links[c].restLength]));
+            sums[problem.links[c].a] += share[c];
+            sums[problem.links[c].b] += share[c];
+        }
+        for (std::size_t i = 0; i < problem.size(); ++i)
+            clampTime.push_back(problem.inverseMass[i] > 0 && sums[i] > 0
+                                    ? omega / (2 * problem.inverseMass[i] * sums[i])
+                                    : infinite);
+    }
+};
 
 // Force on every particle [N] from its links, with their ends at y, clamped for kicks as long as h.
-std::vector<Eigen::Vector3d> forces(const Problem& problem, double omega, double h,
+std::vector<Eigen::Vector3d> forces(const Problem& problem, const Split& split, double h,
                                     const std::vector<Eigen::Vector3d>& y) {
     std::vector<Eigen::Vector3d> force(problem.size(), Eigen::Vector3d::Zero());
-    for (const Link& link : problem.links) {
+    for (std::size_t c = 0; c < problem.links.size(); ++c) {
+        const Link& link = problem.links[c];
         const Eigen::Vector3d d = y[link.b] - y[link.a];
         const double length = d.norm();
         if (length == 0) continue; // no direction, no force
-        const double stiffness = link.compliance > 0 ? 1 / link.compliance : infinite;
-        const double clamp = std::min(clampOf(problem, omega, link.a), clampOf(problem, omega, link.b));
+        const double clamp = split.share[c] * std::min(split.clampTime[link.a], split.clampTime[link.b]);
         const Eigen::Vector3d pull =
-            std::min(stiffness, clamp / (h * h)) * (length - link.restLength) / length * d;
+            std::min(split.stiffness[c], clamp / (h * h)) * (length - link.restLength) / length * d;
         force[link.a] += pull;
         force[link.b] -= pull;
     }
@@ -42,13 +69,14 @@ std::vector<Eigen::Vector3d> forces(const Problem& problem, double omega, double
 void stepSplit(const Scene& scene, const Settings& settings, double dt, State& state) {
     const Problem problem(scene);
     const double h = dt / settings.substeps, theta = double{settings.theta}, omega = double{settings.omega};
+    const Split split(problem, omega, double{scene.dt} / settings.substeps); // shares do not follow dt
     const double kept = std::exp(-problem.damping * h);
     for (std::uint32_t substep = 0; substep < settings.substeps; ++substep) {
         // v comes from the middle of the substep before, which had this length.
         const double hBefore = substep == 0 ? state.previousH : h;
         std::vector<Eigen::Vector3d> y(state.x);
         for (std::size_t i = 0; i < problem.size(); ++i) y[i] += theta * hBefore * state.v[i];
-        const std::vector<Eigen::Vector3d> force = forces(problem, omega, std::max(hBefore, h), y);
+        const std::vector<Eigen::Vector3d> force = forces(problem, split, std::max(hBefore, h), y);
         for (std::size_t i = 0; i < problem.size(); ++i) {
             const double w = problem.inverseMass[i];
             if (w == 0) continue;

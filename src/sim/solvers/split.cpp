@@ -1,121 +1,193 @@
-// Orders the one pass of `split`. Positions alternate between two buffers; the state always ends in the
+// Orders the gathers of `split`: one dispatch for particles with listed links, one for each kind of grid,
+// none of which waits for another. Positions alternate between two buffers; the state always ends in the
 // first.
 #include "sim/solvers/split.hpp"
 
 #include "kernels.hpp"
 #include "sim/collision/planes.hpp"
 #include "sim/constraints/distance.hpp"
+#include "sim/lattice/batches.hpp"
+#include "sim/solvers/shares.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <functional>
 
 namespace sinew::sim::solvers::split {
 
 namespace {
 
-constexpr std::uint32_t degreeId = 1, firstGroupEndId = 3; // constant_id in gather_split.glsl
+constexpr std::uint32_t degreeId = 1, firstGroupEndId = 3; // constant_id in gather_split.comp
+constexpr std::uint32_t bodyDiagonalsId = 6;               // constant_id in gather_lattice.comp
 
-// Uniform shares: min(kappa_a, kappa_b) never exceeds omega / (n_a w_a + n_b w_b), the bound of a clamped
-// link.
-float clampOf(float omega, std::uint32_t links, float inverseMass) {
-    if (links == 0 || inverseMass == 0) return std::numeric_limits<float>::max();
-    return omega / (2 * static_cast<float>(links) * inverseMass);
+// A kernel in its forms: positions fetched as texels or loaded, without and with boundary planes.
+struct Kernel {
+    const vk::ShaderCode *texels, *texelsPlanes, *loads, *loadsPlanes;
+    const vk::ShaderCode& form(bool usesTexels, bool hasPlanes) const {
+        return usesTexels ? (hasPlanes ? *texelsPlanes : *texels) : (hasPlanes ? *loadsPlanes : *loads);
+    }
+};
+namespace k = kernels;
+constexpr Kernel drift{&k::driftSplit, &k::driftSplitPlanes, &k::driftSplit, &k::driftSplitPlanes};
+constexpr Kernel general{&k::gatherSplit, &k::gatherSplitPlanes, &k::gatherSplitLoads,
+                         &k::gatherSplitLoadsPlanes};
+constexpr Kernel packed{&k::gatherSplitPacked, &k::gatherSplitPackedPlanes, &k::gatherSplitPackedLoads,
+                        &k::gatherSplitPackedLoadsPlanes};
+constexpr Kernel latticePairs{&k::gatherLattice, &k::gatherLatticePlanes, &k::gatherLatticeLoads,
+                              &k::gatherLatticeLoadsPlanes};
+constexpr Kernel latticeSingle{&k::gatherLatticeSingle, &k::gatherLatticeSinglePlanes,
+                               &k::gatherLatticeSingleLoads, &k::gatherLatticeSingleLoadsPlanes};
+constexpr Kernel sheet{&k::gatherSheet, &k::gatherSheetPlanes, &k::gatherSheetLoads,
+                       &k::gatherSheetLoadsPlanes};
+
+// One dispatch of every substep, still without the buffers that alternate.
+struct Gather {
+    std::vector<BufferId> buffers; // after positions, next, velocities and step
+    ProgramBuilder::Constants constants;
+    std::function<void(std::span<const BufferId> buffers, bool isFirst)> dispatch;
+};
+
+// What all dispatches of a program have in common.
+struct Common {
+    ProgramBuilder& program;
+    const Scene& scene;
+    const Settings& settings;
+    const StateLayout& layout;
+    collision::planes::Colliders colliders;
+
+    const vk::ShaderCode& form(const Kernel& kernel) const {
+        return kernel.form(settings.forms.usesTexels, colliders.count > 0);
+    }
+    Gather gather() const {
+        if (colliders.count == 0) return {};
+        return {{colliders.planes, colliders.contactOffsets}, colliders.constants(), {}};
+    }
+};
+
+// The distance constraints that no grid computes, between slots.
+std::vector<constraints::distance::GatherLink> listedLinks(const Scene& scene, const StateLayout& layout,
+                                                           std::span<const std::uint32_t> grids,
+                                                           std::span<const float> inverseMass,
+                                                           std::span<const float> shares) {
+    std::vector<bool> isComputed(scene.distances.size());
+    for (const std::uint32_t grid : grids) {
+        const auto first = isComputed.begin() + scene.grids[grid].firstDistance;
+        std::fill(first, first + scene.grids[grid].distanceCount, true);
+    }
+    std::vector<constraints::distance::GatherLink> links;
+    for (std::size_t c = 0; c < scene.distances.size(); ++c) {
+        const DistanceConstraint& constraint = scene.distances[c];
+        if (isComputed[c] || !constraints::distance::canMove(constraint, inverseMass)) continue;
+        links.push_back({layout.slot[constraint.a], layout.slot[constraint.b], constraint.restLength,
+                         stiffnessOf(constraint.compliance), shares[c]});
+    }
+    return links;
 }
 
-// A kernel without and with boundary planes.
-struct Form {
-    const vk::ShaderCode *plain, *planes;
-    const vk::ShaderCode* code(bool hasPlanes) const { return hasPlanes ? planes : plain; }
-};
-constexpr Form drift{&kernels::driftSplit, &kernels::driftSplitPlanes};
-constexpr Form general{&kernels::gatherSplit, &kernels::gatherSplitPlanes};
-constexpr Form packed{&kernels::gatherSplitPacked, &kernels::gatherSplitPackedPlanes};
+template <typename Push>
+void setDispatch(const Common& common, Gather& gather, const Kernel& kernel, Push push) {
+    gather.dispatch = [&program = common.program, &code = common.form(kernel), constants = gather.constants,
+                       push](std::span<const BufferId> buffers, bool isFirst) mutable {
+        push.isFirst = isFirst;
+        program.dispatch(code, push.count, buffers, push, constants);
+    };
+}
 
-// The kernel for what the scene has, and the buffers that come after positions, next, velocities and step.
-struct Gather {
-    const vk::ShaderCode* code = nullptr;
-    std::vector<BufferId> buffers;
-    ProgramBuilder::Constants constants;
-    layout::PackedSubstepPush push{}; // groups: of the packed form
-};
-
-void addPackedLinks(ProgramBuilder& program, const constraints::distance::GatherLinks& links,
-                    const constraints::distance::PackedLinks& packedLinks, Gather& gather) {
+layout::PackedSubstepPush packedPush(const constraints::distance::GatherLinks& links,
+                                     const constraints::distance::PackedLinks& packedLinks) {
+    layout::PackedSubstepPush push{};
     for (std::uint32_t group = 0; group < PACKED_GROUPS; ++group) {
         const std::size_t existing = std::min<std::size_t>(group, links.groups.size() - 1);
-        gather.push.restLengths[group] = links.groups[existing].restLength;
-        gather.push.units[group] = packedLinks.units[existing];
-        if (group + 1 < PACKED_GROUPS)
-            gather.constants[firstGroupEndId + group] = links.groups[existing].endSlot;
+        push.restLengths[group] = links.groups[existing].restLength;
+        push.units[group] = packedLinks.units[existing];
+        push.shares[group] = packedLinks.shares[existing];
     }
-    gather.buffers.push_back(program.upload("distance.links", packedLinks.links));
+    return push;
 }
 
-Gather addGather(ProgramBuilder& program, const Scene& scene) {
-    Gather gather;
-    const collision::planes::Colliders colliders = collision::planes::addColliders(program, scene);
-    const bool hasPlanes = colliders.count > 0;
-    if (hasPlanes) {
-        gather.buffers = {colliders.planes, colliders.contactOffsets};
-        gather.constants = colliders.constants();
-    }
-    const auto links = constraints::distance::gatherLinks(scene, inverseMasses(scene));
+// `count` particles at the head of the state.
+Gather listedGather(const Common& common, std::span<const constraints::distance::GatherLink> listed,
+                    std::uint32_t count) {
+    Gather gather = common.gather();
+    const auto links = constraints::distance::gatherLinks(listed, count);
     if (links.degree == 0) {
-        gather.code = drift.code(hasPlanes);
+        setDispatch(common, gather, drift, layout::SubstepPush{count, 0});
         return gather;
     }
     gather.constants[degreeId] = links.degree;
     const auto packedLinks = constraints::distance::pack(links);
-    if (!packedLinks.links.empty()) {
-        gather.code = packed.code(hasPlanes);
-        addPackedLinks(program, links, packedLinks, gather);
-    } else {
-        gather.code = general.code(hasPlanes);
-        gather.buffers.push_back(program.upload("distance.links", links.links));
+    if (packedLinks.links.empty()) {
+        gather.buffers.push_back(common.program.upload("distance.links", links.links));
+        setDispatch(common, gather, general, layout::SubstepPush{count, 0});
+        return gather;
     }
+    gather.buffers.push_back(common.program.upload("distance.links", packedLinks.links));
+    layout::PackedSubstepPush push = packedPush(links, packedLinks);
+    push.count = count;
+    for (std::uint32_t group = 0; group + 1 < PACKED_GROUPS; ++group)
+        gather.constants[firstGroupEndId + group] =
+            links.groups[std::min<std::size_t>(group, links.groups.size() - 1)].endSlot;
+    setDispatch(common, gather, packed, push);
     return gather;
 }
 
-void addSubstep(ProgramBuilder& program, const Gather& gather, std::uint32_t count,
-                std::span<const BufferId> buffers, bool isFirst) {
-    layout::PackedSubstepPush push = gather.push;
-    push.count = count;
-    push.isFirst = isFirst;
-    if (gather.code == packed.plain || gather.code == packed.planes) {
-        program.dispatch(*gather.code, count, buffers, push, gather.constants);
-    } else {
-        program.dispatch(*gather.code, count, buffers, layout::SubstepPush{count, isFirst}, gather.constants);
-    }
+Gather gridGather(const Common& common, const lattice::Batch& batch, BufferId cells) {
+    Gather gather = common.gather();
+    gather.constants[bodyDiagonalsId] = batch.hasBodyDiagonals;
+    gather.buffers.push_back(cells);
+    gather.buffers.push_back(common.program.upload("grid.chunks", batch.chunks));
+    const Kernel& kernel = batch.isSheet                        ? sheet
+                           : common.settings.forms.columns == 2 ? latticePairs
+                                                                : latticeSingle;
+    setDispatch(common, gather, kernel, batch.push);
+    return gather;
+}
+
+std::vector<Gather> addGathers(const Common& common) {
+    const std::vector<std::uint32_t> grids = lattice::computedGrids(common.scene, common.settings);
+    const std::vector<float> inverseMass = inverseMasses(common.scene);
+    const std::vector<float> shares = shareStiffness(common.scene, common.settings, inverseMass);
+    std::vector<Gather> gathers;
+    const std::uint32_t listed = lattice::listedParticles(common.scene, grids);
+    if (listed > 0)
+        gathers.push_back(listedGather(
+            common, listedLinks(common.scene, common.layout, grids, inverseMass, shares), listed));
+    if (grids.empty()) return gathers;
+    const lattice::Batches batches = lattice::batchesOf(common.scene, common.settings, grids, shares);
+    const BufferId cells = common.program.upload("grid.cells", batches.cells);
+    for (const lattice::Batch& batch : batches.batches) gathers.push_back(gridGather(common, batch, cells));
+    return gathers;
 }
 
 } // namespace
 
+StateLayout layoutState(const Scene& scene, const Settings& settings) {
+    return lattice::layoutOf(scene, lattice::computedGrids(scene, settings));
+}
+
 std::vector<float> positionW(const Scene& scene, const Settings& settings) {
     const std::vector<float> inverseMass = inverseMasses(scene);
-    const auto links = constraints::distance::gatherLinks(scene, inverseMass);
-    std::vector<float> clamps;
-    clamps.reserve(inverseMass.size());
-    for (std::size_t i = 0; i < inverseMass.size(); ++i) {
-        clamps.push_back(clampOf(settings.omega, links.count[i], inverseMass[i]));
-    }
-    return clamps;
+    return clampTimes(scene, settings, inverseMass, shareStiffness(scene, settings, inverseMass));
 }
 
 void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& settings,
                const ParticleBuffers& particles) {
-    const Gather gather = addGather(program, scene);
+    const StateLayout& layout = particles.layout;
+    const std::vector<Gather> gathers = addGathers(
+        {program, scene, settings, layout, collision::planes::addColliders(program, scene, layout)});
     BufferId current = particles.positions;
-    BufferId next = program.scratch<layout::vec4>("state.next_positions", paddedCount(particles.count));
+    BufferId next = program.scratch<layout::vec4>("state.next_positions", layout.count);
     for (std::uint32_t substep = 0; substep < settings.substeps; ++substep) {
         program.beginSubstep();
-        std::vector<BufferId> buffers{current, next, particles.velocities, particles.step};
-        buffers.insert(buffers.end(), gather.buffers.begin(), gather.buffers.end());
-        addSubstep(program, gather, particles.count, buffers, substep == 0);
+        for (const Gather& gather : gathers) {
+            std::vector<BufferId> buffers{current, next, particles.velocities, particles.step};
+            buffers.insert(buffers.end(), gather.buffers.begin(), gather.buffers.end());
+            gather.dispatch(buffers, substep == 0);
+        }
         std::swap(current, next);
     }
     program.endSubsteps();
     if (current != particles.positions) program.copy(current, particles.positions);
-    if (gather.constants.contains(degreeId)) program.program().sweeps = settings.substeps;
+    if (!scene.distances.empty()) program.program().sweeps = settings.substeps;
 }
 
 } // namespace sinew::sim::solvers::split

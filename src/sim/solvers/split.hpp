@@ -1,4 +1,4 @@
-// `split`: stiffness-clamped, mass-split Jacobi, one gather pass and one barrier a substep (methods: D). The
+// `split`: stiffness-clamped, mass-split Jacobi, one gather and one barrier a substep (methods: D). The
 // default.
 #pragma once
 
@@ -6,8 +6,12 @@
 
 namespace sinew::sim::solvers::split {
 
-/// The w of the state's positions, which hold x + theta h v: kappa = omega / (2 n w) [kg], the clamp of a
-/// particle's n links.
+/// Free particles and bodies whose links are listed come first, in the order of the scene; then a dense box
+/// for each body on a grid (lattice/placement.hpp).
+StateLayout layoutState(const Scene& scene, const Settings& settings);
+
+/// The w of the state's positions, which hold x + theta h v: tau [s^2], which clamps a particle's links
+/// (solvers/shares.hpp).
 std::vector<float> positionW(const Scene& scene, const Settings& settings);
 
 void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& settings,

@@ -1,0 +1,79 @@
+// What every form of `split` shares: its buffers, the impulse of a link, and how a particle takes their sum: stiffness-
+// clamped, mass-split Jacobi as a gather (methods: D). A particle reads its neighbours' stored positions
+// y = x + theta h v, sums its links, kicks, drifts and writes itself: one pass and one barrier a substep. Both ends of a
+// link compute bit-equal, opposite impulses, so momentum is exact.
+//
+//   kick   v' = f (v + k (g + w / H^2 sum_c dl_c n_c)),  dl_c = -C_c(y) min(k_c H^2, k~_c min(tau_i, tau_j))
+//   drift  x' = x + h v',  y' = x' + theta h v'
+//
+// k is h, but (hPrevious + h) / 2 in a step's first substep: v lives half a substep behind x (leapfrog), which starts
+// the motion with a half-kick and follows a changing h. H is h, there the longer of both: it bounds what links can do
+// in the whole kick. tau_i = omega / (2 w_i sum_c k~_c) is stored in positions.w: a link's share of a particle is
+// k~_c / sum k~ (solvers/shares.hpp).
+#extension GL_EXT_control_flow_attributes : require
+#include "kernel.glsl"
+
+#ifdef TEXELS
+layout(binding = 0) uniform samplerBuffer positions; // y, tau [s^2]
+#define POSITION(i) texelFetch(positions, int(i))
+#else
+layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
+#define POSITION(i) positions[i]
+#endif
+layout(std430, binding = 1) writeonly buffer NextPositions { vec4 nextPositions[]; };
+layout(std430, binding = 2) buffer Velocities { vec4 velocities[]; }; // v [m/s], w [1/kg]
+layout(std140, binding = 3) uniform Step { StepParams step; };
+#define LINK_BINDING 4
+#ifdef HAS_PLANES
+#include "planes.glsl"
+layout(std430, binding = 4) readonly buffer Planes { PlaneCollider planes[]; };
+layout(std430, binding = 5) readonly buffer ContactOffsets { float contactOffsets[]; };
+#undef LINK_BINDING
+#define LINK_BINDING 6
+#endif
+
+// What is the same for all particles of a substep.
+struct Substep {
+    float hh;      // H^2 [s^2]
+    float kick;    // k [s]
+    float impulse; // k / H^2 [1/s]
+    float thetaH;  // of the stored positions [s]
+};
+
+Substep substepOf(bool isFirst) {
+    const float h = step.h, longest = isFirst ? max(step.hPrevious, h) : h;
+    const float kick = isFirst ? 0.5 * (step.hPrevious + h) : h;
+    return Substep(longest * longest, kick, kick / (longest * longest), isFirst ? step.thetaHPrevious : step.thetaH);
+}
+
+// dl n of a link from a to b [kg m]; its stiffness [kg] is clamped already. Coincident ends give exactly 0.
+vec3 linkImpulse(vec3 a, vec3 b, float restLength, float stiffness) {
+    const vec3 d = b - a;
+    return stiffness * (1.0 - restLength * inversesqrt(dot(d, d) + 1e-30)) * d;
+}
+
+// Moves particle i by the sum of its links' impulses and writes it.
+void advance(uint i, vec4 y, vec4 velocity, vec3 impulses, Substep substep) {
+    const float w = velocity.w, h = step.h;
+    vec3 v = velocity.xyz + substep.impulse * w * impulses;
+    if (w > 0.0) v += substep.kick * step.gravity.xyz;
+    v *= step.velocityFactor;
+    vec3 x = y.xyz - substep.thetaH * velocity.xyz + h * v;
+#ifdef HAS_PLANES
+    if (w > 0.0) {
+        Motion motion = Motion(x, v, h * v);
+        const float offset = contactOffsets[i];
+        uint touched = 0u;
+        for (uint p = 0u; p < planeCount; ++p) {
+            if (projectOntoPlane(planes[p], offset, h, motion)) touched |= 1u << p;
+        }
+        for (uint p = 0u; p < planeCount; ++p) {
+            if ((touched & 1u << p) != 0u) motion.v += rebound(planes[p], step.restSpeed, velocity.xyz, motion.v);
+        }
+        x = motion.x;
+        v = motion.v;
+    }
+#endif
+    velocities[i] = vec4(v, w);
+    nextPositions[i] = vec4(x + step.thetaH * v, y.w);
+}

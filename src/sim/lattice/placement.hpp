@@ -1,0 +1,44 @@
+// Where bodies on a grid live in the state of a solver: a dense box of slots each, so that a kernel computes
+// neighbours instead of reading them. Between the boxes lie rims of slots that nothing writes: a kernel reads
+// one slice, row and node beyond a box.
+#pragma once
+
+#include "layout.h"
+#include "sim/scene.hpp"
+
+#include <span>
+#include <vector>
+
+namespace sinew::sim::lattice {
+
+/// The box of one grid. Rows are padded to even counts, sheets to multiples of four: blocks of columns then
+/// never leave the box.
+struct Box {
+    std::uint32_t rowStride = 0, sliceStride = 0; ///< slots from a node to the next in y, in z
+    std::uint32_t origin = 0;                     ///< slot of node (0, 0, 0)
+    std::uint32_t end = 0;                        ///< one past the rim
+
+    std::uint32_t slot(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
+        return origin + x + rowStride * y + sliceStride * z;
+    }
+};
+
+inline bool isSheet(const Grid& grid) {
+    return grid.nodes[1] == 1;
+}
+
+/// The box of `grid` with its rim, beginning at slot `first`.
+Box place(const Grid& grid, std::uint32_t first);
+
+/// Grid coordinates of a node index.
+std::array<std::uint32_t, 3> coordinates(const Grid& grid, std::uint32_t node);
+
+/// Fill of the cells around every node, as gather_lattice.comp reads it, written into `words` by slot.
+void writeCells(const Grid& grid, const Box& box, std::span<std::uint32_t> words);
+
+/// The columns of `grid` cut into runs of at most `longest` slices that hold particles: empty space costs
+/// nothing. Blocks have columnsX x columnsY columns; neighbours in x follow one another.
+std::vector<layout::LatticeChunk> chunksOf(const Grid& grid, const Box& box, std::uint32_t columnsX,
+                                           std::uint32_t columnsY, std::uint32_t longest);
+
+} // namespace sinew::sim::lattice

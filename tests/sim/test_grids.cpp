@@ -1,0 +1,206 @@
+// Bodies whose neighbours are computed: every form of the kernel gives the same bits, one step agrees with
+// double precision, and a grid that does not say what the lists say is refused.
+#include "sim/bodies.hpp"
+#include "sim/compile.hpp"
+#include "sim/lattice/placement.hpp"
+#include "sim/reference/reference.hpp"
+#include "sim/runner.hpp"
+#include "sim/scenes.hpp"
+#include "sim/validate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+using namespace sinew;
+using namespace sinew::sim;
+
+namespace {
+
+constexpr float frame = 1.0f / 60;
+
+// Every cell's fill from a hash: empty, slivers, halves and full ones side by side.
+std::vector<float> raggedFill(std::size_t cells) {
+    std::vector<float> fill;
+    for (std::uint32_t c = 0; c < cells; ++c) {
+        const std::uint32_t hash = (c * 2654435761u) >> 24;
+        fill.push_back(hash < 60 ? 0 : static_cast<float>(hash) / 255);
+    }
+    return fill;
+}
+
+Scene body(std::array<std::uint32_t, 3> cells, std::vector<float> fill = {}, bool hasBodyDiagonals = false) {
+    Scene scene{.name = "lattice"};
+    addLattice(scene, {.origin = {0.1f, 0.5f, 0.2f},
+                       .cells = cells,
+                       .spacing = 0.1f,
+                       .fill = std::move(fill),
+                       .youngModulus = 2e5f,
+                       .hasBodyDiagonals = hasBodyDiagonals});
+    return scene;
+}
+
+Scene sheet(std::array<std::uint32_t, 2> size) {
+    Scene scene{.name = "sheet"};
+    addCloth(scene, {.origin = {0, 0.2f, 0},
+                     .size = size,
+                     .spacing = 0.05f,
+                     .stretchCompliance = 1e-4f,
+                     .shearCompliance = 1e-3f,
+                     .pinned = {0, size[0] - 1}});
+    return scene;
+}
+
+// Bodies of two shapes, two of them alike, free particles and a chain between them.
+Scene mixture() {
+    Scene scene = sheet({7, 5});
+    addLattice(scene, {.origin = {0, 0.5f, 0}, .cells = {2, 3, 4}, .spacing = 0.1f, .youngModulus = 2e5f});
+    for (float x : {1.0f, 2.0f})
+        addLattice(scene,
+                   {.origin = {x, 0.5f, 0}, .cells = {3, 3, 3}, .spacing = 0.1f, .youngModulus = 1e5f});
+    const auto first = static_cast<std::uint32_t>(scene.particles.size());
+    for (std::uint32_t i = 0; i < 5; ++i) {
+        scene.particles.push_back({.position = {3, 1, 0.1f * static_cast<float>(i)}, .inverseMass = 2});
+        if (i > 1) scene.distances.push_back({first + i - 1, first + i, 0.1f, 1e-4f});
+    }
+    return scene;
+}
+
+std::vector<std::pair<const char*, Scene>> scenes() {
+    std::vector<std::pair<const char*, Scene>> result{
+        {"one cell", body({1, 1, 1})},
+        {"rod", body({1, 1, 40})},
+        {"flat", body({9, 1, 4})},
+        {"odd block", body({4, 6, 8})},
+        {"even block", body({5, 5, 19})},
+        {"ragged", body({7, 6, 9}, raggedFill(7 * 6 * 9))},
+        {"26 neighbours", body({4, 5, 6}, raggedFill(4 * 5 * 6), true)},
+        {"sheet", sheet({13, 37})},
+        {"narrow sheet", sheet({2, 3})},
+        {"mixture", mixture()}};
+    for (auto& [name, scene] : result) test::disturb(scene, 0.01f, 1);
+    return result;
+}
+
+std::uint64_t hashOfRun(const Scene& scene, const Settings& settings) {
+    test::Runner runner(scene, settings);
+    EXPECT_EQ(runner.run(3).nonFinite, 0u);
+    return runner.stateHash();
+}
+
+bool usesKernel(const Scene& scene, const std::string& kernel) {
+    const StepProgram program = compile(scene, {});
+    return std::ranges::any_of(program.step, [&](const Pass& pass) { return pass.label == kernel; });
+}
+
+} // namespace
+
+TEST(Grid, IsComputedForEveryRegularBody) {
+    EXPECT_TRUE(usesKernel(body({3, 3, 3}), "gather_lattice"));
+    EXPECT_TRUE(usesKernel(sheet({9, 9}), "gather_sheet"));
+    EXPECT_FALSE(usesKernel(body({3, 3, 3}), "gather_split_packed"));
+    Scene tied = body({3, 3, 3});
+    tied.particles.push_back({.position = {1, 1, 1}});
+    tied.distances.push_back({0, static_cast<std::uint32_t>(tied.particles.size() - 1), 1, 1e-3f});
+    EXPECT_FALSE(usesKernel(tied, "gather_lattice")) << "a link that the grid does not have must not be lost";
+}
+
+TEST(Grid, FormsGiveTheSameBits) {
+    const Forms forms[] = {{.chunk = 3},
+                           {.columns = 1, .chunk = 5},
+                           {.usesTexels = false, .chunk = 64},
+                           {.usesTexels = false, .columns = 1, .chunk = 1}};
+    for (auto& [name, scene] : scenes())
+        for (const bool isInRoom : {false, true}) {
+            if (isInRoom) test::addRoom(scene);
+            const std::uint64_t expected = hashOfRun(scene, {.substeps = 5});
+            EXPECT_EQ(hashOfRun(scene, {.substeps = 5, .isReversed = true}), expected)
+                << name << ", reversed";
+            for (const Forms& form : forms)
+                EXPECT_EQ(hashOfRun(scene, {.substeps = 5, .forms = form}), expected)
+                    << name << ", room " << isInRoom << ", texels " << form.usesTexels << ", columns "
+                    << form.columns << ", chunk " << form.chunk;
+        }
+}
+
+TEST(Grid, AgreesWithDoubleAfterAStep) {
+    for (auto& [name, scene] : scenes())
+        for (const std::uint32_t substeps : {1u, 2u, 16u}) {
+            const Settings settings{.substeps = substeps};
+            test::Runner runner(scene, settings);
+            runner.step(frame);
+            reference::State state = reference::initialState(scene);
+            reference::stepSplit(scene, settings, double{frame}, state);
+            const auto x = runner.positions(), v = runner.velocities();
+            double largest = 0;
+            for (std::size_t i = 0; i < x.size(); ++i)
+                largest = std::max(
+                    {largest, (x[i] - state.x[i]).norm(), (v[i] - state.v[i]).norm() * double{frame}});
+            EXPECT_LE(largest / test::sizeOf(scene), 1e-5) << name << ", " << substeps << " substeps";
+        }
+}
+
+TEST(Grid, AgreesWithListedLinks) {
+    for (auto& [name, scene] : scenes()) {
+        Settings computed{.substeps = 8}, listed = computed;
+        listed.forms.usesGrids = false;
+        test::Runner a(scene, computed), b(scene, listed);
+        a.run(2);
+        b.run(2);
+        const auto x = a.positions(), y = b.positions();
+        for (std::size_t i = 0; i < x.size(); ++i)
+            ASSERT_LE((x[i] - y[i]).norm(), 1e-5 * test::sizeOf(scene)) << name << ", particle " << i;
+    }
+}
+
+TEST(Grid, MarchesEveryNodeOnceAndNoEmptySpace) {
+    const Scene scene = body({7, 6, 9}, raggedFill(7 * 6 * 9));
+    const Grid& grid = scene.grids[0];
+    const lattice::Box box = lattice::place(grid, 0);
+    for (const std::uint32_t columns : {1u, 2u}) {
+        std::vector<int> visits(box.end);
+        std::size_t visited = 0;
+        for (const auto& chunk : lattice::chunksOf(grid, box, columns, columns, 4)) {
+            EXPECT_LE(chunk.layers, 4u);
+            for (std::uint32_t z = 0; z < chunk.layers; ++z)
+                for (std::uint32_t y = 0; y < columns; ++y)
+                    for (std::uint32_t x = 0; x < columns; ++x, ++visited)
+                        ++visits[chunk.origin + x + y * box.rowStride + z * box.sliceStride];
+        }
+        EXPECT_LE(*std::ranges::max_element(visits), 1);
+        for (const std::uint32_t node : grid.node) {
+            const auto at = lattice::coordinates(grid, node);
+            EXPECT_EQ(visits[box.slot(at[0], at[1], at[2])], 1);
+        }
+        if (columns == 1) {
+            EXPECT_EQ(visited, grid.node.size());
+        }
+    }
+}
+
+TEST(Grid, ThatContradictsTheListsIsRefusedInASentence) {
+    const auto complaintAfter = [](const std::function<void(Scene&)>& damage) {
+        Scene scene = body({2, 2, 2});
+        damage(scene);
+        const auto complaints = validate(scene, {});
+        return complaints.empty() ? std::string("none") : complaints.front();
+    };
+    EXPECT_EQ(complaintAfter([](Scene&) {}), "none");
+    const std::pair<std::function<void(Scene&)>, const char*> cases[] = {
+        {[](Scene& s) { s.distances[7].restLength *= 1.01f; }, "grid[0]: distance[7] is not the link"},
+        {[](Scene& s) { s.distances[7].compliance *= 1.01f; }, "grid[0]: distance[7] is not the link"},
+        {[](Scene& s) { std::swap(s.distances[7].a, s.distances[20].a); }, "is not the link"},
+        {[](Scene& s) { --s.grids[0].distanceCount; }, "names 125 distance constraints"},
+        {[](Scene& s) { s.grids[0].distanceCount = 1000; }, "distance constraints that do not exist"},
+        {[](Scene& s) { s.grids[0].firstParticle = 1; }, "particles that do not exist"},
+        {[](Scene& s) { s.grids[0].fill[3] = 16; }, "fill above 15"},
+        {[](Scene& s) { s.grids[0].fill.pop_back(); }, "one fill for each cell"},
+        {[](Scene& s) { s.grids[0].node[3] = 2; }, "ascending nodes"},
+        {[](Scene& s) { s.grids[0].nodes[0] = 1; }, "at least 2 x 1 x 2 nodes"},
+        {[](Scene& s) { s.grids[0].kinds = 4; }, "2 or 3 kinds"},
+    };
+    for (const auto& [damage, complaint] : cases) {
+        const std::string message = complaintAfter(damage);
+        EXPECT_NE(message.find(complaint), std::string::npos) << message << " instead of " << complaint;
+    }
+}
