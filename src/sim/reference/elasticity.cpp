@@ -1,0 +1,57 @@
+// Springs: energy, forces and the Gershgorin bound of the mass-scaled stiffness.
+#include "sim/reference/elasticity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace sinew::sim::reference {
+
+void requireSprings(const Scene& scene, const char* what) {
+    const auto refuse = [&](const std::string& why) {
+        throw std::invalid_argument("scene \"" + scene.name + "\": " + what + " needs springs alone, but " +
+                                    why);
+    };
+    for (std::size_t c = 0; c < scene.distances.size(); ++c) {
+        if (!(scene.distances[c].compliance > 0)) refuse("distance[" + std::to_string(c) + "] is rigid");
+    }
+    if (!scene.planes.empty()) refuse("the scene has boundary planes");
+    if (scene.damping != 0) refuse("the scene has damping");
+}
+
+double elasticEnergy(const Problem& problem, const std::vector<Eigen::Vector3d>& x) {
+    double sum = 0;
+    for (const Link& link : problem.links) {
+        const double stretch = (x[link.b] - x[link.a]).norm() - link.restLength;
+        sum += stretch * stretch / (2 * link.compliance);
+    }
+    return sum;
+}
+
+void addElasticForces(const Problem& problem, const std::vector<Eigen::Vector3d>& x,
+                      std::vector<Eigen::Vector3d>& force) {
+    for (const Link& link : problem.links) {
+        const Eigen::Vector3d d = x[link.b] - x[link.a];
+        const double length = d.norm();
+        if (length == 0) continue; // no direction, no force
+        const Eigen::Vector3d pull = (length - link.restLength) / (link.compliance * length) * d;
+        force[link.a] += pull;
+        force[link.b] -= pull;
+    }
+}
+
+// A spring's Hessian block has norm k at most, so block row i of M^-1/2 K M^-1/2 sums to
+// sum_c k_c (w_i + sqrt(w_i w_j)).
+double largestFrequency(const Problem& problem) {
+    std::vector<double> rows(problem.size(), 0);
+    for (const Link& link : problem.links) {
+        const double wA = problem.inverseMass[link.a], wB = problem.inverseMass[link.b];
+        const double coupling = std::sqrt(wA * wB);
+        rows[link.a] += (wA + coupling) / link.compliance;
+        rows[link.b] += (wB + coupling) / link.compliance;
+    }
+    return rows.empty() ? 0 : std::sqrt(*std::ranges::max_element(rows));
+}
+
+} // namespace sinew::sim::reference

@@ -1,0 +1,24 @@
+// The energy of a scene's springs and what follows from it: forces, a bound on the fastest vibration. For R1
+// and R2, the two references that know equations of motion and not a solver.
+#pragma once
+
+#include "sim/reference/problem.hpp"
+
+namespace sinew::sim::reference {
+
+/// Throws std::invalid_argument, in one sentence that names `what` cannot be computed, for a scene that is
+/// more than springs, masses and gravity: rigid links (which have no energy), boundary planes, damping.
+void requireSprings(const Scene& scene, const char* what);
+
+/// Sum of (|x_a - x_b| - restLength)^2 / (2 compliance) [J].
+double elasticEnergy(const Problem& problem, const std::vector<Eigen::Vector3d>& x);
+
+/// Adds to `force` [N] what the springs do to every particle, fixed ones included.
+void addElasticForces(const Problem& problem, const std::vector<Eigen::Vector3d>& x,
+                      std::vector<Eigen::Vector3d>& force);
+
+/// No vibration about a state without strong compression (links longer than half their rest length) is faster
+/// than this [rad/s].
+double largestFrequency(const Problem& problem);
+
+} // namespace sinew::sim::reference
