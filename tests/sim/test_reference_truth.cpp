@@ -1,13 +1,19 @@
 // The references that other tests and the study call the truth, held against what is known of them: Verlet
-// converges with order 2 and keeps energy and momentum.
+// converges with order 2 and keeps energy and momentum; Newton converges quadratically to an implicit Euler
+// step of order 1 and to states at rest.
+#include "sim/reference/implicit_step.hpp"
+#include "sim/reference/potential.hpp"
 #include "sim/reference/trajectory.hpp"
 #include "sim/scenes.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <utility>
 
 using namespace sinew;
 using namespace sinew::sim;
@@ -47,6 +53,26 @@ double largestDistance(const std::vector<Vector3d>& a, const std::vector<Vector3
     return largest;
 }
 
+// Momentum [kg m/s] and angular momentum about the origin [kg m^2/s].
+std::pair<Vector3d, Vector3d> momentaOf(const Scene& scene, const State& state) {
+    Vector3d linear = Vector3d::Zero(), angular = Vector3d::Zero();
+    for (std::size_t i = 0; i < state.x.size(); ++i) {
+        linear += state.v[i] / double{scene.particles[i].inverseMass};
+        angular += state.x[i].cross(state.v[i]) / double{scene.particles[i].inverseMass};
+    }
+    return {linear, angular};
+}
+
+// The sentence of an std::invalid_argument, or nothing.
+template <typename Action> std::string complaintOf(const Action& action) {
+    try {
+        action();
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
+    return "";
+}
+
 } // namespace
 
 TEST(Verlet, ConvergesWithOrderTwo) {
@@ -82,16 +108,8 @@ TEST(Verlet, KeepsMomentumAndAngularMomentum) {
     Scene scene = softBlock();
     scene.gravity = {0, 0, 0};
     scene.fixed.clear();
-    const auto momenta = [&scene](const State& state) {
-        Vector3d linear = Vector3d::Zero(), angular = Vector3d::Zero();
-        for (std::size_t i = 0; i < state.x.size(); ++i) {
-            linear += state.v[i] / double{scene.particles[i].inverseMass};
-            angular += state.x[i].cross(state.v[i]) / double{scene.particles[i].inverseMass};
-        }
-        return std::pair(linear, angular);
-    };
-    const auto [linear, angular] = momenta(reference::initialState(scene));
-    const auto [linearAfter, angularAfter] = momenta(afterVerlet(scene, 1, 2000));
+    const auto [linear, angular] = momentaOf(scene, reference::initialState(scene));
+    const auto [linearAfter, angularAfter] = momentaOf(scene, afterVerlet(scene, 1, 2000));
     EXPECT_LE((linearAfter - linear).norm(), 1e-13 * test::massOf(scene));
     EXPECT_LE((angularAfter - angular).norm(), 1e-13 * test::massOf(scene));
 }
@@ -146,14 +164,8 @@ TEST(Trajectory, FallsExactlyWithoutSprings) {
 }
 
 TEST(Trajectory, RefusesWhatIsNotASpringByName) {
-    const auto complaint = [](const Scene& scene,
-                              const reference::TrajectoryOptions& options) -> std::string {
-        try {
-            reference::trueTrajectory(scene, options);
-        } catch (const std::invalid_argument& error) {
-            return error.what();
-        }
-        return "";
+    const auto complaint = [](const Scene& scene, const reference::TrajectoryOptions& options) {
+        return complaintOf([&] { reference::trueTrajectory(scene, options); });
     };
     Scene rigid = oscillator(), walled = oscillator(), damped = oscillator();
     rigid.distances[0].compliance = 0;
@@ -171,4 +183,156 @@ TEST(Trajectory, SaysWhereNoStepIsShortEnough) {
     // Rounding alone moves the answer by more.
     EXPECT_THROW(reference::trueTrajectory(softBlock(), {.frames = 6, .tolerance = 1e-17}),
                  std::runtime_error);
+}
+
+TEST(Potential, HasTheGradientAndHessianThatDifferencesShow) {
+    const Scene scene = softBlock();
+    const reference::Problem problem(scene);
+    const State state = reference::initialState(scene);
+    constexpr double distance = 1e-6;
+    for (const reference::Potential& potential :
+         {reference::Potential(problem), reference::Potential(problem, 1.0 / 60, state)}) {
+        ASSERT_EQ(potential.size(), 3 * 26);
+        const auto x = potential.moved(state.x, 0.003, Eigen::VectorXd::Random(potential.size()));
+        const Eigen::VectorXd gradient = potential.gradient(x);
+        const Eigen::MatrixXd hessian = potential.hessian(x, reference::Potential::Hessian::exact);
+        for (Eigen::Index row = 0; row < potential.size(); ++row) {
+            const Eigen::VectorXd unit = Eigen::VectorXd::Unit(potential.size(), row);
+            const auto above = potential.moved(x, distance, unit),
+                       below = potential.moved(x, -distance, unit);
+            EXPECT_NEAR((potential.value(above) - potential.value(below)) / (2 * distance), gradient[row],
+                        1e-6 * gradient.norm());
+            const Eigen::VectorXd change =
+                (potential.gradient(above) - potential.gradient(below)) / (2 * distance);
+            EXPECT_LE((change - hessian.col(row)).norm(), 1e-6 * hessian.norm());
+        }
+    }
+}
+
+TEST(Potential, IsNeverIndefiniteInItsConvexForm) {
+    Scene scene = softBlock();
+    test::disturb(scene, 0.04f, 0);
+    const reference::Problem problem(scene);
+    const reference::Potential potential(problem);
+    const std::vector<Vector3d> x = reference::initialState(scene).x;
+    const auto smallest = [&](reference::Potential::Hessian kind) {
+        return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(potential.hessian(x, kind)).eigenvalues()[0];
+    };
+    EXPECT_LT(smallest(reference::Potential::Hessian::exact), -1)
+        << "the state is not compressed enough to tell";
+    EXPECT_GE(smallest(reference::Potential::Hessian::convex), -1e-9);
+}
+
+TEST(Newton, ConvergesQuadratically) {
+    const Scene scene = softBlock();
+    State state = reference::initialState(scene);
+    const reference::NewtonReport report = reference::stepImplicitEuler(scene, 1.0 / 60, state);
+    EXPECT_LT(report.residual(), 1e-10);
+    const std::vector<double>& g = report.gradients;
+    ASSERT_GE(g.size(), 4u);
+    // |grad| squares from one iteration to the next while rounding is far away: the exponent is 2.
+    double exponent = 0;
+    for (std::size_t k = 2; k < g.size(); ++k) {
+        if (g[k] > 1e-10 * g[0]) exponent = std::log(g[k] / g[k - 1]) / std::log(g[k - 1] / g[k - 2]);
+    }
+    EXPECT_GT(exponent, 1.7);
+}
+
+TEST(ImplicitEuler, ConvergesWithOrderOne) {
+    const Scene scene = softBlock();
+    const std::vector<Vector3d> truth = afterVerlet(scene, 0.1, 20'000).x;
+    std::vector<double> errors;
+    for (const int steps : {200, 400, 800}) {
+        State state = reference::initialState(scene);
+        for (int step = 0; step < steps; ++step) reference::stepImplicitEuler(scene, 0.1 / steps, state);
+        errors.push_back(largestDistance(state.x, truth));
+    }
+    EXPECT_NEAR(std::log2(errors[0] / errors[1]), 1, 0.1);
+    EXPECT_NEAR(std::log2(errors[1] / errors[2]), 1, 0.05);
+}
+
+// Along its spring the oscillator is linear: x' (1 + s) = 2 x - x_before, s = (omega h)^2.
+TEST(ImplicitEuler, DampsAnOscillatorAsPredicted) {
+    constexpr double h = 1.0 / 60, s = 128 * h * h;
+    const Scene scene = oscillator();
+    State state = reference::initialState(scene);
+    double before = 0.125, now = 0.125; // at rest
+    for (int step = 0; step < 60; ++step) {
+        reference::stepImplicitEuler(scene, h, state);
+        const double next = (2 * now - before) / (1 + s);
+        EXPECT_NEAR(-state.x[1].y() - 1, next, 1e-10) << step;
+        before = std::exchange(now, next);
+    }
+    EXPECT_LT(std::abs(now), 0.125 * std::pow(1 + s, -20));
+}
+
+TEST(ImplicitEuler, KeepsMomentumAndNoEnergy) {
+    Scene scene = softBlock();
+    scene.gravity = {0, 0, 0};
+    scene.fixed.clear();
+    State state = reference::initialState(scene);
+    const Vector3d before = momentaOf(scene, state).first;
+    double energy = reference::energy(scene, state).total();
+    for (int step = 0; step < 30; ++step) {
+        reference::stepImplicitEuler(scene, 1.0 / 60, state);
+        const double now = reference::energy(scene, state).total();
+        EXPECT_LT(now, energy) << step;
+        energy = now;
+    }
+    EXPECT_LE((momentaOf(scene, state).first - before).norm(), 1e-10 * test::massOf(scene));
+}
+
+TEST(ImplicitEuler, FallsAsFarAsItsOrderSays) {
+    const Scene scene = test::particleAt({0, 0, 0}, {1, 4, 0.5f});
+    State state = reference::initialState(scene);
+    for (int step = 0; step < 10; ++step) reference::stepImplicitEuler(scene, 0.1, state);
+    // v n h + g h^2 n (n + 1) / 2
+    EXPECT_LE((state.x[0] - Vector3d(1, 4 - double{9.81f} * 0.55, 0.5)).norm(), 1e-12);
+}
+
+TEST(ImplicitEuler, RefusesWhatItHasNoEnergyFor) {
+    Scene rigid = oscillator();
+    rigid.distances[0].compliance = 0;
+    State state = reference::initialState(rigid);
+    EXPECT_NE(
+        complaintOf([&] { reference::stepImplicitEuler(rigid, 0.1, state); }).find("distance[0] is rigid"),
+        std::string::npos);
+    EXPECT_NE(complaintOf([&] { reference::stepImplicitEuler(oscillator(), 0, state); }).find("h"),
+              std::string::npos);
+}
+
+// N masses m under one another: the n-th spring from below carries n m g.
+TEST(Equilibrium, OfAHangingChainCarriesItsWeight) {
+    Scene scene = test::chain(21, {1.0f / 128});
+    scene.fixed = {{0}};
+    const State state = reference::staticEquilibrium(scene); // from a horizontal start
+    double load = 0;
+    for (std::size_t i = 20; i > 0; --i) {
+        load += double{9.81f} / double{scene.particles[i].inverseMass};
+        EXPECT_NEAR((state.x[i - 1] - state.x[i]).norm(), double{0.1f} + load / 128, 1e-9) << i;
+        EXPECT_NEAR(state.x[i].x(), 0, 1e-9);
+        EXPECT_LT(state.x[i].y(), state.x[i - 1].y());
+    }
+}
+
+TEST(Equilibrium, OfASheetLeavesNoForceAndLessEnergyThanAnythingNear) {
+    const Scene scene = test::sheet(8, 1e-3f);
+    State state = reference::initialState(scene);
+    const reference::NewtonReport report = reference::findEquilibrium(scene, state);
+    EXPECT_LT(report.residual(), 1e-9);
+    const double least = reference::energy(scene, state).total();
+    const reference::Problem problem(scene);
+    const reference::Potential potential(problem);
+    for (int trial = 0; trial < 50; ++trial) {
+        State near = state;
+        near.x = potential.moved(state.x, 1e-3, Eigen::VectorXd::Random(potential.size()));
+        EXPECT_GT(reference::energy(scene, near).total(), least);
+    }
+}
+
+TEST(Equilibrium, DoesNotExistWhereNothingHolds) {
+    Scene scene = oscillator();
+    scene.gravity = {0, -9.81f, 0};
+    scene.fixed.clear();
+    EXPECT_THROW(reference::staticEquilibrium(scene), std::runtime_error);
 }
