@@ -1,0 +1,108 @@
+// Predictions of stiffness per solver, and measurements.
+#include "cases/cases.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace sinew::test {
+
+using namespace sim;
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+struct Ends {
+    double wA = 0, wB = 0; // [1/kg]
+    int linksA = 0, linksB = 0;
+};
+
+Ends endsOf(const Scene& scene, const DistanceConstraint& link) {
+    std::vector<double> w;
+    for (const Particle& particle : scene.particles) w.push_back(double{particle.inverseMass});
+    for (const FixedConstraint& fixed : scene.fixed) w[fixed.particle] = 0;
+    const auto linksOf = [&](std::uint32_t particle) {
+        return static_cast<int>(std::ranges::count_if(scene.distances, [&](const DistanceConstraint& c) {
+            return (c.a == particle || c.b == particle) && (w[c.a] > 0 || w[c.b] > 0);
+        }));
+    };
+    return {w[link.a], w[link.b], linksOf(link.a), linksOf(link.b)};
+}
+
+} // namespace
+
+Settings accurate(Solver solver, std::uint32_t substeps) {
+    Settings settings{.solver = solver, .substeps = substeps, .theta = 0};
+    if (solver == Solver::jacobi) settings.weight = 1;
+    return settings;
+}
+
+double reachedStiffness(const Scene& scene, const Settings& settings, double h, std::size_t c) {
+    const DistanceConstraint& link = scene.distances[c];
+    const Ends ends = endsOf(scene, link);
+    const double compliance = double{link.compliance};
+    if (settings.solver == Solver::split) {
+        const auto kappa = [&](double w, int links) {
+            return w > 0 ? double{settings.omega} / (2 * links * w) : infinite;
+        };
+        return std::min(
+            {1 / compliance, kappa(ends.wA, ends.linksA) / (h * h), kappa(ends.wB, ends.linksB) / (h * h)});
+    }
+    const int links = std::max(ends.linksA * (ends.wA > 0), ends.linksB * (ends.wB > 0));
+    const double weight = settings.weight > 0 ? double{settings.weight} : 1.0 / links;
+    return weight / (h * h * (ends.wA + ends.wB) + compliance);
+}
+
+bool isUnclamped(const Scene& scene, const Settings& settings) {
+    if (settings.solver != Solver::split) return true;
+    std::vector<double> kappa;
+    std::vector<int> links(scene.particles.size(), 0);
+    for (const DistanceConstraint& c : scene.distances) ++links[c.a], ++links[c.b];
+    for (std::size_t i = 0; i < scene.particles.size(); ++i)
+        kappa.push_back(double{settings.omega} / (2 * links[i] * double{scene.particles[i].inverseMass}));
+    for (const FixedConstraint& fixed : scene.fixed) kappa[fixed.particle] = infinite;
+    const double h = double{scene.dt} / settings.substeps;
+    return std::ranges::all_of(scene.distances, [&](const DistanceConstraint& c) {
+        return h * h / double{c.compliance} <= std::min(kappa[c.a], kappa[c.b]);
+    });
+}
+
+CaseRunner::CaseRunner(const Scene& scene, Settings settings)
+    : forward_(scene, settings), reversed_(scene, (settings.isReversed = true, settings)) {}
+
+CaseRunner::~CaseRunner() {
+    EXPECT_EQ(forward_.stateHash(), reversed_.stateHash()) << "the state depends on the order of invocations";
+}
+
+void CaseRunner::step(float dt) {
+    EXPECT_EQ(forward_.step(dt).nonFinite, 0u);
+    reversed_.step(dt);
+}
+
+void CaseRunner::run(int steps) {
+    EXPECT_EQ(forward_.run(steps).nonFinite, 0u);
+    reversed_.run(steps);
+}
+
+void expectWithin(const std::string& what, double measured, double expected, double tolerance) {
+    testing::Test::RecordProperty(what, std::to_string(100 * (measured / expected - 1)) + " %");
+    EXPECT_NEAR(measured / expected, 1, tolerance) << what << ": " << measured << " instead of " << expected;
+}
+
+void Crossings::add(double time, double value) {
+    if (lastValue_ * value < 0)
+        times_.push_back(lastTime_ + (time - lastTime_) * lastValue_ / (lastValue_ - value));
+    lastTime_ = time;
+    lastValue_ = value;
+}
+
+double Crossings::period() const {
+    return 2 * (times_.back() - times_.front()) / static_cast<double>(times_.size() - 1);
+}
+
+double ulp(double value) {
+    const auto x = static_cast<float>(value);
+    return double{std::nextafter(x, std::numeric_limits<float>::infinity())} - double{x};
+}
+
+} // namespace sinew::test
