@@ -8,16 +8,24 @@
 
 namespace sinew::sim::reference {
 
+namespace {
+
+[[noreturn]] void refuse(const Scene& scene, const char* what, const std::string& why) {
+    throw std::invalid_argument("scene \"" + scene.name + "\": " + what + " needs springs alone, but " + why);
+}
+
+} // namespace
+
 void requireSprings(const Scene& scene, const char* what) {
-    const auto refuse = [&](const std::string& why) {
-        throw std::invalid_argument("scene \"" + scene.name + "\": " + what + " needs springs alone, but " +
-                                    why);
-    };
     for (std::size_t c = 0; c < scene.distances.size(); ++c) {
-        if (!(scene.distances[c].compliance > 0)) refuse("distance[" + std::to_string(c) + "] is rigid");
+        if (!(scene.distances[c].compliance > 0))
+            refuse(scene, what, "distance[" + std::to_string(c) + "] is rigid");
     }
-    if (!scene.planes.empty()) refuse("the scene has boundary planes");
-    if (scene.damping != 0) refuse("the scene has damping");
+    if (!scene.planes.empty()) refuse(scene, what, "the scene has boundary planes");
+}
+
+void requireUndamped(const Scene& scene, const char* what) {
+    if (scene.damping != 0) refuse(scene, what, "the scene has damping");
 }
 
 double elasticEnergy(const Problem& problem, const std::vector<Eigen::Vector3d>& x) {

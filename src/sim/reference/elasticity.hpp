@@ -6,9 +6,11 @@
 
 namespace sinew::sim::reference {
 
-/// Throws std::invalid_argument, in one sentence that names `what` cannot be computed, for a scene that is
-/// more than springs, masses and gravity: rigid links (which have no energy), boundary planes, damping.
+/// Throws std::invalid_argument, in one sentence that names `what` cannot be computed, for a scene with rigid
+/// links (which have no energy) or boundary planes.
 void requireSprings(const Scene& scene, const char* what);
+/// The same for a scene with damping.
+void requireUndamped(const Scene& scene, const char* what);
 
 /// Sum of (|x_a - x_b| - restLength)^2 / (2 compliance) [J].
 double elasticEnergy(const Problem& problem, const std::vector<Eigen::Vector3d>& x);

@@ -103,6 +103,7 @@ double NewtonReport::residual() const {
 
 NewtonReport stepImplicitEuler(const Scene& scene, double h, State& state, const NewtonOptions& options) {
     requireSprings(scene, "an implicit step");
+    requireUndamped(scene, "an implicit step");
     if (!(h > 0 && std::isfinite(h))) throw std::invalid_argument("an implicit step: h must be above 0");
     const Problem problem(scene);
     const Positions before = state.x;

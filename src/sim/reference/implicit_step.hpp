@@ -22,8 +22,8 @@ struct NewtonReport {
 /// and std::runtime_error where Newton does not converge.
 NewtonReport stepImplicitEuler(const Scene& scene, double h, State& state, const NewtonOptions& options = {});
 
-/// Moves `state` to the equilibrium that it falls into, downhill all the way; velocities become 0. Throws as
-/// above, also where nothing holds the scene.
+/// Moves `state` to the equilibrium that it falls into, downhill all the way; velocities become 0. Damping
+/// has no part in that. Otherwise throws as above, also where nothing holds the scene.
 NewtonReport findEquilibrium(const Scene& scene, State& state, const NewtonOptions& options = {});
 
 /// findEquilibrium from where the scene puts its particles.

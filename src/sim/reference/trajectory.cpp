@@ -90,6 +90,7 @@ double difference(const std::vector<Positions>& a, const std::vector<Positions>&
 
 void check(const Scene& scene, const TrajectoryOptions& options) {
     requireSprings(scene, "a trajectory truth");
+    requireUndamped(scene, "a trajectory truth");
     const auto refuse = [](const char* sentence) { throw std::invalid_argument(sentence); };
     if (!(options.dt > 0 && std::isfinite(options.dt))) refuse("trajectory: dt must be above 0");
     if (!(options.tolerance > 0)) refuse("trajectory: tolerance must be above 0");
@@ -126,6 +127,7 @@ Trajectory trueTrajectory(const Scene& scene, const TrajectoryOptions& options) 
 
 void stepVerlet(const Scene& scene, double h, std::uint64_t steps, State& state) {
     requireSprings(scene, "a Verlet step");
+    requireUndamped(scene, "a Verlet step");
     const Problem problem(scene);
     Verlet(problem).advance(h, steps, state);
 }

@@ -1,0 +1,308 @@
+// Cases 9 to 12 and 22: voxel bodies bend, vibrate, stretch, shear and carry waves as an isotropic solid of
+// Poisson ratio 1/4 does, whatever the substeps. Lengths are in cells of 5 cm, times in what a wave needs for
+// one.
+#include "cases/cases.hpp"
+#include "sim/bodies.hpp"
+#include "sim/reference/implicit_step.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+using namespace sinew;
+using namespace sinew::sim;
+using namespace sinew::test;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double cell = 0.05, density = 1000, frame = double{1.0f / 60};
+constexpr double shearShare = 0.4; // G / E at Poisson ratio 1/4
+
+class Case09Cantilever : public SolverCase {};
+class Case10Cantilever : public SolverCase {};
+class Case11Elasticity : public SolverCase {};
+class Case12Wave : public SolverCase {};
+class Case22Substeps : public SolverCase {};
+
+// How a body is solved accurately: cells that a wave crosses in a substep, c h / a. `split` has all the
+// stiffness up to 0.263: a particle on a rim has a quarter of the mass, 9 links, and among them whole face
+// diagonals, 0.4 (c h / a)^2 <= omega / (2 x 9 x 4). Inside it would be 0.37. The others come close only with
+// short substeps.
+double cellsPerSubstep(Solver solver) {
+    return solver == Solver::split ? 0.26 : 0.18;
+}
+
+// The wave speed sqrt(E / rho) that makes it so [m/s].
+double waveSpeed(Solver solver, std::uint32_t substeps) {
+    return cellsPerSubstep(solver) * cell * substeps / frame;
+}
+
+// The share of Young's modulus that is reached. Every link of a full lattice has k w_a = k w_b = 0.4 c^2 /
+// a^2, also on faces and rims, where k and mass go down alike.
+double reachedShare(Solver solver) {
+    const double stepsPerCell = cellsPerSubstep(solver);
+    return solver == Solver::split ? 1 : 1 / (1 + 0.8 * stepsPerCell * stepsPerCell);
+}
+
+struct Solid {
+    Scene scene;
+    LatticeCorners corners;
+
+    // Mean of positions over the corners with `low` <= (i, j, k) <= `high`.
+    Vector3d mean(const std::vector<Vector3d>& x, std::array<std::uint32_t, 3> low,
+                  std::array<std::uint32_t, 3> high) const {
+        Vector3d sum = Vector3d::Zero();
+        double count = 0;
+        for (std::uint32_t k = low[2]; k <= high[2]; ++k)
+            for (std::uint32_t j = low[1]; j <= high[1]; ++j)
+                for (std::uint32_t i = low[0]; i <= high[0]; ++i, ++count) sum += x[corners.at(i, j, k)];
+        return sum / count;
+    }
+    void fix(std::array<std::uint32_t, 3> low, std::array<std::uint32_t, 3> high) {
+        for (std::uint32_t k = low[2]; k <= high[2]; ++k)
+            for (std::uint32_t j = low[1]; j <= high[1]; ++j)
+                for (std::uint32_t i = low[0]; i <= high[0]; ++i)
+                    scene.fixed.push_back({corners.at(i, j, k)});
+    }
+};
+
+// Centred on the origin, where float32 is finest.
+Solid makeSolid(const char* name, std::array<std::uint32_t, 3> cells, double speed) {
+    Solid body;
+    body.scene.name = name;
+    body.scene.gravity = {0, 0, 0};
+    const auto origin = [&](std::uint32_t count) { return static_cast<float>(-0.5 * cell * count); };
+    body.corners = addLattice(body.scene, {.origin = {origin(cells[0]), origin(cells[1]), origin(cells[2])},
+                                           .cells = cells,
+                                           .spacing = static_cast<float>(cell),
+                                           .youngModulus = static_cast<float>(density * speed * speed),
+                                           .density = static_cast<float>(density)});
+    return body;
+}
+
+std::vector<Vector3d> initial(const Solid& body) {
+    return reference::initialState(body.scene).x;
+}
+
+// A beam along x, clamped at its left end; 12 times as long as high.
+struct Beam {
+    Solid body;
+    std::uint32_t height; // cells
+    double speed;
+    double h() const { return height * cell; }
+    double length() const { return 12 * h(); }
+    std::uint32_t links() const { return 12 * height; }                  // cells along x
+    double bendingShare() const { return 1 + 0.95 / (height * height); } // of EI (methods: G)
+    // First angular frequency of Euler and Bernoulli for all of E.
+    double slowest() const {
+        return 1.8751 * 1.8751 * std::sqrt(bendingShare() / 12) * speed * h() / (length() * length());
+    }
+    double tip(const std::vector<Vector3d>& x) const {
+        return body.mean(x, {links(), 0, 0}, {links(), height, height}).y();
+    }
+};
+
+constexpr std::uint32_t beamSubsteps = 200;
+
+Beam makeBeam(Solver solver) {
+    const std::uint32_t height = solver == Solver::split ? 3 : 2; // the others are slower
+    const double speed = waveSpeed(solver, beamSubsteps);
+    Beam beam{makeSolid("cantilever", {12 * height, height, height}, speed), height, speed};
+    beam.body.fix({0, 0, 0}, {0, height, height});
+    return beam;
+}
+
+} // namespace
+
+TEST_P(Case09Cantilever, SagsAsTimoshenkoSays) {
+    Beam beam = makeBeam(GetParam());
+    const double length = beam.length(), h = beam.h(), share = reachedShare(GetParam());
+    // Load that bends it by 3 % of its length.
+    const double gravity = 0.03 * beam.speed * beam.speed * h * h / (1.5 * length * length * length);
+    beam.body.scene.gravity = {0, static_cast<float>(-gravity), 0};
+    beam.body.scene.damping = static_cast<float>(2 * beam.slowest()); // aperiodic
+    const Settings settings = accurate(GetParam(), beamSubsteps);
+    ASSERT_TRUE(isUnclamped(beam.body.scene, settings));
+    CaseRunner runner(beam.body.scene, settings);
+    runner.run(static_cast<int>(9 / beam.slowest() / frame)); // 0.1 % is left
+    const double sag = -beam.tip(runner.positions());
+
+    const double q = density * gravity * h * h, modulus = share * density * beam.speed * beam.speed;
+    const double bending =
+        q * std::pow(length, 4) / (8 * modulus * beam.bendingShare() * std::pow(h, 4) / 12);
+    const double kappa = 10 * 1.25 / (12 + 11 * 0.25);
+    const double shear = q * length * length / (2 * kappa * shearShare * modulus * h * h);
+    expectWithin("sag", sag, bending + shear, 0.03);
+    EXPECT_LT(sag, 0.05 * length);
+    if (GetParam() == Solver::split) {
+        const double truth = -beam.tip(reference::staticEquilibrium(beam.body.scene).x);
+        expectWithin("sag, of the equilibrium in double", sag, truth, 0.003);
+    }
+}
+
+TEST_P(Case10Cantilever, VibratesWithItsFirstFrequency) {
+    Beam beam = makeBeam(GetParam());
+    constexpr double beta = 1.8751, sigma = 0.7341;
+    const auto initialX = initial(beam.body);
+    for (std::size_t i = 0; i < initialX.size(); ++i) {
+        // The first mode, 2 % of the length at the tip; sections stay plane.
+        const double s = beta * (initialX[i].x() / beam.length() + 0.5), amplitude = 0.01 * beam.length();
+        const double shape = std::cosh(s) - std::cos(s) - sigma * (std::sinh(s) - std::sin(s));
+        const double slope = std::sinh(s) + std::sin(s) - sigma * (std::cosh(s) - std::cos(s));
+        Vec3& position = beam.body.scene.particles[i].position;
+        position.y += static_cast<float>(amplitude * shape);
+        position.x -= static_cast<float>(amplitude * slope * beta / beam.length() * initialX[i].y());
+    }
+    const Settings settings = accurate(GetParam(), beamSubsteps);
+    ASSERT_TRUE(isUnclamped(beam.body.scene, settings));
+    CaseRunner runner(beam.body.scene, settings);
+    Crossings crossings;
+    for (int step = 1; crossings.count() < 2 && step < 200; ++step) {
+        runner.run(1);
+        crossings.add(step * frame, beam.tip(runner.positions()));
+    }
+    ASSERT_EQ(crossings.count(), 2u);
+    const double predicted = std::sqrt(reachedShare(GetParam())) * beam.slowest();
+    expectWithin("frequency", 2 * std::numbers::pi / crossings.period(), predicted, 0.03);
+}
+
+namespace {
+
+struct Moduli {
+    double young, poisson, shear; // E and C44 by the modulus asked for
+};
+
+// A bar that hangs from its upper end: stress by the weight below, strain of the layers in its middle third.
+Moduli stretchBar(Solver solver, Moduli moduli) {
+    constexpr std::uint32_t width = 4, height = 16, substeps = 16;
+    const double speed = waveSpeed(solver, substeps);
+    Solid body = makeSolid("bar", {width, height, width}, speed);
+    body.fix({0, height, 0}, {width, height, width});
+    const double length = height * cell,
+                 gravity = 0.002 * speed * speed / (length / 2); // 0.2 % in the middle
+    body.scene.gravity = {0, static_cast<float>(-gravity), 0};
+    const double slowest = std::numbers::pi / 2 * speed / length;
+    body.scene.damping = static_cast<float>(2 * slowest);
+    const Settings settings = accurate(solver, substeps);
+    EXPECT_TRUE(isUnclamped(body.scene, settings));
+    CaseRunner runner(body.scene, settings);
+    runner.run(static_cast<int>(16 / slowest / frame));
+    const auto x = runner.positions();
+
+    constexpr std::uint32_t low = 6, high = 10;
+    const double strain = (body.mean(x, {0, high, 0}, {width, high, width}).y() -
+                           body.mean(x, {0, low, 0}, {width, low, width}).y()) /
+                              ((high - low) * cell) -
+                          1;
+    const double thinning = 1 - (body.mean(x, {width, low, 0}, {width, high, width}).x() -
+                                 body.mean(x, {0, low, 0}, {0, high, width}).x()) /
+                                    (width * cell);
+    const double stress =
+        density * gravity * (low + high) / 2 * cell; // the mean of layers is that of their middle
+    moduli.young = stress / strain / (density * speed * speed * reachedShare(solver));
+    moduli.poisson = thinning / strain;
+    return moduli;
+}
+
+// A slab fixed at its lower face and pulled along it: layers in the middle of its length shear, and nothing
+// else.
+Moduli shearSlab(Solver solver, Moduli moduli) {
+    constexpr std::uint32_t width = 32, height = 4, depth = 2, substeps = 16, middle = width / 2;
+    const double speed = waveSpeed(solver, substeps);
+    Solid body = makeSolid("slab", {width, height, depth}, speed);
+    body.fix({0, 0, 0}, {width, 0, depth});
+    const double thickness = height * cell, gravity = 0.002 * shearShare * speed * speed / (thickness / 2);
+    body.scene.gravity = {static_cast<float>(gravity), 0, 0};
+    const double slowest = std::numbers::pi / 2 * std::sqrt(shearShare) * speed / thickness;
+    body.scene.damping = static_cast<float>(2 * slowest);
+    const Settings settings = accurate(solver, substeps);
+    EXPECT_TRUE(isUnclamped(body.scene, settings));
+    CaseRunner runner(body.scene, settings);
+    runner.run(static_cast<int>(16 / slowest / frame));
+    const auto x = runner.positions(), before = initial(body);
+    const auto shift = [&](std::uint32_t layer) {
+        const std::array<std::uint32_t, 3> low{middle - 2, layer, 0}, high{middle + 2, layer, depth};
+        return (body.mean(x, low, high) - body.mean(before, low, high)).x();
+    };
+    const double angle = (shift(3) - shift(1)) / (2 * cell);
+    const double stress =
+        density * gravity * 2 * cell; // half of the slab is above the middle of those layers
+    moduli.shear = stress / angle / (density * speed * speed * reachedShare(solver));
+    return moduli;
+}
+
+} // namespace
+
+TEST_P(Case11Elasticity, HasTheModulusAskedForPoissonRatioAQuarterAndNoDirection) {
+    const Moduli moduli = shearSlab(GetParam(), stretchBar(GetParam(), {}));
+    expectWithin("Young's modulus", moduli.young, 1, 0.01);
+    expectWithin("Poisson's ratio", moduli.poisson, 0.25, 0.01 / 0.25);
+    // C11 - C12 = E / (1 + nu)
+    expectWithin("isotropy", 2 * moduli.shear * (1 + moduli.poisson) / moduli.young, 1, 0.02);
+}
+
+// A pulse of 6 cells (standard deviation) runs along a bar; when its summit passes a section 80 cells on.
+TEST_P(Case12Wave, ArrivesAtTheSpeedOfSound) {
+    constexpr std::uint32_t width = 2, length = 160, substeps = 4, probe = 120;
+    const double speed = waveSpeed(GetParam(), substeps), sigma = 6 * cell, amplitude = 0.03 * cell;
+    Solid body = makeSolid("long bar", {length, width, width}, speed);
+    const double wave = std::sqrt(reachedShare(GetParam())) * speed;
+    for (Particle& particle : body.scene.particles) {
+        const double s = (double{particle.position.x} + 40 * cell) / sigma;
+        const double shift = amplitude * std::exp(-s * s / 2), strain = -s / sigma * shift;
+        particle.velocity.x = static_cast<float>(-wave * strain);
+        particle.position.x += static_cast<float>(shift);
+        particle.position.y *= static_cast<float>(1 - strain / 4);
+        particle.position.z *= static_cast<float>(1 - strain / 4);
+    }
+    const Settings settings = accurate(GetParam(), substeps);
+    ASSERT_TRUE(isUnclamped(body.scene, settings));
+    CaseRunner runner(body.scene, settings);
+    const double start = body.mean(initial(makeSolid("long bar", {length, width, width}, speed)),
+                                   {probe, 0, 0}, {probe, width, width})
+                             .x();
+    double before = 0, now = 0, arrival = 0;
+    for (int step = 1; arrival == 0 && step < 1000; ++step) {
+        runner.run(1);
+        const double next = body.mean(runner.positions(), {probe, 0, 0}, {probe, width, width}).x() - start;
+        if (now > amplitude / 2 && next < now) { // summit of the parabola through three samples
+            arrival = (step - 1 - (next - before) / 2 / (before - 2 * now + next)) * frame;
+        }
+        before = std::exchange(now, next);
+    }
+    expectWithin("arrival", arrival, 80 * cell / wave, 0.02);
+}
+
+// A cube that is held at one side and sags by a few percent; soft enough that 16 substeps have all of its
+// stiffness.
+TEST_P(Case22Substeps, DoNotChangeTheShapeAtRest) {
+    constexpr double speed = 0.05 * cell * 16 / frame; // c h / a = 0.05 at 16 substeps
+    std::vector<Vector3d> shapes[2];
+    Solid body = makeSolid("cube", {3, 3, 3}, speed);
+    const auto before = initial(body);
+    body.fix({0, 0, 0}, {0, 3, 3});
+    body.scene.gravity = {0, static_cast<float>(-0.02 * speed * speed / (3 * cell)), 0};
+    const double slowest = 0.6 * speed / (3 * cell);
+    body.scene.damping = static_cast<float>(2 * slowest);
+    for (const std::size_t run : {0, 1}) {
+        const Settings settings = accurate(GetParam(), run == 0 ? 16 : 128);
+        ASSERT_TRUE(isUnclamped(body.scene, settings));
+        CaseRunner runner(body.scene, settings);
+        runner.run(static_cast<int>(10 / slowest / frame));
+        shapes[run] = runner.positions();
+    }
+    double deflection = 0, difference = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        deflection = std::max(deflection, (shapes[1][i] - before[i]).norm());
+        difference = std::max(difference, (shapes[0][i] - shapes[1][i]).norm());
+    }
+    EXPECT_GT(deflection, 0.01 * 3 * cell);
+    RecordProperty("difference by deflection", std::to_string(difference / deflection));
+    EXPECT_LE(difference, 0.005 * deflection);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Case09Cantilever, testing::ValuesIn(caseSolvers), solverOf);
+INSTANTIATE_TEST_SUITE_P(Of, Case10Cantilever, testing::ValuesIn(caseSolvers), solverOf);
+INSTANTIATE_TEST_SUITE_P(Of, Case11Elasticity, testing::ValuesIn(caseSolvers), solverOf);
+INSTANTIATE_TEST_SUITE_P(Of, Case12Wave, testing::ValuesIn(caseSolvers), solverOf);
+INSTANTIATE_TEST_SUITE_P(Of, Case22Substeps, testing::ValuesIn(caseSolvers), solverOf);
