@@ -24,8 +24,9 @@ struct Trajectory {
 };
 
 /// Throws std::invalid_argument with a sentence for a scene that is not springs, masses and gravity alone or
-/// for options out of range, and std::runtime_error where no h agrees with its half (a chaotic or diverging
-/// motion). Starts at h <= 0.1 / largestFrequency. Time: frames x dt / h x links x about 10 ns.
+/// for options out of range, and std::runtime_error where no h agrees with its half: a chaotic or diverging
+/// motion, mostly known after one halving. Starts at h <= 0.1 / largestFrequency. Time: frames x dt / h x
+/// links x about 10 ns.
 Trajectory trueTrajectory(const Scene& scene, const TrajectoryOptions& options);
 
 /// `steps` steps of velocity Verlet of length h [s]: v += h/2 a(x); x += h v; v += h/2 a(x). Leaves x and v
