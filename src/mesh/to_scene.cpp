@@ -59,8 +59,9 @@ sim::CellEmbedding embed(const VoxelGrid& grid, const sim::LatticeCorners& corne
     return embedding;
 }
 
-/// Particles outside the surface may come closer to a collider than the surface does. Corners are the samples
-/// of a grid of one more cell each way, moved by half a cell.
+/// A collider touches the skin, not the particles: those outside the surface may come closer to it, those inside
+/// keep their depth, up to one cell. Without the second the lowest layer alone carries a body and is squashed flat.
+/// Corners are the samples of a grid of one more cell each way, moved by half a cell.
 void setContactOffsets(sim::Scene& scene, const sim::LatticeCorners& corners, const VoxelGrid& grid,
                        const TriangleMesh& mesh) {
     std::vector<Vector3> positions = toCellUnits(mesh, grid);
@@ -72,10 +73,10 @@ void setContactOffsets(sim::Scene& scene, const sim::LatticeCorners& corners, co
         for (std::uint32_t j = 0; j < count[1]; ++j)
             for (std::uint32_t i = 0; i < count[0]; ++i) {
                 const std::uint32_t particle = corners.at(i, j, k);
-                if (particle == sim::LatticeCorners::noParticle || inside({i, j, k}).isInside) continue;
+                if (particle == sim::LatticeCorners::noParticle) continue;
                 const double distance = tree.distance(Vector3(i, j, k) + Vector3::Constant(0.5));
-                scene.particles[particle].contactOffset =
-                    static_cast<float>(-distance * double{grid.spacing});
+                const double offset = inside({i, j, k}).isInside ? std::min(distance, 1.0) : -distance;
+                scene.particles[particle].contactOffset = static_cast<float>(offset * double{grid.spacing});
             }
 }
 

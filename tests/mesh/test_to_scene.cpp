@@ -134,11 +134,11 @@ TEST(AddMesh, KnowsItsRestVolume) {
 
 TEST(AddMesh, LetsTheSkinRestOnAPlaneNotTheHull) {
     sim::Scene scene;
-    addMesh(scene, generate("sphere", 64), body(12));
+    const VoxelGrid grid = addMesh(scene, generate("sphere", 64), body(12));
     double farthest = 0, highest = -1;
     for (const sim::Particle& particle : scene.particles) {
         const double outside = toVector(particle.position).norm() - 0.15;
-        EXPECT_NEAR(double{particle.contactOffset}, std::min(0.0, -outside), 2e-4);
+        EXPECT_NEAR(double{particle.contactOffset}, std::min(double{grid.spacing}, -outside), 2e-4);
         farthest = std::max(farthest, outside);
         // A plane stops the body where the first particle is contactOffset away from it.
         highest = std::max(highest, double{particle.contactOffset} - double{particle.position.y});
