@@ -121,6 +121,9 @@ vk::BufferView Simulation::skinIndices() const noexcept {
 const std::vector<SkinRange>& Simulation::skins() const noexcept {
     return state_->skins;
 }
+vk::BufferView Simulation::view(BufferId buffer) const noexcept {
+    return state_->executor.view(buffer);
+}
 const StepProgram& Simulation::program() const noexcept {
     return state_->program;
 }

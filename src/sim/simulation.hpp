@@ -12,6 +12,7 @@
 namespace sinew::sim {
 
 struct StepProgram;
+struct BufferId;
 
 /// What changes from step to step.
 struct Step {
@@ -24,7 +25,7 @@ struct Step {
 struct Status {
     std::uint32_t frame = 0; ///< low 32 bits of Step::frame
     std::uint32_t nonFinite =
-        0; ///< particles with a non-finite state; the public state then stays the last finite one
+        0; ///< particles with a non-finite state: the step is undone, all goes on from the last finite state
     std::uint32_t firstBadParticle = 0; ///< smallest index among them; meaningful where nonFinite > 0
 };
 
@@ -74,6 +75,8 @@ public:
     Status status(std::uint64_t frame) const noexcept;
 
     const StepProgram& program() const noexcept;
+    /// Any buffer of program(), to inspect; empty for an invalid id. Contents between steps are the solver's.
+    vk::BufferView view(BufferId buffer) const noexcept;
     std::vector<std::string> phases() const; ///< names of the spans of `timestamps`
 
 private:

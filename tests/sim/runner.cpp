@@ -57,6 +57,21 @@ void Runner::skin() {
     queue().wait(queue().submit(commands));
 }
 
+void Runner::writePosition(std::uint32_t particle, float x) {
+    const auto find = [&](const std::string& label) {
+        const auto& buffers = simulation_.program().buffers;
+        for (std::uint32_t b = 0; b < buffers.size(); ++b)
+            if (buffers[b].label == label) return simulation_.view({b});
+        return vk::BufferView{};
+    };
+    const vk::BufferView slots = find("state.slots");
+    vk::BufferView target = find("state.positions");
+    const std::uint32_t slot = slots.size == 0 ? particle : queue().download<std::uint32_t>(slots)[particle];
+    target.offset += std::size_t{target.stride} * slot;
+    target.size = sizeof x;
+    queue().upload(target, &x, sizeof x);
+}
+
 std::vector<Eigen::Vector3d> Runner::positions() const {
     return download(simulation_.positions(), simulation_.program().particleCount);
 }

@@ -19,6 +19,8 @@ public:
     sim::Status run(int steps);
     void reset();
     void skin();
+    /// Overwrites x of a particle in the solver's own state, as a fault would.
+    void writePosition(std::uint32_t particle, float x);
 
     std::vector<Eigen::Vector3d> positions() const;  ///< [m]
     std::vector<Eigen::Vector3d> velocities() const; ///< [m/s]

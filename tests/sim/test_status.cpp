@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 using namespace sinew;
 using namespace sinew::sim;
@@ -73,6 +74,24 @@ TEST_P(StatusOf, AResetSimulationIsFiniteAgain) {
     runner.reset();
     EXPECT_EQ(runner.stateHash(), start);
     EXPECT_EQ(runner.step(1e-6f).nonFinite, 0u);
+}
+
+TEST_P(StatusOf, AStepThatANaNHasSpoiltIsUndoneAndTheBodyGoesOn) {
+    for (const Scene& scene : {test::chain(6, {1e-4f}), test::block(3, 0.1f, 1e5f)}) {
+        test::Runner calm(scene, settings()), runner(scene, settings());
+        calm.run(20);
+        runner.run(10);
+        const auto x = runner.positions(), v = runner.velocities();
+        runner.writePosition(3, std::numeric_limits<float>::quiet_NaN());
+        const Status spoilt = runner.run(1);
+        EXPECT_GE(spoilt.nonFinite, 1u);
+        EXPECT_EQ(runner.positions(), x) << "the last finite state";
+        EXPECT_EQ(runner.velocities(), v);
+        EXPECT_EQ(runner.run(10).nonFinite, 0u) << "nothing is left of it";
+        const auto expected = calm.positions(), reached = runner.positions();
+        for (std::size_t i = 0; i < expected.size(); ++i)
+            EXPECT_LE((reached[i] - expected[i]).norm(), 1e-5) << "particle " << i; // rounding of y = x + theta h v
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(A, StatusOf, testing::Values(Solver::jacobi, Solver::split),
