@@ -21,6 +21,9 @@ layout(std430, binding = LINK_BINDING) readonly buffer Cells { uint cells[]; };
 #endif
 #define CHUNK_BINDING (LINK_BINDING + 1)
 layout(std430, binding = CHUNK_BINDING) readonly buffer Chunks { LatticeChunk chunks[]; };
+#ifdef RESIDENT
+layout(std430, binding = CHUNK_BINDING + 1) readonly buffer Bodies { uint bodies[]; }; // first slot of each
+#endif
 layout(push_constant) uniform Push { LatticePush push; };
 layout(constant_id = 6) const bool hasBodyDiagonals = false;
 
@@ -93,9 +96,7 @@ void loadSlice(uint origin, out vec4 slice[SLICE]) {
         slice[s] = POSITION(origin + (s / WIDTH - RIM_Y) * push.rowStride + s % WIDTH - 1);
 }
 
-void main() {
-    const LatticeChunk chunk = chunks[itemIndex(push.count)]; // padding has no layers
-    const Substep substep = substepOf(push.isFirst != 0u);
+void march(LatticeChunk chunk, Substep substep) {
     uint origin = chunk.origin;
     vec4 slice[SLICE], above[SLICE];
     Fill fill[NODES];
@@ -121,3 +122,28 @@ void main() {
         origin += push.sliceStride;
     }
 }
+
+#ifdef RESIDENT
+// All substeps of one body a work group. Chunks are padded with empty ones to the same whole number for every lane.
+void main() {
+    const uint lane = isReversed ? GROUP_SIZE - 1u - gl_LocalInvocationID.x : gl_LocalInvocationID.x;
+    const uint body = itemIndex(push.count) / GROUP_SIZE;
+    firstSlot = bodies[body];
+    lastSlot = firstSlot + push.bodySlots - 1u;
+    for (uint i = lane; i < push.bodySlots; i += GROUP_SIZE)
+        resident[i] = resident[residentSlots + i] = positions[firstSlot + i]; // what nobody marches stays in both
+    barrier();
+    for (uint s = 0u; s < push.substeps; ++s) {
+        const Substep substep = substepOf(s == 0u);
+        for (uint c = lane; c < push.bodyChunks; c += GROUP_SIZE) march(chunks[body * push.bodyChunks + c], substep);
+        barrier();
+        front = residentSlots - front;
+        back = residentSlots - back;
+    }
+    for (uint i = lane; i < push.bodySlots; i += GROUP_SIZE) positions[firstSlot + i] = resident[front + i];
+}
+#else
+void main() {
+    march(chunks[itemIndex(push.count)], substepOf(push.isFirst != 0u)); // padding has no layers
+}
+#endif

@@ -138,6 +138,7 @@ struct LatticePush {
     float restLengths[3];        // [m]
     float units[3];              // stiffness for each 1/15 of a cell's fill [N/m]
     float shares[3];             // k~ likewise
+    uint substeps, bodySlots, bodyChunks; // RESIDENT: all substeps of a step at once; count = bodies x group size
 };
 
 struct IterationPush {

@@ -13,23 +13,37 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "kernel.glsl"
 
+// Stored positions: y, tau [s^2]. RESIDENT: a work group keeps a whole body in shared memory for all substeps.
+#ifdef RESIDENT
+layout(constant_id = 7) const uint residentSlots = 512; // of a body
+shared vec4 resident[2 * residentSlots];
+uint front = 0u, back = residentSlots; // where this substep reads and writes
+uint firstSlot, lastSlot;              // of the body, in the state; beyond lie links that no cell holds
+layout(std430, binding = 0) buffer Positions { vec4 positions[]; };
+#define POSITION(i) resident[front + min(uint(i) - firstSlot, lastSlot - firstSlot)]
+#define STORE_POSITION(i, value) resident[back + (i) - firstSlot] = value
+#define VELOCITY_BINDING 1
+#else
 #ifdef TEXELS
-layout(binding = 0) uniform samplerBuffer positions; // y, tau [s^2]
+layout(binding = 0) uniform samplerBuffer positions;
 #define POSITION(i) texelFetch(positions, int(i))
 #else
 layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
 #define POSITION(i) positions[i]
 #endif
 layout(std430, binding = 1) writeonly buffer NextPositions { vec4 nextPositions[]; };
-layout(std430, binding = 2) buffer Velocities { vec4 velocities[]; }; // v [m/s], w [1/kg]
-layout(std140, binding = 3) uniform Step { StepParams step; };
-#define LINK_BINDING 4
+#define STORE_POSITION(i, value) nextPositions[i] = value
+#define VELOCITY_BINDING 2
+#endif
+layout(std430, binding = VELOCITY_BINDING) buffer Velocities { vec4 velocities[]; }; // v [m/s], w [1/kg]
+layout(std140, binding = VELOCITY_BINDING + 1) uniform Step { StepParams step; };
 #ifdef HAS_PLANES
 #include "planes.glsl"
-layout(std430, binding = 4) readonly buffer Planes { PlaneCollider planes[]; };
-layout(std430, binding = 5) readonly buffer ContactOffsets { float contactOffsets[]; };
-#undef LINK_BINDING
-#define LINK_BINDING 6
+layout(std430, binding = VELOCITY_BINDING + 2) readonly buffer Planes { PlaneCollider planes[]; };
+layout(std430, binding = VELOCITY_BINDING + 3) readonly buffer ContactOffsets { float contactOffsets[]; };
+#define LINK_BINDING (VELOCITY_BINDING + 4)
+#else
+#define LINK_BINDING (VELOCITY_BINDING + 2)
 #endif
 
 // What is the same for all particles of a substep.
@@ -75,5 +89,5 @@ void advance(uint i, vec4 y, vec4 velocity, vec3 impulses, Substep substep) {
     }
 #endif
     velocities[i] = vec4(v, w);
-    nextPositions[i] = vec4(x + step.thetaH * v, y.w);
+    STORE_POSITION(i, vec4(x + step.thetaH * v, y.w));
 }

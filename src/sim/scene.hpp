@@ -114,6 +114,9 @@ struct Forms {
     bool usesGrids = true;     ///< compute the neighbours of bodies on a grid instead of listing them
     std::uint32_t columns = 2; ///< of a lattice, marched by one invocation in x and in y: 1 or 2
     std::uint32_t chunk = 16;  ///< slices marched at most, 1..65535
+    /// Bytes of shared memory in which a work group may keep a small body on a grid through all substeps of a
+    /// step; 0 = none. Used where a scene has nothing else than such bodies.
+    std::uint32_t residentBytes = 0;
 };
 
 /// How to solve a scene; shapes the step program. Ranges are in the table of validate.cpp.

@@ -109,7 +109,8 @@ TEST(Grid, FormsGiveTheSameBits) {
     const Forms forms[] = {{.chunk = 3},
                            {.columns = 1, .chunk = 5},
                            {.usesTexels = false, .chunk = 64},
-                           {.usesTexels = false, .columns = 1, .chunk = 1}};
+                           {.usesTexels = false, .columns = 1, .chunk = 1},
+                           {.residentBytes = 32768}};
     for (auto& [name, scene] : scenes())
         for (const bool isInRoom : {false, true}) {
             if (isInRoom) test::addRoom(scene);

@@ -12,6 +12,15 @@ namespace {
 
 constexpr std::uint32_t sheetColumns = 4; // COLUMNS_X of gather_sheet
 
+// Columns of a block in x and in y.
+std::array<std::uint32_t, 2> blockOf(const Grid& grid, std::uint32_t columns) {
+    return isSheet(grid) ? std::array{sheetColumns, 1u} : std::array{columns, columns};
+}
+
+std::uint32_t slotsOf(const Grid& grid, const Box& box) {
+    return box.sliceStride * grid.nodes[2];
+}
+
 std::vector<Box> boxesOf(const Scene& scene, std::span<const std::uint32_t> grids) {
     std::vector<Box> boxes;
     auto first = static_cast<std::uint32_t>(paddedCount(listedParticles(scene, grids)));
@@ -51,17 +60,48 @@ layout::LatticePush pushOf(const Scene& scene, const Grid& grid, const Box& box,
 
 Batch& batchFor(std::vector<Batch>& batches, const Grid& grid, const layout::LatticePush& push) {
     const bool hasBodyDiagonals = grid.kinds == 3;
-    for (Batch& batch : batches)
+    for (Batch& batch : batches) {
+        layout::LatticePush other = batch.push;
+        other.bodyChunks = push.bodyChunks; // grows with the bodies
         if (batch.isSheet == isSheet(grid) && batch.hasBodyDiagonals == hasBodyDiagonals &&
-            std::memcmp(&batch.push, &push, sizeof push) == 0)
+            std::memcmp(&other, &push, sizeof push) == 0)
             return batch;
-    return batches.emplace_back(Batch{isSheet(grid), hasBodyDiagonals, push, {}});
+    }
+    return batches.emplace_back(Batch{isSheet(grid), hasBodyDiagonals, push, {}, {}});
+}
+
+std::size_t wholeGroups(std::size_t chunks) {
+    return (chunks + LATTICE_GROUP - 1) / LATTICE_GROUP * LATTICE_GROUP;
 }
 
 void finish(Batch& batch) {
     batch.push.count = static_cast<std::uint32_t>(batch.chunks.size());
-    const std::size_t groups = (batch.chunks.size() + LATTICE_GROUP - 1) / LATTICE_GROUP;
-    batch.chunks.resize(groups * LATTICE_GROUP, {batch.chunks.front().origin, 0});
+    batch.chunks.resize(wholeGroups(batch.chunks.size()), {batch.chunks.front().origin, 0});
+}
+
+// Slices a lane marches so that a body's chunks just occupy the lanes of its work group.
+std::uint32_t residentChunk(const Grid& grid) {
+    const auto [columnsX, columnsY] = blockOf(grid, 2);
+    const std::uint32_t blocks =
+        ((grid.nodes[0] + columnsX - 1) / columnsX) * ((grid.nodes[1] + columnsY - 1) / columnsY);
+    const std::uint32_t runs = std::max(LATTICE_GROUP / blocks, 1u);
+    return (grid.nodes[2] + runs - 1) / runs;
+}
+
+// Bodies of one dispatch have equally many chunks: those of the others are padded where they stand.
+void appendBody(Batch& batch, const Box& box, std::vector<layout::LatticeChunk> chunks) {
+    const std::size_t before = batch.push.bodyChunks, now = std::max(before, wholeGroups(chunks.size()));
+    std::vector<layout::LatticeChunk> all;
+    for (std::size_t body = 0; body < batch.bodies.size(); ++body) {
+        const auto first = batch.chunks.begin() + static_cast<std::ptrdiff_t>(body * before);
+        all.insert(all.end(), first, first + static_cast<std::ptrdiff_t>(before));
+        all.resize((body + 1) * now, {batch.bodies[body], 0});
+    }
+    all.insert(all.end(), chunks.begin(), chunks.end());
+    batch.bodies.push_back(box.origin);
+    all.resize(batch.bodies.size() * now, {box.origin, 0});
+    batch.chunks = std::move(all);
+    batch.push.bodyChunks = static_cast<std::uint32_t>(now);
 }
 
 } // namespace
@@ -109,21 +149,45 @@ StateLayout layoutOf(const Scene& scene, std::span<const std::uint32_t> grids) {
     return layout;
 }
 
+bool isResident(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids) {
+    if (grids.empty() || listedParticles(scene, grids) > 0) return false;
+    return std::ranges::all_of(grids, [&](std::uint32_t g) {
+        const Grid& grid = scene.grids[g];
+        return std::uint64_t{slotsOf(grid, place(grid, 0))} * 2 * sizeof(layout::vec4) <=
+               settings.forms.residentBytes;
+    });
+}
+
 Batches batchesOf(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids,
                   std::span<const float> shares) {
     const std::vector<Box> boxes = boxesOf(scene, grids);
+    const bool resident = isResident(scene, settings, grids);
     Batches result;
     result.cells.resize(paddedCount(boxes.back().end), 0);
     for (std::size_t g = 0; g < grids.size(); ++g) {
         const Grid& grid = scene.grids[grids[g]];
-        writeCells(grid, boxes[g], result.cells);
-        const std::uint32_t columns = settings.forms.columns;
-        const auto chunks = chunksOf(grid, boxes[g], isSheet(grid) ? sheetColumns : columns,
-                                     isSheet(grid) ? 1 : columns, settings.forms.chunk);
-        Batch& batch = batchFor(result.batches, grid, pushOf(scene, grid, boxes[g], shares));
-        batch.chunks.insert(batch.chunks.end(), chunks.begin(), chunks.end());
+        const Box& box = boxes[g];
+        writeCells(grid, box, result.cells);
+        layout::LatticePush push = pushOf(scene, grid, box, shares);
+        if (resident) {
+            push.substeps = settings.substeps;
+            push.bodySlots = slotsOf(grid, box);
+        }
+        const auto [columnsX, columnsY] = blockOf(grid, resident ? 2 : settings.forms.columns);
+        const auto chunks =
+            chunksOf(grid, box, columnsX, columnsY, resident ? residentChunk(grid) : settings.forms.chunk);
+        Batch& batch = batchFor(result.batches, grid, push);
+        if (resident)
+            appendBody(batch, box, chunks);
+        else
+            batch.chunks.insert(batch.chunks.end(), chunks.begin(), chunks.end());
     }
-    for (Batch& batch : result.batches) finish(batch);
+    for (Batch& batch : result.batches) {
+        if (resident)
+            batch.push.count = static_cast<std::uint32_t>(batch.bodies.size()) * LATTICE_GROUP;
+        else
+            finish(batch);
+    }
     return result;
 }
 

@@ -16,17 +16,22 @@ std::uint32_t listedParticles(const Scene& scene, std::span<const std::uint32_t>
 
 StateLayout layoutOf(const Scene& scene, std::span<const std::uint32_t> grids);
 
-/// One dispatch of a substep.
+/// One dispatch of a substep, or of all substeps of a step where the bodies are resident.
 struct Batch {
     bool isSheet = false, hasBodyDiagonals = false;
-    layout::LatticePush push{};               ///< count = chunks
-    std::vector<layout::LatticeChunk> chunks; ///< padded to whole work groups with empty ones
+    layout::LatticePush push{}; ///< count = chunks, or lanes of all bodies
+    std::vector<layout::LatticeChunk>
+        chunks;                        ///< padded with empty ones, to whole work groups (for each body)
+    std::vector<std::uint32_t> bodies; ///< resident: first slot of each
 };
 
 struct Batches {
     std::vector<Batch> batches;
     std::vector<std::uint32_t> cells; ///< fill around the node in each slot
 };
+
+/// Whether all of the scene fits into the shared memory that the settings grant, body by body.
+bool isResident(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids);
 
 /// `shares`: k~ of every distance constraint (solvers/shares.hpp).
 Batches batchesOf(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids,

@@ -17,7 +17,8 @@ namespace sinew::sim::solvers::split {
 namespace {
 
 constexpr std::uint32_t degreeId = 1, firstGroupEndId = 3; // constant_id in gather_split.comp
-constexpr std::uint32_t bodyDiagonalsId = 6;               // constant_id in gather_lattice.comp
+constexpr std::uint32_t bodyDiagonalsId = 6,
+                        residentSlotsId = 7; // constant_id in gather_lattice.comp, split.glsl
 
 // A kernel in its forms: positions fetched as texels or loaded, without and with boundary planes.
 struct Kernel {
@@ -36,6 +37,10 @@ constexpr Kernel latticePairs{&k::gatherLattice, &k::gatherLatticePlanes, &k::ga
                               &k::gatherLatticeLoadsPlanes};
 constexpr Kernel latticeSingle{&k::gatherLatticeSingle, &k::gatherLatticeSinglePlanes,
                                &k::gatherLatticeSingleLoads, &k::gatherLatticeSingleLoadsPlanes};
+constexpr Kernel residentLattice{&k::residentLattice, &k::residentLatticePlanes, &k::residentLattice,
+                                 &k::residentLatticePlanes};
+constexpr Kernel residentSheet{&k::residentSheet, &k::residentSheetPlanes, &k::residentSheet,
+                               &k::residentSheetPlanes};
 constexpr Kernel sheet{&k::gatherSheet, &k::gatherSheetPlanes, &k::gatherSheetLoads,
                        &k::gatherSheetLoadsPlanes};
 
@@ -169,11 +174,41 @@ std::vector<float> positionW(const Scene& scene, const Settings& settings) {
     return clampTimes(scene, settings, inverseMass, shareStiffness(scene, settings, inverseMass));
 }
 
+namespace {
+
+// One dispatch a kind of body, for the whole step: positions stay in shared memory (platform: residency).
+bool addResident(const Common& common, const ParticleBuffers& particles) {
+    const std::vector<std::uint32_t> grids = lattice::computedGrids(common.scene, common.settings);
+    if (!lattice::isResident(common.scene, common.settings, grids)) return false;
+    const std::vector<float> shares =
+        shareStiffness(common.scene, common.settings, inverseMasses(common.scene));
+    const lattice::Batches batches = lattice::batchesOf(common.scene, common.settings, grids, shares);
+    const BufferId cells = common.program.upload("grid.cells", batches.cells);
+    for (const lattice::Batch& batch : batches.batches) {
+        Gather gather = common.gather();
+        gather.constants[bodyDiagonalsId] = batch.hasBodyDiagonals;
+        gather.constants[residentSlotsId] = batch.push.bodySlots;
+        std::vector<BufferId> buffers{particles.positions, particles.velocities, particles.step};
+        buffers.insert(buffers.end(), gather.buffers.begin(), gather.buffers.end());
+        buffers.push_back(cells);
+        buffers.push_back(common.program.upload("grid.chunks", batch.chunks));
+        buffers.push_back(common.program.upload("grid.bodies", batch.bodies));
+        common.program.dispatch(common.form(batch.isSheet ? residentSheet : residentLattice),
+                                batch.push.count, buffers, batch.push, gather.constants);
+    }
+    return true;
+}
+
+} // namespace
+
 void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& settings,
                const ParticleBuffers& particles) {
     const StateLayout& layout = particles.layout;
-    const std::vector<Gather> gathers = addGathers(
-        {program, scene, settings, layout, collision::planes::addColliders(program, scene, layout)});
+    const Common common{program, scene, settings, layout,
+                        collision::planes::addColliders(program, scene, layout)};
+    program.program().sweeps = scene.distances.empty() ? 0 : settings.substeps;
+    if (addResident(common, particles)) return;
+    const std::vector<Gather> gathers = addGathers(common);
     BufferId current = particles.positions;
     BufferId next = program.scratch<layout::vec4>("state.next_positions", layout.count);
     for (std::uint32_t substep = 0; substep < settings.substeps; ++substep) {
@@ -187,7 +222,6 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
     }
     program.endSubsteps();
     if (current != particles.positions) program.copy(current, particles.positions);
-    if (!scene.distances.empty()) program.program().sweeps = settings.substeps;
 }
 
 } // namespace sinew::sim::solvers::split
