@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace sinew::scenes {
 
@@ -80,6 +81,48 @@ void addPins(const Section& cloth, sim::ClothSheet& sheet) {
     sheet.pinned.erase(std::unique(sheet.pinned.begin(), sheet.pinned.end()), sheet.pinned.end());
 }
 
+/// A face of a box: the corners whose index along `axis` is the lowest or the highest.
+struct NamedFace {
+    std::string_view name;
+    std::size_t axis;
+    bool isHigh;
+};
+constexpr NamedFace namedFaces[] = {{"low_x", 0, false}, {"high_x", 0, true}, {"low_y", 1, false},
+                                    {"high_y", 1, true}, {"low_z", 2, false}, {"high_z", 2, true}};
+
+std::vector<std::uint32_t> particlesOf(const NamedFace& face, const sim::LatticeCorners& corners) {
+    std::vector<std::uint32_t> particles;
+    const std::uint32_t layer = face.isHigh ? corners.cells[face.axis] : 0;
+    std::array<std::uint32_t, 3> at{};
+    for (at[2] = 0; at[2] <= corners.cells[2]; ++at[2])
+        for (at[1] = 0; at[1] <= corners.cells[1]; ++at[1])
+            for (at[0] = 0; at[0] <= corners.cells[0]; ++at[0])
+                if (at[face.axis] == layer) particles.push_back(corners.at(at[0], at[1], at[2]));
+    return particles;
+}
+
+void clampFaces(sim::Scene& scene, const Section& box, const sim::LatticeCorners& corners) {
+    std::set<std::uint32_t> held; // faces share edges
+    for (const std::string& name : box.names("clamped")) {
+        const auto face = std::ranges::find(namedFaces, name, &NamedFace::name);
+        if (face == std::end(namedFaces))
+            box.fail("clamped", "names \"" + name.substr(0, 64) + "\"",
+                     "possible are low_x, high_x, low_y, high_y, low_z, high_z");
+        for (const std::uint32_t particle : particlesOf(*face, corners)) held.insert(particle);
+    }
+    for (const std::uint32_t particle : held) scene.fixed.push_back({particle});
+}
+
+void addLoad(sim::Scene& scene, double load, const sim::LatticeCorners& corners) {
+    if (load == 0) return;
+    const std::vector<std::uint32_t> top = particlesOf({"high_y", 1, true}, corners);
+    for (const std::uint32_t i : top) {
+        const double mass =
+            1 / double{scene.particles[i].inverseMass} + load / static_cast<double>(top.size());
+        scene.particles[i].inverseMass = static_cast<float>(1 / mass);
+    }
+}
+
 } // namespace
 
 void addCloth(LoadedScene& loaded, const Section& cloth) {
@@ -96,11 +139,32 @@ void addCloth(LoadedScene& loaded, const Section& cloth) {
                           .areaDensity = cloth.number("area_density"),
                           .stretchCompliance = cloth.number("stretch_compliance"),
                           .shearCompliance = cloth.number("shear_compliance"),
+                          .skipStiffness = cloth.number("skip_stiffness"),
                           .pinned = {},
                           .color = cloth.vector("color")};
     checkRoom(loaded, std::uint64_t{sheet.size[0]} * sheet.size[1], cloth, "size");
     addPins(cloth, sheet);
     sim::addCloth(loaded.scene, sheet);
+}
+
+void addChain(LoadedScene& loaded, const Section& section) {
+    requireUnit(section, "direction");
+    sim::Chain chain{.name = section.text("name"),
+                     .origin = section.vector("origin"),
+                     .direction = section.vector("direction"),
+                     .particles = section.count("particles"),
+                     .length = section.number("length"),
+                     .mass = section.number("mass"),
+                     .endMass = section.has("end_mass") ? section.number("end_mass") : 0,
+                     .compliance = section.number("stretch_compliance"),
+                     .pinned = {}};
+    checkRoom(loaded, chain.particles, section, "particles");
+    for (const std::string& end : section.names("pinned")) {
+        if (end != "first" && end != "last")
+            section.fail("pinned", "names \"" + end.substr(0, 64) + "\"", "possible are first, last");
+        chain.pinned.push_back(end == "first" ? 0 : chain.particles - 1);
+    }
+    sim::addChain(loaded.scene, chain);
 }
 
 void addBox(LoadedScene& loaded, const Section& box) {
@@ -122,6 +186,8 @@ void addBox(LoadedScene& loaded, const Section& box) {
         lattice.origin = {low(center.x, 0), low(center.y, 1), low(center.z, 2)};
     }
     const sim::LatticeCorners corners = sim::addLattice(loaded.scene, lattice);
+    clampFaces(loaded.scene, box, corners);
+    addLoad(loaded.scene, double{box.number("load")}, corners);
     sim::addLatticeSkin(loaded.scene, lattice, corners, box.vector("color"));
 }
 

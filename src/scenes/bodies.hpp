@@ -17,6 +17,7 @@ struct Source {
 };
 
 void addCloth(LoadedScene& loaded, const Section& cloth);
+void addChain(LoadedScene& loaded, const Section& chain);
 void addBox(LoadedScene& loaded, const Section& box);
 /// `voxel` overrides the file's voxel size [m].
 void addMesh(LoadedScene& loaded, const Section& mesh, const Source& source, std::optional<float> voxel);

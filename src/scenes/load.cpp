@@ -65,9 +65,11 @@ void apply(const Overrides& overrides, LoadedScene& loaded) {
 
 void readBodies(LoadedScene& loaded, const Section& top, const Source& source, std::optional<float> voxel) {
     for (const Section& cloth : top.list("cloth")) addCloth(loaded, cloth);
+    for (const Section& chain : top.list("chain")) addChain(loaded, chain);
     for (const Section& box : top.list("box")) addBox(loaded, box);
     for (const Section& mesh : top.list("mesh")) addMesh(loaded, mesh, source, voxel);
-    if (loaded.scene.bodies.empty()) fail(source.file, "has no body", "add [[cloth]], [[box]] or [[mesh]]");
+    if (loaded.scene.bodies.empty())
+        fail(source.file, "has no body", "add [[cloth]], [[chain]], [[box]] or [[mesh]]");
     for (const Section& plane : top.list("plane")) addPlane(loaded, plane);
 }
 

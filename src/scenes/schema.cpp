@@ -19,7 +19,8 @@ constexpr Range length{.low = 0, .high = 1e6, .isLowOpen = true};
 constexpr Range density{.low = 0, .high = 1e6, .isLowOpen = true};
 constexpr Range stiffness{.low = 0, .high = 1e15, .isLowOpen = true};
 constexpr Range angle{-360, 360};
-constexpr Range side{2, 4096}, cellsAlong{1, 512}, detail{8, 256};
+constexpr Range side{2, 4096}, chainLength{2, 100'000}, cellsAlong{1, 512}, detail{8, 256};
+constexpr Range mass{.low = 0, .high = 1e9, .isLowOpen = true}, load{0, 1e9};
 constexpr Range view{.low = 0, .high = 180, .isLowOpen = true, .isHighOpen = true};
 
 constexpr KindRule kindRules[] = {
@@ -30,6 +31,7 @@ constexpr KindRule kindRules[] = {
     {Kind::counts2, "two whole numbers", 2, true},
     {Kind::counts3, "three whole numbers", 3, true},
     {Kind::pins, "a list of corner or edge names and [column, row] pairs", 0, false},
+    {Kind::names, "a list of names in quotes", 0, false},
     {Kind::table, "a table", 0, false},
     {Kind::tables, "a list of tables", 0, false},
 };
@@ -43,6 +45,7 @@ constexpr Key keys[] = {
     {"", "damping", Kind::number, "1/s", ranges::damping, "0", "rate c at which velocities decay, exp(-c t)"},
     {"", "solver", Kind::table, "", {}, "", "how to solve"},
     {"", "cloth", Kind::tables, "", {}, "", "rectangular sheets"},
+    {"", "chain", Kind::tables, "", {}, "", "masses in a line"},
     {"", "box", Kind::tables, "", {}, "", "cuboids of voxels"},
     {"", "mesh", Kind::tables, "", {}, "", "triangle meshes filled with voxels"},
     {"", "plane", Kind::tables, "", {}, "", "half spaces that particles stay in"},
@@ -65,8 +68,19 @@ constexpr Key keys[] = {
     {"cloth", "area_density", Kind::number, "kg/m^2", density, "0.2", "mass per area"},
     {"cloth", "stretch_compliance", Kind::number, "m/N", ranges::compliance, "0", "of the links along rows and columns; 0 = as stiff as the solver can"},
     {"cloth", "shear_compliance", Kind::number, "m/N", ranges::compliance, "0", "of the diagonal links"},
+    {"cloth", "skip_stiffness", Kind::number, "N/m", ranges::skipStiffness, "0", "of links to the next but one in a row or column, which resist folding; 0 = none"},
     {"cloth", "pinned", Kind::pins, "", {}, "[]", "particles held where they are"},
     {"cloth", "color", Kind::vector, "", ranges::color, "[0.16, 0.34, 0.58]", "linear red, green and blue"},
+
+    {"chain", "name", Kind::text, "", {}, "\"chain\"", "name of the body in reports and files"},
+    {"chain", "origin", Kind::vector, "m", coordinate, "[0, 0, 0]", "position of the first particle"},
+    {"chain", "direction", Kind::vector, "", direction, "[0, -1, 0]", "unit direction from the first particle to the last"},
+    {"chain", "particles", Kind::count, "particles", chainLength, "100", "how many"},
+    {"chain", "length", Kind::number, "m", length, "", "from the first particle to the last", true},
+    {"chain", "mass", Kind::number, "kg", mass, "0.1", "of all particles, were the last like the others"},
+    {"chain", "end_mass", Kind::number, "kg", mass, "", "of the last particle; like the others where it is missing"},
+    {"chain", "stretch_compliance", Kind::number, "m/N", ranges::compliance, "0", "of a link; 0 = as stiff as the solver can"},
+    {"chain", "pinned", Kind::names, "", {}, "[\"first\"]", "ends held where they are: \"first\", \"last\""},
 
     {"box", "name", Kind::text, "", {}, "\"box\"", "name of the body in reports and files"},
     {"box", "center", Kind::vector, "m", coordinate, "", "middle of the box; give this or origin"},
@@ -75,6 +89,8 @@ constexpr Key keys[] = {
     {"box", "spacing", Kind::number, "m", length, "", "distance of neighbours along an axis", true},
     {"box", "young_modulus", Kind::number, "Pa", stiffness, "1e5", "stiffness of the material; Poisson's ratio is 1/4"},
     {"box", "density", Kind::number, "kg/m^3", density, "1000", "mass per volume"},
+    {"box", "clamped", Kind::names, "", {}, "[]", "faces whose particles are held where they are"},
+    {"box", "load", Kind::number, "kg", load, "0", "mass laid on the upper face, evenly over its particles"},
     {"box", "color", Kind::vector, "", ranges::color, "[0.78, 0.36, 0.32]", "linear red, green and blue"},
 
     {"mesh", "name", Kind::text, "", {}, "", "name of the body in reports and files; that of the mesh file or shape where it is missing"},

@@ -19,6 +19,7 @@ enum class Kind : std::uint8_t {
     counts2,
     counts3,
     pins,   ///< a list of corner and edge names and [column, row] pairs
+    names,  ///< a list of texts
     table,  ///< [key]
     tables, ///< [[key]], any number of them
 };

@@ -52,6 +52,11 @@ bool isPinList(const toml::node& node) {
     return true;
 }
 
+bool isNameList(const toml::node& node) {
+    const toml::array* list = node.as_array();
+    return list && (list->empty() || list->is_homogeneous(toml::node_type::string));
+}
+
 bool isTables(const toml::node& node) {
     return node.is_array_of_tables();
 }
@@ -88,6 +93,7 @@ void Section::check(const toml::key& name, const toml::node& node) const {
                      "did you mean " + std::string(nearestKey(section_, name.str()).name) + "?");
     const bool isRight = key->kind == Kind::text     ? node.is_string()
                          : key->kind == Kind::pins   ? isPinList(node)
+                         : key->kind == Kind::names  ? isNameList(node)
                          : key->kind == Kind::table  ? node.is_table()
                          : key->kind == Kind::tables ? isTables(node)
                                                      : true;
@@ -175,6 +181,14 @@ std::vector<Section::Pin> Section::pins(std::string_view name) const {
         else
             result.push_back({element.value_or(std::string()), {}});
     }
+    return result;
+}
+
+std::vector<std::string> Section::names(std::string_view name) const {
+    std::vector<std::string> result;
+    const toml::array* list = node(name).as_array();
+    for (std::size_t i = 0; list && i < list->size(); ++i)
+        result.push_back(list->get(i)->value_or(std::string()));
     return result;
 }
 

@@ -36,6 +36,9 @@ public:
     };
     std::vector<Pin> pins(std::string_view name) const;
 
+    /// A list of texts.
+    std::vector<std::string> names(std::string_view name) const;
+
     /// The tables [[name]] in order.
     std::vector<Section> list(std::string_view name) const;
     /// The table [name]; empty where the file has none, so that its defaults apply.

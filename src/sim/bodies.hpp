@@ -1,4 +1,4 @@
-// Bodies as particles and distance constraints: cloth sheets and voxel lattices, appended to a Scene.
+// Bodies as particles and distance constraints: cloth sheets, chains and voxel lattices, appended to a Scene.
 #pragma once
 
 #include "sim/scene.hpp"
@@ -16,13 +16,31 @@ struct ClothSheet {
     float areaDensity = 0.2f;                  ///< [kg/m^2]
     float stretchCompliance = 0;               ///< of an edge [m/N]
     float shearCompliance = 0;                 ///< of a diagonal [m/N]
-    std::vector<std::uint32_t> pinned;         ///< particles (row-major within the sheet) held where they are
+    float skipStiffness = 0; ///< of links two apart in a row or column, which resist folding [N/m]; 0 = none
+    std::vector<std::uint32_t> pinned; ///< particles (row-major within the sheet) held where they are
     Vec3 color{0.16f, 0.34f, 0.58f};
 };
 
 /// Appends particles, constraints, a body, a grid and a two-sided skin. Returns the index of the first
 /// particle.
 std::uint32_t addCloth(Scene& scene, const ClothSheet& sheet);
+
+/// Equal masses in a straight line, each linked to the next.
+struct Chain {
+    std::string name = "chain";
+    Vec3 origin;                       ///< position of the first particle [m]
+    Vec3 direction{0, -1, 0};          ///< unit direction from the first to the last
+    std::uint32_t particles = 100;     ///< >= 2
+    float length = 1;                  ///< from the first to the last [m]
+    float mass = 0.1f;                 ///< of all particles, were the last like the others [kg]
+    float endMass = 0;                 ///< of the last particle [kg]; 0 = like the others
+    float compliance = 0;              ///< of a link [m/N]
+    std::vector<std::uint32_t> pinned; ///< particles (counted from the first) held where they are
+};
+
+/// Appends particles, constraints and a body, and no skin: a line has no surface. Returns the index of the
+/// first particle.
+std::uint32_t addChain(Scene& scene, const Chain& chain);
 
 /// A voxel body: cubic cells of a regular grid, particles on their corners. Each filled cell assembles a
 /// share of the stiffness of its 12 edges and 12 face diagonals and an eighth of its mass to each corner

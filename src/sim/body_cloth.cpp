@@ -1,6 +1,6 @@
 // Cloth sheets: a grid of particles, an edge link to each neighbour in the row and in the column, two
-// diagonal links per cell. Mass is assembled per cell, a quarter to each corner, so that the sheet weighs
-// areaDensity x area exactly.
+// diagonal links per cell, on request a link to the next but one. Mass is assembled per cell, a quarter to
+// each corner, so that the sheet weighs areaDensity x area exactly.
 #include "sim/bodies.hpp"
 
 #include <cmath>
@@ -15,6 +15,8 @@ void check(const ClothSheet& sheet) {
         throw std::invalid_argument("cloth \"" + sheet.name + "\": size must be at least 2 x 2 particles");
     if (!(sheet.spacing > 0) || !(sheet.areaDensity > 0))
         throw std::invalid_argument("cloth \"" + sheet.name + "\": spacing and areaDensity must be positive");
+    if (!(sheet.skipStiffness >= 0))
+        throw std::invalid_argument("cloth \"" + sheet.name + "\": skipStiffness must not be negative");
     const std::uint64_t count = std::uint64_t{sheet.size[0]} * sheet.size[1];
     if (count > std::numeric_limits<std::uint32_t>::max() / 8)
         throw std::length_error("cloth \"" + sheet.name + "\": too many particles");
@@ -82,6 +84,21 @@ void addGrid(Scene& scene, const ClothSheet& sheet, std::uint32_t first, std::si
     scene.grids.push_back(std::move(grid));
 }
 
+/// After the others: the sheet without them keeps its order.
+void addSkipLinks(Scene& scene, const ClothSheet& sheet, std::uint32_t first) {
+    if (sheet.skipStiffness == 0) return;
+    const float compliance = 1 / sheet.skipStiffness;
+    const auto [columns, rows] = sheet.size;
+    for (std::uint32_t row = 0; row < rows; ++row)
+        for (std::uint32_t column = 0; column < columns; ++column) {
+            const std::uint32_t here = first + column + columns * row;
+            if (column + 2 < columns)
+                scene.distances.push_back({here, here + 2, 2 * sheet.spacing, compliance});
+            if (row + 2 < rows)
+                scene.distances.push_back({here, here + 2 * columns, 2 * sheet.spacing, compliance});
+        }
+}
+
 /// Every particle carries two skin vertices, one a side, so that each side has normals of its own.
 Skin makeSkin(const ClothSheet& sheet, std::uint32_t first) {
     Skin skin{.name = sheet.name, .color = sheet.color};
@@ -109,6 +126,7 @@ std::uint32_t addCloth(Scene& scene, const ClothSheet& sheet) {
     const std::size_t firstDistance = scene.distances.size();
     addLinks(scene, sheet, first);
     addGrid(scene, sheet, first, firstDistance);
+    addSkipLinks(scene, sheet, first);
     for (const std::uint32_t pinned : sheet.pinned) scene.fixed.push_back({first + pinned});
     scene.bodies.push_back({sheet.name, first, sheet.size[0] * sheet.size[1], 0});
     scene.skins.push_back(makeSkin(sheet, first));

@@ -34,6 +34,7 @@ inline constexpr Range damping{0, largest};                                   //
 inline constexpr Range inverseMass{0, largest};                               // [1/kg]
 inline constexpr Range restLength{0, largest};                                // [m]
 inline constexpr Range compliance{0, largest};                                // [m/N]
+inline constexpr Range skipStiffness{0, largest};                             // [N/m]
 inline constexpr Range friction{0, largest};
 inline constexpr Range restitution{0, 1};
 inline constexpr Range normalLength{1 - 1e-3, 1 + 1e-3};

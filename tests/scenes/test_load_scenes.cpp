@@ -26,6 +26,28 @@ TEST_F(Load, ReadsEveryShippedScene) {
     }
 }
 
+TEST_F(Load, ReadsTheScenesOfTheStudy) {
+    struct Expected {
+        const char* name;
+        std::size_t particles, links, held;
+    };
+    for (const auto& [name, particles, links, held] :
+         {Expected{"beam", 864, 6228, 36}, Expected{"beam_stiff", 864, 6228, 36},
+          Expected{"cloth_study", 1089, 6206, 2}, Expected{"chain", 100, 99, 1},
+          Expected{"cube_load", 1000, 2700 + 2 * 3 * 10 * 81, 100}}) {
+        const scenes::LoadedScene file =
+            scenes::load(fs::path(SINEW_SOURCE_FOLDER "/scenes") / (std::string(name) + ".toml"));
+        EXPECT_EQ(file.scene.name, name);
+        EXPECT_EQ(file.scene.particles.size(), particles) << name;
+        EXPECT_EQ(file.scene.distances.size(), links) << name;
+        EXPECT_EQ(file.scene.fixed.size(), held) << name;
+        EXPECT_TRUE(file.warnings.empty()) << name << ": " << file.warnings.front();
+        EXPECT_TRUE(file.scene.planes.empty());
+        EXPECT_EQ(file.scene.damping, 0);
+        EXPECT_EQ(scenes::loadBuiltIn(name).scene.distances.size(), links) << name;
+    }
+}
+
 TEST_F(Load, FindsTheSameSceneInsideTheProgram) {
     const scenes::LoadedScene built = scenes::loadBuiltIn("cube");
     const scenes::LoadedScene file = scenes::load(SINEW_SOURCE_FOLDER "/scenes/cube.toml");
@@ -35,15 +57,15 @@ TEST_F(Load, FindsTheSameSceneInsideTheProgram) {
 }
 
 TEST_F(Load, TakesEveryNumberOfAClothFromTheFile) {
-    const scenes::LoadedScene loaded =
-        load("name = \"n\"\ngravity = [1, 2, 3]\ndt = 0.01\ndamping = 0.5\n"
-             "[solver]\nname = \"jacobi\"\nsubsteps = 7\niterations = 3\nomega = 1.5\n"
-             "theta = 0.25\nweight = 0.5\nover_relaxation = 1.25\n" +
-             smallCloth +
-             "name = \"sheet\"\norigin = [1, 2, 3]\narea_density = 0.4\n"
-             "stretch_compliance = 1e-3\nshear_compliance = 2e-3\ncolor = [0.1, 0.2, 0.3]\n"
-             "[[plane]]\nnormal = [0, 0, 1]\noffset = -2\nfriction = 0.25\nrestitution = 0.75\n"
-             "[camera]\neye = [9, 8, 7]\ntarget = [6, 5, 4]\nfield_of_view = 55\n");
+    const scenes::LoadedScene loaded = load(
+        "name = \"n\"\ngravity = [1, 2, 3]\ndt = 0.01\ndamping = 0.5\n"
+        "[solver]\nname = \"jacobi\"\nsubsteps = 7\niterations = 3\nomega = 1.5\n"
+        "theta = 0.25\nweight = 0.5\nover_relaxation = 1.25\n" +
+        smallCloth +
+        "name = \"sheet\"\norigin = [1, 2, 3]\narea_density = 0.4\n"
+        "stretch_compliance = 1e-3\nshear_compliance = 2e-3\nskip_stiffness = 50\ncolor = [0.1, 0.2, 0.3]\n"
+        "[[plane]]\nnormal = [0, 0, 1]\noffset = -2\nfriction = 0.25\nrestitution = 0.75\n"
+        "[camera]\neye = [9, 8, 7]\ntarget = [6, 5, 4]\nfield_of_view = 55\n");
     const sim::Scene& scene = loaded.scene;
     EXPECT_EQ(scene.name, "n");
     EXPECT_EQ(scene.gravity.z, 3);
@@ -61,6 +83,7 @@ TEST_F(Load, TakesEveryNumberOfAClothFromTheFile) {
     EXPECT_FLOAT_EQ(scene.particles[0].inverseMass, 1 / (0.4f * 0.1f * 0.1f / 4));
     EXPECT_EQ(scene.bodies[0].name, "sheet");
     EXPECT_EQ(scene.distances[0].compliance, 1e-3f);
+    EXPECT_EQ(scene.distances.back().compliance, 1 / 50.0f);
     EXPECT_EQ(scene.skins[0].color.z, 0.3f);
     ASSERT_EQ(scene.planes.size(), 1u);
     EXPECT_EQ(scene.planes[0].normal.z, 1);
@@ -125,6 +148,58 @@ TEST_F(Load, PlacesABoxByCenterOrOrigin) {
                 "scene.toml:5: box[0].origin is given beside center");
 }
 
+TEST_F(Load, ClampsFacesOfABoxAndLaysALoadOnTop) {
+    const std::string box = "[[box]]\nparticles = [2, 3, 4]\nspacing = 0.5\norigin = [0, 0, 0]\n";
+    const auto held = [&](const std::string& faces) {
+        return load(box + "clamped = " + faces + "\n").scene.fixed.size();
+    };
+    EXPECT_EQ(held("[]"), 0u);
+    EXPECT_EQ(held("[\"low_x\"]"), 12u);
+    EXPECT_EQ(held("[\"low_y\"]"), 8u);
+    EXPECT_EQ(held("[\"high_z\"]"), 6u);
+    EXPECT_EQ(held("[\"low_y\", \"high_y\", \"low_y\"]"), 16u);
+    EXPECT_EQ(held("[\"low_x\", \"low_y\"]"), 12u + 8 - 4) << "faces share an edge";
+    const sim::Scene plain = load(box).scene, loaded = load(box + "load = 4\n").scene;
+    for (std::size_t i = 0; i < plain.particles.size(); ++i) {
+        const double extra = plain.particles[i].position.y > 0.9f ? 4.0 / 8 : 0;
+        EXPECT_NEAR(1 / double{loaded.particles[i].inverseMass},
+                    1 / double{plain.particles[i].inverseMass} + extra, 1e-4);
+    }
+    expectError(box + "clamped = [\"top\"]\n",
+                "scene.toml:5: box[0].clamped names \"top\": possible are low_x, high_x, low_y");
+    expectError(box + "clamped = [1]\n",
+                "scene.toml:5: box[0].clamped is a list of 1: write a list of names in quotes");
+    expectError(box + "clamped = \"low_x\"\n", "scene.toml:5: box[0].clamped is text \"low_x\"");
+    expectError(box + "load = -1\n", "scene.toml:5: box[0].load is -1 kg: must be from 0");
+}
+
+TEST_F(Load, TakesEveryNumberOfAChainFromTheFile) {
+    const std::string chain = "[[chain]]\nlength = 2\n";
+    const sim::Scene scene = load(chain + "name = \"c\"\norigin = [1, 2, 3]\ndirection = [0, 0, -1]\n"
+                                          "particles = 5\nmass = 0.5\nend_mass = 3\n"
+                                          "stretch_compliance = 1e-4\npinned = [\"last\", \"first\"]\n")
+                                 .scene;
+    ASSERT_EQ(scene.particles.size(), 5u);
+    EXPECT_EQ(scene.bodies[0].name, "c");
+    EXPECT_EQ(scene.particles[0].position.x, 1);
+    EXPECT_EQ(scene.particles[4].position.z, 1);
+    EXPECT_FLOAT_EQ(scene.particles[0].inverseMass, 10);
+    EXPECT_FLOAT_EQ(scene.particles[4].inverseMass, 1 / 3.0f);
+    EXPECT_EQ(scene.distances[0].compliance, 1e-4f);
+    EXPECT_EQ(scene.distances[0].restLength, 0.5f);
+    ASSERT_EQ(scene.fixed.size(), 2u);
+    EXPECT_EQ(scene.fixed[0].particle, 4u);
+    EXPECT_EQ(load(chain).scene.fixed.size(), 1u) << "held at its first particle unless told otherwise";
+    EXPECT_TRUE(load(chain + "pinned = []\n").scene.fixed.empty());
+    expectError("[[chain]]\n", "scene.toml:1: chain[0].length is missing");
+    expectError(chain + "particles = 1\n", "scene.toml:3: chain[0].particles is 1");
+    expectError(chain + "end_mass = 0\n", "scene.toml:3: chain[0].end_mass is 0 kg: must be above 0");
+    expectError(chain + "direction = [2, 0, 0]\n", "scene.toml:3: chain[0].direction is 2");
+    expectError(chain + "direction = [0.5, 0, 0]\n", "scene.toml:3: chain[0].direction has length 0.5");
+    expectError(chain + "pinned = [\"middle\"]\n",
+                "scene.toml:3: chain[0].pinned names \"middle\": possible are first, last");
+}
+
 TEST_F(Load, RefusesPlanesWithoutUnitNormal) {
     expectError(smallCloth + "[[plane]]\nnormal = [0, 1, 1]\n",
                 "scene.toml:5: plane[0].normal has length 1.414");
@@ -140,7 +215,7 @@ TEST_F(Load, RefusesWhatTheSimulationCannotTake) {
     expectError(smallCloth + planes, "scene.toml: planes: are 33, at most 32 are possible");
     expectError("[solver]\nname = \"magic\"\n" + smallCloth,
                 "scene.toml: no solver is called \"magic\": possible are jacobi, split");
-    expectError("", "scene.toml: has no body: add [[cloth]], [[box]] or [[mesh]]");
+    expectError("", "scene.toml: has no body: add [[cloth]], [[chain]], [[box]] or [[mesh]]");
     expectError("[[box]]\nparticles = [4096, 4096, 4096]\nspacing = 1\ncenter = [0, 0, 0]\n",
                 "scene.toml:2: box[0].particles brings the scene to 68719476736 particles: at most 2000000");
 }

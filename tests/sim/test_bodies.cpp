@@ -1,5 +1,5 @@
-// Cloth and lattice bodies: mass, topology and the elastic constants that per-cell assembly promises (cases
-// 11 and 23).
+// Cloth, chain and lattice bodies: mass, topology and the elastic constants that per-cell assembly promises
+// (cases 11 and 23).
 #include "sim/bodies.hpp"
 
 #include <Eigen/Geometry>
@@ -125,6 +125,22 @@ TEST(Cloth, LinksEveryNeighbourAndBothDiagonalsOfACellOnce) {
     }
 }
 
+TEST(Cloth, LinksTheNextButOneWhereItResistsFolding) {
+    Scene plain, stiff;
+    addCloth(plain, {.size = {5, 4}, .spacing = 0.5f});
+    addCloth(stiff, {.size = {5, 4}, .spacing = 0.5f, .skipStiffness = 10});
+    ASSERT_EQ(stiff.distances.size(), plain.distances.size() + 3 * 4 + 5 * 2);
+    for (std::size_t i = plain.distances.size(); i < stiff.distances.size(); ++i) {
+        const DistanceConstraint& link = stiff.distances[i];
+        const Eigen::Vector3d between =
+            toEigen(stiff.particles[link.b].position) - toEigen(stiff.particles[link.a].position);
+        EXPECT_NEAR(between.norm(), 1, 1e-6);
+        EXPECT_NEAR(between.lpNorm<1>(), 1, 1e-6) << "along a row or a column";
+        EXPECT_EQ(link.restLength, 1);
+        EXPECT_FLOAT_EQ(link.compliance, 0.1f);
+    }
+}
+
 TEST(Cloth, LiesInThePlaneOfItsDirectionsAndPinsWhatIsAsked) {
     Scene scene;
     scene.particles.resize(7);
@@ -166,6 +182,53 @@ TEST(Cloth, RefusesWhatIsNoSheet) {
     EXPECT_THROW(addCloth(scene, {.size = {1, 5}}), std::invalid_argument);
     EXPECT_THROW(addCloth(scene, {.spacing = 0}), std::invalid_argument);
     EXPECT_THROW(addCloth(scene, {.size = {2, 2}, .pinned = {4}}), std::invalid_argument);
+    EXPECT_THROW(addCloth(scene, {.size = {2, 2}, .skipStiffness = -1}), std::invalid_argument);
+    EXPECT_TRUE(scene.particles.empty());
+}
+
+TEST(Chain, LinksEachMassToTheNextInALine) {
+    Scene scene;
+    scene.particles.resize(3);
+    EXPECT_EQ(addChain(scene, {.origin = {1, 2, 3},
+                               .direction = {0, 0, 1},
+                               .particles = 5,
+                               .length = 2,
+                               .compliance = 1e-5f,
+                               .pinned = {0, 4}}),
+              3u);
+    ASSERT_EQ(scene.particles.size(), 8u);
+    EXPECT_EQ(scene.particles[3].position.z, 3);
+    EXPECT_EQ(scene.particles[7].position.z, 5);
+    EXPECT_EQ(scene.particles[7].position.y, 2);
+    ASSERT_EQ(scene.distances.size(), 4u);
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(scene.distances[i].a, 3 + i);
+        EXPECT_EQ(scene.distances[i].b, 4 + i);
+        EXPECT_EQ(scene.distances[i].restLength, 0.5f);
+        EXPECT_EQ(scene.distances[i].compliance, 1e-5f);
+    }
+    ASSERT_EQ(scene.fixed.size(), 2u);
+    EXPECT_EQ(scene.fixed[1].particle, 7u);
+    EXPECT_EQ(scene.bodies.at(0).particleCount, 5u);
+}
+
+TEST(Chain, GivesItsLastMassAWeightOfItsOwn) {
+    Scene even, loaded;
+    addChain(even, {.particles = 10, .mass = 0.1f});
+    addChain(loaded, {.particles = 10, .mass = 0.1f, .endMass = 10});
+    EXPECT_NEAR(massOf(even), 0.1, 1e-7);
+    EXPECT_NEAR(massOf(loaded), 0.09 + 10, 1e-5);
+    EXPECT_FLOAT_EQ(loaded.particles[9].inverseMass, 0.1f);
+}
+
+TEST(Chain, RefusesWhatIsNoChain) {
+    Scene scene;
+    EXPECT_THROW(addChain(scene, {.particles = 1}), std::invalid_argument);
+    EXPECT_THROW(addChain(scene, {.length = 0}), std::invalid_argument);
+    EXPECT_THROW(addChain(scene, {.mass = 0}), std::invalid_argument);
+    EXPECT_THROW(addChain(scene, {.endMass = -1}), std::invalid_argument);
+    EXPECT_THROW(addChain(scene, {.compliance = -1}), std::invalid_argument);
+    EXPECT_THROW(addChain(scene, {.particles = 3, .pinned = {3}}), std::invalid_argument);
     EXPECT_TRUE(scene.particles.empty());
 }
 
