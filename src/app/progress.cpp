@@ -22,8 +22,8 @@ std::string format(const char* pattern, double value) {
 
 } // namespace
 
-std::string progressLine(std::uint64_t done, std::uint64_t total, double seconds) {
-    std::string line = std::to_string(done) + " of " + std::to_string(total) + " steps";
+std::string progressLine(std::uint64_t done, std::uint64_t total, double seconds, const char* unit) {
+    std::string line = std::to_string(done) + " of " + std::to_string(total) + " " + unit;
     if (done == 0 || !(seconds > 0)) return line;
     const double rate = static_cast<double>(done) / seconds;
     line += ", " + format(rate < 10 ? "%.2f/s" : "%.0f/s", rate);
@@ -31,18 +31,18 @@ std::string progressLine(std::uint64_t done, std::uint64_t total, double seconds
     return line + ", " + format("%.1f s left", static_cast<double>(total - done) / rate);
 }
 
-std::string progressBar(std::uint64_t done, std::uint64_t total, double seconds) {
+std::string progressBar(std::uint64_t done, std::uint64_t total, double seconds, const char* unit) {
     const double share =
         total == 0 ? 1 : std::min(1.0, static_cast<double>(done) / static_cast<double>(total));
     const auto filled = static_cast<std::size_t>(share * barWidth);
     std::string bar(barWidth, '.');
     std::fill_n(bar.begin(), filled, '#');
-    return "[" + bar + "] " + format("%3.0f %%  ", 100 * share) + progressLine(done, total, seconds);
+    return "[" + bar + "] " + format("%3.0f %%  ", 100 * share) + progressLine(done, total, seconds, unit);
 }
 
-Progress::Progress(std::uint64_t total, std::FILE* stream)
-    : total_(total), stream_(stream), isTerminal_(isatty(fileno(stream)) == 1), start_(Clock::now()),
-      last_(start_) {}
+Progress::Progress(std::uint64_t total, std::FILE* stream, const char* unit)
+    : total_(total), stream_(stream), unit_(unit), isTerminal_(isatty(fileno(stream)) == 1),
+      start_(Clock::now()), last_(start_) {}
 
 Progress::~Progress() {
     if (isTerminal_ && !isFinished_ && done_ > 0) std::fputc('\n', stream_);
@@ -65,8 +65,8 @@ void Progress::finish() {
 
 void Progress::write() {
     const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
-    std::string text =
-        isTerminal_ ? progressBar(done_, total_, seconds) : progressLine(done_, total_, seconds);
+    std::string text = isTerminal_ ? progressBar(done_, total_, seconds, unit_)
+                                   : progressLine(done_, total_, seconds, unit_);
     // \033[K clears what a longer line left behind.
     text = isTerminal_ ? "\r" + text + "\033[K" : text + "\n";
     std::fputs(text.c_str(), stream_);

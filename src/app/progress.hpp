@@ -10,15 +10,16 @@
 namespace sinew::app {
 
 /// "[#####...............]  25 %  60 of 240 steps, 312/s, 0.6 s left", fit for a terminal's line.
-std::string progressBar(std::uint64_t done, std::uint64_t total, double seconds);
+std::string progressBar(std::uint64_t done, std::uint64_t total, double seconds, const char* unit = "steps");
 /// "60 of 240 steps, 312/s, 0.6 s left".
-std::string progressLine(std::uint64_t done, std::uint64_t total, double seconds);
+std::string progressLine(std::uint64_t done, std::uint64_t total, double seconds, const char* unit = "steps");
 
 /// Writes to `stream`, which it does not own. On a terminal the bar is drawn over itself ten times a second;
 /// otherwise a line is written every five seconds and at the end.
 class Progress {
 public:
-    Progress(std::uint64_t total, std::FILE* stream);
+    /// `unit` is what is counted, in the plural; not owned.
+    Progress(std::uint64_t total, std::FILE* stream, const char* unit = "steps");
     ~Progress(); ///< leaves the terminal's cursor on a line of its own
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -32,6 +33,7 @@ private:
 
     std::uint64_t total_, done_ = 0;
     std::FILE* stream_;
+    const char* unit_;
     bool isTerminal_, isFinished_ = false;
     Clock::time_point start_, last_;
 };

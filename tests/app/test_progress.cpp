@@ -25,6 +25,7 @@ TEST(ProgressLine, SaysRateAndRemainingTime) {
     EXPECT_EQ(app::progressLine(60, 240, 0.5), "60 of 240 steps, 120/s, 1.5 s left");
     EXPECT_EQ(app::progressLine(1, 10, 2), "1 of 10 steps, 0.50/s, 18.0 s left");
     EXPECT_EQ(app::progressLine(240, 240, 2), "240 of 240 steps, 120/s, 2.0 s");
+    EXPECT_EQ(app::progressLine(60, 240, 0.5, "sweeps"), "60 of 240 sweeps, 120/s, 1.5 s left");
 }
 
 TEST(ProgressBar, FillsFromEmptyToFull) {

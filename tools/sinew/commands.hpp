@@ -17,5 +17,6 @@ void addDescribe(CLI::App& app, Chosen& chosen);
 void addMesh(CLI::App& app, Chosen& chosen);
 void addDevices(CLI::App& app, Chosen& chosen);
 void addBench(CLI::App& app, Chosen& chosen);
+void addStudy(CLI::App& app, Chosen& chosen);
 
 } // namespace sinew::tools

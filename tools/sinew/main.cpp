@@ -29,8 +29,8 @@ int parseAndRun(int argc, char** argv) {
     app.set_version_flag("--version", "sinew " SINEW_VERSION);
     app.require_subcommand(1);
     tools::Chosen chosen;
-    for (const auto add :
-         {tools::addRun, tools::addDescribe, tools::addMesh, tools::addDevices, tools::addBench})
+    for (const auto add : {tools::addRun, tools::addDescribe, tools::addMesh, tools::addDevices,
+                           tools::addBench, tools::addStudy})
         add(app, chosen);
     try {
         app.parse(argc, argv);

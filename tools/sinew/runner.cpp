@@ -7,6 +7,7 @@
 #include "sinew/skin_mesh.hpp"
 
 #include <chrono>
+#include <numeric>
 
 namespace sinew::tools {
 
@@ -37,10 +38,18 @@ Runner::Runner(Session& session, const sim::Scene& scene, const sim::Settings& s
     submitReset();
     submitStep(0);
     session_.queue.waitIdle();
+    restart();
+}
+
+void Runner::restart() {
     submitReset();
     session_.queue.waitIdle();
+    done_ = timed_ = recorded_ = 0;
     recordSum_ = 0;
-    recorded_ = 0;
+    divergence_.reset();
+    frameMs_.clear();
+    deviceMs_.clear();
+    std::ranges::fill(phaseSums_, 0.0);
 }
 
 void Runner::submitReset() {
@@ -73,10 +82,15 @@ void Runner::finishStep(std::uint64_t frame) {
                        bodyOf(scene_, status.firstBadParticle)};
         return;
     }
-    if (frameMs_.size() < mostFrameTimes) frameMs_.emplace_back();
+    const std::vector<double> phases = timestamps_[slot].milliseconds();
+    if (frameMs_.size() < mostFrameTimes) {
+        frameMs_.emplace_back();
+        if (!phases.empty()) deviceMs_.emplace_back();
+    }
     frameMs_[done_ % mostFrameTimes] = end - lastEnd_;
     lastEnd_ = end;
-    const std::vector<double> phases = timestamps_[slot].milliseconds();
+    if (!phases.empty())
+        deviceMs_[done_ % mostFrameTimes] = std::accumulate(phases.begin(), phases.end(), 0.0);
     for (std::size_t i = 0; i < phases.size(); ++i) phaseSums_[i] += phases[i];
     timed_ += phases.empty() ? 0 : 1;
     ++done_;

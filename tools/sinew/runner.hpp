@@ -27,6 +27,9 @@ public:
     void advance(std::uint64_t count, std::uint32_t inFlight,
                  const std::function<void(std::uint64_t)>& onStep = {});
 
+    /// Back to the scene's state and to no steps and no times.
+    void restart();
+
     std::uint64_t steps() const { return done_; } ///< with a finite state
     const std::optional<Divergence>& divergence() const { return divergence_; }
     const sim::Simulation& simulation() const { return simulation_; }
@@ -34,6 +37,8 @@ public:
     /// Wall-clock time [ms] from the end of one step to the end of the next, of the newest 65,536 steps at
     /// most: an endless run must not grow. In no order.
     const std::vector<double>& frameMs() const { return frameMs_; }
+    /// Device time of a step [ms], its phases summed, of the same steps; empty without timestamps.
+    const std::vector<double>& deviceMs() const { return deviceMs_; }
     /// Mean device time of a step [ms], one value per entry of simulation().phases(); empty without
     /// timestamps.
     std::vector<double> phaseMs() const;
@@ -55,7 +60,7 @@ private:
     std::array<std::uint64_t, sim::Simulation::framesInFlight> submitted_{}; // timeline values
     std::uint64_t done_ = 0;
     std::optional<Divergence> divergence_;
-    std::vector<double> frameMs_, phaseSums_;
+    std::vector<double> frameMs_, deviceMs_, phaseSums_;
     double recordSum_ = 0, lastEnd_ = 0; // [ms]
     std::uint64_t recorded_ = 0, timed_ = 0;
 };

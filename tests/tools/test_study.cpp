@@ -1,0 +1,190 @@
+// What a study concludes from its points, and how it draws them.
+#include "sinew/study/analysis.hpp"
+#include "sinew/study/plan.hpp"
+#include "sinew/study/plot_axes.hpp"
+#include "sinew/study/report.hpp"
+
+#include "sim/compile.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+using namespace sinew;
+using namespace sinew::tools::study;
+
+namespace {
+
+using Indices = std::vector<std::size_t>;
+
+std::size_t count(const std::string& text, const std::string& part) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+    return found;
+}
+
+/// A trial that took `ms` a frame and was `error` off in each of two frames; no error = diverged.
+Trial trialOf(sim::Solver solver, double ms, std::optional<double> error) {
+    Trial trial{.settings = {.solver = solver}, .sweeps = 8, .barriers = 9, .isRun = true};
+    trial.isDiverged = !error;
+    trial.frameRms.assign(2, error.value_or(0));
+    trial.frameMax.assign(2, error.value_or(0));
+    trial.frameMs = {ms};
+    return trial;
+}
+
+SceneResult resultOf(std::vector<Trial> trials) {
+    SceneResult result{.name = "scene", .frames = 2, .dt = 1.0 / 60};
+    result.truth.growth = {0, 0};
+    result.trials = std::move(trials);
+    return result;
+}
+
+} // namespace
+
+TEST(ParetoFront, KeepsWhatNobodyUndercuts) {
+    const std::vector<Offer> offers{{4, 0.1}, {1, 0.5}, {2, 0.6},  {2, 0.2},
+                                    {8, 0.1}, {16, {}}, {0.5, {}}, {3, 0.05}};
+    EXPECT_EQ(paretoFront(offers), (Indices{1, 3, 7}));
+    EXPECT_EQ(paretoFront(std::vector<Offer>{{1, {}}}), Indices{});
+    EXPECT_EQ(paretoFront(std::vector<Offer>{{2, 0.1}, {2, 0.1}}).size(), 1u);
+}
+
+TEST(CostOfError, InterpolatesInLogarithms) {
+    const std::vector<Offer> front{{1, 1.0}, {100, 1e-4}};
+    EXPECT_NEAR(*costOfError(front, 1e-2), 10, 1e-9);
+    EXPECT_NEAR(*costOfError(front, 1e-4), 100, 1e-9);
+    EXPECT_NEAR(*costOfError(front, 1.5), 1, 1e-9) << "the cheapest point is good enough";
+    EXPECT_FALSE(costOfError(front, 1e-5).has_value());
+    EXPECT_FALSE(costOfError({}, 1).has_value());
+}
+
+TEST(ComparableFrames, AreAllWhereNothingGrows) {
+    EXPECT_EQ(comparableFrames(std::vector{1e-9, 1e-9, 1e-9}, std::vector{1e-7, 2e-7, 5e-7}, 1e-7), 3u);
+}
+
+TEST(ComparableFrames, EndWhereADisturbanceReachesATenthOfTheError) {
+    const std::vector<double> growth{1e-7, 1e-5, 2e-3, 0.5};
+    // Over four frames the error is 0.1, and the last frame's growth is beyond a tenth of it.
+    EXPECT_EQ(comparableFrames(std::vector{0.1, 0.1, 0.1, 0.1}, growth, 1e-7), 3u);
+    // Over three it is 1e-3, whose tenth the third frame exceeds; over two it is 1e-3 still.
+    EXPECT_EQ(comparableFrames(std::vector{1e-3, 1e-3, 1e-3, 5e-3}, growth, 1e-7), 2u);
+    EXPECT_EQ(comparableFrames(std::vector{1e-6, 1e-6, 1e-6, 1e-6}, growth, 1e-7), 1u);
+}
+
+TEST(RmsOver, IsTheRootOfTheMeanSquare) {
+    EXPECT_NEAR(rmsOver(std::vector{3.0, 4.0, 100.0}, 2), std::sqrt(12.5), 1e-12);
+    EXPECT_EQ(rmsOver({}, 0), 0);
+}
+
+TEST(Plan, TriesEverySolverWithinTheAllowedSettings) {
+    for (const std::string& name : sim::solverNames()) {
+        sim::Solver solver{};
+        ASSERT_TRUE(sim::parseSolver(name, solver));
+        std::set<std::uint32_t> sweeps;
+        for (const sim::Settings& settings : settingsToTry(solver, mostPoints)) {
+            EXPECT_EQ(settings.solver, solver);
+            EXPECT_GE(settings.substeps, 1u);
+            EXPECT_LE(settings.substeps, 1000u);
+            sweeps.insert(settings.substeps * settings.iterations);
+        }
+        for (const std::uint32_t rung : {8u, 16u, 32u, 64u, 128u, 256u, 512u, 1000u})
+            EXPECT_TRUE(sweeps.contains(rung)) << name << ' ' << rung;
+        EXPECT_LT(settingsToTry(solver, 1).size(), settingsToTry(solver, 2).size());
+    }
+}
+
+TEST(Plan, SearchesBothTuningsOfTheBaseline) {
+    std::set<std::pair<std::uint32_t, float>> tried;
+    for (const sim::Settings& settings : settingsToTry(sim::Solver::jacobi, 4))
+        if (settings.substeps * settings.iterations == 64)
+            tried.insert({settings.iterations, settings.overRelaxation});
+    EXPECT_EQ(tried.size(), 4u * 3u);
+}
+
+TEST(Plan, HasFiveScenesWhoseTruthCanBeComputed) {
+    const std::vector<StudyScene> scenes = studyScenes("all", {});
+    ASSERT_EQ(scenes.size(), 5u);
+    EXPECT_EQ(studySceneNames().size(), 5u);
+    for (const StudyScene& scene : scenes) {
+        EXPECT_NO_THROW(sim::reference::trueTrajectory(scene.loaded.scene, {.frames = 1, .dt = 1e-5}))
+            << scene.name;
+        EXPECT_GE(scene.frames * double{scene.loaded.scene.dt}, 0.29);
+    }
+    EXPECT_EQ(studyScenes("chain", 7).at(0).frames, 7u);
+}
+
+TEST(Headline, ComparesWithJacobiAtEqualError) {
+    using enum sim::Solver;
+    const SceneResult result = resultOf({trialOf(jacobi, 10, 0.1), trialOf(jacobi, 1000, 1e-3),
+                                         trialOf(split, 1, 0.1), trialOf(split, 4, 1e-3)});
+    const std::vector<Curve> curves = curvesOf(result);
+    ASSERT_EQ(curves.size(), 2u);
+    EXPECT_NEAR(*curves[0].costOf(targetError, prices[0]), 100, 1e-9);
+    EXPECT_NEAR(*curves[1].costOf(targetError, prices[0]), 2, 1e-9);
+    const std::optional<Advantage> advantage = advantageOf(curves[1], curves);
+    ASSERT_TRUE(advantage.has_value());
+    EXPECT_NEAR(advantage->ratio, 50, 1e-9);
+    EXPECT_FALSE(advantage->isBound);
+}
+
+TEST(Headline, IsABoundWhereJacobiNeverGetsThere) {
+    using enum sim::Solver;
+    const SceneResult result = resultOf({trialOf(jacobi, 10, 0.1), trialOf(jacobi, 80, 0.05),
+                                         trialOf(jacobi, 99, {}), trialOf(split, 4, 0.01)});
+    const std::vector<Curve> curves = curvesOf(result);
+    EXPECT_FALSE(curves[0].costOf(targetError, prices[0]).has_value());
+    const std::optional<Advantage> advantage = advantageOf(curves[1], curves);
+    ASSERT_TRUE(advantage.has_value());
+    EXPECT_NEAR(advantage->ratio, 80.0 / 4, 1e-9);
+    EXPECT_TRUE(advantage->isBound);
+    EXPECT_FALSE(advantageOf(curves[0], curves).has_value());
+}
+
+TEST(Plot, LeavesNoPointOutAndDrawsDivergedOnesAtTheTopEdge) {
+    const Plot plot{
+        .title = "a < b",
+        .xLabel = "ms",
+        .curves = {
+            {.label = "jacobi",
+             .slot = 0,
+             .points = {{3, 0.5, false}, {5, {}, false}, {1, 0.4, true}, {9, 0.02, true}},
+             .xAtTarget = {}},
+            {.label = "split", .slot = 1, .points = {{1, 0.1, true}, {4, 1e-4, true}}, .xAtTarget = 2}}};
+    const std::string svg = draw(plot, Style::own);
+    EXPECT_EQ(count(svg, "class=\"dot\""), 4u);
+    EXPECT_EQ(count(svg, "class=\"faint\""), 1u);
+    EXPECT_EQ(count(svg, "class=\"hollow\""), 1u);
+    EXPECT_EQ(count(svg, "class=\"ring\""), 1u);
+    EXPECT_EQ(count(svg, "class=\"line\""), 2u);
+    EXPECT_EQ(count(svg, "class=\"best\""), 1u);
+    EXPECT_EQ(count(svg, ">jacobi</text>"), 2u) << "the name and the paper around it";
+    EXPECT_NE(svg.find("a &lt; b"), std::string::npos);
+    EXPECT_EQ(svg.find("nan"), std::string::npos);
+    EXPECT_EQ(svg.find("inf"), std::string::npos);
+    const std::string inPage = draw(plot, Style::fromPage);
+    EXPECT_EQ(inPage.find("<style>"), std::string::npos);
+}
+
+TEST(Plot, DrawsWhatHasNoFinitePoint) {
+    const std::string svg =
+        draw({.title = "t",
+              .xLabel = "x",
+              .curves = {{.label = "s", .slot = 2, .points = {{1, {}, false}}, .xAtTarget = {}}}},
+             Style::own);
+    EXPECT_EQ(count(svg, "class=\"hollow\""), 1u);
+    EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
+TEST(Axes, TickAtOneTwoFiveOrAtDecades) {
+    EXPECT_EQ(ticks(1.5, 60), (std::vector<double>{2, 5, 10, 20, 50}));
+    EXPECT_EQ(ticks(1, 10'000), (std::vector<double>{1, 10, 100, 1000, 10'000}));
+}
+
+TEST(Axes, WriteErrorsAsPercent) {
+    EXPECT_EQ(percentText(1), "100 %");
+    EXPECT_EQ(percentText(0.01), "1 %");
+    EXPECT_EQ(percentText(1e-5), "0.001 %");
+    EXPECT_EQ(percentText(1e-8), "10⁻⁶ %");
+}

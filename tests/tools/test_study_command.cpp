@@ -1,0 +1,148 @@
+// `sinew study` on a scene that takes a second: what it writes, that it goes on where it was, and what it
+// refuses.
+#include "tools/program.hpp"
+
+#include <fstream>
+#include <sstream>
+
+using sinew::test::expectOneError;
+using sinew::test::Outcome;
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string scene =
+    "name = \"tiny\"\n[[chain]]\nlength = 0.3\nparticles = 4\nstretch_compliance = 1e-2\n"
+    "direction = [1, 0, 0]\n";
+
+class Study : public sinew::test::Program {
+protected:
+    Outcome study(const std::vector<std::string>& more = {}) const {
+        std::vector<std::string> arguments{"study",    "--scene", "scene.toml", "--out", "out",
+                                           "--points", "1",       "--frames",   "4"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(arguments);
+    }
+    std::string text(const std::string& name) const {
+        std::ifstream stream(folder_ / "out" / name, std::ios::binary);
+        std::ostringstream content;
+        content << stream.rdbuf();
+        return content.str();
+    }
+    std::vector<fs::path> runs() const {
+        std::vector<fs::path> files;
+        for (const auto& file : fs::directory_iterator(folder_ / "out" / "runs"))
+            files.push_back(file.path());
+        return files;
+    }
+};
+
+} // namespace
+
+TEST_F(Study, WritesWhatItsDocumentationSays) {
+    write("scene.toml", scene);
+    const Outcome outcome = study();
+    ASSERT_EQ(outcome.code, 0) << outcome.error;
+    EXPECT_NE(outcome.out.find("page: out/study.html"), std::string::npos);
+    const Json json = Json::parse(text("study.json"));
+    EXPECT_EQ(json["schema"], 1);
+    EXPECT_TRUE(json["device"]["name"].is_string());
+    EXPECT_EQ(json["complete"], true);
+    ASSERT_EQ(json["scenes"].size(), 1u);
+    const Json& tiny = json["scenes"][0];
+    EXPECT_EQ(tiny["name"], "tiny");
+    EXPECT_EQ(tiny["particles"], 4);
+    EXPECT_EQ(tiny["frames"], 4);
+    EXPECT_LT(tiny["truth"]["self_difference"], 1e-6);
+    EXPECT_EQ(tiny["truth"]["growth"].size(), 4u);
+    ASSERT_GE(tiny["curves"].size(), 2u);
+    for (const Json& curve : tiny["curves"]) {
+        const std::string solver = curve["solver"];
+        EXPECT_TRUE(tiny["ms_to_1_percent"].contains(solver));
+        EXPECT_TRUE(tiny["speedup_over_jacobi"].contains(solver));
+        for (const Json& point : curve["points"]) {
+            for (const char* field :
+                 {"substeps", "iterations", "sweeps", "barriers", "ms_per_frame", "error_rms", "error_max"})
+                EXPECT_TRUE(point[field].is_number()) << solver << ' ' << field;
+            EXPECT_EQ(point["sweeps"], 8);
+            EXPECT_GT(point["ms_per_frame"], 0);
+            EXPECT_LE(point["error_rms"], point["error_max"]);
+            EXPECT_GE(point["frames_timed"], 4);
+        }
+    }
+    // A soft chain of four needs no more than eight substeps.
+    EXPECT_TRUE(tiny["ms_to_1_percent"]["split"].is_number()) << tiny["ms_to_1_percent"];
+    for (const char* name : {"tiny-time.svg", "tiny-sweeps.svg", "tiny-barriers.svg"})
+        EXPECT_EQ(text(name).substr(0, 4), "<svg") << name;
+    const std::string page = text("study.html");
+    EXPECT_EQ(page.find("http"), page.find("http://www.w3.org/2000/svg")) << "the page fetches nothing";
+    EXPECT_EQ(page.find("<script"), std::string::npos);
+    EXPECT_NE(page.find("name=\"viewport\""), std::string::npos);
+    std::size_t points = 0;
+    for (const Json& curve : tiny["curves"]) points += curve["points"].size();
+    std::istringstream csv(text("study.csv"));
+    std::size_t lines = 0;
+    for (std::string line; std::getline(csv, line);) ++lines;
+    EXPECT_EQ(lines, points + 1);
+}
+
+TEST_F(Study, RunsNothingAgain) {
+    write("scene.toml", scene);
+    ASSERT_EQ(study().code, 0);
+    const std::string before = text("study.json");
+    const Outcome again = study();
+    ASSERT_EQ(again.code, 0) << again.error;
+    EXPECT_EQ(again.error.find("runs to do"), std::string::npos) << again.error;
+    EXPECT_EQ(again.error.find("timing"), std::string::npos) << again.error;
+    EXPECT_EQ(text("study.json"), before);
+}
+
+TEST_F(Study, RunsAgainWhatIsMissingOrDamaged) {
+    write("scene.toml", scene);
+    ASSERT_EQ(study().code, 0);
+    const std::size_t kept = runs().size();
+    std::ofstream(runs().at(0)) << "{\"identity\": \"";
+    fs::remove(runs().at(1));
+    const Outcome again = study();
+    ASSERT_EQ(again.code, 0) << again.error;
+    EXPECT_NE((again.error + again.out).find("page: "), std::string::npos);
+    EXPECT_EQ(runs().size(), kept);
+    for (const fs::path& file : runs()) {
+        std::ifstream stream(file);
+        EXPECT_TRUE(Json::parse(stream, nullptr, false).is_object()) << file;
+    }
+}
+
+TEST_F(Study, KnowsAnotherSceneOfTheSameNameFromItsRuns) {
+    write("scene.toml", scene);
+    ASSERT_EQ(study().code, 0);
+    const std::size_t kept = runs().size();
+    write("scene.toml", scene + "mass = 0.2\n");
+    const Outcome other = study();
+    ASSERT_EQ(other.code, 0) << other.error;
+    EXPECT_NE(other.error.find("runs to do"), std::string::npos);
+    EXPECT_EQ(runs().size(), 2 * kept);
+}
+
+TEST_F(Study, RefusesWhatItCannotStudy) {
+    expectOneError(run({"study", "--scene", "beem", "--out", "out"}), 3,
+                   "cannot study: beem: no such scene: possible are beam, ");
+    write("planes.toml", scene + "[[plane]]\noffset = -5\n");
+    expectOneError(run({"study", "--scene", "planes.toml", "--out", "out", "--points", "1"}), 3, "planes");
+    write("rigid.toml", "[[chain]]\nlength = 1\n");
+    expectOneError(run({"study", "--scene", "rigid.toml", "--out", "out", "--points", "1"}), 3,
+                   "cannot study rigid");
+    write("scene.toml", scene);
+    for (const char* points : {"0", "9", "-1", "many"})
+        expectOneError(run({"study", "--scene", "scene.toml", "--out", "out", "--points", points}), 2,
+                       "--points");
+    expectOneError(run({"study", "--scene", "scene.toml", "--out", "out", "--frames", "0"}), 2, "--frames");
+}
+
+TEST_F(Study, RefusesAFolderItCannotWriteTo) {
+    write("scene.toml", scene);
+    write("file", "");
+    expectOneError(run({"study", "--scene", "scene.toml", "--out", "file"}), 6, "file: ");
+    expectOneError(run({"study", "--scene", "scene.toml", "--out", "/proc/sinew"}), 6, "/proc/sinew: ");
+}

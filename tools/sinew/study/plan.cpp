@@ -1,0 +1,83 @@
+// Two tables: scenes and tunings.
+#include "sinew/study/plan.hpp"
+
+#include "sim/compile.hpp"
+#include "sim/ranges.hpp"
+#include "sinew/outputs.hpp"
+
+#include <algorithm>
+
+namespace sinew::tools::study {
+
+namespace {
+
+struct Shipped {
+    const char* name;
+    std::uint32_t frames; // of 1/60 s
+};
+constexpr Shipped shipped[] = {
+    {"beam", 18}, {"beam_stiff", 18}, {"cloth_study", 30}, {"chain", 30}, {"cube_load", 30}};
+
+constexpr std::uint32_t fewestSweeps = 8;
+constexpr std::uint32_t wholeFrame = 0; // all sweeps of a frame in one substep
+
+struct Tuning {
+    const char* solver;
+    std::vector<std::uint32_t> iterations; // per substep
+    std::vector<void (*)(sim::Settings&)> variations;
+};
+
+const Tuning& tuningOf(const std::string& solver) {
+    static const Tuning tunings[] = {
+        // The baseline gets both its tunings searched: claims against it must not rest on a bad choice.
+        {"jacobi",
+         {1, 4, 16, wholeFrame},
+         {[](sim::Settings& s) { s.overRelaxation = 1; }, [](sim::Settings& s) { s.overRelaxation = 1.3f; },
+          [](sim::Settings& s) { s.overRelaxation = 1.6f; }}},
+        {"split", {1}, {[](sim::Settings&) {}, [](sim::Settings& s) { s.theta = 0; }}},
+    };
+    static const Tuning plain{"", {1}, {[](sim::Settings&) {}}};
+    const auto found = std::ranges::find(tunings, solver, &Tuning::solver);
+    return found == std::end(tunings) ? plain : *found;
+}
+
+} // namespace
+
+std::vector<std::string> studySceneNames() {
+    std::vector<std::string> names;
+    for (const Shipped& scene : shipped) names.emplace_back(scene.name);
+    return names;
+}
+
+std::vector<StudyScene> studyScenes(const std::string& which, std::optional<std::uint32_t> frames) {
+    std::vector<StudyScene> scenes;
+    for (const Shipped& scene : shipped)
+        if (which == "all" || which == scene.name)
+            scenes.push_back({scene.name, frames.value_or(scene.frames), scenes::loadBuiltIn(scene.name)});
+    if (!scenes.empty()) return scenes;
+    scenes::LoadedScene loaded = scenes::load(which);
+    const std::string name = fileName(loaded.scene.name);
+    scenes.push_back({name, frames.value_or(defaultFrames), std::move(loaded)});
+    return scenes;
+}
+
+std::vector<sim::Settings> settingsToTry(sim::Solver solver, std::uint32_t points) {
+    const Tuning& tuning = tuningOf(sim::solverName(solver));
+    const auto mostSubsteps = static_cast<std::uint32_t>(sim::ranges::substeps.high);
+    std::vector<sim::Settings> list;
+    for (std::uint32_t i = 0; i < points; ++i) {
+        const std::uint32_t sweeps = std::min(fewestSweeps << i, mostSubsteps);
+        for (const std::uint32_t iterations : tuning.iterations)
+            for (const auto vary : tuning.variations) {
+                sim::Settings settings{.solver = solver};
+                settings.iterations = iterations == wholeFrame ? sweeps : iterations;
+                settings.substeps = sweeps / settings.iterations;
+                if (settings.substeps == 0) continue;
+                vary(settings);
+                list.push_back(settings);
+            }
+    }
+    return list;
+}
+
+} // namespace sinew::tools::study

@@ -1,0 +1,32 @@
+// What a study runs: its scenes, and the settings tried for each solver. Every solver of the core takes part;
+// one that is tuned by more than its substeps has its tunings in the table of plan.cpp.
+#pragma once
+
+#include "scenes/load.hpp"
+
+#include <string>
+#include <vector>
+
+namespace sinew::tools::study {
+
+struct StudyScene {
+    std::string name; ///< unique in a study; a file name too
+    std::uint32_t frames = 0;
+    scenes::LoadedScene loaded;
+};
+
+inline constexpr std::uint32_t mostPoints = 8;
+inline constexpr std::uint32_t defaultFrames = 30; ///< of a scene that is not one of ours
+
+/// Names of the shipped scenes that a study of "all" runs.
+std::vector<std::string> studySceneNames();
+
+/// "all", the name of a shipped study scene, or a scene file. `frames` overrides the length of each. Throws
+/// scenes::SceneError.
+std::vector<StudyScene> studyScenes(const std::string& which, std::optional<std::uint32_t> frames);
+
+/// `points` sweep counts from 8, each twice the one before, in every split into substeps and iterations and
+/// with every tuning that the solver has; those of equal sweeps stand together.
+std::vector<sim::Settings> settingsToTry(sim::Solver solver, std::uint32_t points);
+
+} // namespace sinew::tools::study

@@ -1,0 +1,105 @@
+#include "sinew/study/plot_axes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sinew::tools::study {
+
+namespace {
+
+constexpr Box box{.left = 66, .top = 40, .right = plotWidth - 16, .bottom = plotHeight - 54};
+constexpr double lowestError = 1e-9; // below what float32 can show
+
+double share(double value, double low, double high) {
+    return std::log(value / low) / std::log(high / low);
+}
+
+std::string superscript(int value) {
+    static constexpr const char* digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    std::string text = value < 0 ? "⁻" : "";
+    for (const char c : std::to_string(std::abs(value))) text += digits[c - '0'];
+    return text;
+}
+
+} // namespace
+
+double Axes::x(double value) const {
+    return box.left + share(value, xLow, xHigh) * (box.right - box.left);
+}
+
+double Axes::y(double value) const {
+    const double clamped = std::clamp(value, yLow, yHigh);
+    return box.bottom - share(clamped, yLow, yHigh) * (box.bottom - box.top);
+}
+
+Axes axesFor(const Plot& plot) {
+    Axes axes{.box = box,
+              .xLow = INFINITY,
+              .xHigh = 0,
+              .yLow = plot.target / 10,
+              .yHigh = 1,
+              .target = plot.target};
+    for (const PlotCurve& curve : plot.curves)
+        for (const PlotPoint& point : curve.points) {
+            axes.xLow = std::min(axes.xLow, point.x);
+            axes.xHigh = std::max(axes.xHigh, point.x);
+            if (!point.y) continue;
+            axes.yLow = std::min(axes.yLow, std::max(*point.y, lowestError));
+            axes.yHigh = std::max(axes.yHigh, *point.y);
+        }
+    if (!(axes.xLow <= axes.xHigh)) axes.xLow = axes.xHigh = 1; // no point at all
+    const double room = std::max(1.15, std::pow(axes.xHigh / axes.xLow, 0.04));
+    axes.xLow /= room;
+    axes.xHigh *= room;
+    axes.yLow = std::pow(10, std::floor(std::log10(axes.yLow) + 1e-9));
+    axes.yHigh = std::pow(10, std::ceil(std::log10(axes.yHigh) - 1e-9));
+    return axes;
+}
+
+std::vector<double> ticks(double low, double high) {
+    std::vector<double> values;
+    const int first = static_cast<int>(std::floor(std::log10(low))),
+              last = static_cast<int>(std::ceil(std::log10(high)));
+    const bool isFine = std::log10(high / low) < 2.6;
+    for (int decade = first; decade <= last; ++decade)
+        for (const double step : {1.0, 2.0, 5.0}) {
+            const double value = step * std::pow(10, decade);
+            if ((step == 1 || isFine) && value >= low * 0.999 && value <= high * 1.001)
+                values.push_back(value);
+        }
+    return values;
+}
+
+std::string percentText(double share) {
+    const double percent = 100 * share;
+    if (percent > 0.9e-3) return fmt::format("{:.6g} %", percent);
+    return "10" + superscript(static_cast<int>(std::lround(std::log10(percent)))) + " %";
+}
+
+std::string drawAxes(const Axes& axes, const std::string& xLabel) {
+    std::string grid, text;
+    for (const double value : ticks(axes.xLow, axes.xHigh)) {
+        const double x = axes.x(value);
+        grid += fmt::format("M{:.1f} {:.1f}V{:.1f}", x, axes.box.top, axes.box.bottom);
+        text += fmt::format(
+            "<text class=\"muted\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{:g}</text>\n", x,
+            axes.box.bottom + 17, value);
+    }
+    for (double value = axes.yLow; value < axes.yHigh * 1.5; value *= 10) {
+        const double y = axes.y(value);
+        grid += fmt::format("M{:.1f} {:.1f}H{:.1f}", axes.box.left, y, axes.box.right);
+        text += fmt::format("<text class=\"muted\" text-anchor=\"end\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
+                            axes.box.left - 7, y + 4.4, percentText(value));
+    }
+    const Box& b = axes.box;
+    return fmt::format(
+        "<path class=\"grid\" d=\"{}\"/>\n<path class=\"frame\" d=\"M{:.1f} {:.1f}V{:.1f}H{:.1f}\"/>\n"
+        "<path class=\"target\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>\n{}"
+        "<text class=\"ink\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
+        grid, b.left, b.top, b.bottom, b.right, b.left, axes.y(axes.target), b.right, text,
+        (b.left + b.right) / 2, b.bottom + 40, escaped(xLabel));
+}
+
+} // namespace sinew::tools::study

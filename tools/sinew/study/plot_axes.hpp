@@ -1,0 +1,40 @@
+// The frame of a diagram: logarithmic scales, grid and tick labels.
+#pragma once
+
+#include "sinew/study/plot.hpp"
+
+namespace sinew::tools::study {
+
+inline constexpr double plotWidth = 440, plotHeight = 420;
+
+struct Spot {
+    double x = 0, y = 0; ///< in the drawing, y down
+};
+
+struct Box {
+    double left = 0, top = 0, right = 0, bottom = 0;
+};
+
+/// Logarithmic scales from values to the drawing.
+struct Axes {
+    Box box;
+    double xLow = 1, xHigh = 10, yLow = 1e-3, yHigh = 1, target = 0.01;
+
+    double x(double value) const;
+    double y(double value) const; ///< clamped to the box
+    bool holdsX(double value) const { return value >= xLow && value <= xHigh; }
+};
+
+/// Whole decades of error that hold every point and the target.
+Axes axesFor(const Plot& plot);
+
+std::string drawAxes(const Axes& axes, const std::string& xLabel);
+
+/// Tick values between two positive numbers: 1, 2, 5 in each decade where there are few, decades where there
+/// are many.
+std::vector<double> ticks(double low, double high);
+
+/// "100 %", "0.01 %", and powers of ten where zeros could not be counted any more.
+std::string percentText(double share);
+
+} // namespace sinew::tools::study

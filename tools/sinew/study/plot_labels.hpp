@@ -1,0 +1,34 @@
+// Puts each curve's name beside the curve, where it hides least.
+#pragma once
+
+#include "sinew/study/plot_axes.hpp"
+
+namespace sinew::tools::study {
+
+struct Label {
+    double x = 0, y = 0; ///< start of the text's base line
+};
+
+class LabelPlacer {
+public:
+    explicit LabelPlacer(const Box& box) : box_(box) {}
+
+    /// Text should keep off this line.
+    void avoid(const std::vector<Spot>& line, std::size_t slot);
+
+    /// Beside one of the points of `front`, inside the box, far from other lines and labels.
+    Label place(const std::string& text, const std::vector<Spot>& front, std::size_t slot);
+
+private:
+    struct Obstacle {
+        Spot spot;
+        std::size_t slot;
+    };
+    double roomAround(const Box& text, std::size_t slot) const;
+
+    Box box_;
+    std::vector<Obstacle> obstacles_;
+    std::vector<Box> labels_;
+};
+
+} // namespace sinew::tools::study

@@ -1,0 +1,41 @@
+// No shell: the names of files are arguments, never text to be parsed.
+#include "sinew/study/png.hpp"
+
+#include <array>
+#include <string>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char** environ;
+
+namespace sinew::tools::study {
+
+namespace fs = std::filesystem;
+
+bool convertToPng(const fs::path& svg, const fs::path& png) {
+    const std::string partial = png.string() + ".part", input = svg.string();
+    std::array<const char*, 6> arguments{"rsvg-convert",  "--zoom=2",    "-o",
+                                         partial.c_str(), input.c_str(), nullptr};
+    posix_spawn_file_actions_t files{};
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    pid_t child = 0;
+    int status = -1;
+    const bool isStarted = posix_spawnp(&child, arguments[0], &files, nullptr,
+                                        const_cast<char**>(arguments.data()), environ) == 0;
+    posix_spawn_file_actions_destroy(&files);
+    while (isStarted && waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    const bool isDone = isStarted && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    std::error_code error;
+    if (isDone) fs::rename(partial, png, error);
+    if (isDone && !error) return true;
+    fs::remove(partial, error);
+    fs::remove(png, error);
+    return false;
+}
+
+} // namespace sinew::tools::study

@@ -1,0 +1,177 @@
+// JSON, CSV and the few lines a terminal gets.
+#include "sinew/study/report.hpp"
+
+#include "sim/compile.hpp"
+#include "sinew/json.hpp"
+#include "sinew/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace sinew::tools::study {
+
+const std::array<Price, 3> prices{
+    {{"time", "device time of a frame [ms]", [](const Trial& trial) { return trial.medianMs(); }},
+     {"sweeps", "sweeps of a frame", [](const Trial& trial) { return static_cast<double>(trial.sweeps); }},
+     {"barriers", "barriers of a frame",
+      [](const Trial& trial) { return static_cast<double>(trial.barriers); }}}};
+
+std::vector<Offer> Curve::offers(const Price& price) const {
+    std::vector<Offer> result;
+    for (const CurvePoint& point : points)
+        result.push_back(
+            {price.of(*point.trial), point.error ? std::optional(point.error->rms) : std::nullopt});
+    return result;
+}
+
+std::vector<std::size_t> Curve::front(const Price& price) const {
+    return paretoFront(offers(price));
+}
+
+std::optional<double> Curve::costOf(double error, const Price& price) const {
+    const std::vector<Offer> all = offers(price);
+    std::vector<Offer> best;
+    for (const std::size_t i : paretoFront(all)) best.push_back(all[i]);
+    return costOfError(best, error);
+}
+
+std::vector<Curve> curvesOf(const SceneResult& result) {
+    std::vector<Curve> curves;
+    const std::vector<std::string> names = sim::solverNames();
+    for (std::size_t slot = 0; slot < names.size(); ++slot) {
+        Curve curve{.solver = names[slot], .slot = slot};
+        for (const Trial& trial : result.trials)
+            if (sim::solverName(trial.settings.solver) == names[slot])
+                curve.points.push_back({&trial, errorOf(trial, result.truth)});
+        if (!curve.points.empty()) curves.push_back(std::move(curve));
+    }
+    return curves;
+}
+
+std::optional<Advantage> advantageOf(const Curve& curve, const std::vector<Curve>& curves) {
+    const auto jacobi = std::ranges::find(curves, "jacobi", &Curve::solver);
+    const std::optional<double> own = curve.costOf(targetError, prices[0]);
+    if (jacobi == curves.end() || !own) return {};
+    if (const auto cost = jacobi->costOf(targetError, prices[0])) return Advantage{*cost / *own, false};
+    const std::vector<std::size_t> front = jacobi->front(prices[0]);
+    if (front.empty()) return {};
+    return Advantage{jacobi->points[front.back()].trial->medianMs() / *own, true};
+}
+
+namespace {
+
+Json pointJson(const Curve& curve, std::size_t index) {
+    const CurvePoint& point = curve.points[index];
+    const Trial& trial = *point.trial;
+    const sim::Settings& settings = trial.settings;
+    const std::vector<std::size_t> front = curve.front(prices[0]);
+    return {{"substeps", settings.substeps},
+            {"iterations", settings.iterations},
+            {"sweeps", trial.sweeps},
+            {"barriers", trial.barriers},
+            {"ms_per_frame", trial.medianMs()},
+            {"error_rms", point.error ? Json(point.error->rms) : Json(nullptr)},
+            {"error_max", point.error ? Json(point.error->max) : Json(nullptr)},
+            {"diverged", trial.isDiverged},
+            {"frames_compared", point.error ? Json(point.error->frames) : Json(nullptr)},
+            {"clamped", orNull(trial.clamped)},
+            {"omega", settings.omega},
+            {"theta", settings.theta},
+            {"over_relaxation", settings.overRelaxation},
+            {"frames_timed", trial.frameMs.size()},
+            {"clock", trial.hasDeviceClock ? "device" : "host"},
+            {"on_front", std::ranges::find(front, index) != front.end()}};
+}
+
+Json curveJson(const Curve& curve) {
+    Json points = Json::array();
+    for (std::size_t i = 0; i < curve.points.size(); ++i) points.push_back(pointJson(curve, i));
+    return {{"solver", curve.solver}, {"points", std::move(points)}};
+}
+
+Json sceneJson(const SceneResult& scene) {
+    const std::vector<Curve> curves = curvesOf(scene);
+    Json json{{"name", scene.name},
+              {"particles", scene.particles},
+              {"constraints", scene.constraints},
+              {"frames", scene.frames},
+              {"dt", scene.dt},
+              {"body_size", scene.truth.bodySize},
+              {"truth",
+               {{"h", scene.truth.h},
+                {"self_difference", scene.truth.selfDifference},
+                {"perturbation", perturbation},
+                {"growth", scene.truth.growth}}}};
+    json["curves"] = Json::array();
+    const char* headlines[] = {"ms_to_1_percent", "sweeps_to_1_percent", "barriers_to_1_percent"};
+    for (const char* headline : headlines) json[headline] = Json::object();
+    json["speedup_over_jacobi"] = Json::object();
+    for (const Curve& curve : curves) {
+        json["curves"].push_back(curveJson(curve));
+        for (std::size_t i = 0; i < prices.size(); ++i)
+            json[headlines[i]][curve.solver] = orNull(curve.costOf(targetError, prices[i]));
+        const std::optional<Advantage> advantage = advantageOf(curve, curves);
+        json["speedup_over_jacobi"][curve.solver] =
+            advantage ? Json{{"ratio", advantage->ratio}, {"at_least", advantage->isBound}} : Json(nullptr);
+    }
+    json["notes"] = scene.notes;
+    return json;
+}
+
+std::string csvOf(double value) {
+    return fmt::format("{:.9g}", value);
+}
+
+} // namespace
+
+std::string toJson(const StudyRecord& record) {
+    Json json{
+        {"schema", reportSchema},
+        {"version", SINEW_VERSION},
+        {"device",
+         {{"name", record.device.name}, {"driver", record.device.driver}, {"type", record.device.type}}},
+        {"complete", record.isComplete},
+        {"scenes", Json::array()}};
+    for (const SceneResult& scene : record.scenes) json["scenes"].push_back(sceneJson(scene));
+    return dump(json);
+}
+
+std::string toCsv(const StudyRecord& record) {
+    std::string text = "scene,solver,substeps,iterations,omega,theta,over_relaxation,sweeps,barriers,clamped,"
+                       "ms_per_frame,error_rms,error_max,frames_compared,frames_timed\n";
+    for (const SceneResult& scene : record.scenes)
+        for (const Curve& curve : curvesOf(scene))
+            for (const CurvePoint& point : curve.points) {
+                const Trial& trial = *point.trial;
+                const sim::Settings& s = trial.settings;
+                text += fmt::format(
+                    "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", scene.name, curve.solver, s.substeps,
+                    s.iterations, s.omega, s.theta, s.overRelaxation, trial.sweeps, trial.barriers,
+                    trial.clamped ? csvOf(*trial.clamped) : "", csvOf(trial.medianMs()),
+                    point.error ? csvOf(point.error->rms) : "", point.error ? csvOf(point.error->max) : "",
+                    point.error ? std::to_string(point.error->frames) : "", trial.frameMs.size());
+            }
+    return text;
+}
+
+std::string toText(const StudyRecord& record) {
+    std::string text =
+        fmt::format("time of a frame to 1 % error on {} ({})\n", record.device.name, record.device.type);
+    for (const SceneResult& scene : record.scenes) {
+        const std::vector<Curve> curves = curvesOf(scene);
+        for (const Curve& curve : curves) {
+            const std::optional<double> ms = curve.costOf(targetError, prices[0]);
+            const std::optional<Advantage> advantage = advantageOf(curve, curves);
+            text += fmt::format("{:<12} {:<14} {:>12}", scene.name, curve.solver,
+                                ms ? fmt::format("{:.3g} ms", *ms) : "never");
+            if (advantage && curve.solver != "jacobi")
+                text += fmt::format("   {}{:.3g} x faster than jacobi",
+                                    advantage->isBound ? "more than " : "", advantage->ratio);
+            text += '\n';
+        }
+    }
+    return text;
+}
+
+} // namespace sinew::tools::study

@@ -1,0 +1,60 @@
+// What a study found, as data: curves, fronts and the headline figure. docs/report.md describes the JSON.
+#pragma once
+
+#include "sinew/study/analysis.hpp"
+#include "sinew/study/scene_study.hpp"
+
+#include <array>
+
+namespace sinew::tools::study {
+
+inline constexpr double targetError = 0.01; ///< of body size: the headline is the time to reach it
+
+/// What a point may cost.
+struct Price {
+    const char* name; ///< in file names and JSON
+    const char* label;
+    double (*of)(const Trial&);
+};
+extern const std::array<Price, 3> prices; ///< time, sweeps, barriers
+
+struct CurvePoint {
+    const Trial* trial = nullptr;
+    std::optional<TrialError> error; ///< empty = diverged
+};
+
+struct Curve {
+    std::string solver;
+    std::size_t slot = 0; ///< its place among all solvers: what colors go by
+    std::vector<CurvePoint> points;
+
+    std::vector<Offer> offers(const Price& price) const;
+    /// Points no other of this solver undercuts, by rising price.
+    std::vector<std::size_t> front(const Price& price) const;
+    std::optional<double> costOf(double error, const Price& price) const;
+};
+
+/// One per solver that ran. Points into `result`.
+std::vector<Curve> curvesOf(const SceneResult& result);
+
+/// How many times less time a solver needs than jacobi to the target error. Where jacobi never gets there,
+/// the time of its best point stands in, and the ratio is a lower bound. Empty where the solver never does,
+/// or where jacobi did not run.
+struct Advantage {
+    double ratio = 0;
+    bool isBound = false;
+};
+std::optional<Advantage> advantageOf(const Curve& curve, const std::vector<Curve>& curves);
+
+struct StudyRecord {
+    const vk::DeviceDescription& device;
+    std::vector<SceneResult> scenes;
+    bool isComplete = true;
+};
+
+std::string toJson(const StudyRecord& record);
+std::string toCsv(const StudyRecord& record);
+/// The headline for a terminal.
+std::string toText(const StudyRecord& record);
+
+} // namespace sinew::tools::study

@@ -1,0 +1,167 @@
+// The file's name is a hash of the identity; the identity inside decides.
+#include "sinew/study/store.hpp"
+
+#include "app/guard.hpp"
+#include "mesh/export.hpp"
+#include "sim/compile.hpp"
+#include "sinew/json.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+namespace sinew::tools::study {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// FNV-1a, 64 bits.
+class Hash {
+public:
+    void add(std::span<const std::byte> bytes) {
+        for (const std::byte byte : bytes) {
+            value_ ^= static_cast<std::uint64_t>(byte);
+            value_ *= 0x100000001b3u;
+        }
+    }
+    void addText(const std::string& text) { add(std::as_bytes(std::span(text))); }
+    template <typename... Values> void addValues(const Values&... values) {
+        (add(std::as_bytes(std::span(&values, 1))), ...);
+    }
+    std::string text() const { return fmt::format("{:016x}", value_); }
+
+private:
+    std::uint64_t value_ = 0xcbf29ce484222325u;
+};
+
+std::string hashOf(const sim::Scene& scene) {
+    Hash hash;
+    hash.addValues(scene.gravity, scene.dt, scene.damping);
+    for (const sim::Particle& p : scene.particles) hash.addValues(p.position, p.velocity, p.inverseMass);
+    for (const sim::DistanceConstraint& d : scene.distances)
+        hash.addValues(d.a, d.b, d.restLength, d.compliance);
+    for (const sim::FixedConstraint& f : scene.fixed) hash.addValues(f.particle);
+    return hash.text();
+}
+
+std::string hashOf(const sim::StepProgram& program) {
+    Hash hash;
+    for (const sim::KernelUse& kernel : program.kernels) {
+        hash.add(std::as_bytes(kernel.code->words));
+        for (const auto& [id, value] : kernel.constants) hash.addValues(id, value);
+    }
+    for (const sim::BufferSpec& buffer : program.buffers) {
+        hash.addValues(buffer.count, buffer.stride);
+        hash.add(buffer.initial);
+    }
+    for (const sim::Pass& pass : program.step) {
+        hash.addValues(pass.kind, pass.kernel, pass.items, pass.value, pass.barrierBefore);
+        for (const sim::BufferUse& use : pass.uses) hash.addValues(use.buffer.index);
+        hash.add(pass.push);
+    }
+    return hash.text();
+}
+
+Json toJson(const sim::Settings& settings) {
+    return {{"solver", sim::solverName(settings.solver)},
+            {"substeps", settings.substeps},
+            {"iterations", settings.iterations},
+            {"omega", settings.omega},
+            {"theta", settings.theta},
+            {"weight", settings.weight},
+            {"over_relaxation", settings.overRelaxation}};
+}
+
+/// Null where the file is missing, damaged, or another's.
+Json read(const fs::path& file, const std::string& identity) {
+    std::ifstream stream(file);
+    const Json json = Json::parse(stream, nullptr, false);
+    if (!json.is_object() || json.value("identity", "") != identity) return nullptr;
+    return json;
+}
+
+void write(const fs::path& file, const Json& json) {
+    mesh::writeWhole(file, [&](std::ostream& stream) { stream << dump(json); });
+}
+
+} // namespace
+
+std::string identityOf(const StudyScene& scene, const sim::Settings& settings,
+                       const sim::StepProgram& program, const vk::DeviceDescription& device) {
+    return Json{{"version", SINEW_VERSION},  {"device", device.name},
+                {"driver", device.driver},   {"scene", hashOf(scene.loaded.scene)},
+                {"frames", scene.frames},    {"settings", toJson(settings)},
+                {"program", hashOf(program)}}
+        .dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string identityOfTruth(const StudyScene& scene) {
+    return Json{{"version", SINEW_VERSION},
+                {"truth", hashOf(scene.loaded.scene)},
+                {"frames", scene.frames},
+                {"perturbation", perturbation}}
+        .dump();
+}
+
+Store::Store(fs::path folder) : folder_(std::move(folder)) {
+    std::error_code error;
+    fs::create_directories(folder_, error);
+    if (error)
+        throw app::Failure(app::outputFailed, "cannot write: " + folder_.string() + ": " + error.message() +
+                                                  ": choose another folder");
+}
+
+fs::path Store::fileOf(const std::string& identity) const {
+    Hash hash;
+    hash.addText(identity);
+    return folder_ / (hash.text() + ".json");
+}
+
+bool Store::load(Trial& trial) const {
+    const Json json = read(fileOf(trial.identity), trial.identity);
+    if (json.is_null()) return false;
+    try {
+        trial.isDiverged = json.at("diverged").get<bool>();
+        trial.hasDeviceClock = json.at("device_clock").get<bool>();
+        trial.frameRms = json.at("frame_rms").get<std::vector<double>>();
+        trial.frameMax = json.at("frame_max").get<std::vector<double>>();
+        trial.frameMs = json.at("frame_ms").get<std::vector<double>>();
+    } catch (const Json::exception&) {
+        return false;
+    }
+    trial.isRun = true;
+    return true;
+}
+
+void Store::keep(const Trial& trial) const {
+    write(fileOf(trial.identity), {{"identity", trial.identity},
+                                   {"diverged", trial.isDiverged},
+                                   {"device_clock", trial.hasDeviceClock},
+                                   {"frame_rms", trial.frameRms},
+                                   {"frame_max", trial.frameMax},
+                                   {"frame_ms", trial.frameMs}});
+}
+
+std::optional<Truth> Store::loadTruth(const std::string& identity) const {
+    const Json json = read(fileOf(identity), identity);
+    if (json.is_null()) return {};
+    try {
+        return Truth{.bodySize = json.at("body_size").get<double>(),
+                     .h = json.at("h").get<double>(),
+                     .selfDifference = json.at("self_difference").get<double>(),
+                     .growth = json.at("growth").get<std::vector<double>>()};
+    } catch (const Json::exception&) {
+        return {};
+    }
+}
+
+void Store::keepTruth(const std::string& identity, const Truth& truth) const {
+    write(fileOf(identity), {{"identity", identity},
+                             {"body_size", truth.bodySize},
+                             {"h", truth.h},
+                             {"self_difference", truth.selfDifference},
+                             {"growth", truth.growth}});
+}
+
+} // namespace sinew::tools::study

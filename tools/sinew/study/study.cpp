@@ -1,0 +1,108 @@
+// `sinew study`: speed against error of every solver, as JSON, CSV, plots and a page. What has been run stays
+// in the output folder and is not run again.
+#include "app/guard.hpp"
+#include "mesh/export.hpp"
+#include "sinew/commands.hpp"
+#include "sinew/outputs.hpp"
+#include "sinew/study/page.hpp"
+#include "sinew/study/png.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace sinew::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StudyOptions {
+    std::string scene = "all";
+    std::string folder = "out/study";
+    std::uint32_t points = study::mostPoints;
+    std::optional<std::uint32_t> frames;
+    DeviceOptions device;
+};
+
+/// A name that is neither a scene of ours nor a file deserves more than "no such file".
+void requireScene(const std::string& scene) {
+    const std::vector<std::string> names = study::studySceneNames();
+    std::error_code error;
+    if (scene == "all" || std::ranges::count(names, scene) > 0 || fs::exists(scene, error)) return;
+    throw app::Failure(app::badInput,
+                       fmt::format("cannot study: {}: no such scene: possible are {}, all, or a "
+                                   "scene file",
+                                   scene, fmt::join(names, ", ")));
+}
+
+void write(const fs::path& file, const std::string& text) {
+    mesh::writeWhole(file, [&](std::ostream& stream) { stream << text; });
+}
+
+void writePlots(const fs::path& folder, const study::SceneResult& scene, bool& hasPng) {
+    for (const study::Price& price : study::prices) {
+        const std::string name = scene.name + "-" + price.name;
+        write(folder / (name + ".svg"), study::draw(study::plotOf(scene, price), study::Style::own));
+        hasPng = study::convertToPng(folder / (name + ".svg"), folder / (name + ".png")) && hasPng;
+    }
+}
+
+void writeAll(const fs::path& folder, const study::StudyRecord& record) {
+    bool hasPng = true;
+    for (const study::SceneResult& scene : record.scenes) writePlots(folder, scene, hasPng);
+    write(folder / "study.csv", toCsv(record));
+    write(folder / "study.html", toHtml(record));
+    write(folder / "study.json", toJson(record));
+    if (!hasPng)
+        fmt::print(stderr,
+                   "warning: plots are SVG only: rsvg-convert is missing or failed: install librsvg2-bin\n");
+}
+
+int runStudy(const StudyOptions& options) {
+    app::catchSignals();
+    requireScene(options.scene);
+    const OutputFolder folder(options.folder);
+    const study::Store store(folder.path() / "runs");
+    const std::vector<study::StudyScene> scenes = study::studyScenes(options.scene, options.frames);
+    Session session(options.device);
+    study::StudyRecord record{.device = session.device.description(), .scenes = {}};
+    for (const study::StudyScene& scene : scenes)
+        if (!app::isInterrupted())
+            record.scenes.push_back(study::study(session, scene, options.points, store));
+    record.isComplete = !app::isInterrupted();
+    writeAll(folder.path(), record);
+    TextOutput("-").write(toText(record) +
+                          fmt::format("page: {}\n", (folder.path() / "study.html").string()));
+    return record.isComplete ? app::done : app::interrupted;
+}
+
+} // namespace
+
+void addStudy(CLI::App& app, Chosen& chosen) {
+    CLI::App& command = *app.add_subcommand(
+        "study", "measure speed against error of every solver; write JSON, CSV, plots and one HTML page");
+    const auto options = std::make_shared<StudyOptions>();
+    command
+        .add_option("--scene", options->scene,
+                    fmt::format("{}, all, or a scene file without planes and damping",
+                                fmt::join(study::studySceneNames(), ", ")))
+        ->capture_default_str();
+    command
+        .add_option("--out", options->folder,
+                    "folder for the results; what it holds of an earlier study is not run again")
+        ->capture_default_str();
+    command
+        .add_option("--points", options->points,
+                    "sweep counts to try for each solver: 8, 16, 32 ... in every split into substeps")
+        ->check(CLI::Range(1u, study::mostPoints))
+        ->capture_default_str();
+    command.add_option("--frames", options->frames, "length of the motion, instead of the scene's own")
+        ->check(CLI::Range(1u, 600u));
+    addDeviceOptions(command, options->device);
+    command.callback([options, &chosen] { chosen = [options] { return runStudy(*options); }; });
+}
+
+} // namespace sinew::tools
