@@ -1,6 +1,8 @@
 // Help and wrong usage, and the commands that need no device.
 #include "tools/program.hpp"
 
+#include <set>
+
 using sinew::test::expectOneError;
 using sinew::test::Outcome;
 using sinew::test::shippedScene;
@@ -105,17 +107,24 @@ TEST_F(Usage, BenchWritesARowForEverySolver) {
     const Outcome outcome = run({"bench", "--scene", "cloth", "--seconds", "0.01", "--json", "-"});
     ASSERT_EQ(outcome.code, 0) << outcome.error;
     const auto rows = nlohmann::json::parse(outcome.out)["rows"];
-    ASSERT_EQ(rows.size(), 3u);
-    const char* solvers[] = {"sequential", "jacobi", "split"};
-    for (std::size_t i = 0; i < 3; ++i) {
+    ASSERT_GE(rows.size(), 4u);
+    std::vector<std::string> solvers{"sequential", "sequential", "jacobi", "split"};
+    for (std::size_t i = solvers.size(); i < rows.size(); ++i) solvers.push_back(rows[i]["solver"]);
+    EXPECT_EQ(std::set(solvers.begin() + 1, solvers.end()).size(), rows.size() - 1) << "a row for each";
+    for (std::size_t i = 0; i < rows.size(); ++i) {
         EXPECT_EQ(rows[i]["solver"], solvers[i]);
         EXPECT_EQ(rows[i]["constraints"], 16002);
-        for (const char* field :
-             {"scene", "size", "device", "particles", "substeps", "iterations", "fps_mean", "fps_stddev",
-              "ms_mean", "ms_stddev", "ms_p50", "ms_p99", "ns_per_constraint_sweep", "speedup"})
+        for (const char* field : {"scene", "size", "device", "particles", "substeps", "iterations",
+                                  "fps_mean", "fps_stddev", "ms_mean", "ms_stddev", "ms_p50", "ms_p99",
+                                  "ns_per_constraint_sweep", "speedup", "speedup_over_best", "precision"})
             EXPECT_TRUE(rows[i].contains(field)) << field;
         EXPECT_GT(rows[i]["ms_p50"], 0);
         EXPECT_TRUE(rows[i]["error"]["strain_rms"].is_number());
     }
+    EXPECT_EQ(rows[0]["order"], "natural");
+    EXPECT_EQ(rows[1]["order"], "color");
+    EXPECT_TRUE(rows[0]["flags"].is_string());
+    EXPECT_TRUE(rows[2]["flags"].is_null());
     EXPECT_EQ(rows[0]["speedup"], 1);
+    EXPECT_LE(rows[2]["speedup_over_best"], rows[2]["speedup"]);
 }

@@ -1,21 +1,24 @@
-// `sinew bench`: time per step of each solver on the shipped scenes, sequential (double precision, one CPU
-// thread) against the device. The solvers take turns in one process, so that whatever else the machine does
+// `sinew bench`: time per step of each solver on the shipped scenes, sequential (one CPU thread) against the
+// device: the slides' table of results. All take turns in one process, so that whatever else the machine does
 // hits all alike.
 #include "app/guard.hpp"
 #include "scenes/load.hpp"
 #include "sim/compile.hpp"
-#include "sim/reference/reference.hpp"
 #include "sinew/commands.hpp"
 #include "sinew/json.hpp"
 #include "sinew/outputs.hpp"
+#include "sinew/peers.hpp"
 #include "sinew/report.hpp"
 #include "sinew/runner.hpp"
+#include "sinew/sequential.hpp"
 #include "sinew/skin_mesh.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 
 namespace sinew::tools {
@@ -27,6 +30,7 @@ using Clock = std::chrono::steady_clock;
 struct BenchOptions {
     std::string scene = "all";
     double seconds = 10; // of measuring per scene
+    bool hasPeers = false;
     DeviceOptions device;
     std::optional<std::string> json;
 };
@@ -39,13 +43,14 @@ constexpr BenchScene benchScenes[] = {{"cloth", "64x64"}, {"cube", "16x16x16"}};
 
 constexpr std::uint64_t stepsPerTurn = 8;
 
-/// One solver of the table: takes turns, then says what it measured.
+/// One row of the table: takes turns, then says what it measured.
 struct Contestant {
     std::string solver, device;
     scenes::LoadedScene loaded;
-    std::uint64_t sweeps = 0;       // a step
-    std::unique_ptr<Runner> runner; // null for the sequential one
-    sim::reference::State reference;
+    std::uint64_t sweeps = 0;               // a step
+    std::unique_ptr<Runner> runner;         // this one
+    std::unique_ptr<Sequential> sequential; // or this one
+    const char* order = nullptr;            // of constraints, where it is sequential
     std::vector<double> stepMs;
 
     void takeTurn();
@@ -61,24 +66,20 @@ void Contestant::takeTurn() {
     }
     for (std::uint64_t i = 0; i < stepsPerTurn; ++i) {
         const Clock::time_point start = Clock::now();
-        sim::reference::stepGaussSeidel(loaded.scene, loaded.settings, double{loaded.scene.dt}, reference);
+        sequential->step();
         stepMs.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
     }
 }
 
 State Contestant::state() const {
-    if (runner) return runner->readState();
-    const std::vector<float> inverseMass = sim::inverseMasses(loaded.scene);
-    State state;
-    for (std::size_t i = 0; i < inverseMass.size(); ++i) {
-        const auto row = [&](const Eigen::Vector3d& v) {
-            return std::array{static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()),
-                              inverseMass[i]};
-        };
-        state.positions.push_back(row(reference.x[i]));
-        state.velocities.push_back(row(reference.v[i]));
-    }
-    return state;
+    return runner ? runner->readState() : State{sequential->positions(), sequential->velocities()};
+}
+
+bool isFinite(const Contestant& contestant) {
+    if (contestant.runner) return !contestant.runner->divergence();
+    return std::ranges::all_of(contestant.sequential->positions(), [](const auto& x) {
+        return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
+    });
 }
 
 /// The error figures after the steps made so far. Skins are placed here for all alike, from the particles.
@@ -96,14 +97,18 @@ Errors errorsOf(const Contestant& contestant) {
 
 std::vector<std::unique_ptr<Contestant>> contestants(const std::string& scene, Session& session) {
     std::vector<std::unique_ptr<Contestant>> result;
-    auto& sequential = *result.emplace_back(std::make_unique<Contestant>());
-    sequential.solver = "sequential";
-    sequential.device = "CPU, one thread, double precision";
-    sequential.loaded = scenes::loadBuiltIn(scene);
-    sequential.reference = sim::reference::initialState(sequential.loaded.scene);
-    const sim::Settings& settings = sequential.loaded.settings;
-    sequential.sweeps = std::uint64_t{settings.substeps} * settings.iterations;
-    for (const char* solver : {"jacobi", "split"}) {
+    for (const auto& [order, name] :
+         {std::pair{ConstraintOrder::natural, "natural"}, std::pair{ConstraintOrder::color, "color"}}) {
+        auto& contestant = *result.emplace_back(std::make_unique<Contestant>());
+        contestant.solver = "sequential";
+        contestant.order = name;
+        contestant.device = "CPU, one thread";
+        contestant.loaded = scenes::loadBuiltIn(scene);
+        const sim::Settings& settings = contestant.loaded.settings;
+        contestant.sequential = std::make_unique<Sequential>(contestant.loaded.scene, settings, order);
+        contestant.sweeps = std::uint64_t{settings.substeps} * settings.iterations;
+    }
+    for (const std::string& solver : sim::solverNames()) {
         auto& contestant = *result.emplace_back(std::make_unique<Contestant>());
         contestant.solver = solver;
         contestant.device = session.device.description().name;
@@ -115,7 +120,12 @@ std::vector<std::unique_ptr<Contestant>> contestants(const std::string& scene, S
     return result;
 }
 
-Json rowOf(const BenchScene& scene, const Contestant& contestant, double sequentialMs) {
+/// Medians of the sequential rows [ms]: in the scene's order, as the slides compare, and the faster of both.
+struct SequentialMs {
+    double natural = 0, best = 0;
+};
+
+Json rowOf(const BenchScene& scene, const Contestant& contestant, const SequentialMs& sequential) {
     std::vector<double> fps;
     for (const double ms : contestant.stepMs) fps.push_back(1000 / ms);
     const Statistics step = summarise(contestant.stepMs).value_or(Statistics{});
@@ -126,6 +136,9 @@ Json rowOf(const BenchScene& scene, const Contestant& contestant, double sequent
             {"size", scene.size},
             {"solver", contestant.solver},
             {"device", contestant.device},
+            {"order", contestant.order ? Json(contestant.order) : Json(nullptr)},
+            {"precision", "float"},
+            {"flags", contestant.sequential ? Json(sequentialFlags()) : Json(nullptr)},
             {"particles", described.particles.size()},
             {"constraints", described.distances.size()},
             {"substeps", contestant.loaded.settings.substeps},
@@ -140,7 +153,9 @@ Json rowOf(const BenchScene& scene, const Contestant& contestant, double sequent
             {"ms_p99", step.p99},
             {"ns_per_constraint_sweep", 1e6 * step.p50 / work},
             {"ns_per_constraint_sweep_min", 1e6 * step.min / work},
-            {"speedup", sequentialMs / step.p50},
+            {"speedup", sequential.natural / step.p50},
+            {"speedup_over_best", sequential.best / step.p50},
+            {"finite", isFinite(contestant)},
             {"error", toJson(errorsOf(contestant))}};
 }
 
@@ -151,31 +166,48 @@ Json measureScene(const BenchScene& scene, Session& session, double seconds) {
     do {
         for (const auto& contestant : racing) contestant->takeTurn();
     } while (Clock::now() < end && !app::isInterrupted());
-    const double sequentialMs = summarise(racing.front()->stepMs).value_or(Statistics{}).p50;
+    const auto median = [&](std::size_t i) {
+        return summarise(racing[i]->stepMs).value_or(Statistics{}).p50;
+    };
+    const SequentialMs sequential{median(0), std::min(median(0), median(1))};
     Json rows = Json::array();
-    for (const auto& contestant : racing) rows.push_back(rowOf(scene, *contestant, sequentialMs));
+    for (const auto& contestant : racing) rows.push_back(rowOf(scene, *contestant, sequential));
     return rows;
+}
+
+/// In natural order one sweep a substep of rigid links can be unstable, as on the cloth: that is a result
+/// too.
+std::string strainText(const Json& row) {
+    if (!row["finite"].get<bool>()) return "diverged";
+    const Json& strain = row["error"]["strain_rms"];
+    return strain.is_null() ? "-" : fmt::format("{:.2f} %", 100 * strain.get<double>());
 }
 
 std::string table(const Json& rows) {
     std::string text =
-        fmt::format("{:<6} {:<9} {:<11} {:>9} {:>9} {:>9} {:>8} {:>9} {:>7} {:>8}\n", "scene", "size",
-                    "solver", "ms p50", "ms p99", "ms mean", "ms dev", "ns/c/swp", "best", "speed-up");
+        fmt::format("{:<6} {:<9} {:<19} {:>15} {:>17} {:>8} {:>8} {:>9} {:>8} {:>9}\n", "scene", "size",
+                    "solver", "FPS", "ms", "p50", "p99", "speed-up", "ns/c/swp", "strain");
     for (const Json& row : rows) {
         const auto number = [&](const char* key) { return row[key].get<double>(); };
+        std::string solver = row["solver"];
+        if (row["order"].is_string()) solver += ", " + row["order"].get<std::string>();
         text += fmt::format(
-            "{:<6} {:<9} {:<11} {:>9.3f} {:>9.3f} {:>9.3f} {:>8.3f} {:>9.2f} {:>7.2f} {:>8.2f}\n",
-            row["scene"].get<std::string>(), row["size"].get<std::string>(), row["solver"].get<std::string>(),
-            number("ms_p50"), number("ms_p99"), number("ms_mean"), number("ms_stddev"),
-            number("ns_per_constraint_sweep"), number("ns_per_constraint_sweep_min"), number("speedup"));
+            "{:<6} {:<9} {:<19} {:>7.1f} +-{:>5.1f} {:>8.2f} +-{:>6.2f} {:>8.2f} {:>8.2f} {:>9.2f} {:>8.2f} "
+            "{:>9}\n",
+            row["scene"].get<std::string>(), row["size"].get<std::string>(), solver, number("fps_mean"),
+            number("fps_stddev"), number("ms_mean"), number("ms_stddev"), number("ms_p50"), number("ms_p99"),
+            number("speedup"), number("ns_per_constraint_sweep"), strainText(row));
     }
-    return text;
+    return text +
+           fmt::format("sequential: float, one thread, compiled {}; speed-up: over it in natural order\n",
+                       sequentialFlags());
 }
 
 int bench(const BenchOptions& options) {
     app::catchSignals();
     std::optional<TextOutput> json;
     if (options.json) json.emplace(*options.json);
+    if (options.hasPeers) requirePeers();
     Session session(options.device);
     Json report{{"schema", reportSchema}, {"rows", Json::array()}};
     for (const BenchScene& scene : benchScenes) {
@@ -183,8 +215,11 @@ int bench(const BenchOptions& options) {
         for (Json& row : measureScene(scene, session, options.seconds))
             report["rows"].push_back(std::move(row));
     }
+    if (options.hasPeers) report["peers"] = comparePeers(options.scene, session);
     if (json) json->write(dump(report));
-    if (options.json != "-") TextOutput("-").write(table(report["rows"]));
+    if (options.json != "-")
+        TextOutput("-").write(table(report["rows"]) +
+                              (options.hasPeers ? peersTable(report["peers"]) : std::string()));
     return app::isInterrupted() ? app::interrupted : app::done;
 }
 
@@ -192,8 +227,7 @@ int bench(const BenchOptions& options) {
 
 void addBench(CLI::App& app, Chosen& chosen) {
     CLI::App& command = *app.add_subcommand(
-        "bench",
-        "time the solvers on the shipped scenes: sequential on the CPU, jacobi and split on the device");
+        "bench", "time the solvers on the shipped scenes: sequential on the CPU, the others on the device");
     const auto options = std::make_shared<BenchOptions>();
     command.add_option("--scene", options->scene)
         ->check(CLI::IsMember({"cloth", "cube", "all"}))
@@ -201,6 +235,9 @@ void addBench(CLI::App& app, Chosen& chosen) {
     command.add_option("--seconds", options->seconds, "to measure, per scene")
         ->check(CLI::Range(0.01, 3600.0))
         ->capture_default_str();
+    command.add_flag(
+        "--peers", options->hasPeers,
+        "also compare with Bullet's soft bodies at equal error on elastic scenes (takes minutes)");
     command.add_option("--json", options->json, "file for the rows, or - for the standard output");
     addDeviceOptions(command, options->device);
     command.callback([options, &chosen] { chosen = [options] { return bench(*options); }; });

@@ -18,13 +18,19 @@ body{margin:0 auto;padding:1.2rem 1rem 4rem;max-width:68rem;font:1rem/1.5 system
 background:#f5f6f8;color:#16191d}
 h1{font-size:1.7rem;line-height:1.2;margin:.4rem 0 .2rem}h2{font-size:1.25rem;margin:2.6rem 0 .2rem}
 p{margin:.35rem 0;max-width:44rem}.quiet{color:#565d66}
-.wide{overflow-x:auto;margin:1rem 0}
+.wide,.headline{overflow-x:auto;margin:1rem 0}
 table{border-collapse:collapse;background:#fff;font-variant-numeric:tabular-nums}
 th,td{padding:.45rem .8rem;text-align:right;border-bottom:1px solid #e4e7eb;white-space:nowrap;vertical-align:top}
 th:first-child,td:first-child{text-align:left}
 thead th{font-size:.85rem;border-bottom:2px solid #9aa1ab}
 td b{font-size:1.1rem}td small{display:block;color:#565d66}
 .won{background:#eaf3fb}
+@media (max-width:40rem){.headline table,.headline tbody,.headline tr,.headline td{display:block;width:100%}
+.headline thead{display:none}.headline tr{padding:.5rem 0;border-bottom:1px solid #9aa1ab}
+.headline td{display:grid;grid-template-columns:1fr auto;text-align:right;border:0;padding:.25rem .8rem}
+.headline td:first-child{font-weight:700;font-size:1.05rem;text-align:left}
+.headline td[data-solver]:before{content:attr(data-solver);text-align:left}
+.headline td small{grid-column:1/-1}}
 figure{margin:1rem 0 0;background:#fff;border-radius:.5rem;overflow:hidden}
 figure svg{display:block;width:100%;height:auto}
 .plots{display:grid;gap:1rem;grid-template-columns:repeat(auto-fit,minmax(min(100%,25rem),1fr))}
@@ -43,7 +49,8 @@ std::string cell(const Curve& curve, const std::vector<Curve>& curves) {
                                                : fmt::format("best {:.2g} % in {:.3g} ms",
                                                              100 * curve.points[front.back()].error->rms,
                                                              curve.points[front.back()].trial->medianMs());
-        return fmt::format("<td>not reached<small>{}</small></td>", best);
+        return fmt::format("<td data-solver=\"{}\"><span>not reached</span><small>{}</small></td>",
+                           escaped(curve.solver), best);
     }
     const bool isBest = std::ranges::all_of(curves, [&](const Curve& other) {
         return *ms <= other.costOf(targetError, prices[0]).value_or(*ms);
@@ -52,12 +59,13 @@ std::string cell(const Curve& curve, const std::vector<Curve>& curves) {
     if (const auto advantage = advantageOf(curve, curves); advantage && curve.solver != "jacobi")
         below = fmt::format("<small>{}{:.3g} × jacobi's speed</small>",
                             advantage->isBound ? "more than " : "", advantage->ratio);
-    return fmt::format("<td{}><b>{:.3g}</b> ms{}</td>", isBest ? " class=\"won\"" : "", *ms, below);
+    return fmt::format("<td data-solver=\"{}\"{}><span><b>{:.3g}</b> ms</span>{}</td>", escaped(curve.solver),
+                       isBest ? " class=\"won\"" : "", *ms, below);
 }
 
 std::string headline(const StudyRecord& record) {
     const std::vector<std::string> solvers = sim::solverNames();
-    std::string html = "<div class=\"wide\"><table>\n<thead><tr><th>to 1 % error</th>";
+    std::string html = "<div class=\"headline\"><table>\n<thead><tr><th>to 1 % error</th>";
     for (const std::string& solver : solvers) html += "<th>" + escaped(solver) + "</th>";
     html += "</tr></thead>\n<tbody>\n";
     for (const SceneResult& scene : record.scenes) {

@@ -13,6 +13,8 @@ namespace sinew::tools::study {
 
 namespace {
 
+constexpr std::size_t nobody = 1000; // no solver's slot
+
 std::string marker(std::size_t slot, double x, double y, double r, const char* kind) {
     switch (slot % 4) {
     case 0:
@@ -145,6 +147,8 @@ std::string draw(const Plot& plot, Style style) {
                        escaped(plot.title));
     svg += bestOfAll(plot, axes) + drawAxes(axes, plot.xLabel);
     LabelPlacer placer(axes.box);
+    const double target = axes.y(axes.target);
+    placer.avoid({{axes.box.left, target}, {axes.box.right, target}}, nobody);
     for (const PlotCurve& curve : plot.curves) {
         svg += draw(curve, axes);
         placer.avoid(frontOf(curve, axes), curve.slot);

@@ -1,0 +1,32 @@
+// A scene as one soft body of Bullet 3: nodes and links, stepped without a world, so that Bullet pays for no
+// collision detection that the scene does not need.
+#pragma once
+
+#include "sim/scene.hpp"
+
+#include <Eigen/Core>
+#include <memory>
+
+namespace sinew::tools {
+
+class BulletBody {
+public:
+    /// Bullet's links have a stiffness k in [0, 1] per iteration, with no unit. In its update (a position is
+    /// moved by -k C / (w_a + w_b), PBD) a k of w / (w + compliance / h^2), w = w_a + w_b, makes one
+    /// iteration a substep of h exactly XPBD; with n iterations, k_n = 1 - (1 - k)^(1/n) leaves the same
+    /// residual of a lone link. So Bullet gets the material as exactly as it can be told. `scene` must be
+    /// springs, masses and gravity alone.
+    BulletBody(const sim::Scene& scene, std::uint32_t substeps, std::uint32_t iterations);
+    ~BulletBody();
+    BulletBody(const BulletBody&) = delete;
+    BulletBody& operator=(const BulletBody&) = delete;
+
+    void step(); ///< of the scene's length
+    std::vector<Eigen::Vector3d> positions() const;
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+} // namespace sinew::tools

@@ -1,0 +1,23 @@
+// Built without peers.
+#include "sinew/peers.hpp"
+
+#include "app/guard.hpp"
+
+namespace sinew::tools {
+
+void requirePeers() {
+    throw app::Failure(app::wrongUsage,
+                       "cannot compare: --peers: this program was built without Bullet: install "
+                       "libbullet-dev, configure with -DSINEW_BENCH_PEERS=ON and build again");
+}
+
+Json comparePeers(const std::string&, Session&) {
+    requirePeers();
+    return {};
+}
+
+std::string peersTable(const Json&) {
+    return {};
+}
+
+} // namespace sinew::tools
