@@ -91,6 +91,8 @@ TEST(Plan, TriesEverySolverWithinTheAllowedSettings) {
         }
         for (const std::uint32_t rung : {8u, 16u, 32u, 64u, 128u, 256u, 512u, 1000u})
             EXPECT_TRUE(sweeps.contains(rung)) << name << ' ' << rung;
+        for (const std::uint32_t between : {11u, 23u, 45u})
+            EXPECT_EQ(sweeps.contains(between), solver != sim::Solver::jacobi) << name << ' ' << between;
         EXPECT_LT(settingsToTry(solver, 1).size(), settingsToTry(solver, 2).size());
     }
 }

@@ -6,6 +6,7 @@
 #include "sinew/outputs.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sinew::tools::study {
 
@@ -41,6 +42,20 @@ const Tuning& tuningOf(const std::string& solver) {
     return found == std::end(tunings) ? plain : *found;
 }
 
+/// 8, 16, 32 ... With `isFine` one more between any two: errors may fall by a factor of a thousand from one
+/// to the next.
+std::vector<std::uint32_t> sweepCounts(std::uint32_t points, bool isFine) {
+    const auto mostSubsteps = static_cast<std::uint32_t>(sim::ranges::substeps.high);
+    std::vector<std::uint32_t> counts;
+    for (std::uint32_t i = 0; i < points; ++i) {
+        const std::uint32_t sweeps = fewestSweeps << i;
+        if (isFine && i > 0)
+            counts.push_back(static_cast<std::uint32_t>(std::lround(sweeps / std::sqrt(2.0))));
+        counts.push_back(std::min(sweeps, mostSubsteps));
+    }
+    return counts;
+}
+
 } // namespace
 
 std::vector<std::string> studySceneNames() {
@@ -63,10 +78,8 @@ std::vector<StudyScene> studyScenes(const std::string& which, std::optional<std:
 
 std::vector<sim::Settings> settingsToTry(sim::Solver solver, std::uint32_t points) {
     const Tuning& tuning = tuningOf(sim::solverName(solver));
-    const auto mostSubsteps = static_cast<std::uint32_t>(sim::ranges::substeps.high);
     std::vector<sim::Settings> list;
-    for (std::uint32_t i = 0; i < points; ++i) {
-        const std::uint32_t sweeps = std::min(fewestSweeps << i, mostSubsteps);
+    for (const std::uint32_t sweeps : sweepCounts(points, tuning.iterations.size() == 1))
         for (const std::uint32_t iterations : tuning.iterations)
             for (const auto vary : tuning.variations) {
                 sim::Settings settings{.solver = solver};
@@ -76,7 +89,6 @@ std::vector<sim::Settings> settingsToTry(sim::Solver solver, std::uint32_t point
                 vary(settings);
                 list.push_back(settings);
             }
-    }
     return list;
 }
 
