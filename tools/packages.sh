@@ -27,7 +27,7 @@ need() {
 build_packages=(ca-certificates cmake ninja-build g++ libc6-dev
     libvulkan-dev libvulkan1 mesa-vulkan-drivers glslang-tools spirv-tools
     libeigen3-dev libassimp-dev zlib1g-dev libglfw3-dev libstb-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev
-    librsvg2-bin # plots of `sinew study` as PNG
+    librsvg2-bin libbullet-dev # plots of `sinew study` as PNG; `sinew bench --peers`
     libgtest-dev) # the configure step looks for it, tests or not
 # What the tests need beyond that.
 test_packages=(vulkan-validationlayers spirv-cross xvfb xauth xdotool imagemagick x11-apps
