@@ -6,6 +6,7 @@
 #include "sim/gpu_executor.hpp"
 #include "sim/validate.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
@@ -33,6 +34,23 @@ std::vector<SkinRange> rangesOf(const std::vector<Skin>& skins) {
     return ranges;
 }
 
+std::uint64_t mostTexels(const StepProgram& program) {
+    std::uint64_t most = 0;
+    for (const Pass& pass : program.step)
+        for (std::size_t b = 0; pass.kind == PassKind::dispatch && b < pass.uses.size(); ++b)
+            if (program.kernels[pass.kernel].interface.bindings[b].kind == vk::BlockKind::texels)
+                most = std::max(most, program.buffers[pass.uses[b].buffer.index].count);
+    return most;
+}
+
+// As the settings say, but without texel buffers longer than the device's.
+StepProgram compileFor(const vk::Device& device, const Scene& scene, Settings settings) {
+    StepProgram program = compile(scene, settings);
+    if (mostTexels(program) <= device.limits().maxTexels) return program;
+    settings.forms.usesTexels = false;
+    return compile(scene, settings);
+}
+
 } // namespace
 
 struct Simulation::State {
@@ -46,7 +64,7 @@ struct Simulation::State {
     float previousH = 0; // 0 before the first step: the half-kick that starts the leapfrog
 
     State(const vk::Device& d, const Scene& scene, const Settings& settings)
-        : device(d), program(compile(valid(scene, settings), settings)), executor(d, program),
+        : device(d), program(compileFor(d, valid(scene, settings), settings)), executor(d, program),
           statusRing(d, {.name = "status.ring",
                          .count = framesInFlight,
                          .stride = sizeof(layout::StatusWords),

@@ -12,6 +12,7 @@
 #include "sinew/runner.hpp"
 #include "sinew/sequential.hpp"
 #include "sinew/skin_mesh.hpp"
+#include "sinew/tuning.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -113,6 +114,7 @@ std::vector<std::unique_ptr<Contestant>> contestants(const std::string& scene, S
         contestant.solver = solver;
         contestant.device = session.device.description().name;
         contestant.loaded = scenes::loadBuiltIn(scene, {.solver = solver});
+        contestant.loaded.settings = tuned(session, contestant.loaded.scene, contestant.loaded.settings);
         contestant.runner =
             std::make_unique<Runner>(session, contestant.loaded.scene, contestant.loaded.settings);
         contestant.sweeps = contestant.runner->simulation().program().sweeps;

@@ -124,6 +124,11 @@ std::string toJson(const RunRecord& record) {
     json["substeps"] = settings.substeps;
     json["iterations"] = settings.solver == sim::Solver::split ? 1 : settings.iterations;
     json["reversed"] = settings.isReversed;
+    json["forms"] = {{"texels", settings.forms.usesTexels},
+                     {"grids", settings.forms.usesGrids},
+                     {"columns", settings.forms.columns},
+                     {"chunk", settings.forms.chunk},
+                     {"resident_bytes", settings.forms.residentBytes}};
     json["dt"] = scene.dt;
     json["particles"] = record.program.particleCount;
     json["constraints"] = record.program.constraintCount;

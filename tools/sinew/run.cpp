@@ -5,6 +5,7 @@
 #include "sinew/commands.hpp"
 #include "sinew/outputs.hpp"
 #include "sinew/report.hpp"
+#include "sinew/tuning.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -90,9 +91,11 @@ int run(const RunOptions& options) {
     std::optional<OutputFolder> folder;
     std::optional<TextOutput> json;
     if (options.json) json.emplace(*options.json);
-    const scenes::LoadedScene loaded = loadScene(options.scene);
+    scenes::LoadedScene loaded = loadScene(options.scene);
     if (options.folder) folder.emplace(*options.folder);
     Session session(options.device);
+    constexpr std::uint64_t worthTuning = 100; // frames: below, measuring forms costs more than it gains
+    if (options.frames >= worthTuning) loaded.settings = tuned(session, loaded.scene, loaded.settings);
     Runner runner(session, loaded.scene, loaded.settings);
     const RunRecord record = simulate(options, loaded, session, runner);
     for (const std::string& message : record.validationMessages)

@@ -9,6 +9,7 @@
 #include "sim/compile.hpp"
 #include "sim/validate.hpp"
 #include "sinew/study/analysis.hpp"
+#include "sinew/tuning.hpp"
 
 #include <fmt/format.h>
 
@@ -120,9 +121,14 @@ void timeAll(Session& session, const StudyScene& scene, const std::vector<Trial*
              const Store& store) {
     std::vector<Turn> turns;
     std::uint64_t total = 0, done = 0;
+    sim::Settings probe = scene.loaded.settings; // forms depend on scene and device, hardly on the settings
+    probe.solver = sim::Solver::split;
+    const sim::Forms forms = tuned(session, scene.loaded.scene, probe).forms;
     for (Trial* trial : trials) {
         total += framesLeftToTime(*trial) * trial->sweeps;
-        turns.push_back({trial, std::make_unique<Runner>(session, scene.loaded.scene, trial->settings)});
+        sim::Settings settings = trial->settings;
+        settings.forms = forms;
+        turns.push_back({trial, std::make_unique<Runner>(session, scene.loaded.scene, settings)});
     }
     app::Progress progress(total, stderr, "sweeps");
     while (!app::isInterrupted() && !std::ranges::all_of(turns, &Turn::isDone)) {

@@ -1,0 +1,84 @@
+// Coordinate search over the forms: few, because each costs its pipelines.
+#include "sim/gpu_tune.hpp"
+
+#include "sim/lattice/batches.hpp"
+#include "vk/device.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace sinew::sim {
+
+namespace {
+
+constexpr int trialSteps = 4;
+
+double shortestStep(const vk::Device& device, const Scene& scene, const Settings& settings,
+                    const TimedSubmit& submit) {
+    Simulation simulation(device, scene, settings);
+    submit([&](VkCommandBuffer commands) { simulation.recordReset(commands); });
+    double shortest = std::numeric_limits<double>::infinity();
+    for (std::uint64_t frame = 0; frame <= trialSteps; ++frame) {
+        const double ms = submit(
+            [&](VkCommandBuffer commands) { simulation.record(commands, {.dt = scene.dt, .frame = frame}); });
+        if (frame > 0) shortest = std::min(shortest, ms); // the first may compile
+    }
+    return shortest;
+}
+
+bool isGrantable(const vk::Device& device, const Scene& scene, const Settings& settings,
+                 std::span<const std::uint32_t> grids) {
+    Settings resident = settings;
+    resident.forms.residentBytes = device.limits().maxSharedMemory;
+    return lattice::isResident(scene, resident, grids);
+}
+
+/// What may be changed about the forms of this scene on this device.
+std::vector<std::function<void(Forms&)>> changes(const vk::Device& device, const Scene& scene,
+                                                 const Settings& settings) {
+    std::vector<std::function<void(Forms&)>> result;
+    if (settings.solver != Solver::split || scene.distances.empty()) return result;
+    const std::vector<std::uint32_t> grids = lattice::computedGrids(scene, settings);
+    result.push_back([](Forms& forms) { forms.usesTexels = !forms.usesTexels; });
+    if (!grids.empty()) {
+        result.push_back([](Forms& forms) { forms.chunk /= 2; });
+        result.push_back([](Forms& forms) { forms.chunk *= 2; });
+        const bool hasLattice =
+            std::ranges::any_of(grids, [&](std::uint32_t g) { return !lattice::isSheet(scene.grids[g]); });
+        if (hasLattice) result.push_back([](Forms& forms) { forms.columns = 3 - forms.columns; });
+    }
+    if (isGrantable(device, scene, settings, grids))
+        result.push_back(
+            [most = device.limits().maxSharedMemory](Forms& forms) { forms.residentBytes = most; });
+    return result;
+}
+
+} // namespace
+
+Tuning tune(const vk::Device& device, const Scene& scene, const Settings& settings,
+            const TimedSubmit& submit) {
+    constexpr std::uint32_t trialSubsteps = 8;
+    constexpr double gain = 0.97;
+    Tuning tuning{.fastest = settings.forms};
+    Settings trial = settings;
+    trial.substeps = std::min(settings.substeps, trialSubsteps);
+    double best = std::numeric_limits<double>::infinity();
+    const auto attempt = [&](const Forms& forms) {
+        trial.forms = forms;
+        tuning.trials.push_back({forms, shortestStep(device, scene, trial, submit)});
+        if (tuning.trials.back().ms >= gain * best) return;
+        best = tuning.trials.back().ms;
+        tuning.fastest = forms;
+    };
+    const auto candidates = changes(device, scene, settings);
+    if (candidates.empty()) return tuning;
+    attempt(settings.forms);
+    for (const auto& change : candidates) {
+        Forms forms = tuning.fastest;
+        change(forms);
+        if (forms.chunk > 0) attempt(forms);
+    }
+    return tuning;
+}
+
+} // namespace sinew::sim

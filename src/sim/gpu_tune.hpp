@@ -1,0 +1,35 @@
+// Chooses between equal forms of a step by measuring them on the device, at start-up. No choice changes a bit
+// of the result, so that a host may also skip this, or keep what it measured last time.
+#pragma once
+
+#include "sim/simulation.hpp"
+
+#include <functional>
+
+namespace sinew::sim {
+
+/// Submits what `record` records and returns when it is done, with the time that took [ms]: of the device, or
+/// of the host's clock.
+using TimedSubmit = std::function<double(const std::function<void(VkCommandBuffer)>& record)>;
+
+/// One form and the shortest time of a trial step [ms].
+struct Trial {
+    Forms forms;
+    double ms = 0;
+};
+
+/// The trials in the order they were made; the first is the form of the settings given. Empty where the scene
+/// has nothing to choose.
+struct Tuning {
+    std::vector<Trial> trials;
+    Forms fastest;
+};
+
+/// Tries forms one change after another, each against the best so far, in trial steps of at most 8 substeps
+/// on a simulation of its own; takes another form only where it is at least 3 % faster. Creates and destroys
+/// pipelines: tens of milliseconds a form, more where a driver compiles it for the first time. Throws what
+/// Simulation throws.
+Tuning tune(const vk::Device& device, const Scene& scene, const Settings& settings,
+            const TimedSubmit& submit);
+
+} // namespace sinew::sim

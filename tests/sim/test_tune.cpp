@@ -1,0 +1,78 @@
+// Start-up measurement: the fastest of the forms tried is taken, whatever the clock says, and it changes no
+// bit.
+#include "sim/bodies.hpp"
+#include "sim/gpu_tune.hpp"
+#include "sim/runner.hpp"
+#include "sim/scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+using namespace sinew;
+using namespace sinew::sim;
+
+namespace {
+
+// Runs what is recorded and answers with the next of these times, then with 1 ms.
+class Clock {
+public:
+    explicit Clock(std::function<double(std::size_t trial)> ms) : ms_(std::move(ms)) {}
+    TimedSubmit submit() {
+        return [this](const std::function<void(VkCommandBuffer)>& record) {
+            const VkCommandBuffer commands = test::queue().begin();
+            record(commands);
+            test::queue().wait(test::queue().submit(commands));
+            constexpr std::size_t submissionsOfATrial = 6; // reset, one to warm up, four
+            return ms_(submissions_++ / submissionsOfATrial);
+        };
+    }
+
+private:
+    std::function<double(std::size_t)> ms_;
+    std::size_t submissions_ = 0;
+};
+
+bool operator==(const Forms& a, const Forms& b) {
+    return a.usesTexels == b.usesTexels && a.usesGrids == b.usesGrids && a.columns == b.columns &&
+           a.chunk == b.chunk && a.residentBytes == b.residentBytes;
+}
+
+} // namespace
+
+TEST(Tuning, TakesTheFastestTrial) {
+    const Scene scene = test::block(6, 0.05f, 1e5f);
+    for (std::size_t fastest = 0; fastest < 5; ++fastest) {
+        Clock clock([&](std::size_t trial) { return trial == fastest ? 1.0 : 2.0; });
+        const Tuning tuning = tune(test::device(), scene, {}, clock.submit());
+        ASSERT_GE(tuning.trials.size(), 5u) << "texels, two chunks, columns, shared memory";
+        EXPECT_TRUE(tuning.fastest == tuning.trials[fastest].forms) << "trial " << fastest;
+    }
+}
+
+TEST(Tuning, KeepsWhatWasGivenWithinTheNoise) {
+    Clock clock([](std::size_t trial) { return trial == 0 ? 1.0 : 0.98; });
+    const Tuning tuning = tune(test::device(), test::block(6, 0.05f, 1e5f), {}, clock.submit());
+    EXPECT_TRUE(tuning.fastest == Forms{});
+}
+
+TEST(Tuning, TriesNothingWhereThereIsNoChoice) {
+    Clock clock([](std::size_t) { return 1.0; });
+    EXPECT_TRUE(tune(test::device(), test::block(3, 0.05f, 1e5f), {.solver = Solver::jacobi}, clock.submit())
+                    .trials.empty());
+    EXPECT_TRUE(tune(test::device(), test::particleAt({0, 1, 0}, {}), {}, clock.submit()).trials.empty());
+    EXPECT_EQ(tune(test::device(), test::chain(20, {1e-4f}), {}, clock.submit()).trials.size(), 2u)
+        << "texels or loads";
+}
+
+TEST(Tuning, EveryFormItTriesGivesTheSameBits) {
+    const Scene scene = test::block(6, 0.05f, 1e5f);
+    Clock clock([](std::size_t trial) { return 1.0 / static_cast<double>(trial + 1); });
+    std::vector<std::uint64_t> hashes;
+    for (const Trial& trial : tune(test::device(), scene, {}, clock.submit()).trials) {
+        test::Runner runner(scene, {.substeps = 5, .forms = trial.forms});
+        runner.run(3);
+        hashes.push_back(runner.stateHash());
+    }
+    EXPECT_EQ(std::ranges::count(hashes, hashes.front()), static_cast<std::ptrdiff_t>(hashes.size()));
+}
