@@ -1,6 +1,7 @@
 #version 460
 // `split` for any graph: a particle's links are listed in slots, as many for each particle of the scene.
-// LINKS_PACKED: one word a link (layout.h). NO_LINKS: free particles only. Else a SplitLink each.
+// LINKS_PACKED: one word a link (layout.h). NO_LINKS: free particles only. Else a SplitLink each, with HAS_BENDS and
+// HAS_DAMPING for scenes that have those.
 #extension GL_GOOGLE_include_directive : require
 #include "split.glsl"
 
@@ -29,14 +30,19 @@ layout(binding = LINK_BINDING) uniform usamplerBuffer links;
 layout(std430, binding = LINK_BINDING) readonly buffer Links { uvec4 links[]; }; // SplitLink, in one load
 #define LINK(i) links[i]
 #endif
+#ifdef HAS_DAMPING
+layout(push_constant) uniform Push { DampedSubstepPush push; };
+#else
 layout(push_constant) uniform Push { SubstepPush push; };
 #endif
+#endif
+#include "gather_terms.glsl"
 
 #ifndef NO_LINKS
 layout(constant_id = 1) const uint degree = 1; // slots per particle, padded
 
 // Padding is a link to oneself and contributes exactly 0.
-vec3 slotImpulse(uint s, uint i, vec4 y, float hh) {
+vec3 slotImpulse(uint s, uint i, vec4 y, vec3 v, float hh) {
     const uint index = (i / LINK_BLOCK * degree + s) * LINK_BLOCK + i % LINK_BLOCK;
 #ifdef LINKS_PACKED
     const uint word = LINK(index);
@@ -47,7 +53,12 @@ vec3 slotImpulse(uint s, uint i, vec4 y, float hh) {
     const uvec4 link = LINK(index);
     const vec4 yj = POSITION(link.x);
     const float clamped = min(uintBitsToFloat(link.z) * hh, uintBitsToFloat(link.w) * min(y.w, yj.w));
-    return linkImpulse(y.xyz, yj.xyz, uintBitsToFloat(link.y), clamped);
+    vec3 impulse = linkImpulse(y.xyz, yj.xyz, uintBitsToFloat(link.y), clamped);
+#ifdef HAS_DAMPING
+    const float most = uintBitsToFloat(link.w) * min(y.w, yj.w);
+    impulse += dampingImpulse(yj.xyz - y.xyz, velocities[link.x].xyz - v, uintBitsToFloat(link.z), most, sqrt(hh));
+#endif
+    return impulse;
 #endif
 }
 #endif
@@ -56,11 +67,14 @@ void main() {
     // No early out: buffers are padded to whole groups. On lavapipe a lane mask turns every load into eight branches.
     const uint i = itemIndex(push.count);
     const Substep substep = substepOf(push.isFirst != 0u);
-    const vec4 y = POSITION(i);
+    const vec4 y = POSITION(i), velocity = velocities[i];
     vec3 sum = vec3(0.0);
 #ifndef NO_LINKS
     // unrolled whatever its length: a loop brings the lane mask back (18 slots: 25 % slower)
-    [[unroll]] for (uint s = 0u; s < degree; ++s) sum += slotImpulse(s, i, y, substep.hh);
+    [[unroll]] for (uint s = 0u; s < degree; ++s) sum += slotImpulse(s, i, y, velocity.xyz, substep.hh);
 #endif
-    advance(i, y, velocities[i], sum, substep);
+#ifdef HAS_BENDS
+    sum += bendImpulses(i, substep.hh);
+#endif
+    advance(i, y, velocity, sum, substep);
 }

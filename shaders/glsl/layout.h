@@ -25,7 +25,7 @@ struct StepParams {
     float velocityFactor; // exp(-damping h)
     float restSpeed;      // impacts slower than this do not rebound: 2 |g| h [m/s]
     uint frame;
-    uint unused0;
+    float dampingShare; // `split`: h x damping coefficient of a link, at most this x the smaller kappa of its ends
 };
 
 // `split` keeps the links of a work group's particles together, slot by slot: link s of particle i is element
@@ -46,6 +46,40 @@ struct SplitLink {
 #define PACKED_END_BITS 24
 #define PACKED_CODES 256
 #define PACKED_GROUPS 4
+
+// `split`: a bend as one of its three particles sees it.
+struct SplitBend {
+    uint a, b, c;     // in a row; all three the particle itself in padding
+    float weight;     // of C = x_a - 2 x_b + x_c in its impulse: -1 for an end, 2 for the middle
+    float stiffness;  // [N/m]
+    float clamp;      // stiffness x h^2 at most [kg]
+    uint unused0, unused1;
+};
+
+// `jacobi`: a bend, and what both ends and the middle really take of each new multiplier.
+struct BendRow {
+    uint a, b, c;
+    float compliance; // [m/N]
+    float share;
+    uint unused0, unused1, unused2;
+};
+
+struct AttachedParticle {
+    uint particle;
+    float compliance; // [m/N]
+    float maxForce;   // [N]
+    uint unused0;
+};
+
+// A tethered particle's tethers: entries first .. first + count - 1 of the list of TetherReach.
+struct TetheredParticle {
+    uint particle, first, count;
+};
+
+struct TetherReach {
+    uint anchor;
+    float reach; // [m]
+};
 
 // `jacobi`: a distance constraint.
 struct DistanceEdge {
@@ -139,6 +173,24 @@ struct LatticePush {
     float units[3];              // stiffness for each 1/15 of a cell's fill [N/m]
     float shares[3];             // k~ likewise
     uint substeps, bodySlots, bodyChunks; // RESIDENT: all substeps of a step at once; count = bodies x group size
+};
+
+struct DampedSubstepPush {
+    uint count;
+    uint isFirst;
+    float dampingTime; // damping coefficient over stiffness [s]
+};
+
+struct AttachmentPush {
+    uint count;
+    float fraction; // of the step that is over when this substep is
+};
+
+struct DampedIterationPush {
+    uint count;
+    uint firstSlot;
+    uint isFirst;
+    float dampingTime; // [s]
 };
 
 struct IterationPush {

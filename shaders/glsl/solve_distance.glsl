@@ -11,7 +11,18 @@ layout(std430, binding = 2) writeonly buffer Corrections { vec4 corrections[]; }
 layout(std140, binding = 3) uniform Step { StepParams step; };
 layout(std430, binding = 4) buffer Multipliers { DistanceMultiplier multipliers[]; };
 #endif
+#ifdef HAS_DAMPING
+layout(std430, binding = 5) readonly buffer Velocities { vec4 velocities[]; };
+layout(push_constant) uniform Push { DampedIterationPush push; };
+
+// How far a particle has moved in this substep: v carries the whole of h g where the displacement has half of it.
+vec3 moved(uint i) {
+    const vec4 v = velocities[i];
+    return v.w > 0.0 ? step.h * (v.xyz - 0.5 * step.h * step.gravity.xyz) : vec3(0.0);
+}
+#else
 layout(push_constant) uniform Push { IterationPush push; };
+#endif
 
 void main() {
     const uint c = itemIndex(push.count);
@@ -27,6 +38,12 @@ void main() {
     const float alpha = min(edge.compliance / (step.h * step.h), 1e30); // Inf would turn into NaN
     const float lambda = push.isFirst != 0u ? 0.0 : multipliers[c].lambda;
     value += alpha * lambda;
+#ifdef HAS_DAMPING
+    // eq. 26 with a damping coefficient dampingTime / compliance: gamma = dampingTime / h; rigid ones have none
+    const float gamma = alpha > 0.0 ? push.dampingTime / step.h : 0.0;
+    value += gamma * dot(n, moved(edge.b) - moved(edge.a));
+    denominator *= 1.0 + gamma;
+#endif
     denominator += alpha;
     const float change = -value / denominator;
     multipliers[c].lambda = lambda + change * multipliers[c].share;

@@ -35,7 +35,14 @@ layout(std430, binding = 1) writeonly buffer NextPositions { vec4 nextPositions[
 #define STORE_POSITION(i, value) nextPositions[i] = value
 #define VELOCITY_BINDING 2
 #endif
+#ifdef HAS_DAMPING
+// Neighbours read velocities, so that they alternate like positions.
+layout(std430, binding = VELOCITY_BINDING) readonly buffer Velocities { vec4 velocities[]; }; // v [m/s], w [1/kg]
+#define STORE_VELOCITY(i, value) nextVelocities[i] = value
+#else
 layout(std430, binding = VELOCITY_BINDING) buffer Velocities { vec4 velocities[]; }; // v [m/s], w [1/kg]
+#define STORE_VELOCITY(i, value) velocities[i] = value
+#endif
 layout(std140, binding = VELOCITY_BINDING + 1) uniform Step { StepParams step; };
 #ifdef HAS_PLANES
 #include "planes.glsl"
@@ -44,6 +51,16 @@ layout(std430, binding = VELOCITY_BINDING + 3) readonly buffer ContactOffsets { 
 #define LINK_BINDING (VELOCITY_BINDING + 4)
 #else
 #define LINK_BINDING (VELOCITY_BINDING + 2)
+#endif
+
+#ifdef HAS_BENDS
+#define BEND_BINDING (LINK_BINDING + 1)
+#define NEXT_VELOCITY_BINDING (LINK_BINDING + 2)
+#else
+#define NEXT_VELOCITY_BINDING (LINK_BINDING + 1)
+#endif
+#ifdef HAS_DAMPING
+layout(std430, binding = NEXT_VELOCITY_BINDING) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
 #endif
 
 // What is the same for all particles of a substep.
@@ -88,6 +105,6 @@ void advance(uint i, vec4 y, vec4 velocity, vec3 impulses, Substep substep) {
         v = motion.v;
     }
 #endif
-    velocities[i] = vec4(v, w);
+    STORE_VELOCITY(i, vec4(v, w));
     STORE_POSITION(i, vec4(x + step.thetaH * v, y.w));
 }

@@ -2,6 +2,7 @@
 // particles.
 #include "scenes/bodies.hpp"
 
+#include "scenes/origin.hpp"
 #include "sim/bodies.hpp"
 
 #include <algorithm>
@@ -131,7 +132,7 @@ void addCloth(LoadedScene& loaded, const Section& cloth) {
     if (std::abs(dot(cloth.vector("right"), cloth.vector("down"))) > 1e-3)
         cloth.fail("down", "is not at right angles to right", "turn one of them");
     sim::ClothSheet sheet{.name = cloth.text("name"),
-                          .origin = cloth.vector("origin"),
+                          .origin = localPoint(cloth, "origin", loaded.origin),
                           .right = cloth.vector("right"),
                           .down = cloth.vector("down"),
                           .size = cloth.counts<2>("size"),
@@ -140,6 +141,8 @@ void addCloth(LoadedScene& loaded, const Section& cloth) {
                           .stretchCompliance = cloth.number("stretch_compliance"),
                           .shearCompliance = cloth.number("shear_compliance"),
                           .skipStiffness = cloth.number("skip_stiffness"),
+                          .bendingStiffness = cloth.number("bending_stiffness"),
+                          .tethers = cloth.count("tethers"),
                           .pinned = {},
                           .color = cloth.vector("color")};
     checkRoom(loaded, std::uint64_t{sheet.size[0]} * sheet.size[1], cloth, "size");
@@ -177,9 +180,9 @@ void addBox(LoadedScene& loaded, const Section& box) {
                          .density = box.number("density")};
     checkRoom(loaded, std::uint64_t{particles[0]} * particles[1] * particles[2], box, "particles");
     if (box.has("origin")) {
-        lattice.origin = box.vector("origin");
+        lattice.origin = localPoint(box, "origin", loaded.origin);
     } else {
-        const sim::Vec3 center = box.vector("center");
+        const sim::Vec3 center = localPoint(box, "center", loaded.origin);
         const auto low = [&](float middle, std::size_t axis) {
             return middle - lattice.spacing * static_cast<float>(lattice.cells[axis]) / 2;
         };
@@ -194,7 +197,7 @@ void addBox(LoadedScene& loaded, const Section& box) {
 void addPlane(LoadedScene& loaded, const Section& plane) {
     requireUnit(plane, "normal");
     loaded.scene.planes.push_back({.normal = plane.vector("normal"),
-                                   .offset = plane.number("offset"),
+                                   .offset = localOffset(plane, loaded.origin),
                                    .friction = plane.number("friction"),
                                    .restitution = plane.number("restitution")});
 }

@@ -4,7 +4,7 @@
 
 #include "scenes/bodies.hpp"
 #include "scenes/built_in.hpp"
-#include "scenes/stiffness.hpp"
+#include "scenes/origin.hpp"
 #include "sim/compile.hpp"
 #include "sim/validate.hpp"
 
@@ -46,7 +46,8 @@ sim::Solver solverNamed(const std::string& name, const std::string& where) {
 
 void readSettings(LoadedScene& loaded, const Section& solver, const std::string& where) {
     loaded.settings = {.solver = solverNamed(solver.text("name"), where),
-                       .substeps = solver.count("substeps"),
+                       .substeps = solver.countOrAuto("substeps").value_or(0),
+                       .tolerance = solver.number("tolerance"),
                        .iterations = solver.count("iterations"),
                        .omega = solver.number("omega"),
                        .theta = solver.number("theta"),
@@ -91,14 +92,15 @@ void warnAboutSolver(LoadedScene& loaded) {
     if (settings.solver != sim::Solver::split) return;
     if (settings.iterations > 1)
         loaded.warnings.push_back("split makes one sweep per substep: iterations are ignored");
-    const StiffnessReport stiffness = inspectStiffness(loaded.scene, settings);
+    const sim::StiffnessReport stiffness = sim::inspectStiffness(loaded.scene, settings);
     // A few links on light corners are no news; half of a body being too soft is.
-    if (2 * stiffness.clampedLinks > stiffness.elasticLinks)
+    if (2 * stiffness.soft > stiffness.elastic)
         loaded.warnings.push_back(
-            std::to_string(stiffness.clampedLinks) + " of " + std::to_string(stiffness.elasticLinks) +
+            std::to_string(stiffness.soft) + " of " + std::to_string(stiffness.elastic) +
             " elastic links are softer than asked, down to " +
             std::to_string(std::lround(100 * stiffness.softest)) +
-            " %: " + std::to_string(stiffness.neededSubsteps) + " substeps would be exact");
+            " %: " + std::to_string(stiffness.neededSubsteps) + " substeps would keep all within " +
+            std::to_string(std::lround(100 * double{settings.tolerance})) + " %");
 }
 
 void requireValid(const LoadedScene& loaded, const std::string& file) {
@@ -117,14 +119,19 @@ LoadedScene read(const std::string& text, const Source& source, const Overrides&
     loaded.scene.gravity = top.vector("gravity");
     loaded.scene.dt = top.number("dt");
     loaded.scene.damping = top.number("damping");
+    loaded.scene.dampingTime = top.number("damping_time");
     readSettings(loaded, top.child("solver"), source.file);
     apply(overrides, loaded);
+    loaded.origin = originOf(top);
     readBodies(loaded, top, source, overrides.voxel);
     if (top.has("camera")) {
         const Section camera = top.child("camera");
-        loaded.camera = Camera{camera.vector("eye"), camera.vector("target"), camera.number("field_of_view")};
+        loaded.camera = Camera{localPoint(camera, "eye", loaded.origin),
+                               localPoint(camera, "target", loaded.origin), camera.number("field_of_view")};
     }
     requireValid(loaded, source.file);
+    loaded.substeps = sim::chooseSubsteps(loaded.scene, loaded.settings);
+    loaded.settings.substeps = loaded.substeps.substeps;
     for (const sim::Body& body : loaded.scene.bodies) warnAboutSize(body, loaded);
     warnAboutSolver(loaded);
     return loaded;

@@ -3,7 +3,7 @@
 
 #include "mesh/import.hpp"
 #include "mesh/to_scene.hpp"
-#include "sim/scene.hpp"
+#include "sim/substeps.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -31,7 +31,11 @@ struct MeshSummary {
 
 struct LoadedScene {
     sim::Scene scene;
-    sim::Settings settings;
+    sim::Settings settings;      ///< substeps is a number
+    sim::SubstepChoice substeps; ///< where it comes from
+    /// Where the scene's (0, 0, 0) is in the coordinates of the file [m]; 0 but for scenes farther than 16 m
+    /// away.
+    std::array<double, 3> origin{};
     std::optional<Camera> camera;
     std::vector<MeshSummary> meshes;
     std::vector<std::string> warnings; ///< sentences, such as "mesh bunny.obj is open: 72 boundary edges ..."
@@ -40,7 +44,8 @@ struct LoadedScene {
 /// What the command line says over the file.
 struct Overrides {
     std::optional<std::string> solver;
-    std::optional<std::uint32_t> substeps, iterations;
+    std::optional<std::uint32_t> substeps; ///< 0 = chosen
+    std::optional<std::uint32_t> iterations;
     std::optional<float> dt;
     std::optional<float> voxel; ///< cell edge of mesh bodies [m]
     bool isReversed = false;

@@ -74,7 +74,7 @@ Eigen::Vector3d toEigen(sim::Vec3 v) {
 }
 
 /// Scales, then turns about the middle of the bounding box, then moves that middle.
-void place(mesh::TriangleMesh& mesh, const Section& section) {
+void place(mesh::TriangleMesh& mesh, const Section& section, const std::array<double, 3>& origin) {
     const mesh::MeshReport report = mesh::inspect(mesh);
     const Eigen::Vector3d low = toEigen(report.low), high = toEigen(report.high), middle = (low + high) / 2;
     const double longest = (high - low).maxCoeff();
@@ -86,7 +86,12 @@ void place(mesh::TriangleMesh& mesh, const Section& section) {
                                   Eigen::AngleAxisd(angles.y(), Eigen::Vector3d::UnitY()) *
                                   Eigen::AngleAxisd(angles.x(), Eigen::Vector3d::UnitX()))
                                      .toRotationMatrix();
-    const Eigen::Vector3d center = section.has("center") ? toEigen(section.vector("center")) : middle;
+    const auto world = [&] {
+        const auto point = section.point("center");
+        return Eigen::Vector3d(point[0], point[1], point[2]);
+    };
+    const Eigen::Vector3d center =
+        (section.has("center") ? world() : middle) - Eigen::Vector3d(origin[0], origin[1], origin[2]);
     for (sim::Vec3& position : mesh.positions) {
         const Eigen::Vector3d placed = turn * (toEigen(position) - middle) * scale + center;
         position = {static_cast<float>(placed.x()), static_cast<float>(placed.y()),
@@ -117,7 +122,7 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
         section.fail("resolution", "is given beside voxel", "give one of them");
     Found found = section.has("file") ? import(section, source) : generate(section);
     if (found.mesh.triangles.empty()) section.fail("file", "has no triangles", "check the mesh");
-    place(found.mesh, section);
+    place(found.mesh, section, loaded.origin);
 
     MeshSummary summary{.body =
                             section.has("name") ? section.text("name") : fs::path(found.file).stem().string(),

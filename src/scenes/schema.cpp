@@ -18,6 +18,7 @@ constexpr Range direction{-1, 1};
 constexpr Range length{.low = 0, .high = 1e6, .isLowOpen = true};
 constexpr Range density{.low = 0, .high = 1e6, .isLowOpen = true};
 constexpr Range stiffness{.low = 0, .high = 1e15, .isLowOpen = true};
+constexpr Range bending{0, 1e6}, tethers{0, 8};
 constexpr Range angle{-360, 360};
 constexpr Range side{2, 4096}, chainLength{2, 100'000}, cellsAlong{1, 512}, detail{8, 256};
 constexpr Range mass{.low = 0, .high = 1e9, .isLowOpen = true}, load{0, 1e9};
@@ -27,6 +28,7 @@ constexpr KindRule kindRules[] = {
     {Kind::text, "text in quotes", 0, false},
     {Kind::number, "a number", 1, false},
     {Kind::count, "a whole number", 1, true},
+    {Kind::countOrAuto, "a whole number or \"auto\"", 1, true},
     {Kind::vector, "three numbers [x, y, z]", 3, false},
     {Kind::counts2, "two whole numbers", 2, true},
     {Kind::counts3, "three whole numbers", 3, true},
@@ -43,6 +45,7 @@ constexpr Key keys[] = {
     {"", "gravity", Kind::vector, "m/s^2", coordinate, "[0, -9.81, 0]", "acceleration of everything that moves"},
     {"", "dt", Kind::number, "s", ranges::dt, "0.016666667", "length of a step"},
     {"", "damping", Kind::number, "1/s", ranges::damping, "0", "rate c at which velocities decay, exp(-c t)"},
+    {"", "damping_time", Kind::number, "s", ranges::dampingTime, "0", "internal damping of links, proportional to their stiffness: a vibration of angular frequency w is damped by the ratio w damping_time / 2"},
     {"", "solver", Kind::table, "", {}, "", "how to solve"},
     {"", "cloth", Kind::tables, "", {}, "", "rectangular sheets"},
     {"", "chain", Kind::tables, "", {}, "", "masses in a line"},
@@ -52,7 +55,8 @@ constexpr Key keys[] = {
     {"", "camera", Kind::table, "", {}, "", "where a picture is taken from"},
 
     {"solver", "name", Kind::text, "", {}, "\"split\"", "split or jacobi"},
-    {"solver", "substeps", Kind::count, "", ranges::substeps, "32", "equal parts of a step; more are stiffer and more exact"},
+    {"solver", "substeps", Kind::countOrAuto, "", ranges::substeps, "\"auto\"", "equal parts of a step; more are stiffer and more exact. \"auto\": as many as the tolerance asks for, from 4 to 256"},
+    {"solver", "tolerance", Kind::number, "", ranges::tolerance, "0.05", "substeps = \"auto\": how much softer a link may be than asked, as a share"},
     {"solver", "iterations", Kind::count, "", ranges::iterations, "1", "jacobi: sweeps per substep"},
     {"solver", "omega", Kind::number, "", ranges::omega, "2", "split: stiffness clamp, below 4 / (1 + 2 theta)"},
     {"solver", "theta", Kind::number, "", ranges::theta, "0.1", "split: 0 conserves energy, more damps vibrations"},
@@ -69,6 +73,8 @@ constexpr Key keys[] = {
     {"cloth", "stretch_compliance", Kind::number, "m/N", ranges::compliance, "0", "of the links along rows and columns; 0 = as stiff as the solver can"},
     {"cloth", "shear_compliance", Kind::number, "m/N", ranges::compliance, "0", "of the diagonal links"},
     {"cloth", "skip_stiffness", Kind::number, "N/m", ranges::skipStiffness, "0", "of links to the next but one in a row or column, which resist folding; 0 = none"},
+    {"cloth", "bending_stiffness", Kind::number, "N m", bending, "0", "of rows and columns against bending; 0 = none"},
+    {"cloth", "tethers", Kind::count, "", tethers, "0", "of each particle to the nearest pinned ones, so that a heavy sheet does not stretch"},
     {"cloth", "pinned", Kind::pins, "", {}, "[]", "particles held where they are"},
     {"cloth", "color", Kind::vector, "", ranges::color, "[0.16, 0.34, 0.58]", "linear red, green and blue"},
 

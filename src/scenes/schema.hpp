@@ -14,8 +14,9 @@ namespace sinew::scenes {
 enum class Kind : std::uint8_t {
     text,
     number,
-    count,  ///< a whole number
-    vector, ///< [x, y, z]
+    count,       ///< a whole number
+    countOrAuto, ///< a whole number, or "auto" in quotes
+    vector,      ///< [x, y, z]
     counts2,
     counts3,
     pins,   ///< a list of corner and edge names and [column, row] pairs

@@ -57,6 +57,10 @@ bool isNameList(const toml::node& node) {
     return list && (list->empty() || list->is_homogeneous(toml::node_type::string));
 }
 
+bool isAuto(const toml::node& node) {
+    return node.value_or(std::string_view()) == "auto";
+}
+
 bool isTables(const toml::node& node) {
     return node.is_array_of_tables();
 }
@@ -98,6 +102,7 @@ void Section::check(const toml::key& name, const toml::node& node) const {
                          : key->kind == Kind::tables ? isTables(node)
                                                      : true;
     if (!isRight) fail(key->name, "is " + describeValue(node), "write " + expectedText(*key));
+    if (key->kind == Kind::countOrAuto && isAuto(node)) return;
     if (ruleOf(key->kind).components > 0) checkNumbers(*key, node);
 }
 
@@ -163,6 +168,11 @@ float Section::number(std::string_view name) const {
 
 std::uint32_t Section::count(std::string_view name) const {
     return counts<1>(name)[0];
+}
+
+std::optional<std::uint32_t> Section::countOrAuto(std::string_view name) const {
+    if (isAuto(node(name))) return {};
+    return count(name);
 }
 
 sim::Vec3 Section::vector(std::string_view name) const {

@@ -5,6 +5,7 @@
 #include "scenes/source_file.hpp"
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace sinew::scenes {
@@ -23,7 +24,14 @@ public:
     std::string text(std::string_view name) const;
     float number(std::string_view name) const;
     std::uint32_t count(std::string_view name) const;
+    /// Of Kind::countOrAuto: empty for "auto".
+    std::optional<std::uint32_t> countOrAuto(std::string_view name) const;
     sim::Vec3 vector(std::string_view name) const;
+    /// In the precision of the file.
+    double value(std::string_view name) const { return component(name, 0); }
+    std::array<double, 3> point(std::string_view name) const {
+        return {component(name, 0), component(name, 1), component(name, 2)};
+    }
     template <std::size_t size> std::array<std::uint32_t, size> counts(std::string_view name) const {
         std::array<std::uint32_t, size> result{};
         for (std::size_t i = 0; i < size; ++i) result[i] = static_cast<std::uint32_t>(component(name, i));

@@ -17,6 +17,8 @@ struct ClothSheet {
     float stretchCompliance = 0;               ///< of an edge [m/N]
     float shearCompliance = 0;                 ///< of a diagonal [m/N]
     float skipStiffness = 0; ///< of links two apart in a row or column, which resist folding [N/m]; 0 = none
+    float bendingStiffness = 0;        ///< of rows and columns [N m]; 0 = no bends. Twist has none
+    std::uint32_t tethers = 0;         ///< of a particle, to the nearest pinned ones
     std::vector<std::uint32_t> pinned; ///< particles (row-major within the sheet) held where they are
     Vec3 color{0.16f, 0.34f, 0.58f};
 };
@@ -41,6 +43,37 @@ struct Chain {
 /// Appends particles, constraints and a body, and no skin: a line has no surface. Returns the index of the
 /// first particle.
 std::uint32_t addChain(Scene& scene, const Chain& chain);
+
+/// Compliance [m/N] of the bends of a row of particles `spacing` [m] apart: a plate sampled by rows of that
+/// distance, of `stiffness` [N m] (energy stiffness / 2 x curvature^2 an area), or a rod of `stiffness` [N
+/// m^2].
+float bendComplianceOfPlate(float stiffness, float spacing);
+float bendComplianceOfRod(float stiffness, float spacing);
+
+/// How long a tether is.
+enum class TetherLength : std::uint8_t {
+    alongLinks, ///< the way over links at rest
+    straight,   ///< the distance at rest: right where the body is flat and convex
+};
+
+/// Ties every particle that moves to the nearest `perParticle` ones that never do, as far as links lead to
+/// them; `first` and `count` say of which particles. `slack` is the share by which tethers are longer.
+struct TetherPlan {
+    std::uint32_t first = 0, count = 0;
+    std::uint32_t perParticle = 1;
+    TetherLength length = TetherLength::alongLinks;
+    float slack = 0;
+};
+void addTethers(Scene& scene, const TetherPlan& plan);
+
+/// A spring that pulls a particle of a body of `mass` [kg] towards a moving point, alike for light and heavy
+/// bodies.
+struct DragFeel {
+    float frequency = 5;         ///< of the body on the spring [Hz]
+    float maxAcceleration = 100; ///< of the body [m/s^2]
+    float maxSpeed = 5;          ///< of the point [m/s]
+};
+Attachment makeDrag(const Scene& scene, std::uint32_t particle, float mass, const DragFeel& feel = {});
 
 /// A voxel body: cubic cells of a regular grid, particles on their corners. Each filled cell assembles a
 /// share of the stiffness of its 12 edges and 12 face diagonals and an eighth of its mass to each corner

@@ -99,6 +99,18 @@ void addSkipLinks(Scene& scene, const ClothSheet& sheet, std::uint32_t first) {
         }
 }
 
+void addBends(Scene& scene, const ClothSheet& sheet, std::uint32_t first) {
+    if (sheet.bendingStiffness == 0) return;
+    const float compliance = bendComplianceOfPlate(sheet.bendingStiffness, sheet.spacing);
+    const auto [columns, rows] = sheet.size;
+    for (std::uint32_t row = 0; row < rows; ++row)
+        for (std::uint32_t column = 0; column < columns; ++column) {
+            const std::uint32_t here = first + column + columns * row;
+            if (column + 2 < columns) scene.bends.push_back({here, here + 1, here + 2, compliance});
+            if (row + 2 < rows) scene.bends.push_back({here, here + columns, here + 2 * columns, compliance});
+        }
+}
+
 /// Every particle carries two skin vertices, one a side, so that each side has normals of its own.
 Skin makeSkin(const ClothSheet& sheet, std::uint32_t first) {
     Skin skin{.name = sheet.name, .color = sheet.color};
@@ -127,7 +139,12 @@ std::uint32_t addCloth(Scene& scene, const ClothSheet& sheet) {
     addLinks(scene, sheet, first);
     addGrid(scene, sheet, first, firstDistance);
     addSkipLinks(scene, sheet, first);
+    addBends(scene, sheet, first);
     for (const std::uint32_t pinned : sheet.pinned) scene.fixed.push_back({first + pinned});
+    addTethers(scene, {.first = first,
+                       .count = sheet.size[0] * sheet.size[1],
+                       .perParticle = sheet.tethers,
+                       .length = TetherLength::straight});
     scene.bodies.push_back({sheet.name, first, sheet.size[0] * sheet.size[1], 0});
     scene.skins.push_back(makeSkin(sheet, first));
     return first;

@@ -6,6 +6,7 @@
 #include "sim/constraints/fixed.hpp"
 #include "sim/solvers/jacobi.hpp"
 #include "sim/solvers/split.hpp"
+#include "sim/substeps.hpp"
 #include "sim/surface/skin.hpp"
 
 namespace sinew::sim {
@@ -98,11 +99,13 @@ std::vector<float> inverseMasses(const Scene& scene) {
     return result;
 }
 
-StepProgram compile(const Scene& scene, const Settings& settings) {
+StepProgram compile(const Scene& scene, const Settings& asked) {
+    const Settings settings = withSubsteps(scene, asked);
     ProgramBuilder program(settings.isReversed);
     StepProgram& built = program.program();
     built.particleCount = static_cast<std::uint32_t>(scene.particles.size());
-    built.constraintCount = static_cast<std::uint32_t>(scene.distances.size());
+    built.constraintCount = static_cast<std::uint32_t>(scene.distances.size() + scene.bends.size() +
+                                                       scene.attachments.size() + scene.tethers.size());
     const std::vector<float> inverseMass = inverseMasses(scene);
     built.positions = program.upload("positions", positionsOf(scene, inverseMass));
     built.velocities = program.upload("velocities", velocitiesOf(scene, inverseMass));

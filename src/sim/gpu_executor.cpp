@@ -153,29 +153,27 @@ void GpuExecutor::upload(vk::Commands& commands) noexcept {
     commands.endStep();
 }
 
-void GpuExecutor::step(vk::Commands& commands, std::span<const std::byte> parameters,
-                       vk::Timestamps* timestamps) noexcept {
-    record(commands, step_, parameters, timestamps);
+void GpuExecutor::step(vk::Commands& commands, const HostBytes& host, vk::Timestamps* timestamps) noexcept {
+    record(commands, step_, host, timestamps);
 }
 
 void GpuExecutor::skin(vk::Commands& commands) noexcept {
     record(commands, skin_, {}, nullptr);
 }
 
-void GpuExecutor::record(vk::Commands& commands, const std::vector<Recorded>& passes,
-                         std::span<const std::byte> parameters, vk::Timestamps* timestamps) noexcept {
+void GpuExecutor::record(vk::Commands& commands, const std::vector<Recorded>& passes, const HostBytes& host,
+                         vk::Timestamps* timestamps) noexcept {
     std::uint32_t span = 0;
     for (std::size_t p = 0; p < passes.size(); ++p) {
         const bool opensPhase = p == 0 || passes[p - 1].phase != passes[p].phase;
         const bool closesPhase = p + 1 == passes.size() || passes[p + 1].phase != passes[p].phase;
         if (timestamps && opensPhase) timestamps->begin(commands, span);
-        recordPass(commands, passes[p], parameters);
+        recordPass(commands, passes[p], host);
         if (timestamps && closesPhase) timestamps->end(commands, span++);
     }
 }
 
-void GpuExecutor::recordPass(vk::Commands& commands, const Recorded& pass,
-                             std::span<const std::byte> parameters) noexcept {
+void GpuExecutor::recordPass(vk::Commands& commands, const Recorded& pass, const HostBytes& host) noexcept {
     if (pass.barrierBefore) commands.barrier();
     switch (pass.kind) {
     case PassKind::dispatch:
@@ -190,7 +188,7 @@ void GpuExecutor::recordPass(vk::Commands& commands, const Recorded& pass,
         commands.copy(pass.first, pass.second);
         break;
     case PassKind::update:
-        commands.update(pass.first, parameters.data(), parameters.size());
+        commands.update(pass.first, host[pass.value].data(), host[pass.value].size());
         break;
     }
 }

@@ -16,10 +16,11 @@ public:
 
     /// Records the copies that put every buffer into its initial state (also a reset). Ends with a barrier.
     void upload(vk::Commands& commands) noexcept;
-    /// Records a list with its planned barriers. `parameters` is what update passes write (<= 64 KiB).
+    /// What update passes write, by HostData (<= 64 KiB each).
+    using HostBytes = std::array<std::span<const std::byte>, hostDataCount>;
+    /// Records a list with its planned barriers.
     /// With `timestamps`, one span per phase of the step list.
-    void step(vk::Commands& commands, std::span<const std::byte> parameters,
-              vk::Timestamps* timestamps) noexcept;
+    void step(vk::Commands& commands, const HostBytes& host, vk::Timestamps* timestamps) noexcept;
     void skin(vk::Commands& commands) noexcept;
 
     vk::BufferView view(BufferId buffer) const noexcept; ///< empty for an invalid id
@@ -39,10 +40,9 @@ private:
     };
     std::vector<Recorded> resolve(const std::vector<Pass>& passes, std::size_t& nextSet) const;
     static void checkGroups(const std::vector<Recorded>& passes, std::uint32_t most);
-    void record(vk::Commands& commands, const std::vector<Recorded>& passes,
-                std::span<const std::byte> parameters, vk::Timestamps* timestamps) noexcept;
-    void recordPass(vk::Commands& commands, const Recorded& pass,
-                    std::span<const std::byte> parameters) noexcept;
+    void record(vk::Commands& commands, const std::vector<Recorded>& passes, const HostBytes& host,
+                vk::Timestamps* timestamps) noexcept;
+    void recordPass(vk::Commands& commands, const Recorded& pass, const HostBytes& host) noexcept;
 
     std::vector<vk::Buffer> buffers_;
     std::vector<std::pair<std::uint32_t, vk::Buffer>> staging_; // buffer index, its initial contents

@@ -2,6 +2,7 @@
 #include "sim/gpu_tune.hpp"
 
 #include "sim/lattice/batches.hpp"
+#include "sim/substeps.hpp"
 #include "vk/device.hpp"
 
 #include <algorithm>
@@ -60,8 +61,8 @@ Tuning tune(const vk::Device& device, const Scene& scene, const Settings& settin
     constexpr std::uint32_t trialSubsteps = 8;
     constexpr double gain = 0.97;
     Tuning tuning{.fastest = settings.forms};
-    Settings trial = settings;
-    trial.substeps = std::min(settings.substeps, trialSubsteps);
+    Settings trial = withSubsteps(scene, settings);
+    trial.substeps = std::min(trial.substeps, trialSubsteps);
     double best = std::numeric_limits<double>::infinity();
     const auto attempt = [&](const Forms& forms) {
         trial.forms = forms;

@@ -112,8 +112,11 @@ void ProgramBuilder::copy(BufferId from, BufferId to) {
             .uses = {{from, vk::Access::read}, {to, vk::Access::write}}});
 }
 
-void ProgramBuilder::updateParameters(BufferId parameters) {
-    append({.kind = PassKind::update, .label = "update", .uses = {{parameters, vk::Access::write}}});
+void ProgramBuilder::update(BufferId buffer, HostData data) {
+    append({.kind = PassKind::update,
+            .label = "update",
+            .uses = {{buffer, vk::Access::write}},
+            .value = static_cast<std::uint32_t>(data)});
 }
 
 StepProgram ProgramBuilder::finish() {

@@ -45,8 +45,12 @@ enum class PassKind : std::uint8_t {
     dispatch,
     fill,   ///< sets every word of uses[0] to `value`
     copy,   ///< uses[0] to uses[1], whole buffers of equal size
-    update, ///< writes the step parameters into uses[0]
+    update, ///< writes what the host has for this step into uses[0]; `value` says which of HostData
 };
+
+/// What update passes can write.
+enum class HostData : std::uint32_t { parameters, anchors };
+constexpr std::size_t hostDataCount = 2;
 
 /// One entry of the list.
 struct Pass {
@@ -127,7 +131,8 @@ public:
     }
     void fill(BufferId buffer, std::uint32_t value);
     void copy(BufferId from, BufferId to);
-    void updateParameters(BufferId parameters);
+    void updateParameters(BufferId parameters) { update(parameters, HostData::parameters); }
+    void updateAnchors(BufferId anchors) { update(anchors, HostData::anchors); }
     void beginSkin() { isSkin_ = true; }
     void skip(std::string feature) { program_.skipped.push_back(std::move(feature)); }
 
@@ -136,6 +141,7 @@ public:
 
 private:
     BufferId add(BufferSpec spec);
+    void update(BufferId buffer, HostData data);
     void append(Pass pass);
     std::uint32_t kernelIndex(const vk::ShaderCode& code, const Constants& constants);
     void dispatchBytes(const vk::ShaderCode& code, std::uint32_t items, std::span<const BufferId> buffers,

@@ -29,12 +29,18 @@ inline constexpr double largest = std::numeric_limits<float>::max(); // what the
 
 // Scene
 inline constexpr Range finite{-largest, largest};
-inline constexpr Range dt{.low = 0, .high = double{0.1f}, .isLowOpen = true}; // [s]
-inline constexpr Range damping{0, largest};                                   // [1/s]
-inline constexpr Range inverseMass{0, largest};                               // [1/kg]
-inline constexpr Range restLength{0, largest};                                // [m]
-inline constexpr Range compliance{0, largest};                                // [m/N]
-inline constexpr Range skipStiffness{0, largest};                             // [N/m]
+inline constexpr Range dt{double{1e-6f}, double{0.1f}};                        // [s]
+inline constexpr Range damping{0, largest};                                    // [1/s]
+inline constexpr Range dampingTime{0, 1};                                      // [s]
+inline constexpr Range inverseMass{0, largest};                                // [1/kg]
+inline constexpr Range restLength{0, largest};                                 // [m]
+inline constexpr Range compliance{0, largest};                                 // [m/N]
+inline constexpr Range skipStiffness{0, largest};                              // [N/m]
+inline constexpr Range maxForce{.low = 0, .high = largest, .isLowOpen = true}; // [N]
+inline constexpr Range maxSpeed{.low = 0, .high = largest, .isLowOpen = true}; // [m/s]
+inline constexpr Range tetherLength{0, largest};                               // [m]
+/// Their moving points travel in the command buffer, which takes 64 KiB at a time.
+inline constexpr std::size_t mostAttachments = 1024;
 inline constexpr Range friction{0, largest};
 inline constexpr Range restitution{0, 1};
 inline constexpr Range normalLength{1 - 1e-3, 1 + 1e-3};
@@ -45,6 +51,9 @@ inline constexpr std::size_t mostPlanes = 32; // bits of the touched set in plan
 
 // Settings
 inline constexpr Range substeps{1, 1000};
+/// Between these many substeps are chosen where nobody says how many.
+inline constexpr std::uint32_t fewestChosen = 4, mostChosen = 256;
+inline constexpr Range tolerance{.low = 0, .high = 1, .isLowOpen = true, .isHighOpen = true};
 inline constexpr Range iterations{1, 1000};
 /// Sweeps in one step: bounds the pass list, and the work of one submission where a device has a watchdog.
 inline constexpr std::uint64_t mostSweeps = 20'000;

@@ -31,6 +31,32 @@ struct DistanceConstraint {
     float compliance = 0; ///< [m/N]; 0 = rigid
 };
 
+/// Three particles in a row: C = x_a - 2 x_b + x_c, energy |C|^2 / (2 compliance). Straight at rest. A plate
+/// of bending stiffness B [N m] sampled every s [m] has compliance s^2 / B, a rod of stiffness EI [N m^2] has
+/// s^3 / EI: see bodies.hpp. Permanent.
+struct BendConstraint {
+    std::uint32_t a = 0, b = 0, c = 0; ///< b in the middle
+    float compliance = 0;              ///< [m/N]; 0 = as straight as the solver can
+};
+
+/// A spring from a particle to a point that the host may move from step to step (Step::anchors). Permanent.
+struct Attachment {
+    static constexpr float unlimited = 3.402823466e38f;
+    std::uint32_t particle = 0;
+    Vec3 anchor;                ///< where the point is at first [m]
+    float compliance = 0;       ///< [m/N]; 0 = the particle is where the point is
+    float maxForce = unlimited; ///< of the spring [N]
+    float maxSpeed = unlimited; ///< with which the point follows its target [m/s]
+};
+
+/// |x_particle - x_anchor| <= length: keeps pinned cloth and chains from stretching without a sweep along
+/// them (long-range attachments, Kim 2012). Permanent; dissipates when it is taut.
+struct Tether {
+    std::uint32_t particle = 0;
+    std::uint32_t anchor = 0; ///< a particle that never moves
+    float length = 0;         ///< [m]; the way from anchor to particle along the body at rest
+};
+
 /// Holds a particle where the scene puts it. Permanent. Compiles to inverse mass 0 and therefore to no pass.
 struct FixedConstraint {
     std::uint32_t particle = 0;
@@ -95,8 +121,15 @@ struct Scene {
     Vec3 gravity{0, -9.81f, 0}; ///< [m/s^2]
     float dt = 1.0f / 60.0f;    ///< length of a step [s], 0 < dt <= 0.1
     float damping = 0;          ///< rate c of velocity decay exp(-c t) [1/s]
+    /// Internal damping of links proportional to their stiffness k (Rayleigh's second term, Kelvin-Voigt):
+    /// force -k dampingTime (v_rel . n) n [s]. A vibration of angular frequency w has the damping ratio w
+    /// dampingTime / 2. `split` takes as much as its substep stays stable with (substeps.hpp says how much).
+    float dampingTime = 0;
     std::vector<Particle> particles;
     std::vector<DistanceConstraint> distances;
+    std::vector<BendConstraint> bends;
+    std::vector<Attachment> attachments;
+    std::vector<Tether> tethers;
     std::vector<FixedConstraint> fixed;
     std::vector<Plane> planes;
     std::vector<Body> bodies;
@@ -122,7 +155,8 @@ struct Forms {
 /// How to solve a scene; shapes the step program. Ranges are in the table of validate.cpp.
 struct Settings {
     Solver solver = Solver::split;
-    std::uint32_t substeps = 32;  ///< per step, 1..1000
+    std::uint32_t substeps = 0; ///< per step, 1..1000; 0 = as many as stiffness and tolerance ask for
+    float tolerance = 0.05f; ///< with substeps 0: how much softer a link may be than asked, above 0, below 1
     std::uint32_t iterations = 1; ///< sweeps per substep, 1..1000; `split` has one by construction
     float omega = 2;              ///< `split`: stiffness clamp; stable below 4 / (1 + 2 theta) on any graph
     float theta = 0.1f;           ///< `split`: 0 symplectic .. 1 PBD order; damps like theta h k

@@ -3,10 +3,14 @@
 
 #include "layout.h"
 #include "sim/compile.hpp"
+#include "sim/constraints/attachment.hpp"
 #include "sim/gpu_executor.hpp"
+#include "sim/ranges.hpp"
+#include "sim/substeps.hpp"
 #include "sim/validate.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
@@ -21,6 +25,12 @@ const Scene& valid(const Scene& scene, const Settings& settings) {
     std::string text;
     for (const std::string& complaint : complaints) text += (text.empty() ? "" : "\n") + complaint;
     throw std::invalid_argument(text);
+}
+
+// A step that is no number is the shortest one.
+float withinRange(float dt) {
+    const auto low = static_cast<float>(ranges::dt.low), high = static_cast<float>(ranges::dt.high);
+    return dt >= low ? std::min(dt, high) : low;
 }
 
 std::vector<SkinRange> rangesOf(const std::vector<Skin>& skins) {
@@ -59,21 +69,30 @@ struct Simulation::State {
     GpuExecutor executor;
     vk::Buffer statusRing; // one slot a frame in flight, read by the host
     std::vector<SkinRange> skins;
-    float theta, damping;
+    constraints::attachment::Anchors anchors;
+    SplitBudget budget;
+    float theta, omega, damping;
     std::uint32_t substeps;
+    std::array<float, framesInFlight> lostTime{}; // of the newest steps [s]
     float previousH = 0; // 0 before the first step: the half-kick that starts the leapfrog
 
-    State(const vk::Device& d, const Scene& scene, const Settings& settings)
-        : device(d), program(compileFor(d, valid(scene, settings), settings)), executor(d, program),
+    State(const vk::Device& d, const Scene& scene, const Settings& asked)
+        : State(d, scene, withSubsteps(valid(scene, asked), asked), {}) {}
+
+    struct Resolved {};
+    State(const vk::Device& d, const Scene& scene, const Settings& settings, Resolved)
+        : device(d), program(compileFor(d, scene, settings)), executor(d, program),
           statusRing(d, {.name = "status.ring",
                          .count = framesInFlight,
                          .stride = sizeof(layout::StatusWords),
                          .kind = vk::MemoryKind::readback}),
-          skins(rangesOf(scene.skins)), theta(settings.solver == Solver::split ? settings.theta : 0),
+          skins(rangesOf(scene.skins)), anchors(scene.attachments), budget(splitBudget(scene, settings)),
+          theta(settings.solver == Solver::split ? settings.theta : 0), omega(settings.omega),
           damping(scene.damping), substeps(settings.substeps) {}
 
-    layout::StepParams parameters(const Step& step) const {
-        const float h = step.dt / static_cast<float>(substeps);
+    layout::StepParams parameters(const Step& step, float dt) const {
+        const float h = dt / static_cast<float>(substeps);
+        const double longest = double{std::max(h, previousH)};
         const Vec3& g = step.gravity;
         return {.gravity = {g.x, g.y, g.z, 0},
                 .h = h,
@@ -82,7 +101,9 @@ struct Simulation::State {
                 .thetaHPrevious = theta * previousH,
                 .velocityFactor = std::exp(-damping * h),
                 .restSpeed = 2 * std::sqrt(g.x * g.x + g.y * g.y + g.z * g.z) * h,
-                .frame = static_cast<std::uint32_t>(step.frame)};
+                .frame = static_cast<std::uint32_t>(step.frame),
+                .dampingShare =
+                    static_cast<float>(dampingBudget(budget, double{theta}, longest) / double{omega})};
     }
 
     vk::BufferView statusSlot(std::uint64_t frame) const {
@@ -102,14 +123,20 @@ void Simulation::recordReset(VkCommandBuffer buffer) noexcept {
     vk::Commands commands(state_->device, buffer);
     state_->executor.upload(commands);
     state_->previousH = 0;
+    state_->anchors.reset();
 }
 
 void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps* timestamps) noexcept {
-    const layout::StepParams parameters = state_->parameters(step);
+    const float dt = withinRange(step.dt);
+    state_->lostTime[step.frame % framesInFlight] = std::max(0.0f, step.dt - dt);
+    const layout::StepParams parameters = state_->parameters(step, dt);
+    state_->anchors.advance(step.anchors, dt);
     vk::Commands commands(state_->device, buffer);
     if (timestamps) timestamps->reset(commands);
     commands.beginStep();
-    state_->executor.step(commands, std::as_bytes(std::span(&parameters, 1)), timestamps);
+    state_->executor.step(commands,
+                          {std::as_bytes(std::span(&parameters, 1)), std::as_bytes(state_->anchors.values())},
+                          timestamps);
     commands.barrier();
     commands.copy(state_->executor.view(state_->program.status), state_->statusSlot(step.frame));
     commands.endStep();
@@ -150,7 +177,10 @@ Status Simulation::status(std::uint64_t frame) const noexcept {
     layout::StatusWords words;
     const std::size_t slot = frame % framesInFlight;
     std::memcpy(&words, state_->statusRing.mapped() + slot * sizeof(words), sizeof(words));
-    return {.frame = words.frame, .nonFinite = words.nonFinite, .firstBadParticle = ~words.invertedFirstBad};
+    return {.frame = words.frame,
+            .nonFinite = words.nonFinite,
+            .firstBadParticle = ~words.invertedFirstBad,
+            .lostTime = state_->lostTime[slot]};
 }
 
 std::vector<std::string> Simulation::phases() const {

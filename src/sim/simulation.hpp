@@ -6,6 +6,7 @@
 #include "vk/timestamps.hpp"
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,9 +17,14 @@ struct BufferId;
 
 /// What changes from step to step.
 struct Step {
-    float dt = 1.0f / 60.0f;    ///< length of the step [s], 0 < dt <= 0.1
+    float dt =
+        1.0f / 60.0f; ///< length of the step [s], 1e-6 to 0.1; what is outside is taken as the nearer end
     Vec3 gravity{0, -9.81f, 0}; ///< [m/s^2]
     std::uint64_t frame = 0;    ///< grows by one from step to step
+    /// Where the points of the scene's attachments are at the end of the step [m], in their order; the points
+    /// move there evenly, but not faster than Attachment::maxSpeed. Those left out stay. Read by record()
+    /// only.
+    std::span<const Vec3> anchors;
 };
 
 /// What a finished step found out about itself.
@@ -27,6 +33,7 @@ struct Status {
     std::uint32_t nonFinite =
         0; ///< particles with a non-finite state: the step is undone, all goes on from the last finite state
     std::uint32_t firstBadParticle = 0; ///< smallest index among them; meaningful where nonFinite > 0
+    float lostTime = 0;                 ///< how much longer than the longest step Step::dt was [s]
 };
 
 /// A range of the skin buffers that is one Skin of the scene.

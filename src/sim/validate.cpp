@@ -72,8 +72,7 @@ struct SettingRow {
 };
 
 constexpr SettingRow settingRows[] = {
-    {"settings.substeps", [](const Settings& s) { return static_cast<double>(s.substeps); },
-     ranges::substeps},
+    {"settings.tolerance", [](const Settings& s) { return double{s.tolerance}; }, ranges::tolerance},
     {"settings.iterations", [](const Settings& s) { return static_cast<double>(s.iterations); },
      ranges::iterations},
     {"settings.omega", [](const Settings& s) { return double{s.omega}; }, ranges::omega},
@@ -84,6 +83,9 @@ constexpr SettingRow settingRows[] = {
 };
 
 void checkSettings(const Settings& settings, Complaints& complaints) {
+    if (settings.substeps > 0 && !ranges::substeps.holds(static_cast<double>(settings.substeps)))
+        complaints.add("settings.substeps", "is " + number(settings.substeps) + ", must be " +
+                                                toText(ranges::substeps) + ", or 0 for as many as it takes");
     for (const SettingRow& row : settingRows)
         complaints.check(row.value(settings), row.range, [&] { return row.name; });
     const double bound = ranges::omegaBound(double{settings.theta});
@@ -124,6 +126,63 @@ void checkConstraints(const Scene& scene, Complaints& complaints) {
     for (std::size_t i = 0; i < scene.fixed.size(); ++i)
         complaints.checkIndex(scene.fixed[i].particle, count, "particles",
                               [i] { return element("fixed", i) + ".particle"; });
+}
+
+void checkBends(const Scene& scene, Complaints& complaints) {
+    const std::size_t count = scene.particles.size();
+    for (std::size_t i = 0; i < scene.bends.size(); ++i) {
+        const BendConstraint& bend = scene.bends[i];
+        for (const std::uint32_t end : {bend.a, bend.b, bend.c})
+            complaints.checkIndex(end, count, "particles", [i] { return element("bend", i); });
+        if (bend.a == bend.b || bend.b == bend.c || bend.c == bend.a)
+            complaints.add(element("bend", i), "particles " + number(bend.a) + ", " + number(bend.b) +
+                                                   " and " + number(bend.c) + " are not three");
+        complaints.check(double{bend.compliance}, ranges::compliance,
+                         [i] { return element("bend", i) + ".compliance"; });
+    }
+}
+
+void checkAttachments(const Scene& scene, Complaints& complaints) {
+    if (scene.attachments.size() > ranges::mostAttachments)
+        complaints.add("attachments", "are " + number(scene.attachments.size()) + ", at most " +
+                                          number(ranges::mostAttachments) + " are possible");
+    std::vector<bool> isTaken(scene.particles.size());
+    for (std::size_t i = 0; i < scene.attachments.size(); ++i) {
+        const Attachment& attachment = scene.attachments[i];
+        const auto name = [i](const char* member) {
+            return [i, member] { return element("attachment", i) + "." + member; };
+        };
+        complaints.checkIndex(attachment.particle, isTaken.size(), "particles", name("particle"));
+        if (attachment.particle < isTaken.size()) {
+            if (isTaken[attachment.particle])
+                complaints.add(element("attachment", i),
+                               "particle " + number(attachment.particle) + " has an attachment already");
+            isTaken[attachment.particle] = true;
+        }
+        complaints.checkFinite(attachment.anchor, name("anchor"));
+        complaints.check(double{attachment.compliance}, ranges::compliance, name("compliance"));
+        complaints.check(double{attachment.maxForce}, ranges::maxForce, name("maxForce"));
+        complaints.check(double{attachment.maxSpeed}, ranges::maxSpeed, name("maxSpeed"));
+    }
+}
+
+void checkTethers(const Scene& scene, Complaints& complaints) {
+    std::vector<bool> isHeld(scene.particles.size());
+    for (std::size_t i = 0; i < isHeld.size(); ++i) isHeld[i] = scene.particles[i].inverseMass == 0;
+    for (const FixedConstraint& fixed : scene.fixed)
+        if (fixed.particle < isHeld.size()) isHeld[fixed.particle] = true;
+    for (std::size_t i = 0; i < scene.tethers.size(); ++i) {
+        const Tether& tether = scene.tethers[i];
+        const auto name = [i](const char* member) {
+            return [i, member] { return element("tether", i) + "." + member; };
+        };
+        complaints.checkIndex(tether.particle, isHeld.size(), "particles", name("particle"));
+        complaints.checkIndex(tether.anchor, isHeld.size(), "particles", name("anchor"));
+        if (tether.anchor < isHeld.size() && !isHeld[tether.anchor])
+            complaints.add(name("anchor")(),
+                           "is particle " + number(tether.anchor) + ", which moves: fix it or take another");
+        complaints.check(double{tether.length}, ranges::tetherLength, name("length"));
+    }
 }
 
 void checkPlanes(const Scene& scene, Complaints& complaints) {
@@ -188,7 +247,8 @@ void checkSkin(const Skin& skin, const std::string& name, std::size_t particles,
 
 void checkWork(const Scene& scene, const Settings& settings, Complaints& complaints) {
     const bool isJacobi = settings.solver == Solver::jacobi;
-    const std::uint64_t sweeps = std::uint64_t{settings.substeps} * (isJacobi ? settings.iterations : 1);
+    const std::uint32_t substeps = settings.substeps > 0 ? settings.substeps : ranges::mostChosen;
+    const std::uint64_t sweeps = std::uint64_t{substeps} * (isJacobi ? settings.iterations : 1);
     if (sweeps > ranges::mostSweeps)
         complaints.add("settings", "substeps x iterations is " + std::to_string(sweeps) +
                                        ", must be at most " + std::to_string(ranges::mostSweeps));
@@ -222,9 +282,13 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings) 
     checkSettings(settings, complaints);
     complaints.check(double{scene.dt}, ranges::dt, [] { return "scene.dt"; });
     complaints.check(double{scene.damping}, ranges::damping, [] { return "scene.damping"; });
+    complaints.check(double{scene.dampingTime}, ranges::dampingTime, [] { return "scene.dampingTime"; });
     complaints.checkFinite(scene.gravity, [] { return "scene.gravity"; });
     checkParticles(scene, complaints);
     checkConstraints(scene, complaints);
+    checkBends(scene, complaints);
+    checkAttachments(scene, complaints);
+    checkTethers(scene, complaints);
     checkWork(scene, settings, complaints);
     checkPlanes(scene, complaints);
     checkBodies(scene, complaints);

@@ -78,7 +78,10 @@ TEST(Schema, HasTheDefaultsOfTheStructs) {
     const sim::Settings settings;
     EXPECT_EQ(static_cast<float>(numberOf("", "dt")), scene.dt);
     EXPECT_EQ(static_cast<float>(numberOf("", "damping")), scene.damping);
-    EXPECT_EQ(numberOf("solver", "substeps"), settings.substeps);
+    EXPECT_EQ(scenes::findKey("solver", "substeps")->fallback, "\"auto\"");
+    EXPECT_EQ(settings.substeps, 0u);
+    EXPECT_EQ(static_cast<float>(numberOf("solver", "tolerance")), settings.tolerance);
+    EXPECT_EQ(static_cast<float>(numberOf("", "damping_time")), scene.dampingTime);
     EXPECT_EQ(numberOf("solver", "iterations"), settings.iterations);
     EXPECT_EQ(static_cast<float>(numberOf("solver", "omega")), settings.omega);
     EXPECT_EQ(static_cast<float>(numberOf("solver", "theta")), settings.theta);

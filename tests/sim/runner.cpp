@@ -38,9 +38,9 @@ void Runner::reset() {
     frame_ = 0;
 }
 
-sim::Status Runner::step(float dt) {
+sim::Status Runner::step(float dt, std::span<const sim::Vec3> anchors) {
     const VkCommandBuffer commands = queue().begin();
-    simulation_.record(commands, {.dt = dt, .gravity = gravity_, .frame = frame_});
+    simulation_.record(commands, {.dt = dt, .gravity = gravity_, .frame = frame_, .anchors = anchors});
     queue().wait(queue().submit(commands));
     return simulation_.status(frame_++);
 }

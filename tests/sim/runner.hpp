@@ -14,7 +14,7 @@ public:
     explicit Runner(const sim::Scene& scene, const sim::Settings& settings = {});
 
     /// One step under the scene's gravity; waits for it.
-    sim::Status step(float dt);
+    sim::Status step(float dt, std::span<const sim::Vec3> anchors = {});
     /// Steps of the scene's dt; returns the status of the last.
     sim::Status run(int steps);
     void reset();

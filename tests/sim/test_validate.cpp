@@ -23,6 +23,9 @@ Scene validScene() {
             {{static_cast<float>(i & 1), static_cast<float>(i >> 1 & 1), static_cast<float>(i >> 2)}});
     scene.distances.push_back({0, 1, 1, 0});
     scene.fixed = {{3}, {3}}; // twice is the same as once
+    scene.bends.push_back({0, 1, 2, 1});
+    scene.attachments.push_back({.particle = 2});
+    scene.tethers.push_back({0, 3, 1});
     scene.planes.push_back({});
     scene.bodies.push_back({"cell", 0, 8, 1});
     scene.skins.push_back({.name = "on particles", .triangles = {{0, 1, 2}}, .particles = {0, 1, 2}});
@@ -42,14 +45,43 @@ struct Fault {
 };
 
 const Fault faults[] = {
-    {"scene.dt: is 0, must be above 0 and at most 0.1", [](Scene& s, Settings&) { s.dt = 0; }},
+    {"scene.dt: is 0, must be from 1e-06 to 0.1", [](Scene& s, Settings&) { s.dt = 0; }},
     {"scene.dt: is 0.11", [](Scene& s, Settings&) { s.dt = 0.11f; }},
     {"scene.dt: is nan", [](Scene& s, Settings&) { s.dt = notANumber; }},
     {"scene.damping: is -1, must be at least 0", [](Scene& s, Settings&) { s.damping = -1; }},
     {"scene.damping: is inf", [](Scene& s, Settings&) { s.damping = infinity; }},
     {"scene.gravity: is (0, nan, 0), must be finite", [](Scene& s, Settings&) { s.gravity.y = notANumber; }},
-    {"settings.substeps: is 0, must be from 1 to 1000", [](Scene&, Settings& s) { s.substeps = 0; }},
-    {"settings.substeps: is 1001", [](Scene&, Settings& s) { s.substeps = 1001; }},
+    {"scene.dt: is 9e-07", [](Scene& s, Settings&) { s.dt = 9e-7f; }},
+    {"scene.dampingTime: is -1, must be from 0 to 1", [](Scene& s, Settings&) { s.dampingTime = -1; }},
+    {"scene.dampingTime: is nan", [](Scene& s, Settings&) { s.dampingTime = notANumber; }},
+    {"settings.substeps: is 1001, must be from 1 to 1000, or 0 for as many as it takes",
+     [](Scene&, Settings& s) { s.substeps = 1001; }},
+    {"settings.substeps: is 1000000000", [](Scene&, Settings& s) { s.substeps = 1'000'000'000; }},
+    {"settings.tolerance: is 0, must be above 0 and below 1", [](Scene&, Settings& s) { s.tolerance = 0; }},
+    {"settings.tolerance: is 1", [](Scene&, Settings& s) { s.tolerance = 1; }},
+    {"settings.tolerance: is nan", [](Scene&, Settings& s) { s.tolerance = notANumber; }},
+    {"bend[0]: is 8, but there are 8 particles", [](Scene& s, Settings&) { s.bends[0].c = 8; }},
+    {"bend[0]: particles 0, 1 and 1 are not three", [](Scene& s, Settings&) { s.bends[0].c = 1; }},
+    {"bend[0].compliance: is -1", [](Scene& s, Settings&) { s.bends[0].compliance = -1; }},
+    {"attachment[0].particle: is 8", [](Scene& s, Settings&) { s.attachments[0].particle = 8; }},
+    {"attachment[1]: particle 2 has an attachment already",
+     [](Scene& s, Settings&) { s.attachments.push_back({.particle = 2}); }},
+    {"attachment[0].anchor: is (nan, 0, 0), must be finite",
+     [](Scene& s, Settings&) { s.attachments[0].anchor.x = notANumber; }},
+    {"attachment[0].compliance: is inf", [](Scene& s, Settings&) { s.attachments[0].compliance = infinity; }},
+    {"attachment[0].maxForce: is 0, must be above 0",
+     [](Scene& s, Settings&) { s.attachments[0].maxForce = 0; }},
+    {"attachment[0].maxSpeed: is nan", [](Scene& s, Settings&) { s.attachments[0].maxSpeed = notANumber; }},
+    {"attachments: are 1025, at most 1024 are possible",
+     [](Scene& s, Settings&) {
+         s.particles.resize(1030);
+         s.attachments.clear();
+         for (std::uint32_t i = 4; i < 1029; ++i) s.attachments.push_back({.particle = i});
+     }},
+    {"tether[0].particle: is 9", [](Scene& s, Settings&) { s.tethers[0].particle = 9; }},
+    {"tether[0].anchor: is particle 4, which moves: fix it",
+     [](Scene& s, Settings&) { s.tethers[0].anchor = 4; }},
+    {"tether[0].length: is -1, must be at least 0", [](Scene& s, Settings&) { s.tethers[0].length = -1; }},
     {"settings.iterations: is 0", [](Scene&, Settings& s) { s.iterations = 0; }},
     {"settings.omega: is 0, must be above 0 and below 10", [](Scene&, Settings& s) { s.omega = 0; }},
     {"settings.omega: is 10", [](Scene&, Settings& s) { s.omega = 10; }},
@@ -170,7 +202,7 @@ TEST(Validate, CountsWhatItDoesNotSpellOut) {
 }
 
 TEST(Ranges, ReadLikeTheEndOfASentence) {
-    EXPECT_EQ(toText(ranges::dt), "above 0 and at most 0.1");
+    EXPECT_EQ(toText(ranges::tolerance), "above 0 and below 1");
     EXPECT_EQ(toText(ranges::substeps), "from 1 to 1000");
     EXPECT_EQ(toText(ranges::damping), "at least 0");
     EXPECT_EQ(toText(ranges::finite), "a finite number");

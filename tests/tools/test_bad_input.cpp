@@ -68,7 +68,7 @@ TEST_F(BadInput, WrongSign) {
 }
 
 TEST_F(BadInput, NaN) {
-    expectBad("scene.toml", "dt = nan\n" + cloth, "scene.toml:1: dt is nan s: must be above 0");
+    expectBad("scene.toml", "dt = nan\n" + cloth, "scene.toml:1: dt is nan s: must be from 1e-06");
 }
 
 TEST_F(BadInput, DeepNesting) {

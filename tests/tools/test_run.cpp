@@ -35,9 +35,11 @@ constexpr const char* reportFields[] = {"schema",
                                         "device",
                                         "solver",
                                         "substeps",
+                                        "substep_choice",
                                         "iterations",
                                         "reversed",
                                         "dt",
+                                        "origin",
                                         "particles",
                                         "constraints",
                                         "bodies",
@@ -71,7 +73,7 @@ TEST_F(Run, ReportHasEveryDocumentedField) {
     EXPECT_EQ(report["schema"], 1);
     EXPECT_EQ(report["scene"], "scene");
     EXPECT_EQ(report["solver"], "split");
-    EXPECT_EQ(report["substeps"], 32);
+    EXPECT_EQ(report["substeps"], 4);
     EXPECT_EQ(report["particles"], 16);
     EXPECT_EQ(report["constraints"], 42);
     EXPECT_EQ(report["frames"], 3);
@@ -137,7 +139,9 @@ TEST_F(Run, FolderHoldsReportMeshesAndStateThatReadBack) {
 TEST_F(Run, TextGoesToStdoutUnlessTheReportDoes) {
     write("scene.toml", sheet);
     const Outcome text = run({"run", "scene.toml", "--frames", "2"});
-    EXPECT_EQ(text.out.find("scene: 16 particles, 42 constraints, split with 32 substeps"), 0u) << text.out;
+    EXPECT_EQ(text.out.find("scene: 16 particles, 42 constraints, split with 4 substeps"), 0u) << text.out;
+    EXPECT_NE(text.out.find("\n4 substeps: fewer would do for the stiffness\n"), std::string::npos)
+        << text.out;
     EXPECT_NE(text.error.find("2 of 2 steps"), std::string::npos) << text.error;
     EXPECT_EQ(text.error.find('\r'), std::string::npos) << "a bar in a pipe";
 }
@@ -147,10 +151,13 @@ TEST_F(Run, DivergenceNamesStepAndBodyAndKeepsTheLastFiniteState) {
     const Outcome outcome = run({"run", "scene.toml", "--frames", "100000", "--out", "out"});
     expectOneError(outcome, 7, "the simulation diverged: step ");
     EXPECT_NE(outcome.error.find("body \"fuse\", particle "), std::string::npos) << outcome.error;
+    EXPECT_NE(outcome.error.find(" s): body"), std::string::npos) << outcome.error;
     const json report = json::parse(std::ifstream(folder_ / "out/report.json"));
     EXPECT_EQ(report["finite"], false);
     EXPECT_EQ(report["divergence"]["body"], "fuse");
     EXPECT_EQ(report["divergence"]["step"].get<std::uint64_t>(), report["frames"].get<std::uint64_t>() + 1);
+    EXPECT_NEAR(report["divergence"]["time"].get<double>(), 0.1 * report["divergence"]["step"].get<double>(),
+                1e-6);
     for (const mesh::ParticleState& particle : mesh::importParticles(folder_ / "out/state.ply"))
         EXPECT_TRUE(std::isfinite(particle.position.x) && std::isfinite(particle.velocity.y));
 }

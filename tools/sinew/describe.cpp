@@ -3,6 +3,7 @@
 #include "sinew/commands.hpp"
 #include "sinew/options.hpp"
 #include "sinew/outputs.hpp"
+#include "sinew/report.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -14,7 +15,7 @@ namespace {
 
 int describe(const SceneOptions& options) {
     const scenes::LoadedScene loaded = loadScene(options);
-    TextOutput("-").write(sim::describe(sim::compile(loaded.scene, loaded.settings)));
+    TextOutput("-").write(sim::describe(sim::compile(loaded.scene, loaded.settings)) + stiffnessText(loaded));
     return 0;
 }
 

@@ -16,6 +16,13 @@ CLI::Range within(const sim::Range& range) {
     return {static_cast<std::uint32_t>(range.low), static_cast<std::uint32_t>(range.high)};
 }
 
+// Empty where it is right, as CLI11 wants it.
+std::string checkSubsteps(const std::string& text) {
+    if (text == "auto") return {};
+    const std::string complaint = within(sim::ranges::substeps)(text);
+    return complaint.empty() ? "" : "is " + text + ", must be " + toText(sim::ranges::substeps) + ", or auto";
+}
+
 } // namespace
 
 void addSceneOptions(CLI::App& command, SceneOptions& options) {
@@ -26,8 +33,14 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
         ->required();
     command.add_option("--solver", overrides.solver, "instead of the scene's")
         ->check(CLI::IsMember(sim::solverNames()));
-    command.add_option("--substeps", overrides.substeps, "per step, instead of the scene's")
-        ->check(within(sim::ranges::substeps));
+    command
+        .add_option_function<std::string>(
+            "--substeps",
+            [&overrides](const std::string& text) {
+                overrides.substeps = text == "auto" ? 0 : static_cast<std::uint32_t>(std::stoul(text));
+            },
+            "per step, instead of the scene's; auto: as many as its tolerance asks for")
+        ->check(checkSubsteps);
     command
         .add_option("--iterations", overrides.iterations,
                     "sweeps per substep of jacobi, instead of the scene's")

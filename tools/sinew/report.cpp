@@ -1,7 +1,6 @@
 // One function per part of the report, in the order of docs/report.md.
 #include "sinew/report.hpp"
 
-#include "scenes/stiffness.hpp"
 #include "sim/compile.hpp"
 #include "sinew/json.hpp"
 
@@ -80,17 +79,30 @@ Json meshesJson(const std::vector<scenes::MeshSummary>& summaries) {
 }
 
 Json stiffnessJson(const scenes::LoadedScene& loaded) {
-    const scenes::StiffnessReport report = scenes::inspectStiffness(loaded.scene, loaded.settings);
-    if (report.elasticLinks == 0) return nullptr;
-    return {{"elastic_links", report.elasticLinks},
-            {"clamped_links", report.clampedLinks},
+    const sim::StiffnessReport report = sim::inspectStiffness(loaded.scene, loaded.settings);
+    if (report.elastic == 0) return nullptr;
+    const auto links = static_cast<double>(report.elastic);
+    return {{"elastic_links", report.elastic},
+            {"clamped_links", report.clamped},
+            {"clamp_fraction", static_cast<double>(report.clamped) / links},
+            {"soft_links", report.soft},
             {"softest", report.softest},
-            {"needed_substeps", report.neededSubsteps}};
+            {"mean", report.mean},
+            {"needed_substeps", report.neededSubsteps},
+            {"damping_time", report.dampingTime}};
 }
 
-Json divergenceJson(const std::optional<Divergence>& divergence) {
+Json choiceJson(const scenes::LoadedScene& loaded) {
+    constexpr const char* reasons[] = {"asked", "stiffness", "weight", "damping", "fewest", "most"};
+    return {{"reason", reasons[static_cast<std::size_t>(loaded.substeps.reason)]},
+            {"wanted", loaded.substeps.wanted},
+            {"tolerance", loaded.settings.tolerance}};
+}
+
+Json divergenceJson(const std::optional<Divergence>& divergence, double dt) {
     if (!divergence) return nullptr;
     return {{"step", divergence->step},
+            {"time", static_cast<double>(divergence->step) * dt},
             {"body", divergence->body},
             {"particle", divergence->particle},
             {"particles", divergence->count}};
@@ -122,6 +134,7 @@ std::string toJson(const RunRecord& record) {
         {"name", record.device.name}, {"driver", record.device.driver}, {"type", record.device.type}};
     json["solver"] = sim::solverName(settings.solver);
     json["substeps"] = settings.substeps;
+    json["substep_choice"] = choiceJson(record.loaded);
     json["iterations"] = settings.solver == sim::Solver::split ? 1 : settings.iterations;
     json["reversed"] = settings.isReversed;
     json["forms"] = {{"texels", settings.forms.usesTexels},
@@ -130,6 +143,7 @@ std::string toJson(const RunRecord& record) {
                      {"chunk", settings.forms.chunk},
                      {"resident_bytes", settings.forms.residentBytes}};
     json["dt"] = scene.dt;
+    json["origin"] = record.loaded.origin;
     json["particles"] = record.program.particleCount;
     json["constraints"] = record.program.constraintCount;
     json["bodies"] = bodiesJson(scene);
@@ -145,7 +159,7 @@ std::string toJson(const RunRecord& record) {
     json["error"] = toJson(measure(scene, record.state, record.skins, record.frames));
     json["stiffness"] = stiffnessJson(record.loaded);
     json["finite"] = !record.divergence.has_value();
-    json["divergence"] = divergenceJson(record.divergence);
+    json["divergence"] = divergenceJson(record.divergence, double{scene.dt});
     json["overflow"] = Json::object(); // no list of a bounded size is in use
     json["state_hash"] = fmt::format("{:016x}", stateHash(record.state));
     json["peak_memory_mib"] = peakMemoryMib();
@@ -153,6 +167,19 @@ std::string toJson(const RunRecord& record) {
     json["validation_messages"] = record.validationMessages;
     json["warnings"] = record.loaded.warnings;
     return dump(json);
+}
+
+std::string stiffnessText(const scenes::LoadedScene& loaded) {
+    std::string text = sim::toText(loaded.substeps, loaded.settings) + "\n";
+    const sim::StiffnessReport report = sim::inspectStiffness(loaded.scene, loaded.settings);
+    if (report.elastic == 0) return text;
+    text += fmt::format(
+        "stiffness: {:.3g} % of what is asked in the mean, {:.3g} % at least, {} of {} links clamped\n",
+        100 * report.mean, 100 * report.softest, report.clamped, report.elastic);
+    if (loaded.scene.dampingTime > 0)
+        text += fmt::format("internal damping: {:.3g} s of {:.3g} s in the mean\n", report.dampingTime,
+                            double{loaded.scene.dampingTime});
+    return text;
 }
 
 std::string toText(const RunRecord& record) {
@@ -164,6 +191,7 @@ std::string toText(const RunRecord& record) {
     if (const auto frame = summarise(record.frameMs))
         text += fmt::format("{} steps: {:.2f} ms each (median), {:.2f} ms at most in 99 %\n", record.frames,
                             frame->p50, frame->p99);
+    text += stiffnessText(record.loaded);
     const Errors errors = measure(record.loaded.scene, record.state, record.skins, record.frames);
     if (errors.strainRms)
         text += fmt::format("strain: {:.3g} % rms, {:.3g} % at most\n", 100 * *errors.strainRms,

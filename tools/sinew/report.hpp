@@ -34,6 +34,9 @@ struct RunRecord {
 
 std::string toJson(const RunRecord& record);
 
+/// Why so many substeps, and what stiffness they reach; for people.
+std::string stiffnessText(const scenes::LoadedScene& loaded);
+
 /// A few lines for people.
 std::string toText(const RunRecord& record);
 

@@ -8,6 +8,7 @@
 #include "sinew/tuning.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include <memory>
 #include <set>
@@ -77,8 +78,10 @@ int conclude(const RunRecord& record) {
         const std::string body = divergence->body.empty() ? "" : "body \"" + divergence->body + "\", ";
         throw app::Failure(
             app::diverged,
-            "the simulation diverged: step " + std::to_string(divergence->step) + ", " + body + "particle " +
-                std::to_string(divergence->particle) + ": " + std::to_string(divergence->count) +
+            fmt::format("the simulation diverged: step {} ({:.4g} s): ", divergence->step,
+                        static_cast<double>(divergence->step) * double{record.loaded.scene.dt}) +
+                body + "particle " + std::to_string(divergence->particle) + ": " +
+                std::to_string(divergence->count) +
                 " particles are not finite, the last finite state was kept: use more substeps, a lower "
                 "omega or a softer material");
     }

@@ -25,7 +25,9 @@ bool canMove(const DistanceConstraint& constraint, std::span<const float> invers
 
 Edges reserve(const Scene& scene, solvers::CorrectionSlots& slots) {
     const std::vector<DistanceConstraint> constraints = movable(scene);
-    Edges edges{.count = static_cast<std::uint32_t>(constraints.size()), .firstSlot = slots.size()};
+    Edges edges{.count = static_cast<std::uint32_t>(constraints.size()),
+                .firstSlot = slots.size(),
+                .dampingTime = scene.dampingTime};
     for (const DistanceConstraint& constraint : constraints) {
         slots.add(constraint.a);
         slots.add(constraint.b);
@@ -34,6 +36,7 @@ Edges reserve(const Scene& scene, solvers::CorrectionSlots& slots) {
 }
 
 void upload(ProgramBuilder& program, const Scene& scene, std::span<const float> weights, Edges& edges) {
+    if (edges.count == 0) return;
     std::vector<layout::DistanceEdge> items;
     std::vector<layout::DistanceMultiplier> multipliers;
     bool isCompliant = false;
@@ -48,10 +51,17 @@ void upload(ProgramBuilder& program, const Scene& scene, std::span<const float> 
 
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Edges& edges,
              BufferId corrections, bool isFirstIteration) {
+    if (edges.count == 0) return;
     const layout::IterationPush push{edges.count, edges.firstSlot, isFirstIteration};
     if (edges.multipliers == BufferId{}) {
         program.dispatch(kernels::solveDistance, edges.count, {edges.edges, particles.positions, corrections},
                          push);
+    } else if (edges.dampingTime > 0) {
+        program.dispatch(
+            kernels::solveDistanceDamped, edges.count,
+            {edges.edges, particles.positions, corrections, particles.step, edges.multipliers,
+             particles.velocities},
+            layout::DampedIterationPush{edges.count, edges.firstSlot, isFirstIteration, edges.dampingTime});
     } else {
         program.dispatch(kernels::solveDistanceCompliant, edges.count,
                          {edges.edges, particles.positions, corrections, particles.step, edges.multipliers},

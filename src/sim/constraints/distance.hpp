@@ -12,6 +12,7 @@ namespace sinew::sim::constraints::distance {
 struct Edges {
     std::uint32_t count = 0, firstSlot = 0;
     BufferId edges, multipliers; ///< multipliers: invalid where every constraint is rigid
+    float dampingTime = 0;       ///< of the scene [s]
 };
 
 /// Reserves two slots a constraint: first for its end a, then for its end b.
@@ -54,6 +55,8 @@ struct GatherLinks {
     }
 };
 GatherLinks gatherLinks(std::span<const GatherLink> links, std::size_t particles);
+/// Gives a list without links so many slots of padding, for kernels that gather something else as well.
+void pad(GatherLinks& links, std::uint32_t degree);
 
 /// The links in the packed form (layout.h), with the stiffness unit of every group; no links where the scene
 /// does not fit: no groups, too many particles, or a stiffness that no code gives to within float rounding.

@@ -107,14 +107,19 @@ GatherLinks gatherLinks(std::span<const GatherLink> links, std::size_t particles
         groups[group].endSlot = result.degree;
         if (!counts.lengths.empty()) groups[group].restLength = counts.lengths[group];
     }
-    result.links.resize(paddedCount(particles) * result.degree);
-    for (std::uint32_t i = 0; i < paddedCount(particles); ++i) {
-        for (std::uint32_t slot = 0; slot < result.degree; ++slot)
-            result.links[result.element(i, slot)].other = i;
-    }
+    pad(result, result.degree);
     fillLinks(links, counts, groups, result);
     if (!counts.lengths.empty()) result.groups = std::move(groups);
     return result;
+}
+
+void pad(GatherLinks& links, std::uint32_t degree) {
+    const std::size_t padded = paddedCount(links.particles);
+    links.degree = degree;
+    links.links.assign(padded * degree, {});
+    for (std::uint32_t i = 0; i < padded; ++i) {
+        for (std::uint32_t slot = 0; slot < degree; ++slot) links.links[links.element(i, slot)].other = i;
+    }
 }
 
 PackedLinks pack(const GatherLinks& links) {

@@ -108,7 +108,8 @@ void appendBody(Batch& batch, const Box& box, std::vector<layout::LatticeChunk> 
 
 std::vector<std::uint32_t> computedGrids(const Scene& scene, const Settings& settings) {
     std::vector<std::uint32_t> grids;
-    if (!settings.forms.usesGrids) return grids;
+    // the kernels of grids know nothing of bends and internal damping
+    if (!settings.forms.usesGrids || !scene.bends.empty() || scene.dampingTime > 0) return grids;
     std::vector<std::uint32_t> links(scene.particles.size()); // of each particle
     for (const DistanceConstraint& c : scene.distances) {
         ++links[c.a];
@@ -150,6 +151,8 @@ StateLayout layoutOf(const Scene& scene, std::span<const std::uint32_t> grids) {
 }
 
 bool isResident(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids) {
+    // attachments and tethers are passes between substeps
+    if (!scene.attachments.empty() || !scene.tethers.empty()) return false;
     if (grids.empty() || listedParticles(scene, grids) > 0) return false;
     return std::ranges::all_of(grids, [&](std::uint32_t g) {
         const Grid& grid = scene.grids[g];

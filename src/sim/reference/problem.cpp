@@ -13,7 +13,9 @@ Eigen::Vector3d toEigen(const Vec3& v) {
 }
 
 Problem::Problem(const Scene& scene)
-    : linkCount(scene.particles.size(), 0), gravity(toEigen(scene.gravity)), damping(double{scene.damping}) {
+    : linkCount(scene.particles.size(), 0), bendCount(scene.particles.size(), 0),
+      gravity(toEigen(scene.gravity)), damping(double{scene.damping}),
+      dampingTime(double{scene.dampingTime}) {
     for (const Particle& particle : scene.particles) {
         inverseMass.push_back(double{particle.inverseMass});
         contactOffset.push_back(double{particle.contactOffset});
@@ -25,6 +27,15 @@ Problem::Problem(const Scene& scene)
         ++linkCount[c.a];
         ++linkCount[c.b];
     }
+    for (const BendConstraint& c : scene.bends) {
+        if (inverseMass[c.a] + inverseMass[c.b] + inverseMass[c.c] == 0) continue;
+        bends.push_back({c.a, c.b, c.c, double{c.compliance}});
+        for (const std::uint32_t end : {c.a, c.b, c.c}) ++bendCount[end];
+    }
+    for (const Attachment& a : scene.attachments)
+        springs.push_back({a.particle, double{a.compliance}, double{a.maxForce}, double{a.maxSpeed}});
+    for (const Tether& t : scene.tethers) ropes.push_back({t.particle, t.anchor, double{t.length}});
+    std::ranges::stable_sort(ropes, {}, &Rope::particle);
     for (const Plane& plane : scene.planes) {
         walls.push_back(
             {toEigen(plane.normal), double{plane.offset}, double{plane.friction}, double{plane.restitution}});
@@ -39,6 +50,7 @@ State initialState(const Scene& scene) {
         state.x.push_back(toEigen(particle.position));
         state.v.push_back(problem.inverseMass[i] > 0 ? toEigen(particle.velocity) : Eigen::Vector3d::Zero());
     }
+    for (const Attachment& a : scene.attachments) state.anchors.push_back(toEigen(a.anchor));
     return state;
 }
 

@@ -17,6 +17,21 @@ struct Link {
     double restLength = 0, compliance = 0; ///< [m], [m/N]
 };
 
+struct Bend {
+    std::uint32_t a = 0, b = 0, c = 0;
+    double compliance = 0; ///< [m/N]
+};
+
+struct Spring { ///< of an attachment
+    std::uint32_t particle = 0;
+    double compliance = 0, maxForce = 0, maxSpeed = 0; ///< [m/N], [N], [m/s]
+};
+
+struct Rope { ///< of a tether
+    std::uint32_t particle = 0, anchor = 0;
+    double length = 0; ///< [m]
+};
+
 struct Wall {
     Eigen::Vector3d normal;
     double offset = 0, friction = 0, restitution = 0;
@@ -31,10 +46,15 @@ struct Problem {
     std::vector<double> inverseMass;      ///< after fixed constraints [1/kg]
     std::vector<double> contactOffset;    ///< [m]
     std::vector<std::uint32_t> linkCount; ///< links of each particle
+    std::vector<std::uint32_t> bendCount; ///< bends of each particle
     std::vector<Link> links;
+    std::vector<Bend> bends;     ///< those with a particle that moves
+    std::vector<Spring> springs; ///< one an attachment
+    std::vector<Rope> ropes;     ///< sorted by particle
     std::vector<Wall> walls;
     Eigen::Vector3d gravity; ///< [m/s^2]
     double damping = 0;      ///< [1/s]
+    double dampingTime = 0;  ///< [s]
 };
 
 Eigen::Vector3d toEigen(const Vec3& v);
@@ -59,6 +79,7 @@ public:
     /// Predicts: x += h v + h^2 g / 2.
     HalfKickSubstep(const Problem& problem, double h, State& state);
     void projectWalls();
+    const std::vector<Eigen::Vector3d>& before() const { return before_; } ///< positions before the substep
     /// v += h g + corrections / h, then damping of the mean velocity dx / h, then restitution.
     void finish();
 

@@ -12,13 +12,15 @@ struct State {
     std::vector<Eigen::Vector3d> x, v;
     double previousH =
         0; ///< substep of the step before [s]; 0 at the start (`split` starts with a half-kick)
+    std::vector<Eigen::Vector3d> anchors; ///< where the points of attachments are [m]
+    std::vector<Eigen::Vector3d> targets; ///< where they go in the next step; those missing stay
 };
 
 /// The state a scene describes; particles that never move have no velocity.
 State initialState(const Scene& scene);
 
-/// One step of `dt` [s] under the scene's gravity. `split` keeps v half a substep behind x, as the device
-/// does.
+/// One step of `dt` [s] under the scene's gravity; settings.substeps is a number (withSubsteps). `split`
+/// keeps v half a substep behind x, as the device does.
 void stepGaussSeidel(const Scene& scene, const Settings& settings, double dt,
                      State& state); ///< in constraint order
 void stepJacobi(const Scene& scene, const Settings& settings, double dt, State& state);
@@ -38,12 +40,16 @@ private:
         double inverseMassA = 0, inverseMassB = 0;
         double restLength = 0;
         double alpha = 0, inverseDenominator = 0; // compliance / h^2, 1 / (w_a + w_b + alpha)
+        double gamma = 0;                         // dampingTime / h
         double lambda = 0;
     };
     void sweep(State& state);
+    void sweepDamped(const std::vector<Eigen::Vector3d>& before, State& state);
+    void sweepBends(double h, State& state);
 
     Problem problem_;
     std::uint32_t substeps_, iterations_;
+    std::vector<Eigen::Vector3d> bendMultipliers_;
     std::vector<Row> rows_;
 };
 

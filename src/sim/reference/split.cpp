@@ -2,6 +2,7 @@
 // and drift (methods: D, theta form). Constraint c has the share k~_c / sum k~ of each of its ends, k~_c =
 // k_c / (1 + 2 w h^2 K_c), with K_c the stiffest constraint of its rest length and w the mean inverse mass;
 // it is clamped to k~_c min(tau_i, tau_j), tau_i = omega / (2 w_i sum k~).
+#include "sim/reference/attached.hpp"
 #include "sim/reference/reference.hpp"
 
 #include <algorithm>
@@ -44,11 +45,24 @@ struct Split {
                                     ? omega / (2 * problem.inverseMass[i] * sums[i])
                                     : infinite);
     }
+
+    // The largest k_c D_c / omega of the links, D_c at most omega / (k~_c min(tau)) [1/s^2].
+    double most(const Problem& problem) const {
+        double most = 0;
+        for (std::size_t c = 0; c < problem.links.size(); ++c) {
+            const Link& link = problem.links[c];
+            const double clamp = share[c] * std::min(clampTime[link.a], clampTime[link.b]);
+            most = std::max(most, link.compliance > 0 ? stiffness[c] / clamp : infinite);
+        }
+        return most;
+    }
 };
 
-// Force on every particle [N] from its links, with their ends at y, clamped for kicks as long as h.
-std::vector<Eigen::Vector3d> forces(const Problem& problem, const Split& split, double h,
-                                    const std::vector<Eigen::Vector3d>& y) {
+// Force on every particle [N] from its links, with their ends at y and moving with v, stiffness and damping
+// clamped for kicks as long as h.
+std::vector<Eigen::Vector3d> forces(const Problem& problem, const Split& split, double h, double dampingShare,
+                                    const std::vector<Eigen::Vector3d>& y,
+                                    const std::vector<Eigen::Vector3d>& v) {
     std::vector<Eigen::Vector3d> force(problem.size(), Eigen::Vector3d::Zero());
     for (std::size_t c = 0; c < problem.links.size(); ++c) {
         const Link& link = problem.links[c];
@@ -56,8 +70,13 @@ std::vector<Eigen::Vector3d> forces(const Problem& problem, const Split& split, 
         const double length = d.norm();
         if (length == 0) continue; // no direction, no force
         const double clamp = split.share[c] * std::min(split.clampTime[link.a], split.clampTime[link.b]);
-        const Eigen::Vector3d pull =
+        Eigen::Vector3d pull =
             std::min(split.stiffness[c], clamp / (h * h)) * (length - link.restLength) / length * d;
+        if (problem.dampingTime > 0) {
+            const double coefficient =
+                std::min(problem.dampingTime * split.stiffness[c], dampingShare * clamp / h);
+            pull += coefficient * (v[link.b] - v[link.a]).dot(d) / (length * length) * d;
+        }
         force[link.a] += pull;
         force[link.b] -= pull;
     }
@@ -76,7 +95,11 @@ void stepSplit(const Scene& scene, const Settings& settings, double dt, State& s
         const double hBefore = substep == 0 ? state.previousH : h;
         std::vector<Eigen::Vector3d> y(state.x);
         for (std::size_t i = 0; i < problem.size(); ++i) y[i] += theta * hBefore * state.v[i];
-        const std::vector<Eigen::Vector3d> force = forces(problem, split, std::max(hBefore, h), y);
+        const double longest = std::max(hBefore, h);
+        const double share =
+            dampingShare(problem, split.most(problem), omega, theta, std::max(state.previousH, h));
+        std::vector<Eigen::Vector3d> force = forces(problem, split, longest, share, y, state.v);
+        addBendForces(problem, omega, theta, longest, y, force);
         for (std::size_t i = 0; i < problem.size(); ++i) {
             const double w = problem.inverseMass[i];
             if (w == 0) continue;
@@ -88,7 +111,12 @@ void stepSplit(const Scene& scene, const Settings& settings, double dt, State& s
             state.v[i] += (state.x[i] - xFree) / h;
             rebound(problem, touched, h, vBefore, state.v[i]);
         }
+        if (problem.springs.empty() && problem.ropes.empty()) continue;
+        const std::vector<Eigen::Vector3d> free = state.x;
+        pullAttached(problem, h, dt, (substep + 1.0) / settings.substeps, state);
+        for (std::size_t i = 0; i < problem.size(); ++i) state.v[i] += (state.x[i] - free[i]) / h;
     }
+    settleAnchors(problem, dt, state);
     state.previousH = h;
 }
 

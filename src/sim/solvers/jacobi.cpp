@@ -4,7 +4,10 @@
 
 #include "kernels.hpp"
 #include "sim/collision/planes.hpp"
+#include "sim/constraints/attachment.hpp"
+#include "sim/constraints/bend.hpp"
 #include "sim/constraints/distance.hpp"
+#include "sim/constraints/tether.hpp"
 #include "sim/solvers/correction_slots.hpp"
 
 namespace sinew::sim::solvers::jacobi {
@@ -14,17 +17,20 @@ namespace {
 // The permanent constraints: their corrections and how a particle collects them.
 struct Corrections {
     constraints::distance::Edges distances;
+    constraints::bend::Rows bends;
     BufferId corrections, incidences, slots;
     std::uint32_t slotCount = 0;
 };
 
 Corrections addCorrections(ProgramBuilder& program, const Scene& scene, const Settings& settings) {
     CorrectionSlots slots(scene.particles.size());
-    Corrections result{.distances = constraints::distance::reserve(scene, slots)};
+    Corrections result{.distances = constraints::distance::reserve(scene, slots),
+                       .bends = constraints::bend::reserve(scene, slots)};
     result.slotCount = slots.size();
     if (result.slotCount == 0) return result;
     const std::vector<float> weights = slots.weights(settings);
     constraints::distance::upload(program, scene, weights, result.distances);
+    constraints::bend::upload(program, scene, weights, result.bends);
     const CorrectionSlots::Lists lists = slots.lists(weights);
     result.corrections = program.scratch<layout::vec4>("corrections", result.slotCount);
     result.incidences = program.upload("incidences", lists.incidences);
@@ -37,6 +43,7 @@ void addIteration(ProgramBuilder& program, const ParticleBuffers& particles, con
     if (corrections.slotCount == 0) return;
     constraints::distance::addPass(program, particles, corrections.distances, corrections.corrections,
                                    isFirst);
+    constraints::bend::addPass(program, particles, corrections.bends, corrections.corrections, isFirst);
     program.dispatch(kernels::applyCorrections, particles.count,
                      {corrections.incidences, corrections.slots, corrections.corrections, particles.positions,
                       particles.velocities, particles.step},
@@ -53,6 +60,8 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
                const ParticleBuffers& particles) {
     const Corrections corrections = addCorrections(program, scene, settings);
     const collision::planes::Contacts contacts = collision::planes::addContacts(program, scene);
+    const auto attachments = constraints::attachment::add(program, scene, particles.layout);
+    const auto tethers = constraints::tether::add(program, scene, particles.layout);
     const std::uint32_t iterations = corrections.slotCount > 0 ? settings.iterations : 1;
     for (std::uint32_t substep = 0; substep < settings.substeps; ++substep) {
         program.beginSubstep();
@@ -64,6 +73,8 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
             addIteration(program, particles, corrections, iteration == 0);
             collision::planes::addSolve(program, particles, contacts);
         }
+        constraints::attachment::addPass(program, particles, attachments, substep, settings.substeps);
+        constraints::tether::addPass(program, particles, tethers);
         if (scene.damping > 0 || !scene.planes.empty()) {
             collision::planes::addVelocityUpdate(program, particles, contacts);
         }

@@ -5,9 +5,13 @@
 
 #include "kernels.hpp"
 #include "sim/collision/planes.hpp"
+#include "sim/constraints/attachment.hpp"
+#include "sim/constraints/bend.hpp"
 #include "sim/constraints/distance.hpp"
+#include "sim/constraints/tether.hpp"
 #include "sim/lattice/batches.hpp"
 #include "sim/solvers/shares.hpp"
+#include "sim/substeps.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -19,6 +23,7 @@ namespace {
 constexpr std::uint32_t degreeId = 1, firstGroupEndId = 3; // constant_id in gather_split.comp
 constexpr std::uint32_t bodyDiagonalsId = 6,
                         residentSlotsId = 7; // constant_id in gather_lattice.comp, split.glsl
+constexpr std::uint32_t bendDegreeId = 6;    // constant_id in gather_terms.glsl
 
 // A kernel in its forms: positions fetched as texels or loaded, without and with boundary planes.
 struct Kernel {
@@ -31,6 +36,12 @@ namespace k = kernels;
 constexpr Kernel drift{&k::driftSplit, &k::driftSplitPlanes, &k::driftSplit, &k::driftSplitPlanes};
 constexpr Kernel general{&k::gatherSplit, &k::gatherSplitPlanes, &k::gatherSplitLoads,
                          &k::gatherSplitLoadsPlanes};
+constexpr Kernel bending{&k::gatherSplitBends, &k::gatherSplitBendsPlanes, &k::gatherSplitBends,
+                         &k::gatherSplitBendsPlanes};
+constexpr Kernel damped{&k::gatherSplitDamped, &k::gatherSplitDampedPlanes, &k::gatherSplitDamped,
+                        &k::gatherSplitDampedPlanes};
+constexpr Kernel bendingDamped{&k::gatherSplitBendsDamped, &k::gatherSplitBendsDampedPlanes,
+                               &k::gatherSplitBendsDamped, &k::gatherSplitBendsDampedPlanes};
 constexpr Kernel packed{&k::gatherSplitPacked, &k::gatherSplitPackedPlanes, &k::gatherSplitPackedLoads,
                         &k::gatherSplitPackedLoadsPlanes};
 constexpr Kernel latticePairs{&k::gatherLattice, &k::gatherLatticePlanes, &k::gatherLatticeLoads,
@@ -49,6 +60,7 @@ struct Gather {
     std::vector<BufferId> buffers; // after positions, next, velocities and step
     ProgramBuilder::Constants constants;
     std::function<void(std::span<const BufferId> buffers, bool isFirst)> dispatch;
+    bool alternatesVelocities = false;
 };
 
 // What all dispatches of a program have in common.
@@ -109,11 +121,36 @@ layout::PackedSubstepPush packedPush(const constraints::distance::GatherLinks& l
     return push;
 }
 
+// Bends and internal damping, over the general list.
+Gather termsGather(const Common& common, constraints::distance::GatherLinks links,
+                   const constraints::bend::GatherBends& bends, std::uint32_t count) {
+    Gather gather = common.gather();
+    const bool isDamped = links.degree > 0 && common.scene.dampingTime > 0;
+    if (links.degree == 0) constraints::distance::pad(links, 1);
+    gather.constants[degreeId] = links.degree;
+    gather.buffers.push_back(common.program.upload("distance.links", links.links));
+    if (bends.degree > 0) {
+        gather.constants[bendDegreeId] = bends.degree;
+        gather.buffers.push_back(common.program.upload("bends", bends.bends));
+    }
+    gather.alternatesVelocities = isDamped;
+    if (!isDamped)
+        setDispatch(common, gather, bending, layout::SubstepPush{count, 0});
+    else
+        setDispatch(common, gather, bends.degree > 0 ? bendingDamped : damped,
+                    layout::DampedSubstepPush{count, 0, common.scene.dampingTime});
+    return gather;
+}
+
 // `count` particles at the head of the state.
 Gather listedGather(const Common& common, std::span<const constraints::distance::GatherLink> listed,
                     std::uint32_t count) {
     Gather gather = common.gather();
     const auto links = constraints::distance::gatherLinks(listed, count);
+    const auto bends = constraints::bend::gatherBends(common.scene, inverseMasses(common.scene),
+                                                      splitBudget(common.scene, common.settings).omegaBends);
+    if (bends.degree > 0 || (links.degree > 0 && common.scene.dampingTime > 0))
+        return termsGather(common, links, bends, count);
     if (links.degree == 0) {
         setDispatch(common, gather, drift, layout::SubstepPush{count, 0});
         return gather;
@@ -209,19 +246,28 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
     program.program().sweeps = scene.distances.empty() ? 0 : settings.substeps;
     if (addResident(common, particles)) return;
     const std::vector<Gather> gathers = addGathers(common);
-    BufferId current = particles.positions;
-    BufferId next = program.scratch<layout::vec4>("state.next_positions", layout.count);
+    const bool alternates = std::ranges::any_of(gathers, &Gather::alternatesVelocities);
+    const auto attachments = constraints::attachment::add(program, scene, layout);
+    const auto tethers = constraints::tether::add(program, scene, layout);
+    ParticleBuffers current = particles, next = particles;
+    next.positions = program.scratch<layout::vec4>("state.next_positions", layout.count);
+    if (alternates) next.velocities = program.scratch<layout::vec4>("state.next_velocities", layout.count);
     for (std::uint32_t substep = 0; substep < settings.substeps; ++substep) {
         program.beginSubstep();
         for (const Gather& gather : gathers) {
-            std::vector<BufferId> buffers{current, next, particles.velocities, particles.step};
+            std::vector<BufferId> buffers{current.positions, next.positions, current.velocities,
+                                          particles.step};
             buffers.insert(buffers.end(), gather.buffers.begin(), gather.buffers.end());
+            if (alternates) buffers.push_back(next.velocities);
             gather.dispatch(buffers, substep == 0);
         }
         std::swap(current, next);
+        constraints::attachment::addPass(program, current, attachments, substep, settings.substeps);
+        constraints::tether::addPass(program, current, tethers);
     }
     program.endSubsteps();
-    if (current != particles.positions) program.copy(current, particles.positions);
+    if (current.positions != particles.positions) program.copy(current.positions, particles.positions);
+    if (current.velocities != particles.velocities) program.copy(current.velocities, particles.velocities);
 }
 
 } // namespace sinew::sim::solvers::split

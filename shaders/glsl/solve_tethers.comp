@@ -1,0 +1,32 @@
+#version 460
+// Long-range attachments (Kim 2012) at the end of a substep: a particle that is farther from a fixed one than the body
+// between them is long is put back onto that sphere. Tethers of a particle one after another; their anchors never move.
+// Serves every solver: thetaH is 0 but for `split`.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+
+layout(std430, binding = 0) readonly buffer Particles { TetheredParticle particles[]; };
+layout(std430, binding = 1) readonly buffer Tethers { TetherReach tethers[]; };
+layout(std430, binding = 2) buffer Positions { vec4 positions[]; };   // x + thetaH v
+layout(std430, binding = 3) buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
+layout(std140, binding = 4) uniform Step { StepParams step; };
+layout(push_constant) uniform Push { CountPush push; };
+
+void main() {
+    const uint p = itemIndex(push.count);
+    if (p >= push.count) return;
+    const TetheredParticle tethered = particles[p];
+    const uint i = tethered.particle;
+    const vec4 velocity = velocities[i];
+    const vec3 before = positions[i].xyz - step.thetaH * velocity.xyz;
+    vec3 x = before;
+    for (uint t = tethered.first; t < tethered.first + tethered.count; ++t) {
+        const vec3 anchor = positions[tethers[t].anchor].xyz; // does not move: y = x
+        const float distance = length(x - anchor);
+        if (distance > tethers[t].reach) x = anchor + tethers[t].reach / distance * (x - anchor);
+    }
+    if (x == before) return;
+    const vec3 v = velocity.xyz + (x - before) / step.h;
+    velocities[i].xyz = v;
+    positions[i].xyz = x + step.thetaH * v;
+}

@@ -1,0 +1,77 @@
+// The lists of the attachment pass, and where its points are.
+#include "sim/constraints/attachment.hpp"
+
+#include "kernels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sinew::sim::constraints::attachment {
+
+namespace {
+
+bool isFinite(const Vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+// From `from` towards `target`, at most `reach` far. In double: differences of float32 may overflow.
+layout::vec4 towards(const layout::vec4& from, const Vec3& target, double reach) {
+    const double x = double{target.x} - double{from.x}, y = double{target.y} - double{from.y},
+                 z = double{target.z} - double{from.z};
+    const double way = std::hypot(x, y, z);
+    if (way <= reach) return {target.x, target.y, target.z, 0};
+    const double part = reach / way;
+    return {static_cast<float>(double{from.x} + part * x), static_cast<float>(double{from.y} + part * y),
+            static_cast<float>(double{from.z} + part * z), 0};
+}
+
+} // namespace
+
+Attachments add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout) {
+    if (scene.attachments.empty()) return {};
+    std::vector<layout::AttachedParticle> items;
+    for (const Attachment& a : scene.attachments)
+        items.push_back({layout.slot[a.particle], a.compliance, a.maxForce, 0});
+    const Attachments result{.count = static_cast<std::uint32_t>(items.size()),
+                             .particles = program.upload("attachments", items),
+                             .anchors =
+                                 program.scratch<layout::vec4>("attachments.anchors", 2 * items.size())};
+    program.updateAnchors(result.anchors);
+    return result;
+}
+
+void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Attachments& attachments,
+             std::uint32_t substep, std::uint32_t substeps) {
+    if (attachments.count == 0) return;
+    const float fraction = static_cast<float>(substep + 1) / static_cast<float>(substeps);
+    program.dispatch(kernels::solveAttachments, attachments.count,
+                     {attachments.particles, attachments.anchors, particles.positions, particles.velocities,
+                      particles.step},
+                     layout::AttachmentPush{attachments.count, fraction});
+}
+
+Anchors::Anchors(const std::vector<Attachment>& attachments)
+    : attachments_(attachments), values_(2 * attachments.size()) {
+    reset();
+}
+
+void Anchors::reset() noexcept {
+    for (std::size_t a = 0; a < attachments_.size(); ++a) {
+        const Vec3& at = attachments_[a].anchor;
+        values_[2 * a] = values_[2 * a + 1] = {at.x, at.y, at.z, 0};
+    }
+}
+
+void Anchors::advance(std::span<const Vec3> targets, float dt) noexcept {
+    for (std::size_t a = 0; a < attachments_.size(); ++a) {
+        values_[2 * a] = values_[2 * a + 1];
+        if (a >= targets.size() || !isFinite(targets[a])) continue;
+        const bool isUnlimited = attachments_[a].maxSpeed == Attachment::unlimited;
+        const double reach = isUnlimited ? std::numeric_limits<double>::infinity()
+                                         : double{attachments_[a].maxSpeed} * double{dt};
+        values_[2 * a + 1] = towards(values_[2 * a], targets[a], reach);
+    }
+}
+
+} // namespace sinew::sim::constraints::attachment

@@ -1,0 +1,40 @@
+// Attachments on the device: one pass after the links of a substep, the same for every solver. A scene
+// without them has no such pass.
+#pragma once
+
+#include "layout.h"
+#include "sim/compile.hpp"
+
+namespace sinew::sim::constraints::attachment {
+
+struct Attachments {
+    std::uint32_t count = 0;
+    BufferId particles, anchors;
+};
+
+/// Adds the passes that write the anchors of a step, too: call it once, before the substeps.
+Attachments add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout);
+
+/// `substep` counts from 0.
+void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Attachments& attachments,
+             std::uint32_t substep, std::uint32_t substeps);
+
+/// Where the points go, on the host: what the anchors buffer of a step holds.
+class Anchors {
+public:
+    explicit Anchors(const std::vector<Attachment>& attachments);
+
+    /// Back to the places of the scene.
+    void reset() noexcept;
+    /// The points start where they ended and go towards `targets` (one an attachment; others stay) as fast as
+    /// they may within `dt` [s]. A target that is not finite is none. Never allocates.
+    void advance(std::span<const Vec3> targets, float dt) noexcept;
+    /// From and to of every attachment.
+    std::span<const layout::vec4> values() const noexcept { return values_; }
+
+private:
+    std::vector<Attachment> attachments_;
+    std::vector<layout::vec4> values_;
+};
+
+} // namespace sinew::sim::constraints::attachment

@@ -1,0 +1,33 @@
+// Bends, C = x_a - 2 x_b + x_c, on the device: terms of the gather of `split`, a constraint pass of `jacobi`.
+// Bends none of whose particles moves are left out.
+#pragma once
+
+#include "layout.h"
+#include "sim/compile.hpp"
+#include "sim/solvers/correction_slots.hpp"
+
+namespace sinew::sim::constraints::bend {
+
+/// Whether a bend has a particle that moves.
+bool canMove(const BendConstraint& bend, std::span<const float> inverseMass);
+
+/// The bends of `split`, padded to `degree` slots a particle, in blocks as links are (layout.h).
+struct GatherBends {
+    std::uint32_t degree = 0;
+    std::vector<layout::SplitBend> bends;
+};
+/// `omega`: what bends may use of the stability bound (SplitBudget::omegaBends).
+GatherBends gatherBends(const Scene& scene, std::span<const float> inverseMass, double omega);
+
+/// The buffers of the constraint pass of `jacobi`.
+struct Rows {
+    std::uint32_t count = 0, firstSlot = 0;
+    BufferId rows, multipliers;
+};
+/// Reserves three slots a bend: for a, b and c.
+Rows reserve(const Scene& scene, solvers::CorrectionSlots& slots);
+void upload(ProgramBuilder& program, const Scene& scene, std::span<const float> weights, Rows& rows);
+void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Rows& rows,
+             BufferId corrections, bool isFirstIteration);
+
+} // namespace sinew::sim::constraints::bend

@@ -1,0 +1,41 @@
+// Tethers sorted by particle, in the order of the scene.
+#include "sim/constraints/tether.hpp"
+
+#include "kernels.hpp"
+
+#include <algorithm>
+
+namespace sinew::sim::constraints::tether {
+
+Tethers add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout) {
+    const std::vector<float> inverseMass = inverseMasses(scene);
+    std::vector<Tether> sorted;
+    std::ranges::copy_if(scene.tethers, std::back_inserter(sorted),
+                         [&](const Tether& tether) { return inverseMass[tether.particle] > 0; });
+    if (sorted.empty()) return {};
+    std::ranges::stable_sort(sorted, {}, &Tether::particle);
+    std::vector<layout::TetheredParticle> particles;
+    std::uint32_t last = 0; // particle, while there is one
+    std::vector<layout::TetherReach> reaches;
+    for (const Tether& tether : sorted) {
+        if (particles.empty() || last != tether.particle)
+            particles.push_back(
+                {layout.slot[tether.particle], static_cast<std::uint32_t>(reaches.size()), 0});
+        last = tether.particle;
+        ++particles.back().count;
+        reaches.push_back({layout.slot[tether.anchor], tether.length});
+    }
+    return {.count = static_cast<std::uint32_t>(particles.size()),
+            .particles = program.upload("tethers.particles", particles),
+            .tethers = program.upload("tethers", reaches)};
+}
+
+void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Tethers& tethers) {
+    if (tethers.count == 0) return;
+    program.dispatch(
+        kernels::solveTethers, tethers.count,
+        {tethers.particles, tethers.tethers, particles.positions, particles.velocities, particles.step},
+        layout::CountPush{tethers.count});
+}
+
+} // namespace sinew::sim::constraints::tether

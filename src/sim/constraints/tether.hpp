@@ -1,0 +1,18 @@
+// Tethers (long-range attachments) on the device: one pass after the links of a substep, the same for every
+// solver.
+#pragma once
+
+#include "layout.h"
+#include "sim/compile.hpp"
+
+namespace sinew::sim::constraints::tether {
+
+struct Tethers {
+    std::uint32_t count = 0; ///< tethered particles that move
+    BufferId particles, tethers;
+};
+
+Tethers add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout);
+void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Tethers& tethers);
+
+} // namespace sinew::sim::constraints::tether

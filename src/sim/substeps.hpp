@@ -1,0 +1,77 @@
+// How many substeps a step needs, and what a solver makes of the stiffness a scene asks for (methods: A4, D,
+// K). Pure functions of Scene and Settings: what a report prints is what compile() and Simulation use.
+#pragma once
+
+#include "sim/scene.hpp"
+
+namespace sinew::sim {
+
+/// The stiffness k_eff that the links (and bends) with a compliance really have in substeps of
+/// h = dt / substeps:
+///   split         min(k, k~ min(tau_a, tau_b) / h^2), see solvers/shares.hpp      exact
+///   gauss_seidel  1 / (1/k + h^2 (w_a + w_b))                                     one sweep a substep; a
+///   model jacobi        s_m / (1/k + h^2 (w_a + w_b)), s_m = 1 - (1 - s)^iterations      s = share a
+///   particle takes of a
+///                                                                                 correction; a model
+struct StiffnessReport {
+    std::size_t elastic = 0;      ///< constraints with a compliance and an end that moves
+    std::size_t clamped = 0;      ///< `split`: those with k_eff < k; other solvers have no clamp
+    std::size_t soft = 0;         ///< those with k_eff < (1 - tolerance) k
+    double softest = 1, mean = 1; ///< of k_eff / k
+    std::uint32_t neededSubsteps =
+        1;                  ///< with which the numerical part of 1 - k_eff / k is at most the tolerance
+    double dampingTime = 0; ///< of the scene's, what a step of scene.dt has [s]
+};
+
+/// `settings.substeps` may be 0.
+StiffnessReport inspectStiffness(const Scene& scene, const Settings& settings);
+
+/// What decided the number of substeps.
+enum class SubstepReason : std::uint8_t {
+    asked,     ///< settings.substeps
+    stiffness, ///< no elastic link softer than the tolerance allows
+    weight,    ///< no rigid link stretched by more than tolerance x length under the weight hanging on it
+    damping,   ///< `split`: dampingTime in full
+    fewest,    ///< nothing asked for more than ranges::fewestChosen
+    most,      ///< more than ranges::mostChosen were wanted
+};
+
+struct SubstepChoice {
+    std::uint32_t substeps = 1;
+    std::uint32_t wanted = 1; ///< before the limits fewestChosen and mostChosen
+    SubstepReason reason = SubstepReason::asked;
+};
+
+/// Where settings.substeps is 0: the smallest number with which, at scene.dt,
+/// - every elastic link has k_eff >= (1 - tolerance) k (of `jacobi`, but for s_m, which no substep changes),
+/// - every rigid link stretches by at most tolerance x its length under the weight of what hangs together
+/// with it,
+///   shared by the links that end on a particle that never moves (bodies that hang on nothing ask for
+///   nothing),
+/// - `split` is stable with the whole of dampingTime,
+/// but from fewestChosen to mostChosen; 1 where a scene has nothing but free particles. Longer or shorter
+/// steps keep the number.
+SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings);
+
+/// `settings` with a number in the place of 0.
+Settings withSubsteps(const Scene& scene, Settings settings);
+
+/// "64 substeps: so that no link is more than 5 % softer than asked".
+std::string toText(const SubstepChoice& choice, const Settings& settings);
+
+/// Bounds of the largest eigenvalue that each kind of constraint gives h^2 M^-1 K in `split`: min(kind x h^2,
+/// omegaKind), D_c being sum of w |grad|^2 / share. Bends use what links leave of the stability bound, so
+/// that a scene with bends has links as stiff as without.
+struct SplitBudget {
+    double links = 0, bends = 0;           ///< largest k_c D_c; infinite for rigid ones
+    double omegaLinks = 0, omegaBends = 0; ///< clamps of h^2 k_c D_c
+};
+SplitBudget splitBudget(const Scene& scene, const Settings& settings);
+
+/// What links may damp in a substep of `split` of length h: every damping coefficient c obeys h c D <= this.
+/// With the quadratic z^2 - (2 - s (1 + theta) - d) z + (1 - s theta - d) of a mode (s, d: Rayleigh quotients
+/// of h^2 K and h C, so that the two need not commute), stability is s (1 + 2 theta) + 2 d <= 4; 5 % are kept
+/// back.
+double dampingBudget(const SplitBudget& budget, double theta, double h);
+
+} // namespace sinew::sim

@@ -1,0 +1,137 @@
+// Bends: stiffness in N m and N m^2, momentum, agreement with double.
+#include "sim/bodies.hpp"
+#include "sim/compile.hpp"
+#include "sim/constraints/agreement.hpp"
+#include "sim/runner.hpp"
+#include "sim/scenes.hpp"
+#include "sim/substeps.hpp"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace sinew;
+using namespace sinew::sim;
+using Eigen::Vector3d;
+
+namespace {
+
+class Bend : public testing::TestWithParam<Solver> {};
+
+Scene bentSheet(std::uint32_t size, float compliance) {
+    Scene scene{.name = "bent sheet of " + std::to_string(size)};
+    addCloth(scene, {.origin = {0, 1, 0},
+                     .size = {size, size},
+                     .spacing = 0.1f,
+                     .stretchCompliance = compliance,
+                     .shearCompliance = 10 * compliance,
+                     .bendingStiffness = 0.05f,
+                     .pinned = {0, size - 1}});
+    return scene;
+}
+
+// A row of particles along x; the first two are held: a clamped rod.
+Scene rod(std::uint32_t cells, float length, float weightPerLength, float stiffness) {
+    Scene scene{.name = "rod"};
+    const float spacing = length / static_cast<float>(cells);
+    for (std::uint32_t i = 0; i <= cells; ++i) {
+        const float share = i == cells ? 0.5f : 1;
+        scene.particles.push_back({.position = {spacing * static_cast<float>(i), 0, 0},
+                                   .inverseMass = 9.81f / (weightPerLength * spacing * share)});
+        if (i > 0) scene.distances.push_back({i - 1, i, spacing, 1e-5f});
+        if (i > 1) scene.bends.push_back({i - 2, i - 1, i, bendComplianceOfRod(stiffness, spacing)});
+    }
+    scene.fixed = {{0}, {1}};
+    return scene;
+}
+
+} // namespace
+
+TEST_P(Bend, StepsOfASheetAgreeWithDouble) {
+    for (const bool isInRoom : {false, true}) {
+        Scene scene = bentSheet(12, 1e-4f);
+        if (isInRoom) test::addRoom(scene);
+        test::disturb(scene, 0.02f, 0.5f);
+        test::expectAgreement(scene, GetParam());
+    }
+}
+
+TEST_P(Bend, StepsWithoutLinksAgreeWithDouble) {
+    Scene scene = test::chain(130);
+    scene.distances.clear();
+    for (std::uint32_t i = 2; i < 130; ++i) scene.bends.push_back({i - 2, i - 1, i, i % 2 == 0 ? 0 : 1e-2f});
+    test::disturb(scene, 0.02f, 0.5f);
+    test::expectAgreement(scene, GetParam());
+}
+
+// Deflection q L^4 / (8 EI) of a clamped rod under its weight; 16 cells, the first of them in the clamp, take
+// a few per cent of it, which the sum over joints has exactly.
+TEST(BendOfSplit, LetsAClampedRodSagAsItsStiffnessSays) {
+    constexpr double length = 1, weight = 1, deflection = 0.04;
+    const double stiffness = weight / (8 * deflection);
+    constexpr std::uint32_t cells = 16;
+    Scene scene = rod(cells, length, weight, static_cast<float>(stiffness));
+    scene.damping = 12;
+    const Settings settings{.substeps = 128};
+    EXPECT_EQ(inspectStiffness(scene, settings).soft, 0u);
+    test::Runner runner(scene, settings);
+    ASSERT_EQ(runner.run(150).nonFinite, 0u);
+    // Exactly, of the discrete rod: moments of the weights turn each joint by M s / EI.
+    double sag = 0;
+    const double s = length / cells;
+    for (std::uint32_t joint = 1; joint < cells; ++joint) {
+        double moment = 0;
+        for (std::uint32_t i = joint + 1; i <= cells; ++i)
+            moment += weight * s * (i == cells ? 0.5 : 1) * (i - joint) * s;
+        sag += moment * s / stiffness * (cells - joint) * s;
+    }
+    EXPECT_NEAR(sag / deflection, 1, 0.15) << "the discrete rod is near the rod";
+    EXPECT_NEAR(-runner.positions().back().y() / sag, 1, 0.01);
+}
+
+TEST(BendOfSplit, KeepsMomentum) {
+    Scene scene = bentSheet(8, 1e-4f);
+    scene.fixed.clear();
+    scene.gravity = {0, 0, 0};
+    test::disturb(scene, 0.03f, 1);
+    const auto momenta = [&](const test::Runner& runner) {
+        const auto x = runner.positions(), v = runner.velocities();
+        Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            const double mass = 1 / double{scene.particles[i].inverseMass};
+            sum.head<3>() += mass * v[i];
+            sum.tail<3>() += mass * x[i].cross(v[i]);
+        }
+        return sum;
+    };
+    test::Runner runner(scene, {.substeps = 16, .theta = 0});
+    const auto before = momenta(runner);
+    runner.run(60);
+    EXPECT_LE((momenta(runner) - before).norm(), 2e-5 * test::massOf(scene));
+}
+
+TEST(Bend, LeavesAFlatSheetFlat) {
+    Scene scene = bentSheet(8, 0);
+    scene.gravity = {0, 0, 0};
+    test::Runner runner(scene, {.substeps = 8});
+    const auto before = runner.positions();
+    runner.run(30);
+    double moved = 0;
+    for (std::size_t i = 0; i < before.size(); ++i)
+        moved = std::max(moved, (runner.positions()[i] - before[i]).norm());
+    EXPECT_LE(moved, 1e-6);
+}
+
+TEST(Bend, IsInTheProgramOnlyWhereTheSceneHasOne) {
+    const auto has = [](const Scene& scene, Solver solver) {
+        return describe(compile(scene, {.solver = solver, .substeps = 2})).find("bends") != std::string::npos;
+    };
+    for (const Solver solver : {Solver::split, Solver::jacobi}) {
+        EXPECT_TRUE(has(bentSheet(4, 0), solver));
+        EXPECT_FALSE(has(test::sheet(4), solver));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Bend, testing::Values(Solver::jacobi, Solver::split),
+                         [](const auto& parameter) { return solverName(parameter.param); });

@@ -1,0 +1,175 @@
+// The number of substeps follows from stiffness, mass, frame time and tolerance; what a report says of
+// stiffness is what a loaded body shows.
+#include "sim/substeps.hpp"
+
+#include "sim/compile.hpp"
+#include "sim/runner.hpp"
+#include "sim/scenes.hpp"
+#include "sim/step_clock.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace sinew;
+using namespace sinew::sim;
+
+namespace {
+
+// A fixed particle, and `count` of 0.01 kg that hang from it one below another, 0.1 m apart.
+Scene hangingChain(std::uint32_t count, float compliance) {
+    Scene scene{.name = "hanging chain"};
+    for (std::uint32_t i = 0; i <= count; ++i) {
+        scene.particles.push_back({.position = {0, -0.1f * static_cast<float>(i), 0}, .inverseMass = 100});
+        if (i > 0) scene.distances.push_back({i - 1, i, 0.1f, compliance});
+    }
+    scene.fixed = {{0}};
+    scene.damping = 20;
+    return scene;
+}
+
+double stretchOf(const Scene& scene, const Settings& settings) {
+    test::Runner runner(scene, settings);
+    EXPECT_EQ(runner.run(400).nonFinite, 0u);
+    const auto x = runner.positions();
+    return -x.back().y() - 0.1 * static_cast<double>(x.size() - 1);
+}
+
+} // namespace
+
+TEST(Substeps, OfSplitAreThoseOfItsFormula) {
+    // k = 1e4 N/m, two links a particle of 0.01 kg: kappa = 2 / (2 x 2 x 100), k h^2 <= kappa: n = dt sqrt(k
+    // / kappa).
+    const Scene scene = hangingChain(5, 1e-4f);
+    const double exact = double{scene.dt} * std::sqrt(1e4 / 0.005);
+    for (const double tolerance : {1e-3, 0.05, 0.5}) {
+        const SubstepChoice choice = chooseSubsteps(scene, {.tolerance = static_cast<float>(tolerance)});
+        EXPECT_EQ(choice.substeps, std::ceil(exact * std::sqrt(1 - tolerance))) << tolerance;
+        EXPECT_EQ(choice.reason, SubstepReason::stiffness);
+    }
+}
+
+TEST(Substeps, GrowWithFrameTimeStiffnessAndLightness) {
+    const auto chosen = [](float dt, float compliance, float lightness) {
+        Scene scene = hangingChain(5, compliance);
+        scene.dt = dt;
+        for (Particle& particle : scene.particles) particle.inverseMass *= lightness;
+        return static_cast<double>(chooseSubsteps(scene, {}).substeps);
+    };
+    const double usual = chosen(0.01f, 1e-4f, 1);
+    EXPECT_NEAR(chosen(0.02f, 1e-4f, 1), 2 * usual, 2);
+    EXPECT_NEAR(chosen(0.01f, 2.5e-5f, 1), 2 * usual, 2);
+    EXPECT_NEAR(chosen(0.01f, 1e-4f, 4), 2 * usual, 2);
+}
+
+TEST(Substeps, KeepEveryElasticLinkWithinTheTolerance) {
+    for (const Solver solver : {Solver::split, Solver::jacobi}) {
+        for (const float tolerance : {0.01f, 0.05f, 0.2f}) {
+            const Scene scene = test::block(4, 0.05f, 1e5f);
+            Settings settings{.solver = solver, .tolerance = tolerance, .iterations = 200};
+            settings.substeps = chooseSubsteps(scene, settings).substeps;
+            const StiffnessReport report = inspectStiffness(scene, settings);
+            EXPECT_GE(report.softest, 1 - double{tolerance} - 1e-5) << solverName(solver) << ' ' << tolerance;
+            EXPECT_EQ(report.soft, 0u);
+            EXPECT_EQ(report.neededSubsteps, settings.substeps);
+            settings.substeps = settings.substeps * 9 / 10;
+            EXPECT_GT(inspectStiffness(scene, settings).soft, 0u) << "no more than it takes";
+        }
+    }
+}
+
+// Statics of `split` are exact: the links of a hanging chain stretch by their load over k_eff.
+TEST(Substeps, ReportTheStiffnessThatALoadedChainShows) {
+    const Scene scene = hangingChain(4, 1e-4f);
+    for (const std::uint32_t substeps : {4u, 8u, 32u}) {
+        const Settings settings{.substeps = substeps};
+        const StiffnessReport report = inspectStiffness(scene, settings);
+        EXPECT_EQ(report.clamped, substeps < 23 ? 4u : 0u) << substeps;
+        // every link has an end with two links, and so the same clamp; loads of 4, 3, 2 and 1 weight
+        const double h = double{scene.dt} / substeps, weight = 0.01 * 9.81;
+        const double inner = std::min(1e4, 0.005 / (h * h));
+        const double predicted = weight * (4 + 3 + 2 + 1) / inner;
+        EXPECT_NEAR(stretchOf(scene, settings) / predicted, 1, 0.02) << substeps;
+        EXPECT_NEAR(report.softest, inner / 1e4, 1e-5) << substeps;
+    }
+}
+
+TEST(Substeps, HoldWhatHangsOnRigidLinks) {
+    const Scene scene = hangingChain(10, 0);
+    for (const Solver solver : {Solver::split, Solver::jacobi}) {
+        const Settings settings{.solver = solver, .tolerance = 0.02f};
+        const SubstepChoice choice = chooseSubsteps(scene, settings);
+        EXPECT_EQ(choice.reason, SubstepReason::weight);
+        test::Runner runner(scene, settings);
+        ASSERT_EQ(runner.run(400).nonFinite, 0u);
+        const auto x = runner.positions();
+        for (std::size_t i = 1; i < x.size(); ++i)
+            EXPECT_LE(std::abs((x[i] - x[i - 1]).norm() / 0.1 - 1), 0.02)
+                << solverName(solver) << " link " << i << ", " << choice.substeps << " substeps";
+    }
+}
+
+TEST(Substeps, StayBetweenTheirLimitsAndSaySo) {
+    Scene stiff = hangingChain(5, 1e-10f), soft = hangingChain(5, 10);
+    EXPECT_EQ(chooseSubsteps(stiff, {}).substeps, 256u);
+    EXPECT_EQ(chooseSubsteps(stiff, {}).reason, SubstepReason::most);
+    EXPECT_GT(chooseSubsteps(stiff, {}).wanted, 10'000u);
+    EXPECT_EQ(chooseSubsteps(soft, {}).substeps, 4u);
+    EXPECT_EQ(chooseSubsteps(soft, {}).reason, SubstepReason::fewest);
+    EXPECT_EQ(chooseSubsteps(test::particleAt({0, 1, 0}), {}).substeps, 1u);
+    EXPECT_EQ(chooseSubsteps({}, {}).substeps, 1u);
+    EXPECT_EQ(chooseSubsteps(stiff, {.substeps = 7}).substeps, 7u);
+    EXPECT_EQ(chooseSubsteps(stiff, {.substeps = 7}).reason, SubstepReason::asked);
+    EXPECT_NE(toText(chooseSubsteps(stiff, {}), {}).find("would keep the tolerance of 5 %"),
+              std::string::npos);
+}
+
+TEST(Substeps, OfZeroAreChosenByCompileAndSimulation) {
+    const Scene scene = hangingChain(5, 1e-4f);
+    const std::uint32_t chosen = chooseSubsteps(scene, {}).substeps;
+    EXPECT_EQ(compile(scene, {}).sweeps, chosen);
+    test::Runner automatic(scene, {}), asked(scene, {.substeps = chosen});
+    automatic.run(10);
+    asked.run(10);
+    EXPECT_EQ(automatic.stateHash(), asked.stateHash());
+}
+
+TEST(Substeps, OfAPinnedAndAFreeBodyDifferOnlyByWhatHangs) {
+    Scene scene = test::sheet(6);
+    EXPECT_EQ(chooseSubsteps(scene, {}).reason, SubstepReason::weight);
+    scene.fixed.clear();
+    EXPECT_EQ(chooseSubsteps(scene, {}).substeps, 4u);
+    scene.fixed = {{0}};
+    scene.gravity = {0, 0, 0};
+    EXPECT_EQ(chooseSubsteps(scene, {}).substeps, 4u);
+}
+
+TEST(StepClock, GivesStepsOfOneLengthForFramesOfAny) {
+    StepClock clock(0.01, 100);
+    double passed = 0;
+    std::uint32_t steps = 0;
+    for (int frame = 0; frame < 1000; ++frame) {
+        const double time = 0.004 + 0.046 * (frame * 37 % 11) / 10;
+        passed += time;
+        const StepClock::Due due = clock.advance(time);
+        steps += due.steps;
+        EXPECT_GE(due.ahead, 0);
+        EXPECT_LT(due.ahead, 1);
+        EXPECT_EQ(due.lostTime, 0);
+    }
+    EXPECT_NEAR(steps * 0.01, passed, 0.01);
+}
+
+TEST(StepClock, DropsWhatADeviceCannotMakeUpAndSaysHowMuch) {
+    StepClock clock(0.01, 4);
+    const StepClock::Due due = clock.advance(1.005);
+    EXPECT_EQ(due.steps, 4u);
+    EXPECT_NEAR(due.lostTime, 0.96, 1e-9);
+    EXPECT_NEAR(due.ahead, 0.5, 1e-6);
+    for (const double none : {-1.0, std::nan(""), 0.0}) EXPECT_EQ(clock.advance(none).steps, 0u);
+}
+
+TEST(StepClock, MakesOneStepAFrameOfThatLength) {
+    StepClock clock(1.0 / 60, 4);
+    for (int frame = 0; frame < 10'000; ++frame) ASSERT_EQ(clock.advance(1.0 / 60).steps, 1u) << frame;
+}
