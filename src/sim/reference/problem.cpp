@@ -5,12 +5,34 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace sinew::sim::reference {
 
 Eigen::Vector3d toEigen(const Vec3& v) {
     return {double{v.x}, double{v.y}, double{v.z}};
 }
+
+namespace {
+
+std::vector<double> levelsOf(const Scene& scene) {
+    std::vector<double> levels;
+    for (const DistanceConstraint& c : scene.distances)
+        levels.push_back(c.compliance > 0 ? std::min(1 / double{c.compliance}, 1e20) : 1e20);
+    for (const Grid& grid : scene.grids) {
+        std::map<float, double> stiffest;
+        for (std::uint32_t i = 0; i < grid.distanceCount; ++i) {
+            const std::uint32_t c = grid.firstDistance + i;
+            double& most = stiffest[scene.distances[c].restLength];
+            most = std::max(most, levels[c]);
+        }
+        for (std::uint32_t i = 0; i < grid.distanceCount; ++i)
+            levels[grid.firstDistance + i] = stiffest[scene.distances[grid.firstDistance + i].restLength];
+    }
+    return levels;
+}
+
+} // namespace
 
 Problem::Problem(const Scene& scene)
     : linkCount(scene.particles.size(), 0), bendCount(scene.particles.size(), 0),
@@ -21,9 +43,11 @@ Problem::Problem(const Scene& scene)
         contactOffset.push_back(double{particle.contactOffset});
     }
     for (const FixedConstraint& constraint : scene.fixed) inverseMass[constraint.particle] = 0;
-    for (const DistanceConstraint& c : scene.distances) {
+    const std::vector<double> levels = levelsOf(scene);
+    for (std::size_t k = 0; k < scene.distances.size(); ++k) {
+        const DistanceConstraint& c = scene.distances[k];
         if (inverseMass[c.a] == 0 && inverseMass[c.b] == 0) continue;
-        links.push_back({c.a, c.b, double{c.restLength}, double{c.compliance}});
+        links.push_back({c.a, c.b, double{c.restLength}, double{c.compliance}, levels[k]});
         ++linkCount[c.a];
         ++linkCount[c.b];
     }

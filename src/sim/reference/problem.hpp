@@ -15,6 +15,8 @@ struct State;
 struct Link {
     std::uint32_t a = 0, b = 0;
     double restLength = 0, compliance = 0; ///< [m], [m/N]
+    double level =
+        0; ///< in a grid: stiffness of its stiffest link of this length; else its own; <= 1e20 [N/m]
 };
 
 struct Bend {

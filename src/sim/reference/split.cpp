@@ -1,14 +1,13 @@
 // `split` in double: springs evaluated at y = x + theta h v, stiffness clamped by mass splitting, then kick
 // and drift (methods: D, theta form). Constraint c has the share k~_c / sum k~ of each of its ends, k~_c =
-// k_c / (1 + 2 w h^2 K_c), with K_c the stiffest constraint of its rest length and w the mean inverse mass;
-// it is clamped to k~_c min(tau_i, tau_j), tau_i = omega / (2 w_i sum k~).
+// k_c / (1 + 2 w h^2 K_c), with K_c = k_c (in a grid, the stiffest of its rest length) and w the mean inverse
+// mass; it is clamped to k~_c min(tau_i, tau_j), tau_i = omega / (2 w_i sum k~).
 #include "sim/reference/attached.hpp"
 #include "sim/reference/reference.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 namespace sinew::sim::reference {
 
@@ -28,15 +27,11 @@ struct Split {
             moving += w > 0 ? 1 : 0;
         }
         const double softening = moving > 0 ? 2 * massSum / moving * h * h : 0;
-        std::map<double, double> stiffest; // by rest length
-        for (const Link& link : problem.links) {
+        for (const Link& link : problem.links)
             stiffness.push_back(link.compliance > 0 ? std::min(1 / link.compliance, 1e20) : 1e20);
-            double& most = stiffest[link.restLength];
-            most = std::max(most, stiffness.back());
-        }
         std::vector<double> sums(problem.size(), 0);
         for (std::size_t c = 0; c < problem.links.size(); ++c) {
-            share.push_back(stiffness[c] / (1 + softening * stiffest[problem.links[c].restLength]));
+            share.push_back(stiffness[c] / (1 + softening * problem.links[c].level));
             sums[problem.links[c].a] += share[c];
             sums[problem.links[c].b] += share[c];
         }

@@ -20,6 +20,24 @@ double meanInverseMass(std::span<const float> inverseMass) {
     return moving > 0 ? sum / static_cast<double>(moving) : 0;
 }
 
+// K_c: at which stiffness the share of a constraint levels off.
+std::vector<double> levelStiffness(const Scene& scene) {
+    std::vector<double> levels;
+    levels.reserve(scene.distances.size());
+    for (const DistanceConstraint& c : scene.distances) levels.push_back(double{stiffnessOf(c.compliance)});
+    for (const Grid& grid : scene.grids) {
+        std::unordered_map<float, double> stiffest; // by rest length
+        const std::size_t end = std::size_t{grid.firstDistance} + grid.distanceCount;
+        for (std::size_t c = grid.firstDistance; c < end; ++c) {
+            double& most = stiffest[scene.distances[c].restLength];
+            most = std::max(most, levels[c]);
+        }
+        for (std::size_t c = grid.firstDistance; c < end; ++c)
+            levels[c] = stiffest.at(scene.distances[c].restLength);
+    }
+    return levels;
+}
+
 } // namespace
 
 float stiffnessOf(float compliance) {
@@ -29,20 +47,16 @@ float stiffnessOf(float compliance) {
 
 std::vector<float> shareStiffness(const Scene& scene, const Settings& settings,
                                   std::span<const float> inverseMass) {
-    std::unordered_map<float, double> stiffest; // by rest length
-    for (const DistanceConstraint& c : scene.distances) {
-        if (!constraints::distance::canMove(c, inverseMass)) continue;
-        double& most = stiffest[c.restLength];
-        most = std::max(most, double{stiffnessOf(c.compliance)});
-    }
+    const std::vector<double> levels = levelStiffness(scene);
     const double h = double{scene.dt} / settings.substeps;
     const double softening = 2 * meanInverseMass(inverseMass) * h * h;
     std::vector<float> shares;
     shares.reserve(scene.distances.size());
-    for (const DistanceConstraint& c : scene.distances) {
-        const bool moves = constraints::distance::canMove(c, inverseMass);
-        const double ratio = moves ? 1 / (1 + softening * stiffest.at(c.restLength)) : 0;
-        shares.push_back(static_cast<float>(double{stiffnessOf(c.compliance)} * ratio));
+    for (std::size_t c = 0; c < scene.distances.size(); ++c) {
+        const DistanceConstraint& constraint = scene.distances[c];
+        const bool moves = constraints::distance::canMove(constraint, inverseMass);
+        const double ratio = moves ? 1 / (1 + softening * levels[c]) : 0;
+        shares.push_back(static_cast<float>(double{stiffnessOf(constraint.compliance)} * ratio));
     }
     return shares;
 }

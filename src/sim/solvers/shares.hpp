@@ -2,11 +2,12 @@
 // k~_c / sum_c k~_c: any positive k~ is stable (methods: D), a good one lets every constraint reach its clamp
 // at about the same substep. k~ is the stiffness, levelled off where a substep cannot follow it anyway:
 //
-//   k~_c = k_c / (1 + 2 w h^2 K_c),   K_c the stiffest constraint of the same rest length, w the mean inverse
-//                                     mass, h the scene's dt / substeps
+//   k~_c = k_c / (1 + 2 w h^2 K_c),   K_c = k_c; in a grid, the stiffest constraint of the grid that has the
+//                                     same rest length; w the mean inverse mass, h the scene's dt / substeps
 //
-// so that rigid constraints do not take everything, and links of one kind keep their ratio (kernels then need
-// one factor a kind).
+// so that constraints that a substep cannot follow do not take everything (a soft one beside one a million
+// times stiffer keeps its stiffness), and links of one kind in a grid keep their ratio (kernels then need one
+// factor a kind).
 #pragma once
 
 #include "sim/scene.hpp"
