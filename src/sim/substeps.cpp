@@ -229,6 +229,18 @@ Limits limitsOf(const Scene& scene, const Settings& settings) {
     return limits;
 }
 
+// With which elastic terms are within the tolerance. The shares of `split` depend on h a little: a fixed
+// point.
+std::uint32_t neededFor(const Scene& scene, const Settings& settings) {
+    Settings tried = settings;
+    for (int round = 0; round < mostRounds; ++round) {
+        const std::uint32_t wanted = countFor(double{scene.dt}, limitsOf(scene, tried).elastic);
+        if (wanted == tried.substeps) break;
+        tried.substeps = wanted;
+    }
+    return tried.substeps;
+}
+
 bool hasOnlyFreeParticles(const Scene& scene) {
     return scene.distances.empty() && scene.bends.empty() && scene.attachments.empty() &&
            scene.planes.empty();
@@ -298,7 +310,7 @@ StiffnessReport inspectStiffness(const Scene& scene, const Settings& asked) {
     const double h = double{scene.dt} / settings.substeps;
     const bool isSplit = settings.solver == Solver::split;
     const double budget = dampingBudget(splitBudget(scene, settings), double{settings.theta}, h);
-    double sum = 0, damping = 0, longest = infinite;
+    double sum = 0, damping = 0;
     for (const Term& term : termsOf(scene, settings)) {
         if (term.isRigid) continue;
         const double reached = model.reached(term, h);
@@ -306,7 +318,6 @@ StiffnessReport inspectStiffness(const Scene& scene, const Settings& asked) {
         report.clamped += isSplit && reached < 1 - rounding;
         report.soft += reached < 1 - double{settings.tolerance} - rounding;
         report.softest = std::min(report.softest, reached);
-        longest = std::min(longest, model.longest(term, double{settings.tolerance}));
         sum += reached;
         // of a link's c = k dampingTime, h c D is at most the budget
         const double most = budget * term.clamp / double{settings.omega} / (term.stiffness * h);
@@ -315,7 +326,7 @@ StiffnessReport inspectStiffness(const Scene& scene, const Settings& asked) {
     if (report.elastic == 0) return report;
     report.mean = sum / static_cast<double>(report.elastic);
     report.dampingTime = damping / static_cast<double>(report.elastic);
-    report.neededSubsteps = countFor(double{scene.dt}, longest);
+    report.neededSubsteps = neededFor(scene, settings);
     return report;
 }
 

@@ -252,6 +252,7 @@ TEST_P(HardCase, Case21AParticleWithoutLinksFallsFreelyAndLands) {
 TEST_P(HardCase, Case22WithEveryLinkCutAllParticlesAreFree) {
     Scene scene = test::block(4, 0.1f, 1e5f, 0.5f);
     scene.distances.clear();
+    scene.grids.clear();
     test::disturb(scene, 0, 1);
     const StepProgram program = compile(scene, settings(8));
     EXPECT_EQ(program.sweeps, 0u);

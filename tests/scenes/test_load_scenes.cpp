@@ -237,11 +237,11 @@ TEST_F(Load, SaysHowManySubstepsAStiffBodyNeeds) {
     const std::vector<std::string> warnings = load(box).warnings;
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_NE(warnings[0].find(" elastic links are softer than asked"), std::string::npos);
-    // A particle on an edge of the box has mass m / 4, 9 links, and one diagonal as stiff as an inner one:
-    // 0.4 E a h^2 <= omega m / 72, so 1/60 s sqrt(14.4 E / density) / spacing = 447.2 substeps; sqrt(0.95) of
-    // it leave a link at most 5 % too soft.
-    EXPECT_NE(warnings[0].find(": 436 substeps would keep all within 5 %"), std::string::npos) << warnings[0];
-    EXPECT_TRUE(scenes::load(write("scene.toml", box), {.substeps = 436}).warnings.empty());
+    // Stiffness and mass are assembled alike, so that each particle has sum k / m = 18 x 0.4 E a / (density
+    // a^3) and h^2 sum k / m <= 1: 1/60 s sqrt(7.2 E / density) / spacing = 316.2 substeps; sqrt(0.95) of it
+    // leave a link at most 5 % too soft.
+    EXPECT_NE(warnings[0].find(": 309 substeps would keep all within 5 %"), std::string::npos) << warnings[0];
+    EXPECT_TRUE(scenes::load(write("scene.toml", box), {.substeps = 309}).warnings.empty());
     EXPECT_TRUE(scenes::load(write("scene.toml", box), {.solver = "jacobi"}).warnings.empty());
 }
 
@@ -268,15 +268,15 @@ TEST_F(Load, ChoosesSubstepsWhereTheFileDoesNotSay) {
     const std::string box = "[[box]]\nparticles = [4, 4, 4]\nspacing = 0.02\ncenter = [0, 1, 0]\n";
     for (const char* solver : {"", "[solver]\nsubsteps = \"auto\"\n"}) {
         const scenes::LoadedScene loaded = load(solver + box);
-        // 1e5 Pa: 31.6 substeps would be exact
-        EXPECT_EQ(loaded.settings.substeps, 31u);
+        // 1e5 Pa: 22.4 substeps would be exact
+        EXPECT_EQ(loaded.settings.substeps, 22u);
         EXPECT_EQ(loaded.substeps.reason, sim::SubstepReason::stiffness);
     }
     EXPECT_EQ(load("[solver]\nsubsteps = 9\n" + box).substeps.reason, sim::SubstepReason::asked);
     EXPECT_EQ(scenes::load(write("scene.toml", "[solver]\nsubsteps = 9\n" + box), {.substeps = 0})
                   .settings.substeps,
-              31u);
-    EXPECT_LT(load("[solver]\ntolerance = 0.5\n" + box).settings.substeps, 24u);
+              22u);
+    EXPECT_LT(load("[solver]\ntolerance = 0.5\n" + box).settings.substeps, 18u);
     expectError("[solver]\nsubsteps = 0\n" + box,
                 "scene.toml:2: solver.substeps is 0: must be from 1 to 1000");
     expectError("[solver]\nsubsteps = 1000000000\n" + box,
