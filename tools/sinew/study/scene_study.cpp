@@ -5,8 +5,8 @@
 
 #include "app/guard.hpp"
 #include "app/progress.hpp"
-#include "scenes/stiffness.hpp"
 #include "sim/compile.hpp"
+#include "sim/substeps.hpp"
 #include "sim/validate.hpp"
 #include "sinew/study/analysis.hpp"
 #include "sinew/tuning.hpp"
@@ -21,9 +21,9 @@ namespace sinew::tools::study {
 namespace {
 
 std::optional<double> clampedShare(const sim::Scene& scene, const sim::Settings& settings) {
-    const scenes::StiffnessReport report = scenes::inspectStiffness(scene, settings);
-    if (report.elasticLinks == 0) return {};
-    return static_cast<double>(report.clampedLinks) / static_cast<double>(report.elasticLinks);
+    const sim::StiffnessReport report = sim::inspectStiffness(scene, settings);
+    if (report.elastic == 0) return {};
+    return static_cast<double>(report.clamped) / static_cast<double>(report.elastic);
 }
 
 Trial prepare(const StudyScene& scene, const sim::Settings& settings, const vk::DeviceDescription& device) {
