@@ -21,6 +21,7 @@ namespace sinew::tools::study {
 namespace {
 
 std::optional<double> clampedShare(const sim::Scene& scene, const sim::Settings& settings) {
+    if (settings.solver != sim::Solver::split) return {}; // no other has a clamp
     const sim::StiffnessReport report = sim::inspectStiffness(scene, settings);
     if (report.elastic == 0) return {};
     return static_cast<double>(report.clamped) / static_cast<double>(report.elastic);
