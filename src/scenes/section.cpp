@@ -117,7 +117,9 @@ void Section::checkNumbers(const Key& key, const toml::node& node) const {
             const char* hint = wrong.is_string() ? ", without quotes and unit" : "";
             fail(key.name, "is " + describeValue(wrong), "write " + expectedText(key) + hint);
         }
-        checkRange(key, *element->value<double>());
+        // not value<double>(): that is empty for whole numbers that a double cannot hold
+        checkRange(key, element->is_integer() ? static_cast<double>(element->as_integer()->get())
+                                              : element->as_floating_point()->get());
     }
 }
 
