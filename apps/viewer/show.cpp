@@ -3,7 +3,9 @@
 
 #include "app/guard.hpp"
 #include "mesh/export.hpp"
+#include "sim/gpu_tune.hpp"
 #include "vk/check.hpp"
+#include "vk/queue.hpp"
 
 #include <cinttypes>
 #include <cstdio>
@@ -36,6 +38,11 @@ float aspect(VkExtent2D extent) {
     return static_cast<float>(extent.width) / static_cast<float>(extent.height);
 }
 
+sim::Settings fastest(const vk::Device& device, const scenes::LoadedScene& loaded) {
+    vk::Queue queue(device);
+    return sim::tuned(device, queue, loaded.scene, loaded.settings);
+}
+
 } // namespace
 
 Show::View::View(const vk::Device& device, VkFormat format, const Quality& quality, const StageLight& light)
@@ -44,7 +51,7 @@ Show::View::View(const vk::Device& device, VkFormat format, const Quality& quali
 Show::Show(Window& window, const vk::Device& device, const Opening& opening)
     : window_(window), device_(device), opening_(opening),
       controller_(opening.camera, opening.loaded.scene.dt),
-      stage_(device, opening.loaded.scene, opening.loaded.settings),
+      stage_(device, opening.loaded.scene, fastest(device, opening.loaded)),
       probe_(device, stage_.simulation().positions()), presenter_(device, window),
       moving_(device, presenter_.format(), isSoftware(device) ? reducedQuality() : Quality{}, opening.light),
       status_(opening.loaded.scene, device) {

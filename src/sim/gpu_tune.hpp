@@ -4,6 +4,7 @@
 
 #include "sim/simulation.hpp"
 
+#include <chrono>
 #include <functional>
 
 namespace sinew::sim {
@@ -31,5 +32,21 @@ struct Tuning {
 /// Simulation throws.
 Tuning tune(const vk::Device& device, const Scene& scene, const Settings& settings,
             const TimedSubmit& submit);
+
+/// `settings` with the forms that ran fastest just now, timed by the host's clock, submission included.
+/// `queue` has begin(), submit() and wait() as vk::Queue; nothing may be in flight on it.
+template <typename Queue>
+Settings tuned(const vk::Device& device, Queue& queue, const Scene& scene, Settings settings) {
+    using Clock = std::chrono::steady_clock;
+    const auto submit = [&](const std::function<void(VkCommandBuffer)>& record) {
+        const VkCommandBuffer commands = queue.begin();
+        record(commands);
+        const Clock::time_point start = Clock::now();
+        queue.wait(queue.submit(commands));
+        return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    };
+    settings.forms = tune(device, scene, settings, submit).fastest;
+    return settings;
+}
 
 } // namespace sinew::sim

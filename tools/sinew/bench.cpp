@@ -4,6 +4,7 @@
 #include "app/guard.hpp"
 #include "scenes/load.hpp"
 #include "sim/compile.hpp"
+#include "sim/gpu_tune.hpp"
 #include "sinew/commands.hpp"
 #include "sinew/json.hpp"
 #include "sinew/outputs.hpp"
@@ -12,7 +13,6 @@
 #include "sinew/runner.hpp"
 #include "sinew/sequential.hpp"
 #include "sinew/skin_mesh.hpp"
-#include "sinew/tuning.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -114,7 +114,8 @@ std::vector<std::unique_ptr<Contestant>> contestants(const std::string& scene, S
         contestant.solver = solver;
         contestant.device = session.device.description().name;
         contestant.loaded = scenes::loadBuiltIn(scene, {.solver = solver});
-        contestant.loaded.settings = tuned(session, contestant.loaded.scene, contestant.loaded.settings);
+        contestant.loaded.settings =
+            sim::tuned(session.device, session.queue, contestant.loaded.scene, contestant.loaded.settings);
         contestant.runner =
             std::make_unique<Runner>(session, contestant.loaded.scene, contestant.loaded.settings);
         contestant.sweeps = contestant.runner->simulation().program().sweeps;

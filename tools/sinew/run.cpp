@@ -2,10 +2,10 @@
 #include "app/guard.hpp"
 #include "app/progress.hpp"
 #include "mesh/export.hpp"
+#include "sim/gpu_tune.hpp"
 #include "sinew/commands.hpp"
 #include "sinew/outputs.hpp"
 #include "sinew/report.hpp"
-#include "sinew/tuning.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -98,7 +98,8 @@ int run(const RunOptions& options) {
     if (options.folder) folder.emplace(*options.folder);
     Session session(options.device);
     constexpr std::uint64_t worthTuning = 100; // frames: below, measuring forms costs more than it gains
-    if (options.frames >= worthTuning) loaded.settings = tuned(session, loaded.scene, loaded.settings);
+    if (options.frames >= worthTuning)
+        loaded.settings = sim::tuned(session.device, session.queue, loaded.scene, loaded.settings);
     Runner runner(session, loaded.scene, loaded.settings);
     const RunRecord record = simulate(options, loaded, session, runner);
     for (const std::string& message : record.validationMessages)

@@ -6,10 +6,10 @@
 #include "app/guard.hpp"
 #include "app/progress.hpp"
 #include "sim/compile.hpp"
+#include "sim/gpu_tune.hpp"
 #include "sim/substeps.hpp"
 #include "sim/validate.hpp"
 #include "sinew/study/analysis.hpp"
-#include "sinew/tuning.hpp"
 
 #include <fmt/format.h>
 
@@ -124,7 +124,7 @@ void timeAll(Session& session, const StudyScene& scene, const std::vector<Trial*
     std::uint64_t total = 0, done = 0;
     sim::Settings probe = scene.loaded.settings; // forms depend on scene and device, hardly on the settings
     probe.solver = sim::Solver::split;
-    const sim::Forms forms = tuned(session, scene.loaded.scene, probe).forms;
+    const sim::Forms forms = sim::tuned(session.device, session.queue, scene.loaded.scene, probe).forms;
     for (Trial* trial : trials) {
         total += framesLeftToTime(*trial) * trial->sweeps;
         sim::Settings settings = trial->settings;
