@@ -7,7 +7,7 @@
 // A node's word holds the fill of the eight cells around it, four bits each in 1/15; cell k lies on the side
 // (k & 1, k >> 1 & 1, k >> 2). A link's stiffness is the sum over the cells that hold it, times a unit per kind of
 // link: this is the assembly per cell, and a link that no cell holds is absent. SHEET: one layer of nodes in y; a link is
-// whole where any cell holds it.
+// whole where any cell holds it. VOLUME: every cell also resists a change of its signed volume.
 #extension GL_GOOGLE_include_directive : require
 #define GROUP_SIZE LATTICE_GROUP
 #include "split.glsl"
@@ -37,31 +37,7 @@ layout(constant_id = 6) const bool hasBodyDiagonals = false;
 #define SLICE (WIDTH * (COLUMNS_Y + 2 * RIM_Y))
 #define NODES (COLUMNS_X * COLUMNS_Y)
 
-// Fill of the cells around a node [1/15].
-struct Fill {
-    float cells[8];
-};
-
-Fill unpack(uint word) {
-    Fill fill;
-    [[unroll]] for (int k = 0; k < 8; ++k) fill.cells[k] = float(bitfieldExtract(word, 4 * k, 4));
-    return fill;
-}
-
-// Sum over the cells that hold the link in direction (dx, dy, dz). Folded to a few additions: directions are constants.
-float heldBy(Fill fill, int dx, int dy, int dz) {
-    float sum = 0.0;
-    [[unroll]] for (int k = 0; k < 8; ++k) {
-        const ivec3 side = 2 * (ivec3(k) >> ivec3(0, 1, 2) & 1) - 1;
-        const bool isBeside = (dx == 0 || dx == side.x) && (dy == 0 || dy == side.y) && (dz == 0 || dz == side.z);
-#ifdef SHEET
-        if (isBeside && side.y < 0) sum = max(sum, fill.cells[k]);
-#else
-        if (isBeside) sum += fill.cells[k];
-#endif
-    }
-    return sum;
-}
+#include "cell_fill.glsl"
 
 vec3 latticeLink(vec4 a, vec4 b, Fill fill, int dx, int dy, int dz, float hh) {
     const int kind = abs(dx) + abs(dy) + abs(dz) - 1; // edge, face diagonal, body diagonal
@@ -82,6 +58,10 @@ vec3 gather(vec4 slice[SLICE], vec4 other[SLICE], int home, Fill fill, int dz, f
             if (isLink(dx, dy, dz)) sum += latticeLink(slice[home], other[home + dx + WIDTH * dy], fill, dx, dy, dz, hh);
     return sum;
 }
+
+#ifdef VOLUME
+#include "cell_volume.glsl"
+#endif
 
 uint nodeAt(uint origin, int n) {
     return origin + n % COLUMNS_X + n / COLUMNS_X * push.rowStride;
@@ -107,14 +87,25 @@ void march(LatticeChunk chunk, Substep substep) {
         fill[n] = unpack(CELLS(nodeAt(origin, n)));
         below[n] = gather(above, slice, homeOf(n), fill[n], -1, substep.hh);
     }
+#ifdef VOLUME
+    vec3 pressed[NODES], pressedBelow[NODES], pressedAbove[NODES];
+    pressCells(slice, above, fill, false, substep.hh, pressedAbove, pressedBelow);
+#endif
     for (uint layer = 0u; layer < chunk.layers; ++layer) {
         slice = above;
         loadSlice(origin + push.sliceStride, above);
+#ifdef VOLUME
+        [[unroll]] for (int n = 0; n < NODES; ++n) pressed[n] = pressedBelow[n];
+        pressCells(slice, above, fill, true, substep.hh, pressedAbove, pressedBelow);
+#endif
         [[unroll]] for (int n = 0; n < NODES; ++n) {
             const uint i = nodeAt(origin, n);
             const int home = homeOf(n);
-            const vec3 sum = below[n] + gather(slice, slice, home, fill[n], 0, substep.hh)
-                             + gather(slice, above, home, fill[n], 1, substep.hh);
+            vec3 sum = below[n] + gather(slice, slice, home, fill[n], 0, substep.hh)
+                       + gather(slice, above, home, fill[n], 1, substep.hh);
+#ifdef VOLUME
+            sum += pressed[n] + pressedAbove[n];
+#endif
             fill[n] = unpack(CELLS(i + push.sliceStride));
             below[n] = gather(above, slice, home, fill[n], -1, substep.hh);
             advance(i, slice[home], velocities[i], sum, substep);

@@ -158,6 +158,9 @@ struct PackedSubstepPush {
 #define LATTICE_GROUP 32
 #define LATTICE_FULL 15
 
+// The part of its volume below which a cell is unfolded, with all pressure from 0 on.
+#define RECOVERY_START 0.5
+
 // A run of slices of a block of columns: what one invocation marches.
 struct LatticeChunk {
     uint origin; // slot of its first node
@@ -173,6 +176,10 @@ struct LatticePush {
     float units[3];              // stiffness for each 1/15 of a cell's fill [N/m]
     float shares[3];             // k~ likewise
     uint substeps, bodySlots, bodyChunks; // RESIDENT: all substeps of a step at once; count = bodies x group size
+    float volumeUnit;            // lambda_v a for each 1/15 of a cell's fill [N/m]
+    float volumeShare;           // 2 k~ likewise
+    float recoveryUnit;          // pressure x a likewise
+    float recoveryShare;         // 2 k~ likewise
 };
 
 struct DampedSubstepPush {

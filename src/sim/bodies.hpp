@@ -78,7 +78,9 @@ Attachment makeDrag(const Scene& scene, std::uint32_t particle, float mass, cons
 /// A voxel body: cubic cells of a regular grid, particles on their corners. Each filled cell assembles a
 /// share of the stiffness of its 12 edges and 12 face diagonals and an eighth of its mass to each corner
 /// (methods: an 18-neighbour central-force lattice with k1 = k2 = 0.4 E a is isotropic with Young's modulus E
-/// and Poisson ratio 1/4; with body diagonals k3 = k2 and k1 = 11/3 k2 are).
+/// and Poisson ratio 1/4; with body diagonals k3 = k2 and k1 = 11/3 k2 are). Links alone give lambda = mu,
+/// the Lame constants; for a larger Poisson ratio nu each cell adds lambda_v = mu (2 nu / (1 - 2 nu) - 1),
+/// and mu = E / (2 (1 + nu)) scales the links.
 struct Lattice {
     std::string name = "lattice";
     Vec3 origin;                                 ///< position of grid corner (0, 0, 0) [m]
@@ -86,7 +88,15 @@ struct Lattice {
     float spacing = 0.1f;                        ///< edge of a cell [m]
     std::vector<float> fill;   ///< share of each cell that is material, 0 = empty; x fastest; empty = all 1
     float youngModulus = 1e5f; ///< [Pa]
-    float density = 1000;      ///< [kg/m^3]
+    /// 0.25 to 0.49. Links alone give 1/4; above it cells resist a change of volume, and substeps that have
+    /// all of the stiffness become shorter, about as (1 - 2 nu)^-1/2.
+    float poissonRatio = 0.25f;
+    /// Pressure that unfolds cells which were flattened or mirrored, in shear moduli, 0 to 10; 0 = none. 2
+    /// overcame the links in every case tried, 1 not in a mirrored body that is damped strongly. Costs time
+    /// but no substeps, and does nothing to a cell of more than half of its volume; a smaller threshold
+    /// leaves crumpled bodies at rest there.
+    float recovery = 0;
+    float density = 1000;          ///< [kg/m^3]
     bool hasBodyDiagonals = false; ///< 26 neighbours instead of 18
     float restVolume = 0;          ///< of the body [m^3]; 0 = sum of fill x cell volume
 };
@@ -106,6 +116,8 @@ struct LatticeCorners {
 /// the fill in steps of 1/15; cells with a fill below 1/8 count as 1/8 (a sliver keeps about the stiffness to
 /// mass ratio of the body and so asks for hardly more substeps). So far from the origin that float32 rounds
 /// positions by 1e-4 of the spacing, the links have the lengths that are stored and the body gets no grid.
+/// Throws std::invalid_argument for values out of range and std::domain_error where a body without a grid
+/// would need the volumes of its cells.
 LatticeCorners addLattice(Scene& scene, const Lattice& lattice);
 
 /// Skins the boundary faces of a lattice (for bodies without a mesh of their own), creased at its edges.

@@ -5,7 +5,12 @@
 // A link in direction d lies in every cell beside it: 4 cells for an edge, 2 for a face diagonal. A full cell
 // gives k1/4 to each of its edges and k2/2 to each of its face diagonals, so either way a link's stiffness is
 // k x (mean fill of the cells that may hold it), with k1 = k2 = 0.4 E a (isotropic, Poisson ratio 1/4).
+//
+// With volumes of cells lambda = mu + lambda_v, and E = mu (3 lambda + 2 mu) / (lambda + mu) = 2 mu (1 + nu)
+// is what was asked for when k1 = k2 = mu a with mu = E / (2 (1 + nu)) (methods: G).
 #include "sim/bodies.hpp"
+
+#include "sim/ranges.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -118,6 +123,10 @@ void check(const Lattice& lattice) {
     const std::string head = "lattice \"" + lattice.name + "\": ";
     if (!(lattice.spacing > 0) || !(lattice.youngModulus > 0) || !(lattice.density > 0))
         throw std::invalid_argument(head + "spacing, youngModulus and density must be positive");
+    if (!ranges::poissonRatio.holds(double{lattice.poissonRatio}))
+        throw std::invalid_argument(head + "poissonRatio must be " + toText(ranges::poissonRatio));
+    if (!ranges::recovery.holds(double{lattice.recovery}))
+        throw std::invalid_argument(head + "recovery must be " + toText(ranges::recovery));
     double corners = 1;
     for (const std::uint32_t cells : lattice.cells) corners *= static_cast<double>(cells) + 1;
     if (corners > std::numeric_limits<std::int32_t>::max())
@@ -170,8 +179,21 @@ struct LinkKinds {
     std::array<float, 3> restLength{}; ///< [m]
 };
 
+/// mu = E / (2 (1 + nu)), C44 of the lattice [Pa]. Volumes of cells add nothing to it.
+double shearModulus(const Lattice& lattice) {
+    return double{lattice.youngModulus} / (2 * (1 + double{lattice.poissonRatio}));
+}
+
+/// lambda = 2 mu nu / (1 - 2 nu), less what the links give: mu [Pa].
+double volumeStiffness(const Lattice& lattice) {
+    const double nu = double{lattice.poissonRatio};
+    return shearModulus(lattice) * (2 * nu / (1 - 2 * nu) - 1);
+}
+
 LinkKinds linkKinds(const Lattice& lattice) {
-    const double scale = double{lattice.youngModulus} * lattice.spacing;
+    // Of a body with Poisson ratio 1/4 and the same shear modulus; exactly E at 1/4.
+    const double scale =
+        double{lattice.youngModulus} * (1.25 / (1 + double{lattice.poissonRatio})) * lattice.spacing;
     LinkKinds kinds;
     kinds.count = lattice.hasBodyDiagonals ? 3 : 2;
     kinds.stiffness = lattice.hasBodyDiagonals
@@ -221,7 +243,9 @@ void addGrid(Scene& scene, const Lattice& lattice, const Cells& cells, const Lat
               .distanceCount = static_cast<std::uint32_t>(scene.distances.size() - firstDistance),
               .fill = cells.all(),
               .kinds = kinds.count,
-              .restLength = kinds.restLength};
+              .restLength = kinds.restLength,
+              .volumeStiffness = static_cast<float>(volumeStiffness(lattice)),
+              .recoveryPressure = static_cast<float>(double{lattice.recovery} * shearModulus(lattice))};
     for (std::size_t kind = 0; kind < kinds.count; ++kind)
         grid.compliance[kind] = static_cast<float>(1 / kinds.stiffness[kind]);
     for (std::uint32_t node = 0; node < corners.particle.size(); ++node)
@@ -258,6 +282,9 @@ LatticeCorners addLattice(Scene& scene, const Lattice& lattice) {
     const std::size_t firstDistance = scene.distances.size();
     if (addLinks(scene, lattice, cells, corners, kinds))
         addGrid(scene, lattice, cells, corners, kinds, first, firstDistance);
+    else if (lattice.poissonRatio > 0.25f || lattice.recovery > 0)
+        throw std::domain_error("lattice \"" + lattice.name +
+                                "\" is so far from the origin that rounding distorts its cells");
     scene.bodies.push_back({lattice.name, first, static_cast<std::uint32_t>(scene.particles.size()) - first,
                             lattice.restVolume > 0 ? lattice.restVolume : filledVolume(lattice)});
     return corners;

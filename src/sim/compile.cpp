@@ -4,6 +4,7 @@
 #include "kernels.hpp"
 #include "layout.h"
 #include "sim/constraints/fixed.hpp"
+#include "sim/lattice/cells.hpp"
 #include "sim/solvers/jacobi.hpp"
 #include "sim/solvers/split.hpp"
 #include "sim/substeps.hpp"
@@ -34,13 +35,11 @@ const SolverEntry& entry(Solver solver) {
     return solverTable[0];
 }
 
-std::vector<layout::vec4> positionsOf(const Scene& scene, const std::vector<float>& w) {
+std::vector<layout::vec4> positionsOf(const std::vector<Vec3>& positions, const std::vector<float>& w) {
     std::vector<layout::vec4> result;
     result.reserve(w.size());
-    for (std::size_t i = 0; i < w.size(); ++i) {
-        const Vec3& x = scene.particles[i].position;
-        result.push_back({x.x, x.y, x.z, w[i]});
-    }
+    for (std::size_t i = 0; i < w.size(); ++i)
+        result.push_back({positions[i].x, positions[i].y, positions[i].z, w[i]});
     return result;
 }
 
@@ -107,7 +106,8 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     built.constraintCount = static_cast<std::uint32_t>(scene.distances.size() + scene.bends.size() +
                                                        scene.attachments.size() + scene.tethers.size());
     const std::vector<float> inverseMass = inverseMasses(scene);
-    built.positions = program.upload("positions", positionsOf(scene, inverseMass));
+    const std::vector<Vec3> start = lattice::startingPositions(scene, inverseMass);
+    built.positions = program.upload("positions", positionsOf(start, inverseMass));
     built.velocities = program.upload("velocities", velocitiesOf(scene, inverseMass));
     built.status = program.scratch<layout::StatusWords>("status", 1);
     built.parameters = program.scratch<layout::StepParams>("step", 1);
@@ -120,7 +120,7 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     const ParticleBuffers particles{
         .count = built.particleCount,
         .step = built.parameters,
-        .positions = program.upload("state.positions", spread(positionsOf(scene, w), state)),
+        .positions = program.upload("state.positions", spread(positionsOf(start, w), state)),
         .velocities = program.upload("state.velocities", spread(velocitiesOf(scene, inverseMass), state)),
         .layout = std::move(state)};
     program.beginPhase("begin");

@@ -44,7 +44,11 @@ inline constexpr std::size_t mostAttachments = 1024;
 inline constexpr Range friction{0, largest};
 inline constexpr Range restitution{0, 1};
 inline constexpr Range normalLength{1 - 1e-3, 1 + 1e-3};
-inline constexpr Range restVolume{0, largest};           // [m^3]
+inline constexpr Range poissonRatio{0.25,
+                                    double{0.49f}}; // of a lattice; below 1/4 its volume would be unstable
+inline constexpr Range recovery{0, 10};             // [shear moduli]
+inline constexpr Range pressure{0, largest};        // [Pa]
+inline constexpr Range restVolume{0, largest};      // [m^3]
 inline constexpr Range embeddingWeight{-1e-3, 1 + 1e-3}; // rounding of a vertex on a cell's face
 inline constexpr Range color{0, 1};
 inline constexpr std::size_t mostPlanes = 32; // bits of the touched set in planes.glsl

@@ -88,7 +88,18 @@ struct Grid {
     std::uint32_t kinds = 2;           ///< 2: edges and face diagonals; 3: body diagonals too
     std::array<float, 3> compliance{}; ///< of a whole link of each kind [m/N]; 0 = rigid
     std::array<float, 3> restLength{}; ///< [m]
+    /// A cell's volume V is the determinant of its mean edges (each the mean of four), V0 = restLength[0]^3
+    /// and J = V / V0. Its energy is fill x V0 volumeStiffness / 2 (J - 1)^2. [Pa]; 0 = none
+    float volumeStiffness = 0;
+    /// The pressure that unfolds flattened and mirrored cells: all of it where J < 0, falling to nothing at
+    /// J = 1/2. [Pa]; 0 = none
+    float recoveryPressure = 0;
 };
+
+/// Whether the cells of a grid have volumes: an energy that stands in no list but the grid's.
+inline bool hasCellVolumes(const Grid& grid) {
+    return grid.volumeStiffness > 0 || grid.recoveryPressure > 0;
+}
 
 /// A named range of particles: what reports and messages call a body.
 struct Body {

@@ -3,6 +3,7 @@
 #include "sim/substeps.hpp"
 
 #include "sim/compile.hpp"
+#include "sim/lattice/cells.hpp"
 #include "sim/ranges.hpp"
 #include "sim/solvers/shares.hpp"
 
@@ -48,15 +49,28 @@ Counts count(const Scene& scene) {
     return counts;
 }
 
-// The clamps of `split`, k h^2 at most [kg], of every distance constraint; settings.substeps is a number.
+// How `split` divides particles; settings.substeps is a number.
+struct Split {
+    std::vector<float> shares, times; // of distance constraints, of particles
+    std::vector<solvers::CellShares> cells;
+};
+
+Split splitOf(const Scene& scene, const Settings& settings, const Counts& counts) {
+    Split split{.shares = solvers::shareStiffness(scene, settings, counts.inverseMass)};
+    split.cells = solvers::cellShares(scene, settings, counts.inverseMass, split.shares);
+    split.times = solvers::clampTimes(scene, settings, counts.inverseMass, split.shares, split.cells);
+    return split;
+}
+
+// The clamps of `split`, k h^2 at most [kg], of every distance constraint.
 std::vector<double> clampsOfLinks(const Scene& scene, const Settings& settings, const Counts& counts) {
-    const std::vector<float> shares = solvers::shareStiffness(scene, settings, counts.inverseMass);
-    const std::vector<float> times = solvers::clampTimes(scene, settings, counts.inverseMass, shares);
+    const Split split = splitOf(scene, settings, counts);
     std::vector<double> clamps;
-    clamps.reserve(shares.size());
-    for (std::size_t c = 0; c < shares.size(); ++c) {
+    clamps.reserve(split.shares.size());
+    for (std::size_t c = 0; c < split.shares.size(); ++c) {
         const DistanceConstraint& link = scene.distances[c];
-        clamps.push_back(double{shares[c]} * double{std::min(times[link.a], times[link.b])});
+        clamps.push_back(double{split.shares[c]} *
+                         double{std::min(split.times[link.a], split.times[link.b])});
     }
     return clamps;
 }
@@ -146,11 +160,30 @@ void addBends(const Scene& scene, const Settings& settings, const Counts& counts
     }
 }
 
+// Cells about their rest volume: k is 0.75 lambda_v a (solvers/shares.hpp). Other solvers have no form for
+// them.
+void addCells(const Scene& scene, const Settings& settings, const Counts& counts, std::vector<Term>& terms) {
+    if (settings.solver != Solver::split || std::ranges::none_of(scene.grids, hasCellVolumes)) return;
+    const Split split = splitOf(scene, settings, counts);
+    for (std::size_t g = 0; g < scene.grids.size(); ++g) {
+        const Grid& grid = scene.grids[g];
+        if (grid.volumeStiffness == 0) continue;
+        const double whole = 0.75 * double{grid.volumeStiffness} * double{grid.restLength[0]};
+        lattice::forEachCell(grid, [&](const lattice::Cell& cell) {
+            float time = split.times[cell.corners[0]];
+            for (const std::uint32_t corner : cell.corners) time = std::min(time, split.times[corner]);
+            terms.push_back({.stiffness = cell.fill * whole,
+                             .clamp = cell.fill * double{split.cells[g].volume} * double{time}});
+        });
+    }
+}
+
 std::vector<Term> termsOf(const Scene& scene, const Settings& settings) {
     const Counts counts = count(scene);
     std::vector<Term> terms;
     addLinks(scene, settings, counts, terms);
     addBends(scene, settings, counts, terms);
+    addCells(scene, settings, counts, terms);
     return terms;
 }
 

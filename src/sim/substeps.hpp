@@ -6,8 +6,8 @@
 
 namespace sinew::sim {
 
-/// The stiffness k_eff that the links (and bends) with a compliance really have in substeps of
-/// h = dt / substeps:
+/// The stiffness k_eff that the links (and bends, and volumes of cells) with a compliance really have in
+/// substeps of h = dt / substeps:
 ///   split         min(k, k~ min(tau_a, tau_b) / h^2), see solvers/shares.hpp      exact
 ///   gauss_seidel  1 / (1/k + h^2 (w_a + w_b))                                     one sweep a substep; a
 ///   model jacobi        s_m / (1/k + h^2 (w_a + w_b)), s_m = 1 - (1 - s)^iterations      s = share a

@@ -1,9 +1,13 @@
 // Walks a Scene and its Settings once and collects sentences. The allowed numbers stand in ranges.hpp.
 #include "sim/validate.hpp"
 
+#include "sim/compile.hpp"
+#include "sim/lattice/batches.hpp"
 #include "sim/lattice/check_grid.hpp"
-
 #include "sim/ranges.hpp"
+#include "sim/solvers/shares.hpp"
+
+#include <algorithm>
 
 #include <charconv>
 #include <cmath>
@@ -53,6 +57,8 @@ public:
         if (index >= count)
             add(name(), "is " + number(index) + ", but there are " + number(count) + " " + counted);
     }
+
+    bool isEmpty() const { return count_ == 0; }
 
     std::vector<std::string> finish() {
         if (count_ > most) sentences_.push_back("and " + number(count_ - most) + " more complaints");
@@ -262,6 +268,51 @@ void checkWork(const Scene& scene, const Settings& settings, Complaints& complai
                                    " distance constraints, the most this solver takes");
 }
 
+std::string nameOf(const Scene& scene, std::size_t grid) {
+    return element("grid", grid) + " \"" + scene.grids[grid].name + "\"";
+}
+
+void checkGrids(const Scene& scene, Complaints& complaints) {
+    for (std::size_t g = 0; g < scene.grids.size(); ++g) {
+        const Grid& grid = scene.grids[g];
+        if (const auto complaint = lattice::complaintAbout(scene, grid))
+            complaints.add(element("grid", g), *complaint);
+        const auto name = [&](const char* member) {
+            return [&, member] { return nameOf(scene, g) + member; };
+        };
+        complaints.check(double{grid.volumeStiffness}, ranges::pressure, name(".volumeStiffness"));
+        complaints.check(double{grid.recoveryPressure}, ranges::pressure, name(".recoveryPressure"));
+        if (lattice::isSheet(grid) && hasCellVolumes(grid))
+            complaints.add(nameOf(scene, g), "is a sheet, whose cells have no volume");
+    }
+}
+
+// Volumes stand in no list of constraints: where they cannot be computed they must not be lost. The scene is
+// right in all else.
+void checkCellVolumes(const Scene& scene, const Settings& settings, Complaints& complaints) {
+    std::vector<std::uint32_t> computed;
+    if (std::ranges::any_of(scene.grids, hasCellVolumes)) computed = lattice::computedGrids(scene, settings);
+    for (std::uint32_t g = 0; g < scene.grids.size(); ++g) {
+        if (!hasCellVolumes(scene.grids[g])) continue;
+        const std::string has = "has cell volumes (a Poisson ratio above 1/4 or recovery), ";
+        if (settings.solver != Solver::split)
+            complaints.add(nameOf(scene, g), has + "which solver " + solverName(settings.solver) +
+                                                 " has no form for: use split");
+        else if (!settings.forms.usesGrids)
+            complaints.add(nameOf(scene, g), has + "which need settings.forms.usesGrids");
+        else if (!std::ranges::binary_search(computed, g))
+            complaints.add(
+                nameOf(scene, g),
+                has +
+                    "which split computes only for a body that no other constraint holds, in a scene without "
+                    "bends and internal damping");
+        if (scene.grids[g].recoveryPressure > 0 && solvers::recoveryBudget(settings) <= 0)
+            complaints.add("settings.omega",
+                           "is " + number(settings.omega) + ", but recovery needs it below " +
+                               number(static_cast<float>(0.9 * ranges::omegaBound(double{settings.theta}))));
+    }
+}
+
 } // namespace
 
 std::string toText(const Range& range) {
@@ -292,11 +343,10 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings) 
     checkWork(scene, settings, complaints);
     checkPlanes(scene, complaints);
     checkBodies(scene, complaints);
-    for (std::size_t g = 0; g < scene.grids.size(); ++g)
-        if (const auto complaint = lattice::complaintAbout(scene, scene.grids[g]))
-            complaints.add(element("grid", g), *complaint);
+    checkGrids(scene, complaints);
     for (std::size_t i = 0; i < scene.skins.size(); ++i)
         checkSkin(scene.skins[i], element("skin", i), scene.particles.size(), complaints);
+    if (complaints.isEmpty()) checkCellVolumes(scene, settings, complaints);
     return complaints.finish();
 }
 

@@ -1,8 +1,6 @@
 // Grids of one shape and material march in one dispatch: a chunk says where it begins, all else is equal.
 #include "sim/lattice/batches.hpp"
 
-#include "sim/solvers/shares.hpp"
-
 #include <algorithm>
 #include <cstring>
 
@@ -31,19 +29,8 @@ std::vector<Box> boxesOf(const Scene& scene, std::span<const std::uint32_t> grid
     return boxes;
 }
 
-// k~ of a whole link of a kind: a link's k~ over its stiffness is the same for all links of that rest length.
-float shareOf(const Scene& scene, const Grid& grid, float restLength, float stiffness,
-              std::span<const float> shares) {
-    for (std::uint32_t c = grid.firstDistance; c < grid.firstDistance + grid.distanceCount; ++c) {
-        const DistanceConstraint& link = scene.distances[c];
-        if (link.restLength == restLength && shares[c] > 0)
-            return shares[c] / solvers::stiffnessOf(link.compliance) * stiffness;
-    }
-    return stiffness; // no such link moves
-}
-
 layout::LatticePush pushOf(const Scene& scene, const Grid& grid, const Box& box,
-                           std::span<const float> shares) {
+                           std::span<const float> shares, const solvers::CellShares& cells) {
     layout::LatticePush push{};
     push.rowStride = box.rowStride;
     push.sliceStride = box.sliceStride;
@@ -53,8 +40,13 @@ layout::LatticePush pushOf(const Scene& scene, const Grid& grid, const Box& box,
         const float stiffness = solvers::stiffnessOf(grid.compliance[kind]);
         push.restLengths[kind] = grid.restLength[kind];
         push.units[kind] = stiffness / whole;
-        push.shares[kind] = shareOf(scene, grid, grid.restLength[kind], stiffness, shares) / whole;
+        push.shares[kind] = solvers::wholeShare(scene, grid, kind, shares) / whole;
     }
+    const float spacing = grid.restLength[0];
+    push.volumeUnit = grid.volumeStiffness * spacing / LATTICE_FULL;
+    push.volumeShare = 2 * cells.volume / LATTICE_FULL;
+    push.recoveryUnit = grid.recoveryPressure * spacing / LATTICE_FULL;
+    push.recoveryShare = 2 * cells.recovery / LATTICE_FULL;
     return push;
 }
 
@@ -67,7 +59,8 @@ Batch& batchFor(std::vector<Batch>& batches, const Grid& grid, const layout::Lat
             std::memcmp(&other, &push, sizeof push) == 0)
             return batch;
     }
-    return batches.emplace_back(Batch{isSheet(grid), hasBodyDiagonals, push, {}, {}});
+    return batches.emplace_back(Batch{
+        isSheet(grid), hasBodyDiagonals, hasCellVolumes(grid), grid.recoveryPressure > 0, push, {}, {}});
 }
 
 std::size_t wholeGroups(std::size_t chunks) {
@@ -162,7 +155,7 @@ bool isResident(const Scene& scene, const Settings& settings, std::span<const st
 }
 
 Batches batchesOf(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids,
-                  std::span<const float> shares) {
+                  std::span<const float> shares, std::span<const solvers::CellShares> cellShares) {
     const std::vector<Box> boxes = boxesOf(scene, grids);
     const bool resident = isResident(scene, settings, grids);
     Batches result;
@@ -171,7 +164,7 @@ Batches batchesOf(const Scene& scene, const Settings& settings, std::span<const 
         const Grid& grid = scene.grids[grids[g]];
         const Box& box = boxes[g];
         writeCells(grid, box, result.cells);
-        layout::LatticePush push = pushOf(scene, grid, box, shares);
+        layout::LatticePush push = pushOf(scene, grid, box, shares, cellShares[grids[g]]);
         if (resident) {
             push.substeps = settings.substeps;
             push.bodySlots = slotsOf(grid, box);

@@ -4,6 +4,7 @@
 
 #include "sim/compile.hpp"
 #include "sim/lattice/placement.hpp"
+#include "sim/solvers/shares.hpp"
 
 namespace sinew::sim::lattice {
 
@@ -18,7 +19,7 @@ StateLayout layoutOf(const Scene& scene, std::span<const std::uint32_t> grids);
 
 /// One dispatch of a substep, or of all substeps of a step where the bodies are resident.
 struct Batch {
-    bool isSheet = false, hasBodyDiagonals = false;
+    bool isSheet = false, hasBodyDiagonals = false, hasVolumes = false, hasRecovery = false;
     layout::LatticePush push{}; ///< count = chunks, or lanes of all bodies
     std::vector<layout::LatticeChunk>
         chunks;                        ///< padded with empty ones, to whole work groups (for each body)
@@ -33,8 +34,8 @@ struct Batches {
 /// Whether all of the scene fits into the shared memory that the settings grant, body by body.
 bool isResident(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids);
 
-/// `shares`: k~ of every distance constraint (solvers/shares.hpp).
+/// `shares`: k~ of every distance constraint, `cellShares` of the cells of every grid of the scene.
 Batches batchesOf(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids,
-                  std::span<const float> shares);
+                  std::span<const float> shares, std::span<const solvers::CellShares> cellShares);
 
 } // namespace sinew::sim::lattice

@@ -34,6 +34,7 @@ double elasticEnergy(const Problem& problem, const std::vector<Eigen::Vector3d>&
         const double stretch = (x[link.b] - x[link.a]).norm() - link.restLength;
         sum += stretch * stretch / (2 * link.compliance);
     }
+    for (const Cell& cell : problem.cells) sum += energyOf(cell, volumeRatio(cell, cornersOf(cell, x)));
     return sum;
 }
 
@@ -47,10 +48,15 @@ void addElasticForces(const Problem& problem, const std::vector<Eigen::Vector3d>
         force[link.a] += pull;
         force[link.b] -= pull;
     }
+    for (const Cell& cell : problem.cells) {
+        const Corners corners = cornersOf(cell, x), gradient = volumeGradient(corners);
+        const double pressure = pressureOf(cell, volumeRatio(cell, corners));
+        for (std::size_t k = 0; k < 8; ++k) force[cell.corners[k]] += pressure * gradient[k];
+    }
 }
 
 // A spring's Hessian block has norm k at most, so block row i of M^-1/2 K M^-1/2 sums to
-// sum_c k_c (w_i + sqrt(w_i w_j)).
+// sum_c k_c (w_i + sqrt(w_i w_j)). A cell of edge a has gradients of length sqrt(3) a^2 / 4.
 double largestFrequency(const Problem& problem) {
     std::vector<double> rows(problem.size(), 0);
     for (const Link& link : problem.links) {
@@ -58,6 +64,13 @@ double largestFrequency(const Problem& problem) {
         const double coupling = std::sqrt(wA * wB);
         rows[link.a] += (wA + coupling) / link.compliance;
         rows[link.b] += (wB + coupling) / link.compliance;
+    }
+    for (const Cell& cell : problem.cells) {
+        const double stiffness = bulkStiffness(cell, 1) * 3.0 / 16 * std::pow(cell.spacing, 4);
+        double roots = 0;
+        for (const std::uint32_t corner : cell.corners) roots += std::sqrt(problem.inverseMass[corner]);
+        for (const std::uint32_t corner : cell.corners)
+            rows[corner] += stiffness * std::sqrt(problem.inverseMass[corner]) * roots;
     }
     return rows.empty() ? 0 : std::sqrt(*std::ranges::max_element(rows));
 }

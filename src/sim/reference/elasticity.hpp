@@ -1,5 +1,5 @@
-// The energy of a scene's springs and what follows from it: forces, a bound on the fastest vibration. For R1
-// and R2, the two references that know equations of motion and not a solver.
+// The energy of a scene's springs and cell volumes and what follows from it: forces, a bound on the fastest
+// vibration. For R1 and R2, the two references that know equations of motion and not a solver.
 #pragma once
 
 #include "sim/reference/problem.hpp"
@@ -12,10 +12,10 @@ void requireSprings(const Scene& scene, const char* what);
 /// The same for a scene with damping.
 void requireUndamped(const Scene& scene, const char* what);
 
-/// Sum of (|x_a - x_b| - restLength)^2 / (2 compliance) [J].
+/// Sum of (|x_a - x_b| - restLength)^2 / (2 compliance) and of the energies of cells [J].
 double elasticEnergy(const Problem& problem, const std::vector<Eigen::Vector3d>& x);
 
-/// Adds to `force` [N] what the springs do to every particle, fixed ones included.
+/// Adds to `force` [N] what springs and cells do to every particle, fixed ones included.
 void addElasticForces(const Problem& problem, const std::vector<Eigen::Vector3d>& x,
                       std::vector<Eigen::Vector3d>& force);
 

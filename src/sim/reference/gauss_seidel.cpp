@@ -11,6 +11,7 @@ GaussSeidel::GaussSeidel(const Scene& scene, const Settings& settings)
     : problem_(scene), substeps_(settings.substeps),
       iterations_(problem_.links.empty() && problem_.bends.empty() ? 1 : settings.iterations),
       bendMultipliers_(problem_.bends.size()) {
+    requireNoCells(scene, "gauss_seidel");
     rows_.reserve(problem_.links.size());
     for (const Link& link : problem_.links) {
         rows_.push_back({.a = link.a,

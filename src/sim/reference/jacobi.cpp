@@ -69,6 +69,7 @@ void iterate(const Problem& problem, const std::vector<double>& weight, double h
 } // namespace
 
 void stepJacobi(const Scene& scene, const Settings& settings, double dt, State& state) {
+    requireNoCells(scene, "jacobi");
     const Problem problem(scene);
     const std::vector<double> weight = weights(problem, settings);
     const double h = dt / settings.substeps;

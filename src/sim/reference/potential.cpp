@@ -1,5 +1,5 @@
 // Incremental potential of springs. The Hessian block of a spring of direction n, length l and rest length L
-// is k (n n^T + (1 - L/l) (1 - n n^T)).
+// is k (n n^T + (1 - L/l) (1 - n n^T)), that of a cell b g_i g_j^T - p d2V / dx_i dx_j.
 #include "sim/reference/potential.hpp"
 
 #include "sim/reference/elasticity.hpp"
@@ -53,6 +53,13 @@ double Potential::gradientNoise(const std::vector<Eigen::Vector3d>& x) const {
         stiffness[link.a] += 1 / link.compliance;
         stiffness[link.b] += 1 / link.compliance;
     }
+    for (const Cell& cell : problem_.cells) {
+        const Corners gradient = volumeGradient(cornersOf(cell, x));
+        double lengths = 0;
+        for (const Eigen::Vector3d& g : gradient) lengths += g.norm();
+        for (std::size_t k = 0; k < 8; ++k)
+            stiffness[cell.corners[k]] += bulkStiffness(cell, 1) * gradient[k].norm() * lengths;
+    }
     double sum = 0;
     for (std::size_t i = 0; i < x.size(); ++i) {
         if (row_[i] < 0) continue;
@@ -86,6 +93,17 @@ Eigen::SparseMatrix<double> Potential::hessian(const std::vector<Eigen::Vector3d
         add(row_[link.b], row_[link.b], block);
         add(row_[link.a], row_[link.b], -block);
         add(row_[link.b], row_[link.a], -block);
+    }
+    for (const Cell& cell : problem_.cells) {
+        const Corners corners = cornersOf(cell, x), gradient = volumeGradient(corners);
+        const Eigen::Matrix3d edges = meanEdges(corners);
+        const double ratio = volumeRatio(cell, corners), stiffness = bulkStiffness(cell, ratio),
+                     pressure = kind == Hessian::exact ? pressureOf(cell, ratio) : 0;
+        for (std::size_t i = 0; i < 8; ++i)
+            for (std::size_t j = 0; j < 8; ++j)
+                add(row_[cell.corners[i]], row_[cell.corners[j]],
+                    stiffness * gradient[i] * gradient[j].transpose() -
+                        pressure * volumeHessian(edges, i, j));
     }
     Eigen::SparseMatrix<double> result(size(), size());
     result.setFromTriplets(entries.begin(), entries.end());

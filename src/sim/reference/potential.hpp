@@ -1,8 +1,8 @@
 // What an implicit Euler step minimises, and what a body at rest minimises: a value, its gradient and its
 // Hessian over the coordinates of the movable particles.
 //
-//   Phi(x) = |x - y|_M^2 / (2 h^2) + sum of spring energies - sum m g . x,   y = x_n + h v_n;  at rest h is
-//   infinite
+//   Phi(x) = |x - y|_M^2 / (2 h^2) + sum of spring and cell energies - sum m g . x,   y = x_n + h v_n;  at
+//   rest h is infinite
 #pragma once
 
 #include "sim/reference/reference.hpp"
@@ -28,7 +28,8 @@ public:
 
     enum class Hessian {
         exact,
-        convex ///< without what compressed springs take away across their direction: never indefinite
+        convex ///< without what compressed springs take away across their direction and what pressure does as
+               ///< cells turn: never indefinite
     };
     Eigen::SparseMatrix<double> hessian(const std::vector<Eigen::Vector3d>& x, Hessian kind) const; ///< [N/m]
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
+#include <string>
 
 namespace sinew::sim::reference {
 
@@ -35,7 +37,7 @@ std::vector<double> levelsOf(const Scene& scene) {
 } // namespace
 
 Problem::Problem(const Scene& scene)
-    : linkCount(scene.particles.size(), 0), bendCount(scene.particles.size(), 0),
+    : linkCount(scene.particles.size(), 0), bendCount(scene.particles.size(), 0), cells(cellsOf(scene)),
       gravity(toEigen(scene.gravity)), damping(double{scene.damping}),
       dampingTime(double{scene.dampingTime}) {
     for (const Particle& particle : scene.particles) {
@@ -60,10 +62,30 @@ Problem::Problem(const Scene& scene)
         springs.push_back({a.particle, double{a.compliance}, double{a.maxForce}, double{a.maxSpeed}});
     for (const Tether& t : scene.tethers) ropes.push_back({t.particle, t.anchor, double{t.length}});
     std::ranges::stable_sort(ropes, {}, &Rope::particle);
+    for (std::size_t g = 0; g < scene.grids.size(); ++g) {
+        const Grid& grid = scene.grids[g];
+        if (!hasCellVolumes(grid)) continue;
+        LatticeLinks kinds{.grid = g, .compliances = {}, .levels = {}};
+        for (std::uint32_t kind = 0; kind < grid.kinds; ++kind) {
+            kinds.compliances.push_back(double{grid.compliance[kind]});
+            double level = kinds.compliances.back() > 0 ? 1 / kinds.compliances.back() : 0; // where none is
+            for (std::uint32_t c = grid.firstDistance; c < grid.firstDistance + grid.distanceCount; ++c)
+                if (scene.distances[c].restLength == grid.restLength[kind]) level = levels[c];
+            kinds.levels.push_back(level);
+        }
+        lattices.push_back(kinds);
+    }
     for (const Plane& plane : scene.planes) {
         walls.push_back(
             {toEigen(plane.normal), double{plane.offset}, double{plane.friction}, double{plane.restitution}});
     }
+}
+
+void requireNoCells(const Scene& scene, const char* solver) {
+    for (const Grid& grid : scene.grids)
+        if (hasCellVolumes(grid))
+            throw std::invalid_argument("grid \"" + grid.name + "\" has cell volumes, which " + solver +
+                                        " has no form for");
 }
 
 State initialState(const Scene& scene) {

@@ -2,6 +2,7 @@
 // prediction, boundary planes, velocity update (methods: D; planes as temporary constraints: contacts, 0.4).
 #pragma once
 
+#include "sim/reference/cells.hpp"
 #include "sim/scene.hpp"
 
 #include <Eigen/Core>
@@ -39,7 +40,14 @@ struct Wall {
     double offset = 0, friction = 0, restitution = 0;
 };
 
-/// What the solvers need of a scene. Links whose ends both never move are left out.
+/// What a lattice's links are made of: by kind, for a whole link. Only of grids whose cells have volumes.
+struct LatticeLinks {
+    std::size_t grid = 0;                    ///< of the scene
+    std::vector<double> compliances, levels; ///< [m/N]; the stiffness at which their shares level off [N/m]
+};
+
+/// What the solvers need of a scene. Links whose ends both never move are left out; cells are there only
+/// where they have volumes.
 struct Problem {
     explicit Problem(const Scene& scene);
 
@@ -53,6 +61,8 @@ struct Problem {
     std::vector<Bend> bends;     ///< those with a particle that moves
     std::vector<Spring> springs; ///< one an attachment
     std::vector<Rope> ropes;     ///< sorted by particle
+    std::vector<Cell> cells;
+    std::vector<LatticeLinks> lattices;
     std::vector<Wall> walls;
     Eigen::Vector3d gravity; ///< [m/s^2]
     double damping = 0;      ///< [1/s]
@@ -60,6 +70,9 @@ struct Problem {
 };
 
 Eigen::Vector3d toEigen(const Vec3& v);
+
+/// Throws std::invalid_argument for a scene with cell volumes, which `solver` has no form for.
+void requireNoCells(const Scene& scene, const char* solver);
 
 /// Which walls a particle touched: bit k = wall k.
 using Touched = std::uint32_t;

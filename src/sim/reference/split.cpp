@@ -1,13 +1,17 @@
 // `split` in double: springs evaluated at y = x + theta h v, stiffness clamped by mass splitting, then kick
 // and drift (methods: D, theta form). Constraint c has the share k~_c / sum k~ of each of its ends, k~_c =
 // k_c / (1 + 2 w h^2 K_c), with K_c = k_c (in a grid, the stiffest of its rest length) and w the mean inverse
-// mass; it is clamped to k~_c min(tau_i, tau_j), tau_i = omega / (2 w_i sum k~).
+// mass; it is clamped to k~_c min(tau_i, tau_j), tau_i = omega / (2 w_i sum k~). The volume of a cell shares
+// likewise, k_c = 0.75 lambda_v a at full fill, and is clamped to 2 k~_c min tau_i / (sum |g_i|^2 + |C| a
+// (|A|^2 / (6 a^2) + 1/2)), C = V - V0, A its mean edges. Pressure that unfolds cells has a share beside
+// those (solvers: shares.hpp).
 #include "sim/reference/attached.hpp"
 #include "sim/reference/reference.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace sinew::sim::reference {
 
@@ -17,10 +21,12 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // What shares and clamp of a scene come to: constant in time.
 struct Split {
-    std::vector<double> stiffness, share; // of each link: k and k~ [N/m]
-    std::vector<double> clampTime;        // of each particle: tau [s^2]
+    std::vector<double> stiffness, share;         // of each link: k and k~ [N/m]
+    std::vector<double> clampTime;                // of each particle: tau [s^2]
+    std::vector<double> cellShare, recoveryShare; // of each cell: k~ [N/m]
 
-    Split(const Problem& problem, double omega, double h) {
+    // `spare`: by how much recovery may overdraw a particle, in parts of what it has to share.
+    Split(const Problem& problem, double omega, double h, double spare) {
         double massSum = 0, moving = 0;
         for (const double w : problem.inverseMass) {
             massSum += w;
@@ -35,6 +41,13 @@ struct Split {
             sums[problem.links[c].a] += share[c];
             sums[problem.links[c].b] += share[c];
         }
+        for (const Cell& cell : problem.cells) {
+            const double full = 0.75 * cell.stiffness * cell.spacing;
+            cellShare.push_back(cell.fill * full / (1 + softening * full));
+            recoveryShare.push_back(0);
+            for (const std::uint32_t corner : cell.corners) sums[corner] += cellShare.back();
+        }
+        if (spare > 0) addRecovery(problem, spare, softening);
         for (std::size_t i = 0; i < problem.size(); ++i)
             clampTime.push_back(problem.inverseMass[i] > 0 && sums[i] > 0
                                     ? omega / (2 * problem.inverseMass[i] * sums[i])
@@ -51,7 +64,45 @@ struct Split {
         }
         return most;
     }
+
+private:
+    // A cell's own part of what its links and its volume take of a corner: for each kind of link, its share
+    // in a whole one and how many of them meet in a corner.
+    void addRecovery(const Problem& problem, double spare, double softening) {
+        std::map<std::size_t, double> cornerSums; // of a full cell, by grid
+        for (const auto& [grid, compliances, levels] : problem.lattices) {
+            constexpr double parts[] = {3 / 4.0, 3 / 2.0, 1};
+            for (std::size_t kind = 0; kind < compliances.size(); ++kind)
+                if (compliances[kind] > 0)
+                    cornerSums[grid] += parts[kind] / compliances[kind] / (1 + softening * levels[kind]);
+        }
+        for (std::size_t c = 0; c < problem.cells.size(); ++c) {
+            const Cell& cell = problem.cells[c];
+            if (cell.recovery > 0)
+                recoveryShare[c] = spare * (cell.fill * cornerSums[cell.grid] + cellShare[c]);
+        }
+    }
 };
+
+// Pressure on a cell's corners [Pa], clamped for kicks as long as h.
+double clampedPressure(const Cell& cell, const Corners& y, double clampTime, double share,
+                       double recoveryShare, double h) {
+    const double ratio = volumeRatio(cell, y), volume = cell.restVolume(), a = cell.spacing;
+    double gradients = 0;
+    for (const Eigen::Vector3d& g : volumeGradient(y)) gradients += g.squaredNorm();
+    const double turning = a * (meanEdges(y).squaredNorm() / (6 * a * a) + 0.5);
+    const auto limit = [&](double k, double missing) { // largest -pressure / C [Pa / m^3]
+        const double bound = gradients + std::abs(missing) * volume * turning;
+        return bound > 0 ? 2 * k * clampTime / (h * h * bound) : infinite;
+    };
+    const double missing = 1 - ratio;
+    double pressure = missing * volume * std::min(cell.fill * cell.stiffness / volume, limit(share, missing));
+    const double unfolding = std::max(0.5 - ratio, 0.0);
+    if (unfolding > 0)
+        pressure += std::min(cell.fill * cell.recovery * std::min(unfolding / 0.5, 1.0),
+                             unfolding * volume * limit(recoveryShare, unfolding));
+    return pressure;
+}
 
 // Force on every particle [N] from its links, with their ends at y and moving with v, stiffness and damping
 // clamped for kicks as long as h.
@@ -75,6 +126,16 @@ std::vector<Eigen::Vector3d> forces(const Problem& problem, const Split& split, 
         force[link.a] += pull;
         force[link.b] -= pull;
     }
+    for (std::size_t c = 0; c < problem.cells.size(); ++c) {
+        const Cell& cell = problem.cells[c];
+        double clampTime = infinite;
+        for (const std::uint32_t corner : cell.corners)
+            clampTime = std::min(clampTime, split.clampTime[corner]);
+        const Corners corners = cornersOf(cell, y), gradient = volumeGradient(corners);
+        const double pressure =
+            clampedPressure(cell, corners, clampTime, split.cellShare[c], split.recoveryShare[c], h);
+        for (std::size_t k = 0; k < 8; ++k) force[cell.corners[k]] += pressure * gradient[k];
+    }
     return force;
 }
 
@@ -83,7 +144,8 @@ std::vector<Eigen::Vector3d> forces(const Problem& problem, const Split& split, 
 void stepSplit(const Scene& scene, const Settings& settings, double dt, State& state) {
     const Problem problem(scene);
     const double h = dt / settings.substeps, theta = double{settings.theta}, omega = double{settings.omega};
-    const Split split(problem, omega, double{scene.dt} / settings.substeps); // shares do not follow dt
+    const double spare = 0.9 * 4 / (1 + 2 * theta) / omega - 1;
+    const Split split(problem, omega, double{scene.dt} / settings.substeps, spare); // shares do not follow dt
     const double kept = std::exp(-problem.damping * h);
     for (std::uint32_t substep = 0; substep < settings.substeps; ++substep) {
         // v comes from the middle of the substep before, which had this length.

@@ -2,6 +2,8 @@
 #include "sim/solvers/shares.hpp"
 
 #include "sim/constraints/distance.hpp"
+#include "sim/lattice/cells.hpp"
+#include "sim/ranges.hpp"
 
 #include <algorithm>
 #include <unordered_map>
@@ -38,6 +40,22 @@ std::vector<double> levelStiffness(const Scene& scene) {
     return levels;
 }
 
+// What levels off stiffness that a substep cannot follow [m/N].
+double softeningOf(const Scene& scene, const Settings& settings, std::span<const float> inverseMass) {
+    const double h = double{scene.dt} / settings.substeps;
+    return 2 * meanInverseMass(inverseMass) * h * h;
+}
+
+// What a full cell's links take of each of its corners: a quarter of each of three edges, half of three face
+// diagonals, a whole body diagonal.
+double linksOfACorner(const Scene& scene, const Grid& grid, std::span<const float> shares) {
+    constexpr double parts[3] = {0.75, 1.5, 1};
+    double sum = 0;
+    for (std::uint32_t kind = 0; kind < grid.kinds; ++kind)
+        sum += parts[kind] * double{wholeShare(scene, grid, kind, shares)};
+    return sum;
+}
+
 } // namespace
 
 float stiffnessOf(float compliance) {
@@ -48,8 +66,7 @@ float stiffnessOf(float compliance) {
 std::vector<float> shareStiffness(const Scene& scene, const Settings& settings,
                                   std::span<const float> inverseMass) {
     const std::vector<double> levels = levelStiffness(scene);
-    const double h = double{scene.dt} / settings.substeps;
-    const double softening = 2 * meanInverseMass(inverseMass) * h * h;
+    const double softening = softeningOf(scene, settings, inverseMass);
     std::vector<float> shares;
     shares.reserve(scene.distances.size());
     for (std::size_t c = 0; c < scene.distances.size(); ++c) {
@@ -61,13 +78,51 @@ std::vector<float> shareStiffness(const Scene& scene, const Settings& settings,
     return shares;
 }
 
+float wholeShare(const Scene& scene, const Grid& grid, std::uint32_t kind, std::span<const float> shares) {
+    const float stiffness = stiffnessOf(grid.compliance[kind]);
+    for (std::uint32_t c = grid.firstDistance; c < grid.firstDistance + grid.distanceCount; ++c) {
+        const DistanceConstraint& link = scene.distances[c];
+        if (link.restLength == grid.restLength[kind] && shares[c] > 0)
+            return shares[c] / stiffnessOf(link.compliance) * stiffness;
+    }
+    return stiffness; // no such link moves
+}
+
+std::vector<CellShares> cellShares(const Scene& scene, const Settings& settings,
+                                   std::span<const float> inverseMass, std::span<const float> shares) {
+    const double softening = softeningOf(scene, settings, inverseMass);
+    std::vector<CellShares> result(scene.grids.size());
+    for (std::size_t g = 0; g < scene.grids.size(); ++g) {
+        const Grid& grid = scene.grids[g];
+        const double stiffness = 0.75 * double{grid.volumeStiffness} * double{grid.restLength[0]};
+        const double volume = stiffness / (1 + softening * stiffness);
+        result[g].volume = static_cast<float>(volume);
+        if (grid.recoveryPressure > 0)
+            result[g].recovery =
+                static_cast<float>(recoveryBudget(settings) * (linksOfACorner(scene, grid, shares) + volume));
+    }
+    return result;
+}
+
+double recoveryBudget(const Settings& settings) {
+    return 0.9 * ranges::omegaBound(double{settings.theta}) / double{settings.omega} - 1;
+}
+
 std::vector<float> clampTimes(const Scene& scene, const Settings& settings,
-                              std::span<const float> inverseMass, std::span<const float> shares) {
+                              std::span<const float> inverseMass, std::span<const float> shares,
+                              std::span<const CellShares> cells) {
     constexpr float never = 1e30f; // [s^2]
     std::vector<double> sums(inverseMass.size(), 0);
     for (std::size_t c = 0; c < scene.distances.size(); ++c) {
         sums[scene.distances[c].a] += double{shares[c]};
         sums[scene.distances[c].b] += double{shares[c]};
+    }
+    for (std::size_t g = 0; g < cells.size(); ++g) {
+        if (cells[g].volume == 0) continue;
+        lattice::forEachCell(scene.grids[g], [&](const lattice::Cell& cell) {
+            for (const std::uint32_t corner : cell.corners)
+                sums[corner] += double{cells[g].volume} * cell.fill;
+        });
     }
     std::vector<float> times;
     times.reserve(sums.size());

@@ -21,9 +21,9 @@ namespace sinew::sim::solvers::split {
 namespace {
 
 constexpr std::uint32_t degreeId = 1, firstGroupEndId = 3; // constant_id in gather_split.comp
-constexpr std::uint32_t bodyDiagonalsId = 6,
-                        residentSlotsId = 7; // constant_id in gather_lattice.comp, split.glsl
-constexpr std::uint32_t bendDegreeId = 6;    // constant_id in gather_terms.glsl
+constexpr std::uint32_t bodyDiagonalsId = 6, residentSlotsId = 7,
+                        recoveryId = 8;   // constant_id in gather_lattice.comp, split.glsl, cell_volume.glsl
+constexpr std::uint32_t bendDegreeId = 6; // constant_id in gather_terms.glsl
 
 // A kernel in its forms: positions fetched as texels or loaded, without and with boundary planes.
 struct Kernel {
@@ -52,6 +52,12 @@ constexpr Kernel residentLattice{&k::residentLattice, &k::residentLatticePlanes,
                                  &k::residentLatticePlanes};
 constexpr Kernel residentSheet{&k::residentSheet, &k::residentSheetPlanes, &k::residentSheet,
                                &k::residentSheetPlanes};
+constexpr Kernel volumePairs{&k::gatherLatticeVolume, &k::gatherLatticeVolumePlanes,
+                             &k::gatherLatticeVolumeLoads, &k::gatherLatticeVolumeLoadsPlanes};
+constexpr Kernel volumeSingle{&k::gatherLatticeVolumeSingle, &k::gatherLatticeVolumeSinglePlanes,
+                              &k::gatherLatticeVolumeSingleLoads, &k::gatherLatticeVolumeSingleLoadsPlanes};
+constexpr Kernel residentVolume{&k::residentLatticeVolume, &k::residentLatticeVolumePlanes,
+                                &k::residentLatticeVolume, &k::residentLatticeVolumePlanes};
 constexpr Kernel sheet{&k::gatherSheet, &k::gatherSheetPlanes, &k::gatherSheetLoads,
                        &k::gatherSheetLoadsPlanes};
 
@@ -172,15 +178,19 @@ Gather listedGather(const Common& common, std::span<const constraints::distance:
     return gather;
 }
 
+const Kernel& kernelFor(const lattice::Batch& batch, std::uint32_t columns) {
+    if (batch.isSheet) return sheet;
+    if (batch.hasVolumes) return columns == 2 ? volumePairs : volumeSingle;
+    return columns == 2 ? latticePairs : latticeSingle;
+}
+
 Gather gridGather(const Common& common, const lattice::Batch& batch, BufferId cells) {
     Gather gather = common.gather();
     gather.constants[bodyDiagonalsId] = batch.hasBodyDiagonals;
     gather.buffers.push_back(cells);
     gather.buffers.push_back(common.program.upload("grid.chunks", batch.chunks));
-    const Kernel& kernel = batch.isSheet                        ? sheet
-                           : common.settings.forms.columns == 2 ? latticePairs
-                                                                : latticeSingle;
-    setDispatch(common, gather, kernel, batch.push);
+    if (batch.hasVolumes) gather.constants[recoveryId] = batch.hasRecovery;
+    setDispatch(common, gather, kernelFor(batch, common.settings.forms.columns), batch.push);
     return gather;
 }
 
@@ -194,7 +204,10 @@ std::vector<Gather> addGathers(const Common& common) {
         gathers.push_back(listedGather(
             common, listedLinks(common.scene, common.layout, grids, inverseMass, shares), listed));
     if (grids.empty()) return gathers;
-    const lattice::Batches batches = lattice::batchesOf(common.scene, common.settings, grids, shares);
+    const std::vector<CellShares> cellsOfGrids =
+        cellShares(common.scene, common.settings, inverseMass, shares);
+    const lattice::Batches batches =
+        lattice::batchesOf(common.scene, common.settings, grids, shares, cellsOfGrids);
     const BufferId cells = common.program.upload("grid.cells", batches.cells);
     for (const lattice::Batch& batch : batches.batches) gathers.push_back(gridGather(common, batch, cells));
     return gathers;
@@ -208,30 +221,39 @@ StateLayout layoutState(const Scene& scene, const Settings& settings) {
 
 std::vector<float> positionW(const Scene& scene, const Settings& settings) {
     const std::vector<float> inverseMass = inverseMasses(scene);
-    return clampTimes(scene, settings, inverseMass, shareStiffness(scene, settings, inverseMass));
+    const std::vector<float> shares = shareStiffness(scene, settings, inverseMass);
+    return clampTimes(scene, settings, inverseMass, shares, cellShares(scene, settings, inverseMass, shares));
 }
 
 namespace {
+
+const Kernel& residentKernelFor(const lattice::Batch& batch) {
+    if (batch.isSheet) return residentSheet;
+    return batch.hasVolumes ? residentVolume : residentLattice;
+}
 
 // One dispatch a kind of body, for the whole step: positions stay in shared memory (platform: residency).
 bool addResident(const Common& common, const ParticleBuffers& particles) {
     const std::vector<std::uint32_t> grids = lattice::computedGrids(common.scene, common.settings);
     if (!lattice::isResident(common.scene, common.settings, grids)) return false;
-    const std::vector<float> shares =
-        shareStiffness(common.scene, common.settings, inverseMasses(common.scene));
-    const lattice::Batches batches = lattice::batchesOf(common.scene, common.settings, grids, shares);
+    const std::vector<float> inverseMass = inverseMasses(common.scene);
+    const std::vector<float> shares = shareStiffness(common.scene, common.settings, inverseMass);
+    const lattice::Batches batches =
+        lattice::batchesOf(common.scene, common.settings, grids, shares,
+                           cellShares(common.scene, common.settings, inverseMass, shares));
     const BufferId cells = common.program.upload("grid.cells", batches.cells);
     for (const lattice::Batch& batch : batches.batches) {
         Gather gather = common.gather();
         gather.constants[bodyDiagonalsId] = batch.hasBodyDiagonals;
+        if (batch.hasVolumes) gather.constants[recoveryId] = batch.hasRecovery;
         gather.constants[residentSlotsId] = batch.push.bodySlots;
         std::vector<BufferId> buffers{particles.positions, particles.velocities, particles.step};
         buffers.insert(buffers.end(), gather.buffers.begin(), gather.buffers.end());
         buffers.push_back(cells);
         buffers.push_back(common.program.upload("grid.chunks", batch.chunks));
         buffers.push_back(common.program.upload("grid.bodies", batch.bodies));
-        common.program.dispatch(common.form(batch.isSheet ? residentSheet : residentLattice),
-                                batch.push.count, buffers, batch.push, gather.constants);
+        common.program.dispatch(common.form(residentKernelFor(batch)), batch.push.count, buffers, batch.push,
+                                gather.constants);
     }
     return true;
 }

@@ -1,0 +1,68 @@
+// Part of gather_lattice: the volumes of cells. V = det(e), e the cell's mean edges, each the mean of four. Its gradient is
+// +-c_x +-c_y +-c_z a quarter each, c the cofactors of e: opposite corners get bit-equal, opposite impulses, whoever
+// computes the cell, so momentum is exact. As a quadrature it is the one-point rule, which locks least; it does not see the
+// hourglass modes that links hold; it is signed, and its gradient is that of the exact volume in every affine state,
+// flattened and mirrored ones too. Tetrahedra would see corners one by one, at five times the arithmetic, and prefer a
+// diagonal.
+//
+//   energy per V0:   lambda_v fill / 2 (J - 1)^2,  J = V / V0;  clamped to 2 k~ min tau / q (solvers/shares.hpp)
+//   recovery:        a pressure that is whole where J < 0 and falls to nothing at J = 1/2
+layout(constant_id = 8) const bool hasRecovery = false;
+
+// What a cell does to its corners: the impulse on a corner is +-x +-y +-z, minus where the corner is low [kg m].
+struct CellImpulse {
+    vec3 x, y, z;
+};
+
+vec3 ofCorner(CellImpulse impulse, int corner) {
+    return ((corner & 1) != 0 ? impulse.x : -impulse.x) + ((corner & 2) != 0 ? impulse.y : -impulse.y)
+           + ((corner & 4) != 0 ? impulse.z : -impulse.z);
+}
+
+float smallest(vec4 p[8]) {
+    return min(min(min(p[0].w, p[1].w), min(p[2].w, p[3].w)), min(min(p[4].w, p[5].w), min(p[6].w, p[7].w)));
+}
+
+// Corners as in layout.h; `fill` in 1/15.
+CellImpulse pressCell(vec4 p[8], float fill, float hh) {
+    const float spacing = push.restLengths[0], quarter = 0.25 / spacing;
+    // differences first: those of neighbours are exact
+    precise const vec3 ex = quarter * (((p[1] - p[0]) + (p[3] - p[2])) + ((p[5] - p[4]) + (p[7] - p[6]))).xyz;
+    precise const vec3 ey = quarter * (((p[2] - p[0]) + (p[3] - p[1])) + ((p[6] - p[4]) + (p[7] - p[5]))).xyz;
+    precise const vec3 ez = quarter * (((p[4] - p[0]) + (p[5] - p[1])) + ((p[6] - p[2]) + (p[7] - p[3]))).xyz;
+    precise const vec3 cx = cross(ey, ez), cy = cross(ez, ex), cz = cross(ex, ey);
+    precise const float j = dot(ex, cx);
+    precise const float gradient = 0.5 * (dot(cx, cx) + dot(cy, cy) + dot(cz, cz)) + 1e-30;
+    precise const float turning = (dot(ex, ex) + dot(ey, ey) + dot(ez, ez)) * (1.0 / 6.0) + 0.5;
+    const float tau = smallest(p);
+    precise float pressure = (1.0 - j) * min(push.volumeUnit * hh, push.volumeShare * tau / (gradient + abs(1.0 - j) * turning));
+    if (hasRecovery) {
+        precise const float missing = max(RECOVERY_START - j, 0.0);
+        pressure += min(push.recoveryUnit * hh * min(missing / RECOVERY_START, 1.0),
+                        push.recoveryShare * tau * missing / (gradient + missing * turning));
+    }
+    precise const float scale = fill * pressure * (0.25 * spacing);
+    return CellImpulse(scale * cx, scale * cy, scale * cz);
+}
+
+// What the cells between two slices do to the nodes on both, in the order y, x. `fill` is that of the lower slice's nodes
+// where isLower, else of the upper's.
+void pressCells(vec4 low[SLICE], vec4 high[SLICE], Fill fill[NODES], bool isLower, float hh, out vec3 onLow[NODES],
+                out vec3 onHigh[NODES]) {
+    [[unroll]] for (int n = 0; n < NODES; ++n) onLow[n] = onHigh[n] = vec3(0.0);
+    [[unroll]] for (int y = 0; y <= COLUMNS_Y; ++y)
+        [[unroll]] for (int x = 0; x <= COLUMNS_X; ++x) {
+            const int s = x + WIDTH * y; // the cell's lowest corner in the window
+            const int nx = min(x, COLUMNS_X - 1), ny = min(y, COLUMNS_Y - 1); // a node of the block beside it
+            const float held = fill[nx + COLUMNS_X * ny].cells[(x - nx) + 2 * (y - ny) + (isLower ? 4 : 0)];
+            const CellImpulse impulse =
+                pressCell(vec4[8](low[s], low[s + 1], low[s + WIDTH], low[s + WIDTH + 1], high[s], high[s + 1],
+                                  high[s + WIDTH], high[s + WIDTH + 1]), held, hh);
+            [[unroll]] for (int n = 0; n < NODES; ++n) {
+                const int cornerX = n % COLUMNS_X + 1 - x, cornerY = n / COLUMNS_X + 1 - y;
+                if (min(cornerX, cornerY) < 0 || max(cornerX, cornerY) > 1) continue;
+                onLow[n] += ofCorner(impulse, cornerX + 2 * cornerY);
+                onHigh[n] += ofCorner(impulse, cornerX + 2 * cornerY + 4);
+            }
+        }
+}
