@@ -87,6 +87,8 @@ sim::Lattice makeLattice(const VoxelGrid& grid, const MeshBody& body, double vol
                          .spacing = grid.spacing,
                          .fill = grid.fill,
                          .youngModulus = body.youngModulus,
+                         .poissonRatio = body.poissonRatio,
+                         .recovery = body.recovery,
                          .density = body.density};
     // A hull cell may hold the surface and none of the 64 samples: it exists all the same, the skin hangs on
     // it.

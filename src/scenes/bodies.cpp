@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <stdexcept>
 
 namespace sinew::scenes {
 
@@ -177,6 +178,8 @@ void addBox(LoadedScene& loaded, const Section& box) {
                          .cells = {particles[0] - 1, particles[1] - 1, particles[2] - 1},
                          .spacing = box.number("spacing"),
                          .youngModulus = box.number("young_modulus"),
+                         .poissonRatio = box.number("poisson_ratio"),
+                         .recovery = box.number("recovery"),
                          .density = box.number("density")};
     checkRoom(loaded, std::uint64_t{particles[0]} * particles[1] * particles[2], box, "particles");
     if (box.has("origin")) {
@@ -188,7 +191,13 @@ void addBox(LoadedScene& loaded, const Section& box) {
         };
         lattice.origin = {low(center.x, 0), low(center.y, 1), low(center.z, 2)};
     }
-    const sim::LatticeCorners corners = sim::addLattice(loaded.scene, lattice);
+    sim::LatticeCorners corners;
+    try {
+        corners = sim::addLattice(loaded.scene, lattice);
+    } catch (const std::domain_error& error) {
+        box.fail(lattice.poissonRatio > 0.25f ? "poisson_ratio" : "recovery",
+                 std::string("cannot be had: ") + error.what(), "move the body nearer to the origin");
+    }
     clampFaces(loaded.scene, box, corners);
     addLoad(loaded.scene, double{box.number("load")}, corners);
     sim::addLatticeSkin(loaded.scene, lattice, corners, box.vector("color"));

@@ -131,6 +131,8 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
     summary.surface.defects = found.defects;
     mesh::MeshBody body{.name = summary.body,
                         .youngModulus = section.number("young_modulus"),
+                        .poissonRatio = section.number("poisson_ratio"),
+                        .recovery = section.number("recovery"),
                         .density = section.number("density"),
                         .color = section.vector("color")};
     body.voxels.resolution = section.count("resolution");
@@ -142,6 +144,9 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
     } catch (const std::length_error& error) {
         section.fail("voxel", std::string("is too small for this mesh (") + error.what() + ")",
                      "give larger voxels");
+    } catch (const std::domain_error& error) {
+        section.fail(body.poissonRatio > 0.25f ? "poisson_ratio" : "recovery",
+                     std::string("cannot be had: ") + error.what(), "move the body nearer to the origin");
     }
     warn(summary, loaded.warnings);
     loaded.meshes.push_back(std::move(summary));

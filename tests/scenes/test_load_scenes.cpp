@@ -200,6 +200,39 @@ TEST_F(Load, TakesEveryNumberOfAChainFromTheFile) {
                 "scene.toml:3: chain[0].pinned names \"middle\": possible are first, last");
 }
 
+TEST_F(Load, GivesCellsTheVolumesThatABodyAsksFor) {
+    const std::string box = "[[box]]\nparticles = [3, 3, 3]\nspacing = 0.1\ncenter = [0, 0, 0]\n";
+    EXPECT_FALSE(sim::hasCellVolumes(load(box).scene.grids[0]));
+    EXPECT_FALSE(sim::hasCellVolumes(load(box + "poisson_ratio = 0.25\n").scene.grids[0]));
+    const sim::Grid grid = load(box + "poisson_ratio = 0.45\nrecovery = 2\n").scene.grids[0];
+    const float shear = 1e5f / 2.9f;
+    EXPECT_NEAR(grid.volumeStiffness / shear, 8, 1e-5);
+    EXPECT_NEAR(grid.recoveryPressure / shear, 2, 1e-6);
+    EXPECT_NEAR(grid.compliance[0] * shear * 0.1f, 1, 1e-6);
+    const std::string mesh = "[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\nvoxel = 0.25\n";
+    EXPECT_FALSE(sim::hasCellVolumes(load(mesh).scene.grids[0]));
+    EXPECT_GT(load(mesh + "poisson_ratio = 0.3\n").scene.grids[0].volumeStiffness, 0);
+    EXPECT_GT(load(mesh + "recovery = 2\n").scene.grids[0].recoveryPressure, 0);
+}
+
+TEST_F(Load, RefusesVolumesThatItCannotCompute) {
+    const std::string atHome = smallCloth + "origin = [0, 0, 0]\n"; // the scene is local to its first body
+    const std::string box = "[[box]]\nparticles = [3, 3, 3]\nspacing = 0.1\n";
+    const std::string here = box + "center = [0, 0, 0]\n", far = atHome + box + "center = [9e5, 0, 0]\n";
+    expectError(here + "poisson_ratio = 0.5\n", "scene.toml:5: box[0].poisson_ratio is 0.5: ");
+    expectError(here + "poisson_ratio = 0.2\n",
+                "scene.toml:5: box[0].poisson_ratio is 0.2: must be from 0.25 to 0.49");
+    expectError(here + "recovery = -1\n", "scene.toml:5: box[0].recovery is -1: ");
+    expectError(here + "poisson_ratio = 0.3\n[solver]\nname = \"jacobi\"\n",
+                "scene.toml: grid[0] \"box\": has cell volumes (a Poisson ratio above 1/4 or recovery), "
+                "which solver jacobi "
+                "has no form for: use split");
+    expectError(far + "poisson_ratio = 0.3\n", "scene.toml:9: box[0].poisson_ratio cannot be had: ");
+    expectError(atHome + "[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\nvoxel = 0.2\n"
+                         "center = [1e6, 0, 0]\nrecovery = 2\n",
+                "scene.toml:11: mesh[0].recovery cannot be had: ");
+}
+
 TEST_F(Load, RefusesPlanesWithoutUnitNormal) {
     expectError(smallCloth + "[[plane]]\nnormal = [0, 1, 1]\n",
                 "scene.toml:5: plane[0].normal has length 1.414");
