@@ -59,9 +59,9 @@ sim::CellEmbedding embed(const VoxelGrid& grid, const sim::LatticeCorners& corne
     return embedding;
 }
 
-/// A collider touches the skin, not the particles: those outside the surface may come closer to it, those inside
-/// keep their depth, up to one cell. Without the second the lowest layer alone carries a body and is squashed flat.
-/// Corners are the samples of a grid of one more cell each way, moved by half a cell.
+/// A collider touches the skin, not the particles: those outside the surface may come closer to it, those
+/// inside keep their depth, up to one cell. Without the second the lowest layer alone carries a body and is
+/// squashed flat. Corners are the samples of a grid of one more cell each way, moved by half a cell.
 void setContactOffsets(sim::Scene& scene, const sim::LatticeCorners& corners, const VoxelGrid& grid,
                        const TriangleMesh& mesh) {
     std::vector<Vector3> positions = toCellUnits(mesh, grid);
