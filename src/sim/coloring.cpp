@@ -1,0 +1,208 @@
+// First-fit edge coloring, tried in several orders for each connected body; the one with the fewest colors
+// wins. In a grid or lattice the constraints of one direction form straight chains, served by two colors in
+// turn: direction by direction, a body needs as many colors as an inner particle has constraints. A direction
+// shows in the difference of the two indices (a full grid) or in where the ends are (voxels of any shape).
+#include "sim/coloring.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace sinew::sim {
+
+namespace {
+
+constexpr std::uint32_t none = 0xffffffffu;
+
+// The constraints on each moving particle, and the connected bodies they make.
+class Graph {
+public:
+    Graph(const Scene& scene, std::span<const float> inverseMass)
+        : scene_(scene), inverseMass_(inverseMass), first_(scene.particles.size() + 1, 0) {
+        for (const DistanceConstraint& c : scene.distances)
+            for (const std::uint32_t end : {c.a, c.b}) first_[end + 1] += moves(end);
+        std::partial_sum(first_.begin(), first_.end(), first_.begin());
+        incident_.resize(first_.back());
+        std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+        for (std::uint32_t c = 0; c < scene.distances.size(); ++c)
+            for (const std::uint32_t end : {scene.distances[c].a, scene.distances[c].b})
+                if (moves(end)) incident_[next[end]++] = c;
+    }
+
+    bool moves(std::uint32_t particle) const { return inverseMass_[particle] > 0; }
+    const DistanceConstraint& constraint(std::uint32_t c) const { return scene_.distances[c]; }
+    const Vec3& position(std::uint32_t particle) const { return scene_.particles[particle].position; }
+    std::span<const std::uint32_t> incident(std::uint32_t particle) const {
+        return std::span(incident_).subspan(first_[particle], first_[particle + 1] - first_[particle]);
+    }
+
+    /// Constraints of each body, ascending by their lower particle. Bodies meet in no particle that moves.
+    std::vector<std::vector<std::uint32_t>> bodies() const {
+        std::vector<std::vector<std::uint32_t>> result;
+        std::vector<bool> isTaken(scene_.distances.size());
+        for (std::uint32_t seed = 0; seed < scene_.distances.size(); ++seed) {
+            const DistanceConstraint& c = constraint(seed);
+            if (isTaken[seed] || (!moves(c.a) && !moves(c.b))) continue;
+            std::vector<std::uint32_t>& body = result.emplace_back(1, seed);
+            isTaken[seed] = true;
+            for (std::size_t next = 0; next < body.size(); ++next)
+                for (const std::uint32_t end : {constraint(body[next]).a, constraint(body[next]).b})
+                    for (const std::uint32_t other : incident(end))
+                        if (!isTaken[other]) isTaken[other] = true, body.push_back(other);
+            sortByParticle(body);
+        }
+        return result;
+    }
+
+    void sortByParticle(std::span<std::uint32_t> constraints) const {
+        std::ranges::sort(constraints, {}, [&](std::uint32_t c) {
+            return std::array{std::min(constraint(c).a, constraint(c).b),
+                              std::max(constraint(c).a, constraint(c).b), c};
+        });
+    }
+
+private:
+    const Scene& scene_;
+    std::span<const float> inverseMass_;
+    std::vector<std::uint32_t> first_, incident_; // incident_[first_[i]] ... : constraints on particle i
+};
+
+using Groups = std::vector<std::vector<std::uint32_t>>;
+constexpr std::size_t mostDirections = 32; // a regular body has 13 at most
+
+// Groups of constraints that `isSame` calls parallel; none where there are too many for a regular body.
+template <typename IsSame> Groups groupBy(const std::vector<std::uint32_t>& body, const IsSame& isSame) {
+    Groups groups;
+    for (const std::uint32_t c : body) {
+        const auto found =
+            std::ranges::find_if(groups, [&](const auto& group) { return isSame(group[0], c); });
+        if (found != groups.end()) {
+            found->push_back(c);
+        } else if (groups.size() < mostDirections) {
+            groups.push_back({c});
+        } else {
+            return {};
+        }
+    }
+    return groups;
+}
+
+std::uint32_t stepOf(const DistanceConstraint& c) {
+    return c.a < c.b ? c.b - c.a : c.a - c.b;
+}
+
+bool isParallel(const Graph& graph, const DistanceConstraint& c, const DistanceConstraint& d) {
+    constexpr double sine = 1e-3; // bodies lie where float32 rounds them
+    const auto direction = [&](const DistanceConstraint& of) {
+        const Vec3 &p = graph.position(of.a), &q = graph.position(of.b);
+        return std::array{double{q.x} - p.x, double{q.y} - p.y, double{q.z} - p.z};
+    };
+    const auto u = direction(c), v = direction(d);
+    const auto dot = [](const auto& r, const auto& s) { return r[0] * s[0] + r[1] * s[1] + r[2] * s[2]; };
+    const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v);
+    return uv * uv >= (1 - sine * sine) * uu * vv;
+}
+
+// Colors of one body's constraints, none = not colored yet; shared by the whole scene.
+class FirstFit {
+public:
+    FirstFit(const Graph& graph, std::size_t constraints) : graph_(graph), color_(constraints, none) {}
+
+    /// Gives every group colors of its own, each constraint the lowest that its moving ends have not; returns
+    /// how many colors that made.
+    std::uint32_t apply(const Groups& groups) {
+        std::uint32_t base = 0;
+        for (const std::vector<std::uint32_t>& group : groups) {
+            std::uint32_t end = base;
+            for (const std::uint32_t c : group) end = std::max(end, (color_[c] = lowestFree(c, base)) + 1);
+            base = end;
+        }
+        return base;
+    }
+    void clear(const std::vector<std::uint32_t>& body) {
+        for (const std::uint32_t c : body) color_[c] = none;
+    }
+    void rename(const std::vector<std::uint32_t>& body, const std::vector<std::uint32_t>& names) {
+        for (const std::uint32_t c : body) color_[c] = names[color_[c]];
+    }
+    const std::vector<std::uint32_t>& colors() const { return color_; }
+
+private:
+    std::uint32_t lowestFree(std::uint32_t c, std::uint32_t base) {
+        ++stamp_;
+        for (const std::uint32_t end : {graph_.constraint(c).a, graph_.constraint(c).b})
+            for (const std::uint32_t other : graph_.incident(end)) {
+                const std::uint32_t taken = color_[other];
+                if (taken == none) continue;
+                if (taken >= stamps_.size()) stamps_.resize(taken + 1, 0);
+                stamps_[taken] = stamp_;
+            }
+        std::uint32_t lowest = base;
+        while (lowest < stamps_.size() && stamps_[lowest] == stamp_) ++lowest;
+        return lowest;
+    }
+
+    const Graph& graph_;
+    std::vector<std::uint32_t> color_;
+    std::vector<std::uint64_t> stamps_; // of each color: the constraint that last found it taken
+    std::uint64_t stamp_ = 0;
+};
+
+// In which turn each of `count` colors is solved: a golden section of them further on each time. Direction
+// after direction, or from one end of the body to the other, the sweep is so lopsided that a warm start makes
+// a stiff beam swing up: 55 % error at 16 substeps, 23 % at 64, where this order gives 7 % and 0.5 %.
+std::vector<std::uint32_t> scatteredTurns(std::uint32_t count) {
+    auto stride = static_cast<std::uint32_t>(std::lround(0.381966 * count));
+    while (std::gcd(stride, count) != 1) ++stride;
+    std::vector<std::uint32_t> turns(count);
+    for (std::uint32_t turn = 0; turn < count; ++turn) turns[std::uint64_t{turn} * stride % count] = turn;
+    return turns;
+}
+
+// Tries the orders on one body and keeps the colors of the best.
+void colorBody(const Graph& graph, const std::vector<std::uint32_t>& body, FirstFit& firstFit) {
+    const std::array<Groups, 3> orders{
+        groupBy(body,
+                [&](std::uint32_t c, std::uint32_t d) {
+                    return stepOf(graph.constraint(c)) == stepOf(graph.constraint(d));
+                }),
+        groupBy(body,
+                [&](std::uint32_t c, std::uint32_t d) {
+                    return isParallel(graph, graph.constraint(c), graph.constraint(d));
+                }),
+        Groups{body}}; // at most 2 d - 1 colors, on any graph
+    const Groups* best = nullptr;
+    std::uint32_t fewest = none;
+    for (const Groups& groups : orders) {
+        if (groups.empty()) continue;
+        const std::uint32_t count = firstFit.apply(groups);
+        firstFit.clear(body);
+        if (count < fewest) fewest = count, best = &groups;
+    }
+    firstFit.rename(body, scatteredTurns(firstFit.apply(*best)));
+}
+
+} // namespace
+
+Coloring colorByParticles(const Scene& scene, std::span<const float> inverseMass) {
+    const Graph graph(scene, inverseMass);
+    FirstFit firstFit(graph, scene.distances.size());
+    for (const std::vector<std::uint32_t>& body : graph.bodies()) colorBody(graph, body, firstFit);
+
+    Coloring result;
+    std::vector<std::vector<std::uint32_t>> members;
+    for (std::uint32_t c = 0; c < scene.distances.size(); ++c) {
+        const std::uint32_t color = firstFit.colors()[c];
+        if (color == none) continue;
+        if (color >= members.size()) members.resize(color + 1);
+        members[color].push_back(c);
+    }
+    for (std::vector<std::uint32_t>& color : members) {
+        graph.sortByParticle(color);
+        result.order.insert(result.order.end(), color.begin(), color.end());
+        result.ends.push_back(static_cast<std::uint32_t>(result.order.size()));
+    }
+    return result;
+}
+
+} // namespace sinew::sim

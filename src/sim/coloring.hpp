@@ -1,0 +1,31 @@
+// Partitions distance constraints into colors, so that those of one color can be solved at once and in place:
+// no two of them touch the same moving particle. A pure function of the scene; regular bodies get the fewest
+// colors there can be (8 for a sheet with edges and diagonals, 18 for a lattice with 18 neighbours).
+#pragma once
+
+#include "sim/scene.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sinew::sim {
+
+/// Colors one after another; within a color by ascending particle, so that what neighbours read lies
+/// together.
+struct Coloring {
+    std::vector<std::uint32_t> order; ///< indices of the constraints that have an end which moves, each once
+    std::vector<std::uint32_t> ends;  ///< one past the last entry of each color in `order`; no color is empty
+    std::size_t colorCount() const { return ends.size(); }
+    std::span<const std::uint32_t> color(std::size_t index) const {
+        const std::uint32_t first = index == 0 ? 0 : ends[index - 1];
+        return std::span(order).subspan(first, ends[index] - first);
+    }
+};
+
+/// `inverseMass` [1/kg], one a particle: those with 0 never move and may be shared within a color. As many
+/// colors as it takes: at most 2 d - 1, where d is the largest number of constraints on a particle that
+/// moves.
+Coloring colorByParticles(const Scene& scene, std::span<const float> inverseMass);
+
+} // namespace sinew::sim
