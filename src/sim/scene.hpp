@@ -148,7 +148,7 @@ struct Scene {
     std::vector<Skin> skins;
 };
 
-enum class Solver { jacobi, split };
+enum class Solver { jacobi, split, gaussSeidel };
 
 /// Which of several kernels for the same work a program is built from; which is fastest depends on the device
 /// (tune() measures). Only usesGrids changes rounding, because it changes the order in which links are
@@ -173,6 +173,8 @@ struct Settings {
     float theta = 0.1f;           ///< `split`: 0 symplectic .. 1 PBD order; damps like theta h k
     float weight = 0;         ///< `jacobi`: factor on a particle's summed corrections; 0 = 1 / their number
     float overRelaxation = 1; ///< `jacobi`: second factor on that sum, below 4/3 with averaging
+    float warmStart =
+        0.9f; ///< `gauss_seidel`: most that a substep starts with of the multipliers of the last; 0 = cold
     Forms forms;
     bool isReversed = false; ///< runs every kernel in reversed invocation order; the state must not change
 };

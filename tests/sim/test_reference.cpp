@@ -62,6 +62,37 @@ TEST(Reference, GaussSeidelSeesWhatTheConstraintBeforeDid) {
     EXPECT_NEAR(state.v[1].x(), 0.1 / frame, 1e-5);
 }
 
+TEST(Reference, GaussSeidelTakesConstraintsInTheOrderItIsGiven) {
+    const std::vector<std::uint32_t> order{1, 0};
+    reference::GaussSeidel solver(stretchedTriple(), {.substeps = 1}, order);
+    State state = reference::initialState(stretchedTriple());
+    solver.step(frame, state);
+    expectOnAxis(state, {0.175, 1.175, 2.35});
+}
+
+// The first substep ends at 0.1, 1.3, 2.3 and moves on to 0.2, 1.4, 2.1 with multipliers -0.1 and -0.2: 0.9
+// of them would move the ends of a link by more than a twentieth of its length, so both start at -0.025.
+TEST(Reference, WarmGaussSeidelStartsFromGuardedMultipliers) {
+    const auto after = [](float warmStart) {
+        return run(reference::stepGaussSeidel, stretchedTriple(), {.substeps = 2, .warmStart = warmStart}, 1);
+    };
+    expectOnAxis(after(0), {0.3, 1.2, 2.2});
+    expectOnAxis(after(0.9f), {0.3125, 1.19375, 2.19375});
+    // 0.1 of them stays below the guard: -0.01 and -0.02.
+    expectOnAxis(after(0.1f), {0.31, 1.195, 2.195});
+    EXPECT_NEAR(after(0.1f).multipliers[0], 0.1 * -0.11, 1e-7);
+}
+
+TEST(Reference, WarmGaussSeidelKeepsItsMultipliersFromStepToStep) {
+    const Scene scene = stretchedTriple();
+    const Settings whole{.substeps = 2}, half{.substeps = 1};
+    State once = reference::initialState(scene), twice = once;
+    reference::stepGaussSeidel(scene, whole, frame, once);
+    reference::stepGaussSeidel(scene, half, frame / 2, twice);
+    reference::stepGaussSeidel(scene, half, frame / 2, twice);
+    expectOnAxis(twice, {once.x[0].x(), once.x[1].x(), once.x[2].x()});
+}
+
 TEST(Reference, JacobiAveragesWhatBothLinksWant) {
     const State state = run(reference::stepJacobi, stretchedTriple(), {.substeps = 1}, 1);
     expectOnAxis(state, {0.1, 1.225, 2.35});

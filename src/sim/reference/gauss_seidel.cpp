@@ -1,5 +1,6 @@
-// The slides' sequential version: every constraint in scene order, in place, each seeing what the one before
-// it did. XPBD [Macklin 2016], eq. 18, with the multipliers reset every substep.
+// Every constraint in turn, in place, each seeing what the one before it did. XPBD [Macklin 2016], eq. 18.
+// Cold and in scene order it is the slides' sequential version; in the order of the colors and with a warm
+// start it is what `gauss_seidel` does on the device (methods: D).
 #include "sim/reference/attached.hpp"
 #include "sim/reference/reference.hpp"
 
@@ -7,46 +8,77 @@
 
 namespace sinew::sim::reference {
 
-GaussSeidel::GaussSeidel(const Scene& scene, const Settings& settings)
+GaussSeidel::GaussSeidel(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> order)
     : problem_(scene), substeps_(settings.substeps),
       iterations_(problem_.links.empty() && problem_.bends.empty() ? 1 : settings.iterations),
-      bendMultipliers_(problem_.bends.size()) {
+      warmStart_(double{settings.warmStart}), bendMultipliers_(problem_.bends.size()) {
     requireNoCells(scene, "gauss_seidel");
+    std::vector<std::uint32_t> linkOf(scene.distances.size());
+    for (std::uint32_t index = 0; index < problem_.links.size(); ++index)
+        linkOf[problem_.links[index].constraint] = index;
     rows_.reserve(problem_.links.size());
-    for (const Link& link : problem_.links) {
+    for (std::size_t entry = 0; entry < problem_.links.size(); ++entry) {
+        const auto index = order.empty() ? static_cast<std::uint32_t>(entry) : linkOf[order[entry]];
+        const Link& link = problem_.links[index];
         rows_.push_back({.a = link.a,
                          .b = link.b,
                          .inverseMassA = problem_.inverseMass[link.a],
                          .inverseMassB = problem_.inverseMass[link.b],
                          .restLength = link.restLength});
+        linkOfRow_.push_back(index);
     }
 }
 
 void GaussSeidel::step(double dt, State& state) {
     const double h = dt / substeps_;
-    for (std::size_t c = 0; c < rows_.size(); ++c) {
-        Row& row = rows_[c];
-        row.alpha = problem_.links[c].compliance / (h * h);
-        row.gamma = row.alpha > 0 ? problem_.dampingTime / h : 0; // XPBD, eq. 26
-        row.inverseDenominator = 1 / ((1 + row.gamma) * (row.inverseMassA + row.inverseMassB) + row.alpha);
-    }
+    beginStep(h, state);
+    std::vector<Eigen::Vector3d> swept; // where the last sweep left the particles
+    if (warmStart_ > 0) swept = state.x;
     for (std::uint32_t substep = 0; substep < substeps_; ++substep) {
         HalfKickSubstep phases(problem_, h, state);
-        for (Row& row : rows_) row.lambda = 0;
+        if (warmStart_ > 0) startWarm(swept, state);
         std::ranges::fill(bendMultipliers_, Eigen::Vector3d::Zero());
         for (std::uint32_t iteration = 0; iteration < iterations_; ++iteration) {
             if (problem_.dampingTime > 0)
                 sweepDamped(phases.before(), state);
             else
                 sweep(state);
+            if (warmStart_ > 0) swept = state.x;
             sweepBends(h, state);
             phases.projectWalls();
         }
         pullAttached(problem_, h, dt, (substep + 1.0) / substeps_, state);
         phases.finish();
+        keepMultipliers();
+    }
+    if (warmStart_ > 0) {
+        state.multipliers.resize(problem_.links.size());
+        for (std::size_t r = 0; r < rows_.size(); ++r) state.multipliers[linkOfRow_[r]] = rows_[r].lambda;
     }
     settleAnchors(problem_, dt, state);
     state.previousH = h;
+}
+
+void GaussSeidel::beginStep(double h, const State& state) {
+    // What pulled as hard in a longer substep is larger; it is never scaled up, or the guard would not hold.
+    const double ratio = state.previousH > 0 ? std::min(1.0, h / state.previousH) : 0;
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+        Row& row = rows_[r];
+        row.alpha = problem_.links[linkOfRow_[r]].compliance / (h * h);
+        row.gamma = row.alpha > 0 ? problem_.dampingTime / h : 0; // XPBD, eq. 26
+        row.inverseDenominator = 1 / ((1 + row.gamma) * (row.inverseMassA + row.inverseMassB) + row.alpha);
+        row.lambda = state.multipliers.empty() ? 0 : ratio * ratio * state.multipliers[linkOfRow_[r]];
+    }
+}
+
+// All multipliers at once, along the directions that the last sweep left behind.
+void GaussSeidel::startWarm(const std::vector<Eigen::Vector3d>& directionsOf, State& state) const {
+    for (const Row& row : rows_) {
+        const Eigen::Vector3d impulse =
+            row.lambda * (directionsOf[row.b] - directionsOf[row.a]).stableNormalized();
+        state.x[row.a] -= row.inverseMassA * impulse;
+        state.x[row.b] += row.inverseMassB * impulse;
+    }
 }
 
 void GaussSeidel::sweep(State& state) {
@@ -54,9 +86,9 @@ void GaussSeidel::sweep(State& state) {
         Eigen::Vector3d &a = state.x[row.a], &b = state.x[row.b];
         const Eigen::Vector3d d = b - a;
         const double length = d.norm();
-        if (length == 0) continue; // no direction, no correction
         const double change = -(length - row.restLength + row.alpha * row.lambda) * row.inverseDenominator;
         row.lambda += change;
+        if (length == 0) continue; // no direction, no correction
         const Eigen::Vector3d impulse = change / length * d;
         a -= row.inverseMassA * impulse;
         b += row.inverseMassB * impulse;
@@ -68,11 +100,12 @@ void GaussSeidel::sweepDamped(const std::vector<Eigen::Vector3d>& before, State&
         Eigen::Vector3d &a = state.x[row.a], &b = state.x[row.b];
         const Eigen::Vector3d d = b - a;
         const double length = d.norm();
-        if (length == 0) continue; // no direction, no correction
-        const double slip = row.gamma * (d - (before[row.b] - before[row.a])).dot(d) / length;
+        const double slip =
+            length > 0 ? row.gamma * (d - (before[row.b] - before[row.a])).dot(d) / length : 0;
         const double change =
             -(length - row.restLength + row.alpha * row.lambda + slip) * row.inverseDenominator;
         row.lambda += change;
+        if (length == 0) continue; // no direction, no correction
         const Eigen::Vector3d impulse = change / length * d;
         a -= row.inverseMassA * impulse;
         b += row.inverseMassB * impulse;
@@ -90,6 +123,18 @@ void GaussSeidel::sweepBends(double h, State& state) {
         state.x[bend.a] += wA * change;
         state.x[bend.b] -= 2 * wB * change;
         state.x[bend.c] += wC * change;
+    }
+}
+
+// The guard: a start moves the ends of a link by at most a twentieth of its length against each other.
+void GaussSeidel::keepMultipliers() {
+    for (Row& row : rows_) {
+        if (warmStart_ == 0) {
+            row.lambda = 0;
+            continue;
+        }
+        const double most = 0.05 * row.restLength / (row.inverseMassA + row.inverseMassB);
+        row.lambda = std::clamp(warmStart_ * row.lambda, -most, most);
     }
 }
 

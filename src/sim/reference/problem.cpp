@@ -46,10 +46,10 @@ Problem::Problem(const Scene& scene)
     }
     for (const FixedConstraint& constraint : scene.fixed) inverseMass[constraint.particle] = 0;
     const std::vector<double> levels = levelsOf(scene);
-    for (std::size_t k = 0; k < scene.distances.size(); ++k) {
+    for (std::uint32_t k = 0; k < scene.distances.size(); ++k) {
         const DistanceConstraint& c = scene.distances[k];
         if (inverseMass[c.a] == 0 && inverseMass[c.b] == 0) continue;
-        links.push_back({c.a, c.b, double{c.restLength}, double{c.compliance}, levels[k]});
+        links.push_back({c.a, c.b, double{c.restLength}, double{c.compliance}, levels[k], k});
         ++linkCount[c.a];
         ++linkCount[c.b];
     }

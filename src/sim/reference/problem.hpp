@@ -18,6 +18,7 @@ struct Link {
     double restLength = 0, compliance = 0; ///< [m], [m/N]
     double level =
         0; ///< in a grid: stiffness of its stiffest link of this length; else its own; <= 1e20 [N/m]
+    std::uint32_t constraint = 0; ///< index into Scene::distances
 };
 
 struct Bend {

@@ -5,6 +5,8 @@
 
 #include "sim/reference/problem.hpp"
 
+#include <span>
+
 namespace sinew::sim::reference {
 
 /// Positions [m] and velocities [m/s], one entry a particle.
@@ -14,6 +16,7 @@ struct State {
         0; ///< substep of the step before [s]; 0 at the start (`split` starts with a half-kick)
     std::vector<Eigen::Vector3d> anchors; ///< where the points of attachments are [m]
     std::vector<Eigen::Vector3d> targets; ///< where they go in the next step; those missing stay
+    std::vector<double> multipliers; ///< of each link, kept by a warm `gauss_seidel` [N s^2]; empty = 0
 };
 
 /// The state a scene describes; particles that never move have no velocity.
@@ -26,11 +29,13 @@ void stepGaussSeidel(const Scene& scene, const Settings& settings, double dt,
 void stepJacobi(const Scene& scene, const Settings& settings, double dt, State& state);
 void stepSplit(const Scene& scene, const Settings& settings, double dt, State& state);
 
-/// stepGaussSeidel with everything that stays the same from step to step looked up once: the sequential row
-/// of a benchmark. Copies what it needs of the scene.
+/// stepGaussSeidel with everything that stays the same from step to step looked up once: the sequential rows
+/// of a benchmark. Copies what it needs of the scene. `order` holds indices into scene.distances, each that
+/// has an end which moves once; empty = as the scene lists them. settings.warmStart 0 makes it the slides'
+/// version.
 class GaussSeidel {
 public:
-    GaussSeidel(const Scene& scene, const Settings& settings);
+    GaussSeidel(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> order = {});
     void step(double dt, State& state);
 
 private:
@@ -46,11 +51,16 @@ private:
     void sweep(State& state);
     void sweepDamped(const std::vector<Eigen::Vector3d>& before, State& state);
     void sweepBends(double h, State& state);
+    void beginStep(double h, const State& state);
+    void startWarm(const std::vector<Eigen::Vector3d>& directionsOf, State& state) const;
+    void keepMultipliers();
 
     Problem problem_;
     std::uint32_t substeps_, iterations_;
+    double warmStart_;
     std::vector<Eigen::Vector3d> bendMultipliers_;
     std::vector<Row> rows_;
+    std::vector<std::uint32_t> linkOfRow_;
 };
 
 } // namespace sinew::sim::reference
