@@ -26,6 +26,8 @@ struct StepParams {
     float restSpeed;      // impacts slower than this do not rebound: 2 |g| h [m/s]
     uint frame;
     float dampingShare; // `split`: h x damping coefficient of a link, at most this x the smaller kappa of its ends
+    float multiplierScale; // `gauss_seidel`: of the multipliers kept from the step before, min(1, (h / hPrevious)^2)
+    float unused0, unused1, unused2;
 };
 
 // `split` keeps the links of a work group's particles together, slot by slot: link s of particle i is element
@@ -81,7 +83,7 @@ struct TetherReach {
     float reach; // [m]
 };
 
-// `jacobi`: a distance constraint.
+// `jacobi`, `gauss_seidel`: a distance constraint.
 struct DistanceEdge {
     uint a, b;
     float restLength; // [m]
@@ -93,6 +95,16 @@ struct DistanceMultiplier {
     float lambda; // [N s^2]
     float share;
 };
+
+// `gauss_seidel`: what the constraints of the open substep have moved a particle by, and what it touched.
+struct ParticleCorrection {
+    float x, y, z; // [m]
+    uint touched;  // bit set of planes
+};
+
+// `gauss_seidel`: one of a particle's links in the warm start is the index of its constraint, with this bit set at the
+// constraint's end a; in blocks like those of `split`.
+#define WARM_LINK_SIGN 0x80000000u
 
 // `jacobi`: which slots of the correction buffer belong to a particle.
 struct Incidence {
@@ -204,6 +216,14 @@ struct IterationPush {
     uint count;
     uint firstSlot; // of this constraint type in the correction buffer
     uint isFirst;   // 1 in the first iteration of a substep
+};
+
+struct ColorPush {
+    uint count;      // constraints of the color, padded to whole work groups
+    uint first;      // of them in the list
+    uint isOpening;  // 1 in the first sweep of a step
+    uint isClosing;  // 1 in the last sweep of a substep
+    float warmStart; // share of a multiplier that the next substep starts with
 };
 
 struct SkinPush {

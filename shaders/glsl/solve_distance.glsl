@@ -1,8 +1,8 @@
 // The constraint pass of `jacobi` (the slides' method): each distance constraint writes the correction of either end to
 // its own two slots of the correction buffer; nobody else writes there, so there are no atomics.
-// XPBD [Macklin 2016], eq. 18: dl = -(C + a l) / (w_a + w_b + a), a = compliance / h^2; rigid constraints have a = 0
-// and keep no multiplier.
+// Rigid constraints have alpha = 0 and keep no multiplier.
 #include "kernel.glsl"
+#include "distance.glsl"
 
 layout(std430, binding = 0) readonly buffer Edges { DistanceEdge edges[]; };
 layout(std430, binding = 1) readonly buffer Positions { vec4 positions[]; }; // w = inverse mass [1/kg]
@@ -29,28 +29,22 @@ void main() {
     if (c >= push.count) return;
     const DistanceEdge edge = edges[c];
     const vec4 a = positions[edge.a], b = positions[edge.b];
-    const vec3 d = b.xyz - a.xyz;
-    const float distance = length(d);
-    const vec3 n = distance > 1e-12 ? d / distance : vec3(0.0); // coincident ends: no direction, no correction
-    float value = distance - edge.restLength;
-    float denominator = a.w + b.w;
 #ifdef HAS_COMPLIANCE
-    const float alpha = min(edge.compliance / (step.h * step.h), 1e30); // Inf would turn into NaN
     const float lambda = push.isFirst != 0u ? 0.0 : multipliers[c].lambda;
-    value += alpha * lambda;
+    const float alpha = scaledCompliance(edge.compliance, step.h);
 #ifdef HAS_DAMPING
-    // eq. 26 with a damping coefficient dampingTime / compliance: gamma = dampingTime / h; rigid ones have none
+    // a damping coefficient dampingTime / compliance: gamma = dampingTime / h; rigid ones have none
     const float gamma = alpha > 0.0 ? push.dampingTime / step.h : 0.0;
-    value += gamma * dot(n, moved(edge.b) - moved(edge.a));
-    denominator *= 1.0 + gamma;
-#endif
-    denominator += alpha;
-    const float change = -value / denominator;
-    multipliers[c].lambda = lambda + change * multipliers[c].share;
+    const DistanceChange change = solveDampedDistance(b.xyz - a.xyz, a.w + b.w, edge.restLength, alpha, lambda, gamma,
+                                                      moved(edge.b) - moved(edge.a));
 #else
-    const float change = -value / denominator;
+    const DistanceChange change = solveDistance(b.xyz - a.xyz, a.w + b.w, edge.restLength, alpha, lambda);
+#endif
+    multipliers[c].lambda = lambda + change.lambda * multipliers[c].share;
+#else
+    const DistanceChange change = solveDistance(b.xyz - a.xyz, a.w + b.w, edge.restLength, 0.0, 0.0);
 #endif
     const uint slot = push.firstSlot + 2u * c;
-    corrections[slot] = vec4(-a.w * change * n, 0.0);
-    corrections[slot + 1u] = vec4(b.w * change * n, 0.0);
+    corrections[slot] = vec4(-a.w * change.lambda * change.n, 0.0);
+    corrections[slot + 1u] = vec4(b.w * change.lambda * change.n, 0.0);
 }

@@ -52,7 +52,8 @@ void readSettings(LoadedScene& loaded, const Section& solver, const std::string&
                        .omega = solver.number("omega"),
                        .theta = solver.number("theta"),
                        .weight = solver.number("weight"),
-                       .overRelaxation = solver.number("over_relaxation")};
+                       .overRelaxation = solver.number("over_relaxation"),
+                       .warmStart = solver.number("warm_start")};
 }
 
 void apply(const Overrides& overrides, LoadedScene& loaded) {

@@ -54,14 +54,15 @@ constexpr Key keys[] = {
     {"", "plane", Kind::tables, "", {}, "", "half spaces that particles stay in"},
     {"", "camera", Kind::table, "", {}, "", "where a picture is taken from"},
 
-    {"solver", "name", Kind::text, "", {}, "\"split\"", "split or jacobi"},
+    {"solver", "name", Kind::text, "", {}, "\"split\"", "split, jacobi or gauss_seidel"},
     {"solver", "substeps", Kind::countOrAuto, "", ranges::substeps, "\"auto\"", "equal parts of a step; more are stiffer and more exact. \"auto\": as many as the tolerance asks for, from 4 to 256"},
     {"solver", "tolerance", Kind::number, "", ranges::tolerance, "0.05", "substeps = \"auto\": how much softer a link may be than asked, as a share"},
-    {"solver", "iterations", Kind::count, "", ranges::iterations, "1", "jacobi: sweeps per substep"},
+    {"solver", "iterations", Kind::count, "", ranges::iterations, "1", "jacobi, gauss_seidel: sweeps per substep"},
     {"solver", "omega", Kind::number, "", ranges::omega, "2", "split: stiffness clamp, below 4 / (1 + 2 theta)"},
     {"solver", "theta", Kind::number, "", ranges::theta, "0.1", "split: 0 conserves energy, more damps vibrations"},
     {"solver", "weight", Kind::number, "", ranges::weight, "0", "jacobi: factor on a particle's summed corrections; 0 = 1 / their number"},
     {"solver", "over_relaxation", Kind::number, "", ranges::overRelaxation, "1", "jacobi: second factor on that sum"},
+    {"solver", "warm_start", Kind::number, "", ranges::warmStart, "0.9", "gauss_seidel: most that a substep starts with of the multipliers of the last; 0 = cold"},
 
     {"cloth", "name", Kind::text, "", {}, "\"cloth\"", "name of the body in reports and files"},
     {"cloth", "origin", Kind::vector, "m", coordinate, "[0, 0, 0]", "position of the particle in column 0, row 0"},

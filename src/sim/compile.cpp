@@ -5,6 +5,7 @@
 #include "layout.h"
 #include "sim/constraints/fixed.hpp"
 #include "sim/lattice/cells.hpp"
+#include "sim/solvers/gauss_seidel.hpp"
 #include "sim/solvers/jacobi.hpp"
 #include "sim/solvers/split.hpp"
 #include "sim/substeps.hpp"
@@ -26,6 +27,8 @@ constexpr SolverEntry solverTable[] = {
     {Solver::jacobi, "jacobi", solvers::jacobi::positionW, solvers::jacobi::addPasses},
     {Solver::split, "split", solvers::split::positionW, solvers::split::addPasses,
      solvers::split::layoutState},
+    {Solver::gaussSeidel, "gauss_seidel", solvers::gaussSeidel::positionW, solvers::gaussSeidel::addPasses,
+     solvers::gaussSeidel::layoutState},
 };
 
 const SolverEntry& entry(Solver solver) {
@@ -76,6 +79,13 @@ void addPublish(ProgramBuilder& program, const ParticleBuffers& particles) {
                      measured, push);
     program.dispatch(isInOrder ? kernels::publishState : kernels::publishStateSlots, particles.count,
                      published, push);
+    for (const BufferId memory : program.remembered()) {
+        const BufferSpec spec = built.buffers[memory.index]; // scratch moves the list
+        const auto count = static_cast<std::uint32_t>(spec.count);
+        const BufferId saved = program.scratch<layout::vec4>(spec.label + ".saved", count);
+        program.dispatch(kernels::publishMemory, count, {memory, saved, built.status},
+                         layout::CountPush{count});
+    }
 }
 
 } // namespace

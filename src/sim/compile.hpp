@@ -34,7 +34,7 @@ StepProgram compile(const Scene& scene, const Settings& settings);
 /// Inverse mass of every particle after fixed constraints [1/kg]; 0 = never moves.
 std::vector<float> inverseMasses(const Scene& scene);
 
-/// "jacobi" or "split".
+/// "jacobi", "split" or "gauss_seidel".
 const char* solverName(Solver solver);
 /// Returns false for a name that is none. The list is the one place solvers are named.
 bool parseSolver(const std::string& name, Solver& solver);

@@ -97,6 +97,14 @@ void ProgramBuilder::dispatchBytes(const vk::ShaderCode& code, std::uint32_t ite
     append(std::move(pass));
 }
 
+void ProgramBuilder::numberLast(std::uint32_t index) {
+    (isSkin_ ? program_.skin : program_.step)
+        .back()
+        .label.append("[")
+        .append(std::to_string(index))
+        .append("]");
+}
+
 void ProgramBuilder::fill(BufferId buffer, std::uint32_t value) {
     append({.kind = PassKind::fill, .label = "fill", .uses = {{buffer, vk::Access::write}}, .value = value});
 }

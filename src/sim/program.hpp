@@ -129,6 +129,11 @@ public:
                   const Push& push, const Constants& constants = {}) {
         dispatch(code, items, std::span(buffers.begin(), buffers.size()), push, constants);
     }
+    /// Adds [index] to the label of the last pass: one of several that differ in their range only.
+    void numberLast(std::uint32_t index);
+    /// A buffer of vec4 that a solver carries from step to step: undone with a step that ends not finite.
+    void remember(BufferId buffer) { remembered_.push_back(buffer); }
+    const std::vector<BufferId>& remembered() const { return remembered_; }
     void fill(BufferId buffer, std::uint32_t value);
     void copy(BufferId from, BufferId to);
     void updateParameters(BufferId parameters) { update(parameters, HostData::parameters); }
@@ -148,6 +153,7 @@ private:
                        std::span<const std::byte> push, const Constants& constants);
 
     StepProgram program_;
+    std::vector<BufferId> remembered_;
     bool isReversed_ = false, isSkin_ = false;
     std::uint32_t substep_ = 0;
 };

@@ -61,12 +61,15 @@ inline constexpr Range tolerance{.low = 0, .high = 1, .isLowOpen = true, .isHigh
 inline constexpr Range iterations{1, 1000};
 /// Sweeps in one step: bounds the pass list, and the work of one submission where a device has a watchdog.
 inline constexpr std::uint64_t mostSweeps = 20'000;
-/// Links of one particle. `split` unrolls them; `jacobi` loops, and some devices end a loop silently at
-/// 65,535.
-inline constexpr std::uint32_t mostLinksSplit = 128, mostLinksJacobi = 60'000;
+/// Passes that `gauss_seidel` makes of those, one a color: as many as `jacobi` makes of mostSweeps.
+inline constexpr std::uint64_t mostColorPasses = 3 * mostSweeps;
+/// Links of one particle. `split` and the warm start of `gauss_seidel` unroll them; `jacobi` loops, and some
+/// devices end a loop silently at 65,535.
+inline constexpr std::uint32_t mostLinksUnrolled = 128, mostLinksJacobi = 60'000;
 inline constexpr Range omega{.low = 0, .high = 10, .isLowOpen = true, .isHighOpen = true};
 inline constexpr Range theta{0, 1};
 inline constexpr Range weight{0, 1};
+inline constexpr Range warmStart{0, 1};
 inline constexpr Range overRelaxation{.low = 0, .high = 2, .isLowOpen = true, .isHighOpen = true};
 
 /// `split` is stable on any graph below this (methods: D).

@@ -103,7 +103,8 @@ struct Simulation::State {
                 .restSpeed = 2 * std::sqrt(g.x * g.x + g.y * g.y + g.z * g.z) * h,
                 .frame = static_cast<std::uint32_t>(step.frame),
                 .dampingShare =
-                    static_cast<float>(dampingBudget(budget, double{theta}, longest) / double{omega})};
+                    static_cast<float>(dampingBudget(budget, double{theta}, longest) / double{omega}),
+                .multiplierScale = previousH > 0 ? std::min(1.0f, h * h / (previousH * previousH)) : 0};
     }
 
     vk::BufferView statusSlot(std::uint64_t frame) const {

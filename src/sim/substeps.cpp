@@ -220,6 +220,7 @@ double longestOfJacobi(const Term& term, double tolerance) {
 constexpr Model models[] = {
     {Solver::split, reachedBySplit, longestOfSplit},
     {Solver::jacobi, reachedByJacobi, longestOfJacobi},
+    {Solver::gaussSeidel, reachedByCompliance, longestOfCompliance},
 };
 
 const Model& modelOf(Solver solver) {

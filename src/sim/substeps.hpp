@@ -8,11 +8,10 @@ namespace sinew::sim {
 
 /// The stiffness k_eff that the links (and bends, and volumes of cells) with a compliance really have in
 /// substeps of h = dt / substeps:
-///   split         min(k, k~ min(tau_a, tau_b) / h^2), see solvers/shares.hpp      exact
-///   gauss_seidel  1 / (1/k + h^2 (w_a + w_b))                                     one sweep a substep; a
-///   model jacobi        s_m / (1/k + h^2 (w_a + w_b)), s_m = 1 - (1 - s)^iterations      s = share a
-///   particle takes of a
-///                                                                                 correction; a model
+///   split         min(k, k~ min(tau_a, tau_b) / h^2), see solvers/shares.hpp; exact
+///   gauss_seidel  1 / (1/k + h^2 (w_a + w_b)); a model, of one sweep a substep
+///   jacobi        s_m / (1/k + h^2 (w_a + w_b)), s_m = 1 - (1 - s)^iterations; a model, s = the share a
+///                 particle takes of a correction
 struct StiffnessReport {
     std::size_t elastic = 0;      ///< constraints with a compliance and an end that moves
     std::size_t clamped = 0;      ///< `split`: those with k_eff < k; other solvers have no clamp

@@ -1,11 +1,13 @@
 // Walks a Scene and its Settings once and collects sentences. The allowed numbers stand in ranges.hpp.
 #include "sim/validate.hpp"
 
+#include "sim/coloring.hpp"
 #include "sim/compile.hpp"
 #include "sim/lattice/batches.hpp"
 #include "sim/lattice/check_grid.hpp"
 #include "sim/ranges.hpp"
 #include "sim/solvers/shares.hpp"
+#include "sim/substeps.hpp"
 
 #include <algorithm>
 
@@ -86,6 +88,7 @@ constexpr SettingRow settingRows[] = {
     {"settings.weight", [](const Settings& s) { return double{s.weight}; }, ranges::weight},
     {"settings.overRelaxation", [](const Settings& s) { return double{s.overRelaxation}; },
      ranges::overRelaxation},
+    {"settings.warmStart", [](const Settings& s) { return double{s.warmStart}; }, ranges::warmStart},
 };
 
 void checkSettings(const Settings& settings, Complaints& complaints) {
@@ -251,14 +254,39 @@ void checkSkin(const Skin& skin, const std::string& name, std::size_t particles,
         complaints.check(double{channel}, ranges::color, [&] { return name + ".color"; });
 }
 
+// Bends, attachments, tethers and internal damping are not ignored where a solver cannot have them.
+void checkForms(const Scene& scene, const Settings& settings, Complaints& complaints) {
+    if (settings.solver != Solver::gaussSeidel) return;
+    const auto refuse = [&](const std::string& item) {
+        complaints.add("solver gauss_seidel has no form for " + item, "use split or jacobi");
+    };
+    if (!scene.bends.empty()) refuse(element("bend", 0));
+    if (!scene.attachments.empty()) refuse(element("attachment", 0));
+    if (!scene.tethers.empty()) refuse(element("tether", 0));
+    if (scene.dampingTime > 0) refuse("scene.dampingTime");
+}
+
+// Only of a scene that is right so far: a coloring takes what the constraints say at their word.
+void checkColors(const Scene& scene, const Settings& settings, Complaints& complaints) {
+    if (settings.solver != Solver::gaussSeidel) return;
+    const std::size_t colors = colorByParticles(scene, inverseMasses(scene)).colorCount();
+    const std::uint64_t passes =
+        std::uint64_t{chooseSubsteps(scene, settings).substeps} * settings.iterations * colors;
+    if (passes > ranges::mostColorPasses)
+        complaints.add("settings", "substeps x iterations x " + number(colors) +
+                                       " colors of constraints is " + number(passes) +
+                                       " passes of gauss_seidel, must be at most " +
+                                       number(ranges::mostColorPasses));
+}
+
 void checkWork(const Scene& scene, const Settings& settings, Complaints& complaints) {
-    const bool isJacobi = settings.solver == Solver::jacobi;
+    const bool isSplit = settings.solver == Solver::split, isJacobi = settings.solver == Solver::jacobi;
     const std::uint32_t substeps = settings.substeps > 0 ? settings.substeps : ranges::mostChosen;
-    const std::uint64_t sweeps = std::uint64_t{substeps} * (isJacobi ? settings.iterations : 1);
+    const std::uint64_t sweeps = std::uint64_t{substeps} * (isSplit ? 1 : settings.iterations);
     if (sweeps > ranges::mostSweeps)
         complaints.add("settings", "substeps x iterations is " + std::to_string(sweeps) +
                                        ", must be at most " + std::to_string(ranges::mostSweeps));
-    const std::uint32_t most = isJacobi ? ranges::mostLinksJacobi : ranges::mostLinksSplit;
+    const std::uint32_t most = isJacobi ? ranges::mostLinksJacobi : ranges::mostLinksUnrolled;
     std::vector<std::uint32_t> links(scene.particles.size());
     for (const DistanceConstraint& constraint : scene.distances)
         for (const std::uint32_t end : {constraint.a, constraint.b})
@@ -340,6 +368,7 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings) 
     checkBends(scene, complaints);
     checkAttachments(scene, complaints);
     checkTethers(scene, complaints);
+    checkForms(scene, settings, complaints);
     checkWork(scene, settings, complaints);
     checkPlanes(scene, complaints);
     checkBodies(scene, complaints);
@@ -347,6 +376,7 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings) 
     for (std::size_t i = 0; i < scene.skins.size(); ++i)
         checkSkin(scene.skins[i], element("skin", i), scene.particles.size(), complaints);
     if (complaints.isEmpty()) checkCellVolumes(scene, settings, complaints);
+    if (complaints.isEmpty()) checkColors(scene, settings, complaints);
     return complaints.finish();
 }
 

@@ -60,7 +60,7 @@ TEST_F(Load, TakesEveryNumberOfAClothFromTheFile) {
     const scenes::LoadedScene loaded = load(
         "name = \"n\"\ngravity = [1, 2, 3]\ndt = 0.01\ndamping = 0.5\n"
         "[solver]\nname = \"jacobi\"\nsubsteps = 7\niterations = 3\nomega = 1.5\n"
-        "theta = 0.25\nweight = 0.5\nover_relaxation = 1.25\n" +
+        "theta = 0.25\nweight = 0.5\nover_relaxation = 1.25\nwarm_start = 0.75\n" +
         smallCloth +
         "name = \"sheet\"\norigin = [1, 2, 3]\narea_density = 0.4\n"
         "stretch_compliance = 1e-3\nshear_compliance = 2e-3\nskip_stiffness = 50\ncolor = [0.1, 0.2, 0.3]\n"
@@ -78,6 +78,7 @@ TEST_F(Load, TakesEveryNumberOfAClothFromTheFile) {
     EXPECT_EQ(loaded.settings.theta, 0.25f);
     EXPECT_EQ(loaded.settings.weight, 0.5f);
     EXPECT_EQ(loaded.settings.overRelaxation, 1.25f);
+    EXPECT_EQ(loaded.settings.warmStart, 0.75f);
     ASSERT_EQ(scene.particles.size(), 12u);
     EXPECT_EQ(scene.particles[0].position.y, 2);
     EXPECT_FLOAT_EQ(scene.particles[0].inverseMass, 1 / (0.4f * 0.1f * 0.1f / 4));
@@ -247,7 +248,7 @@ TEST_F(Load, RefusesWhatTheSimulationCannotTake) {
     for (int i = 0; i < 33; ++i) planes += "[[plane]]\n";
     expectError(smallCloth + planes, "scene.toml: planes: are 33, at most 32 are possible");
     expectError("[solver]\nname = \"magic\"\n" + smallCloth,
-                "scene.toml: no solver is called \"magic\": possible are jacobi, split");
+                "scene.toml: no solver is called \"magic\": possible are jacobi, split, gauss_seidel");
     expectError("", "scene.toml: has no body: add [[cloth]], [[chain]], [[box]] or [[mesh]]");
     expectError("[[box]]\nparticles = [4096, 4096, 4096]\nspacing = 1\ncenter = [0, 0, 0]\n",
                 "scene.toml:2: box[0].particles brings the scene to 68719476736 particles: at most 2000000");

@@ -87,6 +87,7 @@ TEST(Schema, HasTheDefaultsOfTheStructs) {
     EXPECT_EQ(static_cast<float>(numberOf("solver", "theta")), settings.theta);
     EXPECT_EQ(static_cast<float>(numberOf("solver", "weight")), settings.weight);
     EXPECT_EQ(static_cast<float>(numberOf("solver", "over_relaxation")), settings.overRelaxation);
+    EXPECT_EQ(static_cast<float>(numberOf("solver", "warm_start")), settings.warmStart);
 }
 
 TEST(EditDistance, CountsInsertionsDeletionsReplacementsAndSwaps) {

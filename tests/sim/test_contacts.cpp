@@ -147,5 +147,5 @@ TEST(RestingCube, KeepsItsHeightWithinOnePercentAfterFourSeconds) {
     EXPECT_LE(fastest, 0.01) << "[m/s]";
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Contact, testing::Values(Solver::jacobi, Solver::split),
+INSTANTIATE_TEST_SUITE_P(Of, Contact, testing::Values(Solver::jacobi, Solver::split, Solver::gaussSeidel),
                          [](const auto& parameter) { return solverName(parameter.param); });

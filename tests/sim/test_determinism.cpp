@@ -100,5 +100,5 @@ TEST_P(Determinism, ARunAfterAResetEndsInTheSameBits) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Determinism, testing::Values(Solver::jacobi, Solver::split),
+INSTANTIATE_TEST_SUITE_P(Of, Determinism, testing::Values(Solver::jacobi, Solver::split, Solver::gaussSeidel),
                          [](const auto& parameter) { return solverName(parameter.param); });

@@ -25,5 +25,5 @@ TEST_P(Physics, DampingSlowsAFreeParticleExponentially) {
     EXPECT_NEAR(runner.velocities()[0].x() / (3 * std::exp(-1.5)), 1, 1e-4);
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Physics, testing::Values(Solver::jacobi, Solver::split),
+INSTANTIATE_TEST_SUITE_P(Of, Physics, testing::Values(Solver::jacobi, Solver::split, Solver::gaussSeidel),
                          [](const auto& parameter) { return solverName(parameter.param); });

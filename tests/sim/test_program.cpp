@@ -18,7 +18,7 @@ using namespace sinew::sim;
 namespace {
 
 using Vec4 = std::array<float, 4>;
-using Words = std::array<std::uint32_t, 12>; // as large as the step parameters
+using Words = std::array<std::uint32_t, 16>; // as large as the step parameters
 
 // What predict.comp takes: two lists of vec4, the step parameters, and a count as push constant.
 struct Predict {
@@ -103,7 +103,7 @@ TEST(ProgramBuilder, RefusesAParameterBlockOfAnotherSize) {
     const auto message = refusal([&] {
         p.builder.dispatch(kernels::predict, 8, {p.positions, p.velocities, p.positions}, p.count);
     });
-    expectNames(message, {"predict", "Step", "48", "positions", "16"});
+    expectNames(message, {"predict", "Step", "64", "positions", "16"});
 }
 
 TEST(ProgramBuilder, RefusesAWrongPushConstantSize) {
@@ -139,11 +139,11 @@ TEST(ProgramBuilder, RefusesACopyBetweenUnequalBuffers) {
     Predict p;
     p.builder.beginPhase("solve");
     expectNames(refusal([&] { p.builder.copy(p.positions, p.step); }),
-                {"copy", "positions", "128", "step", "48"});
+                {"copy", "positions", "128", "step", "64"});
 }
 
 TEST(Program, OfASceneWithoutPlanesKnowsNoPlane) {
-    for (const Solver solver : {Solver::jacobi, Solver::split}) {
+    for (const Solver solver : {Solver::jacobi, Solver::split, Solver::gaussSeidel}) {
         const StepProgram program = compile(test::chain(5, {1e-4f}), {.solver = solver, .substeps = 2});
         EXPECT_FALSE(hasBuffer(program, "plane") || hasBuffer(program, "contact"));
         for (const std::string& label : labels(program))
@@ -153,10 +153,10 @@ TEST(Program, OfASceneWithoutPlanesKnowsNoPlane) {
 }
 
 TEST(Program, OfFreeParticlesKnowsNoConstraint) {
-    for (const Solver solver : {Solver::jacobi, Solver::split}) {
+    for (const Solver solver : {Solver::jacobi, Solver::split, Solver::gaussSeidel}) {
         const StepProgram program =
             compile(inRoom(test::particleAt({0, 1, 0})), {.solver = solver, .substeps = 2, .iterations = 7});
-        for (const char* part : {"distance", "corrections", "incidences", "slots"}) {
+        for (const char* part : {"distance", "corrections", "incidences", "slots", "multipliers"}) {
             EXPECT_FALSE(hasBuffer(program, part)) << part;
         }
         EXPECT_EQ(countPasses(program, "solve_distance") + countPasses(program, "apply_corrections"), 0u);
@@ -185,6 +185,7 @@ TEST(Program, LeavesOutConstraintsBetweenFixedParticles) {
     scene.fixed = {{0}, {1}, {2}, {3}};
     EXPECT_FALSE(hasBuffer(compile(scene, {.solver = Solver::jacobi}), "distance"));
     EXPECT_FALSE(hasBuffer(compile(scene, {.solver = Solver::split}), "distance"));
+    EXPECT_FALSE(hasBuffer(compile(scene, {.solver = Solver::gaussSeidel}), "distance"));
 }
 
 TEST(Program, OfSplitIsOneDispatchASubstepAndOneCopyWhereSubstepsAreOdd) {
@@ -209,8 +210,37 @@ TEST(Program, OfJacobiIsTwoPassesAnIteration) {
     EXPECT_EQ(program.sweeps, 15u);
 }
 
+TEST(Program, OfGaussSeidelIsOneDispatchAColorAndOneMoreASubstep) {
+    Settings settings{.solver = Solver::gaussSeidel, .substeps = 5};
+    const StepProgram sheet = compile(test::sheet(8), settings);
+    // update, fill, 5 x (open or advance, 8 colors), close, measure, publish, publish the multipliers
+    EXPECT_EQ(sheet.step.size(), 2u + 5 * 9 + 4);
+    EXPECT_EQ(countPasses(sheet, "solve_distance_color_multipliers[7]"), 5u);
+    EXPECT_EQ(sheet.sweeps, 5u);
+    settings.warmStart = 0;
+    EXPECT_EQ(countPasses(compile(test::block(4, 0.1f, 1e5f), settings), "solve_distance_color[17]"), 5u);
+    settings.iterations = 3;
+    const StepProgram room = compile(inRoom(test::sheet(8)), settings);
+    EXPECT_EQ(countPasses(room, "solve_distance_color[0]"), 15u);
+    EXPECT_EQ(countPasses(room, "touch_planes"), 10u);
+    EXPECT_EQ(room.sweeps, 15u);
+}
+
+TEST(Program, OfGaussSeidelKeepsMultipliersOnlyWhereSomethingNeedsThem) {
+    const auto hasMultipliers = [](const Scene& scene, std::uint32_t iterations, float warmStart) {
+        const Settings settings{
+            .solver = Solver::gaussSeidel, .iterations = iterations, .warmStart = warmStart};
+        return hasBuffer(compile(scene, settings), "multipliers");
+    };
+    EXPECT_FALSE(hasMultipliers(test::chain(5), 4, 0)) << "rigid";
+    EXPECT_FALSE(hasMultipliers(test::chain(5, {1e-4f}), 1, 0)) << "one iteration";
+    EXPECT_TRUE(hasMultipliers(test::chain(5, {1e-4f}), 2, 0));
+    EXPECT_TRUE(hasMultipliers(test::chain(5), 1, 0.5f)) << "warm";
+    EXPECT_FALSE(hasBuffer(compile(test::chain(5), {.solver = Solver::gaussSeidel, .warmStart = 0}), "warm"));
+}
+
 TEST(Program, OfAnEmptySceneHasNoPass) {
-    for (const Solver solver : {Solver::jacobi, Solver::split}) {
+    for (const Solver solver : {Solver::jacobi, Solver::split, Solver::gaussSeidel}) {
         const StepProgram program = compile({}, {.solver = solver});
         EXPECT_TRUE(program.step.empty() && program.skin.empty());
         EXPECT_EQ(declaredBytes(program), 0u);
@@ -224,12 +254,12 @@ TEST(Program, RunsEveryKernelReversedWhereAsked) {
 }
 
 TEST(Program, DeclaresTheBytesItsKernelsTouch) {
-    // A vec4 of each of 128 particles is 2048 bytes. Parameters 48, status 16; read and written counts twice.
-    // update 48, fill 16; drift 4 x 2048 + 48; copy 2 x 2048; measure 2 x 2048 + 32 + 48; publish 8 x 2048 +
-    // 16 + 48: it may undo the step.
+    // A vec4 of each of 128 particles is 2048 bytes. Parameters 64, status 16; read and written counts twice.
+    // update 64, fill 16; drift 4 x 2048 + 64; copy 2 x 2048; measure 2 x 2048 + 32 + 64; publish 8 x 2048 +
+    // 16 + 64: it may undo the step.
     Scene scene = test::chain(128);
     scene.distances.clear();
-    EXPECT_EQ(declaredBytes(compile(scene, {.substeps = 1})), 16u * 2048 + 256);
+    EXPECT_EQ(declaredBytes(compile(scene, {.substeps = 1})), 16u * 2048 + 320);
 }
 
 namespace {
@@ -245,6 +275,12 @@ std::vector<Golden> goldens() {
             {"jacobi_sheet_in_a_room.txt",
              inRoom(test::sheet(4, 1e-5f)),
              {.solver = Solver::jacobi, .substeps = 10, .iterations = 1}},
+            {"gauss_seidel_chain.txt",
+             test::chain(5),
+             {.solver = Solver::gaussSeidel, .substeps = 2, .warmStart = 0}},
+            {"gauss_seidel_sheet_in_a_room.txt",
+             inRoom(test::sheet(4, 1e-5f)),
+             {.solver = Solver::gaussSeidel, .substeps = 10, .iterations = 2}},
             {"split_particle.txt", test::particleAt({0, 1, 0}), {.substeps = 1}},
             {"split_block.txt", test::block(2, 0.1f, 1e5f), {.substeps = 32}},
             {"split_sheet_in_a_room.txt", inRoom(test::sheet(4, 1e-5f)), {.substeps = 7}}};

@@ -46,7 +46,7 @@ TEST(Recording, AllocatesNothing) {
     std::unique_ptr<int> kept;
     EXPECT_EQ(test::countAllocations([&] { kept = std::make_unique<int>(1); }), 1u) << "the counter counts";
     Application application;
-    for (const Solver solver : {Solver::jacobi, Solver::split}) {
+    for (const Solver solver : {Solver::jacobi, Solver::split, Solver::gaussSeidel}) {
         Simulation simulation(application.device, everything(), {.solver = solver});
         application.reset(simulation);
         vk::Timestamps timestamps(application.device, static_cast<std::uint32_t>(simulation.phases().size()));

@@ -90,9 +90,10 @@ TEST_P(StatusOf, AStepThatANaNHasSpoiltIsUndoneAndTheBodyGoesOn) {
         EXPECT_EQ(runner.run(10).nonFinite, 0u) << "nothing is left of it";
         const auto expected = calm.positions(), reached = runner.positions();
         for (std::size_t i = 0; i < expected.size(); ++i)
-            EXPECT_LE((reached[i] - expected[i]).norm(), 1e-5) << "particle " << i; // rounding of y = x + theta h v
+            EXPECT_LE((reached[i] - expected[i]).norm(), 1e-5)
+                << "particle " << i; // rounding of y = x + theta h v
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(A, StatusOf, testing::Values(Solver::jacobi, Solver::split),
+INSTANTIATE_TEST_SUITE_P(A, StatusOf, testing::Values(Solver::jacobi, Solver::split, Solver::gaussSeidel),
                          [](const auto& parameter) { return solverName(parameter.param); });

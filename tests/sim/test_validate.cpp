@@ -1,5 +1,6 @@
 // Every complaint about a scene names the item, the value and what is allowed.
 #include "sim/ranges.hpp"
+#include "sim/scenes.hpp"
 #include "sim/validate.hpp"
 
 #include <gtest/gtest.h>
@@ -8,6 +9,7 @@
 #include <functional>
 #include <limits>
 
+using namespace sinew;
 using namespace sinew::sim;
 
 namespace {
@@ -92,6 +94,9 @@ const Fault faults[] = {
     {"settings.weight: is 2, must be from 0 to 1", [](Scene&, Settings& s) { s.weight = 2; }},
     {"settings.overRelaxation: is 2, must be above 0 and below 2",
      [](Scene&, Settings& s) { s.overRelaxation = 2; }},
+    {"settings.warmStart: is -0.1, must be from 0 to 1", [](Scene&, Settings& s) { s.warmStart = -0.1f; }},
+    {"settings.warmStart: is 1.01", [](Scene&, Settings& s) { s.warmStart = 1.01f; }},
+    {"settings.warmStart: is nan", [](Scene&, Settings& s) { s.warmStart = notANumber; }},
     {"particle[5].position: is (nan, 0, 1), must be finite",
      [](Scene& s, Settings&) { s.particles[5].position.x = notANumber; }},
     {"particle[2].velocity: is (0, 0, -inf)",
@@ -152,7 +157,8 @@ TEST(Validate, AcceptsTheEndsOfEveryClosedRange) {
                       .omega = 1.3f,
                       .theta = 1,
                       .weight = 1,
-                      .overRelaxation = 1.99f};
+                      .overRelaxation = 1.99f,
+                      .warmStart = 1};
     EXPECT_EQ(firstComplaint(scene, settings), "");
 }
 
@@ -190,6 +196,71 @@ TEST(Validate, BoundsTheLinksOfOneParticle) {
     EXPECT_EQ(firstComplaint(hub),
               "particle[0]: has more than 128 distance constraints, the most this solver takes");
     EXPECT_EQ(firstComplaint(hub, {.solver = Solver::jacobi}), "");
+}
+
+// Each spoke of a hub that moves is a color of its own.
+TEST(Validate, BoundsThePassesOfOneStep) {
+    Scene hub;
+    hub.particles.resize(62);
+    for (std::uint32_t spoke = 1; spoke < 61; ++spoke) hub.distances.push_back({0, spoke, 1, 0});
+    const Settings settings{.solver = Solver::gaussSeidel, .substeps = 500, .iterations = 2};
+    EXPECT_EQ(firstComplaint(hub, settings), "");
+    hub.distances.push_back({0, 61, 1, 0});
+    EXPECT_EQ(firstComplaint(hub, settings),
+              "settings: substeps x iterations x 61 colors of constraints is 61000 passes of gauss_seidel, "
+              "must be at most 60000");
+    EXPECT_EQ(firstComplaint(hub, {.solver = Solver::jacobi, .substeps = 500, .iterations = 2}), "");
+    hub.fixed = {{0}};
+    EXPECT_EQ(firstComplaint(hub, settings), "");
+    EXPECT_EQ(firstComplaint(hub, {.solver = Solver::gaussSeidel, .substeps = 201, .iterations = 100}),
+              "settings: substeps x iterations is 20100, must be at most 20000");
+}
+
+TEST(Validate, RefusesWhatGaussSeidelHasNoFormFor) {
+    const auto complaintAbout = [](const std::function<void(Scene&)>& change) {
+        Scene scene = test::chain(4);
+        change(scene);
+        EXPECT_EQ(firstComplaint(scene, {.solver = Solver::split}), "");
+        EXPECT_EQ(firstComplaint(scene, {.solver = Solver::jacobi}), "");
+        return firstComplaint(scene, {.solver = Solver::gaussSeidel});
+    };
+    EXPECT_EQ(complaintAbout([](Scene&) {}), "");
+    EXPECT_EQ(complaintAbout([](Scene& s) {
+                  s.bends = {{0, 1, 2, 1}};
+              }),
+              "solver gauss_seidel has no form for bend[0]: use split or jacobi");
+    EXPECT_EQ(complaintAbout([](Scene& s) { s.attachments = {{.particle = 2}}; }),
+              "solver gauss_seidel has no form for attachment[0]: use split or jacobi");
+    EXPECT_EQ(complaintAbout([](Scene& s) {
+                  s.fixed = {{0}};
+                  s.tethers = {{.particle = 3, .anchor = 0, .length = 1}};
+              }),
+              "solver gauss_seidel has no form for tether[0]: use split or jacobi");
+    EXPECT_EQ(complaintAbout([](Scene& s) { s.dampingTime = 0.001f; }),
+              "solver gauss_seidel has no form for scene.dampingTime: use split or jacobi");
+}
+
+// The number of passes follows from the number of substeps that the stiffness asks for.
+TEST(Validate, BoundsThePassesOfOneStepOfAsManySubstepsAsItTakes) {
+    Scene hub;
+    hub.particles.resize(62);
+    for (std::uint32_t spoke = 1; spoke < 62; ++spoke) hub.distances.push_back({0, spoke, 1, 1e-8f});
+    Settings settings{.solver = Solver::gaussSeidel, .substeps = 0, .iterations = 4};
+    EXPECT_EQ(firstComplaint(hub, settings),
+              "settings: substeps x iterations x 61 colors of constraints is 62464 passes of gauss_seidel, "
+              "must be at most 60000");
+    for (DistanceConstraint& spoke : hub.distances) spoke.compliance = 1e-3f;
+    EXPECT_EQ(firstComplaint(hub, settings), "");
+}
+
+// A coloring would read past the end.
+TEST(Validate, FindsABadIndexWithEverySolver) {
+    for (const Solver solver : {Solver::jacobi, Solver::split, Solver::gaussSeidel}) {
+        Scene scene = validScene();
+        scene.distances[0].b = 4'000'000'000;
+        EXPECT_EQ(firstComplaint(scene, {.solver = solver}),
+                  "distance[0].b: is 4000000000, but there are 8 particles");
+    }
 }
 
 TEST(Validate, CountsWhatItDoesNotSpellOut) {

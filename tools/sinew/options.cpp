@@ -43,7 +43,7 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
         ->check(checkSubsteps);
     command
         .add_option("--iterations", overrides.iterations,
-                    "sweeps per substep of jacobi, instead of the scene's")
+                    "sweeps per substep of jacobi and gauss_seidel, instead of the scene's")
         ->check(within(sim::ranges::iterations));
     command
         .add_option("--voxel", overrides.voxel,

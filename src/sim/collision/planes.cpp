@@ -30,6 +30,15 @@ Colliders addColliders(ProgramBuilder& program, const Scene& scene, const StateL
             .contactOffsets = program.upload("contact_offsets", offsets)};
 }
 
+void addTouch(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
+              const Colliders& colliders) {
+    if (colliders.count == 0) return;
+    program.dispatch(kernels::touchPlanes, particles.count,
+                     {particles.positions, particles.velocities, corrections, colliders.planes,
+                      colliders.contactOffsets, particles.step},
+                     layout::CountPush{particles.count}, colliders.constants());
+}
+
 Contacts addContacts(ProgramBuilder& program, const Scene& scene) {
     if (scene.planes.empty()) return {};
     return {addColliders(program, scene, orderedLayout(scene.particles.size())),

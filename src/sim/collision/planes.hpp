@@ -1,5 +1,6 @@
-// Boundary planes: temporary constraints that need no search. Fused into the gather of `split`; passes of
-// their own in `jacobi`. A scene without planes gets neither.
+// Boundary planes: temporary constraints that need no search. Fused into the gather of `split` and the
+// pass between two substeps of `gauss_seidel`; passes of their own in `jacobi`. A scene without planes gets
+// neither.
 #pragma once
 
 #include "layout.h"
@@ -14,6 +15,10 @@ struct Colliders {
     ProgramBuilder::Constants constants() const; ///< specialises planeCount
 };
 Colliders addColliders(ProgramBuilder& program, const Scene& scene, const StateLayout& layout);
+
+/// The pass of `gauss_seidel` between two sweeps of a substep.
+void addTouch(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
+              const Colliders& colliders);
 
 /// What `jacobi` keeps of them within a substep.
 struct Contacts {

@@ -1,5 +1,6 @@
 // Distance constraints on the device: what each solver form needs of them. `jacobi` has a constraint pass
-// over edges, `split` gathers them per particle. Constraints whose ends both never move are left out.
+// over edges, `gauss_seidel` one over those of each color, `split` gathers them per particle. Constraints
+// whose ends both never move are left out.
 #pragma once
 
 #include "layout.h"
@@ -24,6 +25,30 @@ void upload(ProgramBuilder& program, const Scene& scene, std::span<const float> 
 /// One pass that writes every correction of this type.
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Edges& edges,
              BufferId corrections, bool isFirstIteration);
+
+/// The buffers of the passes of `gauss_seidel`: edges by color, each color padded to whole work groups.
+struct ColoredEdges {
+    struct Color {
+        std::uint32_t first = 0, count = 0;
+    };
+    std::vector<Color> colors;
+    BufferId edges, multipliers; ///< multipliers: invalid where nothing needs them
+    std::uint32_t degree = 0;    ///< slots a particle of the warm start; 0 = starts cold
+    BufferId links;              ///< of the warm start
+    bool usesTexels = true;
+    ProgramBuilder::Constants constants() const; ///< specialises degree
+};
+ColoredEdges uploadColors(ProgramBuilder& program, const Scene& scene, const Settings& settings,
+                          const StateLayout& layout);
+
+/// Which sweep of a step this is.
+struct Sweep {
+    bool isOpening = false; ///< the first of the step
+    bool isClosing = false; ///< the last of its substep
+};
+/// One pass a color, in place in `corrections` of the predicted positions.
+void addSweep(ProgramBuilder& program, const ParticleBuffers& particles, const ColoredEdges& edges,
+              BufferId corrections, float warmStart, Sweep sweep);
 
 /// Whether a constraint has an end that moves; others are left out of every pass.
 bool canMove(const DistanceConstraint& constraint, std::span<const float> inverseMass);

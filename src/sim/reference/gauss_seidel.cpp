@@ -17,6 +17,7 @@ GaussSeidel::GaussSeidel(const Scene& scene, const Settings& settings, std::span
     for (std::uint32_t index = 0; index < problem_.links.size(); ++index)
         linkOf[problem_.links[index].constraint] = index;
     rows_.reserve(problem_.links.size());
+    if (warmStart_ > 0) directions_.assign(problem_.links.size(), Eigen::Vector3d::Zero());
     for (std::size_t entry = 0; entry < problem_.links.size(); ++entry) {
         const auto index = order.empty() ? static_cast<std::uint32_t>(entry) : linkOf[order[entry]];
         const Link& link = problem_.links[index];
@@ -32,18 +33,15 @@ GaussSeidel::GaussSeidel(const Scene& scene, const Settings& settings, std::span
 void GaussSeidel::step(double dt, State& state) {
     const double h = dt / substeps_;
     beginStep(h, state);
-    std::vector<Eigen::Vector3d> swept; // where the last sweep left the particles
-    if (warmStart_ > 0) swept = state.x;
     for (std::uint32_t substep = 0; substep < substeps_; ++substep) {
         HalfKickSubstep phases(problem_, h, state);
-        if (warmStart_ > 0) startWarm(swept, state);
+        if (warmStart_ > 0) startWarm(state);
         std::ranges::fill(bendMultipliers_, Eigen::Vector3d::Zero());
         for (std::uint32_t iteration = 0; iteration < iterations_; ++iteration) {
             if (problem_.dampingTime > 0)
                 sweepDamped(phases.before(), state);
             else
                 sweep(state);
-            if (warmStart_ > 0) swept = state.x;
             sweepBends(h, state);
             phases.projectWalls();
         }
@@ -53,7 +51,8 @@ void GaussSeidel::step(double dt, State& state) {
     }
     if (warmStart_ > 0) {
         state.multipliers.resize(problem_.links.size());
-        for (std::size_t r = 0; r < rows_.size(); ++r) state.multipliers[linkOfRow_[r]] = rows_[r].lambda;
+        for (std::size_t r = 0; r < rows_.size(); ++r)
+            state.multipliers[linkOfRow_[r]] = {rows_[r].lambda, directions_[r]};
     }
     settleAnchors(problem_, dt, state);
     state.previousH = h;
@@ -67,27 +66,31 @@ void GaussSeidel::beginStep(double h, const State& state) {
         row.alpha = problem_.links[linkOfRow_[r]].compliance / (h * h);
         row.gamma = row.alpha > 0 ? problem_.dampingTime / h : 0; // XPBD, eq. 26
         row.inverseDenominator = 1 / ((1 + row.gamma) * (row.inverseMassA + row.inverseMassB) + row.alpha);
-        row.lambda = state.multipliers.empty() ? 0 : ratio * ratio * state.multipliers[linkOfRow_[r]];
+        row.lambda = 0;
+        if (state.multipliers.empty()) continue;
+        row.lambda = ratio * ratio * state.multipliers[linkOfRow_[r]].lambda;
+        directions_[r] = state.multipliers[linkOfRow_[r]].direction;
     }
 }
 
-// All multipliers at once, along the directions that the last sweep left behind.
-void GaussSeidel::startWarm(const std::vector<Eigen::Vector3d>& directionsOf, State& state) const {
-    for (const Row& row : rows_) {
-        const Eigen::Vector3d impulse =
-            row.lambda * (directionsOf[row.b] - directionsOf[row.a]).stableNormalized();
-        state.x[row.a] -= row.inverseMassA * impulse;
-        state.x[row.b] += row.inverseMassB * impulse;
+// All multipliers at once, along the directions in which they were found.
+void GaussSeidel::startWarm(State& state) const {
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+        const Row& row = rows_[r];
+        state.x[row.a] -= row.inverseMassA * row.lambda * directions_[r];
+        state.x[row.b] += row.inverseMassB * row.lambda * directions_[r];
     }
 }
 
 void GaussSeidel::sweep(State& state) {
-    for (Row& row : rows_) {
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+        Row& row = rows_[r];
         Eigen::Vector3d &a = state.x[row.a], &b = state.x[row.b];
         const Eigen::Vector3d d = b - a;
         const double length = d.norm();
         const double change = -(length - row.restLength + row.alpha * row.lambda) * row.inverseDenominator;
         row.lambda += change;
+        if (warmStart_ > 0) directions_[r] = d.stableNormalized();
         if (length == 0) continue; // no direction, no correction
         const Eigen::Vector3d impulse = change / length * d;
         a -= row.inverseMassA * impulse;
@@ -96,7 +99,8 @@ void GaussSeidel::sweep(State& state) {
 }
 
 void GaussSeidel::sweepDamped(const std::vector<Eigen::Vector3d>& before, State& state) {
-    for (Row& row : rows_) {
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+        Row& row = rows_[r];
         Eigen::Vector3d &a = state.x[row.a], &b = state.x[row.b];
         const Eigen::Vector3d d = b - a;
         const double length = d.norm();
@@ -105,6 +109,7 @@ void GaussSeidel::sweepDamped(const std::vector<Eigen::Vector3d>& before, State&
         const double change =
             -(length - row.restLength + row.alpha * row.lambda + slip) * row.inverseDenominator;
         row.lambda += change;
+        if (warmStart_ > 0) directions_[r] = d.stableNormalized();
         if (length == 0) continue; // no direction, no correction
         const Eigen::Vector3d impulse = change / length * d;
         a -= row.inverseMassA * impulse;
@@ -126,15 +131,18 @@ void GaussSeidel::sweepBends(double h, State& state) {
     }
 }
 
-// The guard: a start moves the ends of a link by at most a twentieth of its length against each other.
+// How much of a multiplier the next substep starts with: less where a substep does not resolve the
+// constraint, whose pull would lag behind its motion; and never so much that the start moves the ends of a
+// link by more than a twentieth of its length against each other.
 void GaussSeidel::keepMultipliers() {
     for (Row& row : rows_) {
         if (warmStart_ == 0) {
             row.lambda = 0;
             continue;
         }
-        const double most = 0.05 * row.restLength / (row.inverseMassA + row.inverseMassB);
-        row.lambda = std::clamp(warmStart_ * row.lambda, -most, most);
+        const double w = row.inverseMassA + row.inverseMassB;
+        const double share = std::min(warmStart_, 0.3 + 0.6 * row.alpha / w);
+        row.lambda = std::clamp(share * row.lambda, -0.05 * row.restLength / w, 0.05 * row.restLength / w);
     }
 }
 

@@ -9,14 +9,20 @@
 
 namespace sinew::sim::reference {
 
+/// What a link starts the next substep with.
+struct KeptMultiplier {
+    double lambda = 0;         ///< [N s^2]
+    Eigen::Vector3d direction; ///< unit length, from end a to end b
+};
+
 /// Positions [m] and velocities [m/s], one entry a particle.
 struct State {
     std::vector<Eigen::Vector3d> x, v;
     double previousH =
         0; ///< substep of the step before [s]; 0 at the start (`split` starts with a half-kick)
-    std::vector<Eigen::Vector3d> anchors; ///< where the points of attachments are [m]
-    std::vector<Eigen::Vector3d> targets; ///< where they go in the next step; those missing stay
-    std::vector<double> multipliers; ///< of each link, kept by a warm `gauss_seidel` [N s^2]; empty = 0
+    std::vector<Eigen::Vector3d> anchors;    ///< where the points of attachments are [m]
+    std::vector<Eigen::Vector3d> targets;    ///< where they go in the next step; those missing stay
+    std::vector<KeptMultiplier> multipliers; ///< of each link, kept by a warm `gauss_seidel`; empty = 0
 };
 
 /// The state a scene describes; particles that never move have no velocity.
@@ -52,7 +58,7 @@ private:
     void sweepDamped(const std::vector<Eigen::Vector3d>& before, State& state);
     void sweepBends(double h, State& state);
     void beginStep(double h, const State& state);
-    void startWarm(const std::vector<Eigen::Vector3d>& directionsOf, State& state) const;
+    void startWarm(State& state) const;
     void keepMultipliers();
 
     Problem problem_;
@@ -61,6 +67,7 @@ private:
     std::vector<Eigen::Vector3d> bendMultipliers_;
     std::vector<Row> rows_;
     std::vector<std::uint32_t> linkOfRow_;
+    std::vector<Eigen::Vector3d> directions_; ///< of each row when it was last solved; for a warm start
 };
 
 } // namespace sinew::sim::reference

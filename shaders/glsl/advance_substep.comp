@@ -1,0 +1,109 @@
+#version 460
+// What `gauss_seidel` does between the sweeps of two substeps, in one pass over the particles: CLOSES the one that was
+// swept and OPENS the next. PBD order with the half-kick (methods: D), exact in free fall at any h.
+//
+//   open   p = x + h v + h^2 g / 2,  v* = v + h g,  c = -w sum l n, the warm start
+//   close  x = p + c,  v = v* + c / h,  boundary planes, damping, restitution
+//
+// While a substep is open a particle is at p + c. Corrections add up apart from p, which is coarser by far: taken from the
+// difference of positions, v would wander by 1e-7 |x| / h a sweep, and momentum with it (methods: E).
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#include "kernel.glsl"
+
+layout(std430, binding = 0) buffer Positions { vec4 positions[]; };   // x, while open p; w = inverse mass [1/kg]
+layout(std430, binding = 1) buffer Velocities { vec4 velocities[]; }; // v, while open v* [m/s]; w = inverse mass
+#ifdef CLOSES
+layout(std430, binding = 2) buffer Corrections { uvec4 corrections[]; }; // ParticleCorrection, in one load
+#else
+layout(std430, binding = 2) writeonly buffer Corrections { uvec4 corrections[]; };
+#endif
+layout(std140, binding = 3) uniform Step { StepParams step; };
+#define PLANE_BINDING 4
+#ifdef HAS_WARM_START
+#ifdef TEXELS
+layout(binding = 4) uniform usamplerBuffer links; // see WARM_LINK_SIGN; in blocks like those of `split`
+layout(binding = 5) uniform samplerBuffer multipliers; // l n, l
+#define LINK(i) texelFetch(links, int(i)).x
+#define MULTIPLIER(i) texelFetch(multipliers, int(i))
+#else
+layout(std430, binding = 4) readonly buffer Links { uint links[]; };
+layout(std430, binding = 5) readonly buffer Multipliers { vec4 multipliers[]; };
+#define LINK(i) links[i]
+#define MULTIPLIER(i) multipliers[i]
+#endif
+layout(constant_id = 1) const uint degree = 1; // slots per particle, padded
+#undef PLANE_BINDING
+#define PLANE_BINDING 6
+#endif
+#ifdef HAS_PLANES
+#include "planes.glsl"
+layout(std430, binding = PLANE_BINDING) readonly buffer Planes { PlaneCollider planes[]; };
+layout(std430, binding = PLANE_BINDING + 1) readonly buffer ContactOffsets { float contactOffsets[]; };
+#endif
+layout(push_constant) uniform Push { SubstepPush push; };
+
+#ifdef CLOSES
+// Turns the end of a sweep into the state after the substep.
+void close(uint i, vec3 halfKick, inout vec3 x, inout vec3 v) {
+    const vec3 correction = uintBitsToFloat(corrections[i].xyz);
+    const vec3 before = v - 2.0 * halfKick;
+    x += correction;
+    v += correction / step.h;
+#ifdef HAS_PLANES
+    Motion motion = Motion(x, v, correction + step.h * (before + halfKick));
+    uint touched = corrections[i].w;
+    for (uint p = 0u; p < planeCount; ++p) {
+        if (projectOntoPlane(planes[p], contactOffsets[i], step.h, motion)) touched |= 1u << p;
+    }
+    x = motion.x;
+    v = motion.v;
+#endif
+    // Even at rest v holds the half-kick h g / 2. Damping it as if it were motion would take weight off the body.
+    v = mix(halfKick, v, step.velocityFactor);
+#ifdef HAS_PLANES
+    for (uint p = 0u; p < planeCount; ++p) {
+        if ((touched & 1u << p) != 0u) v += rebound(planes[p], step.restSpeed, before, v);
+    }
+#endif
+}
+#endif
+
+#ifdef HAS_WARM_START
+// The sum of l n over a particle's links [kg m]. An end a is moved against n, an end b along it: both by the same bits.
+// Slots without a link point to padding of the constraint list, whose multipliers stay 0.
+vec3 warmImpulses(uint i) {
+    vec3 sum = vec3(0.0);
+    [[unroll]] for (uint s = 0u; s < degree; ++s) {
+        const uint link = LINK((i / LINK_BLOCK * degree + s) * LINK_BLOCK + i % LINK_BLOCK);
+        const vec3 impulse = MULTIPLIER(link & ~WARM_LINK_SIGN).xyz;
+        sum += (link & WARM_LINK_SIGN) != 0u ? -impulse : impulse;
+    }
+    return push.isFirst != 0u ? step.multiplierScale * sum : sum;
+}
+#endif
+
+void main() {
+    // No early out: buffers are padded to whole groups, with particles that never move.
+    const uint i = itemIndex(push.count);
+    vec3 x = positions[i].xyz;
+    vec3 v = velocities[i].xyz;
+    const float w = velocities[i].w;
+    const vec3 halfKick = 0.5 * step.h * step.gravity.xyz;
+#ifdef CLOSES
+    if (w > 0.0) close(i, halfKick, x, v);
+#endif
+#ifdef OPENS
+    if (w > 0.0) {
+        x += step.h * (v + halfKick);
+        v += 2.0 * halfKick;
+    }
+    vec3 correction = vec3(0.0);
+#ifdef HAS_WARM_START
+    correction = w * warmImpulses(i);
+#endif
+    corrections[i] = uvec4(floatBitsToUint(correction), 0u);
+#endif
+    positions[i].xyz = x;
+    velocities[i].xyz = v;
+}

@@ -1,0 +1,67 @@
+#version 460
+// One color of `gauss_seidel`: solves its distance constraints in place. No two of them touch the same moving particle,
+// so nobody reads what another writes; a particle that never moves is shared and never written. The color is padded to
+// whole work groups with constraints of a padding particle, which never moves: no lane is masked off (lavapipe).
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "distance.glsl"
+
+// DistanceEdge; predicted positions, w = inverse mass [1/kg]; ParticleCorrection; l n and l [N s^2]. What is fetched as
+// texels and also written is fetched by the invocation that writes it, for the value that it writes.
+layout(std430, binding = 0) writeonly buffer Corrections { vec4 corrections[]; };
+layout(std140, binding = 1) uniform Step { StepParams step; };
+#ifdef TEXELS
+layout(binding = 2) uniform usamplerBuffer edges;
+layout(binding = 3) uniform samplerBuffer positions;
+layout(binding = 4) uniform samplerBuffer correctionsBefore;
+#define FETCH(buffer, i) texelFetch(buffer, int(i))
+#else
+layout(std430, binding = 2) readonly buffer Edges { uvec4 edges[]; };
+layout(std430, binding = 3) readonly buffer Positions { vec4 positions[]; };
+layout(std430, binding = 4) readonly buffer CorrectionsBefore { vec4 correctionsBefore[]; };
+#define FETCH(buffer, i) buffer[i]
+#endif
+#ifdef HAS_MULTIPLIERS
+layout(std430, binding = 5) writeonly buffer Multipliers { vec4 multipliers[]; };
+#ifdef TEXELS
+layout(binding = 6) uniform samplerBuffer multipliersBefore;
+#else
+layout(std430, binding = 6) readonly buffer MultipliersBefore { vec4 multipliersBefore[]; };
+#endif
+#endif
+layout(push_constant) uniform Push { ColorPush push; };
+
+#ifdef HAS_MULTIPLIERS
+// The multiplier that the next substep starts with. Of a constraint too stiff for a substep the pull lags behind the motion:
+// a share above (1 + alpha / w) / 2 gains energy at any order of the colors, less at unlucky ones (docs/performance.md).
+// And what is kept may move the ends by a twentieth of their distance: heavy ends of light chains (methods: D).
+float kept(float lambda, float w, float alpha, float restLength) {
+    const float share = min(push.warmStart, 0.3 + 0.6 * alpha / w);
+    const float most = 0.05 * restLength / w;
+    return clamp(share * lambda, -most, most);
+}
+#endif
+
+void main() {
+    const uint c = push.first + itemIndex(push.count);
+    const uvec4 edge = FETCH(edges, c);
+    const float restLength = uintBitsToFloat(edge.z);
+    const float alpha = scaledCompliance(uintBitsToFloat(edge.w), step.h);
+    const vec4 a = FETCH(positions, edge.x), b = FETCH(positions, edge.y);
+    const vec3 ca = FETCH(correctionsBefore, edge.x).xyz, cb = FETCH(correctionsBefore, edge.y).xyz;
+    const float w = a.w + b.w;
+#ifdef HAS_MULTIPLIERS
+    const float lambda = FETCH(multipliersBefore, c).w * (push.isOpening != 0u ? step.multiplierScale : 1.0);
+#else
+    const float lambda = 0.0;
+#endif
+    const DistanceChange change = solveDistance(b.xyz - a.xyz + (cb - ca), w, restLength, alpha, lambda);
+    const vec3 impulse = change.lambda * change.n;
+    if (a.w > 0.0) corrections[edge.x].xyz = ca - a.w * impulse;
+    if (b.w > 0.0) corrections[edge.y].xyz = cb + b.w * impulse;
+#ifdef HAS_MULTIPLIERS
+    const float solved = lambda + change.lambda;
+    const float next = push.isClosing != 0u ? kept(solved, w, alpha, restLength) : solved;
+    if (w > 0.0) multipliers[c] = vec4(next * change.n, next);
+#endif
+}

@@ -1,0 +1,106 @@
+// The edges of `gauss_seidel`, color by color, and the links through which its warm start gathers
+// multipliers.
+#include "sim/constraints/distance.hpp"
+
+#include "kernels.hpp"
+#include "sim/coloring.hpp"
+
+#include <algorithm>
+
+namespace sinew::sim::constraints::distance {
+
+namespace {
+
+constexpr std::uint32_t degreeId = 1; // constant_id in advance_substep.comp
+
+// Edges by color and, of each constraint of the coloring's order, where its edge stands.
+struct EdgeList {
+    std::vector<layout::DistanceEdge> edges;
+    std::vector<ColoredEdges::Color> colors;
+    std::vector<std::uint32_t> places;
+};
+
+EdgeList listEdges(const Scene& scene, const Coloring& coloring, const StateLayout& layout) {
+    // What fills up a color: rests between a padding particle and itself, and writes nothing.
+    const auto immovable = static_cast<std::uint32_t>(layout.count - 1);
+    const layout::DistanceEdge padding{immovable, immovable, 0, 1};
+    EdgeList list;
+    for (std::size_t k = 0; k < coloring.colorCount(); ++k) {
+        const auto first = static_cast<std::uint32_t>(list.edges.size());
+        for (const std::uint32_t index : coloring.color(k)) {
+            const DistanceConstraint& c = scene.distances[index];
+            list.places.push_back(static_cast<std::uint32_t>(list.edges.size()));
+            list.edges.push_back({c.a, c.b, c.restLength, c.compliance});
+        }
+        do list.edges.push_back(padding);
+        while (list.edges.size() % GROUP_ITEMS != 0);
+        list.colors.push_back({first, static_cast<std::uint32_t>(list.edges.size()) - first});
+    }
+    return list;
+}
+
+// The links of every particle that moves, in the order in which the sweep meets them.
+void uploadWarmLinks(ProgramBuilder& program, const Scene& scene, const Coloring& coloring,
+                     const EdgeList& list, std::size_t slotCount, ColoredEdges& result) {
+    const std::vector<float> inverseMass = inverseMasses(scene);
+    std::vector<std::vector<std::uint32_t>> linksOf(scene.particles.size());
+    for (std::size_t entry = 0; entry < coloring.order.size(); ++entry) {
+        const DistanceConstraint& c = scene.distances[coloring.order[entry]];
+        if (inverseMass[c.a] > 0) linksOf[c.a].push_back(list.places[entry] | WARM_LINK_SIGN);
+        if (inverseMass[c.b] > 0) linksOf[c.b].push_back(list.places[entry]);
+    }
+    for (const auto& links : linksOf)
+        result.degree = std::max(result.degree, static_cast<std::uint32_t>(links.size()));
+    const auto nothing = static_cast<std::uint32_t>(list.edges.size() - 1); // padding
+    std::vector<std::uint32_t> slots(slotCount * result.degree, nothing);
+    for (std::size_t i = 0; i < linksOf.size(); ++i)
+        for (std::size_t s = 0; s < linksOf[i].size(); ++s)
+            slots[(i / LINK_BLOCK * result.degree + s) * LINK_BLOCK + i % LINK_BLOCK] = linksOf[i][s];
+    result.links = program.upload("distance.warm_links", slots);
+}
+
+} // namespace
+
+ProgramBuilder::Constants ColoredEdges::constants() const {
+    return degree > 0 ? ProgramBuilder::Constants{{degreeId, degree}} : ProgramBuilder::Constants{};
+}
+
+ColoredEdges uploadColors(ProgramBuilder& program, const Scene& scene, const Settings& settings,
+                          const StateLayout& layout) {
+    const Coloring coloring = colorByParticles(scene, inverseMasses(scene));
+    if (coloring.order.empty()) return {};
+    const EdgeList list = listEdges(scene, coloring, layout);
+    ColoredEdges result{.colors = list.colors,
+                        .edges = program.upload("distance.edges", list.edges),
+                        .usesTexels = settings.forms.usesTexels};
+    const bool isCompliant = std::ranges::any_of(
+        list.edges, [](const layout::DistanceEdge& edge) { return edge.compliance > 0 && edge.a != edge.b; });
+    const bool isWarm = settings.warmStart > 0;
+    if (isWarm || (isCompliant && settings.iterations > 1))
+        result.multipliers = program.scratch<layout::vec4>("distance.multipliers", list.edges.size());
+    if (isWarm) {
+        uploadWarmLinks(program, scene, coloring, list, layout.count, result);
+        program.remember(result.multipliers);
+    }
+    return result;
+}
+
+void addSweep(ProgramBuilder& program, const ParticleBuffers& particles, const ColoredEdges& edges,
+              BufferId corrections, float warmStart, Sweep sweep) {
+    std::vector<BufferId> buffers{corrections, particles.step, edges.edges, particles.positions, corrections};
+    const vk::ShaderCode* code =
+        edges.usesTexels ? &kernels::solveDistanceColor : &kernels::solveDistanceColorLoads;
+    if (edges.multipliers != BufferId{}) {
+        buffers.insert(buffers.end(), {edges.multipliers, edges.multipliers});
+        code = edges.usesTexels ? &kernels::solveDistanceColorMultipliers
+                                : &kernels::solveDistanceColorMultipliersLoads;
+    }
+    for (std::uint32_t k = 0; k < edges.colors.size(); ++k) {
+        const auto [first, count] = edges.colors[k];
+        program.dispatch(*code, count, buffers,
+                         layout::ColorPush{count, first, sweep.isOpening, sweep.isClosing, warmStart});
+        program.numberLast(k);
+    }
+}
+
+} // namespace sinew::sim::constraints::distance

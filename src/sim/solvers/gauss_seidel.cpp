@@ -1,0 +1,98 @@
+// Orders the phases of `gauss_seidel`: open, sweeps, close; the close of a substep and the open of the next
+// are one pass. A substep of one sweep is one dispatch a color and one more.
+#include "sim/solvers/gauss_seidel.hpp"
+
+#include "kernels.hpp"
+#include "sim/collision/planes.hpp"
+#include "sim/constraints/distance.hpp"
+
+namespace sinew::sim::solvers::gaussSeidel {
+
+namespace {
+
+// A pass between sweeps, without and with boundary planes.
+struct Form {
+    const vk::ShaderCode *plain, *planes;
+    bool isWarm;
+};
+constexpr Form openCold{&kernels::openSubstep, nullptr, false};
+constexpr Form openWarm{&kernels::openSubstepWarm, nullptr, true};
+constexpr Form openWarmLoads{&kernels::openSubstepWarmLoads, nullptr, true};
+constexpr Form advanceCold{&kernels::advanceSubstep, &kernels::advanceSubstepPlanes, false};
+constexpr Form advanceWarm{&kernels::advanceSubstepWarm, &kernels::advanceSubstepWarmPlanes, true};
+constexpr Form advanceWarmLoads{&kernels::advanceSubstepWarmLoads, &kernels::advanceSubstepWarmLoadsPlanes,
+                                true};
+constexpr Form close{&kernels::closeSubstep, &kernels::closeSubstepPlanes, false};
+
+// What the passes of a step work on.
+struct Work {
+    const ParticleBuffers& particles;
+    constraints::distance::ColoredEdges edges;
+    collision::planes::Colliders colliders;
+    BufferId corrections;
+};
+
+void addBetween(ProgramBuilder& program, const Work& work, const Form& form, bool isFirst) {
+    const ParticleBuffers& particles = work.particles;
+    std::vector<BufferId> buffers{particles.positions, particles.velocities, work.corrections,
+                                  particles.step};
+    ProgramBuilder::Constants constants;
+    if (form.isWarm) {
+        buffers.insert(buffers.end(), {work.edges.links, work.edges.multipliers});
+        constants = work.edges.constants();
+    }
+    const bool hasPlanes = form.planes && work.colliders.count > 0;
+    if (hasPlanes) {
+        buffers.insert(buffers.end(), {work.colliders.planes, work.colliders.contactOffsets});
+        constants.merge(work.colliders.constants());
+    }
+    program.dispatch(hasPlanes ? *form.planes : *form.plain, particles.count, buffers,
+                     layout::SubstepPush{particles.count, isFirst}, constants);
+}
+
+void addSweeps(ProgramBuilder& program, const Work& work, const Settings& settings, bool isFirst) {
+    const std::uint32_t iterations = work.edges.colors.empty() ? 1 : settings.iterations;
+    for (std::uint32_t iteration = 0; iteration < iterations; ++iteration) {
+        const bool isLast = iteration + 1 == iterations;
+        constraints::distance::addSweep(program, work.particles, work.edges, work.corrections,
+                                        settings.warmStart,
+                                        {.isOpening = isFirst && iteration == 0, .isClosing = isLast});
+        if (!isLast) collision::planes::addTouch(program, work.particles, work.corrections, work.colliders);
+    }
+}
+
+} // namespace
+
+StateLayout layoutState(const Scene& scene, const Settings&) {
+    StateLayout layout = orderedLayout(scene.particles.size());
+    layout.count = paddedCount(scene.particles.size() + 1);
+    return layout;
+}
+
+std::vector<float> positionW(const Scene& scene, const Settings&) {
+    return inverseMasses(scene);
+}
+
+void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& settings,
+               const ParticleBuffers& particles) {
+    const Work work{.particles = particles,
+                    .edges = constraints::distance::uploadColors(program, scene, settings, particles.layout),
+                    .colliders = collision::planes::addColliders(program, scene, particles.layout),
+                    .corrections = program.scratch<layout::ParticleCorrection>("state.displacements",
+                                                                               particles.layout.count)};
+    const bool isWarm = work.edges.degree > 0, usesTexels = settings.forms.usesTexels;
+    const Form& open = !isWarm ? openCold : usesTexels ? openWarm : openWarmLoads;
+    const Form& advance = !isWarm ? advanceCold : usesTexels ? advanceWarm : advanceWarmLoads;
+    for (std::uint32_t substep = 0; substep < settings.substeps; ++substep) {
+        const bool isFirst = substep == 0;
+        program.beginSubstep();
+        addBetween(program, work, isFirst ? open : advance, isFirst);
+        addSweeps(program, work, settings, isFirst);
+    }
+    addBetween(program, work, close, false);
+    program.endSubsteps();
+    if (!work.edges.colors.empty())
+        program.program().sweeps = std::uint64_t{settings.substeps} * settings.iterations;
+}
+
+} // namespace sinew::sim::solvers::gaussSeidel
