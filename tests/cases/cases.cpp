@@ -48,6 +48,7 @@ double reachedStiffness(const Scene& scene, const Settings& settings, double h, 
         return std::min(
             {1 / compliance, kappa(ends.wA, ends.linksA) / (h * h), kappa(ends.wB, ends.linksB) / (h * h)});
     }
+    if (settings.solver == Solver::gaussSeidel) return 1 / compliance;
     const int links = std::max(ends.linksA * (ends.wA > 0), ends.linksB * (ends.wB > 0));
     const double weight = settings.weight > 0 ? double{settings.weight} : 1.0 / links;
     return weight / (h * h * (ends.wA + ends.wB) + compliance);

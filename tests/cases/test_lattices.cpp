@@ -41,7 +41,7 @@ double waveSpeed(Solver solver, std::uint32_t substeps) {
 // a^2, also on faces and rims, where k and mass go down alike.
 double reachedShare(Solver solver) {
     const double stepsPerCell = cellsPerSubstep(solver);
-    return solver == Solver::split ? 1 : 1 / (1 + 0.8 * stepsPerCell * stepsPerCell);
+    return solver != Solver::jacobi ? 1 : 1 / (1 + 0.8 * stepsPerCell * stepsPerCell);
 }
 
 struct Solid {

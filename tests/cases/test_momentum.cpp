@@ -90,10 +90,13 @@ TEST(Case13SpinningBlock, KeepsMomentumAndAngularMomentumOverAThousandSubsteps) 
 
 // A thin ring is stretched by rho spin^2 r^2 / E, with links by m spin^2 r / (chord^2 k). It starts at nine
 // tenths of that and breathes about it. A link that acts along where its ends will be, as every solver's but
-// that of theta 0, takes angular momentum at the rate h spin^2.
+// that of theta 0, takes angular momentum at the rate h spin^2. A warm start acts along where its ends are,
+// as theta 0 does: `gauss_seidel` loses only what it does not keep. (Kept here is half: what 0.9 loses, 5e-4,
+// is too close to the rounding of 12,000 substeps.)
 TEST_P(Case13Spin, StretchesARing) {
     constexpr double spin = 1;
-    const Settings settings{.solver = GetParam(), .substeps = 25, .theta = 0};
+    const Settings settings{.solver = GetParam(), .substeps = 25, .theta = 0, .warmStart = 0.5f};
+    const double lossShare = GetParam() == Solver::gaussSeidel ? 1 - double{settings.warmStart} : 1;
     const double h = double{frame} / settings.substeps;
     const double k = reachedStiffness(spinningRing(1, spin), settings, h, 0);
     const Scene scene = spinningRing(1 + 0.9 * (radiusAt(spin, k) - 1), spin);
@@ -112,7 +115,7 @@ TEST_P(Case13Spin, StretchesARing) {
         expectWithin("angular momentum after 12,000 substeps", after, before, 12 * 1e-5);
     } else {
         expectWithin("lost angular momentum", 1 - after / before,
-                     h * spinNow * spinNow * steps * double{frame}, 0.02);
+                     lossShare * h * spinNow * spinNow * steps * double{frame}, 0.02);
     }
 }
 
