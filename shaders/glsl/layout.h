@@ -153,6 +153,14 @@ struct CountPush {
     uint count; // items; the last group may be partly idle
 };
 
+struct BoxesPush { // particles on grids that are equal, full and one behind another
+    uint count;
+    uint perBox;         // particles of a grid
+    uint nodesX, nodesY; // of a grid
+    uint origin;         // slot of the first particle
+    uint rowStride, sliceStride, boxStride; // slots from a node to the next in y, in z, in the next grid
+};
+
 struct SubstepPush {
     uint count;
     uint isFirst; // 1 in the first substep of a step

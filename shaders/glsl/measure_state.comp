@@ -7,13 +7,8 @@ layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
 layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; };
 layout(std430, binding = 2) buffer Status { StatusWords status; };
 layout(std140, binding = 3) uniform Step { StepParams step; };
-#ifdef HAS_SLOTS
-layout(std430, binding = 4) readonly buffer Slots { uint slots[]; }; // of the state, where each particle is
-#define SLOT(i) slots[i]
-#else
-#define SLOT(i) i
-#endif
-layout(push_constant) uniform Push { CountPush push; };
+#define SLOTS_BINDING 4
+#include "slots.glsl"
 
 // All exponent bits set: Inf or NaN. On bits, so that no compiler may assume it away.
 bool isFinite(vec3 a) {
@@ -23,7 +18,9 @@ bool isFinite(vec3 a) {
 void main() {
     const uint i = itemIndex(push.count);
     if (i == 0u) status.frame = step.frame;
-    if (i >= push.count || (isFinite(positions[SLOT(i)].xyz) && isFinite(velocities[SLOT(i)].xyz))) return;
+    if (i >= push.count) return;
+    const uint slot = slotOf(i);
+    if (isFinite(positions[slot].xyz) && isFinite(velocities[slot].xyz)) return;
     atomicAdd(status.nonFinite, 1u);
     atomicMax(status.invertedFirstBad, ~i);
 }

@@ -9,26 +9,31 @@ layout(std430, binding = 0) buffer Positions { vec4 positions[]; };   // `split`
 layout(std430, binding = 1) buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
 layout(std430, binding = 2) readonly buffer Status { StatusWords status; };
 layout(std140, binding = 3) uniform Step { StepParams step; };
-layout(std430, binding = 4) buffer PublicPositions { vec4 publicPositions[]; };   // w = inverse mass
+layout(std430, binding = 4) buffer PublicPositions { vec4 publicPositions[]; }; // w = inverse mass
+#ifndef NO_VELOCITIES
 layout(std430, binding = 5) buffer PublicVelocities { vec4 publicVelocities[]; };
-#ifdef HAS_SLOTS
-layout(std430, binding = 6) readonly buffer Slots { uint slots[]; }; // of the state, where each particle is
-#define SLOT(i) slots[i]
+#define SLOTS_BINDING 6
 #else
-#define SLOT(i) i
+#define SLOTS_BINDING 5
 #endif
-layout(push_constant) uniform Push { CountPush push; };
+#include "slots.glsl"
 
 void main() {
     const uint i = itemIndex(push.count);
     if (i >= push.count) return;
-    const uint slot = SLOT(i);
+    const uint slot = slotOf(i);
     if (status.nonFinite == 0u) {
         const vec4 velocity = velocities[slot];
         publicPositions[i] = vec4(positions[slot].xyz - step.thetaH * velocity.xyz, velocity.w);
+#ifndef NO_VELOCITIES
         publicVelocities[i] = velocity;
+#endif
     } else {
+#ifndef NO_VELOCITIES
         const vec4 velocity = publicVelocities[i];
+#else
+        const vec4 velocity = vec4(0, 0, 0, publicPositions[i].w); // what it was is not kept: the body stops
+#endif
         velocities[slot] = velocity;
         positions[slot].xyz = publicPositions[i].xyz + step.thetaH * velocity.xyz;
     }

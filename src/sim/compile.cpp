@@ -1,10 +1,10 @@
 // The table of contents of a step. Reads top to bottom in the order the device works.
 #include "sim/compile.hpp"
 
-#include "kernels.hpp"
 #include "layout.h"
 #include "sim/constraints/fixed.hpp"
 #include "sim/lattice/cells.hpp"
+#include "sim/publish.hpp"
 #include "sim/solvers/gauss_seidel.hpp"
 #include "sim/solvers/jacobi.hpp"
 #include "sim/solvers/split.hpp"
@@ -62,32 +62,6 @@ std::vector<layout::vec4> spread(const std::vector<layout::vec4>& values, const 
     return result;
 }
 
-// Ends a step: the finite check, then the public copy of the state, which keeps the last finite one.
-void addPublish(ProgramBuilder& program, const ParticleBuffers& particles) {
-    StepProgram& built = program.program();
-    const layout::CountPush push{particles.count};
-    std::vector<BufferId> measured{particles.positions, particles.velocities, built.status, particles.step};
-    std::vector<BufferId> published = measured;
-    published.insert(published.end(), {built.positions, built.velocities});
-    const bool isInOrder = particles.layout.isInOrder;
-    if (!isInOrder) {
-        const BufferId slots = program.upload("state.slots", particles.layout.slot);
-        measured.push_back(slots);
-        published.push_back(slots);
-    }
-    program.dispatch(isInOrder ? kernels::measureState : kernels::measureStateSlots, particles.count,
-                     measured, push);
-    program.dispatch(isInOrder ? kernels::publishState : kernels::publishStateSlots, particles.count,
-                     published, push);
-    for (const BufferId memory : program.remembered()) {
-        const BufferSpec spec = built.buffers[memory.index]; // scratch moves the list
-        const auto count = static_cast<std::uint32_t>(spec.count);
-        const BufferId saved = program.scratch<layout::vec4>(spec.label + ".saved", count);
-        program.dispatch(kernels::publishMemory, count, {memory, saved, built.status},
-                         layout::CountPush{count});
-    }
-}
-
 } // namespace
 
 std::size_t paddedCount(std::size_t particles) {
@@ -108,6 +82,11 @@ std::vector<float> inverseMasses(const Scene& scene) {
     return result;
 }
 
+StateLayout stateLayout(const Scene& scene, const Settings& settings) {
+    const SolverEntry& solver = entry(settings.solver);
+    return solver.layoutState ? solver.layoutState(scene, settings) : orderedLayout(scene.particles.size());
+}
+
 StepProgram compile(const Scene& scene, const Settings& asked) {
     const Settings settings = withSubsteps(scene, asked);
     ProgramBuilder program(settings.isReversed);
@@ -118,14 +97,14 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     const std::vector<float> inverseMass = inverseMasses(scene);
     const std::vector<Vec3> start = lattice::startingPositions(scene, inverseMass);
     built.positions = program.upload("positions", positionsOf(start, inverseMass));
-    built.velocities = program.upload("velocities", velocitiesOf(scene, inverseMass));
+    if (settings.publishesVelocities)
+        built.velocities = program.upload("velocities", velocitiesOf(scene, inverseMass));
     built.status = program.scratch<layout::StatusWords>("status", 1);
     built.parameters = program.scratch<layout::StepParams>("step", 1);
     if (scene.particles.empty()) return program.finish();
 
     const SolverEntry& solver = entry(settings.solver);
-    StateLayout state =
-        solver.layoutState ? solver.layoutState(scene, settings) : orderedLayout(scene.particles.size());
+    StateLayout state = stateLayout(scene, settings);
     const std::vector<float> w = solver.positionW(scene, settings);
     const ParticleBuffers particles{
         .count = built.particleCount,
@@ -139,7 +118,7 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     program.beginPhase("solve");
     solver.addPasses(program, scene, settings, particles);
     program.beginPhase("publish");
-    addPublish(program, particles);
+    publish::addPasses(program, particles);
     surface::addSkins(program, scene.skins);
 
     if (scene.distances.empty()) program.skip("distance constraints");

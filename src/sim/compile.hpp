@@ -4,7 +4,18 @@
 #include "sim/program.hpp"
 #include "sim/scene.hpp"
 
+#include <optional>
+
 namespace sinew::sim {
+
+/// Particles on full grids of one size, box behind box: a kernel computes their slots.
+struct EqualBoxes {
+    std::uint32_t particles = 0;          ///< of each grid; a node (x, y, z) is x + nodesX (y + nodesY z)
+    std::uint32_t nodesX = 0, nodesY = 0; ///< of each grid
+    std::uint32_t origin = 0;             ///< slot of the first particle
+    std::uint32_t rowStride = 0, sliceStride = 0; ///< slots from a node to the next in y, in z
+    std::uint32_t boxStride = 0;                  ///< slots from a grid to the next
+};
 
 /// Where a solver keeps its particles: most in the order of the scene, `split` spreads bodies on a grid over
 /// dense boxes. Slots that hold no particle never move.
@@ -12,6 +23,7 @@ struct StateLayout {
     std::vector<std::uint32_t> slot; ///< of each particle
     std::size_t count = 0; ///< slots, whole work groups, so that a kernel may do without a bounds check
     bool isInOrder = true; ///< slot[i] == i
+    std::optional<EqualBoxes> boxes; ///< the same as `slot`, where there is such a rule
 };
 StateLayout orderedLayout(std::size_t particles);
 
@@ -30,6 +42,9 @@ std::size_t paddedCount(std::size_t particles);
 /// `scene` and `settings` must be valid (validate returned nothing). Throws std::logic_error only for faults
 /// of ours.
 StepProgram compile(const Scene& scene, const Settings& settings);
+
+/// Where the solver of `settings` keeps the particles, in any program compiled from both.
+StateLayout stateLayout(const Scene& scene, const Settings& settings);
 
 /// Inverse mass of every particle after fixed constraints [1/kg]; 0 = never moves.
 std::vector<float> inverseMasses(const Scene& scene);

@@ -74,7 +74,7 @@ struct StepProgram {
     std::vector<Pass> step;                             ///< recorded for every step
     std::vector<Pass> skin;                             ///< recorded when somebody draws; may be empty
     std::vector<std::string> skipped;                   ///< features this scene does not need, for reports
-    BufferId parameters, status, positions, velocities; ///< the public ones, in every program
+    BufferId parameters, status, positions, velocities; ///< the public ones; velocities may be invalid
     BufferId skinVertices, skinIndices;                 ///< invalid without skins
     std::uint32_t particleCount = 0, constraintCount = 0;
     std::uint64_t sweeps = 0; ///< times every constraint is read in one step

@@ -176,6 +176,9 @@ struct Settings {
     float warmStart =
         0.9f; ///< `gauss_seidel`: most that a substep starts with of the multipliers of the last; 0 = cold
     Forms forms;
+    /// False saves 16 bytes a particle: there is no buffer of public velocities, and a step that is undone
+    /// leaves what it holds at rest.
+    bool publishesVelocities = true;
     bool isReversed = false; ///< runs every kernel in reversed invocation order; the state must not change
 };
 

@@ -69,7 +69,8 @@ public:
     void recordSkin(VkCommandBuffer commands) noexcept;
 
     /// Public state [m], [m/s]: particleCount x vec4, stride 16, w = inverse mass [1/kg]. `split` reports the
-    /// velocity half a substep before the step's end (leapfrog).
+    /// velocity half a substep before the step's end (leapfrog). No velocities, an empty view, without
+    /// Settings::publishesVelocities.
     vk::BufferView positions() const noexcept;
     vk::BufferView velocities() const noexcept;
     /// layout::SkinVertex (position, normal; stride 32) and 32-bit triangle indices; empty views without

@@ -1,7 +1,7 @@
 // Submits one command buffer a step and waits.
 #include "sim/runner.hpp"
 
-#include "sim/program.hpp"
+#include "sim/compile.hpp"
 
 #include <cstdlib>
 
@@ -17,6 +17,7 @@ using Vec4 = std::array<float, 4>;
 
 std::vector<Eigen::Vector3d> download(const vk::BufferView& view, std::size_t count) {
     std::vector<Eigen::Vector3d> result;
+    if (view.size == 0) return result;
     for (const Vec4& element : queue().download<Vec4>(view)) {
         if (result.size() == count) break; // a buffer is never empty
         result.emplace_back(double{element[0]}, double{element[1]}, double{element[2]});
@@ -27,7 +28,8 @@ std::vector<Eigen::Vector3d> download(const vk::BufferView& view, std::size_t co
 } // namespace
 
 Runner::Runner(const sim::Scene& scene, const sim::Settings& settings)
-    : simulation_(device(), scene, settings), dt_(scene.dt), gravity_(scene.gravity) {
+    : simulation_(device(), scene, settings), dt_(scene.dt), gravity_(scene.gravity),
+      slots_(sim::stateLayout(scene, settings).slot) {
     reset();
 }
 
@@ -58,15 +60,11 @@ void Runner::skin() {
 }
 
 void Runner::writePosition(std::uint32_t particle, float x) {
-    const auto find = [&](const std::string& label) {
-        const auto& buffers = simulation_.program().buffers;
-        for (std::uint32_t b = 0; b < buffers.size(); ++b)
-            if (buffers[b].label == label) return simulation_.view({b});
-        return vk::BufferView{};
-    };
-    const vk::BufferView slots = find("state.slots");
-    vk::BufferView target = find("state.positions");
-    const std::uint32_t slot = slots.size == 0 ? particle : queue().download<std::uint32_t>(slots)[particle];
+    vk::BufferView target;
+    const auto& buffers = simulation_.program().buffers;
+    for (std::uint32_t b = 0; b < buffers.size(); ++b)
+        if (buffers[b].label == "state.positions") target = simulation_.view({b});
+    const std::uint32_t slot = slots_[particle];
     target.offset += std::size_t{target.stride} * slot;
     target.size = sizeof x;
     queue().upload(target, &x, sizeof x);

@@ -23,7 +23,7 @@ public:
     void writePosition(std::uint32_t particle, float x);
 
     std::vector<Eigen::Vector3d> positions() const;  ///< [m]
-    std::vector<Eigen::Vector3d> velocities() const; ///< [m/s]
+    std::vector<Eigen::Vector3d> velocities() const; ///< [m/s]; empty where they are not published
     std::vector<float> inverseMasses() const;        ///< as the public state has them [1/kg]
     std::uint64_t stateHash() const;                 ///< FNV-1a over the bits of the public state
     sim::Simulation& simulation() { return simulation_; }
@@ -32,6 +32,7 @@ private:
     sim::Simulation simulation_;
     float dt_;
     sim::Vec3 gravity_;
+    std::vector<std::uint32_t> slots_; // of each particle in the solver's state
     std::uint64_t frame_ = 0;
 };
 

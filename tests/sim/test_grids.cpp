@@ -179,6 +179,38 @@ TEST(Grid, MarchesEveryNodeOnceAndNoEmptySpace) {
     }
 }
 
+TEST(Grid, BodyTakesAtMost72BytesAParticleAnd16MoreForPublicVelocities) {
+    const Scene scene = body({31, 31, 31});
+    const auto bytes = [&](bool publishesVelocities) {
+        const StepProgram program = compile(scene, {.publishesVelocities = publishesVelocities});
+        std::uint64_t sum = 0;
+        for (const BufferSpec& buffer : program.buffers) sum += buffer.bytes();
+        return static_cast<double>(sum) / static_cast<double>(scene.particles.size());
+    };
+    EXPECT_LE(bytes(false), 72);
+    EXPECT_LE(bytes(true), 88);
+}
+
+// Slots by rule: bodies in a row, of even and odd extents, and what breaks the rule.
+TEST(Grid, SlotsOfEqualFullBodiesFollowTheRuleThatKernelsCompute) {
+    Scene row, ragged = body({4, 3, 5}, raggedFill(60)), unequal = body({2, 2, 2});
+    for (const float x : {0.0f, 2.0f, 4.0f})
+        addLattice(row, {.origin = {x, 0, 0}, .cells = {2, 3, 4}, .spacing = 0.1f, .youngModulus = 1e5f});
+    addLattice(unequal, {.origin = {3, 0, 0}, .cells = {2, 2, 3}, .spacing = 0.1f, .youngModulus = 1e5f});
+    for (const Scene& scene : {row, body({4, 4, 4}), sheet({7, 5}), sheet({8, 3})}) {
+        const StateLayout layout = stateLayout(scene, {});
+        ASSERT_TRUE(layout.boxes.has_value());
+        const EqualBoxes& b = *layout.boxes;
+        for (std::uint32_t i = 0; i < scene.particles.size(); ++i) {
+            const std::uint32_t node = i % b.particles, z = node / b.nodesX / b.nodesY;
+            EXPECT_EQ(layout.slot[i], b.origin + i / b.particles * b.boxStride + z * b.sliceStride +
+                                          node / b.nodesX % b.nodesY * b.rowStride + node % b.nodesX);
+        }
+    }
+    for (const Scene& scene : {ragged, unequal, mixture(), test::chain(5)})
+        EXPECT_FALSE(stateLayout(scene, {}).boxes.has_value());
+}
+
 TEST(Grid, ThatContradictsTheListsIsRefusedInASentence) {
     const auto complaintAfter = [](const std::function<void(Scene&)>& damage) {
         Scene scene = body({2, 2, 2});

@@ -95,5 +95,28 @@ TEST_P(StatusOf, AStepThatANaNHasSpoiltIsUndoneAndTheBodyGoesOn) {
     }
 }
 
+TEST_P(StatusOf, WithoutPublicVelocitiesBodiesMoveAlikeAndAnUndoneStepLeavesThemAtRest) {
+    for (const Scene& scene : {test::chain(6, {1e-4f}), test::block(3, 0.1f, 1e5f)}) {
+        Settings lean = settings();
+        lean.publishesVelocities = false;
+        test::Runner full(scene, settings()), runner(scene, lean);
+        EXPECT_TRUE(runner.velocities().empty());
+        full.run(10);
+        runner.run(10);
+        const auto x = runner.positions();
+        EXPECT_EQ(x, full.positions());
+        runner.writePosition(3, std::numeric_limits<float>::quiet_NaN());
+        EXPECT_GE(runner.run(1).nonFinite, 1u);
+        EXPECT_EQ(runner.positions(), x) << "the last finite state";
+        EXPECT_EQ(runner.run(1).nonFinite, 0u);
+        EXPECT_LE((runner.positions()[0] - x[0]).norm(), 9.81 * double{scene.dt} * double{scene.dt} + 1e-4)
+            << "from rest, not on with its velocity";
+        lean.isReversed = true;
+        test::Runner reversed(scene, lean);
+        reversed.run(10);
+        EXPECT_EQ(reversed.positions(), x);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(A, StatusOf, testing::Values(Solver::jacobi, Solver::split, Solver::gaussSeidel),
                          [](const auto& parameter) { return solverName(parameter.param); });

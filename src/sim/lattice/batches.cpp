@@ -29,6 +29,29 @@ std::vector<Box> boxesOf(const Scene& scene, std::span<const std::uint32_t> grid
     return boxes;
 }
 
+bool isFull(const Grid& grid) {
+    return grid.node.size() == std::size_t{grid.nodes[0]} * grid.nodes[1] * grid.nodes[2];
+}
+
+// The rule by which the slots follow from the particles, where all of the scene is equal full grids in a row.
+std::optional<EqualBoxes> equalBoxes(const Scene& scene, std::span<const std::uint32_t> grids,
+                                     std::span<const Box> boxes) {
+    const Grid& first = scene.grids[grids[0]];
+    const auto particles = static_cast<std::uint32_t>(first.node.size());
+    if (!isFull(first) || scene.particles.size() != std::size_t{particles} * grids.size()) return {};
+    for (std::uint32_t g = 0; g < grids.size(); ++g) {
+        const Grid& grid = scene.grids[grids[g]];
+        if (!isFull(grid) || grid.nodes != first.nodes || grid.firstParticle != g * particles) return {};
+    }
+    return EqualBoxes{.particles = particles,
+                      .nodesX = first.nodes[0],
+                      .nodesY = first.nodes[1],
+                      .origin = boxes[0].origin,
+                      .rowStride = boxes[0].rowStride,
+                      .sliceStride = boxes[0].sliceStride,
+                      .boxStride = boxes.size() > 1 ? boxes[1].origin - boxes[0].origin : 0};
+}
+
 layout::LatticePush pushOf(const Scene& scene, const Grid& grid, const Box& box,
                            std::span<const float> shares, const solvers::CellShares& cells) {
     layout::LatticePush push{};
@@ -140,6 +163,7 @@ StateLayout layoutOf(const Scene& scene, std::span<const std::uint32_t> grids) {
     std::uint32_t next = 0;
     for (std::uint32_t& slot : layout.slot)
         if (slot == unset) slot = next++;
+    layout.boxes = equalBoxes(scene, grids, boxes);
     return layout;
 }
 
