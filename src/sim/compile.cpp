@@ -18,17 +18,13 @@ namespace {
 struct SolverEntry {
     Solver solver;
     const char* name;
-    std::vector<float> (*positionW)(const Scene&, const Settings&); // by particle
-    void (*addPasses)(ProgramBuilder&, const Scene&, const Settings&, const ParticleBuffers&);
-    StateLayout (*layoutState)(const Scene&, const Settings&) = nullptr; // null: in the order of the scene
+    SolverPlan (*plan)(const Scene&, const Settings&, const std::vector<float>& inverseMass);
 };
 
 constexpr SolverEntry solverTable[] = {
-    {Solver::jacobi, "jacobi", solvers::jacobi::positionW, solvers::jacobi::addPasses},
-    {Solver::split, "split", solvers::split::positionW, solvers::split::addPasses,
-     solvers::split::layoutState},
-    {Solver::gaussSeidel, "gauss_seidel", solvers::gaussSeidel::positionW, solvers::gaussSeidel::addPasses,
-     solvers::gaussSeidel::layoutState},
+    {Solver::jacobi, "jacobi", solvers::jacobi::plan},
+    {Solver::split, "split", solvers::split::plan},
+    {Solver::gaussSeidel, "gauss_seidel", solvers::gaussSeidel::plan},
 };
 
 const SolverEntry& entry(Solver solver) {
@@ -83,8 +79,7 @@ std::vector<float> inverseMasses(const Scene& scene) {
 }
 
 StateLayout stateLayout(const Scene& scene, const Settings& settings) {
-    const SolverEntry& solver = entry(settings.solver);
-    return solver.layoutState ? solver.layoutState(scene, settings) : orderedLayout(scene.particles.size());
+    return entry(settings.solver).plan(scene, settings, inverseMasses(scene)).layout;
 }
 
 StepProgram compile(const Scene& scene, const Settings& asked) {
@@ -103,20 +98,21 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     built.parameters = program.scratch<layout::StepParams>("step", 1);
     if (scene.particles.empty()) return program.finish();
 
-    const SolverEntry& solver = entry(settings.solver);
-    StateLayout state = stateLayout(scene, settings);
-    const std::vector<float> w = solver.positionW(scene, settings);
+    const SolverPlan solver = entry(settings.solver).plan(scene, settings, inverseMass);
+    const auto inSlots = [&](const std::vector<layout::vec4>& values) {
+        return spread(values, solver.layout);
+    };
     const ParticleBuffers particles{
         .count = built.particleCount,
         .step = built.parameters,
-        .positions = program.upload("state.positions", spread(positionsOf(start, w), state)),
-        .velocities = program.upload("state.velocities", spread(velocitiesOf(scene, inverseMass), state)),
-        .layout = std::move(state)};
+        .positions = program.upload("state.positions", inSlots(positionsOf(start, solver.positionW))),
+        .velocities = program.upload("state.velocities", inSlots(velocitiesOf(scene, inverseMass))),
+        .layout = solver.layout};
     program.beginPhase("begin");
     program.updateParameters(particles.step);
     program.fill(built.status, 0);
     program.beginPhase("solve");
-    solver.addPasses(program, scene, settings, particles);
+    solver.addPasses(program, particles);
     program.beginPhase("publish");
     publish::addPasses(program, particles);
     surface::addSkins(program, scene.skins);

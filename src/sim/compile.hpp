@@ -4,6 +4,7 @@
 #include "sim/program.hpp"
 #include "sim/scene.hpp"
 
+#include <functional>
 #include <optional>
 
 namespace sinew::sim {
@@ -34,6 +35,14 @@ struct ParticleBuffers {
     BufferId positions;  ///< of the solver's state, layout.count elements; meaning of w is the solver's
     BufferId velocities; ///< likewise; w = inverse mass [1/kg]
     StateLayout layout;
+};
+
+/// What a solver makes of a scene before anything is built.
+struct SolverPlan {
+    StateLayout layout;
+    std::vector<float> positionW; ///< of every particle: the w of the state's positions
+    /// Appends the passes of the phase "solve". Refers to the scene and whatever else the plan was made from.
+    std::function<void(ProgramBuilder& program, const ParticleBuffers& particles)> addPasses;
 };
 
 /// `particles` rounded up to whole work groups.

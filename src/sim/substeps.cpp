@@ -49,28 +49,15 @@ Counts count(const Scene& scene) {
     return counts;
 }
 
-// How `split` divides particles; settings.substeps is a number.
-struct Split {
-    std::vector<float> shares, times; // of distance constraints, of particles
-    std::vector<solvers::CellShares> cells;
-};
-
-Split splitOf(const Scene& scene, const Settings& settings, const Counts& counts) {
-    Split split{.shares = solvers::shareStiffness(scene, settings, counts.inverseMass)};
-    split.cells = solvers::cellShares(scene, settings, counts.inverseMass, split.shares);
-    split.times = solvers::clampTimes(scene, settings, counts.inverseMass, split.shares, split.cells);
-    return split;
-}
-
 // The clamps of `split`, k h^2 at most [kg], of every distance constraint.
 std::vector<double> clampsOfLinks(const Scene& scene, const Settings& settings, const Counts& counts) {
-    const Split split = splitOf(scene, settings, counts);
+    const solvers::Shares shares = solvers::sharesOf(scene, settings, counts.inverseMass);
     std::vector<double> clamps;
-    clamps.reserve(split.shares.size());
-    for (std::size_t c = 0; c < split.shares.size(); ++c) {
+    clamps.reserve(shares.ofLinks.size());
+    for (std::size_t c = 0; c < shares.ofLinks.size(); ++c) {
         const DistanceConstraint& link = scene.distances[c];
-        clamps.push_back(double{split.shares[c]} *
-                         double{std::min(split.times[link.a], split.times[link.b])});
+        clamps.push_back(double{shares.ofLinks[c]} *
+                         double{std::min(shares.times[link.a], shares.times[link.b])});
     }
     return clamps;
 }
@@ -164,16 +151,16 @@ void addBends(const Scene& scene, const Settings& settings, const Counts& counts
 // them.
 void addCells(const Scene& scene, const Settings& settings, const Counts& counts, std::vector<Term>& terms) {
     if (settings.solver != Solver::split || std::ranges::none_of(scene.grids, hasCellVolumes)) return;
-    const Split split = splitOf(scene, settings, counts);
+    const solvers::Shares shares = solvers::sharesOf(scene, settings, counts.inverseMass);
     for (std::size_t g = 0; g < scene.grids.size(); ++g) {
         const Grid& grid = scene.grids[g];
         if (grid.volumeStiffness == 0) continue;
         const double whole = 0.75 * double{grid.volumeStiffness} * double{grid.restLength[0]};
         lattice::forEachCell(grid, [&](const lattice::Cell& cell) {
-            float time = split.times[cell.corners[0]];
-            for (const std::uint32_t corner : cell.corners) time = std::min(time, split.times[corner]);
+            float time = shares.times[cell.corners[0]];
+            for (const std::uint32_t corner : cell.corners) time = std::min(time, shares.times[corner]);
             terms.push_back({.stiffness = cell.fill * whole,
-                             .clamp = cell.fill * double{split.cells[g].volume} * double{time}});
+                             .clamp = cell.fill * double{shares.ofCells[g].volume} * double{time}});
         });
     }
 }

@@ -71,18 +71,18 @@ Solid makeSolid(const char* name, std::array<std::uint32_t, 3> cells, float pois
 // Links and cells both have all of their stiffness, cells with a tenth to spare.
 bool hasAllStiffness(const Scene& scene, const Settings& settings) {
     const std::vector<float> inverseMass = inverseMasses(scene);
-    const auto shares = solvers::shareStiffness(scene, settings, inverseMass);
-    const auto cells = solvers::cellShares(scene, settings, inverseMass, shares);
-    const auto tau = solvers::clampTimes(scene, settings, inverseMass, shares, cells);
+    const auto shares = solvers::sharesOf(scene, settings, inverseMass);
+    const auto& tau = shares.times;
     const double h = double{scene.dt} / settings.substeps;
     const float least = *std::ranges::min_element(tau);
     bool isUnclamped = 1.1 * 0.75 * double{scene.grids[0].volumeStiffness} * cell * h * h <=
-                       double{cells[0].volume} * double{least};
+                       double{shares.ofCells[0].volume} * double{least};
     for (std::size_t c = 0; c < scene.distances.size(); ++c) {
         const DistanceConstraint& link = scene.distances[c];
         if (inverseMass[link.a] + inverseMass[link.b] == 0) continue;
-        isUnclamped = isUnclamped && h * h / double{link.compliance} <=
-                                         double{shares[c]} * double{std::min(tau[link.a], tau[link.b])};
+        isUnclamped =
+            isUnclamped && h * h / double{link.compliance} <=
+                               double{shares.ofLinks[c]} * double{std::min(tau[link.a], tau[link.b])};
     }
     return isUnclamped;
 }

@@ -179,7 +179,7 @@ bool isResident(const Scene& scene, const Settings& settings, std::span<const st
 }
 
 Batches batchesOf(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids,
-                  std::span<const float> shares, std::span<const solvers::CellShares> cellShares) {
+                  const solvers::Shares& shares) {
     const std::vector<Box> boxes = boxesOf(scene, grids);
     const bool resident = isResident(scene, settings, grids);
     Batches result;
@@ -188,7 +188,7 @@ Batches batchesOf(const Scene& scene, const Settings& settings, std::span<const 
         const Grid& grid = scene.grids[grids[g]];
         const Box& box = boxes[g];
         writeCells(grid, box, result.cells);
-        layout::LatticePush push = pushOf(scene, grid, box, shares, cellShares[grids[g]]);
+        layout::LatticePush push = pushOf(scene, grid, box, shares.ofLinks, shares.ofCells[grids[g]]);
         if (resident) {
             push.substeps = settings.substeps;
             push.bodySlots = slotsOf(grid, box);

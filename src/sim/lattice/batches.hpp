@@ -34,8 +34,7 @@ struct Batches {
 /// Whether all of the scene fits into the shared memory that the settings grant, body by body.
 bool isResident(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids);
 
-/// `shares`: k~ of every distance constraint, `cellShares` of the cells of every grid of the scene.
 Batches batchesOf(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids,
-                  std::span<const float> shares, std::span<const solvers::CellShares> cellShares);
+                  const solvers::Shares& shares);
 
 } // namespace sinew::sim::lattice

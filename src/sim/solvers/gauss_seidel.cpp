@@ -61,16 +61,10 @@ void addSweeps(ProgramBuilder& program, const Work& work, const Settings& settin
     }
 }
 
-} // namespace
-
-StateLayout layoutState(const Scene& scene, const Settings&) {
+StateLayout stateLayout(const Scene& scene) {
     StateLayout layout = orderedLayout(scene.particles.size());
     layout.count = paddedCount(scene.particles.size() + 1);
     return layout;
-}
-
-std::vector<float> positionW(const Scene& scene, const Settings&) {
-    return inverseMasses(scene);
 }
 
 void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& settings,
@@ -93,6 +87,15 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
     program.endSubsteps();
     if (!work.edges.colors.empty())
         program.program().sweeps = std::uint64_t{settings.substeps} * settings.iterations;
+}
+
+} // namespace
+
+SolverPlan plan(const Scene& scene, const Settings& settings, const std::vector<float>& inverseMass) {
+    return {stateLayout(scene), inverseMass,
+            [&scene, &settings](ProgramBuilder& program, const ParticleBuffers& particles) {
+                addPasses(program, scene, settings, particles);
+            }};
 }
 
 } // namespace sinew::sim::solvers::gaussSeidel

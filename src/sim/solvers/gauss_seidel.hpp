@@ -6,13 +6,8 @@
 
 namespace sinew::sim::solvers::gaussSeidel {
 
-/// In the order of the scene, with at least one slot that never moves behind it: what pads a color.
-StateLayout layoutState(const Scene& scene, const Settings& settings);
-
-/// The w of the state's positions: inverse mass [1/kg].
-std::vector<float> positionW(const Scene& scene, const Settings& settings);
-
-void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-               const ParticleBuffers& particles);
+/// The state is in the order of the scene, with at least one slot that never moves behind it: what pads a
+/// color. The w of its positions is inverse mass [1/kg].
+SolverPlan plan(const Scene& scene, const Settings& settings, const std::vector<float>& inverseMass);
 
 } // namespace sinew::sim::solvers::gaussSeidel

@@ -50,12 +50,6 @@ void addIteration(ProgramBuilder& program, const ParticleBuffers& particles, con
                      layout::CountPush{particles.count});
 }
 
-} // namespace
-
-std::vector<float> positionW(const Scene& scene, const Settings&) {
-    return inverseMasses(scene);
-}
-
 void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& settings,
                const ParticleBuffers& particles) {
     const Corrections corrections = addCorrections(program, scene, settings);
@@ -81,6 +75,15 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
     }
     program.endSubsteps();
     if (corrections.slotCount > 0) program.program().sweeps = std::uint64_t{settings.substeps} * iterations;
+}
+
+} // namespace
+
+SolverPlan plan(const Scene& scene, const Settings& settings, const std::vector<float>& inverseMass) {
+    return {orderedLayout(scene.particles.size()), inverseMass,
+            [&scene, &settings](ProgramBuilder& program, const ParticleBuffers& particles) {
+                addPasses(program, scene, settings, particles);
+            }};
 }
 
 } // namespace sinew::sim::solvers::jacobi

@@ -7,10 +7,7 @@
 
 namespace sinew::sim::solvers::jacobi {
 
-/// The w of the state's positions: inverse mass [1/kg].
-std::vector<float> positionW(const Scene& scene, const Settings& settings);
-
-void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-               const ParticleBuffers& particles);
+/// The state is in the order of the scene; the w of its positions is inverse mass [1/kg].
+SolverPlan plan(const Scene& scene, const Settings& settings, const std::vector<float>& inverseMass);
 
 } // namespace sinew::sim::solvers::jacobi

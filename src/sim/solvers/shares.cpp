@@ -46,23 +46,6 @@ double softeningOf(const Scene& scene, const Settings& settings, std::span<const
     return 2 * meanInverseMass(inverseMass) * h * h;
 }
 
-// What a full cell's links take of each of its corners: a quarter of each of three edges, half of three face
-// diagonals, a whole body diagonal.
-double linksOfACorner(const Scene& scene, const Grid& grid, std::span<const float> shares) {
-    constexpr double parts[3] = {0.75, 1.5, 1};
-    double sum = 0;
-    for (std::uint32_t kind = 0; kind < grid.kinds; ++kind)
-        sum += parts[kind] * double{wholeShare(scene, grid, kind, shares)};
-    return sum;
-}
-
-} // namespace
-
-float stiffnessOf(float compliance) {
-    constexpr float stiffest = 1e20f; // [N/m]
-    return compliance > 0 ? std::min(1 / compliance, stiffest) : stiffest;
-}
-
 std::vector<float> shareStiffness(const Scene& scene, const Settings& settings,
                                   std::span<const float> inverseMass) {
     const std::vector<double> levels = levelStiffness(scene);
@@ -78,14 +61,14 @@ std::vector<float> shareStiffness(const Scene& scene, const Settings& settings,
     return shares;
 }
 
-float wholeShare(const Scene& scene, const Grid& grid, std::uint32_t kind, std::span<const float> shares) {
-    const float stiffness = stiffnessOf(grid.compliance[kind]);
-    for (std::uint32_t c = grid.firstDistance; c < grid.firstDistance + grid.distanceCount; ++c) {
-        const DistanceConstraint& link = scene.distances[c];
-        if (link.restLength == grid.restLength[kind] && shares[c] > 0)
-            return shares[c] / stiffnessOf(link.compliance) * stiffness;
-    }
-    return stiffness; // no such link moves
+// What a full cell's links take of each of its corners: a quarter of each of three edges, half of three face
+// diagonals, a whole body diagonal.
+double linksOfACorner(const Scene& scene, const Grid& grid, std::span<const float> shares) {
+    constexpr double parts[3] = {0.75, 1.5, 1};
+    double sum = 0;
+    for (std::uint32_t kind = 0; kind < grid.kinds; ++kind)
+        sum += parts[kind] * double{wholeShare(scene, grid, kind, shares)};
+    return sum;
 }
 
 std::vector<CellShares> cellShares(const Scene& scene, const Settings& settings,
@@ -102,10 +85,6 @@ std::vector<CellShares> cellShares(const Scene& scene, const Settings& settings,
                 static_cast<float>(recoveryBudget(settings) * (linksOfACorner(scene, grid, shares) + volume));
     }
     return result;
-}
-
-double recoveryBudget(const Settings& settings) {
-    return 0.9 * ranges::omegaBound(double{settings.theta}) / double{settings.omega} - 1;
 }
 
 std::vector<float> clampTimes(const Scene& scene, const Settings& settings,
@@ -132,6 +111,34 @@ std::vector<float> clampTimes(const Scene& scene, const Settings& settings,
             bound > 0 ? static_cast<float>(std::min(double{settings.omega} / bound, double{never})) : never);
     }
     return times;
+}
+
+} // namespace
+
+float stiffnessOf(float compliance) {
+    constexpr float stiffest = 1e20f; // [N/m]
+    return compliance > 0 ? std::min(1 / compliance, stiffest) : stiffest;
+}
+
+float wholeShare(const Scene& scene, const Grid& grid, std::uint32_t kind, std::span<const float> shares) {
+    const float stiffness = stiffnessOf(grid.compliance[kind]);
+    for (std::uint32_t c = grid.firstDistance; c < grid.firstDistance + grid.distanceCount; ++c) {
+        const DistanceConstraint& link = scene.distances[c];
+        if (link.restLength == grid.restLength[kind] && shares[c] > 0)
+            return shares[c] / stiffnessOf(link.compliance) * stiffness;
+    }
+    return stiffness; // no such link moves
+}
+
+double recoveryBudget(const Settings& settings) {
+    return 0.9 * ranges::omegaBound(double{settings.theta}) / double{settings.omega} - 1;
+}
+
+Shares sharesOf(const Scene& scene, const Settings& settings, std::span<const float> inverseMass) {
+    Shares shares{.ofLinks = shareStiffness(scene, settings, inverseMass)};
+    shares.ofCells = cellShares(scene, settings, inverseMass, shares.ofLinks);
+    shares.times = clampTimes(scene, settings, inverseMass, shares.ofLinks, shares.ofCells);
+    return shares;
 }
 
 } // namespace sinew::sim::solvers

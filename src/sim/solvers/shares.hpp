@@ -38,32 +38,30 @@ namespace sinew::sim::solvers {
 /// give 0, not Inf x 0.
 float stiffnessOf(float compliance);
 
-/// k~ of every distance constraint of the scene [N/m]; 0 where neither end moves.
-std::vector<float> shareStiffness(const Scene& scene, const Settings& settings,
-                                  std::span<const float> inverseMass);
-
-/// k~ of the links of one kind of a grid where they are whole [N/m]: a link's k~ over its stiffness is the
-/// same for all links of a rest length.
-float wholeShare(const Scene& scene, const Grid& grid, std::uint32_t kind, std::span<const float> shares);
-
 /// k~ of a full cell of a grid [N/m]; of one with less fill it is less in proportion.
 struct CellShares {
     float volume = 0;
     float recovery = 0;
 };
 
-/// For every grid of the scene; `shares` are those of its distance constraints.
-std::vector<CellShares> cellShares(const Scene& scene, const Settings& settings,
-                                   std::span<const float> inverseMass, std::span<const float> shares);
+/// How the particles of a scene are divided.
+struct Shares {
+    std::vector<float> ofLinks;      ///< k~ of every distance constraint [N/m]; 0 where neither end moves
+    std::vector<CellShares> ofCells; ///< of every grid
+    /// tau = omega / (2 w sum k~) of every particle [s^2], the sum over links and cells: a link is clamped to
+    /// k~ min(tau_a, tau_b) / h^2. Large where a particle never moves or has no constraint.
+    std::vector<float> times;
+};
+
+/// `settings.substeps` is a number; `inverseMass` after fixed constraints.
+Shares sharesOf(const Scene& scene, const Settings& settings, std::span<const float> inverseMass);
+
+/// k~ of the links of one kind of a grid where they are whole [N/m], from those of the scene's distance
+/// constraints: a link's k~ over its stiffness is the same for all links of a rest length.
+float wholeShare(const Scene& scene, const Grid& grid, std::uint32_t kind, std::span<const float> ofLinks);
 
 /// By how much recovery pressure may overdraw what a particle has to share, in parts of it: a tenth less than
 /// stability leaves. Not above 0 where omega leaves nothing.
 double recoveryBudget(const Settings& settings);
-
-/// tau = omega / (2 w sum k~) of every particle [s^2], the sum over links and cells: a link is clamped to
-/// k~ min(tau_a, tau_b) / h^2. Large where a particle never moves or has no constraint.
-std::vector<float> clampTimes(const Scene& scene, const Settings& settings,
-                              std::span<const float> inverseMass, std::span<const float> shares,
-                              std::span<const CellShares> cells);
 
 } // namespace sinew::sim::solvers

@@ -7,14 +7,8 @@
 namespace sinew::sim::solvers::split {
 
 /// Free particles and bodies whose links are listed come first, in the order of the scene; then a dense box
-/// for each body on a grid (lattice/placement.hpp).
-StateLayout layoutState(const Scene& scene, const Settings& settings);
-
-/// The w of the state's positions, which hold x + theta h v: tau [s^2], which clamps a particle's links
-/// (solvers/shares.hpp).
-std::vector<float> positionW(const Scene& scene, const Settings& settings);
-
-void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-               const ParticleBuffers& particles);
+/// for each body on a grid (lattice/placement.hpp). Positions hold x + theta h v and in w tau [s^2], which
+/// clamps a particle's links (solvers/shares.hpp).
+SolverPlan plan(const Scene& scene, const Settings& settings, const std::vector<float>& inverseMass);
 
 } // namespace sinew::sim::solvers::split

@@ -1,0 +1,67 @@
+// The kernels of `split` in their forms, and the ids of what is specialised in them. Only split.cpp asks for
+// one.
+#pragma once
+
+#include "kernels.hpp"
+#include "sim/lattice/batches.hpp"
+
+namespace sinew::sim::solvers::split {
+
+inline constexpr std::uint32_t degreeId = 1, firstGroupEndId = 3; // constant_id in gather_split.comp
+inline constexpr std::uint32_t bodyDiagonalsId = 6, residentSlotsId = 7,
+                               recoveryId =
+                                   8; // constant_id in gather_lattice.comp, split.glsl, cell_volume.glsl
+inline constexpr std::uint32_t bendDegreeId = 6; // constant_id in gather_terms.glsl
+
+namespace k = kernels;
+
+// A kernel in its forms: positions fetched as texels or loaded, without and with boundary planes.
+struct Kernel {
+    const vk::ShaderCode *texels, *texelsPlanes, *loads, *loadsPlanes;
+    const vk::ShaderCode& form(bool usesTexels, bool hasPlanes) const {
+        return usesTexels ? (hasPlanes ? *texelsPlanes : *texels) : (hasPlanes ? *loadsPlanes : *loads);
+    }
+};
+inline constexpr Kernel drift{&k::driftSplit, &k::driftSplitPlanes, &k::driftSplit, &k::driftSplitPlanes};
+inline constexpr Kernel general{&k::gatherSplit, &k::gatherSplitPlanes, &k::gatherSplitLoads,
+                                &k::gatherSplitLoadsPlanes};
+inline constexpr Kernel bending{&k::gatherSplitBends, &k::gatherSplitBendsPlanes, &k::gatherSplitBends,
+                                &k::gatherSplitBendsPlanes};
+inline constexpr Kernel damped{&k::gatherSplitDamped, &k::gatherSplitDampedPlanes, &k::gatherSplitDamped,
+                               &k::gatherSplitDampedPlanes};
+inline constexpr Kernel bendingDamped{&k::gatherSplitBendsDamped, &k::gatherSplitBendsDampedPlanes,
+                                      &k::gatherSplitBendsDamped, &k::gatherSplitBendsDampedPlanes};
+inline constexpr Kernel packed{&k::gatherSplitPacked, &k::gatherSplitPackedPlanes, &k::gatherSplitPackedLoads,
+                               &k::gatherSplitPackedLoadsPlanes};
+inline constexpr Kernel latticePairs{&k::gatherLattice, &k::gatherLatticePlanes, &k::gatherLatticeLoads,
+                                     &k::gatherLatticeLoadsPlanes};
+inline constexpr Kernel latticeSingle{&k::gatherLatticeSingle, &k::gatherLatticeSinglePlanes,
+                                      &k::gatherLatticeSingleLoads, &k::gatherLatticeSingleLoadsPlanes};
+inline constexpr Kernel residentLattice{&k::residentLattice, &k::residentLatticePlanes, &k::residentLattice,
+                                        &k::residentLatticePlanes};
+inline constexpr Kernel residentSheet{&k::residentSheet, &k::residentSheetPlanes, &k::residentSheet,
+                                      &k::residentSheetPlanes};
+inline constexpr Kernel volumePairs{&k::gatherLatticeVolume, &k::gatherLatticeVolumePlanes,
+                                    &k::gatherLatticeVolumeLoads, &k::gatherLatticeVolumeLoadsPlanes};
+inline constexpr Kernel volumeSingle{&k::gatherLatticeVolumeSingle, &k::gatherLatticeVolumeSinglePlanes,
+                                     &k::gatherLatticeVolumeSingleLoads,
+                                     &k::gatherLatticeVolumeSingleLoadsPlanes};
+inline constexpr Kernel residentVolume{&k::residentLatticeVolume, &k::residentLatticeVolumePlanes,
+                                       &k::residentLatticeVolume, &k::residentLatticeVolumePlanes};
+inline constexpr Kernel sheet{&k::gatherSheet, &k::gatherSheetPlanes, &k::gatherSheetLoads,
+                              &k::gatherSheetLoadsPlanes};
+
+// Marches a batch once a substep.
+inline const Kernel& kernelFor(const lattice::Batch& batch, std::uint32_t columns) {
+    if (batch.isSheet) return sheet;
+    if (batch.hasVolumes) return columns == 2 ? volumePairs : volumeSingle;
+    return columns == 2 ? latticePairs : latticeSingle;
+}
+
+// Keeps a batch in shared memory for a whole step.
+inline const Kernel& residentKernelFor(const lattice::Batch& batch) {
+    if (batch.isSheet) return residentSheet;
+    return batch.hasVolumes ? residentVolume : residentLattice;
+}
+
+} // namespace sinew::sim::solvers::split
