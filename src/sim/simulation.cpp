@@ -86,7 +86,8 @@ struct Simulation::State {
                          .count = framesInFlight,
                          .stride = sizeof(layout::StatusWords),
                          .kind = vk::MemoryKind::readback}),
-          skins(rangesOf(scene.skins)), anchors(scene.attachments), budget(splitBudget(scene, settings)),
+          skins(rangesOf(scene.skins)), anchors(scene.attachments),
+          budget(scene.dampingTime > 0 ? splitBudget(scene, settings) : SplitBudget{}),
           theta(settings.solver == Solver::split ? settings.theta : 0), omega(settings.omega),
           damping(scene.damping), substeps(settings.substeps) {}
 

@@ -28,48 +28,30 @@ struct Term {
     bool isRigid = false;
 };
 
-// What the constraints of a scene do to its particles.
-struct Counts {
+// What a scene is, whatever the number of substeps; of each particle.
+struct Load {
     std::vector<float> inverseMass;
-    std::vector<std::uint32_t> links, bends; // that can move, of each particle
+    std::vector<std::uint32_t> links, bends; // that can move
+    std::vector<double> weights;             // on one of the links that its body hangs on [N]
+    std::uint32_t mostConstraints(std::initializer_list<std::uint32_t> ends) const {
+        std::uint32_t most = 0;
+        for (const std::uint32_t end : ends) most = std::max(most, links[end] + bends[end]);
+        return most;
+    }
 };
 
-bool canMove(const Counts& counts, std::initializer_list<std::uint32_t> ends) {
-    return std::ranges::any_of(ends, [&](std::uint32_t end) { return counts.inverseMass[end] > 0; });
+bool canMove(const Load& load, std::initializer_list<std::uint32_t> ends) {
+    return std::ranges::any_of(ends, [&](std::uint32_t end) { return load.inverseMass[end] > 0; });
 }
 
-Counts count(const Scene& scene) {
-    Counts counts{.inverseMass = inverseMasses(scene), .links = {}, .bends = {}};
-    counts.links.assign(scene.particles.size(), 0);
-    counts.bends.assign(scene.particles.size(), 0);
-    for (const DistanceConstraint& c : scene.distances)
-        if (canMove(counts, {c.a, c.b})) ++counts.links[c.a], ++counts.links[c.b];
-    for (const BendConstraint& c : scene.bends)
-        if (canMove(counts, {c.a, c.b, c.c})) ++counts.bends[c.a], ++counts.bends[c.b], ++counts.bends[c.c];
-    return counts;
+// k h^2 at most [kg].
+double clampOfLink(const solvers::Shares& shares, const Scene& scene, std::size_t link) {
+    const DistanceConstraint& c = scene.distances[link];
+    return double{shares.ofLinks[link]} * double{std::min(shares.times[c.a], shares.times[c.b])};
 }
 
-// The clamps of `split`, k h^2 at most [kg], of every distance constraint.
-std::vector<double> clampsOfLinks(const Scene& scene, const Settings& settings, const Counts& counts) {
-    const solvers::Shares shares = solvers::sharesOf(scene, settings, counts.inverseMass);
-    std::vector<double> clamps;
-    clamps.reserve(shares.ofLinks.size());
-    for (std::size_t c = 0; c < shares.ofLinks.size(); ++c) {
-        const DistanceConstraint& link = scene.distances[c];
-        clamps.push_back(double{shares.ofLinks[c]} *
-                         double{std::min(shares.times[link.a], shares.times[link.b])});
-    }
-    return clamps;
-}
-
-// What links leave of the stability bound, and no more than half of what they use.
-double omegaOfBends(const Settings& settings) {
-    const double left = ranges::omegaBound(double{settings.theta}) - double{settings.omega};
-    return std::min(0.9 * left, double{settings.omega} / 2);
-}
-
-double splitOfBend(const Counts& counts, const BendConstraint& c) {
-    const auto end = [&](std::uint32_t i) { return counts.bends[i] * double{counts.inverseMass[i]}; };
+double splitOfBend(const Load& load, const BendConstraint& c) {
+    const auto end = [&](std::uint32_t i) { return load.bends[i] * double{load.inverseMass[i]}; };
     return end(c.a) + 4 * end(c.b) + end(c.c);
 }
 
@@ -94,13 +76,13 @@ std::vector<std::uint32_t> componentsOf(const Scene& scene) {
 }
 
 // The weight on one of the links that a particle's body hangs on [N]; 0 for bodies that hang on nothing.
-std::vector<double> hangingWeights(const Scene& scene, const Counts& counts) {
+std::vector<double> hangingWeights(const Scene& scene, const std::vector<float>& inverseMass) {
     const std::vector<std::uint32_t> component = componentsOf(scene);
     std::vector<double> mass(component.size(), 0), holding(component.size(), 0);
     for (std::size_t i = 0; i < component.size(); ++i)
-        if (counts.inverseMass[i] > 0) mass[component[i]] += 1 / double{counts.inverseMass[i]};
+        if (inverseMass[i] > 0) mass[component[i]] += 1 / double{inverseMass[i]};
     for (const DistanceConstraint& c : scene.distances)
-        if ((counts.inverseMass[c.a] == 0) != (counts.inverseMass[c.b] == 0)) ++holding[component[c.a]];
+        if ((inverseMass[c.a] == 0) != (inverseMass[c.b] == 0)) ++holding[component[c.a]];
     const Vec3& g = scene.gravity;
     const double gravity = std::hypot(double{g.x}, double{g.y}, double{g.z});
     std::vector<double> weights(component.size(), 0);
@@ -111,68 +93,89 @@ std::vector<double> hangingWeights(const Scene& scene, const Counts& counts) {
     return weights;
 }
 
-void addLinks(const Scene& scene, const Settings& settings, const Counts& counts, std::vector<Term>& terms) {
-    const std::vector<double> weights = hangingWeights(scene, counts);
-    const bool isSplit = settings.solver == Solver::split;
-    const std::vector<double> clamps =
-        isSplit ? clampsOfLinks(scene, settings, counts) : std::vector<double>();
-    for (std::size_t i = 0; i < scene.distances.size(); ++i) {
-        const DistanceConstraint& c = scene.distances[i];
-        if (!canMove(counts, {c.a, c.b})) continue;
-        Term term{.clamp = isSplit ? clamps[i] : 0,
-                  .inverseMass = double{counts.inverseMass[c.a]} + double{counts.inverseMass[c.b]},
-                  .share = shareAfter(settings, std::max(counts.links[c.a] + counts.bends[c.a],
-                                                         counts.links[c.b] + counts.bends[c.b])),
-                  .isRigid = c.compliance == 0};
-        if (!term.isRigid)
-            term.stiffness = 1 / double{c.compliance};
-        else if (c.restLength > 0)
-            term.stiffness = weights[c.a] / (double{settings.tolerance} * double{c.restLength});
-        terms.push_back(term);
+Load loadOf(const Scene& scene) {
+    Load load{.inverseMass = inverseMasses(scene), .links = {}, .bends = {}, .weights = {}};
+    load.links.assign(scene.particles.size(), 0);
+    load.bends.assign(scene.particles.size(), 0);
+    bool hasRigid = false;
+    for (const DistanceConstraint& c : scene.distances) {
+        if (canMove(load, {c.a, c.b})) ++load.links[c.a], ++load.links[c.b];
+        hasRigid = hasRigid || c.compliance == 0;
     }
+    for (const BendConstraint& c : scene.bends)
+        if (canMove(load, {c.a, c.b, c.c})) ++load.bends[c.a], ++load.bends[c.b], ++load.bends[c.c];
+    if (hasRigid) load.weights = hangingWeights(scene, load.inverseMass);
+    return load;
 }
 
-void addBends(const Scene& scene, const Settings& settings, const Counts& counts, std::vector<Term>& terms) {
-    const double omega = omegaOfBends(settings);
-    for (const BendConstraint& c : scene.bends) {
-        if (c.compliance == 0 || !canMove(counts, {c.a, c.b, c.c})) continue;
-        std::uint32_t most = 0;
-        for (const std::uint32_t end : {c.a, c.b, c.c})
-            most = std::max(most, counts.links[end] + counts.bends[end]);
-        terms.push_back({.stiffness = 1 / double{c.compliance},
-                         .clamp = omega / splitOfBend(counts, c),
-                         .inverseMass = double{counts.inverseMass[c.a]} +
-                                        4 * double{counts.inverseMass[c.b]} + double{counts.inverseMass[c.c]},
-                         .share = shareAfter(settings, most)});
-    }
+// How `split` divides the particles; settings.substeps is a number. Other solvers divide nothing.
+solvers::Shares sharesFor(const Scene& scene, const Settings& settings, const Load& load) {
+    if (settings.solver != Solver::split) return {};
+    return solvers::sharesOf(scene, settings, load.inverseMass);
 }
 
-// Cells about their rest volume: k is 0.75 lambda_v a (solvers/shares.hpp). Other solvers have no form for
-// them.
-void addCells(const Scene& scene, const Settings& settings, const Counts& counts, std::vector<Term>& terms) {
-    if (settings.solver != Solver::split || std::ranges::none_of(scene.grids, hasCellVolumes)) return;
-    const solvers::Shares shares = solvers::sharesOf(scene, settings, counts.inverseMass);
-    for (std::size_t g = 0; g < scene.grids.size(); ++g) {
-        const Grid& grid = scene.grids[g];
-        if (grid.volumeStiffness == 0) continue;
-        const double whole = 0.75 * double{grid.volumeStiffness} * double{grid.restLength[0]};
-        lattice::forEachCell(grid, [&](const lattice::Cell& cell) {
-            float time = shares.times[cell.corners[0]];
-            for (const std::uint32_t corner : cell.corners) time = std::min(time, shares.times[corner]);
-            terms.push_back({.stiffness = cell.fill * whole,
-                             .clamp = cell.fill * double{shares.ofCells[g].volume} * double{time}});
-        });
-    }
-}
+// The terms of a scene: millions, so that they are visited and not kept.
+struct Terms {
+    const Scene& scene;
+    const Settings& settings;
+    const Load& load;
+    solvers::Shares shares = sharesFor(scene, settings, load);
 
-std::vector<Term> termsOf(const Scene& scene, const Settings& settings) {
-    const Counts counts = count(scene);
-    std::vector<Term> terms;
-    addLinks(scene, settings, counts, terms);
-    addBends(scene, settings, counts, terms);
-    addCells(scene, settings, counts, terms);
-    return terms;
-}
+    bool isSplit() const { return settings.solver == Solver::split; }
+    double shareAmong(std::initializer_list<std::uint32_t> ends) const {
+        return settings.solver == Solver::jacobi ? shareAfter(settings, load.mostConstraints(ends)) : 1;
+    }
+
+    template <typename Visit> void forEachLink(const Visit& visit) const {
+        for (std::size_t i = 0; i < scene.distances.size(); ++i) {
+            const DistanceConstraint& c = scene.distances[i];
+            if (!canMove(load, {c.a, c.b})) continue;
+            Term term{.clamp = isSplit() ? clampOfLink(shares, scene, i) : 0,
+                      .inverseMass = double{load.inverseMass[c.a]} + double{load.inverseMass[c.b]},
+                      .share = shareAmong({c.a, c.b}),
+                      .isRigid = c.compliance == 0};
+            if (!term.isRigid)
+                term.stiffness = 1 / double{c.compliance};
+            else if (c.restLength > 0)
+                term.stiffness = load.weights[c.a] / (double{settings.tolerance} * double{c.restLength});
+            visit(term);
+        }
+    }
+
+    template <typename Visit> void forEachBend(const Visit& visit) const {
+        const double omega = solvers::omegaOfBends(settings);
+        for (const BendConstraint& c : scene.bends) {
+            if (c.compliance == 0 || !canMove(load, {c.a, c.b, c.c})) continue;
+            visit(Term{.stiffness = 1 / double{c.compliance},
+                       .clamp = omega / splitOfBend(load, c),
+                       .inverseMass = double{load.inverseMass[c.a]} + 4 * double{load.inverseMass[c.b]} +
+                                      double{load.inverseMass[c.c]},
+                       .share = shareAmong({c.a, c.b, c.c})});
+        }
+    }
+
+    // Cells about their rest volume: k is 0.75 lambda_v a (solvers/shares.hpp). Other solvers have no form
+    // for them.
+    template <typename Visit> void forEachCell(const Visit& visit) const {
+        for (std::size_t g = 0; isSplit() && g < scene.grids.size(); ++g) {
+            const Grid& grid = scene.grids[g];
+            if (grid.volumeStiffness == 0) continue;
+            const double whole = 0.75 * double{grid.volumeStiffness} * double{grid.restLength[0]};
+            lattice::forEachCell(grid, [&](const lattice::Cell& cell) {
+                float time = shares.times[cell.corners[0]];
+                for (const std::uint32_t corner : cell.corners) time = std::min(time, shares.times[corner]);
+                visit(Term{.stiffness = cell.fill * whole,
+                           .clamp = cell.fill * double{shares.ofCells[g].volume} * double{time}});
+            });
+        }
+    }
+
+    template <typename Visit> void forEach(const Visit& visit) const {
+        forEachLink(visit);
+        forEachBend(visit);
+        forEachCell(visit);
+    }
+};
 
 // How a solver bounds stiffness: k_eff / k at h, and the longest h at which the part of its error that h
 // decides stays within a tolerance. A rigid term has the stiffness at which its load stretches it by the
@@ -221,14 +224,17 @@ std::uint32_t countFor(double dt, double h) {
 }
 
 // The longest h at which `split` bears the whole of dampingTime: the positive root of
-// (1 + 2 theta) links h^2 + 2 dampingTime links h = 4 x 0.95.
-double longestOfDamping(const Scene& scene, const Settings& settings, const std::vector<Term>& terms) {
+// (1 + 2 theta) links h^2 + 2 dampingTime links h = 4 x 0.95; `links` the largest k D of an elastic term.
+double longestOfDamping(const Terms& terms) {
+    const Settings& settings = terms.settings;
+    if (!terms.isSplit() || terms.scene.dampingTime == 0) return infinite;
     double links = 0; // rigid ones have no damping of their own
-    for (const Term& term : terms)
+    terms.forEach([&](const Term& term) {
         if (!term.isRigid) links = std::max(links, term.stiffness * double{settings.omega} / term.clamp);
-    const double damping = double{scene.dampingTime} * links, a = (1 + 2 * double{settings.theta}) * links;
-    if (settings.solver != Solver::split || damping == 0) return infinite;
-    return (std::sqrt(damping * damping + 3.8 * a) - damping) / a;
+    });
+    const double damping = double{terms.scene.dampingTime} * links;
+    const double a = (1 + 2 * double{settings.theta}) * links;
+    return damping == 0 ? infinite : (std::sqrt(damping * damping + 3.8 * a) - damping) / a;
 }
 
 // The longest substeps that each rule allows [s]; settings.substeps is the number that is tried.
@@ -238,24 +244,24 @@ struct Limits {
 
 constexpr int mostRounds = 6;
 
-Limits limitsOf(const Scene& scene, const Settings& settings) {
-    const Model& model = modelOf(settings.solver);
-    const std::vector<Term> terms = termsOf(scene, settings);
+Limits limitsOf(const Terms& terms) {
+    const Model& model = modelOf(terms.settings.solver);
+    const double tolerance{terms.settings.tolerance};
     Limits limits;
-    for (const Term& term : terms) {
+    terms.forEach([&](const Term& term) {
         double& longest = term.isRigid ? limits.rigid : limits.elastic;
-        if (term.stiffness > 0) longest = std::min(longest, model.longest(term, double{settings.tolerance}));
-    }
-    limits.damped = longestOfDamping(scene, settings, terms);
+        if (term.stiffness > 0) longest = std::min(longest, model.longest(term, tolerance));
+    });
+    limits.damped = longestOfDamping(terms);
     return limits;
 }
 
 // With which elastic terms are within the tolerance. The shares of `split` depend on h a little: a fixed
 // point.
-std::uint32_t neededFor(const Scene& scene, const Settings& settings) {
+std::uint32_t neededFor(const Scene& scene, const Settings& settings, const Load& load) {
     Settings tried = settings;
     for (int round = 0; round < mostRounds; ++round) {
-        const std::uint32_t wanted = countFor(double{scene.dt}, limitsOf(scene, tried).elastic);
+        const std::uint32_t wanted = countFor(double{scene.dt}, limitsOf({scene, tried, load}).elastic);
         if (wanted == tried.substeps) break;
         tried.substeps = wanted;
     }
@@ -267,25 +273,29 @@ bool hasOnlyFreeParticles(const Scene& scene) {
            scene.planes.empty();
 }
 
+SplitBudget budgetOf(const Terms& terms) {
+    const auto& [scene, settings, load, shares] = terms;
+    SplitBudget budget{.omegaLinks = double{settings.omega}};
+    if (!terms.isSplit()) return budget;
+    for (std::size_t i = 0; i < scene.distances.size(); ++i) {
+        const DistanceConstraint& c = scene.distances[i];
+        if (canMove(load, {c.a, c.b})) // D_c is at most omega / clamp
+            budget.links = std::max(budget.links, double{settings.omega} /
+                                                      (double{c.compliance} * clampOfLink(shares, scene, i)));
+    }
+    if (scene.bends.empty()) return budget;
+    budget.omegaBends = solvers::omegaOfBends(settings);
+    for (const BendConstraint& c : scene.bends)
+        if (canMove(load, {c.a, c.b, c.c}))
+            budget.bends = std::max(budget.bends, splitOfBend(load, c) / double{c.compliance});
+    return budget;
+}
+
 } // namespace
 
 SplitBudget splitBudget(const Scene& scene, const Settings& settings) {
-    SplitBudget budget{.omegaLinks = double{settings.omega}};
-    if (settings.solver != Solver::split) return budget;
-    const Counts counts = count(scene);
-    const std::vector<double> clamps = clampsOfLinks(scene, settings, counts);
-    for (std::size_t i = 0; i < scene.distances.size(); ++i) {
-        const DistanceConstraint& c = scene.distances[i];
-        if (canMove(counts, {c.a, c.b})) // D_c is at most omega / clamp
-            budget.links =
-                std::max(budget.links, double{settings.omega} / (double{c.compliance} * clamps[i]));
-    }
-    if (scene.bends.empty()) return budget;
-    budget.omegaBends = omegaOfBends(settings);
-    for (const BendConstraint& c : scene.bends)
-        if (canMove(counts, {c.a, c.b, c.c}))
-            budget.bends = std::max(budget.bends, splitOfBend(counts, c) / double{c.compliance});
-    return budget;
+    const Load load = loadOf(scene);
+    return budgetOf({scene, settings, load});
 }
 
 double dampingBudget(const SplitBudget& budget, double theta, double h) {
@@ -298,11 +308,12 @@ SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings) {
     if (settings.substeps > 0) return {settings.substeps, settings.substeps, SubstepReason::asked};
     if (hasOnlyFreeParticles(scene)) return {1, 1, SubstepReason::fewest};
     // The shares of `split` depend on h a little, so that this is the fixed point of a few rounds.
+    const Load load = loadOf(scene);
     Settings tried = settings;
     tried.substeps = ranges::fewestChosen;
     SubstepChoice choice;
     for (int round = 0; round < mostRounds; ++round) {
-        const Limits limits = limitsOf(scene, tried);
+        const Limits limits = limitsOf({scene, tried, load});
         const double longest = std::min({limits.elastic, limits.rigid, limits.damped});
         choice.wanted = countFor(double{scene.dt}, longest);
         choice.reason = longest == limits.elastic ? SubstepReason::stiffness
@@ -326,28 +337,29 @@ Settings withSubsteps(const Scene& scene, Settings settings) {
 
 StiffnessReport inspectStiffness(const Scene& scene, const Settings& asked) {
     const Settings settings = withSubsteps(scene, asked);
+    const Load load = loadOf(scene);
+    const Terms terms{scene, settings, load};
     StiffnessReport report;
     const Model& model = modelOf(settings.solver);
     const double h = double{scene.dt} / settings.substeps;
-    const bool isSplit = settings.solver == Solver::split;
-    const double budget = dampingBudget(splitBudget(scene, settings), double{settings.theta}, h);
+    const double budget = dampingBudget(budgetOf(terms), double{settings.theta}, h);
     double sum = 0, damping = 0;
-    for (const Term& term : termsOf(scene, settings)) {
-        if (term.isRigid) continue;
+    terms.forEach([&](const Term& term) {
+        if (term.isRigid) return;
         const double reached = model.reached(term, h);
         ++report.elastic;
-        report.clamped += isSplit && reached < 1 - rounding;
+        report.clamped += terms.isSplit() && reached < 1 - rounding;
         report.soft += reached < 1 - double{settings.tolerance} - rounding;
         report.softest = std::min(report.softest, reached);
         sum += reached;
         // of a link's c = k dampingTime, h c D is at most the budget
         const double most = budget * term.clamp / double{settings.omega} / (term.stiffness * h);
-        damping += isSplit ? std::min(double{scene.dampingTime}, most) : double{scene.dampingTime};
-    }
+        damping += terms.isSplit() ? std::min(double{scene.dampingTime}, most) : double{scene.dampingTime};
+    });
     if (report.elastic == 0) return report;
     report.mean = sum / static_cast<double>(report.elastic);
     report.dampingTime = damping / static_cast<double>(report.elastic);
-    report.neededSubsteps = neededFor(scene, settings);
+    report.neededSubsteps = neededFor(scene, settings, load);
     return report;
 }
 

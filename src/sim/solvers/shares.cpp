@@ -6,7 +6,7 @@
 #include "sim/ranges.hpp"
 
 #include <algorithm>
-#include <unordered_map>
+#include <array>
 
 namespace sinew::sim::solvers {
 
@@ -22,20 +22,25 @@ double meanInverseMass(std::span<const float> inverseMass) {
     return moving > 0 ? sum / static_cast<double>(moving) : 0;
 }
 
+// By rest length: all links of a grid have one of its three.
+std::size_t kindOf(const Grid& grid, const DistanceConstraint& link) {
+    return link.restLength == grid.restLength[0] ? 0 : link.restLength == grid.restLength[1] ? 1 : 2;
+}
+
 // K_c: at which stiffness the share of a constraint levels off.
-std::vector<double> levelStiffness(const Scene& scene) {
-    std::vector<double> levels;
+std::vector<float> levelStiffness(const Scene& scene) {
+    std::vector<float> levels;
     levels.reserve(scene.distances.size());
-    for (const DistanceConstraint& c : scene.distances) levels.push_back(double{stiffnessOf(c.compliance)});
+    for (const DistanceConstraint& c : scene.distances) levels.push_back(stiffnessOf(c.compliance));
     for (const Grid& grid : scene.grids) {
-        std::unordered_map<float, double> stiffest; // by rest length
+        std::array<float, 3> stiffest{};
         const std::size_t end = std::size_t{grid.firstDistance} + grid.distanceCount;
         for (std::size_t c = grid.firstDistance; c < end; ++c) {
-            double& most = stiffest[scene.distances[c].restLength];
+            float& most = stiffest[kindOf(grid, scene.distances[c])];
             most = std::max(most, levels[c]);
         }
         for (std::size_t c = grid.firstDistance; c < end; ++c)
-            levels[c] = stiffest.at(scene.distances[c].restLength);
+            levels[c] = stiffest[kindOf(grid, scene.distances[c])];
     }
     return levels;
 }
@@ -48,15 +53,13 @@ double softeningOf(const Scene& scene, const Settings& settings, std::span<const
 
 std::vector<float> shareStiffness(const Scene& scene, const Settings& settings,
                                   std::span<const float> inverseMass) {
-    const std::vector<double> levels = levelStiffness(scene);
+    std::vector<float> shares = levelStiffness(scene);
     const double softening = softeningOf(scene, settings, inverseMass);
-    std::vector<float> shares;
-    shares.reserve(scene.distances.size());
     for (std::size_t c = 0; c < scene.distances.size(); ++c) {
         const DistanceConstraint& constraint = scene.distances[c];
         const bool moves = constraints::distance::canMove(constraint, inverseMass);
-        const double ratio = moves ? 1 / (1 + softening * levels[c]) : 0;
-        shares.push_back(static_cast<float>(double{stiffnessOf(constraint.compliance)} * ratio));
+        const double ratio = moves ? 1 / (1 + softening * double{shares[c]}) : 0;
+        shares[c] = static_cast<float>(double{stiffnessOf(constraint.compliance)} * ratio);
     }
     return shares;
 }
@@ -132,6 +135,11 @@ float wholeShare(const Scene& scene, const Grid& grid, std::uint32_t kind, std::
 
 double recoveryBudget(const Settings& settings) {
     return 0.9 * ranges::omegaBound(double{settings.theta}) / double{settings.omega} - 1;
+}
+
+double omegaOfBends(const Settings& settings) {
+    const double left = ranges::omegaBound(double{settings.theta}) - double{settings.omega};
+    return std::min(0.9 * left, double{settings.omega} / 2);
 }
 
 Shares sharesOf(const Scene& scene, const Settings& settings, std::span<const float> inverseMass) {

@@ -64,4 +64,8 @@ float wholeShare(const Scene& scene, const Grid& grid, std::uint32_t kind, std::
 /// stability leaves. Not above 0 where omega leaves nothing.
 double recoveryBudget(const Settings& settings);
 
+/// Clamp of h^2 k_c D_c of bends: what links leave of the stability bound, and no more than half of what they
+/// use.
+double omegaOfBends(const Settings& settings);
+
 } // namespace sinew::sim::solvers

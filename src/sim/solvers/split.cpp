@@ -11,7 +11,6 @@
 #include "sim/lattice/batches.hpp"
 #include "sim/solvers/shares.hpp"
 #include "sim/solvers/split_kernels.hpp"
-#include "sim/substeps.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -120,7 +119,7 @@ Gather listedGather(const Common& common, std::uint32_t count) {
     Gather gather = common.gather();
     const auto links = constraints::distance::gatherLinks(listedLinks(common), count);
     const auto bends = constraints::bend::gatherBends(common.scene, common.division.inverseMass,
-                                                      splitBudget(common.scene, common.settings).omegaBends);
+                                                      omegaOfBends(common.settings));
     if (bends.degree > 0 || (links.degree > 0 && common.scene.dampingTime > 0))
         return termsGather(common, links, bends, count);
     if (links.degree == 0) {
