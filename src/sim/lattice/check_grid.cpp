@@ -35,79 +35,95 @@ std::optional<std::string> checkShape(const Scene& scene, const Grid& grid) {
     return std::nullopt;
 }
 
-/// Mean fill of the cells that may hold the link from `a` to `b` [0..1], for sheets the largest.
-double heldBy(const Grid& grid, const Node& a, const Node& b) {
-    int sum = 0, count = 0, most = 0;
-    const bool sheet = isSheet(grid);
-    const std::int64_t cells[3] = {std::int64_t{grid.nodes[0]} - 1,
-                                   sheet ? 1 : std::int64_t{grid.nodes[1]} - 1,
-                                   std::int64_t{grid.nodes[2]} - 1};
-    for (int k = 0; k < 8; ++k) { // cells that have both ends as corners
-        std::int64_t cell[3];
-        bool isHeld = true, exists = true;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const std::int64_t low = std::min(a[axis], b[axis]);
-            const bool isLow = (k >> axis & 1) == 0;
-            if (sheet && axis == 1) {
-                isHeld = isHeld && isLow;
-                cell[axis] = 0;
-                continue;
-            }
-            isHeld = isHeld && (a[axis] == b[axis] || !isLow);
-            cell[axis] = a[axis] == b[axis] && isLow ? low - 1 : low;
-            exists = exists && cell[axis] >= 0 && cell[axis] < cells[axis];
-        }
-        if (!isHeld) continue;
-        ++count;
-        const int fill =
-            exists ? grid.fill[static_cast<std::size_t>(cell[0] + cells[0] * (cell[1] + cells[1] * cell[2]))]
-                   : 0;
-        sum += fill;
-        most = std::max(most, fill);
-    }
-    return sheet ? most / double{LATTICE_FULL} : sum / (double{LATTICE_FULL} * count);
+/// A step to a neighbour is a code from 0 to 26: x + 1 + 3 (y + 1) + 9 (z + 1).
+constexpr std::uint32_t stepCount = 27;
+
+constexpr int along(std::uint32_t step, std::uint32_t axis) {
+    return static_cast<int>(step / (axis == 0 ? 1 : axis == 1 ? 3 : 9) % 3) - 1;
 }
 
-/// 1 to 3 for neighbours that differ in that many coordinates, 0 for any other two nodes.
-std::uint32_t axesBetween(const Node& a, const Node& b) {
+/// 1 for an edge, 2 for a face diagonal, 3 for a body diagonal.
+constexpr std::uint32_t axesOf(std::uint32_t step) {
     std::uint32_t axes = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const std::int64_t step = std::int64_t{a[axis]} - b[axis];
-        if (std::abs(step) > 1) return 0;
-        axes += step != 0 ? 1 : 0;
-    }
+    for (std::uint32_t axis = 0; axis < 3; ++axis) axes += along(step, axis) != 0 ? 1 : 0;
     return axes;
 }
 
-bool agrees(const Grid& grid, const DistanceConstraint& link, const Node& a, const Node& b) {
-    const std::uint32_t axes = axesBetween(a, b);
+/// Which of the cells of fillAround(a) hold the link from a to its neighbour a step away.
+constexpr std::array<std::uint32_t, stepCount> cellsOfSteps = [] {
+    std::array<std::uint32_t, stepCount> cells{};
+    for (std::uint32_t step = 0; step < stepCount; ++step)
+        for (std::uint32_t k = 0; k < 8; ++k) {
+            bool isHeld = true;
+            for (std::uint32_t axis = 0; axis < 3; ++axis)
+                isHeld = isHeld && along(step, axis) != ((k >> axis & 1) == 0 ? 1 : -1);
+            if (isHeld) cells[step] |= 0xfu << 4 * k;
+        }
+    return cells;
+}();
+
+std::optional<std::uint32_t> stepBetween(const Node& a, const Node& b) {
+    std::uint32_t step = 0;
+    for (std::size_t axis = 3; axis-- > 0;) {
+        const std::uint32_t from = b[axis] - a[axis] + 1; // wraps to a large number where b is too far
+        if (from > 2) return std::nullopt;
+        step = 3 * step + from;
+    }
+    return step;
+}
+
+/// Mean fill of the cells that may hold a link [0..1], for sheets the largest.
+double heldBy(const Grid& grid, std::uint32_t fillAround, std::uint32_t step) {
+    std::uint32_t sum = 0, most = 0;
+    for (std::uint32_t rest = fillAround & cellsOfSteps[step]; rest != 0; rest >>= 4) {
+        sum += rest & 0xf;
+        most = std::max(most, rest & 0xf);
+    }
+    if (isSheet(grid)) return most / double{LATTICE_FULL};
+    const std::uint32_t cells = 8u >> axesOf(step);
+    return sum / (double{LATTICE_FULL} * cells);
+}
+
+/// Where a particle of the grid is, and how full the cells around it are.
+struct Place {
+    Node node;
+    std::uint32_t fillAround;
+};
+
+std::vector<Place> placesOf(const Grid& grid) {
+    std::vector<Place> places;
+    places.reserve(grid.node.size());
+    for (const std::uint32_t index : grid.node) {
+        const Node node = coordinates(grid, index);
+        places.push_back({node, fillAround(grid, node)});
+    }
+    return places;
+}
+
+bool agrees(const Grid& grid, const DistanceConstraint& link, const Place& a, const Place& b) {
+    const std::optional<std::uint32_t> step = stepBetween(a.node, b.node);
+    if (!step) return false;
+    const std::uint32_t axes = axesOf(*step);
     if (axes == 0 || axes > grid.kinds) return false;
-    const double held = heldBy(grid, a, b);
+    const double held = heldBy(grid, a.fillAround, *step);
     if (held == 0 || link.restLength != grid.restLength[axes - 1]) return false;
     const double compliance = double{grid.compliance[axes - 1]} / held;
     return std::abs(double{link.compliance} - compliance) <= 1e-5 * compliance;
 }
 
-/// Links that the fill of the cells calls for.
-std::size_t countLinks(const Grid& grid) {
-    std::vector<bool> isLive(std::size_t{grid.nodes[0]} * grid.nodes[1] * grid.nodes[2]);
+/// Links that the fill of the cells calls for. What a filled cell holds leads to a node of the grid.
+std::size_t countLinks(const Grid& grid, const std::vector<Place>& places) {
+    const std::int64_t strideY = grid.nodes[0], strideZ = strideY * grid.nodes[1];
+    std::vector<bool> isLive(static_cast<std::size_t>(strideZ) * grid.nodes[2]);
     for (const std::uint32_t node : grid.node) isLive[node] = true;
     std::size_t links = 0;
-    for (const std::uint32_t node : grid.node) {
-        const Node a = coordinates(grid, node);
-        for (int k = 0; k < 27; ++k) {
-            const std::int64_t x = std::int64_t{a[0]} + k % 3 - 1, y = std::int64_t{a[1]} + k / 3 % 3 - 1,
-                               z = std::int64_t{a[2]} + k / 9 - 1;
-            if (x < 0 || y < 0 || z < 0 || x >= grid.nodes[0] || y >= grid.nodes[1] || z >= grid.nodes[2])
-                continue;
-            const Node b{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
-                         static_cast<std::uint32_t>(z)};
-            const std::uint32_t axes = axesBetween(a, b);
-            if (axes == 0 || axes > grid.kinds || heldBy(grid, a, b) == 0) continue;
-            links += isLive[b[0] + std::size_t{grid.nodes[0]} * (b[1] + std::size_t{grid.nodes[1]} * b[2])]
-                         ? 1
-                         : 2;
-        }
+    for (std::uint32_t step = 0; step < stepCount; ++step) {
+        const std::uint32_t axes = axesOf(step);
+        if (axes == 0 || axes > grid.kinds || (isSheet(grid) && along(step, 1) != 0)) continue;
+        const std::int64_t offset = along(step, 0) + strideY * along(step, 1) + strideZ * along(step, 2);
+        for (std::size_t i = 0; i < places.size(); ++i)
+            if ((places[i].fillAround & cellsOfSteps[step]) != 0)
+                links += isLive[static_cast<std::size_t>(grid.node[i] + offset)] ? 1 : 2;
     }
     return links / 2;
 }
@@ -116,21 +132,21 @@ std::size_t countLinks(const Grid& grid) {
 
 std::optional<std::string> complaintAbout(const Scene& scene, const Grid& grid) {
     if (auto complaint = checkShape(scene, grid)) return complaint;
-    const std::size_t endParticle = grid.firstParticle + grid.node.size();
+    const std::vector<Place> places = placesOf(grid);
     for (std::uint32_t c = grid.firstDistance; c < grid.firstDistance + grid.distanceCount; ++c) {
         const DistanceConstraint& link = scene.distances[c];
         if (std::max(link.a, link.b) >= scene.particles.size()) return std::nullopt;
-        const bool isInside =
-            std::min(link.a, link.b) >= grid.firstParticle && std::max(link.a, link.b) < endParticle;
-        if (!isInside || !agrees(grid, link, coordinates(grid, grid.node[link.a - grid.firstParticle]),
-                                 coordinates(grid, grid.node[link.b - grid.firstParticle])))
+        const std::size_t a = std::size_t{link.a} - grid.firstParticle,
+                          b = std::size_t{link.b} - grid.firstParticle; // large where below the first
+        if (std::max(a, b) >= places.size() || !agrees(grid, link, places[a], places[b]))
             return "distance[" + std::to_string(c) +
                    "] is not the link that the grid has there: remove the grid from scene.grids or mend one "
                    "of the two";
     }
-    if (countLinks(grid) != grid.distanceCount)
-        return "has " + std::to_string(countLinks(grid)) + " links, but names " +
-               std::to_string(grid.distanceCount) + " distance constraints";
+    const std::size_t links = countLinks(grid, places);
+    if (links != grid.distanceCount)
+        return "has " + std::to_string(links) + " links, but names " + std::to_string(grid.distanceCount) +
+               " distance constraints";
     return std::nullopt;
 }
 

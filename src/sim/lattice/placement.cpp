@@ -19,19 +19,6 @@ std::uint32_t fillAt(const Grid& grid, std::int64_t x, std::int64_t y, std::int6
     return grid.fill[static_cast<std::size_t>(x + cellsX * (y + cellsY * z))];
 }
 
-/// A sheet has one layer of cells, seen as those below its nodes in y.
-std::uint32_t wordAt(const Grid& grid, const std::array<std::uint32_t, 3>& node) {
-    std::uint32_t word = 0;
-    for (std::uint32_t k = 0; k < 8; ++k) {
-        const std::int64_t x = std::int64_t{node[0]} - 1 + (k & 1);
-        const std::int64_t y =
-            isSheet(grid) ? 0 - std::int64_t{k >> 1 & 1} : std::int64_t{node[1]} - 1 + (k >> 1 & 1);
-        const std::int64_t z = std::int64_t{node[2]} - 1 + (k >> 2);
-        word |= fillAt(grid, x, y, z) << 4 * k;
-    }
-    return word;
-}
-
 /// Which slices of a block hold a particle.
 std::vector<bool> slicesWithParticles(const Grid& grid, const std::vector<bool>& isLive, std::uint32_t blockX,
                                       std::uint32_t blockY, std::uint32_t columnsX, std::uint32_t columnsY) {
@@ -77,10 +64,22 @@ std::array<std::uint32_t, 3> coordinates(const Grid& grid, std::uint32_t node) {
     return {node % grid.nodes[0], node / grid.nodes[0] % grid.nodes[1], node / grid.nodes[0] / grid.nodes[1]};
 }
 
+std::uint32_t fillAround(const Grid& grid, const std::array<std::uint32_t, 3>& node) {
+    std::uint32_t word = 0;
+    for (std::uint32_t k = 0; k < 8; ++k) {
+        const std::int64_t x = std::int64_t{node[0]} - 1 + (k & 1);
+        const std::int64_t y =
+            isSheet(grid) ? 0 - std::int64_t{k >> 1 & 1} : std::int64_t{node[1]} - 1 + (k >> 1 & 1);
+        const std::int64_t z = std::int64_t{node[2]} - 1 + (k >> 2);
+        word |= fillAt(grid, x, y, z) << 4 * k;
+    }
+    return word;
+}
+
 void writeCells(const Grid& grid, const Box& box, std::span<std::uint32_t> words) {
     for (const std::uint32_t node : grid.node) {
         const auto at = coordinates(grid, node);
-        words[box.slot(at[0], at[1], at[2])] = wordAt(grid, at);
+        words[box.slot(at[0], at[1], at[2])] = fillAround(grid, at);
     }
 }
 

@@ -33,7 +33,11 @@ Box place(const Grid& grid, std::uint32_t first);
 /// Grid coordinates of a node index.
 std::array<std::uint32_t, 3> coordinates(const Grid& grid, std::uint32_t node);
 
-/// Fill of the cells around every node, as gather_lattice.comp reads it, written into `words` by slot.
+/// Fill of the eight cells around a node in 1/15, 4 bits each, cell k on the side (k & 1, k >> 1 & 1, k >> 2)
+/// of the node; 0 outside the grid. A sheet has one layer of cells, seen as those below its nodes in y.
+std::uint32_t fillAround(const Grid& grid, const std::array<std::uint32_t, 3>& node);
+
+/// fillAround every node, as gather_lattice.comp reads it, written into `words` by slot.
 void writeCells(const Grid& grid, const Box& box, std::span<std::uint32_t> words);
 
 /// The columns of `grid` cut into runs of at most `longest` slices that hold particles: empty space costs
