@@ -10,6 +10,7 @@
 #include "sim/solvers/split.hpp"
 #include "sim/substeps.hpp"
 #include "sim/surface/skin.hpp"
+#include "sim/validate.hpp"
 
 namespace sinew::sim {
 
@@ -83,6 +84,7 @@ StateLayout stateLayout(const Scene& scene, const Settings& settings) {
 }
 
 StepProgram compile(const Scene& scene, const Settings& asked) {
+    requireNone(validate(asked));
     const Settings settings = withSubsteps(scene, asked);
     ProgramBuilder program(settings.isReversed);
     StepProgram& built = program.program();

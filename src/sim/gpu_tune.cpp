@@ -2,6 +2,7 @@
 #include "sim/gpu_tune.hpp"
 
 #include "sim/lattice/batches.hpp"
+#include "sim/ranges.hpp"
 #include "sim/substeps.hpp"
 #include "vk/device.hpp"
 
@@ -77,7 +78,7 @@ Tuning tune(const vk::Device& device, const Scene& scene, const Settings& settin
     for (const auto& change : candidates) {
         Forms forms = tuning.fastest;
         change(forms);
-        if (forms.chunk > 0) attempt(forms);
+        if (ranges::chunk.holds(forms.chunk)) attempt(forms);
     }
     return tuning;
 }

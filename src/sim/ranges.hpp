@@ -72,6 +72,11 @@ inline constexpr Range weight{0, 1};
 inline constexpr Range warmStart{0, 1};
 inline constexpr Range overRelaxation{.low = 0, .high = 2, .isLowOpen = true, .isHighOpen = true};
 
+inline constexpr Range columns{1, 2};   // of Settings::forms: kernels exist for these
+inline constexpr Range chunk{1, 65535}; // likewise
+/// Nodes of all grids of a scene: their padded boxes are counted in 32 bits.
+inline constexpr double mostGridNodes = 1 << 30;
+
 /// `split` is stable on any graph below this (methods: D).
 constexpr double omegaBound(double thetaValue) {
     return 4 / (1 + 2 * thetaValue);

@@ -159,11 +159,11 @@ struct Forms {
     std::uint32_t columns = 2; ///< of a lattice, marched by one invocation in x and in y: 1 or 2
     std::uint32_t chunk = 16;  ///< slices marched at most, 1..65535
     /// Bytes of shared memory in which a work group may keep a small body on a grid through all substeps of a
-    /// step; 0 = none. Used where a scene has nothing else than such bodies.
+    /// step, as far as the device has them; 0 = none. Used where a scene has nothing else than such bodies.
     std::uint32_t residentBytes = 0;
 };
 
-/// How to solve a scene; shapes the step program. Ranges are in the table of validate.cpp.
+/// How to solve a scene; shapes the step program. Ranges are in ranges.hpp.
 struct Settings {
     Solver solver = Solver::split;
     std::uint32_t substeps = 0; ///< per step, 1..1000; 0 = as many as stiffness and tolerance ask for

@@ -13,18 +13,14 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <stdexcept>
 
 namespace sinew::sim {
 
 namespace {
 
 const Scene& valid(const Scene& scene, const Settings& settings) {
-    const std::vector<std::string> complaints = validate(scene, settings);
-    if (complaints.empty()) return scene;
-    std::string text;
-    for (const std::string& complaint : complaints) text += (text.empty() ? "" : "\n") + complaint;
-    throw std::invalid_argument(text);
+    requireNone(validate(scene, settings));
+    return scene;
 }
 
 // A step that is no number is the shortest one.
@@ -53,8 +49,10 @@ std::uint64_t mostTexels(const StepProgram& program) {
     return most;
 }
 
-// As the settings say, but without texel buffers longer than the device's.
+// As the settings say, but with no more shared memory and no longer texel buffers than the device has.
 StepProgram compileFor(const vk::Device& device, const Scene& scene, Settings settings) {
+    std::uint32_t& residentBytes = settings.forms.residentBytes;
+    residentBytes = std::min(residentBytes, device.limits().maxSharedMemory);
     StepProgram program = compile(scene, settings);
     if (mostTexels(program) <= device.limits().maxTexels) return program;
     settings.forms.usesTexels = false;

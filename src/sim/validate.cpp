@@ -10,9 +10,9 @@
 #include "sim/substeps.hpp"
 
 #include <algorithm>
-
 #include <charconv>
 #include <cmath>
+#include <stdexcept>
 #include <string_view>
 
 namespace sinew::sim {
@@ -89,9 +89,29 @@ constexpr SettingRow settingRows[] = {
     {"settings.overRelaxation", [](const Settings& s) { return double{s.overRelaxation}; },
      ranges::overRelaxation},
     {"settings.warmStart", [](const Settings& s) { return double{s.warmStart}; }, ranges::warmStart},
+    {"settings.forms.columns", [](const Settings& s) { return static_cast<double>(s.forms.columns); },
+     ranges::columns},
+    {"settings.forms.chunk", [](const Settings& s) { return static_cast<double>(s.forms.chunk); },
+     ranges::chunk},
 };
 
+void checkSolver(Solver solver, Complaints& complaints) {
+    Solver known = solver;
+    if (!parseSolver(solverName(solver), known) || known != solver)
+        complaints.add("settings.solver", "is " + number(static_cast<int>(solver)) + ", which is no solver");
+}
+
+void checkSweeps(const Settings& settings, Complaints& complaints) {
+    const std::uint32_t substeps = settings.substeps > 0 ? settings.substeps : ranges::mostChosen;
+    const std::uint32_t iterations = settings.solver == Solver::split ? 1 : settings.iterations;
+    const std::uint64_t sweeps = std::uint64_t{substeps} * iterations;
+    if (sweeps > ranges::mostSweeps)
+        complaints.add("settings", "substeps x iterations is " + number(sweeps) + ", must be at most " +
+                                       number(ranges::mostSweeps));
+}
+
 void checkSettings(const Settings& settings, Complaints& complaints) {
+    checkSolver(settings.solver, complaints);
     if (settings.substeps > 0 && !ranges::substeps.holds(static_cast<double>(settings.substeps)))
         complaints.add("settings.substeps", "is " + number(settings.substeps) + ", must be " +
                                                 toText(ranges::substeps) + ", or 0 for as many as it takes");
@@ -102,6 +122,7 @@ void checkSettings(const Settings& settings, Complaints& complaints) {
         complaints.add("settings.omega", "is " + number(settings.omega) +
                                              ", but split is stable only below 4 / (1 + 2 theta) = " +
                                              number(static_cast<float>(bound)));
+    if (complaints.isEmpty()) checkSweeps(settings, complaints);
 }
 
 void checkParticles(const Scene& scene, Complaints& complaints) {
@@ -279,13 +300,8 @@ void checkColors(const Scene& scene, const Settings& settings, Complaints& compl
                                        number(ranges::mostColorPasses));
 }
 
-void checkWork(const Scene& scene, const Settings& settings, Complaints& complaints) {
-    const bool isSplit = settings.solver == Solver::split, isJacobi = settings.solver == Solver::jacobi;
-    const std::uint32_t substeps = settings.substeps > 0 ? settings.substeps : ranges::mostChosen;
-    const std::uint64_t sweeps = std::uint64_t{substeps} * (isSplit ? 1 : settings.iterations);
-    if (sweeps > ranges::mostSweeps)
-        complaints.add("settings", "substeps x iterations is " + std::to_string(sweeps) +
-                                       ", must be at most " + std::to_string(ranges::mostSweeps));
+void checkLinks(const Scene& scene, const Settings& settings, Complaints& complaints) {
+    const bool isJacobi = settings.solver == Solver::jacobi;
     const std::uint32_t most = isJacobi ? ranges::mostLinksJacobi : ranges::mostLinksUnrolled;
     std::vector<std::uint32_t> links(scene.particles.size());
     for (const DistanceConstraint& constraint : scene.distances)
@@ -301,6 +317,14 @@ std::string nameOf(const Scene& scene, std::size_t grid) {
 }
 
 void checkGrids(const Scene& scene, Complaints& complaints) {
+    double nodes = 0;
+    for (const Grid& grid : scene.grids)
+        nodes += static_cast<double>(grid.nodes[0]) * grid.nodes[1] * grid.nodes[2];
+    if (nodes > ranges::mostGridNodes) {
+        complaints.add("grids", "have " + number(nodes) + " nodes, at most " + number(ranges::mostGridNodes) +
+                                    " are possible");
+        return;
+    }
     for (std::size_t g = 0; g < scene.grids.size(); ++g) {
         const Grid& grid = scene.grids[g];
         if (const auto complaint = lattice::complaintAbout(scene, grid))
@@ -369,7 +393,7 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings) 
     checkAttachments(scene, complaints);
     checkTethers(scene, complaints);
     checkForms(scene, settings, complaints);
-    checkWork(scene, settings, complaints);
+    checkLinks(scene, settings, complaints);
     checkPlanes(scene, complaints);
     checkBodies(scene, complaints);
     checkGrids(scene, complaints);
@@ -378,6 +402,19 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings) 
     if (complaints.isEmpty()) checkCellVolumes(scene, settings, complaints);
     if (complaints.isEmpty()) checkColors(scene, settings, complaints);
     return complaints.finish();
+}
+
+std::vector<std::string> validate(const Settings& settings) {
+    Complaints complaints;
+    checkSettings(settings, complaints);
+    return complaints.finish();
+}
+
+void requireNone(const std::vector<std::string>& complaints) {
+    if (complaints.empty()) return;
+    std::string text;
+    for (const std::string& complaint : complaints) text += (text.empty() ? "" : "\n") + complaint;
+    throw std::invalid_argument(text);
 }
 
 } // namespace sinew::sim

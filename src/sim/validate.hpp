@@ -10,4 +10,10 @@ namespace sinew::sim {
 /// rest. Example: "distance[17]: particles 4 and 4 are the same".
 std::vector<std::string> validate(const Scene& scene, const Settings& settings);
 
+/// Those about the settings, whatever the scene. Cheap.
+std::vector<std::string> validate(const Settings& settings);
+
+/// Throws std::invalid_argument, one sentence a line, where there are any.
+void requireNone(const std::vector<std::string>& complaints);
+
 } // namespace sinew::sim

@@ -124,6 +124,15 @@ TEST(Grid, FormsGiveTheSameBits) {
         }
 }
 
+// 12 x 13 x 13 slots of 32 bytes are more than the 32 KiB of most devices.
+TEST(Grid, IsKeptResidentOnlyWithinTheSharedMemoryOfTheDevice) {
+    const Scene scene = body({11, 12, 12});
+    Settings settings{.substeps = 1};
+    const std::uint64_t expected = hashOfRun(scene, settings);
+    settings.forms.residentBytes = 0xffffffff;
+    EXPECT_EQ(hashOfRun(scene, settings), expected);
+}
+
 TEST(Grid, AgreesWithDoubleAfterAStep) {
     for (auto& [name, scene] : scenes())
         for (const std::uint32_t substeps : {1u, 2u, 16u}) {
@@ -231,6 +240,20 @@ TEST(Grid, ThatContradictsTheListsIsRefusedInASentence) {
         {[](Scene& s) { s.grids[0].node[3] = 2; }, "ascending nodes"},
         {[](Scene& s) { s.grids[0].nodes[0] = 1; }, "at least 2 x 1 x 2 nodes"},
         {[](Scene& s) { s.grids[0].kinds = 4; }, "2 or 3 kinds"},
+        {[](Scene& s) { s.distances[7] = s.distances[6]; }, "distance[7] is not the link"},
+        {[](Scene& s) {
+             s.distances[7] = s.distances[6];
+             std::swap(s.distances[7].a, s.distances[7].b);
+         },
+         "distance[7] is not the link"},
+        {[](Scene& s) {
+             // a second cell, away from all particles
+             Grid& grid = s.grids[0];
+             grid.nodes = {3, 3, 6};
+             grid.fill.resize(20);
+             grid.fill[16] = 15;
+         },
+         "filled cell with a corner that is no particle"},
     };
     for (const auto& [damage, complaint] : cases) {
         const std::string message = complaintAfter(damage);

@@ -50,6 +50,13 @@ TEST(Tuning, TakesTheFastestTrial) {
     }
 }
 
+TEST(Tuning, TriesNoFormOutOfRange) {
+    Clock clock([](std::size_t) { return 1.0; });
+    const Tuning tuning =
+        tune(test::device(), test::block(2, 0.05f, 1e5f), {.forms = {.chunk = 65535}}, clock.submit());
+    EXPECT_EQ(tuning.trials.size(), 5u) << "as given, texels, half the chunk, columns, shared memory";
+}
+
 TEST(Tuning, KeepsWhatWasGivenWithinTheNoise) {
     Clock clock([](std::size_t trial) { return trial == 0 ? 1.0 : 0.98; });
     const Tuning tuning = tune(test::device(), test::block(6, 0.05f, 1e5f), {}, clock.submit());

@@ -1,4 +1,5 @@
 // Every complaint about a scene names the item, the value and what is allowed.
+#include "sim/compile.hpp"
 #include "sim/ranges.hpp"
 #include "sim/scenes.hpp"
 #include "sim/validate.hpp"
@@ -8,6 +9,8 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <stdexcept>
+#include <string_view>
 
 using namespace sinew;
 using namespace sinew::sim;
@@ -97,6 +100,20 @@ const Fault faults[] = {
     {"settings.warmStart: is -0.1, must be from 0 to 1", [](Scene&, Settings& s) { s.warmStart = -0.1f; }},
     {"settings.warmStart: is 1.01", [](Scene&, Settings& s) { s.warmStart = 1.01f; }},
     {"settings.warmStart: is nan", [](Scene&, Settings& s) { s.warmStart = notANumber; }},
+    {"settings.forms.columns: is 0, must be from 1 to 2", [](Scene&, Settings& s) { s.forms.columns = 0; }},
+    {"settings.forms.columns: is 3", [](Scene&, Settings& s) { s.forms.columns = 3; }},
+    {"settings.forms.chunk: is 0, must be from 1 to 65535", [](Scene&, Settings& s) { s.forms.chunk = 0; }},
+    {"settings.forms.chunk: is 4294967295", [](Scene&, Settings& s) { s.forms.chunk = 0xffffffff; }},
+    {"settings.solver: is 7, which is no solver",
+     [](Scene&, Settings& s) { s.solver = static_cast<Solver>(7); }},
+    {"settings: substeps x iterations is 21000, must be at most 20000",
+     [](Scene&, Settings& s) { s = {.solver = Solver::jacobi, .substeps = 1000, .iterations = 21}; }},
+    {"grids: have 1073750016 nodes, at most 1073741824 are possible",
+     [](Scene& s, Settings&) {
+         s.grids.resize(2);
+         s.grids[0].nodes = {1 << 15, 1, 1 << 15};
+         s.grids[1].nodes = {1 << 12, 1, 2};
+     }},
     {"particle[5].position: is (nan, 0, 1), must be finite",
      [](Scene& s, Settings&) { s.particles[5].position.x = notANumber; }},
     {"particle[2].velocity: is (0, 0, -inf)",
@@ -172,6 +189,24 @@ TEST(Validate, NamesItemValueAndRangeOfEachFault) {
         EXPECT_EQ(complaints.front().substr(0, std::string(fault.complaint).size()), fault.complaint);
         EXPECT_LE(complaints.size(), 2u) << fault.complaint; // one fault, not an avalanche
     }
+}
+
+TEST(Compile, RefusesSettingsInTheSameSentence) {
+    std::size_t refused = 0;
+    for (const Fault& fault : faults) {
+        if (std::string_view(fault.complaint).substr(0, 8) != "settings") continue;
+        Scene scene = validScene();
+        Settings settings;
+        fault.make(scene, settings);
+        try {
+            compile(scene, settings);
+            ADD_FAILURE() << fault.complaint;
+        } catch (const std::invalid_argument& refusal) {
+            EXPECT_EQ(std::string(refusal.what()).find(fault.complaint), 0u) << refusal.what();
+            ++refused;
+        }
+    }
+    EXPECT_GE(refused, 20u);
 }
 
 TEST(Validate, LeavesTheStabilityBoundOfSplitToSplit) {

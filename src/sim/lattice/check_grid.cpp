@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <functional>
 
 namespace sinew::sim::lattice {
 
@@ -100,30 +100,37 @@ std::vector<Place> placesOf(const Grid& grid) {
     return places;
 }
 
-bool agrees(const Grid& grid, const DistanceConstraint& link, const Place& a, const Place& b) {
-    const std::optional<std::uint32_t> step = stepBetween(a.node, b.node);
-    if (!step) return false;
-    const std::uint32_t axes = axesOf(*step);
-    if (axes == 0 || axes > grid.kinds) return false;
-    const double held = heldBy(grid, a.fillAround, *step);
-    if (held == 0 || link.restLength != grid.restLength[axes - 1]) return false;
-    const double compliance = double{grid.compliance[axes - 1]} / held;
-    return std::abs(double{link.compliance} - compliance) <= 1e-5 * compliance;
+/// Whether every corner of every filled cell is a particle: then the corners see each cell 8 times, 4 of a
+/// sheet.
+bool hasAllCorners(const Grid& grid, const std::vector<Place>& places) {
+    std::size_t seen = 0;
+    for (const Place& place : places)
+        for (std::uint32_t rest = place.fillAround; rest != 0; rest >>= 4) seen += (rest & 0xf) != 0 ? 1 : 0;
+    const auto filled = static_cast<std::size_t>(std::ranges::count_if(grid.fill, std::identity()));
+    return seen == filled * (isSheet(grid) ? 4 : 8);
 }
 
-/// Links that the fill of the cells calls for. What a filled cell holds leads to a node of the grid.
+/// How `link` leads from a to b, where the grid has it so.
+std::optional<std::uint32_t> stepOf(const Grid& grid, const DistanceConstraint& link, const Place& a,
+                                    const Place& b) {
+    const std::optional<std::uint32_t> step = stepBetween(a.node, b.node);
+    if (!step) return std::nullopt;
+    const std::uint32_t axes = axesOf(*step);
+    if (axes == 0 || axes > grid.kinds) return std::nullopt;
+    const double held = heldBy(grid, a.fillAround, *step);
+    if (held == 0 || link.restLength != grid.restLength[axes - 1]) return std::nullopt;
+    const double compliance = double{grid.compliance[axes - 1]} / held;
+    const bool agrees = std::abs(double{link.compliance} - compliance) <= 1e-5 * compliance;
+    return agrees ? step : std::nullopt;
+}
+
+/// Links that the fill of the cells calls for; all corners of filled cells are particles.
 std::size_t countLinks(const Grid& grid, const std::vector<Place>& places) {
-    const std::int64_t strideY = grid.nodes[0], strideZ = strideY * grid.nodes[1];
-    std::vector<bool> isLive(static_cast<std::size_t>(strideZ) * grid.nodes[2]);
-    for (const std::uint32_t node : grid.node) isLive[node] = true;
     std::size_t links = 0;
     for (std::uint32_t step = 0; step < stepCount; ++step) {
         const std::uint32_t axes = axesOf(step);
         if (axes == 0 || axes > grid.kinds || (isSheet(grid) && along(step, 1) != 0)) continue;
-        const std::int64_t offset = along(step, 0) + strideY * along(step, 1) + strideZ * along(step, 2);
-        for (std::size_t i = 0; i < places.size(); ++i)
-            if ((places[i].fillAround & cellsOfSteps[step]) != 0)
-                links += isLive[static_cast<std::size_t>(grid.node[i] + offset)] ? 1 : 2;
+        for (const Place& place : places) links += (place.fillAround & cellsOfSteps[step]) != 0 ? 1 : 0;
     }
     return links / 2;
 }
@@ -133,15 +140,21 @@ std::size_t countLinks(const Grid& grid, const std::vector<Place>& places) {
 std::optional<std::string> complaintAbout(const Scene& scene, const Grid& grid) {
     if (auto complaint = checkShape(scene, grid)) return complaint;
     const std::vector<Place> places = placesOf(grid);
+    if (!hasAllCorners(grid, places)) return "has a filled cell with a corner that is no particle";
+    std::vector<std::uint32_t> isListed(places.size()); // by step, at the first end
     for (std::uint32_t c = grid.firstDistance; c < grid.firstDistance + grid.distanceCount; ++c) {
         const DistanceConstraint& link = scene.distances[c];
         if (std::max(link.a, link.b) >= scene.particles.size()) return std::nullopt;
-        const std::size_t a = std::size_t{link.a} - grid.firstParticle,
-                          b = std::size_t{link.b} - grid.firstParticle; // large where below the first
-        if (std::max(a, b) >= places.size() || !agrees(grid, link, places[a], places[b]))
+        // large where below the first
+        const auto [first, last] =
+            std::minmax({std::size_t{link.a} - grid.firstParticle, std::size_t{link.b} - grid.firstParticle});
+        const auto step =
+            last < places.size() ? stepOf(grid, link, places[first], places[last]) : std::nullopt;
+        if (!step || (isListed[first] >> *step & 1) != 0)
             return "distance[" + std::to_string(c) +
                    "] is not the link that the grid has there: remove the grid from scene.grids or mend one "
                    "of the two";
+        isListed[first] |= 1u << *step;
     }
     const std::size_t links = countLinks(grid, places);
     if (links != grid.distanceCount)
