@@ -81,15 +81,18 @@ Trial runTrial(const Scene& scene, const Settings& settings, const TrialPlan& pl
     look();
     const double start = trial.kineticEnergy[0] + elasticEnergy(scene, settings) + plan.work;
     for (int s = 0; s < plan.steps; ++s) {
-        EXPECT_EQ(step(runner, scene, plan, s).nonFinite, 0u) << "step " << s;
+        const std::uint32_t nonFinite = step(runner, scene, plan, s).nonFinite;
+        EXPECT_EQ(nonFinite, 0u) << "step " << s;
         look();
         const double allowed =
             start + std::max(0.0, workOfGravity(scene, inverseMass, trial.x[0], trial.x.back()));
         // A step of `jacobi` at rest shows half a kick of gravity, and float32 its rounding.
         const double h = double{scene.dt} / withSubsteps(scene, settings).substeps;
         const double kick = 0.5 * massOf(scene) * std::pow(toVector(scene.gravity).norm() * h, 2);
-        EXPECT_LE(trial.kineticEnergy.back(), 1.01 * allowed + kick + 1e-9) << "step " << s;
-        if (testing::Test::HasFailure()) return trial; // the first is enough
+        const double most = 1.01 * allowed + kick + 1e-9;
+        EXPECT_LE(trial.kineticEnergy.back(), most) << "step " << s;
+        // The first is enough. Failures of an earlier run do not count: a run that stops is not at rest.
+        if (nonFinite > 0 || !(trial.kineticEnergy.back() <= most)) return trial;
     }
     trial.hash = runner.stateHash();
     expectEqualBits(scene, settings, plan, trial.hash);
