@@ -275,15 +275,13 @@ void checkSkin(const Skin& skin, const std::string& name, std::size_t particles,
         complaints.check(double{channel}, ranges::color, [&] { return name + ".color"; });
 }
 
-// Bends, attachments, tethers and internal damping are not ignored where a solver cannot have them.
+// Bends and internal damping are not ignored where a solver cannot have them.
 void checkForms(const Scene& scene, const Settings& settings, Complaints& complaints) {
     if (settings.solver != Solver::gaussSeidel) return;
     const auto refuse = [&](const std::string& item) {
         complaints.add("solver gauss_seidel has no form for " + item, "use split or jacobi");
     };
     if (!scene.bends.empty()) refuse(element("bend", 0));
-    if (!scene.attachments.empty()) refuse(element("attachment", 0));
-    if (!scene.tethers.empty()) refuse(element("tether", 0));
     if (scene.dampingTime > 0) refuse("scene.dampingTime");
 }
 

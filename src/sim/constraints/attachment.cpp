@@ -26,6 +26,10 @@ layout::vec4 towards(const layout::vec4& from, const Vec3& target, double reach)
             static_cast<float>(double{from.z} + part * z), 0};
 }
 
+layout::AttachmentPush pushOf(const Attachments& attachments, std::uint32_t substep, std::uint32_t substeps) {
+    return {attachments.count, static_cast<float>(substep + 1) / static_cast<float>(substeps)};
+}
+
 } // namespace
 
 Attachments add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout) {
@@ -44,11 +48,19 @@ Attachments add(ProgramBuilder& program, const Scene& scene, const StateLayout& 
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Attachments& attachments,
              std::uint32_t substep, std::uint32_t substeps) {
     if (attachments.count == 0) return;
-    const float fraction = static_cast<float>(substep + 1) / static_cast<float>(substeps);
     program.dispatch(kernels::solveAttachments, attachments.count,
                      {attachments.particles, attachments.anchors, particles.positions, particles.velocities,
                       particles.step},
-                     layout::AttachmentPush{attachments.count, fraction});
+                     pushOf(attachments, substep, substeps));
+}
+
+void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
+                 const Attachments& attachments, std::uint32_t substep, std::uint32_t substeps) {
+    if (attachments.count == 0) return;
+    program.dispatch(
+        kernels::solveAttachmentsOpen, attachments.count,
+        {attachments.particles, attachments.anchors, particles.positions, corrections, particles.step},
+        pushOf(attachments, substep, substeps));
 }
 
 Anchors::Anchors(const std::vector<Attachment>& attachments)

@@ -18,6 +18,9 @@ Attachments add(ProgramBuilder& program, const Scene& scene, const StateLayout& 
 /// `substep` counts from 0.
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Attachments& attachments,
              std::uint32_t substep, std::uint32_t substeps);
+/// The same in a substep of `gauss_seidel`, which is still open: what moves are the `corrections`.
+void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
+                 const Attachments& attachments, std::uint32_t substep, std::uint32_t substeps);
 
 /// Where the points go, on the host: what the anchors buffer of a step holds.
 class Anchors {

@@ -38,4 +38,12 @@ void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Te
         layout::CountPush{tethers.count});
 }
 
+void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
+                 const Tethers& tethers) {
+    if (tethers.count == 0) return;
+    program.dispatch(kernels::solveTethersOpen, tethers.count,
+                     {tethers.particles, tethers.tethers, particles.positions, corrections, particles.step},
+                     layout::CountPush{tethers.count});
+}
+
 } // namespace sinew::sim::constraints::tether

@@ -14,5 +14,8 @@ struct Tethers {
 
 Tethers add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout);
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Tethers& tethers);
+/// The same in a substep of `gauss_seidel`, which is still open: what moves are the `corrections`.
+void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
+                 const Tethers& tethers);
 
 } // namespace sinew::sim::constraints::tether

@@ -43,9 +43,10 @@ void GaussSeidel::step(double dt, State& state) {
             else
                 sweep(state);
             sweepBends(h, state);
+            if (iteration + 1 == iterations_) // walls have the last word
+                pullAttached(problem_, h, dt, (substep + 1.0) / substeps_, state);
             phases.projectWalls();
         }
-        pullAttached(problem_, h, dt, (substep + 1.0) / substeps_, state);
         phases.finish();
         keepMultipliers();
     }

@@ -4,7 +4,9 @@
 
 #include "kernels.hpp"
 #include "sim/collision/planes.hpp"
+#include "sim/constraints/attachment.hpp"
 #include "sim/constraints/distance.hpp"
+#include "sim/constraints/tether.hpp"
 
 namespace sinew::sim::solvers::gaussSeidel {
 
@@ -74,6 +76,8 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
                     .colliders = collision::planes::addColliders(program, scene, particles.layout),
                     .corrections = program.scratch<layout::ParticleCorrection>("state.displacements",
                                                                                particles.layout.count)};
+    const auto attachments = constraints::attachment::add(program, scene, particles.layout);
+    const auto tethers = constraints::tether::add(program, scene, particles.layout);
     const bool isWarm = work.edges.degree > 0, usesTexels = settings.forms.usesTexels;
     const Form& open = !isWarm ? openCold : usesTexels ? openWarm : openWarmLoads;
     const Form& advance = !isWarm ? advanceCold : usesTexels ? advanceWarm : advanceWarmLoads;
@@ -82,6 +86,9 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
         program.beginSubstep();
         addBetween(program, work, isFirst ? open : advance, isFirst);
         addSweeps(program, work, settings, isFirst);
+        constraints::attachment::addOpenPass(program, particles, work.corrections, attachments, substep,
+                                             settings.substeps);
+        constraints::tether::addOpenPass(program, particles, work.corrections, tethers);
     }
     addBetween(program, work, close, false);
     program.endSubsteps();

@@ -1,6 +1,7 @@
 // Reference and device side by side.
 #include "sim/constraints/agreement.hpp"
 
+#include "sim/coloring.hpp"
 #include "sim/compile.hpp"
 #include "sim/reference/reference.hpp"
 #include "sim/runner.hpp"
@@ -18,8 +19,14 @@ using namespace sim;
 namespace {
 
 void stepReference(const Scene& scene, const Settings& settings, reference::State& state) {
+    const double dt = double{scene.dt};
+    if (settings.solver == Solver::gaussSeidel) {
+        const Coloring coloring = colorByParticles(scene, inverseMasses(scene));
+        reference::GaussSeidel(scene, settings, coloring.order).step(dt, state);
+        return;
+    }
     const auto step = settings.solver == Solver::split ? reference::stepSplit : reference::stepJacobi;
-    step(scene, settings, double{scene.dt}, state);
+    step(scene, settings, dt, state);
 }
 
 std::uint64_t hashAfter(const Scene& scene, Settings settings, bool isReversed,

@@ -103,7 +103,7 @@ TEST_P(Attached, AResetPutsThePointsBack) {
     EXPECT_EQ(runner.stateHash(), hash);
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Attached, testing::Values(Solver::jacobi, Solver::split),
+INSTANTIATE_TEST_SUITE_P(Of, Attached, testing::Values(Solver::jacobi, Solver::split, Solver::gaussSeidel),
                          [](const auto& parameter) { return solverName(parameter.param); });
 
 TEST(Anchors, FollowTheirTargetsNoFasterThanTheyMay) {
@@ -133,7 +133,8 @@ TEST_P(Tethered, StepsAgreeWithDouble) {
     Scene scene{.name = "tethered sheet"};
     addCloth(scene,
              {.origin = {0, 1, 0}, .size = {12, 12}, .spacing = 0.1f, .tethers = 2, .pinned = {0, 11}});
-    test::disturb(scene, 0.05f, 2);
+    test::disturb(scene, 0.03f,
+                  2); // at half of the spacing 1e-7 grows to 6e-6 within a step, in double as well
     test::expectAgreement(scene, GetParam());
 }
 
@@ -155,7 +156,7 @@ TEST_P(Tethered, KeepAHeavySheetFromStretching) {
     EXPECT_GT(lowest(0), 1.1) << "the same sheet without tethers at so few substeps";
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Tethered, testing::Values(Solver::jacobi, Solver::split),
+INSTANTIATE_TEST_SUITE_P(Of, Tethered, testing::Values(Solver::jacobi, Solver::split, Solver::gaussSeidel),
                          [](const auto& parameter) { return solverName(parameter.param); });
 
 TEST(Tethers, GoTheShortestWayOverLinksToTheNearestAnchors) {
