@@ -80,7 +80,7 @@ std::vector<float> inverseMasses(const Scene& scene) {
 }
 
 StateLayout stateLayout(const Scene& scene, const Settings& settings) {
-    return entry(settings.solver).plan(scene, settings, inverseMasses(scene)).layout;
+    return entry(settings.solver).plan(scene, withSubsteps(scene, settings), inverseMasses(scene)).layout;
 }
 
 StepProgram compile(const Scene& scene, const Settings& asked) {
