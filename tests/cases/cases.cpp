@@ -68,6 +68,39 @@ bool isUnclamped(const Scene& scene, const Settings& settings) {
     });
 }
 
+Eigen::Vector3d Solid::mean(const std::vector<Eigen::Vector3d>& x, Corner low, Corner high) const {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double count = 0;
+    for (std::uint32_t k = low[2]; k <= high[2]; ++k)
+        for (std::uint32_t j = low[1]; j <= high[1]; ++j)
+            for (std::uint32_t i = low[0]; i <= high[0]; ++i, ++count) sum += x[corners.at(i, j, k)];
+    return sum / count;
+}
+
+void Solid::fix(Corner low, Corner high) {
+    for (std::uint32_t k = low[2]; k <= high[2]; ++k)
+        for (std::uint32_t j = low[1]; j <= high[1]; ++j)
+            for (std::uint32_t i = low[0]; i <= high[0]; ++i) scene.fixed.push_back({corners.at(i, j, k)});
+}
+
+std::vector<Eigen::Vector3d> Solid::initial() const {
+    std::vector<Eigen::Vector3d> x;
+    for (const Particle& particle : scene.particles) x.push_back(toVector(particle.position));
+    return x;
+}
+
+Solid makeSolid(const char* name, std::array<std::uint32_t, 3> cells, double speed, float poissonRatio) {
+    Solid body{.scene = {.name = name, .gravity = {0, 0, 0}}, .corners = {}, .speed = speed};
+    const auto origin = [&](std::uint32_t count) { return static_cast<float>(-0.5 * Solid::cell * count); };
+    body.corners = addLattice(body.scene, {.origin = {origin(cells[0]), origin(cells[1]), origin(cells[2])},
+                                           .cells = cells,
+                                           .spacing = static_cast<float>(Solid::cell),
+                                           .youngModulus = static_cast<float>(body.modulus()),
+                                           .poissonRatio = poissonRatio,
+                                           .density = static_cast<float>(Solid::density)});
+    return body;
+}
+
 CaseRunner::CaseRunner(const Scene& scene, Settings settings)
     : forward_(scene, settings), reversed_(scene, (settings.isReversed = true, settings)) {}
 

@@ -2,6 +2,7 @@
 // that also runs everything in reversed invocation order, and measurements.
 #pragma once
 
+#include "sim/bodies.hpp"
 #include "sim/compile.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
@@ -36,6 +37,26 @@ double reachedStiffness(const sim::Scene& scene, const sim::Settings& settings, 
 /// Whether `split` has all the stiffness of the scene with these settings; must hold where a case says
 /// unclamped.
 bool isUnclamped(const sim::Scene& scene, const sim::Settings& settings);
+
+/// A full voxel body in a scene without gravity. Ranges are of corners, both ends included.
+struct Solid {
+    using Corner = std::array<std::uint32_t, 3>;
+    static constexpr double cell = 0.05, density = 1000; ///< [m], [kg/m^3]
+    sim::Scene scene;
+    sim::LatticeCorners corners;
+    double speed = 0; ///< sqrt(E / rho) [m/s]
+
+    double modulus() const { return density * speed * speed; } ///< E [Pa]
+    /// Of positions [m].
+    Eigen::Vector3d mean(const std::vector<Eigen::Vector3d>& x, Corner low, Corner high) const;
+    void fix(Corner low, Corner high);
+    /// Positions [m].
+    std::vector<Eigen::Vector3d> initial() const;
+};
+
+/// Centred on the origin, where float32 is finest.
+Solid makeSolid(const char* name, std::array<std::uint32_t, 3> cells, double speed,
+                float poissonRatio = 0.25f);
 
 /// A scene on the device twice, once in reversed invocation order; on destruction, the bits of both states
 /// must agree.

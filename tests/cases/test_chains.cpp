@@ -18,24 +18,12 @@ class Case07Catenary : public SolverCase {};
 class Case08SwingingChain : public SolverCase {};
 
 // `count` masses under one another and a fixed particle at the origin above them.
-Scene hangingChain(std::uint32_t count, float mass, float spacing, float compliance) {
-    Scene scene{.name = "hanging chain"};
-    scene.particles.push_back({});
-    scene.fixed = {{0}};
-    for (std::uint32_t i = 1; i <= count; ++i) {
-        scene.particles.push_back(
-            {.position = {0, -spacing * static_cast<float>(i), 0}, .inverseMass = 1 / mass});
-        scene.distances.push_back({i - 1, i, spacing, compliance});
-    }
-    return scene;
-}
-
 constexpr std::uint32_t count = 20;
 constexpr double mass = 0.1, stiffness = 1000, spacing = 0.05;
 
 // By how much 20 masses of 0.1 kg on springs of 1000 N/m have sunk when they rest.
 double extensionOnDevice(const Settings& settings) {
-    Scene scene = hangingChain(count, static_cast<float>(mass), static_cast<float>(spacing),
+    Scene scene = hangingChain(count, static_cast<float>(spacing), static_cast<float>(mass),
                                static_cast<float>(1 / stiffness));
     scene.damping = 7; // the slowest vibration, 7.8 rad/s, loses all but 1e-6 in 4 s
     CaseRunner runner(scene, settings);
@@ -46,7 +34,7 @@ double extensionOnDevice(const Settings& settings) {
 // With the stiffness that each link reaches. A solver in the PBD order evaluates links after gravity's
 // displacement g h^2, which leaves the chain higher by as much.
 double predictedExtension(const Settings& settings) {
-    const Scene scene = hangingChain(count, static_cast<float>(mass), static_cast<float>(spacing),
+    const Scene scene = hangingChain(count, static_cast<float>(spacing), static_cast<float>(mass),
                                      static_cast<float>(1 / stiffness));
     const double h = double{frame} / settings.substeps;
     double sum = settings.solver == Solver::split ? 0 : -gravity * h * h;
@@ -134,7 +122,7 @@ TEST_P(Case07Catenary, SagsAsACoshDoes) {
 TEST_P(Case08SwingingChain, SwingsWithTheZeroOfABesselFunction) {
     constexpr std::uint32_t links = 40;
     constexpr double length = 4, zero = 2.404825557695773;
-    Scene scene = hangingChain(links, 0.1f, static_cast<float>(length / links), 0);
+    Scene scene = hangingChain(links, static_cast<float>(length / links), 0.1f, 0);
     scene.particles.back().inverseMass *= 2;
     for (Particle& particle : scene.particles) {
         const double z = std::max(0.0, 1 + double{particle.position.y} / length);

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double cell = 0.05, density = 1000, frame = double{1.0f / 60};
+constexpr double cell = Solid::cell, density = Solid::density, frame = double{1.0f / 60};
 constexpr double shearShare = 0.4; // G / E at Poisson ratio 1/4
 
 class Case09Cantilever : public SolverCase {};
@@ -42,46 +42,6 @@ double waveSpeed(Solver solver, std::uint32_t substeps) {
 double reachedShare(Solver solver) {
     const double stepsPerCell = cellsPerSubstep(solver);
     return solver != Solver::jacobi ? 1 : 1 / (1 + 0.8 * stepsPerCell * stepsPerCell);
-}
-
-struct Solid {
-    Scene scene;
-    LatticeCorners corners;
-
-    // Mean of positions over the corners with `low` <= (i, j, k) <= `high`.
-    Vector3d mean(const std::vector<Vector3d>& x, std::array<std::uint32_t, 3> low,
-                  std::array<std::uint32_t, 3> high) const {
-        Vector3d sum = Vector3d::Zero();
-        double count = 0;
-        for (std::uint32_t k = low[2]; k <= high[2]; ++k)
-            for (std::uint32_t j = low[1]; j <= high[1]; ++j)
-                for (std::uint32_t i = low[0]; i <= high[0]; ++i, ++count) sum += x[corners.at(i, j, k)];
-        return sum / count;
-    }
-    void fix(std::array<std::uint32_t, 3> low, std::array<std::uint32_t, 3> high) {
-        for (std::uint32_t k = low[2]; k <= high[2]; ++k)
-            for (std::uint32_t j = low[1]; j <= high[1]; ++j)
-                for (std::uint32_t i = low[0]; i <= high[0]; ++i)
-                    scene.fixed.push_back({corners.at(i, j, k)});
-    }
-};
-
-// Centred on the origin, where float32 is finest.
-Solid makeSolid(const char* name, std::array<std::uint32_t, 3> cells, double speed) {
-    Solid body;
-    body.scene.name = name;
-    body.scene.gravity = {0, 0, 0};
-    const auto origin = [&](std::uint32_t count) { return static_cast<float>(-0.5 * cell * count); };
-    body.corners = addLattice(body.scene, {.origin = {origin(cells[0]), origin(cells[1]), origin(cells[2])},
-                                           .cells = cells,
-                                           .spacing = static_cast<float>(cell),
-                                           .youngModulus = static_cast<float>(density * speed * speed),
-                                           .density = static_cast<float>(density)});
-    return body;
-}
-
-std::vector<Vector3d> initial(const Solid& body) {
-    return reference::initialState(body.scene).x;
 }
 
 // A beam along x, clamped at its left end; 12 times as long as high.
@@ -143,7 +103,7 @@ TEST_P(Case09Cantilever, SagsAsTimoshenkoSays) {
 TEST_P(Case10Cantilever, VibratesWithItsFirstFrequency) {
     Beam beam = makeBeam(GetParam());
     constexpr double beta = 1.8751, sigma = 0.7341;
-    const auto initialX = initial(beam.body);
+    const auto initialX = beam.body.initial();
     for (std::size_t i = 0; i < initialX.size(); ++i) {
         // The first mode, 2 % of the length at the tip; sections stay plane.
         const double s = beta * (initialX[i].x() / beam.length() + 0.5), amplitude = 0.01 * beam.length();
@@ -219,7 +179,7 @@ Moduli shearSlab(Solver solver, Moduli moduli) {
     EXPECT_TRUE(isUnclamped(body.scene, settings));
     CaseRunner runner(body.scene, settings);
     runner.run(static_cast<int>(16 / slowest / frame));
-    const auto x = runner.positions(), before = initial(body);
+    const auto x = runner.positions(), before = body.initial();
     const auto shift = [&](std::uint32_t layer) {
         const std::array<std::uint32_t, 3> low{middle - 2, layer, 0}, high{middle + 2, layer, depth};
         return (body.mean(x, low, high) - body.mean(before, low, high)).x();
@@ -258,7 +218,7 @@ TEST_P(Case12Wave, ArrivesAtTheSpeedOfSound) {
     const Settings settings = accurate(GetParam(), substeps);
     ASSERT_TRUE(isUnclamped(body.scene, settings));
     CaseRunner runner(body.scene, settings);
-    const double start = body.mean(initial(makeSolid("long bar", {length, width, width}, speed)),
+    const double start = body.mean(makeSolid("long bar", {length, width, width}, speed).initial(),
                                    {probe, 0, 0}, {probe, width, width})
                              .x();
     double before = 0, now = 0, arrival = 0;
@@ -279,7 +239,7 @@ TEST_P(Case22Substeps, DoNotChangeTheShapeAtRest) {
     constexpr double speed = 0.05 * cell * 16 / frame; // c h / a = 0.05 at 16 substeps
     std::vector<Vector3d> shapes[2];
     Solid body = makeSolid("cube", {3, 3, 3}, speed);
-    const auto before = initial(body);
+    const auto before = body.initial();
     body.fix({0, 0, 0}, {0, 3, 3});
     body.scene.gravity = {0, static_cast<float>(-0.02 * speed * speed / (3 * cell)), 0};
     const double slowest = 0.6 * speed / (3 * cell);

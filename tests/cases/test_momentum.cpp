@@ -30,20 +30,6 @@ Vector3d angularMomentumOf(const Scene& scene, const std::vector<Vector3d>& x,
     return sum;
 }
 
-Vec3 toFloats(const Vector3d& v) {
-    return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-}
-
-// A block that flies and spins, without gravity.
-Scene spinningBlock(const Vec3& speed) {
-    Scene scene = block(3, 0.1f, 1e5f);
-    scene.gravity = {0, 0, 0};
-    const Vector3d spin(1, 2, -1), centre(0.15, 0.15, 0.15); // [rad/s], [m]
-    for (Particle& particle : scene.particles)
-        particle.velocity = toFloats(toVector(speed) + spin.cross(toVector(particle.position) - centre));
-    return scene;
-}
-
 // Particles of 10 g on a circle about z, each linked to the next; unstretched it has a radius of 1 m.
 constexpr int ringCount = 64;
 constexpr double ringMass = 0.01, ringCompliance = 0.01;

@@ -17,33 +17,9 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double cell = 0.05, density = 1000, frame = double{1.0f / 60};
-
+constexpr double cell = Solid::cell, density = Solid::density, frame = double{1.0f / 60};
 class Case11Volumes : public testing::TestWithParam<float> {}; // Poisson ratio
 class Case19Compression : public testing::TestWithParam<float> {};
-
-struct Solid {
-    Scene scene;
-    LatticeCorners corners;
-    double speed = 0; // sqrt(E / rho) [m/s]
-
-    double modulus() const { return density * speed * speed; }
-    Vector3d mean(const std::vector<Vector3d>& x, std::array<std::uint32_t, 3> low,
-                  std::array<std::uint32_t, 3> high) const {
-        Vector3d sum = Vector3d::Zero();
-        double count = 0;
-        for (std::uint32_t k = low[2]; k <= high[2]; ++k)
-            for (std::uint32_t j = low[1]; j <= high[1]; ++j)
-                for (std::uint32_t i = low[0]; i <= high[0]; ++i, ++count) sum += x[corners.at(i, j, k)];
-        return sum / count;
-    }
-    void fix(std::array<std::uint32_t, 3> low, std::array<std::uint32_t, 3> high) {
-        for (std::uint32_t k = low[2]; k <= high[2]; ++k)
-            for (std::uint32_t j = low[1]; j <= high[1]; ++j)
-                for (std::uint32_t i = low[0]; i <= high[0]; ++i)
-                    scene.fixed.push_back({corners.at(i, j, k)});
-    }
-};
 
 // Cells that a wave sqrt(E / rho) crosses in a substep that has all of the stiffness: links alone allow 0.26
 // (test_lattices.cpp), cells take lambda_v / mu / 3 of what links do, and something for the change of shape.
@@ -52,20 +28,8 @@ double cellsPerSubstep(double poissonRatio) {
     return ratio > 0 ? 0.21 / std::sqrt(1 + ratio / 3) : 0.26;
 }
 
-Solid makeSolid(const char* name, std::array<std::uint32_t, 3> cells, float poissonRatio,
-                std::uint32_t substeps) {
-    Solid body;
-    body.scene.name = name;
-    body.scene.gravity = {0, 0, 0};
-    body.speed = cellsPerSubstep(double{poissonRatio}) * cell * substeps / frame;
-    const auto origin = [&](std::uint32_t count) { return static_cast<float>(-0.5 * cell * count); };
-    body.corners = addLattice(body.scene, {.origin = {origin(cells[0]), origin(cells[1]), origin(cells[2])},
-                                           .cells = cells,
-                                           .spacing = static_cast<float>(cell),
-                                           .youngModulus = static_cast<float>(body.modulus()),
-                                           .poissonRatio = poissonRatio,
-                                           .density = static_cast<float>(density)});
-    return body;
+double waveSpeed(float poissonRatio, std::uint32_t substeps) {
+    return cellsPerSubstep(double{poissonRatio}) * cell * substeps / frame;
 }
 
 // Links and cells both have all of their stiffness, cells with a tenth to spare.
@@ -111,7 +75,7 @@ double volumeOf(const Solid& body, const std::vector<Vector3d>& x) {
 // A bar that hangs from its upper end: stress by the weight below, strain of the layers in its middle third.
 TEST_P(Case11Volumes, GiveTheModulusAndThePoissonRatioAskedFor) {
     constexpr std::uint32_t width = 4, height = 16, substeps = 32, low = 6, high = 10;
-    Solid body = makeSolid("bar", {width, height, width}, GetParam(), substeps);
+    Solid body = makeSolid("bar", {width, height, width}, waveSpeed(GetParam(), substeps), GetParam());
     body.fix({0, height, 0}, {width, height, width});
     const double length = height * cell, gravity = 0.002 * body.speed * body.speed / (length / 2);
     body.scene.gravity = {0, static_cast<float>(-gravity), 0};
@@ -143,7 +107,8 @@ namespace {
 
 double volumeWhenPressed(float poissonRatio, double strain) {
     constexpr std::uint32_t width = 3, height = 6, substeps = 32;
-    Solid body = makeSolid("pressed bar", {width, height, width}, poissonRatio, substeps);
+    Solid body =
+        makeSolid("pressed bar", {width, height, width}, waveSpeed(poissonRatio, substeps), poissonRatio);
     const auto half = static_cast<float>((1 - strain) * height * cell / 2);
     for (Particle& particle : body.scene.particles) particle.position.y *= static_cast<float>(1 - strain);
     body.scene.planes = {{.normal = {0, 1, 0}, .offset = -half}, {.normal = {0, -1, 0}, .offset = -half}};
@@ -171,7 +136,7 @@ namespace {
 
 // The volume of the affine state of least energy: what the material, and no solver, makes of so much strain.
 double leastEnergyVolume(float poissonRatio, double strain) {
-    const Solid body = makeSolid("pressed bar", {3, 6, 3}, poissonRatio, 1);
+    const Solid body = makeSolid("pressed bar", {3, 6, 3}, waveSpeed(poissonRatio, 1), poissonRatio);
     const reference::Problem problem(body.scene);
     const auto rest = reference::initialState(body.scene).x;
     const auto energy = [&](double across) {

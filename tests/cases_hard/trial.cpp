@@ -45,14 +45,6 @@ double workOfGravity(const Scene& scene, const std::vector<float>& inverseMass,
 
 } // namespace
 
-double kineticEnergy(const Scene& scene, const std::vector<Vector3d>& v) {
-    const std::vector<float> inverseMass = inverseMasses(scene);
-    double energy = 0;
-    for (std::size_t i = 0; i < v.size(); ++i)
-        if (inverseMass[i] > 0) energy += v[i].squaredNorm() / (2 * double{inverseMass[i]});
-    return energy;
-}
-
 double elasticEnergy(const Scene& scene, const Settings& asked) {
     const Settings settings = withSubsteps(scene, asked);
     const std::vector<float> inverseMass = inverseMasses(scene);

@@ -30,8 +30,6 @@ struct TrialPlan {
 /// Energy: kinetic energy <= 1.01 x (kinetic + elastic energy of the start + work of gravity + plan.work).
 Trial runTrial(const sim::Scene& scene, const sim::Settings& settings, const TrialPlan& plan = {});
 
-double kineticEnergy(const sim::Scene& scene, const std::vector<Eigen::Vector3d>& v);
-
 /// Of the links as the solver makes them at the scene's dt: rigid ones as stiff as a substep allows.
 double elasticEnergy(const sim::Scene& scene, const sim::Settings& settings);
 

@@ -3,6 +3,9 @@
 
 #include "sim/compile.hpp"
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <cstdlib>
 
 namespace sinew::test {
@@ -92,6 +95,17 @@ std::uint64_t Runner::stateHash() const {
             hash = (hash ^ byte) * 1099511628211u;
     }
     return hash;
+}
+
+std::uint64_t hashOfRun(const sim::Scene& scene, const sim::Settings& settings, int steps) {
+    Runner runner(scene, settings);
+    EXPECT_EQ(runner.run(steps).nonFinite, 0u);
+    return runner.stateHash();
+}
+
+bool usesKernel(const sim::Scene& scene, const std::string& kernel, const sim::Settings& settings) {
+    const sim::StepProgram program = sim::compile(scene, settings);
+    return std::ranges::any_of(program.step, [&](const sim::Pass& pass) { return pass.label == kernel; });
 }
 
 } // namespace sinew::test

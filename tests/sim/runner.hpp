@@ -36,4 +36,10 @@ private:
     std::uint64_t frame_ = 0;
 };
 
+/// Of the state after some steps of the scene's dt, all of which must be finite.
+std::uint64_t hashOfRun(const sim::Scene& scene, const sim::Settings& settings, int steps = 3);
+
+/// Whether a step of the scene has a pass with this label.
+bool usesKernel(const sim::Scene& scene, const std::string& kernel, const sim::Settings& settings = {});
+
 } // namespace sinew::test

@@ -4,6 +4,7 @@
 #include "sim/bodies.hpp"
 #include "sim/compile.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <ostream>
 #include <random>
@@ -32,6 +33,16 @@ Scene chain(std::uint32_t count, const ChainLinks& links) {
     return scene;
 }
 
+Scene hangingChain(std::uint32_t links, float spacing, float mass, float compliance) {
+    Scene scene{.name = "hanging chain", .fixed = {{0}}};
+    for (std::uint32_t i = 0; i <= links; ++i) {
+        scene.particles.push_back(
+            {.position = {0, -spacing * static_cast<float>(i), 0}, .inverseMass = 1 / mass});
+        if (i > 0) scene.distances.push_back({i - 1, i, spacing, compliance});
+    }
+    return scene;
+}
+
 Scene block(std::uint32_t cells, float spacing, float youngModulus, float height) {
     Scene scene{.name = "block of " + std::to_string(cells)};
     const Lattice lattice{.name = "block",
@@ -42,6 +53,24 @@ Scene block(std::uint32_t cells, float spacing, float youngModulus, float height
     const LatticeCorners corners = addLattice(scene, lattice);
     addLatticeSkin(scene, lattice, corners, {0.5f, 0.5f, 0.5f});
     return scene;
+}
+
+Scene spinningBlock(const Vec3& speed) {
+    Scene scene = block(3, 0.1f, 1e5f);
+    scene.gravity = {0, 0, 0};
+    const Eigen::Vector3d spin(1, 2, -1), centre(0.15, 0.15, 0.15); // [rad/s], [m]
+    for (Particle& particle : scene.particles)
+        particle.velocity = toFloats(toVector(speed) + spin.cross(toVector(particle.position) - centre));
+    return scene;
+}
+
+std::vector<float> raggedFill(std::size_t cells) {
+    std::vector<float> fill;
+    for (std::uint32_t c = 0; c < cells; ++c) {
+        const std::uint32_t hash = (c * 2654435761u) >> 24;
+        fill.push_back(hash < 60 ? 0 : static_cast<float>(hash) / 255);
+    }
+    return fill;
 }
 
 Scene sheet(std::uint32_t size, float compliance) {
@@ -92,6 +121,10 @@ void addRoom(Scene& scene) {
                             .restitution = 0});
 }
 
+Vec3 toFloats(const Eigen::Vector3d& v) {
+    return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
 Eigen::Vector3d toVector(const Vec3& v) {
     return {double{v.x}, double{v.y}, double{v.z}};
 }
@@ -112,6 +145,14 @@ double massOf(const Scene& scene) {
         if (particle.inverseMass > 0) mass += 1 / double{particle.inverseMass};
     }
     return mass;
+}
+
+double kineticEnergy(const Scene& scene, const std::vector<Eigen::Vector3d>& v) {
+    const std::vector<float> inverseMass = inverseMasses(scene);
+    double energy = 0;
+    for (std::size_t i = 0; i < v.size(); ++i)
+        if (inverseMass[i] > 0) energy += v[i].squaredNorm() / (2 * double{inverseMass[i]});
+    return energy;
 }
 
 std::vector<NamedScene> allScenes() {

@@ -27,8 +27,15 @@ struct ChainLinks {
 
 /// `count` particles of 0.5 to 1 kg in a row along x, 0.1 m apart, each linked to the next.
 sim::Scene chain(std::uint32_t count, const ChainLinks& links = {});
+/// `links` below a fixed particle at the origin, each with `mass` [kg] at its end.
+sim::Scene hangingChain(std::uint32_t links, float spacing, float mass, float compliance);
 /// A full voxel body of cells^3 cells with its lowest corner at (0, height, 0).
 sim::Scene block(std::uint32_t cells, float spacing, float youngModulus, float height = 0);
+/// A block of 3^3 cells of 0.1 m without gravity that moves at `speed` [m/s] and spins about (1, 2, -1) at
+/// 2.4 rad/s.
+sim::Scene spinningBlock(const sim::Vec3& speed);
+/// Fills for a lattice from a hash: empty cells, slivers, halves and full ones side by side.
+std::vector<float> raggedFill(std::size_t cells);
 /// A horizontal sheet of size^2 particles, 0.1 m apart, two corners pinned.
 sim::Scene sheet(std::uint32_t size, float compliance = 0);
 /// One particle of 1 kg.
@@ -39,11 +46,14 @@ void disturb(sim::Scene& scene, float distance, float speed);
 /// A floor through the lowest particle and a wall leaning on the first one, with friction and restitution.
 void addRoom(sim::Scene& scene);
 
+sim::Vec3 toFloats(const Eigen::Vector3d& v);
 Eigen::Vector3d toVector(const sim::Vec3& v);
 /// Diagonal of the bounding box [m], at least 0.1.
 double sizeOf(const sim::Scene& scene);
 /// Sum of the finite masses [kg].
 double massOf(const sim::Scene& scene);
+/// Of the particles that move, at velocities `v` [J].
+double kineticEnergy(const sim::Scene& scene, const std::vector<Eigen::Vector3d>& v);
 
 /// One of each kind: nothing, free particles, chains, lattices, cloth; with and without planes, skins and
 /// fixed ends.

@@ -1,6 +1,7 @@
 // Cloth, chain and lattice bodies: mass, topology and the elastic constants that per-cell assembly promises
 // (cases 11 and 23).
 #include "sim/bodies.hpp"
+#include "sim/scenes.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/Sparse>
@@ -11,26 +12,17 @@
 #include <map>
 #include <set>
 
+using namespace sinew;
 using namespace sinew::sim;
 
 namespace {
-
-double massOf(const Scene& scene) {
-    double mass = 0;
-    for (const Particle& particle : scene.particles) mass += 1 / double{particle.inverseMass};
-    return mass;
-}
-
-Eigen::Vector3d toEigen(Vec3 v) {
-    return {double{v.x}, double{v.y}, double{v.z}};
-}
 
 /// Energy density [Pa] of a homogeneous small strain in a body of the given volume [m^3].
 double energyDensity(const Scene& scene, double volume, const Eigen::Matrix3d& strain) {
     double energy = 0;
     for (const DistanceConstraint& link : scene.distances) {
-        const Eigen::Vector3d edge =
-            toEigen(scene.particles[link.b].position) - toEigen(scene.particles[link.a].position);
+        const Eigen::Vector3d edge = test::toVector(scene.particles[link.b].position) -
+                                     test::toVector(scene.particles[link.a].position);
         const double stretch = edge.normalized().dot(strain * edge);
         energy += stretch * stretch / (2 * double{link.compliance});
     }
@@ -49,9 +41,9 @@ Eigen::VectorXd solveBar(const Scene& scene, double top, double force) {
     const auto size = static_cast<Eigen::Index>(3 * scene.particles.size());
     std::vector<Eigen::Triplet<double>> entries;
     for (const DistanceConstraint& link : scene.distances) {
-        const Eigen::Vector3d n =
-            (toEigen(scene.particles[link.b].position) - toEigen(scene.particles[link.a].position))
-                .normalized();
+        const Eigen::Vector3d n = (test::toVector(scene.particles[link.b].position) -
+                                   test::toVector(scene.particles[link.a].position))
+                                      .normalized();
         const Eigen::Matrix3d block = n * n.transpose() / double{link.compliance};
         for (int row = 0; row < 3; ++row)
             for (int column = 0; column < 3; ++column)
@@ -65,7 +57,7 @@ Eigen::VectorXd solveBar(const Scene& scene, double top, double force) {
     for (const Particle& particle : scene.particles)
         topMass += double{particle.position.y} > top - 1e-4 ? 1 / double{particle.inverseMass} : 0;
     for (std::size_t i = 0; i < scene.particles.size(); ++i) {
-        const Eigen::Vector3d x = toEigen(scene.particles[i].position);
+        const Eigen::Vector3d x = test::toVector(scene.particles[i].position);
         for (int axis = 0; axis < 3; ++axis)
             if (x(axis) < 1e-6) // a roller, as a very stiff spring to the wall
                 entries.emplace_back(3 * i + axis, 3 * i + axis, 1e12);
@@ -92,9 +84,9 @@ std::map<Edge, int> directedEdges(const Skin& skin) {
 double enclosedVolume(const Scene& scene, const Skin& skin) {
     double volume = 0;
     for (const auto& [a, b, c] : skin.triangles)
-        volume += toEigen(scene.particles[skin.particles[a]].position)
-                      .dot(toEigen(scene.particles[skin.particles[b]].position)
-                               .cross(toEigen(scene.particles[skin.particles[c]].position))) /
+        volume += test::toVector(scene.particles[skin.particles[a]].position)
+                      .dot(test::toVector(scene.particles[skin.particles[b]].position)
+                               .cross(test::toVector(scene.particles[skin.particles[c]].position))) /
                   6;
     return volume;
 }
@@ -108,7 +100,7 @@ Lattice block(std::array<std::uint32_t, 3> cells) {
 TEST(Cloth, WeighsItsAreaTimesItsDensity) {
     Scene scene;
     addCloth(scene, {.size = {5, 9}, .spacing = 0.25f, .areaDensity = 0.3f});
-    EXPECT_NEAR(massOf(scene), 0.3 * (4 * 0.25) * (8 * 0.25), 1e-6);
+    EXPECT_NEAR(test::massOf(scene), 0.3 * (4 * 0.25) * (8 * 0.25), 1e-6);
 }
 
 TEST(Cloth, LinksEveryNeighbourAndBothDiagonalsOfACellOnce) {
@@ -118,8 +110,9 @@ TEST(Cloth, LinksEveryNeighbourAndBothDiagonalsOfACellOnce) {
     std::set<Edge> seen;
     for (const DistanceConstraint& link : scene.distances) {
         EXPECT_TRUE(seen.insert(std::minmax(link.a, link.b)).second);
-        const double length =
-            (toEigen(scene.particles[link.a].position) - toEigen(scene.particles[link.b].position)).norm();
+        const double length = (test::toVector(scene.particles[link.a].position) -
+                               test::toVector(scene.particles[link.b].position))
+                                  .norm();
         EXPECT_NEAR(double{link.restLength}, length, 1e-6);
         EXPECT_EQ(link.compliance, length < 0.6 ? 1e-4f : 2e-3f);
     }
@@ -132,8 +125,8 @@ TEST(Cloth, LinksTheNextButOneWhereItResistsFolding) {
     ASSERT_EQ(stiff.distances.size(), plain.distances.size() + 3 * 4 + 5 * 2);
     for (std::size_t i = plain.distances.size(); i < stiff.distances.size(); ++i) {
         const DistanceConstraint& link = stiff.distances[i];
-        const Eigen::Vector3d between =
-            toEigen(stiff.particles[link.b].position) - toEigen(stiff.particles[link.a].position);
+        const Eigen::Vector3d between = test::toVector(stiff.particles[link.b].position) -
+                                        test::toVector(stiff.particles[link.a].position);
         EXPECT_NEAR(between.norm(), 1, 1e-6);
         EXPECT_NEAR(between.lpNorm<1>(), 1, 1e-6) << "along a row or a column";
         EXPECT_EQ(link.restLength, 1);
@@ -168,7 +161,7 @@ TEST(Cloth, HasASkinOnBothSides) {
     const Skin& skin = scene.skins.back();
     for (const auto& triangle : skin.triangles) {
         const auto x = [&](int corner) {
-            return toEigen(scene.particles[skin.particles[triangle[corner]]].position);
+            return test::toVector(scene.particles[skin.particles[triangle[corner]]].position);
         };
         for (const std::uint32_t vertex : triangle)
             sides[vertex].insert((x(1) - x(0)).cross(x(2) - x(0)).y() > 0);
@@ -216,8 +209,8 @@ TEST(Chain, GivesItsLastMassAWeightOfItsOwn) {
     Scene even, loaded;
     addChain(even, {.particles = 10, .mass = 0.1f});
     addChain(loaded, {.particles = 10, .mass = 0.1f, .endMass = 10});
-    EXPECT_NEAR(massOf(even), 0.1, 1e-7);
-    EXPECT_NEAR(massOf(loaded), 0.09 + 10, 1e-5);
+    EXPECT_NEAR(test::massOf(even), 0.1, 1e-7);
+    EXPECT_NEAR(test::massOf(loaded), 0.09 + 10, 1e-5);
     EXPECT_FLOAT_EQ(loaded.particles[9].inverseMass, 0.1f);
 }
 
@@ -239,7 +232,7 @@ TEST(Lattice, WeighsItsFillTimesItsDensity) {
     lattice.fill[0] = 0;
     lattice.fill[3] = 0.01f; // counts as 1/8
     addLattice(scene, lattice);
-    EXPECT_NEAR(massOf(scene), 1000 * 1e-3 * (10 * 0.5 + 0.125), 1e-5);
+    EXPECT_NEAR(test::massOf(scene), 1000 * 1e-3 * (10 * 0.5 + 0.125), 1e-5);
     EXPECT_NEAR(double{scene.bodies[0].restVolume}, 1e-3 * (10 * 0.5 + 0.01), 1e-8);
 }
 
@@ -289,8 +282,9 @@ TEST(Lattice, LinksEachPairOnceInGridOrder) {
         EXPECT_LE(last, link.a);
         last = link.a;
         EXPECT_TRUE(seen.insert({link.a, link.b}).second);
-        const double length =
-            (toEigen(scene.particles[link.a].position) - toEigen(scene.particles[link.b].position)).norm();
+        const double length = (test::toVector(scene.particles[link.a].position) -
+                               test::toVector(scene.particles[link.b].position))
+                                  .norm();
         EXPECT_NEAR(double{link.restLength}, length, 1e-7);
         EXPECT_TRUE(std::abs(length - 0.1) < 1e-6 || std::abs(length - 0.1 * std::sqrt(2.0)) < 1e-6);
     }
@@ -328,8 +322,9 @@ TEST(Lattice, StartsAsGoodAsWithoutStressFarFromTheOrigin) {
     lattice.origin = {3000.3f, 0.1f, -700.7f};
     addLattice(scene, lattice);
     for (const DistanceConstraint& link : scene.distances) {
-        const double length =
-            (toEigen(scene.particles[link.a].position) - toEigen(scene.particles[link.b].position)).norm();
+        const double length = (test::toVector(scene.particles[link.a].position) -
+                               test::toVector(scene.particles[link.b].position))
+                                  .norm();
         EXPECT_NEAR(double{link.restLength} / length, 1, 1e-4);
     }
 }
@@ -376,7 +371,7 @@ TEST(LatticeSkin, IsCreasedAtItsEdges) {
     std::map<std::uint32_t, Eigen::Vector3d> normals;
     for (const auto& triangle : skin.triangles) {
         const auto x = [&](int corner) {
-            return toEigen(scene.particles[skin.particles[triangle[corner]]].position);
+            return test::toVector(scene.particles[skin.particles[triangle[corner]]].position);
         };
         const Eigen::Vector3d normal = (x(1) - x(0)).cross(x(2) - x(0)).normalized();
         for (const std::uint32_t vertex : triangle)

@@ -1,10 +1,8 @@
 // Bodies whose neighbours are computed: every form of the kernel gives the same bits, one step agrees with
 // double precision, and a grid that does not say what the lists say is refused.
 #include "sim/bodies.hpp"
-#include "sim/compile.hpp"
+#include "sim/constraints/agreement.hpp"
 #include "sim/lattice/placement.hpp"
-#include "sim/reference/reference.hpp"
-#include "sim/runner.hpp"
 #include "sim/scenes.hpp"
 #include "sim/validate.hpp"
 
@@ -18,16 +16,6 @@ using namespace sinew::sim;
 namespace {
 
 constexpr float frame = 1.0f / 60;
-
-// Every cell's fill from a hash: empty, slivers, halves and full ones side by side.
-std::vector<float> raggedFill(std::size_t cells) {
-    std::vector<float> fill;
-    for (std::uint32_t c = 0; c < cells; ++c) {
-        const std::uint32_t hash = (c * 2654435761u) >> 24;
-        fill.push_back(hash < 60 ? 0 : static_cast<float>(hash) / 255);
-    }
-    return fill;
-}
 
 Scene body(std::array<std::uint32_t, 3> cells, std::vector<float> fill = {}, bool hasBodyDiagonals = false) {
     Scene scene{.name = "lattice"};
@@ -73,8 +61,8 @@ std::vector<std::pair<const char*, Scene>> scenes() {
         {"flat", body({9, 1, 4})},
         {"odd block", body({4, 6, 8})},
         {"even block", body({5, 5, 19})},
-        {"ragged", body({7, 6, 9}, raggedFill(7 * 6 * 9))},
-        {"26 neighbours", body({4, 5, 6}, raggedFill(4 * 5 * 6), true)},
+        {"ragged", body({7, 6, 9}, test::raggedFill(7 * 6 * 9))},
+        {"26 neighbours", body({4, 5, 6}, test::raggedFill(4 * 5 * 6), true)},
         {"sheet", sheet({13, 37})},
         {"narrow sheet", sheet({2, 3})},
         {"mixture", mixture()}};
@@ -82,27 +70,17 @@ std::vector<std::pair<const char*, Scene>> scenes() {
     return result;
 }
 
-std::uint64_t hashOfRun(const Scene& scene, const Settings& settings) {
-    test::Runner runner(scene, settings);
-    EXPECT_EQ(runner.run(3).nonFinite, 0u);
-    return runner.stateHash();
-}
-
-bool usesKernel(const Scene& scene, const std::string& kernel) {
-    const StepProgram program = compile(scene, {});
-    return std::ranges::any_of(program.step, [&](const Pass& pass) { return pass.label == kernel; });
-}
-
 } // namespace
 
 TEST(Grid, IsComputedForEveryRegularBody) {
-    EXPECT_TRUE(usesKernel(body({3, 3, 3}), "gather_lattice"));
-    EXPECT_TRUE(usesKernel(sheet({9, 9}), "gather_sheet"));
-    EXPECT_FALSE(usesKernel(body({3, 3, 3}), "gather_split_packed"));
+    EXPECT_TRUE(test::usesKernel(body({3, 3, 3}), "gather_lattice"));
+    EXPECT_TRUE(test::usesKernel(sheet({9, 9}), "gather_sheet"));
+    EXPECT_FALSE(test::usesKernel(body({3, 3, 3}), "gather_split_packed"));
     Scene tied = body({3, 3, 3});
     tied.particles.push_back({.position = {1, 1, 1}});
     tied.distances.push_back({0, static_cast<std::uint32_t>(tied.particles.size() - 1), 1, 1e-3f});
-    EXPECT_FALSE(usesKernel(tied, "gather_lattice")) << "a link that the grid does not have must not be lost";
+    EXPECT_FALSE(test::usesKernel(tied, "gather_lattice"))
+        << "a link that the grid does not have must not be lost";
 }
 
 TEST(Grid, FormsGiveTheSameBits) {
@@ -114,11 +92,11 @@ TEST(Grid, FormsGiveTheSameBits) {
     for (auto& [name, scene] : scenes())
         for (const bool isInRoom : {false, true}) {
             if (isInRoom) test::addRoom(scene);
-            const std::uint64_t expected = hashOfRun(scene, {.substeps = 5});
-            EXPECT_EQ(hashOfRun(scene, {.substeps = 5, .isReversed = true}), expected)
+            const std::uint64_t expected = test::hashOfRun(scene, {.substeps = 5});
+            EXPECT_EQ(test::hashOfRun(scene, {.substeps = 5, .isReversed = true}), expected)
                 << name << ", reversed";
             for (const Forms& form : forms)
-                EXPECT_EQ(hashOfRun(scene, {.substeps = 5, .forms = form}), expected)
+                EXPECT_EQ(test::hashOfRun(scene, {.substeps = 5, .forms = form}), expected)
                     << name << ", room " << isInRoom << ", texels " << form.usesTexels << ", columns "
                     << form.columns << ", chunk " << form.chunk;
         }
@@ -128,9 +106,9 @@ TEST(Grid, FormsGiveTheSameBits) {
 TEST(Grid, IsKeptResidentOnlyWithinTheSharedMemoryOfTheDevice) {
     const Scene scene = body({11, 12, 12});
     Settings settings{.substeps = 1};
-    const std::uint64_t expected = hashOfRun(scene, settings);
+    const std::uint64_t expected = test::hashOfRun(scene, settings);
     settings.forms.residentBytes = 0xffffffff;
-    EXPECT_EQ(hashOfRun(scene, settings), expected);
+    EXPECT_EQ(test::hashOfRun(scene, settings), expected);
 }
 
 TEST(Grid, AgreesWithDoubleAfterAStep) {
@@ -140,13 +118,9 @@ TEST(Grid, AgreesWithDoubleAfterAStep) {
             test::Runner runner(scene, settings);
             runner.step(frame);
             reference::State state = reference::initialState(scene);
-            reference::stepSplit(scene, settings, double{frame}, state);
-            const auto x = runner.positions(), v = runner.velocities();
-            double largest = 0;
-            for (std::size_t i = 0; i < x.size(); ++i)
-                largest = std::max(
-                    {largest, (x[i] - state.x[i]).norm(), (v[i] - state.v[i]).norm() * double{frame}});
-            EXPECT_LE(largest / test::sizeOf(scene), 1e-5) << name << ", " << substeps << " substeps";
+            test::stepReference(scene, settings, frame, state);
+            EXPECT_LE(test::differenceOf(runner, state, scene, frame), 1e-5)
+                << name << ", " << substeps << " substeps";
         }
 }
 
@@ -164,7 +138,7 @@ TEST(Grid, AgreesWithListedLinks) {
 }
 
 TEST(Grid, MarchesEveryNodeOnceAndNoEmptySpace) {
-    const Scene scene = body({7, 6, 9}, raggedFill(7 * 6 * 9));
+    const Scene scene = body({7, 6, 9}, test::raggedFill(7 * 6 * 9));
     const Grid& grid = scene.grids[0];
     const lattice::Box box = lattice::place(grid, 0);
     for (const std::uint32_t columns : {1u, 2u}) {

@@ -2,8 +2,7 @@
 #include "sim/bodies.hpp"
 #include "sim/coloring.hpp"
 #include "sim/compile.hpp"
-#include "sim/reference/reference.hpp"
-#include "sim/runner.hpp"
+#include "sim/constraints/agreement.hpp"
 #include "sim/scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -20,16 +19,6 @@ namespace {
 constexpr float frame = 1.0f / 60;
 constexpr std::uint32_t sizes[] = {1, 2, 63, 64, 65, 129};
 
-void stepReference(const Scene& scene, const Settings& settings, float dt, reference::State& state) {
-    if (settings.solver == Solver::gaussSeidel) {
-        const Coloring coloring = colorByParticles(scene, inverseMasses(scene));
-        reference::GaussSeidel(scene, settings, coloring.order).step(double{dt}, state);
-        return;
-    }
-    const auto step = settings.solver == Solver::split ? reference::stepSplit : reference::stepJacobi;
-    step(scene, settings, double{dt}, state);
-}
-
 // The largest difference after these steps, relative to the body's size; velocities count as what they move
 // in a frame.
 double difference(const Scene& scene, const Settings& settings, const std::vector<float>& steps) {
@@ -37,15 +26,9 @@ double difference(const Scene& scene, const Settings& settings, const std::vecto
     reference::State state = reference::initialState(scene);
     for (const float dt : steps) {
         runner.step(dt);
-        stepReference(scene, settings, dt, state);
+        test::stepReference(scene, settings, dt, state);
     }
-    const auto x = runner.positions(), v = runner.velocities();
-    double largest = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        largest = std::max({largest, (x[i] - state.x[i]).norm(), (v[i] - state.v[i]).norm() * double{frame}});
-        if (!x[i].allFinite() || !v[i].allFinite()) return std::numeric_limits<double>::infinity();
-    }
-    return largest / test::sizeOf(scene);
+    return test::differenceOf(runner, state, scene, frame);
 }
 
 Scene disturbed(Scene scene, bool isInRoom) {

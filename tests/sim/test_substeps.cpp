@@ -17,13 +17,8 @@ using namespace sinew::sim;
 namespace {
 
 // A fixed particle, and `count` of 0.01 kg that hang from it one below another, 0.1 m apart.
-Scene hangingChain(std::uint32_t count, float compliance) {
-    Scene scene{.name = "hanging chain"};
-    for (std::uint32_t i = 0; i <= count; ++i) {
-        scene.particles.push_back({.position = {0, -0.1f * static_cast<float>(i), 0}, .inverseMass = 100});
-        if (i > 0) scene.distances.push_back({i - 1, i, 0.1f, compliance});
-    }
-    scene.fixed = {{0}};
+Scene dampedChain(std::uint32_t count, float compliance) {
+    Scene scene = test::hangingChain(count, 0.1f, 0.01f, compliance);
     scene.damping = 20;
     return scene;
 }
@@ -40,7 +35,7 @@ double stretchOf(const Scene& scene, const Settings& settings) {
 TEST(Substeps, OfSplitAreThoseOfItsFormula) {
     // k = 1e4 N/m, two links a particle of 0.01 kg: kappa = 2 / (2 x 2 x 100), k h^2 <= kappa: n = dt sqrt(k
     // / kappa).
-    const Scene scene = hangingChain(5, 1e-4f);
+    const Scene scene = dampedChain(5, 1e-4f);
     const double exact = double{scene.dt} * std::sqrt(1e4 / 0.005);
     for (const double tolerance : {1e-3, 0.05, 0.5}) {
         const SubstepChoice choice = chooseSubsteps(scene, {.tolerance = static_cast<float>(tolerance)});
@@ -51,7 +46,7 @@ TEST(Substeps, OfSplitAreThoseOfItsFormula) {
 
 TEST(Substeps, GrowWithFrameTimeStiffnessAndLightness) {
     const auto chosen = [](float dt, float compliance, float lightness) {
-        Scene scene = hangingChain(5, compliance);
+        Scene scene = dampedChain(5, compliance);
         scene.dt = dt;
         for (Particle& particle : scene.particles) particle.inverseMass *= lightness;
         return static_cast<double>(chooseSubsteps(scene, {}).substeps);
@@ -80,7 +75,7 @@ TEST(Substeps, KeepEveryElasticLinkWithinTheTolerance) {
 
 // Statics of `split` are exact: the links of a hanging chain stretch by their load over k_eff.
 TEST(Substeps, ReportTheStiffnessThatALoadedChainShows) {
-    const Scene scene = hangingChain(4, 1e-4f);
+    const Scene scene = dampedChain(4, 1e-4f);
     for (const std::uint32_t substeps : {4u, 8u, 32u}) {
         const Settings settings{.substeps = substeps};
         const StiffnessReport report = inspectStiffness(scene, settings);
@@ -95,7 +90,7 @@ TEST(Substeps, ReportTheStiffnessThatALoadedChainShows) {
 }
 
 TEST(Substeps, HoldWhatHangsOnRigidLinks) {
-    const Scene scene = hangingChain(10, 0);
+    const Scene scene = dampedChain(10, 0);
     for (const Solver solver : {Solver::split, Solver::jacobi}) {
         const Settings settings{.solver = solver, .tolerance = 0.02f};
         const SubstepChoice choice = chooseSubsteps(scene, settings);
@@ -110,7 +105,7 @@ TEST(Substeps, HoldWhatHangsOnRigidLinks) {
 }
 
 TEST(Substeps, StayBetweenTheirLimitsAndSaySo) {
-    Scene stiff = hangingChain(5, 1e-10f), soft = hangingChain(5, 10);
+    Scene stiff = dampedChain(5, 1e-10f), soft = dampedChain(5, 10);
     EXPECT_EQ(chooseSubsteps(stiff, {}).substeps, 256u);
     EXPECT_EQ(chooseSubsteps(stiff, {}).reason, SubstepReason::most);
     EXPECT_GT(chooseSubsteps(stiff, {}).wanted, 10'000u);
@@ -125,7 +120,7 @@ TEST(Substeps, StayBetweenTheirLimitsAndSaySo) {
 }
 
 TEST(Substeps, OfZeroAreChosenByCompileAndSimulation) {
-    const Scene scene = hangingChain(5, 1e-4f);
+    const Scene scene = dampedChain(5, 1e-4f);
     const std::uint32_t chosen = chooseSubsteps(scene, {}).substeps;
     EXPECT_EQ(compile(scene, {}).sweeps, chosen);
     test::Runner automatic(scene, {}), asked(scene, {.substeps = chosen});

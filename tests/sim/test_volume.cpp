@@ -2,6 +2,7 @@
 // double precision, and the double precision against its own energy. What cannot be computed is refused.
 #include "sim/bodies.hpp"
 #include "sim/compile.hpp"
+#include "sim/constraints/agreement.hpp"
 #include "sim/lattice/cells.hpp"
 #include "sim/reference/elasticity.hpp"
 #include "sim/reference/implicit_step.hpp"
@@ -29,15 +30,6 @@ constexpr float frame = 1.0f / 60, spacing = 0.1f;
 struct Material {
     float poissonRatio = 0.25f, recovery = 0;
 };
-
-std::vector<float> raggedFill(std::size_t cells) {
-    std::vector<float> fill;
-    for (std::uint32_t c = 0; c < cells; ++c) {
-        const std::uint32_t hash = (c * 2654435761u) >> 24;
-        fill.push_back(hash < 60 ? 0 : static_cast<float>(hash) / 255);
-    }
-    return fill;
-}
 
 Scene body(std::array<std::uint32_t, 3> cells, Material material, std::vector<float> fill = {},
            bool hasBodyDiagonals = false) {
@@ -87,8 +79,8 @@ std::vector<std::pair<const char*, Scene>> scenes() {
             {"flat", shaken(body({9, 1, 4}, recovery))},
             {"odd block", shaken(body({4, 6, 8}, volume))},
             {"even block", shaken(body({5, 5, 19}, stiff))},
-            {"ragged", shaken(body({7, 6, 9}, stiff, raggedFill(7 * 6 * 9)))},
-            {"26 neighbours", shaken(body({4, 5, 6}, stiff, raggedFill(4 * 5 * 6), true))},
+            {"ragged", shaken(body({7, 6, 9}, stiff, test::raggedFill(7 * 6 * 9)))},
+            {"26 neighbours", shaken(body({4, 5, 6}, stiff, test::raggedFill(4 * 5 * 6), true))},
             {"mixture", shaken(mixture())},
             {"stretched", shaken(scaled(body({3, 3, 3}, volume), {3, 2, 0.5f}))},
             {"mirrored", shaken(scaled(body({3, 3, 3}, volume), {-1, 1, 1}))},
@@ -97,35 +89,18 @@ std::vector<std::pair<const char*, Scene>> scenes() {
             {"tangled", disturbed(body({3, 3, 3}, volume), 0.15f, 1)}};
 }
 
-std::uint64_t hashOfRun(const Scene& scene, const Settings& settings) {
-    test::Runner runner(scene, settings);
-    EXPECT_EQ(runner.run(3).nonFinite, 0u);
-    return runner.stateHash();
-}
-
-bool usesKernel(const Scene& scene, const std::string& kernel) {
-    const StepProgram program = compile(scene, {});
-    return std::ranges::any_of(program.step, [&](const Pass& pass) { return pass.label == kernel; });
-}
-
 std::string complaintAbout(const Scene& scene, const Settings& settings = {}) {
     const auto complaints = validate(scene, settings);
     return complaints.empty() ? "none" : complaints.front();
 }
 
-double largestDifference(const std::vector<Vector3d>& a, const std::vector<Vector3d>& b) {
-    double largest = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, (a[i] - b[i]).norm());
-    return largest;
-}
-
 } // namespace
 
 TEST(CellVolume, AddsNothingToABodyThatDoesNotAsk) {
-    EXPECT_TRUE(usesKernel(body({3, 3, 3}, {}), "gather_lattice"));
-    EXPECT_FALSE(usesKernel(body({3, 3, 3}, {}), "gather_lattice_volume"));
-    EXPECT_TRUE(usesKernel(body({3, 3, 3}, {0.3f, 0}), "gather_lattice_volume"));
-    EXPECT_FALSE(usesKernel(body({3, 3, 3}, {0.3f, 0}), "gather_lattice"));
+    EXPECT_TRUE(test::usesKernel(body({3, 3, 3}, {}), "gather_lattice"));
+    EXPECT_FALSE(test::usesKernel(body({3, 3, 3}, {}), "gather_lattice_volume"));
+    EXPECT_TRUE(test::usesKernel(body({3, 3, 3}, {0.3f, 0}), "gather_lattice_volume"));
+    EXPECT_FALSE(test::usesKernel(body({3, 3, 3}, {0.3f, 0}), "gather_lattice"));
     const StepProgram with = compile(body({3, 3, 3}, {0.3f, 0}), {}),
                       without = compile(body({3, 3, 3}, {}), {});
     EXPECT_EQ(with.step.size(), without.step.size()) << "still one pass a substep";
@@ -142,10 +117,11 @@ TEST(CellVolume, FormsGiveTheSameBits) {
     for (auto& [name, scene] : scenes()) {
         isInRoom = !isInRoom;
         if (isInRoom) test::addRoom(scene);
-        const std::uint64_t expected = hashOfRun(scene, {.substeps = 5});
-        EXPECT_EQ(hashOfRun(scene, {.substeps = 5, .isReversed = true}), expected) << name << ", reversed";
+        const std::uint64_t expected = test::hashOfRun(scene, {.substeps = 5});
+        EXPECT_EQ(test::hashOfRun(scene, {.substeps = 5, .isReversed = true}), expected)
+            << name << ", reversed";
         for (const Forms& form : forms)
-            EXPECT_EQ(hashOfRun(scene, {.substeps = 5, .forms = form}), expected)
+            EXPECT_EQ(test::hashOfRun(scene, {.substeps = 5, .forms = form}), expected)
                 << name << ", texels " << form.usesTexels << ", columns " << form.columns << ", chunk "
                 << form.chunk;
     }
@@ -162,19 +138,18 @@ TEST(CellVolume, AgreesWithDoubleAfterAStep) {
             test::Runner runner(scene, settings);
             runner.step(dt);
             reference::State state = reference::initialState(scene);
-            reference::stepSplit(scene, settings, double{dt}, state);
-            const double largest = std::max(largestDifference(runner.positions(), state.x),
-                                            largestDifference(runner.velocities(), state.v) * double{dt});
-            EXPECT_LE(largest / test::sizeOf(scene), 1e-5) << name << ", " << substeps << " substeps";
+            test::stepReference(scene, settings, dt, state);
+            const double difference = test::differenceOf(runner, state, scene, dt);
+            EXPECT_LE(difference, 1e-5) << name << ", " << substeps << " substeps";
             RecordProperty(std::string(name) + " " + std::to_string(substeps),
-                           std::to_string(1e6 * largest / test::sizeOf(scene)) + "e-6");
+                           std::to_string(1e6 * difference) + "e-6");
         }
 }
 
 TEST(CellVolume, KeepsMomentumToRounding) {
     for (const Material material : {Material{0.49f, 0}, Material{0.25f, 1}})
         for (const float distance : {0.01f, 0.15f}) {
-            Scene scene = disturbed(body({5, 4, 6}, material, raggedFill(5 * 4 * 6)), distance, 1);
+            Scene scene = disturbed(body({5, 4, 6}, material, test::raggedFill(5 * 4 * 6)), distance, 1);
             scene.gravity = {0, 0, 0};
             const auto momentum = [&](const std::vector<Vector3d>& v) {
                 Vector3d sum = Vector3d::Zero();

@@ -3,8 +3,6 @@
 
 #include "sim/coloring.hpp"
 #include "sim/compile.hpp"
-#include "sim/reference/reference.hpp"
-#include "sim/runner.hpp"
 #include "sim/scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -18,17 +16,6 @@ using namespace sim;
 
 namespace {
 
-void stepReference(const Scene& scene, const Settings& settings, reference::State& state) {
-    const double dt = double{scene.dt};
-    if (settings.solver == Solver::gaussSeidel) {
-        const Coloring coloring = colorByParticles(scene, inverseMasses(scene));
-        reference::GaussSeidel(scene, settings, coloring.order).step(dt, state);
-        return;
-    }
-    const auto step = settings.solver == Solver::split ? reference::stepSplit : reference::stepJacobi;
-    step(scene, settings, dt, state);
-}
-
 std::uint64_t hashAfter(const Scene& scene, Settings settings, bool isReversed,
                         const std::vector<std::vector<Vec3>>& targets) {
     settings.isReversed = isReversed;
@@ -39,6 +26,26 @@ std::uint64_t hashAfter(const Scene& scene, Settings settings, bool isReversed,
 
 } // namespace
 
+void stepReference(const Scene& scene, const Settings& settings, float dt, reference::State& state) {
+    if (settings.solver == Solver::gaussSeidel) {
+        const Coloring coloring = colorByParticles(scene, inverseMasses(scene));
+        reference::GaussSeidel(scene, settings, coloring.order).step(double{dt}, state);
+        return;
+    }
+    const auto step = settings.solver == Solver::split ? reference::stepSplit : reference::stepJacobi;
+    step(scene, settings, double{dt}, state);
+}
+
+double differenceOf(const Runner& runner, const reference::State& state, const Scene& scene, float dt) {
+    const auto x = runner.positions(), v = runner.velocities();
+    double largest = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        if (!x[i].allFinite() || !v[i].allFinite()) return std::numeric_limits<double>::infinity();
+        largest = std::max({largest, (x[i] - state.x[i]).norm(), (v[i] - state.v[i]).norm() * double{dt}});
+    }
+    return largest / sizeOf(scene);
+}
+
 double differenceFromDouble(const Scene& scene, const Settings& settings,
                             const std::vector<std::vector<Vec3>>& targets) {
     Runner runner(scene, settings);
@@ -47,16 +54,9 @@ double differenceFromDouble(const Scene& scene, const Settings& settings,
         runner.step(scene.dt, to);
         state.targets.clear();
         for (const Vec3& target : to) state.targets.push_back(toVector(target));
-        stepReference(scene, settings, state);
+        stepReference(scene, settings, scene.dt, state);
     }
-    const auto x = runner.positions(), v = runner.velocities();
-    double largest = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        if (!x[i].allFinite() || !v[i].allFinite()) return std::numeric_limits<double>::infinity();
-        largest =
-            std::max({largest, (x[i] - state.x[i]).norm(), (v[i] - state.v[i]).norm() * double{scene.dt}});
-    }
-    return largest / sizeOf(scene);
+    return differenceOf(runner, state, scene, scene.dt);
 }
 
 void expectAgreement(const Scene& scene, Solver solver, const std::vector<std::vector<Vec3>>& targets) {

@@ -19,13 +19,6 @@ namespace {
 
 class DampingTime : public testing::TestWithParam<Solver> {};
 
-double kineticEnergy(const Scene& scene, const std::vector<Vector3d>& v) {
-    double energy = 0;
-    for (std::size_t i = 0; i < v.size(); ++i)
-        energy += v[i].squaredNorm() / (2 * double{scene.particles[i].inverseMass});
-    return energy;
-}
-
 } // namespace
 
 TEST_P(DampingTime, StepsAgreeWithDouble) {
@@ -61,7 +54,7 @@ TEST_P(DampingTime, OfASpringIsItsDecay) {
     runner.run(steps);
     const auto x = runner.positions(), v = runner.velocities();
     const double stretch = (x[1] - x[0]).norm() - 1;
-    const double energy = 0.5 * 200 * stretch * stretch + kineticEnergy(scene, v);
+    const double energy = 0.5 * 200 * stretch * stretch + test::kineticEnergy(scene, v);
     const double extra = GetParam() == Solver::jacobi ? h : 0;
     const double predicted =
         rate * rate * (double{scene.dampingTime} + extra) * (steps * double{scene.dt} - t0);
@@ -106,9 +99,9 @@ TEST(DampingTimeOfSplit, IsStableWhateverTheTime) {
                 scene.dampingTime = time;
                 test::disturb(scene, 0.001f, 0.1f);
                 test::Runner runner(scene, {.substeps = substeps});
-                const double before = kineticEnergy(scene, runner.velocities());
+                const double before = test::kineticEnergy(scene, runner.velocities());
                 ASSERT_EQ(runner.run(120).nonFinite, 0u);
-                EXPECT_LE(kineticEnergy(scene, runner.velocities()), before)
+                EXPECT_LE(test::kineticEnergy(scene, runner.velocities()), before)
                     << time << " s, " << substeps << " substeps, " << compliance << " m/N";
             }
         }
