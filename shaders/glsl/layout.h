@@ -25,7 +25,7 @@ struct StepParams {
     float velocityFactor; // exp(-damping h)
     float restSpeed;      // impacts slower than this do not rebound: 2 |g| h [m/s]
     uint frame;
-    float dampingShare; // `split`: h x damping coefficient of a link, at most this x the smaller kappa of its ends
+    float dampingShare; // `split`: h x damping coefficient of a link, at most this x k~ x the smaller tau of its ends
     float multiplierScale; // `gauss_seidel`: of the multipliers kept from the step before, min(1, (h / hPrevious)^2)
     float unused0, unused1, unused2;
 };

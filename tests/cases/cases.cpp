@@ -1,8 +1,11 @@
 // Predictions of stiffness per solver, and measurements.
 #include "cases/cases.hpp"
 
+#include "sim/reference/cells.hpp"
+
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace sinew::test {
 
@@ -29,6 +32,68 @@ Ends endsOf(const Scene& scene, const DistanceConstraint& link) {
     return {w[link.a], w[link.b], linksOf(link.a), linksOf(link.b)};
 }
 
+std::vector<reference::Cell> cellsWithVolume(const Scene& scene) {
+    std::vector<reference::Cell> cells = reference::cellsOf(scene);
+    std::erase_if(cells, [](const reference::Cell& cell) { return cell.stiffness == 0; });
+    return cells;
+}
+
+// Of a full cell, about its rest volume: 0.75 lambda_v a [N/m].
+double stiffnessOf(const reference::Cell& cell) {
+    return 0.75 * cell.stiffness * cell.spacing;
+}
+
+// How `split` divides particles, from what solvers/shares.hpp says in words: a constraint of stiffness k
+// takes k~ = k / (1 + 2 w h^2 K), K the stiffest of its rest length in its grid or k, and a particle has tau
+// = omega / (2 w sum k~).
+struct Division {
+    double softening = 0; // 2 w h^2 [m/N]
+    std::vector<double> share, tau;
+
+    Division(const Scene& scene, const Settings& settings) : tau(scene.particles.size(), infinite) {
+        std::vector<double> w, sum(scene.particles.size(), 0);
+        for (const Particle& particle : scene.particles) w.push_back(double{particle.inverseMass});
+        for (const FixedConstraint& fixed : scene.fixed) w[fixed.particle] = 0;
+        const double h = double{scene.dt} / settings.substeps;
+        const auto moving =
+            static_cast<double>(std::ranges::count_if(w, [](double each) { return each > 0; }));
+        softening = 2 * h * h * std::accumulate(w.begin(), w.end(), 0.0) / moving;
+        for (std::size_t c = 0; c < scene.distances.size(); ++c) {
+            const DistanceConstraint& link = scene.distances[c];
+            const bool moves = w[link.a] > 0 || w[link.b] > 0;
+            share.push_back(moves ? levelled(1 / double{link.compliance}, 1 / leastCompliance(scene, c)) : 0);
+            for (const std::uint32_t end : {link.a, link.b}) sum[end] += share[c];
+        }
+        for (const reference::Cell& cell : cellsWithVolume(scene))
+            for (const std::uint32_t corner : cell.corners)
+                sum[corner] += cell.fill * levelled(stiffnessOf(cell), stiffnessOf(cell));
+        for (std::size_t i = 0; i < w.size(); ++i)
+            if (w[i] > 0) tau[i] = double{settings.omega} / (2 * w[i] * sum[i]);
+    }
+
+    // Rigid constraints are the limit of stiff ones.
+    double levelled(double k, double stiffest) const {
+        return stiffest < infinite ? k / (1 + softening * stiffest) : 1 / softening;
+    }
+
+    // k h^2 at most [kg].
+    double clamp(const Scene& scene, std::size_t c) const {
+        const double least = std::min(tau[scene.distances[c].a], tau[scene.distances[c].b]);
+        return least < infinite ? share[c] * least : infinite;
+    }
+
+    // Of the links of one length in the grid of link c.
+    static double leastCompliance(const Scene& scene, std::size_t c) {
+        const DistanceConstraint& link = scene.distances[c];
+        for (const Grid& grid : scene.grids) {
+            if (c < grid.firstDistance || c - grid.firstDistance >= grid.distanceCount) continue;
+            for (std::uint32_t kind = 0; kind < grid.kinds; ++kind)
+                if (grid.restLength[kind] == link.restLength) return double{grid.compliance[kind]};
+        }
+        return double{link.compliance};
+    }
+};
+
 } // namespace
 
 Settings accurate(Solver solver, std::uint32_t substeps) {
@@ -39,16 +104,11 @@ Settings accurate(Solver solver, std::uint32_t substeps) {
 
 double reachedStiffness(const Scene& scene, const Settings& settings, double h, std::size_t c) {
     const DistanceConstraint& link = scene.distances[c];
-    const Ends ends = endsOf(scene, link);
     const double compliance = double{link.compliance};
-    if (settings.solver == Solver::split) {
-        const auto kappa = [&](double w, int links) {
-            return w > 0 ? double{settings.omega} / (2 * links * w) : infinite;
-        };
-        return std::min(
-            {1 / compliance, kappa(ends.wA, ends.linksA) / (h * h), kappa(ends.wB, ends.linksB) / (h * h)});
-    }
+    if (settings.solver == Solver::split)
+        return std::min(1 / compliance, Division(scene, settings).clamp(scene, c) / (h * h));
     if (settings.solver == Solver::gaussSeidel) return 1 / compliance;
+    const Ends ends = endsOf(scene, link);
     const int links = std::max(ends.linksA * (ends.wA > 0), ends.linksB * (ends.wB > 0));
     const double weight = settings.weight > 0 ? double{settings.weight} : 1.0 / links;
     return weight / (h * h * (ends.wA + ends.wB) + compliance);
@@ -56,15 +116,16 @@ double reachedStiffness(const Scene& scene, const Settings& settings, double h, 
 
 bool isUnclamped(const Scene& scene, const Settings& settings) {
     if (settings.solver != Solver::split) return true;
-    std::vector<double> kappa;
-    std::vector<int> links(scene.particles.size(), 0);
-    for (const DistanceConstraint& c : scene.distances) ++links[c.a], ++links[c.b];
-    for (std::size_t i = 0; i < scene.particles.size(); ++i)
-        kappa.push_back(double{settings.omega} / (2 * links[i] * double{scene.particles[i].inverseMass}));
-    for (const FixedConstraint& fixed : scene.fixed) kappa[fixed.particle] = infinite;
+    const Division division(scene, settings);
     const double h = double{scene.dt} / settings.substeps;
-    return std::ranges::all_of(scene.distances, [&](const DistanceConstraint& c) {
-        return h * h / double{c.compliance} <= std::min(kappa[c.a], kappa[c.b]);
+    for (std::size_t c = 0; c < scene.distances.size(); ++c)
+        if (h * h / double{scene.distances[c].compliance} > division.clamp(scene, c)) return false;
+    constexpr double spare = 1.1; // of cells, whose clamp falls as they are stretched
+    return std::ranges::all_of(cellsWithVolume(scene), [&](const reference::Cell& cell) {
+        double least = infinite;
+        for (const std::uint32_t corner : cell.corners) least = std::min(least, division.tau[corner]);
+        return spare * h * h * stiffnessOf(cell) <=
+               division.levelled(stiffnessOf(cell), stiffnessOf(cell)) * least;
     });
 }
 

@@ -34,8 +34,8 @@ sim::Settings accurate(sim::Solver solver, std::uint32_t substeps);
 /// `gauss_seidel` has at rest what was asked for, where substeps suffice to solve its constraints.
 double reachedStiffness(const sim::Scene& scene, const sim::Settings& settings, double h, std::size_t c);
 
-/// Whether `split` has all the stiffness of the scene with these settings; must hold where a case says
-/// unclamped.
+/// Whether `split` has all the stiffness of the scene with these settings, of links and (with a tenth to
+/// spare) of cells; must hold where a case says unclamped. Lattices are full somewhere.
 bool isUnclamped(const sim::Scene& scene, const sim::Settings& settings);
 
 /// A full voxel body in a scene without gravity. Ranges are of corners, both ends included.

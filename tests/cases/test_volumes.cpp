@@ -5,7 +5,6 @@
 #include "sim/reference/cells.hpp"
 #include "sim/reference/elasticity.hpp"
 #include "sim/reference/implicit_step.hpp"
-#include "sim/solvers/shares.hpp"
 
 #include <algorithm>
 #include <numbers>
@@ -21,8 +20,11 @@ constexpr double cell = Solid::cell, density = Solid::density, frame = double{1.
 class Case11Volumes : public testing::TestWithParam<float> {}; // Poisson ratio
 class Case19Compression : public testing::TestWithParam<float> {};
 
-// Cells that a wave sqrt(E / rho) crosses in a substep that has all of the stiffness: links alone allow 0.26
-// (test_lattices.cpp), cells take lambda_v / mu / 3 of what links do, and something for the change of shape.
+// Cells that a wave sqrt(E / rho) crosses in a substep that has all of the stiffness. Cells take of a
+// particle what they need beside its links, lambda_v / mu / 3 of those, and something for the change of
+// shape. Measured, of bars 3 to 8 cells wide, links and cells have all of it up to 0.373 at 0.25, 0.32 at
+// 0.35, 0.20 at 0.45 (links to 0.23) and 0.097 at 0.49 (links to 0.12); the cases stay at half of that, where
+// compression leaves it.
 double cellsPerSubstep(double poissonRatio) {
     const double ratio = 2 * poissonRatio / (1 - 2 * poissonRatio) - 1;
     return ratio > 0 ? 0.21 / std::sqrt(1 + ratio / 3) : 0.26;
@@ -30,25 +32,6 @@ double cellsPerSubstep(double poissonRatio) {
 
 double waveSpeed(float poissonRatio, std::uint32_t substeps) {
     return cellsPerSubstep(double{poissonRatio}) * cell * substeps / frame;
-}
-
-// Links and cells both have all of their stiffness, cells with a tenth to spare.
-bool hasAllStiffness(const Scene& scene, const Settings& settings) {
-    const std::vector<float> inverseMass = inverseMasses(scene);
-    const auto shares = solvers::sharesOf(scene, settings, inverseMass);
-    const auto& tau = shares.times;
-    const double h = double{scene.dt} / settings.substeps;
-    const float least = *std::ranges::min_element(tau);
-    bool isUnclamped = 1.1 * 0.75 * double{scene.grids[0].volumeStiffness} * cell * h * h <=
-                       double{shares.ofCells[0].volume} * double{least};
-    for (std::size_t c = 0; c < scene.distances.size(); ++c) {
-        const DistanceConstraint& link = scene.distances[c];
-        if (inverseMass[link.a] + inverseMass[link.b] == 0) continue;
-        isUnclamped =
-            isUnclamped && h * h / double{link.compliance} <=
-                               double{shares.ofLinks[c]} * double{std::min(tau[link.a], tau[link.b])};
-    }
-    return isUnclamped;
 }
 
 Settings settingsOf(std::uint32_t substeps) {
@@ -81,7 +64,7 @@ TEST_P(Case11Volumes, GiveTheModulusAndThePoissonRatioAskedFor) {
     body.scene.gravity = {0, static_cast<float>(-gravity), 0};
     const double slowest = std::numbers::pi / 2 * body.speed / length;
     body.scene.damping = static_cast<float>(2 * slowest);
-    ASSERT_TRUE(hasAllStiffness(body.scene, settingsOf(substeps)));
+    ASSERT_TRUE(isUnclamped(body.scene, settingsOf(substeps)));
     CaseRunner runner(body.scene, settingsOf(substeps));
     runner.run(static_cast<int>(16 / slowest / frame));
 
@@ -114,7 +97,7 @@ double volumeWhenPressed(float poissonRatio, double strain) {
     body.scene.planes = {{.normal = {0, 1, 0}, .offset = -half}, {.normal = {0, -1, 0}, .offset = -half}};
     const double slowest = std::numbers::pi / 2 * body.speed / (height * cell);
     body.scene.damping = static_cast<float>(2 * slowest);
-    EXPECT_TRUE(hasAllStiffness(body.scene, settingsOf(substeps)));
+    EXPECT_TRUE(isUnclamped(body.scene, settingsOf(substeps)));
     CaseRunner runner(body.scene, settingsOf(substeps));
     runner.run(static_cast<int>(20 / slowest / frame));
     const auto x = runner.positions();
