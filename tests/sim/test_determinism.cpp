@@ -38,12 +38,6 @@ protected:
     }
 };
 
-std::uint64_t hashOfRun(const Scene& scene, const Settings& settings) {
-    test::Runner runner(scene, settings);
-    EXPECT_EQ(runner.run(steps).nonFinite, 0u);
-    return runner.stateHash();
-}
-
 // The item of every invocation of a kernel of ours, as a program runs it.
 std::vector<std::uint32_t> itemsOf(bool isReversed, std::uint32_t count) {
     ProgramBuilder builder(isReversed);
@@ -74,9 +68,9 @@ TEST(Reversal, RunsTheItemsBackwards) {
 
 TEST_P(Determinism, ThreeRunsEndInTheSameBits) {
     for (const test::NamedScene& named : scenes()) {
-        const std::uint64_t hash = hashOfRun(named.scene, settings());
-        EXPECT_EQ(hashOfRun(named.scene, settings()), hash) << named.name;
-        EXPECT_EQ(hashOfRun(named.scene, settings()), hash) << named.name;
+        const std::uint64_t hash = test::hashOfRun(named.scene, settings(), steps);
+        EXPECT_EQ(test::hashOfRun(named.scene, settings(), steps), hash) << named.name;
+        EXPECT_EQ(test::hashOfRun(named.scene, settings(), steps), hash) << named.name;
         // For compare_thread_counts.cmake.
         std::printf("state_hash %s %s %016" PRIx64 "\n", named.name.c_str(), solverName(GetParam()), hash);
     }
@@ -84,7 +78,9 @@ TEST_P(Determinism, ThreeRunsEndInTheSameBits) {
 
 TEST_P(Determinism, ReversedInvocationsEndInTheSameBits) {
     for (const test::NamedScene& named : scenes()) {
-        EXPECT_EQ(hashOfRun(named.scene, settings(true)), hashOfRun(named.scene, settings())) << named.name;
+        EXPECT_EQ(test::hashOfRun(named.scene, settings(true), steps),
+                  test::hashOfRun(named.scene, settings(), steps))
+            << named.name;
     }
 }
 

@@ -1,6 +1,7 @@
 // Bodies whose neighbours are computed: every form of the kernel gives the same bits, one step agrees with
 // double precision, and a grid that does not say what the lists say is refused.
 #include "sim/bodies.hpp"
+#include "sim/compile.hpp"
 #include "sim/constraints/agreement.hpp"
 #include "sim/lattice/placement.hpp"
 #include "sim/scenes.hpp"
@@ -206,7 +207,7 @@ TEST(Grid, BodyTakesAtMost72BytesAParticleAnd16MoreForPublicVelocities) {
 
 // Slots by rule: bodies in a row, of even and odd extents, and what breaks the rule.
 TEST(Grid, SlotsOfEqualFullBodiesFollowTheRuleThatKernelsCompute) {
-    Scene row, ragged = body({4, 3, 5}, raggedFill(60)), unequal = body({2, 2, 2});
+    Scene row, ragged = body({4, 3, 5}, test::raggedFill(60)), unequal = body({2, 2, 2});
     for (const float x : {0.0f, 2.0f, 4.0f})
         addLattice(row, {.origin = {x, 0, 0}, .cells = {2, 3, 4}, .spacing = 0.1f, .youngModulus = 1e5f});
     addLattice(unequal, {.origin = {3, 0, 0}, .cells = {2, 2, 3}, .spacing = 0.1f, .youngModulus = 1e5f});
