@@ -1,7 +1,8 @@
 #version 460
 // `split` for any graph: a particle's links are listed in slots, as many for each particle of the scene.
 // LINKS_PACKED: one word a link (layout.h). NO_LINKS: free particles only. Else a SplitLink each, with HAS_BENDS and
-// HAS_DAMPING for scenes that have those.
+// HAS_DAMPING for scenes that have those. LINKS_RANGED: particle behind particle instead of in slots, where they have very
+// different numbers of links.
 #extension GL_GOOGLE_include_directive : require
 #include "split.glsl"
 
@@ -30,6 +31,9 @@ layout(binding = LINK_BINDING) uniform usamplerBuffer links;
 layout(std430, binding = LINK_BINDING) readonly buffer Links { uvec4 links[]; }; // SplitLink, in one load
 #define LINK(i) links[i]
 #endif
+#ifdef LINKS_RANGED
+layout(std430, binding = LINK_BINDING + 1) readonly buffer FirstLinks { uint firstLinks[]; }; // the last is the end
+#endif
 #ifdef HAS_DAMPING
 layout(push_constant) uniform Push { DampedSubstepPush push; };
 #else
@@ -39,11 +43,8 @@ layout(push_constant) uniform Push { SubstepPush push; };
 #include "gather_terms.glsl"
 
 #ifndef NO_LINKS
-layout(constant_id = 1) const uint degree = 1; // slots per particle, padded
-
 // Padding is a link to oneself and contributes exactly 0.
-vec3 slotImpulse(uint s, uint i, vec4 y, vec3 v, float hh) {
-    const uint index = (i / LINK_BLOCK * degree + s) * LINK_BLOCK + i % LINK_BLOCK;
+vec3 impulseOf(uint index, uint s, vec4 y, vec3 v, float hh) {
 #ifdef LINKS_PACKED
     const uint word = LINK(index);
     const vec4 yj = POSITION(word & (1u << PACKED_END_BITS) - 1u);
@@ -61,6 +62,25 @@ vec3 slotImpulse(uint s, uint i, vec4 y, vec3 v, float hh) {
     return impulse;
 #endif
 }
+
+#ifdef LINKS_RANGED
+vec3 linkImpulses(uint i, vec4 y, vec3 v, float hh) {
+    vec3 sum = vec3(0.0);
+    const uint end = firstLinks[i + 1u];
+    for (uint index = firstLinks[i]; index < end; ++index) sum += impulseOf(index, 0u, y, v, hh);
+    return sum;
+}
+#else
+layout(constant_id = 1) const uint degree = 1; // slots per particle, padded
+
+vec3 linkImpulses(uint i, vec4 y, vec3 v, float hh) {
+    vec3 sum = vec3(0.0);
+    const uint first = i / LINK_BLOCK * degree * LINK_BLOCK + i % LINK_BLOCK;
+    // unrolled whatever its length: a loop brings the lane mask back (18 slots: 25 % slower)
+    [[unroll]] for (uint s = 0u; s < degree; ++s) sum += impulseOf(first + s * LINK_BLOCK, s, y, v, hh);
+    return sum;
+}
+#endif
 #endif
 
 void main() {
@@ -68,10 +88,10 @@ void main() {
     const uint i = itemIndex(push.count);
     const Substep substep = substepOf(push.isFirst != 0u);
     const vec4 y = POSITION(i), velocity = velocities[i];
+#ifdef NO_LINKS
     vec3 sum = vec3(0.0);
-#ifndef NO_LINKS
-    // unrolled whatever its length: a loop brings the lane mask back (18 slots: 25 % slower)
-    [[unroll]] for (uint s = 0u; s < degree; ++s) sum += slotImpulse(s, i, y, velocity.xyz, substep.hh);
+#else
+    vec3 sum = linkImpulses(i, y, velocity.xyz, substep.hh);
 #endif
 #ifdef HAS_BENDS
     sum += bendImpulses(i, substep.hh);

@@ -53,11 +53,15 @@ layout(std430, binding = VELOCITY_BINDING + 3) readonly buffer ContactOffsets { 
 #define LINK_BINDING (VELOCITY_BINDING + 2)
 #endif
 
-#ifdef HAS_BENDS
-#define BEND_BINDING (LINK_BINDING + 1)
-#define NEXT_VELOCITY_BINDING (LINK_BINDING + 2)
+#ifdef LINKS_RANGED
+#define BEND_BINDING (LINK_BINDING + 2)
 #else
-#define NEXT_VELOCITY_BINDING (LINK_BINDING + 1)
+#define BEND_BINDING (LINK_BINDING + 1)
+#endif
+#ifdef HAS_BENDS
+#define NEXT_VELOCITY_BINDING (BEND_BINDING + 1)
+#else
+#define NEXT_VELOCITY_BINDING BEND_BINDING
 #endif
 #ifdef HAS_DAMPING
 layout(std430, binding = NEXT_VELOCITY_BINDING) writeonly buffer NextVelocities { vec4 nextVelocities[]; };

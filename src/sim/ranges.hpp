@@ -63,9 +63,9 @@ inline constexpr Range iterations{1, 1000};
 inline constexpr std::uint64_t mostSweeps = 20'000;
 /// Passes that `gauss_seidel` makes of those, one a color: as many as `jacobi` makes of mostSweeps.
 inline constexpr std::uint64_t mostColorPasses = 3 * mostSweeps;
-/// Links of one particle. `split` and the warm start of `gauss_seidel` unroll them; `jacobi` loops, and some
-/// devices end a loop silently at 65,535.
-inline constexpr std::uint32_t mostLinksUnrolled = 128, mostLinksJacobi = 60'000;
+/// Links of one particle. The warm start of `gauss_seidel` unrolls them; others loop, and some devices end a
+/// loop silently at 65,535.
+inline constexpr std::uint32_t mostLinksUnrolled = 128, mostLinks = 60'000;
 inline constexpr Range omega{.low = 0, .high = 10, .isLowOpen = true, .isHighOpen = true};
 inline constexpr Range theta{0, 1};
 inline constexpr Range weight{0, 1};

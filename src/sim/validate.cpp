@@ -299,8 +299,8 @@ void checkColors(const Scene& scene, const Settings& settings, Complaints& compl
 }
 
 void checkLinks(const Scene& scene, const Settings& settings, Complaints& complaints) {
-    const bool isJacobi = settings.solver == Solver::jacobi;
-    const std::uint32_t most = isJacobi ? ranges::mostLinksJacobi : ranges::mostLinksUnrolled;
+    const bool isUnrolled = settings.solver == Solver::gaussSeidel;
+    const std::uint32_t most = isUnrolled ? ranges::mostLinksUnrolled : ranges::mostLinks;
     std::vector<std::uint32_t> links(scene.particles.size());
     for (const DistanceConstraint& constraint : scene.distances)
         for (const std::uint32_t end : {constraint.a, constraint.b})

@@ -80,6 +80,16 @@ struct GatherLinks {
     }
 };
 GatherLinks gatherLinks(std::span<const GatherLink> links, std::size_t particles);
+/// Whether slots for all would be mostly padding: a few particles have many more links than the others.
+bool isIrregular(std::span<const GatherLink> links, std::size_t particles);
+/// The adjacency of `split` without slots: the links of particle i are links[first[i]] to links[first[i +
+/// 1]].
+struct RangedLinks {
+    std::vector<layout::SplitLink> links;
+    std::vector<std::uint32_t> first; ///< of `particles` rounded up to whole work groups, and the end
+};
+RangedLinks rangedLinks(std::span<const GatherLink> links, std::size_t particles);
+
 /// Gives a list without links so many slots of padding, for kernels that gather something else as well.
 void pad(GatherLinks& links, std::uint32_t degree);
 

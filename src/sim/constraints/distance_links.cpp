@@ -2,6 +2,8 @@
 // regular cloth and lattices then carry one word a link instead of four.
 #include "sim/constraints/distance.hpp"
 
+#include "sim/ranges.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -9,6 +11,10 @@
 namespace sinew::sim::constraints::distance {
 
 namespace {
+
+// A loop of unknown length costs 1.17 times as much a link as an unrolled slot; few slots cost little anyway.
+constexpr double mostPadding = 1.5; // slots for each end of a link
+constexpr std::uint32_t fewSlots = 8;
 
 // Distinct rest lengths in order of appearance; empty where there are more than a kernel has groups.
 std::vector<float> restLengths(std::span<const GatherLink> links) {
@@ -110,6 +116,30 @@ GatherLinks gatherLinks(std::span<const GatherLink> links, std::size_t particles
     pad(result, result.degree);
     fillLinks(links, counts, groups, result);
     if (!counts.lengths.empty()) result.groups = std::move(groups);
+    return result;
+}
+
+bool isIrregular(std::span<const GatherLink> links, std::size_t particles) {
+    if (links.empty()) return false;
+    const std::uint32_t most = countByGroup(links, particles, {}).largest(0);
+    const double padded = double(paddedCount(particles)) * most, ends = 2 * double(links.size());
+    return most > ranges::mostLinksUnrolled || (most > fewSlots && padded > mostPadding * ends);
+}
+
+RangedLinks rangedLinks(std::span<const GatherLink> links, std::size_t particles) {
+    GroupCounts used = countByGroup(links, particles, {});
+    RangedLinks result{std::vector<layout::SplitLink>(2 * links.size()), {0}};
+    for (const std::uint32_t count : used.counts) result.first.push_back(result.first.back() + count);
+    result.first.resize(paddedCount(particles) + 1, result.first.back());
+    std::fill(used.counts.begin(), used.counts.end(), 0);
+    for (const GatherLink& link : links) {
+        const auto add = [&](std::uint32_t end, std::uint32_t other) {
+            result.links[result.first[end] + used.at(0, end)++] = {other, link.restLength, link.stiffness,
+                                                                   link.share};
+        };
+        add(link.a, link.b);
+        add(link.b, link.a);
+    }
     return result;
 }
 

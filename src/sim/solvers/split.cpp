@@ -93,46 +93,39 @@ layout::PackedSubstepPush packedPush(const constraints::distance::GatherLinks& l
     return push;
 }
 
-// Bends and internal damping, over the general list.
-Gather termsGather(const Common& common, constraints::distance::GatherLinks links,
-                   const constraints::bend::GatherBends& bends, std::uint32_t count) {
+// Any links, with bends and internal damping where the scene has those.
+Gather generalGather(const Common& common, std::span<const constraints::distance::GatherLink> listed,
+                     const constraints::bend::GatherBends& bends, std::uint32_t count) {
     Gather gather = common.gather();
-    const bool isDamped = links.degree > 0 && common.scene.dampingTime > 0;
-    if (links.degree == 0) constraints::distance::pad(links, 1);
-    gather.constants[degreeId] = links.degree;
-    gather.buffers.push_back(common.program.upload("distance.links", links.links));
+    const bool isRanged = constraints::distance::isIrregular(listed, count);
+    if (isRanged) {
+        const auto links = constraints::distance::rangedLinks(listed, count);
+        gather.buffers.push_back(common.program.upload("distance.links", links.links));
+        gather.buffers.push_back(common.program.upload("distance.first_links", links.first));
+    } else {
+        auto links = constraints::distance::gatherLinks(listed, count);
+        if (links.degree == 0) constraints::distance::pad(links, 1);
+        gather.constants[degreeId] = links.degree;
+        gather.buffers.push_back(common.program.upload("distance.links", links.links));
+    }
     if (bends.degree > 0) {
         gather.constants[bendDegreeId] = bends.degree;
         gather.buffers.push_back(common.program.upload("bends", bends.bends));
     }
-    gather.alternatesVelocities = isDamped;
-    if (!isDamped)
-        setDispatch(common, gather, bending, layout::SubstepPush{count, 0});
+    gather.alternatesVelocities = !listed.empty() && common.scene.dampingTime > 0;
+    const Kernel& kernel = generalKernel(isRanged, bends.degree > 0, gather.alternatesVelocities);
+    if (gather.alternatesVelocities)
+        setDispatch(common, gather, kernel, layout::DampedSubstepPush{count, 0, common.scene.dampingTime});
     else
-        setDispatch(common, gather, bends.degree > 0 ? bendingDamped : damped,
-                    layout::DampedSubstepPush{count, 0, common.scene.dampingTime});
+        setDispatch(common, gather, kernel, layout::SubstepPush{count, 0});
     return gather;
 }
 
-// `count` particles at the head of the state.
-Gather listedGather(const Common& common, std::uint32_t count) {
+// Links in slots of which each has one rest length: one word a link.
+Gather packedGather(const Common& common, const constraints::distance::GatherLinks& links,
+                    const constraints::distance::PackedLinks& packedLinks, std::uint32_t count) {
     Gather gather = common.gather();
-    const auto links = constraints::distance::gatherLinks(listedLinks(common), count);
-    const auto bends = constraints::bend::gatherBends(common.scene, common.division.inverseMass,
-                                                      omegaOfBends(common.settings));
-    if (bends.degree > 0 || (links.degree > 0 && common.scene.dampingTime > 0))
-        return termsGather(common, links, bends, count);
-    if (links.degree == 0) {
-        setDispatch(common, gather, drift, layout::SubstepPush{count, 0});
-        return gather;
-    }
     gather.constants[degreeId] = links.degree;
-    const auto packedLinks = constraints::distance::pack(links);
-    if (packedLinks.links.empty()) {
-        gather.buffers.push_back(common.program.upload("distance.links", links.links));
-        setDispatch(common, gather, general, layout::SubstepPush{count, 0});
-        return gather;
-    }
     gather.buffers.push_back(common.program.upload("distance.links", packedLinks.links));
     layout::PackedSubstepPush push = packedPush(links, packedLinks);
     push.count = count;
@@ -141,6 +134,25 @@ Gather listedGather(const Common& common, std::uint32_t count) {
             links.groups[std::min<std::size_t>(group, links.groups.size() - 1)].endSlot;
     setDispatch(common, gather, packed, push);
     return gather;
+}
+
+// `count` particles at the head of the state.
+Gather listedGather(const Common& common, std::uint32_t count) {
+    const auto listed = listedLinks(common);
+    const auto bends = constraints::bend::gatherBends(common.scene, common.division.inverseMass,
+                                                      omegaOfBends(common.settings));
+    const bool isDamped = !listed.empty() && common.scene.dampingTime > 0;
+    if (bends.degree > 0 || isDamped || constraints::distance::isIrregular(listed, count))
+        return generalGather(common, listed, bends, count);
+    if (listed.empty()) {
+        Gather gather = common.gather();
+        setDispatch(common, gather, drift, layout::SubstepPush{count, 0});
+        return gather;
+    }
+    const auto links = constraints::distance::gatherLinks(listed, count);
+    const auto packedLinks = constraints::distance::pack(links);
+    return packedLinks.links.empty() ? generalGather(common, listed, bends, count)
+                                     : packedGather(common, links, packedLinks, count);
 }
 
 // The bodies on computed grids, with the buffer that all their kernels read.

@@ -31,6 +31,15 @@ inline constexpr Kernel damped{&k::gatherSplitDamped, &k::gatherSplitDampedPlane
                                &k::gatherSplitDampedPlanes};
 inline constexpr Kernel bendingDamped{&k::gatherSplitBendsDamped, &k::gatherSplitBendsDampedPlanes,
                                       &k::gatherSplitBendsDamped, &k::gatherSplitBendsDampedPlanes};
+inline constexpr Kernel ranged{&k::gatherSplitRanged, &k::gatherSplitRangedPlanes, &k::gatherSplitRangedLoads,
+                               &k::gatherSplitRangedLoadsPlanes};
+inline constexpr Kernel rangedBending{&k::gatherSplitRangedBends, &k::gatherSplitRangedBendsPlanes,
+                                      &k::gatherSplitRangedBends, &k::gatherSplitRangedBendsPlanes};
+inline constexpr Kernel rangedDamped{&k::gatherSplitRangedDamped, &k::gatherSplitRangedDampedPlanes,
+                                     &k::gatherSplitRangedDamped, &k::gatherSplitRangedDampedPlanes};
+inline constexpr Kernel rangedBendingDamped{
+    &k::gatherSplitRangedBendsDamped, &k::gatherSplitRangedBendsDampedPlanes,
+    &k::gatherSplitRangedBendsDamped, &k::gatherSplitRangedBendsDampedPlanes};
 inline constexpr Kernel packed{&k::gatherSplitPacked, &k::gatherSplitPackedPlanes, &k::gatherSplitPackedLoads,
                                &k::gatherSplitPackedLoadsPlanes};
 inline constexpr Kernel latticePairs{&k::gatherLattice, &k::gatherLatticePlanes, &k::gatherLatticeLoads,
@@ -50,6 +59,13 @@ inline constexpr Kernel residentVolume{&k::residentLatticeVolume, &k::residentLa
                                        &k::residentLatticeVolume, &k::residentLatticeVolumePlanes};
 inline constexpr Kernel sheet{&k::gatherSheet, &k::gatherSheetPlanes, &k::gatherSheetLoads,
                               &k::gatherSheetLoadsPlanes};
+
+// Gathers links in the general form, with what else the scene has.
+inline const Kernel& generalKernel(bool isRanged, bool bends, bool damps) {
+    if (isRanged)
+        return damps ? (bends ? rangedBendingDamped : rangedDamped) : bends ? rangedBending : ranged;
+    return damps ? (bends ? bendingDamped : damped) : bends ? bending : general;
+}
 
 // Marches a batch once a substep.
 inline const Kernel& kernelFor(const lattice::Batch& batch, std::uint32_t columns) {
