@@ -66,6 +66,12 @@ struct BendRow {
     uint unused0, unused1, unused2;
 };
 
+// `gauss_seidel`: likewise.
+struct ColoredBend {
+    uint a, b, c;
+    float compliance; // [m/N]
+};
+
 struct AttachedParticle {
     uint particle;
     float compliance; // [m/N]
@@ -232,6 +238,18 @@ struct ColorPush {
     uint isOpening;  // 1 in the first sweep of a step
     uint isClosing;  // 1 in the last sweep of a substep
     float warmStart; // share of a multiplier that the next substep starts with
+};
+
+struct BendColorPush {
+    uint count;   // bends of the color, padded to whole work groups
+    uint first;   // of them in the list
+    uint isFirst; // 1 in the first sweep of a substep
+};
+
+struct DampColorPush {
+    uint count;        // constraints of the color, padded to whole work groups
+    uint first;        // of them in the list
+    float dampingTime; // damping coefficient over stiffness [s]
 };
 
 struct SkinPush {

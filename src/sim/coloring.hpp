@@ -1,6 +1,7 @@
-// Partitions distance constraints into colors, so that those of one color can be solved at once and in place:
-// no two of them touch the same moving particle. A pure function of the scene; regular bodies get the fewest
-// colors there can be (8 for a sheet with edges and diagonals, 18 for a lattice with 18 neighbours).
+// Partitions distance constraints, and bends, into colors, so that those of one color can be solved at once
+// and in place: no two of them touch the same moving particle. A pure function of the scene; regular bodies
+// get the fewest colors there can be (8 for a sheet with edges and diagonals, 18 for a lattice with 18
+// neighbours).
 #pragma once
 
 #include "sim/scene.hpp"
@@ -27,5 +28,8 @@ struct Coloring {
 /// colors as it takes: at most 2 d - 1, where d is the largest number of constraints on a particle that
 /// moves.
 Coloring colorByParticles(const Scene& scene, std::span<const float> inverseMass);
+
+/// The same for bends, whose indices `order` then holds.
+Coloring colorBends(const Scene& scene, std::span<const float> inverseMass);
 
 } // namespace sinew::sim

@@ -354,7 +354,11 @@ StiffnessReport inspectStiffness(const Scene& scene, const Settings& asked) {
         sum += reached;
         // of a link's c = k dampingTime, h c D is at most the budget
         const double most = budget * term.clamp / double{settings.omega} / (term.stiffness * h);
-        damping += terms.isSplit() ? std::min(double{scene.dampingTime}, most) : double{scene.dampingTime};
+        // `gauss_seidel`: implicit, link by link
+        const double implicit =
+            settings.solver == Solver::gaussSeidel ? h * term.inverseMass * term.stiffness : 0;
+        damping += terms.isSplit() ? std::min(double{scene.dampingTime}, most)
+                                   : double{scene.dampingTime} / (1 + double{scene.dampingTime} * implicit);
     });
     if (report.elastic == 0) return report;
     report.mean = sum / static_cast<double>(report.elastic);

@@ -275,26 +275,18 @@ void checkSkin(const Skin& skin, const std::string& name, std::size_t particles,
         complaints.check(double{channel}, ranges::color, [&] { return name + ".color"; });
 }
 
-// Bends and internal damping are not ignored where a solver cannot have them.
-void checkForms(const Scene& scene, const Settings& settings, Complaints& complaints) {
-    if (settings.solver != Solver::gaussSeidel) return;
-    const auto refuse = [&](const std::string& item) {
-        complaints.add("solver gauss_seidel has no form for " + item, "use split or jacobi");
-    };
-    if (!scene.bends.empty()) refuse(element("bend", 0));
-    if (scene.dampingTime > 0) refuse("scene.dampingTime");
-}
-
 // Only of a scene that is right so far: a coloring takes what the constraints say at their word.
 void checkColors(const Scene& scene, const Settings& settings, Complaints& complaints) {
     if (settings.solver != Solver::gaussSeidel) return;
-    const std::size_t colors = colorByParticles(scene, inverseMasses(scene)).colorCount();
-    const std::uint64_t passes =
-        std::uint64_t{chooseSubsteps(scene, settings).substeps} * settings.iterations * colors;
+    const std::vector<float> inverseMass = inverseMasses(scene);
+    const std::size_t links = colorByParticles(scene, inverseMass).colorCount(),
+                      colors = links + colorBends(scene, inverseMass).colorCount();
+    const std::uint64_t passes = std::uint64_t{chooseSubsteps(scene, settings).substeps} *
+                                 (settings.iterations * colors + (scene.dampingTime > 0 ? links : 0));
     if (passes > ranges::mostColorPasses)
-        complaints.add("settings", "substeps x iterations x " + number(colors) +
-                                       " colors of constraints is " + number(passes) +
-                                       " passes of gauss_seidel, must be at most " +
+        complaints.add("settings", "substeps x iterations x " + number(colors) + " colors of constraints" +
+                                       (scene.dampingTime > 0 ? ", damping included, is " : " is ") +
+                                       number(passes) + " passes of gauss_seidel, must be at most " +
                                        number(ranges::mostColorPasses));
 }
 
@@ -390,7 +382,6 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings) 
     checkBends(scene, complaints);
     checkAttachments(scene, complaints);
     checkTethers(scene, complaints);
-    checkForms(scene, settings, complaints);
     checkLinks(scene, settings, complaints);
     checkPlanes(scene, complaints);
     checkBodies(scene, complaints);

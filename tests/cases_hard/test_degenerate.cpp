@@ -131,7 +131,8 @@ TEST_P(DegenerateCase, Case33ASkinWithoutTrianglesIsNoDispatch) {
     runner.skin();
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, DegenerateCase, testing::Values(Solver::jacobi, Solver::split),
+INSTANTIATE_TEST_SUITE_P(Of, DegenerateCase,
+                         testing::Values(Solver::jacobi, Solver::split, Solver::gaussSeidel),
                          [](const auto& parameter) { return solverName(parameter.param); });
 
 // Case 10 without a clock: `split` feeds no energy in even if h itself changes. (`jacobi` does feed some: the

@@ -170,3 +170,69 @@ TEST(Coloring, SortsEachColorByParticle) {
     for (std::size_t k = 0; k < coloring.colorCount(); ++k)
         EXPECT_TRUE(std::ranges::is_sorted(coloring.color(k), {}, lower)) << "color " << k;
 }
+
+namespace {
+
+void expectValidBends(const Scene& scene) {
+    const std::vector<float> inverseMass = inverseMasses(scene);
+    const Coloring coloring = colorBends(scene, inverseMass);
+    std::vector<int> uses(scene.bends.size());
+    for (std::size_t k = 0; k < coloring.colorCount(); ++k) {
+        std::set<std::uint32_t> touched;
+        ASSERT_FALSE(coloring.color(k).empty());
+        for (const std::uint32_t index : coloring.color(k)) {
+            ++uses.at(index);
+            const BendConstraint& bend = scene.bends[index];
+            for (const std::uint32_t i : {bend.a, bend.b, bend.c})
+                EXPECT_TRUE(inverseMass[i] == 0 || touched.insert(i).second)
+                    << "color " << k << ", particle " << i;
+        }
+    }
+    for (std::size_t c = 0; c < uses.size(); ++c) {
+        const BendConstraint& bend = scene.bends[c];
+        EXPECT_EQ(uses[c], inverseMass[bend.a] + inverseMass[bend.b] + inverseMass[bend.c] > 0 ? 1 : 0) << c;
+    }
+}
+
+std::size_t bendColors(const Scene& scene) {
+    return colorBends(scene, inverseMasses(scene)).colorCount();
+}
+
+} // namespace
+
+TEST(ColoringOfBends, IsValidOnAnyGraph) {
+    for (std::uint32_t seed = 0; seed < 10; ++seed) {
+        std::mt19937 random(seed);
+        Scene scene;
+        scene.particles.resize(60);
+        for (int k = 0; k < 200; ++k) {
+            std::uint32_t ends[3] = {};
+            do
+                for (std::uint32_t& end : ends) end = static_cast<std::uint32_t>(random() % 60);
+            while (ends[0] == ends[1] || ends[1] == ends[2] || ends[0] == ends[2]);
+            scene.bends.push_back({ends[0], ends[1], ends[2], 1});
+        }
+        for (int k = 0; k < 8; ++k) scene.fixed.push_back({static_cast<std::uint32_t>(random() % 60)});
+        expectValidBends(scene);
+    }
+}
+
+TEST(ColoringOfBends, TakesAsManyColorsAsAnInnerParticleHasBends) {
+    Scene sheet;
+    addCloth(sheet, {.size = {9, 7}, .spacing = 0.1f, .bendingStiffness = 1, .pinned = {0}});
+    EXPECT_EQ(bendColors(sheet), 6u);
+    expectValidBends(sheet);
+    Scene row = test::chain(20);
+    for (std::uint32_t i = 2; i < 20; ++i) row.bends.push_back({i - 2, i - 1, i, 1});
+    EXPECT_EQ(bendColors(row), 3u);
+    EXPECT_EQ(bendColors({}), 0u);
+}
+
+TEST(ColoringOfBends, TakesOneColorEachAtAHubThatMoves) {
+    Scene hub;
+    hub.particles.resize(20'001);
+    for (std::uint32_t k = 0; k < 10'000; ++k) hub.bends.push_back({2 * k + 1, 0, 2 * k + 2, 1});
+    EXPECT_EQ(bendColors(hub), 10'000u);
+    hub.fixed = {{0}};
+    EXPECT_EQ(bendColors(hub), 1u);
+}

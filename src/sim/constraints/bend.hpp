@@ -1,4 +1,5 @@
-// Bends, C = x_a - 2 x_b + x_c, on the device: terms of the gather of `split`, a constraint pass of `jacobi`.
+// Bends, C = x_a - 2 x_b + x_c, on the device: terms of the gather of `split`, a constraint pass of `jacobi`,
+// one of each color of `gauss_seidel`.
 // Bends none of whose particles moves are left out.
 #pragma once
 
@@ -29,5 +30,20 @@ Rows reserve(const Scene& scene, solvers::CorrectionSlots& slots);
 void upload(ProgramBuilder& program, const Scene& scene, std::span<const float> weights, Rows& rows);
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Rows& rows,
              BufferId corrections, bool isFirstIteration);
+
+/// The buffers of the passes of `gauss_seidel`: bends by color, each color padded to whole work groups. They
+/// start every substep cold.
+struct ColoredBends {
+    struct Color {
+        std::uint32_t first = 0, count = 0;
+    };
+    std::vector<Color> colors;
+    BufferId bends, multipliers; ///< multipliers: invalid where one sweep a substep needs none
+};
+ColoredBends uploadColors(ProgramBuilder& program, const Scene& scene, const Settings& settings,
+                          const StateLayout& layout);
+/// One pass a color, in place in `corrections`; `isFirst` in the first sweep of a substep.
+void addSweep(ProgramBuilder& program, const ParticleBuffers& particles, const ColoredBends& bends,
+              BufferId corrections, bool isFirst);
 
 } // namespace sinew::sim::constraints::bend

@@ -49,6 +49,9 @@ struct Sweep {
 /// One pass a color, in place in `corrections` of the predicted positions.
 void addSweep(ProgramBuilder& program, const ParticleBuffers& particles, const ColoredEdges& edges,
               BufferId corrections, float warmStart, Sweep sweep);
+/// Internal damping of the velocities that a substep of `gauss_seidel` ends with: one pass a color.
+void addDamping(ProgramBuilder& program, const ParticleBuffers& particles, const ColoredEdges& edges,
+                float dampingTime);
 
 /// Whether a constraint has an end that moves; others are left out of every pass.
 bool canMove(const DistanceConstraint& constraint, std::span<const float> inverseMass);

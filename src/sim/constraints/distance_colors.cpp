@@ -103,4 +103,15 @@ void addSweep(ProgramBuilder& program, const ParticleBuffers& particles, const C
     }
 }
 
+void addDamping(ProgramBuilder& program, const ParticleBuffers& particles, const ColoredEdges& edges,
+                float dampingTime) {
+    for (std::uint32_t k = 0; k < edges.colors.size(); ++k) {
+        const auto [first, count] = edges.colors[k];
+        program.dispatch(kernels::dampDistanceColor, count,
+                         {particles.velocities, particles.step, edges.edges, particles.positions},
+                         layout::DampColorPush{count, first, dampingTime});
+        program.numberLast(k);
+    }
+}
+
 } // namespace sinew::sim::constraints::distance

@@ -8,11 +8,27 @@
 
 namespace sinew::sim::reference {
 
-GaussSeidel::GaussSeidel(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> order)
+namespace {
+
+// The items in the order of their indices in the scene; all of them as they are where `order` is empty.
+template <typename Item>
+std::vector<Item> sorted(std::vector<Item> items, std::span<const std::uint32_t> order, std::size_t count) {
+    if (order.empty()) return items;
+    std::vector<Item> result, byConstraint(count);
+    for (const Item& item : items) byConstraint[item.constraint] = item;
+    for (const std::uint32_t constraint : order) result.push_back(byConstraint[constraint]);
+    return result;
+}
+
+} // namespace
+
+GaussSeidel::GaussSeidel(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> order,
+                         std::span<const std::uint32_t> bendOrder)
     : problem_(scene), substeps_(settings.substeps),
       iterations_(problem_.links.empty() && problem_.bends.empty() ? 1 : settings.iterations),
       warmStart_(double{settings.warmStart}), bendMultipliers_(problem_.bends.size()) {
     requireNoCells(scene, "gauss_seidel");
+    problem_.bends = sorted(problem_.bends, bendOrder, scene.bends.size());
     std::vector<std::uint32_t> linkOf(scene.distances.size());
     for (std::uint32_t index = 0; index < problem_.links.size(); ++index)
         linkOf[problem_.links[index].constraint] = index;
@@ -38,16 +54,14 @@ void GaussSeidel::step(double dt, State& state) {
         if (warmStart_ > 0) startWarm(state);
         std::ranges::fill(bendMultipliers_, Eigen::Vector3d::Zero());
         for (std::uint32_t iteration = 0; iteration < iterations_; ++iteration) {
-            if (problem_.dampingTime > 0)
-                sweepDamped(phases.before(), state);
-            else
-                sweep(state);
+            sweep(state);
             sweepBends(h, state);
             if (iteration + 1 == iterations_) // walls have the last word
                 pullAttached(problem_, h, dt, (substep + 1.0) / substeps_, state);
             phases.projectWalls();
         }
         phases.finish();
+        if (problem_.dampingTime > 0) damp(h, state);
         keepMultipliers();
     }
     if (warmStart_ > 0) {
@@ -65,8 +79,7 @@ void GaussSeidel::beginStep(double h, const State& state) {
     for (std::size_t r = 0; r < rows_.size(); ++r) {
         Row& row = rows_[r];
         row.alpha = problem_.links[linkOfRow_[r]].compliance / (h * h);
-        row.gamma = row.alpha > 0 ? problem_.dampingTime / h : 0; // XPBD, eq. 26
-        row.inverseDenominator = 1 / ((1 + row.gamma) * (row.inverseMassA + row.inverseMassB) + row.alpha);
+        row.inverseDenominator = 1 / (row.inverseMassA + row.inverseMassB + row.alpha);
         row.lambda = 0;
         if (state.multipliers.empty()) continue;
         row.lambda = ratio * ratio * state.multipliers[linkOfRow_[r]].lambda;
@@ -99,22 +112,22 @@ void GaussSeidel::sweep(State& state) {
     }
 }
 
-void GaussSeidel::sweepDamped(const std::vector<Eigen::Vector3d>& before, State& state) {
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
-        Row& row = rows_[r];
-        Eigen::Vector3d &a = state.x[row.a], &b = state.x[row.b];
-        const Eigen::Vector3d d = b - a;
-        const double length = d.norm();
-        const double slip =
-            length > 0 ? row.gamma * (d - (before[row.b] - before[row.a])).dot(d) / length : 0;
-        const double change =
-            -(length - row.restLength + row.alpha * row.lambda + slip) * row.inverseDenominator;
-        row.lambda += change;
-        if (warmStart_ > 0) directions_[r] = d.stableNormalized();
-        if (length == 0) continue; // no direction, no correction
-        const Eigen::Vector3d impulse = change / length * d;
-        a -= row.inverseMassA * impulse;
-        b += row.inverseMassB * impulse;
+// Internal damping, c = dampingTime / compliance along a link, implicit link by link on the velocities a
+// substep ends with. As a term of the constraint (XPBD, eq. 26) it would multiply the compliance that a sweep
+// adds by 1 + dampingTime / h.
+void GaussSeidel::damp(double h, State& state) const {
+    const Eigen::Vector3d halfKick = h / 2 * problem_.gravity; // held at rest, by what moves
+    for (const Row& row : rows_) {
+        if (row.alpha == 0) continue;
+        Eigen::Vector3d &a = state.v[row.a], &b = state.v[row.b];
+        Eigen::Vector3d slip = b - a;
+        if (row.inverseMassA == 0) slip -= halfKick;
+        if (row.inverseMassB == 0) slip += halfKick;
+        const Eigen::Vector3d n = (state.x[row.b] - state.x[row.a]).stableNormalized();
+        const double give = row.alpha * h / problem_.dampingTime; // 1 / (c h)
+        const Eigen::Vector3d impulse = slip.dot(n) / (row.inverseMassA + row.inverseMassB + give) * n;
+        a += row.inverseMassA * impulse;
+        b -= row.inverseMassB * impulse;
     }
 }
 

@@ -53,9 +53,10 @@ Problem::Problem(const Scene& scene)
         ++linkCount[c.a];
         ++linkCount[c.b];
     }
-    for (const BendConstraint& c : scene.bends) {
+    for (std::uint32_t k = 0; k < scene.bends.size(); ++k) {
+        const BendConstraint& c = scene.bends[k];
         if (inverseMass[c.a] + inverseMass[c.b] + inverseMass[c.c] == 0) continue;
-        bends.push_back({c.a, c.b, c.c, double{c.compliance}});
+        bends.push_back({c.a, c.b, c.c, double{c.compliance}, k});
         for (const std::uint32_t end : {c.a, c.b, c.c}) ++bendCount[end];
     }
     for (const Attachment& a : scene.attachments)

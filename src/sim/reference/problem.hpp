@@ -23,7 +23,8 @@ struct Link {
 
 struct Bend {
     std::uint32_t a = 0, b = 0, c = 0;
-    double compliance = 0; ///< [m/N]
+    double compliance = 0;        ///< [m/N]
+    std::uint32_t constraint = 0; ///< index into Scene::bends
 };
 
 struct Spring { ///< of an attachment

@@ -37,11 +37,12 @@ void stepSplit(const Scene& scene, const Settings& settings, double dt, State& s
 
 /// stepGaussSeidel with everything that stays the same from step to step looked up once: the sequential rows
 /// of a benchmark. Copies what it needs of the scene. `order` holds indices into scene.distances, each that
-/// has an end which moves once; empty = as the scene lists them. settings.warmStart 0 makes it the slides'
-/// version.
+/// has an end which moves once; `bendOrder` likewise into scene.bends; empty = as the scene lists them.
+/// settings.warmStart 0 makes it the slides' version.
 class GaussSeidel {
 public:
-    GaussSeidel(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> order = {});
+    GaussSeidel(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> order = {},
+                std::span<const std::uint32_t> bendOrder = {});
     void step(double dt, State& state);
 
 private:
@@ -51,11 +52,10 @@ private:
         double inverseMassA = 0, inverseMassB = 0;
         double restLength = 0;
         double alpha = 0, inverseDenominator = 0; // compliance / h^2, 1 / (w_a + w_b + alpha)
-        double gamma = 0;                         // dampingTime / h
         double lambda = 0;
     };
     void sweep(State& state);
-    void sweepDamped(const std::vector<Eigen::Vector3d>& before, State& state);
+    void damp(double h, State& state) const;
     void sweepBends(double h, State& state);
     void beginStep(double h, const State& state);
     void startWarm(State& state) const;

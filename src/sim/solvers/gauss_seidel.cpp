@@ -1,10 +1,12 @@
 // Orders the phases of `gauss_seidel`: open, sweeps, close; the close of a substep and the open of the next
-// are one pass. A substep of one sweep is one dispatch a color and one more.
+// are one pass unless internal damping comes between them. A substep of one sweep is one dispatch a color and
+// one more.
 #include "sim/solvers/gauss_seidel.hpp"
 
 #include "kernels.hpp"
 #include "sim/collision/planes.hpp"
 #include "sim/constraints/attachment.hpp"
+#include "sim/constraints/bend.hpp"
 #include "sim/constraints/distance.hpp"
 #include "sim/constraints/tether.hpp"
 
@@ -30,6 +32,7 @@ constexpr Form close{&kernels::closeSubstep, &kernels::closeSubstepPlanes, false
 struct Work {
     const ParticleBuffers& particles;
     constraints::distance::ColoredEdges edges;
+    constraints::bend::ColoredBends bends;
     collision::planes::Colliders colliders;
     BufferId corrections;
 };
@@ -52,13 +55,19 @@ void addBetween(ProgramBuilder& program, const Work& work, const Form& form, boo
                      layout::SubstepPush{particles.count, isFirst}, constants);
 }
 
+// In a substep. Without constraints there is nothing to repeat.
+std::uint32_t sweepsOf(const Work& work, const Settings& settings) {
+    return work.edges.colors.empty() && work.bends.colors.empty() ? 1 : settings.iterations;
+}
+
 void addSweeps(ProgramBuilder& program, const Work& work, const Settings& settings, bool isFirst) {
-    const std::uint32_t iterations = work.edges.colors.empty() ? 1 : settings.iterations;
+    const std::uint32_t iterations = sweepsOf(work, settings);
     for (std::uint32_t iteration = 0; iteration < iterations; ++iteration) {
         const bool isLast = iteration + 1 == iterations;
         constraints::distance::addSweep(program, work.particles, work.edges, work.corrections,
                                         settings.warmStart,
                                         {.isOpening = isFirst && iteration == 0, .isClosing = isLast});
+        constraints::bend::addSweep(program, work.particles, work.bends, work.corrections, iteration == 0);
         if (!isLast) collision::planes::addTouch(program, work.particles, work.corrections, work.colliders);
     }
 }
@@ -73,26 +82,31 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
                const ParticleBuffers& particles) {
     const Work work{.particles = particles,
                     .edges = constraints::distance::uploadColors(program, scene, settings, particles.layout),
+                    .bends = constraints::bend::uploadColors(program, scene, settings, particles.layout),
                     .colliders = collision::planes::addColliders(program, scene, particles.layout),
                     .corrections = program.scratch<layout::ParticleCorrection>("state.displacements",
                                                                                particles.layout.count)};
     const auto attachments = constraints::attachment::add(program, scene, particles.layout);
     const auto tethers = constraints::tether::add(program, scene, particles.layout);
+    const bool isDamped = scene.dampingTime > 0 && !work.edges.colors.empty();
     const bool isWarm = work.edges.degree > 0, usesTexels = settings.forms.usesTexels;
     const Form& open = !isWarm ? openCold : usesTexels ? openWarm : openWarmLoads;
     const Form& advance = !isWarm ? advanceCold : usesTexels ? advanceWarm : advanceWarmLoads;
     for (std::uint32_t substep = 0; substep < settings.substeps; ++substep) {
         const bool isFirst = substep == 0;
         program.beginSubstep();
-        addBetween(program, work, isFirst ? open : advance, isFirst);
+        addBetween(program, work, isFirst || isDamped ? open : advance, isFirst);
         addSweeps(program, work, settings, isFirst);
         constraints::attachment::addOpenPass(program, particles, work.corrections, attachments, substep,
                                              settings.substeps);
         constraints::tether::addOpenPass(program, particles, work.corrections, tethers);
+        if (!isDamped) continue;
+        addBetween(program, work, close, false);
+        constraints::distance::addDamping(program, particles, work.edges, scene.dampingTime);
     }
-    addBetween(program, work, close, false);
+    if (!isDamped) addBetween(program, work, close, false);
     program.endSubsteps();
-    if (!work.edges.colors.empty())
+    if (!work.edges.colors.empty() || !work.bends.colors.empty())
         program.program().sweeps = std::uint64_t{settings.substeps} * settings.iterations;
 }
 

@@ -28,8 +28,9 @@ std::uint64_t hashAfter(const Scene& scene, Settings settings, bool isReversed,
 
 void stepReference(const Scene& scene, const Settings& settings, float dt, reference::State& state) {
     if (settings.solver == Solver::gaussSeidel) {
-        const Coloring coloring = colorByParticles(scene, inverseMasses(scene));
-        reference::GaussSeidel(scene, settings, coloring.order).step(double{dt}, state);
+        const std::vector<float> inverseMass = inverseMasses(scene);
+        const Coloring links = colorByParticles(scene, inverseMass), bends = colorBends(scene, inverseMass);
+        reference::GaussSeidel(scene, settings, links.order, bends.order).step(double{dt}, state);
         return;
     }
     const auto step = settings.solver == Solver::split ? reference::stepSplit : reference::stepJacobi;
