@@ -15,6 +15,12 @@ struct alignas(16) vec4 {
 // Work-group size of every kernel.
 #define GROUP_ITEMS 128
 
+// How many groups an indirect dispatch has, written by a kernel: VkDispatchIndirectCommand, padded to 16 bytes.
+struct DispatchArguments {
+    uint groupsX, groupsY, groupsZ; // 0 groups in x = nothing runs
+    uint unused0;
+};
+
 // Written once per step, at the head of the command buffer.
 struct StepParams {
     vec4 gravity;         // xyz [m/s^2]

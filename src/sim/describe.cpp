@@ -17,11 +17,13 @@ std::string line(const StepProgram& program, const Pass& pass) {
     std::ostringstream text;
     text << "  " << std::left << std::setw(24) << pass.label << ' ';
     const bool isDispatch = pass.kind == PassKind::dispatch;
-    text << std::setw(10)
-         << (isDispatch ? std::string(1, 'x').append(std::to_string(pass.items)) : std::string());
-    for (const BufferUse& use : pass.uses) {
+    const std::string times = pass.isIndirect ? "0..x" : "x"; // as many as a kernel says, at most
+    text << std::setw(10) << (isDispatch ? times + std::to_string(pass.items) : std::string());
+    for (const BufferUse& use : boundUses(pass)) {
         text << ' ' << program.buffers[use.buffer.index].label << accessName(use.access);
     }
+    if (pass.isIndirect)
+        text << ' ' << program.buffers[pass.uses.back().buffer.index].label << '[' << pass.value << "]:i";
     return text.str();
 }
 

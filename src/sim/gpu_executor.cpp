@@ -9,7 +9,17 @@ namespace sinew::sim {
 
 namespace {
 
+// Which buffers hold the arguments of an indirect dispatch.
+std::vector<bool> holdArguments(const StepProgram& program) {
+    std::vector<bool> result(program.buffers.size());
+    for (const std::vector<Pass>* list : {&program.step, &program.skin})
+        for (const Pass& pass : *list)
+            if (pass.isIndirect) result[pass.uses.back().buffer.index] = true;
+    return result;
+}
+
 std::vector<vk::Buffer> makeBuffers(const vk::Device& device, const StepProgram& program) {
+    const std::vector<bool> holdsArguments = holdArguments(program);
     std::vector<vk::Buffer> buffers;
     buffers.reserve(program.buffers.size());
     for (std::uint32_t b = 0; b < program.buffers.size(); ++b) {
@@ -18,6 +28,7 @@ std::vector<vk::Buffer> makeBuffers(const vk::Device& device, const StepProgram&
         if (BufferId{b} == program.skinVertices || BufferId{b} == program.positions) {
             usage |= VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
         }
+        if (holdsArguments[b]) usage |= VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
         if (BufferId{b} == program.skinIndices) usage |= VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
         buffers.emplace_back(device, vk::BufferRequest{.name = spec.label,
                                                        .count = spec.count,
@@ -57,8 +68,7 @@ std::vector<vk::Kernel> makeKernels(const vk::Device& device, const StepProgram&
 
 bool isSameDispatch(const Pass& a, const Pass& b) {
     const auto isSameBuffer = [](const BufferUse& x, const BufferUse& y) { return x.buffer == y.buffer; };
-    return a.kernel == b.kernel &&
-           std::equal(a.uses.begin(), a.uses.end(), b.uses.begin(), b.uses.end(), isSameBuffer);
+    return a.kernel == b.kernel && std::ranges::equal(boundUses(a), boundUses(b), isSameBuffer);
 }
 
 // Distinct (kernel, buffers) pairs of both lists, and which of them each dispatch uses.
@@ -91,7 +101,8 @@ GpuExecutor::GpuExecutor(const vk::Device& device, const StepProgram& program)
     for (const Pass* pass : plan.distinct) {
         vk::BindingRequest& request = requests.emplace_back();
         request.kernel = &kernels_[pass->kernel];
-        for (const BufferUse& use : pass->uses) request.buffers.push_back(buffers_[use.buffer.index].view());
+        for (const BufferUse& use : boundUses(*pass))
+            request.buffers.push_back(buffers_[use.buffer.index].view());
     }
     if (!requests.empty()) sets_.emplace_back(device, requests);
     setOfPass_ = plan.setOfPass;
@@ -121,13 +132,14 @@ std::vector<GpuExecutor::Recorded> GpuExecutor::resolve(const std::vector<Pass>&
     for (const Pass& pass : passes) {
         Recorded recorded{.kind = pass.kind,
                           .barrierBefore = pass.barrierBefore,
+                          .isIndirect = pass.isIndirect,
                           .phase = pass.phase,
                           .groups = 0,
                           .value = pass.value,
                           .kernel = nullptr,
                           .set = VK_NULL_HANDLE,
                           .push = &pass.push,
-                          .first = view(pass.uses[0].buffer),
+                          .first = view(pass.isIndirect ? pass.uses.back().buffer : pass.uses[0].buffer),
                           .second = pass.uses.size() > 1 ? view(pass.uses[1].buffer) : vk::BufferView{}};
         if (pass.kind == PassKind::dispatch) {
             recorded.kernel = &kernels_[pass.kernel];
@@ -179,7 +191,10 @@ void GpuExecutor::recordPass(vk::Commands& commands, const Recorded& pass, const
     case PassKind::dispatch:
         commands.bind(*pass.kernel, pass.set);
         commands.push(*pass.kernel, pass.push->data(), static_cast<std::uint32_t>(pass.push->size()));
-        commands.dispatch(pass.groups);
+        if (pass.isIndirect)
+            commands.dispatchIndirect(pass.first, pass.value);
+        else
+            commands.dispatch(pass.groups);
         break;
     case PassKind::fill:
         commands.fill(pass.first, pass.value);

@@ -31,12 +31,12 @@ private:
     // A pass with everything looked up, so that recording is a plain walk.
     struct Recorded {
         PassKind kind;
-        bool barrierBefore;
+        bool barrierBefore, isIndirect;
         std::uint32_t phase, groups, value;
         const vk::Kernel* kernel;
         VkDescriptorSet set;
         const std::vector<std::byte>* push;
-        vk::BufferView first, second;
+        vk::BufferView first, second; // of an indirect dispatch the first is its arguments
     };
     std::vector<Recorded> resolve(const std::vector<Pass>& passes, std::size_t& nextSet) const;
     static void checkGroups(const std::vector<Recorded>& passes, std::uint32_t most);

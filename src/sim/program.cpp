@@ -1,6 +1,8 @@
 // Collecting passes, checking them against their SPIR-V, and planning the barriers between them.
 #include "sim/program.hpp"
 
+#include "layout.h"
+
 #include <stdexcept>
 
 namespace sinew::sim {
@@ -97,12 +99,29 @@ void ProgramBuilder::dispatchBytes(const vk::ShaderCode& code, std::uint32_t ite
     append(std::move(pass));
 }
 
+void ProgramBuilder::makeLastIndirect(const IndirectItems& items) {
+    Pass& pass = last();
+    const vk::ShaderCode& code = *program_.kernels[pass.kernel].code;
+    const bool exists = items.arguments.index < program_.buffers.size();
+    if (!exists) refuse(code, "its arguments are in a buffer that does not exist");
+    BufferSpec& spec = program_.buffers[items.arguments.index];
+    if (spec.stride != sizeof(layout::DispatchArguments))
+        refuse(code, "its arguments are in buffer " + spec.label + " with stride " +
+                         std::to_string(spec.stride) + ", must be " +
+                         std::to_string(sizeof(layout::DispatchArguments)));
+    if (items.element >= spec.count)
+        refuse(code, "argument " + std::to_string(items.element) + " of buffer " + spec.label +
+                         ", which has " + std::to_string(spec.count));
+    for (const BufferUse& use : pass.uses)
+        if (use.buffer == items.arguments && use.access != vk::Access::read)
+            refuse(code, "writes its own arguments " + spec.label);
+    pass.isIndirect = true;
+    pass.value = items.element;
+    pass.uses.push_back({items.arguments, vk::Access::read});
+}
+
 void ProgramBuilder::numberLast(std::uint32_t index) {
-    (isSkin_ ? program_.skin : program_.step)
-        .back()
-        .label.append("[")
-        .append(std::to_string(index))
-        .append("]");
+    last().label.append("[").append(std::to_string(index)).append("]");
 }
 
 void ProgramBuilder::fill(BufferId buffer, std::uint32_t value) {

@@ -57,13 +57,27 @@ struct Pass {
     PassKind kind = PassKind::dispatch;
     std::string label;
     std::uint32_t kernel = 0;    ///< index into StepProgram::kernels (dispatch)
-    std::uint32_t items = 0;     ///< invocations wanted (dispatch)
-    std::vector<BufferUse> uses; ///< in binding order
+    std::uint32_t items = 0;     ///< invocations wanted (dispatch); where indirect, at most
+    std::vector<BufferUse> uses; ///< in binding order; then the arguments of an indirect dispatch
     std::vector<std::byte> push;
     std::uint32_t value = 0;
+    bool isIndirect = false;    ///< a kernel decides how many groups: element `value` of the last use
     std::uint32_t phase = 0;    ///< index into StepProgram::phases
     std::uint32_t substep = 0;  ///< 1-based; 0 = outside the substeps
     bool barrierBefore = false; ///< set by planBarriers
+};
+
+/// The uses that a dispatch binds to its kernel: all but the arguments.
+inline std::span<const BufferUse> boundUses(const Pass& pass) {
+    return std::span(pass.uses).first(pass.uses.size() - (pass.isIndirect ? 1 : 0));
+}
+
+/// Where a kernel writes how many groups a later dispatch has: an element of a buffer of
+/// layout::DispatchArguments. 0 groups = the pass is skipped on the device, for next to nothing.
+struct IndirectItems {
+    BufferId arguments;
+    std::uint32_t element = 0;
+    std::uint32_t most = 0; ///< invocations that the arguments ever ask for
 };
 
 /// Immutable once built.
@@ -129,6 +143,20 @@ public:
                   const Push& push, const Constants& constants = {}) {
         dispatch(code, items, std::span(buffers.begin(), buffers.size()), push, constants);
     }
+    /// As many groups as the arguments say when the device gets there.
+    template <typename Push>
+    void dispatchIndirect(const vk::ShaderCode& code, const IndirectItems& items,
+                          std::span<const BufferId> buffers, const Push& push,
+                          const Constants& constants = {}) {
+        dispatchBytes(code, items.most, buffers, std::as_bytes(std::span(&push, 1)), constants);
+        makeLastIndirect(items);
+    }
+    template <typename Push>
+    void dispatchIndirect(const vk::ShaderCode& code, const IndirectItems& items,
+                          std::initializer_list<BufferId> buffers, const Push& push,
+                          const Constants& constants = {}) {
+        dispatchIndirect(code, items, std::span(buffers.begin(), buffers.size()), push, constants);
+    }
     /// Adds [index] to the label of the last pass: one of several that differ in their range only.
     void numberLast(std::uint32_t index);
     /// A buffer of vec4 that a solver carries from step to step: undone with a step that ends not finite.
@@ -148,6 +176,8 @@ private:
     BufferId add(BufferSpec spec);
     void update(BufferId buffer, HostData data);
     void append(Pass pass);
+    Pass& last() { return (isSkin_ ? program_.skin : program_.step).back(); }
+    void makeLastIndirect(const IndirectItems& items);
     std::uint32_t kernelIndex(const vk::ShaderCode& code, const Constants& constants);
     void dispatchBytes(const vk::ShaderCode& code, std::uint32_t items, std::span<const BufferId> buffers,
                        std::span<const std::byte> push, const Constants& constants);

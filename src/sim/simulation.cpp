@@ -43,7 +43,7 @@ std::vector<SkinRange> rangesOf(const std::vector<Skin>& skins) {
 std::uint64_t mostTexels(const StepProgram& program) {
     std::uint64_t most = 0;
     for (const Pass& pass : program.step)
-        for (std::size_t b = 0; pass.kind == PassKind::dispatch && b < pass.uses.size(); ++b)
+        for (std::size_t b = 0; pass.kind == PassKind::dispatch && b < boundUses(pass).size(); ++b)
             if (program.kernels[pass.kernel].interface.bindings[b].kind == vk::BlockKind::texels)
                 most = std::max(most, program.buffers[pass.uses[b].buffer.index].count);
     return most;

@@ -46,6 +46,13 @@ void Commands::dispatch(std::uint32_t groupsX) noexcept {
     functions_->vkCmdDispatch(commands_, groupsX, 1, 1);
 }
 
+void Commands::dispatchIndirect(const BufferView& arguments, std::uint32_t index) noexcept {
+    const VkDeviceSize offset = arguments.offset + VkDeviceSize{index} * arguments.stride;
+    assert(arguments.stride >= sizeof(VkDispatchIndirectCommand) && offset % 4 == 0);
+    assert(VkDeviceSize{index} * arguments.stride < arguments.size);
+    functions_->vkCmdDispatchIndirect(commands_, arguments.buffer, offset);
+}
+
 void Commands::fill(const BufferView& target, std::uint32_t value) noexcept {
     functions_->vkCmdFillBuffer(commands_, target.buffer, target.offset, target.size, value);
 }

@@ -15,6 +15,9 @@ public:
     /// `size` <= the kernel's push constant block; multiple of 4 [B].
     void push(const Kernel& kernel, const void* bytes, std::uint32_t size) noexcept;
     void dispatch(std::uint32_t groupsX) noexcept;
+    /// As many groups as element `index` of `arguments` says (three uint32 at its head). The buffer has
+    /// VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT and a stride that is a multiple of 4 and at least 12 [B].
+    void dispatchIndirect(const BufferView& arguments, std::uint32_t index) noexcept;
     void fill(const BufferView& target, std::uint32_t value) noexcept;
     void copy(const BufferView& from, const BufferView& to) noexcept; ///< sizes agree
     void update(const BufferView& target, const void* bytes,

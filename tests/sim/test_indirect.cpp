@@ -1,0 +1,111 @@
+// Passes of which a kernel decides whether they run: what the builder refuses, how they print, and that the
+// device obeys, under validation.
+#include "layout.h"
+#include "sim/gpu_executor.hpp"
+#include "sim/scenes.hpp"
+#include "sim_indirect_kernels.hpp"
+#include "support/device.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+using namespace sinew;
+using namespace sinew::sim;
+
+namespace {
+
+constexpr std::uint32_t count = 300; // the last group is partly idle
+
+// Two switches and two runs a step, of which exactly one runs.
+struct Toggled {
+    ProgramBuilder builder{false};
+    BufferId arguments = builder.scratch<layout::DispatchArguments>("arguments", 2);
+    BufferId runs = builder.scratch<std::uint32_t>("runs", count);
+    IndirectItems items{arguments, 1, count};
+
+    void addTurn() {
+        builder.dispatch(test::kernels::toggleGroups, 1, {arguments}, layout::CountPush{count});
+        builder.dispatchIndirect(test::kernels::countRuns, items, {runs}, layout::CountPush{count});
+    }
+};
+
+std::string refusal(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const std::logic_error& error) {
+        return error.what();
+    }
+    return "nothing was refused";
+}
+
+} // namespace
+
+TEST(Indirect, RunsAsManyGroupsAsAKernelSaysAndNoneWhereItSaysNone) {
+    Toggled toggled;
+    toggled.builder.beginPhase("solve");
+    toggled.addTurn();
+    const StepProgram program = toggled.builder.finish();
+    GpuExecutor executor(test::device(), program);
+    for (std::uint32_t step = 0; step < 5; ++step) {
+        const VkCommandBuffer buffer = test::queue().begin();
+        vk::Commands commands(test::device(), buffer);
+        if (step == 0) executor.upload(commands);
+        executor.step(commands, {}, nullptr);
+        test::queue().wait(test::queue().submit(buffer));
+        const auto runs = test::queue().download<std::uint32_t>(executor.view(toggled.runs));
+        EXPECT_EQ(runs, std::vector<std::uint32_t>(count, step / 2 + 1)) << "step " << step;
+    }
+}
+
+TEST(Indirect, WaitsForItsArgumentsAndIsWaitedForBeforeTheyChange) {
+    Toggled toggled;
+    toggled.builder.beginPhase("solve");
+    for (int turn = 0; turn < 4; ++turn) toggled.addTurn();
+    const StepProgram program = toggled.builder.finish();
+    for (std::size_t p = 1; p < program.step.size(); ++p)
+        EXPECT_TRUE(program.step[p].barrierBefore) << "pass " << p;
+    GpuExecutor executor(test::device(), program);
+    const VkCommandBuffer buffer = test::queue().begin();
+    vk::Commands commands(test::device(), buffer);
+    executor.upload(commands);
+    executor.step(commands, {}, nullptr);
+    test::queue().wait(test::queue().submit(buffer));
+    EXPECT_EQ(test::queue().download<std::uint32_t>(executor.view(toggled.runs)),
+              std::vector<std::uint32_t>(count, 2));
+}
+
+TEST(Indirect, PrintsWhereItsNumberOfGroupsComesFrom) {
+    Toggled toggled;
+    toggled.builder.beginPhase("solve");
+    toggled.addTurn();
+    const std::string text = describe(toggled.builder.finish());
+    const char* line = "count_runs               0..x300    runs:rw arguments[1]:i\n";
+    EXPECT_NE(text.find(line), std::string::npos) << text;
+}
+
+TEST(Indirect, RefusesArgumentsThatAreNone) {
+    Toggled toggled;
+    toggled.builder.beginPhase("solve");
+    const auto add = [&](const IndirectItems& items) {
+        return refusal([&] {
+            toggled.builder.dispatchIndirect(test::kernels::countRuns, items, {toggled.runs},
+                                             layout::CountPush{count});
+        });
+    };
+    EXPECT_NE(add({BufferId{}, 0, count}).find("does not exist"), std::string::npos);
+    EXPECT_NE(add({toggled.runs, 0, count}).find("stride 4, must be 16"), std::string::npos);
+    EXPECT_NE(add({toggled.arguments, 2, count}).find("argument 2 of buffer arguments, which has 2"),
+              std::string::npos);
+    EXPECT_NE(add({toggled.arguments, 0, 0}).find("nothing to do"), std::string::npos);
+}
+
+TEST(Indirect, RefusesAKernelThatWritesItsOwnArguments) {
+    Toggled toggled;
+    toggled.builder.beginPhase("solve");
+    const std::string message = refusal([&] {
+        toggled.builder.dispatchIndirect(test::kernels::toggleGroups, toggled.items, {toggled.arguments},
+                                         layout::CountPush{count});
+    });
+    EXPECT_NE(message.find("toggle_groups: writes its own arguments"), std::string::npos) << message;
+}
