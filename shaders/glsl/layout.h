@@ -142,7 +142,7 @@ struct StatusWords {
     uint nonFinite;        // particles with a non-finite position or velocity
     uint invertedFirstBad; // ~index of the first of them
     uint frame;
-    uint unused0;
+    uint candidates;       // the most that a particle needs room for, where its list was too short; else 0
 };
 
 // A skin vertex in a lattice cell; corner k has the offset (k & 1, k >> 1 & 1, k >> 2).
@@ -171,6 +171,50 @@ struct BoxesPush { // particles on grids that are equal, full and one behind ano
     uint nodesX, nodesY; // of a grid
     uint origin;         // slot of the first particle
     uint rowStride, sliceStride, boxStride; // slots from a node to the next in y, in z, in the next grid
+};
+
+// Hash grid (hash_grid.glsl): the box around what is in it, as integers in the order of the floats they stand for, and the
+// farthest that anything has moved since it was built.
+struct GridBounds {
+    uint lowX, lowY, lowZ, highX, highY, highZ; // keys
+    uint moved;                                 // bits of a float [m]
+    uint builds;                                // how often it was built since the simulation began
+};
+
+// Cells that one invocation sums up, and particles that one measures.
+#define GRID_CHUNK 64
+
+// Indices into the arguments of its passes: one item a particle, a chunk of particles, a chunk of cells, one group.
+#define GRID_PARTICLES 0
+#define GRID_PARTICLE_CHUNKS 1
+#define GRID_CELL_CHUNKS 2
+#define GRID_ONE_GROUP 3
+#define GRID_ARGUMENTS 4
+
+struct GridPush {
+    uint count;  // of particles; whole work groups
+    uint cells;  // a power of two
+    float edge;  // of a cell, at least [m]
+    float most;  // radius in the grid [m]; particles with more are searched one by one
+    float slack; // how far a particle may move before the grid is built again [m]
+};
+
+// Candidate s of particle i is element s * row + i, so that a longer list starts with a shorter one. Rows are a little longer
+// than there are particles: a power of two would put all slots of a particle into one set of a CPU's cache.
+#define CONTACT_ROW_EXTRA 32
+struct ContactCandidate {
+    uint other;
+    float reach; // distance below which they touch [m]
+};
+
+struct FindPush {
+    uint count, cells;
+    float edge, most;
+    float margin;  // beyond touching, up to which a pair is listed [m]
+    uint capacity; // candidates of a particle
+    uint row;      // elements from one to the next
+    uint limit;    // candidates after which counting stops
+    uint large;    // particles that are searched one by one
 };
 
 struct SubstepPush {

@@ -1,0 +1,36 @@
+#version 460
+// Counting sort, first pass: how many particles each slot of the table has, and which of them a particle is. Also
+// remembers where particles are: until they have left there by more than the slack, lists stay complete.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "hash_grid.glsl"
+
+#ifdef TEXELS
+layout(binding = 0) uniform samplerBuffer positions;
+layout(binding = 1) uniform samplerBuffer radii;
+#define POSITION(i) texelFetch(positions, int(i))
+#define RADIUS(i) texelFetch(radii, int(i)).x
+#else
+layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
+layout(std430, binding = 1) readonly buffer Radii { float radii[]; };
+#define POSITION(i) positions[i]
+#define RADIUS(i) radii[i]
+#endif
+layout(std140, binding = 2) uniform Bounds { GridBounds bounds; };
+layout(std430, binding = 3) buffer Counts { uint counts[]; };
+layout(std430, binding = 4) writeonly buffer Places { uvec2 places[]; }; // slot and rank of each particle
+layout(std430, binding = 5) writeonly buffer Detected { vec4 detected[]; };
+layout(push_constant) uniform Push { GridPush push; };
+
+void main() {
+    const uint i = itemIndex(push.count);
+    const vec4 x = POSITION(i);
+    const Frame frame = frameOf(bounds, push.cells, push.edge);
+    detected[i] = x;
+    uvec2 place = uvec2(~0u);
+    if (isInGrid(RADIUS(i), push.most)) {
+        place.x = slotOf(cellOf(x.xyz, frame), frame);
+        place.y = atomicAdd(counts[place.x], 1u);
+    }
+    places[i] = place;
+}

@@ -1,0 +1,53 @@
+// Which particles may touch before their lists are made again: for each particle the others nearer than
+// touching and a margin M, sorted by index, made on the device whenever one may have moved more than M / 2.
+// No pair is ever missed, and no result depends on M (contacts: 2).
+#pragma once
+
+#include "sim/collision/hash_grid.hpp"
+#include "sim/compile.hpp"
+
+#include <vector>
+
+namespace sinew::sim::collision::contact_lists {
+
+/// Pairs of particles that never touch: for each state slot the first of its partners, one more for the end,
+/// then the partners of all, sorted. Empty = no such pair.
+using Exclusions = std::vector<std::uint32_t>;
+
+/// Linked ones, and those of one linked body that are at rest nearer than 1.05 times touching. `radii` by
+/// particle [m]; below 0 = touches nothing.
+Exclusions excludedPairs(const Scene& scene, std::span<const float> radii, const StateLayout& layout);
+
+struct Request {
+    std::span<const float> radii; ///< by state slot [m]; below 0 = touches nothing
+    float margin = 0;             ///< M [m]
+    std::uint32_t capacity = 0;   ///< candidates of a particle that there is room for
+    std::uint32_t limit = 256;    ///< candidates after which counting stops: bounds the time of a step
+    Exclusions exclusions;
+    bool usesTexels = true;
+};
+
+/// Directed pairs as layout::ContactCandidate says, `counts` of them a particle. The margin is part of a
+/// list: a pair in it need not touch.
+struct Lists {
+    hash_grid::Grid grid;
+    layout::FindPush push{};
+    BufferId contacts, counts;
+    BufferId found, candidates, large, excluded;
+    bool hasOneRadius = false;
+};
+
+Lists add(ProgramBuilder& program, const Request& request);
+
+/// Watches `positions`, and builds the grid of them where lists are no longer complete. Until addLists() the
+/// old lists stand.
+void addWatch(ProgramBuilder& program, const Lists& lists, BufferId positions);
+
+/// Makes the lists of `positions` where the grid was built. A list that does not fit its room is said in the
+/// status (StatusWords::candidates): what it lacks is lost, so the step must be undone.
+void addLists(ProgramBuilder& program, const Lists& lists, BufferId positions);
+
+/// Both.
+void addUpdate(ProgramBuilder& program, const Lists& lists, BufferId positions);
+
+} // namespace sinew::sim::collision::contact_lists

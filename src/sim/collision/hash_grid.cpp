@@ -1,0 +1,85 @@
+// The host side of the hash grid: sizes and the order of its passes.
+#include "sim/collision/hash_grid.hpp"
+
+#include "kernels.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <vector>
+
+namespace sinew::sim::collision::hash_grid {
+
+namespace {
+
+// Slots of the table: twice as many as particles keep rows that share slots rare, where the grid is not
+// dense. scan_sums takes whole groups of chunks.
+std::uint32_t cellsFor(std::size_t particles) {
+    constexpr std::uint32_t fewest = GRID_CHUNK * GROUP_ITEMS;
+    return std::max(fewest, std::bit_ceil(static_cast<std::uint32_t>(2 * particles)));
+}
+
+const vk::ShaderCode& form(const Grid& grid, const vk::ShaderCode& texels, const vk::ShaderCode& loads) {
+    return grid.usesTexels ? texels : loads;
+}
+
+} // namespace
+
+float largestInGrid(std::span<const float> radii) {
+    std::vector<float> sorted;
+    for (const float radius : radii)
+        if (radius >= 0) sorted.push_back(radius);
+    if (sorted.empty()) return 0;
+    std::sort(sorted.begin(), sorted.end());
+    const std::size_t last = sorted.size() - 1;
+    const float most = 2 * sorted[sorted.size() / 2];
+    return std::max(most, sorted[last - std::min(last, mostLarge)]);
+}
+
+Grid add(ProgramBuilder& program, const Request& request) {
+    const std::size_t count = request.radii.size();
+    const std::uint32_t cells = cellsFor(count);
+    const float most = largestInGrid(request.radii);
+    // Nowhere: so far away that the first watch finds everybody gone.
+    const std::vector<layout::vec4> nowhere(count, {1e18f, 1e18f, 1e18f, 0});
+    Grid grid{.push = {.count = static_cast<std::uint32_t>(count),
+                       .cells = cells,
+                       .edge = 2 * most + request.margin,
+                       .most = most,
+                       .slack = request.slack},
+              .usesTexels = request.usesTexels,
+              .radii = program.upload("contacts.radii", request.radii),
+              .bounds = program.scratch<layout::GridBounds>("grid.bounds", 1),
+              .arguments = program.scratch<layout::DispatchArguments>("grid.arguments", GRID_ARGUMENTS),
+              .counts = program.scratch<std::uint32_t>("grid.counts", cells),
+              .sums = program.scratch<std::uint32_t>("grid.sums", cells / GRID_CHUNK + 1),
+              .starts = program.scratch<std::uint32_t>("grid.starts", cells + 4),
+              .places = program.scratch<std::array<std::uint32_t, 2>>("grid.places", count),
+              .sorted = program.scratch<layout::vec4>("grid.sorted", count),
+              .detected = program.upload("grid.detected", nowhere)};
+    grid.particles = {grid.arguments, GRID_PARTICLES, grid.push.count};
+    grid.particleChunks = {grid.arguments, GRID_PARTICLE_CHUNKS, (grid.push.count - 1) / GRID_CHUNK + 1};
+    grid.cellChunks = {grid.arguments, GRID_CELL_CHUNKS, cells / GRID_CHUNK};
+    grid.oneGroup = {grid.arguments, GRID_ONE_GROUP, GROUP_ITEMS};
+    return grid;
+}
+
+void addBuild(ProgramBuilder& program, const Grid& grid, BufferId positions) {
+    namespace k = kernels;
+    program.dispatch(form(grid, k::watchMotion, k::watchMotionLoads), grid.push.count,
+                     {positions, grid.detected, grid.bounds}, grid.push);
+    program.dispatch(k::planGrid, 1, {grid.bounds, grid.arguments}, grid.push);
+    program.dispatchIndirect(form(grid, k::measureBounds, k::measureBoundsLoads), grid.particleChunks,
+                             {positions, grid.radii, grid.bounds}, grid.push);
+    program.dispatchIndirect(form(grid, k::countCells, k::countCellsLoads), grid.particles,
+                             {positions, grid.radii, grid.bounds, grid.counts, grid.places, grid.detected},
+                             grid.push);
+    program.dispatchIndirect(k::sumCells, grid.cellChunks, {grid.counts, grid.sums}, grid.push);
+    program.dispatchIndirect(k::scanSums, grid.oneGroup, {grid.sums}, grid.push);
+    program.dispatchIndirect(k::startCells, grid.cellChunks, {grid.counts, grid.sums, grid.starts},
+                             grid.push);
+    program.dispatchIndirect(form(grid, k::fillCells, k::fillCellsLoads), grid.particles,
+                             {positions, grid.places, grid.starts, grid.sorted}, grid.push);
+}
+
+} // namespace sinew::sim::collision::hash_grid

@@ -1,0 +1,89 @@
+// ms of processor time that building the grid, finding candidates and sorting them cost, for particles on a
+// lattice and in random places. Everybody moves farther than the margin from update to update, so that each
+// makes its lists anew. With LP_NUM_THREADS=0 a software device computes on one thread and steadily.
+#include "layout.h"
+#include "sim/collision/contact_lists.hpp"
+#include "sim/gpu_executor.hpp"
+#include "vk/loader.hpp"
+#include "vk/queue.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <random>
+
+using namespace sinew;
+using namespace sinew::sim;
+
+namespace {
+
+constexpr float spacing = 0.1f;
+
+std::vector<layout::vec4> cloud(std::uint32_t side, bool isRandom, float shift) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> anywhere(0, static_cast<float>(side) * spacing);
+    std::vector<layout::vec4> x;
+    for (std::uint32_t i = 0; i < side * side * side; ++i) {
+        const auto at = [](std::uint32_t index) { return static_cast<float>(index) * spacing; };
+        x.push_back({at(i % side), at(i / side % side), at(i / side / side), 0});
+        if (isRandom) x.back() = {anywhere(random), anywhere(random), anywhere(random), 0};
+        x.back().x += shift;
+    }
+    x.resize(paddedCount(x.size()));
+    return x;
+}
+
+enum class Part { build, find, all };
+
+double shortest(const vk::Device& device, vk::Queue& queue, std::uint32_t side, bool isRandom, Part part) {
+    ProgramBuilder builder(false);
+    builder.program().status = builder.scratch<layout::StatusWords>("status", 1);
+    constexpr float radius = 0.4f * spacing, margin = 0.2f * spacing; // cells as large as the spacing
+    const auto a = cloud(side, isRandom, 0), b = cloud(side, isRandom, 2 * margin);
+    std::vector<float> radii(a.size(), -1);
+    std::fill_n(radii.begin(), side * side * side, radius);
+    const BufferId here = builder.upload("here", a), there = builder.upload("there", b);
+    const auto lists = collision::contact_lists::add(builder, {radii, margin, 24});
+    builder.beginPhase("lists");
+    for (const BufferId positions : {here, there}) {
+        if (part != Part::build)
+            collision::contact_lists::addUpdate(builder, lists, positions);
+        else
+            collision::hash_grid::addBuild(builder, lists.grid, positions);
+    }
+    StepProgram program = builder.finish();
+    if (part == Part::find)
+        std::erase_if(program.step, [](const Pass& p) { return p.label == "sort_contacts"; });
+    GpuExecutor executor(device, program);
+    const auto submit = [&](const auto& record) {
+        const VkCommandBuffer buffer = queue.begin();
+        vk::Commands commands(device, buffer);
+        record(commands);
+        const std::clock_t start = std::clock();
+        queue.wait(queue.submit(buffer));
+        return 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    };
+    submit([&](vk::Commands& commands) { executor.upload(commands); });
+    double best = 1e9;
+    for (int run = 0; run < 12; ++run)
+        best = std::min(best, submit([&](vk::Commands& c) { executor.step(c, {}, nullptr); }) / 2);
+    return best;
+}
+
+} // namespace
+
+int main() {
+    const vk::Loader loader;
+    const vk::Device device = vk::Device::create(loader.getInstanceProcAddr(), {});
+    vk::Queue queue(device);
+    for (const std::uint32_t side : {10u, 22u, 47u})
+        for (const bool isRandom : {false, true}) {
+            const double build = shortest(device, queue, side, isRandom, Part::build);
+            const double find = shortest(device, queue, side, isRandom, Part::find);
+            const double all = shortest(device, queue, side, isRandom, Part::all);
+            std::printf("%7u particles, %s: grid %6.3f, find %6.3f, sort %6.3f, together %6.3f ms\n",
+                        side * side * side, isRandom ? "random " : "lattice", build, find - build, all - find,
+                        all);
+        }
+}

@@ -1,0 +1,365 @@
+// Candidate lists on the device against brute force, on clouds of every kind: each pair once for both
+// partners, sorted, nothing else, in any order of invocations; and what happens where a list is too short.
+#include "layout.h"
+#include "sim/collision/contact_lists.hpp"
+#include "sim/gpu_executor.hpp"
+#include "sim/scenes.hpp"
+#include "support/device.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+
+using namespace sinew;
+using namespace sinew::sim;
+namespace lists = sinew::sim::collision::contact_lists;
+
+namespace {
+
+using Neighbours = std::vector<std::vector<std::uint32_t>>;
+
+// What two lists of neighbours may differ by: pairs whose distance is the reach, to float's rounding.
+struct Expected {
+    Neighbours sure, possible;
+};
+
+struct Cloud {
+    std::vector<float> radii; // whole work groups; below 0 = nobody
+    float margin = 0;
+    std::uint32_t capacity = 256;
+    bool isReversed = false, usesTexels = true;
+    lists::Exclusions exclusions;
+};
+
+// A program that does nothing but keep the lists of a cloud.
+class Device {
+public:
+    explicit Device(const Cloud& cloud) : count_(cloud.radii.size()), builder_(cloud.isReversed) {
+        builder_.program().status = builder_.scratch<layout::StatusWords>("status", 1);
+        positions_ = builder_.scratch<layout::vec4>("positions", count_);
+        lists_ = lists::add(builder_, {.radii = cloud.radii,
+                                       .margin = cloud.margin,
+                                       .capacity = cloud.capacity,
+                                       .exclusions = cloud.exclusions,
+                                       .usesTexels = cloud.usesTexels});
+        builder_.beginPhase("solve");
+        builder_.fill(builder_.program().status, 0);
+        lists::addUpdate(builder_, lists_, positions_);
+        program_ = builder_.finish();
+        executor_.emplace(test::device(), program_);
+        submit([&](vk::Commands& commands) { executor_->upload(commands); });
+    }
+
+    void update(const std::vector<layout::vec4>& positions) {
+        test::queue().upload(executor_->view(positions_), positions.data(),
+                             positions.size() * sizeof(layout::vec4));
+        submit([&](vk::Commands& commands) { executor_->step(commands, {}, nullptr); });
+    }
+
+    Neighbours neighbours() const {
+        const auto counts = test::queue().download<std::uint32_t>(executor_->view(lists_.counts));
+        const auto entries =
+            test::queue().download<layout::ContactCandidate>(executor_->view(lists_.contacts));
+        Neighbours result(count_);
+        for (std::uint32_t i = 0; i < count_; ++i)
+            for (std::uint32_t s = 0; s < counts[i]; ++s)
+                result[i].push_back(entries[s * lists_.push.row + i].other);
+        return result;
+    }
+    std::uint32_t builds() const {
+        return test::queue().download<layout::GridBounds>(executor_->view(lists_.grid.bounds))[0].builds;
+    }
+    std::uint32_t candidatesNeeded() const {
+        return test::queue().download<layout::StatusWords>(executor_->view(program_.status))[0].candidates;
+    }
+
+private:
+    static void submit(const std::function<void(vk::Commands&)>& record) {
+        const VkCommandBuffer buffer = test::queue().begin();
+        vk::Commands commands(test::device(), buffer);
+        record(commands);
+        test::queue().wait(test::queue().submit(buffer));
+    }
+
+    std::size_t count_;
+    ProgramBuilder builder_;
+    BufferId positions_;
+    lists::Lists lists_;
+    StepProgram program_;
+    std::optional<GpuExecutor> executor_;
+};
+
+Expected bruteForce(const Cloud& cloud, const std::vector<layout::vec4>& x, float margin) {
+    Expected expected{Neighbours(x.size()), Neighbours(x.size())};
+    for (std::uint32_t i = 0; i < x.size(); ++i) {
+        if (cloud.radii[i] < 0) continue;
+        for (std::uint32_t j = 0; j < x.size(); ++j) {
+            if (i == j || cloud.radii[j] < 0) continue;
+            const double reach = double{cloud.radii[i]} + double{cloud.radii[j]} + double{margin};
+            const double dx = double{x[i].x} - double{x[j].x}, dy = double{x[i].y} - double{x[j].y},
+                         dz = double{x[i].z} - double{x[j].z}, d = std::sqrt(dx * dx + dy * dy + dz * dz);
+            if (d < reach * (1 + 1e-6)) expected.possible[i].push_back(j);
+            if (d < reach * (1 - 1e-6)) expected.sure[i].push_back(j);
+        }
+    }
+    return expected;
+}
+
+// Sorted ranges: everything sure is there, everything there is possible, nothing twice.
+void expectBetween(const Expected& expected, const Neighbours& found) {
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        ASSERT_TRUE(std::is_sorted(found[i].begin(), found[i].end(), std::less_equal<>()))
+            << "particle " << i << ": not sorted, or somebody twice";
+        ASSERT_TRUE(std::ranges::includes(found[i], expected.sure[i]))
+            << "particle " << i << " misses a pair";
+        ASSERT_TRUE(std::ranges::includes(expected.possible[i], found[i]))
+            << "particle " << i << " has too many";
+    }
+}
+
+void expectMutual(const Neighbours& found) {
+    for (std::uint32_t i = 0; i < found.size(); ++i)
+        for (const std::uint32_t j : found[i])
+            ASSERT_TRUE(std::ranges::binary_search(found[j], i)) << j << " does not know " << i;
+}
+
+// Places of `count` particles, the rest nowhere in particular: a configuration of one kind.
+using Placing = std::function<layout::vec4(std::mt19937&, std::uint32_t)>;
+
+float uniform(std::mt19937& random, float low, float high) {
+    return std::uniform_real_distribution<float>(low, high)(random);
+}
+
+layout::vec4 within(std::mt19937& random, const layout::vec4& center, float half) {
+    return {center.x + uniform(random, -half, half), center.y + uniform(random, -half, half),
+            center.z + uniform(random, -half, half), 0};
+}
+
+struct NamedPlacing {
+    const char* name;
+    Placing place;
+};
+
+// Radii are around 0.05 m, cells around 0.13 m.
+std::vector<NamedPlacing> placings() {
+    return {{"random", [](std::mt19937& r, std::uint32_t) { return within(r, {}, 0.4f); }},
+            {"sparse", [](std::mt19937& r, std::uint32_t) { return within(r, {}, 30); }},
+            {"clustered",
+             [](std::mt19937& r, std::uint32_t i) {
+                 const float at = static_cast<float>(i % 7);
+                 return within(r, {3 * at, -at * at, 2 - at, 0}, 0.1f);
+             }},
+            {"coincident",
+             [](std::mt19937&, std::uint32_t i) {
+                 return layout::vec4{static_cast<float>(i % 5) * 0.07f, i % 2 == 0 ? 0.0f : -0.0f, 0, 0};
+             }},
+            {"negative",
+             [](std::mt19937& r, std::uint32_t) {
+                 return within(r, {-7, -9, -11, 0}, 0.5f);
+             }},
+            {"far away",
+             [](std::mt19937& r, std::uint32_t) {
+                 return within(r, {1e4f, -3e4f, 2e4f, 0}, 0.5f);
+             }},
+            {"very far away",
+             [](std::mt19937& r, std::uint32_t) {
+                 return within(r, {1e6f, 1e6f, -1e6f, 0}, 0.5f);
+             }},
+            {"with runaways",
+             [](std::mt19937& r, std::uint32_t i) {
+                 return within(r, {}, i % 50 == 0 ? 3e4f : i % 50 == 1 ? 1e9f : 0.5f);
+             }},
+            {"in a line",
+             [](std::mt19937& r, std::uint32_t) {
+                 return layout::vec4{uniform(r, -20, 20), 0, 0, 0};
+             }},
+            {"on cell borders", [](std::mt19937& r, std::uint32_t) {
+                 const auto whole = [&r] {
+                     return 0.05f * static_cast<float>(static_cast<int>(r() % 9) - 4);
+                 };
+                 return layout::vec4{whole(), whole() * 0, whole(), 0};
+             }}};
+}
+
+std::vector<float> radiiFor(std::mt19937& random, int kind, std::size_t count) {
+    std::vector<float> radii(count, 0.05f);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (kind == 1) radii[i] = uniform(random, 0.02f, 0.06f);
+        if (kind == 2 && random() % 40 == 0) radii[i] = uniform(random, 0.3f, 0.6f); // searched one by one
+        if (kind == 2 && random() % 20 == 0) radii[i] = 0;
+        if (kind == 3 && random() % 3 == 0) radii[i] = -1; // nobody
+    }
+    return radii;
+}
+
+std::vector<layout::vec4> placed(std::mt19937& random, const Placing& place, std::size_t count) {
+    std::vector<layout::vec4> positions;
+    for (std::uint32_t i = 0; i < count; ++i) positions.push_back(place(random, i));
+    return positions;
+}
+
+} // namespace
+
+TEST(ContactLists, EqualBruteForceOnTwelveHundredConfigurations) {
+    std::mt19937 random(11);
+    std::size_t pairs = 0, configurations = 0;
+    for (int kind = 0; kind < 4; ++kind) {
+        Cloud cloud{.radii = radiiFor(random, kind, 256), .margin = 0.025f};
+        Cloud reversed = cloud, loads = cloud;
+        reversed.isReversed = true;
+        loads.usesTexels = false;
+        Device device(cloud), backwards(reversed), loading(loads);
+        for (const NamedPlacing& placing : placings())
+            for (int seed = 0; seed < 30; ++seed, ++configurations) {
+                SCOPED_TRACE(testing::Message() << placing.name << ", radii " << kind << ", seed " << seed);
+                const auto x = placed(random, placing.place, cloud.radii.size());
+                device.update(x);
+                const Neighbours found = device.neighbours();
+                ASSERT_NO_FATAL_FAILURE(expectBetween(bruteForce(cloud, x, cloud.margin), found));
+                ASSERT_NO_FATAL_FAILURE(expectMutual(found));
+                backwards.update(x);
+                ASSERT_EQ(backwards.neighbours(), found) << "in reversed order";
+                for (const auto& list : found) pairs += list.size();
+                if (seed > 2) continue;
+                loading.update(x);
+                ASSERT_EQ(loading.neighbours(), found) << "without texels";
+            }
+    }
+    EXPECT_GE(configurations, 1000u);
+    EXPECT_GT(pairs, 1'000'000u) << "clouds too thin to show anything";
+}
+
+// Everybody wanders: what touches is always listed, and lists are made again only when somebody has gone far.
+TEST(ContactLists, HoldWhatTouchesWhileParticlesWanderAndAreRarelyMadeAgain) {
+    std::mt19937 random(5);
+    const Cloud cloud{.radii = radiiFor(random, 1, 256), .margin = 0.04f};
+    Device device(cloud);
+    auto x = placed(random, placings()[0].place, cloud.radii.size());
+    constexpr std::uint32_t updates = 60;
+    for (std::uint32_t u = 0; u < updates; ++u) {
+        for (layout::vec4& at : x) at = within(random, at, 0.002f);
+        device.update(x);
+        const Neighbours found = device.neighbours(), touching = bruteForce(cloud, x, 0).sure;
+        for (std::size_t i = 0; i < found.size(); ++i)
+            ASSERT_TRUE(std::ranges::includes(found[i], touching[i])) << "update " << u << ", particle " << i;
+    }
+    EXPECT_GE(device.builds(), 3u);
+    EXPECT_LE(device.builds(), updates / 4);
+}
+
+TEST(ContactLists, AreMadeAgainOnlyWhenSomebodyMovesFartherThanHalfTheMargin) {
+    const Cloud cloud{.radii = std::vector<float>(128, 0.05f), .margin = 0.1f};
+    Device device(cloud);
+    std::vector<layout::vec4> x(128);
+    for (std::uint32_t i = 0; i < 128; ++i) x[i].x = 0.08f * static_cast<float>(i);
+    const auto buildsAfterMoving = [&](float way) {
+        x[77].y += way;
+        device.update(x);
+        return device.builds();
+    };
+    EXPECT_EQ(buildsAfterMoving(0), 1u) << "the first lists";
+    EXPECT_EQ(buildsAfterMoving(0), 1u);
+    EXPECT_EQ(buildsAfterMoving(0.048f), 1u);
+    EXPECT_EQ(buildsAfterMoving(0.004f), 2u) << "0.052 m in all";
+    EXPECT_EQ(buildsAfterMoving(-0.048f), 2u) << "counted from there";
+    EXPECT_EQ(buildsAfterMoving(std::numeric_limits<float>::quiet_NaN()), 3u) << "who knows where";
+}
+
+TEST(ContactLists, ThatAreTooShortSayWhatTheyNeed) {
+    Cloud cloud{.radii = std::vector<float>(256, 0.05f), .margin = 0.01f};
+    std::vector<layout::vec4> x(256);
+    for (std::uint32_t i = 0; i < 256; ++i) x[i].x = static_cast<float>(i < 22 ? 0 : i); // 22 in one place
+    for (const auto& [capacity, needed] : {std::pair{1u, 21u}, {2u, 21u}, {20u, 21u}, {21u, 0u}, {22u, 0u}}) {
+        cloud.capacity = capacity;
+        Device device(cloud);
+        device.update(x);
+        EXPECT_EQ(device.candidatesNeeded(), needed) << "capacity " << capacity;
+        for (const auto& list : device.neighbours()) EXPECT_LE(list.size(), capacity);
+    }
+}
+
+// Hard case 25: counting stops soon after the limit, nothing is overrun, and the same is said every time.
+TEST(ContactLists, OfTenThousandParticlesInOnePlaceStopCountingAtTheLimit) {
+    Cloud cloud{.radii = std::vector<float>(10112, 0.05f), .margin = 0.01f, .capacity = 16};
+    for (const bool isReversed : {false, true}) {
+        cloud.isReversed = isReversed;
+        Device device(cloud);
+        device.update(std::vector<layout::vec4>(10112));
+        EXPECT_EQ(device.candidatesNeeded(), 257u);
+    }
+}
+
+TEST(ContactLists, LeaveOutPairsThatNeverTouch) {
+    std::mt19937 random(3);
+    Cloud cloud{.radii = std::vector<float>(256, 0.05f), .margin = 0.025f};
+    const auto x = placed(random, placings()[0].place, cloud.radii.size());
+    const Neighbours all = bruteForce(cloud, x, cloud.margin).sure;
+    Neighbours allowed = all;
+    cloud.exclusions.resize(257);
+    const auto isOut = [](std::uint32_t i, std::uint32_t j) { return (i * j + i + j) % 3 == 0; };
+    for (std::uint32_t i = 0; i < 256; ++i) {
+        cloud.exclusions[i] = static_cast<std::uint32_t>(cloud.exclusions.size());
+        for (std::uint32_t j = 0; j < 256; ++j)
+            if (isOut(i, j)) cloud.exclusions.push_back(j);
+        std::erase_if(allowed[i], [&](std::uint32_t j) { return isOut(i, j); });
+    }
+    cloud.exclusions[256] = static_cast<std::uint32_t>(cloud.exclusions.size());
+    for (const bool usesTexels : {true, false}) {
+        cloud.usesTexels = usesTexels;
+        Device device(cloud);
+        device.update(x);
+        EXPECT_EQ(device.neighbours(), allowed);
+    }
+}
+
+namespace {
+
+bool isExcluded(const lists::Exclusions& exclusions, std::uint32_t i, std::uint32_t j) {
+    return std::binary_search(exclusions.begin() + exclusions[i], exclusions.begin() + exclusions[i + 1], j);
+}
+
+} // namespace
+
+TEST(ExcludedPairs, AreLinksAndWhatIsNearAtRestWithinABody) {
+    Scene scene = test::block(3, 0.1f, 1e5f); // 4^3 particles, links up to face diagonals
+    const auto single = static_cast<std::uint32_t>(scene.particles.size());
+    scene.particles.push_back({.position = {0.02f, 0, 0}}); // in the body, but not of it
+    const std::vector<float> radii(scene.particles.size(), 0.09f);
+    const StateLayout layout = orderedLayout(scene.particles.size());
+    const lists::Exclusions excluded = lists::excludedPairs(scene, radii, layout);
+    ASSERT_GE(excluded.size(), layout.count + 1);
+    const auto at = [&](std::uint32_t i) { return test::toVector(scene.particles[i].position); };
+    for (std::uint32_t i = 0; i < single; ++i) {
+        EXPECT_FALSE(isExcluded(excluded, i, single) || isExcluded(excluded, single, i)) << i;
+        for (std::uint32_t j = 0; j < single; ++j) {
+            const bool isNear = i != j && (at(i) - at(j)).norm() < 1.05 * 0.18;
+            EXPECT_EQ(isExcluded(excluded, i, j), isNear) << i << ", " << j;
+        }
+    }
+}
+
+TEST(ExcludedPairs, OfParticlesThatTouchNothingAndOfLooseOnesAreNone) {
+    Scene scene = test::chain(5);
+    const StateLayout layout = orderedLayout(5);
+    EXPECT_TRUE(lists::excludedPairs(scene, std::vector<float>(5, -1.0f), layout).empty());
+    const auto excluded =
+        lists::excludedPairs(scene, std::vector<float>{0.01f, 0.01f, -1, 0.01f, 0.01f}, layout);
+    EXPECT_TRUE(isExcluded(excluded, 0, 1) && isExcluded(excluded, 4, 3));
+    EXPECT_FALSE(isExcluded(excluded, 1, 2) || isExcluded(excluded, 2, 3) || isExcluded(excluded, 0, 3));
+    scene.distances.clear();
+    EXPECT_TRUE(lists::excludedPairs(scene, std::vector<float>(5, 1.0f), layout).empty());
+}
+
+TEST(HashGrid, KeepsItsCellsSmallWhereAFewParticlesAreLarge) {
+    using collision::hash_grid::largestInGrid, collision::hash_grid::mostLarge;
+    std::vector<float> radii(1000, 0.05f);
+    EXPECT_EQ(largestInGrid(radii), 0.1f);
+    for (std::size_t i = 0; i < mostLarge; ++i) radii[3 * i] = 1;
+    EXPECT_EQ(largestInGrid(radii), 0.1f);
+    radii[1] = 1;
+    EXPECT_EQ(largestInGrid(radii), 1.0f) << "too many to search one by one";
+    EXPECT_EQ(largestInGrid(std::vector<float>(128, -1.0f)), 0.0f);
+}
