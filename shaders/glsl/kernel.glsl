@@ -9,6 +9,9 @@ layout(local_size_x = GROUP_SIZE) in;
 // Maps invocation i to count - 1 - i. The state must not change: our race and order detector.
 layout(constant_id = 0) const bool isReversed = false;
 
+// Whether a step came to its end: all is finite, and there was room for all contacts. Else it is undone.
+bool isFinished(StatusWords status) { return (status.nonFinite | status.candidates) == 0u; }
+
 // The item of this invocation; the caller returns where it is >= count.
 uint itemIndex(uint count) {
     const uint i = gl_GlobalInvocationID.x;

@@ -33,7 +33,8 @@ struct StepParams {
     uint frame;
     float dampingShare; // `split`: h x damping coefficient of a link, at most this x k~ x the smaller tau of its ends
     float multiplierScale; // `gauss_seidel`: of the multipliers kept from the step before, min(1, (h / hPrevious)^2)
-    float unused0, unused1, unused2;
+    float thetaHStored; // `split`: thetaH, or 0 where contacts follow the gather: it then stores x
+    float unused0, unused1;
 };
 
 // `split` keeps the links of a work group's particles together, slot by slot: link s of particle i is element
@@ -215,6 +216,12 @@ struct FindPush {
     uint row;      // elements from one to the next
     uint limit;    // candidates after which counting stops
     uint large;    // particles that are searched one by one
+};
+
+struct ContactPush {
+    uint count; // of particles; whole work groups
+    uint row;   // elements of a list from one candidate to the next
+    float friction;
 };
 
 struct SubstepPush {

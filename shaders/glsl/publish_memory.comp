@@ -12,6 +12,6 @@ layout(push_constant) uniform Push { CountPush push; };
 void main() {
     const uint i = itemIndex(push.count);
     if (i >= push.count) return;
-    if (status.nonFinite == 0u) saved[i] = memory[i];
+    if (isFinished(status)) saved[i] = memory[i];
     else memory[i] = saved[i];
 }

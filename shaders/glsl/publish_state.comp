@@ -1,6 +1,6 @@
 #version 460
 // Ends a step: writes the public positions and velocities from the solver's state. Where that is no longer finite
-// anywhere, the whole step is undone instead: the solver's state is made from the public one, which is the last finite.
+// anywhere, or contacts had no room, the whole step is undone instead: the solver's state is made from the public one, which is the last finite.
 // What put a NaN there once (a fault, a host) then harms nobody; a motion that diverges does so again and is reported again.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
@@ -22,7 +22,7 @@ void main() {
     const uint i = itemIndex(push.count);
     if (i >= push.count) return;
     const uint slot = slotOf(i);
-    if (status.nonFinite == 0u) {
+    if (isFinished(status)) {
         const vec4 velocity = velocities[slot];
         publicPositions[i] = vec4(positions[slot].xyz - step.thetaH * velocity.xyz, velocity.w);
 #ifndef NO_VELOCITIES

@@ -110,5 +110,5 @@ void advance(uint i, vec4 y, vec4 velocity, vec3 impulses, Substep substep) {
     }
 #endif
     STORE_VELOCITY(i, vec4(v, w));
-    STORE_POSITION(i, vec4(x + step.thetaH * v, y.w));
+    STORE_POSITION(i, vec4(x + step.thetaHStored * v, y.w));
 }

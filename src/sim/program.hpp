@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <map>
 #include <span>
@@ -80,14 +81,21 @@ struct IndirectItems {
     std::uint32_t most = 0; ///< invocations that the arguments ever ask for
 };
 
+/// A buffer of the state between steps, and where another program for the same scene has it after an undone
+/// step.
+struct Carried {
+    BufferId to, from;
+};
+
 /// Immutable once built.
 struct StepProgram {
     std::vector<BufferSpec> buffers;
     std::vector<KernelUse> kernels;
-    std::vector<std::string> phases;                    ///< what is timed, in order
-    std::vector<Pass> step;                             ///< recorded for every step
-    std::vector<Pass> skin;                             ///< recorded when somebody draws; may be empty
-    std::vector<std::string> skipped;                   ///< features this scene does not need, for reports
+    std::vector<std::string> phases;  ///< what is timed, in order
+    std::vector<Pass> step;           ///< recorded for every step
+    std::vector<Pass> skin;           ///< recorded when somebody draws; may be empty
+    std::vector<std::string> skipped; ///< features this scene does not need, for reports
+    std::vector<Carried> carried;     ///< what a simulation that takes over another's state copies
     BufferId parameters, status, positions, velocities; ///< the public ones; velocities may be invalid
     BufferId skinVertices, skinIndices;                 ///< invalid without skins
     std::uint32_t particleCount = 0, constraintCount = 0;
@@ -161,6 +169,15 @@ public:
     void numberLast(std::uint32_t index);
     /// A buffer of vec4 that a solver carries from step to step: undone with a step that ends not finite.
     void remember(BufferId buffer) { remembered_.push_back(buffer); }
+    /// Part of the state that another program for the same scene can go on with; there it may be longer.
+    void carry(BufferId to, BufferId from) { program_.carried.push_back({to, from}); }
+    /// A buffer of vec4 of which a copy of the last step that came to its end is kept, to repeat a step with
+    /// the same bits: what publishing makes of an undone one is rounded.
+    void keep(BufferId buffer) { kept_.push_back(buffer); }
+    const std::vector<BufferId>& kept() const { return kept_; }
+    /// Passes that end the step, after the check that it is finite.
+    void atEnd(std::function<void()> addPasses) { endings_.push_back(std::move(addPasses)); }
+    const std::vector<std::function<void()>>& endings() const { return endings_; }
     const std::vector<BufferId>& remembered() const { return remembered_; }
     void fill(BufferId buffer, std::uint32_t value);
     void copy(BufferId from, BufferId to);
@@ -183,7 +200,8 @@ private:
                        std::span<const std::byte> push, const Constants& constants);
 
     StepProgram program_;
-    std::vector<BufferId> remembered_;
+    std::vector<BufferId> remembered_, kept_;
+    std::vector<std::function<void()>> endings_;
     bool isReversed_ = false, isSkin_ = false;
     std::uint32_t substep_ = 0;
 };

@@ -4,11 +4,36 @@
 #include "kernels.hpp"
 #include "layout.h"
 
+#include <cstring>
+
 namespace sinew::sim::publish {
 
 namespace {
 
 namespace k = kernels;
+
+// Saves a buffer, or takes it back; returns where it is saved, at first as it begins.
+BufferId addMemory(ProgramBuilder& program, BufferId memory) {
+    const BufferSpec spec = program.program().buffers[memory.index]; // adding moves the list
+    const auto count = static_cast<std::uint32_t>(spec.count);
+    std::vector<layout::vec4> initial(spec.initial.size() / sizeof(layout::vec4));
+    if (!initial.empty()) std::memcpy(initial.data(), spec.initial.data(), spec.initial.size());
+    const std::string label = spec.label + ".saved";
+    const BufferId saved =
+        initial.empty() ? program.scratch<layout::vec4>(label, count) : program.upload(label, initial);
+    program.dispatch(k::publishMemory, count, {memory, saved, program.program().status},
+                     layout::CountPush{count});
+    return saved;
+}
+
+// After the check, and before publishing makes its own of what this takes back.
+void addKept(ProgramBuilder& program) {
+    for (const BufferId buffer : program.kept()) {
+        const BufferId saved = addMemory(program, buffer);
+        program.carry(buffer, saved);
+        program.carry(saved, saved);
+    }
+}
 
 // The kernels for one way to find a slot.
 struct Kernels {
@@ -27,6 +52,7 @@ void addPasses(ProgramBuilder& program, const ParticleBuffers& particles, const 
     buffers.insert(buffers.end(), slots.begin(), slots.end());
     published.insert(published.end(), slots.begin(), slots.end());
     program.dispatch(kernels.measure, particles.count, buffers, push);
+    addKept(program);
     program.dispatch(hasVelocities ? kernels.publish : kernels.publishPositions, particles.count, published,
                      push);
 }
@@ -53,13 +79,8 @@ void addState(ProgramBuilder& program, const ParticleBuffers& particles) {
 
 void addPasses(ProgramBuilder& program, const ParticleBuffers& particles) {
     addState(program, particles);
-    for (const BufferId memory : program.remembered()) {
-        const BufferSpec spec = program.program().buffers[memory.index]; // scratch moves the list
-        const auto count = static_cast<std::uint32_t>(spec.count);
-        const BufferId saved = program.scratch<layout::vec4>(spec.label + ".saved", count);
-        program.dispatch(k::publishMemory, count, {memory, saved, program.program().status},
-                         layout::CountPush{count});
-    }
+    for (const BufferId memory : program.remembered()) addMemory(program, memory);
+    for (const auto& addEnding : program.endings()) addEnding();
 }
 
 } // namespace sinew::sim::publish

@@ -43,6 +43,7 @@ inline constexpr Range tetherLength{0, largest};                               /
 inline constexpr std::size_t mostAttachments = 1024;
 inline constexpr Range friction{0, largest};
 inline constexpr Range restitution{0, 1};
+inline constexpr Range radius{0, largest}; // [m]
 inline constexpr Range normalLength{1 - 1e-3, 1 + 1e-3};
 inline constexpr Range poissonRatio{0.25,
                                     double{0.49f}}; // of a lattice; below 1/4 its volume would be unstable
@@ -70,6 +71,9 @@ inline constexpr Range omega{.low = 0, .high = 10, .isLowOpen = true, .isHighOpe
 inline constexpr Range theta{0, 1};
 inline constexpr Range weight{0, 1};
 inline constexpr Range warmStart{0, 1};
+inline constexpr Range contactMargin{.low = 0, .high = 10, .isLowOpen = true};
+inline constexpr std::uint32_t mostContactRoom = 256;
+inline constexpr Range contactRoom{1, mostContactRoom};
 inline constexpr Range overRelaxation{.low = 0, .high = 2, .isLowOpen = true, .isHighOpen = true};
 
 inline constexpr Range columns{1, 2};   // of Settings::forms: kernels exist for these

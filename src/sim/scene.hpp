@@ -22,6 +22,15 @@ struct Particle {
     float inverseMass = 1; ///< [1/kg]; 0 = never moves
     float contactOffset =
         0; ///< [m] distance kept from colliders; negative where the particle lies outside its skin
+    /// [m]; two particles touch where they are nearer than the sum of their radii. 0 = touches no other
+    /// particle. Linked ones never touch, nor do those of one linked body that are nearer than 1.05 times
+    /// that at rest.
+    float radius = 0;
+};
+
+/// How particles touch each other.
+struct ContactSettings {
+    float friction = 0; ///< Coulomb coefficient, >= 0
 };
 
 /// |x_a - x_b| = restLength, with energy (|x_a - x_b| - restLength)^2 / (2 compliance). Permanent.
@@ -143,6 +152,7 @@ struct Scene {
     std::vector<Tether> tethers;
     std::vector<FixedConstraint> fixed;
     std::vector<Plane> planes;
+    ContactSettings contacts;
     std::vector<Body> bodies;
     std::vector<Grid> grids;
     std::vector<Skin> skins;
@@ -175,6 +185,10 @@ struct Settings {
     float overRelaxation = 1; ///< `jacobi`: second factor on that sum, below 4/3 with averaging
     float warmStart =
         0.9f; ///< `gauss_seidel`: most that a substep starts with of the multipliers of the last; 0 = cold
+    /// How much farther than touching particles are listed together, in median radii; lists are made again
+    /// when one may have moved half of that. Changes speed, but no result.
+    float contactMargin = 0.5f;
+    std::uint32_t contactRoom = 24; ///< particles that may be listed with one, 1..256
     Forms forms;
     /// False saves 16 bytes a particle: there is no buffer of public velocities, and a step that is undone
     /// leaves what it holds at rest.

@@ -2,6 +2,7 @@
 #include "sim/simulation.hpp"
 
 #include "layout.h"
+#include "sim/collision/particle_contacts.hpp"
 #include "sim/compile.hpp"
 #include "sim/constraints/attachment.hpp"
 #include "sim/gpu_executor.hpp"
@@ -71,8 +72,17 @@ struct Simulation::State {
     SplitBudget budget;
     float theta, omega, damping;
     std::uint32_t substeps;
+    bool hasContacts; // between particles: gathers of `split` then store x, not x + theta h v
     std::array<float, framesInFlight> lostTime{}; // of the newest steps [s]
     float previousH = 0; // 0 before the first step: the half-kick that starts the leapfrog
+    // Steps of which the host has not yet looked whether they came to their end, and h of the last that has.
+    struct Unsettled {
+        bool isRecorded = false;
+        float h = 0;
+    };
+    std::array<Unsettled, framesInFlight> unsettled{};
+    std::uint64_t nextFrame = 0;
+    float settledH = 0;
 
     State(const vk::Device& d, const Scene& scene, const Settings& asked)
         : State(d, scene, withSubsteps(valid(scene, asked), asked), {}) {}
@@ -87,7 +97,8 @@ struct Simulation::State {
           skins(rangesOf(scene.skins)), anchors(scene.attachments),
           budget(scene.dampingTime > 0 ? splitBudget(scene, settings) : SplitBudget{}),
           theta(settings.solver == Solver::split ? settings.theta : 0), omega(settings.omega),
-          damping(scene.damping), substeps(settings.substeps) {}
+          damping(scene.damping), substeps(settings.substeps),
+          hasContacts(collision::particle_contacts::areIn(scene)) {}
 
     layout::StepParams parameters(const Step& step, float dt) const {
         const float h = dt / static_cast<float>(substeps);
@@ -103,7 +114,23 @@ struct Simulation::State {
                 .frame = static_cast<std::uint32_t>(step.frame),
                 .dampingShare =
                     static_cast<float>(dampingBudget(budget, double{theta}, longest) / double{omega}),
-                .multiplierScale = previousH > 0 ? std::min(1.0f, h * h / (previousH * previousH)) : 0};
+                .multiplierScale = previousH > 0 ? std::min(1.0f, h * h / (previousH * previousH)) : 0,
+                .thetaHStored = hasContacts ? 0 : theta * h};
+    }
+
+    layout::StatusWords statusWords(std::uint64_t frame) const {
+        layout::StatusWords words;
+        std::memcpy(&words, statusRing.mapped() + frame % framesInFlight * sizeof(words), sizeof(words));
+        return words;
+    }
+
+    // The step before `frame` has `h`; where the one that this slot of the ring held came to its end, its h
+    // counts.
+    float settled(std::uint64_t frame, float h) const {
+        const Unsettled& step = unsettled[frame % framesInFlight];
+        if (!step.isRecorded) return h;
+        const layout::StatusWords words = statusWords(frame);
+        return words.nonFinite == 0 && words.candidates == 0 ? step.h : h;
     }
 
     vk::BufferView statusSlot(std::uint64_t frame) const {
@@ -122,7 +149,8 @@ Simulation::~Simulation() = default;
 void Simulation::recordReset(VkCommandBuffer buffer) noexcept {
     vk::Commands commands(state_->device, buffer);
     state_->executor.upload(commands);
-    state_->previousH = 0;
+    state_->previousH = state_->settledH = 0;
+    state_->unsettled = {};
     state_->anchors.reset();
 }
 
@@ -130,6 +158,9 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     const float dt = withinRange(step.dt);
     state_->lostTime[step.frame % framesInFlight] = std::max(0.0f, step.dt - dt);
     const layout::StepParams parameters = state_->parameters(step, dt);
+    state_->settledH = state_->settled(step.frame, state_->settledH);
+    state_->unsettled[step.frame % framesInFlight] = {true, parameters.h};
+    state_->nextFrame = step.frame + 1;
     state_->anchors.advance(step.anchors, dt);
     vk::Commands commands(state_->device, buffer);
     if (timestamps) timestamps->reset(commands);
@@ -142,6 +173,28 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     commands.endStep();
     commands.hostBarrier();
     state_->previousH = parameters.h;
+}
+
+void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from) noexcept {
+    recordReset(buffer);
+    vk::Commands commands(state_->device, buffer);
+    commands.beginStep();
+    const StepProgram &own = state_->program, &other = from.state_->program;
+    const auto copy = [&](BufferId to, BufferId source) { // the head of what has more room here
+        vk::BufferView target = view(to), origin = from.view(source);
+        target.size = origin.size = std::min(target.size, origin.size);
+        if (target.size > 0) commands.copy(origin, target);
+    };
+    copy(own.positions, other.positions);
+    copy(own.velocities, other.velocities);
+    const std::size_t carried = std::min(own.carried.size(), other.carried.size());
+    for (std::size_t b = 0; b < carried; ++b) copy(own.carried[b].to, other.carried[b].from);
+    commands.endStep();
+    float h = from.state_->settledH;
+    for (std::uint64_t frame = 0; frame < framesInFlight; ++frame) // from the oldest on
+        h = from.state_->settled(from.state_->nextFrame + frame, h);
+    state_->previousH = state_->settledH = h;
+    state_->anchors = from.state_->anchors;
 }
 
 void Simulation::recordSkin(VkCommandBuffer buffer) noexcept {
@@ -174,12 +227,12 @@ const StepProgram& Simulation::program() const noexcept {
 }
 
 Status Simulation::status(std::uint64_t frame) const noexcept {
-    layout::StatusWords words;
+    const layout::StatusWords words = state_->statusWords(frame);
     const std::size_t slot = frame % framesInFlight;
-    std::memcpy(&words, state_->statusRing.mapped() + slot * sizeof(words), sizeof(words));
     return {.frame = words.frame,
             .nonFinite = words.nonFinite,
             .firstBadParticle = ~words.invertedFirstBad,
+            .contactRoom = words.candidates,
             .lostTime = state_->lostTime[slot]};
 }
 

@@ -33,7 +33,11 @@ struct Status {
     std::uint32_t nonFinite =
         0; ///< particles with a non-finite state: the step is undone, all goes on from the last finite state
     std::uint32_t firstBadParticle = 0; ///< smallest index among them; meaningful where nonFinite > 0
-    float lostTime = 0;                 ///< how much longer than the longest step Step::dt was [s]
+    /// 0, or how many particles would have to be listed with one where Settings::contactRoom is less: the
+    /// step is undone, and so is every later one until a simulation with more room takes over
+    /// (Simulation::recordTakeOver). One more than the most that there can be room for = too many anyway.
+    std::uint32_t contactRoom = 0;
+    float lostTime = 0; ///< how much longer than the longest step Step::dt was [s]
 };
 
 /// A range of the skin buffers that is one Skin of the scene.
@@ -64,6 +68,12 @@ public:
     /// visible to vertex input, compute and transfer on the same queue. With `timestamps`, one span per entry
     /// of phases().
     void record(VkCommandBuffer commands, const Step& step, vk::Timestamps* timestamps = nullptr) noexcept;
+
+    /// Records the copies that put this simulation into the state of `from`, which was made of the same scene
+    /// and settings but for contactRoom, at most as much as here: the next step goes on where `from` stands.
+    /// `from` must live until the commands have finished. Instead of recordReset(), which it contains. All
+    /// steps of `from` must have finished.
+    void recordTakeOver(VkCommandBuffer commands, const Simulation& from) noexcept;
 
     /// Records the skins of the newest recorded state; afterwards skinVertices() is visible to vertex input.
     void recordSkin(VkCommandBuffer commands) noexcept;

@@ -1,6 +1,7 @@
 // Walks a Scene and its Settings once and collects sentences. The allowed numbers stand in ranges.hpp.
 #include "sim/validate.hpp"
 
+#include "sim/collision/particle_contacts.hpp"
 #include "sim/coloring.hpp"
 #include "sim/compile.hpp"
 #include "sim/lattice/batches.hpp"
@@ -89,6 +90,10 @@ constexpr SettingRow settingRows[] = {
     {"settings.overRelaxation", [](const Settings& s) { return double{s.overRelaxation}; },
      ranges::overRelaxation},
     {"settings.warmStart", [](const Settings& s) { return double{s.warmStart}; }, ranges::warmStart},
+    {"settings.contactMargin", [](const Settings& s) { return double{s.contactMargin}; },
+     ranges::contactMargin},
+    {"settings.contactRoom", [](const Settings& s) { return static_cast<double>(s.contactRoom); },
+     ranges::contactRoom},
     {"settings.forms.columns", [](const Settings& s) { return static_cast<double>(s.forms.columns); },
      ranges::columns},
     {"settings.forms.chunk", [](const Settings& s) { return static_cast<double>(s.forms.chunk); },
@@ -135,6 +140,7 @@ void checkParticles(const Scene& scene, Complaints& complaints) {
         complaints.checkFinite(p.velocity, name("velocity"));
         complaints.check(double{p.inverseMass}, ranges::inverseMass, name("inverseMass"));
         complaints.check(double{p.contactOffset}, ranges::finite, name("contactOffset"));
+        complaints.check(double{p.radius}, ranges::radius, name("radius"));
     }
 }
 
@@ -275,6 +281,14 @@ void checkSkin(const Skin& skin, const std::string& name, std::size_t particles,
         complaints.check(double{channel}, ranges::color, [&] { return name + ".color"; });
 }
 
+// Contacts are not ignored where a solver cannot have them.
+void checkContacts(const Scene& scene, const Settings& settings, Complaints& complaints) {
+    if (settings.solver != Solver::split && collision::particle_contacts::areIn(scene))
+        complaints.add(std::string("solver ") + solverName(settings.solver) +
+                           " has no form for particles that touch each other (Particle::radius)",
+                       "use split");
+}
+
 // Only of a scene that is right so far: a coloring takes what the constraints say at their word.
 void checkColors(const Scene& scene, const Settings& settings, Complaints& complaints) {
     if (settings.solver != Solver::gaussSeidel) return;
@@ -382,7 +396,10 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings) 
     checkBends(scene, complaints);
     checkAttachments(scene, complaints);
     checkTethers(scene, complaints);
+    if (complaints.isEmpty()) checkContacts(scene, settings, complaints);
     checkLinks(scene, settings, complaints);
+    complaints.check(double{scene.contacts.friction}, ranges::friction,
+                     [] { return "scene.contacts.friction"; });
     checkPlanes(scene, complaints);
     checkBodies(scene, complaints);
     checkGrids(scene, complaints);

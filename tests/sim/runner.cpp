@@ -43,6 +43,13 @@ void Runner::reset() {
     frame_ = 0;
 }
 
+void Runner::takeOver(const Runner& from) {
+    const VkCommandBuffer commands = queue().begin();
+    simulation_.recordTakeOver(commands, from.simulation_);
+    queue().wait(queue().submit(commands));
+    frame_ = from.frame_;
+}
+
 sim::Status Runner::step(float dt, std::span<const sim::Vec3> anchors) {
     const VkCommandBuffer commands = queue().begin();
     simulation_.record(commands, {.dt = dt, .gravity = gravity_, .frame = frame_, .anchors = anchors});

@@ -18,6 +18,8 @@ public:
     /// Steps of the scene's dt; returns the status of the last.
     sim::Status run(int steps);
     void reset();
+    /// Goes on where `from` stands, with its next frame.
+    void takeOver(const Runner& from);
     void skin();
     /// Overwrites x of a particle in the solver's own state, as a fault would.
     void writePosition(std::uint32_t particle, float x);

@@ -3,6 +3,7 @@
 // first.
 #include "sim/solvers/split.hpp"
 
+#include "sim/collision/particle_contacts.hpp"
 #include "sim/collision/planes.hpp"
 #include "sim/constraints/attachment.hpp"
 #include "sim/constraints/bend.hpp"
@@ -235,12 +236,53 @@ void addSubsteps(const Common& common, const ParticleBuffers& particles) {
     if (current.velocities != particles.velocities) program.copy(current.velocities, particles.velocities);
 }
 
+// The same where particles touch: gathers leave predicted positions, and the passes of the contacts make of
+// them the state after the substep, in the buffers that it began in; velocities alternate.
+void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles) {
+    ProgramBuilder& program = common.program;
+    const StateLayout& layout = common.layout;
+    const std::uint32_t substeps = common.settings.substeps;
+    const auto contacts = collision::particle_contacts::add(program, common.scene, common.settings, layout);
+    const std::vector<Gather> gathers = addGathers(common);
+    const bool alternates = std::ranges::any_of(gathers, &Gather::alternatesVelocities);
+    const auto attachments = constraints::attachment::add(program, common.scene, layout);
+    const auto tethers = constraints::tether::add(program, common.scene, layout);
+    ParticleBuffers current = particles, predicted = particles;
+    predicted.positions = program.scratch<layout::vec4>("state.next_positions", layout.count);
+    BufferId spare = program.scratch<layout::vec4>("state.next_velocities", layout.count);
+    for (std::uint32_t substep = 0; substep < substeps; ++substep) {
+        program.beginSubstep();
+        collision::particle_contacts::addOpening(program, contacts, current.velocities);
+        predicted.velocities = alternates ? spare : current.velocities;
+        for (const Gather& gather : gathers) {
+            std::vector<BufferId> buffers{current.positions, predicted.positions, current.velocities,
+                                          particles.step};
+            buffers.insert(buffers.end(), gather.buffers.begin(), gather.buffers.end());
+            if (alternates) buffers.push_back(predicted.velocities);
+            gather.dispatch(buffers, substep == 0);
+        }
+        if (!alternates) std::swap(current.velocities, spare);
+        collision::particle_contacts::addPasses(program, contacts, predicted, current);
+        constraints::attachment::addPass(program, current, attachments, substep, substeps);
+        constraints::tether::addPass(program, current, tethers);
+    }
+    program.endSubsteps();
+    if (current.velocities != particles.velocities) program.copy(current.velocities, particles.velocities);
+    program.keep(particles.positions);
+    program.keep(particles.velocities);
+    program.atEnd([&program, contacts] { collision::particle_contacts::addPublishing(program, contacts); });
+}
+
 void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& settings,
                const Division& division, const ParticleBuffers& particles) {
+    program.program().sweeps = scene.distances.empty() ? 0 : settings.substeps;
+    if (collision::particle_contacts::areIn(scene)) {
+        addTouchingSubsteps({program, scene, settings, division, particles.layout, {}}, particles);
+        return;
+    }
     const Common common{program,          scene,
                         settings,         division,
                         particles.layout, collision::planes::addColliders(program, scene, particles.layout)};
-    program.program().sweeps = scene.distances.empty() ? 0 : settings.substeps;
     if (lattice::isResident(scene, settings, division.grids))
         addResident(common, particles);
     else

@@ -1,0 +1,38 @@
+// Particles that touch particles, in `split`: temporary constraints, solved after the links of a substep and
+// before the boundary planes (contacts: 7). The gather of the links leaves predicted positions, without
+// planes; two passes follow: one counts what each particle touches, one moves it and ends the substep. A
+// scene in which no two particles can touch has none of this.
+#pragma once
+
+#include "sim/collision/contact_lists.hpp"
+#include "sim/collision/planes.hpp"
+
+namespace sinew::sim::collision::particle_contacts {
+
+/// Whether particles of the scene may touch each other: two have a radius, and one of them can move.
+bool areIn(const Scene& scene);
+
+struct Contacts {
+    bool exist = false;
+    contact_lists::Lists lists;
+    planes::Colliders planes;
+    layout::ContactPush push{};
+    bool hasFriction = false, hasRebound = false;
+    BufferId touching, slips, kept, keptCounts, saved, savedCounts, before;
+};
+
+/// `exist` false where areIn() is: no buffer is made.
+Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
+             const StateLayout& layout);
+
+/// Before the links of a substep, whose velocities are `velocities`.
+void addOpening(ProgramBuilder& program, const Contacts& contacts, BufferId velocities);
+
+/// The end of a substep: from predicted positions and velocities to those of `next`.
+void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
+               const ParticleBuffers& next);
+
+/// The end of a step: what friction remembers is saved, or taken back with an undone step.
+void addPublishing(ProgramBuilder& program, const Contacts& contacts);
+
+} // namespace sinew::sim::collision::particle_contacts
