@@ -1,5 +1,6 @@
 // Particles that touch particles, on the device: momentum, rest, friction, and the same bits whatever lists
 // look like.
+#include "sim/bodies.hpp"
 #include "sim/compile.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
@@ -199,6 +200,46 @@ TEST(ParticleContacts, KeepAFallingPileBelowItsStartAndOutOfItself) {
     EXPECT_LE(highest, start);
     EXPECT_LE(deepest(runner.positions()), 0.1);
     EXPECT_LE(rms(runner.velocities()), 0.01) << "at rest after 2.5 s";
+}
+
+// Bodies on grids, whose state has slots that hold nobody, and as listed links: their particles touch those
+// of the other body and none of their own.
+TEST(ParticleContacts, LayABlockOntoABlock) {
+    constexpr float spacing = 0.1f;
+    Scene scene = test::block(2, spacing, 2e5f);
+    const std::size_t lower = scene.particles.size();
+    addLattice(scene, {.name = "upper",
+                       .origin = {0, 0.32f, 0},
+                       .cells = {2, 2, 2},
+                       .spacing = spacing,
+                       .youngModulus = 2e5f});
+    for (Particle& particle : scene.particles) particle.radius = spacing / 2;
+    scene.planes = {{.friction = 0.5f}};
+    scene.contacts.friction = 0.5f; // balls on balls: else the upper one slides off
+    scene.damping = 2;
+    std::vector<double> gaps;
+    for (const bool usesGrids : {true, false}) {
+        Settings settings{.substeps = 32};
+        settings.forms.usesGrids = usesGrids;
+        test::Runner runner(scene, settings);
+        ASSERT_EQ(runner.run(60).nonFinite, 0u);
+        const double ringing = rms(runner.velocities());
+        ASSERT_EQ(runner.run(120).nonFinite, 0u);
+        const auto x = runner.positions();
+        double top = 0, bottom = 1;
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            if (i < lower)
+                top = std::max(top, x[i].y());
+            else
+                bottom = std::min(bottom, x[i].y());
+        }
+        gaps.push_back(bottom - top);
+        EXPECT_NEAR(bottom - top, double{spacing}, 0.02 * double{spacing});
+        EXPECT_NEAR(top, 0.2, 0.01) << "not blown up by contacts of its own";
+        EXPECT_LE(rms(runner.velocities()), 0.25 * ringing) << "elastic bodies ring, and less and less";
+    }
+    std::printf("gaps %.5f and %.5f m\n", gaps[0], gaps[1]);
+    EXPECT_EQ(hashOf(scene, {.substeps = 8, .isReversed = true}, 30), hashOf(scene, {.substeps = 8}, 30));
 }
 
 TEST(ParticleContacts, EndInTheSameBitsForAnyMarginRoomOrderAndForm) {
