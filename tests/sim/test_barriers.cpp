@@ -141,6 +141,20 @@ TEST(Barriers, AreSafeAndNeededInTheProgramsOfAllScenes) {
     }
 }
 
+TEST(Barriers, AreSafeAndNeededWhereParticlesTouch) {
+    Scene scene = test::block(2, 0.1f, 1e5f);
+    for (Particle& particle : scene.particles) particle.radius = 0.05f;
+    scene.particles.push_back({.position = {0, 1, 0}, .radius = 0.1f});
+    for (const float friction : {0.0f, 0.5f}) {
+        scene.contacts.friction = friction;
+        scene.planes = {{.restitution = friction}};
+        const StepProgram program = compile(scene, {.substeps = 3});
+        SCOPED_TRACE(friction);
+        ASSERT_LE(program.buffers.size(), 64u);
+        ASSERT_NO_FATAL_FAILURE(expectSafeAndNeeded(program.step));
+    }
+}
+
 TEST(Barriers, OfSplitAreOneASubstepAndThreeAround) {
     const auto count = [](std::uint32_t substeps) {
         const StepProgram program = compile(test::block(3, 0.1f, 1e5f), {.substeps = substeps});
