@@ -5,14 +5,6 @@
 
 namespace sinew::mesh {
 
-std::vector<Vector3> toCellUnits(const TriangleMesh& mesh, const VoxelGrid& grid) {
-    std::vector<Vector3> positions;
-    positions.reserve(mesh.positions.size());
-    for (const Vec3& position : mesh.positions)
-        positions.push_back((toVector(position) - toVector(grid.origin)) / double{grid.spacing});
-    return positions;
-}
-
 Inside::Inside(const std::vector<Vector3>& positions, const Crossings::Triangles& triangles,
                const TriangleTree& tree, std::array<std::uint32_t, 3> cells, std::uint32_t perCell)
     : crossings_{Crossings(positions, triangles, cells, perCell, 0),

@@ -4,12 +4,8 @@
 
 #include "mesh/crossings.hpp"
 #include "mesh/triangle_tree.hpp"
-#include "mesh/voxelise.hpp"
 
 namespace sinew::mesh {
-
-/// Vertices in cell units, 0 at the low corner of the grid.
-std::vector<Vector3> toCellUnits(const TriangleMesh& mesh, const VoxelGrid& grid);
 
 class Inside {
 public:

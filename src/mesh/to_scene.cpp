@@ -3,6 +3,7 @@
 #include "mesh/to_scene.hpp"
 
 #include "mesh/inside.hpp"
+#include "mesh/place_grid.hpp"
 #include "mesh/topology.hpp"
 #include "sim/bodies.hpp"
 

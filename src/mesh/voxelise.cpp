@@ -4,75 +4,14 @@
 
 #include "mesh/hull.hpp"
 #include "mesh/inside.hpp"
+#include "mesh/place_grid.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace sinew::mesh {
 namespace {
 
-/// [cells] The grid ends this far beyond the mesh in all, at least: enough for the rounding of its origin.
-constexpr double margin = 1e-4;
-/// [cells] Left free along the longest side where its number of cells is asked for, so that a side of a half
-/// or a tenth of it comes out whole too.
-constexpr double slack = 0.04;
 constexpr std::uint32_t fillSamples = 4; ///< per cell edge
-
-struct Bounds {
-    Vector3 low, high;
-    Vector3 size() const { return high - low; }
-};
-
-Bounds boundsOf(const TriangleMesh& mesh) {
-    Bounds bounds{toVector(mesh.positions.front()), toVector(mesh.positions.front())};
-    for (const Vec3& position : mesh.positions) {
-        bounds.low = bounds.low.cwiseMin(toVector(position));
-        bounds.high = bounds.high.cwiseMax(toVector(position));
-    }
-    return bounds;
-}
-
-float chooseSpacing(const Bounds& bounds, const VoxelRequest& request) {
-    if (!(request.spacing >= 0) || !std::isfinite(request.spacing))
-        throw std::invalid_argument(
-            "voxelise: the spacing must be positive, or 0 to choose it by resolution");
-    if (request.spacing > 0) return request.spacing;
-    if (request.resolution == 0)
-        throw std::invalid_argument("voxelise: the resolution must be at least 1 cell");
-    const double longest = bounds.size().maxCoeff();
-    return static_cast<float>(longest / std::max(request.resolution - slack, 0.5));
-}
-
-/// An empty grid around the mesh, in the middle of it.
-VoxelGrid makeGrid(const TriangleMesh& mesh, const VoxelRequest& request) {
-    const Bounds bounds = boundsOf(mesh);
-    VoxelGrid grid{.spacing = chooseSpacing(bounds, request)};
-    const double spacing = double{grid.spacing};
-    if (!(spacing > 0)) throw std::invalid_argument("voxelise: the mesh has no extent");
-    const Vector3 needed = ((bounds.size() / spacing).array() + margin).ceil().cwiseMax(1);
-    if (needed.prod() > static_cast<double>(request.maxCells))
-        throw std::length_error("voxelise: cells of " + std::to_string(spacing) + " m make a grid of " +
-                                std::to_string(static_cast<long long>(std::min(needed.prod(), 1e18))) +
-                                " cells, the limit is " + std::to_string(request.maxCells) +
-                                ": ask for larger cells");
-    grid.origin = toVec3((bounds.low + bounds.high - needed * spacing) / 2);
-    for (Eigen::Index axis = 0; axis < 3; ++axis) grid.cells[axis] = static_cast<std::uint32_t>(needed[axis]);
-    grid.voxels.assign(static_cast<std::size_t>(needed.prod()), Voxel::empty);
-    grid.fill.assign(grid.voxels.size(), 0);
-    return grid;
-}
-
-/// Far from the origin the rounding of the grid's own origin may leave a vertex outside.
-void checkPlacement(const VoxelGrid& grid, const std::vector<Vector3>& positions) {
-    const Vector3 size(grid.cells[0], grid.cells[1], grid.cells[2]);
-    const bool isInside = std::ranges::all_of(positions, [&](const Vector3& position) {
-        return (position.array() > 0).all() && (position.array() < size.array()).all();
-    });
-    if (!isInside)
-        throw std::invalid_argument(
-            "voxelise: the mesh lies too far from the origin for its size: move it closer");
-}
 
 std::size_t indexOf(const VoxelGrid& grid, std::size_t i, std::size_t j, std::size_t k) {
     return i + grid.cells[0] * (j + std::size_t{grid.cells[1]} * k);
@@ -134,12 +73,7 @@ void markCoreAndFill(VoxelGrid& grid, const Inside& centers, const Inside& sampl
 } // namespace
 
 VoxelGrid voxelise(const TriangleMesh& mesh, const VoxelRequest& request) {
-    MeshDefects defects;
-    const TriangleMesh clean = orient(weld(mesh, defects));
-    if (clean.triangles.empty()) throw std::invalid_argument("voxelise: the mesh has no triangles");
-    VoxelGrid grid = makeGrid(clean, request);
-    const std::vector<Vector3> positions = toCellUnits(clean, grid);
-    checkPlacement(grid, positions);
+    auto [clean, grid, positions] = placeGrid(mesh, request);
     markHull(grid, positions, clean);
     const TriangleTree tree(positions, clean.triangles);
     markCoreAndFill(grid, Inside(positions, clean.triangles, tree, grid.cells, 1),

@@ -4,6 +4,7 @@
 
 #include "mesh/generate.hpp"
 #include "mesh/inside.hpp"
+#include "mesh/place_grid.hpp"
 #include "meshes.hpp"
 
 #include <gtest/gtest.h>
