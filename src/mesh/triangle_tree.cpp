@@ -46,7 +46,9 @@ Vector3 nearestPoint(const Vector3& a, const Vector3& b, const Vector3& c, const
 
 TriangleTree::TriangleTree(const std::vector<Vector3>& positions, const Triangles& triangles) {
     triangles_.reserve(triangles.size());
-    for (const auto& [a, b, c] : triangles) triangles_.push_back({positions[a], positions[b], positions[c]});
+    for (const auto& [a, b, c] : triangles)
+        triangles_.push_back(
+            {positions[a], positions[b], positions[c], static_cast<std::uint32_t>(triangles_.size())});
     nodes_.reserve(triangles.size() / 2 + 1);
     if (!triangles_.empty()) build(0, static_cast<std::uint32_t>(triangles_.size()));
 }
@@ -55,7 +57,7 @@ TriangleTree::Node TriangleTree::summarise(std::uint32_t first, std::uint32_t co
     Node node{.first = first, .count = count};
     double area = 0;
     for (std::uint32_t i = first; i < first + count; ++i) {
-        const auto& [a, b, c] = triangles_[i];
+        const auto& [a, b, c, triangle] = triangles_[i];
         node.box.extend(a).extend(b).extend(c);
         const Vector3 normal = (b - a).cross(c - a) / 2;
         node.dipole += normal;
@@ -118,7 +120,7 @@ double TriangleTree::distance(const Vector3& point) const {
         const Node& node = nodes_[index];
         if (node.box.squaredExteriorDistance(point) >= best) continue;
         for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-            const auto& [a, b, c] = triangles_[i];
+            const auto& [a, b, c, triangle] = triangles_[i];
             best = std::min(best, (nearestPoint(a, b, c, point) - point).squaredNorm());
         }
         if (node.count > 0) continue;
@@ -128,6 +130,28 @@ double TriangleTree::distance(const Vector3& point) const {
         stack[size++] = isRightNearer ? node.right : index + 1;
     }
     return std::sqrt(best);
+}
+
+std::vector<TriangleTree::FlatNode> TriangleTree::flatten() const {
+    std::vector<FlatNode> flat(nodes_.size());
+    for (std::size_t i = nodes_.size(); i-- > 0;) {
+        const Node& node = nodes_[i];
+        const auto following = static_cast<std::uint32_t>(i + 1);
+        flat[i] = {.center = node.center,
+                   .dipole = node.dipole,
+                   .farSquared = farFactor * farFactor * node.radius * node.radius,
+                   .next = node.count > 0 ? following : flat[node.right].next,
+                   .first = node.first,
+                   .count = node.count};
+    }
+    return flat;
+}
+
+std::vector<std::uint32_t> TriangleTree::order() const {
+    std::vector<std::uint32_t> order;
+    order.reserve(triangles_.size());
+    for (const Corners& corners : triangles_) order.push_back(corners.triangle);
+    return order;
 }
 
 } // namespace sinew::mesh

@@ -26,6 +26,18 @@ public:
     /// Distance from `point` to the nearest triangle; infinite for an empty mesh.
     double distance(const Vector3& point) const;
 
+    /// The same tree for a walk without a stack: depth first, each node with the one that follows all it
+    /// holds.
+    struct FlatNode {
+        Vector3 center, dipole;             ///< dipole: sum of area x normal
+        double farSquared = 0;              ///< square of the distance from where on it counts as a dipole
+        std::uint32_t next = 0;             ///< equal to the number of nodes at the end
+        std::uint32_t first = 0, count = 0; ///< of a leaf, in order(); count 0 = inner node
+    };
+    std::vector<FlatNode> flatten() const;
+    /// Which triangle stands where.
+    std::vector<std::uint32_t> order() const;
+
 private:
     struct Node {
         Eigen::AlignedBox3d box;
@@ -37,6 +49,7 @@ private:
     };
     struct Corners {
         Vector3 a, b, c;
+        std::uint32_t triangle = 0;
     };
 
     void build(std::uint32_t first, std::uint32_t count);

@@ -1,0 +1,33 @@
+// Voxelisation on a Vulkan device, in three submissions with counts read back in between:
+//   mark_hull, scan_cells, add_blocks           which cells triangles touch, and how many
+//   mark_hull (lists), list_hull, vote_lines    three axes of lines through centres and fill samples
+//   judge_votes                                 -> core bits, fill bits, doubtful samples
+//   list_doubtful, wind_samples                 only where the votes disagreed: the generalised winding
+//   number
+#pragma once
+
+#include "mesh/gpu/job.hpp"
+#include "mesh/voxelise.hpp"
+
+namespace sinew::mesh::gpu {
+
+/// Gives the voxels of mesh::voxelise. Votes are counted in whole numbers on vertices rounded to 2^-24 cells
+/// (in a grid of 128 cells), so they are the same on every device; a doubtful sample within rounding of |w| =
+/// 1/2 may differ. Device and queue must outlive it; one thread; every call submits to the queue and waits.
+class Voxeliser {
+public:
+    /// Makes no pipeline yet: the first call does. Reversed: a test of order (kernel.glsl).
+    Voxeliser(const vk::Device& device, vk::Queue& queue, bool isReversed = false)
+        : device_(device), queue_(queue), kernels_(device, isReversed) {}
+
+    /// Throws as mesh::voxelise, and vk::Error: outOfMemory where a buffer exceeds what the device binds, as
+    /// with more than 32 Mi pairs of a triangle and a cell that it touches at 128 MiB a binding.
+    VoxelGrid operator()(const TriangleMesh& mesh, const VoxelRequest& request);
+
+private:
+    const vk::Device& device_;
+    vk::Queue& queue_;
+    Kernels kernels_;
+};
+
+} // namespace sinew::mesh::gpu
