@@ -32,6 +32,10 @@ public:
     /// flipped triangles do no harm; any other line has met a hole: invalid.
     Vote vote(const std::array<std::uint32_t, 3>& sample) const;
 
+    std::size_t bytes() const {
+        return starts_.size() * sizeof(starts_[0]) + crossings_.size() * sizeof(Crossing);
+    }
+
 private:
     struct Crossing {
         double depth = 0;        ///< along the axis, in cell units

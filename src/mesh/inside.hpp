@@ -20,6 +20,10 @@ public:
     };
     Answer operator()(const std::array<std::uint32_t, 3>& sample) const;
 
+    std::size_t bytes() const { ///< without the tree
+        return crossings_[0].bytes() + crossings_[1].bytes() + crossings_[2].bytes();
+    }
+
 private:
     std::array<Crossings, 3> crossings_;
     std::uint32_t perCell_;

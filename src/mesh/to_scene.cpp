@@ -106,7 +106,8 @@ VoxelGrid addMesh(sim::Scene& scene, const TriangleMesh& mesh, const MeshBody& b
     const TriangleMesh clean = orient(weld(mesh, defects));
     if (clean.triangles.empty())
         throw std::invalid_argument("addMesh: mesh \"" + body.name + "\" has no triangles");
-    VoxelGrid grid = voxelise(clean, body.voxels);
+    VoxelGrid grid = body.mostParticles > 0 ? voxeliseWithin(body.mostParticles, clean, body.voxels, voxelise)
+                                            : voxelise(clean, body.voxels);
     const double volume = defects.isClosed() ? measure(clean).volume : grid.filledVolume;
     const sim::LatticeCorners corners = addLattice(scene, makeLattice(grid, body, volume));
     setContactOffsets(scene, corners, grid, clean);

@@ -8,10 +8,11 @@ namespace sinew::mesh {
 struct MeshBody {
     std::string name = "mesh";
     VoxelRequest voxels;
-    float youngModulus = 2e4f;  ///< [Pa]
-    float poissonRatio = 0.25f; ///< 0.25 to 0.49
-    float recovery = 0;         ///< sim::Lattice::recovery
-    float density = 1000;       ///< [kg/m^3]
+    std::size_t mostParticles = 0; ///< more than 0: the finest voxels with no more, whatever `voxels` says
+    float youngModulus = 2e4f;     ///< [Pa]
+    float poissonRatio = 0.25f;    ///< 0.25 to 0.49
+    float recovery = 0;            ///< sim::Lattice::recovery
+    float density = 1000;          ///< [kg/m^3]
     Vec3 color{0.78f, 0.36f, 0.32f};
 };
 

@@ -26,6 +26,8 @@ public:
     /// Distance from `point` to the nearest triangle; infinite for an empty mesh.
     double distance(const Vector3& point) const;
 
+    std::size_t bytes() const { return triangles_.size() * sizeof(Corners) + nodes_.size() * sizeof(Node); }
+
     /// The same tree for a walk without a stack: depth first, each node with the one that follows all it
     /// holds.
     struct FlatNode {

@@ -76,8 +76,10 @@ VoxelGrid voxelise(const TriangleMesh& mesh, const VoxelRequest& request) {
     auto [clean, grid, positions] = placeGrid(mesh, request);
     markHull(grid, positions, clean);
     const TriangleTree tree(positions, clean.triangles);
-    markCoreAndFill(grid, Inside(positions, clean.triangles, tree, grid.cells, 1),
-                    Inside(positions, clean.triangles, tree, grid.cells, fillSamples));
+    const Inside centers(positions, clean.triangles, tree, grid.cells, 1);
+    const Inside samples(positions, clean.triangles, tree, grid.cells, fillSamples);
+    markCoreAndFill(grid, centers, samples);
+    grid.workBytes = positions.size() * sizeof(Vector3) + tree.bytes() + centers.bytes() + samples.bytes();
     return grid;
 }
 

@@ -4,6 +4,8 @@
 
 #include "mesh/triangle_mesh.hpp"
 
+#include <functional>
+
 namespace sinew::mesh {
 
 enum class Voxel : std::uint8_t { empty, hull, core };
@@ -17,7 +19,8 @@ struct VoxelGrid {
     std::size_t hullCount = 0, coreCount = 0;
     std::size_t doubtful =
         0; ///< cells where the parities along x, y and z disagreed; the winding number decided
-    double filledVolume = 0; ///< sum of fill x cell volume [m^3]
+    double filledVolume = 0;   ///< sum of fill x cell volume [m^3]
+    std::size_t workBytes = 0; ///< what filling it took, besides the two arrays above
 };
 
 struct VoxelRequest {
@@ -31,6 +34,18 @@ struct VoxelRequest {
 /// 0.5. The fill of a hull cell is sampled at 4 x 4 x 4 points the same way. Works on open meshes; `doubtful`
 /// says how far to trust it.
 VoxelGrid voxelise(const TriangleMesh& mesh, const VoxelRequest& request);
+
+/// How many particles a body of this grid has: the corners of its hull and core cells.
+std::size_t particleCount(const VoxelGrid& grid);
+
+/// A way to fill a grid: voxelise(), or a device's (mesh/gpu/voxelise.hpp).
+using Voxelise = std::function<VoxelGrid(const TriangleMesh&, const VoxelRequest&)>;
+
+/// The finest grid with at most `most` particles, by cells along the longest side: one cell more there would
+/// have too many, or there are 512. Fills some grids on the way, spacing and resolution of the request are
+/// not read. Throws std::length_error where a single cell has too many.
+VoxelGrid voxeliseWithin(std::size_t most, const TriangleMesh& mesh, VoxelRequest request,
+                         const Voxelise& voxelise);
 
 /// Signed distance [m] from each given point to the surface: negative inside (by the winding number).
 std::vector<float> signedDistance(const TriangleMesh& mesh, const std::vector<Vec3>& points);

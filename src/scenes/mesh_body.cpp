@@ -120,6 +120,10 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
     section.requireOneOf("file", "generate");
     if (section.has("voxel") && section.has("resolution"))
         section.fail("resolution", "is given beside voxel", "give one of them");
+    if (section.has("particles") && (section.has("voxel") || section.has("resolution")))
+        section.fail("particles",
+                     section.has("voxel") ? "is given beside voxel" : "is given beside resolution",
+                     "give one of them");
     Found found = section.has("file") ? import(section, source) : generate(section);
     if (found.mesh.triangles.empty()) section.fail("file", "has no triangles", "check the mesh");
     place(found.mesh, section, loaded.origin);
@@ -139,6 +143,8 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
     if (section.has("voxel")) body.voxels.spacing = section.number("voxel");
     if (voxel) body.voxels.spacing = *voxel;
     body.voxels.maxCells = mostParticles - loaded.scene.particles.size();
+    if (section.has("particles") && !voxel)
+        body.mostParticles = std::min<std::size_t>(section.count("particles"), body.voxels.maxCells);
     try {
         summary.voxels = mesh::addMesh(loaded.scene, found.mesh, body);
     } catch (const std::length_error& error) {

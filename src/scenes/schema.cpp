@@ -20,7 +20,8 @@ constexpr Range density{.low = 0, .high = 1e6, .isLowOpen = true};
 constexpr Range stiffness{.low = 0, .high = 1e15, .isLowOpen = true};
 constexpr Range bending{0, 1e6}, tethers{0, 8};
 constexpr Range angle{-360, 360};
-constexpr Range side{2, 4096}, chainLength{2, 100'000}, cellsAlong{1, 512}, detail{8, 256};
+constexpr Range side{2, 4096}, chainLength{2, 100'000}, cellsAlong{1, 512}, detail{8, 256},
+    particleBudget{8, 2'000'000};
 constexpr Range mass{.low = 0, .high = 1e9, .isLowOpen = true}, load{0, 1e9};
 constexpr Range view{.low = 0, .high = 180, .isLowOpen = true, .isHighOpen = true};
 
@@ -109,8 +110,9 @@ constexpr Key keys[] = {
     {"mesh", "size", Kind::number, "m", length, "", "the longest side is scaled to this length; unscaled where it is missing"},
     {"mesh", "center", Kind::vector, "m", coordinate, "", "where the middle of the bounding box goes; unmoved where it is missing"},
     {"mesh", "rotation", Kind::vector, "degrees", angle, "[0, 0, 0]", "about x, then y, then z, around the middle"},
-    {"mesh", "voxel", Kind::number, "m", length, "", "edge of a voxel; give this or resolution"},
+    {"mesh", "voxel", Kind::number, "m", length, "", "edge of a voxel; give this, resolution or particles"},
     {"mesh", "resolution", Kind::count, "voxels", cellsAlong, "24", "voxels along the longest side"},
+    {"mesh", "particles", Kind::count, "", particleBudget, "", "at most this many particles: the finest voxels that make no more"},
     {"mesh", "young_modulus", Kind::number, "Pa", stiffness, "2e4", "stiffness of the material"},
     {"mesh", "poisson_ratio", Kind::number, "", ranges::poissonRatio, "0.25", "how much of a stretch shows as thinning; near 1/2 the volume stays, and more substeps are needed"},
     {"mesh", "recovery", Kind::number, "", ranges::recovery, "0", "pressure in shear moduli that unfolds flattened and mirrored cells; 0 = none, 2 is enough"},

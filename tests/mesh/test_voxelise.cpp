@@ -261,6 +261,25 @@ TEST(Voxelise, RefusesWhatCannotBeFilled) {
     EXPECT_THROW(voxelise(cube, {.spacing = 0.1f, .maxCells = 1000}), std::length_error);
 }
 
+TEST(VoxeliseWithin, GivesTheFinestGridThatFitsTheBudget) {
+    for (const std::string_view name : {"organ", "torus_knot", "cloth"}) {
+        const TriangleMesh mesh = generate(name, 24);
+        for (const std::size_t most : {8u, 100u, 3000u}) {
+            const VoxelGrid grid = voxeliseWithin(most, mesh, {}, voxelise);
+            EXPECT_LE(particleCount(grid), most) << name;
+            const std::uint32_t longest = *std::ranges::max_element(grid.cells);
+            EXPECT_GT(particleCount(voxelise(mesh, {.resolution = longest + 1})), most) << name;
+        }
+    }
+    EXPECT_EQ(voxeliseWithin(1'000'000, generate("sphere", 16), {.maxCells = 1000}, voxelise).cells[0], 10u);
+    EXPECT_THROW(voxeliseWithin(7, generate("sphere", 16), {}, voxelise), std::length_error);
+}
+
+TEST(ParticleCount, IsThatOfTheBody) {
+    const VoxelGrid grid = voxelise(box({0, 0, 0}, {1, 1, 1}), {.resolution = 4});
+    EXPECT_EQ(particleCount(grid), 125u);
+}
+
 TEST(SignedDistance, IsThatOfASphere) {
     const TriangleMesh sphere = fineSphere();
     std::vector<Vec3> points;

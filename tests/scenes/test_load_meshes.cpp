@@ -57,6 +57,16 @@ TEST_F(Load, CountsTheEdgesOfAMeshThatIsNotManifold) {
     EXPECT_EQ(warnings[1].find("mesh fin.obj is not manifold: 1 edges"), 0u) << warnings[1];
 }
 
+TEST_F(Load, FitsAMeshIntoABudgetOfParticles) {
+    const std::string sphere = "[[mesh]]\ngenerate = \"sphere\"\ndetail = 16\n";
+    const std::size_t particles = load(sphere + "particles = 700\n").scene.particles.size();
+    EXPECT_LE(particles, 700u);
+    EXPECT_GT(particles, 500u);
+    const scenes::LoadedScene finer =
+        scenes::load(write("scene.toml", sphere + "particles = 700\n"), {.voxel = 0.01f});
+    EXPECT_EQ(finer.meshes[0].voxels.spacing, 0.01f) << "the command line decides";
+}
+
 TEST_F(Load, KeepsMeshFilesInTheFolderOfTheScene) {
     fs::create_directories(folder_ / "inner" / "deep");
     mesh::exportObj(folder_ / "out.obj", tetrahedron(1));
@@ -88,6 +98,11 @@ TEST_F(Load, GeneratesShapesByName) {
     expectError("[[mesh]]\n", "scene.toml:1: mesh[0].file is missing: give file or generate");
     expectError("[[mesh]]\ngenerate = \"sphere\"\nvoxel = 0.1\nresolution = 3\n",
                 "scene.toml:4: mesh[0].resolution is given beside voxel");
+    expectError("[[mesh]]\ngenerate = \"sphere\"\nvoxel = 0.1\nparticles = 300\n",
+                "scene.toml:4: mesh[0].particles is given beside voxel");
+    expectError("[[mesh]]\ngenerate = \"sphere\"\nparticles = 300\nresolution = 3\n",
+                "scene.toml:3: mesh[0].particles is given beside resolution");
+    expectError("[[mesh]]\ngenerate = \"sphere\"\nparticles = 7\n", "scene.toml:3: mesh[0].particles");
     expectError("[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\nvoxel = 1e-4\n",
                 "scene.toml:5: mesh[0].voxel is too small");
 }

@@ -224,6 +224,7 @@ VoxelGrid Voxeliser::operator()(const TriangleMesh& mesh, const VoxelRequest& re
     stages.vote();
     stages.decide(placed);
     stages.read(placed.grid);
+    placed.grid.workBytes = job.bytes();
     return std::move(placed.grid);
 }
 
