@@ -55,6 +55,8 @@ TEST_F(Usage, WrongUsageIsCodeTwoAndPointsAtTheRightHelp) {
         {"mesh"},
         {"mesh", "a.obj", "--resolution", "0"},
         {"mesh", "a.obj", "--resolution", "4", "--voxel", "1"},
+        {"mesh", "a.obj", "--particles", "7"},
+        {"mesh", "a.obj", "--particles", "70", "--voxel", "1"},
         {"bench", "--scene", "clutter"},
         {"bench", "--seconds", "0"},
         {"devices", "extra"},
@@ -91,6 +93,28 @@ TEST_F(Usage, MeshNeedsNoDeviceAndReportsWhatItFound) {
     EXPECT_TRUE(report["surface"]["volume"].is_null());
     EXPECT_EQ(report["voxels"]["spacing"], 0.25);
     EXPECT_GT(report["voxels"]["hull"], 0);
+    EXPECT_GT(report["voxels"]["bytes"], 0);
+    EXPECT_EQ(report["voxels"]["filled_by"], "host");
+    const Outcome budget = run({"mesh", mesh.string(), "--particles", "500", "--json", "-"}, noDevice);
+    ASSERT_EQ(budget.code, 0) << budget.error;
+    EXPECT_LE(nlohmann::json::parse(budget.out)["voxels"]["particles"], 500);
+}
+
+TEST_F(Usage, MeshMakesTheSameVoxelsOnADevice) {
+    const auto mesh =
+        write("tetrahedron.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    const auto voxels = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {"mesh", mesh.string(), "--voxel", "0.07", "--json", "-"});
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.code, 0) << outcome.error;
+        EXPECT_EQ(outcome.error, "");
+        return nlohmann::json::parse(outcome.out)["voxels"];
+    };
+    const auto host = voxels({}), device = voxels({"--device", "0", "--validation"});
+    EXPECT_NE(device["filled_by"], "host");
+    for (const char* key : {"cells", "hull", "core", "doubtful", "volume", "particles"})
+        EXPECT_EQ(device[key], host[key]) << key;
+    expectOneError(run({"mesh", mesh.string(), "--device", "no such device"}), 4, "no such device");
 }
 
 TEST_F(Usage, DevicesMarksTheOneThatWouldBeUsed) {

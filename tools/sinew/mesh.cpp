@@ -1,15 +1,20 @@
-// `sinew mesh`: imports a mesh, fills it with voxels and says what is odd about it. Needs no device.
+// `sinew mesh`: imports a mesh, fills it with voxels and says what is odd about it. Uses a GPU where there is
+// one and needs no device: the voxels are the same, and the host is faster than a software device.
 #include "app/guard.hpp"
+#include "mesh/gpu/voxelise.hpp"
 #include "mesh/import.hpp"
 #include "mesh/voxelise.hpp"
 #include "sinew/commands.hpp"
 #include "sinew/json.hpp"
 #include "sinew/outputs.hpp"
 #include "sinew/report.hpp"
+#include "sinew/session.hpp"
+#include "vk/check.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <memory>
 
 namespace sinew::tools {
@@ -20,6 +25,8 @@ struct MeshOptions {
     std::string file;
     float voxel = 0; // [m]; 0 = by resolution
     std::uint32_t resolution = 24;
+    std::optional<std::uint32_t> particles; // at most; instead of the two above
+    DeviceOptions device;
     std::optional<std::string> json;
 };
 
@@ -28,7 +35,52 @@ struct Findings {
     mesh::TriangleMesh mesh;
     mesh::MeshReport surface;
     mesh::VoxelGrid voxels;
+    std::string filledBy; // name of a device, or "host"
+    std::vector<std::string> validationMessages;
+    std::size_t bytes() const {
+        return voxels.voxels.size() * (sizeof(mesh::Voxel) + sizeof(float)) + voxels.workBytes;
+    }
 };
+
+bool isGpuThere() {
+    try {
+        const vk::Loader loader;
+        for (const vk::DeviceDescription& device : vk::listDevices(loader.getInstanceProcAddr(), {}))
+            if (device.isChosen) return device.type != "software";
+    } catch (const vk::Error& error) {
+        if (error.failure() != vk::Failure::noDevice) throw;
+    }
+    return false;
+}
+
+mesh::VoxelGrid fill(const MeshOptions& options, const mesh::TriangleMesh& mesh,
+                     const mesh::Voxelise& voxelise) {
+    const mesh::VoxelRequest request{.spacing = options.voxel, .resolution = options.resolution};
+    return options.particles ? mesh::voxeliseWithin(*options.particles, mesh, request, voxelise)
+                             : voxelise(mesh, request);
+}
+
+// False where the device has no room for it.
+bool fillOnDevice(const MeshOptions& options, Findings& found) {
+    Session session(options.device);
+    mesh::gpu::Voxeliser voxelise(session.device, session.queue);
+    found.filledBy = session.device.description().name;
+    try {
+        found.voxels = fill(options, found.mesh, std::ref(voxelise));
+    } catch (const vk::Error& error) {
+        if (error.failure() != vk::Failure::outOfMemory) throw;
+        return false;
+    }
+    found.validationMessages = session.device.validationMessages();
+    return true;
+}
+
+void fill(const MeshOptions& options, Findings& found) {
+    const bool wantsDevice = !options.device.device.empty() || isGpuThere();
+    if (wantsDevice && fillOnDevice(options, found)) return;
+    found.filledBy = "host";
+    found.voxels = fill(options, found.mesh, mesh::voxelise);
+}
 
 Findings inspect(const MeshOptions& options) {
     Findings found{.file = options.file};
@@ -37,8 +89,7 @@ Findings inspect(const MeshOptions& options) {
     found.surface = mesh::inspect(found.mesh);
     found.surface.defects = defects;
     try {
-        found.voxels =
-            mesh::voxelise(found.mesh, {.spacing = options.voxel, .resolution = options.resolution});
+        fill(options, found);
     } catch (const std::length_error& error) {
         throw app::Failure(app::badInput, "cannot fill mesh: " + options.file + ": " + error.what() +
                                               ": use a larger --voxel");
@@ -65,9 +116,15 @@ Json surfaceJson(const Findings& found) {
 std::string toJson(const Findings& found) {
     Json json{{"schema", reportSchema}, {"file", found.file}};
     json["surface"] = surfaceJson(found);
-    json["voxels"] = {{"spacing", found.voxels.spacing},   {"cells", found.voxels.cells},
-                      {"hull", found.voxels.hullCount},    {"core", found.voxels.coreCount},
-                      {"doubtful", found.voxels.doubtful}, {"volume", found.voxels.filledVolume}};
+    json["voxels"] = {{"spacing", found.voxels.spacing},
+                      {"cells", found.voxels.cells},
+                      {"hull", found.voxels.hullCount},
+                      {"core", found.voxels.coreCount},
+                      {"doubtful", found.voxels.doubtful},
+                      {"volume", found.voxels.filledVolume},
+                      {"particles", mesh::particleCount(found.voxels)},
+                      {"filled_by", found.filledBy},
+                      {"bytes", found.bytes()}};
     return dump(json);
 }
 
@@ -90,13 +147,19 @@ std::string toText(const Findings& found) {
     text += fmt::format("  voxels    {} hull + {} core of {} x {} x {}, edge {:.4g} m, {} doubtful\n",
                         grid.hullCount, grid.coreCount, grid.cells[0], grid.cells[1], grid.cells[2],
                         grid.spacing, grid.doubtful);
-    return text + fmt::format("  filled    {:.4g} m^3\n", grid.filledVolume);
+    text +=
+        fmt::format("  filled    {:.4g} m^3, {} particles\n", grid.filledVolume, mesh::particleCount(grid));
+    return text + fmt::format("  filled by {}, {:.1f} MiB: {:.0f} bytes a cell\n", found.filledBy,
+                              static_cast<double>(found.bytes()) / (1 << 20),
+                              static_cast<double>(found.bytes()) / static_cast<double>(grid.voxels.size()));
 }
 
 int report(const MeshOptions& options) {
     std::optional<TextOutput> json;
     if (options.json) json.emplace(*options.json);
     const Findings found = inspect(options);
+    for (const std::string& message : found.validationMessages)
+        std::fprintf(stderr, "validation: %s\n", message.c_str());
     if (json) json->write(toJson(found));
     if (options.json != "-") TextOutput("-").write(toText(found));
     return 0;
@@ -116,6 +179,13 @@ void addMesh(CLI::App& app, Chosen& chosen) {
         ->check(CLI::Range(1, 512))
         ->capture_default_str()
         ->excludes(voxel);
+    command
+        .add_option("--particles", options->particles,
+                    "at most this many particles: the finest voxels that make no more")
+        ->check(CLI::Range(8, 2'000'000))
+        ->excludes(voxel)
+        ->excludes("--resolution");
+    addDeviceOptions(command, options->device);
     command.add_option("--json", options->json, "file for the report, or - for the standard output");
     command.callback([options, &chosen] { chosen = [options] { return report(*options); }; });
 }
