@@ -336,6 +336,21 @@ TEST_F(DeviceVoxels, TakeMoreCellsThanOneDispatch) {
     expectEqual(grid, voxelise(sphere, {.resolution = 206}), "206");
 }
 
+TEST_F(DeviceVoxels, TakeMemoryLinearInCellsAndTriangles) {
+    const TriangleMesh sphere = generate("sphere", 48);
+    for (const std::uint32_t resolution : {8u, 32u, 128u}) {
+        const VoxelGrid grid = onDevice(sphere, {.resolution = resolution});
+        const double cells = static_cast<double>(grid.voxels.size());
+        const double columns = 3 * std::pow(resolution, 2);
+        // A triangle touches its share of the hull, and at most 8 cells more.
+        const double most = 12.5 * cells + (88 + 4) * static_cast<double>(grid.hullCount) + 72 * columns +
+                            (20 + 4 * 8) * static_cast<double>(sphere.triangles.size()) +
+                            16 * static_cast<double>(sphere.positions.size());
+        EXPECT_LT(static_cast<double>(grid.workBytes), most) << resolution;
+        EXPECT_GT(static_cast<double>(grid.workBytes), 12 * cells) << resolution;
+    }
+}
+
 TEST_F(DeviceVoxels, RefuseWhatTheHostRefuses) {
     const TriangleMesh cube = box({0, 0, 0}, {1, 1, 1});
     EXPECT_THROW(onDevice({}, {}), std::invalid_argument);

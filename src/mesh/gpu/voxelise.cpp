@@ -1,6 +1,6 @@
 // What is read back between submissions: how many cells are hull and how long their lists are; how many
-// samples are doubtful; then the answer. Memory: 12 bytes a cell and 2 bits, 64 + 20 a hull cell, 4 a
-// triangle in a hull cell.
+// samples are doubtful; then the answer. Memory: 12 bytes and 2 bits a cell, 88 bytes a hull cell, 68 a
+// column of cells along each axis, 20 a triangle and 4 for each cell that it touches, 16 a vertex.
 #include "mesh/gpu/voxelise.hpp"
 
 #include "mesh/gpu/whole_mesh.hpp"
