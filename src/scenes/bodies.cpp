@@ -132,6 +132,9 @@ void addCloth(LoadedScene& loaded, const Section& cloth) {
     requireUnit(cloth, "down");
     if (std::abs(dot(cloth.vector("right"), cloth.vector("down"))) > 1e-3)
         cloth.fail("down", "is not at right angles to right", "turn one of them");
+    for (const char* key : {"stretch_compliance", "shear_compliance"})
+        if (cloth.has(key) && cloth.number("membrane_stiffness") > 0)
+            cloth.fail(key, "stands beside membrane_stiffness, which sets it", "leave one of them out");
     sim::ClothSheet sheet{.name = cloth.text("name"),
                           .origin = localPoint(cloth, "origin", loaded.origin),
                           .right = cloth.vector("right"),
@@ -141,6 +144,7 @@ void addCloth(LoadedScene& loaded, const Section& cloth) {
                           .areaDensity = cloth.number("area_density"),
                           .stretchCompliance = cloth.number("stretch_compliance"),
                           .shearCompliance = cloth.number("shear_compliance"),
+                          .membraneStiffness = cloth.number("membrane_stiffness"),
                           .skipStiffness = cloth.number("skip_stiffness"),
                           .bendingStiffness = cloth.number("bending_stiffness"),
                           .tethers = cloth.count("tethers"),

@@ -18,7 +18,7 @@ constexpr Range direction{-1, 1};
 constexpr Range length{.low = 0, .high = 1e6, .isLowOpen = true};
 constexpr Range density{.low = 0, .high = 1e6, .isLowOpen = true};
 constexpr Range stiffness{.low = 0, .high = 1e15, .isLowOpen = true};
-constexpr Range bending{0, 1e6}, tethers{0, 8};
+constexpr Range membrane{0, 1e15}, bending{0, 1e6}, tethers{0, 8};
 constexpr Range angle{-360, 360};
 constexpr Range side{2, 4096}, chainLength{2, 100'000}, cellsAlong{1, 512}, detail{8, 256},
     particleBudget{8, 2'000'000};
@@ -74,6 +74,7 @@ constexpr Key keys[] = {
     {"cloth", "area_density", Kind::number, "kg/m^2", density, "0.2", "mass per area"},
     {"cloth", "stretch_compliance", Kind::number, "m/N", ranges::compliance, "0", "of the links along rows and columns; 0 = as stiff as the solver can"},
     {"cloth", "shear_compliance", Kind::number, "m/N", ranges::compliance, "0", "of the diagonal links"},
+    {"cloth", "membrane_stiffness", Kind::number, "N/m", membrane, "0", "Young's modulus times thickness of an isotropic sheet (Poisson's ratio 1/3), instead of the two compliances; 0 = as they say"},
     {"cloth", "skip_stiffness", Kind::number, "N/m", ranges::skipStiffness, "0", "of links to the next but one in a row or column, which resist folding; 0 = none"},
     {"cloth", "bending_stiffness", Kind::number, "N m", bending, "0", "of rows and columns against bending; 0 = none"},
     {"cloth", "tethers", Kind::count, "", tethers, "0", "of each particle to the nearest pinned ones, so that a heavy sheet does not stretch"},

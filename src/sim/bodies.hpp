@@ -16,6 +16,9 @@ struct ClothSheet {
     float areaDensity = 0.2f;                  ///< [kg/m^2]
     float stretchCompliance = 0;               ///< of an edge [m/N]
     float shearCompliance = 0;                 ///< of a diagonal [m/N]
+    /// Young's modulus times thickness [N/m] of an isotropic sheet, whose Poisson's ratio then is 1/3: sets
+    /// both compliances in place of those above. 0 = as they say.
+    float membraneStiffness = 0;
     float skipStiffness = 0; ///< of links two apart in a row or column, which resist folding [N/m]; 0 = none
     float bendingStiffness = 0;        ///< of rows and columns [N m]; 0 = no bends. Twist has none
     std::uint32_t tethers = 0;         ///< of a particle, to the nearest pinned ones

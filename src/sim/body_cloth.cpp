@@ -17,6 +17,8 @@ void check(const ClothSheet& sheet) {
         throw std::invalid_argument("cloth \"" + sheet.name + "\": spacing and areaDensity must be positive");
     if (!(sheet.skipStiffness >= 0))
         throw std::invalid_argument("cloth \"" + sheet.name + "\": skipStiffness must not be negative");
+    if (!(sheet.membraneStiffness >= 0))
+        throw std::invalid_argument("cloth \"" + sheet.name + "\": membraneStiffness must not be negative");
     const std::uint64_t count = std::uint64_t{sheet.size[0]} * sheet.size[1];
     if (count > std::numeric_limits<std::uint32_t>::max() / 8)
         throw std::length_error("cloth \"" + sheet.name + "\": too many particles");
@@ -24,6 +26,16 @@ void check(const ClothSheet& sheet) {
         if (pinned >= count)
             throw std::invalid_argument("cloth \"" + sheet.name + "\": pinned particle " +
                                         std::to_string(pinned) + " is outside the sheet");
+}
+
+// Edges k1 and diagonals k2 of a square net make C11 = k1 + k2, C12 = C66 = k2 [N/m]: isotropic at k1 = 2 k2,
+// where the stiffness of a free strip is C11 - C12^2 / C11 = 8/3 k2. (A rim's edges carry as much as those
+// inside: a strip of n cells is stiffer by 3 / (4 n).)
+ClothSheet withMembrane(ClothSheet sheet) {
+    if (sheet.membraneStiffness == 0) return sheet;
+    sheet.stretchCompliance = 4 / (3 * sheet.membraneStiffness);
+    sheet.shearCompliance = 8 / (3 * sheet.membraneStiffness);
+    return sheet;
 }
 
 float at(const ClothSheet& sheet, std::uint32_t column, std::uint32_t row, float Vec3::*axis) {
@@ -131,8 +143,9 @@ Skin makeSkin(const ClothSheet& sheet, std::uint32_t first) {
 
 } // namespace
 
-std::uint32_t addCloth(Scene& scene, const ClothSheet& sheet) {
-    check(sheet);
+std::uint32_t addCloth(Scene& scene, const ClothSheet& asked) {
+    check(asked);
+    const ClothSheet sheet = withMembrane(asked);
     const auto first = static_cast<std::uint32_t>(scene.particles.size());
     addParticles(scene, sheet);
     const std::size_t firstDistance = scene.distances.size();

@@ -56,6 +56,14 @@ TEST_F(Load, FindsTheSameSceneInsideTheProgram) {
     EXPECT_EQ(built.settings.substeps, file.settings.substeps);
 }
 
+TEST_F(Load, TakesClothByItsMembraneStiffnessOrByItsCompliances) {
+    const sim::Scene scene = load(smallCloth + "membrane_stiffness = 300\n").scene;
+    EXPECT_FLOAT_EQ(scene.grids[0].compliance[0], 4.0f / 900);
+    EXPECT_FLOAT_EQ(scene.grids[0].compliance[1], 8.0f / 900);
+    EXPECT_THROW(load(smallCloth + "membrane_stiffness = 300\nshear_compliance = 1e-3\n"),
+                 scenes::SceneError);
+}
+
 TEST_F(Load, TakesEveryNumberOfAClothFromTheFile) {
     const scenes::LoadedScene loaded = load(
         "name = \"n\"\ngravity = [1, 2, 3]\ndt = 0.01\ndamping = 0.5\n"

@@ -1,6 +1,7 @@
 // Cloth, chain and lattice bodies: mass, topology and the elastic constants that per-cell assembly promises
 // (cases 11 and 23).
 #include "sim/bodies.hpp"
+#include "sim/reference/implicit_step.hpp"
 #include "sim/scenes.hpp"
 
 #include <Eigen/Geometry>
@@ -132,6 +133,31 @@ TEST(Cloth, LinksTheNextButOneWhereItResistsFolding) {
         EXPECT_EQ(link.restLength, 1);
         EXPECT_FLOAT_EQ(link.compliance, 0.1f);
     }
+}
+
+// A strip of 8 x 40 cells hangs from its first row; its middle is far from both ends. Its rims' edges carry
+// as much as those inside, so it is stiffer than asked by 3 / (4 x 8).
+TEST(Cloth, HasTheMembraneStiffnessAskedForAndPoissonRatioAThird) {
+    constexpr std::uint32_t cells = 8, rows = 40, columns = cells + 1;
+    constexpr double spacing = 0.1, stiffness = 1000, load = 0.8; // [m], [N/m], [N]
+    ClothSheet strip{.down = {0, -1, 0}, .size = {columns, rows + 1}, .spacing = 0.1f, .areaDensity = 1e-5f};
+    strip.membraneStiffness = 1000;
+    for (std::uint32_t i = 0; i < columns; ++i) strip.pinned.push_back(i);
+    Scene scene;
+    addCloth(scene, strip);
+    double parts = 0; // a corner of the last row belongs to half a cell
+    for (std::uint32_t i = 0; i < columns; ++i) parts += i == 0 || i == cells ? 0.5 : 1;
+    for (std::uint32_t i = 0; i < columns; ++i) {
+        const double part = (i == 0 || i == cells ? 0.5 : 1) / parts;
+        scene.particles[columns * rows + i].inverseMass = static_cast<float>(9.81 / (load * part));
+    }
+    const std::vector<Eigen::Vector3d> x = reference::staticEquilibrium(scene).x;
+    const auto height = [&](std::uint32_t row) { return x[columns * row + cells / 2].y(); };
+    const double strain = (height(12) - height(28)) / (16 * spacing) - 1;
+    const double width = (x[columns * 20 + cells] - x[columns * 20]).norm() / (cells * spacing) - 1;
+    const double expected = load / (cells * spacing * stiffness) / (1 + 3.0 / (4 * cells));
+    EXPECT_NEAR(strain / expected, 1, 0.01);
+    EXPECT_NEAR(-width / strain, 1.0 / 3, 0.005);
 }
 
 TEST(Cloth, LiesInThePlaneOfItsDirectionsAndPinsWhatIsAsked) {
