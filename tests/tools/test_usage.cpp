@@ -59,6 +59,7 @@ TEST_F(Usage, WrongUsageIsCodeTwoAndPointsAtTheRightHelp) {
         {"mesh", "a.obj", "--particles", "70", "--voxel", "1"},
         {"bench", "--scene", "clutter"},
         {"bench", "--seconds", "0"},
+        {"bench", "--kernels", "--peers"},
         {"devices", "extra"},
     };
     for (const std::vector<std::string>& arguments : wrong) {

@@ -7,6 +7,7 @@
 #include "sim/gpu_tune.hpp"
 #include "sinew/commands.hpp"
 #include "sinew/json.hpp"
+#include "sinew/kernels.hpp"
 #include "sinew/outputs.hpp"
 #include "sinew/peers.hpp"
 #include "sinew/report.hpp"
@@ -31,7 +32,7 @@ using Clock = std::chrono::steady_clock;
 struct BenchOptions {
     std::string scene = "all";
     double seconds = 10; // of measuring per scene
-    bool hasPeers = false;
+    bool hasPeers = false, hasKernels = false;
     DeviceOptions device;
     std::optional<std::string> json;
 };
@@ -213,6 +214,12 @@ int bench(const BenchOptions& options) {
     if (options.json) json.emplace(*options.json);
     if (options.hasPeers) requirePeers();
     Session session(options.device);
+    if (options.hasKernels) {
+        const Json report{{"schema", reportSchema}, {"kernels", measureKernels(session)}};
+        if (json) json->write(dump(report));
+        if (options.json != "-") TextOutput("-").write(kernelsTable(report["kernels"]));
+        return app::isInterrupted() ? app::interrupted : app::done;
+    }
     Json report{{"schema", reportSchema}, {"rows", Json::array()}};
     for (const BenchScene& scene : benchScenes) {
         if ((options.scene != "all" && options.scene != scene.name) || app::isInterrupted()) continue;
@@ -242,6 +249,10 @@ void addBench(CLI::App& app, Chosen& chosen) {
     command.add_flag(
         "--peers", options->hasPeers,
         "also compare with Bullet's soft bodies at equal error on elastic scenes (takes minutes)");
+    command
+        .add_flag("--kernels", options->hasKernels,
+                  "instead: what a substep of split costs on bodies of many sizes")
+        ->excludes("--peers");
     command.add_option("--json", options->json, "file for the rows, or - for the standard output");
     addDeviceOptions(command, options->device);
     command.callback([options, &chosen] { chosen = [options] { return bench(*options); }; });
