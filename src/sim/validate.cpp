@@ -320,6 +320,36 @@ std::string nameOf(const Scene& scene, std::size_t grid) {
     return element("grid", grid) + " \"" + scene.grids[grid].name + "\"";
 }
 
+// What two grids claim would be placed and computed twice.
+struct Claim {
+    std::size_t grid;
+    std::uint64_t first, count;
+};
+
+void checkClaims(const Scene& scene, std::vector<Claim> claims, const char* counted, Complaints& complaints) {
+    std::erase_if(claims, [](const Claim& claim) { return claim.count == 0; });
+    std::ranges::stable_sort(claims, {}, &Claim::first);
+    for (std::size_t i = 1, farthest = 0; i < claims.size(); ++i) {
+        const std::uint64_t end = claims[farthest].first + claims[farthest].count;
+        if (claims[i].first < end)
+            complaints.add(nameOf(scene, claims[i].grid), std::string("shares ") + counted + " with " +
+                                                              nameOf(scene, claims[farthest].grid) +
+                                                              ", must have its own");
+        if (claims[i].first + claims[i].count > end) farthest = i;
+    }
+}
+
+void checkOverlap(const Scene& scene, Complaints& complaints) {
+    std::vector<Claim> particles, distances;
+    for (std::size_t g = 0; g < scene.grids.size(); ++g) {
+        const Grid& grid = scene.grids[g];
+        particles.push_back({g, grid.firstParticle, grid.node.size()});
+        distances.push_back({g, grid.firstDistance, grid.distanceCount});
+    }
+    checkClaims(scene, std::move(particles), "particles", complaints);
+    checkClaims(scene, std::move(distances), "distance constraints", complaints);
+}
+
 void checkGrids(const Scene& scene, Complaints& complaints) {
     double nodes = 0;
     for (const Grid& grid : scene.grids)
@@ -341,6 +371,7 @@ void checkGrids(const Scene& scene, Complaints& complaints) {
         if (lattice::isSheet(grid) && hasCellVolumes(grid))
             complaints.add(nameOf(scene, g), "is a sheet, whose cells have no volume");
     }
+    checkOverlap(scene, complaints);
 }
 
 // Volumes stand in no list of constraints: where they cannot be computed they must not be lost. The scene is

@@ -1,4 +1,5 @@
 // Every complaint about a scene names the item, the value and what is allowed.
+#include "sim/bodies.hpp"
 #include "sim/compile.hpp"
 #include "sim/ranges.hpp"
 #include "sim/scenes.hpp"
@@ -241,6 +242,23 @@ TEST(Validate, BoundsTheLinksOfOneParticle) {
     hub.distances.resize(129);
     EXPECT_EQ(firstComplaint(hub, {.solver = Solver::gaussSeidel, .substeps = 1}),
               "particle[0]: has more than 128 distance constraints, the most this solver takes");
+}
+
+// Slots are counted by grid: what two of them hold would be written past the end.
+TEST(Validate, RefusesGridsThatShareParticlesOrConstraints) {
+    Scene scene;
+    addLattice(scene, {.name = "a", .cells = {9, 9, 9}});
+    addLattice(scene, {.name = "b", .origin = {2, 0, 0}, .cells = {2, 2, 2}});
+    scene.particles.resize(scene.particles.size() + 2000);
+    EXPECT_EQ(firstComplaint(scene), "");
+    scene.grids.push_back(scene.grids[0]);
+    const std::string particles = "grid[2] \"a\": shares particles with grid[0] \"a\", must have its own",
+                      links =
+                          "grid[2] \"a\": shares distance constraints with grid[0] \"a\", must have its own";
+    EXPECT_EQ(validate(scene, {}), (std::vector{particles, links}));
+    std::swap(scene.grids[0], scene.grids[1]); // whatever stands between the two
+    scene.grids[1].name = "c";
+    EXPECT_EQ(firstComplaint(scene), "grid[2] \"a\": shares particles with grid[1] \"c\", must have its own");
 }
 
 // Each spoke of a hub that moves is a color of its own.
