@@ -67,6 +67,8 @@ inline constexpr std::uint64_t mostColorPasses = 3 * mostSweeps;
 /// Links of one particle. The warm start of `gauss_seidel` unrolls them; others loop, and some devices end a
 /// loop silently at 65,535.
 inline constexpr std::uint32_t mostLinksUnrolled = 128, mostLinks = 60'000;
+/// Bends of one particle: `split` unrolls them and keeps room for as many of every particle.
+inline constexpr std::uint32_t mostBends = 128;
 inline constexpr Range omega{.low = 0, .high = 10, .isLowOpen = true, .isHighOpen = true};
 inline constexpr Range theta{0, 1};
 inline constexpr Range weight{0, 1};

@@ -166,10 +166,15 @@ void checkConstraints(const Scene& scene, Complaints& complaints) {
 
 void checkBends(const Scene& scene, Complaints& complaints) {
     const std::size_t count = scene.particles.size();
+    std::vector<std::uint32_t> bends(count); // of each particle
     for (std::size_t i = 0; i < scene.bends.size(); ++i) {
         const BendConstraint& bend = scene.bends[i];
-        for (const std::uint32_t end : {bend.a, bend.b, bend.c})
+        for (const std::uint32_t end : {bend.a, bend.b, bend.c}) {
             complaints.checkIndex(end, count, "particles", [i] { return element("bend", i); });
+            if (end < count && ++bends[end] == ranges::mostBends + 1)
+                complaints.add(element("particle", end), "has more than " + number(ranges::mostBends) +
+                                                             " bends, the most that a particle may have");
+        }
         if (bend.a == bend.b || bend.b == bend.c || bend.c == bend.a)
             complaints.add(element("bend", i), "particles " + number(bend.a) + ", " + number(bend.b) +
                                                    " and " + number(bend.c) + " are not three");

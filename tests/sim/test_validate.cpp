@@ -244,6 +244,19 @@ TEST(Validate, BoundsTheLinksOfOneParticle) {
               "particle[0]: has more than 128 distance constraints, the most this solver takes");
 }
 
+TEST(Validate, BoundsTheBendsOfOneParticle) {
+    Scene hub;
+    hub.particles.resize(10'001);
+    for (std::uint32_t k = 0; k < 128; ++k) hub.bends.push_back({2 * k + 1, 0, 2 * k + 2, 1});
+    const Solver solvers[] = {Solver::split, Solver::jacobi, Solver::gaussSeidel};
+    for (const Solver solver : solvers) EXPECT_EQ(firstComplaint(hub, {.solver = solver}), "");
+    for (std::uint32_t k = 128; k < 5000; ++k) hub.bends.push_back({2 * k + 1, 0, 2 * k + 2, 1});
+    for (const Solver solver : solvers)
+        EXPECT_EQ(validate(hub, {.solver = solver}),
+                  std::vector<std::string>{
+                      "particle[0]: has more than 128 bends, the most that a particle may have"});
+}
+
 // Slots are counted by grid: what two of them hold would be written past the end.
 TEST(Validate, RefusesGridsThatShareParticlesOrConstraints) {
     Scene scene;
