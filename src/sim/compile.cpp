@@ -86,6 +86,7 @@ StateLayout stateLayout(const Scene& scene, const Settings& settings) {
 StepProgram compile(const Scene& scene, const Settings& asked) {
     requireNone(validate(asked));
     const Settings settings = withSubsteps(scene, asked);
+    if (asked.substeps == 0) requireNone(validate(settings)); // sweeps are bounded with the number chosen
     ProgramBuilder program(settings.isReversed);
     StepProgram& built = program.program();
     built.particleCount = static_cast<std::uint32_t>(scene.particles.size());

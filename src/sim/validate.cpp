@@ -106,10 +106,13 @@ void checkSolver(Solver solver, Complaints& complaints) {
         complaints.add("settings.solver", "is " + number(static_cast<int>(solver)) + ", which is no solver");
 }
 
+std::uint64_t sweepsOf(const Settings& settings, std::uint32_t substeps) {
+    return std::uint64_t{substeps} * (settings.solver == Solver::split ? 1 : settings.iterations);
+}
+
+// Substeps that are yet to be chosen are 0 here: checkChosenSweeps has their number.
 void checkSweeps(const Settings& settings, Complaints& complaints) {
-    const std::uint32_t substeps = settings.substeps > 0 ? settings.substeps : ranges::mostChosen;
-    const std::uint32_t iterations = settings.solver == Solver::split ? 1 : settings.iterations;
-    const std::uint64_t sweeps = std::uint64_t{substeps} * iterations;
+    const std::uint64_t sweeps = sweepsOf(settings, settings.substeps);
     if (sweeps > ranges::mostSweeps)
         complaints.add("settings", "substeps x iterations is " + number(sweeps) + ", must be at most " +
                                        number(ranges::mostSweeps));
@@ -294,6 +297,12 @@ void checkContacts(const Scene& scene, const Settings& settings, Complaints& com
                        "use split");
 }
 
+// Only of a scene that is right so far: the number follows from its links. Most settings need none.
+void checkChosenSweeps(const Scene& scene, const Settings& settings, Complaints& complaints) {
+    if (settings.substeps > 0 || sweepsOf(settings, ranges::mostChosen) <= ranges::mostSweeps) return;
+    checkSweeps(withSubsteps(scene, settings), complaints);
+}
+
 // Only of a scene that is right so far: a coloring takes what the constraints say at their word.
 void checkColors(const Scene& scene, const Settings& settings, Complaints& complaints) {
     if (settings.solver != Solver::gaussSeidel) return;
@@ -442,6 +451,7 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings) 
     for (std::size_t i = 0; i < scene.skins.size(); ++i)
         checkSkin(scene.skins[i], element("skin", i), scene.particles.size(), complaints);
     if (complaints.isEmpty()) checkCellVolumes(scene, settings, complaints);
+    if (complaints.isEmpty()) checkChosenSweeps(scene, settings, complaints);
     if (complaints.isEmpty()) checkColors(scene, settings, complaints);
     return complaints.finish();
 }

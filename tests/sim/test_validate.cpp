@@ -3,6 +3,7 @@
 #include "sim/compile.hpp"
 #include "sim/ranges.hpp"
 #include "sim/scenes.hpp"
+#include "sim/substeps.hpp"
 #include "sim/validate.hpp"
 
 #include <gtest/gtest.h>
@@ -242,6 +243,27 @@ TEST(Validate, BoundsTheLinksOfOneParticle) {
     hub.distances.resize(129);
     EXPECT_EQ(firstComplaint(hub, {.solver = Solver::gaussSeidel, .substeps = 1}),
               "particle[0]: has more than 128 distance constraints, the most this solver takes");
+}
+
+// With the number that is chosen, not the largest that might be.
+TEST(Validate, BoundsTheSweepsOfOneStepOfAsManySubstepsAsItTakes) {
+    Scene scene = test::hangingChain(3, 0.1f, 0.01f, 1e-3f);
+    Settings settings{.solver = Solver::jacobi, .iterations = 250};
+    const std::uint32_t chosen = chooseSubsteps(scene, settings).substeps;
+    ASSERT_GT(250u * 256, ranges::mostSweeps);
+    ASSERT_LE(250u * chosen, ranges::mostSweeps);
+    EXPECT_EQ(firstComplaint(scene, settings), "");
+    EXPECT_EQ(compile(scene, settings).sweeps, 250u * chosen);
+    for (DistanceConstraint& link : scene.distances) link.compliance = 1e-4f;
+    const std::uint32_t many = chooseSubsteps(scene, settings).substeps;
+    ASSERT_GT(250u * many, ranges::mostSweeps);
+    ASSERT_LT(many, ranges::mostChosen);
+    const std::string refusal =
+        "settings: substeps x iterations is " + std::to_string(250 * many) + ", must be at most 20000";
+    EXPECT_EQ(firstComplaint(scene, settings), refusal);
+    EXPECT_THROW(compile(scene, settings), std::invalid_argument);
+    settings.solver = Solver::split; // has no iterations
+    EXPECT_EQ(firstComplaint(scene, settings), "");
 }
 
 TEST(Validate, BoundsTheBendsOfOneParticle) {
