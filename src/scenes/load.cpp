@@ -88,20 +88,28 @@ void warnAboutSize(const sim::Body& body, LoadedScene& loaded) {
     if (odd) loaded.warnings.push_back("body \"" + body.name + "\" is " + odd + ": lengths are in metres");
 }
 
-void warnAboutSolver(LoadedScene& loaded) {
+// A few links on light corners are no news; half of a body being too soft is. Below what averaging leaves of
+// it, the stiffness of `jacobi` is a model too rough to warn by.
+void warnAboutStiffness(LoadedScene& loaded) {
     const sim::Settings& settings = loaded.settings;
-    if (settings.solver != sim::Solver::split) return;
-    if (settings.iterations > 1)
-        loaded.warnings.push_back("split makes one sweep per substep: iterations are ignored");
+    if (settings.solver == sim::Solver::gaussSeidel) return;
     const sim::StiffnessReport stiffness = sim::inspectStiffness(loaded.scene, settings);
-    // A few links on light corners are no news; half of a body being too soft is.
-    if (2 * stiffness.soft > stiffness.elastic)
-        loaded.warnings.push_back(
-            std::to_string(stiffness.soft) + " of " + std::to_string(stiffness.elastic) +
-            " elastic links are softer than asked, down to " +
-            std::to_string(std::lround(100 * stiffness.softest)) +
-            " %: " + std::to_string(stiffness.neededSubsteps) + " substeps would keep all within " +
-            std::to_string(std::lround(100 * double{settings.tolerance})) + " %");
+    if (2 * stiffness.soft <= stiffness.elastic) return;
+    const bool isReachable = stiffness.neededSubsteps > 0;
+    if (isReachable && settings.solver == sim::Solver::jacobi) return;
+    const std::string percent = std::to_string(std::lround(100 * double{settings.tolerance})) + " %";
+    loaded.warnings.push_back(
+        std::to_string(stiffness.soft) + " of " + std::to_string(stiffness.elastic) +
+        " elastic links are softer than asked, down to " +
+        std::to_string(std::lround(100 * stiffness.softest)) + " %: " +
+        (isReachable ? std::to_string(stiffness.neededSubsteps) + " substeps would keep all within " + percent
+                     : "no number of substeps reaches " + percent + ", use weight or iterations"));
+}
+
+void warnAboutSolver(LoadedScene& loaded) {
+    if (loaded.settings.solver == sim::Solver::split && loaded.settings.iterations > 1)
+        loaded.warnings.push_back("split makes one sweep per substep: iterations are ignored");
+    warnAboutStiffness(loaded);
 }
 
 void requireValid(const LoadedScene& loaded, const std::string& file) {

@@ -200,11 +200,18 @@ double longestOfCompliance(const Term& term, double tolerance) {
     const double excess = term.isRigid ? 1 : tolerance / (1 - tolerance);
     return std::sqrt(excess / (term.inverseMass * term.stiffness));
 }
+// Whether any h brings an elastic term within the tolerance.
+bool isReachable(const Term& term, double tolerance) {
+    return term.share > 1 - tolerance + rounding;
+}
 double reachedByJacobi(const Term& term, double h) {
     return term.share * reachedByCompliance(term, h);
 }
+// What the shares of all iterations leave of the tolerance is left to h; where they leave none, all of it is.
 double longestOfJacobi(const Term& term, double tolerance) {
-    return longestOfCompliance(term, tolerance) * (term.isRigid ? std::sqrt(term.share) : 1);
+    if (term.isRigid) return longestOfCompliance(term, tolerance) * std::sqrt(term.share);
+    return longestOfCompliance(term,
+                               isReachable(term, tolerance) ? 1 - (1 - tolerance) / term.share : tolerance);
 }
 
 constexpr Model models[] = {
@@ -240,6 +247,8 @@ double longestOfDamping(const Terms& terms) {
 // The longest substeps that each rule allows [s]; settings.substeps is the number that is tried.
 struct Limits {
     double elastic = infinite, rigid = infinite, damped = infinite;
+    double share = 1;        // the smallest of an elastic term
+    bool isReachable = true; // the tolerance, by some number of substeps
 };
 
 constexpr int mostRounds = 6;
@@ -249,6 +258,10 @@ Limits limitsOf(const Terms& terms) {
     const double tolerance{terms.settings.tolerance};
     Limits limits;
     terms.forEach([&](const Term& term) {
+        if (!term.isRigid) {
+            limits.share = std::min(limits.share, term.share);
+            limits.isReachable = limits.isReachable && isReachable(term, tolerance);
+        }
         double& longest = term.isRigid ? limits.rigid : limits.elastic;
         if (term.stiffness > 0) longest = std::min(longest, model.longest(term, tolerance));
     });
@@ -256,12 +269,14 @@ Limits limitsOf(const Terms& terms) {
     return limits;
 }
 
-// With which elastic terms are within the tolerance. The shares of `split` depend on h a little: a fixed
-// point.
+// With which elastic terms are within the tolerance; 0 = no number. The shares of `split` depend on h a
+// little: a fixed point.
 std::uint32_t neededFor(const Scene& scene, const Settings& settings, const Load& load) {
     Settings tried = settings;
     for (int round = 0; round < mostRounds; ++round) {
-        const std::uint32_t wanted = countFor(double{scene.dt}, limitsOf({scene, tried, load}).elastic);
+        const Limits limits = limitsOf({scene, tried, load});
+        if (!limits.isReachable) return 0;
+        const std::uint32_t wanted = countFor(double{scene.dt}, limits.elastic);
         if (wanted == tried.substeps) break;
         tried.substeps = wanted;
     }
@@ -316,6 +331,8 @@ SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings) {
         const Limits limits = limitsOf({scene, tried, load});
         const double longest = std::min({limits.elastic, limits.rigid, limits.damped});
         choice.wanted = countFor(double{scene.dt}, longest);
+        choice.share = limits.share;
+        choice.isReachable = limits.isReachable;
         choice.reason = longest == limits.elastic ? SubstepReason::stiffness
                         : longest == limits.rigid ? SubstepReason::weight
                                                   : SubstepReason::damping;
@@ -369,6 +386,12 @@ StiffnessReport inspectStiffness(const Scene& scene, const Settings& asked) {
 
 std::string toText(const SubstepChoice& choice, const Settings& settings) {
     const std::string percent = std::to_string(std::lround(100 * double{settings.tolerance})) + " %";
+    if (!choice.isReachable)
+        return std::to_string(choice.substeps) +
+               " substeps: no number of substeps reaches the tolerance of " + percent + ", " +
+               std::to_string(settings.iterations) + " iterations give a link " +
+               std::to_string(std::lround(100 * choice.share)) +
+               " % of its stiffness at most; use weight or iterations";
     std::string why;
     switch (choice.reason) {
     case SubstepReason::asked:

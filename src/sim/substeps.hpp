@@ -17,8 +17,9 @@ struct StiffnessReport {
     std::size_t clamped = 0;      ///< `split`: those with k_eff < k; other solvers have no clamp
     std::size_t soft = 0;         ///< those with k_eff < (1 - tolerance) k
     double softest = 1, mean = 1; ///< of k_eff / k
-    std::uint32_t neededSubsteps =
-        1;                  ///< with which the numerical part of 1 - k_eff / k is at most the tolerance
+    /// With which 1 - k_eff / k is at most the tolerance for all; 0 = with no number, since the s_m of
+    /// `jacobi` alone exceed it.
+    std::uint32_t neededSubsteps = 1;
     double dampingTime = 0; ///< of the scene's, what a step of scene.dt has [s]
 };
 
@@ -39,10 +40,14 @@ struct SubstepChoice {
     std::uint32_t substeps = 1;
     std::uint32_t wanted = 1; ///< before the limits fewestChosen and mostChosen
     SubstepReason reason = SubstepReason::asked;
+    double share = 1;        ///< the smallest s_m of an elastic constraint; 1 where substeps are asked for
+    bool isReachable = true; ///< false: s_m keeps a link from the tolerance, whatever the substeps
 };
 
 /// Where settings.substeps is 0: the smallest number with which, at scene.dt,
-/// - every elastic link has k_eff >= (1 - tolerance) k (of `jacobi`, but for s_m, which no substep changes),
+/// - every elastic link has k_eff >= (1 - tolerance) k; where the s_m of `jacobi` alone is below 1 -
+/// tolerance,
+///   which no substep changes, k_eff >= (1 - tolerance) s_m k, and toText() says so,
 /// - every rigid link stretches by at most tolerance x its length under the weight of what hangs together
 /// with it,
 ///   shared by the links that end on a particle that never moves (bodies that hang on nothing ask for

@@ -284,7 +284,20 @@ TEST_F(Load, SaysHowManySubstepsAStiffBodyNeeds) {
     // leave a link at most 5 % too soft.
     EXPECT_NE(warnings[0].find(": 309 substeps would keep all within 5 %"), std::string::npos) << warnings[0];
     EXPECT_TRUE(scenes::load(write("scene.toml", box), {.substeps = 309}).warnings.empty());
-    EXPECT_TRUE(scenes::load(write("scene.toml", box), {.solver = "jacobi"}).warnings.empty());
+    EXPECT_TRUE(
+        scenes::load(write("scene.toml", box), {.solver = "jacobi", .iterations = 200}).warnings.empty());
+}
+
+// Averaging over 18 links takes 1/18 of each correction.
+TEST_F(Load, NamesNoNumberOfSubstepsWhereAveragingIsTooSoft) {
+    const std::string box = "[[box]]\nparticles = [4, 4, 4]\nspacing = 0.02\ncenter = [0, 1, 0]\n";
+    const scenes::LoadedScene loaded =
+        scenes::load(write("scene.toml", box), {.solver = "jacobi", .substeps = 1000});
+    ASSERT_EQ(loaded.warnings.size(), 1u);
+    EXPECT_NE(loaded.warnings[0].find("no number of substeps reaches 5 %, use weight or iterations"),
+              std::string::npos)
+        << loaded.warnings[0];
+    EXPECT_EQ(loaded.warnings[0].find("would keep"), std::string::npos);
 }
 
 TEST_F(Load, LetsTheCommandLineHaveItsSay) {

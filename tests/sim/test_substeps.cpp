@@ -89,6 +89,40 @@ TEST(Substeps, ReportTheStiffnessThatALoadedChainShows) {
     }
 }
 
+// Masses between two springs take half of each correction, whatever the substeps: the chain sinks
+// nearly twice too far, which no number of substeps may be said to mend.
+TEST(Substeps, AreNotSaidToMendWhatAveragingLeaves) {
+    const Scene scene = dampedChain(20, 1e-3f);
+    const double asked = 0.01 * 9.81 * (20 * 21 / 2) * 1e-3;
+    const Settings averaged{.solver = Solver::jacobi}, weighted{.solver = Solver::jacobi, .weight = 1};
+    const SubstepChoice choice = chooseSubsteps(scene, averaged);
+    EXPECT_FALSE(choice.isReachable);
+    EXPECT_EQ(choice.share, 0.5);
+    const std::string text = toText(choice, averaged);
+    EXPECT_NE(text.find("no number of substeps reaches the tolerance of 5 %"), std::string::npos) << text;
+    EXPECT_NE(text.find("50 % of its stiffness at most; use weight or iterations"), std::string::npos)
+        << text;
+    for (const std::uint32_t substeps : {choice.substeps, 64u}) {
+        const Settings settings{.solver = Solver::jacobi, .substeps = substeps};
+        EXPECT_EQ(inspectStiffness(scene, settings).neededSubsteps, 0u);
+        EXPECT_GT(stretchOf(scene, settings) / asked, 1.8) << substeps;
+    }
+    EXPECT_TRUE(chooseSubsteps(scene, weighted).isReachable);
+    EXPECT_GT(inspectStiffness(scene, weighted).neededSubsteps, 0u);
+}
+
+// What the iterations leave of a tolerance is what the substeps have.
+TEST(Substeps, GrowWhereAveragingLeavesLessOfTheTolerance) {
+    const Scene scene = dampedChain(5, 1e-4f);
+    // 1/2 is left of a correction after each sweep: 1/32 of 0.05 after five, 1/1024 after ten
+    const Settings few{.solver = Solver::jacobi, .iterations = 5},
+        many{.solver = Solver::jacobi, .iterations = 10};
+    EXPECT_GT(chooseSubsteps(scene, few).wanted, chooseSubsteps(scene, many).wanted);
+    EXPECT_NEAR(chooseSubsteps(scene, few).wanted / double(chooseSubsteps(scene, many).wanted),
+                std::sqrt((0.05 - 1.0 / 1024) / (0.05 - 1.0 / 32)), 0.05);
+    EXPECT_FALSE(chooseSubsteps(scene, {.solver = Solver::jacobi, .iterations = 4}).isReachable);
+}
+
 TEST(Substeps, HoldWhatHangsOnRigidLinks) {
     const Scene scene = dampedChain(10, 0);
     for (const Solver solver : {Solver::split, Solver::jacobi}) {

@@ -88,7 +88,7 @@ Json stiffnessJson(const scenes::LoadedScene& loaded) {
             {"soft_links", report.soft},
             {"softest", report.softest},
             {"mean", report.mean},
-            {"needed_substeps", report.neededSubsteps},
+            {"needed_substeps", report.neededSubsteps > 0 ? Json(report.neededSubsteps) : Json(nullptr)},
             {"damping_time", report.dampingTime}};
 }
 
