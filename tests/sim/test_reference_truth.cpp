@@ -179,6 +179,40 @@ TEST(Trajectory, RefusesWhatIsNotASpringByName) {
     EXPECT_NE(complaint(oscillator(), {.perturbation = -1}).find("perturbation"), std::string::npos);
 }
 
+// Whatever has no part in the equations of motion would make the truth another scene's.
+TEST(References, RefuseByNameWhatTheyLeaveOut) {
+    const auto with = [](auto&& add) {
+        Scene scene = oscillator();
+        scene.particles.push_back({.position = {2, 0, 0}});
+        add(scene);
+        return scene;
+    };
+    const std::pair<const char*, Scene> scenes[] = {
+        {"bends", with([](Scene& s) {
+             s.bends = {{0, 1, 2, 1e-3f}};
+         })},
+        {"attachments", with([](Scene& s) { s.attachments = {{.particle = 1, .compliance = 1e-3f}}; })},
+        {"tethers", with([](Scene& s) {
+             s.tethers = {{1, 0, 0.5f}};
+         })},
+        {"internal damping", with([](Scene& s) { s.dampingTime = 0.01f; })}};
+    for (const auto& [name, scene] : scenes) {
+        SCOPED_TRACE(name);
+        State state = reference::initialState(scene);
+        const auto isRefused = [&](const std::string& sentence) {
+            return sentence.find(name) != std::string::npos;
+        };
+        const bool isDamping = scene.dampingTime > 0, hasEnergy = isDamping || !scene.tethers.empty();
+        EXPECT_TRUE(isRefused(complaintOf([&] { reference::trueTrajectory(scene, {}); })));
+        EXPECT_TRUE(isRefused(complaintOf([&] { reference::stepVerlet(scene, 1e-4, 1, state); })));
+        EXPECT_TRUE(isRefused(complaintOf([&] { reference::stepImplicitEuler(scene, 0.01, state); })));
+        if (!isDamping) { // which has no part in a state at rest
+            EXPECT_TRUE(isRefused(complaintOf([&] { reference::findEquilibrium(scene, state); })));
+        }
+        EXPECT_EQ(isRefused(complaintOf([&] { reference::energy(scene, state); })), !hasEnergy);
+    }
+}
+
 TEST(Trajectory, SaysWhereNoStepIsShortEnough) {
     // Rounding alone moves the answer by more.
     EXPECT_THROW(reference::trueTrajectory(softBlock(), {.frames = 6, .tolerance = 1e-17}),

@@ -21,11 +21,15 @@ void requireSprings(const Scene& scene, const char* what) {
         if (!(scene.distances[c].compliance > 0))
             refuse(scene, what, "distance[" + std::to_string(c) + "] is rigid");
     }
+    if (!scene.bends.empty()) refuse(scene, what, "the scene has bends");
+    if (!scene.attachments.empty()) refuse(scene, what, "the scene has attachments");
+    if (!scene.tethers.empty()) refuse(scene, what, "the scene has tethers");
     if (!scene.planes.empty()) refuse(scene, what, "the scene has boundary planes");
 }
 
 void requireUndamped(const Scene& scene, const char* what) {
     if (scene.damping != 0) refuse(scene, what, "the scene has damping");
+    if (scene.dampingTime != 0) refuse(scene, what, "the scene has internal damping");
 }
 
 double elasticEnergy(const Problem& problem, const std::vector<Eigen::Vector3d>& x) {

@@ -143,11 +143,14 @@ double bodySize(const Scene& scene) {
 }
 
 Energy energy(const Scene& scene, const State& state) {
+    const auto refuse = [&](const char* why) {
+        throw std::invalid_argument("scene \"" + scene.name + "\": " + why);
+    };
     const Problem problem(scene);
-    for (const Link& link : problem.links) {
-        if (link.compliance == 0)
-            throw std::invalid_argument("scene \"" + scene.name + "\": a rigid link has no energy");
-    }
+    for (const Link& link : problem.links)
+        if (link.compliance == 0) refuse("a rigid link has no energy");
+    if (!scene.bends.empty()) refuse("the energy of bends is not counted");
+    if (!scene.attachments.empty()) refuse("the energy of attachments is not counted");
     Energy result{.elastic = elasticEnergy(problem, state.x)};
     for (std::size_t i = 0; i < problem.size(); ++i) {
         const double w = problem.inverseMass[i];

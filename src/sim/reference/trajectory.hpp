@@ -42,7 +42,8 @@ struct Energy {
     double total() const { return kinetic + elastic + gravitational; }
 };
 
-/// Throws std::invalid_argument where a link is rigid.
+/// Throws std::invalid_argument where a link is rigid, and for bends and attachments, whose energy is not
+/// counted.
 Energy energy(const Scene& scene, const State& state);
 
 } // namespace sinew::sim::reference
