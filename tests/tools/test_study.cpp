@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <set>
+#include <tuple>
 
 using namespace sinew;
 using namespace sinew::tools::study;
@@ -97,12 +98,50 @@ TEST(Plan, TriesEverySolverWithinTheAllowedSettings) {
     }
 }
 
-TEST(Plan, SearchesBothTuningsOfTheBaseline) {
-    std::set<std::pair<std::uint32_t, float>> tried;
+TEST(Plan, SearchesAllTuningsOfTheBaseline) {
+    std::set<std::tuple<std::uint32_t, float, float>> tried;
+    std::size_t runs = 0;
     for (const sim::Settings& settings : settingsToTry(sim::Solver::jacobi, 4))
+        if (settings.substeps * settings.iterations == 64) {
+            tried.insert({settings.iterations, settings.weight, settings.overRelaxation});
+            ++runs;
+        }
+    for (const std::uint32_t iterations : {1u, 4u, 16u, 64u}) {
+        for (const float omega : {1.0f, 1.3f, 1.6f})
+            EXPECT_TRUE(tried.contains({iterations, 0.0f, omega})) << iterations << ' ' << omega;
+        for (const float weight : {0.5f, 1.0f})
+            EXPECT_TRUE(tried.contains({iterations, weight, 1.0f})) << iterations << ' ' << weight;
+    }
+    EXPECT_EQ(tried.size(), 4u * 5u);
+    EXPECT_EQ(runs, tried.size()) << "none twice";
+}
+
+TEST(Plan, SearchesIterationsOfColoredSweepsWarmAndCold) {
+    std::set<std::pair<std::uint32_t, float>> tried;
+    for (const sim::Settings& settings : settingsToTry(sim::Solver::gaussSeidel, 4))
         if (settings.substeps * settings.iterations == 64)
-            tried.insert({settings.iterations, settings.overRelaxation});
-    EXPECT_EQ(tried.size(), 4u * 3u);
+            tried.insert({settings.iterations, settings.warmStart});
+    const float warm = sim::Settings{}.warmStart;
+    ASSERT_GT(warm, 0);
+    for (const std::uint32_t iterations : {1u, 2u, 4u, 64u})
+        for (const float start : {warm, 0.0f})
+            EXPECT_TRUE(tried.contains({iterations, start})) << iterations << ' ' << start;
+    EXPECT_EQ(tried.size(), 4u * 2u);
+}
+
+TEST(Plan, SplitsOneNumberOfSweepsWithoutTryingAnythingTwice) {
+    for (const sim::Solver solver : {sim::Solver::jacobi, sim::Solver::split, sim::Solver::gaussSeidel})
+        for (const std::uint32_t sweeps : {4u, 8u, 16u}) { // some splits of them are the whole frame
+            using Key = std::tuple<std::uint32_t, float, float, float, float>;
+            std::set<Key> tried;
+            const std::vector<sim::Settings> list = settingsAt(solver, sweeps);
+            for (const sim::Settings& s : list) {
+                EXPECT_EQ(s.substeps * s.iterations, sweeps);
+                tried.insert(Key{s.iterations, s.theta, s.weight, s.overRelaxation, s.warmStart});
+            }
+            EXPECT_EQ(tried.size(), list.size()) << sim::solverName(solver) << ' ' << sweeps;
+            EXPECT_GE(list.size(), 2u);
+        }
 }
 
 TEST(Plan, HasFiveScenesWhoseTruthCanBeComputed) {

@@ -85,9 +85,10 @@ std::vector<Entrant> entrantsFor(const sim::Scene& scene, std::uint32_t mostSwee
                 entrants.push_back(
                     {"bullet", {.substeps = sweeps / iterations, .iterations = iterations}, {}, {}});
         for (const std::string& name : sim::solverNames()) {
-            sim::Settings settings{.substeps = sweeps, .iterations = 1};
-            sim::parseSolver(name, settings.solver);
-            if (sim::validate(scene, settings).empty()) entrants.push_back({name, settings, {}, {}});
+            sim::Solver solver{};
+            sim::parseSolver(name, solver);
+            for (const sim::Settings& settings : study::settingsAt(solver, sweeps))
+                if (sim::validate(scene, settings).empty()) entrants.push_back({name, settings, {}, {}});
         }
     }
     return entrants;
@@ -189,11 +190,18 @@ void runAll(Session& session, const sim::Scene& scene, const study::Truth& truth
 
 Json pointJson(const Entrant& entrant, bool isOnFront) {
     const Offer offer = entrant.offer();
-    return {{"substeps", entrant.settings.substeps},
-            {"iterations", entrant.settings.iterations},
-            {"ms_per_frame", offer.cost},
-            {"error_rms", orNull(offer.error)},
-            {"on_front", isOnFront}};
+    Json json{{"substeps", entrant.settings.substeps},
+              {"iterations", entrant.settings.iterations},
+              {"ms_per_frame", offer.cost},
+              {"error_rms", orNull(offer.error)},
+              {"on_front", isOnFront}};
+    if (entrant.program != "bullet") {
+        json["theta"] = entrant.settings.theta;
+        json["weight"] = entrant.settings.weight;
+        json["over_relaxation"] = entrant.settings.overRelaxation;
+        json["warm_start"] = entrant.settings.warmStart;
+    }
+    return json;
 }
 
 Json curveJson(const std::vector<Entrant>& entrants, const std::string& program) {

@@ -84,16 +84,22 @@ std::string percent(double error) {
     return fmt::format("{:.3g} %", 100 * error);
 }
 
+/// What was chosen beside substeps and iterations.
+std::string tuningText(const sim::Settings& s) {
+    if (s.solver == sim::Solver::split) return fmt::format("theta {:g}", s.theta);
+    if (s.solver == sim::Solver::gaussSeidel)
+        return s.warmStart > 0 ? fmt::format("warm {:g}", s.warmStart) : "cold";
+    return s.weight > 0 ? fmt::format("weight {:g}", s.weight) : fmt::format("omega {:g}", s.overRelaxation);
+}
+
 std::string pointRow(const Curve& curve, const CurvePoint& point) {
     const Trial& trial = *point.trial;
     const sim::Settings& s = trial.settings;
-    const bool isJacobi = s.solver == sim::Solver::jacobi;
     return fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.3g}</td>"
         "<td>{}</td><td>{}</td></tr>\n",
-        escaped(curve.solver), s.substeps, s.iterations,
-        isJacobi ? fmt::format("omega {:g}", s.overRelaxation) : fmt::format("theta {:g}", s.theta),
-        trial.sweeps, trial.barriers, trial.clamped ? percent(*trial.clamped) : "–", trial.medianMs(),
+        escaped(curve.solver), s.substeps, s.iterations, tuningText(s), trial.sweeps, trial.barriers,
+        trial.clamped ? percent(*trial.clamped) : "–", trial.medianMs(),
         point.error ? percent(point.error->rms) : "diverged", point.error ? percent(point.error->max) : "–");
 }
 

@@ -22,36 +22,51 @@ constexpr Shipped shipped[] = {
 constexpr std::uint32_t fewestSweeps = 8;
 constexpr std::uint32_t wholeFrame = 0; // all sweeps of a frame in one substep
 
+using Variation = void (*)(sim::Settings&);
+
 struct Tuning {
     const char* solver;
     std::vector<std::uint32_t> iterations; // per substep
-    std::vector<void (*)(sim::Settings&)> variations;
+    std::vector<Variation> variations;
+    bool isFine; // tried at sweep counts between the powers of two as well
 };
 
 const Tuning& tuningOf(const std::string& solver) {
     static const Tuning tunings[] = {
-        // The baseline gets both its tunings searched: claims against it must not rest on a bad choice.
+        // The baseline gets all its tunings searched: claims against it must not rest on a bad choice. A
+        // weight replaces the average: 1 applies the sum, what elastic links want wherever it is stable.
         {"jacobi",
          {1, 4, 16, wholeFrame},
          {[](sim::Settings& s) { s.overRelaxation = 1; }, [](sim::Settings& s) { s.overRelaxation = 1.3f; },
-          [](sim::Settings& s) { s.overRelaxation = 1.6f; }}},
-        {"split", {1}, {[](sim::Settings&) {}, [](sim::Settings& s) { s.theta = 0; }}},
+          [](sim::Settings& s) { s.overRelaxation = 1.6f; }, [](sim::Settings& s) { s.weight = 0.5f; },
+          [](sim::Settings& s) { s.weight = 1; }},
+         false},
+        {"split", {1}, {[](sim::Settings&) {}, [](sim::Settings& s) { s.theta = 0; }}, true},
+        {"gauss_seidel",
+         {1, 2, 4, wholeFrame},
+         {[](sim::Settings&) {}, [](sim::Settings& s) { s.warmStart = 0; }},
+         true},
     };
-    static const Tuning plain{"", {1}, {[](sim::Settings&) {}}};
+    static const Tuning plain{"", {1}, {[](sim::Settings&) {}}, true};
     const auto found = std::ranges::find(tunings, solver, &Tuning::solver);
     return found == std::end(tunings) ? plain : *found;
 }
 
+struct SweepCount {
+    std::uint32_t sweeps;
+    bool isBetween; // two powers of two
+};
+
 /// 8, 16, 32 ... With `isFine` one more between any two: errors may fall by a factor of a thousand from one
 /// to the next.
-std::vector<std::uint32_t> sweepCounts(std::uint32_t points, bool isFine) {
+std::vector<SweepCount> sweepCounts(std::uint32_t points, bool isFine) {
     const auto mostSubsteps = static_cast<std::uint32_t>(sim::ranges::substeps.high);
-    std::vector<std::uint32_t> counts;
+    std::vector<SweepCount> counts;
     for (std::uint32_t i = 0; i < points; ++i) {
         const std::uint32_t sweeps = fewestSweeps << i;
         if (isFine && i > 0)
-            counts.push_back(static_cast<std::uint32_t>(std::lround(sweeps / std::sqrt(2.0))));
-        counts.push_back(std::min(sweeps, mostSubsteps));
+            counts.push_back({static_cast<std::uint32_t>(std::lround(sweeps / std::sqrt(2.0))), true});
+        counts.push_back({std::min(sweeps, mostSubsteps), false});
     }
     return counts;
 }
@@ -76,19 +91,27 @@ std::vector<StudyScene> studyScenes(const std::string& which, std::optional<std:
     return scenes;
 }
 
-std::vector<sim::Settings> settingsToTry(sim::Solver solver, std::uint32_t points) {
+std::vector<sim::Settings> settingsAt(sim::Solver solver, std::uint32_t sweeps) {
     const Tuning& tuning = tuningOf(sim::solverName(solver));
     std::vector<sim::Settings> list;
-    for (const std::uint32_t sweeps : sweepCounts(points, tuning.iterations.size() == 1))
-        for (const std::uint32_t iterations : tuning.iterations)
-            for (const auto vary : tuning.variations) {
-                sim::Settings settings{.solver = solver};
-                settings.iterations = iterations == wholeFrame ? sweeps : iterations;
-                settings.substeps = sweeps / settings.iterations;
-                if (settings.substeps == 0) continue;
-                vary(settings);
-                list.push_back(settings);
-            }
+    for (const std::uint32_t iterations : tuning.iterations) {
+        if (iterations > 1 && iterations >= sweeps) continue; // as many are the whole frame
+        for (const Variation vary : tuning.variations) {
+            sim::Settings settings{.solver = solver};
+            settings.iterations = iterations == wholeFrame ? sweeps : iterations;
+            settings.substeps = sweeps / settings.iterations;
+            vary(settings);
+            list.push_back(settings);
+        }
+    }
+    return list;
+}
+
+std::vector<sim::Settings> settingsToTry(sim::Solver solver, std::uint32_t points) {
+    std::vector<sim::Settings> list;
+    for (const SweepCount& count : sweepCounts(points, tuningOf(sim::solverName(solver)).isFine))
+        for (const sim::Settings& settings : settingsAt(solver, count.sweeps))
+            if (!count.isBetween || settings.iterations == 1) list.push_back(settings);
     return list;
 }
 

@@ -25,8 +25,12 @@ std::vector<std::string> studySceneNames();
 /// scenes::SceneError.
 std::vector<StudyScene> studyScenes(const std::string& which, std::optional<std::uint32_t> frames);
 
-/// `points` sweep counts from 8, each twice the one before (with one between them for solvers that are not
-/// split into iterations), in every split into substeps and iterations and with every tuning of the solver.
+/// One number of sweeps a frame in every split into substeps and iterations and with every tuning of the
+/// solver.
+std::vector<sim::Settings> settingsAt(sim::Solver solver, std::uint32_t sweeps);
+
+/// All of settingsAt() at `points` sweep counts from 8, each twice the one before. But for `jacobi` there is
+/// one count more between any two, in substeps of one sweep alone.
 std::vector<sim::Settings> settingsToTry(sim::Solver solver, std::uint32_t points);
 
 } // namespace sinew::tools::study

@@ -70,7 +70,8 @@ Json toJson(const sim::Settings& settings) {
             {"omega", settings.omega},
             {"theta", settings.theta},
             {"weight", settings.weight},
-            {"over_relaxation", settings.overRelaxation}};
+            {"over_relaxation", settings.overRelaxation},
+            {"warm_start", settings.warmStart}};
 }
 
 /// Null where the file is missing, damaged, or another's.
