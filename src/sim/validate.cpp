@@ -210,11 +210,17 @@ void checkAttachments(const Scene& scene, Complaints& complaints) {
     }
 }
 
-void checkTethers(const Scene& scene, Complaints& complaints) {
+// Which particles never move; `fixed` may name ones that do not exist.
+std::vector<bool> heldParticles(const Scene& scene) {
     std::vector<bool> isHeld(scene.particles.size());
     for (std::size_t i = 0; i < isHeld.size(); ++i) isHeld[i] = scene.particles[i].inverseMass == 0;
     for (const FixedConstraint& fixed : scene.fixed)
         if (fixed.particle < isHeld.size()) isHeld[fixed.particle] = true;
+    return isHeld;
+}
+
+void checkTethers(const Scene& scene, Complaints& complaints) {
+    const std::vector<bool> isHeld = heldParticles(scene);
     for (std::size_t i = 0; i < scene.tethers.size(); ++i) {
         const Tether& tether = scene.tethers[i];
         const auto name = [i](const char* member) {
@@ -318,16 +324,21 @@ void checkColors(const Scene& scene, const Settings& settings, Complaints& compl
                                        number(ranges::mostColorPasses));
 }
 
+// The warm start of `gauss_seidel` unrolls the links of what moves.
 void checkLinks(const Scene& scene, const Settings& settings, Complaints& complaints) {
-    const bool isUnrolled = settings.solver == Solver::gaussSeidel;
-    const std::uint32_t most = isUnrolled ? ranges::mostLinksUnrolled : ranges::mostLinks;
+    const bool isUnrolled = settings.solver == Solver::gaussSeidel && settings.warmStart > 0;
+    const std::vector<bool> isHeld = heldParticles(scene);
+    const auto mostOf = [&](std::uint32_t end) {
+        return isUnrolled && !isHeld[end] ? ranges::mostLinksUnrolled : ranges::mostLinks;
+    };
     std::vector<std::uint32_t> links(scene.particles.size());
     for (const DistanceConstraint& constraint : scene.distances)
         for (const std::uint32_t end : {constraint.a, constraint.b})
-            if (constraint.a != constraint.b && end < links.size() && ++links[end] == most + 1)
+            if (constraint.a != constraint.b && end < links.size() && ++links[end] == mostOf(end) + 1)
                 complaints.add(element("particle", end),
-                               "has more than " + std::to_string(most) +
-                                   " distance constraints, the most this solver takes");
+                               "has more than " + number(mostOf(end)) +
+                                   " distance constraints, the most this solver takes" +
+                                   (mostOf(end) < ranges::mostLinks ? " with a warm start" : ""));
 }
 
 std::string nameOf(const Scene& scene, std::size_t grid) {

@@ -242,7 +242,12 @@ TEST(Validate, BoundsTheLinksOfOneParticle) {
     hub.particles.resize(130);
     hub.distances.resize(129);
     EXPECT_EQ(firstComplaint(hub, {.solver = Solver::gaussSeidel, .substeps = 1}),
-              "particle[0]: has more than 128 distance constraints, the most this solver takes");
+              "particle[0]: has more than 128 distance constraints, the most this solver takes with a warm "
+              "start");
+    const Settings cold{.solver = Solver::gaussSeidel, .substeps = 1, .warmStart = 0};
+    EXPECT_EQ(firstComplaint(hub, cold), "");
+    hub.fixed = {{0}}; // gathers nothing
+    EXPECT_EQ(firstComplaint(hub, {.solver = Solver::gaussSeidel, .substeps = 1}), "");
 }
 
 // With the number that is chosen, not the largest that might be.
