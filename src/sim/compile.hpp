@@ -41,7 +41,8 @@ struct ParticleBuffers {
 struct SolverPlan {
     StateLayout layout;
     std::vector<float> positionW; ///< of every particle: the w of the state's positions
-    /// Appends the passes of the phase "solve". Refers to the scene and whatever else the plan was made from.
+    /// Appends the passes of the phase "solve". Refers to the scene; all else that the plan was made from is
+    /// in it.
     std::function<void(ProgramBuilder& program, const ParticleBuffers& particles)> addPasses;
 };
 

@@ -114,7 +114,7 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
 
 SolverPlan plan(const Scene& scene, const Settings& settings, const std::vector<float>& inverseMass) {
     return {stateLayout(scene), inverseMass,
-            [&scene, &settings](ProgramBuilder& program, const ParticleBuffers& particles) {
+            [&scene, settings](ProgramBuilder& program, const ParticleBuffers& particles) {
                 addPasses(program, scene, settings, particles);
             }};
 }

@@ -81,7 +81,7 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
 
 SolverPlan plan(const Scene& scene, const Settings& settings, const std::vector<float>& inverseMass) {
     return {orderedLayout(scene.particles.size()), inverseMass,
-            [&scene, &settings](ProgramBuilder& program, const ParticleBuffers& particles) {
+            [&scene, settings](ProgramBuilder& program, const ParticleBuffers& particles) {
                 addPasses(program, scene, settings, particles);
             }};
 }

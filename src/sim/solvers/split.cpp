@@ -297,8 +297,8 @@ SolverPlan plan(const Scene& scene, const Settings& settings, const std::vector<
     StateLayout layout = lattice::layoutOf(scene, division.grids);
     std::vector<float> times = division.shares.times;
     return {std::move(layout), std::move(times),
-            [&scene, &settings, division = std::move(division)](ProgramBuilder& program,
-                                                                const ParticleBuffers& particles) {
+            [&scene, settings, division = std::move(division)](ProgramBuilder& program,
+                                                               const ParticleBuffers& particles) {
                 addPasses(program, scene, settings, division, particles);
             }};
 }
