@@ -6,6 +6,8 @@
 #include "scenes/built_in.hpp"
 #include "scenes/origin.hpp"
 #include "sim/compile.hpp"
+#include "sim/ranges.hpp"
+#include "sim/substeps.hpp"
 #include "sim/validate.hpp"
 
 #include <algorithm>
@@ -106,9 +108,25 @@ void warnAboutStiffness(LoadedScene& loaded) {
                      : "no number of substeps reaches " + percent + ", use weight or iterations"));
 }
 
+// Searches go there on purpose, and a lattice bears more than is proven: no reason to refuse.
+void warnAboutRelaxation(LoadedScene& loaded) {
+    const sim::Settings& settings = loaded.settings;
+    if (settings.solver != sim::Solver::jacobi) return;
+    const double relaxation = sim::jacobiRelaxation(loaded.scene, settings);
+    if (relaxation < sim::ranges::provenRelaxation) return;
+    const auto text = [](double value) { return std::to_string(value).substr(0, 5); };
+    const std::string bound = ", jacobi is proven stable only below 4/3: it may diverge";
+    if (settings.weight > 0)
+        loaded.warnings.push_back("solver.over_relaxation x solver.weight x constraints of a particle is " +
+                                  text(relaxation) + bound);
+    else
+        loaded.warnings.push_back("solver.over_relaxation is " + text(relaxation) + bound);
+}
+
 void warnAboutSolver(LoadedScene& loaded) {
     if (loaded.settings.solver == sim::Solver::split && loaded.settings.iterations > 1)
         loaded.warnings.push_back("split makes one sweep per substep: iterations are ignored");
+    warnAboutRelaxation(loaded);
     warnAboutStiffness(loaded);
 }
 

@@ -64,8 +64,8 @@ inline constexpr Range iterations{1, 1000};
 inline constexpr std::uint64_t mostSweeps = 20'000;
 /// Passes that `gauss_seidel` makes of those, one a color: as many as `jacobi` makes of mostSweeps.
 inline constexpr std::uint64_t mostColorPasses = 3 * mostSweeps;
-/// Links of one particle. The warm start of `gauss_seidel` unrolls them; others loop, and some devices end a
-/// loop silently at 65,535.
+/// Links of one particle. The warm start of `gauss_seidel` unrolls those of what moves; others loop, and some
+/// devices end a loop silently at 65,535.
 inline constexpr std::uint32_t mostLinksUnrolled = 128, mostLinks = 60'000;
 /// Bends of one particle: `split` unrolls them and keeps room for as many of every particle.
 inline constexpr std::uint32_t mostBends = 128;
@@ -76,6 +76,8 @@ inline constexpr Range warmStart{0, 1};
 inline constexpr Range contactMargin{.low = 0, .high = 10, .isLowOpen = true};
 inline constexpr std::uint32_t mostContactRoom = 256;
 inline constexpr Range contactRoom{1, mostContactRoom};
+/// `jacobi` converges on any graph where its factor on averaged corrections is below this.
+inline constexpr double provenRelaxation = 4.0 / 3;
 inline constexpr Range overRelaxation{.low = 0, .high = 2, .isLowOpen = true, .isHighOpen = true};
 
 inline constexpr Range columns{1, 2};   // of Settings::forms: kernels exist for these

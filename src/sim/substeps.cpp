@@ -319,6 +319,15 @@ double dampingBudget(const SplitBudget& budget, double theta, double h) {
     return std::max(0.0, 0.95 * (4 - s * (1 + 2 * theta)) / 2);
 }
 
+double jacobiRelaxation(const Scene& scene, const Settings& settings) {
+    if (settings.weight == 0) return double{settings.overRelaxation};
+    const Load load = loadOf(scene);
+    std::uint32_t most = 0;
+    for (std::uint32_t i = 0; i < scene.particles.size(); ++i)
+        if (load.inverseMass[i] > 0) most = std::max(most, load.mostConstraints({i}));
+    return double{settings.overRelaxation} * double{settings.weight} * most;
+}
+
 SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings) {
     if (settings.substeps > 0) return {settings.substeps, settings.substeps, SubstepReason::asked};
     if (hasOnlyFreeParticles(scene)) return {1, 1, SubstepReason::fewest};

@@ -63,6 +63,11 @@ Settings withSubsteps(const Scene& scene, Settings settings);
 /// "64 substeps: so that no link is more than 5 % softer than asked".
 std::string toText(const SubstepChoice& choice, const Settings& settings);
 
+/// The factor of `jacobi` on corrections averaged over a particle's constraints: overRelaxation x weight x
+/// the most constraints of one, overRelaxation alone where weight is 0. Proven below
+/// ranges::provenRelaxation.
+double jacobiRelaxation(const Scene& scene, const Settings& settings);
+
 /// Bounds of the largest eigenvalue that each kind of constraint gives h^2 M^-1 K in `split`: min(kind x h^2,
 /// omegaKind), D_c being sum of w |grad|^2 / share. Bends use what links leave of the stability bound, so
 /// that a scene with bends has links as stiff as without.

@@ -288,6 +288,21 @@ TEST_F(Load, SaysHowManySubstepsAStiffBodyNeeds) {
         scenes::load(write("scene.toml", box), {.solver = "jacobi", .iterations = 200}).warnings.empty());
 }
 
+TEST_F(Load, WarnsOfRelaxationOutsideItsProvenRange) {
+    const auto warnings = [&](const std::string& keys) {
+        return load("[solver]\nname = \"jacobi\"\n" + keys + "[[chain]]\nlength = 1\nparticles = 4\n")
+            .warnings;
+    };
+    const std::string why = ", jacobi is proven stable only below 4/3: it may diverge";
+    EXPECT_TRUE(warnings("over_relaxation = 1.33\n").empty());
+    EXPECT_EQ(warnings("over_relaxation = 1.5\n"),
+              std::vector<std::string>{"solver.over_relaxation is 1.500" + why});
+    EXPECT_TRUE(warnings("weight = 0.5\nover_relaxation = 1.25\n").empty());
+    EXPECT_EQ(warnings("weight = 1\n"),
+              std::vector<std::string>{
+                  "solver.over_relaxation x solver.weight x constraints of a particle is 2.000" + why});
+}
+
 // Averaging over 18 links takes 1/18 of each correction.
 TEST_F(Load, NamesNoNumberOfSubstepsWhereAveragingIsTooSoft) {
     const std::string box = "[[box]]\nparticles = [4, 4, 4]\nspacing = 0.02\ncenter = [0, 1, 0]\n";
