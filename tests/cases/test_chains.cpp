@@ -1,5 +1,6 @@
 // Cases 6 to 8: chains that stretch, sag and swing.
 #include "cases/cases.hpp"
+#include "sim/coloring.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -73,6 +74,36 @@ TEST(Case06HangingChain, StretchesAsTheStiffnessOfJacobiSays) {
     const double extension = extensionOnDevice(settings);
     expectWithin("extension", extension, predictedExtension(settings), 1e-3);
     expectWithin("extension, of exact", extension, exactExtension, 0.01);
+}
+
+// At rest a link keeps the length that its own color gave it until a later color moves its ends: by h^2 w
+// times what the neighbour of that color pulls. So a cold sweep leaves the chain longer by that, and only
+// where the first link is not last.
+TEST(Case06HangingChain, StretchesAsTheOrderOfColorsSaysWhereGaussSeidelStartsCold) {
+    const Scene scene = hangingChain(count, static_cast<float>(spacing), static_cast<float>(mass),
+                                     static_cast<float>(1 / stiffness));
+    const Coloring coloring = colorByParticles(scene, inverseMasses(scene));
+    std::vector<std::size_t> colorOf(count);
+    for (std::size_t color = 0; color < coloring.colorCount(); ++color)
+        for (const std::uint32_t link : coloring.color(color)) colorOf[link] = color;
+    for (const std::uint32_t substeps : {8u, 32u}) {
+        const Settings settings{.solver = Solver::gaussSeidel, .substeps = substeps, .warmStart = 0};
+        const double h = double{frame} / substeps;
+        double predicted = exactExtension;
+        for (std::size_t c = 0; c < count; ++c)
+            for (const std::size_t next : {c - 1, c + 1}) // c - 1 is no link where c is 0
+                if (next < count && colorOf[next] > colorOf[c])
+                    predicted += h * h / mass * static_cast<double>(count - next) * mass * gravity;
+        const double extension = extensionOnDevice(settings);
+        expectWithin("extension, cold, " + std::to_string(substeps) + " substeps", extension, predicted,
+                     1e-3);
+    }
+}
+
+// The warm start, its default, takes that away again.
+TEST(Case06HangingChain, StretchesExactlyWhereGaussSeidelStartsWarm) {
+    expectWithin("extension", extensionOnDevice({.solver = Solver::gaussSeidel, .substeps = 32}),
+                 exactExtension, 0.01);
 }
 
 // Averaging divides what a particle's two links do by two, but not what the last one's single link does: link
