@@ -15,7 +15,8 @@
 
 namespace sinew::test {
 
-/// Every case runs with these; a new solver is added here, and to accurate() and reachedStiffness().
+/// SolverCases run with these, other cases with the solvers that they name; a new solver is added here, and
+/// to accurate() and reachedStiffness().
 inline constexpr std::array caseSolvers{sim::Solver::jacobi, sim::Solver::split, sim::Solver::gaussSeidel};
 
 class SolverCase : public testing::TestWithParam<sim::Solver> {};
