@@ -1,6 +1,7 @@
 // Coordinate search over the forms: few, because each costs its pipelines.
 #include "sim/gpu_tune.hpp"
 
+#include "sim/compile.hpp"
 #include "sim/lattice/batches.hpp"
 #include "sim/ranges.hpp"
 #include "sim/substeps.hpp"
@@ -35,13 +36,24 @@ bool isGrantable(const vk::Device& device, const Scene& scene, const Settings& s
     return lattice::isResident(scene, resident, grids);
 }
 
+/// Whether texels make other kernels of it: with bends, damping or resident bodies `split` has one code for
+/// both, `jacobi` has no choice at all.
+bool hasTexelForms(const Scene& scene, Settings settings) {
+    settings.substeps = 1;
+    const StepProgram given = compile(scene, settings);
+    settings.forms.usesTexels = !settings.forms.usesTexels;
+    return !std::ranges::equal(given.kernels, compile(scene, settings).kernels, {}, &KernelUse::code,
+                               &KernelUse::code);
+}
+
 /// What may be changed about the forms of this scene on this device.
 std::vector<std::function<void(Forms&)>> changes(const vk::Device& device, const Scene& scene,
                                                  const Settings& settings) {
     std::vector<std::function<void(Forms&)>> result;
+    if (hasTexelForms(scene, settings))
+        result.push_back([](Forms& forms) { forms.usesTexels = !forms.usesTexels; });
     if (settings.solver != Solver::split || scene.distances.empty()) return result;
     const std::vector<std::uint32_t> grids = lattice::computedGrids(scene, settings);
-    result.push_back([](Forms& forms) { forms.usesTexels = !forms.usesTexels; });
     if (!grids.empty()) {
         result.push_back([](Forms& forms) { forms.chunk /= 2; });
         result.push_back([](Forms& forms) { forms.chunk *= 2; });

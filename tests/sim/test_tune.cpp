@@ -1,6 +1,7 @@
 // Start-up measurement: the fastest of the forms tried is taken, whatever the clock says, and it changes no
 // bit.
 #include "sim/bodies.hpp"
+#include "sim/compile.hpp"
 #include "sim/gpu_tune.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
@@ -72,14 +73,45 @@ TEST(Tuning, TriesNothingWhereThereIsNoChoice) {
         << "texels or loads";
 }
 
+TEST(Tuning, ChoosesForColoredSweepsToo) {
+    const Scene scene = test::block(4, 0.05f, 1e5f);
+    for (const float warmStart : {0.9f, 0.0f})
+        for (std::size_t fastest = 0; fastest < 2; ++fastest) {
+            Clock clock([&](std::size_t trial) { return trial == fastest ? 1.0 : 2.0; });
+            const Tuning tuning =
+                tune(test::device(), scene, {.solver = Solver::gaussSeidel, .warmStart = warmStart},
+                     clock.submit());
+            ASSERT_EQ(tuning.trials.size(), 2u) << "texels or loads";
+            EXPECT_NE(tuning.trials[0].forms.usesTexels, tuning.trials[1].forms.usesTexels);
+            EXPECT_TRUE(tuning.fastest == tuning.trials[fastest].forms) << "trial " << fastest;
+        }
+}
+
+TEST(Tuning, TimesNoCodeTwice) {
+    Clock clock([](std::size_t) { return 1.0; });
+    Scene damped = test::chain(20, {1e-4f});
+    damped.dampingTime = 0.01f;
+    EXPECT_TRUE(tune(test::device(), damped, {}, clock.submit()).trials.empty()) << "damping has one form";
+    Scene bent = test::chain(20, {1e-4f});
+    bent.bends.push_back({0, 1, 2, 1e-3f});
+    EXPECT_TRUE(tune(test::device(), bent, {}, clock.submit()).trials.empty()) << "bends have one form";
+    EXPECT_EQ(tune(test::device(), bent, {.solver = Solver::gaussSeidel}, clock.submit()).trials.size(), 2u)
+        << "its links have two all the same";
+}
+
 TEST(Tuning, EveryFormItTriesGivesTheSameBits) {
     const Scene scene = test::block(6, 0.05f, 1e5f);
-    Clock clock([](std::size_t trial) { return 1.0 / static_cast<double>(trial + 1); });
-    std::vector<std::uint64_t> hashes;
-    for (const Trial& trial : tune(test::device(), scene, {}, clock.submit()).trials) {
-        test::Runner runner(scene, {.substeps = 5, .forms = trial.forms});
-        runner.run(3);
-        hashes.push_back(runner.stateHash());
+    for (const Solver solver : {Solver::split, Solver::gaussSeidel}) {
+        Clock clock([](std::size_t trial) { return 1.0 / static_cast<double>(trial + 1); });
+        std::vector<std::uint64_t> hashes;
+        const Tuning tuning = tune(test::device(), scene, {.solver = solver}, clock.submit());
+        for (const Trial& trial : tuning.trials) {
+            test::Runner runner(scene, {.solver = solver, .substeps = 5, .forms = trial.forms});
+            runner.run(3);
+            hashes.push_back(runner.stateHash());
+        }
+        ASSERT_GE(hashes.size(), 2u) << solverName(solver);
+        EXPECT_EQ(std::ranges::count(hashes, hashes.front()), static_cast<std::ptrdiff_t>(hashes.size()))
+            << solverName(solver);
     }
-    EXPECT_EQ(std::ranges::count(hashes, hashes.front()), static_cast<std::ptrdiff_t>(hashes.size()));
 }

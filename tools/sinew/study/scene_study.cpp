@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 
 namespace sinew::tools::study {
@@ -118,17 +119,23 @@ void takeTurn(Turn& turn, std::uint32_t frames) {
     turn.trial->frameMs.insert(turn.trial->frameMs.end(), ms.begin(), ms.end());
 }
 
+/// Of a solver: they depend on scene and device, hardly on the other settings.
+sim::Forms fastestForms(Session& session, const sim::Scene& scene, sim::Settings probe) {
+    probe.iterations = 1;
+    return sim::tuned(session.device, session.queue, scene, probe).forms;
+}
+
 void timeAll(Session& session, const StudyScene& scene, const std::vector<Trial*>& trials,
              const Store& store) {
     std::vector<Turn> turns;
     std::uint64_t total = 0, done = 0;
-    sim::Settings probe = scene.loaded.settings; // forms depend on scene and device, hardly on the settings
-    probe.solver = sim::Solver::split;
-    const sim::Forms forms = sim::tuned(session.device, session.queue, scene.loaded.scene, probe).forms;
+    std::map<sim::Solver, sim::Forms> forms;
     for (Trial* trial : trials) {
         total += framesLeftToTime(*trial) * trial->sweeps;
         sim::Settings settings = trial->settings;
-        settings.forms = forms;
+        if (!forms.contains(settings.solver))
+            forms[settings.solver] = fastestForms(session, scene.loaded.scene, settings);
+        settings.forms = forms[settings.solver];
         turns.push_back({trial, std::make_unique<Runner>(session, scene.loaded.scene, settings)});
     }
     app::Progress progress(total, stderr, "sweeps");
