@@ -168,7 +168,9 @@ std::string toHtml(const StudyRecord& record) {
         "undercut, a wedge at the top edge has diverged; the grey band joins the best of all solvers, rings "
         "mark "
         "where a curve meets 1 %. Where a disturbance of the truth by 1e-7 grows to a tenth of an error, the "
-        "comparison stops.</p>\n";
+        "comparison stops; growth below 1e-6 counts as none, so that an error below 1e-5 (0.001 %) may hold "
+        "as "
+        "much of chaos as of the solver.</p>\n";
     for (const SceneResult& scene : record.scenes) html += section(scene);
     return html + "</body></html>\n";
 }
