@@ -1,5 +1,6 @@
 // A distance constraint between two particles, once for every solver form: XPBD [Macklin 2016], eq. 18, with
 // C = |x_b - x_a| - L and alpha = compliance / h^2:  dl = -(C + alpha l) / (w_a + w_b + alpha).
+#include "compliance.glsl"
 
 struct DistanceChange {
     vec3 n;       // unit direction from a to b; 0 where the ends coincide: no direction, no correction
@@ -22,6 +23,3 @@ DistanceChange solveDampedDistance(vec3 d, float w, float restLength, float alph
     return DistanceChange(n, -value / (w * (1.0 + gamma) + alpha));
 }
 #endif
-
-// compliance / h^2, finite: Inf would turn into NaN.
-float scaledCompliance(float compliance, float h) { return min(compliance / (h * h), 1e30); }

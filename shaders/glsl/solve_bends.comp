@@ -1,8 +1,8 @@
 #version 460
-// The bends of `jacobi`: XPBD [Macklin 2016], eq. 18, for the vector constraint C = x_a - 2 x_b + x_c, whose gradients
-// 1, -2, 1 make the denominator w_a + 4 w_b + w_c + a, a = compliance / h^2. Three correction slots a bend.
+// The bends of `jacobi` (bend.glsl): three correction slots a bend.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
+#include "bend.glsl"
 
 layout(std430, binding = 0) readonly buffer Bends { BendRow bends[]; };
 layout(std430, binding = 1) readonly buffer Positions { vec4 positions[]; }; // w = inverse mass [1/kg]
@@ -16,10 +16,9 @@ void main() {
     if (c >= push.count) return;
     const BendRow bend = bends[c];
     const vec4 a = positions[bend.a], b = positions[bend.b], e = positions[bend.c];
-    const float alpha = min(bend.compliance / (step.h * step.h), 1e30); // Inf would turn into NaN
+    const float alpha = scaledCompliance(bend.compliance, step.h);
     const vec3 lambda = push.isFirst != 0u ? vec3(0.0) : multipliers[c].xyz;
-    const vec3 value = (a.xyz - b.xyz) + (e.xyz - b.xyz) + alpha * lambda;
-    const vec3 change = -value / (a.w + 4.0 * b.w + e.w + alpha);
+    const vec3 change = solveBend(bendValue(a.xyz, b.xyz, e.xyz), vec3(a.w, b.w, e.w), alpha, lambda);
     multipliers[c] = vec4(lambda + bend.share * change, 0.0);
     const uint slot = push.firstSlot + 3u * c;
     corrections[slot] = vec4(a.w * change, 0.0);
