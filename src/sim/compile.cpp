@@ -80,7 +80,9 @@ std::vector<float> inverseMasses(const Scene& scene) {
 }
 
 StateLayout stateLayout(const Scene& scene, const Settings& settings) {
-    return entry(settings.solver).plan(scene, withSubsteps(scene, settings), inverseMasses(scene)).layout;
+    const Settings chosen = withSubsteps(scene, settings); // both outlive the plan, which may refer to them
+    const std::vector<float> inverseMass = inverseMasses(scene);
+    return entry(settings.solver).plan(scene, chosen, inverseMass).layout;
 }
 
 StepProgram compile(const Scene& scene, const Settings& asked) {
