@@ -5,6 +5,7 @@
 // substep of `gauss_seidel` is still open (OPEN), so that a particle is at its predicted position plus its correction.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
+#include "compliance.glsl"
 
 layout(std430, binding = 0) readonly buffer Attachments { AttachedParticle attachments[]; };
 layout(std430, binding = 1) readonly buffer Anchors { vec4 anchors[]; }; // of each attachment: where from, where to [m]
@@ -33,8 +34,7 @@ void main() {
 #endif
     if (w == 0.0) return;
     const vec3 way = mix(anchors[2u * a].xyz, anchors[2u * a + 1u].xyz, push.fraction) - x;
-    const float alpha = min(attachment.compliance / (h * h), 1e30); // Inf would turn into NaN
-    vec3 impulse = way / (w + alpha);                               // [kg m] = force x h^2
+    vec3 impulse = way / (w + scaledCompliance(attachment.compliance, h)); // [kg m] = force x h^2
     const float most = min(attachment.maxForce, 1e30) * h * h, size = length(impulse);
     if (size > most) impulse *= most / size;
     const vec3 dx = w * impulse;
