@@ -41,8 +41,8 @@ struct Kernels {
 };
 
 template <typename Push>
-void addPasses(ProgramBuilder& program, const ParticleBuffers& particles, const Kernels& kernels,
-               std::span<const BufferId> slots, const Push& push) {
+void addKernels(ProgramBuilder& program, const ParticleBuffers& particles, const Kernels& kernels,
+                std::span<const BufferId> slots, const Push& push) {
     const StepProgram& built = program.program();
     std::vector<BufferId> buffers{particles.positions, particles.velocities, built.status, particles.step};
     const bool hasVelocities = built.velocities != BufferId{};
@@ -60,18 +60,18 @@ void addPasses(ProgramBuilder& program, const ParticleBuffers& particles, const 
 void addState(ProgramBuilder& program, const ParticleBuffers& particles) {
     const StateLayout& layout = particles.layout;
     if (layout.isInOrder) {
-        addPasses(program, particles, {k::measureState, k::publishState, k::publishPositions}, {},
-                  layout::CountPush{particles.count});
+        addKernels(program, particles, {k::measureState, k::publishState, k::publishPositions}, {},
+                   layout::CountPush{particles.count});
     } else if (layout.boxes) {
         const EqualBoxes& boxes = *layout.boxes;
         const layout::BoxesPush push{particles.count, boxes.particles, boxes.nodesX,      boxes.nodesY,
                                      boxes.origin,    boxes.rowStride, boxes.sliceStride, boxes.boxStride};
-        addPasses(program, particles, {k::measureStateBoxes, k::publishStateBoxes, k::publishPositionsBoxes},
-                  {}, push);
+        addKernels(program, particles, {k::measureStateBoxes, k::publishStateBoxes, k::publishPositionsBoxes},
+                   {}, push);
     } else {
         const BufferId slots = program.upload("state.slots", layout.slot);
-        addPasses(program, particles, {k::measureStateSlots, k::publishStateSlots, k::publishPositionsSlots},
-                  std::span(&slots, 1), layout::CountPush{particles.count});
+        addKernels(program, particles, {k::measureStateSlots, k::publishStateSlots, k::publishPositionsSlots},
+                   std::span(&slots, 1), layout::CountPush{particles.count});
     }
 }
 

@@ -81,10 +81,8 @@ bool areIn(const Scene& scene) {
 
 Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
              const StateLayout& layout) {
-    if (!areIn(scene)) return {};
     const std::vector<float> radii = radiiOf(scene, layout);
     Contacts contacts{
-        .exist = true,
         .lists = contact_lists::add(program, {.radii = radii,
                                               .margin = settings.contactMargin * medianRadius(scene),
                                               .capacity = settings.contactRoom,

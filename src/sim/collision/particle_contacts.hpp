@@ -13,7 +13,6 @@ namespace sinew::sim::collision::particle_contacts {
 bool areIn(const Scene& scene);
 
 struct Contacts {
-    bool exist = false;
     contact_lists::Lists lists;
     planes::Colliders planes;
     layout::ContactPush push{};
@@ -21,7 +20,7 @@ struct Contacts {
     BufferId touching, slips, kept, keptCounts, saved, savedCounts, before;
 };
 
-/// `exist` false where areIn() is: no buffer is made.
+/// Only where areIn().
 Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
              const StateLayout& layout);
 

@@ -96,9 +96,8 @@ layout::PackedSubstepPush packedPush(const constraints::distance::GatherLinks& l
 
 // Any links, with bends and internal damping where the scene has those.
 Gather generalGather(const Common& common, std::span<const constraints::distance::GatherLink> listed,
-                     const constraints::bend::GatherBends& bends, std::uint32_t count) {
+                     bool isRanged, const constraints::bend::GatherBends& bends, std::uint32_t count) {
     Gather gather = common.gather();
-    const bool isRanged = constraints::distance::isIrregular(listed, count);
     if (isRanged) {
         const auto links = constraints::distance::rangedLinks(listed, count);
         gather.buffers.push_back(common.program.upload("distance.links", links.links));
@@ -143,8 +142,9 @@ Gather listedGather(const Common& common, std::uint32_t count) {
     const auto bends = constraints::bend::gatherBends(common.scene, common.division.inverseMass,
                                                       omegaOfBends(common.settings));
     const bool isDamped = !listed.empty() && common.scene.dampingTime > 0;
-    if (bends.degree > 0 || isDamped || constraints::distance::isIrregular(listed, count))
-        return generalGather(common, listed, bends, count);
+    const bool isRanged = constraints::distance::isIrregular(listed, count);
+    if (bends.degree > 0 || isDamped || isRanged)
+        return generalGather(common, listed, isRanged, bends, count);
     if (listed.empty()) {
         Gather gather = common.gather();
         setDispatch(common, gather, drift, layout::SubstepPush{count, 0});
@@ -152,7 +152,7 @@ Gather listedGather(const Common& common, std::uint32_t count) {
     }
     const auto links = constraints::distance::gatherLinks(listed, count);
     const auto packedLinks = constraints::distance::pack(links);
-    return packedLinks.links.empty() ? generalGather(common, listed, bends, count)
+    return packedLinks.links.empty() ? generalGather(common, listed, false, bends, count)
                                      : packedGather(common, links, packedLinks, count);
 }
 
@@ -206,7 +206,18 @@ void addResident(const Common& common, const ParticleBuffers& particles) {
     }
 }
 
-// One dispatch a kind of grid and one for listed links, substep by substep.
+// One dispatch a kind of grid and one for listed links: the links of a substep. `next` differs from `current`
+// in the buffers that alternate.
+void addLinks(const std::vector<Gather>& gathers, const ParticleBuffers& current, const ParticleBuffers& next,
+              bool isFirst) {
+    for (const Gather& gather : gathers) {
+        std::vector<BufferId> buffers{current.positions, next.positions, current.velocities, current.step};
+        buffers.insert(buffers.end(), gather.buffers.begin(), gather.buffers.end());
+        if (next.velocities != current.velocities) buffers.push_back(next.velocities);
+        gather.dispatch(buffers, isFirst);
+    }
+}
+
 void addSubsteps(const Common& common, const ParticleBuffers& particles) {
     ProgramBuilder& program = common.program;
     const StateLayout& layout = common.layout;
@@ -220,13 +231,7 @@ void addSubsteps(const Common& common, const ParticleBuffers& particles) {
     if (alternates) next.velocities = program.scratch<layout::vec4>("state.next_velocities", layout.count);
     for (std::uint32_t substep = 0; substep < substeps; ++substep) {
         program.beginSubstep();
-        for (const Gather& gather : gathers) {
-            std::vector<BufferId> buffers{current.positions, next.positions, current.velocities,
-                                          particles.step};
-            buffers.insert(buffers.end(), gather.buffers.begin(), gather.buffers.end());
-            if (alternates) buffers.push_back(next.velocities);
-            gather.dispatch(buffers, substep == 0);
-        }
+        addLinks(gathers, current, next, substep == 0);
         std::swap(current, next);
         constraints::attachment::addPass(program, current, attachments, substep, substeps);
         constraints::tether::addPass(program, current, tethers);
@@ -254,13 +259,7 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
         program.beginSubstep();
         collision::particle_contacts::addOpening(program, contacts, current.velocities);
         predicted.velocities = alternates ? spare : current.velocities;
-        for (const Gather& gather : gathers) {
-            std::vector<BufferId> buffers{current.positions, predicted.positions, current.velocities,
-                                          particles.step};
-            buffers.insert(buffers.end(), gather.buffers.begin(), gather.buffers.end());
-            if (alternates) buffers.push_back(predicted.velocities);
-            gather.dispatch(buffers, substep == 0);
-        }
+        addLinks(gathers, current, predicted, substep == 0);
         if (!alternates) std::swap(current.velocities, spare);
         collision::particle_contacts::addPasses(program, contacts, predicted, current);
         constraints::attachment::addPass(program, current, attachments, substep, substeps);

@@ -22,41 +22,37 @@ struct Kernel {
         return usesTexels ? (hasPlanes ? *texelsPlanes : *texels) : (hasPlanes ? *loadsPlanes : *loads);
     }
 };
-inline constexpr Kernel drift{&k::driftSplit, &k::driftSplitPlanes, &k::driftSplit, &k::driftSplitPlanes};
+// Loads alone, or no neighbours to fetch.
+constexpr Kernel inOneForm(const vk::ShaderCode& code, const vk::ShaderCode& planes) {
+    return {&code, &planes, &code, &planes};
+}
+inline constexpr Kernel drift = inOneForm(k::driftSplit, k::driftSplitPlanes);
 inline constexpr Kernel general{&k::gatherSplit, &k::gatherSplitPlanes, &k::gatherSplitLoads,
                                 &k::gatherSplitLoadsPlanes};
-inline constexpr Kernel bending{&k::gatherSplitBends, &k::gatherSplitBendsPlanes, &k::gatherSplitBends,
-                                &k::gatherSplitBendsPlanes};
-inline constexpr Kernel damped{&k::gatherSplitDamped, &k::gatherSplitDampedPlanes, &k::gatherSplitDamped,
-                               &k::gatherSplitDampedPlanes};
-inline constexpr Kernel bendingDamped{&k::gatherSplitBendsDamped, &k::gatherSplitBendsDampedPlanes,
-                                      &k::gatherSplitBendsDamped, &k::gatherSplitBendsDampedPlanes};
+inline constexpr Kernel bending = inOneForm(k::gatherSplitBends, k::gatherSplitBendsPlanes);
+inline constexpr Kernel damped = inOneForm(k::gatherSplitDamped, k::gatherSplitDampedPlanes);
+inline constexpr Kernel bendingDamped = inOneForm(k::gatherSplitBendsDamped, k::gatherSplitBendsDampedPlanes);
 inline constexpr Kernel ranged{&k::gatherSplitRanged, &k::gatherSplitRangedPlanes, &k::gatherSplitRangedLoads,
                                &k::gatherSplitRangedLoadsPlanes};
-inline constexpr Kernel rangedBending{&k::gatherSplitRangedBends, &k::gatherSplitRangedBendsPlanes,
-                                      &k::gatherSplitRangedBends, &k::gatherSplitRangedBendsPlanes};
-inline constexpr Kernel rangedDamped{&k::gatherSplitRangedDamped, &k::gatherSplitRangedDampedPlanes,
-                                     &k::gatherSplitRangedDamped, &k::gatherSplitRangedDampedPlanes};
-inline constexpr Kernel rangedBendingDamped{
-    &k::gatherSplitRangedBendsDamped, &k::gatherSplitRangedBendsDampedPlanes,
-    &k::gatherSplitRangedBendsDamped, &k::gatherSplitRangedBendsDampedPlanes};
+inline constexpr Kernel rangedBending = inOneForm(k::gatherSplitRangedBends, k::gatherSplitRangedBendsPlanes);
+inline constexpr Kernel rangedDamped =
+    inOneForm(k::gatherSplitRangedDamped, k::gatherSplitRangedDampedPlanes);
+inline constexpr Kernel rangedBendingDamped =
+    inOneForm(k::gatherSplitRangedBendsDamped, k::gatherSplitRangedBendsDampedPlanes);
 inline constexpr Kernel packed{&k::gatherSplitPacked, &k::gatherSplitPackedPlanes, &k::gatherSplitPackedLoads,
                                &k::gatherSplitPackedLoadsPlanes};
 inline constexpr Kernel latticePairs{&k::gatherLattice, &k::gatherLatticePlanes, &k::gatherLatticeLoads,
                                      &k::gatherLatticeLoadsPlanes};
 inline constexpr Kernel latticeSingle{&k::gatherLatticeSingle, &k::gatherLatticeSinglePlanes,
                                       &k::gatherLatticeSingleLoads, &k::gatherLatticeSingleLoadsPlanes};
-inline constexpr Kernel residentLattice{&k::residentLattice, &k::residentLatticePlanes, &k::residentLattice,
-                                        &k::residentLatticePlanes};
-inline constexpr Kernel residentSheet{&k::residentSheet, &k::residentSheetPlanes, &k::residentSheet,
-                                      &k::residentSheetPlanes};
+inline constexpr Kernel residentLattice = inOneForm(k::residentLattice, k::residentLatticePlanes);
+inline constexpr Kernel residentSheet = inOneForm(k::residentSheet, k::residentSheetPlanes);
 inline constexpr Kernel volumePairs{&k::gatherLatticeVolume, &k::gatherLatticeVolumePlanes,
                                     &k::gatherLatticeVolumeLoads, &k::gatherLatticeVolumeLoadsPlanes};
 inline constexpr Kernel volumeSingle{&k::gatherLatticeVolumeSingle, &k::gatherLatticeVolumeSinglePlanes,
                                      &k::gatherLatticeVolumeSingleLoads,
                                      &k::gatherLatticeVolumeSingleLoadsPlanes};
-inline constexpr Kernel residentVolume{&k::residentLatticeVolume, &k::residentLatticeVolumePlanes,
-                                       &k::residentLatticeVolume, &k::residentLatticeVolumePlanes};
+inline constexpr Kernel residentVolume = inOneForm(k::residentLatticeVolume, k::residentLatticeVolumePlanes);
 inline constexpr Kernel sheet{&k::gatherSheet, &k::gatherSheetPlanes, &k::gatherSheetLoads,
                               &k::gatherSheetLoadsPlanes};
 
