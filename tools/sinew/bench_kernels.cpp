@@ -1,7 +1,7 @@
 // Bodies with 26 neighbours, cloths with 8, and one body again with listed links: the ratio of the two forms
 // at 32^3 is a target of the design (lattice: 10). Whole submissions are timed by the host, as a program
 // would see them.
-#include "sinew/kernels.hpp"
+#include "sinew/bench_kernels.hpp"
 
 #include "app/guard.hpp"
 #include "sim/bodies.hpp"
