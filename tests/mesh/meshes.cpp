@@ -1,6 +1,8 @@
 // The winding number here is written out from its formula and shares nothing with TriangleTree.
 #include "meshes.hpp"
 
+#include "mesh/place_grid.hpp"
+
 #include <cmath>
 #include <numbers>
 
@@ -69,6 +71,28 @@ double windingNumber(const TriangleMesh& mesh, const Vector3& point) {
                                                            b.dot(c) * a.norm() + c.dot(a) * b.norm());
     }
     return turns / (4 * std::numbers::pi);
+}
+
+std::size_t indexOf(const VoxelGrid& grid, std::size_t i, std::size_t j, std::size_t k) {
+    return i + grid.cells[0] * (j + std::size_t{grid.cells[1]} * k);
+}
+
+std::vector<std::size_t> cellsOfSurfaceSamples(const TriangleMesh& mesh, const VoxelGrid& grid) {
+    Random random(3);
+    std::vector<std::size_t> cells;
+    const std::vector<Vector3> positions = toCellUnits(mesh, grid);
+    for (const auto& [a, b, c] : mesh.triangles)
+        for (int sample = 0; sample < 30; ++sample) {
+            double u = sample < 3 ? sample == 1 : random.unit(), v = sample < 3 ? sample == 2 : random.unit();
+            if (u + v > 1) u = 1 - u, v = 1 - v;
+            const Vector3 x =
+                positions[a] + u * (positions[b] - positions[a]) + v * (positions[c] - positions[a]);
+            const auto cell = [&](Eigen::Index axis) {
+                return static_cast<std::size_t>(std::floor(x[axis]));
+            };
+            cells.push_back(indexOf(grid, cell(0), cell(1), cell(2)));
+        }
+    return cells;
 }
 
 } // namespace sinew::mesh::test

@@ -3,6 +3,7 @@
 
 #include "mesh/triangle_mesh.hpp"
 #include "mesh/vector3.hpp"
+#include "mesh/voxelise.hpp"
 
 #include <cstdint>
 
@@ -40,5 +41,17 @@ public:
 private:
     std::uint64_t state_;
 };
+
+std::size_t indexOf(const VoxelGrid& grid, std::size_t i, std::size_t j, std::size_t k);
+
+/// Calls visit(index, low corner in cell units) for every cell.
+template <typename Visit> void forEachCell(const VoxelGrid& grid, const Visit& visit) {
+    for (std::uint32_t k = 0; k < grid.cells[2]; ++k)
+        for (std::uint32_t j = 0; j < grid.cells[1]; ++j)
+            for (std::uint32_t i = 0; i < grid.cells[0]; ++i) visit(indexOf(grid, i, j, k), Vector3(i, j, k));
+}
+
+/// Indices of the cells in which the corners and 27 other points of each triangle lie.
+std::vector<std::size_t> cellsOfSurfaceSamples(const TriangleMesh& mesh, const VoxelGrid& grid);
 
 } // namespace sinew::mesh::test

@@ -18,17 +18,6 @@ using namespace sinew::mesh::test;
 
 namespace {
 
-std::size_t indexOf(const VoxelGrid& grid, std::size_t i, std::size_t j, std::size_t k) {
-    return i + grid.cells[0] * (j + std::size_t{grid.cells[1]} * k);
-}
-
-/// Calls visit(index, low corner in cell units) for every cell.
-template <typename Visit> void forEachCell(const VoxelGrid& grid, const Visit& visit) {
-    for (std::uint32_t k = 0; k < grid.cells[2]; ++k)
-        for (std::uint32_t j = 0; j < grid.cells[1]; ++j)
-            for (std::uint32_t i = 0; i < grid.cells[0]; ++i) visit(indexOf(grid, i, j, k), Vector3(i, j, k));
-}
-
 Vector3 toMetres(const VoxelGrid& grid, const Vector3& cellUnits) {
     return toVector(grid.origin) + cellUnits * double{grid.spacing};
 }
@@ -104,23 +93,11 @@ TEST(Voxelise, FillsHullCellsByTheirSamples) {
 }
 
 TEST(Voxelise, CoversEverySampleOfTheSurfaceWithHullCells) {
-    Random random(3);
     for (const std::string_view name : {"organ", "torus_knot", "slab_with_hole", "cloth"}) {
         const TriangleMesh mesh = generate(name, 16);
         const VoxelGrid grid = voxelise(mesh, {.resolution = 37});
-        const std::vector<Vector3> positions = toCellUnits(mesh, grid);
-        for (const auto& [a, b, c] : mesh.triangles)
-            for (int sample = 0; sample < 30; ++sample) {
-                double u = sample < 3 ? sample == 1 : random.unit(),
-                       v = sample < 3 ? sample == 2 : random.unit();
-                if (u + v > 1) u = 1 - u, v = 1 - v;
-                const Vector3 x =
-                    positions[a] + u * (positions[b] - positions[a]) + v * (positions[c] - positions[a]);
-                const auto cell = [&](Eigen::Index axis) {
-                    return static_cast<std::size_t>(std::floor(x[axis]));
-                };
-                ASSERT_EQ(grid.voxels[indexOf(grid, cell(0), cell(1), cell(2))], Voxel::hull) << name;
-            }
+        for (const std::size_t cell : cellsOfSurfaceSamples(mesh, grid))
+            ASSERT_EQ(grid.voxels[cell], Voxel::hull) << name;
     }
 }
 

@@ -59,14 +59,6 @@ void expectEqual(const VoxelGrid& grid, const VoxelGrid& other, std::string_view
     EXPECT_EQ(grid.filledVolume, other.filledVolume) << name;
 }
 
-/// Calls visit(index, low corner in cell units) for every cell.
-template <typename Visit> void forEachCell(const VoxelGrid& grid, const Visit& visit) {
-    std::size_t index = 0;
-    for (std::uint32_t k = 0; k < grid.cells[2]; ++k)
-        for (std::uint32_t j = 0; j < grid.cells[1]; ++j)
-            for (std::uint32_t i = 0; i < grid.cells[0]; ++i) visit(index++, Vector3(i, j, k));
-}
-
 TriangleMesh inCells(const PlacedMesh& placed) {
     TriangleMesh mesh = placed.mesh;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) mesh.positions[i] = toVec3(placed.positions[i]);
@@ -231,26 +223,12 @@ TEST_F(DeviceVoxels, FillBoxesToTheSampleWhereFacesLieOnSamples) {
 }
 
 TEST_F(DeviceVoxels, CoverEverySampleOfTheSurfaceAndNothingFarFromIt) {
-    Random random(3);
     for (const std::string_view name : {"organ", "torus_knot", "slab_with_hole", "cloth"}) {
         const TriangleMesh mesh = generate(name, 16);
         const VoxelGrid grid = onDevice(mesh, {.resolution = 37});
-        const std::vector<Vector3> positions = toCellUnits(mesh, grid);
-        for (const auto& [a, b, c] : mesh.triangles)
-            for (int sample = 0; sample < 30; ++sample) {
-                double u = sample < 3 ? sample == 1 : random.unit(),
-                       v = sample < 3 ? sample == 2 : random.unit();
-                if (u + v > 1) u = 1 - u, v = 1 - v;
-                const Vector3 x =
-                    positions[a] + u * (positions[b] - positions[a]) + v * (positions[c] - positions[a]);
-                const auto cell = [&](Eigen::Index axis) {
-                    return static_cast<std::size_t>(std::floor(x[axis]));
-                };
-                ASSERT_EQ(grid.voxels[cell(0) + grid.cells[0] * (cell(1) + grid.cells[1] * cell(2))],
-                          Voxel::hull)
-                    << name;
-            }
-        const TriangleTree tree(positions, mesh.triangles);
+        for (const std::size_t cell : cellsOfSurfaceSamples(mesh, grid))
+            ASSERT_EQ(grid.voxels[cell], Voxel::hull) << name;
+        const TriangleTree tree(toCellUnits(mesh, grid), mesh.triangles);
         forEachCell(grid, [&](std::size_t index, const Vector3& low) {
             if (grid.voxels[index] != Voxel::hull) return;
             EXPECT_LE(tree.distance(low + Vector3::Constant(0.5)), std::sqrt(3) / 2 + 1e-6) << name;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <ostream>
 #include <random>
+#include <stdexcept>
 
 namespace sinew::sim {
 
@@ -169,6 +170,15 @@ std::vector<NamedScene> allScenes() {
         addRoom(scenes.back().scene);
     }
     return scenes;
+}
+
+std::string refusal(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const std::logic_error& error) {
+        return error.what();
+    }
+    return "nothing was refused";
 }
 
 } // namespace sinew::test

@@ -4,7 +4,9 @@
 #include "sim/scene.hpp"
 
 #include <Eigen/Core>
+#include <functional>
 #include <iosfwd>
+#include <string>
 
 namespace sinew::sim {
 
@@ -40,6 +42,9 @@ std::vector<float> raggedFill(std::size_t cells);
 sim::Scene sheet(std::uint32_t size, float compliance = 0);
 /// One particle of 1 kg.
 sim::Scene particleAt(sim::Vec3 position, sim::Vec3 velocity = {});
+
+/// What a std::logic_error thrown by `action` says.
+std::string refusal(const std::function<void()>& action);
 
 /// Moves every particle by up to `distance` [m] and gives it up to `speed` [m/s] along each axis.
 void disturb(sim::Scene& scene, float distance, float speed);

@@ -30,15 +30,6 @@ struct Toggled {
     }
 };
 
-std::string refusal(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const std::logic_error& error) {
-        return error.what();
-    }
-    return "nothing was refused";
-}
-
 } // namespace
 
 TEST(Indirect, RunsAsManyGroupsAsAKernelSaysAndNoneWhereItSaysNone) {
@@ -88,7 +79,7 @@ TEST(Indirect, RefusesArgumentsThatAreNone) {
     Toggled toggled;
     toggled.builder.beginPhase("solve");
     const auto add = [&](const IndirectItems& items) {
-        return refusal([&] {
+        return test::refusal([&] {
             toggled.builder.dispatchIndirect(test::kernels::countRuns, items, {toggled.runs},
                                              layout::CountPush{count});
         });
@@ -103,7 +94,7 @@ TEST(Indirect, RefusesArgumentsThatAreNone) {
 TEST(Indirect, RefusesAKernelThatWritesItsOwnArguments) {
     Toggled toggled;
     toggled.builder.beginPhase("solve");
-    const std::string message = refusal([&] {
+    const std::string message = test::refusal([&] {
         toggled.builder.dispatchIndirect(test::kernels::toggleGroups, toggled.items, {toggled.arguments},
                                          layout::CountPush{count});
     });

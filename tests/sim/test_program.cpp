@@ -29,15 +29,6 @@ struct Predict {
     std::uint32_t count = 8;
 };
 
-std::string refusal(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const std::logic_error& error) {
-        return error.what();
-    }
-    return "nothing was refused";
-}
-
 void expectNames(const std::string& message, std::initializer_list<const char*> words) {
     for (const char* word : words)
         EXPECT_NE(message.find(word), std::string::npos) << word << " in: " << message;
@@ -81,7 +72,7 @@ TEST(ProgramBuilder, TakesWhatAgreesWithTheKernel) {
 TEST(ProgramBuilder, RefusesAWrongNumberOfBuffers) {
     Predict p;
     p.builder.beginPhase("solve");
-    const auto message = refusal([&] {
+    const auto message = test::refusal([&] {
         p.builder.dispatch(kernels::predict, 8, {p.positions, p.step}, p.count);
     });
     expectNames(message, {"predict", "3 buffers", "got 2"});
@@ -91,7 +82,7 @@ TEST(ProgramBuilder, RefusesAWrongStrideNamingKernelBindingAndBuffer) {
     Predict p;
     p.builder.beginPhase("solve");
     const BufferId slim = p.builder.scratch<float>("slim", 8);
-    const auto message = refusal([&] {
+    const auto message = test::refusal([&] {
         p.builder.dispatch(kernels::predict, 8, {p.positions, slim, p.step}, p.count);
     });
     expectNames(message, {"predict", "Velocities", "16", "slim", "4"});
@@ -100,7 +91,7 @@ TEST(ProgramBuilder, RefusesAWrongStrideNamingKernelBindingAndBuffer) {
 TEST(ProgramBuilder, RefusesAParameterBlockOfAnotherSize) {
     Predict p;
     p.builder.beginPhase("solve");
-    const auto message = refusal([&] {
+    const auto message = test::refusal([&] {
         p.builder.dispatch(kernels::predict, 8, {p.positions, p.velocities, p.positions}, p.count);
     });
     expectNames(message, {"predict", "Step", "64", "positions", "16"});
@@ -110,7 +101,7 @@ TEST(ProgramBuilder, RefusesAWrongPushConstantSize) {
     Predict p;
     p.builder.beginPhase("solve");
     const std::array<std::uint32_t, 2> two{8, 0};
-    const auto message = refusal([&] {
+    const auto message = test::refusal([&] {
         p.builder.dispatch(kernels::predict, 8, {p.positions, p.velocities, p.step}, two);
     });
     expectNames(message, {"predict", "takes 4 bytes", "got 8"});
@@ -119,7 +110,7 @@ TEST(ProgramBuilder, RefusesAWrongPushConstantSize) {
 TEST(ProgramBuilder, RefusesABufferThatIsNone) {
     Predict p;
     p.builder.beginPhase("solve");
-    const auto message = refusal([&] {
+    const auto message = test::refusal([&] {
         p.builder.dispatch(kernels::predict, 8, {p.positions, BufferId{}, p.step}, p.count);
     });
     expectNames(message, {"predict", "Velocities"});
@@ -127,18 +118,18 @@ TEST(ProgramBuilder, RefusesABufferThatIsNone) {
 
 TEST(ProgramBuilder, RefusesAnEmptyDispatchAndAPassWithoutPhase) {
     Predict p;
-    expectNames(refusal([&] { p.builder.fill(p.positions, 0); }), {"fill", "phase"});
+    expectNames(test::refusal([&] { p.builder.fill(p.positions, 0); }), {"fill", "phase"});
     p.builder.beginPhase("solve");
     const auto nothing = [&] {
         p.builder.dispatch(kernels::predict, 0, {p.positions, p.velocities, p.step}, p.count);
     };
-    expectNames(refusal(nothing), {"predict", "nothing to do"});
+    expectNames(test::refusal(nothing), {"predict", "nothing to do"});
 }
 
 TEST(ProgramBuilder, RefusesACopyBetweenUnequalBuffers) {
     Predict p;
     p.builder.beginPhase("solve");
-    expectNames(refusal([&] { p.builder.copy(p.positions, p.step); }),
+    expectNames(test::refusal([&] { p.builder.copy(p.positions, p.step); }),
                 {"copy", "positions", "128", "step", "64"});
 }
 
