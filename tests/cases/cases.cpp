@@ -114,6 +114,15 @@ double reachedStiffness(const Scene& scene, const Settings& settings, double h, 
     return weight / (h * h * (ends.wA + ends.wB) + compliance);
 }
 
+std::vector<double> splitStiffnesses(const Scene& scene, const Settings& settings, double h) {
+    const Division division(scene, settings);
+    std::vector<double> stiffnesses;
+    for (std::size_t c = 0; c < scene.distances.size(); ++c)
+        stiffnesses.push_back(
+            std::min(1 / double{scene.distances[c].compliance}, division.clamp(scene, c) / (h * h)));
+    return stiffnesses;
+}
+
 bool isUnclamped(const Scene& scene, const Settings& settings) {
     if (settings.solver != Solver::split) return true;
     const Division division(scene, settings);

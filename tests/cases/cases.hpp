@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace sinew::test {
 
@@ -34,6 +35,9 @@ sim::Settings accurate(sim::Solver solver, std::uint32_t substeps);
 /// between particles that never move. For `jacobi` with one iteration, and the same weight at both ends;
 /// `gauss_seidel` has at rest what was asked for, where substeps suffice to solve its constraints.
 double reachedStiffness(const sim::Scene& scene, const sim::Settings& settings, double h, std::size_t c);
+
+/// Of `split`: the same for every constraint, infinite between particles that never move [N/m].
+std::vector<double> splitStiffnesses(const sim::Scene& scene, const sim::Settings& settings, double h);
 
 /// Whether `split` has all the stiffness of the scene with these settings, of links and (with a tenth to
 /// spare) of cells; must hold where a case says unclamped. Lattices are full somewhere.

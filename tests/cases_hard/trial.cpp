@@ -1,6 +1,7 @@
 // The common criteria.
 #include "cases_hard/trial.hpp"
 
+#include "cases/cases.hpp"
 #include "sim/compile.hpp"
 #include "sim/scenes.hpp"
 #include "sim/substeps.hpp"
@@ -49,14 +50,19 @@ double elasticEnergy(const Scene& scene, const Settings& asked) {
     const Settings settings = withSubsteps(scene, asked);
     const std::vector<float> inverseMass = inverseMasses(scene);
     const double h = double{scene.dt} / settings.substeps;
+    const bool isSplit = settings.solver == Solver::split;
+    const std::vector<double> ofSplit =
+        isSplit ? splitStiffnesses(scene, settings, h) : std::vector<double>{};
     double energy = 0;
-    for (const DistanceConstraint& c : scene.distances) {
+    for (std::size_t index = 0; index < scene.distances.size(); ++index) {
+        const DistanceConstraint& c = scene.distances[index];
         const double w = double{inverseMass[c.a]} + double{inverseMass[c.b]};
         if (w == 0) continue;
         const Vector3d d = toVector(scene.particles[c.b].position) - toVector(scene.particles[c.a].position);
         const double stretch = d.norm() - double{c.restLength};
-        const double most = settings.solver == Solver::split ? double{settings.omega} / 2 : 1;
-        energy += 0.5 * stretch * stretch / std::max(double{c.compliance}, h * h * w / most);
+        // XPBD: a correction C / (w + compliance / h^2) leaves no more than this as motion.
+        const double stiffness = isSplit ? ofSplit[index] : 1 / (double{c.compliance} + h * h * w);
+        energy += 0.5 * stiffness * stretch * stretch;
     }
     return energy;
 }

@@ -30,7 +30,8 @@ struct TrialPlan {
 /// Energy: kinetic energy <= 1.01 x (kinetic + elastic energy of the start + work of gravity + plan.work).
 Trial runTrial(const sim::Scene& scene, const sim::Settings& settings, const TrialPlan& plan = {});
 
-/// Of the links as the solver makes them at the scene's dt: rigid ones as stiff as a substep allows.
+/// Of the links as stiff as the solver makes them at the scene's dt: for `split` by the division of particles
+/// that the analytic cases predict with, for others by what one correction of a link alone can set free.
 double elasticEnergy(const sim::Scene& scene, const sim::Settings& settings);
 
 } // namespace sinew::test
