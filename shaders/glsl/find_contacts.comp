@@ -1,5 +1,5 @@
 #version 460
-// Lists every pair of particles that is nearer than touching and a margin, once for each of the two, in any order:
+// Lists every pair of particles that is nearer than touching and a margin with both of the two, in any order:
 // sort_contacts sorts. A list that is too short loses what does not fit and says how long it should be.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -55,41 +55,67 @@ bool isNear(uint i, uint j, float radius, vec3 d) {
     return i != j && dot(d, d) < reach * reach && !isExcluded(i, j);
 }
 
-void list(uint i, uint s, uint j) {
+// Appends each of the two to the other's list.
+void list(uint i, uint j) {
+    const uint s = atomicAdd(found[i], 1u), t = atomicAdd(found[j], 1u);
     if (s < push.capacity) candidates[s * push.row + i] = j;
+    if (t < push.capacity) candidates[t * push.row + j] = i;
 }
 
-// Appends those of a row of three cells to particle i's list of n. A batch of a range is measured first and the few that
-// may be near are looked at then: what stands under a condition is what costs.
-void searchRow(uint i, vec3 x, float radius, ivec3 home, ivec2 row, Frame frame, uint total, inout uint n) {
-    const uint slot = slotOf(ivec3(home.x - 1, row), frame), end = START(slot + 3u);
+// Lists those near particle i among three rows of cells; n counts them. The rows are visited in one loop, because lanes
+// wait for the longest list among them: of three rows together it is less above the mean than of one. A batch is measured
+// first and the few that may be near are looked at then: what stands under a condition is what costs.
+void searchRows(uint i, vec3 x, float radius, ivec3 home, ivec3 firstCells[3], uint cells[3], Frame frame, uint total,
+                inout uint n) {
+    uint start[3], count[3];
+    [[unroll]] for (int row = 0; row < 3; ++row) {
+        const uint slot = slotOf(firstCells[row], frame);
+        start[row] = START(slot);
+        count[row] = START(slot + cells[row]) - start[row];
+    }
+    const uint second = count[0], third = second + count[1], all = third + count[2];
+    start[1] -= second;
+    start[2] -= third;
     const float reach = radius + push.most + push.margin;
-    for (uint first = START(slot); first < end && n <= push.limit; first += 32u) {
-        const uint last = min(first + 32u, end);
+    for (uint first = 0u; first < all && n <= push.limit; first += 32u) {
+        const uint last = min(first + 32u, all);
         uint near = 0u;
-        for (uint k = first; k < last; ++k) {
+        for (uint visit = first; visit < last; ++visit) {
+            const uint k = visit + (visit < second ? start[0] : visit < third ? start[1] : start[2]);
             const vec3 d = x - uintBitsToFloat(SORTED(k < total ? k : k - total).xyz);
-            near |= uint(dot(d, d) < reach * reach) << k - first;
+            near |= uint(dot(d, d) < reach * reach) << visit - first;
         }
         for (; near != 0u; near &= near - 1u) {
-            const uint k = first + uint(findLSB(near));
+            const uint visit = first + uint(findLSB(near));
+            const uint k = visit + (visit < second ? start[0] : visit < third ? start[1] : start[2]);
             const uvec4 other = SORTED(k < total ? k : k - total);
             const vec3 xj = uintBitsToFloat(other.xyz);
-            if (cellOf(xj, frame).yz == row && isNear(i, other.w, radius, x - xj)) list(i, n++, other.w);
+            const ivec3 cell = cellOf(xj, frame);
+            const ivec2 row = firstCells[visit < second ? 0 : visit < third ? 1 : 2].yz;
+            if (cell.yz != row || cell == home && other.w <= i) continue; // of two in one cell the first lists both
+            if (!isNear(i, other.w, radius, x - xj)) continue;
+            list(i, other.w);
+            ++n;
         }
     }
 }
 
-// Pairs with a large particle: small ones enter both copies, of two large ones each enters its own.
-void searchLarge(uint i, vec3 x, float radius, bool isLarge, inout uint n) {
+// Half of the 27 cells around a particle: those behind its own in z, y, x, and its own. A pair is found once.
+void searchCells(uint i, vec3 x, float radius, Frame frame) {
+    const ivec3 home = cellOf(x, frame);
+    const uint total = START(push.cells);
+    uint n = 0u;
+    searchRows(i, x, radius, home, ivec3[3](home, home + ivec3(-1, 1, 0), home), uint[3](2u, 3u, 0u), frame, total, n);
+    searchRows(i, x, radius, home,
+               ivec3[3](home + ivec3(-1, -1, 1), home + ivec3(-1, 0, 1), home + ivec3(-1, 1, 1)), uint[3](3u, 3u, 3u),
+               frame, total, n);
+}
+
+// Pairs with a large particle: small ones enter both copies, of two large ones the first does.
+void searchLarge(uint i, vec3 x, float radius, bool isLarge) {
     for (uint l = 0u; l < push.large; ++l) {
         const uint j = large[l];
-        if (!isNear(i, j, radius, x - POSITION(j).xyz)) continue;
-        if (isLarge) list(i, atomicAdd(found[i], 1u), j);
-        else {
-            list(i, n++, j);
-            list(j, atomicAdd(found[j], 1u), i);
-        }
+        if ((!isLarge || i < j) && isNear(i, j, radius, x - POSITION(j).xyz)) list(i, j);
     }
 }
 
@@ -98,15 +124,6 @@ void main() {
     const vec3 x = POSITION(i).xyz;
     const float radius = RADIUS(i);
     const bool isSmall = isInGrid(radius, push.most);
-    uint n = 0u;
-    if (isSmall) {
-        const Frame frame = frameOf(bounds, push.cells, push.edge);
-        const ivec3 home = cellOf(x, frame);
-        const uint total = START(push.cells);
-        for (int dz = -1; dz <= 1; ++dz)
-            for (int dy = -1; dy <= 1; ++dy)
-                searchRow(i, x, radius, home, home.yz + ivec2(dy, dz), frame, total, n);
-    }
-    if (radius >= 0.0) searchLarge(i, x, radius, !isSmall, n);
-    if (isSmall) found[i] = n;
+    if (isSmall) searchCells(i, x, radius, frameOf(bounds, push.cells, push.edge));
+    if (radius >= 0.0) searchLarge(i, x, radius, !isSmall);
 }
