@@ -15,10 +15,6 @@ std::array<std::uint32_t, 2> blockOf(const Grid& grid, std::uint32_t columns) {
     return isSheet(grid) ? std::array{sheetColumns, 1u} : std::array{columns, columns};
 }
 
-std::uint32_t slotsOf(const Grid& grid, const Box& box) {
-    return box.sliceStride * grid.nodes[2];
-}
-
 std::vector<Box> boxesOf(const Scene& scene, std::span<const std::uint32_t> grids) {
     std::vector<Box> boxes;
     auto first = static_cast<std::uint32_t>(paddedCount(listedParticles(scene, grids)));
@@ -173,8 +169,7 @@ bool isResident(const Scene& scene, const Settings& settings, std::span<const st
     if (grids.empty() || listedParticles(scene, grids) > 0) return false;
     return std::ranges::all_of(grids, [&](std::uint32_t g) {
         const Grid& grid = scene.grids[g];
-        return std::uint64_t{slotsOf(grid, place(grid, 0))} * 2 * sizeof(layout::vec4) <=
-               settings.forms.residentBytes;
+        return std::uint64_t{place(grid, 0).slots} * 2 * sizeof(layout::vec4) <= settings.forms.residentBytes;
     });
 }
 
@@ -191,7 +186,7 @@ Batches batchesOf(const Scene& scene, const Settings& settings, std::span<const 
         layout::LatticePush push = pushOf(scene, grid, box, shares.ofLinks, shares.ofCells[grids[g]]);
         if (resident) {
             push.substeps = settings.substeps;
-            push.bodySlots = slotsOf(grid, box);
+            push.bodySlots = box.slots;
         }
         const auto [columnsX, columnsY] = blockOf(grid, resident ? 2 : settings.forms.columns);
         const auto chunks =

@@ -31,9 +31,15 @@ std::vector<bool> slicesWithParticles(const Grid& grid, const std::vector<bool>&
     return result;
 }
 
+/// Slices that the block of columns at `column` (x, y) marches.
+struct Run {
+    std::array<std::uint32_t, 2> column;
+    std::uint32_t slice, layers;
+};
+
 /// Appends the runs of true, each in equal parts of at most `longest`.
-void appendRuns(const std::vector<bool>& isLive, std::uint32_t origin, std::uint32_t sliceStride,
-                std::uint32_t longest, std::vector<layout::LatticeChunk>& chunks) {
+void appendRuns(const std::vector<bool>& isLive, std::array<std::uint32_t, 2> column, std::uint32_t longest,
+                std::vector<Run>& runs) {
     const auto count = static_cast<std::uint32_t>(isLive.size());
     for (std::uint32_t begin = 0; begin < count;) {
         std::uint32_t end = begin;
@@ -42,7 +48,7 @@ void appendRuns(const std::vector<bool>& isLive, std::uint32_t origin, std::uint
         for (std::uint32_t part = 0; part < parts; ++part) {
             const std::uint32_t from = begin + (end - begin) * part / parts;
             const std::uint32_t to = begin + (end - begin) * (part + 1) / parts;
-            chunks.push_back({origin + sliceStride * from, to - from});
+            runs.push_back({column, from, to - from});
         }
         begin = end + 1;
     }
@@ -52,11 +58,12 @@ void appendRuns(const std::vector<bool>& isLive, std::uint32_t origin, std::uint
 
 Box place(const Grid& grid, std::uint32_t first) {
     Box box;
-    box.rowStride = roundUp(grid.nodes[0], isSheet(grid) ? 4 : 2);
-    box.sliceStride = isSheet(grid) ? box.rowStride : box.rowStride * roundUp(grid.nodes[1], 2);
-    const std::uint32_t rim = box.sliceStride + (isSheet(grid) ? 0 : box.rowStride) + 1;
+    box.sliceStride = roundUp(grid.nodes[0], isSheet(grid) ? 4 : 2);
+    box.rowStride = box.sliceStride * grid.nodes[2];
+    box.slots = box.rowStride * roundUp(grid.nodes[1], isSheet(grid) ? 1 : 2);
+    const std::uint32_t rim = (isSheet(grid) ? 0 : box.rowStride) + box.sliceStride + 1;
     box.origin = first + rim;
-    box.end = box.origin + box.sliceStride * grid.nodes[2] + rim;
+    box.end = box.origin + box.slots + rim;
     return box;
 }
 
@@ -87,15 +94,15 @@ std::vector<layout::LatticeChunk> chunksOf(const Grid& grid, const Box& box, std
                                            std::uint32_t columnsY, std::uint32_t longest) {
     std::vector<bool> isLive(std::size_t{grid.nodes[0]} * grid.nodes[1] * grid.nodes[2]);
     for (const std::uint32_t node : grid.node) isLive[node] = true;
-    std::vector<layout::LatticeChunk> chunks;
+    std::vector<Run> runs;
     for (std::uint32_t y = 0; y < grid.nodes[1]; y += columnsY)
         for (std::uint32_t x = 0; x < grid.nodes[0]; x += columnsX)
-            appendRuns(slicesWithParticles(grid, isLive, x, y, columnsX, columnsY), box.slot(x, y, 0),
-                       box.sliceStride, longest, chunks);
+            appendRuns(slicesWithParticles(grid, isLive, x, y, columnsX, columnsY), {x, y}, longest, runs);
     // runs of equal height and length side by side: the lanes of a device then march in step
-    std::stable_sort(chunks.begin(), chunks.end(), [&](const auto& a, const auto& b) {
-        return (a.origin - box.origin) / box.sliceStride < (b.origin - box.origin) / box.sliceStride;
-    });
+    std::ranges::stable_sort(runs, {}, &Run::slice);
+    std::vector<layout::LatticeChunk> chunks;
+    for (const Run& run : runs)
+        chunks.push_back({box.slot(run.column[0], run.column[1], run.slice), run.layers});
     return chunks;
 }
 

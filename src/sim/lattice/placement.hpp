@@ -11,10 +11,13 @@
 
 namespace sinew::sim::lattice {
 
-/// The box of one grid. Rows are padded to even counts, sheets to multiples of four: blocks of columns then
-/// never leave the box.
+/// The box of one grid. Slices follow one another in memory, so that a march along z reads on where it
+/// stands; rows of whole slices lie apart. (The other way round the slices of 64^3 lie a power of two apart
+/// and evict each other from a CPU's cache.) Padded to even counts in x and y, sheets to multiples of four in
+/// x: blocks of columns then never leave the box.
 struct Box {
     std::uint32_t rowStride = 0, sliceStride = 0; ///< slots from a node to the next in y, in z
+    std::uint32_t slots = 0;                      ///< without the rim
     std::uint32_t origin = 0;                     ///< slot of node (0, 0, 0)
     std::uint32_t end = 0;                        ///< one past the rim
 
