@@ -147,6 +147,19 @@ TEST_F(Run, DivergenceNamesStepAndBodyAndKeepsTheLastFiniteState) {
         EXPECT_TRUE(std::isfinite(particle.position.x) && std::isfinite(particle.velocity.y));
 }
 
+// Averaging is what keeps jacobi stable: without it corrections of a stiff block add up.
+TEST_F(Run, TimesTheStepThatDivergesBeItTheFirst) {
+    write("scene.toml",
+          "[[box]]\ncenter = [0, 0, 0]\nparticles = [8, 3, 3]\nspacing = 0.1\nyoung_modulus = 1e7\n"
+          "clamped = [\"low_x\"]\n[solver]\nname = \"jacobi\"\nweight = 1\nsubsteps = 16\n"
+          "iterations = 4\n");
+    const Outcome outcome = run({"run", "scene.toml", "--frames", "2", "--out", "out"});
+    EXPECT_EQ(outcome.code, 7) << outcome.error;
+    const json report = json::parse(std::ifstream(folder_ / "out/report.json"));
+    ASSERT_TRUE(report["frame_ms"]["p50"].is_number());
+    EXPECT_GT(report["frame_ms"]["p50"], 0);
+}
+
 TEST_F(Run, AnInterruptedRunWritesWholeOutputs) {
     write("scene.toml", sheet);
     const Outcome outcome =

@@ -104,13 +104,18 @@ TEST_F(Study, RunsAgainWhatIsMissingOrDamaged) {
     const std::size_t kept = runs().size();
     std::ofstream(runs().at(0)) << "{\"identity\": \"";
     fs::remove(runs().at(1));
+    Json untimed = Json::parse(std::ifstream(runs().at(2)));
+    untimed["frame_ms"] = Json::array(); // it would stand at 0 ms, which no logarithm bears
+    std::ofstream(runs().at(2)) << untimed;
     const Outcome again = study();
     ASSERT_EQ(again.code, 0) << again.error;
     EXPECT_NE((again.error + again.out).find("page: "), std::string::npos);
     EXPECT_EQ(runs().size(), kept);
     for (const fs::path& file : runs()) {
         std::ifstream stream(file);
-        EXPECT_TRUE(Json::parse(stream, nullptr, false).is_object()) << file;
+        const Json run = Json::parse(stream, nullptr, false);
+        EXPECT_TRUE(run.is_object()) << file;
+        EXPECT_FALSE(run.contains("frame_ms") && run["frame_ms"].empty()) << file;
     }
 }
 

@@ -77,11 +77,6 @@ void Runner::finishStep(std::uint64_t frame) {
     const sim::Status status = simulation_.status(frame);
     if (status.frame != static_cast<std::uint32_t>(frame))
         throw std::logic_error("the status of step " + std::to_string(frame) + " is that of another");
-    if (status.nonFinite > 0) {
-        divergence_ = {frame + 1, status.firstBadParticle, status.nonFinite,
-                       bodyOf(scene_, status.firstBadParticle)};
-        return;
-    }
     const std::vector<double> phases = timestamps_[slot].milliseconds();
     if (frameMs_.size() < mostFrameTimes) {
         frameMs_.emplace_back();
@@ -93,6 +88,11 @@ void Runner::finishStep(std::uint64_t frame) {
         deviceMs_[done_ % mostFrameTimes] = std::accumulate(phases.begin(), phases.end(), 0.0);
     for (std::size_t i = 0; i < phases.size(); ++i) phaseSums_[i] += phases[i];
     timed_ += phases.empty() ? 0 : 1;
+    if (status.nonFinite > 0) {
+        divergence_ = {frame + 1, status.firstBadParticle, status.nonFinite,
+                       bodyOf(scene_, status.firstBadParticle)};
+        return;
+    }
     ++done_;
 }
 

@@ -35,7 +35,7 @@ public:
     const sim::Simulation& simulation() const { return simulation_; }
 
     /// Wall-clock time [ms] from the end of one step to the end of the next, of the newest 65,536 steps at
-    /// most: an endless run must not grow. In no order.
+    /// most, the one that diverged included: an endless run must not grow. In no order.
     const std::vector<double>& frameMs() const { return frameMs_; }
     /// Device time of a step [ms], its phases summed, of the same steps; empty without timestamps.
     const std::vector<double>& deviceMs() const { return deviceMs_; }

@@ -131,8 +131,8 @@ bool Store::load(Trial& trial) const {
     } catch (const Json::exception&) {
         return false;
     }
-    trial.isRun = true;
-    return true;
+    trial.isRun = !trial.frameMs.empty();
+    return trial.isRun;
 }
 
 void Store::keep(const Trial& trial) const {
