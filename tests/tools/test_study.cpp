@@ -170,6 +170,20 @@ TEST(Headline, ComparesWithJacobiAtEqualError) {
     EXPECT_FALSE(advantage->isBound);
 }
 
+TEST(Headline, ComparesWithAveragingAndShowsWeightsBesideIt) {
+    using enum sim::Solver;
+    Trial weighted = trialOf(jacobi, 20, 0.01);
+    weighted.settings.weight = 1;
+    const SceneResult result = resultOf({trialOf(jacobi, 80, 0.05), weighted, trialOf(split, 4, 0.01)});
+    const std::vector<Curve> curves = curvesOf(result);
+    ASSERT_EQ(curves.size(), 3u);
+    EXPECT_EQ(curves[0].solver, "jacobi");
+    EXPECT_FALSE(curves[0].costOf(targetError, prices[0]).has_value());
+    EXPECT_EQ(curves[2].solver, "jacobi_weighted");
+    EXPECT_NEAR(*curves[2].costOf(targetError, prices[0]), 20, 1e-9);
+    EXPECT_TRUE(advantageOf(curves[1], curves)->isBound);
+}
+
 TEST(Headline, IsABoundWhereJacobiNeverGetsThere) {
     using enum sim::Solver;
     const SceneResult result = resultOf({trialOf(jacobi, 10, 0.1), trialOf(jacobi, 80, 0.05),

@@ -64,7 +64,7 @@ std::string cell(const Curve& curve, const std::vector<Curve>& curves) {
 }
 
 std::string headline(const StudyRecord& record) {
-    const std::vector<std::string> solvers = sim::solverNames();
+    const std::vector<std::string> solvers = curveNames();
     std::string html = "<div class=\"headline\"><table>\n<thead><tr><th>to 1 % error</th>";
     for (const std::string& solver : solvers) html += "<th>" + escaped(solver) + "</th>";
     html += "</tr></thead>\n<tbody>\n";

@@ -71,7 +71,20 @@ std::vector<SweepCount> sweepCounts(std::uint32_t points, bool isFine) {
     return counts;
 }
 
+constexpr const char* weighted = "jacobi_weighted";
+
 } // namespace
+
+std::string curveOf(const sim::Settings& settings) {
+    return settings.solver == sim::Solver::jacobi && settings.weight > 0 ? weighted
+                                                                         : sim::solverName(settings.solver);
+}
+
+std::vector<std::string> curveNames() {
+    std::vector<std::string> names = sim::solverNames();
+    names.emplace_back(weighted);
+    return names;
+}
 
 std::vector<std::string> studySceneNames() {
     std::vector<std::string> names;

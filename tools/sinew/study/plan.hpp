@@ -25,6 +25,11 @@ std::vector<std::string> studySceneNames();
 /// scenes::SceneError.
 std::vector<StudyScene> studyScenes(const std::string& which, std::optional<std::uint32_t> frames);
 
+/// On which curve settings stand: a solver's name; `jacobi` as published averages a particle's corrections,
+/// and with a weight instead it is another method, stable in fewer scenes.
+std::string curveOf(const sim::Settings& settings);
+std::vector<std::string> curveNames();
+
 /// One number of sweeps a frame in every split into substeps and iterations and with every tuning of the
 /// solver.
 std::vector<sim::Settings> settingsAt(sim::Solver solver, std::uint32_t sweeps);

@@ -1,7 +1,6 @@
 // JSON, CSV and the few lines a terminal gets.
 #include "sinew/study/report.hpp"
 
-#include "sim/compile.hpp"
 #include "sinew/json.hpp"
 #include "sinew/report.hpp"
 
@@ -38,11 +37,11 @@ std::optional<double> Curve::costOf(double error, const Price& price) const {
 
 std::vector<Curve> curvesOf(const SceneResult& result) {
     std::vector<Curve> curves;
-    const std::vector<std::string> names = sim::solverNames();
+    const std::vector<std::string> names = curveNames();
     for (std::size_t slot = 0; slot < names.size(); ++slot) {
         Curve curve{.solver = names[slot], .slot = slot};
         for (const Trial& trial : result.trials)
-            if (sim::solverName(trial.settings.solver) == names[slot])
+            if (curveOf(trial.settings) == names[slot])
                 curve.points.push_back({&trial, errorOf(trial, result.truth)});
         if (!curve.points.empty()) curves.push_back(std::move(curve));
     }
@@ -167,7 +166,7 @@ std::string toText(const StudyRecord& record) {
         for (const Curve& curve : curves) {
             const std::optional<double> ms = curve.costOf(targetError, prices[0]);
             const std::optional<Advantage> advantage = advantageOf(curve, curves);
-            text += fmt::format("{:<12} {:<14} {:>12}", scene.name, curve.solver,
+            text += fmt::format("{:<12} {:<16} {:>12}", scene.name, curve.solver,
                                 ms ? fmt::format("{:.3g} ms", *ms) : "never");
             if (advantage && curve.solver != "jacobi")
                 text += fmt::format("   {}{:.3g} x faster than jacobi",

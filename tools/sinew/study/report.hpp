@@ -24,8 +24,8 @@ struct CurvePoint {
 };
 
 struct Curve {
-    std::string solver;
-    std::size_t slot = 0; ///< its place among all solvers: what colors go by
+    std::string solver;   ///< one of curveNames()
+    std::size_t slot = 0; ///< its place among them: what colors go by
     std::vector<CurvePoint> points;
 
     std::vector<Offer> offers(const Price& price) const;
@@ -34,7 +34,7 @@ struct Curve {
     std::optional<double> costOf(double error, const Price& price) const;
 };
 
-/// One per solver that ran. Points into `result`.
+/// One per name of curveNames() that ran. Points into `result`.
 std::vector<Curve> curvesOf(const SceneResult& result);
 
 /// How many times less time a solver needs than jacobi to the target error. Where jacobi never gets there,

@@ -85,10 +85,10 @@ void compareAll(Session& session, const StudyScene& scene, const Truth& truth,
 /// yet.
 std::vector<Trial*> untimed(std::vector<Trial>& trials, const Truth& truth) {
     std::vector<Trial*> result;
-    for (const std::string& solver : sim::solverNames()) {
+    for (const std::string& name : curveNames()) {
         std::vector<Trial*> own;
         for (Trial& trial : trials)
-            if (trial.isRun && sim::solverName(trial.settings.solver) == solver) own.push_back(&trial);
+            if (trial.isRun && curveOf(trial.settings) == name) own.push_back(&trial);
         for (const bool isTime : {true, false}) {
             std::vector<Offer> offers;
             for (const Trial* trial : own) {
@@ -198,16 +198,6 @@ std::optional<TrialError> errorOf(const Trial& trial, const Truth& truth) {
                       *std::max_element(trial.frameMax.begin(),
                                         trial.frameMax.begin() + static_cast<std::ptrdiff_t>(frames)),
                       frames};
-}
-
-std::vector<std::string> solversOf(const SceneResult& result) {
-    std::vector<std::string> names;
-    for (const std::string& name : sim::solverNames())
-        if (std::ranges::any_of(result.trials, [&](const Trial& trial) {
-                return sim::solverName(trial.settings.solver) == name;
-            }))
-            names.push_back(name);
-    return names;
 }
 
 } // namespace sinew::tools::study

@@ -27,7 +27,4 @@ struct TrialError {
 };
 std::optional<TrialError> errorOf(const Trial& trial, const Truth& truth);
 
-/// Solvers of a result in the order of sim::solverNames().
-std::vector<std::string> solversOf(const SceneResult& result);
-
 } // namespace sinew::tools::study
