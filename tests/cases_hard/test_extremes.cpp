@@ -1,5 +1,6 @@
 // Hard cases 1, 2, 8 to 10, 19, 21, 22, 24, 28, 31, 34: masses, stiffness, lengths and steps far from each
 // other.
+#include "cases/cases.hpp"
 #include "cases_hard/trial.hpp"
 #include "scenes/load.hpp"
 #include "sim/bodies.hpp"
@@ -33,6 +34,8 @@ protected:
         return {.solver = GetParam(), .substeps = substeps};
     }
 };
+
+class HeavyEnd : public HardCase {}; // `jacobi` with averaging does not get there: docs/accuracy.md
 
 // Links of `length` from a fixed particle along a direction; equal masses [kg].
 Scene line(std::uint32_t links, float length, float mass, float compliance, const Vector3d& direction) {
@@ -93,6 +96,19 @@ Scene heldAtBothEnds(std::uint32_t links, float gap, float compliance) {
     return scene;
 }
 
+// The most of the work of gravity that is kinetic energy, of what starts at rest and unstretched.
+double largestShareOfWork(const Scene& scene, const Trial& trial) {
+    double share = 0;
+    for (std::size_t s = 1; s < trial.x.size(); ++s) {
+        double work = 0; // [J]
+        for (std::size_t i = 0; i < scene.particles.size(); ++i)
+            work += test::toVector(scene.gravity).dot(trial.x[s][i] - trial.x[0][i]) /
+                    double{scene.particles[i].inverseMass};
+        share = std::max(share, trial.kineticEnergy[s] / work);
+    }
+    return share;
+}
+
 double lastSpeed(const Scene& scene, const Trial& trial) {
     return rms(trial.x.back(), trial.x[trial.x.size() - 2]) / double{scene.dt};
 }
@@ -114,10 +130,12 @@ TEST_P(HardCase, Case01AHeavyEndLeavesAChainFiniteAtAnyNumberOfSubsteps) {
     }
 }
 
-TEST(HardCaseOfSplit, Case01AHeavyEndSwingsAndStretchesAsItShould) {
+// Without damping: what rounding or a correction that does not reach a position feeds in would show as
+// energy.
+TEST_P(HeavyEnd, Case01SwingsAndStretchesAsItShould) {
     const Scene scene = heavyPendulum();
     const int steps = 200; // 3.3 s
-    const Trial trial = runTrial(scene, {.substeps = 256}, {.steps = steps});
+    const Trial trial = runTrial(scene, settings(256), {.steps = steps});
     // Truth: unclamped at theta 0 this is velocity Verlet; at 1024 substeps converged.
     reference::State truth = reference::initialState(scene);
     std::vector<std::vector<Vector3d>> exact{truth.x};
@@ -133,8 +151,9 @@ TEST(HardCaseOfSplit, Case01AHeavyEndSwingsAndStretchesAsItShould) {
     EXPECT_NEAR(period / wanted, 1, 0.02);
     EXPECT_NEAR(wanted / (2 * std::numbers::pi * std::sqrt(2.02 / 9.81)), 1, 0.02)
         << "the truth is a pendulum";
-    std::printf("case 1: strain %.4g, truth %.4g; period %.4f s, truth %.4f s\n", strain, exactStrain, period,
-                wanted);
+    std::printf(
+        "case 1 %s: strain %.4g, truth %.4g; period %.4f s, truth %.4f s; kinetic energy %.3f of work\n",
+        solverName(GetParam()), strain, exactStrain, period, wanted, largestShareOfWork(scene, trial));
 }
 
 // Five links of 1e8 N/m above five of 100 N/m.
@@ -425,5 +444,5 @@ TEST_P(HardCase, Case34TheWorkOfADispatchAndOfAStepIsBounded) {
     EXPECT_EQ(validate(test::chain(3), endless).empty(), GetParam() == Solver::split);
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, HardCase, testing::Values(Solver::jacobi, Solver::split, Solver::gaussSeidel),
-                         [](const auto& parameter) { return solverName(parameter.param); });
+INSTANTIATE_TEST_SUITE_P(Of, HardCase, testing::ValuesIn(test::caseSolvers), test::solverOf);
+INSTANTIATE_TEST_SUITE_P(Of, HeavyEnd, testing::Values(Solver::split, Solver::gaussSeidel), test::solverOf);
