@@ -386,13 +386,20 @@ void checkGrids(const Scene& scene, Complaints& complaints) {
     }
     for (std::size_t g = 0; g < scene.grids.size(); ++g) {
         const Grid& grid = scene.grids[g];
-        if (const auto complaint = lattice::complaintAbout(scene, grid))
-            complaints.add(element("grid", g), *complaint);
         const auto name = [&](const char* member) {
             return [&, member] { return nameOf(scene, g) + member; };
         };
+        // first: lists do not agree with what is no number
+        for (const float compliance : grid.compliance)
+            complaints.check(double{compliance}, ranges::compliance, name(".compliance"));
+        for (const float length : grid.restLength)
+            complaints.check(double{length}, ranges::restLength, name(".restLength"));
         complaints.check(double{grid.volumeStiffness}, ranges::pressure, name(".volumeStiffness"));
         complaints.check(double{grid.recoveryPressure}, ranges::pressure, name(".recoveryPressure"));
+        if (hasCellVolumes(grid) && grid.restLength[0] == 0)
+            complaints.add(name(".restLength")(), "is 0, must be above 0 where cells have volumes");
+        if (const auto complaint = lattice::complaintAbout(scene, grid))
+            complaints.add(element("grid", g), *complaint);
         if (lattice::isSheet(grid) && hasCellVolumes(grid))
             complaints.add(nameOf(scene, g), "is a sheet, whose cells have no volume");
     }
