@@ -46,44 +46,10 @@ layout(std430, binding = PLANE_BINDING + 1) readonly buffer ContactOffsets { flo
 layout(push_constant) uniform Push { SubstepPush push; };
 
 #ifdef CLOSES
-// Turns the end of a sweep into the velocity after the substep, and returns the way from p to the position after it.
-vec3 close(uint i, vec3 halfKick, vec3 p, inout vec3 v) {
-    vec3 way = uintBitsToFloat(corrections[i].xyz);
-    const vec3 before = v - 2.0 * halfKick;
-    v += way / step.h;
-#ifdef HAS_PLANES
-    const vec3 x = p + way;
-    Motion motion = Motion(x, v, way + step.h * (before + halfKick));
-    uint touched = corrections[i].w;
-    for (uint plane = 0u; plane < planeCount; ++plane) {
-        if (projectOntoPlane(planes[plane], contactOffsets[i], step.h, motion)) touched |= 1u << plane;
-    }
-    way += motion.x - x;
-    v = motion.v;
+#include "close_substep.glsl"
 #endif
-    // Even at rest v holds the half-kick h g / 2. Damping it as if it were motion would take weight off the body.
-    v = mix(halfKick, v, step.velocityFactor);
-#ifdef HAS_PLANES
-    for (uint plane = 0u; plane < planeCount; ++plane) {
-        if ((touched & 1u << plane) != 0u) v += rebound(planes[plane], step.restSpeed, before, v);
-    }
-#endif
-    return way;
-}
-#endif
-
 #ifdef HAS_WARM_START
-// The sum of l n over a particle's links [kg m]. An end a is moved against n, an end b along it: both by the same bits.
-// Slots without a link point to padding of the constraint list, whose multipliers stay 0.
-vec3 warmImpulses(uint i) {
-    vec3 sum = vec3(0.0);
-    [[unroll]] for (uint s = 0u; s < degree; ++s) {
-        const uint link = LINK((i / LINK_BLOCK * degree + s) * LINK_BLOCK + i % LINK_BLOCK);
-        const vec3 impulse = MULTIPLIER(link & ~WARM_LINK_SIGN).xyz;
-        sum += (link & WARM_LINK_SIGN) != 0u ? -impulse : impulse;
-    }
-    return push.isFirst != 0u ? step.multiplierScale * sum : sum;
-}
+#include "warm_start.glsl"
 #endif
 
 void main() {

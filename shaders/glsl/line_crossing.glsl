@@ -1,6 +1,6 @@
-// One triangle against one line of samples along push.axis: which of them lie above it, as if every sample were moved by
-// (e1, e2, e3), e1 >> e2 >> e3 > 0. Exact. The kernel says how many `samples` a cell has, evenly spread; points are seen along
-// the axis (voxel.glsl) and relative to where the line enters the cell.
+// One triangle, and then all of a cell, against one line of samples along push.axis: which of them lie above it, as if every
+// sample were moved by (e1, e2, e3), e1 >> e2 >> e3 > 0. Exact. The kernel says how many `samples` a cell has, evenly spread;
+// points are seen along the axis (voxel.glsl) and relative to where the line enters the cell.
 
 // Whether the moved sample lies above a triangle that it lies in, along an axis along which the normal is `along`.
 bool isAboveTie(ivec3 ab, ivec3 ac, bool isUpward) {
@@ -37,4 +37,20 @@ void meet(ivec3 a, ivec3 b, ivec3 c, inout int turns[samples], inout int top) {
         above = add(above, rise);
     }
     top += above.high >= 0 ? turn : 0;
+}
+
+// The triangles of one cell against the line at `uv`: what is noted in `votes`, and the winding number behind the cell.
+uint passCell(uint begin, uint end, ivec3 origin, inout int winding) {
+    int turns[samples], top = winding;
+    [[unroll]] for (uint s = 0u; s < samples; ++s) turns[s] = winding;
+    for (uint t = begin; t < end; ++t) {
+        const uvec4 corners = triangles[touching[t]];
+        meet(seenAlong(push.axis, vertices[corners.x].xyz) - origin, seenAlong(push.axis, vertices[corners.y].xyz) - origin,
+             seenAlong(push.axis, vertices[corners.z].xyz) - origin, turns, top);
+    }
+    winding = top;
+    uint bits = 0u; // first whether the surface winds around the sample at all, then whether oddly
+    [[unroll]] for (uint s = 0u; s < samples; ++s)
+        bits |= uint(turns[s] != 0) << s | uint(turns[s] & 1) << (samples + s);
+    return bits << (2u * samples * push.axis);
 }

@@ -33,22 +33,6 @@ const uint lines = linesPerCell * linesPerCell;
 
 const uint none = 0xffffffffu;
 
-// The triangles of one cell against the line at `uv`: what is noted in `votes`, and the winding number behind the cell.
-uint passCell(uint begin, uint end, ivec3 origin, inout int winding) {
-    int turns[samples], top = winding;
-    [[unroll]] for (uint s = 0u; s < samples; ++s) turns[s] = winding;
-    for (uint t = begin; t < end; ++t) {
-        const uvec4 corners = triangles[touching[t]];
-        meet(seenAlong(push.axis, vertices[corners.x].xyz) - origin, seenAlong(push.axis, vertices[corners.y].xyz) - origin,
-             seenAlong(push.axis, vertices[corners.z].xyz) - origin, turns, top);
-    }
-    winding = top;
-    uint bits = 0u; // first whether the surface winds around the sample at all, then whether oddly
-    [[unroll]] for (uint s = 0u; s < samples; ++s)
-        bits |= uint(turns[s] != 0) << s | uint(turns[s] & 1) << (samples + s);
-    return bits << (2u * samples * push.axis);
-}
-
 uint beginOf(uint cell) {
     return cell == 0u ? 0u : cells[cell - 1u].end;
 }

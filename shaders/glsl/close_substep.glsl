@@ -1,0 +1,26 @@
+// Part of advance_substep: what becomes of a particle whose substep has been swept (methods: D; contacts: 0.4).
+
+// Turns the end of a sweep into the velocity after the substep, and returns the way from p to the position after it.
+vec3 close(uint i, vec3 halfKick, vec3 p, inout vec3 v) {
+    vec3 way = uintBitsToFloat(corrections[i].xyz);
+    const vec3 before = v - 2.0 * halfKick;
+    v += way / step.h;
+#ifdef HAS_PLANES
+    const vec3 x = p + way;
+    Motion motion = Motion(x, v, way + step.h * (before + halfKick));
+    uint touched = corrections[i].w;
+    for (uint plane = 0u; plane < planeCount; ++plane) {
+        if (projectOntoPlane(planes[plane], contactOffsets[i], step.h, motion)) touched |= 1u << plane;
+    }
+    way += motion.x - x;
+    v = motion.v;
+#endif
+    // Even at rest v holds the half-kick h g / 2. Damping it as if it were motion would take weight off the body.
+    v = mix(halfKick, v, step.velocityFactor);
+#ifdef HAS_PLANES
+    for (uint plane = 0u; plane < planeCount; ++plane) {
+        if ((touched & 1u << plane) != 0u) v += rebound(planes[plane], step.restSpeed, before, v);
+    }
+#endif
+    return way;
+}

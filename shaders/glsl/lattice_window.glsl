@@ -1,0 +1,27 @@
+// Part of gather_lattice: what it reads, and the shape of the window, a block of columns and its rim, that an invocation holds
+// of a slice.
+
+#ifdef TEXELS
+layout(binding = LINK_BINDING) uniform usamplerBuffer cells;
+#define CELLS(i) texelFetch(cells, int(i)).x
+#else
+layout(std430, binding = LINK_BINDING) readonly buffer Cells { uint cells[]; };
+#define CELLS(i) cells[i]
+#endif
+#define CHUNK_BINDING (LINK_BINDING + 1)
+layout(std430, binding = CHUNK_BINDING) readonly buffer Chunks { LatticeChunk chunks[]; };
+#ifdef RESIDENT
+layout(std430, binding = CHUNK_BINDING + 1) readonly buffer Bodies { uint bodies[]; }; // first slot of each
+#endif
+layout(push_constant) uniform Push { LatticePush push; };
+layout(constant_id = 6) const bool hasBodyDiagonals = false;
+
+#ifdef SHEET
+#define COLUMNS_Y 1
+#define RIM_Y 0
+#else
+#define RIM_Y 1
+#endif
+#define WIDTH (COLUMNS_X + 2)
+#define SLICE (WIDTH * (COLUMNS_Y + 2 * RIM_Y))
+#define NODES (COLUMNS_X * COLUMNS_Y)

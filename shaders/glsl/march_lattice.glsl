@@ -1,0 +1,53 @@
+// Part of gather_lattice: an invocation's way through the slices of a chunk. Two of them are at hand, the nodes' own and the
+// one above; what links to the one below contribute was summed when it was at hand.
+
+uint nodeAt(uint origin, int n) {
+    return origin + n % COLUMNS_X + n / COLUMNS_X * push.rowStride;
+}
+
+int homeOf(int n) {
+    return n % COLUMNS_X + 1 + WIDTH * (n / COLUMNS_X + RIM_Y);
+}
+
+void loadSlice(uint origin, out vec4 slice[SLICE]) {
+    [[unroll]] for (int s = 0; s < SLICE; ++s)
+        slice[s] = POSITION(origin + (s / WIDTH - RIM_Y) * push.rowStride + s % WIDTH - 1);
+}
+
+void march(LatticeChunk chunk, Substep substep) {
+    uint origin = chunk.origin;
+    vec4 slice[SLICE], above[SLICE];
+    Fill fill[NODES];
+    vec3 below[NODES]; // what the links to the slice before contribute
+    loadSlice(origin - push.sliceStride, slice);
+    loadSlice(origin, above);
+    [[unroll]] for (int n = 0; n < NODES; ++n) {
+        fill[n] = unpack(CELLS(nodeAt(origin, n)));
+        below[n] = gather(above, slice, homeOf(n), fill[n], -1, substep.hh);
+    }
+#ifdef VOLUME
+    vec3 pressed[NODES], pressedBelow[NODES], pressedAbove[NODES];
+    pressCells(slice, above, fill, false, substep.hh, pressedAbove, pressedBelow);
+#endif
+    for (uint layer = 0u; layer < chunk.layers; ++layer) {
+        slice = above;
+        loadSlice(origin + push.sliceStride, above);
+#ifdef VOLUME
+        [[unroll]] for (int n = 0; n < NODES; ++n) pressed[n] = pressedBelow[n];
+        pressCells(slice, above, fill, true, substep.hh, pressedAbove, pressedBelow);
+#endif
+        [[unroll]] for (int n = 0; n < NODES; ++n) {
+            const uint i = nodeAt(origin, n);
+            const int home = homeOf(n);
+            vec3 sum = below[n] + gather(slice, slice, home, fill[n], 0, substep.hh)
+                       + gather(slice, above, home, fill[n], 1, substep.hh);
+#ifdef VOLUME
+            sum += pressed[n] + pressedAbove[n];
+#endif
+            fill[n] = unpack(CELLS(i + push.sliceStride));
+            below[n] = gather(above, slice, home, fill[n], -1, substep.hh);
+            advance(i, slice[home], velocities[i], sum, substep);
+        }
+        origin += push.sliceStride;
+    }
+}
