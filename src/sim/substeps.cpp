@@ -1,181 +1,29 @@
-// Every rule works on one list of terms, so that a solver is a row of a table here and a constraint a loop
-// that appends.
+// Every rule works on one list of terms (stiffness/terms.hpp), so that a solver is a row of a table here and
+// a constraint a loop there.
 #include "sim/substeps.hpp"
 
-#include "sim/compile.hpp"
-#include "sim/lattice/cells.hpp"
 #include "sim/ranges.hpp"
 #include "sim/solvers/shares.hpp"
+#include "sim/stiffness/terms.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace sinew::sim {
 
 namespace {
 
+using stiffness::canMove;
+using stiffness::clampOfLink;
+using stiffness::Load;
+using stiffness::loadOf;
+using stiffness::splitOfBend;
+using stiffness::Term;
+using stiffness::Terms;
+
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double rounding = 1e-6; // of float32 inverse masses and compliances
-
-// What the rules need of a constraint.
-struct Term {
-    double stiffness = 0;   // [N/m]; of a rigid one what its load asks for, 0 = nothing
-    double clamp = 0;       // `split`: k h^2 at most [kg]
-    double inverseMass = 0; // sum of w |grad|^2 [1/kg]
-    double share = 1;       // `jacobi`: of its correction, after all iterations
-    bool isRigid = false;
-};
-
-// What a scene is, whatever the number of substeps; of each particle.
-struct Load {
-    std::vector<float> inverseMass;
-    std::vector<std::uint32_t> links, bends; // that can move
-    std::vector<double> weights;             // on one of the links that its body hangs on [N]
-    std::uint32_t mostConstraints(std::initializer_list<std::uint32_t> ends) const {
-        std::uint32_t most = 0;
-        for (const std::uint32_t end : ends) most = std::max(most, links[end] + bends[end]);
-        return most;
-    }
-};
-
-bool canMove(const Load& load, std::initializer_list<std::uint32_t> ends) {
-    return std::ranges::any_of(ends, [&](std::uint32_t end) { return load.inverseMass[end] > 0; });
-}
-
-// k h^2 at most [kg].
-double clampOfLink(const solvers::Shares& shares, const Scene& scene, std::size_t link) {
-    const DistanceConstraint& c = scene.distances[link];
-    return double{shares.ofLinks[link]} * double{std::min(shares.times[c.a], shares.times[c.b])};
-}
-
-double splitOfBend(const Load& load, const BendConstraint& c) {
-    const auto end = [&](std::uint32_t i) { return load.bends[i] * double{load.inverseMass[i]}; };
-    return end(c.a) + 4 * end(c.b) + end(c.c);
-}
-
-// What is left of 1 after `iterations` in which the slower end takes a share of each correction.
-double shareAfter(const Settings& settings, std::uint32_t mostConstraints) {
-    const double weight = settings.weight > 0 ? double{settings.weight} : 1.0 / std::max(1u, mostConstraints);
-    const double share = std::min(1.0, double{settings.overRelaxation} * weight);
-    return 1 - std::pow(1 - share, settings.iterations);
-}
-
-// Which particles hang together, by links.
-std::vector<std::uint32_t> componentsOf(const Scene& scene) {
-    std::vector<std::uint32_t> parent(scene.particles.size());
-    std::iota(parent.begin(), parent.end(), 0u);
-    const auto root = [&](std::uint32_t i) {
-        while (parent[i] != i) i = parent[i] = parent[parent[i]];
-        return i;
-    };
-    for (const DistanceConstraint& c : scene.distances) parent[root(c.a)] = root(c.b);
-    for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = root(i);
-    return parent;
-}
-
-// The weight on one of the links that a particle's body hangs on [N]; 0 for bodies that hang on nothing.
-std::vector<double> hangingWeights(const Scene& scene, const std::vector<float>& inverseMass) {
-    const std::vector<std::uint32_t> component = componentsOf(scene);
-    std::vector<double> mass(component.size(), 0), holding(component.size(), 0);
-    for (std::size_t i = 0; i < component.size(); ++i)
-        if (inverseMass[i] > 0) mass[component[i]] += 1 / double{inverseMass[i]};
-    for (const DistanceConstraint& c : scene.distances)
-        if ((inverseMass[c.a] == 0) != (inverseMass[c.b] == 0)) ++holding[component[c.a]];
-    const Vec3& g = scene.gravity;
-    const double gravity = std::hypot(double{g.x}, double{g.y}, double{g.z});
-    std::vector<double> weights(component.size(), 0);
-    for (std::size_t i = 0; i < component.size(); ++i) {
-        const std::uint32_t body = component[i];
-        if (holding[body] > 0) weights[i] = gravity * mass[body] / holding[body];
-    }
-    return weights;
-}
-
-Load loadOf(const Scene& scene) {
-    Load load{.inverseMass = inverseMasses(scene), .links = {}, .bends = {}, .weights = {}};
-    load.links.assign(scene.particles.size(), 0);
-    load.bends.assign(scene.particles.size(), 0);
-    bool hasRigid = false;
-    for (const DistanceConstraint& c : scene.distances) {
-        if (canMove(load, {c.a, c.b})) ++load.links[c.a], ++load.links[c.b];
-        hasRigid = hasRigid || c.compliance == 0;
-    }
-    for (const BendConstraint& c : scene.bends)
-        if (canMove(load, {c.a, c.b, c.c})) ++load.bends[c.a], ++load.bends[c.b], ++load.bends[c.c];
-    if (hasRigid) load.weights = hangingWeights(scene, load.inverseMass);
-    return load;
-}
-
-// How `split` divides the particles; settings.substeps is a number. Other solvers divide nothing.
-solvers::Shares sharesFor(const Scene& scene, const Settings& settings, const Load& load) {
-    if (settings.solver != Solver::split) return {};
-    return solvers::sharesOf(scene, settings, load.inverseMass);
-}
-
-// The terms of a scene: millions, so that they are visited and not kept.
-struct Terms {
-    const Scene& scene;
-    const Settings& settings;
-    const Load& load;
-    solvers::Shares shares = sharesFor(scene, settings, load);
-
-    bool isSplit() const { return settings.solver == Solver::split; }
-    double shareAmong(std::initializer_list<std::uint32_t> ends) const {
-        return settings.solver == Solver::jacobi ? shareAfter(settings, load.mostConstraints(ends)) : 1;
-    }
-
-    template <typename Visit> void forEachLink(const Visit& visit) const {
-        for (std::size_t i = 0; i < scene.distances.size(); ++i) {
-            const DistanceConstraint& c = scene.distances[i];
-            if (!canMove(load, {c.a, c.b})) continue;
-            Term term{.clamp = isSplit() ? clampOfLink(shares, scene, i) : 0,
-                      .inverseMass = double{load.inverseMass[c.a]} + double{load.inverseMass[c.b]},
-                      .share = shareAmong({c.a, c.b}),
-                      .isRigid = c.compliance == 0};
-            if (!term.isRigid)
-                term.stiffness = 1 / double{c.compliance};
-            else if (c.restLength > 0)
-                term.stiffness = load.weights[c.a] / (double{settings.tolerance} * double{c.restLength});
-            visit(term);
-        }
-    }
-
-    template <typename Visit> void forEachBend(const Visit& visit) const {
-        const double omega = solvers::omegaOfBends(settings);
-        for (const BendConstraint& c : scene.bends) {
-            if (c.compliance == 0 || !canMove(load, {c.a, c.b, c.c})) continue;
-            visit(Term{.stiffness = 1 / double{c.compliance},
-                       .clamp = omega / splitOfBend(load, c),
-                       .inverseMass = double{load.inverseMass[c.a]} + 4 * double{load.inverseMass[c.b]} +
-                                      double{load.inverseMass[c.c]},
-                       .share = shareAmong({c.a, c.b, c.c})});
-        }
-    }
-
-    // Cells about their rest volume: k is 0.75 lambda_v a (solvers/shares.hpp). Other solvers have no form
-    // for them.
-    template <typename Visit> void forEachCell(const Visit& visit) const {
-        for (std::size_t g = 0; isSplit() && g < scene.grids.size(); ++g) {
-            const Grid& grid = scene.grids[g];
-            if (grid.volumeStiffness == 0) continue;
-            const double whole = 0.75 * double{grid.volumeStiffness} * double{grid.restLength[0]};
-            lattice::forEachCell(grid, [&](const lattice::Cell& cell) {
-                float time = shares.times[cell.corners[0]];
-                for (const std::uint32_t corner : cell.corners) time = std::min(time, shares.times[corner]);
-                visit(Term{.stiffness = cell.fill * whole,
-                           .clamp = cell.fill * double{shares.ofCells[g].volume} * double{time}});
-            });
-        }
-    }
-
-    template <typename Visit> void forEach(const Visit& visit) const {
-        forEachLink(visit);
-        forEachBend(visit);
-        forEachCell(visit);
-    }
-};
 
 // How a solver bounds stiffness: k_eff / k at h, and the longest h at which the part of its error that h
 // decides stays within a tolerance. A rigid term has the stiffness at which its load stretches it by the

@@ -1,0 +1,82 @@
+// How constraints are shared among what they hold, and what hangs on them.
+#include "sim/stiffness/terms.hpp"
+
+#include "sim/compile.hpp"
+
+#include <cmath>
+#include <numeric>
+
+namespace sinew::sim::stiffness {
+
+namespace {
+
+// Which particles hang together, by links.
+std::vector<std::uint32_t> componentsOf(const Scene& scene) {
+    std::vector<std::uint32_t> parent(scene.particles.size());
+    std::iota(parent.begin(), parent.end(), 0u);
+    const auto root = [&](std::uint32_t i) {
+        while (parent[i] != i) i = parent[i] = parent[parent[i]];
+        return i;
+    };
+    for (const DistanceConstraint& c : scene.distances) parent[root(c.a)] = root(c.b);
+    for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = root(i);
+    return parent;
+}
+
+// The weight on one of the links that a particle's body hangs on [N]; 0 for bodies that hang on nothing.
+std::vector<double> hangingWeights(const Scene& scene, const std::vector<float>& inverseMass) {
+    const std::vector<std::uint32_t> component = componentsOf(scene);
+    std::vector<double> mass(component.size(), 0), holding(component.size(), 0);
+    for (std::size_t i = 0; i < component.size(); ++i)
+        if (inverseMass[i] > 0) mass[component[i]] += 1 / double{inverseMass[i]};
+    for (const DistanceConstraint& c : scene.distances)
+        if ((inverseMass[c.a] == 0) != (inverseMass[c.b] == 0)) ++holding[component[c.a]];
+    const Vec3& g = scene.gravity;
+    const double gravity = std::hypot(double{g.x}, double{g.y}, double{g.z});
+    std::vector<double> weights(component.size(), 0);
+    for (std::size_t i = 0; i < component.size(); ++i) {
+        const std::uint32_t body = component[i];
+        if (holding[body] > 0) weights[i] = gravity * mass[body] / holding[body];
+    }
+    return weights;
+}
+
+} // namespace
+
+double clampOfLink(const solvers::Shares& shares, const Scene& scene, std::size_t link) {
+    const DistanceConstraint& c = scene.distances[link];
+    return double{shares.ofLinks[link]} * double{std::min(shares.times[c.a], shares.times[c.b])};
+}
+
+double splitOfBend(const Load& load, const BendConstraint& c) {
+    const auto end = [&](std::uint32_t i) { return load.bends[i] * double{load.inverseMass[i]}; };
+    return end(c.a) + 4 * end(c.b) + end(c.c);
+}
+
+double shareAfter(const Settings& settings, std::uint32_t mostConstraints) {
+    const double weight = settings.weight > 0 ? double{settings.weight} : 1.0 / std::max(1u, mostConstraints);
+    const double share = std::min(1.0, double{settings.overRelaxation} * weight);
+    return 1 - std::pow(1 - share, settings.iterations);
+}
+
+Load loadOf(const Scene& scene) {
+    Load load{.inverseMass = inverseMasses(scene), .links = {}, .bends = {}, .weights = {}};
+    load.links.assign(scene.particles.size(), 0);
+    load.bends.assign(scene.particles.size(), 0);
+    bool hasRigid = false;
+    for (const DistanceConstraint& c : scene.distances) {
+        if (canMove(load, {c.a, c.b})) ++load.links[c.a], ++load.links[c.b];
+        hasRigid = hasRigid || c.compliance == 0;
+    }
+    for (const BendConstraint& c : scene.bends)
+        if (canMove(load, {c.a, c.b, c.c})) ++load.bends[c.a], ++load.bends[c.b], ++load.bends[c.c];
+    if (hasRigid) load.weights = hangingWeights(scene, load.inverseMass);
+    return load;
+}
+
+solvers::Shares sharesFor(const Scene& scene, const Settings& settings, const Load& load) {
+    if (settings.solver != Solver::split) return {};
+    return solvers::sharesOf(scene, settings, load.inverseMass);
+}
+
+} // namespace sinew::sim::stiffness

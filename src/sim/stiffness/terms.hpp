@@ -1,0 +1,117 @@
+// What a scene asks of a solver, as one list of terms: what the rules for substeps need of a constraint and
+// nothing else. Only src/sim/substeps.cpp walks it.
+#pragma once
+
+#include "sim/lattice/cells.hpp"
+#include "sim/scene.hpp"
+#include "sim/solvers/shares.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <initializer_list>
+#include <vector>
+
+namespace sinew::sim::stiffness {
+
+// What the rules need of a constraint.
+struct Term {
+    double stiffness = 0;   // [N/m]; of a rigid one what its load asks for, 0 = nothing
+    double clamp = 0;       // `split`: k h^2 at most [kg]
+    double inverseMass = 0; // sum of w |grad|^2 [1/kg]
+    double share = 1;       // `jacobi`: of its correction, after all iterations
+    bool isRigid = false;
+};
+
+// What a scene is, whatever the number of substeps; of each particle.
+struct Load {
+    std::vector<float> inverseMass;
+    std::vector<std::uint32_t> links, bends; // that can move
+    std::vector<double> weights;             // on one of the links that its body hangs on [N]
+    std::uint32_t mostConstraints(std::initializer_list<std::uint32_t> ends) const {
+        std::uint32_t most = 0;
+        for (const std::uint32_t end : ends) most = std::max(most, links[end] + bends[end]);
+        return most;
+    }
+};
+
+Load loadOf(const Scene& scene);
+
+inline bool canMove(const Load& load, std::initializer_list<std::uint32_t> ends) {
+    return std::ranges::any_of(ends, [&](std::uint32_t end) { return load.inverseMass[end] > 0; });
+}
+
+// k h^2 at most [kg].
+double clampOfLink(const solvers::Shares& shares, const Scene& scene, std::size_t link);
+
+double splitOfBend(const Load& load, const BendConstraint& c);
+
+// What is left of 1 after `iterations` in which the slower end takes a share of each correction.
+double shareAfter(const Settings& settings, std::uint32_t mostConstraints);
+
+// How `split` divides the particles; settings.substeps is a number. Other solvers divide nothing.
+solvers::Shares sharesFor(const Scene& scene, const Settings& settings, const Load& load);
+
+// The terms of a scene: millions, so that they are visited and not kept.
+struct Terms {
+    const Scene& scene;
+    const Settings& settings;
+    const Load& load;
+    solvers::Shares shares = sharesFor(scene, settings, load);
+
+    bool isSplit() const { return settings.solver == Solver::split; }
+    double shareAmong(std::initializer_list<std::uint32_t> ends) const {
+        return settings.solver == Solver::jacobi ? shareAfter(settings, load.mostConstraints(ends)) : 1;
+    }
+
+    template <typename Visit> void forEachLink(const Visit& visit) const {
+        for (std::size_t i = 0; i < scene.distances.size(); ++i) {
+            const DistanceConstraint& c = scene.distances[i];
+            if (!canMove(load, {c.a, c.b})) continue;
+            Term term{.clamp = isSplit() ? clampOfLink(shares, scene, i) : 0,
+                      .inverseMass = double{load.inverseMass[c.a]} + double{load.inverseMass[c.b]},
+                      .share = shareAmong({c.a, c.b}),
+                      .isRigid = c.compliance == 0};
+            if (!term.isRigid)
+                term.stiffness = 1 / double{c.compliance};
+            else if (c.restLength > 0)
+                term.stiffness = load.weights[c.a] / (double{settings.tolerance} * double{c.restLength});
+            visit(term);
+        }
+    }
+
+    template <typename Visit> void forEachBend(const Visit& visit) const {
+        const double omega = solvers::omegaOfBends(settings);
+        for (const BendConstraint& c : scene.bends) {
+            if (c.compliance == 0 || !canMove(load, {c.a, c.b, c.c})) continue;
+            visit(Term{.stiffness = 1 / double{c.compliance},
+                       .clamp = omega / splitOfBend(load, c),
+                       .inverseMass = double{load.inverseMass[c.a]} + 4 * double{load.inverseMass[c.b]} +
+                                      double{load.inverseMass[c.c]},
+                       .share = shareAmong({c.a, c.b, c.c})});
+        }
+    }
+
+    // Cells about their rest volume: k is 0.75 lambda_v a (solvers/shares.hpp). Other solvers have no form
+    // for them.
+    template <typename Visit> void forEachCell(const Visit& visit) const {
+        for (std::size_t g = 0; isSplit() && g < scene.grids.size(); ++g) {
+            const Grid& grid = scene.grids[g];
+            if (grid.volumeStiffness == 0) continue;
+            const double whole = 0.75 * double{grid.volumeStiffness} * double{grid.restLength[0]};
+            lattice::forEachCell(grid, [&](const lattice::Cell& cell) {
+                float time = shares.times[cell.corners[0]];
+                for (const std::uint32_t corner : cell.corners) time = std::min(time, shares.times[corner]);
+                visit(Term{.stiffness = cell.fill * whole,
+                           .clamp = cell.fill * double{shares.ofCells[g].volume} * double{time}});
+            });
+        }
+    }
+
+    template <typename Visit> void forEach(const Visit& visit) const {
+        forEachLink(visit);
+        forEachBend(visit);
+        forEachCell(visit);
+    }
+};
+
+} // namespace sinew::sim::stiffness
