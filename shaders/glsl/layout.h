@@ -132,6 +132,20 @@ struct PlaneCollider {
     float unused0, unused1;
 };
 
+// A box grown by a radius, about its middle and along its own axes.
+struct Collider {
+    vec4 core;            // half extents, radius [m]
+    float friction;       // of what slides
+    float staticFriction; // of what does not, at least as much
+    float restitution;
+    float unused0;
+};
+
+struct ColliderPose {
+    vec4 position; // of the middle [m]
+    vec4 rotation; // unit quaternion x, y, z, w from the collider's frame to the world
+};
+
 // `jacobi`: temporary constraints of a particle, found anew each substep.
 struct PlaneContact {
     float vx, vy, vz; // velocity before the substep [m/s]
@@ -274,6 +288,17 @@ struct DampedSubstepPush {
 struct AttachmentPush {
     uint count;
     float fraction; // of the step that is over when this substep is
+};
+
+struct ColliderPush {
+    uint count;         // of particles; whole work groups
+    uint before, after; // first pose of the colliders when the substep begins, and when it ends
+    float lateKick;     // part of h g that is in v and has not moved x
+};
+
+struct PlacePush {
+    uint count; // colliders x (substeps + 1)
+    uint colliders, substeps;
 };
 
 struct DampedIterationPush {

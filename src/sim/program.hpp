@@ -50,8 +50,8 @@ enum class PassKind : std::uint8_t {
 };
 
 /// What update passes can write.
-enum class HostData : std::uint32_t { parameters, anchors };
-constexpr std::size_t hostDataCount = 2;
+enum class HostData : std::uint32_t { parameters, anchors, colliders };
+constexpr std::size_t hostDataCount = 3;
 
 /// One entry of the list.
 struct Pass {
@@ -183,6 +183,7 @@ public:
     void copy(BufferId from, BufferId to);
     void updateParameters(BufferId parameters) { update(parameters, HostData::parameters); }
     void updateAnchors(BufferId anchors) { update(anchors, HostData::anchors); }
+    void updateColliders(BufferId ways) { update(ways, HostData::colliders); }
     void beginSkin() { isSkin_ = true; }
     void skip(std::string feature) { program_.skipped.push_back(std::move(feature)); }
 

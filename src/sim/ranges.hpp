@@ -43,7 +43,13 @@ inline constexpr Range tetherLength{0, largest};                               /
 inline constexpr std::size_t mostAttachments = 1024;
 inline constexpr Range friction{0, largest};
 inline constexpr Range restitution{0, 1};
-inline constexpr Range radius{0, largest}; // [m]
+inline constexpr Range radius{0, largest};                                         // [m]
+inline constexpr Range colliderSize{.low = 0, .high = largest, .isLowOpen = true}; // [m]
+inline constexpr Range colliderLength{0, largest};                                 // [m]
+inline constexpr Range margin{0, largest};                                         // [m]
+inline constexpr Range pathTime{0, largest};                                       // [s]
+/// Every particle looks at all of them.
+inline constexpr std::size_t mostColliders = 64;
 inline constexpr Range normalLength{1 - 1e-3, 1 + 1e-3};
 inline constexpr Range poissonRatio{0.25,
                                     double{0.49f}}; // of a lattice; below 1/4 its volume would be unstable

@@ -15,6 +15,17 @@ struct Vec3 {
     float x = 0, y = 0, z = 0;
 };
 
+/// A turn: a unit quaternion.
+struct Quaternion {
+    float x = 0, y = 0, z = 0, w = 1;
+};
+
+/// Where a rigid thing is: its point s is at position + rotation s.
+struct Pose {
+    Vec3 position; ///< of its middle [m]
+    Quaternion rotation;
+};
+
 /// A point mass.
 struct Particle {
     Vec3 position;         ///< [m]
@@ -78,6 +89,38 @@ struct Plane {
     float offset = 0;      ///< [m]
     float friction = 0;    ///< Coulomb coefficient, >= 0
     float restitution = 0; ///< 0 (no rebound) to 1 (elastic)
+};
+
+/// Where a collider is at a time; between two times it moves evenly and turns evenly the shorter way, so that
+/// half a turn and more need a keyframe in between.
+struct Keyframe {
+    float time = 0; ///< since the simulation began [s]
+    Pose pose;
+};
+
+enum class ColliderShape { sphere, capsule, box };
+enum class PathEnd {
+    hold, ///< stays where the last keyframe is
+    loop, ///< begins anew with the first keyframe, which must be where the last one is
+};
+
+/// A rigid thing that particles stay out of, and that nothing moves but its own path. It pushes and carries
+/// them: friction and restitution are relative to its surface where they touch it. Found active anew each
+/// substep; what is fast does not pass through. A particle that is inside when the simulation begins leaves
+/// by the nearest side at 1 m/s and keeps no speed of that.
+struct Collider {
+    ColliderShape shape = ColliderShape::sphere;
+    float radius = 0;         ///< [m], above 0: of a sphere; of a capsule and its ends. A box has none
+    float halfLength = 0;     ///< [m]: a capsule has its ends' centres that far from its middle, along its y
+    Vec3 halfExtents{};       ///< [m], above 0: of a box, along its own axes
+    float margin = 0;         ///< [m]: kept from the surface beyond Particle::contactOffset
+    float friction = 0;       ///< Coulomb coefficient of what slides, >= 0
+    float staticFriction = 0; ///< of what does not slide yet; less than `friction` is as much
+    float restitution = 0;    ///< 0 (no rebound) to 1 (elastic)
+    Pose pose;                ///< where it stands, if it has no path
+    std::vector<Keyframe> path; ///< times ascending; before the first it stays where that is
+    PathEnd pathEnd = PathEnd::hold;
+    Vec3 color{0.45f, 0.45f, 0.48f}; ///< linear RGB, for whoever draws it
 };
 
 /// Particles on the nodes of a regular grid, linked to their neighbours by distance constraints: a body whose
@@ -152,6 +195,7 @@ struct Scene {
     std::vector<Tether> tethers;
     std::vector<FixedConstraint> fixed;
     std::vector<Plane> planes;
+    std::vector<Collider> colliders;
     ContactSettings contacts;
     std::vector<Body> bodies;
     std::vector<Grid> grids;

@@ -2,6 +2,7 @@
 #include "sim/simulation.hpp"
 
 #include "layout.h"
+#include "sim/collision/collider_paths.hpp"
 #include "sim/collision/particle_contacts.hpp"
 #include "sim/compile.hpp"
 #include "sim/constraints/attachment.hpp"
@@ -69,20 +70,26 @@ struct Simulation::State {
     vk::Buffer statusRing; // one slot a frame in flight, read by the host
     std::vector<SkinRange> skins;
     constraints::attachment::Anchors anchors;
+    collision::ColliderPaths colliders;
     SplitBudget budget;
     float theta, omega, damping;
     std::uint32_t substeps;
     bool hasContacts; // between particles: gathers of `split` then store x, not x + theta h v
     std::array<float, framesInFlight> lostTime{}; // of the newest steps [s]
     float previousH = 0; // 0 before the first step: the half-kick that starts the leapfrog
-    // Steps of which the host has not yet looked whether they came to their end, and h of the last that has.
+    // A step that came to its end: its h, and where it left the colliders.
+    struct Settled {
+        float h = 0;
+        double time = 0;
+    };
+    // Steps of which the host has not yet looked whether they came to their end, and the last that has.
     struct Unsettled {
         bool isRecorded = false;
-        float h = 0;
+        Settled end;
     };
     std::array<Unsettled, framesInFlight> unsettled{};
     std::uint64_t nextFrame = 0;
-    float settledH = 0;
+    Settled settledEnd;
 
     State(const vk::Device& d, const Scene& scene, const Settings& asked)
         : State(d, scene, withSubsteps(valid(scene, asked), asked), {}) {}
@@ -94,7 +101,7 @@ struct Simulation::State {
                          .count = framesInFlight,
                          .stride = sizeof(layout::StatusWords),
                          .kind = vk::MemoryKind::readback}),
-          skins(rangesOf(scene.skins)), anchors(scene.attachments),
+          skins(rangesOf(scene.skins)), anchors(scene.attachments), colliders(scene.colliders),
           budget(scene.dampingTime > 0 ? splitBudget(scene, settings) : SplitBudget{}),
           theta(settings.solver == Solver::split ? settings.theta : 0), omega(settings.omega),
           damping(scene.damping), substeps(settings.substeps),
@@ -124,13 +131,13 @@ struct Simulation::State {
         return words;
     }
 
-    // The step before `frame` has `h`; where the one that this slot of the ring held came to its end, its h
-    // counts.
-    float settled(std::uint64_t frame, float h) const {
+    // The last step before `frame` that settled has this `end`; where the one that this slot of the ring held
+    // came to its end, that counts.
+    Settled settled(std::uint64_t frame, const Settled& end) const {
         const Unsettled& step = unsettled[frame % framesInFlight];
-        if (!step.isRecorded) return h;
+        if (!step.isRecorded) return end;
         const layout::StatusWords words = statusWords(frame);
-        return words.nonFinite == 0 && words.candidates == 0 ? step.h : h;
+        return words.nonFinite == 0 && words.candidates == 0 ? step.end : end;
     }
 
     vk::BufferView statusSlot(std::uint64_t frame) const {
@@ -149,24 +156,28 @@ Simulation::~Simulation() = default;
 void Simulation::recordReset(VkCommandBuffer buffer) noexcept {
     vk::Commands commands(state_->device, buffer);
     state_->executor.upload(commands);
-    state_->previousH = state_->settledH = 0;
+    state_->previousH = 0;
+    state_->settledEnd = {};
     state_->unsettled = {};
     state_->anchors.reset();
+    state_->colliders.moveTo(0);
 }
 
 void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps* timestamps) noexcept {
     const float dt = withinRange(step.dt);
     state_->lostTime[step.frame % framesInFlight] = std::max(0.0f, step.dt - dt);
     const layout::StepParams parameters = state_->parameters(step, dt);
-    state_->settledH = state_->settled(step.frame, state_->settledH);
-    state_->unsettled[step.frame % framesInFlight] = {true, parameters.h};
+    state_->settledEnd = state_->settled(step.frame, state_->settledEnd);
     state_->nextFrame = step.frame + 1;
     state_->anchors.advance(step.anchors, dt);
+    state_->colliders.advance(dt);
+    state_->unsettled[step.frame % framesInFlight] = {true, {parameters.h, state_->colliders.time()}};
     vk::Commands commands(state_->device, buffer);
     if (timestamps) timestamps->reset(commands);
     commands.beginStep();
     state_->executor.step(commands,
-                          {std::as_bytes(std::span(&parameters, 1)), std::as_bytes(state_->anchors.values())},
+                          {std::as_bytes(std::span(&parameters, 1)), std::as_bytes(state_->anchors.values()),
+                           std::as_bytes(state_->colliders.ways())},
                           timestamps);
     commands.barrier();
     commands.copy(state_->executor.view(state_->program.status), state_->statusSlot(step.frame));
@@ -190,11 +201,13 @@ void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from) 
     const std::size_t carried = std::min(own.carried.size(), other.carried.size());
     for (std::size_t b = 0; b < carried; ++b) copy(own.carried[b].to, other.carried[b].from);
     commands.endStep();
-    float h = from.state_->settledH;
+    State::Settled end = from.state_->settledEnd;
     for (std::uint64_t frame = 0; frame < framesInFlight; ++frame) // from the oldest on
-        h = from.state_->settled(from.state_->nextFrame + frame, h);
-    state_->previousH = state_->settledH = h;
+        end = from.state_->settled(from.state_->nextFrame + frame, end);
+    state_->settledEnd = end;
+    state_->previousH = end.h;
     state_->anchors = from.state_->anchors;
+    state_->colliders.moveTo(end.time);
 }
 
 void Simulation::recordSkin(VkCommandBuffer buffer) noexcept {
@@ -218,6 +231,9 @@ vk::BufferView Simulation::skinIndices() const noexcept {
 }
 const std::vector<SkinRange>& Simulation::skins() const noexcept {
     return state_->skins;
+}
+std::span<const Pose> Simulation::colliderPoses() const noexcept {
+    return state_->colliders.poses();
 }
 vk::BufferView Simulation::view(BufferId buffer) const noexcept {
     return state_->executor.view(buffer);

@@ -72,7 +72,8 @@ public:
     /// Records the copies that put this simulation into the state of `from`, which was made of the same scene
     /// and settings but for contactRoom, at most as much as here: the next step goes on where `from` stands.
     /// `from` must live until the commands have finished. Instead of recordReset(), which it contains. All
-    /// steps of `from` must have finished.
+    /// steps of `from` must have finished. Colliders on a path are where they were at the end of the last
+    /// step that was not undone.
     void recordTakeOver(VkCommandBuffer commands, const Simulation& from) noexcept;
 
     /// Records the skins of the newest recorded state; afterwards skinVertices() is visible to vertex input.
@@ -88,6 +89,9 @@ public:
     vk::BufferView skinVertices() const noexcept;
     vk::BufferView skinIndices() const noexcept;
     const std::vector<SkinRange>& skins() const noexcept;
+    /// Where the scene's colliders are at the end of the newest recorded step, one each in their order. Valid
+    /// until the next one is recorded.
+    std::span<const Pose> colliderPoses() const noexcept;
 
     /// Of a step that has finished on the device and is one of the last `framesInFlight` recorded.
     Status status(std::uint64_t frame) const noexcept;

@@ -133,7 +133,7 @@ std::uint32_t neededFor(const Scene& scene, const Settings& settings, const Load
 
 bool hasOnlyFreeParticles(const Scene& scene) {
     return scene.distances.empty() && scene.bends.empty() && scene.attachments.empty() &&
-           scene.planes.empty();
+           scene.planes.empty() && scene.colliders.empty();
 }
 
 SplitBudget budgetOf(const Terms& terms) {

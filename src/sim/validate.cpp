@@ -1,9 +1,11 @@
 // Walks a Scene and its Settings once and collects sentences. The allowed numbers stand in ranges.hpp.
 #include "sim/validate.hpp"
 
+#include "sim/collision/check_colliders.hpp"
 #include "sim/collision/particle_contacts.hpp"
 #include "sim/coloring.hpp"
 #include "sim/compile.hpp"
+#include "sim/complaints.hpp"
 #include "sim/lattice/batches.hpp"
 #include "sim/lattice/check_grid.hpp"
 #include "sim/ranges.hpp"
@@ -11,68 +13,12 @@
 #include "sim/substeps.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
-#include <string_view>
 
 namespace sinew::sim {
 
 namespace {
-
-template <typename Number> std::string number(Number value) {
-    char text[32];
-    const auto end = std::to_chars(std::begin(text), std::end(text), value).ptr;
-    return {text, end};
-}
-
-/// Most values were float32: 0.1f shall read "0.1", not "0.10000000149011612".
-std::string asWritten(double value) {
-    const auto narrow = static_cast<float>(value);
-    return double{narrow} == value || std::isnan(value) ? number(narrow) : number(value);
-}
-
-std::string element(std::string_view list, std::size_t index) {
-    return std::string(list) + "[" + number(index) + "]";
-}
-
-// Keeps the first sentences and counts the rest, so that a million NaNs stay readable.
-class Complaints {
-public:
-    void add(const std::string& item, const std::string& why) {
-        if (++count_ <= most) sentences_.push_back(item + ": " + why);
-    }
-
-    // Members by pointer, so that no name is put together for the values that are right.
-    void check(double value, const Range& range, const auto& name) {
-        if (!range.holds(value)) add(name(), "is " + asWritten(value) + ", must be " + toText(range));
-    }
-
-    void checkFinite(const Vec3& v, const auto& name) {
-        for (const float value : {v.x, v.y, v.z}) {
-            if (ranges::finite.holds(double{value})) continue;
-            add(name(), "is (" + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + "), must be finite");
-            return;
-        }
-    }
-
-    void checkIndex(std::size_t index, std::size_t count, const char* counted, const auto& name) {
-        if (index >= count)
-            add(name(), "is " + number(index) + ", but there are " + number(count) + " " + counted);
-    }
-
-    bool isEmpty() const { return count_ == 0; }
-
-    std::vector<std::string> finish() {
-        if (count_ > most) sentences_.push_back("and " + number(count_ - most) + " more complaints");
-        return std::move(sentences_);
-    }
-
-private:
-    static constexpr std::size_t most = 20;
-    std::vector<std::string> sentences_;
-    std::size_t count_ = 0;
-};
 
 struct SettingRow {
     const char* name;
@@ -464,6 +410,7 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings) 
     complaints.check(double{scene.contacts.friction}, ranges::friction,
                      [] { return "scene.contacts.friction"; });
     checkPlanes(scene, complaints);
+    collision::checkColliders(scene.colliders, complaints);
     checkBodies(scene, complaints);
     checkGrids(scene, complaints);
     for (std::size_t i = 0; i < scene.skins.size(); ++i)

@@ -36,6 +36,8 @@ struct Application {
 Scene everything() {
     Scene scene = test::sheet(6, 1e-5f);
     test::addRoom(scene);
+    scene.colliders = {
+        {.radius = 0.1f, .restitution = 0.5f, .path = {{0, {}}, {1, {{1, 0, 0}, {0, 1, 0, 0}}}}}};
     return scene;
 }
 

@@ -34,6 +34,12 @@ Scene validScene() {
     scene.attachments.push_back({.particle = 2});
     scene.tethers.push_back({0, 3, 1});
     scene.planes.push_back({});
+    scene.colliders.push_back({.radius = 1});
+    scene.colliders.push_back({.shape = ColliderShape::capsule, .radius = 1});
+    scene.colliders.push_back({.shape = ColliderShape::box,
+                               .halfExtents = {1, 1, 1},
+                               .path = {{0, {}}, {1, {.position = {1, 0, 0}}}, {2, {}}},
+                               .pathEnd = PathEnd::loop});
     scene.bodies.push_back({"cell", 0, 8, 1});
     scene.skins.push_back({.name = "on particles", .triangles = {{0, 1, 2}}, .particles = {0, 1, 2}});
     scene.skins.push_back(
@@ -85,6 +91,34 @@ const Fault faults[] = {
          s.attachments.clear();
          for (std::uint32_t i = 4; i < 1029; ++i) s.attachments.push_back({.particle = i});
      }},
+    {"colliders: are 65, at most 64 are possible",
+     [](Scene& s, Settings&) { s.colliders.resize(65, {.radius = 1}); }},
+    {"collider[0].radius: is 0, must be above 0", [](Scene& s, Settings&) { s.colliders[0].radius = 0; }},
+    {"collider[0].shape: is 9, which is no shape",
+     [](Scene& s, Settings&) { s.colliders[0].shape = static_cast<ColliderShape>(9); }},
+    {"collider[0].friction: is -1", [](Scene& s, Settings&) { s.colliders[0].friction = -1; }},
+    {"collider[0].staticFriction: is nan",
+     [](Scene& s, Settings&) { s.colliders[0].staticFriction = notANumber; }},
+    {"collider[0].restitution: is 1.1, must be from 0 to 1",
+     [](Scene& s, Settings&) { s.colliders[0].restitution = 1.1f; }},
+    {"collider[0].margin: is -0.1", [](Scene& s, Settings&) { s.colliders[0].margin = -0.1f; }},
+    {"collider[0].pose.position: is (nan, 0, 0), must be finite",
+     [](Scene& s, Settings&) { s.colliders[0].pose.position.x = notANumber; }},
+    {"collider[0].pose.rotation: is no unit quaternion",
+     [](Scene& s, Settings&) { s.colliders[0].pose.rotation.w = 1.01f; }},
+    {"collider[0].color: is 2", [](Scene& s, Settings&) { s.colliders[0].color.x = 2; }},
+    {"collider[1].halfLength: is -1", [](Scene& s, Settings&) { s.colliders[1].halfLength = -1; }},
+    {"collider[2].halfExtents: is 0, must be above 0",
+     [](Scene& s, Settings&) { s.colliders[2].halfExtents.y = 0; }},
+    {"collider[2].path[1].time: is 0, must be above 0, that of the keyframe before",
+     [](Scene& s, Settings&) { s.colliders[2].path[1].time = 0; }},
+    {"collider[2].path[0].time: is -1", [](Scene& s, Settings&) { s.colliders[2].path[0].time = -1; }},
+    {"collider[2].path[1].rotation: is no unit quaternion",
+     [](Scene& s, Settings&) {
+         s.colliders[2].path[1].pose.rotation = {0, 0, 0, notANumber};
+     }},
+    {"collider[2].path: loops, but its last keyframe is not where its first one is",
+     [](Scene& s, Settings&) { s.colliders[2].path.pop_back(); }},
     {"tether[0].particle: is 9", [](Scene& s, Settings&) { s.tethers[0].particle = 9; }},
     {"tether[0].anchor: is particle 4, which moves: fix it",
      [](Scene& s, Settings&) { s.tethers[0].anchor = 4; }},
@@ -132,9 +166,7 @@ const Fault faults[] = {
     {"distance[0].compliance: is -1e-06", [](Scene& s, Settings&) { s.distances[0].compliance = -1e-6f; }},
     {"fixed[1].particle: is 8", [](Scene& s, Settings&) { s.fixed[1].particle = 8; }},
     {"plane[0].normal: length: is 2, must be from 0.999 to 1.001",
-     [](Scene& s, Settings&) {
-         s.planes[0].normal = {0, 2, 0};
-     }},
+     [](Scene& s, Settings&) { s.planes[0].normal = {0, 2, 0}; }},
     {"plane[0].normal: length: is nan", [](Scene& s, Settings&) { s.planes[0].normal.x = notANumber; }},
     {"plane[0].offset: is inf", [](Scene& s, Settings&) { s.planes[0].offset = infinity; }},
     {"particle[0].radius: is -0.1, must be at least 0",

@@ -7,7 +7,7 @@
 namespace sinew::sim::reference {
 
 /// Throws std::invalid_argument, in one sentence that names `what` cannot be computed, for a scene with rigid
-/// links (which have no energy), bends, attachments, tethers or boundary planes.
+/// links (which have no energy), bends, attachments, tethers, boundary planes or colliders.
 void requireSprings(const Scene& scene, const char* what);
 /// The same for a scene with damping, of motion or of links.
 void requireUndamped(const Scene& scene, const char* what);

@@ -4,6 +4,7 @@
 #include "sim/solvers/gauss_seidel.hpp"
 
 #include "kernels.hpp"
+#include "sim/collision/colliders.hpp"
 #include "sim/collision/planes.hpp"
 #include "sim/constraints/attachment.hpp"
 #include "sim/constraints/bend.hpp"
@@ -88,6 +89,7 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
                                                                                particles.layout.count)};
     const auto attachments = constraints::attachment::add(program, scene, particles.layout);
     const auto tethers = constraints::tether::add(program, scene, particles.layout);
+    const auto colliders = collision::colliders::add(program, scene, particles.layout, settings.substeps);
     const bool isDamped = scene.dampingTime > 0 && !work.edges.colors.empty();
     const bool isWarm = work.edges.degree > 0, usesTexels = settings.forms.usesTexels;
     const Form& open = !isWarm ? openCold : usesTexels ? openWarm : openWarmLoads;
@@ -100,6 +102,7 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
         constraints::attachment::addOpenPass(program, particles, work.corrections, attachments, substep,
                                              settings.substeps);
         constraints::tether::addOpenPass(program, particles, work.corrections, tethers);
+        collision::colliders::addOpenPass(program, particles, work.corrections, colliders, substep);
         if (!isDamped) continue;
         addBetween(program, work, close, false);
         constraints::distance::addDamping(program, particles, work.edges, scene.dampingTime);

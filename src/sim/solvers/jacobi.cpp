@@ -3,6 +3,7 @@
 #include "sim/solvers/jacobi.hpp"
 
 #include "kernels.hpp"
+#include "sim/collision/colliders.hpp"
 #include "sim/collision/planes.hpp"
 #include "sim/constraints/attachment.hpp"
 #include "sim/constraints/bend.hpp"
@@ -56,10 +57,13 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
     const collision::planes::Contacts contacts = collision::planes::addContacts(program, scene);
     const auto attachments = constraints::attachment::add(program, scene, particles.layout);
     const auto tethers = constraints::tether::add(program, scene, particles.layout);
+    auto colliders = collision::colliders::add(program, scene, particles.layout, settings.substeps);
+    collision::colliders::addMemory(program, colliders);
     const std::uint32_t iterations = corrections.slotCount > 0 ? settings.iterations : 1;
     for (std::uint32_t substep = 0; substep < settings.substeps; ++substep) {
         program.beginSubstep();
         collision::planes::addOpen(program, particles, contacts);
+        collision::colliders::addOpening(program, particles, colliders, substep == 0);
         program.dispatch(kernels::predict, particles.count,
                          {particles.positions, particles.velocities, particles.step},
                          layout::CountPush{particles.count});
@@ -69,6 +73,8 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
         }
         constraints::attachment::addPass(program, particles, attachments, substep, settings.substeps);
         constraints::tether::addPass(program, particles, tethers);
+        collision::colliders::addPass(program, particles, colliders, substep,
+                                      collision::colliders::Kick::half);
         if (scene.damping > 0 || !scene.planes.empty()) {
             collision::planes::addVelocityUpdate(program, particles, contacts);
         }

@@ -3,6 +3,7 @@
 // first.
 #include "sim/solvers/split.hpp"
 
+#include "sim/collision/colliders.hpp"
 #include "sim/collision/particle_contacts.hpp"
 #include "sim/collision/planes.hpp"
 #include "sim/constraints/attachment.hpp"
@@ -19,6 +20,8 @@
 namespace sinew::sim::solvers::split {
 
 namespace {
+
+using collision::colliders::Kick;
 
 // One dispatch of every substep, still without the buffers that alternate.
 struct Gather {
@@ -218,6 +221,14 @@ void addLinks(const std::vector<Gather>& gathers, const ParticleBuffers& current
     }
 }
 
+// What is not a plane.
+collision::colliders::Colliders addRigid(const Common& common) {
+    auto rigid =
+        collision::colliders::add(common.program, common.scene, common.layout, common.settings.substeps);
+    collision::colliders::addMemory(common.program, rigid);
+    return rigid;
+}
+
 void addSubsteps(const Common& common, const ParticleBuffers& particles) {
     ProgramBuilder& program = common.program;
     const StateLayout& layout = common.layout;
@@ -226,15 +237,18 @@ void addSubsteps(const Common& common, const ParticleBuffers& particles) {
     const bool alternates = std::ranges::any_of(gathers, &Gather::alternatesVelocities);
     const auto attachments = constraints::attachment::add(program, common.scene, layout);
     const auto tethers = constraints::tether::add(program, common.scene, layout);
+    const auto rigid = addRigid(common);
     ParticleBuffers current = particles, next = particles;
     next.positions = program.scratch<layout::vec4>("state.next_positions", layout.count);
     if (alternates) next.velocities = program.scratch<layout::vec4>("state.next_velocities", layout.count);
     for (std::uint32_t substep = 0; substep < substeps; ++substep) {
         program.beginSubstep();
+        collision::colliders::addOpening(program, current, rigid, substep == 0);
         addLinks(gathers, current, next, substep == 0);
         std::swap(current, next);
         constraints::attachment::addPass(program, current, attachments, substep, substeps);
         constraints::tether::addPass(program, current, tethers);
+        collision::colliders::addPass(program, current, rigid, substep, Kick::whole);
     }
     program.endSubsteps();
     if (current.positions != particles.positions) program.copy(current.positions, particles.positions);
@@ -252,11 +266,13 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
     const bool alternates = std::ranges::any_of(gathers, &Gather::alternatesVelocities);
     const auto attachments = constraints::attachment::add(program, common.scene, layout);
     const auto tethers = constraints::tether::add(program, common.scene, layout);
+    const auto rigid = addRigid(common);
     ParticleBuffers current = particles, predicted = particles;
     predicted.positions = program.scratch<layout::vec4>("state.next_positions", layout.count);
     BufferId spare = program.scratch<layout::vec4>("state.next_velocities", layout.count);
     for (std::uint32_t substep = 0; substep < substeps; ++substep) {
         program.beginSubstep();
+        collision::colliders::addOpening(program, current, rigid, substep == 0);
         collision::particle_contacts::addOpening(program, contacts, current.velocities);
         predicted.velocities = alternates ? spare : current.velocities;
         addLinks(gathers, current, predicted, substep == 0);
@@ -264,6 +280,7 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
         collision::particle_contacts::addPasses(program, contacts, predicted, current);
         constraints::attachment::addPass(program, current, attachments, substep, substeps);
         constraints::tether::addPass(program, current, tethers);
+        collision::colliders::addPass(program, current, rigid, substep, Kick::whole);
     }
     program.endSubsteps();
     if (current.velocities != particles.velocities) program.copy(current.velocities, particles.velocities);

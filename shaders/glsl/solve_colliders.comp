@@ -1,0 +1,67 @@
+#version 460
+// Keeps every particle out of the colliders at the end of a substep, one collider after another inside the particle: the
+// last pass of a substep, exact, so that a share of nothing else is softer for it. Serves every solver: thetaH is 0 but for
+// `split`; the substep of `gauss_seidel` is still open (solve_attachments.comp). HAS_REBOUND: something of the scene
+// rebounds, so that the way since the substep began is no longer h v, and impacts need the velocity from before.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "colliders.glsl"
+
+layout(std430, binding = 0) readonly buffer Colliders { Collider colliders[]; };
+layout(std430, binding = 1) readonly buffer Poses { ColliderPose poses[]; };
+layout(std430, binding = 2) readonly buffer ContactOffsets { float contactOffsets[]; };
+#ifdef OPEN
+layout(std430, binding = 3) readonly buffer Positions { vec4 positions[]; }; // predicted; w = inverse mass [1/kg]
+#else
+layout(std430, binding = 3) buffer Positions { vec4 positions[]; }; // x + thetaH v
+#endif
+layout(std430, binding = 4) buffer Velocities { vec4 velocities[]; }; // open: v + h g; w = inverse mass [1/kg]
+layout(std140, binding = 5) uniform Step { StepParams step; };
+#ifdef OPEN
+layout(std430, binding = 6) buffer Corrections { vec4 corrections[]; }; // ParticleCorrection
+#elif defined HAS_REBOUND
+layout(std430, binding = 6) readonly buffer Before { vec4 before[]; }; // x, v of each particle (open_colliders)
+#endif
+layout(push_constant) uniform Push { ColliderPush push; };
+
+void main() {
+    const uint i = itemIndex(push.count);
+    const vec4 velocity = velocities[i];
+    const float h = step.h;
+    const vec3 late = push.lateKick * h * step.gravity.xyz; // part of v that has not moved x
+#ifdef OPEN
+    const vec3 correction = corrections[i].xyz, velocityBefore = velocity.xyz - h * step.gravity.xyz;
+    Movement movement = Movement(positions[i].xyz + correction, velocity.xyz + correction / h,
+                                 h * (velocity.xyz - late) + correction, vec3(0.0));
+#else
+    const vec3 x = positions[i].xyz - step.thetaH * velocity.xyz;
+    Movement movement = Movement(x, velocity.xyz, h * (velocity.xyz - late), vec3(0.0));
+#ifdef HAS_REBOUND
+    movement.way = x - before[2u * i].xyz;
+    const vec3 velocityBefore = before[2u * i + 1u].xyz;
+#endif
+#endif
+    if (velocity.w == 0.0) return;
+    vec3 rebound = vec3(0.0);
+    bool isTouching = false;
+    for (uint c = 0u; c < colliderCount; ++c) {
+        vec3 n, surfaceVelocity;
+        const Collider collider = colliders[c];
+        const ColliderPose from = poses[push.before + c], to = poses[push.after + c]; // the same where nothing moves
+        if (!projectOut(collider, contactOffsets[i], from, to, h, movement, n, surfaceVelocity)) continue;
+        isTouching = true;
+#if defined OPEN || defined HAS_REBOUND
+        rebound += reboundFrom(collider, step.restSpeed, n, surfaceVelocity, velocityBefore, movement.v + rebound);
+#endif
+    }
+    if (!isTouching) return;
+#ifdef OPEN
+    // Closing makes v of the corrections: what they must not give it is taken from v beforehand.
+    corrections[i].xyz = movement.way - h * (velocity.xyz - late);
+    velocities[i].xyz = velocity.xyz + rebound - movement.pushed / h;
+#else
+    const vec3 v = movement.v + rebound;
+    velocities[i].xyz = v;
+    positions[i].xyz = movement.x + step.thetaH * v;
+#endif
+}

@@ -1,0 +1,12 @@
+// Part of validate(): complaints about colliders.
+#pragma once
+
+#include "sim/complaints.hpp"
+
+#include <span>
+
+namespace sinew::sim::collision {
+
+void checkColliders(std::span<const Collider> colliders, Complaints& complaints);
+
+} // namespace sinew::sim::collision

@@ -1,0 +1,36 @@
+// Spheres, capsules and boxes on the device: one pass that ends a substep, after contacts, attachments and
+// tethers, the same for every solver. Where they move, a pass at the head of a step places them for all of
+// its substeps. A scene without colliders has neither.
+#pragma once
+
+#include "layout.h"
+#include "sim/compile.hpp"
+
+namespace sinew::sim::collision::colliders {
+
+struct Colliders {
+    std::uint32_t count = 0;
+    std::uint32_t particles = 0; ///< slots of the state
+    bool areMoving = false, hasRebound = false;
+    BufferId shapes, poses, contactOffsets, before;
+};
+
+/// Adds the passes that place them: call it once, before the substeps.
+Colliders add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout, std::uint32_t substeps);
+
+/// How much of the h g in its velocities a solver has not moved its particles by.
+enum class Kick { whole, half };
+
+/// `split` and `jacobi`: room for what addOpening() keeps; only where something rebounds there is anything.
+void addMemory(ProgramBuilder& program, Colliders& colliders);
+/// Before the links of a substep.
+void addOpening(ProgramBuilder& program, const ParticleBuffers& particles, const Colliders& colliders,
+                bool isFirst);
+/// The end of that substep, which counts from 0.
+void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Colliders& colliders,
+             std::uint32_t substep, Kick kick);
+/// The same in a substep of `gauss_seidel`, which is still open: what moves are the `corrections`.
+void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
+                 const Colliders& colliders, std::uint32_t substep);
+
+} // namespace sinew::sim::collision::colliders

@@ -1,0 +1,70 @@
+// How complaints about a scene are worded and collected: for validate.cpp and the checks it calls.
+#pragma once
+
+#include "sim/ranges.hpp"
+#include "sim/scene.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace sinew::sim {
+
+template <typename Number> std::string number(Number value) {
+    char text[32];
+    const auto end = std::to_chars(std::begin(text), std::end(text), value).ptr;
+    return {text, end};
+}
+
+/// Most values were float32: 0.1f shall read "0.1", not "0.10000000149011612".
+inline std::string asWritten(double value) {
+    const auto narrow = static_cast<float>(value);
+    return double{narrow} == value || std::isnan(value) ? number(narrow) : number(value);
+}
+
+inline std::string element(std::string_view list, std::size_t index) {
+    return std::string(list) + "[" + number(index) + "]";
+}
+
+// Keeps the first sentences and counts the rest, so that a million NaNs stay readable.
+class Complaints {
+public:
+    void add(const std::string& item, const std::string& why) {
+        if (++count_ <= most) sentences_.push_back(item + ": " + why);
+    }
+
+    // Members by pointer, so that no name is put together for the values that are right.
+    void check(double value, const Range& range, const auto& name) {
+        if (!range.holds(value)) add(name(), "is " + asWritten(value) + ", must be " + toText(range));
+    }
+
+    void checkFinite(const Vec3& v, const auto& name) {
+        for (const float value : {v.x, v.y, v.z}) {
+            if (ranges::finite.holds(double{value})) continue;
+            add(name(), "is (" + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + "), must be finite");
+            return;
+        }
+    }
+
+    void checkIndex(std::size_t index, std::size_t count, const char* counted, const auto& name) {
+        if (index >= count)
+            add(name(), "is " + number(index) + ", but there are " + number(count) + " " + counted);
+    }
+
+    bool isEmpty() const { return count_ == 0; }
+
+    std::vector<std::string> finish() {
+        if (count_ > most) sentences_.push_back("and " + number(count_ - most) + " more complaints");
+        return std::move(sentences_);
+    }
+
+private:
+    static constexpr std::size_t most = 20;
+    std::vector<std::string> sentences_;
+    std::size_t count_ = 0;
+};
+
+} // namespace sinew::sim
