@@ -13,6 +13,7 @@ struct MeshBody {
     float poissonRatio = 0.25f;    ///< 0.25 to 0.49
     float recovery = 0;            ///< sim::Lattice::recovery
     float density = 1000;          ///< [kg/m^3]
+    bool touchesParticles = false; ///< each particle has a radius of half a voxel
     Vec3 color{0.78f, 0.36f, 0.32f};
 };
 

@@ -1,4 +1,5 @@
-// Bodies as particles and distance constraints: cloth sheets, chains and voxel lattices, appended to a Scene.
+// Bodies as particles and distance constraints: cloth sheets, chains, voxel lattices and loose particles,
+// appended to a Scene.
 #pragma once
 
 #include "sim/scene.hpp"
@@ -22,6 +23,7 @@ struct ClothSheet {
     float skipStiffness = 0; ///< of links two apart in a row or column, which resist folding [N/m]; 0 = none
     float bendingStiffness = 0;        ///< of rows and columns [N m]; 0 = no bends. Twist has none
     std::uint32_t tethers = 0;         ///< of a particle, to the nearest pinned ones
+    float radius = 0;                  ///< of a particle that others touch [m], at most half of the spacing
     std::vector<std::uint32_t> pinned; ///< particles (row-major within the sheet) held where they are
     Vec3 color{0.16f, 0.34f, 0.58f};
 };
@@ -100,6 +102,7 @@ struct Lattice {
     /// leaves crumpled bodies at rest there.
     float recovery = 0;
     float density = 1000;          ///< [kg/m^3]
+    float radius = 0;              ///< of a particle that others touch [m], at most half of the spacing
     bool hasBodyDiagonals = false; ///< 26 neighbours instead of 18
     float restVolume = 0;          ///< of the body [m^3]; 0 = sum of fill x cell volume
 };
@@ -125,5 +128,27 @@ LatticeCorners addLattice(Scene& scene, const Lattice& lattice);
 
 /// Skins the boundary faces of a lattice (for bodies without a mesh of their own), creased at its edges.
 void addLatticeSkin(Scene& scene, const Lattice& lattice, const LatticeCorners& corners, Vec3 color);
+
+/// Particles that nothing links and that touch each other: in rows, or at random places of a cuboid. They
+/// keep their radius from colliders too.
+struct LooseParticles {
+    std::string name = "particles";
+    Vec3 center;                                    ///< of the rows or the cuboid [m]
+    std::array<std::uint32_t, 3> count{10, 10, 10}; ///< along x, y and z
+    float spacing = 0;                              ///< of rows [m]; 0 = as near as they may be
+    float jitter = 0;         ///< how far a particle may be off its place along each axis [m]
+    std::uint32_t random = 0; ///< more than 0: instead of rows so many in a cuboid, none overlapping
+    Vec3 size;                ///< of the cuboid that holds their balls [m]
+    std::uint32_t seed = 1;   ///< of jitter and random places: the same particles on every machine
+    float radius = 0.05f;     ///< [m], above 0
+    float mass = 1;           ///< of each [kg]
+    Vec3 velocity;            ///< [m/s]
+    Vec3 color{0.62f, 0.62f, 0.60f};
+};
+
+/// Appends particles and a body, and no skin. Returns the index of the first particle. Throws
+/// std::invalid_argument for values out of range, which include rows so near that neighbours could overlap,
+/// and std::domain_error where no places are found: random ones fill about a third of a cuboid at most.
+std::uint32_t addParticles(Scene& scene, const LooseParticles& particles);
 
 } // namespace sinew::sim

@@ -19,6 +19,9 @@ void check(const ClothSheet& sheet) {
         throw std::invalid_argument("cloth \"" + sheet.name + "\": skipStiffness must not be negative");
     if (!(sheet.membraneStiffness >= 0))
         throw std::invalid_argument("cloth \"" + sheet.name + "\": membraneStiffness must not be negative");
+    if (!(sheet.radius >= 0 && sheet.radius <= sheet.spacing / 2))
+        throw std::invalid_argument("cloth \"" + sheet.name +
+                                    "\": radius must be from 0 to half of the spacing");
     const std::uint64_t count = std::uint64_t{sheet.size[0]} * sheet.size[1];
     if (count > std::numeric_limits<std::uint32_t>::max() / 8)
         throw std::length_error("cloth \"" + sheet.name + "\": too many particles");
@@ -59,7 +62,8 @@ void addParticles(Scene& scene, const ClothSheet& sheet) {
                               at(sheet, column, row, &Vec3::z)},
                  .velocity = {},
                  .inverseMass = static_cast<float>(1 / mass),
-                 .contactOffset = 0});
+                 .contactOffset = 0,
+                 .radius = sheet.radius});
         }
 }
 

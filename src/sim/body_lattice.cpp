@@ -123,6 +123,8 @@ void check(const Lattice& lattice) {
     const std::string head = "lattice \"" + lattice.name + "\": ";
     if (!(lattice.spacing > 0) || !(lattice.youngModulus > 0) || !(lattice.density > 0))
         throw std::invalid_argument(head + "spacing, youngModulus and density must be positive");
+    if (!(lattice.radius >= 0 && lattice.radius <= lattice.spacing / 2))
+        throw std::invalid_argument(head + "radius must be from 0 to half of the spacing");
     if (!ranges::poissonRatio.holds(double{lattice.poissonRatio}))
         throw std::invalid_argument(head + "poissonRatio must be " + toText(ranges::poissonRatio));
     if (!ranges::recovery.holds(double{lattice.recovery}))
@@ -167,7 +169,8 @@ std::vector<std::uint32_t> addParticles(Scene& scene, const Lattice& lattice, co
                                                     along(lattice.origin.z, lattice.spacing, corner[2])},
                                        .velocity = {},
                                        .inverseMass = static_cast<float>(1 / mass),
-                                       .contactOffset = 0});
+                                       .contactOffset = 0,
+                                       .radius = lattice.radius});
     });
     return particle;
 }

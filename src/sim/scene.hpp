@@ -157,7 +157,8 @@ inline bool hasCellVolumes(const Grid& grid) {
 struct Body {
     std::string name;
     std::uint32_t firstParticle = 0, particleCount = 0;
-    float restVolume = 0; ///< [m^3]; 0 = encloses none (cloth)
+    float restVolume = 0;            ///< [m^3]; 0 = encloses none (cloth)
+    Vec3 color{0.62f, 0.62f, 0.60f}; ///< linear RGB, where no skin shows the body
 };
 
 /// Where a skin vertex sits in a lattice cell: x = sum over corners k of N_k(weights) x_k, trilinear. Corner

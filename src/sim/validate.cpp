@@ -208,6 +208,8 @@ void checkBodies(const Scene& scene, Complaints& complaints) {
             complaints.add(name, "ends at particle " + number(end) + ", but there are " +
                                      number(scene.particles.size()) + " particles");
         complaints.check(double{body.restVolume}, ranges::restVolume, [&] { return name + ".restVolume"; });
+        for (const float channel : {body.color.x, body.color.y, body.color.z})
+            complaints.check(double{channel}, ranges::color, [&] { return name + ".color"; });
     }
 }
 

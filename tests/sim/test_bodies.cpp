@@ -404,3 +404,30 @@ TEST(LatticeSkin, IsCreasedAtItsEdges) {
             EXPECT_NEAR(normals.try_emplace(vertex, normal).first->second.dot(normal), 1, 1e-6);
     }
 }
+
+TEST(LooseParticles, AreRefusedWhereTheyCannotBePlaced) {
+    Scene scene;
+    EXPECT_THROW(addParticles(scene, {.radius = 0}), std::invalid_argument);
+    EXPECT_THROW(addParticles(scene, {.mass = 0}), std::invalid_argument);
+    EXPECT_THROW(addParticles(scene, {.count = {0, 1, 1}}), std::invalid_argument);
+    EXPECT_THROW(addParticles(scene, {.spacing = 0.09f, .radius = 0.05f}), std::invalid_argument);
+    EXPECT_THROW(addParticles(scene, {.spacing = 0.1f, .jitter = 0.01f, .radius = 0.05f}),
+                 std::invalid_argument);
+    EXPECT_THROW(addParticles(scene, {.jitter = -1}), std::invalid_argument);
+    EXPECT_THROW(addParticles(scene, {.random = 100, .size = {0.2f, 0.2f, 0.2f}, .radius = 0.05f}),
+                 std::domain_error);
+}
+
+TEST(Bodies, HaveARadiusOfAtMostHalfOfTheirSpacing) {
+    Scene scene;
+    addLattice(scene, {.cells = {1, 1, 1}, .spacing = 0.1f, .radius = 0.05f});
+    addCloth(scene, {.size = {2, 2}, .spacing = 0.1f, .radius = 0.02f});
+    EXPECT_EQ(scene.particles.front().radius, 0.05f);
+    EXPECT_EQ(scene.particles.back().radius, 0.02f);
+    for (const float radius : {0.051f, -0.01f, NAN}) {
+        EXPECT_THROW(addLattice(scene, {.cells = {1, 1, 1}, .spacing = 0.1f, .radius = radius}),
+                     std::invalid_argument);
+        EXPECT_THROW(addCloth(scene, {.size = {2, 2}, .spacing = 0.1f, .radius = radius}),
+                     std::invalid_argument);
+    }
+}

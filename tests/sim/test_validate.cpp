@@ -183,6 +183,7 @@ const Fault faults[] = {
      [](Scene& s, Settings&) { s.bodies[0].firstParticle = 1; }},
     {"body[0] \"cell\": ends at particle 4294967303",
      [](Scene& s, Settings&) { s.bodies[0].firstParticle = 0xffffffff; }},
+    {"body[0] \"cell\".color: is 2", [](Scene& s, Settings&) { s.bodies[0].color.y = 2; }},
     {"body[0] \"cell\".restVolume: is -1", [](Scene& s, Settings&) { s.bodies[0].restVolume = -1; }},
     {"skin[0]: has no vertices", [](Scene& s, Settings&) { s.skins[0].particles.clear(); }},
     {"skin[0]: has both particles and cells", [](Scene& s, Settings&) { s.skins[0].cells.resize(3); }},
