@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <stdexcept>
 
@@ -115,6 +116,24 @@ void clampFaces(sim::Scene& scene, const Section& box, const sim::LatticeCorners
     for (const std::uint32_t particle : held) scene.fixed.push_back({particle});
 }
 
+/// Of particles that touch others [m]; 0 = they do not.
+float radiusOf(const Section& body) {
+    const float most = body.number("spacing") / 2;
+    if (!body.flag("collides")) {
+        if (body.has("radius"))
+            body.fail("radius", "is given, but the body touches nothing", "write collides = true");
+        return 0;
+    }
+    const float radius = body.has("radius") ? body.number("radius") : most;
+    if (radius > most)
+        body.fail("radius", "is more than half of the spacing", "linked particles would overlap at rest");
+    return radius;
+}
+
+std::uint64_t product(const std::array<std::uint32_t, 3>& counts) {
+    return std::uint64_t{counts[0]} * counts[1] * counts[2];
+}
+
 void addLoad(sim::Scene& scene, double load, const sim::LatticeCorners& corners) {
     if (load == 0) return;
     const std::vector<std::uint32_t> top = particlesOf({"high_y", 1, true}, corners);
@@ -123,6 +142,77 @@ void addLoad(sim::Scene& scene, double load, const sim::LatticeCorners& corners)
             1 / double{scene.particles[i].inverseMass} + load / static_cast<double>(top.size());
         scene.particles[i].inverseMass = static_cast<float>(1 / mass);
     }
+}
+
+/// Where the lowest corners of equal boxes are.
+struct BoxRows {
+    sim::Vec3 first, pitch;
+
+    sim::Vec3 origin(std::uint64_t index, const std::array<std::uint32_t, 3>& copies) const {
+        const auto at = [](float low, float step, std::uint64_t i) {
+            return static_cast<float>(double{low} + double{step} * static_cast<double>(i));
+        };
+        const std::uint64_t layer = index / copies[0];
+        return {at(first.x, pitch.x, index % copies[0]), at(first.y, pitch.y, layer / copies[2]),
+                at(first.z, pitch.z, layer % copies[2])};
+    }
+};
+
+/// `center` is that of all boxes, `origin` the lowest corner of the first.
+BoxRows rowsOf(const Section& box, const sim::Lattice& lattice, const std::array<std::uint32_t, 3>& copies,
+               const std::array<double, 3>& origin) {
+    const auto side = [&](std::size_t axis) {
+        return lattice.spacing * static_cast<float>(lattice.cells[axis]);
+    };
+    BoxRows rows;
+    const auto wide = [&](std::size_t axis) { return side(axis) + 2 * lattice.spacing; };
+    rows.pitch = box.has("pitch") ? box.vector("pitch") : sim::Vec3{wide(0), wide(1), wide(2)};
+    if (box.has("origin")) {
+        rows.first = localPoint(box, "origin", origin);
+        return rows;
+    }
+    const sim::Vec3 center = localPoint(box, "center", origin);
+    const auto low = [&](float middle, float pitch, std::size_t axis) {
+        return middle - (side(axis) + pitch * static_cast<float>(copies[axis] - 1)) / 2;
+    };
+    rows.first = {low(center.x, rows.pitch.x, 0), low(center.y, rows.pitch.y, 1),
+                  low(center.z, rows.pitch.z, 2)};
+    return rows;
+}
+
+void addOneBox(LoadedScene& loaded, const Section& box, const sim::Lattice& lattice) {
+    sim::LatticeCorners corners;
+    try {
+        corners = sim::addLattice(loaded.scene, lattice);
+    } catch (const std::domain_error& error) {
+        box.fail(lattice.poissonRatio > 0.25f ? "poisson_ratio" : "recovery",
+                 std::string("cannot be had: ") + error.what(), "move the body nearer to the origin");
+    }
+    clampFaces(loaded.scene, box, corners);
+    addLoad(loaded.scene, double{box.number("load")}, corners);
+    sim::addLatticeSkin(loaded.scene, lattice, corners, box.vector("color"));
+}
+
+void checkParticleKeys(const Section& section, bool isRandom) {
+    if (isRandom && !section.has("size")) section.fail("random", "has no cuboid", "give size");
+    for (const char* key : {"count", "spacing", "jitter"})
+        if (isRandom && section.has(key))
+            section.fail(key, "is given beside random, which is in no rows", "leave one of them out");
+    if (!isRandom && section.has("size"))
+        section.fail("size", "is the cuboid of random particles", "give random, or leave it out");
+    if (section.has("mass") && section.has("density"))
+        section.fail("density", "is given beside mass", "give mass or density");
+}
+
+float massOfBall(const Section& section) {
+    const double radius = double{section.number("radius")};
+    return static_cast<float>(double{section.number("density")} * 4 / 3 * std::numbers::pi * radius * radius *
+                              radius);
+}
+
+/// As sim::addParticles refuses it, but for rounding of what the file says.
+bool tooNear(const sim::LooseParticles& particles) {
+    return double{particles.spacing} < 2 * (double{particles.radius} + double{particles.jitter}) * (1 - 1e-6);
 }
 
 } // namespace
@@ -148,6 +238,7 @@ void addCloth(LoadedScene& loaded, const Section& cloth) {
                           .skipStiffness = cloth.number("skip_stiffness"),
                           .bendingStiffness = cloth.number("bending_stiffness"),
                           .tethers = cloth.count("tethers"),
+                          .radius = radiusOf(cloth),
                           .pinned = {},
                           .color = cloth.vector("color")};
     checkRoom(loaded, std::uint64_t{sheet.size[0]} * sheet.size[1], cloth, "size");
@@ -177,34 +268,53 @@ void addChain(LoadedScene& loaded, const Section& section) {
 
 void addBox(LoadedScene& loaded, const Section& box) {
     box.requireOneOf("center", "origin");
-    const auto particles = box.counts<3>("particles");
-    sim::Lattice lattice{.name = box.text("name"),
-                         .cells = {particles[0] - 1, particles[1] - 1, particles[2] - 1},
-                         .spacing = box.number("spacing"),
-                         .youngModulus = box.number("young_modulus"),
-                         .poissonRatio = box.number("poisson_ratio"),
-                         .recovery = box.number("recovery"),
-                         .density = box.number("density")};
-    checkRoom(loaded, std::uint64_t{particles[0]} * particles[1] * particles[2], box, "particles");
-    if (box.has("origin")) {
-        lattice.origin = localPoint(box, "origin", loaded.origin);
-    } else {
-        const sim::Vec3 center = localPoint(box, "center", loaded.origin);
-        const auto low = [&](float middle, std::size_t axis) {
-            return middle - lattice.spacing * static_cast<float>(lattice.cells[axis]) / 2;
-        };
-        lattice.origin = {low(center.x, 0), low(center.y, 1), low(center.z, 2)};
+    const auto particles = box.counts<3>("particles"), copies = box.counts<3>("copies");
+    const std::uint64_t each = product(particles), count = product(copies);
+    checkRoom(loaded, each > mostParticles ? each : each * std::min(count, mostParticles + 1), box,
+              "particles");
+    const sim::Lattice lattice{.name = box.text("name"),
+                               .cells = {particles[0] - 1, particles[1] - 1, particles[2] - 1},
+                               .spacing = box.number("spacing"),
+                               .youngModulus = box.number("young_modulus"),
+                               .poissonRatio = box.number("poisson_ratio"),
+                               .recovery = box.number("recovery"),
+                               .density = box.number("density"),
+                               .radius = radiusOf(box)};
+    const BoxRows rows = rowsOf(box, lattice, copies, loaded.origin);
+    for (std::uint64_t i = 0; i < count; ++i) {
+        sim::Lattice one = lattice;
+        one.origin = rows.origin(i, copies);
+        if (count > 1) one.name.append(" ").append(std::to_string(i + 1));
+        addOneBox(loaded, box, one);
     }
-    sim::LatticeCorners corners;
+}
+
+void addParticles(LoadedScene& loaded, const Section& section) {
+    const auto count = section.counts<3>("count");
+    const bool isRandom = section.has("random");
+    checkParticleKeys(section, isRandom);
+    sim::LooseParticles particles{.name = section.text("name"),
+                                  .center = localPoint(section, "center", loaded.origin),
+                                  .count = count,
+                                  .spacing = section.has("spacing") ? section.number("spacing") : 0,
+                                  .jitter = section.number("jitter"),
+                                  .random = isRandom ? section.count("random") : 0,
+                                  .size = isRandom ? section.vector("size") : sim::Vec3{},
+                                  .seed = section.count("seed"),
+                                  .radius = section.number("radius"),
+                                  .velocity = section.vector("velocity"),
+                                  .color = section.vector("color")};
+    particles.mass = section.has("mass") ? section.number("mass") : massOfBall(section);
+    if (!sim::ranges::inverseMass.holds(1 / double{particles.mass}) || !(particles.mass > 0))
+        section.fail("radius", "makes balls of a mass that float32 cannot hold", "give their mass");
+    checkRoom(loaded, isRandom ? particles.random : product(count), section, isRandom ? "random" : "count");
+    if (!isRandom && section.has("spacing") && tooNear(particles))
+        section.fail("spacing", "lets neighbours overlap", "must be at least 2 (radius + jitter)");
     try {
-        corners = sim::addLattice(loaded.scene, lattice);
+        sim::addParticles(loaded.scene, particles);
     } catch (const std::domain_error& error) {
-        box.fail(lattice.poissonRatio > 0.25f ? "poisson_ratio" : "recovery",
-                 std::string("cannot be had: ") + error.what(), "move the body nearer to the origin");
+        section.fail("random", std::string("cannot be placed: ") + error.what(), "give a larger size");
     }
-    clampFaces(loaded.scene, box, corners);
-    addLoad(loaded.scene, double{box.number("load")}, corners);
-    sim::addLatticeSkin(loaded.scene, lattice, corners, box.vector("color"));
 }
 
 void addPlane(LoadedScene& loaded, const Section& plane) {

@@ -21,6 +21,7 @@ void addChain(LoadedScene& loaded, const Section& chain);
 void addBox(LoadedScene& loaded, const Section& box);
 /// `voxel` overrides the file's voxel size [m].
 void addMesh(LoadedScene& loaded, const Section& mesh, const Source& source, std::optional<float> voxel);
+void addParticles(LoadedScene& loaded, const Section& particles);
 void addPlane(LoadedScene& loaded, const Section& plane);
 
 } // namespace sinew::scenes

@@ -58,6 +58,12 @@ void readSettings(LoadedScene& loaded, const Section& solver, const std::string&
                        .warmStart = solver.number("warm_start")};
 }
 
+void readContacts(LoadedScene& loaded, const Section& contacts) {
+    loaded.scene.contacts.friction = contacts.number("friction");
+    loaded.settings.contactMargin = contacts.number("margin");
+    loaded.settings.contactRoom = contacts.count("room");
+}
+
 void apply(const Overrides& overrides, LoadedScene& loaded) {
     sim::Settings& settings = loaded.settings;
     if (overrides.solver) settings.solver = solverNamed(*overrides.solver, "--solver");
@@ -72,8 +78,9 @@ void readBodies(LoadedScene& loaded, const Section& top, const Source& source, s
     for (const Section& chain : top.list("chain")) addChain(loaded, chain);
     for (const Section& box : top.list("box")) addBox(loaded, box);
     for (const Section& mesh : top.list("mesh")) addMesh(loaded, mesh, source, voxel);
+    for (const Section& particles : top.list("particles")) addParticles(loaded, particles);
     if (loaded.scene.bodies.empty())
-        fail(source.file, "has no body", "add [[cloth]], [[chain]], [[box]] or [[mesh]]");
+        fail(source.file, "has no body", "add [[cloth]], [[chain]], [[box]], [[mesh]] or [[particles]]");
     for (const Section& plane : top.list("plane")) addPlane(loaded, plane);
 }
 
@@ -148,6 +155,7 @@ LoadedScene read(const std::string& text, const Source& source, const Overrides&
     loaded.scene.damping = top.number("damping");
     loaded.scene.dampingTime = top.number("damping_time");
     readSettings(loaded, top.child("solver"), source.file);
+    readContacts(loaded, top.child("contacts"));
     apply(overrides, loaded);
     loaded.origin = originOf(top);
     readBodies(loaded, top, source, overrides.voxel);

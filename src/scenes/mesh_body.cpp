@@ -138,6 +138,7 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
                         .poissonRatio = section.number("poisson_ratio"),
                         .recovery = section.number("recovery"),
                         .density = section.number("density"),
+                        .touchesParticles = section.flag("collides"),
                         .color = section.vector("color")};
     body.voxels.resolution = section.count("resolution");
     if (section.has("voxel")) body.voxels.spacing = section.number("voxel");

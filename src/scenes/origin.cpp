@@ -14,7 +14,7 @@ struct PlaceKey {
     const char *list, *key;
 };
 constexpr PlaceKey placeKeys[] = {
-    {"cloth", "origin"}, {"box", "center"}, {"box", "origin"}, {"mesh", "center"}};
+    {"cloth", "origin"}, {"box", "center"}, {"box", "origin"}, {"mesh", "center"}, {"particles", "center"}};
 
 } // namespace
 

@@ -22,6 +22,8 @@ constexpr Range membrane{0, 1e15}, bending{0, 1e6}, tethers{0, 8};
 constexpr Range angle{-360, 360};
 constexpr Range side{2, 4096}, chainLength{2, 100'000}, cellsAlong{1, 512}, detail{8, 256},
     particleBudget{8, 2'000'000};
+constexpr Range rowLength{1, 4096}, copies{1, 4096}, particleNumber{1, 2'000'000}, seed{0, 1e9};
+constexpr Range jitter{0, 1e6}, speed{-1e6, 1e6};
 constexpr Range mass{.low = 0, .high = 1e9, .isLowOpen = true}, load{0, 1e9};
 constexpr Range view{.low = 0, .high = 180, .isLowOpen = true, .isHighOpen = true};
 
@@ -35,6 +37,7 @@ constexpr KindRule kindRules[] = {
     {Kind::counts3, "three whole numbers", 3, true},
     {Kind::pins, "a list of corner or edge names and [column, row] pairs", 0, false},
     {Kind::names, "a list of names in quotes", 0, false},
+    {Kind::flag, "true or false", 0, false},
     {Kind::table, "a table", 0, false},
     {Kind::tables, "a list of tables", 0, false},
 };
@@ -52,7 +55,9 @@ constexpr Key keys[] = {
     {"", "chain", Kind::tables, "", {}, "", "masses in a line"},
     {"", "box", Kind::tables, "", {}, "", "cuboids of voxels"},
     {"", "mesh", Kind::tables, "", {}, "", "triangle meshes filled with voxels"},
+    {"", "particles", Kind::tables, "", {}, "", "loose particles that touch each other"},
     {"", "plane", Kind::tables, "", {}, "", "half spaces that particles stay in"},
+    {"", "contacts", Kind::table, "", {}, "", "how particles touch each other"},
     {"", "camera", Kind::table, "", {}, "", "where a picture is taken from"},
 
     {"solver", "name", Kind::text, "", {}, "\"split\"", "split, jacobi or gauss_seidel"},
@@ -79,6 +84,8 @@ constexpr Key keys[] = {
     {"cloth", "bending_stiffness", Kind::number, "N m", bending, "0", "of rows and columns against bending; 0 = none"},
     {"cloth", "tethers", Kind::count, "", tethers, "0", "of each particle to the nearest pinned ones, so that a heavy sheet does not stretch"},
     {"cloth", "pinned", Kind::pins, "", {}, "[]", "particles held where they are"},
+    {"cloth", "collides", Kind::flag, "", {}, "false", "whether its particles touch others"},
+    {"cloth", "radius", Kind::number, "m", length, "", "of a particle that touches others, at most half of the spacing; half of it where it is missing"},
     {"cloth", "color", Kind::vector, "", ranges::color, "[0.16, 0.34, 0.58]", "linear red, green and blue"},
 
     {"chain", "name", Kind::text, "", {}, "\"chain\"", "name of the body in reports and files"},
@@ -102,6 +109,10 @@ constexpr Key keys[] = {
     {"box", "density", Kind::number, "kg/m^3", density, "1000", "mass per volume"},
     {"box", "clamped", Kind::names, "", {}, "[]", "faces whose particles are held where they are"},
     {"box", "load", Kind::number, "kg", load, "0", "mass laid on the upper face, evenly over its particles"},
+    {"box", "collides", Kind::flag, "", {}, "false", "whether its particles touch others"},
+    {"box", "radius", Kind::number, "m", length, "", "of a particle that touches others, at most half of the spacing; half of it where it is missing"},
+    {"box", "copies", Kind::counts3, "", copies, "[1, 1, 1]", "so many such boxes along x, y and z, in the place of one"},
+    {"box", "pitch", Kind::vector, "m", coordinate, "", "from a box to the next along x, y and z; the side and two spacings where it is missing"},
     {"box", "color", Kind::vector, "", ranges::color, "[0.78, 0.36, 0.32]", "linear red, green and blue"},
 
     {"mesh", "name", Kind::text, "", {}, "", "name of the body in reports and files; that of the mesh file or shape where it is missing"},
@@ -118,7 +129,26 @@ constexpr Key keys[] = {
     {"mesh", "poisson_ratio", Kind::number, "", ranges::poissonRatio, "0.25", "how much of a stretch shows as thinning; near 1/2 the volume stays, and more substeps are needed"},
     {"mesh", "recovery", Kind::number, "", ranges::recovery, "0", "pressure in shear moduli that unfolds flattened and mirrored cells; 0 = none, 2 is enough"},
     {"mesh", "density", Kind::number, "kg/m^3", density, "1000", "mass per volume"},
+    {"mesh", "collides", Kind::flag, "", {}, "false", "whether its particles touch others, with a radius of half a voxel"},
     {"mesh", "color", Kind::vector, "", ranges::color, "[0.78, 0.36, 0.32]", "linear red, green and blue"},
+
+    {"particles", "name", Kind::text, "", {}, "\"particles\"", "name of the body in reports and files"},
+    {"particles", "center", Kind::vector, "m", coordinate, "[0, 0, 0]", "middle of the rows or of the cuboid"},
+    {"particles", "count", Kind::counts3, "particles", rowLength, "[10, 10, 10]", "in rows along x, y and z"},
+    {"particles", "spacing", Kind::number, "m", length, "", "of rows; as near as they may be, 2 (radius + jitter), where it is missing"},
+    {"particles", "jitter", Kind::number, "m", jitter, "0", "how far a particle may be off its place along each axis"},
+    {"particles", "random", Kind::count, "particles", particleNumber, "", "instead of rows: so many at random places in a cuboid, none overlapping"},
+    {"particles", "size", Kind::vector, "m", length, "", "random: sides of the cuboid that holds the balls, which may fill a third of it"},
+    {"particles", "seed", Kind::count, "", seed, "1", "of jitter and random places: another number, other places"},
+    {"particles", "radius", Kind::number, "m", length, "", "of a particle: two touch at twice that distance", true},
+    {"particles", "density", Kind::number, "kg/m^3", density, "1000", "of a ball of that radius; give this or mass"},
+    {"particles", "mass", Kind::number, "kg", mass, "", "of a particle; give this or density"},
+    {"particles", "velocity", Kind::vector, "m/s", speed, "[0, 0, 0]", "at the start"},
+    {"particles", "color", Kind::vector, "", ranges::color, "[0.62, 0.62, 0.6]", "linear red, green and blue"},
+
+    {"contacts", "friction", Kind::number, "", ranges::friction, "0", "Coulomb's coefficient between particles"},
+    {"contacts", "margin", Kind::number, "median radii", ranges::contactMargin, "0.5", "how much farther than touching particles are listed together; changes speed, no result"},
+    {"contacts", "room", Kind::count, "particles", ranges::contactRoom, "24", "that may be listed with one at first; programs make more where it is too little"},
 
     {"plane", "normal", Kind::vector, "", direction, "[0, 1, 0]", "unit length, points to the free side"},
     {"plane", "offset", Kind::number, "m", coordinate, "0", "distance of the plane from the origin along the normal"},

@@ -21,6 +21,7 @@ enum class Kind : std::uint8_t {
     counts3,
     pins,   ///< a list of corner and edge names and [column, row] pairs
     names,  ///< a list of texts
+    flag,   ///< true or false
     table,  ///< [key]
     tables, ///< [[key]], any number of them
 };

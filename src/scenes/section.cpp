@@ -98,6 +98,7 @@ void Section::check(const toml::key& name, const toml::node& node) const {
     const bool isRight = key->kind == Kind::text     ? node.is_string()
                          : key->kind == Kind::pins   ? isPinList(node)
                          : key->kind == Kind::names  ? isNameList(node)
+                         : key->kind == Kind::flag   ? node.is_boolean()
                          : key->kind == Kind::table  ? node.is_table()
                          : key->kind == Kind::tables ? isTables(node)
                                                      : true;
@@ -180,6 +181,10 @@ std::optional<std::uint32_t> Section::countOrAuto(std::string_view name) const {
 sim::Vec3 Section::vector(std::string_view name) const {
     return {static_cast<float>(component(name, 0)), static_cast<float>(component(name, 1)),
             static_cast<float>(component(name, 2))};
+}
+
+bool Section::flag(std::string_view name) const {
+    return node(name).value_or(false);
 }
 
 std::vector<Section::Pin> Section::pins(std::string_view name) const {

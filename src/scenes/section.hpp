@@ -27,6 +27,7 @@ public:
     /// Of Kind::countOrAuto: empty for "auto".
     std::optional<std::uint32_t> countOrAuto(std::string_view name) const;
     sim::Vec3 vector(std::string_view name) const;
+    bool flag(std::string_view name) const;
     /// In the precision of the file.
     double value(std::string_view name) const { return component(name, 0); }
     std::array<double, 3> point(std::string_view name) const {

@@ -257,7 +257,7 @@ TEST_F(Load, RefusesWhatTheSimulationCannotTake) {
     expectError(smallCloth + planes, "scene.toml: planes: are 33, at most 32 are possible");
     expectError("[solver]\nname = \"magic\"\n" + smallCloth,
                 "scene.toml: no solver is called \"magic\": possible are jacobi, split, gauss_seidel");
-    expectError("", "scene.toml: has no body: add [[cloth]], [[chain]], [[box]] or [[mesh]]");
+    expectError("", "scene.toml: has no body: add [[cloth]], [[chain]], [[box]], [[mesh]] or [[particles]]");
     expectError("[[box]]\nparticles = [4096, 4096, 4096]\nspacing = 1\ncenter = [0, 0, 0]\n",
                 "scene.toml:2: box[0].particles brings the scene to 68719476736 particles: at most 2000000");
 }

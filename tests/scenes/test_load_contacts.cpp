@@ -1,0 +1,208 @@
+// Scene files about particles that touch each other: bodies that collide, loose particles, [contacts].
+#include "scenes/load_fixture.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <set>
+
+using namespace sinew;
+namespace fs = std::filesystem;
+using test::smallCloth;
+
+namespace {
+
+class LoadContacts : public test::LoadFixture {};
+
+const std::string box = "[[box]]\nparticles = [3, 4, 5]\nspacing = 0.1\ncenter = [0, 1, 0]\n";
+const std::string balls = "[[particles]]\nradius = 0.05\ncount = [2, 3, 4]\n";
+
+double nearest(const sim::Scene& scene) {
+    double least = INFINITY;
+    for (std::size_t i = 0; i < scene.particles.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            const sim::Vec3 &a = scene.particles[i].position, &b = scene.particles[j].position;
+            least = std::min(least, std::hypot(double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z));
+        }
+    return least;
+}
+
+std::set<float> radiiOf(const sim::Scene& scene) {
+    std::set<float> radii;
+    for (const sim::Particle& particle : scene.particles) radii.insert(particle.radius);
+    return radii;
+}
+
+} // namespace
+
+TEST_F(LoadContacts, GivesParticlesOfABodyARadiusOnlyWhereItCollides) {
+    const std::string mesh = "[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\nvoxel = 0.25\n";
+    for (const std::string& body : {smallCloth, box, mesh}) {
+        EXPECT_EQ(radiiOf(load(body).scene), std::set<float>{0}) << body;
+        EXPECT_EQ(radiiOf(load(body + "collides = false\n").scene), std::set<float>{0}) << body;
+    }
+    EXPECT_EQ(radiiOf(load(smallCloth + "collides = true\n").scene), std::set<float>{0.05f});
+    EXPECT_EQ(radiiOf(load(box + "collides = true\n").scene), std::set<float>{0.05f});
+    EXPECT_EQ(radiiOf(load(mesh + "collides = true\n").scene), std::set<float>{0.125f});
+    EXPECT_EQ(radiiOf(load(box + "collides = true\nradius = 0.03\n").scene), std::set<float>{0.03f});
+    EXPECT_EQ(radiiOf(load(smallCloth + "collides = true\nradius = 0.01\n").scene), std::set<float>{0.01f});
+}
+
+TEST_F(LoadContacts, RefusesRadiiThatABodyCannotHave) {
+    expectError(
+        box + "collides = true\nradius = 0.051\n",
+        "scene.toml:6: box[0].radius is more than half of the spacing: linked particles would overlap");
+    expectError(
+        smallCloth + "radius = 0.05\n",
+        "scene.toml:4: cloth[0].radius is given, but the body touches nothing: write collides = true");
+    expectError(box + "collides = 1\n",
+                "scene.toml:5: box[0].collides is the whole number 1: write true or false");
+    expectError(box + "collides = \"yes\"\n", "scene.toml:5: box[0].collides is text \"yes\": write true");
+    expectError(box + "collides = true\nradius = 0\n",
+                "scene.toml:6: box[0].radius is 0 m: must be above 0 and at most");
+}
+
+TEST_F(LoadContacts, RepeatsABoxInRows) {
+    const std::string corner = "[[box]]\nparticles = [2, 2, 2]\nspacing = 0.1\norigin = [1, 2, 3]\n";
+    const sim::Scene one = load(corner).scene, six = load(corner + "copies = [1, 2, 3]\n").scene;
+    EXPECT_EQ(one.bodies[0].name, "box");
+    ASSERT_EQ(six.bodies.size(), 6u);
+    EXPECT_EQ(six.skins.size(), 6u);
+    EXPECT_EQ(six.grids.size(), 6u);
+    EXPECT_EQ(six.bodies[0].name, "box 1");
+    EXPECT_EQ(six.bodies[5].name, "box 6");
+    EXPECT_EQ(six.particles[0].position.z, 3);
+    EXPECT_FLOAT_EQ(six.particles[8].position.z, 3.3f) << "the side and two spacings further";
+    EXPECT_FLOAT_EQ(six.particles[24].position.y, 2.3f);
+    const sim::Scene row =
+        load("[[box]]\nparticles = [3, 2, 2]\nspacing = 0.1\ncenter = [0, 1, 0]\ncopies = [3, 1, 1]\n"
+             "pitch = [0.5, 0, 0]\nclamped = [\"low_x\"]\n")
+            .scene;
+    EXPECT_FLOAT_EQ(row.particles[0].position.x, -0.6f) << "all of them are about the center";
+    EXPECT_FLOAT_EQ(row.particles[24].position.x, 0.4f);
+    EXPECT_EQ(row.fixed.size(), 12u);
+    expectError(corner + "copies = [0, 1, 1]\n", "scene.toml:5: box[0].copies is 0: must be from 1 to 4096");
+    expectError(corner + "copies = [4096, 4096, 1]\n",
+                "scene.toml:2: box[0].particles brings the scene to 16000008 particles: at most 2000000");
+}
+
+TEST_F(LoadContacts, PutsLooseParticlesInRows) {
+    const sim::Scene scene = load(balls + "name = \"b\"\ncenter = [1, 2, 3]\nspacing = 0.2\nmass = 0.5\n"
+                                          "velocity = [1, 2, 3]\ncolor = [0.1, 0.2, 0.3]\n")
+                                 .scene;
+    ASSERT_EQ(scene.particles.size(), 24u);
+    EXPECT_TRUE(scene.skins.empty());
+    EXPECT_TRUE(scene.distances.empty());
+    ASSERT_EQ(scene.bodies.size(), 1u);
+    EXPECT_EQ(scene.bodies[0].name, "b");
+    EXPECT_EQ(scene.bodies[0].particleCount, 24u);
+    EXPECT_EQ(scene.bodies[0].color.z, 0.3f);
+    const sim::Particle &first = scene.particles.front(), &last = scene.particles.back();
+    EXPECT_FLOAT_EQ(first.position.x, 0.9f);
+    EXPECT_FLOAT_EQ(first.position.y, 1.8f);
+    EXPECT_FLOAT_EQ(last.position.y, 2.2f);
+    EXPECT_FLOAT_EQ(last.position.z, 3.3f);
+    EXPECT_EQ(first.inverseMass, 2);
+    EXPECT_EQ(first.velocity.y, 2);
+    EXPECT_EQ(first.radius, 0.05f);
+    EXPECT_EQ(first.contactOffset, 0.05f) << "planes are as far off as other balls";
+    EXPECT_NEAR(nearest(scene), 0.2, 1e-6);
+}
+
+TEST_F(LoadContacts, WeighsABallByItsDensity) {
+    const double ball = 4.0 / 3 * std::numbers::pi * std::pow(0.05, 3);
+    EXPECT_NEAR(1 / load(balls).scene.particles[0].inverseMass, 1000 * ball, 1e-6);
+    EXPECT_NEAR(1 / load(balls + "density = 500\n").scene.particles[0].inverseMass, 500 * ball, 1e-6);
+}
+
+TEST_F(LoadContacts, MovesLooseParticlesOffTheirPlacesBySeedAndNeverIntoEachOther) {
+    const auto at = [&](const std::string& keys) { return load(balls + "jitter = 0.02\n" + keys).scene; };
+    const sim::Scene scene = at("");
+    EXPECT_GE(nearest(scene), 0.1 * (1 - 1e-6));
+    EXPECT_EQ(at("").particles[7].position.x, scene.particles[7].position.x);
+    EXPECT_NE(at("seed = 2\n").particles[7].position.x, scene.particles[7].position.x);
+    double most = 0;
+    for (std::uint32_t i = 0; i < 24; ++i) {
+        const float place = i % 2 == 0 ? -0.07f : 0.07f; // spacing 2 (0.05 + 0.02)
+        most = std::max(most, std::abs(double{scene.particles[i].position.x} - double{place}));
+    }
+    EXPECT_LE(most, 0.02 + 1e-6);
+    EXPECT_GE(most, 0.015) << "of 24 places one is far off";
+}
+
+TEST_F(LoadContacts, ScattersLooseParticlesInACuboid) {
+    const std::string random =
+        "[[particles]]\nradius = 0.05\nrandom = 200\nsize = [1, 0.5, 1]\ncenter = [0, 2, 0]\n";
+    const sim::Scene scene = load(random).scene;
+    ASSERT_EQ(scene.particles.size(), 200u);
+    EXPECT_GE(nearest(scene), 0.1 * (1 - 1e-6));
+    for (const sim::Particle& particle : scene.particles) {
+        EXPECT_LE(std::abs(particle.position.x), 0.45f);
+        EXPECT_LE(std::abs(particle.position.y - 2), 0.2f + 1e-6f);
+    }
+    EXPECT_EQ(load(random).scene.particles[99].position.z, scene.particles[99].position.z);
+    expectError(
+        "[[particles]]\nradius = 0.05\nrandom = 2000\nsize = [1, 0.5, 1]\n",
+        "scene.toml:3: particles[0].random cannot be placed: particles \"particles\": no place is free "
+        "for number ");
+}
+
+TEST_F(LoadContacts, RefusesLooseParticlesThatSayTooMuchOrTooLittle) {
+    expectError("[[particles]]\n", "scene.toml:1: particles[0].radius is missing");
+    expectError(
+        balls + "spacing = 0.09\n",
+        "scene.toml:4: particles[0].spacing lets neighbours overlap: must be at least 2 (radius + jitter)");
+    expectError(balls + "mass = 1\ndensity = 1\n", "scene.toml:5: particles[0].density is given beside mass");
+    expectError(balls + "size = [1, 1, 1]\n", "scene.toml:4: particles[0].size is the cuboid of random");
+    expectError(balls + "random = 9\nsize = [1, 1, 1]\n",
+                "scene.toml:3: particles[0].count is given beside random");
+    expectError("[[particles]]\nradius = 0.05\nrandom = 9\n",
+                "scene.toml:3: particles[0].random has no cuboid");
+    expectError("[[particles]]\nradius = -1\n", "scene.toml:2: particles[0].radius is -1 m: must be above 0");
+    expectError("[[particles]]\nradius = 1e-15\n",
+                "scene.toml:2: particles[0].radius makes balls of a mass that float32 cannot hold");
+    expectError("[[particles]]\nradius = 0.05\ncount = [2000, 2000, 2]\n",
+                "scene.toml:3: particles[0].count brings the scene to 8000000 particles");
+    expectError("[[particles]]\nradius = 0.05\ncount = [0, 2, 2]\n",
+                "scene.toml:3: particles[0].count is 0 particles: must be from 1 to 4096");
+}
+
+TEST_F(LoadContacts, TakesFrictionMarginAndRoomFromTheirTable) {
+    const scenes::LoadedScene plain = load(balls);
+    EXPECT_EQ(plain.scene.contacts.friction, 0);
+    EXPECT_EQ(plain.settings.contactMargin, sim::Settings{}.contactMargin);
+    EXPECT_EQ(plain.settings.contactRoom, sim::Settings{}.contactRoom);
+    const scenes::LoadedScene loaded =
+        load(balls + "[contacts]\nfriction = 0.25\nmargin = 0.75\nroom = 40\n");
+    EXPECT_EQ(loaded.scene.contacts.friction, 0.25f);
+    EXPECT_EQ(loaded.settings.contactMargin, 0.75f);
+    EXPECT_EQ(loaded.settings.contactRoom, 40u);
+    expectError(balls + "[contacts]\nfriction = -1\n",
+                "scene.toml:5: contacts.friction is -1: must be at least 0");
+    expectError(balls + "[contacts]\nmargin = 0\n",
+                "scene.toml:5: contacts.margin is 0 median radii: must be above 0 and at most 10");
+    expectError(balls + "[contacts]\nroom = 257\n",
+                "scene.toml:5: contacts.room is 257 particles: must be from 1");
+    expectError(balls + "[solver]\nname = \"jacobi\"\n",
+                "scene.toml: solver jacobi has no form for particles that touch each other");
+}
+
+TEST_F(LoadContacts, ReadsEveryShippedSceneOfContacts) {
+    struct Expected {
+        const char* name;
+        std::size_t particles, bodies;
+    };
+    for (const auto& [name, particles, bodies] :
+         {Expected{"clutter", 1000, 1}, Expected{"clutter_bodies", 25 * (125 + 256 + 160 + 216), 100},
+          Expected{"stack", 5 * 512, 5}, Expected{"pile_8000", 8000, 1}, Expected{"pile_100k", 100'000, 1}}) {
+        const scenes::LoadedScene file =
+            scenes::load(fs::path(SINEW_SOURCE_FOLDER "/scenes") / (std::string(name) + ".toml"));
+        EXPECT_EQ(file.scene.name, name);
+        EXPECT_EQ(file.scene.particles.size(), particles) << name;
+        EXPECT_EQ(file.scene.bodies.size(), bodies) << name;
+        EXPECT_TRUE(file.warnings.empty()) << name << ": " << file.warnings.front();
+        EXPECT_EQ(radiiOf(file.scene).size(), 1u);
+        EXPECT_GT(*radiiOf(file.scene).begin(), 0);
+        EXPECT_TRUE(file.camera.has_value());
+        EXPECT_EQ(scenes::loadBuiltIn(name).scene.particles.size(), particles) << name;
+    }
+}
