@@ -2,7 +2,15 @@
 // compute equal bits, or exactly opposite ones.
 
 // d = x_i - x_j. Of a pair in a list; the sign of |d| - reach, without a root.
-bool touches(vec3 d, float reach) { return dot(d, d) < reach * reach; }
+// Exact: passes that disagreed about it would divide a particle among fewer contacts than it has.
+bool touches(vec3 d, float reach) {
+    precise float left = reach * reach - dot(d, d);
+    return left > 0.0;
+}
+
+// What is left after a substep of the overlap that a pair had when the scene was loaded (contacts: 3). As much as remains
+// is taken for touching, so that the pair parts at the speed with which it recovers, `way` a substep, whatever it carries.
+float recovering(float offset, float way, float overlap) { return max(0.0, min(offset - way, overlap)); }
 
 // Unit vector for two particles in one place: any, but the same every time, and opposite for the other of the two.
 vec3 axisFor(uint i, uint j) {

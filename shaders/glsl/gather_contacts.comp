@@ -6,7 +6,9 @@
 //
 // Friction pulls back the way `t` that the two have slid on each other since they touched, by at most friction x l; t is
 // what remains of it. Without that memory a pile creeps for ever. Boundary planes come last and one after another.
-// v changes by the corrections / h, not by a difference of positions, which is coarser.
+// v changes by the corrections / h, not by a difference of positions, which is coarser. HAS_MEMORY: something is remembered
+// of each candidate, the way t, and what is left of an overlap that it had when the scene was loaded. HAS_SURFACES: pairs
+// differ in friction.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "contacts.glsl"
@@ -31,9 +33,19 @@ layout(std430, binding = 4) readonly buffer Predicted { vec4 predicted[]; };    
 layout(std430, binding = 5) writeonly buffer NextPositions { vec4 nextPositions[]; }; // x + thetaH v
 layout(std430, binding = 6) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
 layout(std140, binding = 7) uniform Step { StepParams step; };
-#ifdef HAS_FRICTION
-layout(std430, binding = 8) buffer Slips { vec4 slips[]; }; // t of each candidate [m]
+#ifdef HAS_MEMORY
+layout(std430, binding = 8) buffer Slips { vec4 slips[]; }; // of each candidate: t [m]; what is left of an overlap [m]
+layout(constant_id = 3) const bool hasFriction = true;
+layout(constant_id = 4) const bool hasRecovery = false;
+#ifdef HAS_SURFACES
+layout(std430, binding = 9) readonly buffer Surfaces { uint surfaces[]; }; // of each particle
+layout(std430, binding = 10) readonly buffer Pairs { SurfacePair pairs[]; };
+#define FRICTION(i, j) pairs[surfaces[i] * push.surfaces + surfaces[j]].friction
+#define PLANE_BINDING 11
+#else
+#define FRICTION(i, j) push.friction
 #define PLANE_BINDING 9
+#endif
 #else
 #define PLANE_BINDING 8
 #endif
@@ -47,14 +59,14 @@ layout(std430, binding = PLANE_BINDING + 2) readonly buffer Before { vec4 before
 #endif
 layout(push_constant) uniform Push { ContactPush push; };
 
-#ifdef HAS_FRICTION
-// What friction takes back of a pair's tangential way, x w = share of the pair; the rest is remembered.
-vec3 held(uint slot, vec3 n, vec3 relative, float lambda, float share) {
+#ifdef HAS_MEMORY
+// What friction takes back of a pair's tangential way, x w = share of the pair, at most `most`; the rest is remembered.
+vec3 held(uint slot, vec3 n, vec3 relative, float most, float share, float offset) {
     vec3 slip = slips[slot].xyz + relative;
     slip -= dot(slip, n) * n;
-    const float force = length(slip) * share, most = push.friction * lambda;
+    const float force = length(slip) * share;
     if (force > most) slip *= most / force;
-    slips[slot] = vec4(slip, 0.0);
+    slips[slot] = vec4(slip, offset);
     return share * slip;
 }
 #endif
@@ -64,10 +76,14 @@ vec3 impulseFrom(uint i, uint slot, vec4 self, vec3 velocity) {
     const uvec2 candidate = CONTACT(slot);
     const vec4 other = TOUCHING(candidate.x);
     const vec3 d = self.xyz - other.xyz;
-    const float reach = uintBitsToFloat(candidate.y);
+    float reach = uintBitsToFloat(candidate.y);
+#ifdef HAS_MEMORY
+    const float offset = hasRecovery ? slips[slot].w : 0.0;
+    reach -= offset;
+#endif
     if (!touches(d, reach)) {
-#ifdef HAS_FRICTION
-        slips[slot] = vec4(0.0);
+#ifdef HAS_MEMORY
+        slips[slot] = vec4(0.0, 0.0, 0.0, offset);
 #endif
         return vec3(0.0);
     }
@@ -75,9 +91,11 @@ vec3 impulseFrom(uint i, uint slot, vec4 self, vec3 velocity) {
     const float share = 1.0 / max(self.w + other.w, 1e-30); // two that never move: nothing times w = 0
     const float lambda = (reach - direction.distance) * share;
     vec3 impulse = lambda * direction.n;
-#ifdef HAS_FRICTION
-    const vec3 relative = step.h * (velocity - VELOCITY(candidate.x).xyz);
-    impulse -= held(slot, direction.n, relative, lambda, share);
+#ifdef HAS_MEMORY
+    if (hasFriction) {
+        const vec3 relative = step.h * (velocity - VELOCITY(candidate.x).xyz);
+        impulse -= held(slot, direction.n, relative, FRICTION(i, candidate.x) * lambda, share, offset);
+    }
 #endif
     return impulse;
 }

@@ -236,6 +236,15 @@ struct ContactPush {
     uint count; // of particles; whole work groups
     uint row;   // elements of a list from one candidate to the next
     float friction;
+    float restitution;
+    float recoverySpeed; // of pairs that overlapped when the scene was loaded [m/s]
+    uint surfaces;       // where there are several: pair (a, b) of them is element a * surfaces + b of a table
+};
+
+// What two surfaces make of a contact.
+struct SurfacePair {
+    float friction;
+    float restitution;
 };
 
 struct SubstepPush {

@@ -50,6 +50,8 @@ inline constexpr Range margin{0, largest};                                      
 inline constexpr Range pathTime{0, largest};                                       // [s]
 /// Every particle looks at all of them.
 inline constexpr std::size_t mostColliders = 64;
+inline constexpr Range recoverySpeed{.low = 0, .high = largest, .isLowOpen = true}; // [m/s]
+inline constexpr std::size_t mostSurfaces = 64; // a table of their pairs goes to the device
 inline constexpr Range normalLength{1 - 1e-3, 1 + 1e-3};
 inline constexpr Range poissonRatio{0.25,
                                     double{0.49f}}; // of a lattice; below 1/4 its volume would be unstable

@@ -37,11 +37,26 @@ struct Particle {
     /// particle. Linked ones never touch, nor do those of one linked body that are nearer than 1.05 times
     /// that at rest.
     float radius = 0;
+    /// What others feel that touch it: 0 = ContactSettings::friction and restitution, k = its surfaces[k -
+    /// 1].
+    std::uint32_t surface = 0;
+};
+
+/// What a particle is like to touch. A pair has the geometric mean of both frictions, so that what is smooth
+/// slides on everything, and the larger restitution. Planes keep their own.
+struct Surface {
+    float friction = 0;    ///< Coulomb coefficient, >= 0
+    float restitution = 0; ///< 0 (no rebound) to 1 (elastic)
 };
 
 /// How particles touch each other.
 struct ContactSettings {
-    float friction = 0; ///< Coulomb coefficient, >= 0
+    float friction = 0;    ///< of all whose Particle::surface is 0; see Surface
+    float restitution = 0; ///< likewise
+    /// With which two particles part that overlap when the scene is loaded [m/s]. Does not limit what a
+    /// contact carries.
+    float recoverySpeed = 0.5f;
+    std::vector<Surface> surfaces; ///< further ones, at most 64
 };
 
 /// |x_a - x_b| = restLength, with energy (|x_a - x_b| - restLength)^2 / (2 compliance). Permanent.

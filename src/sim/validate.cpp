@@ -90,6 +90,8 @@ void checkParticles(const Scene& scene, Complaints& complaints) {
         complaints.check(double{p.inverseMass}, ranges::inverseMass, name("inverseMass"));
         complaints.check(double{p.contactOffset}, ranges::finite, name("contactOffset"));
         complaints.check(double{p.radius}, ranges::radius, name("radius"));
+        complaints.checkIndex(p.surface, scene.contacts.surfaces.size() + 1, "surfaces, with the scene's own",
+                              name("surface"));
     }
 }
 
@@ -241,6 +243,22 @@ void checkSkin(const Skin& skin, const std::string& name, std::size_t particles,
                                   [&] { return name + element(".triangles", t); });
     for (const float channel : {skin.color.x, skin.color.y, skin.color.z})
         complaints.check(double{channel}, ranges::color, [&] { return name + ".color"; });
+}
+
+void checkSurfaces(const ContactSettings& contacts, Complaints& complaints) {
+    const auto check = [&](const std::string& name, float friction, float restitution) {
+        complaints.check(double{friction}, ranges::friction, [&] { return name + ".friction"; });
+        complaints.check(double{restitution}, ranges::restitution, [&] { return name + ".restitution"; });
+    };
+    check("scene.contacts", contacts.friction, contacts.restitution);
+    complaints.check(double{contacts.recoverySpeed}, ranges::recoverySpeed,
+                     [] { return "scene.contacts.recoverySpeed"; });
+    if (contacts.surfaces.size() > ranges::mostSurfaces)
+        complaints.add("scene.contacts.surfaces", "are " + number(contacts.surfaces.size()) + ", at most " +
+                                                      number(ranges::mostSurfaces) + " are possible");
+    for (std::size_t i = 0; i < contacts.surfaces.size(); ++i)
+        check(element("scene.contacts.surfaces", i), contacts.surfaces[i].friction,
+              contacts.surfaces[i].restitution);
 }
 
 // Contacts are not ignored where a solver cannot have them.
@@ -409,8 +427,7 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings) 
     checkTethers(scene, complaints);
     if (complaints.isEmpty()) checkContacts(scene, settings, complaints);
     checkLinks(scene, settings, complaints);
-    complaints.check(double{scene.contacts.friction}, ranges::friction,
-                     [] { return "scene.contacts.friction"; });
+    checkSurfaces(scene.contacts, complaints);
     checkPlanes(scene, complaints);
     collision::checkColliders(scene.colliders, complaints);
     checkBodies(scene, complaints);

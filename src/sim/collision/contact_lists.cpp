@@ -39,6 +39,10 @@ const vk::ShaderCode& findingKernel(const Lists& lists) {
 
 } // namespace
 
+std::uint32_t rowOf(std::size_t slots) {
+    return static_cast<std::uint32_t>(slots) + CONTACT_ROW_EXTRA;
+}
+
 Lists add(ProgramBuilder& program, const Request& request) {
     const std::size_t count = request.radii.size();
     Lists lists{.grid = hash_grid::add(program, {.radii = request.radii,
@@ -53,12 +57,15 @@ Lists add(ProgramBuilder& program, const Request& request) {
                   .most = lists.grid.push.most,
                   .margin = request.margin,
                   .capacity = request.capacity,
-                  .row = lists.grid.push.count + CONTACT_ROW_EXTRA,
+                  .row = rowOf(count),
                   .limit = request.limit,
                   .large = static_cast<std::uint32_t>(large.size())};
     const std::size_t elements = request.capacity * std::size_t{lists.push.row};
-    lists.contacts = program.scratch<layout::ContactCandidate>("contacts", elements);
-    lists.counts = program.scratch<std::uint32_t>("contacts.counts", count);
+    lists.contacts = request.contacts.empty()
+                         ? program.scratch<layout::ContactCandidate>("contacts", elements)
+                         : program.upload("contacts", request.contacts);
+    lists.counts = request.counts.empty() ? program.scratch<std::uint32_t>("contacts.counts", count)
+                                          : program.upload("contacts.counts", request.counts);
     lists.found = program.scratch<std::uint32_t>("contacts.found", count);
     lists.candidates = program.scratch<std::uint32_t>("contacts.candidates", elements);
     lists.large = program.upload("contacts.large", large);

@@ -25,7 +25,13 @@ struct Request {
     std::uint32_t limit = 256;    ///< candidates after which counting stops: bounds the time of a step
     Exclusions exclusions;
     bool usesTexels = true;
+    /// The lists before the first update, capacity x row, and their lengths; empty = nobody is listed.
+    std::vector<layout::ContactCandidate> contacts;
+    std::vector<std::uint32_t> counts;
 };
+
+/// Elements from one candidate of a particle to the next.
+std::uint32_t rowOf(std::size_t slots);
 
 /// Directed pairs as layout::ContactCandidate says, `counts` of them a particle. The margin is part of a
 /// list: a pair in it need not touch.

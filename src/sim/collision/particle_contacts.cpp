@@ -2,10 +2,12 @@
 #include "sim/collision/particle_contacts.hpp"
 
 #include "kernels.hpp"
+#include "sim/collision/overlaps.hpp"
 #include "sim/ranges.hpp"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 namespace sinew::sim::collision::particle_contacts {
 
@@ -13,20 +15,35 @@ namespace {
 
 namespace k = kernels;
 
-// gather_contacts without and with friction; [0] without planes, [1] with, [2] with planes that rebound.
-using Forms = std::array<std::array<const vk::ShaderCode*, 3>, 2>;
+// Whether pairs differ in a friction that some have.
+bool hasFrictionTable(const Contacts& contacts) {
+    return contacts.surfaces.count > 0 && contacts.surfaces.hasFriction;
+}
+
+// gather_contacts that remember nothing, with slips, with surfaces; [0] without planes, [1] with, [2] with
+// planes that rebound.
+using Forms = std::array<std::array<const vk::ShaderCode*, 3>, 3>;
 constexpr Forms texelForms{
     {{&k::gatherContacts, &k::gatherContactsPlanes, &k::gatherContactsRebound},
-     {&k::gatherContactsFriction, &k::gatherContactsFrictionPlanes, &k::gatherContactsFrictionRebound}}};
+     {&k::gatherContactsSlips, &k::gatherContactsSlipsPlanes, &k::gatherContactsSlipsRebound},
+     {&k::gatherContactsSurfaces, &k::gatherContactsSurfacesPlanes, &k::gatherContactsSurfacesRebound}}};
 constexpr Forms loadForms{
     {{&k::gatherContactsLoads, &k::gatherContactsPlanesLoads, &k::gatherContactsReboundLoads},
-     {&k::gatherContactsFrictionLoads, &k::gatherContactsFrictionPlanesLoads,
-      &k::gatherContactsFrictionReboundLoads}}};
+     {&k::gatherContactsSlipsLoads, &k::gatherContactsSlipsPlanesLoads, &k::gatherContactsSlipsReboundLoads},
+     {&k::gatherContactsSurfacesLoads, &k::gatherContactsSurfacesPlanesLoads,
+      &k::gatherContactsSurfacesReboundLoads}}};
+constexpr std::uint32_t hasFrictionId = 3, hasRecoveryId = 4; // constant_ids in gather_contacts.comp
 
 const vk::ShaderCode& gatherForm(const Contacts& contacts) {
     const Forms& forms = contacts.lists.grid.usesTexels ? texelForms : loadForms;
     const std::size_t planes = contacts.planes.count == 0 ? 0 : contacts.hasRebound ? 2 : 1;
-    return *forms[contacts.hasFriction ? 1 : 0][planes];
+    if (!contacts.hasMemory()) return *forms[0][planes];
+    return *forms[hasFrictionTable(contacts) ? 2 : 1][planes];
+}
+
+// Kernels of a family, [0] from loads, [1] from texels.
+const vk::ShaderCode& form(const Contacts& contacts, const std::array<const vk::ShaderCode*, 2>& forms) {
+    return *forms[contacts.lists.grid.usesTexels ? 1 : 0];
 }
 
 // By state slot; below 0 = touches nothing.
@@ -52,18 +69,129 @@ contact_lists::Exclusions exclusionsOf(const Scene& scene, const StateLayout& la
     return contact_lists::excludedPairs(scene, radii, layout);
 }
 
-void addListUpdate(ProgramBuilder& program, const Contacts& contacts, BufferId positions) {
+// The overlaps of the scene as it is loaded; none where some particle has more than there can be room for.
+overlaps::Overlaps overlapsOf(const Scene& scene, const Settings& settings, const StateLayout& layout,
+                              std::span<const float> radii, const contact_lists::Exclusions& exclusions) {
+    std::vector<std::array<float, 3>> positions(layout.count);
+    std::vector<float> inverseMass(layout.count, 0);
+    const std::vector<float> ofParticles = inverseMasses(scene);
+    for (std::size_t i = 0; i < scene.particles.size(); ++i) {
+        const Vec3& x = scene.particles[i].position;
+        positions[layout.slot[i]] = {x.x, x.y, x.z};
+        inverseMass[layout.slot[i]] = ofParticles[i];
+    }
+    // What parts within a substep at the speed of recovery needs no help.
+    const float h = scene.dt / static_cast<float>(settings.substeps);
+    overlaps::Overlaps found = overlaps::find({.positions = positions,
+                                               .radii = radii,
+                                               .inverseMasses = inverseMass,
+                                               .exclusions = exclusions,
+                                               .least = scene.contacts.recoverySpeed * h,
+                                               .limit = ranges::mostContactRoom});
+    if (overlaps::mostPartners(found) > ranges::mostContactRoom) found.clear();
+    return found;
+}
+
+// Overlaps as the lists that stand before the first update, which keeps what they remember; in the form in
+// which it is kept too.
+struct FirstLists {
+    std::vector<layout::ContactCandidate> contacts;
+    std::vector<std::uint32_t> counts;
+    std::vector<layout::vec4> slips, saved;
+    std::vector<float> offsets;
+};
+
+FirstLists firstLists(const overlaps::Overlaps& found, std::span<const float> radii, std::uint32_t room) {
+    const std::uint32_t row = contact_lists::rowOf(radii.size());
+    const std::size_t elements = std::size_t{row} * room;
+    FirstLists lists{std::vector<layout::ContactCandidate>(elements),
+                     std::vector<std::uint32_t>(radii.size()), std::vector<layout::vec4>(elements),
+                     std::vector<layout::vec4>(elements), std::vector<float>(elements)};
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        lists.counts[i] = static_cast<std::uint32_t>(found[i].size());
+        for (std::size_t s = 0; s < found[i].size(); ++s) {
+            const auto& [other, depth] = found[i][s];
+            const std::size_t slot = s * row + i;
+            lists.contacts[slot] = {other, radii[i] + radii[other]};
+            lists.slips[slot].w = depth;
+            lists.saved[slot].w = std::bit_cast<float>(other);
+            lists.offsets[slot] = depth;
+        }
+    }
+    return lists;
+}
+
+// Buffers of what is remembered; `first` is empty where nothing overlaps.
+void addMemory(ProgramBuilder& program, Contacts& contacts, const FirstLists& first) {
+    const std::size_t slots = contacts.lists.push.count;
+    const std::size_t elements = std::size_t{contacts.lists.push.row} * contacts.lists.push.capacity;
+    const auto vectors = [&](const char* label, const std::vector<layout::vec4>& initial) {
+        return initial.empty() ? program.scratch<layout::vec4>(label, elements)
+                               : program.upload(label, initial);
+    };
+    contacts.slips = vectors("contacts.slips", first.slips);
+    contacts.kept = program.scratch<layout::vec4>("contacts.kept", elements);
+    contacts.keptCounts = program.scratch<std::uint32_t>("contacts.kept_counts", slots);
+    contacts.saved = vectors("contacts.slips.saved", first.saved);
+    contacts.savedCounts = first.counts.empty()
+                               ? program.scratch<std::uint32_t>("contacts.counts.saved", slots)
+                               : program.upload("contacts.counts.saved", first.counts);
+    for (const BufferId buffer : {contacts.lists.contacts, contacts.lists.counts, contacts.slips,
+                                  contacts.saved, contacts.savedCounts})
+        program.carry(buffer, buffer);
+    if (!contacts.hasRecovery) return;
+    contacts.keptOffsets = program.scratch<float>("contacts.kept_offsets", elements);
+    contacts.savedOffsets = program.upload("contacts.offsets.saved", first.offsets);
+    program.carry(contacts.savedOffsets, contacts.savedOffsets);
+}
+
+// A pass while lists are made again, between them and what is kept.
+void addCarrying(ProgramBuilder& program, const Contacts& contacts, const vk::ShaderCode& slipsOnly,
+                 const vk::ShaderCode& withOffsets) {
     const contact_lists::Lists& lists = contacts.lists;
-    contact_lists::addWatch(program, lists, positions);
-    if (contacts.hasFriction)
-        program.dispatchIndirect(
-            k::keepSlips, lists.grid.particles,
-            {lists.contacts, lists.counts, contacts.slips, contacts.kept, contacts.keptCounts}, lists.push);
-    contact_lists::addLists(program, lists, positions);
-    if (contacts.hasFriction)
-        program.dispatchIndirect(
-            k::returnSlips, lists.grid.particles,
-            {lists.contacts, lists.counts, contacts.slips, contacts.kept, contacts.keptCounts}, lists.push);
+    std::vector<BufferId> buffers{lists.contacts, lists.counts, contacts.slips, contacts.kept,
+                                  contacts.keptCounts};
+    if (contacts.hasRecovery) buffers.push_back(contacts.keptOffsets);
+    program.dispatchIndirect(contacts.hasRecovery ? withOffsets : slipsOnly, lists.grid.particles, buffers,
+                             lists.push);
+}
+
+void addListUpdate(ProgramBuilder& program, const Contacts& contacts, BufferId positions) {
+    contact_lists::addWatch(program, contacts.lists, positions);
+    if (contacts.hasMemory()) addCarrying(program, contacts, k::keepSlips, k::keepSlipsRecovery);
+    contact_lists::addLists(program, contacts.lists, positions);
+    if (contacts.hasMemory()) addCarrying(program, contacts, k::returnSlips, k::returnSlipsRecovery);
+}
+
+void addCount(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted) {
+    const contact_lists::Lists& lists = contacts.lists;
+    std::vector<BufferId> buffers{predicted.positions, lists.contacts, lists.counts, predicted.velocities,
+                                  contacts.touching};
+    if (contacts.hasRecovery) buffers.insert(buffers.end(), {contacts.slips, predicted.step});
+    program.dispatch(contacts.hasRecovery
+                         ? form(contacts, {&k::countContactsRecoveryLoads, &k::countContactsRecovery})
+                         : form(contacts, {&k::countContactsLoads, &k::countContacts}),
+                     contacts.push.count, buffers, contacts.push);
+}
+
+void addGather(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
+               const ParticleBuffers& next) {
+    const contact_lists::Lists& lists = contacts.lists;
+    std::vector<BufferId> buffers{contacts.touching,   lists.contacts, predicted.velocities, lists.counts,
+                                  predicted.positions, next.positions, next.velocities,      predicted.step};
+    ProgramBuilder::Constants constants;
+    if (contacts.hasMemory()) {
+        buffers.push_back(contacts.slips);
+        constants = {{hasFrictionId, contacts.surfaces.hasFriction}, {hasRecoveryId, contacts.hasRecovery}};
+    }
+    if (hasFrictionTable(contacts))
+        buffers.insert(buffers.end(), {contacts.surfaces.ofParticles, contacts.surfaces.pairs});
+    if (contacts.planes.count > 0) {
+        buffers.insert(buffers.end(), {contacts.planes.planes, contacts.planes.contactOffsets});
+        constants.merge(contacts.planes.constants());
+    }
+    if (contacts.hasRebound) buffers.push_back(contacts.before);
+    program.dispatch(gatherForm(contacts), contacts.push.count, buffers, contacts.push, constants);
 }
 
 } // namespace
@@ -82,64 +210,79 @@ bool areIn(const Scene& scene) {
 Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
              const StateLayout& layout) {
     const std::vector<float> radii = radiiOf(scene, layout);
+    contact_lists::Exclusions exclusions = exclusionsOf(scene, layout);
+    const overlaps::Overlaps overlaps = overlapsOf(scene, settings, layout, radii, exclusions);
+    // What overlaps at first must not be forgotten for want of room.
+    const std::uint32_t room = std::max(settings.contactRoom, overlaps::mostPartners(overlaps));
+    FirstLists first;
+    if (!overlaps.empty()) first = firstLists(overlaps, radii, room);
     Contacts contacts{
         .lists = contact_lists::add(program, {.radii = radii,
                                               .margin = settings.contactMargin * medianRadius(scene),
-                                              .capacity = settings.contactRoom,
+                                              .capacity = room,
                                               .limit = ranges::mostContactRoom,
-                                              .exclusions = exclusionsOf(scene, layout),
-                                              .usesTexels = settings.forms.usesTexels}),
+                                              .exclusions = std::move(exclusions),
+                                              .usesTexels = settings.forms.usesTexels,
+                                              .contacts = std::move(first.contacts),
+                                              .counts = first.counts}),
         .planes = planes::addColliders(program, scene, layout),
-        .hasFriction = scene.contacts.friction > 0,
+        .surfaces = surfaces::add(program, scene, layout),
         .hasRebound =
-            std::ranges::any_of(scene.planes, [](const Plane& plane) { return plane.restitution > 0; })};
-    const std::uint32_t row = contacts.lists.push.row;
-    contacts.push = {contacts.lists.push.count, row, scene.contacts.friction};
+            std::ranges::any_of(scene.planes, [](const Plane& plane) { return plane.restitution > 0; }),
+        .hasRecovery = !overlaps.empty()};
+    contacts.push = {.count = contacts.lists.push.count,
+                     .row = contacts.lists.push.row,
+                     .friction = contacts.surfaces.friction,
+                     .restitution = contacts.surfaces.restitution,
+                     .recoverySpeed = scene.contacts.recoverySpeed,
+                     .surfaces = contacts.surfaces.count};
     contacts.touching = program.scratch<layout::vec4>("contacts.touching", layout.count);
-    if (contacts.hasFriction) {
-        const std::size_t elements = std::size_t{row} * settings.contactRoom;
-        contacts.slips = program.scratch<layout::vec4>("contacts.slips", elements);
-        contacts.kept = program.scratch<layout::vec4>("contacts.kept", elements);
-        contacts.keptCounts = program.scratch<std::uint32_t>("contacts.kept_counts", layout.count);
-        contacts.saved = program.scratch<layout::vec4>("contacts.slips.saved", elements);
-        contacts.savedCounts = program.scratch<std::uint32_t>("contacts.counts.saved", layout.count);
-        for (const BufferId buffer : {contacts.lists.contacts, contacts.lists.counts, contacts.slips,
-                                      contacts.saved, contacts.savedCounts})
-            program.carry(buffer, buffer);
-    }
-    if (contacts.hasRebound) contacts.before = program.scratch<layout::vec4>("contacts.before", layout.count);
+    if (contacts.hasMemory()) addMemory(program, contacts, first);
+    if (contacts.hasRebound || contacts.surfaces.hasRestitution)
+        contacts.before = program.scratch<layout::vec4>("contacts.before", layout.count);
+    if (contacts.surfaces.hasRestitution)
+        contacts.bouncing = program.scratch<float>("contacts.bouncing", layout.count);
     return contacts;
 }
 
 void addOpening(ProgramBuilder& program, const Contacts& contacts, BufferId velocities) {
-    if (contacts.hasRebound) program.copy(velocities, contacts.before);
+    if (contacts.before != BufferId{}) program.copy(velocities, contacts.before);
 }
 
 void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                const ParticleBuffers& next) {
-    const contact_lists::Lists& lists = contacts.lists;
     addListUpdate(program, contacts, predicted.positions);
-    program.dispatch(
-        lists.grid.usesTexels ? k::countContacts : k::countContactsLoads, contacts.push.count,
-        {predicted.positions, lists.contacts, lists.counts, predicted.velocities, contacts.touching},
-        contacts.push);
-    std::vector<BufferId> buffers{contacts.touching,   lists.contacts, predicted.velocities, lists.counts,
-                                  predicted.positions, next.positions, next.velocities,      predicted.step};
-    if (contacts.hasFriction) buffers.push_back(contacts.slips);
-    if (contacts.planes.count > 0)
-        buffers.insert(buffers.end(), {contacts.planes.planes, contacts.planes.contactOffsets});
-    if (contacts.hasRebound) buffers.push_back(contacts.before);
-    program.dispatch(gatherForm(contacts), contacts.push.count, buffers, contacts.push,
-                     contacts.planes.count > 0 ? contacts.planes.constants() : ProgramBuilder::Constants{});
+    addCount(program, contacts, predicted);
+    addGather(program, contacts, predicted, next);
+}
+
+void addBounces(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& next,
+                BufferId velocities) {
+    const contact_lists::Lists& lists = contacts.lists;
+    const bool isTable = contacts.surfaces.count > 0;
+    std::vector<BufferId> shared{contacts.touching, lists.contacts, contacts.before, lists.counts, next.step};
+    if (isTable) shared.insert(shared.end(), {contacts.surfaces.ofParticles, contacts.surfaces.pairs});
+    shared.push_back(next.velocities);
+    shared.push_back(contacts.bouncing);
+    program.dispatch(isTable ? form(contacts, {&k::countBouncesSurfacesLoads, &k::countBouncesSurfaces})
+                             : form(contacts, {&k::countBouncesLoads, &k::countBounces}),
+                     contacts.push.count, shared, contacts.push);
+    shared.insert(shared.end(), {next.positions, velocities});
+    program.dispatch(isTable ? form(contacts, {&k::bounceContactsSurfacesLoads, &k::bounceContactsSurfaces})
+                             : form(contacts, {&k::bounceContactsLoads, &k::bounceContacts}),
+                     contacts.push.count, shared, contacts.push);
 }
 
 void addPublishing(ProgramBuilder& program, const Contacts& contacts) {
     std::vector<BufferId> buffers{program.program().status, contacts.lists.grid.detected};
-    if (contacts.hasFriction)
+    if (contacts.hasMemory())
         buffers.insert(buffers.end(), {contacts.lists.contacts, contacts.lists.counts, contacts.slips,
                                        contacts.saved, contacts.savedCounts});
-    program.dispatch(contacts.hasFriction ? k::publishSlips : k::publishLists, contacts.push.count, buffers,
-                     contacts.push);
+    if (contacts.hasRecovery) buffers.push_back(contacts.savedOffsets);
+    program.dispatch(contacts.hasRecovery   ? k::publishSlipsRecovery
+                     : contacts.hasMemory() ? k::publishSlips
+                                            : k::publishLists,
+                     contacts.push.count, buffers, contacts.push);
 }
 
 } // namespace sinew::sim::collision::particle_contacts

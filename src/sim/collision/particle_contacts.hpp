@@ -1,11 +1,13 @@
 // Particles that touch particles, in `split`: temporary constraints, solved after the links of a substep and
 // before the boundary planes (contacts: 7). The gather of the links leaves predicted positions, without
-// planes; two passes follow: one counts what each particle touches, one moves it and ends the substep. A
-// scene in which no two particles can touch has none of this.
+// planes; two passes follow: one counts what each particle touches, one moves it and ends the substep. Where
+// particles rebound two more follow, for velocities. A scene in which no two particles can touch has none of
+// this.
 #pragma once
 
 #include "sim/collision/contact_lists.hpp"
 #include "sim/collision/planes.hpp"
+#include "sim/collision/surfaces.hpp"
 
 namespace sinew::sim::collision::particle_contacts {
 
@@ -15,9 +17,16 @@ bool areIn(const Scene& scene);
 struct Contacts {
     contact_lists::Lists lists;
     planes::Colliders planes;
+    surfaces::Surfaces surfaces;
     layout::ContactPush push{};
-    bool hasFriction = false, hasRebound = false;
-    BufferId touching, slips, kept, keptCounts, saved, savedCounts, before;
+    bool hasRebound = false;  ///< of a plane
+    bool hasRecovery = false; ///< some pair overlaps when the scene is loaded
+    BufferId touching, before, bouncing;
+    /// What is remembered of candidates, from substep to substep, while lists are made again, and from step
+    /// to step; `...Offsets` where hasRecovery.
+    BufferId slips, kept, keptCounts, keptOffsets, saved, savedCounts, savedOffsets;
+
+    bool hasMemory() const { return surfaces.hasFriction || hasRecovery; }
 };
 
 /// Only where areIn().
@@ -30,6 +39,11 @@ void addOpening(ProgramBuilder& program, const Contacts& contacts, BufferId velo
 /// The end of a substep: from predicted positions and velocities to those of `next`.
 void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                const ParticleBuffers& next);
+
+/// After them, where contacts.surfaces.hasRestitution: what rebounds. The velocities after the substep then
+/// are `velocities`, which must not be those of `next`.
+void addBounces(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& next,
+                BufferId velocities);
 
 /// The end of a step: what friction remembers is saved, or taken back with an undone step.
 void addPublishing(ProgramBuilder& program, const Contacts& contacts);

@@ -278,6 +278,10 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
         addLinks(gathers, current, predicted, substep == 0);
         if (!alternates) std::swap(current.velocities, spare);
         collision::particle_contacts::addPasses(program, contacts, predicted, current);
+        if (contacts.surfaces.hasRestitution) {
+            collision::particle_contacts::addBounces(program, contacts, current, spare);
+            std::swap(current.velocities, spare);
+        }
         constraints::attachment::addPass(program, current, attachments, substep, substeps);
         constraints::tether::addPass(program, current, tethers);
         collision::colliders::addPass(program, current, rigid, substep, Kick::whole);

@@ -1,0 +1,17 @@
+#version 460
+// Restitution between particles, first pass: from how many others a particle rebounds, which is what it is divided by.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "contacts.glsl"
+#include "bounces.glsl"
+layout(std430, binding = BOUNCE_BINDING) readonly buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
+layout(std430, binding = BOUNCE_BINDING + 1) writeonly buffer Bouncing { float bouncing[]; }; // bounces x inverse mass
+
+void main() {
+    const uint i = itemIndex(push.count), n = counts[i];
+    const vec3 x = TOUCHING(i), velocityBefore = BEFORE(i);
+    float bounces = 0.0;
+    for (uint s = 0u; s < n; ++s)
+        bounces += float(bounceFrom(i, CONTACT(s * push.row + i), x, velocityBefore).speed > 0.0);
+    bouncing[i] = bounces * velocities[i].w;
+}

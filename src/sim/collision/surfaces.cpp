@@ -1,0 +1,63 @@
+// Which surfaces a scene uses, and what each pair of them makes of a contact.
+#include "sim/collision/surfaces.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sinew::sim::collision::surfaces {
+
+namespace {
+
+Surface surfaceAt(const ContactSettings& contacts, std::uint32_t index) {
+    if (index == 0) return {contacts.friction, contacts.restitution};
+    return contacts.surfaces[index - 1];
+}
+
+layout::SurfacePair pairOf(const Surface& a, const Surface& b) {
+    // one surface keeps its number to the bit
+    const float friction = a.friction == b.friction ? a.friction : std::sqrt(a.friction * b.friction);
+    return {friction, std::max(a.restitution, b.restitution)};
+}
+
+bool hasSeveral(const Scene& scene) {
+    const Particle* first = nullptr;
+    for (const Particle& particle : scene.particles) {
+        if (particle.radius <= 0) continue;
+        if (first && first->surface != particle.surface) return true;
+        first = &particle;
+    }
+    return false;
+}
+
+} // namespace
+
+Surfaces add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout) {
+    const ContactSettings& contacts = scene.contacts;
+    Surfaces surfaces;
+    if (!hasSeveral(scene)) {
+        const auto wide =
+            std::ranges::find_if(scene.particles, [](const Particle& p) { return p.radius > 0; });
+        const Surface only = surfaceAt(contacts, wide == scene.particles.end() ? 0 : wide->surface);
+        surfaces.friction = only.friction;
+        surfaces.restitution = only.restitution;
+        surfaces.hasFriction = only.friction > 0;
+        surfaces.hasRestitution = only.restitution > 0;
+        return surfaces;
+    }
+    surfaces.count = static_cast<std::uint32_t>(contacts.surfaces.size() + 1);
+    std::vector<layout::SurfacePair> pairs;
+    for (std::uint32_t a = 0; a < surfaces.count; ++a)
+        for (std::uint32_t b = 0; b < surfaces.count; ++b)
+            pairs.push_back(pairOf(surfaceAt(contacts, a), surfaceAt(contacts, b)));
+    std::vector<std::uint32_t> ofParticles(layout.count, 0);
+    for (std::size_t i = 0; i < scene.particles.size(); ++i)
+        ofParticles[layout.slot[i]] = scene.particles[i].surface;
+    surfaces.hasFriction = std::ranges::any_of(pairs, [](const auto& pair) { return pair.friction > 0; });
+    surfaces.hasRestitution =
+        std::ranges::any_of(pairs, [](const auto& pair) { return pair.restitution > 0; });
+    surfaces.ofParticles = program.upload("contacts.surfaces", ofParticles);
+    surfaces.pairs = program.upload("contacts.surface_pairs", pairs);
+    return surfaces;
+}
+
+} // namespace sinew::sim::collision::surfaces

@@ -1,0 +1,19 @@
+// What pairs of particles are like to touch (sim::Surface), as kernels take it: two numbers where all
+// particles that touch have one surface, else a table of pairs and an index per particle.
+#pragma once
+
+#include "layout.h"
+#include "sim/compile.hpp"
+
+namespace sinew::sim::collision::surfaces {
+
+struct Surfaces {
+    float friction = 0, restitution = 0; ///< where there is one
+    std::uint32_t count = 0;             ///< where there are several; else 0, and no buffer exists
+    BufferId ofParticles, pairs;
+    bool hasFriction = false, hasRestitution = false; ///< of any pair
+};
+
+Surfaces add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout);
+
+} // namespace sinew::sim::collision::surfaces

@@ -1,0 +1,305 @@
+// Cases 16 to 18, 20 and 21: particles that touch particles, and planes, in `split`.
+#include "cases/cases.hpp"
+#include "layout.h"
+#include "sim/collision/contact_scenes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+using namespace sinew;
+using namespace sinew::sim;
+using namespace sinew::test;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double g = 9.81, radius = double{ballRadius};
+
+// A ball 1 m above what it falls on: a plane, or a ball that never moves.
+Scene fallingBall(bool ontoBall, float restitution) {
+    Scene scene;
+    scene.particles = {ballAt({0, 1 + ballRadius, 0})};
+    if (ontoBall) {
+        scene.particles.push_back(fixedBallAt({0, -ballRadius, 0}));
+        scene.contacts.restitution = restitution;
+    } else {
+        scene.planes = {{.restitution = restitution}};
+    }
+    return scene;
+}
+
+// A ball on one that never moves and is so large that it is nearly flat, `degrees` down from its top.
+struct Hill {
+    static constexpr double size = 10, reach = size + radius; // [m]
+    Scene scene;
+
+    Hill(double degrees, double speed, float friction) {
+        const double angle = degrees * std::numbers::pi / 180, s = std::sin(angle), c = std::cos(angle);
+        const auto vector = [](double x, double y) {
+            return Vec3{static_cast<float>(x), static_cast<float>(y), 0};
+        };
+        // around the place of contact, where float32 is finest
+        Particle hill = fixedBallAt(vector(-reach * s, -reach * c));
+        hill.radius = static_cast<float>(size);
+        scene.particles = {ballAt({}, vector(speed * c, -speed * s)), hill};
+        scene.contacts.friction = friction;
+    }
+};
+
+// What Coulomb says about the way down a hill until `time`, or to the stop [m].
+double wayDown(double degrees, double speed, double friction, double time) {
+    double angle = degrees * std::numbers::pi / 180, v = speed, way = 0;
+    constexpr double dt = 1e-5;
+    for (double t = 0; t < time && v >= 0; t += dt) {
+        const double normal = g * std::cos(angle) - v * v / Hill::reach;
+        v += dt * (g * std::sin(angle) - friction * normal);
+        way += dt * v;
+        angle += dt * v / Hill::reach;
+    }
+    return way;
+}
+
+double wayOnHill(double degrees, double speed, float friction, int steps) {
+    CaseRunner runner(Hill(degrees, speed, friction).scene, {.substeps = 10});
+    const Vector3d start = runner.positions()[0], top = runner.positions()[1];
+    runner.run(steps);
+    const Vector3d a = (start - top).normalized(), b = (runner.positions()[0] - top).normalized();
+    return Hill::reach * std::asin(a.cross(b).norm());
+}
+
+// A block of side^3 particles on a bed of particles that never move, each right above one; gravity leans.
+Scene blockOnBed(std::uint32_t cells, double degrees, float friction) {
+    constexpr float spacing = 2 * ballRadius;
+    Scene scene = block(cells, spacing, 1e6f, spacing);
+    const double angle = degrees * std::numbers::pi / 180;
+    scene.gravity = {static_cast<float>(g * std::sin(angle)), static_cast<float>(-g * std::cos(angle)), 0};
+    scene.damping = 1;
+    for (std::uint32_t z = 0; z <= cells; ++z)
+        for (std::uint32_t x = 0; x <= 2 * cells; ++x)
+            scene.particles.push_back(
+                fixedBallAt({static_cast<float>(x) * spacing, 0, static_cast<float>(z) * spacing}));
+    for (Particle& particle : scene.particles) particle.radius = ballRadius;
+    scene.contacts.friction = friction;
+    return scene;
+}
+
+// Sum over the contacts of particle `at` of lambda / h^2, as a force on it [N]: from where the last substep
+// found contacts.
+Vector3d contactForce(Runner& runner, const Scene& scene, std::uint32_t at, double h) {
+    std::vector<layout::vec4> touching;
+    const auto& buffers = runner.simulation().program().buffers;
+    for (std::uint32_t b = 0; b < buffers.size(); ++b)
+        if (buffers[b].label == "contacts.touching")
+            touching = queue().download<layout::vec4>(runner.simulation().view({b}));
+    const auto xOf = [&](std::uint32_t i) {
+        return Vector3d(double{touching[i].x}, double{touching[i].y}, double{touching[i].z});
+    };
+    Vector3d force = Vector3d::Zero();
+    for (std::uint32_t j = 0; j < scene.particles.size(); ++j) {
+        const Vector3d d = xOf(at) - xOf(j);
+        const double depth = 2 * radius - d.norm();
+        if (j == at || depth <= 0) continue;
+        force += depth / (double{touching[at].w} + double{touching[j].w}) / (h * h) * d.normalized();
+    }
+    return force;
+}
+
+} // namespace
+
+// 600 substeps a second. The height of each rebound, and no bounce after they have ended.
+TEST(Case16Restitution, OfABallOnAPlaneAndOnAFixedParticleIsTheSquareOfTheHeight) {
+    for (const bool ontoBall : {false, true})
+        for (const double restitution : {0.0, 0.5, 0.9, 1.0}) {
+            CaseRunner runner(fallingBall(ontoBall, static_cast<float>(restitution)), {.substeps = 10});
+            runner.run(27); // the fall takes 0.4515 s
+            double apex = 0;
+            for (int step = 27; step < 80; ++step) {
+                runner.run(1);
+                apex = std::max(apex, runner.positions()[0].y() - radius);
+            }
+            const double expected = restitution * restitution;
+            EXPECT_NEAR(apex, expected, 0.02 * std::max(expected, 0.05)) << "e = " << restitution;
+            std::printf("%s, e = %.1f: rebound to %.4f m (%.4f)\n", ontoBall ? "ball" : "plane", restitution,
+                        apex, expected);
+            if (restitution > 0.5) continue;
+            runner.run(90); // the bounces of 0.5 are over after 1.35 s
+            EXPECT_NEAR(runner.positions()[0].y(), radius, 1e-4);
+            EXPECT_LE(runner.velocities()[0].norm(), 2 * g / 600);
+        }
+}
+
+TEST(Case17Incline, OfAParticleOnAParticleHoldsToTheFrictionAngle) {
+    const double creep = wayOnHill(25.5, 0, 0.5f, 120), slid = wayOnHill(28, 0, 0.5f, 60);
+    const double expected = wayDown(28, 0, 0.5, 1);
+    std::printf("25.5 degrees: %.2e m in 2 s; 28 degrees: %.4f m (%.4f)\n", creep, slid, expected);
+    EXPECT_LE(creep, 2e-4) << "1e-4 m/s; sticks below 26.57 degrees";
+    EXPECT_NEAR(slid / expected, 1, 0.02);
+}
+
+TEST(Case17Incline, OfABodyOnABedOfParticlesHoldsToTheFrictionAngle) {
+    const auto wayAt = [](double degrees) {
+        const Scene scene = blockOnBed(3, degrees, 0.5f);
+        CaseRunner runner(scene, {.substeps = 32});
+        runner.run(30); // what is switched on with gravity rings out
+        const auto before = runner.positions();
+        runner.run(60);
+        double way = 0;
+        const auto after = runner.positions();
+        for (std::size_t i = 0; i < 64; ++i) way += (after[i].x() - before[i].x()) / 64;
+        std::printf("bed at %.2f degrees: %.2e m in 1 s\n", degrees, way);
+        return way;
+    };
+    EXPECT_LE(wayAt(25.57), 1e-4) << "1e-4 m/s";
+    EXPECT_GE(wayAt(27.57), 1e-2);
+}
+
+TEST(Case18SlidingStop, OfAParticleOnAParticleIsWhereFrictionSays) {
+    const double expected = wayDown(0, 2, 0.5, 10), way = wayOnHill(0, 2, 0.5f, 90);
+    std::printf("stops after %.4f m (%.4f)\n", way, expected);
+    EXPECT_NEAR(way / expected, 1, 0.01);
+}
+
+// A column of four on a ball that never moves: what each contact carries, and how far it gives.
+TEST(Case20RestingStack, CarriesItsWeightWithinHalfAPercent) {
+    constexpr std::uint32_t count = 4, substeps = 32;
+    Scene scene;
+    scene.particles = {fixedBallAt({})};
+    for (std::uint32_t i = 1; i <= count; ++i)
+        scene.particles.push_back(ballAt({0, static_cast<float>(2 * i) * ballRadius, 0}));
+    Runner runner(scene, {.substeps = substeps});
+    runner.run(120);
+    const double h = double{scene.dt} / substeps, force = -contactForce(runner, scene, 0, h).y();
+    std::printf("column: %.4f N (%.4f), deepest %.5f r\n", force, count * g, deepestOf(runner.positions()));
+    EXPECT_NEAR(force / (count * g), 1, 0.005);
+    EXPECT_LE(deepestOf(runner.positions()), 0.01) << "[radii]";
+    CaseRunner(scene, {.substeps = substeps}).run(10); // reversed, too
+}
+
+TEST(Case20RestingStack, OfABallOnThreeCarriesItsWeightWithinHalfAPercent) {
+    const double side = 2 * radius, out = side / std::sqrt(3.0);
+    Scene scene;
+    for (int i = 0; i < 3; ++i) {
+        const double angle = 2 * std::numbers::pi * i / 3;
+        scene.particles.push_back(fixedBallAt(
+            {static_cast<float>(out * std::cos(angle)), 0, static_cast<float>(out * std::sin(angle))}));
+    }
+    scene.particles.push_back(ballAt({0, static_cast<float>(side * std::sqrt(2.0 / 3)), 0}));
+    Runner runner(scene, {.substeps = 32});
+    runner.run(60);
+    const Vector3d force = contactForce(runner, scene, 3, double{scene.dt} / 32);
+    std::printf("on three: %.4f N (%.4f)\n", force.y(), g);
+    EXPECT_NEAR(force.y() / g, 1, 0.005);
+    EXPECT_LE(std::hypot(force.x(), force.z()), 0.005 * g);
+    CaseRunner(scene, {.substeps = 32}).run(10);
+}
+
+TEST(Case21ElasticCollision, ExchangesVelocitiesAndKeepsMomentumAndEnergy) {
+    for (const float mass : {1.0f, 10.0f})
+        for (const float restitution : {1.0f, 0.5f}) {
+            Scene scene = weightless();
+            scene.contacts.restitution = restitution;
+            scene.particles = {ballAt({-0.2f, 0, 0}, {2, 0, 0}), ballAt({0.1f, 0, 0}, {}, mass)};
+            CaseRunner runner(scene, {.substeps = 16});
+            const double before = kineticEnergy(scene, runner.velocities());
+            runner.run(30);
+            const auto v = runner.velocities();
+            const double m = double{mass}, e = double{restitution}, common = 2 / (1 + m);
+            std::printf("mass %g, e %g: %.6f and %.6f m/s\n", m, e, v[0].x(), v[1].x());
+            EXPECT_NEAR(v[0].x(), common - e * m * 2 / (1 + m), 1e-5);
+            EXPECT_NEAR(v[1].x(), common + e * 2 / (1 + m), 1e-5);
+            EXPECT_NEAR(momentumOf(scene, v).x(), 2, 2e-6);
+            const double expected = before * (1 + e * e * m) / (1 + m);
+            EXPECT_NEAR(kineticEnergy(scene, v) / expected, 1, 1e-4);
+        }
+}
+
+// A row of balls in contact, struck at its end: one gather cannot know the order of the blows, but it keeps
+// momentum and gains no energy.
+TEST(Case21ElasticCollision, OfARowKeepsMomentumAndGainsNoEnergy) {
+    Scene scene = weightless();
+    scene.contacts.restitution = 1;
+    for (int i = 0; i < 5; ++i)
+        scene.particles.push_back(ballAt({static_cast<float>(2 * i) * ballRadius, 0, 0}));
+    scene.particles.push_back(ballAt({-0.3f, 0, 0}, {2, 0, 0}));
+    CaseRunner runner(scene, {.substeps = 16});
+    double most = 0;
+    for (int step = 0; step < 40; ++step) {
+        runner.run(1);
+        most = std::max(most, kineticEnergy(scene, runner.velocities()));
+    }
+    const auto v = runner.velocities();
+    std::printf("row: kinetic energy 2 to %.4f J (at most %.6f), last ball %.3f m/s\n",
+                kineticEnergy(scene, v), most, v[4].x());
+    EXPECT_NEAR(momentumOf(scene, v).x(), 2, 4e-6);
+    EXPECT_LE(most, 2 * (1 + 1e-5));
+    EXPECT_GE(kineticEnergy(scene, v), 0.5);
+}
+
+// In a box without gravity, elastic, with a smooth and a rough surface among them.
+TEST(Case21ElasticCollision, OfManyInABoxGainsNoEnergy) {
+    Scene scene = weightless();
+    addBalls(scene, 5, 0.13f, 0.01f);
+    disturb(scene, 0, 2);
+    scene.contacts.restitution = 1;
+    for (const float side : {-1.0f, 1.0f})
+        for (const Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
+            scene.planes.push_back(
+                {.normal = {side * axis.x, side * axis.y, side * axis.z}, .offset = -0.4f, .restitution = 1});
+    CaseRunner runner(scene, {.substeps = 16});
+    double last = kineticEnergy(scene, runner.velocities());
+    const double first = last;
+    for (int step = 0; step < 60; ++step) {
+        runner.run(1);
+        const double now = kineticEnergy(scene, runner.velocities());
+        ASSERT_LE(now, last * (1 + 1e-5)) << "step " << step;
+        last = now;
+    }
+    std::printf("box: %.1f %% of the energy after 1 s\n", 100 * last / first);
+    EXPECT_GE(last / first, 0.8);
+}
+
+// Pairs have the geometric mean of friction and the larger restitution.
+TEST(Surfaces, OfTwoParticlesDecideTogether) {
+    Hill hill(28, 0, 0.5f);
+    hill.scene.contacts.surfaces = {{.friction = 0.4f}, {.friction = 0.9f}};
+    hill.scene.particles[0].surface = 1;
+    hill.scene.particles[1].surface = 2;
+    const auto wayOf = [](const Scene& scene) {
+        CaseRunner runner(scene, {.substeps = 10});
+        runner.run(60);
+        return (runner.positions()[0]).norm();
+    };
+    EXPECT_LE(wayOf(hill.scene), 1e-3) << "0.6 holds at 28 degrees";
+    hill.scene.contacts.surfaces[1].friction = 0.5f; // 0.447 does not
+    EXPECT_NEAR(wayOf(hill.scene) / wayDown(28, 0, std::sqrt(0.4 * 0.5), 1), 1, 0.03);
+
+    Scene scene = weightless();
+    scene.contacts.surfaces = {{.restitution = 0.25f}, {.restitution = 0.75f}};
+    scene.particles = {ballAt({-0.2f, 0, 0}, {2, 0, 0}), ballAt({0.1f, 0, 0})};
+    scene.particles[0].surface = 1;
+    scene.particles[1].surface = 2;
+    CaseRunner runner(scene, {.substeps = 16});
+    runner.run(30);
+    EXPECT_NEAR((runner.velocities()[1] - runner.velocities()[0]).x(), 0.75 * 2, 1e-4);
+}
+
+TEST(Surfaces, ThatAreOneCompileToConstants) {
+    Scene scene = fallingBall(true, 0.5f);
+    scene.contacts.friction = 0.3f;
+    const auto has = [&](const char* label) {
+        const StepProgram program = compile(scene, {.substeps = 2});
+        return std::ranges::any_of(program.buffers, [&](const BufferSpec& b) { return b.label == label; });
+    };
+    EXPECT_FALSE(has("contacts.surfaces"));
+    EXPECT_TRUE(has("contacts.bouncing"));
+    scene.contacts.surfaces = {{}};
+    EXPECT_FALSE(has("contacts.surfaces")) << "nobody has it";
+    for (Particle& particle : scene.particles) particle.surface = 1;
+    EXPECT_FALSE(has("contacts.surfaces")) << "all have it";
+    EXPECT_FALSE(has("contacts.slips"));
+    EXPECT_FALSE(has("contacts.bouncing")) << "no rebound, no pass";
+    scene.particles[1].surface = 0;
+    EXPECT_TRUE(has("contacts.surfaces"));
+}
