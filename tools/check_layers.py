@@ -11,7 +11,7 @@ LAYERS = {
     "sim": ["vk"],
     "mesh": ["sim", "vk"],
     "scenes": ["mesh", "sim"],
-    "app": ["mesh", "vk"],
+    "app": ["mesh", "sim", "vk"],
 }
 # Finer rules inside a layer: (files, includes they may not have, why).
 SIM_MAY_USE_VK = re.compile(r"src/sim/(gpu_\w+|simulation)\.(cpp|hpp)$")

@@ -1,5 +1,6 @@
 // The figures of a report against states whose answer is known.
 #include "sinew/measure.hpp"
+#include "sinew/overlap.hpp"
 #include "sinew/skin_mesh.hpp"
 #include "sinew/statistics.hpp"
 
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 using namespace sinew;
 using tools::State;
@@ -117,6 +119,68 @@ TEST(Penetration, IsThatOfTheDeepestParticleWithItsOffset) {
     scene.particles[1].contactOffset = -0.125f;
     scene.particles[0].inverseMass = 0; // held behind the plane: no plane is to blame
     EXPECT_NEAR(tools::measure(scene, stateOf(scene), {}, 0).penetrationMax.value(), 0.125, 1e-6);
+}
+
+TEST(Overlap, IsThatOfEveryPairThatMayTouch) {
+    sim::Scene scene;
+    // Far from the origin, on both sides of 0, of different sizes: 0.2 and 0.05 deep.
+    scene.particles = {{.position = {-0.45f, 0, 0}, .radius = 0.5f},
+                       {.position = {0.35f, 0, 0}, .radius = 0.5f},
+                       {.position = {0.35f, 0.7f, 0}, .radius = 0.25f},
+                       {.position = {1000, 0, 0}, .radius = 0.5f},
+                       {.position = {0, 0, 0}, .radius = 0}};
+    const tools::Errors errors = tools::measure(scene, stateOf(scene), {}, 0);
+    EXPECT_NEAR(errors.penetrationMax.value(), 0.2, 1e-6);
+    EXPECT_NEAR(errors.penetrationRms.value(), std::sqrt((0.04 + 0.0025) / 2), 1e-6);
+    EXPECT_EQ(tools::overlapOf(scene, stateOf(scene))->pairs, 2u);
+}
+
+TEST(Overlap, IsFoundAsByComparingAllPairs) {
+    sim::Scene scene;
+    sim::addParticles(scene, {.count = {7, 6, 5}, .spacing = 0.1f, .radius = 0.05f});
+    State state = stateOf(scene);
+    std::mt19937 random(3);
+    for (auto& x : state.positions)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            x[axis] += static_cast<float>(random() % 1000) * 1e-4f - 0.05f;
+    double most = 0, squares = 0;
+    std::size_t pairs = 0;
+    for (std::size_t i = 0; i < state.positions.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            double square = 0;
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                square += std::pow(double{state.positions[i][axis]} - double{state.positions[j][axis]}, 2);
+            const double depth = 2 * double{0.05f} - std::sqrt(square);
+            if (depth <= 0) continue;
+            most = std::max(most, depth);
+            squares += depth * depth;
+            ++pairs;
+        }
+    ASSERT_GT(pairs, 200u);
+    const tools::Overlap overlap = tools::overlapOf(scene, state).value();
+    EXPECT_EQ(overlap.pairs, pairs);
+    EXPECT_DOUBLE_EQ(overlap.max, most);
+    EXPECT_NEAR(overlap.rms, std::sqrt(squares / static_cast<double>(pairs)), 1e-12);
+}
+
+TEST(Overlap, LeavesOutLinkedPairsAndNearOnesOfOneBody) {
+    sim::Scene scene;
+    sim::addLattice(scene, {.cells = {3, 3, 3}, .spacing = 0.1f, .radius = 0.05f});
+    State state = stateOf(scene);
+    for (auto& x : state.positions) x[0] *= 0.8f; // neighbours come as near as 0.08
+    EXPECT_EQ(tools::overlapOf(scene, state)->pairs, 0u);
+    for (auto& x : state.positions) x[0] = 0; // those two cells apart may touch
+    EXPECT_GT(tools::overlapOf(scene, state)->pairs, 0u);
+    EXPECT_FALSE(tools::overlapOf(cube(), stateOf(cube())).has_value()) << "no radius";
+}
+
+TEST(Overlap, SurvivesAStateThatIsNoLongerFinite) {
+    sim::Scene scene;
+    sim::addParticles(scene, {.count = {2, 2, 2}, .radius = 0.05f});
+    State state = stateOf(scene);
+    state.positions[0][1] = NAN;
+    state.positions[1][0] = 1e38f;
+    EXPECT_EQ(tools::overlapOf(scene, state)->max, 0);
 }
 
 TEST(StateHash, ChangesWithEveryBitAndOrder) {

@@ -23,6 +23,12 @@ class Run : public test::Program {};
 
 const std::string sheet = "[[cloth]]\nname = \"sheet\"\nsize = [4, 4]\nspacing = 0.1\n";
 const std::string box = "[[box]]\nparticles = [3, 3, 3]\nspacing = 0.1\ncenter = [0, 0.3, 0]\n";
+// Balls that fall on each other within four walls.
+const std::string balls =
+    "[solver]\nsubsteps = 8\n[[particles]]\nradius = 0.05\njitter = 0.005\ncount = [4, 6, 4]\n"
+    "center = [0, 0.4, 0]\n[[plane]]\n[[plane]]\nnormal = [1, 0, 0]\noffset = -0.25\n"
+    "[[plane]]\nnormal = [-1, 0, 0]\noffset = -0.25\n[[plane]]\nnormal = [0, 0, 1]\n"
+    "offset = -0.25\n[[plane]]\nnormal = [0, 0, -1]\noffset = -0.25\n";
 // Compliance 0 at mass 1e-35 kg: the first correction overflows.
 const std::string bomb =
     "name = \"bomb\"\ngravity = [0, -1e6, 0]\ndt = 0.1\n[solver]\nname = \"jacobi\"\nsubsteps = "
@@ -79,12 +85,53 @@ TEST_F(Run, ReportSaysNullWhereAnErrorHasNoMeaning) {
     EXPECT_TRUE(falling["strain_rms"].is_number());
     EXPECT_TRUE(falling["volume"].is_null());
     EXPECT_TRUE(falling["penetration_max"].is_null());
+    EXPECT_TRUE(falling["penetration_rms"].is_null());
     EXPECT_LT(falling["momentum"], 1e-5);
     write("scene.toml", box + "[[plane]]\n");
     const json landing = report({"scene.toml", "--frames", "3"})["error"];
     EXPECT_LT(std::abs(landing["volume"].get<double>()), 1e-4);
     EXPECT_TRUE(landing["momentum"].is_null());
     EXPECT_EQ(landing["penetration_max"], 0);
+}
+
+TEST_F(Run, DoesAStepWithoutRoomForItsContactsAgainWithMore) {
+    for (const std::string friction : {"", "friction = 0.4\n"}) {
+        write("roomy.toml", balls + "[contacts]\nroom = 64\n" + friction);
+        write("tight.toml", balls + "[contacts]\nroom = 1\n" + friction);
+        const json roomy = report({"roomy.toml", "--frames", "40", "--validation"});
+        const json tight = report({"tight.toml", "--frames", "40", "--validation"});
+        EXPECT_EQ(roomy["overflow"]["contacts"], (json{{"room", 64}, {"needed", nullptr}, {"grown", 0}}));
+        const json& grown = tight["overflow"]["contacts"];
+        EXPECT_GE(grown["grown"], 1);
+        EXPECT_GE(grown["needed"], 2);
+        EXPECT_GE(grown["room"], grown["needed"]);
+        EXPECT_EQ(tight["frames"], 40);
+        EXPECT_EQ(tight["state_hash"], roomy["state_hash"]) << "nothing was dropped";
+        EXPECT_EQ(tight["validation_messages"], json::array());
+    }
+}
+
+TEST_F(Run, StopsWithASentenceWhereNoRoomIsEnough) {
+    // A ball of a metre about which 343 small ones lie.
+    write("scene.toml",
+          "gravity = [0, 0, 0]\n[solver]\nsubsteps = 4\n[[particles]]\nradius = 1\ncount = [1, 1, 1]\n"
+          "[[particles]]\nradius = 0.01\ncount = [7, 7, 7]\nspacing = 0.05\n[contacts]\nroom = 256\n");
+    const Outcome outcome = run({"run", "scene.toml", "--frames", "5", "--out", "out"});
+    expectOneError(outcome, 7, "the simulation is too crowded: step 1: more than 256 particles are near one");
+    const json report = json::parse(std::ifstream(folder_ / "out/report.json"));
+    EXPECT_EQ(report["finite"], true);
+    EXPECT_EQ(report["frames"], 0);
+    EXPECT_EQ(report["divergence"]["cause"], "crowded");
+    EXPECT_EQ(report["overflow"]["contacts"]["needed"], 257);
+}
+
+TEST_F(Run, ReportSaysHowDeepParticlesAreInEachOther) {
+    write("scene.toml", balls);
+    const json error = report({"scene.toml", "--frames", "60"})["error"];
+    EXPECT_GT(error["penetration_max"], 0);
+    EXPECT_LT(error["penetration_max"], 0.05) << "a radius";
+    EXPECT_LT(error["penetration_rms"], error["penetration_max"]);
+    EXPECT_TRUE(error["strain_rms"].is_null());
 }
 
 TEST_F(Run, ReportListsOnlyThePassesOfTheScene) {

@@ -13,7 +13,8 @@ protected:
     std::string hash(const std::string& scene, const std::string& solver,
                      const std::vector<std::string>& more = {},
                      const test::Environment& environment = {}) const {
-        std::vector<std::string> arguments{scene, "--solver", solver, "--frames", "4"};
+        std::vector<std::string> arguments{scene, "--solver", solver};
+        if (more.empty() || more[0] != "--frames") arguments.insert(arguments.end(), {"--frames", "4"});
         arguments.insert(arguments.end(), more.begin(), more.end());
         const nlohmann::json report = this->report(arguments, environment);
         EXPECT_EQ(report["finite"], true);
@@ -46,6 +47,26 @@ TEST_F(SameState, OverRunsThreadsAndReversedOrder) {
                     << scene << ", threads " << threads;
             EXPECT_EQ(hash(scene, solver, {"--reversed"}), first) << scene << ", reversed";
         }
+}
+
+TEST_F(SameState, OfContactsOverRunsThreadsReversedOrderAndMargins) {
+    const auto clutter = [&](const std::string& contacts) {
+        std::ofstream(folder_ / "clutter.toml")
+            << "[solver]\nsubsteps = 8\n[[particles]]\nradius = 0.05\njitter = 0.005\ncount = [6, 6, 6]\n"
+               "center = [0, 0.345, 0]\n[[box]]\nparticles = [4, 4, 4]\nspacing = 0.1\ncollides = true\n"
+               "center = [0, 0.9, 0]\nyoung_modulus = 1e5\n[[plane]]\nfriction = 0.3\n[contacts]\n" +
+                   contacts;
+        return std::string("clutter.toml");
+    };
+    for (const std::string friction : {"", "friction = 0.3\n"}) {
+        const std::vector<std::string> frames{"--frames", "30"};
+        const std::string first = hash(clutter(friction), "split", frames);
+        for (const char* threads : {"0", "1", "2"})
+            EXPECT_EQ(hash("clutter.toml", "split", frames, {{"LP_NUM_THREADS", threads}}), first)
+                << "threads " << threads;
+        EXPECT_EQ(hash("clutter.toml", "split", {"--frames", "30", "--reversed"}), first) << "reversed";
+        EXPECT_EQ(hash(clutter(friction + "margin = 0.2\n"), "split", frames), first) << "another margin";
+    }
 }
 
 TEST_F(SameState, IsAnotherStateWithAnotherSolverOrNumberOfSubsteps) {

@@ -1,6 +1,7 @@
 // All sums in double and in the scene's order, whatever the device did.
 #include "sinew/measure.hpp"
 
+#include "sinew/overlap.hpp"
 #include "sinew/skin_mesh.hpp"
 
 #include <algorithm>
@@ -81,8 +82,10 @@ void measureMomentum(const sim::Scene& scene, const State& state, std::uint64_t 
 }
 
 void measurePenetration(const sim::Scene& scene, const State& state, Errors& errors) {
-    if (scene.planes.empty()) return;
-    double deepest = 0;
+    const std::optional<Overlap> overlap = overlapOf(scene, state);
+    if (overlap) errors.penetrationRms = overlap->rms;
+    if (scene.planes.empty() && !overlap) return;
+    double deepest = overlap ? overlap->max : 0;
     for (const sim::Plane& plane : scene.planes) {
         for (std::size_t i = 0; i < scene.particles.size(); ++i) {
             if (state.positions[i][3] == 0) continue; // fixed: no plane moves it

@@ -21,7 +21,8 @@ struct Errors {
     std::optional<double> volume; ///< relative change of the closed skin that changed most, with its sign
     std::optional<double>
         momentum; ///< change across gravity over sum m |v|; only where nothing holds a particle
-    std::optional<double> penetrationMax; ///< deepest particle behind a plane [m]
+    std::optional<double> penetrationMax; ///< deepest particle behind a plane or in another [m]
+    std::optional<double> penetrationRms; ///< over particles that are in each other, by pairs [m]
 };
 
 /// `frames` steps led to `state`; `skins` are the meshes of the scene's skins now, in order, or empty where

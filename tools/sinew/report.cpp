@@ -1,6 +1,7 @@
 // One function per part of the report, in the order of docs/report.md.
 #include "sinew/report.hpp"
 
+#include "sim/collision/particle_contacts.hpp"
 #include "sim/compile.hpp"
 #include "sinew/json.hpp"
 
@@ -102,10 +103,21 @@ Json choiceJson(const scenes::LoadedScene& loaded) {
 Json divergenceJson(const std::optional<Divergence>& divergence, double dt) {
     if (!divergence) return nullptr;
     return {{"step", divergence->step},
+            {"cause", divergence->isCrowded ? "crowded" : "not finite"},
             {"time", static_cast<double>(divergence->step) * dt},
             {"body", divergence->body},
             {"particle", divergence->particle},
             {"particles", divergence->count}};
+}
+
+Json overflowJson(const RunRecord& record) {
+    Json overflow = Json::object(); // empty: no list of a bounded size is in use
+    const app::ContactRoom& contacts = record.contactRoom;
+    if (sim::collision::particle_contacts::areIn(record.loaded.scene))
+        overflow["contacts"] = {{"room", contacts.room},
+                                {"needed", contacts.needed > 0 ? Json(contacts.needed) : Json(nullptr)},
+                                {"grown", contacts.grown}};
+    return overflow;
 }
 
 } // namespace
@@ -115,7 +127,8 @@ Json toJson(const Errors& errors) {
             {"strain_max", orNull(errors.strainMax)},
             {"volume", orNull(errors.volume)},
             {"momentum", orNull(errors.momentum)},
-            {"penetration_max", orNull(errors.penetrationMax)}};
+            {"penetration_max", orNull(errors.penetrationMax)},
+            {"penetration_rms", orNull(errors.penetrationRms)}};
 }
 
 Json toJson(const sim::Vec3& v) {
@@ -158,9 +171,9 @@ std::string toJson(const RunRecord& record) {
     json["phase_ms"] = phaseJson(record);
     json["error"] = toJson(measure(scene, record.state, record.skins, record.frames));
     json["stiffness"] = stiffnessJson(record.loaded);
-    json["finite"] = !record.divergence.has_value();
+    json["finite"] = !record.divergence || record.divergence->isCrowded;
     json["divergence"] = divergenceJson(record.divergence, double{scene.dt});
-    json["overflow"] = Json::object(); // no list of a bounded size is in use
+    json["overflow"] = overflowJson(record);
     json["state_hash"] = fmt::format("{:016x}", stateHash(record.state));
     json["peak_memory_mib"] = peakMemoryMib();
     json["validation"] = record.hasValidation;
@@ -198,7 +211,12 @@ std::string toText(const RunRecord& record) {
                             100 * *errors.strainMax);
     if (errors.volume) text += fmt::format("volume: {:+.3g} %\n", 100 * *errors.volume);
     if (errors.penetrationMax)
-        text += fmt::format("deepest behind a plane: {:.3g} mm\n", 1000 * *errors.penetrationMax);
+        text += fmt::format("deepest penetration: {:.3g} mm\n", 1000 * *errors.penetrationMax);
+    if (errors.penetrationRms)
+        text += fmt::format("overlap of touching particles: {:.3g} mm rms\n", 1000 * *errors.penetrationRms);
+    if (record.contactRoom.grown > 0)
+        text += fmt::format("room for contacts: grown {} times, to {}\n", record.contactRoom.grown,
+                            record.contactRoom.room);
     text += fmt::format("state hash: {:016x}\n", stateHash(record.state));
     if (record.hasValidation)
         text += fmt::format("validation: {} messages\n", record.validationMessages.size());

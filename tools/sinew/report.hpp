@@ -25,6 +25,7 @@ struct RunRecord {
     double recordMs = 0;
     std::uint64_t wantedFrames = 0, frames = 0; ///< asked for; done with a finite state
     std::optional<Divergence> divergence;
+    app::ContactRoom contactRoom;
     bool isInterrupted = false;
     State state;
     std::vector<mesh::TriangleMesh> skins;

@@ -65,6 +65,7 @@ RunRecord simulate(const RunOptions& options, const scenes::LoadedScene& loaded,
             .wantedFrames = options.frames,
             .frames = runner.steps(),
             .divergence = runner.divergence(),
+            .contactRoom = runner.contactRoom(),
             .isInterrupted = app::isInterrupted() && runner.steps() < options.frames,
             .state = runner.readState(),
             .skins = runner.readSkins(),
@@ -74,6 +75,8 @@ RunRecord simulate(const RunOptions& options, const scenes::LoadedScene& loaded,
 
 /// The exit code of a run whose outputs are written.
 int conclude(const RunRecord& record) {
+    if (record.divergence && record.divergence->isCrowded)
+        throw app::Failure(app::diverged, app::tooCrowded(record.divergence->step));
     if (const auto& divergence = record.divergence) {
         const std::string body = divergence->body.empty() ? "" : "body \"" + divergence->body + "\", ";
         throw app::Failure(

@@ -30,8 +30,8 @@ std::string bodyOf(const sim::Scene& scene, std::uint32_t particle) {
 } // namespace
 
 Runner::Runner(Session& session, const sim::Scene& scene, const sim::Settings& settings)
-    : session_(session), scene_(scene), simulation_(session.device, scene, settings) {
-    const auto phases = static_cast<std::uint32_t>(simulation_.phases().size());
+    : session_(session), scene_(scene), growing_(session.device, scene, settings) {
+    const auto phases = static_cast<std::uint32_t>(simulation().phases().size());
     for (std::uint32_t i = 0; i < sim::Simulation::framesInFlight; ++i)
         timestamps_.emplace_back(session.device, phases);
     phaseSums_.resize(phases);
@@ -54,7 +54,7 @@ void Runner::restart() {
 
 void Runner::submitReset() {
     const VkCommandBuffer commands = session_.queue.begin();
-    simulation_.recordReset(commands);
+    growing_.simulation().recordReset(commands);
     session_.queue.submit(commands);
 }
 
@@ -62,21 +62,35 @@ void Runner::submitStep(std::uint64_t frame) {
     const double start = nowMs();
     const std::size_t slot = frame % submitted_.size();
     const VkCommandBuffer commands = session_.queue.begin();
-    simulation_.record(commands, {.dt = scene_.dt, .gravity = scene_.gravity, .frame = frame},
-                       &timestamps_[slot]);
+    growing_.simulation().record(commands, {.dt = scene_.dt, .gravity = scene_.gravity, .frame = frame},
+                                 &timestamps_[slot]);
     submitted_[slot] = session_.queue.submit(commands);
     recordSum_ += nowMs() - start;
     ++recorded_;
 }
 
-void Runner::finishStep(std::uint64_t frame) {
+/// False where the step must be done again, and with it all that were submitted since.
+bool Runner::finishStep(std::uint64_t frame) {
     const std::size_t slot = frame % submitted_.size();
     session_.queue.wait(submitted_[slot]);
-    if (divergence_) return; // a step that was under way already
+    if (divergence_) return true; // a step that was under way already
     const double end = nowMs();
-    const sim::Status status = simulation_.status(frame);
+    const sim::Status status = simulation().status(frame);
     if (status.frame != static_cast<std::uint32_t>(frame))
         throw std::logic_error("the status of step " + std::to_string(frame) + " is that of another");
+    if (status.contactRoom > 0 && growing_.grow(status.contactRoom, session_.queue)) return false;
+    countTime(slot, end);
+    if (status.contactRoom > 0)
+        divergence_ = {.step = frame + 1, .isCrowded = true};
+    else if (status.nonFinite > 0)
+        divergence_ = {frame + 1, status.firstBadParticle, status.nonFinite,
+                       bodyOf(scene_, status.firstBadParticle)};
+    else
+        ++done_;
+    return true;
+}
+
+void Runner::countTime(std::size_t slot, double end) {
     const std::vector<double> phases = timestamps_[slot].milliseconds();
     if (frameMs_.size() < mostFrameTimes) {
         frameMs_.emplace_back();
@@ -88,12 +102,6 @@ void Runner::finishStep(std::uint64_t frame) {
         deviceMs_[done_ % mostFrameTimes] = std::accumulate(phases.begin(), phases.end(), 0.0);
     for (std::size_t i = 0; i < phases.size(); ++i) phaseSums_[i] += phases[i];
     timed_ += phases.empty() ? 0 : 1;
-    if (status.nonFinite > 0) {
-        divergence_ = {frame + 1, status.firstBadParticle, status.nonFinite,
-                       bodyOf(scene_, status.firstBadParticle)};
-        return;
-    }
-    ++done_;
 }
 
 void Runner::advance(std::uint64_t count, std::uint32_t inFlight,
@@ -105,8 +113,10 @@ void Runner::advance(std::uint64_t count, std::uint32_t inFlight,
         const bool mayGoOn = next < end && !divergence_ && !app::isInterrupted();
         if (mayGoOn && next - waiting < inFlight) {
             submitStep(next++);
+        } else if (waiting < next && !finishStep(waiting)) {
+            next = waiting;
         } else if (waiting < next) {
-            finishStep(waiting++);
+            ++waiting;
             if (onStep) onStep(done_);
         } else {
             break;
@@ -126,16 +136,16 @@ double Runner::recordMs() const {
 }
 
 State Runner::readState() {
-    return {session_.queue.download<std::array<float, 4>>(simulation_.positions()),
-            session_.queue.download<std::array<float, 4>>(simulation_.velocities())};
+    return {session_.queue.download<std::array<float, 4>>(simulation().positions()),
+            session_.queue.download<std::array<float, 4>>(simulation().velocities())};
 }
 
 std::vector<mesh::TriangleMesh> Runner::readSkins() {
     if (scene_.skins.empty()) return {};
     const VkCommandBuffer commands = session_.queue.begin();
-    simulation_.recordSkin(commands);
+    growing_.simulation().recordSkin(commands);
     session_.queue.wait(session_.queue.submit(commands));
-    const auto vertices = session_.queue.download<sim::layout::SkinVertex>(simulation_.skinVertices());
+    const auto vertices = session_.queue.download<sim::layout::SkinVertex>(simulation().skinVertices());
     std::vector<mesh::TriangleMesh> meshes;
     std::size_t first = 0;
     for (const sim::Skin& skin : scene_.skins) {

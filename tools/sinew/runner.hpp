@@ -1,7 +1,7 @@
 // Steps a scene on a device: one submission a step, a few of them in flight, no wait inside a step.
 #pragma once
 
-#include "sim/simulation.hpp"
+#include "app/growing_simulation.hpp"
 #include "sinew/measure.hpp"
 #include "sinew/session.hpp"
 
@@ -9,11 +9,12 @@
 
 namespace sinew::tools {
 
-/// A step whose state was no longer finite.
+/// A step whose state was no longer finite, or that found more contacts than there can be room for.
 struct Divergence {
     std::uint64_t step = 0; ///< counted from 1
     std::uint32_t particle = 0, count = 0;
-    std::string body; ///< empty where the particle belongs to none
+    std::string body;       ///< empty where the particle belongs to none
+    bool isCrowded = false; ///< all is finite: nothing else is meant but `step`
 };
 
 class Runner {
@@ -22,8 +23,9 @@ public:
     /// now. `session` and `scene` must outlive the Runner.
     Runner(Session& session, const sim::Scene& scene, const sim::Settings& settings);
 
-    /// Steps until `count` more are done, isInterrupted() or the state is no longer finite. `inFlight` is 1
-    /// to Simulation::framesInFlight. `onStep` gets the number of steps done.
+    /// Steps until `count` more are done, isInterrupted() or there is a divergence(). A step without room for
+    /// its contacts is done again with more. `inFlight` is 1 to Simulation::framesInFlight. `onStep` gets the
+    /// number of steps done.
     void advance(std::uint64_t count, std::uint32_t inFlight,
                  const std::function<void(std::uint64_t)>& onStep = {});
 
@@ -32,7 +34,8 @@ public:
 
     std::uint64_t steps() const { return done_; } ///< with a finite state
     const std::optional<Divergence>& divergence() const { return divergence_; }
-    const sim::Simulation& simulation() const { return simulation_; }
+    const sim::Simulation& simulation() const { return growing_.simulation(); }
+    const app::ContactRoom& contactRoom() const { return growing_.contactRoom(); }
 
     /// Wall-clock time [ms] from the end of one step to the end of the next, of the newest 65,536 steps at
     /// most, the one that diverged included: an endless run must not grow. In no order.
@@ -51,11 +54,12 @@ public:
 private:
     void submitReset();
     void submitStep(std::uint64_t frame);
-    void finishStep(std::uint64_t frame);
+    bool finishStep(std::uint64_t frame);
+    void countTime(std::size_t slot, double end);
 
     Session& session_;
     const sim::Scene& scene_;
-    sim::Simulation simulation_;
+    app::GrowingSimulation growing_;
     std::vector<vk::Timestamps> timestamps_;                                 // one a step in flight
     std::array<std::uint64_t, sim::Simulation::framesInFlight> submitted_{}; // timeline values
     std::uint64_t done_ = 0;

@@ -1,0 +1,50 @@
+// Two simulations exist while the state goes from one to the other.
+#include "app/growing_simulation.hpp"
+
+#include "sim/ranges.hpp"
+
+#include <algorithm>
+
+namespace sinew::app {
+
+namespace {
+
+constexpr std::uint32_t granule = 8; // so that a scene that fills up slowly does not grow step by step
+
+std::uint32_t roomFor(std::uint32_t needed) {
+    return std::min((needed + granule - 1) / granule * granule, sim::ranges::mostContactRoom);
+}
+
+} // namespace
+
+GrowingSimulation::GrowingSimulation(const vk::Device& device, const sim::Scene& scene,
+                                     const sim::Settings& settings)
+    : device_(device), scene_(scene), settings_(settings),
+      simulation_(std::make_unique<sim::Simulation>(device, scene, settings)),
+      room_{.room = settings.contactRoom} {}
+
+bool GrowingSimulation::grow(std::uint32_t needed, vk::Queue& queue) {
+    room_.needed = std::max(room_.needed, needed);
+    if (needed > sim::ranges::mostContactRoom) return false;
+    queue.waitIdle();
+    sim::Settings settings = settings_;
+    settings.contactRoom = roomFor(needed);
+    auto roomier = std::make_unique<sim::Simulation>(device_, scene_, settings);
+    const VkCommandBuffer commands = queue.begin();
+    roomier->recordTakeOver(commands, *simulation_);
+    queue.wait(queue.submit(commands));
+    simulation_ = std::move(roomier);
+    settings_ = settings;
+    room_.room = settings.contactRoom;
+    ++room_.grown;
+    return true;
+}
+
+std::string tooCrowded(std::uint64_t step) {
+    return "the simulation is too crowded: step " + std::to_string(step) + ": more than " +
+           std::to_string(sim::ranges::mostContactRoom) +
+           " particles are near one, the last state was kept: use radii that differ less or a smaller "
+           "contacts.margin";
+}
+
+} // namespace sinew::app

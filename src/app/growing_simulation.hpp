@@ -1,0 +1,46 @@
+// A simulation that gets more room where a step finds too little for its contacts: what a program does about
+// Status::contactRoom. The step was undone by then; whoever steps does it again.
+#pragma once
+
+#include "sim/simulation.hpp"
+#include "vk/queue.hpp"
+
+#include <memory>
+
+namespace sinew::app {
+
+/// What became of Settings::contactRoom.
+struct ContactRoom {
+    std::uint32_t room = 0;   ///< particles that may be listed with one
+    std::uint32_t needed = 0; ///< by a step that had less; 0 = none has
+    std::uint32_t grown = 0;  ///< times
+};
+
+class GrowingSimulation {
+public:
+    /// As sim::Simulation. `device` and `scene` must outlive it and stay where they are.
+    GrowingSimulation(const vk::Device& device, const sim::Scene& scene, const sim::Settings& settings);
+
+    /// Another one after grow(), with other buffers.
+    sim::Simulation& simulation() noexcept { return *simulation_; }
+    const sim::Simulation& simulation() const noexcept { return *simulation_; }
+    const ContactRoom& contactRoom() const noexcept { return room_; }
+
+    /// After a step whose Status::contactRoom is `needed`: waits for `queue`, in which every step was
+    /// submitted, and goes on in a simulation with that much room, rounded up, in the state before that step.
+    /// False, and nothing has changed, where no simulation has as much. Throws vk::Error where the device has
+    /// no memory for it.
+    bool grow(std::uint32_t needed, vk::Queue& queue);
+
+private:
+    const vk::Device& device_;
+    const sim::Scene& scene_;
+    sim::Settings settings_;
+    std::unique_ptr<sim::Simulation> simulation_;
+    ContactRoom room_;
+};
+
+/// Why a simulation that cannot grow() stops at `step`, and what to do about it.
+std::string tooCrowded(std::uint64_t step);
+
+} // namespace sinew::app
