@@ -68,7 +68,10 @@ Box transformed(const Box& box, const Matrix4& transform) {
 
 Box particleBounds(const sim::Scene& scene) {
     Box box;
-    for (const sim::Particle& particle : scene.particles) box.extend(toVector(particle.position));
+    for (const sim::Particle& particle : scene.particles) {
+        const Vector3 reach = Vector3::Constant(particle.radius), middle = toVector(particle.position);
+        box.extend(Box(middle - reach, middle + reach));
+    }
     return box.isEmpty() ? Box(Vector3::Zero()) : box;
 }
 

@@ -28,8 +28,8 @@ Matrix4 orthographic(const Box& box);
 /// The box around `box` after `transform` (affine).
 Box transformed(const Box& box, const Matrix4& transform);
 
-/// What the scene's particles fill at the start. A scene without particles gives the box of one point, the
-/// origin.
+/// What the scene's particles, with their radii, fill at the start. A scene without particles gives the box
+/// of one point, the origin.
 Box particleBounds(const sim::Scene& scene);
 
 /// Height of the highest boundary plane that faces straight up [m].

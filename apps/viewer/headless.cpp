@@ -89,18 +89,13 @@ public:
     /// Submits a frame; with `isPictured`, waits for its picture.
     std::optional<Picture> advance(std::uint64_t frame, bool isPictured) {
         while (submissions_.size() >= sim::Simulation::framesInFlight) settleOldest();
-        VkCommandBuffer commands = queue_.begin();
-        if (frame == 0)
-            stage_.recordReset(commands);
-        else
-            stage_.recordStep(commands);
-        if (isPictured) {
-            stage_.recordSkin(commands);
-            offscreen_.record(commands, opening_.camera, stage_.simulation());
-        }
-        submissions_.push_back({frame, queue_.submit(commands)});
+        submit(frame);
         if (!isPictured) return std::nullopt;
-        settle();
+        settle(); // first: a step that is done again would show in no picture
+        VkCommandBuffer commands = queue_.begin();
+        stage_.recordSkin(commands);
+        offscreen_.record(commands, opening_.camera, stage_.simulation());
+        queue_.wait(queue_.submit(commands));
         return offscreen_.read();
     }
 
@@ -116,11 +111,29 @@ private:
         std::uint64_t frame, value;
     };
 
+    void submit(std::uint64_t frame) {
+        VkCommandBuffer commands = queue_.begin();
+        if (frame == 0)
+            stage_.recordReset(commands);
+        else
+            stage_.recordStep(commands);
+        submissions_.push_back({frame, queue_.submit(commands)});
+    }
+
+    // All steps from `first` on were undone.
+    void redoFrom(std::uint64_t first) {
+        const std::uint64_t last = stage_.steps();
+        if (!stage_.makeRoom(first, queue_)) throw app::Failure(app::diverged, app::tooCrowded(first));
+        submissions_.clear();
+        for (std::uint64_t frame = first; frame <= last; ++frame) submit(frame);
+    }
+
     void settleOldest() {
         const Submission oldest = submissions_.front();
         submissions_.pop_front();
         queue_.wait(oldest.value);
         if (oldest.frame == 0) return;
+        if (stage_.neededRoom(oldest.frame) > 0) return redoFrom(oldest.frame);
         if (const std::optional<Divergence> divergence = stage_.check(oldest.frame))
             throw app::Failure(app::diverged, divergence->sentence());
     }

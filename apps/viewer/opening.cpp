@@ -41,9 +41,6 @@ Opening open(const Options& options, float aspect) {
                                            : scenes::load(options.scene, options.overrides);
     for (const std::string& warning : opening.loaded.warnings)
         std::fprintf(stderr, "warning: %s\n", warning.c_str());
-    if (opening.loaded.scene.skins.empty())
-        std::fprintf(stderr, "warning: scene %s has no skin: there is no body to see\n",
-                     opening.loaded.scene.name.c_str());
     opening.camera = firstView(opening.loaded, aspect);
     opening.light = lightFor(opening.loaded.scene, opening.camera);
     return opening;

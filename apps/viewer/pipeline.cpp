@@ -46,15 +46,27 @@ constexpr std::array skinAttributes{
     VkVertexInputAttributeDescription{1, 0, VK_FORMAT_R32G32B32A32_SFLOAT,
                                       offsetof(sim::layout::SkinVertex, normal)}};
 
+constexpr std::array ballBindings{
+    VkVertexInputBindingDescription{0, sizeof(sim::layout::vec4), VK_VERTEX_INPUT_RATE_VERTEX},
+    VkVertexInputBindingDescription{1, sizeof(sim::layout::vec4), VK_VERTEX_INPUT_RATE_INSTANCE},
+    VkVertexInputBindingDescription{2, sizeof(float), VK_VERTEX_INPUT_RATE_INSTANCE}};
+constexpr std::array ballAttributes{VkVertexInputAttributeDescription{0, 0, VK_FORMAT_R32G32B32A32_SFLOAT, 0},
+                                    VkVertexInputAttributeDescription{1, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 0},
+                                    VkVertexInputAttributeDescription{2, 2, VK_FORMAT_R32_SFLOAT, 0}};
+
 VkPipelineVertexInputStateCreateInfo vertexInput(PipelineRequest::Input input) {
-    const std::uint32_t attributes = input == PipelineRequest::Input::none        ? 0
-                                     : input == PipelineRequest::Input::positions ? 1
-                                                                                  : 2;
-    return {.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
-            .vertexBindingDescriptionCount = attributes > 0 ? 1u : 0u,
-            .pVertexBindingDescriptions = &skinBinding,
-            .vertexAttributeDescriptionCount = attributes,
-            .pVertexAttributeDescriptions = skinAttributes.data()};
+    using Input = PipelineRequest::Input;
+    VkPipelineVertexInputStateCreateInfo state{.sType =
+                                                   VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+    if (input == Input::none) return state;
+    const bool isBalls = input == Input::balls;
+    state.vertexBindingDescriptionCount = isBalls ? ballBindings.size() : 1;
+    state.pVertexBindingDescriptions = isBalls ? ballBindings.data() : &skinBinding;
+    state.vertexAttributeDescriptionCount = isBalls                     ? ballAttributes.size()
+                                            : input == Input::positions ? 1
+                                                                        : 2;
+    state.pVertexAttributeDescriptions = isBalls ? ballAttributes.data() : skinAttributes.data();
+    return state;
 }
 
 VkPipelineDepthStencilStateCreateInfo depthState(PipelineRequest::Depth depth) {

@@ -13,11 +13,8 @@ struct PipelineRequest {
     VkPipelineLayout layout = VK_NULL_HANDLE;
     VkRenderPass pass = VK_NULL_HANDLE;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
-    enum class Input {
-        none,
-        positions,
-        positionsAndNormals
-    } input = Input::none; ///< of SkinVertex, binding 0
+    /// Of SkinVertex, binding 0; or corners of a ball, and its place and radius an instance, bindings 0 to 2.
+    enum class Input { none, positions, positionsAndNormals, balls } input = Input::none;
     enum class Depth { none, test, testAndWrite } depth = Depth::none;
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     std::span<const vk::SpecialisationConstant> constants; ///< of both stages; ids a shader lacks are ignored

@@ -16,11 +16,24 @@ enum PipelineIndex : std::size_t {
     floorPipeline,
     skinPipeline,
     groundPipeline,
-    skyPipeline
+    skyPipeline,
+    ballShadowPipeline,
+    ballPlanPipeline,
+    ballPipeline
 };
+
+constexpr float ballGloss = 0.6f; // of a skin's: balls are hard and dry
+
+constexpr std::array plan{vk::SpecialisationConstant{3, 1}};
 
 bool isSrgb(VkFormat format) {
     return format == VK_FORMAT_R8G8B8A8_SRGB || format == VK_FORMAT_B8G8R8A8_SRGB;
+}
+
+std::array<vk::SpecialisationConstant, 3> lookOf(const Renderer::Target& target, const Quality& quality) {
+    return {vk::SpecialisationConstant{0, isSrgb(target.color) ? 0u : 1u},
+            vk::SpecialisationConstant{1, quality.shadowTaps},
+            vk::SpecialisationConstant{2, quality.skyTaps}};
 }
 
 VkFormat canvasDepthFormat(const vk::Device& device) {
@@ -47,21 +60,21 @@ Renderer::Renderer(const vk::Device& device, const Target& target, const Quality
                                          .depth = format_.depth,
                                          .samples = format_.samples,
                                          .finalLayout = target.finalLayout})),
-      sets_(device, maps_, slots) {
+      sets_(device, maps_, slots), balls_(device, light.balls) {
     createPipelines(target, quality);
+    if (!balls_.ranges().empty()) createBallPipelines(target, quality);
+}
+
+void Renderer::addPipeline(PipelineRequest request) {
+    request.layout = sets_.layout();
+    pipelines_.emplace_back(device_, request);
 }
 
 void Renderer::createPipelines(const Target& target, const Quality& quality) {
     using Input = PipelineRequest::Input;
     using Depth = PipelineRequest::Depth;
-    const std::array look{vk::SpecialisationConstant{0, isSrgb(target.color) ? 0u : 1u},
-                          vk::SpecialisationConstant{1, quality.shadowTaps},
-                          vk::SpecialisationConstant{2, quality.skyTaps}};
-    const std::array plan{vk::SpecialisationConstant{3, 1}};
-    const auto add = [&](PipelineRequest request) {
-        request.layout = sets_.layout();
-        pipelines_.emplace_back(device_, request);
-    };
+    const auto look = lookOf(target, quality);
+    const auto add = [&](const PipelineRequest& request) { addPipeline(request); };
     add({.name = "picture.shadow",
          .vertex = &shaders::depthVert,
          .pass = maps_.shadow.pass.handle(),
@@ -103,6 +116,29 @@ void Renderer::createPipelines(const Target& target, const Quality& quality) {
          .constants = look});
 }
 
+void Renderer::createBallPipelines(const Target& target, const Quality& quality) {
+    const PipelineRequest depth{.name = "picture.ball_shadow",
+                                .vertex = &shaders::ballDepthVert,
+                                .pass = maps_.shadow.pass.handle(),
+                                .input = PipelineRequest::Input::balls,
+                                .depth = PipelineRequest::Depth::testAndWrite};
+    addPipeline(depth);
+    PipelineRequest request = depth;
+    request.name = "picture.ball_plan";
+    request.pass = maps_.plan.pass.handle();
+    request.constants = plan;
+    addPipeline(request);
+    const auto look = lookOf(target, quality);
+    request = depth;
+    request.name = "picture.ball";
+    request.vertex = &shaders::ballVert;
+    request.fragment = &shaders::skinFrag;
+    request.pass = pass_.handle();
+    request.samples = quality.samples;
+    request.constants = look;
+    addPipeline(request);
+}
+
 Canvas Renderer::makeCanvas(VkExtent2D extent, std::span<const VkImageView> pictures) const {
     return Canvas(device_, pass_, format_, extent, pictures);
 }
@@ -128,15 +164,11 @@ void Renderer::recordMaps(VkCommandBuffer commands, const sim::Simulation& simul
         begin(commands, map.pass, map.framebuffer.handle(), map.image.extent(), clear);
     };
     beginMap(maps_.shadow, far);
-    bind(commands, shadowPipeline);
-    drawSkins(commands, simulation);
+    drawBodies(commands, shadowPipeline, ballShadowPipeline, simulation);
     functions.vkCmdEndRenderPass(commands);
     // Without a ground the other two are only cleared: the shaders' bindings stay readable.
     beginMap(maps_.plan, far);
-    if (light_.ground) {
-        bind(commands, planPipeline);
-        drawSkins(commands, simulation);
-    }
+    if (light_.ground) drawBodies(commands, planPipeline, ballPlanPipeline, simulation);
     functions.vkCmdEndRenderPass(commands);
     beginMap(maps_.floor, open);
     if (light_.ground) {
@@ -151,8 +183,7 @@ void Renderer::recordPicture(VkCommandBuffer commands, const Canvas& canvas, std
     const vk::DeviceFunctions& functions = device_.functions();
     const std::array clear{VkClearValue{.color = {{0, 0, 0, 1}}}, VkClearValue{.depthStencil = {1, 0}}};
     begin(commands, pass_, canvas.framebuffer(picture), canvas.extent(), clear);
-    bind(commands, skinPipeline);
-    drawSkins(commands, simulation);
+    drawBodies(commands, skinPipeline, ballPipeline, simulation);
     if (light_.ground) {
         bind(commands, groundPipeline);
         functions.vkCmdDraw(commands, 4, 1, 0, 0);
@@ -183,6 +214,15 @@ void Renderer::bind(VkCommandBuffer commands, std::size_t pipeline) const noexce
                                           pipelines_[pipeline].handle());
 }
 
+void Renderer::drawBodies(VkCommandBuffer commands, std::size_t ofSkins, std::size_t ofBalls,
+                          const sim::Simulation& simulation) const noexcept {
+    bind(commands, ofSkins);
+    drawSkins(commands, simulation);
+    if (balls_.ranges().empty()) return;
+    bind(commands, ofBalls);
+    drawBalls(commands, simulation);
+}
+
 void Renderer::drawSkins(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept {
     const vk::BufferView vertices = simulation.skinVertices(), indices = simulation.skinIndices();
     if (simulation.skins().empty()) return;
@@ -191,11 +231,23 @@ void Renderer::drawSkins(VkCommandBuffer commands, const sim::Simulation& simula
     functions.vkCmdBindIndexBuffer(commands, indices.buffer, indices.offset, VK_INDEX_TYPE_UINT32);
     for (std::size_t i = 0; i < simulation.skins().size(); ++i) {
         const sim::SkinRange& skin = simulation.skins()[i];
-        const layout::SkinPush push{{skin.color.x, skin.color.y, skin.color.z, light_.gloss[i]}};
-        functions.vkCmdPushConstants(commands, sets_.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(push),
-                                     &push);
+        pushColor(commands, skin.color, light_.gloss[i]);
         functions.vkCmdDrawIndexed(commands, skin.indexCount, 1, skin.firstIndex, 0, 0);
     }
+}
+
+void Renderer::drawBalls(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept {
+    balls_.bind(commands, simulation.positions());
+    for (const BallRange& range : balls_.ranges()) {
+        pushColor(commands, range.color, ballGloss);
+        balls_.draw(commands, range);
+    }
+}
+
+void Renderer::pushColor(VkCommandBuffer commands, const sim::Vec3& color, float gloss) const noexcept {
+    const layout::SkinPush push{{color.x, color.y, color.z, gloss}};
+    device_.functions().vkCmdPushConstants(commands, sets_.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                                           sizeof(push), &push);
 }
 
 } // namespace sinew::viewer

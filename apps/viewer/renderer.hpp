@@ -1,5 +1,5 @@
-// Draws the skins of a simulation, lit and shadowed, on a floor under a sky. The same code for a window and
-// for files.
+// Draws the skins of a simulation, and balls for what has none, lit and shadowed, on a floor under a sky. The
+// same code for a window and for files.
 #pragma once
 
 #include "sim/simulation.hpp"
@@ -48,14 +48,21 @@ public:
                 const Camera& camera, const sim::Simulation& simulation) const noexcept;
 
 private:
+    void addPipeline(PipelineRequest request);
     void createPipelines(const Target& target, const Quality& quality);
+    void createBallPipelines(const Target& target, const Quality& quality);
     void recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept;
     void recordPicture(VkCommandBuffer commands, const Canvas& canvas, std::size_t picture,
                        const sim::Simulation& simulation) const noexcept;
     void begin(VkCommandBuffer commands, const RenderPass& pass, VkFramebuffer framebuffer, VkExtent2D extent,
                std::span<const VkClearValue> clear) const noexcept;
     void bind(VkCommandBuffer commands, std::size_t pipeline) const noexcept;
+    /// With a pipeline for each of them.
+    void drawBodies(VkCommandBuffer commands, std::size_t ofSkins, std::size_t ofBalls,
+                    const sim::Simulation& simulation) const noexcept;
     void drawSkins(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept;
+    void drawBalls(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept;
+    void pushColor(VkCommandBuffer commands, const sim::Vec3& color, float gloss) const noexcept;
 
     const vk::Device& device_;
     StageLight light_;
@@ -63,6 +70,7 @@ private:
     LightMaps maps_;
     RenderPass pass_;
     PictureSets sets_;
+    Balls balls_;
     std::vector<Pipeline> pipelines_;
 };
 

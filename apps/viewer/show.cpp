@@ -52,7 +52,7 @@ Show::Show(Window& window, const vk::Device& device, const Opening& opening)
     : window_(window), device_(device), opening_(opening),
       controller_(opening.camera, opening.loaded.scene.dt),
       stage_(device, opening.loaded.scene, fastest(device, opening.loaded)),
-      probe_(device, stage_.simulation().positions()), presenter_(device, window),
+      probe_(std::in_place, device, stage_.simulation().positions()), presenter_(device, window),
       moving_(device, presenter_.format(), isSoftware(device) ? reducedQuality() : Quality{}, opening.light),
       status_(opening.loaded.scene, device) {
     if (isSoftware(device)) still_.emplace(device, presenter_.format(), Quality{}, opening.light);
@@ -173,7 +173,7 @@ void Show::recordSteps(const Presenter::Frame& frame, const Plan& plan) {
     for (std::uint32_t step = 0; step < plan.steps; ++step)
         stage_.recordStep(frame.commands, step == 0 ? &times_[frame.slot] : nullptr);
     if (std::exchange(wantsProbe_, false)) {
-        probe_.record(frame.commands);
+        probe_->record(frame.commands);
         flight.isProbed = true;
     }
     stage_.recordSkin(frame.commands);
@@ -193,20 +193,40 @@ void Show::settle(std::uint32_t slot) {
         const std::vector<double> phases = times_[slot].milliseconds();
         if (!phases.empty()) status_.stepTimed(std::accumulate(phases.begin(), phases.end(), 0.0));
     }
-    for (std::uint32_t i = 0; i < flight.steps && !isDiverged_; ++i)
-        if (const std::optional<Divergence> divergence = stage_.check(flight.firstStep + i)) {
-            isDiverged_ = true;
-            controller_.playback.pause();
-            std::fprintf(stderr, "warning: %s\n", divergence->sentence().c_str());
-        }
     if (flight.isProbed)
-        if (const Box bounds = probe_.read(); !bounds.isEmpty()) {
+        if (const Box bounds = probe_->read(); !bounds.isEmpty()) {
             controller_.camera = framing(controller_.camera, bounds, aspect(presenter_.extent()));
             shown_ = Shown::nothing; // what is on screen was seen from elsewhere
         }
+    for (std::uint32_t i = 0; i < flight.steps && !isDiverged_; ++i) {
+        const std::uint64_t step = flight.firstStep + i;
+        if (stage_.neededRoom(step) > 0) {
+            makeRoom(step);
+            break; // what came after it was undone as well
+        }
+        if (const std::optional<Divergence> divergence = stage_.check(step)) stop(divergence->sentence());
+    }
     if (flight.screenshot) {
         const std::filesystem::path file = screenshotFile(opening_.loaded.scene.name, flight.screenshotStep);
         writer_.add(file, flight.screenshot->read(), pictureText(opening_, device_, flight.screenshotStep));
+    }
+}
+
+void Show::stop(const std::string& why) {
+    isDiverged_ = true;
+    controller_.playback.pause();
+    std::fprintf(stderr, "warning: %s\n", why.c_str());
+}
+
+// Later frames take the undone steps again.
+void Show::makeRoom(std::uint64_t step) {
+    presenter_.waitIdle();
+    vk::Queue queue(device_);
+    if (!stage_.makeRoom(step, queue)) return stop(app::tooCrowded(step));
+    probe_.emplace(device_, stage_.simulation().positions());
+    for (InFlight& other : inFlight_) {
+        other.steps = 0;
+        wantsProbe_ = std::exchange(other.isProbed, false) || wantsProbe_;
     }
 }
 

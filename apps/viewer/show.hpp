@@ -58,6 +58,8 @@ private:
     void recordSteps(const Presenter::Frame& frame, const Plan& plan);
     void recordScreenshot(const Presenter::Frame& frame);
     void settle(std::uint32_t slot);
+    void stop(const std::string& why);
+    void makeRoom(std::uint64_t step);
     void settleAll();
     void reportFiles(PictureWriter::Wait wait);
 
@@ -66,7 +68,7 @@ private:
     const Opening& opening_;
     Controller controller_;
     Stage stage_;
-    BoundsProbe probe_;
+    std::optional<BoundsProbe> probe_;  // of the stage's simulation
     std::vector<vk::Timestamps> times_; // one a slot
     Presenter presenter_;
     View moving_;

@@ -14,20 +14,22 @@ std::string Divergence::sentence() const {
 }
 
 Stage::Stage(const vk::Device& device, sim::Scene scene, const sim::Settings& settings)
-    : scene_(std::move(scene)), simulation_(device, scene_, settings) {}
+    : scene_(std::move(scene)), growing_(device, scene_, settings) {}
 
 void Stage::recordReset(VkCommandBuffer commands) noexcept {
-    simulation_.recordReset(commands);
+    growing_.simulation().recordReset(commands);
     steps_ = 0;
 }
 
 void Stage::recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps) noexcept {
-    simulation_.record(commands, {.dt = scene_.dt, .gravity = scene_.gravity, .frame = ++steps_}, timestamps);
+    growing_.simulation().record(commands, {.dt = scene_.dt, .gravity = scene_.gravity, .frame = ++steps_},
+                                 timestamps);
 }
 
 std::optional<Divergence> Stage::check(std::uint64_t step) const {
-    const sim::Status status = simulation_.status(step);
-    if (status.nonFinite == 0 || status.frame != static_cast<std::uint32_t>(step)) return std::nullopt;
+    const sim::Status status = simulation().status(step);
+    if (status.contactRoom > 0 || status.nonFinite == 0 || status.frame != static_cast<std::uint32_t>(step))
+        return std::nullopt;
     const auto holds = [&](const sim::Body& body) {
         return status.firstBadParticle - body.firstParticle < body.particleCount;
     };
@@ -36,6 +38,17 @@ std::optional<Divergence> Stage::check(std::uint64_t step) const {
                       .particles = status.nonFinite,
                       .firstParticle = status.firstBadParticle,
                       .body = body == scene_.bodies.end() ? scene_.name : body->name};
+}
+
+std::uint32_t Stage::neededRoom(std::uint64_t step) const {
+    const sim::Status status = simulation().status(step);
+    return status.frame == static_cast<std::uint32_t>(step) ? status.contactRoom : 0;
+}
+
+bool Stage::makeRoom(std::uint64_t step, vk::Queue& queue) {
+    if (!growing_.grow(neededRoom(step), queue)) return false;
+    steps_ = step - 1;
+    return true;
 }
 
 } // namespace sinew::viewer

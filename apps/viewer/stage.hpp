@@ -1,7 +1,7 @@
 // The scene on show: its simulation, how many steps it has taken, and whether it still makes sense.
 #pragma once
 
-#include "sim/simulation.hpp"
+#include "app/growing_simulation.hpp"
 #include "viewer/camera.hpp"
 
 namespace sinew::viewer {
@@ -25,7 +25,7 @@ public:
     /// As those of sim::Simulation. A new stage must be reset once before its first step.
     void recordReset(VkCommandBuffer commands) noexcept;
     void recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps = nullptr) noexcept;
-    void recordSkin(VkCommandBuffer commands) noexcept { simulation_.recordSkin(commands); }
+    void recordSkin(VkCommandBuffer commands) noexcept { growing_.simulation().recordSkin(commands); }
 
     /// Taken since the reset.
     std::uint64_t steps() const noexcept { return steps_; }
@@ -34,12 +34,18 @@ public:
     /// place. It must be one of the last Simulation::framesInFlight recorded.
     std::optional<Divergence> check(std::uint64_t step) const;
 
+    /// Status::contactRoom of such a step: more than 0 where it was undone, and all after it.
+    std::uint32_t neededRoom(std::uint64_t step) const;
+    /// Goes back before that step with room for it, in another simulation(). Waits for `queue`, in which all
+    /// was submitted. False where there can be no such room. Throws vk::Error.
+    bool makeRoom(std::uint64_t step, vk::Queue& queue);
+
     const sim::Scene& scene() const noexcept { return scene_; }
-    const sim::Simulation& simulation() const noexcept { return simulation_; }
+    const sim::Simulation& simulation() const noexcept { return growing_.simulation(); }
 
 private:
     sim::Scene scene_;
-    sim::Simulation simulation_;
+    app::GrowingSimulation growing_;
     std::uint64_t steps_ = 0;
 };
 

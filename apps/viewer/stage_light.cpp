@@ -66,6 +66,7 @@ StageLight lightFor(const sim::Scene& scene, const Camera& camera) {
     light.bounds.extend(Vector3(light.bounds.max() + Vector3(room, 0.5f * room, room)));
     const float azimuth = camera.azimuth + keyAzimuth, level = std::cos(keyElevation);
     for (const sim::Skin& skin : scene.skins) light.gloss.push_back(glossOf(scene, skin));
+    light.balls = ballsOf(scene);
     light.toLight = {level * std::sin(azimuth), std::sin(keyElevation), level * std::cos(azimuth)};
     return light;
 }

@@ -2,6 +2,7 @@
 // that shadows do not swim as bodies move.
 #pragma once
 
+#include "viewer/balls.hpp"
 #include "viewer/camera.hpp"
 #include "viewer/frame.h"
 
@@ -12,6 +13,7 @@ struct StageLight {
     std::optional<float> ground;        ///< its height [m]; none = no floor is drawn
     Vector3 toLight = Vector3::UnitY(); ///< unit direction to the key light
     std::vector<float> gloss;           ///< of each skin: 1 moist tissue, less for cloth
+    BallList balls;                     ///< what is drawn of bodies that have none
 
     float radius() const { return 0.5f * bounds.diagonal().norm(); }
 };

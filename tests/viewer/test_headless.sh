@@ -32,6 +32,28 @@ cmp every/frame_0010.png listed/frame_0010.png || fail "a picture depends on whi
 cmp every/frame_0030.png listed/frame_0030.png || fail "a picture depends on which others are taken"
 cmp -s every/frame_0000.png every/frame_0030.png && fail "nothing has moved"
 
+# A step without room for its contacts is done again, and no picture shows the state before.
+balls='name = "balls"
+[solver]
+substeps = 8
+[[particles]]
+radius = 0.05
+count = [4, 4, 4]
+jitter = 0.005
+center = [0, 0.3, 0]
+[[plane]]
+'
+printf '%s[contacts]\nroom = 64\n' "$balls" >roomy.toml
+printf '%s[contacts]\nroom = 1\n' "$balls" >tight.toml
+expect 0 roomy.toml --headless --frames 24 --every 3 --size 160x100 --out roomy --validation
+grep -q validation err && fail "validation messages"
+expect 0 tight.toml --headless --frames 24 --every 3 --size 160x100 --out tight --validation
+grep -q validation err && fail "validation messages"
+for picture in roomy/*.png; do
+    cmp -s "$picture" tight/"${picture##*/}" || fail "$picture depends on the room at first"
+done
+cmp -s roomy/frame_0000.png roomy/frame_0024.png && fail "no ball has moved"
+
 # Far too much over-relaxation.
 printf '[solver]\nname = "jacobi"\nsubsteps = 1\niterations = 200\nover_relaxation = 1.99\nweight = 1\n[[cloth]]\nname = "fuse"\nsize = [16, 16]\nspacing = 1\npinned = ["first_row"]\n' >bomb.toml
 expect 7 bomb.toml --headless --frames 100000 --every 100000 --size 64x64 --out bomb

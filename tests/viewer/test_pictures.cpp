@@ -89,6 +89,36 @@ TEST(Picture, ShowsTheBodyInItsColorInFrontOfAQuietBackground) {
     EXPECT_GT(brightness(corner), 300) << "and bright";
 }
 
+TEST(Picture, ShowsABodyWithoutASkinAsLitBallsThatCastShadows) {
+    const auto ballAt = [](float height) {
+        sim::Scene scene;
+        sim::addParticles(
+            scene,
+            {.center = {0, height, 0}, .count = {1, 1, 1}, .radius = 0.3f, .color = {0.70f, 0.12f, 0.10f}});
+        scene.planes.push_back({});
+        return scene;
+    };
+    const sim::Scene scene = ballAt(0.3f);
+    Camera camera = viewOf(scene);
+    camera.distance *= 2;
+    Shot shot(scene, camera);
+    const Picture picture = shot.take();
+    EXPECT_GT(redness(colorAt(picture, camera, {0, 0.6f, 0})), 40) << "its top";
+    const Vector3 toLight = 0.3f * shot.light.toLight + Vector3(0, 0.3f, 0),
+                  away(-toLight.x(), 0.3f, -toLight.z());
+    EXPECT_GT(brightness(colorAt(picture, camera, toLight)), brightness(colorAt(picture, camera, away)));
+    EXPECT_LT(redness(colorAt(picture, camera, {0.45f, 0.1f, 0})), 25) << "beside it";
+    const Vector3 level = Vector3(shot.light.toLight.x(), 0, shot.light.toLight.z()).normalized();
+    EXPECT_LT(brightness(colorAt(picture, camera, -0.35f * level)),
+              0.75f * static_cast<float>(brightness(colorAt(picture, camera, 1.2f * level))));
+    const sim::Scene high = ballAt(1.3f);
+    Shot falling(high, viewOf(high));
+    const Vector3 start(0, 1.4f, 0);
+    EXPECT_GT(redness(colorAt(falling.take(), falling.camera, start)), 40);
+    for (int i = 0; i < 6; ++i) falling.take(4);
+    EXPECT_LT(redness(colorAt(falling.take(), falling.camera, start)), 25) << "drawn where the particle is";
+}
+
 TEST(Picture, IsDarkerOnTheGroundBesideTheBodyThanFarFromIt) {
     const sim::Scene scene = block(0, true);
     Camera camera = viewOf(scene);

@@ -1,0 +1,50 @@
+// Bodies without a skin (loose particles, chains) are shown as a ball a particle: which ones, how large, and
+// the mesh of one ball, which is drawn where the simulation has the particles.
+#pragma once
+
+#include "sim/scene.hpp"
+#include "vk/buffer.hpp"
+
+namespace sinew::viewer {
+
+/// Of one body, in the order of the scene.
+struct BallRange {
+    std::uint32_t first = 0, count = 0; ///< particles
+    sim::Vec3 color;                    ///< linear RGB
+};
+
+struct BallList {
+    std::vector<BallRange> ranges; ///< empty = every body has a skin
+    std::vector<float> radii;      ///< of every particle of the scene [m]
+};
+
+/// A particle is as large as where it touches others; where it touches none, balls of linked ones nearly
+/// meet.
+BallList ballsOf(const sim::Scene& scene);
+
+/// A ball of radius 1 in triangles, counter-clockwise seen from outside: an icosahedron of which every
+/// triangle was cut in four `cuts` times.
+struct BallMesh {
+    std::vector<std::array<float, 4>> corners;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+BallMesh makeBall(std::uint32_t cuts);
+
+/// The buffers of a BallList; without ranges it has none. Must not outlive its Device.
+class Balls {
+public:
+    Balls(const vk::Device& device, const BallList& list);
+
+    const std::vector<BallRange>& ranges() const noexcept { return ranges_; }
+    /// Binds vertices (binding 0), positions (1) and radii (2), and indices. Only where there are ranges().
+    void bind(VkCommandBuffer commands, const vk::BufferView& positions) const noexcept;
+    void draw(VkCommandBuffer commands, const BallRange& range) const noexcept;
+
+private:
+    const vk::Device& device_;
+    std::vector<BallRange> ranges_;
+    std::vector<vk::Buffer> buffers_; // corners, radii, triangles
+    std::uint32_t indexCount_ = 0;
+};
+
+} // namespace sinew::viewer

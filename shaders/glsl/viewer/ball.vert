@@ -1,0 +1,16 @@
+#version 460
+// Particles of bodies without a skin: one unit ball, placed and scaled an instance.
+#extension GL_GOOGLE_include_directive : require
+#include "viewer/frame.glsl"
+
+layout(location = 0) in vec4 corner; // on the unit ball
+layout(location = 1) in vec4 center; // public position of a particle
+layout(location = 2) in float radius;
+layout(location = 0) out vec3 worldPosition;
+layout(location = 1) out vec3 worldNormal;
+
+void main() {
+    worldPosition = center.xyz + radius * corner.xyz;
+    worldNormal = corner.xyz;
+    gl_Position = frame.clipFromWorld * vec4(worldPosition, 1.0);
+}

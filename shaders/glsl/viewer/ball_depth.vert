@@ -1,0 +1,13 @@
+#version 460
+// Balls into the two maps, as depth.vert does with skins.
+#extension GL_GOOGLE_include_directive : require
+#include "viewer/frame.glsl"
+
+layout(constant_id = 3) const bool isPlan = false;
+layout(location = 0) in vec4 corner;
+layout(location = 1) in vec4 center;
+layout(location = 2) in float radius;
+
+void main() {
+    gl_Position = (isPlan ? frame.planFromWorld : frame.shadowFromWorld) * vec4(center.xyz + radius * corner.xyz, 1.0);
+}
