@@ -5,6 +5,7 @@
 #include "scenes/load.hpp"
 #include "sim/compile.hpp"
 #include "sim/gpu_tune.hpp"
+#include "sinew/bench_clutter.hpp"
 #include "sinew/bench_kernels.hpp"
 #include "sinew/commands.hpp"
 #include "sinew/json.hpp"
@@ -226,11 +227,16 @@ int bench(const BenchOptions& options) {
         for (Json& row : measureScene(scene, session, options.seconds))
             report["rows"].push_back(std::move(row));
     }
+    Json clutter = Json::array();
+    if ((options.scene == "all" || options.scene == "clutter") && !app::isInterrupted())
+        clutter = measureClutter(session, options.seconds, options.hasPeers);
     if (options.hasPeers) report["peers"] = comparePeers(options.scene, session);
+    std::string text = report["rows"].empty() ? std::string() : table(report["rows"]);
+    if (!clutter.empty()) text += clutterTable(clutter);
+    if (options.hasPeers && !report["peers"].empty()) text += peersTable(report["peers"]);
+    for (Json& row : clutter) report["rows"].push_back(std::move(row));
     if (json) json->write(dump(report));
-    if (options.json != "-")
-        TextOutput("-").write(table(report["rows"]) +
-                              (options.hasPeers ? peersTable(report["peers"]) : std::string()));
+    if (options.json != "-") TextOutput("-").write(text);
     return app::isInterrupted() ? app::interrupted : app::done;
 }
 
@@ -241,14 +247,15 @@ void addBench(CLI::App& app, Chosen& chosen) {
         "bench", "time the solvers on the shipped scenes: sequential on the CPU, the others on the device");
     const auto options = std::make_shared<BenchOptions>();
     command.add_option("--scene", options->scene)
-        ->check(CLI::IsMember({"cloth", "cube", "all"}))
+        ->check(CLI::IsMember({"cloth", "cube", "clutter", "all"}))
         ->capture_default_str();
     command.add_option("--seconds", options->seconds, "to measure, per scene")
         ->check(CLI::Range(0.01, 3600.0))
         ->capture_default_str();
-    command.add_flag(
-        "--peers", options->hasPeers,
-        "also compare with Bullet's soft bodies at equal error on elastic scenes (takes minutes)");
+    command.add_flag("--peers", options->hasPeers,
+                     "also compare with Bullet: its soft bodies at equal error on elastic scenes, its rigid "
+                     "spheres on the "
+                     "clutter (takes minutes)");
     command
         .add_flag("--kernels", options->hasKernels,
                   "instead: what a substep of split costs on bodies of many sizes")

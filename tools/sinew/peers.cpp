@@ -9,6 +9,7 @@
 #include "sim/compile.hpp"
 #include "sim/validate.hpp"
 #include "sinew/bullet_body.hpp"
+#include "sinew/clutter/bullet.hpp"
 #include "sinew/runner.hpp"
 #include "sinew/statistics.hpp"
 #include "sinew/study/analysis.hpp"
@@ -240,6 +241,11 @@ Json compare(Session& session, const sim::Scene& scene, std::uint32_t mostSweeps
 } // namespace
 
 void requirePeers() {}
+
+ClutterEntrant bulletClutter(const sim::Scene& scene, std::uint32_t substeps, std::uint32_t iterations) {
+    return onCpu("bullet", std::make_shared<clutter::Bullet>(clutter::ballsOf(scene, substeps, iterations)),
+                 substeps, iterations);
+}
 
 Json comparePeers(const std::string& scene, Session& session) {
     Json comparisons = Json::array();

@@ -16,6 +16,11 @@ Json comparePeers(const std::string&, Session&) {
     return {};
 }
 
+ClutterEntrant bulletClutter(const sim::Scene&, std::uint32_t, std::uint32_t) {
+    requirePeers();
+    return {};
+}
+
 std::string peersTable(const Json&) {
     return {};
 }
