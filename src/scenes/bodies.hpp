@@ -23,5 +23,6 @@ void addBox(LoadedScene& loaded, const Section& box);
 void addMesh(LoadedScene& loaded, const Section& mesh, const Source& source, std::optional<float> voxel);
 void addParticles(LoadedScene& loaded, const Section& particles);
 void addPlane(LoadedScene& loaded, const Section& plane);
+void addCollider(LoadedScene& loaded, const Section& collider);
 
 } // namespace sinew::scenes

@@ -82,6 +82,7 @@ void readBodies(LoadedScene& loaded, const Section& top, const Source& source, s
     if (loaded.scene.bodies.empty())
         fail(source.file, "has no body", "add [[cloth]], [[chain]], [[box]], [[mesh]] or [[particles]]");
     for (const Section& plane : top.list("plane")) addPlane(loaded, plane);
+    for (const Section& collider : top.list("collider")) addCollider(loaded, collider);
 }
 
 void warnAboutSize(const sim::Body& body, LoadedScene& loaded) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace sinew::scenes {
@@ -16,6 +17,7 @@ using sim::Range;
 constexpr Range coordinate{-1e6, 1e6};
 constexpr Range direction{-1, 1};
 constexpr Range length{.low = 0, .high = 1e6, .isLowOpen = true};
+constexpr Range reach{0, 1e6}, moment{0, 1e6};
 constexpr Range density{.low = 0, .high = 1e6, .isLowOpen = true};
 constexpr Range stiffness{.low = 0, .high = 1e15, .isLowOpen = true};
 constexpr Range membrane{0, 1e15}, bending{0, 1e6}, tethers{0, 8};
@@ -57,6 +59,7 @@ constexpr Key keys[] = {
     {"", "mesh", Kind::tables, "", {}, "", "triangle meshes filled with voxels"},
     {"", "particles", Kind::tables, "", {}, "", "loose particles that touch each other"},
     {"", "plane", Kind::tables, "", {}, "", "half spaces that particles stay in"},
+    {"", "collider", Kind::tables, "", {}, "", "spheres, capsules and boxes that particles stay out of, still or moving"},
     {"", "contacts", Kind::table, "", {}, "", "how particles touch each other"},
     {"", "camera", Kind::table, "", {}, "", "where a picture is taken from"},
 
@@ -155,6 +158,24 @@ constexpr Key keys[] = {
     {"plane", "friction", Kind::number, "", ranges::friction, "0", "Coulomb's coefficient"},
     {"plane", "restitution", Kind::number, "", ranges::restitution, "0", "0 = no rebound, 1 = elastic"},
 
+    {"collider", "shape", Kind::text, "", {}, "", "sphere, capsule or box", true},
+    {"collider", "center", Kind::vector, "m", coordinate, "[0, 0, 0]", "where its middle is"},
+    {"collider", "rotation", Kind::vector, "degrees", angle, "[0, 0, 0]", "about x, then y, then z, around the middle"},
+    {"collider", "radius", Kind::number, "m", length, "", "of a sphere; of a capsule and its round ends"},
+    {"collider", "length", Kind::number, "m", reach, "", "of a capsule, along its y, without its round ends"},
+    {"collider", "size", Kind::vector, "m", length, "", "of a box, from side to side"},
+    {"collider", "margin", Kind::number, "m", reach, "0", "kept from the surface, as for half the thickness of a cloth"},
+    {"collider", "friction", Kind::number, "", ranges::friction, "0", "Coulomb's coefficient of what slides"},
+    {"collider", "static_friction", Kind::number, "", ranges::friction, "", "of what does not slide yet; as much as friction where it is missing or less"},
+    {"collider", "restitution", Kind::number, "", ranges::restitution, "0", "0 = no rebound, 1 = elastic"},
+    {"collider", "keyframe", Kind::tables, "", {}, "", "where it is at given times; stands still without them"},
+    {"collider", "path_end", Kind::text, "", {}, "\"hold\"", "after the last keyframe: \"hold\" stays there, \"loop\" begins anew with the first, which must be in the same place"},
+    {"collider", "color", Kind::vector, "", ranges::color, "[0.45, 0.45, 0.48]", "linear red, green and blue"},
+
+    {"collider.keyframe", "time", Kind::number, "s", moment, "", "since the simulation began; later than the keyframe before", true},
+    {"collider.keyframe", "center", Kind::vector, "m", coordinate, "", "where the middle then is; that of the collider where it is missing"},
+    {"collider.keyframe", "rotation", Kind::vector, "degrees", angle, "", "as that of the collider, which counts where it is missing; at most 170 from one keyframe to the next"},
+
     {"camera", "eye", Kind::vector, "m", coordinate, "[1.2, 0.8, 1.6]", "where the camera stands"},
     {"camera", "target", Kind::vector, "m", coordinate, "[0, 0.2, 0]", "what it looks at"},
     {"camera", "field_of_view", Kind::number, "degrees", view, "40", "vertical opening"},
@@ -177,6 +198,13 @@ const Key* findKey(std::string_view section, std::string_view name) {
     const auto found = std::ranges::find_if(
         keys, [&](const Key& key) { return key.section == section && key.name == name; });
     return found == std::end(keys) ? nullptr : &*found;
+}
+
+std::string_view sectionOf(std::string_view section, std::string_view name) {
+    const std::string full = (section.empty() ? "" : std::string(section) + ".") + std::string(name);
+    const auto found = std::ranges::find(keys, full, &Key::section);
+    if (found == std::end(keys)) throw std::logic_error("no scene table is called " + full);
+    return found->section;
 }
 
 const Key& nearestKey(std::string_view section, std::string_view name) {

@@ -35,7 +35,7 @@ struct KindRule {
 const KindRule& ruleOf(Kind kind);
 
 struct Key {
-    std::string_view section; ///< "" = top level
+    std::string_view section; ///< "" = top level; of a table in a table "outer.inner"
     std::string_view name;
     Kind kind = Kind::number;
     std::string_view unit;
@@ -49,6 +49,9 @@ std::span<const Key> schema();
 
 /// Null where the section has no such key.
 const Key* findKey(std::string_view section, std::string_view name);
+
+/// The section of the table `name` in a section, as the schema holds it.
+std::string_view sectionOf(std::string_view section, std::string_view name);
 
 /// The key of the section whose spelling is nearest to `name`.
 const Key& nearestKey(std::string_view section, std::string_view name);

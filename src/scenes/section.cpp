@@ -212,16 +212,16 @@ std::vector<std::string> Section::names(std::string_view name) const {
 std::vector<Section> Section::list(std::string_view name) const {
     std::vector<Section> result;
     const toml::array* tables = table_.get_as<toml::array>(name);
-    const std::string_view section = findKey(section_, name)->name;
+    const std::string_view section = sectionOf(section_, name);
     for (std::size_t i = 0; tables && i < tables->size(); ++i)
         result.emplace_back(*tables->get(i)->as_table(), section,
-                            std::string(name) + "[" + std::to_string(i) + "]", file_);
+                            fullName(name) + "[" + std::to_string(i) + "]", file_);
     return result;
 }
 
 Section Section::child(std::string_view name) const {
     const toml::table* table = table_.get_as<toml::table>(name);
-    return {table ? *table : emptyTable, findKey(section_, name)->name, std::string(name), file_};
+    return {table ? *table : emptyTable, sectionOf(section_, name), fullName(name), file_};
 }
 
 } // namespace sinew::scenes

@@ -3,6 +3,10 @@
 
 #include "sim/validate.hpp"
 
+#include <cmath>
+#include <utility>
+#include <vector>
+
 using namespace sinew;
 namespace fs = std::filesystem;
 using test::smallCloth;
@@ -14,7 +18,7 @@ class Load : public test::LoadFixture {};
 } // namespace
 
 TEST_F(Load, ReadsEveryShippedScene) {
-    for (const char* name : {"cloth", "cube", "organ"}) {
+    for (const char* name : {"cloth", "cube", "organ", "cloth_on_sphere"}) {
         const scenes::LoadedScene loaded =
             scenes::load(fs::path(SINEW_SOURCE_FOLDER "/scenes") / (std::string(name) + ".toml"));
         EXPECT_EQ(loaded.scene.name, name);
@@ -240,6 +244,68 @@ TEST_F(Load, RefusesVolumesThatItCannotCompute) {
     expectError(atHome + "[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\nvoxel = 0.2\n"
                          "center = [1e6, 0, 0]\nrecovery = 2\n",
                 "scene.toml:11: mesh[0].recovery cannot be had: ");
+}
+
+TEST_F(Load, TakesEveryNumberOfACollider) {
+    const std::string common = "center = [1, 2, 3]\nmargin = 0.01\nfriction = 0.25\nstatic_friction = 0.5\n"
+                               "restitution = 0.75\ncolor = [0.1, 0.2, 0.3]\nrotation = [0, 90, 0]\n";
+    const sim::Scene scene =
+        load(smallCloth + "[[collider]]\nshape = \"sphere\"\nradius = 0.5\n" + common +
+             "[[collider]]\nshape = \"capsule\"\nradius = 0.5\nlength = 3\npath_end = \"loop\"\n"
+             "[[collider.keyframe]]\ntime = 1\n[[collider.keyframe]]\ntime = 2\ncenter = [0, 1, 0]\n"
+             "rotation = [0, 0, 90]\n[[collider.keyframe]]\ntime = 3\n"
+             "[[collider]]\nshape = \"box\"\nsize = [2, 4, 6]\n")
+            .scene;
+    ASSERT_EQ(scene.colliders.size(), 3u);
+    const sim::Collider &sphere = scene.colliders[0], &capsule = scene.colliders[1],
+                        &box = scene.colliders[2];
+    EXPECT_EQ(sphere.shape, sim::ColliderShape::sphere);
+    EXPECT_EQ(sphere.radius, 0.5f);
+    EXPECT_EQ(sphere.pose.position.z, 3);
+    EXPECT_FLOAT_EQ(sphere.pose.rotation.y, std::sqrt(0.5f));
+    EXPECT_FLOAT_EQ(sphere.pose.rotation.w, std::sqrt(0.5f));
+    EXPECT_EQ(sphere.margin, 0.01f);
+    EXPECT_EQ(sphere.friction, 0.25f);
+    EXPECT_EQ(sphere.staticFriction, 0.5f);
+    EXPECT_EQ(sphere.restitution, 0.75f);
+    EXPECT_EQ(sphere.color.y, 0.2f);
+    EXPECT_TRUE(sphere.path.empty());
+    EXPECT_EQ(capsule.shape, sim::ColliderShape::capsule);
+    EXPECT_EQ(capsule.halfLength, 1.5f);
+    EXPECT_EQ(capsule.pathEnd, sim::PathEnd::loop);
+    ASSERT_EQ(capsule.path.size(), 3u);
+    EXPECT_EQ(capsule.path[1].time, 2);
+    EXPECT_EQ(capsule.path[1].pose.position.y, 1);
+    EXPECT_FLOAT_EQ(capsule.path[1].pose.rotation.z, std::sqrt(0.5f));
+    EXPECT_EQ(capsule.path[2].pose.position.y, 0);
+    EXPECT_EQ(box.shape, sim::ColliderShape::box);
+    EXPECT_EQ(box.halfExtents.z, 3);
+}
+
+TEST_F(Load, RefusesCollidersThatAreNone) {
+    const std::string head = smallCloth + "[[collider]]\n", key = "[[collider.keyframe]]\n";
+    const std::string ball = head + "shape = \"sphere\"\nradius = 1\n";
+    for (const auto& [text, error] : std::vector<std::pair<std::string, std::string>>{
+             {head, "scene.toml:4: collider[0].shape is missing"},
+             {head + "shape = \"cube\"\n",
+              "scene.toml:5: collider[0].shape is \"cube\": possible are sphere, capsule, box"},
+             {head + "shape = \"sphere\"\n",
+              "scene.toml:4: collider[0].radius is missing: a sphere needs it"},
+             {head + "shape = \"capsule\"\nradius = 1\n", "scene.toml:4: collider[0].length is missing"},
+             {head + "shape = \"box\"\n", "scene.toml:4: collider[0].size is missing"},
+             {ball + "size = [1, 1, 1]\n", "scene.toml:7: collider[0].size is given: a sphere has none"},
+             {head + "shape = \"box\"\nsize = [1, 0, 1]\n", "scene.toml:6: collider[0].size is 0 m, must be"},
+             {ball + "path_end = \"stop\"\n", "scene.toml:7: collider[0].path_end is \"stop\""},
+             {ball + "speed = 1\n", "scene.toml:7: unknown key collider[0].speed"},
+             {ball + key, "scene.toml:7: collider[0].keyframe[0].time is missing"},
+             {ball + key + "time = 1\nradius = 2\n",
+              "scene.toml:9: unknown key collider[0].keyframe[0].radius"},
+             {ball + key + "time = 0\n" + key + "time = 1\nrotation = [0, 180, 0]\n",
+              "scene.toml:11: collider[0].keyframe[1].rotation is more than 170 degrees"},
+             {ball + key + "time = 1\n" + key + "time = 1\n", "scene.toml: collider[0].path[1].time: is 1"},
+             {ball + "path_end = \"loop\"\n" + key + "time = 0\n" + key + "time = 1\ncenter = [1, 0, 0]\n",
+              "scene.toml: collider[0].path: loops, but"}})
+        expectError(text, error);
 }
 
 TEST_F(Load, RefusesPlanesWithoutUnitNormal) {

@@ -43,7 +43,11 @@ std::string rowOf(const Key& key) {
 /// The part of the documentation from a section's heading to the next one.
 std::string partOf(const std::string& text, const Key& key) {
     std::string heading = "\n## Top level\n";
-    if (const Key* table = scenes::findKey("", key.section); table && !key.section.empty()) {
+    const std::size_t dot = key.section.rfind('.'); // of a table in a table
+    const bool isInner = dot != std::string_view::npos;
+    const std::string_view outer = isInner ? key.section.substr(0, dot) : "";
+    const Key* table = scenes::findKey(outer, isInner ? key.section.substr(dot + 1) : key.section);
+    if (table && !key.section.empty()) {
         const std::string name(key.section);
         heading = table->kind == scenes::Kind::tables ? "\n## [[" + name + "]]\n" : "\n## [" + name + "]\n";
     }

@@ -183,6 +183,18 @@ TEST(Overlap, SurvivesAStateThatIsNoLongerFinite) {
     EXPECT_EQ(tools::overlapOf(scene, state)->max, 0);
 }
 
+TEST(Penetration, IsCountedWhereACollidersPathHasLedIt) {
+    sim::Scene scene = twoLinks();
+    scene.dt = 0.1f;
+    scene.colliders = {{.radius = 0.5f, .margin = 0.125f, .path = {{0, {{50, 0, 0}}}, {1, {}}}}};
+    const State state = stateOf(scene);
+    const sim::Vec3 x{state.positions[0][0], state.positions[0][1], state.positions[0][2]};
+    scene.colliders[0].path[1].pose.position = {x.x, x.y + 0.25f, x.z};
+    EXPECT_EQ(tools::measure(scene, state, {}, 0).penetrationMax.value(), 0);
+    EXPECT_NEAR(tools::measure(scene, state, {}, 10).penetrationMax.value(), 0.375, 1e-6);
+    EXPECT_FALSE(tools::measure(scene, state, {}, 0).momentum.has_value());
+}
+
 TEST(StateHash, ChangesWithEveryBitAndOrder) {
     const State state = stateOf(twoLinks());
     EXPECT_EQ(tools::stateHash({}), 0xcbf29ce484222325u); // FNV-1a of nothing

@@ -1,6 +1,7 @@
 // All sums in double and in the scene's order, whatever the device did.
 #include "sinew/measure.hpp"
 
+#include "sim/colliders.hpp"
 #include "sinew/overlap.hpp"
 #include "sinew/skin_mesh.hpp"
 
@@ -63,7 +64,7 @@ Point across(const Point& v, const Point& gravity) {
 
 void measureMomentum(const sim::Scene& scene, const State& state, std::uint64_t frames, Errors& errors) {
     const bool isHeld =
-        !scene.planes.empty() || !scene.fixed.empty() ||
+        !scene.planes.empty() || !scene.colliders.empty() || !scene.fixed.empty() ||
         std::ranges::any_of(scene.particles, [](const sim::Particle& p) { return p.inverseMass == 0; });
     if (isHeld || scene.particles.empty()) return;
     Point before{}, after{};
@@ -81,11 +82,29 @@ void measureMomentum(const sim::Scene& scene, const State& state, std::uint64_t 
     errors.momentum = scale > 0 ? length(change) / scale : 0;
 }
 
-void measurePenetration(const sim::Scene& scene, const State& state, Errors& errors) {
+/// How deep a particle is in any collider after that time [s].
+double depthInColliders(const sim::Scene& scene, const State& state, double time) {
+    double deepest = 0;
+    for (const sim::Collider& collider : scene.colliders) {
+        const sim::Pose pose = sim::poseAt(collider, time);
+        for (std::size_t i = 0; i < scene.particles.size(); ++i) {
+            const auto& x = state.positions[i];
+            if (x[3] == 0) continue;
+            const double gap = sim::gapTo(collider, pose, {x[0], x[1], x[2]});
+            deepest =
+                std::max(deepest, double{scene.particles[i].contactOffset} + double{collider.margin} - gap);
+        }
+    }
+    return deepest;
+}
+
+void measurePenetration(const sim::Scene& scene, const State& state, std::uint64_t frames, Errors& errors) {
     const std::optional<Overlap> overlap = overlapOf(scene, state);
     if (overlap) errors.penetrationRms = overlap->rms;
-    if (scene.planes.empty() && !overlap) return;
+    if (scene.planes.empty() && scene.colliders.empty() && !overlap) return;
     double deepest = overlap ? overlap->max : 0;
+    deepest =
+        std::max(deepest, depthInColliders(scene, state, double{scene.dt} * static_cast<double>(frames)));
     for (const sim::Plane& plane : scene.planes) {
         for (std::size_t i = 0; i < scene.particles.size(); ++i) {
             if (state.positions[i][3] == 0) continue; // fixed: no plane moves it
@@ -105,7 +124,7 @@ Errors measure(const sim::Scene& scene, const State& state, std::span<const mesh
     measureStrain(scene, state, errors);
     measureVolume(scene, skins, errors);
     measureMomentum(scene, state, frames, errors);
-    measurePenetration(scene, state, errors);
+    measurePenetration(scene, state, frames, errors);
     return errors;
 }
 

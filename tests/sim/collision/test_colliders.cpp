@@ -1,7 +1,9 @@
 // Spheres, capsules and boxes that stand still, on the device: rest, restitution and friction (analytic cases
 // 16 to 18 on their surfaces), what is fast, and what begins inside.
+#include "sim/bodies.hpp"
 #include "sim/collision/collider_shapes.hpp"
 #include "sim/compile.hpp"
+#include "sim/reference/reference.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
 
@@ -10,6 +12,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <stdexcept>
 
 using namespace sinew;
 using namespace sinew::sim;
@@ -403,6 +406,16 @@ TEST(Colliders, CompileToWhatTheyNeed) {
     EXPECT_TRUE(test::usesKernel(scene, "place_colliders"));
 }
 
+// A body that stays in shared memory through a step would miss what comes between substeps.
+TEST(Colliders, KeepBodiesOutOfSharedMemory) {
+    Scene scene = test::block(3, 0.1f, 1e5f);
+    const Settings settings{.forms = {.residentBytes = 16384}};
+    EXPECT_TRUE(test::usesKernel(scene, "resident_lattice", settings));
+    scene.colliders = {sphere(0.1, {0, -1, 0})};
+    EXPECT_FALSE(test::usesKernel(scene, "resident_lattice", settings));
+    EXPECT_TRUE(test::usesKernel(scene, "solve_colliders", settings));
+}
+
 // `split` has other passes where particles touch each other: colliders still have the last word.
 TEST(Colliders, KeepOutParticlesThatTouchEachOther) {
     Scene scene;
@@ -427,6 +440,42 @@ TEST(Colliders, KeepOutParticlesThatTouchEachOther) {
         }
         EXPECT_EQ(test::hashOfRun(scene, {.substeps = 8, .isReversed = true}, 60), runner.stateHash());
     }
+}
+
+// As scenes/cloth_on_sphere.toml, coarser: neither particles nor the middles of triangles go in, by more than
+// a hundredth of the radius, and friction holds what has come to rest.
+TEST(ClothOnASphere, ComesToRestOutsideIt) {
+    constexpr double radius = 0.22;
+    Scene scene;
+    addCloth(scene, {.origin = {-0.5f, 0.75f, -0.5f}, .size = {26, 26}, .spacing = 0.04f});
+    scene.colliders = {sphere(radius, {0, 0.4, 0})};
+    scene.colliders[0].margin = 0.002f;
+    scene.colliders[0].friction = 0.4f;
+    scene.planes = {{.friction = 0.4f}};
+    scene.damping = 2;
+    test::Runner runner(scene, {.substeps = 24});
+    double deepest = 0;
+    for (int step = 0; step < 240; ++step) {
+        ASSERT_EQ(runner.run(1).nonFinite, 0u);
+        const std::vector<Vector3d> x = runner.positions();
+        for (const auto& [a, b, c] : scene.skins[0].triangles)
+            for (const Vector3d& point : {x[a], Vector3d((x[a] + x[b] + x[c]) / 3)})
+                deepest = std::max(deepest, -gapOf(scene.colliders[0], scene.colliders[0].pose, point));
+    }
+    RecordProperty("penetration", std::to_string(deepest / radius));
+    EXPECT_LE(deepest, 0.01 * radius);
+    double fastest = 0, highest = 0;
+    for (const Vector3d& v : runner.velocities()) fastest = std::max(fastest, v.norm());
+    for (const Vector3d& x : runner.positions()) highest = std::max(highest, x.y());
+    RecordProperty("speed", std::to_string(fastest));
+    EXPECT_LE(fastest, 0.1) << "m/s";
+    EXPECT_NEAR(highest, 0.4 + radius + 0.002, 5e-3) << "lies on the top";
+}
+
+TEST(Colliders, AreRefusedByTheReferencesInASentence) {
+    Scene scene = particleAt({0, 0, 0});
+    scene.colliders = {sphere(0.1, {0, -1, 0})};
+    EXPECT_THROW(reference::initialState(scene), std::invalid_argument);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Collided, testing::Values(Solver::jacobi, Solver::split, Solver::gaussSeidel),
