@@ -205,6 +205,7 @@ struct GridBounds {
 #define GRID_CELL_CHUNKS 2
 #define GRID_ONE_GROUP 3
 #define GRID_ARGUMENTS 4
+#define GRID_OTHERS 4 // only where there are others
 
 struct GridPush {
     uint count;  // of particles; whole work groups
@@ -212,6 +213,7 @@ struct GridPush {
     float edge;  // of a cell, at least [m]
     float most;  // radius in the grid [m]; particles with more are searched one by one
     float slack; // how far a particle may move before the grid is built again [m]
+    uint others; // items of further passes that run with a build; 0 = none
 };
 
 // Candidate s of particle i is element s * row + i, so that a longer list starts with a shorter one. Rows are a little longer
@@ -245,6 +247,43 @@ struct ContactPush {
 struct SurfacePair {
     float friction;
     float restitution;
+};
+
+// A triangle between particles that others touch.
+struct ContactFace {
+    uint a, b, c;
+    float thickness; // [m]
+};
+
+// Of all particles that may touch faces: those too wide or too fast for the grid are listed apart. Of all faces: those with
+// too much around them are listed as wide. Some devices end a kernel's loops silently at 65,535 turns in all.
+struct FacePoints {
+    uint apart;  // how many points
+    uint widest; // radius and way in a substep of the others, at most; bits of a float [m]
+    uint wide;   // how many faces
+    uint unused0;
+};
+#define FACE_MOST_POINTS 20000 // that a face looks at itself
+#define FACE_MOST_WIDE 50000   // faces that a point looks at itself
+
+struct FaceFindPush {
+    uint points, searched; // particles; small faces; whole work groups
+    uint cells;            // of the grid
+    float edge;
+    float most;    // radius and way of a point that the grid is searched for [m]
+    float margin;  // beyond touching, up to which a pair is listed [m]
+    uint capacity; // faces near a point, and points near a face
+    uint row, faceRow; // elements from one to the next
+    uint limit;    // candidates after which counting stops
+    uint moving;   // faces before that one have a corner that moves
+    uint large;    // faces that every point is compared with, beside wide ones
+};
+
+struct FacePush {
+    uint count;   // of particles; whole work groups
+    uint row;     // elements of a point's list from one face to the next
+    uint faceRow; // of a face's list from one point to the next
+    float friction;
 };
 
 struct SubstepPush {

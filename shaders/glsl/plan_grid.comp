@@ -17,6 +17,7 @@ void main() {
     arguments[GRID_PARTICLE_CHUNKS] = DispatchArguments(whole * groupsOf(particleChunks), 1u, 1u, 0u);
     arguments[GRID_CELL_CHUNKS] = DispatchArguments(whole * groupsOf(push.cells / GRID_CHUNK), 1u, 1u, 0u);
     arguments[GRID_ONE_GROUP] = DispatchArguments(whole, 1u, 1u, 0u);
+    if (push.others > 0u) arguments[GRID_OTHERS] = DispatchArguments(whole * groupsOf(push.others), 1u, 1u, 0u);
     if (whole == 0u) return;
     bounds = GridBounds(~0u, ~0u, ~0u, 0u, 0u, 0u, 0u, bounds.builds + 1u);
 }

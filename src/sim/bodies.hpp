@@ -21,7 +21,11 @@ struct ClothSheet {
     /// both compliances in place of those above. 0 = as they say.
     float membraneStiffness = 0;
     float skipStiffness = 0; ///< of links two apart in a row or column, which resist folding [N/m]; 0 = none
-    float bendingStiffness = 0;        ///< of rows and columns [N m]; 0 = no bends. Twist has none
+    float bendingStiffness = 0; ///< of rows and columns [N m]; 0 = no bends. Twist has none
+    /// Of the sheet where it touches particles, faces and itself: particles get half of it as radius and
+    /// contact offset, triangles as thickness. Best below `spacing`, and above a fifth of it: only points and
+    /// triangles are kept apart, not two edges. 0 = touches nothing but planes. [m]
+    float thickness = 0;
     std::uint32_t tethers = 0;         ///< of a particle, to the nearest pinned ones
     float radius = 0;                  ///< of a particle that others touch [m], at most half of the spacing
     std::vector<std::uint32_t> pinned; ///< particles (row-major within the sheet) held where they are
@@ -31,6 +35,21 @@ struct ClothSheet {
 /// Appends particles, constraints, a body, a grid and a two-sided skin. Returns the index of the first
 /// particle.
 std::uint32_t addCloth(Scene& scene, const ClothSheet& sheet);
+
+/// A triangle mesh that never moves, which particles with a radius touch from both sides, and whose vertices
+/// touch faces that move.
+struct MeshCollider {
+    std::string name = "collider";
+    std::vector<Vec3> vertices; ///< [m]
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    float thickness = 0; ///< what particles keep from it beside their radius [m]
+    Vec3 color{0.55f, 0.53f, 0.5f};
+};
+
+/// Appends a particle for each vertex, a face for each triangle with three corners, a body and a skin.
+/// Returns the index of the first particle. Throws std::invalid_argument for a triangle without such a
+/// vertex.
+std::uint32_t addMeshCollider(Scene& scene, const MeshCollider& mesh);
 
 /// Equal masses in a straight line, each linked to the next.
 struct Chain {

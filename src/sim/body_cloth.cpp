@@ -17,11 +17,16 @@ void check(const ClothSheet& sheet) {
         throw std::invalid_argument("cloth \"" + sheet.name + "\": spacing and areaDensity must be positive");
     if (!(sheet.skipStiffness >= 0))
         throw std::invalid_argument("cloth \"" + sheet.name + "\": skipStiffness must not be negative");
+    if (!(sheet.thickness >= 0))
+        throw std::invalid_argument("cloth \"" + sheet.name + "\": thickness must not be negative");
     if (!(sheet.membraneStiffness >= 0))
         throw std::invalid_argument("cloth \"" + sheet.name + "\": membraneStiffness must not be negative");
     if (!(sheet.radius >= 0 && sheet.radius <= sheet.spacing / 2))
         throw std::invalid_argument("cloth \"" + sheet.name +
                                     "\": radius must be from 0 to half of the spacing");
+    if (sheet.radius > 0 && sheet.thickness > 0)
+        throw std::invalid_argument("cloth \"" + sheet.name +
+                                    "\": has both radius and thickness, must have one of the two");
     const std::uint64_t count = std::uint64_t{sheet.size[0]} * sheet.size[1];
     if (count > std::numeric_limits<std::uint32_t>::max() / 8)
         throw std::length_error("cloth \"" + sheet.name + "\": too many particles");
@@ -62,8 +67,8 @@ void addParticles(Scene& scene, const ClothSheet& sheet) {
                               at(sheet, column, row, &Vec3::z)},
                  .velocity = {},
                  .inverseMass = static_cast<float>(1 / mass),
-                 .contactOffset = 0,
-                 .radius = sheet.radius});
+                 .contactOffset = sheet.thickness / 2,
+                 .radius = sheet.thickness > 0 ? sheet.thickness / 2 : sheet.radius});
         }
 }
 
@@ -145,6 +150,17 @@ Skin makeSkin(const ClothSheet& sheet, std::uint32_t first) {
     return skin;
 }
 
+void addFaces(Scene& scene, const ClothSheet& sheet, std::uint32_t first) {
+    if (sheet.thickness == 0) return;
+    const auto [columns, rows] = sheet.size;
+    for (std::uint32_t row = 0; row + 1 < rows; ++row)
+        for (std::uint32_t column = 0; column + 1 < columns; ++column) {
+            const std::uint32_t a = first + column + columns * row, b = a + 1, c = a + columns, d = c + 1;
+            scene.faces.push_back({{a, c, d}, sheet.thickness / 2});
+            scene.faces.push_back({{a, d, b}, sheet.thickness / 2});
+        }
+}
+
 } // namespace
 
 std::uint32_t addCloth(Scene& scene, const ClothSheet& asked) {
@@ -157,6 +173,7 @@ std::uint32_t addCloth(Scene& scene, const ClothSheet& asked) {
     addGrid(scene, sheet, first, firstDistance);
     addSkipLinks(scene, sheet, first);
     addBends(scene, sheet, first);
+    addFaces(scene, sheet, first);
     for (const std::uint32_t pinned : sheet.pinned) scene.fixed.push_back({first + pinned});
     addTethers(scene, {.first = first,
                        .count = sheet.size[0] * sheet.size[1],

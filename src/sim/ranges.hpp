@@ -51,7 +51,8 @@ inline constexpr Range pathTime{0, largest};                                    
 /// Every particle looks at all of them.
 inline constexpr std::size_t mostColliders = 64;
 inline constexpr Range recoverySpeed{.low = 0, .high = largest, .isLowOpen = true}; // [m/s]
-inline constexpr std::size_t mostSurfaces = 64; // a table of their pairs goes to the device
+inline constexpr std::size_t mostSurfaces = 64;    // a table of their pairs goes to the device
+inline constexpr std::size_t mostFaces = 1u << 29; // their corners are counted in 32 bits
 inline constexpr Range normalLength{1 - 1e-3, 1 + 1e-3};
 inline constexpr Range poissonRatio{0.25,
                                     double{0.49f}}; // of a lattice; below 1/4 its volume would be unstable

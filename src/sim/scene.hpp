@@ -49,7 +49,17 @@ struct Surface {
     float restitution = 0; ///< 0 (no rebound) to 1 (elastic)
 };
 
-/// How particles touch each other.
+/// A triangle that particles with a radius touch, from both sides: cloth, or with corners that never move a
+/// collider. Kept at the sum of radius and thickness; corners feel it by the weights of the place that is
+/// touched. A face and a particle of one linked body that are nearer than 1.05 times that at rest never
+/// touch, nor do a face and its corners. Where a face is at least as thick as a corner is wide, others touch
+/// the face instead of the corner. A face thinner than a thousandth of its length touches nothing.
+struct Face {
+    std::array<std::uint32_t, 3> particles{};
+    float thickness = 0; ///< from its middle [m]
+};
+
+/// How particles touch each other and faces.
 struct ContactSettings {
     float friction = 0;    ///< of all whose Particle::surface is 0; see Surface
     float restitution = 0; ///< likewise
@@ -212,6 +222,7 @@ struct Scene {
     std::vector<FixedConstraint> fixed;
     std::vector<Plane> planes;
     std::vector<Collider> colliders;
+    std::vector<Face> faces;
     ContactSettings contacts;
     std::vector<Body> bodies;
     std::vector<Grid> grids;
@@ -245,10 +256,12 @@ struct Settings {
     float overRelaxation = 1; ///< `jacobi`: second factor on that sum, below 4/3 with averaging
     float warmStart =
         0.9f; ///< `gauss_seidel`: most that a substep starts with of the multipliers of the last; 0 = cold
-    /// How much farther than touching particles are listed together, in median radii; lists are made again
-    /// when one may have moved half of that. Changes speed, but no result.
+    /// How much farther than touching particles are listed together, in median radii (with faces: or eighths
+    /// of a median face, if longer); lists are made again when one may have moved half of that. Changes
+    /// speed, but no result.
     float contactMargin = 0.5f;
-    std::uint32_t contactRoom = 24; ///< particles that may be listed with one, 1..256
+    /// Particles that may be listed with one, faces with a particle, particles with a face that moves; 1..256
+    std::uint32_t contactRoom = 24;
     Forms forms;
     /// False saves 16 bytes a particle: there is no buffer of public velocities, and a step that is undone
     /// leaves what it holds at rest.

@@ -3,6 +3,7 @@
 
 #include "layout.h"
 #include "sim/collision/collider_paths.hpp"
+#include "sim/collision/face_contacts.hpp"
 #include "sim/collision/particle_contacts.hpp"
 #include "sim/compile.hpp"
 #include "sim/constraints/attachment.hpp"
@@ -105,7 +106,7 @@ struct Simulation::State {
           budget(scene.dampingTime > 0 ? splitBudget(scene, settings) : SplitBudget{}),
           theta(settings.solver == Solver::split ? settings.theta : 0), omega(settings.omega),
           damping(scene.damping), substeps(settings.substeps),
-          hasContacts(collision::particle_contacts::areIn(scene)) {}
+          hasContacts(collision::particle_contacts::areIn(scene) || collision::face_contacts::areIn(scene)) {}
 
     layout::StepParams parameters(const Step& step, float dt) const {
         const float h = dt / static_cast<float>(substeps);

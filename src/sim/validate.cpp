@@ -2,6 +2,7 @@
 #include "sim/validate.hpp"
 
 #include "sim/collision/check_colliders.hpp"
+#include "sim/collision/face_contacts.hpp"
 #include "sim/collision/particle_contacts.hpp"
 #include "sim/coloring.hpp"
 #include "sim/compile.hpp"
@@ -261,11 +262,32 @@ void checkSurfaces(const ContactSettings& contacts, Complaints& complaints) {
               contacts.surfaces[i].restitution);
 }
 
+void checkFaces(const Scene& scene, Complaints& complaints) {
+    if (scene.faces.size() > ranges::mostFaces)
+        complaints.add("faces", "are " + number(scene.faces.size()) + ", at most " +
+                                    number(ranges::mostFaces) + " are possible");
+    for (std::size_t i = 0; i < scene.faces.size(); ++i) {
+        const auto [a, b, c] = scene.faces[i].particles;
+        for (const std::uint32_t corner : {a, b, c})
+            complaints.checkIndex(corner, scene.particles.size(), "particles",
+                                  [i] { return element("face", i) + ".particles"; });
+        if (a == b || b == c || c == a)
+            complaints.add(element("face", i), "particles " + number(a) + ", " + number(b) + " and " +
+                                                   number(c) + " are not three");
+        complaints.check(double{scene.faces[i].thickness}, ranges::radius,
+                         [i] { return element("face", i) + ".thickness"; });
+    }
+}
+
 // Contacts are not ignored where a solver cannot have them.
 void checkContacts(const Scene& scene, const Settings& settings, Complaints& complaints) {
     if (settings.solver != Solver::split && collision::particle_contacts::areIn(scene))
         complaints.add(std::string("solver ") + solverName(settings.solver) +
                            " has no form for particles that touch each other (Particle::radius)",
+                       "use split");
+    if (settings.solver != Solver::split && collision::face_contacts::areIn(scene))
+        complaints.add(std::string("solver ") + solverName(settings.solver) +
+                           " has no form for particles that touch faces (Scene::faces)",
                        "use split");
 }
 
@@ -425,6 +447,7 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings) 
     checkBends(scene, complaints);
     checkAttachments(scene, complaints);
     checkTethers(scene, complaints);
+    checkFaces(scene, complaints);
     if (complaints.isEmpty()) checkContacts(scene, settings, complaints);
     checkLinks(scene, settings, complaints);
     checkSurfaces(scene.contacts, complaints);

@@ -18,6 +18,9 @@ using Exclusions = std::vector<std::uint32_t>;
 /// particle [m]; below 0 = touches nothing.
 Exclusions excludedPairs(const Scene& scene, std::span<const float> radii, const StateLayout& layout);
 
+/// The smallest particle of each one's linked body.
+std::vector<std::uint32_t> linkedBodies(const Scene& scene);
+
 struct Request {
     std::span<const float> radii; ///< by state slot [m]; below 0 = touches nothing
     float margin = 0;             ///< M [m]

@@ -113,6 +113,10 @@ Exclusions listed(std::vector<Pair> pairs, const StateLayout& layout) {
 
 } // namespace
 
+std::vector<std::uint32_t> linkedBodies(const Scene& scene) {
+    return bodiesOf(scene.particles.size(), linkedPairs(scene));
+}
+
 Exclusions excludedPairs(const Scene& scene, std::span<const float> radii, const StateLayout& layout) {
     std::vector<Pair> pairs = linkedPairs(scene);
     if (pairs.empty()) return {};

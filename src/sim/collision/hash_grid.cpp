@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <string>
 #include <vector>
 
 namespace sinew::sim::collision::hash_grid {
@@ -42,32 +43,40 @@ Grid add(ProgramBuilder& program, const Request& request) {
     const float most = largestInGrid(request.radii);
     // Nowhere: so far away that the first watch finds everybody gone.
     const std::vector<layout::vec4> nowhere(count, {1e18f, 1e18f, 1e18f, 0});
+    const std::string name = request.name;
+    const std::uint32_t arguments = request.others > 0 ? GRID_OTHERS + 1 : GRID_ARGUMENTS;
     Grid grid{.push = {.count = static_cast<std::uint32_t>(count),
                        .cells = cells,
-                       .edge = 2 * most + request.margin,
+                       .edge = std::max(2 * most + request.margin, request.edge),
                        .most = most,
-                       .slack = request.slack},
+                       .slack = request.slack,
+                       .others = request.others},
               .usesTexels = request.usesTexels,
-              .radii = program.upload("contacts.radii", request.radii),
-              .bounds = program.scratch<layout::GridBounds>("grid.bounds", 1),
-              .arguments = program.scratch<layout::DispatchArguments>("grid.arguments", GRID_ARGUMENTS),
-              .counts = program.scratch<std::uint32_t>("grid.counts", cells),
-              .sums = program.scratch<std::uint32_t>("grid.sums", cells / GRID_CHUNK + 1),
-              .starts = program.scratch<std::uint32_t>("grid.starts", cells + 4),
-              .places = program.scratch<std::array<std::uint32_t, 2>>("grid.places", count),
-              .sorted = program.scratch<layout::vec4>("grid.sorted", count),
-              .detected = program.upload("grid.detected", nowhere)};
+              .radii = program.upload(request.radiiName, request.radii),
+              .bounds = program.scratch<layout::GridBounds>(name + ".bounds", 1),
+              .arguments = program.scratch<layout::DispatchArguments>(name + ".arguments", arguments),
+              .counts = program.scratch<std::uint32_t>(name + ".counts", cells),
+              .sums = program.scratch<std::uint32_t>(name + ".sums", cells / GRID_CHUNK + 1),
+              .starts = program.scratch<std::uint32_t>(name + ".starts", cells + 4),
+              .places = program.scratch<std::array<std::uint32_t, 2>>(name + ".places", count),
+              .sorted = program.scratch<layout::vec4>(name + ".sorted", count),
+              .detected = program.upload(name + ".detected", nowhere)};
     grid.particles = {grid.arguments, GRID_PARTICLES, grid.push.count};
     grid.particleChunks = {grid.arguments, GRID_PARTICLE_CHUNKS, (grid.push.count - 1) / GRID_CHUNK + 1};
     grid.cellChunks = {grid.arguments, GRID_CELL_CHUNKS, cells / GRID_CHUNK};
     grid.oneGroup = {grid.arguments, GRID_ONE_GROUP, GROUP_ITEMS};
+    grid.others = {grid.arguments, GRID_OTHERS, request.others};
     return grid;
 }
 
 void addBuild(ProgramBuilder& program, const Grid& grid, BufferId positions) {
-    namespace k = kernels;
-    program.dispatch(form(grid, k::watchMotion, k::watchMotionLoads), grid.push.count,
+    program.dispatch(form(grid, kernels::watchMotion, kernels::watchMotionLoads), grid.push.count,
                      {positions, grid.detected, grid.bounds}, grid.push);
+    addSort(program, grid, positions);
+}
+
+void addSort(ProgramBuilder& program, const Grid& grid, BufferId positions) {
+    namespace k = kernels;
     program.dispatch(k::planGrid, 1, {grid.bounds, grid.arguments}, grid.push);
     program.dispatchIndirect(form(grid, k::measureBounds, k::measureBoundsLoads), grid.particleChunks,
                              {positions, grid.radii, grid.bounds}, grid.push);

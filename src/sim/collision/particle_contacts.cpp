@@ -2,6 +2,7 @@
 #include "sim/collision/particle_contacts.hpp"
 
 #include "kernels.hpp"
+#include "sim/collision/face_contacts.hpp"
 #include "sim/collision/overlaps.hpp"
 #include "sim/ranges.hpp"
 
@@ -49,23 +50,23 @@ const vk::ShaderCode& form(const Contacts& contacts, const std::array<const vk::
 // By state slot; below 0 = touches nothing.
 std::vector<float> radiiOf(const Scene& scene, const StateLayout& layout) {
     std::vector<float> radii(layout.count, -1);
-    for (std::size_t i = 0; i < scene.particles.size(); ++i)
-        if (scene.particles[i].radius > 0) radii[layout.slot[i]] = scene.particles[i].radius;
+    const std::vector<float> loose = face_contacts::looseRadii(scene);
+    for (std::size_t i = 0; i < loose.size(); ++i)
+        if (loose[i] > 0) radii[layout.slot[i]] = loose[i];
     return radii;
 }
 
 float medianRadius(const Scene& scene) {
-    std::vector<float> radii;
-    for (const Particle& particle : scene.particles)
-        if (particle.radius > 0) radii.push_back(particle.radius);
+    std::vector<float> radii = face_contacts::looseRadii(scene);
+    std::erase_if(radii, [](float radius) { return radius <= 0; });
     std::ranges::nth_element(radii, radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2));
     return radii[radii.size() / 2];
 }
 
 contact_lists::Exclusions exclusionsOf(const Scene& scene, const StateLayout& layout) {
-    std::vector<float> radii;
-    for (const Particle& particle : scene.particles)
-        radii.push_back(particle.radius > 0 ? particle.radius : -1);
+    std::vector<float> radii = face_contacts::looseRadii(scene);
+    for (float& radius : radii)
+        if (radius <= 0) radius = -1;
     return contact_lists::excludedPairs(scene, radii, layout);
 }
 
@@ -199,8 +200,9 @@ void addGather(ProgramBuilder& program, const Contacts& contacts, const Particle
 bool areIn(const Scene& scene) {
     std::size_t wide = 0, moving = 0;
     const std::vector<float> inverseMass = inverseMasses(scene);
-    for (std::size_t i = 0; i < scene.particles.size(); ++i) {
-        if (scene.particles[i].radius <= 0) continue;
+    const std::vector<float> loose = face_contacts::looseRadii(scene);
+    for (std::size_t i = 0; i < loose.size(); ++i) {
+        if (loose[i] <= 0) continue;
         ++wide;
         moving += inverseMass[i] > 0 ? 1 : 0;
     }

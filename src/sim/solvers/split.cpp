@@ -4,6 +4,7 @@
 #include "sim/solvers/split.hpp"
 
 #include "sim/collision/colliders.hpp"
+#include "sim/collision/face_contacts.hpp"
 #include "sim/collision/particle_contacts.hpp"
 #include "sim/collision/planes.hpp"
 #include "sim/constraints/attachment.hpp"
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 
 namespace sinew::sim::solvers::split {
 
@@ -255,13 +257,44 @@ void addSubsteps(const Common& common, const ParticleBuffers& particles) {
     if (current.velocities != particles.velocities) program.copy(current.velocities, particles.velocities);
 }
 
+// The contacts that a scene has: of particles with faces, then of particles with particles.
+struct Touching {
+    std::optional<collision::face_contacts::Contacts> faces;
+    std::optional<collision::particle_contacts::Contacts> pairs;
+
+    void addOpening(ProgramBuilder& program, BufferId velocities) const {
+        if (faces) collision::face_contacts::addOpening(program, *faces, velocities);
+        if (pairs) collision::particle_contacts::addOpening(program, *pairs, velocities);
+    }
+    void addPasses(ProgramBuilder& program, ParticleBuffers predicted, const ParticleBuffers& next) const {
+        if (faces) predicted = collision::face_contacts::addPasses(program, *faces, predicted, next);
+        if (pairs) collision::particle_contacts::addPasses(program, *pairs, predicted, next);
+    }
+    void addPublishing(ProgramBuilder& program) const {
+        if (faces) collision::face_contacts::addPublishing(program, *faces);
+        if (pairs) collision::particle_contacts::addPublishing(program, *pairs);
+    }
+};
+
+Touching addTouching(const Common& common, const ParticleBuffers& particles) {
+    namespace pairs = collision::particle_contacts;
+    namespace faces = collision::face_contacts;
+    const Scene& scene = common.scene;
+    const bool hasPairs = pairs::areIn(scene);
+    Touching touching;
+    if (faces::areIn(scene))
+        touching.faces = faces::add(common.program, scene, common.settings, particles, !hasPairs);
+    if (hasPairs) touching.pairs = pairs::add(common.program, scene, common.settings, common.layout);
+    return touching;
+}
+
 // The same where particles touch: gathers leave predicted positions, and the passes of the contacts make of
 // them the state after the substep, in the buffers that it began in; velocities alternate.
 void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles) {
     ProgramBuilder& program = common.program;
     const StateLayout& layout = common.layout;
     const std::uint32_t substeps = common.settings.substeps;
-    const auto contacts = collision::particle_contacts::add(program, common.scene, common.settings, layout);
+    const Touching contacts = addTouching(common, particles);
     const std::vector<Gather> gathers = addGathers(common);
     const bool alternates = std::ranges::any_of(gathers, &Gather::alternatesVelocities);
     const auto attachments = constraints::attachment::add(program, common.scene, layout);
@@ -273,13 +306,13 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
     for (std::uint32_t substep = 0; substep < substeps; ++substep) {
         program.beginSubstep();
         collision::colliders::addOpening(program, current, rigid, substep == 0);
-        collision::particle_contacts::addOpening(program, contacts, current.velocities);
+        contacts.addOpening(program, current.velocities);
         predicted.velocities = alternates ? spare : current.velocities;
         addLinks(gathers, current, predicted, substep == 0);
         if (!alternates) std::swap(current.velocities, spare);
-        collision::particle_contacts::addPasses(program, contacts, predicted, current);
-        if (contacts.surfaces.hasRestitution) {
-            collision::particle_contacts::addBounces(program, contacts, current, spare);
+        contacts.addPasses(program, predicted, current);
+        if (contacts.pairs && contacts.pairs->surfaces.hasRestitution) {
+            collision::particle_contacts::addBounces(program, *contacts.pairs, current, spare);
             std::swap(current.velocities, spare);
         }
         constraints::attachment::addPass(program, current, attachments, substep, substeps);
@@ -290,13 +323,13 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
     if (current.velocities != particles.velocities) program.copy(current.velocities, particles.velocities);
     program.keep(particles.positions);
     program.keep(particles.velocities);
-    program.atEnd([&program, contacts] { collision::particle_contacts::addPublishing(program, contacts); });
+    program.atEnd([&program, contacts] { contacts.addPublishing(program); });
 }
 
 void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& settings,
                const Division& division, const ParticleBuffers& particles) {
     program.program().sweeps = scene.distances.empty() ? 0 : settings.substeps;
-    if (collision::particle_contacts::areIn(scene)) {
+    if (collision::particle_contacts::areIn(scene) || collision::face_contacts::areIn(scene)) {
         addTouchingSubsteps({program, scene, settings, division, particles.layout, {}}, particles);
         return;
     }

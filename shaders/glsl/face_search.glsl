@@ -1,0 +1,67 @@
+// What finding pairs of a point and a face shares: the buffers, and the test. A pair is listed where the two are nearer than
+// touching, a margin, and what both move in this substep: so nothing that meets on the way is missed, however fast.
+#include "kernel.glsl"
+#include "triangle.glsl"
+
+layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
+layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
+layout(std430, binding = 2) readonly buffer Radii { float radii[]; };          // below 0 = touches no face
+layout(std430, binding = 3) readonly buffer Faces { ContactFace faces[]; };
+layout(std430, binding = 4) buffer Found { uint found[]; };              // faces near each point, listed or not; 0 at first
+layout(std430, binding = 5) writeonly buffer Candidates { uint candidates[]; };
+layout(std430, binding = 6) buffer FaceFound { uint faceFound[]; };      // points near each moving face, likewise
+layout(std430, binding = 7) writeonly buffer FaceCandidates { uint faceCandidates[]; };
+layout(std430, binding = 8) readonly buffer Excluded { uint excluded[]; }; // first of each face, then points, sorted
+layout(std140, binding = 9) uniform Step { StepParams step; };
+layout(push_constant) uniform Push { FaceFindPush push; };
+
+// A face at the end of its way.
+struct Searched {
+    uint index;
+    ContactFace face;
+    vec3 a;
+    Triangle triangle;
+    vec3 low, high; // box of the corners
+    float reach;    // beyond radius and way of a point [m]
+};
+
+Searched searchedOf(uint f) {
+    const ContactFace face = faces[f];
+    const vec3 a = positions[face.a].xyz, b = positions[face.b].xyz, c = positions[face.c].xyz;
+    const vec3 va = velocities[face.a].xyz, vb = velocities[face.b].xyz, vc = velocities[face.c].xyz;
+    const float way = step.h * sqrt(max(dot(va, va), max(dot(vb, vb), dot(vc, vc))));
+    const vec3 low = min(a, min(b, c)), high = max(a, max(b, c)), size = high - low;
+    Searched searched = Searched(f, face, a, triangleOf(b - a, c - a), low, high, face.thickness + push.margin + way);
+    if (isSliver(searched.triangle)) searched.reach += 1e-3 * length(size); // as thick as its edges may be apart
+    return searched;
+}
+
+bool isExcluded(uint f, uint i) {
+    uint low = excluded[f], high = excluded[f + 1u];
+    const uint end = high;
+    while (low < high) {
+        const uint middle = (low + high) / 2u;
+        if (excluded[middle] < i) low = middle + 1u;
+        else high = middle;
+    }
+    return low < end && excluded[low] == i;
+}
+
+// `reach` with radius and way of the point.
+bool isInBox(Searched face, vec3 x, float reach) {
+    const vec3 d = max(max(face.low - x, x - face.high), vec3(0.0));
+    return dot(d, d) < reach * reach;
+}
+
+bool isNear(Searched face, uint i, vec3 x, float reach) {
+    const uint f = face.index;
+    if (i == face.face.a || i == face.face.b || i == face.face.c) return false;
+    if (f >= push.moving && velocities[i].w == 0.0) return false;
+    const vec3 d = nearestOf(x - face.a, face.triangle).d;
+    return dot(d, d) < reach * reach && !isExcluded(f, i);
+}
+
+void listAtPoint(uint i, uint f) {
+    const uint slot = atomicAdd(found[i], 1u);
+    if (slot < push.capacity) candidates[slot * push.row + i] = f;
+}

@@ -1,0 +1,27 @@
+#version 460
+// Every point is compared with the few faces that are much larger than the others or have too much around them.
+#extension GL_GOOGLE_include_directive : require
+#include "face_search.glsl"
+
+layout(std430, binding = 10) readonly buffer Large { uint large[]; };
+layout(std430, binding = 11) readonly buffer Wide { uint wide[]; };
+layout(std430, binding = 12) readonly buffer Points { FacePoints points; };
+layout(std430, binding = 13) buffer Status { StatusWords status; };
+
+void main() {
+    const uint i = itemIndex(push.points);
+    if (radii[i] < 0.0) return;
+    const vec3 x = positions[i].xyz;
+    const float size = radii[i] + step.h * length(velocities[i].xyz);
+    const uint all = push.large + points.wide;
+    if (all > FACE_MOST_WIDE) atomicMax(status.candidates, push.limit + 1u); // more than can be done: said, not lost
+    for (uint l = 0u; l < min(all, FACE_MOST_WIDE); ++l) {
+        const Searched face = searchedOf(l < push.large ? large[l] : wide[l - push.large]);
+        const float reach = face.reach + size;
+        if (!isInBox(face, x, reach) || !isNear(face, i, x, reach)) continue;
+        listAtPoint(i, face.index);
+        if (face.index >= push.moving) continue;
+        const uint slot = atomicAdd(faceFound[face.index], 1u);
+        if (slot < push.capacity) faceCandidates[slot * push.faceRow + face.index] = i;
+    }
+}

@@ -1,0 +1,46 @@
+// The point of a triangle nearest to another one, without branches: inside by the signs of three areas, else on one of the
+// edges. Coordinates are relative to corner a, so that large ones do not cancel.
+struct Triangle {
+    vec3 ab, ac; // [m]
+    vec3 normal; // of length twice the area [m^2]
+};
+
+Triangle triangleOf(vec3 ab, vec3 ac) { return Triangle(ab, ac, cross(ab, ac)); }
+
+// So thin (height below a thousandth of its length) that float32 knows no normal of it. Its neighbours cover the place.
+bool isSliver(Triangle triangle) {
+    const vec3 bc = triangle.ac - triangle.ab;
+    const float longest = max(max(dot(triangle.ab, triangle.ab), dot(triangle.ac, triangle.ac)), dot(bc, bc));
+    return !(dot(triangle.normal, triangle.normal) > 1e-6 * longest * longest);
+}
+
+// Weights of a, b, c of the foot of the perpendicular from a point, ap from a; they sum to 1.
+vec3 weightsOf(vec3 ap, Triangle triangle) {
+    const float scale = 1.0 / max(dot(triangle.normal, triangle.normal), 1e-37);
+    const float b = scale * dot(cross(ap, triangle.ac), triangle.normal);
+    const float c = scale * dot(cross(triangle.ab, ap), triangle.normal);
+    return vec3(1.0 - b - c, b, c);
+}
+
+struct Nearest {
+    vec3 weights;  // of the corners, none below 0
+    vec3 d;        // to the point from there [m]
+    bool isInside; // straight above the triangle
+};
+
+float along(vec3 p, vec3 edge) { return clamp(dot(p, edge) / max(dot(edge, edge), 1e-37), 0.0, 1.0); }
+
+Nearest nearestOf(vec3 ap, Triangle triangle) {
+    const vec3 ab = triangle.ab, ac = triangle.ac, bc = ac - ab;
+    const vec3 inside = weightsOf(ap, triangle);
+    const float s = along(ap, ab), t = along(ap, ac), u = along(ap - ab, bc);
+    const vec3 dAB = ap - s * ab, dAC = ap - t * ac, dBC = ap - ab - u * bc;
+    Nearest nearest = Nearest(vec3(1.0 - s, s, 0.0), dAB, false);
+    if (dot(dAC, dAC) < dot(nearest.d, nearest.d)) nearest = Nearest(vec3(1.0 - t, 0.0, t), dAC, false);
+    if (dot(dBC, dBC) < dot(nearest.d, nearest.d)) nearest = Nearest(vec3(0.0, 1.0 - u, u), dBC, false);
+    if (!isSliver(triangle) && min(inside.x, min(inside.y, inside.z)) >= 0.0) {
+        const float height = dot(ap, triangle.normal) / dot(triangle.normal, triangle.normal);
+        nearest = Nearest(inside, height * triangle.normal, true);
+    }
+    return nearest;
+}

@@ -1,0 +1,232 @@
+// The host side of contacts with faces: who takes part, and the order of the passes.
+#include "sim/collision/face_contacts.hpp"
+
+#include "kernels.hpp"
+#include "sim/ranges.hpp"
+
+#include <algorithm>
+
+namespace sinew::sim::collision::face_contacts {
+
+namespace {
+
+namespace k = kernels;
+
+bool moves(const Face& face, const std::vector<float>& inverseMass) {
+    return std::ranges::any_of(face.particles, [&](std::uint32_t i) { return inverseMass[i] > 0; });
+}
+
+float median(std::vector<float> values) {
+    if (values.empty()) return 0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
+
+// Faces between particles, those with a corner that moves first.
+struct Faces {
+    std::vector<layout::ContactFace> faces;
+    std::vector<float> extents;
+    std::uint32_t moving = 0;
+};
+
+float extentOf(const Scene& scene, const Face& face) {
+    float extent = 0;
+    for (int c = 0; c < 3; ++c) {
+        const Vec3 &a = scene.particles[face.particles[c]].position,
+                   &b = scene.particles[face.particles[(c + 1) % 3]].position;
+        extent = std::max({extent, std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)});
+    }
+    return extent;
+}
+
+Faces facesOf(const Scene& scene, const std::vector<float>& inverseMass) {
+    Faces faces;
+    for (const bool moving : {true, false}) {
+        for (const Face& face : scene.faces) {
+            if (moves(face, inverseMass) != moving) continue;
+            const auto [a, b, c] = face.particles;
+            faces.faces.push_back({a, b, c, face.thickness});
+            faces.extents.push_back(extentOf(scene, face));
+        }
+        if (moving) faces.moving = static_cast<std::uint32_t>(faces.faces.size());
+    }
+    return faces;
+}
+
+std::vector<float> pointRadii(const Scene& scene) {
+    std::vector<float> radii;
+    for (const Particle& particle : scene.particles)
+        radii.push_back(particle.radius > 0 ? particle.radius : -1);
+    return radii;
+}
+
+// For every slot the first of its entries, one more for the end; an entry is 4 x face + corner.
+std::vector<std::uint32_t> cornersOf(const Faces& faces, const std::vector<float>& inverseMass,
+                                     const StateLayout& layout) {
+    std::vector<std::vector<std::uint32_t>> entries(layout.count);
+    for (std::uint32_t f = 0; f < faces.moving; ++f) {
+        const layout::ContactFace& face = faces.faces[f];
+        const std::array<std::uint32_t, 3> corners{face.a, face.b, face.c};
+        for (std::uint32_t c = 0; c < 3; ++c)
+            if (inverseMass[corners[c]] > 0) entries[layout.slot[corners[c]]].push_back(4 * f + c);
+    }
+    std::vector<std::uint32_t> result(layout.count + 1);
+    for (std::size_t i = 0; i <= layout.count; ++i) {
+        result[i] = static_cast<std::uint32_t>(result.size());
+        if (i < layout.count) result.insert(result.end(), entries[i].begin(), entries[i].end());
+    }
+    return result;
+}
+
+face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Settings& settings,
+                           const StateLayout& layout, Faces faces) {
+    const std::vector<float> byParticle = pointRadii(scene);
+    const std::vector<std::uint32_t> exclusions = excludedPoints(scene, faces.faces, byParticle, layout);
+    std::vector<float> radii(layout.count, -1), wide;
+    for (std::size_t i = 0; i < byParticle.size(); ++i) {
+        radii[layout.slot[i]] = byParticle[i];
+        if (byParticle[i] > 0) wide.push_back(byParticle[i]);
+    }
+    for (layout::ContactFace& face : faces.faces)
+        for (std::uint32_t* corner : {&face.a, &face.b, &face.c}) *corner = layout.slot[*corner];
+    // Thin cloth of coarse faces may wait longer than its radius says: an eighth of a face costs few
+    // candidates.
+    const float length = std::max(median(wide), median(faces.extents) / 8);
+    return face_lists::add(program, {.radii = radii,
+                                     .faces = faces.faces,
+                                     .moving = faces.moving,
+                                     .extents = faces.extents,
+                                     .exclusions = exclusions,
+                                     .margin = settings.contactMargin * length,
+                                     .capacity = settings.contactRoom,
+                                     .limit = ranges::mostContactRoom,
+                                     .usesTexels = settings.forms.usesTexels});
+}
+
+void addMemory(ProgramBuilder& program, Contacts& contacts, std::size_t count, std::size_t elements) {
+    contacts.memory = program.scratch<layout::vec4>("faces.memory", elements);
+    contacts.kept = program.scratch<layout::vec4>("faces.kept", elements);
+    contacts.keptCounts = program.scratch<std::uint32_t>("faces.kept_counts", count);
+    contacts.saved = program.scratch<layout::vec4>("faces.memory.saved", elements);
+    contacts.savedCounts = program.scratch<std::uint32_t>("faces.counts.saved", count);
+    for (const BufferId buffer : {contacts.lists.contacts, contacts.lists.counts, contacts.memory,
+                                  contacts.saved, contacts.savedCounts})
+        program.carry(buffer, buffer);
+}
+
+// The forms of gather_faces: with contacts between particles after it, or as the end of a substep.
+const vk::ShaderCode& gatherForm(const Contacts& contacts) {
+    if (!contacts.endsSubstep) return k::gatherFaces;
+    return contacts.planes.count > 0 ? k::gatherFacesPlanes : k::gatherFacesEnd;
+}
+
+void addListUpdate(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted) {
+    const face_lists::Lists& lists = contacts.lists;
+    face_lists::addWatch(program, lists, predicted);
+    const auto buffers = {lists.contacts, lists.counts, contacts.memory, contacts.kept, contacts.keptCounts};
+    program.dispatchIndirect(k::keepSides, lists.grid.particles, buffers, contacts.push);
+    face_lists::addLists(program, lists, predicted);
+    program.dispatchIndirect(k::returnSides, lists.grid.particles, buffers, contacts.push);
+}
+
+void addGather(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
+               const ParticleBuffers& next) {
+    const face_lists::Lists& lists = contacts.lists;
+    std::vector<BufferId> buffers{lists.counts,      contacts.directions,  contacts.weights,
+                                  contacts.corners,  lists.links,          lists.linkCounts,
+                                  contacts.impulses, predicted.velocities, predicted.positions,
+                                  next.positions,    next.velocities,      predicted.step};
+    if (contacts.planes.count > 0)
+        buffers.insert(buffers.end(),
+                       {contacts.planes.planes, contacts.planes.contactOffsets, contacts.before});
+    program.dispatch(gatherForm(contacts), contacts.push.count, buffers, contacts.push,
+                     contacts.planes.count > 0 ? contacts.planes.constants() : ProgramBuilder::Constants{});
+}
+
+} // namespace
+
+bool areIn(const Scene& scene) {
+    const std::vector<float> inverseMass = inverseMasses(scene);
+    bool hasPoint = false, hasMoving = false;
+    for (std::size_t i = 0; i < scene.particles.size(); ++i) {
+        if (scene.particles[i].radius <= 0) continue;
+        hasPoint = true;
+        hasMoving = hasMoving || inverseMass[i] > 0;
+    }
+    if (!hasPoint || scene.faces.empty()) return false;
+    return hasMoving ||
+           std::ranges::any_of(scene.faces, [&](const Face& f) { return moves(f, inverseMass); });
+}
+
+std::vector<float> looseRadii(const Scene& scene) {
+    std::vector<float> radii;
+    for (const Particle& particle : scene.particles) radii.push_back(particle.radius);
+    for (const Face& face : scene.faces)
+        for (const std::uint32_t i : face.particles)
+            if (scene.particles[i].radius <= face.thickness) radii[i] = 0;
+    return radii;
+}
+
+Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
+             const ParticleBuffers& particles, bool endsSubstep) {
+    const StateLayout& layout = particles.layout;
+    const std::vector<float> inverseMass = inverseMasses(scene);
+    const Faces faces = facesOf(scene, inverseMass);
+    Contacts contacts{.lists = addLists(program, scene, settings, layout, faces),
+                      .endsSubstep = endsSubstep,
+                      .moved = particles};
+    const layout::FaceFindPush& find = contacts.lists.push;
+    contacts.push = {find.points, find.row, find.faceRow, scene.contacts.friction};
+    const std::size_t elements = std::size_t{find.row} * find.capacity;
+    contacts.corners = program.upload("faces.corners", cornersOf(faces, inverseMass, layout));
+    addMemory(program, contacts, layout.count, elements);
+    contacts.directions = program.scratch<layout::vec4>("faces.directions", elements);
+    contacts.weights = program.scratch<layout::vec4>("faces.weights", elements);
+    contacts.impulses = program.scratch<layout::vec4>("faces.impulses", elements);
+    contacts.shares = program.scratch<float>("faces.shares", layout.count);
+    contacts.before = program.scratch<layout::vec4>("faces.before", layout.count);
+    if (endsSubstep) {
+        contacts.planes = planes::addColliders(program, scene, layout);
+    } else {
+        contacts.moved.positions = program.scratch<layout::vec4>("faces.positions", layout.count);
+        contacts.moved.velocities = program.scratch<layout::vec4>("faces.velocities", layout.count);
+    }
+    return contacts;
+}
+
+void addOpening(ProgramBuilder& program, const Contacts& contacts, BufferId velocities) {
+    program.copy(velocities, contacts.before);
+}
+
+ParticleBuffers addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
+                          const ParticleBuffers& next) {
+    const face_lists::Lists& lists = contacts.lists;
+    const ParticleBuffers moved = contacts.endsSubstep ? next : contacts.moved;
+    addListUpdate(program, contacts, predicted);
+    program.dispatch(k::touchFaces, contacts.push.count,
+                     {predicted.positions, predicted.velocities, lists.faces, lists.contacts, lists.counts,
+                      contacts.memory, contacts.directions, contacts.weights, predicted.step},
+                     contacts.push);
+    program.dispatch(k::shareFaces, contacts.push.count,
+                     {lists.counts, contacts.directions, contacts.weights, contacts.corners, lists.links,
+                      lists.linkCounts, predicted.velocities, contacts.shares},
+                     contacts.push);
+    program.dispatch(k::pressFaces, contacts.push.count,
+                     {predicted.velocities, lists.faces, lists.contacts, lists.counts, contacts.directions,
+                      contacts.weights, contacts.shares, contacts.memory, contacts.impulses, contacts.before,
+                      predicted.step},
+                     contacts.push);
+    addGather(program, contacts, predicted, moved);
+    return moved;
+}
+
+void addPublishing(ProgramBuilder& program, const Contacts& contacts) {
+    const face_lists::Lists& lists = contacts.lists;
+    program.dispatch(k::publishSides, contacts.push.count,
+                     {lists.contacts, lists.counts, contacts.memory, contacts.saved, contacts.savedCounts,
+                      program.program().status, lists.grid.detected},
+                     contacts.push);
+}
+
+} // namespace sinew::sim::collision::face_contacts

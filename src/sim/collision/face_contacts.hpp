@@ -1,0 +1,57 @@
+// Particles that touch triangles, in `split`: temporary constraints, solved after the links of a substep and
+// before contacts between particles and boundary planes. A point p with weight 1 and the corners with the
+// weights b of the nearest place on the face (beta = 1, -b_0, -b_1, -b_2) take
+//
+//   l_c = depth_c / D_c,   x_k += w_k sum_c beta_kc l_c n_c,   D_c = sum_k |beta_kc| w_k S_k,
+//   S_k = sum over contacts c' of |beta_kc'|:
+//
+// a particle gives contact c the part |beta_kc| / S_k of its mass, and parts sum to 1. D_c is the sum of the
+// absolute values of row c of J W J^T, so D - J W J^T is diagonally dominant with a diagonal >= 0 and the
+// spectral radius of D^-1 J W J^T at most 1: stable, below the 4/3 that the order of `split` needs (contacts:
+// 0.1). Friction lies in the same bound, for a row counts every direction. A contact that several faces
+// share (an edge, a corner) is not softer for it. A scene in which nothing touches a face has none of this.
+#pragma once
+
+#include "sim/collision/face_lists.hpp"
+#include "sim/collision/planes.hpp"
+
+namespace sinew::sim::collision::face_contacts {
+
+/// Whether a particle of the scene may touch a face: one with a radius, and it or a face can move.
+bool areIn(const Scene& scene);
+
+/// The radius with which a particle touches others as a ball, by particle [m]: 0 where faces around it as
+/// thick as itself do so instead.
+std::vector<float> looseRadii(const Scene& scene);
+
+struct Contacts {
+    face_lists::Lists lists;
+    planes::Colliders planes; ///< without particle contacts, which else take care of them
+    layout::FacePush push{};
+    bool endsSubstep = false;
+    BufferId corners, memory, kept, keptCounts, saved, savedCounts, directions, weights, shares, impulses;
+    BufferId before;
+    ParticleBuffers moved; ///< between these contacts and those of particles
+};
+
+/// Only where areIn(). `endsSubstep` = no contacts between particles follow.
+Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
+             const ParticleBuffers& particles, bool endsSubstep);
+
+/// Before the links of a substep, whose velocities are `velocities`.
+void addOpening(ProgramBuilder& program, const Contacts& contacts, BufferId velocities);
+
+/// From predicted positions and velocities to those after the contacts, which are returned: those of `next`
+/// if they end the substep.
+ParticleBuffers addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
+                          const ParticleBuffers& next);
+
+/// The end of a step: what contacts remember is saved, or taken back with an undone step.
+void addPublishing(ProgramBuilder& program, const Contacts& contacts);
+
+/// Points that a face never touches though they are not its corners, as face_lists::Request says: those of
+/// its own linked body that are nearer than 1.05 times touching at rest. `faces` between particles.
+std::vector<std::uint32_t> excludedPoints(const Scene& scene, std::span<const layout::ContactFace> faces,
+                                          std::span<const float> radii, const StateLayout& layout);
+
+} // namespace sinew::sim::collision::face_contacts

@@ -1,0 +1,118 @@
+// The host side of lists of points and faces: large faces, and the order of the passes.
+#include "sim/collision/face_lists.hpp"
+
+#include "kernels.hpp"
+
+#include <algorithm>
+
+namespace sinew::sim::collision::face_lists {
+
+namespace {
+
+namespace k = kernels;
+
+// Half of the margin is what a point and a face may come nearer by each; a little less for rounding.
+constexpr float slackShare = 0.49f;
+
+// In the grid all points are alike: cells are as large as faces.
+std::vector<float> pointsOf(std::span<const float> radii) {
+    std::vector<float> points;
+    for (const float radius : radii) points.push_back(radius < 0 ? -1.0f : 0.0f);
+    return points;
+}
+
+// Whole work groups, with ~0 behind the last.
+std::vector<std::uint32_t> facesWhere(std::span<const float> extents, float edge, bool isLarge) {
+    std::vector<std::uint32_t> faces;
+    for (std::uint32_t f = 0; f < extents.size(); ++f)
+        if ((extents[f] > edge) == isLarge) faces.push_back(f);
+    if (!isLarge) faces.resize(paddedCount(extents.size()), ~0u);
+    return faces;
+}
+
+std::vector<BufferId> searchBuffers(const Lists& lists, const ParticleBuffers& particles) {
+    return {particles.positions, particles.velocities, lists.radii,          lists.faces,    lists.found,
+            lists.candidates,    lists.faceFound,      lists.faceCandidates, lists.excluded, particles.step};
+}
+
+} // namespace
+
+Lists add(ProgramBuilder& program, const Request& request) {
+    const std::size_t count = request.radii.size(), faces = request.faces.size();
+    const float edge = std::max(hash_grid::largestInGrid(request.extents),
+                                2 * hash_grid::largestInGrid(request.radii) + request.margin);
+    const std::vector<float> points = pointsOf(request.radii);
+    const std::vector<std::uint32_t> large = facesWhere(request.extents, edge, true);
+    Lists lists{.grid = hash_grid::add(program, {.radii = points,
+                                                 .margin = request.margin,
+                                                 .slack = slackShare * request.margin,
+                                                 .edge = edge,
+                                                 .others = static_cast<std::uint32_t>(paddedCount(faces)),
+                                                 .usesTexels = request.usesTexels,
+                                                 .name = "faces.grid",
+                                                 .radiiName = "faces.grid.radii"})};
+    const layout::GridPush& grid = lists.grid.push;
+    lists.push = {.points = grid.count,
+                  .searched = grid.others,
+                  .cells = grid.cells,
+                  .edge = grid.edge,
+                  .most = edge,
+                  .margin = request.margin,
+                  .capacity = request.capacity,
+                  .row = grid.count + CONTACT_ROW_EXTRA,
+                  .faceRow = request.moving + CONTACT_ROW_EXTRA,
+                  .limit = request.limit,
+                  .moving = request.moving,
+                  .large = static_cast<std::uint32_t>(large.size())};
+    const std::size_t elements = request.capacity * std::size_t{lists.push.row},
+                      linked = request.capacity * std::size_t{lists.push.faceRow};
+    lists.contacts = program.scratch<layout::ContactCandidate>("faces.contacts", elements);
+    lists.counts = program.scratch<std::uint32_t>("faces.counts", count);
+    lists.links = program.scratch<std::uint32_t>("faces.links", linked);
+    lists.linkCounts = program.scratch<std::uint32_t>("faces.link_counts", lists.push.faceRow);
+    lists.radii = program.upload("faces.radii", request.radii);
+    lists.faces = program.upload("faces", request.faces);
+    lists.found = program.scratch<std::uint32_t>("faces.found", count);
+    lists.candidates = program.scratch<std::uint32_t>("faces.candidates", elements);
+    lists.faceFound = program.scratch<std::uint32_t>("faces.points.found", lists.push.faceRow);
+    lists.faceCandidates = program.scratch<std::uint32_t>("faces.points.candidates", linked);
+    lists.excluded = program.upload("faces.excluded", request.exclusions);
+    lists.points = program.scratch<layout::FacePoints>("faces.points", 1);
+    lists.apart = program.scratch<std::uint32_t>("faces.points.apart", count);
+    lists.searched = program.upload("faces.searched", facesWhere(request.extents, edge, false));
+    lists.large = program.upload("faces.large", large);
+    lists.wide = program.scratch<std::uint32_t>("faces.wide", faces);
+    return lists;
+}
+
+void addWatch(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {
+    const hash_grid::Grid& grid = lists.grid;
+    program.dispatch(k::watchFaces, grid.push.count,
+                     {particles.positions, particles.velocities, grid.detected, grid.bounds, particles.step},
+                     grid.push);
+    hash_grid::addSort(program, grid, particles.positions);
+}
+
+void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {
+    const hash_grid::Grid& grid = lists.grid;
+    program.dispatchIndirect(k::partPoints, grid.particles,
+                             {particles.velocities, lists.radii, lists.points, lists.apart, particles.step},
+                             lists.push);
+    std::vector<BufferId> buffers = searchBuffers(lists, particles);
+    buffers.insert(buffers.end(), {grid.sorted, grid.starts, grid.bounds, lists.points, lists.apart,
+                                   lists.searched, lists.wide});
+    program.dispatchIndirect(k::findFaces, grid.others, buffers, lists.push);
+    buffers = searchBuffers(lists, particles);
+    buffers.insert(buffers.end(), {lists.large, lists.wide, lists.points, program.program().status});
+    program.dispatchIndirect(k::findWideFaces, grid.particles, buffers, lists.push);
+    program.dispatchIndirect(k::sortFaces, grid.particles,
+                             {lists.candidates, lists.radii, lists.faces, lists.found, lists.contacts,
+                              lists.counts, program.program().status},
+                             lists.push);
+    program.dispatchIndirect(k::linkFaces, grid.others,
+                             {lists.faceCandidates, lists.contacts, lists.counts, lists.faceFound,
+                              lists.links, lists.linkCounts, lists.points, program.program().status},
+                             lists.push);
+}
+
+} // namespace sinew::sim::collision::face_lists

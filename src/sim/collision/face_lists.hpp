@@ -1,0 +1,51 @@
+// Which points may touch which faces before their lists are made again: for each point the faces nearer than
+// touching, a margin M and what both move in a substep, sorted by index; for each face with a corner that
+// moves, its points. Made on the device whenever a particle may have moved more than M / 2, in a substep or
+// since: no pair that meets is ever missed, and no result depends on M. Candidates are found face by face in
+// a hash grid of the points; a few large faces are compared with every point, wide or fast points with every
+// face.
+#pragma once
+
+#include "sim/collision/hash_grid.hpp"
+#include "sim/compile.hpp"
+
+#include <vector>
+
+namespace sinew::sim::collision::face_lists {
+
+/// What can touch what, between state slots.
+struct Request {
+    std::span<const float> radii; ///< by state slot, whole work groups [m]; below 0 = touches no face
+    std::span<const layout::ContactFace> faces;
+    std::uint32_t moving = 0;       ///< faces before that one have a corner that moves
+    std::span<const float> extents; ///< of each face: the longest side of its box at first [m]
+    /// Points that a face never touches: for each face the first of them, one more for the end, then the
+    /// points of all, sorted.
+    std::span<const std::uint32_t> exclusions;
+    float margin = 0;           ///< M [m]
+    std::uint32_t capacity = 0; ///< faces near a point, and points near a face that moves
+    std::uint32_t limit = 256;  ///< candidates after which counting stops: bounds the time of a step
+    bool usesTexels = true;
+};
+
+/// Element s x row + i of `contacts` is face s of point i (layout::ContactCandidate); element s x faceRow + f
+/// of `links` is where in there point s of face f is.
+struct Lists {
+    hash_grid::Grid grid;
+    layout::FaceFindPush push{};
+    BufferId contacts, counts, links, linkCounts;
+    BufferId radii, faces, found, candidates, faceFound, faceCandidates, excluded;
+    BufferId points, apart, searched, large, wide;
+};
+
+Lists add(ProgramBuilder& program, const Request& request);
+
+/// Watches where `particles` have gone, and builds the grid of them where lists are no longer complete. Until
+/// addLists() the old lists stand.
+void addWatch(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles);
+
+/// Makes the lists where the grid was built. One that does not fit its room is said in the status
+/// (StatusWords::candidates): what it lacks is lost, so the step must be undone.
+void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles);
+
+} // namespace sinew::sim::collision::face_lists

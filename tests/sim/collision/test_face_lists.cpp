@@ -1,0 +1,439 @@
+// Lists of points and faces on the device against brute force, on clouds of every kind: each pair once,
+// sorted, nothing else, in any order of invocations; and what happens where a list is too short.
+#include "layout.h"
+#include "sim/bodies.hpp"
+#include "sim/collision/face_contacts.hpp"
+#include "sim/gpu_executor.hpp"
+#include "sim/scenes.hpp"
+#include "support/device.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <functional>
+#include <random>
+
+using namespace sinew;
+using namespace sinew::sim;
+using Eigen::Vector3d;
+namespace lists = sinew::sim::collision::face_lists;
+
+namespace {
+
+using Neighbours = std::vector<std::vector<std::uint32_t>>;
+
+constexpr std::uint32_t count = 256, faceCount = 64, movingFaces = 40;
+constexpr float substep = 1e-3f;
+
+// Faces between particles 3 f, 3 f + 1 and 3 f + 2; all others are loose.
+struct Cloud {
+    std::vector<float> radii = std::vector<float>(count, 0.02f); // below 0 = nobody
+    std::vector<float> thickness = std::vector<float>(faceCount, 0.01f);
+    std::vector<float> extents = std::vector<float>(faceCount, 0.1f);
+    std::vector<std::uint32_t> exclusions;
+    float margin = 0.02f;
+    std::uint32_t capacity = 256;
+    bool isReversed = false, usesTexels = true;
+
+    std::vector<layout::ContactFace> faces() const {
+        std::vector<layout::ContactFace> result;
+        for (std::uint32_t f = 0; f < faceCount; ++f)
+            result.push_back({3 * f, 3 * f + 1, 3 * f + 2, thickness[f]});
+        return result;
+    }
+    std::vector<std::uint32_t> excluded() const {
+        return exclusions.empty() ? std::vector<std::uint32_t>(faceCount + 1, faceCount + 1) : exclusions;
+    }
+};
+
+// Where particles are, and how fast with what inverse mass.
+struct State {
+    std::vector<layout::vec4> x = std::vector<layout::vec4>(count), v = std::vector<layout::vec4>(count);
+};
+
+// A program that does nothing but keep the lists of a cloud.
+class Device {
+public:
+    explicit Device(const Cloud& cloud) : builder_(cloud.isReversed) {
+        builder_.program().status = builder_.scratch<layout::StatusWords>("status", 1);
+        const std::vector<layout::StepParams> step(1, layout::StepParams{.h = substep});
+        particles_ = {.count = count,
+                      .step = builder_.upload("step", step),
+                      .positions = builder_.scratch<layout::vec4>("positions", count),
+                      .velocities = builder_.scratch<layout::vec4>("velocities", count)};
+        lists_ = lists::add(builder_, {.radii = cloud.radii,
+                                       .faces = cloud.faces(),
+                                       .moving = movingFaces,
+                                       .extents = cloud.extents,
+                                       .exclusions = cloud.excluded(),
+                                       .margin = cloud.margin,
+                                       .capacity = cloud.capacity,
+                                       .usesTexels = cloud.usesTexels});
+        builder_.beginPhase("solve");
+        builder_.fill(builder_.program().status, 0);
+        lists::addWatch(builder_, lists_, particles_);
+        lists::addLists(builder_, lists_, particles_);
+        program_ = builder_.finish();
+        executor_.emplace(test::device(), program_);
+        submit([&](vk::Commands& commands) { executor_->upload(commands); });
+    }
+
+    void update(const State& state) {
+        constexpr std::size_t bytes = count * sizeof(layout::vec4);
+        test::queue().upload(executor_->view(particles_.positions), state.x.data(), bytes);
+        test::queue().upload(executor_->view(particles_.velocities), state.v.data(), bytes);
+        submit([&](vk::Commands& commands) { executor_->step(commands, {}, nullptr); });
+    }
+
+    Neighbours facesOfPoints() const {
+        const auto counts = read<std::uint32_t>(lists_.counts);
+        const auto entries = read<layout::ContactCandidate>(lists_.contacts);
+        Neighbours result(count);
+        for (std::uint32_t i = 0; i < count; ++i)
+            for (std::uint32_t s = 0; s < counts[i]; ++s)
+                result[i].push_back(entries[s * lists_.push.row + i].other);
+        return result;
+    }
+    // Of the faces that move; also says where a point's list does not have the face.
+    Neighbours pointsOfFaces() const {
+        const auto counts = read<std::uint32_t>(lists_.linkCounts), links = read<std::uint32_t>(lists_.links);
+        const auto entries = read<layout::ContactCandidate>(lists_.contacts);
+        Neighbours result(movingFaces);
+        for (std::uint32_t f = 0; f < movingFaces; ++f)
+            for (std::uint32_t s = 0; s < counts[f]; ++s) {
+                const std::uint32_t element = links[s * lists_.push.faceRow + f];
+                EXPECT_EQ(entries[element].other, f);
+                result[f].push_back(element % lists_.push.row);
+            }
+        return result;
+    }
+    std::uint32_t builds() const { return read<layout::GridBounds>(lists_.grid.bounds)[0].builds; }
+    std::uint32_t needed() const { return read<layout::StatusWords>(program_.status)[0].candidates; }
+
+private:
+    template <typename T> std::vector<T> read(BufferId buffer) const {
+        return test::queue().download<T>(executor_->view(buffer));
+    }
+    static void submit(const std::function<void(vk::Commands&)>& record) {
+        const VkCommandBuffer buffer = test::queue().begin();
+        vk::Commands commands(test::device(), buffer);
+        record(commands);
+        test::queue().wait(test::queue().submit(buffer));
+    }
+
+    ProgramBuilder builder_;
+    ParticleBuffers particles_;
+    lists::Lists lists_;
+    StepProgram program_;
+    std::optional<GpuExecutor> executor_;
+};
+
+Vector3d at(const layout::vec4& v) {
+    return {double{v.x}, double{v.y}, double{v.z}};
+}
+
+double toSegment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
+    const Vector3d ab = b - a;
+    const double length = ab.squaredNorm();
+    const double t = length > 0 ? std::clamp((p - a).dot(ab) / length, 0.0, 1.0) : 0;
+    return (p - a - t * ab).norm();
+}
+
+double toTriangle(const Vector3d& p, const std::array<Vector3d, 3>& x) {
+    const Vector3d n = (x[1] - x[0]).cross(x[2] - x[0]);
+    const double nn = n.squaredNorm();
+    if (nn > 0) {
+        bool isInside = true;
+        for (int k = 0; k < 3; ++k)
+            isInside = isInside && (x[(k + 1) % 3] - x[k]).cross(p - x[k]).dot(n) >= 0;
+        if (isInside) return std::abs((p - x[0]).dot(n)) / std::sqrt(nn);
+    }
+    return std::min({toSegment(p, x[0], x[1]), toSegment(p, x[1], x[2]), toSegment(p, x[2], x[0])});
+}
+
+// What lists may differ by: pairs whose distance is the reach, to float's rounding of the face's size;
+// slivers are as thick as their height, a thousandth of their length.
+struct Expected {
+    Neighbours sure = Neighbours(count), possible = Neighbours(count);
+};
+
+Expected bruteForce(const Cloud& cloud, const State& state, double margin) {
+    Expected expected;
+    const auto faces = cloud.faces();
+    for (std::uint32_t f = 0; f < faceCount; ++f) {
+        std::array<Vector3d, 3> x;
+        double way = 0;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            x[k] = at(state.x[3 * f + k]);
+            way = std::max(way, double{substep} * at(state.v[3 * f + k]).norm());
+        }
+        const double size = std::max({(x[1] - x[0]).norm(), (x[2] - x[1]).norm(), (x[0] - x[2]).norm()});
+        const double area = (x[1] - x[0]).cross(x[2] - x[0]).norm();
+        const double slack = (area < 1.1e-3 * size * size ? 2e-3 : 1e-5) * size;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            if (cloud.radii[i] < 0 || i / 3 == f || (f >= movingFaces && state.v[i].w == 0)) continue;
+            const double reach = double{cloud.radii[i]} + double{cloud.thickness[f]} + margin + way +
+                                 double{substep} * at(state.v[i]).norm();
+            const double d = toTriangle(at(state.x[i]), x);
+            if (d < reach * (1 + 1e-5) + slack) expected.possible[i].push_back(f);
+            if (d < reach * (1 - 1e-5) - 1e-5 * size) expected.sure[i].push_back(f);
+        }
+    }
+    return expected;
+}
+
+void expectBetween(const Expected& expected, const Neighbours& found) {
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        ASSERT_TRUE(std::is_sorted(found[i].begin(), found[i].end(), std::less_equal<>()))
+            << "point " << i << ": not sorted, or a face twice";
+        ASSERT_TRUE(std::ranges::includes(found[i], expected.sure[i])) << "point " << i << " misses a face";
+        for (const std::uint32_t f : found[i])
+            ASSERT_TRUE(std::ranges::binary_search(expected.possible[i], f))
+                << "point " << i << " is far from face " << f;
+    }
+}
+
+// The lists of faces say the same as those of points.
+void expectMutual(const Neighbours& faces, const Neighbours& points) {
+    Neighbours turned(movingFaces);
+    for (std::uint32_t i = 0; i < count; ++i)
+        for (const std::uint32_t f : faces[i])
+            if (f < movingFaces) turned[f].push_back(i);
+    ASSERT_EQ(points, turned);
+}
+
+float uniform(std::mt19937& random, float low, float high) {
+    return std::uniform_real_distribution<float>(low, high)(random);
+}
+
+layout::vec4 within(std::mt19937& random, const layout::vec4& center, float half) {
+    return {center.x + uniform(random, -half, half), center.y + uniform(random, -half, half),
+            center.z + uniform(random, -half, half), 0};
+}
+
+using Placing = std::function<layout::vec4(std::mt19937&, std::uint32_t)>;
+struct NamedPlacing {
+    const char* name;
+    Placing place;
+};
+
+// Of the first corner of a face, and of what is loose.
+std::vector<NamedPlacing> placings() {
+    return {{"random", [](std::mt19937& r, std::uint32_t) { return within(r, {}, 0.3f); }},
+            {"sparse", [](std::mt19937& r, std::uint32_t) { return within(r, {}, 20); }},
+            {"clustered",
+             [](std::mt19937& r, std::uint32_t i) {
+                 const float n = static_cast<float>(i % 7);
+                 return within(r, {3 * n, -n * n, 2 - n, 0}, 0.1f);
+             }},
+            {"coincident",
+             [](std::mt19937&, std::uint32_t i) {
+                 return layout::vec4{static_cast<float>(i % 5) * 0.07f, i % 2 == 0 ? 0.0f : -0.0f, 0, 0};
+             }},
+            {"negative",
+             [](std::mt19937& r, std::uint32_t) {
+                 return within(r, {-7, -9, -11, 0}, 0.3f);
+             }},
+            {"far away",
+             [](std::mt19937& r, std::uint32_t) {
+                 return within(r, {1e4f, -3e4f, 2e4f, 0}, 0.3f);
+             }},
+            {"with runaways", [](std::mt19937& r, std::uint32_t i) {
+                 return within(r, {}, i % 50 == 0 ? 3e4f : i % 50 == 1 ? 1e9f : 0.3f);
+             }}};
+}
+
+enum class Shape { small, any, degenerate };
+
+State placed(std::mt19937& random, const Placing& place, Shape shape, float speed) {
+    State state;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t first = i < 3 * faceCount ? i / 3 * 3 : i;
+        const float size = shape == Shape::any && first % 4 == 0 ? 1.5f : 0.06f;
+        state.x[i] = i == first ? place(random, i) : within(random, state.x[first], size);
+        if (shape == Shape::degenerate && i != first) {
+            const int kind = static_cast<int>(first % 4); // on a point, an edge, a line, nearly on one
+            const layout::vec4& a = state.x[first];
+            const float along = 0.05f * static_cast<float>(i - first);
+            if (kind == 0) state.x[i] = a;
+            if (kind == 1) state.x[i] = {a.x + 0.05f, a.y, a.z, 0};
+            if (kind == 2) state.x[i] = {a.x + along, a.y - along, a.z, 0};
+            if (kind == 3) state.x[i] = {a.x + along, a.y, a.z + (i == first + 1 ? 1e-5f : 0), 0};
+        }
+        state.v[i] = within(random, {}, speed);
+        if (i % 50 == 7) state.v[i] = within(random, {}, 20 * speed);
+        const bool isHeld = i >= 3 * movingFaces && (i < 3 * faceCount || i % 5 == 0);
+        if (isHeld) state.v[i] = {};
+        state.v[i].w = isHeld ? 0.0f : 1.0f;
+    }
+    return state;
+}
+
+Cloud cloudOf(std::mt19937& random, int kind) {
+    Cloud cloud;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (kind == 1) cloud.radii[i] = uniform(random, 0.005f, 0.03f);
+        if (kind == 1 && random() % 30 == 0) cloud.radii[i] = uniform(random, 0.2f, 0.4f);
+        if (kind == 2 && random() % 3 == 0) cloud.radii[i] = -1;
+    }
+    for (std::uint32_t f = 0; f < faceCount; ++f) {
+        if (kind == 1) cloud.thickness[f] = uniform(random, 0, 0.02f);
+        if (kind == 2 && f % 4 == 0) cloud.extents[f] = 3; // compared with every point
+    }
+    return cloud;
+}
+
+} // namespace
+
+TEST(FaceLists, EqualBruteForceOnTwelveHundredConfigurations) {
+    std::mt19937 random(17);
+    std::size_t pairs = 0, configurations = 0;
+    for (int kind = 0; kind < 3; ++kind) {
+        const Cloud cloud = cloudOf(random, kind);
+        Cloud reversed = cloud, loads = cloud;
+        reversed.isReversed = true;
+        loads.usesTexels = false;
+        Device device(cloud), backwards(reversed), loading(loads);
+        for (const NamedPlacing& placing : placings())
+            for (const Shape shape : {Shape::small, Shape::any, Shape::degenerate})
+                for (int seed = 0; seed < 20; ++seed, ++configurations) {
+                    SCOPED_TRACE(testing::Message() << placing.name << ", cloud " << kind << ", shape "
+                                                    << static_cast<int>(shape) << ", seed " << seed);
+                    State state = placed(random, placing.place, shape, seed % 3 == 0 ? 0.0f : 8.0f);
+                    for (layout::vec4& x : state.x) x.y += seed % 2 == 0 ? 0.0f : 0.125f; // all lists anew
+                    device.update(state);
+                    const Neighbours found = device.facesOfPoints(), points = device.pointsOfFaces();
+                    ASSERT_NO_FATAL_FAILURE(
+                        expectBetween(bruteForce(cloud, state, double{cloud.margin}), found));
+                    ASSERT_NO_FATAL_FAILURE(expectMutual(found, points));
+                    backwards.update(state);
+                    ASSERT_EQ(backwards.facesOfPoints(), found) << "in reversed order";
+                    ASSERT_EQ(backwards.pointsOfFaces(), points) << "in reversed order";
+                    for (const auto& list : found) pairs += list.size();
+                    if (seed > 2) continue;
+                    loading.update(state);
+                    ASSERT_EQ(loading.facesOfPoints(), found) << "without texels";
+                }
+    }
+    EXPECT_GE(configurations, 1200u);
+    EXPECT_GT(pairs, 500'000u) << "clouds too thin to show anything";
+}
+
+// Everybody wanders: what meets on the way of a substep is always listed, and lists are made again only when
+// somebody has gone far.
+TEST(FaceLists, HoldWhatMeetsWhileParticlesWanderAndAreRarelyMadeAgain) {
+    std::mt19937 random(5);
+    const Cloud cloud = [] {
+        Cloud one;
+        one.margin = 0.05f;
+        return one;
+    }();
+    Device device(cloud);
+    State state = placed(random, placings()[0].place, Shape::small, 0);
+    constexpr std::uint32_t updates = 60;
+    for (std::uint32_t u = 0; u < updates; ++u) {
+        for (std::uint32_t i = 0; i < count; ++i) {
+            if (state.v[i].w == 0) continue;
+            const layout::vec4 before = state.x[i];
+            state.x[i] = within(random, before, 0.002f);
+            state.v[i] = {(state.x[i].x - before.x) / substep, (state.x[i].y - before.y) / substep,
+                          (state.x[i].z - before.z) / substep, 1};
+        }
+        device.update(state);
+        State still = state; // what touches at the end of the way is the least of it
+        for (layout::vec4& v : still.v) v = {0, 0, 0, v.w};
+        const Neighbours found = device.facesOfPoints(), touching = bruteForce(cloud, still, 0).sure;
+        for (std::size_t i = 0; i < found.size(); ++i)
+            ASSERT_TRUE(std::ranges::includes(found[i], touching[i])) << "update " << u << ", point " << i;
+    }
+    EXPECT_GE(device.builds(), 2u);
+    EXPECT_LE(device.builds(), updates / 4);
+}
+
+TEST(FaceLists, AreMadeAgainForAParticleThatCameFromFarAway) {
+    std::mt19937 random(3);
+    Cloud cloud;
+    cloud.margin = 0.1f;
+    Device device(cloud);
+    State state = placed(random, placings()[0].place, Shape::small, 0);
+    const auto builds = [&] {
+        device.update(state);
+        return device.builds();
+    };
+    EXPECT_EQ(builds(), 1u);
+    EXPECT_EQ(builds(), 1u);
+    state.v[5] = {48, 0, 0, 1}; // 0.048 m in the substep
+    EXPECT_EQ(builds(), 1u);
+    state.v[5] = {52, 0, 0, 1};
+    EXPECT_EQ(builds(), 2u) << "it is where it was, but it began the substep elsewhere";
+}
+
+TEST(FaceLists, ThatAreTooShortSayWhatTheyNeed) {
+    Cloud cloud;
+    State state;
+    for (std::uint32_t i = 0; i < count; ++i) { // face 0 in the origin, 22 points there; the others apart
+        const float far = 10.0f * static_cast<float>(i / 3);
+        const float side = i < 3 * faceCount ? 0.05f * static_cast<float>(i % 3) : 0;
+        state.x[i] = {i >= 200 && i < 222 ? 0.02f : far, side, side * side, 0};
+        state.v[i].w = 1;
+    }
+    for (const auto& [capacity, needed] : {std::pair{1u, 22u}, {21u, 22u}, {22u, 0u}, {23u, 0u}}) {
+        cloud.capacity = capacity;
+        Device device(cloud);
+        device.update(state);
+        EXPECT_EQ(device.needed(), needed) << "capacity " << capacity;
+        for (const auto& list : device.pointsOfFaces()) EXPECT_LE(list.size(), capacity);
+    }
+}
+
+TEST(FaceLists, LeaveOutPairsThatNeverTouch) {
+    std::mt19937 random(3);
+    Cloud cloud;
+    const State state = placed(random, placings()[0].place, Shape::small, 0);
+    const auto isOut = [](std::uint32_t f, std::uint32_t i) { return (i * f + i + f) % 3 == 0; };
+    Device all(cloud);
+    all.update(state);
+    Neighbours allowed = all.facesOfPoints();
+    for (std::uint32_t i = 0; i < count; ++i)
+        std::erase_if(allowed[i], [&](std::uint32_t f) { return isOut(f, i); });
+    cloud.exclusions.resize(faceCount + 1);
+    for (std::uint32_t f = 0; f < faceCount; ++f) {
+        cloud.exclusions[f] = static_cast<std::uint32_t>(cloud.exclusions.size());
+        for (std::uint32_t i = 0; i < count; ++i)
+            if (isOut(f, i)) cloud.exclusions.push_back(i);
+    }
+    cloud.exclusions[faceCount] = static_cast<std::uint32_t>(cloud.exclusions.size());
+    Device device(cloud);
+    device.update(state);
+    EXPECT_EQ(device.facesOfPoints(), allowed);
+}
+
+TEST(ExcludedPoints, AreThoseOfTheBodyThatAreNearAtRest) {
+    Scene scene;
+    addCloth(scene, {.size = {6, 6}, .spacing = 0.1f, .thickness = 0.1f});
+    const auto loose = static_cast<std::uint32_t>(scene.particles.size());
+    scene.particles.push_back({.position = {0.15f, 0, 0.15f}});
+    std::vector<layout::ContactFace> faces;
+    for (const Face& face : scene.faces)
+        faces.push_back({face.particles[0], face.particles[1], face.particles[2], face.thickness});
+    const std::vector<float> radii(scene.particles.size(), 0.04f);
+    const auto excluded =
+        collision::face_contacts::excludedPoints(scene, faces, radii, orderedLayout(scene.particles.size()));
+    std::size_t near = 0;
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        const std::array corners{faces[f].a, faces[f].b, faces[f].c};
+        std::array<Vector3d, 3> x;
+        for (int k = 0; k < 3; ++k) x[k] = test::toVector(scene.particles[corners[k]].position);
+        for (std::uint32_t i = 0; i <= loose; ++i) {
+            const bool isExcluded =
+                std::binary_search(excluded.begin() + excluded[f], excluded.begin() + excluded[f + 1], i);
+            const bool isCorner = std::ranges::find(corners, i) != corners.end();
+            const bool isNear = !isCorner && i != loose &&
+                                toTriangle(test::toVector(scene.particles[i].position), x) < 1.05 * 0.09;
+            EXPECT_EQ(isExcluded, isNear) << "face " << f << ", point " << i;
+            near += isNear ? 1 : 0;
+        }
+    }
+    EXPECT_GE(near, faces.size()) << "across the diagonal at least";
+}
