@@ -225,6 +225,9 @@ void addCloth(LoadedScene& loaded, const Section& cloth) {
     for (const char* key : {"stretch_compliance", "shear_compliance"})
         if (cloth.has(key) && cloth.number("membrane_stiffness") > 0)
             cloth.fail(key, "stands beside membrane_stiffness, which sets it", "leave one of them out");
+    for (const char* key : {"collides", "radius"})
+        if (cloth.has("thickness") && cloth.has(key))
+            cloth.fail("thickness", std::string("stands beside ") + key, "leave one of them out");
     sim::ClothSheet sheet{.name = cloth.text("name"),
                           .origin = localPoint(cloth, "origin", loaded.origin),
                           .right = cloth.vector("right"),
@@ -237,6 +240,7 @@ void addCloth(LoadedScene& loaded, const Section& cloth) {
                           .membraneStiffness = cloth.number("membrane_stiffness"),
                           .skipStiffness = cloth.number("skip_stiffness"),
                           .bendingStiffness = cloth.number("bending_stiffness"),
+                          .thickness = cloth.has("thickness") ? cloth.number("thickness") : 0,
                           .tethers = cloth.count("tethers"),
                           .radius = radiusOf(cloth),
                           .pinned = {},

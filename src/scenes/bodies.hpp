@@ -22,6 +22,8 @@ void addBox(LoadedScene& loaded, const Section& box);
 /// `voxel` overrides the file's voxel size [m].
 void addMesh(LoadedScene& loaded, const Section& mesh, const Source& source, std::optional<float> voxel);
 void addParticles(LoadedScene& loaded, const Section& particles);
+/// What never moves: after the bodies that do.
+void addMeshCollider(LoadedScene& loaded, const Section& section, const Source& source);
 void addPlane(LoadedScene& loaded, const Section& plane);
 void addCollider(LoadedScene& loaded, const Section& collider);
 

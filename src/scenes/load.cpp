@@ -81,6 +81,7 @@ void readBodies(LoadedScene& loaded, const Section& top, const Source& source, s
     for (const Section& particles : top.list("particles")) addParticles(loaded, particles);
     if (loaded.scene.bodies.empty())
         fail(source.file, "has no body", "add [[cloth]], [[chain]], [[box]], [[mesh]] or [[particles]]");
+    for (const Section& mesh : top.list("mesh_collider")) addMeshCollider(loaded, mesh, source);
     for (const Section& plane : top.list("plane")) addPlane(loaded, plane);
     for (const Section& collider : top.list("collider")) addCollider(loaded, collider);
 }

@@ -1,9 +1,10 @@
-// The [[mesh]] table: finds the mesh (a file in the scene's folder, the command line's, or a generated
-// shape), places it, fills it with voxels and says what is odd about it.
+// The [[mesh]] and [[mesh_collider]] tables: finds the mesh (a file in the scene's folder, the command
+// line's, or a generated shape), places it, fills it with voxels and says what is odd about it.
 #include "scenes/bodies.hpp"
 
 #include "mesh/generate.hpp"
 #include "mesh/import.hpp"
+#include "sim/bodies.hpp"
 
 #include <Eigen/Geometry>
 
@@ -157,6 +158,23 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
     }
     warn(summary, loaded.warnings);
     loaded.meshes.push_back(std::move(summary));
+}
+
+void addMeshCollider(LoadedScene& loaded, const Section& section, const Source& source) {
+    section.requireOneOf("file", "generate");
+    Found found = section.has("file") ? import(section, source) : generate(section);
+    if (found.mesh.triangles.empty()) section.fail("file", "has no triangles", "check the mesh");
+    if (loaded.scene.particles.size() + found.mesh.positions.size() > mostParticles)
+        section.fail(section.has("file") ? "file" : "detail",
+                     "makes more than " + std::to_string(mostParticles) + " particles",
+                     "take a coarser mesh");
+    place(found.mesh, section, loaded.origin);
+    sim::addMeshCollider(loaded.scene, {.name = section.has("name") ? section.text("name")
+                                                                    : fs::path(found.file).stem().string(),
+                                        .vertices = found.mesh.positions,
+                                        .triangles = found.mesh.triangles,
+                                        .thickness = section.number("thickness"),
+                                        .color = section.vector("color")});
 }
 
 } // namespace sinew::scenes

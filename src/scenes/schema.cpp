@@ -58,6 +58,7 @@ constexpr Key keys[] = {
     {"", "box", Kind::tables, "", {}, "", "cuboids of voxels"},
     {"", "mesh", Kind::tables, "", {}, "", "triangle meshes filled with voxels"},
     {"", "particles", Kind::tables, "", {}, "", "loose particles that touch each other"},
+    {"", "mesh_collider", Kind::tables, "", {}, "", "triangle meshes that never move and that particles touch"},
     {"", "plane", Kind::tables, "", {}, "", "half spaces that particles stay in"},
     {"", "collider", Kind::tables, "", {}, "", "spheres, capsules and boxes that particles stay out of, still or moving"},
     {"", "contacts", Kind::table, "", {}, "", "how particles touch each other"},
@@ -89,6 +90,7 @@ constexpr Key keys[] = {
     {"cloth", "pinned", Kind::pins, "", {}, "[]", "particles held where they are"},
     {"cloth", "collides", Kind::flag, "", {}, "false", "whether its particles touch others"},
     {"cloth", "radius", Kind::number, "m", length, "", "of a particle that touches others, at most half of the spacing; half of it where it is missing"},
+    {"cloth", "thickness", Kind::number, "m", length, "", "of a sheet that touches particles, meshes, other sheets and itself by its triangles; instead of collides and radius"},
     {"cloth", "color", Kind::vector, "", ranges::color, "[0.16, 0.34, 0.58]", "linear red, green and blue"},
 
     {"chain", "name", Kind::text, "", {}, "\"chain\"", "name of the body in reports and files"},
@@ -152,6 +154,16 @@ constexpr Key keys[] = {
     {"contacts", "friction", Kind::number, "", ranges::friction, "0", "Coulomb's coefficient between particles"},
     {"contacts", "margin", Kind::number, "median radii", ranges::contactMargin, "0.5", "how much farther than touching particles are listed together; changes speed, no result"},
     {"contacts", "room", Kind::count, "particles", ranges::contactRoom, "24", "that may be listed with one at first; programs make more where it is too little"},
+
+    {"mesh_collider", "name", Kind::text, "", {}, "", "name of the body in reports and files; that of the mesh file or shape where it is missing"},
+    {"mesh_collider", "file", Kind::text, "", {}, "", "mesh file in the scene's folder or below, or \"argument\": the mesh of the command line"},
+    {"mesh_collider", "generate", Kind::text, "", {}, "", "a built-in shape instead of a file"},
+    {"mesh_collider", "detail", Kind::count, "edges", detail, "32", "generate: triangle edges along the longest side"},
+    {"mesh_collider", "size", Kind::number, "m", length, "", "the longest side is scaled to this length; unscaled where it is missing"},
+    {"mesh_collider", "center", Kind::vector, "m", coordinate, "", "where the middle of the bounding box goes; unmoved where it is missing"},
+    {"mesh_collider", "rotation", Kind::vector, "degrees", angle, "[0, 0, 0]", "about x, then y, then z, around the middle"},
+    {"mesh_collider", "thickness", Kind::number, "m", length, "0.002", "what particles keep from the triangles beside their radius"},
+    {"mesh_collider", "color", Kind::vector, "", ranges::color, "[0.55, 0.53, 0.5]", "linear red, green and blue"},
 
     {"plane", "normal", Kind::vector, "", direction, "[0, 1, 0]", "unit length, points to the free side"},
     {"plane", "offset", Kind::number, "m", coordinate, "0", "distance of the plane from the origin along the normal"},

@@ -61,6 +61,42 @@ TEST_F(LoadContacts, RefusesRadiiThatABodyCannotHave) {
                 "scene.toml:6: box[0].radius is 0 m: must be above 0 and at most");
 }
 
+TEST_F(LoadContacts, GivesFacesToClothWithAThickness) {
+    EXPECT_TRUE(load(smallCloth).scene.faces.empty());
+    const sim::Scene scene = load(smallCloth + "thickness = 0.04\n").scene;
+    const auto [columns, middle, rows] = scene.grids.at(0).nodes;
+    ASSERT_EQ(scene.faces.size(), std::size_t{2} * (columns - 1) * (rows - 1));
+    for (const sim::Face& face : scene.faces) EXPECT_EQ(face.thickness, 0.02f);
+    EXPECT_EQ(radiiOf(scene), std::set<float>{0.02f});
+    EXPECT_EQ(scene.particles[0].contactOffset, 0.02f);
+    expectError(smallCloth + "thickness = 0.04\ncollides = true\n",
+                "scene.toml:4: cloth[0].thickness stands beside collides: leave one of them out");
+    expectError(smallCloth + "thickness = 0\n", "scene.toml:4: cloth[0].thickness is 0 m: must be above 0");
+}
+
+TEST_F(LoadContacts, MakesMeshesThatNeverMoveFaces) {
+    const std::string mesh =
+        "[[mesh_collider]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 0.5\ncenter = [0, 2, 0]\n";
+    const sim::Scene scene = load(balls + mesh + "thickness = 0.01\n").scene;
+    ASSERT_EQ(scene.bodies.size(), 2u);
+    EXPECT_EQ(scene.bodies[1].name, "sphere");
+    ASSERT_GT(scene.faces.size(), 100u);
+    for (const sim::Face& face : scene.faces) {
+        EXPECT_EQ(face.thickness, 0.01f);
+        for (const std::uint32_t corner : face.particles) {
+            const sim::Particle& particle = scene.particles.at(corner);
+            EXPECT_EQ(particle.inverseMass, 0);
+            EXPECT_NEAR(std::hypot(particle.position.x, particle.position.y - 2, particle.position.z), 0.25,
+                        0.01);
+        }
+    }
+    expectError(balls + "[[mesh_collider]]\n", "mesh_collider[0]");
+    expectError(balls + "[[mesh_collider]]\nfile = \"../x.obj\"\n", "leaves the scene's folder");
+    expectError(balls + mesh + "thickness = -1\n", "mesh_collider[0].thickness is -1 m: must be above 0");
+    expectError(balls + mesh + "[solver]\nname = \"jacobi\"\n",
+                "solver jacobi has no form for particles that touch");
+}
+
 TEST_F(LoadContacts, RepeatsABoxInRows) {
     const std::string corner = "[[box]]\nparticles = [2, 2, 2]\nspacing = 0.1\norigin = [1, 2, 3]\n";
     const sim::Scene one = load(corner).scene, six = load(corner + "copies = [1, 2, 3]\n").scene;
