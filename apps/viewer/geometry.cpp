@@ -26,6 +26,19 @@ Box swingBounds(const sim::Scene& scene, const sim::Body& body) {
     return pins.extend(Vector3(pivot - Vector3(0, reach, 0)));
 }
 
+// Of a collider where it begins.
+Box boundsOf(const sim::Collider& collider) {
+    const sim::Pose& pose = collider.path.empty() ? collider.pose : collider.path.front().pose;
+    const sim::Quaternion& q = pose.rotation;
+    const sim::Vec3& e = collider.halfExtents;
+    const Eigen::Matrix3f turn = Eigen::Quaternionf(q.w, q.x, q.y, q.z).toRotationMatrix().cwiseAbs();
+    Vector3 reach = Vector3::Constant(collider.radius);
+    if (collider.shape == sim::ColliderShape::capsule) reach += collider.halfLength * turn.col(1);
+    if (collider.shape == sim::ColliderShape::box) reach = turn * Vector3(e.x, e.y, e.z);
+    const Vector3 middle = toVector(pose.position);
+    return Box(Vector3(middle - reach), Vector3(middle + reach));
+}
+
 } // namespace
 
 Matrix4 lookAt(const Vector3& eye, const Vector3& target, const Vector3& up) {
@@ -85,6 +98,7 @@ std::optional<float> groundHeight(const sim::Scene& scene) {
 Box stageBounds(const sim::Scene& scene) {
     Box box = particleBounds(scene);
     for (const sim::Body& body : scene.bodies) box.extend(swingBounds(scene, body));
+    for (const sim::Collider& collider : scene.colliders) box.extend(boundsOf(collider));
     const std::optional<float> ground = groundHeight(scene);
     const float size = std::max(box.sizes().maxCoeff(), 1e-3f);
     // A body far above the ground is framed where it is: the ground would make it a speck.

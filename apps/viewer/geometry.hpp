@@ -35,8 +35,8 @@ Box particleBounds(const sim::Scene& scene);
 /// Height of the highest boundary plane that faces straight up [m].
 std::optional<float> groundHeight(const sim::Scene& scene);
 
-/// Where the bodies are seen: their box at the start, joined with where they would land on the ground and how
-/// far down they can hang from what is fixed.
+/// Where the bodies are seen: their box at the start, joined with the colliders, where they would land on the
+/// ground and how far down they can hang from what is fixed.
 Box stageBounds(const sim::Scene& scene);
 
 } // namespace sinew::viewer

@@ -62,7 +62,7 @@ void PictureSets::createLayouts() {
     vk::check(
         device_.functions().vkCreateDescriptorSetLayout(device_.handle(), &setInfo, nullptr, &setLayout_),
         "vkCreateDescriptorSetLayout", "picture");
-    const VkPushConstantRange push{VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(layout::SkinPush)};
+    const VkPushConstantRange push{drawingStages, 0, sizeof(layout::SkinPush)};
     const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                           .setLayoutCount = 1,
                                           .pSetLayouts = &setLayout_,

@@ -1,10 +1,12 @@
-// Recording of a picture: shadow map, plan map, floor map, then skins, ground and sky in one multisampled
-// pass.
+// Recording of a picture: shadow map, plan map, floor map, then skins and colliders, ground and sky in one
+// multisampled pass.
 #include "viewer/renderer.hpp"
 
 #include "viewer_shaders.hpp"
 #include "vk/check.hpp"
 #include "vk/commands.hpp"
+
+#include <algorithm>
 
 namespace sinew::viewer {
 
@@ -22,7 +24,8 @@ enum PipelineIndex : std::size_t {
     ballPipeline
 };
 
-constexpr float ballGloss = 0.6f; // of a skin's: balls are hard and dry
+constexpr float ballGloss = 0.6f;      // of a skin's: balls are hard and dry
+constexpr float colliderGloss = 0.15f; // dull beside tissue
 
 constexpr std::array plan{vk::SpecialisationConstant{3, 1}};
 
@@ -54,7 +57,8 @@ bool isSoftware(const vk::Device& device) {
 
 Renderer::Renderer(const vk::Device& device, const Target& target, const Quality& quality,
                    const StageLight& light)
-    : device_(device), light_(light), format_{target.color, canvasDepthFormat(device), quality.samples},
+    : device_(device), light_(light),
+      colliders_(device, light.colliders), format_{target.color, canvasDepthFormat(device), quality.samples},
       maps_(device, quality.shadowSize, quality.floorSize),
       pass_(RenderPass::picture(device, {.color = format_.color,
                                          .depth = format_.depth,
@@ -218,20 +222,49 @@ void Renderer::drawBodies(VkCommandBuffer commands, std::size_t ofSkins, std::si
                           const sim::Simulation& simulation) const noexcept {
     bind(commands, ofSkins);
     drawSkins(commands, simulation);
+    drawColliders(commands, simulation);
     if (balls_.ranges().empty()) return;
     bind(commands, ofBalls);
     drawBalls(commands, simulation);
 }
 
-void Renderer::drawSkins(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept {
-    const vk::BufferView vertices = simulation.skinVertices(), indices = simulation.skinIndices();
-    if (simulation.skins().empty()) return;
+void Renderer::bindMesh(VkCommandBuffer commands, const vk::BufferView& vertices,
+                        const vk::BufferView& indices) const noexcept {
     const vk::DeviceFunctions& functions = device_.functions();
     functions.vkCmdBindVertexBuffers(commands, 0, 1, &vertices.buffer, &vertices.offset);
     functions.vkCmdBindIndexBuffer(commands, indices.buffer, indices.offset, VK_INDEX_TYPE_UINT32);
+}
+
+void Renderer::push(VkCommandBuffer commands, const sim::Vec3& color, float gloss,
+                    const sim::Pose& pose) const noexcept {
+    const sim::Vec3& x = pose.position;
+    const sim::Quaternion& q = pose.rotation;
+    const layout::SkinPush values{
+        {color.x, color.y, color.z, gloss}, {x.x, x.y, x.z, 0}, {q.x, q.y, q.z, q.w}};
+    device_.functions().vkCmdPushConstants(commands, sets_.layout(),
+                                           VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                                           sizeof(values), &values);
+}
+
+void Renderer::drawColliders(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept {
+    const auto& ranges = colliders_.ranges();
+    if (ranges.empty()) return;
+    const std::span<const sim::Pose> poses = simulation.colliderPoses();
+    bindMesh(commands, colliders_.vertices(), colliders_.indices());
+    for (std::size_t i = 0; i < std::min(ranges.size(), poses.size()); ++i) {
+        push(commands, ranges[i].color, colliderGloss, poses[i]);
+        device_.functions().vkCmdDrawIndexed(commands, ranges[i].indexCount, 1, ranges[i].firstIndex,
+                                             ranges[i].firstVertex, 0);
+    }
+}
+
+void Renderer::drawSkins(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept {
+    if (simulation.skins().empty()) return;
+    const vk::DeviceFunctions& functions = device_.functions();
+    bindMesh(commands, simulation.skinVertices(), simulation.skinIndices());
     for (std::size_t i = 0; i < simulation.skins().size(); ++i) {
         const sim::SkinRange& skin = simulation.skins()[i];
-        pushColor(commands, skin.color, light_.gloss[i]);
+        push(commands, skin.color, light_.gloss[i], {});
         functions.vkCmdDrawIndexed(commands, skin.indexCount, 1, skin.firstIndex, 0, 0);
     }
 }
@@ -239,15 +272,9 @@ void Renderer::drawSkins(VkCommandBuffer commands, const sim::Simulation& simula
 void Renderer::drawBalls(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept {
     balls_.bind(commands, simulation.positions());
     for (const BallRange& range : balls_.ranges()) {
-        pushColor(commands, range.color, ballGloss);
+        push(commands, range.color, ballGloss, {});
         balls_.draw(commands, range);
     }
-}
-
-void Renderer::pushColor(VkCommandBuffer commands, const sim::Vec3& color, float gloss) const noexcept {
-    const layout::SkinPush push{{color.x, color.y, color.z, gloss}};
-    device_.functions().vkCmdPushConstants(commands, sets_.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0,
-                                           sizeof(push), &push);
 }
 
 } // namespace sinew::viewer

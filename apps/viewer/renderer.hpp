@@ -1,9 +1,10 @@
-// Draws the skins of a simulation, and balls for what has none, lit and shadowed, on a floor under a sky. The
-// same code for a window and for files.
+// Draws the skins and the colliders of a simulation, and balls for what has no skin, lit and shadowed, on a
+// floor under a sky. The same code for a window and for files.
 #pragma once
 
 #include "sim/simulation.hpp"
 #include "viewer/canvas.hpp"
+#include "viewer/collider_meshes.hpp"
 #include "viewer/picture_sets.hpp"
 #include "viewer/pipeline.hpp"
 #include "viewer/stage_light.hpp"
@@ -57,15 +58,20 @@ private:
     void begin(VkCommandBuffer commands, const RenderPass& pass, VkFramebuffer framebuffer, VkExtent2D extent,
                std::span<const VkClearValue> clear) const noexcept;
     void bind(VkCommandBuffer commands, std::size_t pipeline) const noexcept;
-    /// With a pipeline for each of them.
+    /// Skins and colliders with one pipeline, balls with another.
     void drawBodies(VkCommandBuffer commands, std::size_t ofSkins, std::size_t ofBalls,
                     const sim::Simulation& simulation) const noexcept;
     void drawSkins(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept;
+    void drawColliders(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept;
     void drawBalls(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept;
-    void pushColor(VkCommandBuffer commands, const sim::Vec3& color, float gloss) const noexcept;
+    void bindMesh(VkCommandBuffer commands, const vk::BufferView& vertices,
+                  const vk::BufferView& indices) const noexcept;
+    void push(VkCommandBuffer commands, const sim::Vec3& color, float gloss,
+              const sim::Pose& pose) const noexcept;
 
     const vk::Device& device_;
     StageLight light_;
+    ColliderMeshes colliders_;
     CanvasFormat format_;
     LightMaps maps_;
     RenderPass pass_;

@@ -67,6 +67,7 @@ StageLight lightFor(const sim::Scene& scene, const Camera& camera) {
     const float azimuth = camera.azimuth + keyAzimuth, level = std::cos(keyElevation);
     for (const sim::Skin& skin : scene.skins) light.gloss.push_back(glossOf(scene, skin));
     light.balls = ballsOf(scene);
+    light.colliders = scene.colliders;
     light.toLight = {level * std::sin(azimuth), std::sin(keyElevation), level * std::cos(azimuth)};
     return light;
 }

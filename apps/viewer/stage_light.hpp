@@ -9,11 +9,12 @@
 namespace sinew::viewer {
 
 struct StageLight {
-    Box bounds;                         ///< where bodies are expected [m]
-    std::optional<float> ground;        ///< its height [m]; none = no floor is drawn
-    Vector3 toLight = Vector3::UnitY(); ///< unit direction to the key light
-    std::vector<float> gloss;           ///< of each skin: 1 moist tissue, less for cloth
-    BallList balls;                     ///< what is drawn of bodies that have none
+    Box bounds;                           ///< where bodies are expected [m]
+    std::optional<float> ground;          ///< its height [m]; none = no floor is drawn
+    Vector3 toLight = Vector3::UnitY();   ///< unit direction to the key light
+    std::vector<float> gloss;             ///< of each skin: 1 moist tissue, less for cloth
+    BallList balls;                       ///< what is drawn of bodies that have none
+    std::vector<sim::Collider> colliders; ///< drawn where the simulation has them
 
     float radius() const { return 0.5f * bounds.diagonal().norm(); }
 };

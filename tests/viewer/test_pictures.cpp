@@ -1,10 +1,12 @@
 // Pictures of small scenes, drawn under core, synchronisation and queue-submit validation (support/device.hpp
 // makes every message a failure).
 #include "viewer/bounds_probe.hpp"
+#include "viewer/collider_meshes.hpp"
 #include "viewer/offscreen.hpp"
 #include "viewer/stage.hpp"
 
 #include "sim/bodies.hpp"
+#include "sim/colliders.hpp"
 #include "support/device.hpp"
 
 #include <gtest/gtest.h>
@@ -166,6 +168,51 @@ TEST(Picture, FollowsTheSimulation) {
     const Picture after = shot.take(); // 1/3 s later it has just landed
     EXPECT_LT(redness(colorAt(after, shot.camera, start)), 25);
     EXPECT_GT(redness(colorAt(after, shot.camera, landed)), 40);
+}
+
+TEST(Picture, ShowsACollidersColorWhereItsPathHasLedIt) {
+    sim::Scene scene = block(0, true);
+    scene.skins[0].color = {0.5f, 0.5f, 0.5f};
+    scene.colliders = {{.radius = 0.15f,
+                        .path = {{0, {{-0.6f, 0.3f, 0}}}, {0.25f, {{0.6f, 0.3f, 0}}}},
+                        .color = {0.8f, 0.05f, 0.05f}}};
+    scene.gravity = {0, 0, 0};
+    Shot shot(scene, viewOf(scene));
+    const Vector3 left(-0.6f, 0.3f, 0.15f), right(0.6f, 0.3f, 0.15f);
+    const Picture before = shot.take();
+    EXPECT_GT(redness(colorAt(before, shot.camera, left)), 60);
+    EXPECT_LT(redness(colorAt(before, shot.camera, right)), 25);
+    const Picture after = shot.take(15);
+    EXPECT_LT(redness(colorAt(after, shot.camera, left)), 25);
+    EXPECT_GT(redness(colorAt(after, shot.camera, right)), 60);
+}
+
+// Every shape closed, with its vertices on the surface and its normals outward.
+TEST(ColliderMesh, IsTheSurfaceOfItsShape) {
+    const std::array<sim::Collider, 3> colliders{
+        sim::Collider{.shape = sim::ColliderShape::sphere, .radius = 0.5f},
+        sim::Collider{.shape = sim::ColliderShape::capsule, .radius = 0.2f, .halfLength = 0.7f},
+        sim::Collider{.shape = sim::ColliderShape::box, .halfExtents = {0.1f, 0.4f, 0.3f}}};
+    const std::array<double, 3> volumes{4 * M_PI / 3 * 0.125, M_PI * 0.04 * (1.4 + 0.8 / 3), 0.8 * 0.12};
+    for (std::size_t c = 0; c < 3; ++c) {
+        const ColliderMesh mesh = meshOf(colliders[c]);
+        for (const auto& vertex : mesh.vertices) {
+            const sim::Vec3 x{vertex.position.x, vertex.position.y, vertex.position.z};
+            EXPECT_NEAR(sim::gapTo(colliders[c], {}, x), 0, 1e-6);
+            const sim::Vec3 out{x.x + 0.1f * vertex.normal.x, x.y + 0.1f * vertex.normal.y,
+                                x.z + 0.1f * vertex.normal.z};
+            EXPECT_NEAR(sim::gapTo(colliders[c], {}, out), 0.1, 1e-6);
+        }
+        double volume = 0;
+        for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
+            const auto at = [&](std::size_t corner) {
+                const auto& p = mesh.vertices[mesh.indices[t + corner]].position;
+                return Eigen::Vector3d(double{p.x}, double{p.y}, double{p.z});
+            };
+            volume += at(0).dot(at(1).cross(at(2))) / 6;
+        }
+        EXPECT_NEAR(volume / volumes[c], 1, 0.01) << "flat triangles cut off a little";
+    }
 }
 
 TEST(Picture, IsTheSameTwice) {

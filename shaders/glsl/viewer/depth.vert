@@ -1,11 +1,13 @@
 #version 460
-// Skins into the two maps: what the key light sees, or what the floor sees looking up.
+// Skins and colliders into the two maps: what the key light sees, or what the floor sees looking up.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/frame.glsl"
 
 layout(constant_id = 3) const bool isPlan = false;
+layout(push_constant) uniform Push { SkinPush push; };
 layout(location = 0) in vec4 position;
 
 void main() {
-    gl_Position = (isPlan ? frame.planFromWorld : frame.shadowFromWorld) * vec4(position.xyz, 1.0);
+    const vec3 worldPosition = rotated(push.rotation, position.xyz) + push.position.xyz;
+    gl_Position = (isPlan ? frame.planFromWorld : frame.shadowFromWorld) * vec4(worldPosition, 1.0);
 }

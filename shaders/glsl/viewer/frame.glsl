@@ -3,6 +3,8 @@
 
 layout(set = 0, binding = 0, std140) uniform Frame { FrameParams frame; };
 
+vec3 rotated(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
+
 const float pi = 3.14159265;
 
 // Even samples of a disc (Vogel's spiral): direction i + 1 is direction i turned by the golden angle, point i
