@@ -294,7 +294,7 @@ TEST_F(Load, RefusesCollidersThatAreNone) {
              {head + "shape = \"capsule\"\nradius = 1\n", "scene.toml:4: collider[0].length is missing"},
              {head + "shape = \"box\"\n", "scene.toml:4: collider[0].size is missing"},
              {ball + "size = [1, 1, 1]\n", "scene.toml:7: collider[0].size is given: a sphere has none"},
-             {head + "shape = \"box\"\nsize = [1, 0, 1]\n", "scene.toml:6: collider[0].size is 0 m, must be"},
+             {head + "shape = \"box\"\nsize = [1, 0, 1]\n", "scene.toml:6: collider[0].size is 0 m: must be"},
              {ball + "path_end = \"stop\"\n", "scene.toml:7: collider[0].path_end is \"stop\""},
              {ball + "speed = 1\n", "scene.toml:7: unknown key collider[0].speed"},
              {ball + key, "scene.toml:7: collider[0].keyframe[0].time is missing"},

@@ -68,8 +68,10 @@ Colliders add(ProgramBuilder& program, const Scene& scene, const StateLayout& la
     Colliders colliders{.count = static_cast<std::uint32_t>(shapes.size()),
                         .particles = static_cast<std::uint32_t>(layout.count),
                         .areMoving = std::ranges::any_of(scene.colliders, isMoving),
-                        .hasRebound = std::ranges::any_of(scene.colliders, rebounds) ||
-                                      std::ranges::any_of(scene.planes, rebounds), // the way is then not h v
+                        .hasRebound =
+                            std::ranges::any_of(scene.colliders, rebounds) ||
+                            std::ranges::any_of(scene.planes, rebounds) || rebounds(scene.contacts) ||
+                            std::ranges::any_of(scene.contacts.surfaces, rebounds), // the way is then not h v
                         .shapes = program.upload("colliders", shapes)};
     colliders.contactOffsets = program.upload("colliders.contact_offsets", offsets);
     colliders.poses = addPoses(program, scene, substeps, colliders.areMoving);
