@@ -15,24 +15,24 @@ layout(std430, binding = BOUNCE_BINDING) readonly buffer Velocities { vec4 veloc
 #define VELOCITY(i) velocities[i]
 #endif
 layout(std430, binding = BOUNCE_BINDING + 1) readonly buffer Bouncing { float bouncing[]; }; // bounces x inverse mass
-layout(std430, binding = BOUNCE_BINDING + 2) buffer Positions { vec4 positions[]; };         // x + thetaH v
+layout(std430, binding = BOUNCE_BINDING + 2) buffer State { vec4 state[]; };                 // x + thetaH v
 layout(std430, binding = BOUNCE_BINDING + 3) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
 
 void main() {
     const uint i = itemIndex(push.count);
     const float own = bouncing[i];
     const uint n = own > 0.0 ? counts[i] : 0u; // what never moves rebounds from nothing
-    const vec3 x = TOUCHING(i), velocityBefore = BEFORE(i);
+    const Self self = selfOf(i);
     const vec4 velocity = VELOCITY(i);
     vec3 sum = vec3(0.0);
     for (uint s = 0u; s < n; ++s) {
         const uvec2 candidate = CONTACT(s * push.row + i);
-        const Bounce bounce = bounceFrom(i, candidate, x, velocityBefore);
+        const Bounce bounce = bounceFrom(i, candidate, self);
         if (bounce.speed == 0.0) continue;
         const float missing = bounce.speed - dot(bounce.n, velocity.xyz - VELOCITY(candidate.x).xyz);
         sum += max(0.0, missing) / (own + bouncing[candidate.x]) * bounce.n;
     }
     const vec3 change = velocity.w * sum;
     nextVelocities[i] = vec4(velocity.xyz + change, velocity.w);
-    positions[i].xyz += step.thetaH * change;
+    state[i].xyz += step.thetaH * change;
 }

@@ -2,32 +2,45 @@
 // against the velocities before the substep; impacts slower than step.restSpeed do not rebound, or resting contacts would
 // tremble (contacts: 5).
 #ifdef TEXELS
-layout(binding = 0) uniform samplerBuffer touching;
+layout(binding = 0) uniform samplerBuffer positions;
 layout(binding = 1) uniform usamplerBuffer contacts;
 layout(binding = 2) uniform samplerBuffer before;
-#define TOUCHING(i) texelFetch(touching, int(i)).xyz
+layout(binding = 3) uniform samplerBuffer predicted;
+#define POSITION(i) texelFetch(positions, int(i)).xyz
 #define CONTACT(i) texelFetch(contacts, int(i)).xy
 #define BEFORE(i) texelFetch(before, int(i)).xyz
+#define PREDICTED(i) texelFetch(predicted, int(i)).xyz
 #else
-layout(std430, binding = 0) readonly buffer Touching { vec4 touching[]; };  // x of what the contacts were found from
+layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; }; // that contacts were found with
 layout(std430, binding = 1) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
 layout(std430, binding = 2) readonly buffer Before { vec4 before[]; };      // velocities before the substep [m/s]
-#define TOUCHING(i) touching[i].xyz
+#define POSITION(i) positions[i].xyz
 #define CONTACT(i) contacts[i]
+layout(std430, binding = 3) readonly buffer Predicted { vec4 predicted[]; }; // velocities that contacts were found with
 #define BEFORE(i) before[i].xyz
+#define PREDICTED(i) predicted[i].xyz
 #endif
-layout(std430, binding = 3) readonly buffer Counts { uint counts[]; };
-layout(std140, binding = 4) uniform Step { StepParams step; };
+layout(std430, binding = 4) readonly buffer Counts { uint counts[]; };
+layout(std140, binding = 5) uniform Step { StepParams step; };
+layout(std140, binding = 6) uniform Bounds { GridBounds bounds; };
+layout(std430, binding = 7) readonly buffer Firsts { float firsts[]; }; // when each first met another, where isSwept
 #ifdef HAS_SURFACES
-layout(std430, binding = 5) readonly buffer Surfaces { uint surfaces[]; }; // of each particle
-layout(std430, binding = 6) readonly buffer Pairs { SurfacePair pairs[]; };
+layout(std430, binding = 8) readonly buffer Surfaces { uint surfaces[]; }; // of each particle
+layout(std430, binding = 9) readonly buffer Pairs { SurfacePair pairs[]; };
 #define RESTITUTION(i, j) pairs[surfaces[i] * push.surfaces + surfaces[j]].restitution
-#define BOUNCE_BINDING 7
+#define BOUNCE_BINDING 10
 #else
 #define RESTITUTION(i, j) push.restitution
-#define BOUNCE_BINDING 5
+#define BOUNCE_BINDING 8
 #endif
 layout(push_constant) uniform Push { ContactPush push; };
+
+// Of particle i.
+struct Self {
+    vec3 x, before, predicted;
+};
+
+Self selfOf(uint i) { return Self(POSITION(i), BEFORE(i), PREDICTED(i)); }
 
 // Of particle i from the candidate.
 struct Bounce {
@@ -35,12 +48,17 @@ struct Bounce {
     float speed; // at which the two must part [m/s]; 0 = they do not rebound
 };
 
-Bounce bounceFrom(uint i, uvec2 candidate, vec3 x, vec3 velocityBefore) {
-    const vec3 d = x - TOUCHING(candidate.x);
+Bounce bounceFrom(uint i, uvec2 candidate, Self self) {
+    const uint j = candidate.x;
+    const vec3 d = self.x - POSITION(j);
+    const float reach = uintBitsToFloat(candidate.y);
+    Contact contact = Contact(touches(d, reach), false, d);
+    if (bounds.isSwept != 0u)
+        contact = contactOf(d, step.h * (self.predicted - PREDICTED(j)), reach, min(firsts[i], firsts[j]));
     Bounce bounce = Bounce(vec3(0.0), 0.0);
-    if (!touches(d, uintBitsToFloat(candidate.y))) return bounce;
-    bounce.n = directionOf(d, i, candidate.x).n;
-    precise float speed = dot(bounce.n, velocityBefore - BEFORE(candidate.x));
-    if (speed < -step.restSpeed) bounce.speed = -RESTITUTION(i, candidate.x) * speed;
+    if (!contact.exists) return bounce;
+    bounce.n = directionOf(contact.at, i, j).n;
+    precise float speed = dot(bounce.n, self.before - BEFORE(j));
+    if (speed < -step.restSpeed) bounce.speed = -RESTITUTION(i, j) * speed;
     return bounce;
 }

@@ -33,3 +33,43 @@ Direction directionOf(vec3 d, uint i, uint j) {
     const float distance = sqrt(squared);
     return Direction(d / distance, distance);
 }
+
+// When two that are at difference d after a substep, in which that changed by `way`, met on the way: the first root t of
+// |d - way + t way| = reach, and their difference then. Only where they move far enough to pass through each other unseen,
+// |way| > reach / 2 (contacts: 2); two that touched before, and press on, meet at once.
+struct Meeting {
+    float time; // of the substep, 0 to 1; more = they did not meet
+    vec3 at;
+};
+const float never = 2.0;
+
+Meeting meetingOf(vec3 d, vec3 way, float reach) {
+    const vec3 start = d - way;
+    precise float a = dot(way, way), b = dot(start, way), c = dot(start, start) - reach * reach;
+    precise float root = b * b - a * c;
+    if (!(a > 0.25 * reach * reach) || b >= 0.0 || root < 0.0) return Meeting(never, d);
+    if (c <= 0.0) return dot(start, start) > 1e-6 * reach * reach ? Meeting(0.0, start) : Meeting(never, d);
+    precise float t = c / (sqrt(root) - b);
+    if (t > 1.0) return Meeting(never, d);
+    return Meeting(t, start + t * way);
+}
+
+// A contact in a substep with fast particles. Of several that a particle meets on its way only the first are real, those
+// by `first` of the substep and as good as then: it goes no farther.
+struct Contact {
+    bool exists, isMet;
+    vec3 at; // difference when they met, or after the substep
+};
+
+Contact contactOf(vec3 d, vec3 way, float reach, float first) {
+    const Meeting meeting = meetingOf(d, way, reach);
+    const bool isMet = meeting.time < never;
+    return Contact(isMet ? meeting.time <= first + 1e-3 : touches(d, reach), isMet, meeting.at);
+}
+
+// The nearest that the two came to each other, squared [m^2].
+float nearestSquared(vec3 d, vec3 way) {
+    const float t = clamp(dot(d, way) / max(dot(way, way), 1e-30), 0.0, 1.0);
+    const vec3 nearest = d - t * way;
+    return dot(nearest, nearest);
+}

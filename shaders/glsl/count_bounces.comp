@@ -9,9 +9,9 @@ layout(std430, binding = BOUNCE_BINDING + 1) writeonly buffer Bouncing { float b
 
 void main() {
     const uint i = itemIndex(push.count), n = counts[i];
-    const vec3 x = TOUCHING(i), velocityBefore = BEFORE(i);
+    const Self self = selfOf(i);
     float bounces = 0.0;
     for (uint s = 0u; s < n; ++s)
-        bounces += float(bounceFrom(i, CONTACT(s * push.row + i), x, velocityBefore).speed > 0.0);
+        bounces += float(bounceFrom(i, CONTACT(s * push.row + i), self).speed > 0.0);
     bouncing[i] = bounces * velocities[i].w;
 }

@@ -1,7 +1,7 @@
 #version 460
 // Contacts, first pass: how many others a particle touches where the substep has taken it, which is what it is divided by.
 // Counted exactly in every substep: with counts of the one before, shares add up to more than the whole particle and
-// bodies explode (contacts: 1).
+// bodies explode (contacts: 1). In a substep with fast particles, also those that it met on the way.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "contacts.glsl"
@@ -9,45 +9,86 @@
 #ifdef TEXELS
 layout(binding = 0) uniform samplerBuffer predicted;
 layout(binding = 1) uniform usamplerBuffer contacts;
+layout(binding = 3) uniform samplerBuffer velocities;
 #define PREDICTED(i) texelFetch(predicted, int(i))
 #define CONTACT(i) texelFetch(contacts, int(i)).xy
+#define VELOCITY(i) texelFetch(velocities, int(i))
 #else
 layout(std430, binding = 0) readonly buffer Predicted { vec4 predicted[]; };
 layout(std430, binding = 1) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
+layout(std430, binding = 3) readonly buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
 #define PREDICTED(i) predicted[i]
 #define CONTACT(i) contacts[i]
+#define VELOCITY(i) velocities[i]
 #endif
 layout(std430, binding = 2) readonly buffer Counts { uint counts[]; };
-layout(std430, binding = 3) readonly buffer Velocities { vec4 velocities[]; };  // w = inverse mass [1/kg]
-layout(std430, binding = 4) writeonly buffer Touching { vec4 touching[]; };     // x, contacts x inverse mass
+layout(std430, binding = 4) writeonly buffer Touching { vec4 touching[]; }; // x, contacts x inverse mass
+layout(std140, binding = 5) uniform Step { StepParams step; };
+layout(std140, binding = 6) uniform Bounds { GridBounds bounds; };
+layout(std430, binding = 7) writeonly buffer Firsts { float firsts[]; }; // when each first met another; only if isSwept
 #ifdef HAS_RECOVERY
-layout(std430, binding = 5) buffer Slips { vec4 slips[]; }; // w: what is left of an overlap [m]
-layout(std140, binding = 6) uniform Step { StepParams step; };
+layout(std430, binding = 8) buffer Slips { vec4 slips[]; }; // w: what is left of an overlap [m]
 #endif
 layout(push_constant) uniform Push { ContactPush push; };
 
-// Where the candidate in `slot` is touched, at difference d.
-float reachOf(uint slot, float reach, vec3 d) {
 #ifdef HAS_RECOVERY
+// Goes on with what is left of an overlap. Once a substep.
+void recover(uint slot, vec3 x) {
     const float before = slips[slot].w;
-    if (before == 0.0) return reach;
-    const float offset = recovering(before, push.recoverySpeed * step.h, reach - length(d));
-    slips[slot].w = offset;
-    return reach - offset;
+    if (before == 0.0) return;
+    const uvec2 candidate = CONTACT(slot);
+    const float overlap = uintBitsToFloat(candidate.y) - length(x - PREDICTED(candidate.x).xyz);
+    slips[slot].w = recovering(before, push.recoverySpeed * step.h, overlap);
+}
+#endif
+
+float reachOf(uint slot, float reach) {
+#ifdef HAS_RECOVERY
+    return reach - slips[slot].w;
 #else
     return reach;
 #endif
 }
 
+// Of the candidate in a slot.
+struct Pair {
+    vec3 d, way;
+    float reach;
+};
+
+Pair pairOf(uint slot, vec3 x, vec3 velocity) {
+    const uvec2 candidate = CONTACT(slot);
+    const vec3 d = x - PREDICTED(candidate.x).xyz;
+    return Pair(d, step.h * (velocity - VELOCITY(candidate.x).xyz), reachOf(slot, uintBitsToFloat(candidate.y)));
+}
+
 void main() {
     const uint i = itemIndex(push.count), n = counts[i];
-    const vec3 x = PREDICTED(i).xyz;
-    float contactCount = 0.0;
-    for (uint s = 0u; s < n; ++s) {
+    // Loops of which some are empty: what stands under a condition costs a software device its time nevertheless.
+    const uint sweeping = bounds.isSwept != 0u ? n : 0u, resting = n - sweeping;
+    vec3 x = PREDICTED(i).xyz;
+    const vec4 velocity = VELOCITY(i);
+    float contactCount = 0.0, first = 1.0;
+#ifdef HAS_RECOVERY
+    for (uint s = 0u; s < n; ++s) recover(s * push.row + i, x);
+#endif
+    for (uint s = 0u; s < resting; ++s) {
         const uint slot = s * push.row + i;
         const uvec2 candidate = CONTACT(slot);
         const vec3 d = x - PREDICTED(candidate.x).xyz;
-        contactCount += float(touches(d, reachOf(slot, uintBitsToFloat(candidate.y), d)));
+        contactCount += float(touches(d, reachOf(slot, uintBitsToFloat(candidate.y))));
     }
-    touching[i] = vec4(x, contactCount * velocities[i].w);
+    for (uint s = 0u; s < sweeping; ++s) {
+        const Pair pair = pairOf(s * push.row + i, x, velocity.xyz);
+        first = min(first, meetingOf(pair.d, pair.way, pair.reach).time);
+    }
+    for (uint s = 0u; s < sweeping; ++s) {
+        const Pair pair = pairOf(s * push.row + i, x, velocity.xyz);
+        contactCount += float(contactOf(pair.d, pair.way, pair.reach, first).exists);
+    }
+    if (sweeping > 0u) {
+        firsts[i] = first;
+        if (first < 1.0) x -= (1.0 - first) * step.h * velocity.xyz; // stays where it met
+    }
+    touching[i] = vec4(x, contactCount * velocity.w);
 }

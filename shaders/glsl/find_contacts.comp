@@ -1,6 +1,7 @@
 #version 460
 // Lists every pair of particles that is nearer than touching and a margin with both of the two, in any order:
-// sort_contacts sorts. A list that is too short loses what does not fit and says how long it should be.
+// sort_contacts sorts. A list that is too short loses what does not fit and says how long it should be. SWEPT: in a substep
+// in which particles may have met on their way; fast ones are then searched one by one, like large ones.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "kernel.glsl"
@@ -32,6 +33,17 @@ layout(std430, binding = 7) readonly buffer Large { uint large[]; };
 #ifdef HAS_EXCLUSIONS
 layout(std430, binding = 8) readonly buffer Excluded { uint excluded[]; }; // first of each particle, then the lists, sorted
 #endif
+#ifdef SWEPT
+#ifdef HAS_EXCLUSIONS
+#define SWEPT_BINDING 9
+#else
+#define SWEPT_BINDING 8
+#endif
+#include "contacts.glsl"
+layout(std430, binding = SWEPT_BINDING) readonly buffer Velocities { vec4 velocities[]; }; // with which they came here
+layout(std430, binding = SWEPT_BINDING + 1) readonly buffer Fast { uint fast[]; };
+layout(std140, binding = SWEPT_BINDING + 2) uniform Step { StepParams step; };
+#endif
 layout(push_constant) uniform Push { FindPush push; };
 layout(constant_id = 1) const bool hasOneRadius = false;
 
@@ -50,9 +62,11 @@ bool isExcluded(uint i, uint j) {
 #endif
 }
 
+#include "sweep.glsl"
+
 bool isNear(uint i, uint j, float radius, vec3 d) {
-    const float reach = radius + (hasOneRadius ? radius : RADIUS(j)) + push.margin;
-    return i != j && dot(d, d) < reach * reach && !isExcluded(i, j);
+    const float touching = radius + (hasOneRadius ? radius : RADIUS(j)), reach = touching + push.margin;
+    return i != j && (dot(d, d) < reach * reach || wasNear(i, j, touching, d)) && !isExcluded(i, j);
 }
 
 // Appends each of the two to the other's list.
@@ -76,7 +90,7 @@ void searchRows(uint i, vec3 x, float radius, ivec3 home, ivec3 firstCells[3], u
     const uint second = count[0], third = second + count[1], all = third + count[2];
     start[1] -= second;
     start[2] -= third;
-    const float reach = radius + push.most + push.margin;
+    const float reach = wideOf(i, radius) + push.most + push.margin;
     for (uint first = 0u; first < all && n <= push.limit; first += 32u) {
         const uint last = min(first + 32u, all);
         uint near = 0u;
@@ -93,7 +107,7 @@ void searchRows(uint i, vec3 x, float radius, ivec3 home, ivec3 firstCells[3], u
             const ivec3 cell = cellOf(xj, frame);
             const ivec2 row = firstCells[visit < second ? 0 : visit < third ? 1 : 2].yz;
             if (cell.yz != row || cell == home && other.w <= i) continue; // of two in one cell the first lists both
-            if (!isNear(i, other.w, radius, x - xj)) continue;
+            if (isFast(other.w) || !isNear(i, other.w, radius, x - xj)) continue;
             list(i, other.w);
             ++n;
         }
@@ -111,19 +125,20 @@ void searchCells(uint i, vec3 x, float radius, Frame frame) {
                frame, total, n);
 }
 
-// Pairs with a large particle: small ones enter both copies, of two large ones the first does.
-void searchLarge(uint i, vec3 x, float radius, bool isLarge) {
-    for (uint l = 0u; l < push.large; ++l) {
-        const uint j = large[l];
-        if ((!isLarge || i < j) && isNear(i, j, radius, x - POSITION(j).xyz)) list(i, j);
-    }
+// A pair with a particle that is searched one by one: small ones enter both copies, of two such the first does.
+void searchOne(uint i, vec3 x, float radius, bool isSmall, uint j) {
+    if ((isSmall || i < j) && isNear(i, j, radius, x - POSITION(j).xyz)) list(i, j);
 }
 
 void main() {
     const uint i = itemIndex(push.count);
     const vec3 x = POSITION(i).xyz;
     const float radius = RADIUS(i);
-    const bool isSmall = isInGrid(radius, push.most);
+    const bool isSmall = isInGrid(radius, push.most) && !isFast(i);
     if (isSmall) searchCells(i, x, radius, frameOf(bounds, push.cells, push.edge));
-    if (radius >= 0.0) searchLarge(i, x, radius, !isSmall);
+    if (radius < 0.0) return;
+    for (uint l = 0u; l < push.large; ++l) searchOne(i, x, radius, isSmall, large[l]);
+#ifdef SWEPT
+    for (uint f = 0u; f < bounds.fast; ++f) searchOne(i, x, radius, isSmall, fast[f]);
+#endif
 }

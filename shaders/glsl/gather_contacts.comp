@@ -8,7 +8,7 @@
 // what remains of it. Without that memory a pile creeps for ever. Boundary planes come last and one after another.
 // v changes by the corrections / h, not by a difference of positions, which is coarser. HAS_MEMORY: something is remembered
 // of each candidate, the way t, and what is left of an overlap that it had when the scene was loaded. HAS_SURFACES: pairs
-// differ in friction.
+// differ in friction. Those that met on the way of a substep with fast particles part along the line on which they met.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "contacts.glsl"
@@ -29,25 +29,27 @@ layout(std430, binding = 2) readonly buffer Velocities { vec4 velocities[]; }; /
 #define VELOCITY(i) velocities[i]
 #endif
 layout(std430, binding = 3) readonly buffer Counts { uint counts[]; };
-layout(std430, binding = 4) readonly buffer Predicted { vec4 predicted[]; };         // w: passed on
+layout(std430, binding = 4) readonly buffer Predicted { vec4 predicted[]; };         // after the links; w: passed on
 layout(std430, binding = 5) writeonly buffer NextPositions { vec4 nextPositions[]; }; // x + thetaH v
 layout(std430, binding = 6) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
 layout(std140, binding = 7) uniform Step { StepParams step; };
+layout(std140, binding = 8) uniform Bounds { GridBounds bounds; };
+layout(std430, binding = 9) readonly buffer Firsts { float firsts[]; }; // when each first met another, where isSwept
 #ifdef HAS_MEMORY
-layout(std430, binding = 8) buffer Slips { vec4 slips[]; }; // of each candidate: t [m]; what is left of an overlap [m]
+layout(std430, binding = 10) buffer Slips { vec4 slips[]; }; // of each candidate: t [m]; what is left of an overlap [m]
 layout(constant_id = 3) const bool hasFriction = true;
 layout(constant_id = 4) const bool hasRecovery = false;
 #ifdef HAS_SURFACES
-layout(std430, binding = 9) readonly buffer Surfaces { uint surfaces[]; }; // of each particle
-layout(std430, binding = 10) readonly buffer Pairs { SurfacePair pairs[]; };
+layout(std430, binding = 11) readonly buffer Surfaces { uint surfaces[]; }; // of each particle
+layout(std430, binding = 12) readonly buffer Pairs { SurfacePair pairs[]; };
 #define FRICTION(i, j) pairs[surfaces[i] * push.surfaces + surfaces[j]].friction
-#define PLANE_BINDING 11
+#define PLANE_BINDING 13
 #else
 #define FRICTION(i, j) push.friction
-#define PLANE_BINDING 9
+#define PLANE_BINDING 11
 #endif
 #else
-#define PLANE_BINDING 8
+#define PLANE_BINDING 10
 #endif
 #ifdef HAS_PLANES
 #include "planes.glsl"
@@ -59,55 +61,18 @@ layout(std430, binding = PLANE_BINDING + 2) readonly buffer Before { vec4 before
 #endif
 layout(push_constant) uniform Push { ContactPush push; };
 
-#ifdef HAS_MEMORY
-// What friction takes back of a pair's tangential way, x w = share of the pair, at most `most`; the rest is remembered.
-vec3 held(uint slot, vec3 n, vec3 relative, float most, float share, float offset) {
-    vec3 slip = slips[slot].xyz + relative;
-    slip -= dot(slip, n) * n;
-    const float force = length(slip) * share;
-    if (force > most) slip *= most / force;
-    slips[slot] = vec4(slip, offset);
-    return share * slip;
-}
-#endif
-
-// The impulse on particle i from the candidate in `slot` [kg m].
-vec3 impulseFrom(uint i, uint slot, vec4 self, vec3 velocity) {
-    const uvec2 candidate = CONTACT(slot);
-    const vec4 other = TOUCHING(candidate.x);
-    const vec3 d = self.xyz - other.xyz;
-    float reach = uintBitsToFloat(candidate.y);
-#ifdef HAS_MEMORY
-    const float offset = hasRecovery ? slips[slot].w : 0.0;
-    reach -= offset;
-#endif
-    if (!touches(d, reach)) {
-#ifdef HAS_MEMORY
-        slips[slot] = vec4(0.0, 0.0, 0.0, offset);
-#endif
-        return vec3(0.0);
-    }
-    const Direction direction = directionOf(d, i, candidate.x);
-    const float share = 1.0 / max(self.w + other.w, 1e-30); // two that never move: nothing times w = 0
-    const float lambda = (reach - direction.distance) * share;
-    vec3 impulse = lambda * direction.n;
-#ifdef HAS_MEMORY
-    if (hasFriction) {
-        const vec3 relative = step.h * (velocity - VELOCITY(candidate.x).xyz);
-        impulse -= held(slot, direction.n, relative, FRICTION(i, candidate.x) * lambda, share, offset);
-    }
-#endif
-    return impulse;
-}
+#include "contact_impulses.glsl"
 
 void main() {
     const uint i = itemIndex(push.count), n = counts[i];
     const vec4 self = TOUCHING(i), velocity = VELOCITY(i);
     const float w = velocity.w, h = step.h;
-    vec3 sum = vec3(0.0);
-    for (uint s = 0u; s < n; ++s) sum += impulseFrom(i, s * push.row + i, self, velocity.xyz);
+    vec3 sum = vec3(0.0), stopping = vec3(0.0);
+    const uint sweeping = bounds.isSwept != 0u ? n : 0u, resting = n - sweeping; // as in count_contacts
+    for (uint s = 0u; s < resting; ++s) sum += impulseFrom(i, s * push.row + i, self, velocity.xyz);
+    for (uint s = 0u; s < sweeping; ++s) addSwept(i, s * push.row + i, self, velocity.xyz, sum, stopping);
     const vec3 correction = w * sum;
-    vec3 x = self.xyz + correction, v = velocity.xyz + correction / h;
+    vec3 x = self.xyz + correction, v = velocity.xyz + (correction + w * stopping) / h;
 #ifdef HAS_PLANES
     if (w > 0.0) {
         Motion motion = Motion(x, v, h * velocity.xyz + correction);

@@ -45,3 +45,9 @@ uint slotOf(ivec3 cell, Frame frame) {
 
 // A radius below 0 marks a slot of the state that holds no particle.
 bool isInGrid(float radius, float most) { return radius >= 0.0 && radius <= most; }
+
+// Whether a particle of the grid moves so far in a substep that the cells around its end do not hold all that it may have
+// met: it is then searched one by one, like a large one. Way x substep length; `quiet` as in GridPush.
+bool isHurrying(float radius, float way, float quiet, float most) {
+    return isInGrid(radius, most) && way > quiet && radius + way > most;
+}

@@ -158,6 +158,8 @@ struct StatusWords {
     uint invertedFirstBad; // ~index of the first of them
     uint frame;
     uint candidates;       // the most that a particle needs room for, where its list was too short; else 0
+    uint slowed;           // particles slowed down by cap_speeds, in all substeps
+    uint unused0, unused1, unused2;
 };
 
 // A skin vertex in a lattice cell; corner k has the offset (k & 1, k >> 1 & 1, k >> 2).
@@ -194,18 +196,29 @@ struct GridBounds {
     uint lowX, lowY, lowZ, highX, highY, highZ; // keys
     uint moved;                                 // bits of a float [m]
     uint builds;                                // how often it was built since the simulation began
+    // Of the substep that is watched: whether somebody moves so far that contacts may lie on the way, and how many are
+    // listed as too fast for cells. plan_grid hands them on:
+    uint sweeping, hurrying;
+    uint isSwept, fast; // of the substep that is solved
 };
 
 // Cells that one invocation sums up, and particles that one measures.
 #define GRID_CHUNK 64
 
-// Indices into the arguments of its passes: one item a particle, a chunk of particles, a chunk of cells, one group.
+// Indices into the arguments of its passes: one item a particle, a chunk of particles, a chunk of cells, one group; one a
+// particle where more are too fast than there is room for, where contacts may lie on the way, where they do not.
 #define GRID_PARTICLES 0
 #define GRID_PARTICLE_CHUNKS 1
 #define GRID_CELL_CHUNKS 2
 #define GRID_ONE_GROUP 3
-#define GRID_ARGUMENTS 4
 #define GRID_OTHERS 4 // only where there are others
+#define GRID_SLOWED 5
+#define GRID_SWEPT 6
+#define GRID_UNSWEPT 7
+#define GRID_ARGUMENTS 8
+
+// Particles too fast for cells, at most; where there are more, all of them are slowed down.
+#define MOST_FAST 256
 
 struct GridPush {
     uint count;  // of particles; whole work groups
@@ -214,6 +227,7 @@ struct GridPush {
     float most;  // radius in the grid [m]; particles with more are searched one by one
     float slack; // how far a particle may move before the grid is built again [m]
     uint others; // items of further passes that run with a build; 0 = none
+    float quiet; // way in a substep up to which nobody meets anybody on it [m]
 };
 
 // Candidate s of particle i is element s * row + i, so that a longer list starts with a shorter one. Rows are a little longer
@@ -232,6 +246,7 @@ struct FindPush {
     uint row;      // elements from one to the next
     uint limit;    // candidates after which counting stops
     uint large;    // particles that are searched one by one
+    float quiet;   // as in GridPush
 };
 
 struct ContactPush {

@@ -1,27 +1,45 @@
 #version 460
-// Finds out whether a particle is farther from where it was when the grid was built than lists bear. Where one is, all
-// that remains is decided by plan_grid; most particles never touch the shared word.
+// Finds out whether a particle is, or was on its way in this substep, farther from where it was when the grid was built than
+// lists bear, and whether some are so fast that contacts may lie on their way. Where that is so, all that remains is decided
+// by plan_grid; most particles never touch the shared words.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
+#include "hash_grid.glsl"
 
 #ifdef TEXELS
 layout(binding = 0) uniform samplerBuffer positions;
 layout(binding = 1) uniform samplerBuffer detected;
+layout(binding = 2) uniform samplerBuffer velocities;
 #define POSITION(i) texelFetch(positions, int(i))
 #define DETECTED(i) texelFetch(detected, int(i))
+#define VELOCITY(i) texelFetch(velocities, int(i))
 #else
 layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
 layout(std430, binding = 1) readonly buffer Detected { vec4 detected[]; }; // where they were; w unused
+layout(std430, binding = 2) readonly buffer Velocities { vec4 velocities[]; }; // with which they came here [m/s]
 #define POSITION(i) positions[i]
 #define DETECTED(i) detected[i]
+#define VELOCITY(i) velocities[i]
 #endif
-layout(std430, binding = 2) buffer Bounds { GridBounds bounds; };
+layout(std430, binding = 3) buffer Bounds { GridBounds bounds; };
+layout(std430, binding = 4) readonly buffer Radii { float radii[]; };
+layout(std430, binding = 5) writeonly buffer Fast { uint fast[]; };
+layout(std140, binding = 6) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { GridPush push; };
+
+void watchFast(uint i, float way) {
+    const float radius = radii[i];
+    if (radius >= 0.0) atomicMax(bounds.sweeping, 1u);
+    if (!isHurrying(radius, way, push.quiet, push.most)) return;
+    const uint place = atomicAdd(bounds.hurrying, 1u);
+    if (place < MOST_FAST) fast[place] = i;
+}
 
 void main() {
     const uint i = itemIndex(push.count);
-    const vec3 way = POSITION(i).xyz - DETECTED(i).xyz;
-    const float squared = dot(way, way);
-    if (!(squared <= push.slack * push.slack)) // what is no number has gone far
-        atomicMax(bounds.moved, floatBitsToUint(min(sqrt(squared), 1e30)));
+    const vec3 way = step.h * VELOCITY(i).xyz, end = POSITION(i).xyz - DETECTED(i).xyz, start = end - way;
+    const float farthest = max(dot(end, end), dot(start, start));
+    if (!(farthest <= push.slack * push.slack)) // what is no number has gone far
+        atomicMax(bounds.moved, floatBitsToUint(min(sqrt(farthest), 1e30)));
+    if (dot(way, way) > push.quiet * push.quiet) watchFast(i, length(way));
 }

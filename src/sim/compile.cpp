@@ -2,6 +2,7 @@
 #include "sim/compile.hpp"
 
 #include "layout.h"
+#include "sim/collision/particle_contacts.hpp"
 #include "sim/constraints/fixed.hpp"
 #include "sim/lattice/cells.hpp"
 #include "sim/publish.hpp"
@@ -125,6 +126,7 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     if (scene.distances.empty()) program.skip("distance constraints");
     if (scene.damping == 0) program.skip("damping");
     if (scene.planes.empty()) program.skip("boundary planes");
+    if (!collision::particle_contacts::areIn(scene)) program.skip("contacts");
     if (scene.fixed.empty()) program.skip("fixed constraints");
     if (scene.skins.empty()) program.skip("skins");
     return program.finish();

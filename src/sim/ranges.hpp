@@ -67,6 +67,8 @@ inline constexpr std::size_t mostPlanes = 32; // bits of the touched set in plan
 inline constexpr Range substeps{1, 1000};
 /// Between these many substeps are chosen where nobody says how many.
 inline constexpr std::uint32_t fewestChosen = 4, mostChosen = 256;
+/// And at least these where particles may touch each other: falling clutter presses itself in by 0.1 radii.
+inline constexpr std::uint32_t fewestTouching = 16;
 inline constexpr Range tolerance{.low = 0, .high = 1, .isLowOpen = true, .isHighOpen = true};
 inline constexpr Range iterations{1, 1000};
 /// Sweeps in one step: bounds the pass list, and the work of one submission where a device has a watchdog.

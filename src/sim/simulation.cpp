@@ -250,6 +250,7 @@ Status Simulation::status(std::uint64_t frame) const noexcept {
             .nonFinite = words.nonFinite,
             .firstBadParticle = ~words.invertedFirstBad,
             .contactRoom = words.candidates,
+            .slowed = words.slowed,
             .lostTime = state_->lostTime[slot]};
 }
 

@@ -37,6 +37,9 @@ struct Status {
     /// step is undone, and so is every later one until a simulation with more room takes over
     /// (Simulation::recordTakeOver). One more than the most that there can be room for = too many anyway.
     std::uint32_t contactRoom = 0;
+    /// Particles, counted once a substep, that were slowed down to what contacts can be found at: where more
+    /// than 256 move farther in a substep than about their radius. Momentum is lost; take more substeps.
+    std::uint32_t slowed = 0;
     float lostTime = 0; ///< how much longer than the longest step Step::dt was [s]
 };
 

@@ -2,6 +2,8 @@
 // a constraint a loop there.
 #include "sim/substeps.hpp"
 
+#include "sim/collision/loads.hpp"
+#include "sim/collision/particle_contacts.hpp"
 #include "sim/ranges.hpp"
 #include "sim/solvers/shares.hpp"
 #include "sim/stiffness/terms.hpp"
@@ -133,7 +135,12 @@ std::uint32_t neededFor(const Scene& scene, const Settings& settings, const Load
 
 bool hasOnlyFreeParticles(const Scene& scene) {
     return scene.distances.empty() && scene.bends.empty() && scene.attachments.empty() &&
-           scene.planes.empty() && scene.colliders.empty();
+           scene.planes.empty() && scene.colliders.empty() && !collision::particle_contacts::areIn(scene);
+}
+
+// At least, of those that are chosen.
+std::uint32_t fewestFor(const Scene& scene) {
+    return collision::particle_contacts::areIn(scene) ? ranges::fewestTouching : ranges::fewestChosen;
 }
 
 SplitBudget budgetOf(const Terms& terms) {
@@ -181,25 +188,30 @@ SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings) {
     if (hasOnlyFreeParticles(scene)) return {1, 1, SubstepReason::fewest};
     // The shares of `split` depend on h a little, so that this is the fixed point of a few rounds.
     const Load load = loadOf(scene);
+    const std::uint32_t fewest = fewestFor(scene);
+    const double ofContacts =
+        collision::particle_contacts::areIn(scene)
+            ? collision::loads::longestSubstep(scene, load.inverseMass, stiffness::componentsOf(scene))
+            : infinite;
     Settings tried = settings;
-    tried.substeps = ranges::fewestChosen;
+    tried.substeps = fewest;
     SubstepChoice choice;
     for (int round = 0; round < mostRounds; ++round) {
         const Limits limits = limitsOf({scene, tried, load});
-        const double longest = std::min({limits.elastic, limits.rigid, limits.damped});
+        const double longest = std::min({limits.elastic, limits.rigid, limits.damped, ofContacts});
         choice.wanted = countFor(double{scene.dt}, longest);
         choice.share = limits.share;
         choice.isReachable = limits.isReachable;
-        choice.reason = longest == limits.elastic ? SubstepReason::stiffness
-                        : longest == limits.rigid ? SubstepReason::weight
-                                                  : SubstepReason::damping;
-        const std::uint32_t next = std::clamp(choice.wanted, ranges::fewestChosen, ranges::mostChosen);
+        choice.reason = longest == limits.elastic  ? SubstepReason::stiffness
+                        : longest == limits.rigid  ? SubstepReason::weight
+                        : longest == limits.damped ? SubstepReason::damping
+                                                   : SubstepReason::contacts;
+        const std::uint32_t next = std::clamp(choice.wanted, fewest, ranges::mostChosen);
         if (next == tried.substeps || (round + 2 > mostRounds && next < tried.substeps)) break;
         tried.substeps = next;
     }
     choice.substeps = tried.substeps;
-    if (choice.wanted < choice.substeps && choice.substeps == ranges::fewestChosen)
-        choice.reason = SubstepReason::fewest;
+    if (choice.wanted < choice.substeps && choice.substeps == fewest) choice.reason = SubstepReason::fewest;
     if (choice.wanted > choice.substeps) choice.reason = SubstepReason::most;
     return choice;
 }
@@ -262,6 +274,9 @@ std::string toText(const SubstepChoice& choice, const Settings& settings) {
         break;
     case SubstepReason::damping:
         why = "links damp as much as asked";
+        break;
+    case SubstepReason::contacts:
+        why = "what rests on contacts presses them in by no more than 1 % of a radius";
         break;
     case SubstepReason::fewest:
         why = "fewer would do for the stiffness";

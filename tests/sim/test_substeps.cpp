@@ -44,6 +44,50 @@ TEST(Substeps, OfSplitAreThoseOfItsFormula) {
     }
 }
 
+namespace {
+
+// Balls of 1 kg and 0.05 m on each other, on one that never moves.
+Scene columnOf(std::uint32_t count) {
+    Scene scene;
+    for (std::uint32_t i = 0; i <= count; ++i)
+        scene.particles.push_back({.position = {0.02f, 0.1f * static_cast<float>(i), 0.01f},
+                                   .inverseMass = i == 0 ? 0.0f : 1.0f,
+                                   .radius = 0.05f});
+    return scene;
+}
+
+} // namespace
+
+// n = dt sqrt(F D / d): the lowest contact bears all but nothing below it moves, the next all but one between
+// two that do.
+TEST(Substeps, OfAColumnPressItInByNoMoreThanOnePercentOfARadius) {
+    for (const std::uint32_t count : {40u, 200u}) {
+        const Scene scene = columnOf(count);
+        const SubstepChoice choice = chooseSubsteps(scene, {});
+        const double load = (count - 1) * 9.81,
+                     exact = double{scene.dt} * std::sqrt(load * 4 / (0.01 * 0.05));
+        EXPECT_EQ(choice.substeps, std::ceil(exact)) << count;
+        EXPECT_EQ(choice.reason, SubstepReason::contacts);
+        EXPECT_NE(toText(choice, {}).find("1 % of a radius"), std::string::npos);
+    }
+    EXPECT_EQ(chooseSubsteps(columnOf(2), {}).substeps, 16u) << "at least, where particles touch";
+    EXPECT_EQ(chooseSubsteps(columnOf(2), {}).reason, SubstepReason::fewest);
+    Scene leaning = columnOf(40), weightless = leaning;
+    for (Particle& particle : leaning.particles) std::swap(particle.position.x, particle.position.y);
+    leaning.gravity = {-9.81f, 0, 0};
+    EXPECT_EQ(chooseSubsteps(leaning, {}).substeps, chooseSubsteps(columnOf(40), {}).substeps);
+    weightless.gravity = {};
+    EXPECT_EQ(chooseSubsteps(weightless, {}).substeps, 16u);
+}
+
+// What a body weighs rests on its own links, and on contacts only where it stands on another.
+TEST(Substeps, OfABodyThatTouchesNoOtherDoNotRegardContacts) {
+    Scene scene = test::block(6, 0.1f, 1e4f);
+    const std::uint32_t without = chooseSubsteps(scene, {}).substeps;
+    for (Particle& particle : scene.particles) particle.radius = 0.05f;
+    EXPECT_EQ(chooseSubsteps(scene, {}).substeps, std::max(16u, without));
+}
+
 TEST(Substeps, GrowWithFrameTimeStiffnessAndLightness) {
     const auto chosen = [](float dt, float compliance, float lightness) {
         Scene scene = dampedChain(5, compliance);

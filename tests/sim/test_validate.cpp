@@ -172,6 +172,25 @@ const Fault faults[] = {
     {"particle[0].radius: is -0.1, must be at least 0",
      [](Scene& s, Settings&) { s.particles[0].radius = -0.1f; }},
     {"scene.contacts.friction: is -1", [](Scene& s, Settings&) { s.contacts.friction = -1; }},
+    {"scene.contacts.restitution: is 1.25, must be from 0 to 1",
+     [](Scene& s, Settings&) { s.contacts.restitution = 1.25f; }},
+    {"scene.contacts.recoverySpeed: is 0, must be above 0",
+     [](Scene& s, Settings&) { s.contacts.recoverySpeed = 0; }},
+    {"scene.contacts.recoverySpeed: is nan",
+     [](Scene& s, Settings&) { s.contacts.recoverySpeed = notANumber; }},
+    {"scene.contacts.surfaces[1].friction: is nan",
+     [](Scene& s, Settings&) {
+         s.contacts.surfaces = {{}, {.friction = notANumber}};
+     }},
+    {"scene.contacts.surfaces[0].restitution: is -0.5",
+     [](Scene& s, Settings&) { s.contacts.surfaces = {{.restitution = -0.5f}}; }},
+    {"scene.contacts.surfaces: are 65, at most 64 are possible",
+     [](Scene& s, Settings&) { s.contacts.surfaces.resize(65); }},
+    {"particle[3].surface: is 2, but there are 2 surfaces, with the scene's own",
+     [](Scene& s, Settings&) {
+         s.contacts.surfaces = {{}};
+         s.particles[3].surface = 2;
+     }},
     {"settings.contactMargin: is 0, must be above 0", [](Scene&, Settings& s) { s.contactMargin = 0; }},
     {"settings.contactRoom: is 257, must be from 1 to 256", [](Scene&, Settings& s) { s.contactRoom = 257; }},
     {"settings.contactRoom: is 0", [](Scene&, Settings& s) { s.contactRoom = 0; }},

@@ -4,6 +4,8 @@
 #include "kernels.hpp"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 
 namespace sinew::sim::collision::contact_lists {
 
@@ -21,6 +23,15 @@ std::vector<std::uint32_t> slotsAbove(std::span<const float> radii, float most) 
     return slots;
 }
 
+// Two that both move no farther than this in a substep cannot pass through each other, and are in each
+// other's lists after it.
+float quietWay(const Request& request) {
+    float least = std::numeric_limits<float>::max();
+    for (const float radius : request.radii)
+        if (radius >= 0) least = std::min(least, radius);
+    return std::min(0.5f * least, slackShare * request.margin);
+}
+
 bool hasOneRadius(std::span<const float> radii) {
     float only = -1;
     for (const float radius : radii) {
@@ -31,10 +42,17 @@ bool hasOneRadius(std::span<const float> radii) {
     return true;
 }
 
-const vk::ShaderCode& findingKernel(const Lists& lists) {
-    const bool usesTexels = lists.grid.usesTexels, hasExclusions = lists.excluded != BufferId{};
-    if (usesTexels) return hasExclusions ? kernels::findContactsExclusions : kernels::findContacts;
-    return hasExclusions ? kernels::findContactsExclusionsLoads : kernels::findContactsLoads;
+namespace k = kernels;
+
+// find_contacts from loads and from texels; [0] all pairs, [1] but for exclusions.
+using Forms = std::array<std::array<const vk::ShaderCode*, 2>, 2>;
+constexpr Forms unswept{{{&k::findContactsLoads, &k::findContactsExclusionsLoads},
+                         {&k::findContacts, &k::findContactsExclusions}}};
+constexpr Forms swept{{{&k::findContactsSweptLoads, &k::findContactsSweptExclusionsLoads},
+                       {&k::findContactsSwept, &k::findContactsSweptExclusions}}};
+
+const vk::ShaderCode& form(const Lists& lists, const Forms& forms) {
+    return *forms[lists.grid.usesTexels ? 1 : 0][lists.excluded != BufferId{} ? 1 : 0];
 }
 
 } // namespace
@@ -48,6 +66,7 @@ Lists add(ProgramBuilder& program, const Request& request) {
     Lists lists{.grid = hash_grid::add(program, {.radii = request.radii,
                                                  .margin = request.margin,
                                                  .slack = slackShare * request.margin,
+                                                 .quiet = quietWay(request),
                                                  .usesTexels = request.usesTexels}),
                 .hasOneRadius = hasOneRadius(request.radii)};
     const std::vector<std::uint32_t> large = slotsAbove(request.radii, lists.grid.push.most);
@@ -59,7 +78,8 @@ Lists add(ProgramBuilder& program, const Request& request) {
                   .capacity = request.capacity,
                   .row = rowOf(count),
                   .limit = request.limit,
-                  .large = static_cast<std::uint32_t>(large.size())};
+                  .large = static_cast<std::uint32_t>(large.size()),
+                  .quiet = lists.grid.push.quiet};
     const std::size_t elements = request.capacity * std::size_t{lists.push.row};
     lists.contacts = request.contacts.empty()
                          ? program.scratch<layout::ContactCandidate>("contacts", elements)
@@ -73,22 +93,24 @@ Lists add(ProgramBuilder& program, const Request& request) {
     return lists;
 }
 
-void addWatch(ProgramBuilder& program, const Lists& lists, BufferId positions) {
-    hash_grid::addBuild(program, lists.grid, positions);
+void addWatch(ProgramBuilder& program, const Lists& lists, const hash_grid::Moved& moved) {
+    hash_grid::addBuild(program, lists.grid, moved);
 }
 
-void addUpdate(ProgramBuilder& program, const Lists& lists, BufferId positions) {
-    addWatch(program, lists, positions);
-    addLists(program, lists, positions);
+void addUpdate(ProgramBuilder& program, const Lists& lists, const hash_grid::Moved& moved) {
+    addWatch(program, lists, moved);
+    addLists(program, lists, moved);
 }
 
-void addLists(ProgramBuilder& program, const Lists& lists, BufferId positions) {
+void addLists(ProgramBuilder& program, const Lists& lists, const hash_grid::Moved& moved) {
     const hash_grid::Grid& grid = lists.grid;
-    std::vector<BufferId> buffers{grid.sorted, grid.starts, positions,        grid.radii,
+    std::vector<BufferId> buffers{grid.sorted, grid.starts, moved.positions,  grid.radii,
                                   grid.bounds, lists.found, lists.candidates, lists.large};
     if (lists.excluded != BufferId{}) buffers.push_back(lists.excluded);
-    program.dispatchIndirect(findingKernel(lists), grid.particles, buffers, lists.push,
-                             {{hasOneRadiusId, lists.hasOneRadius}});
+    const ProgramBuilder::Constants constants{{hasOneRadiusId, lists.hasOneRadius}};
+    program.dispatchIndirect(form(lists, unswept), grid.unswept, buffers, lists.push, constants);
+    buffers.insert(buffers.end(), {moved.velocities, grid.fast, moved.step});
+    program.dispatchIndirect(form(lists, swept), grid.swept, buffers, lists.push, constants);
     program.dispatchIndirect(
         grid.usesTexels ? kernels::sortContacts : kernels::sortContactsLoads, grid.particles,
         {lists.candidates, grid.radii, lists.found, lists.contacts, lists.counts, program.program().status},

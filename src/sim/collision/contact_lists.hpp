@@ -1,6 +1,7 @@
 // Which particles may touch before their lists are made again: for each particle the others nearer than
-// touching and a margin M, sorted by index, made on the device whenever one may have moved more than M / 2.
-// No pair is ever missed, and no result depends on M (contacts: 2).
+// touching and a margin M, or were so on their way in the substep, sorted by index, made on the device
+// whenever one may have moved more than M / 2. No pair is ever missed, and no result depends on M (contacts:
+// 2).
 #pragma once
 
 #include "sim/collision/hash_grid.hpp"
@@ -48,15 +49,15 @@ struct Lists {
 
 Lists add(ProgramBuilder& program, const Request& request);
 
-/// Watches `positions`, and builds the grid of them where lists are no longer complete. Until addLists() the
-/// old lists stand.
-void addWatch(ProgramBuilder& program, const Lists& lists, BufferId positions);
+/// Watches particles, and builds the grid of them where lists are no longer complete: for those that are
+/// near, or were on their way. Until addLists() the old lists stand.
+void addWatch(ProgramBuilder& program, const Lists& lists, const hash_grid::Moved& moved);
 
-/// Makes the lists of `positions` where the grid was built. A list that does not fit its room is said in the
+/// Makes the lists where the grid was built. A list that does not fit its room is said in the
 /// status (StatusWords::candidates): what it lacks is lost, so the step must be undone.
-void addLists(ProgramBuilder& program, const Lists& lists, BufferId positions);
+void addLists(ProgramBuilder& program, const Lists& lists, const hash_grid::Moved& moved);
 
 /// Both.
-void addUpdate(ProgramBuilder& program, const Lists& lists, BufferId positions);
+void addUpdate(ProgramBuilder& program, const Lists& lists, const hash_grid::Moved& moved);
 
 } // namespace sinew::sim::collision::contact_lists

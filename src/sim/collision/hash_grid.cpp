@@ -24,6 +24,25 @@ const vk::ShaderCode& form(const Grid& grid, const vk::ShaderCode& texels, const
     return grid.usesTexels ? texels : loads;
 }
 
+void addPlan(ProgramBuilder& program, const Grid& grid) {
+    program.dispatch(kernels::planGrid, 1, {grid.bounds, grid.arguments}, grid.push);
+}
+
+void addCells(ProgramBuilder& program, const Grid& grid, BufferId positions) {
+    namespace k = kernels;
+    program.dispatchIndirect(form(grid, k::measureBounds, k::measureBoundsLoads), grid.particleChunks,
+                             {positions, grid.radii, grid.bounds}, grid.push);
+    program.dispatchIndirect(form(grid, k::countCells, k::countCellsLoads), grid.particles,
+                             {positions, grid.radii, grid.bounds, grid.counts, grid.places, grid.detected},
+                             grid.push);
+    program.dispatchIndirect(k::sumCells, grid.cellChunks, {grid.counts, grid.sums}, grid.push);
+    program.dispatchIndirect(k::scanSums, grid.oneGroup, {grid.sums}, grid.push);
+    program.dispatchIndirect(k::startCells, grid.cellChunks, {grid.counts, grid.sums, grid.starts},
+                             grid.push);
+    program.dispatchIndirect(form(grid, k::fillCells, k::fillCellsLoads), grid.particles,
+                             {positions, grid.places, grid.starts, grid.sorted}, grid.push);
+}
+
 } // namespace
 
 float largestInGrid(std::span<const float> radii) {
@@ -44,17 +63,17 @@ Grid add(ProgramBuilder& program, const Request& request) {
     // Nowhere: so far away that the first watch finds everybody gone.
     const std::vector<layout::vec4> nowhere(count, {1e18f, 1e18f, 1e18f, 0});
     const std::string name = request.name;
-    const std::uint32_t arguments = request.others > 0 ? GRID_OTHERS + 1 : GRID_ARGUMENTS;
     Grid grid{.push = {.count = static_cast<std::uint32_t>(count),
                        .cells = cells,
                        .edge = std::max(2 * most + request.margin, request.edge),
                        .most = most,
                        .slack = request.slack,
-                       .others = request.others},
+                       .others = request.others,
+                       .quiet = request.quiet},
               .usesTexels = request.usesTexels,
               .radii = program.upload(request.radiiName, request.radii),
               .bounds = program.scratch<layout::GridBounds>(name + ".bounds", 1),
-              .arguments = program.scratch<layout::DispatchArguments>(name + ".arguments", arguments),
+              .arguments = program.scratch<layout::DispatchArguments>(name + ".arguments", GRID_ARGUMENTS),
               .counts = program.scratch<std::uint32_t>(name + ".counts", cells),
               .sums = program.scratch<std::uint32_t>(name + ".sums", cells / GRID_CHUNK + 1),
               .starts = program.scratch<std::uint32_t>(name + ".starts", cells + 4),
@@ -66,29 +85,29 @@ Grid add(ProgramBuilder& program, const Request& request) {
     grid.cellChunks = {grid.arguments, GRID_CELL_CHUNKS, cells / GRID_CHUNK};
     grid.oneGroup = {grid.arguments, GRID_ONE_GROUP, GROUP_ITEMS};
     grid.others = {grid.arguments, GRID_OTHERS, request.others};
+    grid.swept = {grid.arguments, GRID_SWEPT, grid.push.count};
+    grid.unswept = {grid.arguments, GRID_UNSWEPT, grid.push.count};
+    grid.slowed = {grid.arguments, GRID_SLOWED, grid.push.count};
+    if (request.quiet > 0) grid.fast = program.scratch<std::uint32_t>(name + ".fast", MOST_FAST);
     return grid;
 }
 
-void addBuild(ProgramBuilder& program, const Grid& grid, BufferId positions) {
-    program.dispatch(form(grid, kernels::watchMotion, kernels::watchMotionLoads), grid.push.count,
-                     {positions, grid.detected, grid.bounds}, grid.push);
-    addSort(program, grid, positions);
+void addBuild(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
+    namespace k = kernels;
+    program.dispatch(
+        form(grid, k::watchMotion, k::watchMotionLoads), grid.push.count,
+        {moved.positions, grid.detected, moved.velocities, grid.bounds, grid.radii, grid.fast, moved.step},
+        grid.push);
+    addPlan(program, grid);
+    program.dispatchIndirect(
+        k::capSpeeds, grid.slowed,
+        {moved.positions, moved.velocities, grid.radii, program.program().status, moved.step}, grid.push);
+    addCells(program, grid, moved.positions);
 }
 
 void addSort(ProgramBuilder& program, const Grid& grid, BufferId positions) {
-    namespace k = kernels;
-    program.dispatch(k::planGrid, 1, {grid.bounds, grid.arguments}, grid.push);
-    program.dispatchIndirect(form(grid, k::measureBounds, k::measureBoundsLoads), grid.particleChunks,
-                             {positions, grid.radii, grid.bounds}, grid.push);
-    program.dispatchIndirect(form(grid, k::countCells, k::countCellsLoads), grid.particles,
-                             {positions, grid.radii, grid.bounds, grid.counts, grid.places, grid.detected},
-                             grid.push);
-    program.dispatchIndirect(k::sumCells, grid.cellChunks, {grid.counts, grid.sums}, grid.push);
-    program.dispatchIndirect(k::scanSums, grid.oneGroup, {grid.sums}, grid.push);
-    program.dispatchIndirect(k::startCells, grid.cellChunks, {grid.counts, grid.sums, grid.starts},
-                             grid.push);
-    program.dispatchIndirect(form(grid, k::fillCells, k::fillCellsLoads), grid.particles,
-                             {positions, grid.places, grid.starts, grid.sorted}, grid.push);
+    addPlan(program, grid);
+    addCells(program, grid, positions);
 }
 
 } // namespace sinew::sim::collision::hash_grid

@@ -17,9 +17,18 @@ struct Request {
     float slack = 0;  ///< how far a particle may move before the grid is built again [m]
     float edge = 0;   ///< of a cell, at least [m]
     std::uint32_t others = 0; ///< items of further passes that run with a build; 0 = none
+    /// How far a particle may move in a substep before contacts are looked for on its way [m].
+    float quiet = 0;
     bool usesTexels = true;
     const char* name = "grid";                ///< of its buffers
     const char* radiiName = "contacts.radii"; ///< of that one
+};
+
+/// Particles where a substep has taken them, whole work groups.
+struct Moved {
+    BufferId positions;  ///< xyz [m]
+    BufferId velocities; ///< with which they came there in step.h [m/s]; w = inverse mass [1/kg]
+    BufferId step;       ///< layout::StepParams
 };
 
 /// The largest radius in the grid [m]: twice the median, so that a few large particles do not make
@@ -30,9 +39,11 @@ constexpr std::size_t mostLarge = 64;
 struct Grid {
     layout::GridPush push{};
     bool usesTexels = true;
-    BufferId radii, bounds, arguments, counts, sums, starts, places, sorted, detected;
+    BufferId radii, bounds, arguments, counts, sums, starts, places, sorted, detected, fast;
     IndirectItems particles, particleChunks, cellChunks, oneGroup,
-        others; ///< of passes that run with a build
+        others;                   ///< of passes that run with a build
+    IndirectItems swept, unswept; ///< likewise, a particle each, where contacts may or cannot lie on the way
+    IndirectItems slowed;         ///< where too many are too fast
 };
 
 Grid add(ProgramBuilder& program, const Request& request);
@@ -40,7 +51,8 @@ Grid add(ProgramBuilder& program, const Request& request);
 /// Builds the grid of `positions` where bounds.moved says that somebody has gone too far.
 void addSort(ProgramBuilder& program, const Grid& grid, BufferId positions);
 
-/// Watches `positions` and builds the grid of them where it must be.
-void addBuild(ProgramBuilder& program, const Grid& grid, BufferId positions);
+/// Watches particles and builds the grid of them where it must be. Particles too fast for cells are listed,
+/// up to MOST_FAST; where there are more, all of those are slowed down first, which the status counts.
+void addBuild(ProgramBuilder& program, const Grid& grid, const Moved& moved);
 
 } // namespace sinew::sim::collision::hash_grid

@@ -157,18 +157,20 @@ void addCarrying(ProgramBuilder& program, const Contacts& contacts, const vk::Sh
                              lists.push);
 }
 
-void addListUpdate(ProgramBuilder& program, const Contacts& contacts, BufferId positions) {
-    contact_lists::addWatch(program, contacts.lists, positions);
+void addListUpdate(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted) {
+    const hash_grid::Moved moved{predicted.positions, predicted.velocities, predicted.step};
+    contact_lists::addWatch(program, contacts.lists, moved);
     if (contacts.hasMemory()) addCarrying(program, contacts, k::keepSlips, k::keepSlipsRecovery);
-    contact_lists::addLists(program, contacts.lists, positions);
+    contact_lists::addLists(program, contacts.lists, moved);
     if (contacts.hasMemory()) addCarrying(program, contacts, k::returnSlips, k::returnSlipsRecovery);
 }
 
 void addCount(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted) {
     const contact_lists::Lists& lists = contacts.lists;
-    std::vector<BufferId> buffers{predicted.positions, lists.contacts, lists.counts, predicted.velocities,
-                                  contacts.touching};
-    if (contacts.hasRecovery) buffers.insert(buffers.end(), {contacts.slips, predicted.step});
+    std::vector<BufferId> buffers{predicted.positions,  lists.contacts,    lists.counts,
+                                  predicted.velocities, contacts.touching, predicted.step,
+                                  lists.grid.bounds,    contacts.firsts};
+    if (contacts.hasRecovery) buffers.push_back(contacts.slips);
     program.dispatch(contacts.hasRecovery
                          ? form(contacts, {&k::countContactsRecoveryLoads, &k::countContactsRecovery})
                          : form(contacts, {&k::countContactsLoads, &k::countContacts}),
@@ -179,7 +181,8 @@ void addGather(ProgramBuilder& program, const Contacts& contacts, const Particle
                const ParticleBuffers& next) {
     const contact_lists::Lists& lists = contacts.lists;
     std::vector<BufferId> buffers{contacts.touching,   lists.contacts, predicted.velocities, lists.counts,
-                                  predicted.positions, next.positions, next.velocities,      predicted.step};
+                                  predicted.positions, next.positions, next.velocities,      predicted.step,
+                                  lists.grid.bounds,   contacts.firsts};
     ProgramBuilder::Constants constants;
     if (contacts.hasMemory()) {
         buffers.push_back(contacts.slips);
@@ -239,11 +242,14 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
                      .recoverySpeed = scene.contacts.recoverySpeed,
                      .surfaces = contacts.surfaces.count};
     contacts.touching = program.scratch<layout::vec4>("contacts.touching", layout.count);
+    contacts.firsts = program.scratch<float>("contacts.firsts", layout.count);
     if (contacts.hasMemory()) addMemory(program, contacts, first);
     if (contacts.hasRebound || contacts.surfaces.hasRestitution)
         contacts.before = program.scratch<layout::vec4>("contacts.before", layout.count);
-    if (contacts.surfaces.hasRestitution)
+    if (contacts.surfaces.hasRestitution) {
         contacts.bouncing = program.scratch<float>("contacts.bouncing", layout.count);
+        contacts.rebounding = program.scratch<layout::vec4>("contacts.rebounding", layout.count);
+    }
     return contacts;
 }
 
@@ -253,23 +259,24 @@ void addOpening(ProgramBuilder& program, const Contacts& contacts, BufferId velo
 
 void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                const ParticleBuffers& next) {
-    addListUpdate(program, contacts, predicted.positions);
+    addListUpdate(program, contacts, predicted);
     addCount(program, contacts, predicted);
     addGather(program, contacts, predicted, next);
 }
 
-void addBounces(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& next,
-                BufferId velocities) {
+void addBounces(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
+                const ParticleBuffers& next) {
     const contact_lists::Lists& lists = contacts.lists;
     const bool isTable = contacts.surfaces.count > 0;
-    std::vector<BufferId> shared{contacts.touching, lists.contacts, contacts.before, lists.counts, next.step};
+    std::vector<BufferId> shared{predicted.positions, lists.contacts, contacts.before,   predicted.velocities,
+                                 lists.counts,        next.step,      lists.grid.bounds, contacts.firsts};
     if (isTable) shared.insert(shared.end(), {contacts.surfaces.ofParticles, contacts.surfaces.pairs});
     shared.push_back(next.velocities);
     shared.push_back(contacts.bouncing);
     program.dispatch(isTable ? form(contacts, {&k::countBouncesSurfacesLoads, &k::countBouncesSurfaces})
                              : form(contacts, {&k::countBouncesLoads, &k::countBounces}),
                      contacts.push.count, shared, contacts.push);
-    shared.insert(shared.end(), {next.positions, velocities});
+    shared.insert(shared.end(), {next.positions, contacts.rebounding});
     program.dispatch(isTable ? form(contacts, {&k::bounceContactsSurfacesLoads, &k::bounceContactsSurfaces})
                              : form(contacts, {&k::bounceContactsLoads, &k::bounceContacts}),
                      contacts.push.count, shared, contacts.push);

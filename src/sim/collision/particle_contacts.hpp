@@ -21,7 +21,7 @@ struct Contacts {
     layout::ContactPush push{};
     bool hasRebound = false;  ///< of a plane
     bool hasRecovery = false; ///< some pair overlaps when the scene is loaded
-    BufferId touching, before, bouncing;
+    BufferId touching, firsts, before, bouncing, rebounding;
     /// What is remembered of candidates, from substep to substep, while lists are made again, and from step
     /// to step; `...Offsets` where hasRecovery.
     BufferId slips, kept, keptCounts, keptOffsets, saved, savedCounts, savedOffsets;
@@ -41,9 +41,9 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
                const ParticleBuffers& next);
 
 /// After them, where contacts.surfaces.hasRestitution: what rebounds. The velocities after the substep then
-/// are `velocities`, which must not be those of `next`.
-void addBounces(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& next,
-                BufferId velocities);
+/// are in contacts.rebounding, which must not be those of `next`; those that come in are free.
+void addBounces(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
+                const ParticleBuffers& next);
 
 /// The end of a step: what friction remembers is saved, or taken back with an undone step.
 void addPublishing(ProgramBuilder& program, const Contacts& contacts);

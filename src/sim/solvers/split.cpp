@@ -266,9 +266,12 @@ struct Touching {
         if (faces) collision::face_contacts::addOpening(program, *faces, velocities);
         if (pairs) collision::particle_contacts::addOpening(program, *pairs, velocities);
     }
-    void addPasses(ProgramBuilder& program, ParticleBuffers predicted, const ParticleBuffers& next) const {
+    // Returns what pairs were found with.
+    ParticleBuffers addPasses(ProgramBuilder& program, ParticleBuffers predicted,
+                              const ParticleBuffers& next) const {
         if (faces) predicted = collision::face_contacts::addPasses(program, *faces, predicted, next);
         if (pairs) collision::particle_contacts::addPasses(program, *pairs, predicted, next);
+        return predicted;
     }
     void addPublishing(ProgramBuilder& program) const {
         if (faces) collision::face_contacts::addPublishing(program, *faces);
@@ -294,7 +297,7 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
     ProgramBuilder& program = common.program;
     const StateLayout& layout = common.layout;
     const std::uint32_t substeps = common.settings.substeps;
-    const Touching contacts = addTouching(common, particles);
+    Touching contacts = addTouching(common, particles);
     const std::vector<Gather> gathers = addGathers(common);
     const bool alternates = std::ranges::any_of(gathers, &Gather::alternatesVelocities);
     const auto attachments = constraints::attachment::add(program, common.scene, layout);
@@ -310,10 +313,10 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
         predicted.velocities = alternates ? spare : current.velocities;
         addLinks(gathers, current, predicted, substep == 0);
         if (!alternates) std::swap(current.velocities, spare);
-        contacts.addPasses(program, predicted, current);
+        const ParticleBuffers met = contacts.addPasses(program, predicted, current);
         if (contacts.pairs && contacts.pairs->surfaces.hasRestitution) {
-            collision::particle_contacts::addBounces(program, *contacts.pairs, current, spare);
-            std::swap(current.velocities, spare);
+            collision::particle_contacts::addBounces(program, *contacts.pairs, met, current);
+            std::swap(current.velocities, contacts.pairs->rebounding);
         }
         constraints::attachment::addPass(program, current, attachments, substep, substeps);
         constraints::tether::addPass(program, current, tethers);

@@ -8,9 +8,6 @@
 
 namespace sinew::sim::stiffness {
 
-namespace {
-
-// Which particles hang together, by links.
 std::vector<std::uint32_t> componentsOf(const Scene& scene) {
     std::vector<std::uint32_t> parent(scene.particles.size());
     std::iota(parent.begin(), parent.end(), 0u);
@@ -22,6 +19,8 @@ std::vector<std::uint32_t> componentsOf(const Scene& scene) {
     for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = root(i);
     return parent;
 }
+
+namespace {
 
 // The weight on one of the links that a particle's body hangs on [N]; 0 for bodies that hang on nothing.
 std::vector<double> hangingWeights(const Scene& scene, const std::vector<float>& inverseMass) {

@@ -36,6 +36,9 @@ struct Load {
 
 Load loadOf(const Scene& scene);
 
+// Of each particle, which ones hang together by links.
+std::vector<std::uint32_t> componentsOf(const Scene& scene);
+
 inline bool canMove(const Load& load, std::initializer_list<std::uint32_t> ends) {
     return std::ranges::any_of(ends, [&](std::uint32_t end) { return load.inverseMass[end] > 0; });
 }

@@ -45,12 +45,15 @@ double shortest(const vk::Device& device, vk::Queue& queue, std::uint32_t side, 
     std::fill_n(radii.begin(), side * side * side, radius);
     const BufferId here = builder.upload("here", a), there = builder.upload("there", b);
     const auto lists = collision::contact_lists::add(builder, {radii, margin, 24});
+    const layout::StepParams step{};
+    const BufferId velocities = builder.scratch<layout::vec4>("velocities", a.size()),
+                   parameters = builder.upload("step", std::span(&step, 1));
     builder.beginPhase("lists");
     for (const BufferId positions : {here, there}) {
         if (part != Part::build)
-            collision::contact_lists::addUpdate(builder, lists, positions);
+            collision::contact_lists::addUpdate(builder, lists, {positions, velocities, parameters});
         else
-            collision::hash_grid::addBuild(builder, lists.grid, positions);
+            collision::hash_grid::addBuild(builder, lists.grid, {positions, velocities, parameters});
     }
     StepProgram program = builder.finish();
     if (part == Part::find)

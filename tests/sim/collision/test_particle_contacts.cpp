@@ -268,6 +268,43 @@ TEST(ParticleContacts, ThatHaveNoRoomAreSaidAndRepeatedToTheSameBits) {
     EXPECT_EQ(runner->stateHash(), hash);
 }
 
+// A chain that hangs and is tethered, its links damped; a ball that is dragged through loose ones on a floor.
+TEST(ParticleContacts, StandBesideAttachmentsTethersAndInternalDamping) {
+    Scene scene = test::hangingChain(6, 0.15f, 0.5f, 1e-4f);
+    for (Particle& particle : scene.particles) particle.radius = radius;
+    addTethers(scene, {.first = 0, .count = 7});
+    scene.dampingTime = 0.002f;
+    const auto dragged = static_cast<std::uint32_t>(scene.particles.size());
+    scene.particles.push_back(ballAt({-0.4f, -1.15f + radius, 0}));
+    for (int i = 0; i < 6; ++i)
+        scene.particles.push_back(ballAt({-0.25f + 0.11f * static_cast<float>(i), -1.15f + radius, 0.02f}));
+    scene.attachments = {
+        {.particle = dragged, .anchor = scene.particles[dragged].position, .compliance = 1e-4f}};
+    scene.planes = {{.offset = -1.15f, .friction = 0.4f}};
+    scene.contacts = {.friction = 0.4f, .restitution = 0.3f};
+    const auto run = [&](const Settings& settings) {
+        auto runner = std::make_unique<test::Runner>(scene, settings);
+        for (int step = 0; step < 90; ++step) {
+            const Vec3 target{-0.4f + 0.01f * static_cast<float>(step), -1.15f + radius, 0};
+            const Status status = runner->step(scene.dt, std::span(&target, 1));
+            EXPECT_EQ(status.nonFinite + status.contactRoom, 0u) << "step " << step;
+        }
+        return runner;
+    };
+    const auto runner = run({.substeps = 16});
+    const auto x = runner->positions();
+    std::printf("dragged to %.4f m (0.49), deepest %.4f r\n", x[dragged].x(), deepest(x));
+    EXPECT_NEAR(x[dragged].x(), 0.49, 0.02);
+    EXPECT_LE(deepest(x), 0.05);
+    for (std::size_t i = dragged + 1; i < x.size(); ++i)
+        EXPECT_TRUE(x[i].x() > x[dragged].x() || std::abs(x[i].z()) > radius)
+            << "ball " << i << " is in the way";
+    for (std::size_t i = 1; i <= 6; ++i)
+        EXPECT_LE((x[i] - x[0]).norm(), 0.15 * static_cast<double>(i) * 1.01) << "tethered";
+    EXPECT_EQ(run({.substeps = 16, .isReversed = true})->stateHash(), runner->stateHash());
+    EXPECT_EQ(run({.substeps = 16, .contactMargin = 0.2f})->stateHash(), runner->stateHash());
+}
+
 TEST(ParticleContacts, AreRefusedBySolversWithoutAFormForThem) {
     for (const Solver solver : {Solver::jacobi, Solver::gaussSeidel}) {
         const auto complaints = validate(column(2), {.solver = solver});

@@ -1,0 +1,24 @@
+#version 460
+// Slows down all particles that are too fast for cells, where they are more than can be searched one by one: what bounds the
+// time of a step. Counted, because it takes momentum away; shorter substeps make it needless.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "hash_grid.glsl"
+
+layout(std430, binding = 0) buffer Positions { vec4 positions[]; };   // predicted
+layout(std430, binding = 1) buffer Velocities { vec4 velocities[]; }; // with which they came here [m/s]
+layout(std430, binding = 2) readonly buffer Radii { float radii[]; };
+layout(std430, binding = 3) buffer Status { StatusWords status; };
+layout(std140, binding = 4) uniform Step { StepParams step; };
+layout(push_constant) uniform Push { GridPush push; };
+
+void main() {
+    const uint i = itemIndex(push.count);
+    const vec3 v = velocities[i].xyz;
+    const float way = length(step.h * v);
+    if (!isHurrying(radii[i], way, push.quiet, push.most)) return;
+    const vec3 change = (0.999 * max(push.most - radii[i], push.quiet) / way - 1.0) * v;
+    velocities[i].xyz = v + change;
+    positions[i].xyz += step.h * change;
+    atomicAdd(status.slowed, 1u);
+}

@@ -1,0 +1,74 @@
+// The impulses of gather_contacts on a particle from others: normal, and friction with what it remembers. In the names and
+// buffers of that kernel.
+#ifdef HAS_MEMORY
+// What friction takes back of a pair's tangential way, x w = share of the pair, at most `most`; the rest is remembered.
+vec3 held(uint slot, vec3 n, vec3 relative, float most, float share, float offset) {
+    vec3 slip = slips[slot].xyz + relative;
+    slip -= dot(slip, n) * n;
+    const float force = length(slip) * share;
+    if (force > most) slip *= most / force;
+    slips[slot] = vec4(slip, offset);
+    return share * slip;
+}
+#endif
+
+// Nothing is remembered of what does not touch but an overlap.
+void forget(uint slot, float offset) {
+#ifdef HAS_MEMORY
+    slips[slot] = vec4(0.0, 0.0, 0.0, offset);
+#endif
+}
+
+float offsetOf(uint slot) {
+#ifdef HAS_MEMORY
+    return hasRecovery ? slips[slot].w : 0.0;
+#else
+    return 0.0;
+#endif
+}
+
+// The impulse on particle i from another that is `depth` too near along n [kg m].
+vec3 impulseAlong(vec3 n, float depth, uint i, uint other, uint slot, vec3 velocity, float split, float offset) {
+    const float share = 1.0 / max(split, 1e-30); // two that never move: nothing times w = 0
+    const float lambda = depth * share;
+    vec3 impulse = lambda * n;
+#ifdef HAS_MEMORY
+    if (hasFriction) {
+        const vec3 relative = step.h * (velocity - VELOCITY(other).xyz);
+        impulse -= held(slot, n, relative, FRICTION(i, other) * lambda, share, offset);
+    }
+#endif
+    return impulse;
+}
+
+// Of the candidate in `slot`.
+vec3 impulseFrom(uint i, uint slot, vec4 self, vec3 velocity) {
+    const uvec2 candidate = CONTACT(slot);
+    const vec4 other = TOUCHING(candidate.x);
+    const vec3 d = self.xyz - other.xyz;
+    const float offset = offsetOf(slot), reach = uintBitsToFloat(candidate.y) - offset;
+    if (!touches(d, reach)) {
+        forget(slot, offset);
+        return vec3(0.0);
+    }
+    const Direction direction = directionOf(d, i, candidate.x);
+    return impulseAlong(direction.n, reach - direction.distance, i, candidate.x, slot, velocity, self.w + other.w, offset);
+}
+
+// Likewise in a substep with fast particles. Those that met stay where they did: they lose their approach, and are not moved.
+void addSwept(uint i, uint slot, vec4 self, vec3 velocity, inout vec3 moving, inout vec3 stopping) {
+    const uvec2 candidate = CONTACT(slot);
+    const uint j = candidate.x;
+    const vec3 d = predicted[i].xyz - predicted[j].xyz, way = step.h * (velocity - VELOCITY(j).xyz);
+    const float offset = offsetOf(slot), reach = uintBitsToFloat(candidate.y) - offset;
+    const Contact contact = contactOf(d, way, reach, min(firsts[i], firsts[j]));
+    if (!contact.exists) {
+        forget(slot, offset);
+        return;
+    }
+    const Direction direction = directionOf(contact.at, i, j);
+    const float depth = contact.isMet ? max(0.0, -dot(direction.n, way)) : reach - direction.distance;
+    const vec3 impulse = impulseAlong(direction.n, depth, i, j, slot, velocity, self.w + TOUCHING(j).w, offset);
+    if (contact.isMet) stopping += impulse;
+    else moving += impulse;
+}
