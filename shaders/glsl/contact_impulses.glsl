@@ -1,13 +1,19 @@
 // The impulses of gather_contacts on a particle from others: normal, and friction with what it remembers. In the names and
 // buffers of that kernel.
 #ifdef HAS_MEMORY
-// What friction takes back of a pair's tangential way, x w = share of the pair, at most `most`; the rest is remembered.
-vec3 held(uint slot, vec3 n, vec3 relative, float most, float share, float offset) {
-    vec3 slip = slips[slot].xyz + relative;
+// What friction takes back of the way that a pair has slid on each other, x w = share of the pair, at most `most`. Remembered
+// is where they were before the substep, and the velocity after it says how far they then really went, whatever else
+// moved them: summing up predicted ways instead counts gravity's in every substep, and creeps uphill. `way` is that of this
+// substep, `wayBefore` that of the last. Who did not touch then has no memory: one that is 0 is marked by next to nothing.
+vec3 held(uint slot, vec3 n, vec3 way, vec3 wayBefore, float most, float share, float offset) {
+    vec3 slip = slips[slot].xyz;
+    if (slip != vec3(0.0)) slip += wayBefore;
+    slip += way;
     slip -= dot(slip, n) * n;
     const float force = length(slip) * share;
     if (force > most) slip *= most / force;
-    slips[slot] = vec4(slip, offset);
+    const vec3 old = slip - (way - dot(way, n) * n);
+    slips[slot] = vec4(old == vec3(0.0) ? vec3(1e-30, 0.0, 0.0) : old, offset);
     return share * slip;
 }
 #endif
@@ -34,8 +40,8 @@ vec3 impulseAlong(vec3 n, float depth, uint i, uint other, uint slot, vec3 veloc
     vec3 impulse = lambda * n;
 #ifdef HAS_MEMORY
     if (hasFriction) {
-        const vec3 relative = step.h * (velocity - VELOCITY(other).xyz);
-        impulse -= held(slot, n, relative, FRICTION(i, other) * lambda, share, offset);
+        const vec3 way = step.h * (velocity - VELOCITY(other).xyz), wayBefore = step.h * (BEFORE(i) - BEFORE(other));
+        impulse -= held(slot, n, way, wayBefore, FRICTION(i, other) * lambda, share, offset);
     }
 #endif
     return impulse;

@@ -4,8 +4,8 @@
 //
 //   l = (reach - |d|) / (c_i w_i + c_j w_j),   x_i += w_i l n   and the opposite for j: momentum is exact to rounding.
 //
-// Friction pulls back the way `t` that the two have slid on each other since they touched, by at most friction x l; t is
-// what remains of it. Without that memory a pile creeps for ever. Boundary planes come last and one after another.
+// Friction pulls back the way t that the two have slid on each other since they touched, by at most friction x l; beyond, t
+// is dragged along. Without that memory a pile creeps for ever. Boundary planes come last and one after another.
 // v changes by the corrections / h, not by a difference of positions, which is coarser. HAS_MEMORY: something is remembered
 // of each candidate, the way t, and what is left of an overlap that it had when the scene was loaded. HAS_SURFACES: pairs
 // differ in friction. Those that met on the way of a substep with fast particles part along the line on which they met.
@@ -35,19 +35,30 @@ layout(std430, binding = 6) writeonly buffer NextVelocities { vec4 nextVelocitie
 layout(std140, binding = 7) uniform Step { StepParams step; };
 layout(std140, binding = 8) uniform Bounds { GridBounds bounds; };
 layout(std430, binding = 9) readonly buffer Firsts { float firsts[]; }; // when each first met another, where isSwept
+#if defined HAS_MEMORY || defined HAS_REBOUND
+#ifdef TEXELS
+layout(binding = 10) uniform samplerBuffer before;
+#define BEFORE(i) texelFetch(before, int(i)).xyz
+#else
+layout(std430, binding = 10) readonly buffer Before { vec4 before[]; }; // velocities before the substep
+#define BEFORE(i) before[i].xyz
+#endif
+#endif
 #ifdef HAS_MEMORY
-layout(std430, binding = 10) buffer Slips { vec4 slips[]; }; // of each candidate: t [m]; what is left of an overlap [m]
+layout(std430, binding = 11) buffer Slips { vec4 slips[]; }; // of each candidate: t [m]; what is left of an overlap [m]
 layout(constant_id = 3) const bool hasFriction = true;
 layout(constant_id = 4) const bool hasRecovery = false;
 #ifdef HAS_SURFACES
-layout(std430, binding = 11) readonly buffer Surfaces { uint surfaces[]; }; // of each particle
-layout(std430, binding = 12) readonly buffer Pairs { SurfacePair pairs[]; };
+layout(std430, binding = 12) readonly buffer Surfaces { uint surfaces[]; }; // of each particle
+layout(std430, binding = 13) readonly buffer Pairs { SurfacePair pairs[]; };
 #define FRICTION(i, j) pairs[surfaces[i] * push.surfaces + surfaces[j]].friction
-#define PLANE_BINDING 13
+#define PLANE_BINDING 14
 #else
 #define FRICTION(i, j) push.friction
-#define PLANE_BINDING 11
+#define PLANE_BINDING 12
 #endif
+#elif defined HAS_REBOUND
+#define PLANE_BINDING 11
 #else
 #define PLANE_BINDING 10
 #endif
@@ -55,9 +66,6 @@ layout(std430, binding = 12) readonly buffer Pairs { SurfacePair pairs[]; };
 #include "planes.glsl"
 layout(std430, binding = PLANE_BINDING) readonly buffer Planes { PlaneCollider planes[]; };
 layout(std430, binding = PLANE_BINDING + 1) readonly buffer ContactOffsets { float contactOffsets[]; };
-#ifdef HAS_REBOUND
-layout(std430, binding = PLANE_BINDING + 2) readonly buffer Before { vec4 before[]; }; // velocities before the substep
-#endif
 #endif
 layout(push_constant) uniform Push { ContactPush push; };
 
@@ -83,7 +91,7 @@ void main() {
         }
 #ifdef HAS_REBOUND
         for (uint p = 0u; p < planeCount; ++p) {
-            if ((touched & 1u << p) != 0u) motion.v += rebound(planes[p], step.restSpeed, before[i].xyz, motion.v);
+            if ((touched & 1u << p) != 0u) motion.v += rebound(planes[p], step.restSpeed, BEFORE(i), motion.v);
         }
 #endif
         x = motion.x;

@@ -1,8 +1,9 @@
-// Cases 16, 17, 20 and 21: particles that touch particles, and planes, in `split`.
+// Cases 16 to 18, 20 and 21: particles that touch particles, and planes, in `split`.
 #include "cases/cases.hpp"
 #include "layout.h"
 #include "sim/collision/contact_scenes.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -29,6 +30,52 @@ Scene fallingBall(bool ontoBall, float restitution) {
     }
     return scene;
 }
+
+// A ball on one that never moves and is far larger, `degrees` down from its top. (Not as large as one likes:
+// the depth that carries a ball in a substep is 3e-5 m, and float32 rounds distances of 10 m by 1e-6.)
+struct Hill {
+    double size = 2; // radius [m]
+    double degrees = 0, speed = 0, friction = 0.5;
+
+    double reach() const { return size + radius; }
+    double angle() const { return degrees * std::numbers::pi / 180; }
+
+    Scene scene() const {
+        const double s = std::sin(angle()), c = std::cos(angle());
+        const auto vector = [](double x, double y) {
+            return Vec3{static_cast<float>(x), static_cast<float>(y), 0};
+        };
+        // around the place of contact, where float32 is finest
+        Particle hill = fixedBallAt(vector(-reach() * s, -reach() * c));
+        hill.radius = static_cast<float>(size);
+        Scene scene;
+        scene.particles = {ballAt({}, vector(speed * c, -speed * s)), hill};
+        scene.contacts.friction = static_cast<float>(friction);
+        return scene;
+    }
+
+    // What Coulomb says about the way until `time`, or to the stop [m].
+    double wayDown(double time) const {
+        double at = angle(), v = speed, way = 0;
+        constexpr double dt = 1e-5;
+        for (double t = 0; t < time && v >= 0; t += dt) {
+            const double normal = g * std::cos(at) - v * v / reach();
+            v += dt * (g * std::sin(at) - friction * normal);
+            way += dt * v;
+            at += dt * v / reach();
+        }
+        return way;
+    }
+
+    // The way on the device, in 10 substeps a step [m].
+    double wayIn(int steps) const {
+        CaseRunner runner(scene(), {.substeps = 10});
+        const Vector3d start = runner.positions()[0], middle = runner.positions()[1];
+        runner.run(steps);
+        const Vector3d a = (start - middle).normalized(), b = (runner.positions()[0] - middle).normalized();
+        return reach() * std::asin(a.cross(b).norm());
+    }
+};
 
 // A block of side^3 particles on a bed of particles that never move, each right above one; gravity leans.
 Scene blockOnBed(std::uint32_t cells, double degrees, float friction) {
@@ -91,6 +138,15 @@ TEST(Case16Restitution, OfABallOnAPlaneAndOnAFixedParticleIsTheSquareOfTheHeight
         }
 }
 
+TEST(Case17Incline, OfAParticleOnAParticleHoldsToTheFrictionAngle) {
+    const Hill steep{.degrees = 28};
+    const double creep = Hill{.degrees = 25.5}.wayIn(120), slid = steep.wayIn(60),
+                 expected = steep.wayDown(1);
+    std::printf("25.5 degrees: %.2e m in 2 s; 28 degrees: %.4f m (%.4f)\n", creep, slid, expected);
+    EXPECT_LE(creep, 2e-4) << "1e-4 m/s; sticks below 26.57 degrees";
+    EXPECT_NEAR(slid / expected, 1, 0.02);
+}
+
 TEST(Case17Incline, OfABodyOnABedOfParticlesHoldsToTheFrictionAngle) {
     const auto wayAt = [](double degrees) {
         const Scene scene = blockOnBed(3, degrees, 0.5f);
@@ -106,6 +162,14 @@ TEST(Case17Incline, OfABodyOnABedOfParticlesHoldsToTheFrictionAngle) {
     };
     EXPECT_LE(wayAt(25.57), 1e-4) << "1e-4 m/s";
     EXPECT_GE(wayAt(27.57), 5e-3);
+}
+
+// Nearly flat: where the way ends on a slope close to the friction angle, its length says little.
+TEST(Case18SlidingStop, OfAParticleOnAParticleIsWhereFrictionSays) {
+    const Hill hill{.size = 10, .speed = 2};
+    const double expected = hill.wayDown(10), way = hill.wayIn(90);
+    std::printf("stops after %.4f m (%.4f)\n", way, expected);
+    EXPECT_NEAR(way / expected, 1, 0.01);
 }
 
 // A column of four on a ball that never moves: what each contact carries, and how far it gives.
@@ -213,8 +277,21 @@ TEST(Case21ElasticCollision, OfManyInABoxGainsNoEnergyAndLosesLessInShorterSubst
     EXPECT_LE(lost[1], 0.5 * lost[0]);
 }
 
-// Pairs have the larger restitution.
+// Pairs have the geometric mean of friction and the larger restitution.
 TEST(Surfaces, OfTwoParticlesDecideTogether) {
+    const auto wayWith = [](float friction) { // of one; the other has 0.4
+        Scene scene = Hill{.degrees = 28}.scene();
+        scene.contacts.surfaces = {{.friction = 0.4f}, {.friction = friction}};
+        scene.particles[0].surface = 1;
+        scene.particles[1].surface = 2;
+        CaseRunner runner(scene, {.substeps = 10});
+        runner.run(60);
+        return runner.positions()[0].norm();
+    };
+    EXPECT_LE(wayWith(0.9f), 1e-4) << "0.6 holds at 28 degrees";
+    const Hill smoother{.degrees = 28, .friction = std::sqrt(0.4 * 0.5)};
+    EXPECT_NEAR(wayWith(0.5f) / smoother.wayDown(1), 1, 0.03);
+
     Scene scene = weightless();
     scene.contacts.surfaces = {{.restitution = 0.25f}, {.restitution = 0.75f}};
     scene.particles = {ballAt({-0.2f, 0, 0}, {2, 0, 0}), ballAt({0.1f, 0, 0})};

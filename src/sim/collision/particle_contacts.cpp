@@ -184,6 +184,7 @@ void addGather(ProgramBuilder& program, const Contacts& contacts, const Particle
                                   predicted.positions, next.positions, next.velocities,      predicted.step,
                                   lists.grid.bounds,   contacts.firsts};
     ProgramBuilder::Constants constants;
+    if (contacts.hasMemory() || contacts.hasRebound) buffers.push_back(contacts.before);
     if (contacts.hasMemory()) {
         buffers.push_back(contacts.slips);
         constants = {{hasFrictionId, contacts.surfaces.hasFriction}, {hasRecoveryId, contacts.hasRecovery}};
@@ -194,7 +195,6 @@ void addGather(ProgramBuilder& program, const Contacts& contacts, const Particle
         buffers.insert(buffers.end(), {contacts.planes.planes, contacts.planes.contactOffsets});
         constants.merge(contacts.planes.constants());
     }
-    if (contacts.hasRebound) buffers.push_back(contacts.before);
     program.dispatch(gatherForm(contacts), contacts.push.count, buffers, contacts.push, constants);
 }
 
@@ -244,7 +244,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     contacts.touching = program.scratch<layout::vec4>("contacts.touching", layout.count);
     contacts.firsts = program.scratch<float>("contacts.firsts", layout.count);
     if (contacts.hasMemory()) addMemory(program, contacts, first);
-    if (contacts.hasRebound || contacts.surfaces.hasRestitution)
+    if (contacts.hasRebound || contacts.surfaces.hasRestitution || contacts.hasMemory())
         contacts.before = program.scratch<layout::vec4>("contacts.before", layout.count);
     if (contacts.surfaces.hasRestitution) {
         contacts.bouncing = program.scratch<float>("contacts.bouncing", layout.count);
@@ -254,7 +254,9 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
 }
 
 void addOpening(ProgramBuilder& program, const Contacts& contacts, BufferId velocities) {
-    if (contacts.before != BufferId{}) program.copy(velocities, contacts.before);
+    const bool isRead =
+        contacts.hasRebound || contacts.surfaces.hasRestitution || contacts.surfaces.hasFriction;
+    if (isRead) program.copy(velocities, contacts.before);
 }
 
 void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
