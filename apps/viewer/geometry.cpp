@@ -26,9 +26,7 @@ Box swingBounds(const sim::Scene& scene, const sim::Body& body) {
     return pins.extend(Vector3(pivot - Vector3(0, reach, 0)));
 }
 
-// Of a collider where it begins.
-Box boundsOf(const sim::Collider& collider) {
-    const sim::Pose& pose = collider.path.empty() ? collider.pose : collider.path.front().pose;
+Box boundsOf(const sim::Collider& collider, const sim::Pose& pose) {
     const sim::Quaternion& q = pose.rotation;
     const sim::Vec3& e = collider.halfExtents;
     const Eigen::Matrix3f turn = Eigen::Quaternionf(q.w, q.x, q.y, q.z).toRotationMatrix().cwiseAbs();
@@ -37,6 +35,18 @@ Box boundsOf(const sim::Collider& collider) {
     if (collider.shape == sim::ColliderShape::box) reach = turn * Vector3(e.x, e.y, e.z);
     const Vector3 middle = toVector(pose.position);
     return Box(Vector3(middle - reach), Vector3(middle + reach));
+}
+
+// Where a collider stands or its path leads, but for places so far from the bodies that they would be specks.
+Box boundsNear(const sim::Collider& collider, const Box& bodies) {
+    const float far = 3 * std::max(bodies.diagonal().norm(), collider.radius);
+    Box box;
+    if (collider.path.empty()) return boundsOf(collider, collider.pose);
+    for (const sim::Keyframe& keyframe : collider.path) {
+        const Box there = boundsOf(collider, keyframe.pose);
+        if (bodies.exteriorDistance(there) < far) box.extend(there);
+    }
+    return box;
 }
 
 } // namespace
@@ -98,7 +108,8 @@ std::optional<float> groundHeight(const sim::Scene& scene) {
 Box stageBounds(const sim::Scene& scene) {
     Box box = particleBounds(scene);
     for (const sim::Body& body : scene.bodies) box.extend(swingBounds(scene, body));
-    for (const sim::Collider& collider : scene.colliders) box.extend(boundsOf(collider));
+    for (const sim::Collider& collider : scene.colliders)
+        box.extend(boundsNear(collider, particleBounds(scene)));
     const std::optional<float> ground = groundHeight(scene);
     const float size = std::max(box.sizes().maxCoeff(), 1e-3f);
     // A body far above the ground is framed where it is: the ground would make it a speck.

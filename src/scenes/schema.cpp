@@ -24,7 +24,7 @@ constexpr Range membrane{0, 1e15}, bending{0, 1e6}, tethers{0, 8};
 constexpr Range angle{-360, 360};
 constexpr Range side{2, 4096}, chainLength{2, 100'000}, cellsAlong{1, 512}, detail{8, 256},
     particleBudget{8, 2'000'000};
-constexpr Range rowLength{1, 4096}, copies{1, 4096}, particleNumber{1, 2'000'000}, seed{0, 1e9};
+constexpr Range rowLength{1, 4096}, copies{1, 4096}, particleNumber{1, 2'000'000}, seed{0, 1e6};
 constexpr Range jitter{0, 1e6}, speed{-1e6, 1e6};
 constexpr Range mass{.low = 0, .high = 1e9, .isLowOpen = true}, load{0, 1e9};
 constexpr Range view{.low = 0, .high = 180, .isLowOpen = true, .isHighOpen = true};

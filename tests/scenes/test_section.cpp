@@ -20,7 +20,8 @@ std::string shortest(double value) {
 
 /// A right value for a key that must be there.
 std::string filler(const Key& key) {
-    return key.fallback.empty() ? "1" : std::string(key.fallback);
+    if (!key.fallback.empty()) return std::string(key.fallback);
+    return key.kind == Kind::text ? "\"x\"" : "1";
 }
 
 /// The error of a section in which `key` has `value` and all other required keys are right; "" if there is
@@ -149,7 +150,8 @@ TEST(EveryRequiredKey, IsMissedAtTheHeadOfItsTable) {
     const std::string file = "test.toml";
     for (const Key& key : scenes::schema()) {
         if (!key.isRequired) continue;
-        const toml::table table = scenes::parse("\n[[" + std::string(key.section) + "]]\n", file);
+        const std::string name(key.section.substr(key.section.rfind('.') + 1)); // of a table in a table
+        const toml::table table = scenes::parse("\n[[" + name + "]]\n", file);
         const toml::table& body = *table.begin()->second.as_array()->get(0)->as_table();
         try {
             const scenes::Section section(body, key.section, "item", file);

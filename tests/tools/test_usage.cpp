@@ -57,7 +57,7 @@ TEST_F(Usage, WrongUsageIsCodeTwoAndPointsAtTheRightHelp) {
         {"mesh", "a.obj", "--resolution", "4", "--voxel", "1"},
         {"mesh", "a.obj", "--particles", "7"},
         {"mesh", "a.obj", "--particles", "70", "--voxel", "1"},
-        {"bench", "--scene", "clutter"},
+        {"bench", "--scene", "heap"},
         {"bench", "--seconds", "0"},
         {"bench", "--kernels", "--peers"},
         {"devices", "extra"},

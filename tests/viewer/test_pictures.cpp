@@ -174,11 +174,11 @@ TEST(Picture, ShowsACollidersColorWhereItsPathHasLedIt) {
     sim::Scene scene = block(0, true);
     scene.skins[0].color = {0.5f, 0.5f, 0.5f};
     scene.colliders = {{.radius = 0.15f,
-                        .path = {{0, {{-0.6f, 0.3f, 0}}}, {0.25f, {{0.6f, 0.3f, 0}}}},
+                        .path = {{0, {{-0.6f, 0.7f, 0}}}, {0.25f, {{0.6f, 0.7f, 0}}}},
                         .color = {0.8f, 0.05f, 0.05f}}};
     scene.gravity = {0, 0, 0};
     Shot shot(scene, viewOf(scene));
-    const Vector3 left(-0.6f, 0.3f, 0.15f), right(0.6f, 0.3f, 0.15f);
+    const Vector3 left(-0.6f, 0.7f, 0.15f), right(0.6f, 0.7f, 0.15f);
     const Picture before = shot.take();
     EXPECT_GT(redness(colorAt(before, shot.camera, left)), 60);
     EXPECT_LT(redness(colorAt(before, shot.camera, right)), 25);

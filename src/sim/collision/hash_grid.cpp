@@ -69,7 +69,7 @@ Grid add(ProgramBuilder& program, const Request& request) {
                        .most = most,
                        .slack = request.slack,
                        .others = request.others,
-                       .quiet = request.quiet},
+                       .quiet = std::max(request.quiet, 0.0f)},
               .usesTexels = request.usesTexels,
               .radii = program.upload(request.radiiName, request.radii),
               .bounds = program.scratch<layout::GridBounds>(name + ".bounds", 1),
@@ -88,7 +88,7 @@ Grid add(ProgramBuilder& program, const Request& request) {
     grid.swept = {grid.arguments, GRID_SWEPT, grid.push.count};
     grid.unswept = {grid.arguments, GRID_UNSWEPT, grid.push.count};
     grid.slowed = {grid.arguments, GRID_SLOWED, grid.push.count};
-    if (request.quiet > 0) grid.fast = program.scratch<std::uint32_t>(name + ".fast", MOST_FAST);
+    if (request.quiet >= 0) grid.fast = program.scratch<std::uint32_t>(name + ".fast", MOST_FAST);
     return grid;
 }
 

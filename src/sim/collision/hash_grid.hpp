@@ -17,8 +17,9 @@ struct Request {
     float slack = 0;  ///< how far a particle may move before the grid is built again [m]
     float edge = 0;   ///< of a cell, at least [m]
     std::uint32_t others = 0; ///< items of further passes that run with a build; 0 = none
-    /// How far a particle may move in a substep before contacts are looked for on its way [m].
-    float quiet = 0;
+    /// How far a particle may move in a substep before contacts are looked for on its way [m]; below 0 where
+    /// nobody watches.
+    float quiet = -1;
     bool usesTexels = true;
     const char* name = "grid";                ///< of its buffers
     const char* radiiName = "contacts.radii"; ///< of that one
