@@ -3,6 +3,7 @@
 #include "scenes/bodies.hpp"
 
 #include "scenes/origin.hpp"
+#include "scenes/surface.hpp"
 #include "sim/bodies.hpp"
 
 #include <algorithm>
@@ -247,7 +248,9 @@ void addCloth(LoadedScene& loaded, const Section& cloth) {
                           .color = cloth.vector("color")};
     checkRoom(loaded, std::uint64_t{sheet.size[0]} * sheet.size[1], cloth, "size");
     addPins(cloth, sheet);
+    const std::size_t first = loaded.scene.particles.size();
     sim::addCloth(loaded.scene, sheet);
+    addSurface(loaded, cloth, first);
 }
 
 void addChain(LoadedScene& loaded, const Section& section) {
@@ -285,12 +288,14 @@ void addBox(LoadedScene& loaded, const Section& box) {
                                .density = box.number("density"),
                                .radius = radiusOf(box)};
     const BoxRows rows = rowsOf(box, lattice, copies, loaded.origin);
+    const std::size_t first = loaded.scene.particles.size();
     for (std::uint64_t i = 0; i < count; ++i) {
         sim::Lattice one = lattice;
         one.origin = rows.origin(i, copies);
         if (count > 1) one.name.append(" ").append(std::to_string(i + 1));
         addOneBox(loaded, box, one);
     }
+    addSurface(loaded, box, first);
 }
 
 void addParticles(LoadedScene& loaded, const Section& section) {
@@ -314,11 +319,13 @@ void addParticles(LoadedScene& loaded, const Section& section) {
     checkRoom(loaded, isRandom ? particles.random : product(count), section, isRandom ? "random" : "count");
     if (!isRandom && section.has("spacing") && tooNear(particles))
         section.fail("spacing", "lets neighbours overlap", "must be at least 2 (radius + jitter)");
+    const std::size_t first = loaded.scene.particles.size();
     try {
         sim::addParticles(loaded.scene, particles);
     } catch (const std::domain_error& error) {
         section.fail("random", std::string("cannot be placed: ") + error.what(), "give a larger size");
     }
+    addSurface(loaded, section, first);
 }
 
 void addPlane(LoadedScene& loaded, const Section& plane) {

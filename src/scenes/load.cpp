@@ -60,6 +60,8 @@ void readSettings(LoadedScene& loaded, const Section& solver, const std::string&
 
 void readContacts(LoadedScene& loaded, const Section& contacts) {
     loaded.scene.contacts.friction = contacts.number("friction");
+    loaded.scene.contacts.restitution = contacts.number("restitution");
+    loaded.scene.contacts.recoverySpeed = contacts.number("recovery_speed");
     loaded.settings.contactMargin = contacts.number("margin");
     loaded.settings.contactRoom = contacts.count("room");
 }

@@ -4,6 +4,7 @@
 
 #include "mesh/generate.hpp"
 #include "mesh/import.hpp"
+#include "scenes/surface.hpp"
 #include "sim/bodies.hpp"
 
 #include <Eigen/Geometry>
@@ -147,6 +148,7 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
     body.voxels.maxCells = mostParticles - loaded.scene.particles.size();
     if (section.has("particles") && !voxel)
         body.mostParticles = std::min<std::size_t>(section.count("particles"), body.voxels.maxCells);
+    const std::size_t first = loaded.scene.particles.size();
     try {
         summary.voxels = mesh::addMesh(loaded.scene, found.mesh, body);
     } catch (const std::length_error& error) {
@@ -156,6 +158,7 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
         section.fail(body.poissonRatio > 0.25f ? "poisson_ratio" : "recovery",
                      std::string("cannot be had: ") + error.what(), "move the body nearer to the origin");
     }
+    addSurface(loaded, section, first);
     warn(summary, loaded.warnings);
     loaded.meshes.push_back(std::move(summary));
 }

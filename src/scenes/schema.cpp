@@ -90,6 +90,8 @@ constexpr Key keys[] = {
     {"cloth", "pinned", Kind::pins, "", {}, "[]", "particles held where they are"},
     {"cloth", "collides", Kind::flag, "", {}, "false", "whether its particles touch others"},
     {"cloth", "radius", Kind::number, "m", length, "", "of a particle that touches others, at most half of the spacing; half of it where it is missing"},
+    {"cloth", "friction", Kind::number, "", ranges::friction, "", "Coulomb's coefficient of a pair: the geometric mean of both; that of [contacts] where it is missing"},
+    {"cloth", "restitution", Kind::number, "", ranges::restitution, "", "0 = no rebound, 1 = elastic; a pair has the larger of both; that of [contacts] where it is missing"},
     {"cloth", "thickness", Kind::number, "m", length, "", "of a sheet that touches particles, meshes, other sheets and itself by its triangles; instead of collides and radius"},
     {"cloth", "color", Kind::vector, "", ranges::color, "[0.16, 0.34, 0.58]", "linear red, green and blue"},
 
@@ -116,6 +118,8 @@ constexpr Key keys[] = {
     {"box", "load", Kind::number, "kg", load, "0", "mass laid on the upper face, evenly over its particles"},
     {"box", "collides", Kind::flag, "", {}, "false", "whether its particles touch others"},
     {"box", "radius", Kind::number, "m", length, "", "of a particle that touches others, at most half of the spacing; half of it where it is missing"},
+    {"box", "friction", Kind::number, "", ranges::friction, "", "Coulomb's coefficient of a pair: the geometric mean of both; that of [contacts] where it is missing"},
+    {"box", "restitution", Kind::number, "", ranges::restitution, "", "0 = no rebound, 1 = elastic; a pair has the larger of both; that of [contacts] where it is missing"},
     {"box", "copies", Kind::counts3, "", copies, "[1, 1, 1]", "so many such boxes along x, y and z, in the place of one"},
     {"box", "pitch", Kind::vector, "m", coordinate, "", "from a box to the next along x, y and z; the side and two spacings where it is missing"},
     {"box", "color", Kind::vector, "", ranges::color, "[0.78, 0.36, 0.32]", "linear red, green and blue"},
@@ -135,6 +139,8 @@ constexpr Key keys[] = {
     {"mesh", "recovery", Kind::number, "", ranges::recovery, "0", "pressure in shear moduli that unfolds flattened and mirrored cells; 0 = none, 2 is enough"},
     {"mesh", "density", Kind::number, "kg/m^3", density, "1000", "mass per volume"},
     {"mesh", "collides", Kind::flag, "", {}, "false", "whether its particles touch others, with a radius of half a voxel"},
+    {"mesh", "friction", Kind::number, "", ranges::friction, "", "Coulomb's coefficient of a pair: the geometric mean of both; that of [contacts] where it is missing"},
+    {"mesh", "restitution", Kind::number, "", ranges::restitution, "", "0 = no rebound, 1 = elastic; a pair has the larger of both; that of [contacts] where it is missing"},
     {"mesh", "color", Kind::vector, "", ranges::color, "[0.78, 0.36, 0.32]", "linear red, green and blue"},
 
     {"particles", "name", Kind::text, "", {}, "\"particles\"", "name of the body in reports and files"},
@@ -149,9 +155,13 @@ constexpr Key keys[] = {
     {"particles", "density", Kind::number, "kg/m^3", density, "1000", "of a ball of that radius; give this or mass"},
     {"particles", "mass", Kind::number, "kg", mass, "", "of a particle; give this or density"},
     {"particles", "velocity", Kind::vector, "m/s", speed, "[0, 0, 0]", "at the start"},
+    {"particles", "friction", Kind::number, "", ranges::friction, "", "Coulomb's coefficient of a pair: the geometric mean of both; that of [contacts] where it is missing"},
+    {"particles", "restitution", Kind::number, "", ranges::restitution, "", "0 = no rebound, 1 = elastic; a pair has the larger of both; that of [contacts] where it is missing"},
     {"particles", "color", Kind::vector, "", ranges::color, "[0.62, 0.62, 0.6]", "linear red, green and blue"},
 
-    {"contacts", "friction", Kind::number, "", ranges::friction, "0", "Coulomb's coefficient between particles"},
+    {"contacts", "friction", Kind::number, "", ranges::friction, "0", "Coulomb's coefficient between particles, and of faces"},
+    {"contacts", "restitution", Kind::number, "", ranges::restitution, "0", "0 = no rebound, 1 = elastic"},
+    {"contacts", "recovery_speed", Kind::number, "m/s", ranges::recoverySpeed, "0.5", "with which two particles part that overlap when the scene is loaded; limits no other contact"},
     {"contacts", "margin", Kind::number, "median radii", ranges::contactMargin, "0.5", "how much farther than touching particles are listed together; changes speed, no result"},
     {"contacts", "room", Kind::count, "particles", ranges::contactRoom, "24", "that may be listed with one at first; programs make more where it is too little"},
 

@@ -26,6 +26,12 @@ double nearest(const sim::Scene& scene) {
     return least;
 }
 
+std::set<std::uint32_t> surfacesOf(const sim::Scene& scene) {
+    std::set<std::uint32_t> surfaces;
+    for (const sim::Particle& particle : scene.particles) surfaces.insert(particle.surface);
+    return surfaces;
+}
+
 std::set<float> radiiOf(const sim::Scene& scene) {
     std::set<float> radii;
     for (const sim::Particle& particle : scene.particles) radii.insert(particle.radius);
@@ -202,18 +208,75 @@ TEST_F(LoadContacts, RefusesLooseParticlesThatSayTooMuchOrTooLittle) {
                 "scene.toml:3: particles[0].count is 0 particles: must be from 1 to 4096");
 }
 
-TEST_F(LoadContacts, TakesFrictionMarginAndRoomFromTheirTable) {
+TEST_F(LoadContacts, GivesBodiesSurfacesOfTheirOwn) {
+    const std::string mesh = "[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\nvoxel = 0.25\n";
+    for (const std::string& body :
+         {smallCloth + "collides = true\n", box + "collides = true\n", mesh + "collides = true\n", balls}) {
+        EXPECT_EQ(surfacesOf(load(body).scene), std::set<std::uint32_t>{0}) << body;
+        EXPECT_TRUE(load(body).scene.contacts.surfaces.empty()) << body;
+        const sim::Scene scene =
+            load(body + "restitution = 0.75\n[contacts]\nfriction = 0.25\nrestitution = 0.5\n").scene;
+        EXPECT_EQ(surfacesOf(scene), std::set<std::uint32_t>{1}) << body;
+        ASSERT_EQ(scene.contacts.surfaces.size(), 1u) << body;
+        EXPECT_EQ(scene.contacts.surfaces[0].friction, 0.25f) << "as in [contacts]: " << body;
+        EXPECT_EQ(scene.contacts.surfaces[0].restitution, 0.75f) << body;
+    }
+    const sim::Scene scene = load(box + "collides = true\ncopies = [2, 1, 1]\nfriction = 0.5\n" + balls +
+                                  "friction = 0.125\nrestitution = 1\n" + balls + "friction = 0.5\n" + balls +
+                                  "friction = 0.25\n[contacts]\nfriction = 0.25\n")
+                                 .scene;
+    ASSERT_EQ(scene.contacts.surfaces.size(), 2u) << "equal ones are one";
+    EXPECT_EQ(scene.contacts.surfaces[1].friction, 0.125f);
+    EXPECT_EQ(scene.contacts.surfaces[1].restitution, 1);
+    const auto surfaceOf = [&](std::size_t body) {
+        return scene.particles[scene.bodies.at(body).firstParticle].surface;
+    };
+    const std::uint32_t expected[] = {1, 1, 2, 1, 0};
+    for (std::size_t body = 0; body < 5; ++body) EXPECT_EQ(surfaceOf(body), expected[body]) << body;
+}
+
+TEST_F(LoadContacts, RefusesSurfacesOfWhatHasNone) {
+    expectError(
+        box + "friction = 0.5\n",
+        "scene.toml:5: box[0].friction is given, but the body touches nothing: write collides = true");
+    expectError(smallCloth + "restitution = 0.5\n",
+                "scene.toml:4: cloth[0].restitution is given, but the body touches nothing");
+    expectError(smallCloth + "thickness = 0.04\nfriction = 0.5\n",
+                "scene.toml:5: cloth[0].friction stands beside thickness, but faces have the friction of");
+    expectError(balls + "friction = -0.5\n",
+                "scene.toml:4: particles[0].friction is -0.5: must be at least 0");
+    expectError(balls + "restitution = 1.5\n",
+                "scene.toml:4: particles[0].restitution is 1.5: must be from 0 to 1");
+    expectError(balls + "friction = \"rough\"\n", "scene.toml:4: particles[0].friction is text \"rough\"");
+    std::string many;
+    for (int i = 0; i < 64; ++i) many += balls + "friction = 0." + std::to_string(100 + i) + "\n";
+    EXPECT_EQ(load(many).scene.contacts.surfaces.size(), 64u);
+    many += balls + "friction = 0.5\n";
+    expectError(many,
+                "scene.toml:260: particles[64].friction makes more than 64 different surfaces: let bodies");
+}
+
+TEST_F(LoadContacts, TakesWhatHoldsForAllFromTheirTable) {
     const scenes::LoadedScene plain = load(balls);
     EXPECT_EQ(plain.scene.contacts.friction, 0);
+    EXPECT_EQ(plain.scene.contacts.restitution, 0);
+    EXPECT_EQ(plain.scene.contacts.recoverySpeed, sim::ContactSettings{}.recoverySpeed);
     EXPECT_EQ(plain.settings.contactMargin, sim::Settings{}.contactMargin);
     EXPECT_EQ(plain.settings.contactRoom, sim::Settings{}.contactRoom);
     const scenes::LoadedScene loaded =
-        load(balls + "[contacts]\nfriction = 0.25\nmargin = 0.75\nroom = 40\n");
+        load(balls + "[contacts]\nfriction = 0.25\nrestitution = 0.5\nrecovery_speed = 2\nmargin = 0.75\n"
+                     "room = 40\n");
     EXPECT_EQ(loaded.scene.contacts.friction, 0.25f);
+    EXPECT_EQ(loaded.scene.contacts.restitution, 0.5f);
+    EXPECT_EQ(loaded.scene.contacts.recoverySpeed, 2);
     EXPECT_EQ(loaded.settings.contactMargin, 0.75f);
     EXPECT_EQ(loaded.settings.contactRoom, 40u);
     expectError(balls + "[contacts]\nfriction = -1\n",
                 "scene.toml:5: contacts.friction is -1: must be at least 0");
+    expectError(balls + "[contacts]\nrestitution = 1.1\n",
+                "scene.toml:5: contacts.restitution is 1.1: must be from 0 to 1");
+    expectError(balls + "[contacts]\nrecovery_speed = 0\n",
+                "scene.toml:5: contacts.recovery_speed is 0 m/s: must be above 0");
     expectError(balls + "[contacts]\nmargin = 0\n",
                 "scene.toml:5: contacts.margin is 0 median radii: must be above 0 and at most 10");
     expectError(balls + "[contacts]\nroom = 257\n",

@@ -1,0 +1,51 @@
+// Equal surfaces are one: a scene has a table of pairs only where bodies differ.
+#include "scenes/surface.hpp"
+
+#include <algorithm>
+
+namespace sinew::scenes {
+
+namespace {
+
+bool isSame(const sim::Surface& a, const sim::Surface& b) {
+    return a.friction == b.friction && a.restitution == b.restitution;
+}
+
+void requireContacts(const LoadedScene& loaded, const Section& body, const char* key, std::size_t first) {
+    if (body.has("thickness"))
+        body.fail(key, "stands beside thickness, but faces have the friction of [contacts]",
+                  "write it there, or collides = true instead of thickness");
+    if (loaded.scene.particles[first].radius <= 0)
+        body.fail(key, "is given, but the body touches nothing", "write collides = true");
+}
+
+/// As Particle::surface has it.
+std::uint32_t indexOf(sim::ContactSettings& contacts, const Section& body, const char* key,
+                      const sim::Surface& wanted) {
+    if (isSame(wanted, {contacts.friction, contacts.restitution})) return 0;
+    std::vector<sim::Surface>& surfaces = contacts.surfaces;
+    const auto known =
+        std::ranges::find_if(surfaces, [&](const sim::Surface& surface) { return isSame(surface, wanted); });
+    if (known != surfaces.end()) return static_cast<std::uint32_t>(known - surfaces.begin() + 1);
+    if (surfaces.size() == sim::ranges::mostSurfaces)
+        body.fail(key, "makes more than " + std::to_string(sim::ranges::mostSurfaces) + " different surfaces",
+                  "let bodies have the same");
+    surfaces.push_back(wanted);
+    return static_cast<std::uint32_t>(surfaces.size());
+}
+
+} // namespace
+
+void addSurface(LoadedScene& loaded, const Section& body, std::size_t first) {
+    const char* key = body.has("friction") ? "friction" : body.has("restitution") ? "restitution" : nullptr;
+    if (!key) return;
+    requireContacts(loaded, body, key, first);
+    sim::Scene& scene = loaded.scene;
+    sim::Surface wanted{scene.contacts.friction, scene.contacts.restitution};
+    if (body.has("friction")) wanted.friction = body.number("friction");
+    if (body.has("restitution")) wanted.restitution = body.number("restitution");
+    const std::uint32_t index = indexOf(scene.contacts, body, key, wanted);
+    for (std::size_t i = first; i < scene.particles.size(); ++i) scene.particles[i].surface = index;
+}
+
+} // namespace sinew::scenes

@@ -1,0 +1,13 @@
+// The keys friction and restitution of a body: what its particles are like to touch.
+#pragma once
+
+#include "scenes/section.hpp"
+
+namespace sinew::scenes {
+
+/// Gives the particles from `first` on the surface that `body` asks for; none of its keys, that of
+/// [contacts]. Throws SceneError where they touch nothing, or touch by faces, which have no surface of their
+/// own.
+void addSurface(LoadedScene& loaded, const Section& body, std::size_t first);
+
+} // namespace sinew::scenes
