@@ -100,7 +100,9 @@ TEST_F(Run, DoesAStepWithoutRoomForItsContactsAgainWithMore) {
         write("tight.toml", balls + "[contacts]\nroom = 1\n" + friction);
         const json roomy = report({"roomy.toml", "--frames", "40", "--validation"});
         const json tight = report({"tight.toml", "--frames", "40", "--validation"});
-        EXPECT_EQ(roomy["overflow"]["contacts"], (json{{"room", 64}, {"needed", nullptr}, {"grown", 0}}));
+        EXPECT_EQ(roomy["overflow"]["contacts"],
+                  (json{{"room", 64}, {"needed", nullptr}, {"grown", 0}, {"slowed", 0}}));
+        EXPECT_EQ(roomy["warnings"], json::array());
         const json& grown = tight["overflow"]["contacts"];
         EXPECT_GE(grown["grown"], 1);
         EXPECT_GE(grown["needed"], 2);
@@ -109,6 +111,29 @@ TEST_F(Run, DoesAStepWithoutRoomForItsContactsAgainWithMore) {
         EXPECT_EQ(tight["state_hash"], roomy["state_hash"]) << "nothing was dropped";
         EXPECT_EQ(tight["validation_messages"], json::array());
     }
+}
+
+TEST_F(Run, WarnsOfParticlesThatWereSlowedDownForSafety) {
+    // One more than are searched for one by one, at more than a radius a substep: 60 m/s against 48 m/s.
+    const auto swarm = [](const std::string& speed) {
+        return "gravity = [0, 0, 0]\n[solver]\nsubsteps = 16\n[[particles]]\nradius = 0.05\nspacing = 0.2\n"
+               "count = [1, 1, 257]\nvelocity = [" +
+               speed + ", 0, 0]\n";
+    };
+    write("fast.toml", swarm("60"));
+    write("slow.toml", swarm("40"));
+    const Outcome outcome = run({"run", "fast.toml", "--frames", "2", "--out", "out"});
+    EXPECT_EQ(outcome.code, 0);
+    const std::string warning =
+        "257 times a particle was slowed down, so that its contacts are found: momentum "
+        "was lost, take more substeps";
+    EXPECT_NE(outcome.error.find("warning: " + warning + "\n"), std::string::npos) << outcome.error;
+    const json fast = json::parse(std::ifstream(folder_ / "out/report.json"));
+    EXPECT_EQ(fast["overflow"]["contacts"]["slowed"], 257);
+    EXPECT_EQ(fast["warnings"], json::array({warning}));
+    const json slow = report({"slow.toml", "--frames", "2"});
+    EXPECT_EQ(slow["overflow"]["contacts"]["slowed"], 0);
+    EXPECT_EQ(slow["warnings"], json::array());
 }
 
 TEST_F(Run, StopsWithASentenceWhereNoRoomIsEnough) {

@@ -117,7 +117,8 @@ Json overflowJson(const RunRecord& record) {
     if (sim::collision::particle_contacts::areIn(record.loaded.scene))
         overflow["contacts"] = {{"room", contacts.room},
                                 {"needed", contacts.needed > 0 ? Json(contacts.needed) : Json(nullptr)},
-                                {"grown", contacts.grown}};
+                                {"grown", contacts.grown},
+                                {"slowed", record.slowed}};
     return overflow;
 }
 

@@ -66,11 +66,22 @@ RunRecord simulate(const RunOptions& options, const scenes::LoadedScene& loaded,
             .frames = runner.steps(),
             .divergence = runner.divergence(),
             .contactRoom = runner.contactRoom(),
+            .slowed = runner.slowed(),
             .isInterrupted = app::isInterrupted() && runner.steps() < options.frames,
             .state = runner.readState(),
             .skins = runner.readSkins(),
             .hasValidation = options.device.hasValidation,
             .validationMessages = session.device.validationMessages()};
+}
+
+/// What only a run can show; the same on stderr and in the report.
+void warnAboutRun(const RunRecord& record, std::vector<std::string>& warnings) {
+    if (record.slowed == 0) return;
+    warnings.push_back(
+        std::to_string(record.slowed) +
+        " times a particle was slowed down, so that its contacts are found: momentum was lost, "
+        "take more substeps");
+    std::fprintf(stderr, "warning: %s\n", warnings.back().c_str());
 }
 
 /// The exit code of a run whose outputs are written.
@@ -107,6 +118,7 @@ int run(const RunOptions& options) {
     const RunRecord record = simulate(options, loaded, session, runner);
     for (const std::string& message : record.validationMessages)
         std::fprintf(stderr, "validation: %s\n", message.c_str());
+    warnAboutRun(record, loaded.warnings);
 
     const std::string report = toJson(record);
     if (folder) writeFolder(folder->path(), record, report);

@@ -44,7 +44,7 @@ Runner::Runner(Session& session, const sim::Scene& scene, const sim::Settings& s
 void Runner::restart() {
     submitReset();
     session_.queue.waitIdle();
-    done_ = timed_ = recorded_ = 0;
+    done_ = slowed_ = timed_ = recorded_ = 0;
     recordSum_ = 0;
     divergence_.reset();
     frameMs_.clear();
@@ -85,8 +85,10 @@ bool Runner::finishStep(std::uint64_t frame) {
     else if (status.nonFinite > 0)
         divergence_ = {frame + 1, status.firstBadParticle, status.nonFinite,
                        bodyOf(scene_, status.firstBadParticle)};
-    else
+    else {
         ++done_;
+        slowed_ += status.slowed;
+    }
     return true;
 }
 

@@ -34,6 +34,7 @@ public:
 
     std::uint64_t steps() const { return done_; } ///< with a finite state
     const std::optional<Divergence>& divergence() const { return divergence_; }
+    std::uint64_t slowed() const { return slowed_; } ///< sum of Status::slowed over those steps
     const sim::Simulation& simulation() const { return growing_.simulation(); }
     const app::ContactRoom& contactRoom() const { return growing_.contactRoom(); }
 
@@ -62,7 +63,7 @@ private:
     app::GrowingSimulation growing_;
     std::vector<vk::Timestamps> timestamps_;                                 // one a step in flight
     std::array<std::uint64_t, sim::Simulation::framesInFlight> submitted_{}; // timeline values
-    std::uint64_t done_ = 0;
+    std::uint64_t done_ = 0, slowed_ = 0;
     std::optional<Divergence> divergence_;
     std::vector<double> frameMs_, deviceMs_, phaseSums_;
     double recordSum_ = 0, lastEnd_ = 0; // [ms]
