@@ -61,7 +61,7 @@ Touch touchOf(uint i, uint element, vec3 through) {
     vec3 b = nearest.weights;
     if (side * height < 0.0) {
         if (isForced || hasTouched && side * heightBefore < 0.0) {
-            touch.isThrough = nearest.isInside || dot(nearest.d, nearest.d) < reach * reach;
+            touch.isThrough = dot(nearest.d, nearest.d) < reach * reach; // what is farther may be in no list
         } else {
             vec3 passed;
             const float back = h * height / (height - heightBefore); // since it was in the plane [s]

@@ -395,11 +395,11 @@ TEST(FaceContacts, EndInTheSameBitsForAnyMarginRoomOrderAndForm) {
         ballAt({-0.1f, 0.9f, 0.05f}, {0, -3, 0}, 0.01f)); // contacts between particles too
     scene.particles.push_back(ballAt({-0.1f, 1.0f, 0.05f}, {0, -4, 0}, 0.01f));
     constexpr int steps = 30;
-    const Settings settings{.substeps = 8, .contactRoom = 96};
+    const Settings settings{.substeps = 8, .contactRoom = 160};
     const std::uint64_t hash = hashOf(scene, settings, steps);
     Settings narrow = settings, roomy = settings, reversed = settings, loads = settings;
     narrow.contactMargin = 0.2f;
-    roomy.contactRoom = 128;
+    roomy.contactRoom = 200;
     reversed.isReversed = true;
     loads.forms.usesTexels = false;
     EXPECT_EQ(hashOf(scene, narrow, steps), hash) << "another margin";
