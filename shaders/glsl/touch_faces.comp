@@ -2,7 +2,7 @@
 // Contacts with faces, first pass: where each point touches each face near it, looking at the whole way of the substep, from
 // x - h v to x. A face has two sides. Which one a point is on is where it came from: while the two touch it is remembered,
 // so that a point that has sunk through is pushed back out of the side that it sank in from. Where they do not touch,
-// nothing is: results do not depend on when lists are made.
+// nothing is, and what is through and beyond reach is let go: results do not depend on when lists are made.
 //
 // What a contact does to a particle is weighed by beta, 1 for the point and b for the corners; directions n are unit:
 //   C = n . (x - sum_k b_k x_k) - reach,   dC/dx = beta n.
@@ -30,13 +30,15 @@ struct Touch {
     ContactFace face;
 };
 
-// Whether a point that has passed a plane went through the face in it: on straight ways, where it was in the plane.
-bool hasPassed(vec3 ap, vec3 ab, vec3 ac, vec3 vp, vec3 vb, vec3 vc, float back, out vec3 b) {
-    b = weightsOf(ap - back * vp, triangleOf(ab - back * vb, ac - back * vc));
+// Whether a point that has passed a plane went through the face in it: on straight ways, where it was in the plane. A face
+// that turns was not quite there; what it never was within reach of may be in no list.
+bool hasPassed(vec3 ap, vec3 ab, vec3 ac, float reach, out vec3 b) {
+    b = weightsOf(ap, triangleOf(ab, ac));
     const bool isInside = min(b.x, min(b.y, b.z)) >= -1e-3; // of two faces at an edge at least one sees it
     b = max(b, vec3(0.0));
     b /= b.x + b.y + b.z;
-    return isInside;
+    const vec3 d = ap - b.y * ab - b.z * ac;
+    return isInside && dot(d, d) < reach * reach;
 }
 
 // `through`: the side that a neighbouring face is being passed from, as a unit vector; 0 = none.
@@ -61,20 +63,19 @@ Touch touchOf(uint i, uint element, vec3 through) {
     vec3 b = nearest.weights;
     if (side * height < 0.0) {
         if (isForced || hasTouched && side * heightBefore < 0.0) {
-            touch.isThrough = dot(nearest.d, nearest.d) < reach * reach; // what is farther may be in no list
+            touch.isThrough = dot(nearest.d, nearest.d) < reach * reach; // what is farther may be in no list: let go
         } else {
             vec3 passed;
             const float back = h * height / (height - heightBefore); // since it was in the plane [s]
-            touch.isThrough = hasPassed(ap, ab, ac, vp, vb, vc, back, passed);
+            touch.isThrough = hasPassed(ap - back * vp, ab - back * vb, ac - back * vc, reach, passed);
             if (touch.isThrough && !nearest.isInside) b = passed;
-            if (!touch.isThrough) side = -side; // it went around
         }
+        if (!touch.isThrough) side = -side; // it went around, or is far beyond
     }
     const float distance = length(nearest.d);
     const bool isAbove = touch.isThrough || nearest.isInside || distance < 1e-15;
     touch.n = isAbove ? side * normal : nearest.d / distance;
     touch.depth = max(0.0, reach - (isAbove ? side * height : distance));
-    if (side * height < 0.0 && !touch.isThrough && isForced) touch.depth = 0.0;
     touch.b = b;
     touch.side = touch.depth > 0.0 ? side : 0.0;
     return touch;
