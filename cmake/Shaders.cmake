@@ -1,6 +1,7 @@
 # GLSL -> SPIR-V 1.5 -> arrays in the library.
 #
-#   add_kernels(<target> NAMESPACE <c++ namespace> HEADER <name.hpp> SOURCES <files...> [VARIANTS <lines...>])
+#   add_kernels(<target> NAMESPACE <c++ namespace> HEADER <name.hpp> SOURCES <files...> [VARIANTS <lines...>]
+#               [AWAKE <stems...>])
 #
 # compiles every file for Vulkan 1.2, runs spirv-val on it and adds one `const vk::ShaderCode` a file to <target>:
 # solve_distance.comp becomes <namespace>::solveDistance, skin.vert becomes <namespace>::skinVert.
@@ -21,13 +22,31 @@ function(sinew_camel_case out text)
     set(${out} ${result} PARENT_SCOPE)
 endfunction()
 
-# A variant is one line, "name: file [MACRO...]": the file compiled with these macros defined, under that name.
+# A variant is one line, "name: file [MACRO...]": the file compiled with these macros defined, under that name. Whatever is
+# compiled from the files named in AWAKE has one more form, <name>_awake, with AWAKE defined: <namespace>::awakeForms pairs
+# all kernels with theirs.
 function(add_kernels target)
-    cmake_parse_arguments(PARSE_ARGV 1 ARG "" "NAMESPACE;HEADER" "SOURCES;VARIANTS")
+    cmake_parse_arguments(PARSE_ARGV 1 ARG "" "NAMESPACE;HEADER" "SOURCES;VARIANTS;AWAKE")
     set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}_kernels)
     file(MAKE_DIRECTORY ${folder})
     set(declarations "")
+    set(pairs "")
+    set(awake "")
     foreach(entry IN LISTS ARG_SOURCES ARG_VARIANTS)
+        string(REGEX REPLACE "^.*/([a-z_]+)\\.comp.*$" "\\1" file "${entry}")
+        if(NOT file IN_LIST ARG_AWAKE)
+            continue()
+        endif()
+        if(entry MATCHES "^([a-z0-9_]+):(.*)$")
+            list(APPEND awake "${CMAKE_MATCH_1}_awake:${CMAKE_MATCH_2} AWAKE")
+            sinew_camel_case(identifier ${CMAKE_MATCH_1})
+        else()
+            list(APPEND awake "${file}_awake: ${entry} AWAKE")
+            sinew_camel_case(identifier ${file})
+        endif()
+        string(APPEND pairs "    {&${identifier}, &${identifier}Awake},\n")
+    endforeach()
+    foreach(entry IN LISTS ARG_SOURCES ARG_VARIANTS awake)
         if(entry MATCHES "^([a-z0-9_]+): +([^ ]+) *(.*)$")
             set(source ${CMAKE_MATCH_2})
             set(stem ${CMAKE_MATCH_1})
@@ -65,6 +84,9 @@ function(add_kernels target)
         target_sources(${target} PRIVATE ${embedded})
         string(APPEND declarations "extern const vk::ShaderCode ${identifier};\n")
     endforeach()
+    if(pairs)
+        string(APPEND declarations "inline constexpr const vk::ShaderCode* awakeForms[][2] = {\n${pairs}};\n")
+    endif()
     file(CONFIGURE OUTPUT ${folder}/${ARG_HEADER} @ONLY CONTENT
 "// Generated from the shader files by cmake/Shaders.cmake.
 #pragma once

@@ -13,7 +13,17 @@ layout(constant_id = 0) const bool isReversed = false;
 bool isFinished(StatusWords status) { return (status.nonFinite | status.candidates) == 0u; }
 
 // The item of this invocation; the caller returns where it is >= count.
+#ifdef AWAKE
+// Of a scene that sleeps: only those work groups run in which somebody is awake (list_awake.comp).
+layout(std430, binding = LAST_BINDING) readonly buffer AwakeGroups { uint awakeGroups[]; };
+uint itemIndex(uint count) {
+    const uint place = isReversed ? gl_NumWorkGroups.x - 1u - gl_WorkGroupID.x : gl_WorkGroupID.x;
+    const uint lane = isReversed ? GROUP_SIZE - 1u - gl_LocalInvocationID.x : gl_LocalInvocationID.x;
+    return awakeGroups[place] * GROUP_SIZE + lane;
+}
+#else
 uint itemIndex(uint count) {
     const uint i = gl_GlobalInvocationID.x;
     return isReversed && i < count ? count - 1u - i : i;
 }
+#endif

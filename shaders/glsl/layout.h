@@ -15,6 +15,9 @@ struct alignas(16) vec4 {
 // Work-group size of every kernel.
 #define GROUP_ITEMS 128
 
+// The one binding that need not follow on the one before it, for what a form of any kernel has in addition.
+#define LAST_BINDING 31
+
 // How many groups an indirect dispatch has, written by a kernel: VkDispatchIndirectCommand, padded to 16 bytes.
 struct DispatchArguments {
     uint groupsX, groupsY, groupsZ; // 0 groups in x = nothing runs
@@ -34,7 +37,8 @@ struct StepParams {
     float dampingShare; // `split`: h x damping coefficient of a link, at most this x k~ x the smaller tau of its ends
     float multiplierScale; // `gauss_seidel`: of the multipliers kept from the step before, min(1, (h / hPrevious)^2)
     float thetaHStored; // `split`: thetaH, or 0 where contacts follow the gather: it then stores x
-    float unused0, unused1;
+    uint wakes; // 1 = the host wakes all that sleep
+    float unused0;
 };
 
 // `split` keeps the links of a work group's particles together, slot by slot: link s of particle i is element
@@ -70,7 +74,8 @@ struct BendRow {
     uint a, b, c;
     float compliance; // [m/N]
     float share;
-    uint unused0, unused1, unused2;
+    uint sleeping;         // particles
+    uint unused0, unused1;
 };
 
 // `gauss_seidel`: likewise.
@@ -159,7 +164,8 @@ struct StatusWords {
     uint frame;
     uint candidates;       // the most that a particle needs room for, where its list was too short; else 0
     uint slowed;           // particles slowed down by cap_speeds, in all substeps
-    uint unused0, unused1, unused2;
+    uint sleeping;         // particles
+    uint unused0, unused1;
 };
 
 // A skin vertex in a lattice cell; corner k has the offset (k & 1, k >> 1 & 1, k >> 2).
@@ -362,6 +368,50 @@ struct ColliderPush {
 struct PlacePush {
     uint count; // colliders x (substeps + 1)
     uint colliders, substeps;
+};
+
+// What rests for so long, no faster than that, sleeps (contacts: 6).
+#define SLEEP_TIME 0.5   // [s]
+#define SLEEP_SPEED 0.03 // [m/s]
+
+// Indices into the arguments of waking and falling asleep: all particles, or one group, when a step begins, in a substep,
+// and after a step that came to its end; one group after any step in which somebody was awake.
+#define SLEEP_OPENING 0
+#define SLEEP_OPENING_ONE 1
+#define SLEEP_WAKING 2
+#define SLEEP_WAKING_ONE 3
+#define SLEEP_RESTING 4
+#define SLEEP_CLOSING_ONE 5
+#define SLEEP_ARGUMENTS 6
+
+// What of the passes of a step runs while not everybody sleeps: how many groups it has in all, and which of them.
+#define SLEEP_ALL 0    // all, while anybody is awake
+#define SLEEP_LISTED 1 // those of particles of which one is awake
+#define SLEEP_MIXED 2  // likewise, while anybody sleeps
+#define SLEEP_MIXED_ALL 3
+struct SleepPass {
+    uint groups, kind;
+};
+
+struct SleepState {
+    vec4 gravity;  // of the last step that came to its end [m/s^2]
+    float h;       // likewise [s]
+    uint sleeping; // particles, at the end of the last step
+    uint listed;   // groups that the next substep runs
+    uint isMixed;  // 1 = somebody is awake, somebody sleeps
+    uint wakes;    // 1 = all, as soon as a step comes to its end
+    uint touched;  // 1 = somebody awake has come to touch somebody asleep
+    uint wakesAll; // 1 = in this step
+    uint unused0;
+};
+
+struct SleepPush {
+    uint count;  // of particles; whole work groups
+    uint groups; // of them
+    uint row, faceRow; // elements of a list of contacts from one candidate to the next
+    uint attachments, colliders;
+    uint passes;   // entries of the list of SleepPass
+    uint substeps; // of a step
 };
 
 struct DampedIterationPush {

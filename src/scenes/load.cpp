@@ -55,7 +55,8 @@ void readSettings(LoadedScene& loaded, const Section& solver, const std::string&
                        .theta = solver.number("theta"),
                        .weight = solver.number("weight"),
                        .overRelaxation = solver.number("over_relaxation"),
-                       .warmStart = solver.number("warm_start")};
+                       .warmStart = solver.number("warm_start"),
+                       .sleeps = solver.flag("sleep")};
 }
 
 void readContacts(LoadedScene& loaded, const Section& contacts) {

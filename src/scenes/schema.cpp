@@ -73,6 +73,7 @@ constexpr Key keys[] = {
     {"solver", "weight", Kind::number, "", ranges::weight, "0", "jacobi: factor on a particle's summed corrections; 0 = 1 / their number"},
     {"solver", "over_relaxation", Kind::number, "", ranges::overRelaxation, "1", "jacobi: second factor on that sum"},
     {"solver", "warm_start", Kind::number, "", ranges::warmStart, "0.9", "gauss_seidel: most that a substep starts with of the multipliers of the last; 0 = cold"},
+    {"solver", "sleep", Kind::flag, "", {}, "false", "split: bodies that rest for half a second sleep, and cost nothing until something wakes them"},
 
     {"cloth", "name", Kind::text, "", {}, "\"cloth\"", "name of the body in reports and files"},
     {"cloth", "origin", Kind::vector, "m", coordinate, "[0, 0, 0]", "position of the particle in column 0, row 0"},

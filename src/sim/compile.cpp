@@ -6,6 +6,7 @@
 #include "sim/constraints/fixed.hpp"
 #include "sim/lattice/cells.hpp"
 #include "sim/publish.hpp"
+#include "sim/sleep.hpp"
 #include "sim/solvers/gauss_seidel.hpp"
 #include "sim/solvers/jacobi.hpp"
 #include "sim/solvers/split.hpp"
@@ -108,12 +109,14 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     const auto inSlots = [&](const std::vector<layout::vec4>& values) {
         return spread(values, solver.layout);
     };
-    const ParticleBuffers particles{
+    ParticleBuffers particles{
         .count = built.particleCount,
         .step = built.parameters,
         .positions = program.upload("state.positions", inSlots(positionsOf(start, solver.positionW))),
         .velocities = program.upload("state.velocities", inSlots(velocitiesOf(scene, inverseMass))),
-        .layout = solver.layout};
+        .layout = solver.layout,
+        .sleep = nullptr};
+    if (settings.sleeps) particles.sleep = sleep::add(program, scene, settings, particles);
     program.beginPhase("begin");
     program.updateParameters(particles.step);
     program.fill(built.status, 0);
@@ -121,6 +124,7 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     solver.addPasses(program, particles);
     program.beginPhase("publish");
     publish::addPasses(program, particles);
+    sleep::finish(program, particles);
     surface::addSkins(program, scene.skins);
 
     if (scene.distances.empty()) program.skip("distance constraints");

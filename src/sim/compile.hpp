@@ -5,6 +5,7 @@
 #include "sim/scene.hpp"
 
 #include <functional>
+#include <memory>
 #include <optional>
 
 namespace sinew::sim {
@@ -17,6 +18,10 @@ struct EqualBoxes {
     std::uint32_t rowStride = 0, sliceStride = 0; ///< slots from a node to the next in y, in z
     std::uint32_t boxStride = 0;                  ///< slots from a grid to the next
 };
+
+namespace sleep {
+struct Sleep;
+}
 
 /// Where a solver keeps its particles: most in the order of the scene, `split` spreads bodies on a grid over
 /// dense boxes. Slots that hold no particle never move.
@@ -33,8 +38,9 @@ struct ParticleBuffers {
     std::uint32_t count = 0;
     BufferId step;       ///< layout::StepParams
     BufferId positions;  ///< of the solver's state, layout.count elements; meaning of w is the solver's
-    BufferId velocities; ///< likewise; w = inverse mass [1/kg]
+    BufferId velocities; ///< likewise; w = inverse mass [1/kg], 0 while asleep
     StateLayout layout;
+    std::shared_ptr<sleep::Sleep> sleep; ///< none where nothing sleeps
 };
 
 /// What a solver makes of a scene before anything is built.

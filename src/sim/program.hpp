@@ -81,6 +81,14 @@ struct IndirectItems {
     std::uint32_t most = 0; ///< invocations that the arguments ever ask for
 };
 
+/// A direct dispatch turned into one of which a kernel decides: the form of the kernel to use, its groups,
+/// and what that form binds in addition.
+struct GatedDispatch {
+    const vk::ShaderCode* code = nullptr;
+    IndirectItems items;
+    BufferId last; ///< invalid = nothing
+};
+
 /// A buffer of the state between steps, and where another program for the same scene has it after an undone
 /// step.
 struct Carried {
@@ -144,7 +152,7 @@ public:
     template <typename Push>
     void dispatch(const vk::ShaderCode& code, std::uint32_t items, std::span<const BufferId> buffers,
                   const Push& push, const Constants& constants = {}) {
-        dispatchBytes(code, items, buffers, std::as_bytes(std::span(&push, 1)), constants);
+        dispatchDirect(code, items, buffers, std::as_bytes(std::span(&push, 1)), constants);
     }
     template <typename Push>
     void dispatch(const vk::ShaderCode& code, std::uint32_t items, std::initializer_list<BufferId> buffers,
@@ -165,6 +173,10 @@ public:
                           const Constants& constants = {}) {
         dispatchIndirect(code, items, std::span(buffers.begin(), buffers.size()), push, constants);
     }
+    /// What becomes of direct dispatches from here on, by kernel and number of items; none = they stay
+    /// direct.
+    using Gate = std::function<GatedDispatch(const vk::ShaderCode& code, std::uint32_t items)>;
+    void setGate(Gate gate) { gate_ = std::move(gate); }
     /// Adds [index] to the label of the last pass: one of several that differ in their range only.
     void numberLast(std::uint32_t index);
     /// A buffer of vec4 that a solver carries from step to step: undone with a step that ends not finite.
@@ -175,6 +187,9 @@ public:
     /// the same bits: what publishing makes of an undone one is rounded.
     void keep(BufferId buffer) { kept_.push_back(buffer); }
     const std::vector<BufferId>& kept() const { return kept_; }
+    /// Passes between the check that a step has come to its end and what is made of that.
+    void afterCheck(std::function<void()> addPasses) { checked_.push_back(std::move(addPasses)); }
+    const std::vector<std::function<void()>>& checked() const { return checked_; }
     /// Passes that end the step, after the check that it is finite.
     void atEnd(std::function<void()> addPasses) { endings_.push_back(std::move(addPasses)); }
     const std::vector<std::function<void()>>& endings() const { return endings_; }
@@ -197,12 +212,15 @@ private:
     Pass& last() { return (isSkin_ ? program_.skin : program_.step).back(); }
     void makeLastIndirect(const IndirectItems& items);
     std::uint32_t kernelIndex(const vk::ShaderCode& code, const Constants& constants);
+    void dispatchDirect(const vk::ShaderCode& code, std::uint32_t items, std::span<const BufferId> buffers,
+                        std::span<const std::byte> push, const Constants& constants);
     void dispatchBytes(const vk::ShaderCode& code, std::uint32_t items, std::span<const BufferId> buffers,
                        std::span<const std::byte> push, const Constants& constants);
 
     StepProgram program_;
     std::vector<BufferId> remembered_, kept_;
-    std::vector<std::function<void()>> endings_;
+    std::vector<std::function<void()>> checked_, endings_;
+    Gate gate_;
     bool isReversed_ = false, isSkin_ = false;
     std::uint32_t substep_ = 0;
 };

@@ -52,6 +52,7 @@ void addKernels(ProgramBuilder& program, const ParticleBuffers& particles, const
     buffers.insert(buffers.end(), slots.begin(), slots.end());
     published.insert(published.end(), slots.begin(), slots.end());
     program.dispatch(kernels.measure, particles.count, buffers, push);
+    for (const auto& addChecked : program.checked()) addChecked();
     addKept(program);
     program.dispatch(hasVelocities ? kernels.publish : kernels.publishPositions, particles.count, published,
                      push);

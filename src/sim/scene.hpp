@@ -262,6 +262,9 @@ struct Settings {
     float contactMargin = 0.5f;
     /// Particles that may be listed with one, faces with a particle, particles with a face that moves; 1..256
     std::uint32_t contactRoom = 24;
+    /// Bodies that rest for half a second sleep: they cost nothing and stay where they are, bit for bit,
+    /// until somebody touches them, what holds them moves, or Step::wakes. `split` only.
+    bool sleeps = false;
     Forms forms;
     /// False saves 16 bytes a particle: there is no buffer of public velocities, and a step that is undone
     /// leaves what it holds at rest.

@@ -123,7 +123,8 @@ struct Simulation::State {
                 .dampingShare =
                     static_cast<float>(dampingBudget(budget, double{theta}, longest) / double{omega}),
                 .multiplierScale = previousH > 0 ? std::min(1.0f, h * h / (previousH * previousH)) : 0,
-                .thetaHStored = hasContacts ? 0 : theta * h};
+                .thetaHStored = hasContacts ? 0 : theta * h,
+                .wakes = step.wakes ? 1u : 0u};
     }
 
     layout::StatusWords statusWords(std::uint64_t frame) const {
@@ -251,6 +252,7 @@ Status Simulation::status(std::uint64_t frame) const noexcept {
             .firstBadParticle = ~words.invertedFirstBad,
             .contactRoom = words.candidates,
             .slowed = words.slowed,
+            .sleeping = words.sleeping,
             .lostTime = state_->lostTime[slot]};
 }
 

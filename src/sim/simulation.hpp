@@ -25,6 +25,9 @@ struct Step {
     /// move there evenly, but not faster than Attachment::maxSpeed. Those left out stay. Read by record()
     /// only.
     std::span<const Vec3> anchors;
+    /// Wakes all that sleeps (Settings::sleeps). Not needed for what a step itself says: another gravity or
+    /// dt wakes all, an anchor or a collider that moves wakes what it holds or comes near.
+    bool wakes = false;
 };
 
 /// What a finished step found out about itself.
@@ -40,7 +43,8 @@ struct Status {
     /// Particles, counted once a substep, that were slowed down to what contacts can be found at: where more
     /// than 256 move farther in a substep than about their radius. Momentum is lost; take more substeps.
     std::uint32_t slowed = 0;
-    float lostTime = 0; ///< how much longer than the longest step Step::dt was [s]
+    std::uint32_t sleeping = 0; ///< particles that sleep at the end of the step
+    float lostTime = 0;         ///< how much longer than the longest step Step::dt was [s]
 };
 
 /// A range of the skin buffers that is one Skin of the scene.
@@ -82,9 +86,9 @@ public:
     /// Records the skins of the newest recorded state; afterwards skinVertices() is visible to vertex input.
     void recordSkin(VkCommandBuffer commands) noexcept;
 
-    /// Public state [m], [m/s]: particleCount x vec4, stride 16, w = inverse mass [1/kg]. `split` reports the
-    /// velocity half a substep before the step's end (leapfrog). No velocities, an empty view, without
-    /// Settings::publishesVelocities.
+    /// Public state [m], [m/s]: particleCount x vec4, stride 16, w = inverse mass [1/kg], 0 while the
+    /// particle sleeps. `split` reports the velocity half a substep before the step's end (leapfrog). No
+    /// velocities, an empty view, without Settings::publishesVelocities.
     vk::BufferView positions() const noexcept;
     vk::BufferView velocities() const noexcept;
     /// layout::SkinVertex (position, normal; stride 32) and 32-bit triangle indices; empty views without

@@ -65,6 +65,12 @@ void checkSweeps(const Settings& settings, Complaints& complaints) {
                                        number(ranges::mostSweeps));
 }
 
+void checkSleep(const Settings& settings, Complaints& complaints) {
+    if (settings.solver != Solver::split && settings.sleeps)
+        complaints.add("settings.sleeps", std::string("is set, but solver ") + solverName(settings.solver) +
+                                              " has no form for bodies that sleep: use split");
+}
+
 void checkSettings(const Settings& settings, Complaints& complaints) {
     checkSolver(settings.solver, complaints);
     if (settings.substeps > 0 && !ranges::substeps.holds(static_cast<double>(settings.substeps)))
@@ -77,6 +83,7 @@ void checkSettings(const Settings& settings, Complaints& complaints) {
         complaints.add("settings.omega", "is " + number(settings.omega) +
                                              ", but split is stable only below 4 / (1 + 2 theta) = " +
                                              number(static_cast<float>(bound)));
+    checkSleep(settings, complaints);
     if (complaints.isEmpty()) checkSweeps(settings, complaints);
 }
 

@@ -266,13 +266,13 @@ void BindingSets::write(const Device& device, VkDescriptorSet set, const Binding
     std::vector<VkBufferView> texels(bindings.size(), VK_NULL_HANDLE);
     for (const BufferView& view : request.buffers) infos.push_back({view.buffer, view.offset, view.size});
     std::vector<VkWriteDescriptorSet> writes;
-    for (const KernelBinding& binding : bindings) {
-        const std::uint32_t b = binding.binding;
+    for (std::size_t b = 0; b < bindings.size(); ++b) {
+        const KernelBinding& binding = bindings[b];
         const bool isTexels = binding.kind == BlockKind::texels;
         if (isTexels) texels[b] = createTexels(request.buffers[b], binding, device);
         writes.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                           .dstSet = set,
-                          .dstBinding = b,
+                          .dstBinding = binding.binding,
                           .descriptorCount = 1,
                           .descriptorType = descriptorType(binding),
                           .pBufferInfo = isTexels ? nullptr : &infos[b],

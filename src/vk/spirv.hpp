@@ -42,7 +42,7 @@ struct KernelBinding {
 };
 
 struct KernelInterface {
-    std::vector<KernelBinding> bindings;             ///< descriptor set 0, sorted, without gaps
+    std::vector<KernelBinding> bindings;             ///< descriptor set 0, sorted; a gap only before 31
     std::uint32_t pushConstantSize = 0;              ///< [B], rounded up to the block's std430 alignment
     std::array<std::uint32_t, 3> groupSize{1, 1, 1}; ///< with the defaults of the specialisation constants
     /// The specialisation constant that sets a dimension of the group size; empty = fixed.

@@ -68,6 +68,13 @@ TEST_F(Load, TakesClothByItsMembraneStiffnessOrByItsCompliances) {
                  scenes::SceneError);
 }
 
+TEST_F(Load, LetsBodiesSleepWhereTheSceneAsksForIt) {
+    EXPECT_FALSE(load(smallCloth).settings.sleeps);
+    EXPECT_TRUE(load("[solver]\nsleep = true\n" + smallCloth).settings.sleeps);
+    EXPECT_THROW(load("[solver]\nsleep = true\nname = \"jacobi\"\n" + smallCloth), std::exception);
+    EXPECT_THROW(load("[solver]\nsleep = 1\n" + smallCloth), scenes::SceneError);
+}
+
 TEST_F(Load, TakesEveryNumberOfAClothFromTheFile) {
     const scenes::LoadedScene loaded = load(
         "name = \"n\"\ngravity = [1, 2, 3]\ndt = 0.01\ndamping = 0.5\n"

@@ -51,8 +51,13 @@ void Runner::takeOver(const Runner& from) {
 }
 
 sim::Status Runner::step(float dt, std::span<const sim::Vec3> anchors) {
+    return step({.dt = dt, .gravity = gravity_, .anchors = anchors});
+}
+
+sim::Status Runner::step(sim::Step step) {
+    step.frame = frame_;
     const VkCommandBuffer commands = queue().begin();
-    simulation_.record(commands, {.dt = dt, .gravity = gravity_, .frame = frame_, .anchors = anchors});
+    simulation_.record(commands, step);
     queue().wait(queue().submit(commands));
     return simulation_.status(frame_++);
 }

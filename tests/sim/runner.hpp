@@ -15,6 +15,8 @@ public:
 
     /// One step under the scene's gravity; waits for it.
     sim::Status step(float dt, std::span<const sim::Vec3> anchors = {});
+    /// One step as it says, but for its frame.
+    sim::Status step(sim::Step step);
     /// Steps of the scene's dt; returns the status of the last.
     sim::Status run(int steps);
     void reset();

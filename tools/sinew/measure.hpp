@@ -12,6 +12,7 @@ namespace sinew::tools {
 /// As the device has them: positions [m] and velocities [m/s], w = inverse mass [1/kg].
 struct State {
     std::vector<std::array<float, 4>> positions, velocities;
+    std::vector<bool> isAsleep = {}; ///< by particle; empty where nothing can sleep
 };
 
 /// Empty where a figure has no meaning for the scene.

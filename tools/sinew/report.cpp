@@ -111,6 +111,23 @@ Json divergenceJson(const std::optional<Divergence>& divergence, double dt) {
             {"particles", divergence->count}};
 }
 
+// Bodies of which all that can move sleeps.
+Json sleepJson(const RunRecord& record) {
+    const std::vector<bool>& isAsleep = record.state.isAsleep;
+    if (isAsleep.empty()) return nullptr;
+    const std::vector<float> inverseMass = sim::inverseMasses(record.loaded.scene);
+    std::size_t bodies = 0;
+    for (const sim::Body& body : record.loaded.scene.bodies) {
+        std::size_t movable = 0, asleep = 0;
+        for (std::size_t i = body.firstParticle; i < body.firstParticle + body.particleCount; ++i) {
+            movable += inverseMass[i] > 0 ? 1 : 0;
+            asleep += isAsleep[i] ? 1 : 0;
+        }
+        bodies += movable > 0 && asleep == movable ? 1 : 0;
+    }
+    return {{"particles", std::ranges::count(isAsleep, true)}, {"bodies", bodies}};
+}
+
 Json overflowJson(const RunRecord& record) {
     Json overflow = Json::object(); // empty: no list of a bounded size is in use
     const app::ContactRoom& contacts = record.contactRoom;
@@ -176,6 +193,7 @@ std::string toJson(const RunRecord& record) {
     json["finite"] = !record.divergence || record.divergence->isCrowded;
     json["divergence"] = divergenceJson(record.divergence, double{scene.dt});
     json["overflow"] = overflowJson(record);
+    json["sleeping"] = sleepJson(record);
     json["state_hash"] = fmt::format("{:016x}", stateHash(record.state));
     json["peak_memory_mib"] = peakMemoryMib();
     json["validation"] = record.hasValidation;
@@ -219,6 +237,9 @@ std::string toText(const RunRecord& record) {
     if (record.contactRoom.grown > 0)
         text += fmt::format("room for contacts: grown {} times, to {}\n", record.contactRoom.grown,
                             record.contactRoom.room);
+    if (const Json sleeping = sleepJson(record); !sleeping.is_null())
+        text += fmt::format("asleep: {} particles, {} whole bodies\n",
+                            sleeping["particles"].get<std::size_t>(), sleeping["bodies"].get<std::size_t>());
     text += fmt::format("state hash: {:016x}\n", stateHash(record.state));
     if (record.hasValidation)
         text += fmt::format("validation: {} messages\n", record.validationMessages.size());

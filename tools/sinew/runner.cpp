@@ -4,6 +4,7 @@
 
 #include "app/guard.hpp"
 #include "layout.h"
+#include "sim/compile.hpp"
 #include "sinew/skin_mesh.hpp"
 
 #include <chrono>
@@ -30,7 +31,7 @@ std::string bodyOf(const sim::Scene& scene, std::uint32_t particle) {
 } // namespace
 
 Runner::Runner(Session& session, const sim::Scene& scene, const sim::Settings& settings)
-    : session_(session), scene_(scene), growing_(session.device, scene, settings) {
+    : session_(session), scene_(scene), sleeps_(settings.sleeps), growing_(session.device, scene, settings) {
     const auto phases = static_cast<std::uint32_t>(simulation().phases().size());
     for (std::uint32_t i = 0; i < sim::Simulation::framesInFlight; ++i)
         timestamps_.emplace_back(session.device, phases);
@@ -138,8 +139,16 @@ double Runner::recordMs() const {
 }
 
 State Runner::readState() {
-    return {session_.queue.download<std::array<float, 4>>(simulation().positions()),
-            session_.queue.download<std::array<float, 4>>(simulation().velocities())};
+    State state{session_.queue.download<std::array<float, 4>>(simulation().positions()),
+                session_.queue.download<std::array<float, 4>>(simulation().velocities()),
+                {}};
+    if (!sleeps_) return state;
+    const std::vector<float> inverseMass = sim::inverseMasses(scene_); // the device has 0 for what sleeps
+    for (std::size_t i = 0; i < inverseMass.size(); ++i) {
+        state.isAsleep.push_back(inverseMass[i] > 0 && state.positions[i][3] == 0);
+        state.positions[i][3] = state.velocities[i][3] = inverseMass[i];
+    }
+    return state;
 }
 
 std::vector<mesh::TriangleMesh> Runner::readSkins() {

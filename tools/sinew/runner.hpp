@@ -60,6 +60,7 @@ private:
 
     Session& session_;
     const sim::Scene& scene_;
+    bool sleeps_ = false;
     app::GrowingSimulation growing_;
     std::vector<vk::Timestamps> timestamps_;                                 // one a step in flight
     std::array<std::uint64_t, sim::Simulation::framesInFlight> submitted_{}; // timeline values

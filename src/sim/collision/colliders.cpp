@@ -25,7 +25,8 @@ layout::Collider shapeOf(const Collider& collider) {
 }
 
 // After every substep, and at the beginning; where nothing moves, once and for all.
-BufferId addPoses(ProgramBuilder& program, const Scene& scene, std::uint32_t substeps, bool areMoving) {
+BufferId addPoses(ProgramBuilder& program, const Scene& scene, std::uint32_t substeps, bool areMoving,
+                  BufferId& ways) {
     const ColliderPaths paths(scene.colliders);
     std::vector<layout::ColliderPose> poses;
     for (const Pose& pose : paths.poses()) {
@@ -35,7 +36,7 @@ BufferId addPoses(ProgramBuilder& program, const Scene& scene, std::uint32_t sub
     }
     if (!areMoving) return program.upload("colliders.poses", poses);
     const auto count = static_cast<std::uint32_t>(poses.size());
-    const BufferId ways = program.scratch<layout::ColliderPose>("colliders.ways", 2 * count);
+    ways = program.scratch<layout::ColliderPose>("colliders.ways", 2 * count);
     const BufferId placed =
         program.scratch<layout::ColliderPose>("colliders.poses", std::uint64_t{count} * (substeps + 1));
     program.updateColliders(ways);
@@ -74,7 +75,7 @@ Colliders add(ProgramBuilder& program, const Scene& scene, const StateLayout& la
                             std::ranges::any_of(scene.contacts.surfaces, rebounds), // the way is then not h v
                         .shapes = program.upload("colliders", shapes)};
     colliders.contactOffsets = program.upload("colliders.contact_offsets", offsets);
-    colliders.poses = addPoses(program, scene, substeps, colliders.areMoving);
+    colliders.poses = addPoses(program, scene, substeps, colliders.areMoving, colliders.ways);
     return colliders;
 }
 

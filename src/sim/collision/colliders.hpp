@@ -13,6 +13,7 @@ struct Colliders {
     std::uint32_t particles = 0; ///< slots of the state
     bool areMoving = false, hasRebound = false;
     BufferId shapes, poses, contactOffsets, before;
+    BufferId ways; ///< of this step, from and to; invalid unless areMoving
 };
 
 /// Adds the passes that place them: call it once, before the substeps.

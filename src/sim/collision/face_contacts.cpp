@@ -3,6 +3,7 @@
 
 #include "kernels.hpp"
 #include "sim/ranges.hpp"
+#include "sim/sleep.hpp"
 
 #include <algorithm>
 
@@ -195,6 +196,12 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     return contacts;
 }
 
+void joinIslands(const Contacts& contacts, sleep::Sleep& sleep) {
+    const face_lists::Lists& lists = contacts.lists;
+    sleep.faces = {lists.faces, lists.contacts, lists.counts, contacts.directions};
+    sleep.push.faceRow = contacts.push.row;
+}
+
 void addOpening(ProgramBuilder& program, const Contacts& contacts, BufferId velocities) {
     program.copy(velocities, contacts.before);
 }
@@ -208,6 +215,7 @@ ParticleBuffers addPasses(ProgramBuilder& program, const Contacts& contacts, con
                      {predicted.positions, predicted.velocities, lists.faces, lists.contacts, lists.counts,
                       contacts.memory, contacts.directions, contacts.weights, predicted.step},
                      contacts.push);
+    sleep::addFaceTouches(program, predicted);
     program.dispatch(k::shareFaces, contacts.push.count,
                      {lists.counts, contacts.directions, contacts.weights, contacts.corners, lists.links,
                       lists.linkCounts, predicted.velocities, contacts.shares},

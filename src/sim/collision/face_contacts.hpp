@@ -38,6 +38,9 @@ struct Contacts {
 Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
              const ParticleBuffers& particles, bool endsSubstep);
 
+/// What touches sleeps together.
+void joinIslands(const Contacts& contacts, sleep::Sleep& sleep);
+
 /// Before the links of a substep, whose velocities are `velocities`.
 void addOpening(ProgramBuilder& program, const Contacts& contacts, BufferId velocities);
 

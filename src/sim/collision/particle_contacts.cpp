@@ -5,6 +5,7 @@
 #include "sim/collision/face_contacts.hpp"
 #include "sim/collision/overlaps.hpp"
 #include "sim/ranges.hpp"
+#include "sim/sleep.hpp"
 
 #include <algorithm>
 #include <array>
@@ -253,6 +254,12 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     return contacts;
 }
 
+void joinIslands(const Contacts& contacts, sleep::Sleep& sleep) {
+    sleep.pairs = {contacts.lists.contacts, contacts.lists.counts, contacts.touching,
+                   contacts.lists.grid.bounds};
+    sleep.push.row = contacts.lists.push.row;
+}
+
 void addOpening(ProgramBuilder& program, const Contacts& contacts, BufferId velocities) {
     const bool isRead =
         contacts.hasRebound || contacts.surfaces.hasRestitution || contacts.surfaces.hasFriction;
@@ -262,6 +269,7 @@ void addOpening(ProgramBuilder& program, const Contacts& contacts, BufferId velo
 void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                const ParticleBuffers& next) {
     addListUpdate(program, contacts, predicted);
+    sleep::addTouches(program, predicted);
     addCount(program, contacts, predicted);
     addGather(program, contacts, predicted, next);
 }

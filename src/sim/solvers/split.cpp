@@ -12,6 +12,7 @@
 #include "sim/constraints/distance.hpp"
 #include "sim/constraints/tether.hpp"
 #include "sim/lattice/batches.hpp"
+#include "sim/sleep.hpp"
 #include "sim/solvers/shares.hpp"
 #include "sim/solvers/split_kernels.hpp"
 
@@ -200,6 +201,7 @@ std::vector<Gather> addGathers(const Common& common) {
 // One dispatch a kind of body, for the whole step: positions stay in shared memory (platform: residency).
 void addResident(const Common& common, const ParticleBuffers& particles) {
     const auto [batches, cells] = uploadGrids(common);
+    sleep::addOpening(common.program, particles);
     for (const lattice::Batch& batch : batches.batches) {
         Gather gather = gridGather(common, batch, cells);
         gather.constants[residentSlotsId] = batch.push.bodySlots;
@@ -240,6 +242,7 @@ void addSubsteps(const Common& common, const ParticleBuffers& particles) {
     const auto attachments = constraints::attachment::add(program, common.scene, layout);
     const auto tethers = constraints::tether::add(program, common.scene, layout);
     const auto rigid = addRigid(common);
+    sleep::addOpening(program, particles, attachments, rigid);
     ParticleBuffers current = particles, next = particles;
     next.positions = program.scratch<layout::vec4>("state.next_positions", layout.count);
     if (alternates) next.velocities = program.scratch<layout::vec4>("state.next_velocities", layout.count);
@@ -273,6 +276,10 @@ struct Touching {
         if (pairs) collision::particle_contacts::addPasses(program, *pairs, predicted, next);
         return predicted;
     }
+    void joinIslands(sleep::Sleep& sleep) const {
+        if (faces) collision::face_contacts::joinIslands(*faces, sleep);
+        if (pairs) collision::particle_contacts::joinIslands(*pairs, sleep);
+    }
     void addPublishing(ProgramBuilder& program) const {
         if (faces) collision::face_contacts::addPublishing(program, *faces);
         if (pairs) collision::particle_contacts::addPublishing(program, *pairs);
@@ -298,11 +305,13 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
     const StateLayout& layout = common.layout;
     const std::uint32_t substeps = common.settings.substeps;
     Touching contacts = addTouching(common, particles);
+    if (particles.sleep) contacts.joinIslands(*particles.sleep);
     const std::vector<Gather> gathers = addGathers(common);
     const bool alternates = std::ranges::any_of(gathers, &Gather::alternatesVelocities);
     const auto attachments = constraints::attachment::add(program, common.scene, layout);
     const auto tethers = constraints::tether::add(program, common.scene, layout);
     const auto rigid = addRigid(common);
+    sleep::addOpening(program, particles, attachments, rigid);
     ParticleBuffers current = particles, predicted = particles;
     predicted.positions = program.scratch<layout::vec4>("state.next_positions", layout.count);
     BufferId spare = program.scratch<layout::vec4>("state.next_velocities", layout.count);

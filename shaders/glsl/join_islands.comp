@@ -1,0 +1,22 @@
+#version 460
+// Joins the islands of particles that have touched in the last substep.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "contacts.glsl"
+#include "islands.glsl"
+
+layout(std430, binding = 3) readonly buffer Contacts { ContactCandidate contacts[]; };
+layout(std430, binding = 4) readonly buffer Counts { uint counts[]; };
+layout(std430, binding = 5) readonly buffer Touching { vec4 touching[]; }; // where contacts were counted [m]
+layout(push_constant) uniform Push { SleepPush push; };
+
+void main() {
+    const uint i = itemIndex(push.count);
+    if (!isAwake(i)) return;
+    const vec3 x = touching[i].xyz;
+    for (uint s = 0u; s < counts[i]; ++s) {
+        const ContactCandidate candidate = contacts[s * push.row + i];
+        const uint j = candidate.other;
+        if (j < i && isAwake(j) && touches(x - touching[j].xyz, candidate.reach)) join(i, j);
+    }
+}

@@ -1,0 +1,47 @@
+#version 460
+// Marks the islands that wake when a step begins: all, or those of particles on an anchor that has moved, and of those near
+// the way of a collider, taken as the ball around it.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "sleep.glsl"
+
+layout(std430, binding = 0) readonly buffer State { SleepState state; };
+layout(std430, binding = 1) readonly buffer Weights { float weights[]; };     // inverse mass of what is awake [1/kg]
+layout(std430, binding = 2) readonly buffer Velocities { vec4 velocities[]; };
+layout(std430, binding = 3) readonly buffer Positions { vec4 positions[]; };  // of what sleeps: x [m]
+layout(std430, binding = 4) readonly buffer Islands { uint islands[]; };
+layout(std430, binding = 5) buffer Marks { uint marks[]; };
+layout(std430, binding = 6) readonly buffer Attachments { AttachedParticle attachments[]; };
+layout(std430, binding = 7) readonly buffer Anchors { vec4 anchors[]; };
+layout(std430, binding = 8) readonly buffer SeenAnchors { vec4 seenAnchors[]; };
+layout(std430, binding = 9) readonly buffer Colliders { Collider colliders[]; };
+layout(std430, binding = 10) readonly buffer ContactOffsets { float contactOffsets[]; };
+layout(std430, binding = 11) readonly buffer Ways { ColliderPose ways[]; };
+layout(std430, binding = 12) readonly buffer SeenPoses { ColliderPose seenPoses[]; };
+layout(push_constant) uniform Push { SleepPush push; };
+
+float wayTo(vec3 x, vec3 a, vec3 b) {
+    const vec3 d = b - a;
+    const float t = clamp(dot(x - a, d) / max(dot(d, d), 1e-30), 0.0, 1.0);
+    return length(x - a - t * d);
+}
+
+// A little farther than touching: what rests on a collider touches it to rounding.
+bool isNearMoving(vec3 x, float offset) {
+    bool isNear = false;
+    for (uint c = 0u; c < push.colliders; ++c) {
+        const ColliderPose from = seenPoses[c], to = ways[2u * c + 1u];
+        const float reach = 1.05 * (length(colliders[c].core.xyz) + colliders[c].core.w + max(offset, 0.0));
+        isNear = isNear || from != to && wayTo(x, from.position.xyz, to.position.xyz) <= reach;
+    }
+    return isNear;
+}
+
+void main() {
+    const uint i = itemIndex(push.count);
+    if (isAsleep(weights[i], velocities[i]) && (state.wakesAll != 0u || isNearMoving(positions[i].xyz, contactOffsets[i])))
+        atomicOr(marks[islands[i]], 1u);
+    if (i >= push.attachments || anchors[2u * i + 1u].xyz == seenAnchors[i].xyz) return;
+    const uint p = attachments[i].particle;
+    if (isAsleep(weights[p], velocities[p])) atomicOr(marks[islands[p]], 1u);
+}

@@ -1,0 +1,40 @@
+#version 460
+// Begins a step of a scene that sleeps: says whether there may be a reason to wake somebody: another gravity or length of the
+// step, a wish of the host, an anchor or a collider that is not where it was. One group.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+
+layout(std430, binding = 0) buffer State { SleepState state; };
+layout(std430, binding = 1) buffer Status { StatusWords status; };
+layout(std430, binding = 2) writeonly buffer Waking { DispatchArguments waking[]; };
+layout(std140, binding = 3) uniform Step { StepParams step; };
+layout(std430, binding = 4) readonly buffer Anchors { vec4 anchors[]; };         // of each attachment: from, to [m]
+layout(std430, binding = 5) readonly buffer SeenAnchors { vec4 seenAnchors[]; }; // at the end of the last step
+layout(std430, binding = 6) readonly buffer Ways { ColliderPose ways[]; };       // of each collider: from, to
+layout(std430, binding = 7) readonly buffer SeenPoses { ColliderPose seenPoses[]; };
+layout(push_constant) uniform Push { SleepPush push; };
+
+shared uint changes;
+
+void main() {
+    const uint lane = gl_LocalInvocationID.x;
+    if (lane == 0u) changes = 0u;
+    barrier();
+    bool isChanged = false;
+    for (uint a = lane; a < push.attachments; a += GROUP_SIZE)
+        isChanged = isChanged || anchors[2u * a + 1u].xyz != seenAnchors[a].xyz;
+    for (uint c = lane; c < push.colliders; c += GROUP_SIZE)
+        isChanged = isChanged || ways[2u * c + 1u] != seenPoses[c];
+    if (isChanged) atomicOr(changes, 1u);
+    barrier();
+    if (lane > 0u) return;
+    status.frame = step.frame; // nobody else says so while all sleep
+    status.sleeping = state.sleeping;
+    state.wakes |= step.wakes; // until a step comes to its end
+    const bool wakesAll = state.wakes != 0u || state.gravity.xyz != step.gravity.xyz || state.h != step.h;
+    state.wakesAll = wakesAll ? 1u : 0u;
+    const uint one = state.sleeping > 0u && (wakesAll || changes != 0u) ? 1u : 0u;
+    waking[SLEEP_OPENING] = DispatchArguments(one * push.groups, 1u, 1u, 0u);
+    waking[SLEEP_OPENING_ONE] = DispatchArguments(one, 1u, 1u, 0u);
+    waking[SLEEP_WAKING] = waking[SLEEP_WAKING_ONE] = DispatchArguments(0u, 1u, 1u, 0u);
+}

@@ -1,0 +1,37 @@
+#version 460
+// Marks the islands that somebody awake has come to touch in this substep, before contacts are counted: so that none is hit
+// as if it never moved.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "contacts.glsl"
+#include "sleep.glsl"
+
+layout(std430, binding = 0) readonly buffer Weights { float weights[]; };      // inverse mass of what is awake [1/kg]
+layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; };
+layout(std430, binding = 2) readonly buffer Predicted { vec4 predicted[]; };   // [m]
+layout(std430, binding = 3) readonly buffer Islands { uint islands[]; };
+layout(std430, binding = 4) buffer Marks { uint marks[]; };
+layout(std430, binding = 5) buffer State { SleepState state; };
+layout(std430, binding = 6) readonly buffer Contacts { ContactCandidate contacts[]; };
+layout(std430, binding = 7) readonly buffer Counts { uint counts[]; };
+layout(std140, binding = 8) uniform Bounds { GridBounds bounds; };
+layout(std140, binding = 9) uniform Step { StepParams step; };
+layout(push_constant) uniform Push { SleepPush push; };
+
+// At the end of the substep, or on the way where contacts may lie there.
+bool meets(vec3 d, vec3 v, float reach) {
+    return touches(d, reach) || bounds.isSwept != 0u && nearestSquared(d, step.h * v) < reach * reach;
+}
+
+void main() {
+    const uint i = itemIndex(push.count);
+    if (weights[i] == 0.0 || velocities[i].w == 0.0) return;
+    const vec3 x = predicted[i].xyz;
+    for (uint s = 0u; s < counts[i]; ++s) {
+        const ContactCandidate candidate = contacts[s * push.row + i];
+        const uint j = candidate.other;
+        if (!isAsleep(weights[j], velocities[j]) || !meets(x - predicted[j].xyz, velocities[i].xyz, candidate.reach)) continue;
+        atomicOr(marks[islands[j]], 1u);
+        atomicOr(state.touched, 1u);
+    }
+}

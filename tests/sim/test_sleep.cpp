@@ -1,0 +1,309 @@
+// Bodies at rest sleep, stay where they are to the last bit and cost nothing; what must wake them does.
+#include "layout.h"
+#include "sim/bodies.hpp"
+#include "sim/collision/contact_scenes.hpp"
+#include "sim/compile.hpp"
+#include "sim/runner.hpp"
+#include "sim/scenes.hpp"
+#include "sim/validate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+using namespace sinew;
+using namespace sinew::sim;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr float radius = test::ballRadius;
+using test::ballAt;
+
+// side^3 balls a little apart that fall a little way onto a floor, around (x, 0).
+void addHeap(Scene& scene, std::uint32_t side, float x) {
+    const float pitch = 2.3f * radius;
+    test::addBalls(scene, side, pitch, 0.1f * radius,
+                   {x, 0.02f + 0.5f * static_cast<float>(side) * pitch, 0});
+}
+
+Scene heap(std::uint32_t side = 5) {
+    Scene scene;
+    addHeap(scene, side, 0);
+    scene.contacts.friction = 0.5f;
+    scene.planes = {{.friction = 0.5f}};
+    return scene;
+}
+
+const Settings sleeping{.substeps = 16, .sleeps = true};
+
+// Steps until as many sleep, at most `most`; how many that took, or -1.
+int stepsUntilAsleep(test::Runner& runner, std::uint32_t sleepers, int most = 600) {
+    for (int step = 1; step <= most; ++step) {
+        const Status status = runner.run(1);
+        EXPECT_EQ(status.nonFinite + status.contactRoom, 0u) << "step " << step;
+        if (status.sleeping == sleepers) return step;
+    }
+    return -1;
+}
+
+std::uint32_t countOf(const Scene& scene) {
+    return static_cast<std::uint32_t>(scene.particles.size());
+}
+
+double farthest(const std::vector<Vector3d>& a, const std::vector<Vector3d>& b) {
+    double most = 0;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+        most = std::max(most, (a[i] - b[i]).norm());
+    return most;
+}
+
+// Groups that the indirect dispatches of the next step would run, and those that direct ones always run.
+struct Groups {
+    std::uint64_t indirect = 0, direct = 0;
+};
+
+Groups groupsOf(test::Runner& runner) {
+    const StepProgram& program = runner.simulation().program();
+    Groups groups;
+    for (const Pass& pass : program.step) {
+        if (pass.kind != PassKind::dispatch) continue;
+        const std::uint32_t size = program.kernels[pass.kernel].interface.groupSize[0];
+        if (!pass.isIndirect) {
+            groups.direct += (pass.items - 1) / size + 1;
+            continue;
+        }
+        const auto arguments = test::queue().download<layout::DispatchArguments>(
+            runner.simulation().view(pass.uses.back().buffer));
+        groups.indirect += arguments[pass.value].groupsX;
+    }
+    return groups;
+}
+
+} // namespace
+
+TEST(Sleep, ComesOverAHeapThatThenStaysWhereItIsBitForBit) {
+    const Scene scene = heap();
+    test::Runner runner(scene, sleeping);
+    const int steps = stepsUntilAsleep(runner, countOf(scene));
+    std::printf("asleep after %d steps\n", steps);
+    ASSERT_GT(steps, 30) << "half a second";
+    const auto x = runner.positions();
+    runner.run(1);
+    const std::uint64_t hash = runner.stateHash();
+    for (const Vector3d& v : runner.velocities()) EXPECT_EQ(v, Vector3d::Zero());
+    EXPECT_EQ(runner.run(100).sleeping, countOf(scene));
+    EXPECT_EQ(runner.stateHash(), hash);
+    EXPECT_EQ(farthest(runner.positions(), x), 0);
+}
+
+TEST(Sleep, CostsNoGroupButThoseOfAFewSmallPasses) {
+    test::Runner runner(heap(), sleeping);
+    const Groups awake = groupsOf(runner);
+    ASSERT_GT(stepsUntilAsleep(runner, 125), 0);
+    runner.run(3);
+    const Groups asleep = groupsOf(runner);
+    std::printf(
+        "groups: awake %llu, asleep %llu, and %llu always\n", static_cast<unsigned long long>(awake.indirect),
+        static_cast<unsigned long long>(asleep.indirect), static_cast<unsigned long long>(asleep.direct));
+    EXPECT_EQ(asleep.indirect, 0u);
+    EXPECT_LE(asleep.direct, 3u) << "whether anything wakes, and whether anything was judged";
+    EXPECT_GE(awake.indirect, 16u * 5);
+}
+
+TEST(Sleep, EndsInTheSameBitsForAnyOrderAndMarginAndForm) {
+    const Scene scene = heap();
+    constexpr int steps = 150;
+    const auto hash = [&](const Settings& settings) { return test::hashOfRun(scene, settings, steps); };
+    Settings reversed = sleeping, narrow = sleeping, loads = sleeping;
+    reversed.isReversed = true;
+    narrow.contactMargin = 0.25f;
+    loads.forms.usesTexels = false;
+    EXPECT_EQ(hash(reversed), hash(sleeping));
+    EXPECT_EQ(hash(narrow), hash(sleeping));
+    EXPECT_EQ(hash(loads), hash(sleeping));
+}
+
+// Until somebody sleeps nothing differs.
+TEST(Sleep, ChangesNoBitOfWhatIsAwake) {
+    Settings never = sleeping;
+    never.sleeps = false;
+    EXPECT_EQ(test::hashOfRun(heap(), sleeping, 30), test::hashOfRun(heap(), never, 30));
+}
+
+// A heap in a box, asleep, and a ball like its own from 2 m.
+TEST(Sleep, EndsWhenABallFallsOntoAHeapWhichThenRestsAsIfItHadNeverSlept) {
+    Settings never = sleeping;
+    never.sleeps = false;
+    Scene scene = heap(3);
+    for (const Vec3 n : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}})
+        scene.planes.push_back({.normal = n, .offset = -0.18f, .friction = 0.5f});
+    test::Runner settled(scene, never);
+    settled.run(300);
+    const auto x = settled.positions();
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        scene.particles[i].position = test::toFloats(x[i]);
+        scene.particles[i].velocity = {};
+    }
+    scene.particles.push_back(ballAt({0.01f, 2.3f, 0.005f}));
+    test::Runner slept(scene, sleeping), awake(scene, never);
+    bool slumbered = false, woke = false;
+    for (int step = 0; step < 400; ++step) {
+        const Status status = slept.run(1);
+        ASSERT_EQ(status.nonFinite, 0u);
+        slumbered = slumbered || status.sleeping == 27;
+        woke = woke || (slumbered && status.sleeping < 27);
+    }
+    awake.run(400);
+    EXPECT_TRUE(woke);
+    EXPECT_EQ(slept.run(1).sleeping, 28u);
+    const double apart = farthest(slept.positions(), awake.positions()) / double{radius};
+    std::printf("%.4f r from where it would be without sleep, moved by %.4f r\n", apart,
+                farthest(awake.positions(), x) / double{radius});
+    EXPECT_LE(apart, 0.01);
+}
+
+TEST(Sleep, DoesNotComeOverABodyAtTheTopOfAThrow) {
+    Scene scene;
+    scene.particles = {ballAt({0, 1, 0}, {0, 4, 0})};
+    scene.planes = {{}};
+    test::Runner runner(scene, sleeping);
+    for (int step = 0; step < 48; ++step) EXPECT_EQ(runner.run(1).sleeping, 0u) << "step " << step;
+}
+
+TEST(Sleep, DoesNotComeOverWhatCreeps) {
+    Scene scene = test::weightless();
+    scene.particles = {ballAt({}, {0.003f, 0, 0}),
+                       ballAt({1, 0, 0}, {0.001f, 0, 0})}; // 0.03 r, 0.01 r in 0.5 s
+    test::Runner runner(scene, sleeping);
+    EXPECT_EQ(runner.run(120).sleeping, 1u);
+    EXPECT_NEAR(runner.positions()[0].x(), 0.006, 1e-5);
+}
+
+TEST(Sleep, OfOneHeapGoesOnWhileAnotherWakes) {
+    Scene scene = heap(5);
+    addHeap(scene, 5, 3);
+    scene.particles.push_back(ballAt({3, 20, 0}));
+    test::Runner runner(scene, sleeping);
+    ASSERT_GT(stepsUntilAsleep(runner, 250), 0);
+    std::vector<Vector3d> before = runner.positions();
+    std::uint32_t least = 250;
+    for (int step = 0; step < 120; ++step) least = std::min(least, runner.run(1).sleeping);
+    EXPECT_LT(least, 250u);
+    EXPECT_GE(least, 125u);
+    const auto after = runner.positions();
+    double first = 0, second = 0;
+    for (std::size_t i = 0; i < 125; ++i) first = std::max(first, (after[i] - before[i]).norm());
+    for (std::size_t i = 125; i < 250; ++i) second = std::max(second, (after[i] - before[i]).norm());
+    EXPECT_EQ(first, 0);
+    EXPECT_GT(second, 0);
+}
+
+TEST(Sleep, EndsWithAnotherGravityAnotherStepAndByWish) {
+    const Scene scene = heap(3);
+    for (int reason = 0; reason < 3; ++reason) {
+        test::Runner runner(scene, sleeping);
+        ASSERT_GT(stepsUntilAsleep(runner, 27), 0);
+        Step step{.dt = scene.dt, .gravity = scene.gravity};
+        if (reason == 0) step.gravity.x = 0.5f;
+        if (reason == 1) step.dt *= 0.5f;
+        if (reason == 2) step.wakes = true;
+        EXPECT_EQ(runner.step(step).sleeping, 0u) << "reason " << reason;
+        step.wakes = false;
+        EXPECT_EQ(runner.step(step).sleeping, 0u) << "reason " << reason;
+    }
+}
+
+TEST(Sleep, EndsWithTheAnchorThatMoves) {
+    Scene scene = test::hangingChain(6, 0.1f, 0.1f, 1e-5f);
+    const std::uint32_t links = countOf(scene) - 1;
+    scene.particles.push_back({.position = {2, 0, 0}});
+    scene.particles.push_back({.position = {4, 0, 0}});
+    scene.attachments = {{.particle = links + 1, .anchor = {2, 0, 0}, .compliance = 1e-4f},
+                         {.particle = links + 2, .anchor = {4, 0, 0}, .compliance = 1e-4f}};
+    scene.damping = 5;
+    test::Runner runner(scene, sleeping);
+    ASSERT_GT(stepsUntilAsleep(runner, links + 2), 0);
+    const auto before = runner.positions();
+    const std::vector<Vec3> anchors{{2, 0, 0}, {4.1f, 0, 0}};
+    EXPECT_EQ(runner.step(scene.dt, anchors).sleeping, links + 1) << "all but what the second holds";
+    EXPECT_EQ(stepsUntilAsleep(runner, links + 2) > 30, true);
+    const auto after = runner.positions();
+    EXPECT_NEAR(after.back().x() - before.back().x(), 0.1, 0.002);
+    for (std::size_t i = 0; i + 1 < after.size(); ++i) EXPECT_EQ(after[i], before[i]);
+}
+
+// A ball far away on a plate that stays; one on a plate that sinks after four seconds.
+TEST(Sleep, EndsWithTheColliderThatMovesBelowIt) {
+    Scene scene;
+    scene.particles = {ballAt({0, 0.16f, 0}), ballAt({0, 0.2601f, 0}), ballAt({3, 0.16f, 0})};
+    scene.contacts.friction = 0.5f;
+    const Collider plate{.shape = ColliderShape::box,
+                         .halfExtents = {0.3f, 0.1f, 0.3f},
+                         .friction = 0.5f,
+                         .pose = {.position = {3, 0, 0}}};
+    Collider lift = plate;
+    lift.path = {{.time = 4, .pose = {}}, {.time = 5, .pose = {.position = {0, -0.2f, 0}}}};
+    scene.colliders = {plate, lift};
+    test::Runner runner(scene, sleeping);
+    ASSERT_GT(stepsUntilAsleep(runner, 3, 230), 0);
+    std::uint32_t least = 3;
+    for (int step = 0; step < 320; ++step) least = std::min(least, runner.run(1).sleeping);
+    EXPECT_EQ(least, 1u) << "the upper ball wakes with the lower one";
+    const auto x = runner.positions();
+    EXPECT_NEAR(x[0].y(), -0.05, 1e-3);
+    EXPECT_NEAR(x[1].y(), 0.05, 1e-3);
+    EXPECT_NEAR(x[2].y(), 0.15, 1e-3);
+}
+
+TEST(Sleep, ComesOverALatticeOnAFloorAndEndsWhenABallHitsIt) {
+    for (const bool usesGrids : {true, false}) {
+        Scene scene = test::block(3, 0.1f, 2e5f, 0.01f);
+        for (Particle& particle : scene.particles) particle.radius = 0.05f;
+        const std::uint32_t nodes = countOf(scene);
+        scene.particles.push_back(ballAt({0.15f, 12, 0.15f}));
+        scene.planes = {{.friction = 0.5f}};
+        scene.contacts.friction = 0.5f;
+        scene.damping = 2;
+        Settings settings = sleeping;
+        settings.forms.usesGrids = usesGrids;
+        test::Runner runner(scene, settings);
+        ASSERT_GT(stepsUntilAsleep(runner, nodes), 0) << "grids " << usesGrids;
+        const auto before = runner.positions();
+        bool woke = false;
+        for (int step = 0; step < 200 && !woke; ++step) woke = runner.run(1).sleeping == 0;
+        EXPECT_TRUE(woke);
+        EXPECT_EQ(stepsUntilAsleep(runner, nodes + 1) > 0, true);
+        EXPECT_GT((runner.positions()[0] - before[0]).norm(), 0);
+    }
+}
+
+TEST(Sleep, SurvivesAStepThatIsUndone) {
+    const Scene scene = heap(3);
+    test::Runner runner(scene, sleeping);
+    ASSERT_GT(stepsUntilAsleep(runner, 27), 0);
+    runner.run(3);
+    const std::uint64_t before = runner.stateHash();
+    Step wild{.dt = scene.dt, .gravity = {0, std::numeric_limits<float>::quiet_NaN(), 0}};
+    EXPECT_GT(runner.step(wild).nonFinite, 0u);
+    EXPECT_EQ(runner.stateHash(), before) << "undone";
+    EXPECT_EQ(runner.run(1).sleeping, 27u) << "gravity is what it was";
+    EXPECT_EQ(runner.stateHash(), before);
+}
+
+TEST(Sleep, IsRefusedBySolversWithoutAFormForIt) {
+    for (const Solver solver : {Solver::jacobi, Solver::gaussSeidel}) {
+        const auto complaints = validate(Settings{.solver = solver, .sleeps = true});
+        ASSERT_EQ(complaints.size(), 1u);
+        EXPECT_NE(complaints[0].find("settings.sleeps"), std::string::npos) << complaints[0];
+    }
+}
+
+TEST(Sleep, LeavesASceneThatDoesNotAskForItAlone) {
+    const StepProgram program = compile(heap(3), {.substeps = 2});
+    for (const BufferSpec& buffer : program.buffers)
+        EXPECT_EQ(buffer.label.find("sleep"), std::string::npos) << buffer.label;
+}
