@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -140,6 +141,15 @@ nlohmann::json reflect(const std::filesystem::path& file) {
     return nlohmann::json::parse(output);
 }
 
+// What a kernel's interface says of a binding of its reflection: they are sorted, with a gap before the last.
+const vk::KernelBinding& bindingOf(const vk::KernelInterface& interface, const nlohmann::json& resource) {
+    const auto found = std::ranges::find(interface.bindings, resource["binding"].get<std::uint32_t>(),
+                                         &vk::KernelBinding::binding);
+    if (found == interface.bindings.end())
+        throw std::runtime_error("no binding " + resource["binding"].dump());
+    return *found;
+}
+
 void compareBindings(const vk::KernelInterface& interface, const nlohmann::json& reflection) {
     nlohmann::json buffers = reflection.value("ssbos", nlohmann::json::array());
     for (nlohmann::json block : reflection.value("ubos", nlohmann::json::array())) {
@@ -149,13 +159,13 @@ void compareBindings(const vk::KernelInterface& interface, const nlohmann::json&
     const nlohmann::json texels = reflection.value("textures", nlohmann::json::array());
     ASSERT_EQ(interface.bindings.size(), buffers.size() + texels.size());
     for (const nlohmann::json& texel : texels) {
-        const auto& binding = interface.bindings.at(texel["binding"].get<std::size_t>());
+        const auto& binding = bindingOf(interface, texel);
         EXPECT_EQ(binding.kind, vk::BlockKind::texels);
         EXPECT_EQ(binding.name, texel["name"]);
         EXPECT_EQ(binding.isFloat ? "samplerBuffer" : "usamplerBuffer", texel["type"]);
     }
     for (const nlohmann::json& buffer : buffers) {
-        const auto& binding = interface.bindings.at(buffer["binding"].get<std::size_t>());
+        const auto& binding = bindingOf(interface, buffer);
         const nlohmann::json& block = reflection["types"][buffer["type"].get<std::string>()];
         EXPECT_EQ(binding.name, block["name"]);
         const Access access = buffer.value("readonly", false)    ? Access::read
