@@ -97,8 +97,10 @@ TEST_F(LoadContacts, MakesMeshesThatNeverMoveFaces) {
         }
     }
     expectError(balls + "[[mesh_collider]]\n", "scene.toml:4: mesh_collider[0].file is missing");
-    expectError(balls + "[[mesh_collider]]\nfile = \"../x.obj\"\n", "scene.toml:5: mesh_collider[0].file leaves the scene's folder");
-    expectError(balls + mesh + "thickness = -1\n", "scene.toml:9: mesh_collider[0].thickness is -1 m: must be above 0");
+    expectError(balls + "[[mesh_collider]]\nfile = \"../x.obj\"\n",
+                "scene.toml:5: mesh_collider[0].file leaves the scene's folder");
+    expectError(balls + mesh + "thickness = -1\n",
+                "scene.toml:9: mesh_collider[0].thickness is -1 m: must be above 0");
     expectError(balls + mesh + "[solver]\nname = \"jacobi\"\n",
                 "scene.toml: solver jacobi has no form for particles that touch");
 }
