@@ -91,6 +91,52 @@ struct AttachedParticle {
     uint unused0;
 };
 
+// A hand that may hold something, as the host has it in a step: where the point that it holds goes, and how.
+#define GRAB_HANDS 8
+struct GrabHand {
+    vec4 from, to;         // of the held point when the step begins and ends [m]
+    vec4 velocity;         // in between [m/s]
+    uint serial;           // 0 = holds nothing; another one than in the step before = takes hold anew
+    uint particle;         // around which it does
+    float radius;          // of what it takes [m]
+    float stiffness;       // what it does to all that is linked to what it holds: [1/s^2]
+    float damping;         // [1/s]
+    float maxAcceleration; // [m/s^2]
+    uint unused0, unused1;
+};
+
+// Of a hand, between steps.
+struct GrabState {
+    uint serial;
+    uint isNew; // 1 = lets go of what it held and takes hold of what the host says, in this step
+    uint total; // of the shares of what it holds
+    uint unused0;
+};
+
+// What a hand needs to know of a particle.
+struct GrabBody {
+    uint component; // by which the linked ones are named
+    float part;     // of the mass of all that is linked; 0 = never moves
+    float mass;     // of all that is linked [kg]
+    uint slot;      // of the particle in the solver's state
+};
+
+// What holds a particle: GRAB_SHARE bits its share, above them the number of the hand + 1, or 0.
+#define GRAB_SHARE_BITS 28
+struct Grip {
+    vec4 offset; // from the held point [m]
+    uint held;
+    uint unused0, unused1, unused2;
+};
+
+struct GrabPush {
+    uint count;  // of particles
+    uint groups; // of work groups for that many
+    uint hands;
+    float fraction; // of the step that is over when this substep is
+    float lateKick; // part of h g that is in v and has not moved x
+};
+
 // A tethered particle's tethers: entries first .. first + count - 1 of the list of TetherReach.
 struct TetheredParticle {
     uint particle, first, count;

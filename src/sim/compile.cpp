@@ -4,6 +4,7 @@
 #include "layout.h"
 #include "sim/collision/particle_contacts.hpp"
 #include "sim/constraints/fixed.hpp"
+#include "sim/constraints/grab.hpp"
 #include "sim/lattice/cells.hpp"
 #include "sim/publish.hpp"
 #include "sim/sleep.hpp"
@@ -115,11 +116,13 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
         .positions = program.upload("state.positions", inSlots(positionsOf(start, solver.positionW))),
         .velocities = program.upload("state.velocities", inSlots(velocitiesOf(scene, inverseMass))),
         .layout = solver.layout,
-        .sleep = nullptr};
+        .sleep = nullptr,
+        .grabs = nullptr};
     if (settings.sleeps) particles.sleep = sleep::add(program, scene, settings, particles);
     program.beginPhase("begin");
     program.updateParameters(particles.step);
     program.fill(built.status, 0);
+    particles.grabs = constraints::grab::add(program, scene, settings, solver.layout);
     program.beginPhase("solve");
     solver.addPasses(program, particles);
     program.beginPhase("publish");

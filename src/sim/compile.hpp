@@ -22,6 +22,9 @@ struct EqualBoxes {
 namespace sleep {
 struct Sleep;
 }
+namespace constraints::grab {
+struct Grabs;
+}
 
 /// Where a solver keeps its particles: most in the order of the scene, `split` spreads bodies on a grid over
 /// dense boxes. Slots that hold no particle never move.
@@ -40,8 +43,12 @@ struct ParticleBuffers {
     BufferId positions;  ///< of the solver's state, layout.count elements; meaning of w is the solver's
     BufferId velocities; ///< likewise; w = inverse mass [1/kg], 0 while asleep
     StateLayout layout;
-    std::shared_ptr<sleep::Sleep> sleep; ///< none where nothing sleeps
+    std::shared_ptr<sleep::Sleep> sleep;             ///< none where nothing sleeps
+    std::shared_ptr<constraints::grab::Grabs> grabs; ///< none without hands
 };
+
+/// How much of the h g in its velocities a solver has moved its particles by when links are solved.
+enum class Kick { whole, half };
 
 /// What a solver makes of a scene before anything is built.
 struct SolverPlan {

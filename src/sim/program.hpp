@@ -50,8 +50,8 @@ enum class PassKind : std::uint8_t {
 };
 
 /// What update passes can write.
-enum class HostData : std::uint32_t { parameters, anchors, colliders };
-constexpr std::size_t hostDataCount = 3;
+enum class HostData : std::uint32_t { parameters, anchors, colliders, grabs };
+constexpr std::size_t hostDataCount = 4;
 
 /// One entry of the list.
 struct Pass {
@@ -199,6 +199,7 @@ public:
     void updateParameters(BufferId parameters) { update(parameters, HostData::parameters); }
     void updateAnchors(BufferId anchors) { update(anchors, HostData::anchors); }
     void updateColliders(BufferId ways) { update(ways, HostData::colliders); }
+    void updateGrabs(BufferId hands) { update(hands, HostData::grabs); }
     void beginSkin() { isSkin_ = true; }
     void skip(std::string feature) { program_.skipped.push_back(std::move(feature)); }
 

@@ -265,6 +265,7 @@ struct Settings {
     /// Bodies that rest for half a second sleep: they cost nothing and stay where they are, bit for bit,
     /// until somebody touches them, what holds them moves, or Step::wakes. `split` only.
     bool sleeps = false;
+    std::uint32_t grabs = 0; ///< hands that may hold something at a time (Step::grabs), 0..8; 0 = no passes
     Forms forms;
     /// False saves 16 bytes a particle: there is no buffer of public velocities, and a step that is undone
     /// leaves what it holds at rest.

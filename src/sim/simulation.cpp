@@ -7,6 +7,7 @@
 #include "sim/collision/particle_contacts.hpp"
 #include "sim/compile.hpp"
 #include "sim/constraints/attachment.hpp"
+#include "sim/constraints/grab.hpp"
 #include "sim/gpu_executor.hpp"
 #include "sim/ranges.hpp"
 #include "sim/substeps.hpp"
@@ -71,6 +72,7 @@ struct Simulation::State {
     vk::Buffer statusRing; // one slot a frame in flight, read by the host
     std::vector<SkinRange> skins;
     constraints::attachment::Anchors anchors;
+    constraints::grab::Hands hands;
     collision::ColliderPaths colliders;
     SplitBudget budget;
     float theta, omega, damping;
@@ -102,7 +104,8 @@ struct Simulation::State {
                          .count = framesInFlight,
                          .stride = sizeof(layout::StatusWords),
                          .kind = vk::MemoryKind::readback}),
-          skins(rangesOf(scene.skins)), anchors(scene.attachments), colliders(scene.colliders),
+          skins(rangesOf(scene.skins)), anchors(scene.attachments),
+          hands(settings.grabs, scene.particles.size()), colliders(scene.colliders),
           budget(scene.dampingTime > 0 ? splitBudget(scene, settings) : SplitBudget{}),
           theta(settings.solver == Solver::split ? settings.theta : 0), omega(settings.omega),
           damping(scene.damping), substeps(settings.substeps),
@@ -162,6 +165,7 @@ void Simulation::recordReset(VkCommandBuffer buffer) noexcept {
     state_->settledEnd = {};
     state_->unsettled = {};
     state_->anchors.reset();
+    state_->hands.reset();
     state_->colliders.moveTo(0);
 }
 
@@ -172,6 +176,7 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     state_->settledEnd = state_->settled(step.frame, state_->settledEnd);
     state_->nextFrame = step.frame + 1;
     state_->anchors.advance(step.anchors, dt);
+    state_->hands.advance(step.grabs, dt);
     state_->colliders.advance(dt);
     state_->unsettled[step.frame % framesInFlight] = {true, {parameters.h, state_->colliders.time()}};
     vk::Commands commands(state_->device, buffer);
@@ -179,7 +184,7 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     commands.beginStep();
     state_->executor.step(commands,
                           {std::as_bytes(std::span(&parameters, 1)), std::as_bytes(state_->anchors.values()),
-                           std::as_bytes(state_->colliders.ways())},
+                           std::as_bytes(state_->colliders.ways()), std::as_bytes(state_->hands.values())},
                           timestamps);
     commands.barrier();
     commands.copy(state_->executor.view(state_->program.status), state_->statusSlot(step.frame));
@@ -209,6 +214,7 @@ void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from) 
     state_->settledEnd = end;
     state_->previousH = end.h;
     state_->anchors = from.state_->anchors;
+    state_->hands = from.state_->hands;
     state_->colliders.moveTo(end.time);
 }
 

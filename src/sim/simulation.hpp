@@ -15,6 +15,21 @@ namespace sinew::sim {
 struct StepProgram;
 struct BufferId;
 
+/// A hand that holds what is near a particle and linked to it, and pulls that towards a target. In the first
+/// step of a grab the held point is the target, so taking hold moves nothing; what is nearest to the particle
+/// is held most. Gains are accelerations of all that is linked, so light and heavy bodies feel alike; the
+/// pull is implicit and limited, so it is stable for any target; gains are taken as at most 1e8. What never
+/// moves is not held.
+struct Grab {
+    std::uint32_t particle = 0;
+    float radius = 0;            ///< [m] at first, around the particle; 0 = it alone
+    Vec3 target;                 ///< of the held point at the end of the step [m]
+    float stiffness = 400;       ///< [1/s^2]; acceleration over distance
+    float damping = 40;          ///< [1/s]; acceleration over speed; critical at 2 sqrt(stiffness)
+    float maxAcceleration = 100; ///< [m/s^2]
+    float maxSpeed = 10;         ///< of the held point on its way to the target [m/s]
+};
+
 /// What changes from step to step.
 struct Step {
     float dt =
@@ -25,6 +40,10 @@ struct Step {
     /// move there evenly, but not faster than Attachment::maxSpeed. Those left out stay. Read by record()
     /// only.
     std::span<const Vec3> anchors;
+    /// What hand 0, 1, ... holds in this step, at most Settings::grabs; one that is not listed, or whose
+    /// numbers are not finite, lets go. A hand that held another particle, or nothing, takes hold. Read by
+    /// record() only.
+    std::span<const Grab> grabs;
     /// Wakes all that sleeps (Settings::sleeps). Not needed for what a step itself says: another gravity or
     /// dt wakes all, an anchor or a collider that moves wakes what it holds or comes near.
     bool wakes = false;

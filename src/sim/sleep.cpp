@@ -2,6 +2,8 @@
 #include "sim/sleep.hpp"
 
 #include "kernels.hpp"
+#include "sim/components.hpp"
+#include "sim/constraints/grab.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -21,26 +23,15 @@ std::uint32_t groupsOf(std::uint32_t items, std::uint32_t groupSize) {
 // The first slot of each one's linked particles. What never moves links nothing.
 std::vector<std::uint32_t> componentsOf(const Scene& scene, const StateLayout& layout,
                                         std::span<const float> weights) {
-    std::vector<std::uint32_t> parent(layout.count);
-    std::iota(parent.begin(), parent.end(), 0u);
-    const auto root = [&parent](std::uint32_t i) {
-        while (parent[i] != i) i = parent[i] = parent[parent[i]];
-        return i;
-    };
-    const auto join = [&](std::uint32_t a, std::uint32_t b) {
-        const std::uint32_t i = layout.slot[a], j = layout.slot[b];
-        if (weights[i] == 0 || weights[j] == 0) return;
-        const std::uint32_t first = root(i), second = root(j);
-        parent[std::max(first, second)] = std::min(first, second);
-    };
-    for (const DistanceConstraint& d : scene.distances) join(d.a, d.b);
-    for (const BendConstraint& b : scene.bends) {
-        join(b.a, b.b);
-        join(b.b, b.c);
-        join(b.a, b.c);
-    }
-    for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = root(i);
-    return parent;
+    std::vector<float> inverseMass(scene.particles.size());
+    for (std::size_t i = 0; i < inverseMass.size(); ++i) inverseMass[i] = weights[layout.slot[i]];
+    const std::vector<std::uint32_t> components = linkedComponents(scene, inverseMass);
+    std::vector<std::uint32_t> least(components.size(), ~0u), result(layout.count);
+    for (std::size_t i = 0; i < components.size(); ++i)
+        least[components[i]] = std::min(least[components[i]], layout.slot[i]);
+    std::iota(result.begin(), result.end(), 0u);
+    for (std::size_t i = 0; i < components.size(); ++i) result[layout.slot[i]] = least[components[i]];
+    return result;
 }
 
 // How far what rests may drift [m]: 0.02 radii, where there is none 0.01 of the mean length of its links.
@@ -220,6 +211,11 @@ void addOpening(ProgramBuilder& program, const ParticleBuffers& particles,
                      {sleep.state, program.program().status, sleep.waking, particles.step, sleep.anchors,
                       sleep.seenAnchors, sleep.ways, sleep.seenPoses},
                      sleep.push);
+    if (const auto& grabs = particles.grabs)
+        program.dispatchIndirect(k::wakeHeld, {grabs->pulling, 0, sleep.push.count},
+                                 {grabs->bodies, grabs->held, grabs->pulling, sleep.weights,
+                                  particles.velocities, sleep.islands, sleep.marks, sleep.waking},
+                                 sleep.push);
     program.dispatchIndirect(k::markWaking, wakingItems(sleep, SLEEP_OPENING, sleep.push.count),
                              {sleep.state, sleep.weights, particles.velocities, particles.positions,
                               sleep.islands, sleep.marks, sleep.attachments, sleep.anchors, sleep.seenAnchors,

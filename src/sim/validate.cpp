@@ -65,6 +65,12 @@ void checkSweeps(const Settings& settings, Complaints& complaints) {
                                        number(ranges::mostSweeps));
 }
 
+void checkGrabs(const Settings& settings, Complaints& complaints) {
+    if (settings.grabs > ranges::mostGrabs)
+        complaints.add("settings.grabs",
+                       "is " + number(settings.grabs) + ", must be at most " + number(ranges::mostGrabs));
+}
+
 void checkSleep(const Settings& settings, Complaints& complaints) {
     if (settings.solver != Solver::split && settings.sleeps)
         complaints.add("settings.sleeps", std::string("is set, but solver ") + solverName(settings.solver) +
@@ -83,6 +89,7 @@ void checkSettings(const Settings& settings, Complaints& complaints) {
         complaints.add("settings.omega", "is " + number(settings.omega) +
                                              ", but split is stable only below 4 / (1 + 2 theta) = " +
                                              number(static_cast<float>(bound)));
+    checkGrabs(settings, complaints);
     checkSleep(settings, complaints);
     if (complaints.isEmpty()) checkSweeps(settings, complaints);
 }

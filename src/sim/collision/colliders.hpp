@@ -19,9 +19,6 @@ struct Colliders {
 /// Adds the passes that place them: call it once, before the substeps.
 Colliders add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout, std::uint32_t substeps);
 
-/// How much of the h g in its velocities a solver has not moved its particles by.
-enum class Kick { whole, half };
-
 /// `split` and `jacobi`: room for what addOpening() keeps; only where something rebounds there is anything.
 void addMemory(ProgramBuilder& program, Colliders& colliders);
 /// Before the links of a substep.

@@ -9,6 +9,7 @@
 #include "sim/constraints/attachment.hpp"
 #include "sim/constraints/bend.hpp"
 #include "sim/constraints/distance.hpp"
+#include "sim/constraints/grab.hpp"
 #include "sim/constraints/tether.hpp"
 
 namespace sinew::sim::solvers::gaussSeidel {
@@ -101,6 +102,7 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
         addSweeps(program, work, settings, isFirst);
         constraints::attachment::addOpenPass(program, particles, work.corrections, attachments, substep,
                                              settings.substeps);
+        constraints::grab::addOpenPass(program, particles, work.corrections, substep, settings.substeps);
         constraints::tether::addOpenPass(program, particles, work.corrections, tethers);
         collision::colliders::addOpenPass(program, particles, work.corrections, colliders, substep);
         if (!isDamped) continue;

@@ -8,6 +8,7 @@
 #include "sim/constraints/attachment.hpp"
 #include "sim/constraints/bend.hpp"
 #include "sim/constraints/distance.hpp"
+#include "sim/constraints/grab.hpp"
 #include "sim/constraints/tether.hpp"
 #include "sim/solvers/correction_slots.hpp"
 
@@ -72,9 +73,9 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
             collision::planes::addSolve(program, particles, contacts);
         }
         constraints::attachment::addPass(program, particles, attachments, substep, settings.substeps);
+        constraints::grab::addPass(program, particles, substep, settings.substeps, Kick::half);
         constraints::tether::addPass(program, particles, tethers);
-        collision::colliders::addPass(program, particles, colliders, substep,
-                                      collision::colliders::Kick::half);
+        collision::colliders::addPass(program, particles, colliders, substep, Kick::half);
         if (scene.damping > 0 || !scene.planes.empty()) {
             collision::planes::addVelocityUpdate(program, particles, contacts);
         }

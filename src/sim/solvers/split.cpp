@@ -10,6 +10,7 @@
 #include "sim/constraints/attachment.hpp"
 #include "sim/constraints/bend.hpp"
 #include "sim/constraints/distance.hpp"
+#include "sim/constraints/grab.hpp"
 #include "sim/constraints/tether.hpp"
 #include "sim/lattice/batches.hpp"
 #include "sim/sleep.hpp"
@@ -23,8 +24,6 @@
 namespace sinew::sim::solvers::split {
 
 namespace {
-
-using collision::colliders::Kick;
 
 // One dispatch of every substep, still without the buffers that alternate.
 struct Gather {
@@ -252,6 +251,7 @@ void addSubsteps(const Common& common, const ParticleBuffers& particles) {
         addLinks(gathers, current, next, substep == 0);
         std::swap(current, next);
         constraints::attachment::addPass(program, current, attachments, substep, substeps);
+        constraints::grab::addPass(program, current, substep, substeps, Kick::whole);
         constraints::tether::addPass(program, current, tethers);
         collision::colliders::addPass(program, current, rigid, substep, Kick::whole);
     }
@@ -328,6 +328,7 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
             std::swap(current.velocities, contacts.pairs->rebounding);
         }
         constraints::attachment::addPass(program, current, attachments, substep, substeps);
+        constraints::grab::addPass(program, current, substep, substeps, Kick::whole);
         constraints::tether::addPass(program, current, tethers);
         collision::colliders::addPass(program, current, rigid, substep, Kick::whole);
     }
