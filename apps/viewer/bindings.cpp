@@ -16,7 +16,7 @@ constexpr auto key = Trigger::Kind::key, drag = Trigger::Kind::drag, wheel = Tri
 
 // Bindings of one action stand together; the first one's help is the one that is shown.
 constexpr std::array table{
-    Binding{{drag, GLFW_MOUSE_BUTTON_LEFT}, orbit, "left drag", "orbit"},
+    Binding{{drag, GLFW_MOUSE_BUTTON_LEFT}, grab, "left drag", "on a body: grab and pull; beside: orbit"},
     Binding{{drag, GLFW_MOUSE_BUTTON_RIGHT}, orbit, "right drag", "orbit"},
     Binding{{drag, GLFW_MOUSE_BUTTON_MIDDLE}, pan, "middle drag", "pan"},
     Binding{{drag, GLFW_MOUSE_BUTTON_RIGHT, GLFW_MOD_SHIFT}, pan, "Shift + right drag", "pan"},

@@ -9,7 +9,21 @@
 
 namespace sinew::viewer {
 
-enum class Action { orbit, pan, zoom, frame, pause, step, reset, screenshot, fullScreen, vsync, help, quit };
+enum class Action {
+    grab,
+    orbit,
+    pan,
+    zoom,
+    frame,
+    pause,
+    step,
+    reset,
+    screenshot,
+    fullScreen,
+    vsync,
+    help,
+    quit
+};
 
 /// What a hand does. `code` and `modifiers` are GLFW's: a key, a mouse button, or nothing for the wheel.
 struct Trigger {

@@ -64,6 +64,13 @@ Camera lookingFrom(const Vector3& eye, const Vector3& target, float fieldOfView)
     return settled(camera);
 }
 
+Ray rayThrough(const Camera& camera, const Vector2& pointer) {
+    const Eigen::Matrix3f world = axes(camera);
+    const float height = 2 * std::tan(camera.fieldOfView / 2); // of the picture at unit depth
+    const Vector3 direction = world.transpose() * Vector3(height * pointer.x(), -height * pointer.y(), -1);
+    return {eye(camera), direction.normalized()};
+}
+
 Camera orbited(Camera camera, const Vector2& drag) {
     camera.azimuth -= turnPerHeight * drag.x();
     camera.elevation += turnPerHeight * drag.y();

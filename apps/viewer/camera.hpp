@@ -26,6 +26,14 @@ Matrix4 clipMatrix(const Camera& camera, float aspect, float reach);
 /// The camera at `eye` that looks at `target`; `fieldOfView` in degrees as in scene files.
 Camera lookingFrom(const Vector3& eye, const Vector3& target, float fieldOfView);
 
+struct Ray {
+    Vector3 origin = Vector3::Zero(), direction = Vector3::UnitZ(); ///< [m], unit length
+    bool operator==(const Ray&) const = default;
+};
+
+/// From the eye through `pointer` (x right, y down, from the picture's middle, in picture heights).
+Ray rayThrough(const Camera& camera, const Vector2& pointer);
+
 /// Turns around the target by a drag of (x to the right, y down) picture heights.
 Camera orbited(Camera camera, const Vector2& drag);
 

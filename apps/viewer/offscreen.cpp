@@ -30,9 +30,9 @@ Offscreen::Offscreen(const vk::Device& device, VkExtent2D extent, const StageLig
       renderer_(device, {.color = format}, quality, light),
       canvas_(renderer_.makeCanvas(extent, std::array{image_.view()})) {}
 
-void Offscreen::record(VkCommandBuffer commands, const Camera& camera,
-                       const sim::Simulation& simulation) const noexcept {
-    renderer_.record(commands, 0, canvas_, 0, camera, simulation);
+void Offscreen::record(VkCommandBuffer commands, const Camera& camera, const sim::Simulation& simulation,
+                       const std::optional<Hand>& hand) const noexcept {
+    renderer_.record(commands, 0, canvas_, 0, camera, simulation, hand);
     const VkBufferImageCopy region{.bufferOffset = readback_.view().offset,
                                    .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                    .imageExtent = {image_.extent().width, image_.extent().height, 1}};

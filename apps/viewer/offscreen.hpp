@@ -13,8 +13,8 @@ public:
               const Quality& quality = {});
 
     /// Records picture and copy. As Renderer::record; the previous picture must be finished.
-    void record(VkCommandBuffer commands, const Camera& camera,
-                const sim::Simulation& simulation) const noexcept;
+    void record(VkCommandBuffer commands, const Camera& camera, const sim::Simulation& simulation,
+                const std::optional<Hand>& hand = std::nullopt) const noexcept;
 
     /// The picture of the newest finished record().
     Picture read() const;

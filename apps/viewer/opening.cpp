@@ -43,6 +43,7 @@ Opening open(const Options& options, float aspect) {
         std::fprintf(stderr, "warning: %s\n", warning.c_str());
     opening.camera = firstView(opening.loaded, aspect);
     opening.light = lightFor(opening.loaded.scene, opening.camera);
+    opening.light.showsSleep = opening.loaded.settings.sleeps;
     return opening;
 }
 

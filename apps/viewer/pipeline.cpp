@@ -59,12 +59,11 @@ VkPipelineVertexInputStateCreateInfo vertexInput(PipelineRequest::Input input) {
     VkPipelineVertexInputStateCreateInfo state{.sType =
                                                    VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
     if (input == Input::none) return state;
-    const bool isBalls = input == Input::balls;
-    state.vertexBindingDescriptionCount = isBalls ? ballBindings.size() : 1;
+    const bool isBalls = input == Input::balls || input == Input::hand;
+    const std::uint32_t perBall = input == Input::hand ? 2 : 3;
+    state.vertexBindingDescriptionCount = isBalls ? perBall : 1;
     state.pVertexBindingDescriptions = isBalls ? ballBindings.data() : &skinBinding;
-    state.vertexAttributeDescriptionCount = isBalls                     ? ballAttributes.size()
-                                            : input == Input::positions ? 1
-                                                                        : 2;
+    state.vertexAttributeDescriptionCount = isBalls ? perBall : input == Input::positions ? 1 : 2;
     state.pVertexAttributeDescriptions = isBalls ? ballAttributes.data() : skinAttributes.data();
     return state;
 }

@@ -19,6 +19,7 @@ enum PipelineIndex : std::size_t {
     skinPipeline,
     groundPipeline,
     skyPipeline,
+    handPipeline,
     ballShadowPipeline,
     ballPlanPipeline,
     ballPipeline
@@ -26,6 +27,8 @@ enum PipelineIndex : std::size_t {
 
 constexpr float ballGloss = 0.6f;      // of a skin's: balls are hard and dry
 constexpr float colliderGloss = 0.15f; // dull beside tissue
+
+constexpr sim::Vec3 handColor{0.95f, 0.62f, 0.10f};
 
 constexpr std::array plan{vk::SpecialisationConstant{3, 1}};
 
@@ -64,7 +67,7 @@ Renderer::Renderer(const vk::Device& device, const Target& target, const Quality
                                          .depth = format_.depth,
                                          .samples = format_.samples,
                                          .finalLayout = target.finalLayout})),
-      sets_(device, maps_, slots), balls_(device, light.balls) {
+      sets_(device, maps_, slots), balls_(device, light.balls), hand_(device) {
     createPipelines(target, quality);
     if (!balls_.ranges().empty()) createBallPipelines(target, quality);
 }
@@ -118,6 +121,14 @@ void Renderer::createPipelines(const Target& target, const Quality& quality) {
          .samples = quality.samples,
          .depth = Depth::test,
          .constants = look});
+    add({.name = "picture.hand",
+         .vertex = &shaders::handVert,
+         .fragment = &shaders::skinFrag,
+         .pass = pass_.handle(),
+         .samples = quality.samples,
+         .input = Input::hand,
+         .depth = Depth::testAndWrite,
+         .constants = look});
 }
 
 void Renderer::createBallPipelines(const Target& target, const Quality& quality) {
@@ -148,7 +159,8 @@ Canvas Renderer::makeCanvas(VkExtent2D extent, std::span<const VkImageView> pict
 }
 
 void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, const Canvas& canvas, std::size_t picture,
-                      const Camera& camera, const sim::Simulation& simulation) const noexcept {
+                      const Camera& camera, const sim::Simulation& simulation,
+                      const std::optional<Hand>& hand) const noexcept {
     sets_.write(slot, frameParams(light_, camera, canvas.aspect()));
     sets_.bind(commands, slot);
     vk::Commands labels(device_, commands);
@@ -156,7 +168,7 @@ void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, const Canvas
     recordMaps(commands, simulation);
     labels.endLabel();
     labels.beginLabel("picture");
-    recordPicture(commands, canvas, picture, simulation);
+    recordPicture(commands, canvas, picture, simulation, hand);
     labels.endLabel();
 }
 
@@ -183,11 +195,13 @@ void Renderer::recordMaps(VkCommandBuffer commands, const sim::Simulation& simul
 }
 
 void Renderer::recordPicture(VkCommandBuffer commands, const Canvas& canvas, std::size_t picture,
-                             const sim::Simulation& simulation) const noexcept {
+                             const sim::Simulation& simulation,
+                             const std::optional<Hand>& hand) const noexcept {
     const vk::DeviceFunctions& functions = device_.functions();
     const std::array clear{VkClearValue{.color = {{0, 0, 0, 1}}}, VkClearValue{.depthStencil = {1, 0}}};
     begin(commands, pass_, canvas.framebuffer(picture), canvas.extent(), clear);
     drawBodies(commands, skinPipeline, ballPipeline, simulation);
+    if (hand) drawHand(commands, simulation, *hand);
     if (light_.ground) {
         bind(commands, groundPipeline);
         functions.vkCmdDraw(commands, 4, 1, 0, 0);
@@ -239,8 +253,12 @@ void Renderer::push(VkCommandBuffer commands, const sim::Vec3& color, float glos
                     const sim::Pose& pose) const noexcept {
     const sim::Vec3& x = pose.position;
     const sim::Quaternion& q = pose.rotation;
-    const layout::SkinPush values{
-        {color.x, color.y, color.z, gloss}, {x.x, x.y, x.z, 0}, {q.x, q.y, q.z, q.w}};
+    push(commands, {{color.x, color.y, color.z, gloss},
+                    {x.x, x.y, x.z, light_.showsSleep ? 1.0f : 0.0f},
+                    {q.x, q.y, q.z, q.w}});
+}
+
+void Renderer::push(VkCommandBuffer commands, const layout::SkinPush& values) const noexcept {
     device_.functions().vkCmdPushConstants(commands, sets_.layout(),
                                            VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
                                            sizeof(values), &values);
@@ -275,6 +293,16 @@ void Renderer::drawBalls(VkCommandBuffer commands, const sim::Simulation& simula
         push(commands, range.color, ballGloss, {});
         balls_.draw(commands, range);
     }
+}
+
+void Renderer::drawHand(VkCommandBuffer commands, const sim::Simulation& simulation,
+                        const Hand& hand) const noexcept {
+    bind(commands, handPipeline);
+    const Vector3 &at = hand.target, &held = hand.offset;
+    push(commands, {{handColor.x, handColor.y, handColor.z, ballGloss},
+                    {at.x(), at.y(), at.z(), 0.02f * light_.radius()},
+                    {held.x(), held.y(), held.z(), 0}});
+    hand_.draw(commands, simulation.positions(), hand.particle);
 }
 
 } // namespace sinew::viewer

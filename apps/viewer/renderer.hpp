@@ -5,6 +5,7 @@
 #include "sim/simulation.hpp"
 #include "viewer/canvas.hpp"
 #include "viewer/collider_meshes.hpp"
+#include "viewer/hand_mesh.hpp"
 #include "viewer/picture_sets.hpp"
 #include "viewer/pipeline.hpp"
 #include "viewer/stage_light.hpp"
@@ -46,7 +47,8 @@ public:
     /// `simulation` in the same queue. `slot` < slots; its previous picture must be finished. Leaves the
     /// picture in the final layout.
     void record(VkCommandBuffer commands, std::uint32_t slot, const Canvas& canvas, std::size_t picture,
-                const Camera& camera, const sim::Simulation& simulation) const noexcept;
+                const Camera& camera, const sim::Simulation& simulation,
+                const std::optional<Hand>& hand = std::nullopt) const noexcept;
 
 private:
     void addPipeline(PipelineRequest request);
@@ -54,7 +56,7 @@ private:
     void createBallPipelines(const Target& target, const Quality& quality);
     void recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept;
     void recordPicture(VkCommandBuffer commands, const Canvas& canvas, std::size_t picture,
-                       const sim::Simulation& simulation) const noexcept;
+                       const sim::Simulation& simulation, const std::optional<Hand>& hand) const noexcept;
     void begin(VkCommandBuffer commands, const RenderPass& pass, VkFramebuffer framebuffer, VkExtent2D extent,
                std::span<const VkClearValue> clear) const noexcept;
     void bind(VkCommandBuffer commands, std::size_t pipeline) const noexcept;
@@ -64,8 +66,11 @@ private:
     void drawSkins(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept;
     void drawColliders(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept;
     void drawBalls(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept;
+    void drawHand(VkCommandBuffer commands, const sim::Simulation& simulation,
+                  const Hand& hand) const noexcept;
     void bindMesh(VkCommandBuffer commands, const vk::BufferView& vertices,
                   const vk::BufferView& indices) const noexcept;
+    void push(VkCommandBuffer commands, const layout::SkinPush& values) const noexcept;
     void push(VkCommandBuffer commands, const sim::Vec3& color, float gloss,
               const sim::Pose& pose) const noexcept;
 
@@ -77,6 +82,7 @@ private:
     RenderPass pass_;
     PictureSets sets_;
     Balls balls_;
+    HandMesh hand_;
     std::vector<Pipeline> pipelines_;
 };
 

@@ -7,6 +7,7 @@
 #include "vk/check.hpp"
 #include "vk/queue.hpp"
 
+#include <algorithm>
 #include <cinttypes>
 #include <cstdio>
 #include <numeric>
@@ -38,9 +39,12 @@ float aspect(VkExtent2D extent) {
     return static_cast<float>(extent.width) / static_cast<float>(extent.height);
 }
 
+// With a hand for the pointer.
 sim::Settings fastest(const vk::Device& device, const scenes::LoadedScene& loaded) {
     vk::Queue queue(device);
-    return sim::tuned(device, queue, loaded.scene, loaded.settings);
+    sim::Settings settings = loaded.settings;
+    settings.grabs = std::max(settings.grabs, 1u);
+    return sim::tuned(device, queue, loaded.scene, settings);
 }
 
 } // namespace
@@ -52,7 +56,7 @@ Show::Show(Window& window, const vk::Device& device, const Opening& opening)
     : window_(window), device_(device), opening_(opening),
       controller_(opening.camera, opening.loaded.scene.dt),
       stage_(device, opening.loaded.scene, fastest(device, opening.loaded)),
-      probe_(std::in_place, device, stage_.simulation().positions()), presenter_(device, window),
+      probe_(std::in_place, device, stage_.simulation()), presenter_(device, window),
       moving_(device, presenter_.format(), isSoftware(device) ? reducedQuality() : Quality{}, opening.light),
       status_(opening.loaded.scene, device) {
     if (isSoftware(device)) still_.emplace(device, presenter_.format(), Quality{}, opening.light);
@@ -84,7 +88,8 @@ void Show::turn() {
     if (isHidden_) return; // time stands still while nobody can look
     const Plan plan = controller_.playback.plan(elapsed);
     const bool isChanged = !controller_.playback.isPaused() || plan.isReset || plan.steps > 0 ||
-                           !input.isEmpty() || wantsScreenshot_ || wantsProbe_ || shown_ == Shown::nothing;
+                           !input.isEmpty() || wantsScreenshot_ || wantsProbe_ || hand_.question() ||
+                           shown_ == Shown::nothing;
     if (isChanged) lastChange_ = now;
     if (isChanged || shown_ != Shown::still) {
         const bool isLast = !isChanged && now - lastChange_ >= std::chrono::duration<double>(stillAfter);
@@ -99,8 +104,24 @@ void Show::turn() {
 void Show::handle(const Input& input) {
     for (const Action action : input.actions)
         if (!controller_.act(action)) handle(action);
-    for (const Input::Drag& drag : input.drags) controller_.drag(drag.action, drag.heights);
+    for (const Input::Press& press : input.presses) handle(press);
+    for (const Input::Drag& drag : input.drags) {
+        if (drag.action != Action::grab)
+            controller_.drag(drag.action, drag.heights);
+        else if (const Vector2 turn = hand_.drag(drag.heights); !turn.isZero())
+            controller_.drag(Action::orbit, turn);
+    }
+    hand_.move(controller_.camera, input.pointer);
+    status_.setHolding(hand_.isHolding());
     if (input.notches != 0) controller_.wheel(input.notches, input.pointer);
+}
+
+void Show::handle(const Input::Press& press) {
+    if (press.action != Action::grab) return;
+    if (press.isDown)
+        hand_.press(controller_.camera, press.pointer);
+    else
+        hand_.release();
 }
 
 void Show::handle(Action action) {
@@ -156,7 +177,7 @@ void Show::draw(Plan plan, View& view) {
     recordSteps(*frame, plan);
     if (!view.canvas) view.canvas = view.renderer.makeCanvas(presenter_.extent(), presenter_.views());
     view.renderer.record(frame->commands, frame->slot, *view.canvas, frame->image, controller_.camera,
-                         stage_.simulation());
+                         stage_.simulation(), hand_.hand());
     if (std::exchange(wantsScreenshot_, false)) recordScreenshot(*frame);
     presenter_.end(*frame);
     status_.frameDrawn();
@@ -166,24 +187,32 @@ void Show::recordSteps(const Presenter::Frame& frame, const Plan& plan) {
     InFlight& flight = inFlight_[frame.slot];
     if (plan.isReset) {
         stage_.recordReset(frame.commands);
+        hand_.release();
         isDiverged_ = false;
     }
     flight.firstStep = stage_.steps() + 1;
     flight.steps = plan.steps;
     for (std::uint32_t step = 0; step < plan.steps; ++step)
-        stage_.recordStep(frame.commands, step == 0 ? &times_[frame.slot] : nullptr);
-    if (std::exchange(wantsProbe_, false)) {
-        probe_->record(frame.commands);
-        flight.isProbed = true;
-    }
+        stage_.recordStep(frame.commands, step == 0 ? &times_[frame.slot] : nullptr, hand_.grabs());
     stage_.recordSkin(frame.commands);
+    recordProbe(frame);
+}
+
+// One copy is enough for all that is in flight: a question is asked again until it is answered.
+void Show::recordProbe(const Presenter::Frame& frame) {
+    InFlight& flight = inFlight_[frame.slot];
+    const auto isAsked = [](const InFlight& other) { return other.isProbed || other.question; };
+    if (std::ranges::any_of(inFlight_, isAsked)) return;
+    flight.isProbed = std::exchange(wantsProbe_, false);
+    flight.question = hand_.question();
+    if (isAsked(flight)) probe_->record(frame.commands);
 }
 
 void Show::recordScreenshot(const Presenter::Frame& frame) {
     InFlight& flight = inFlight_[frame.slot];
     flight.screenshot = std::make_unique<Offscreen>(device_, presenter_.extent(), opening_.light);
     flight.screenshotStep = stage_.steps();
-    flight.screenshot->record(frame.commands, controller_.camera, stage_.simulation());
+    flight.screenshot->record(frame.commands, controller_.camera, stage_.simulation(), hand_.hand());
 }
 
 // Takes what a finished frame has brought.
@@ -193,11 +222,7 @@ void Show::settle(std::uint32_t slot) {
         const std::vector<double> phases = times_[slot].milliseconds();
         if (!phases.empty()) status_.stepTimed(std::accumulate(phases.begin(), phases.end(), 0.0));
     }
-    if (flight.isProbed)
-        if (const Box bounds = probe_->read(); !bounds.isEmpty()) {
-            controller_.camera = framing(controller_.camera, bounds, aspect(presenter_.extent()));
-            shown_ = Shown::nothing; // what is on screen was seen from elsewhere
-        }
+    settleProbe(flight);
     for (std::uint32_t i = 0; i < flight.steps && !isDiverged_; ++i) {
         const std::uint64_t step = flight.firstStep + i;
         if (stage_.neededRoom(step) > 0) {
@@ -205,10 +230,25 @@ void Show::settle(std::uint32_t slot) {
             break; // what came after it was undone as well
         }
         if (const std::optional<Divergence> divergence = stage_.check(step)) stop(divergence->sentence());
+        status_.setSleeping(stage_.sleeping(step));
     }
     if (flight.screenshot) {
         const std::filesystem::path file = screenshotFile(opening_.loaded.scene.name, flight.screenshotStep);
         writer_.add(file, flight.screenshot->read(), pictureText(opening_, device_, flight.screenshotStep));
+    }
+}
+
+void Show::settleProbe(InFlight& flight) {
+    if (flight.question && flight.question == hand_.question()) {
+        const sim::Scene& scene = stage_.scene();
+        const auto found =
+            pick(scene, opening_.light.balls, *flight.question, probe_->positions(), probe_->vertices());
+        hand_.answer(found, found ? holdRadius(scene, found->particle) : 0);
+    }
+    if (!flight.isProbed) return;
+    if (const Box bounds = probe_->bounds(); !bounds.isEmpty()) {
+        controller_.camera = framing(controller_.camera, bounds, aspect(presenter_.extent()));
+        shown_ = Shown::nothing; // what is on screen was seen from elsewhere
     }
 }
 
@@ -223,10 +263,11 @@ void Show::makeRoom(std::uint64_t step) {
     presenter_.waitIdle();
     vk::Queue queue(device_);
     if (!stage_.makeRoom(step, queue)) return stop(app::tooCrowded(step));
-    probe_.emplace(device_, stage_.simulation().positions());
+    probe_.emplace(device_, stage_.simulation());
     for (InFlight& other : inFlight_) {
         other.steps = 0;
         wantsProbe_ = std::exchange(other.isProbed, false) || wantsProbe_;
+        other.question.reset();
     }
 }
 

@@ -2,13 +2,14 @@
 // once and then left alone; on a software device that last one has full quality.
 #pragma once
 
-#include "viewer/bounds_probe.hpp"
 #include "viewer/controller.hpp"
+#include "viewer/grab_tool.hpp"
 #include "viewer/offscreen.hpp"
 #include "viewer/opening.hpp"
 #include "viewer/picture_writer.hpp"
 #include "viewer/presenter.hpp"
 #include "viewer/stage.hpp"
+#include "viewer/state_probe.hpp"
 #include "viewer/status_line.hpp"
 #include "viewer/window.hpp"
 #include "vk/timestamps.hpp"
@@ -43,7 +44,8 @@ private:
     struct InFlight {
         std::uint64_t firstStep = 0;
         std::uint32_t steps = 0;
-        bool isProbed = false;
+        bool isProbed = false;       // for the bounds
+        std::optional<Ray> question; // for the hand
         std::unique_ptr<Offscreen> screenshot;
         std::uint64_t screenshotStep = 0;
     };
@@ -53,11 +55,14 @@ private:
     void turn();
     void handle(const Input& input);
     void handle(Action action);
+    void handle(const Input::Press& press);
     bool prepareSwapchain();
     void draw(Plan plan, View& view);
     void recordSteps(const Presenter::Frame& frame, const Plan& plan);
+    void recordProbe(const Presenter::Frame& frame);
     void recordScreenshot(const Presenter::Frame& frame);
     void settle(std::uint32_t slot);
+    void settleProbe(InFlight& flight);
     void stop(const std::string& why);
     void makeRoom(std::uint64_t step);
     void settleAll();
@@ -68,7 +73,8 @@ private:
     const Opening& opening_;
     Controller controller_;
     Stage stage_;
-    std::optional<BoundsProbe> probe_;  // of the stage's simulation
+    std::optional<StateProbe> probe_; // of the stage's simulation
+    GrabTool hand_;
     std::vector<vk::Timestamps> times_; // one a slot
     Presenter presenter_;
     View moving_;

@@ -21,9 +21,11 @@ void Stage::recordReset(VkCommandBuffer commands) noexcept {
     steps_ = 0;
 }
 
-void Stage::recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps) noexcept {
-    growing_.simulation().record(commands, {.dt = scene_.dt, .gravity = scene_.gravity, .frame = ++steps_},
-                                 timestamps);
+void Stage::recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps,
+                       std::span<const sim::Grab> grabs) noexcept {
+    growing_.simulation().record(
+        commands, {.dt = scene_.dt, .gravity = scene_.gravity, .frame = ++steps_, .grabs = grabs},
+        timestamps);
 }
 
 std::optional<Divergence> Stage::check(std::uint64_t step) const {

@@ -24,7 +24,8 @@ public:
 
     /// As those of sim::Simulation. A new stage must be reset once before its first step.
     void recordReset(VkCommandBuffer commands) noexcept;
-    void recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps = nullptr) noexcept;
+    void recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps = nullptr,
+                    std::span<const sim::Grab> grabs = {}) noexcept;
     void recordSkin(VkCommandBuffer commands) noexcept { growing_.simulation().recordSkin(commands); }
 
     /// Taken since the reset.
@@ -39,6 +40,9 @@ public:
     /// Goes back before that step with room for it, in another simulation(). Waits for `queue`, in which all
     /// was submitted. False where there can be no such room. Throws vk::Error.
     bool makeRoom(std::uint64_t step, vk::Queue& queue);
+
+    /// Status::sleeping of such a step.
+    std::uint32_t sleeping(std::uint64_t step) const { return simulation().status(step).sleeping; }
 
     const sim::Scene& scene() const noexcept { return scene_; }
     const sim::Simulation& simulation() const noexcept { return growing_.simulation(); }

@@ -14,6 +14,7 @@ struct StageLight {
     Vector3 toLight = Vector3::UnitY();   ///< unit direction to the key light
     std::vector<float> gloss;             ///< of each skin: 1 moist tissue, less for cloth
     BallList balls;                       ///< what is drawn of bodies that have none
+    bool showsSleep = false;              ///< bodies that sleep are paler
     std::vector<sim::Collider> colliders; ///< drawn where the simulation has them
 
     float radius() const { return 0.5f * bounds.diagonal().norm(); }

@@ -19,7 +19,8 @@ void StatusLine::stepTimed(double milliseconds) {
 std::optional<std::string> StatusLine::title(bool isPaused, bool isDiverged) {
     const auto now = Clock::now();
     const double seconds = std::chrono::duration<double>(now - since_).count();
-    const bool isSame = isPaused == wasPaused_ && isDiverged == wasDiverged_ && !isFirst_;
+    const bool isSame =
+        isPaused == wasPaused_ && isDiverged == wasDiverged_ && isHolding_ == wasHolding_ && !isFirst_;
     if (isSame && seconds < 0.5) return std::nullopt;
     if (seconds >= 0.5) {
         framesPerSecond_ = static_cast<double>(std::exchange(frames_, 0)) / seconds;
@@ -27,11 +28,14 @@ std::optional<std::string> StatusLine::title(bool isPaused, bool isDiverged) {
     }
     wasPaused_ = isPaused;
     wasDiverged_ = isDiverged;
+    wasHolding_ = isHolding_;
     isFirst_ = false;
     char numbers[80] = "";
     if (stepMs_ > 0) std::snprintf(numbers, sizeof numbers, " - %.2f ms/step", stepMs_);
     std::string title = head_ + numbers;
     std::snprintf(numbers, sizeof numbers, " - %.0f fps", framesPerSecond_);
+    if (sleeping_ > 0) title += " - " + std::to_string(sleeping_) + " asleep";
+    if (isHolding_) title += " - holding";
     title += isDiverged ? " - DIVERGED, R resets" : isPaused ? " - paused" : numbers;
     return title;
 }

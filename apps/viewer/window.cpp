@@ -48,6 +48,13 @@ struct Window::State {
         return static_cast<float>(std::max(high, 1));
     }
 
+    // From the middle, in window heights.
+    Vector2 pointer() const {
+        int wide = 0, high = 0;
+        glfwGetWindowSize(window, &wide, &high);
+        return (cursor - 0.5f * Vector2(static_cast<float>(wide), static_cast<float>(high))) / windowHeight();
+    }
+
     void onKey(int key, int scancode, int event, int modifiers) {
         if (event == GLFW_RELEASE) return;
         const auto action = actionFor({Trigger::Kind::key, layoutKey(key, scancode), modifiers});
@@ -58,7 +65,9 @@ struct Window::State {
         if (event == GLFW_PRESS && !dragged) {
             dragged = actionFor({Trigger::Kind::drag, button, modifiers});
             dragButton = button;
-        } else if (event == GLFW_RELEASE && button == dragButton) {
+            if (dragged) input.presses.push_back({*dragged, true, pointer()});
+        } else if (event == GLFW_RELEASE && button == dragButton && dragged) {
+            input.presses.push_back({*dragged, false, pointer()});
             dragged.reset();
         }
     }
@@ -138,10 +147,7 @@ Input Window::poll(double seconds) {
     else
         glfwPollEvents();
     Input input = std::exchange(state_->input, {});
-    int width = 0, height = 0;
-    glfwGetWindowSize(state_->window, &width, &height);
-    input.pointer = (state_->cursor - 0.5f * Vector2(static_cast<float>(width), static_cast<float>(height))) /
-                    state_->windowHeight();
+    input.pointer = state_->pointer();
     return input;
 }
 

@@ -19,12 +19,21 @@ struct Input {
         Action action;
         Vector2 heights; ///< x right, y down, in window heights
     };
+    /// A button that drags went down or up.
+    struct Press {
+        Action action;
+        bool isDown;
+        Vector2 pointer; ///< as below
+    };
     std::vector<Action> actions;
+    std::vector<Press> presses;
     std::vector<Drag> drags;
     float notches = 0;                 ///< of the wheel, forwards positive
     Vector2 pointer = Vector2::Zero(); ///< from the middle, x right, y down, in window heights
     bool needsRedraw = false;          ///< resized or uncovered
-    bool isEmpty() const { return actions.empty() && drags.empty() && notches == 0 && !needsRedraw; }
+    bool isEmpty() const {
+        return actions.empty() && presses.empty() && drags.empty() && notches == 0 && !needsRedraw;
+    }
 };
 
 /// One at a time; main thread only.

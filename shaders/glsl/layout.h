@@ -221,7 +221,7 @@ struct CellVertex {
 };
 
 struct SkinVertex {
-    vec4 position; // xyz [m], w = 1
+    vec4 position; // xyz [m], w = 0 where nothing moves that carries the vertex, else 1
     vec4 normal;   // xyz unit length
 };
 

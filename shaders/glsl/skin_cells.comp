@@ -14,10 +14,13 @@ void main() {
     const CellVertex cell = cells[i];
     const vec3 t = cell.weights.xyz;
     vec3 x = vec3(0.0);
+    float w = 0.0;
     for (uint k = 0u; k < 8u; ++k) {
         const bvec3 isHigh = notEqual(uvec3(k) & uvec3(1u, 2u, 4u), uvec3(0u));
         const vec3 share = mix(1.0 - t, t, isHigh);
-        x += share.x * share.y * share.z * positions[cell.corners[k]].xyz;
+        const vec4 corner = positions[cell.corners[k]];
+        x += share.x * share.y * share.z * corner.xyz;
+        w += corner.w;
     }
-    vertices[push.firstVertex + i].position = vec4(x, 1.0);
+    vertices[push.firstVertex + i].position = vec4(x, w > 0.0 ? 1.0 : 0.0);
 }

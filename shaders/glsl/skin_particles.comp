@@ -11,5 +11,6 @@ layout(push_constant) uniform Push { SkinPush push; };
 void main() {
     const uint i = itemIndex(push.count);
     if (i >= push.count) return;
-    vertices[push.firstVertex + i].position = vec4(positions[particles[i]].xyz, 1.0);
+    const vec4 particle = positions[particles[i]];
+    vertices[push.firstVertex + i].position = vec4(particle.xyz, particle.w > 0.0 ? 1.0 : 0.0);
 }

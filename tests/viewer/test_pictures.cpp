@@ -1,9 +1,9 @@
 // Pictures of small scenes, drawn under core, synchronisation and queue-submit validation (support/device.hpp
 // makes every message a failure).
-#include "viewer/bounds_probe.hpp"
 #include "viewer/collider_meshes.hpp"
 #include "viewer/offscreen.hpp"
 #include "viewer/stage.hpp"
+#include "viewer/state_probe.hpp"
 
 #include "sim/bodies.hpp"
 #include "sim/colliders.hpp"
@@ -36,12 +36,12 @@ struct Shot {
         : camera(view), light(lightFor(scene, view)), stage(test::device(), scene, {}),
           offscreen(test::device(), extent, light, quality) {}
 
-    Picture take(int steps = 0) {
+    Picture take(int steps = 0, const std::optional<Hand>& hand = std::nullopt) {
         VkCommandBuffer commands = test::queue().begin();
         if (stage.steps() == 0) stage.recordReset(commands);
         for (int i = 0; i < steps; ++i) stage.recordStep(commands);
         stage.recordSkin(commands);
-        offscreen.record(commands, camera, stage.simulation());
+        offscreen.record(commands, camera, stage.simulation(), hand);
         test::queue().wait(test::queue().submit(commands));
         return offscreen.read();
     }
@@ -262,18 +262,64 @@ TEST(Picture, OfASceneWithoutSkinsIsAnEmptyStage) {
     EXPECT_LT(redness(colorAt(shot.take(), shot.camera, {0, 0.5f, 0})), 25);
 }
 
-TEST(BoundsProbe, FindsTheBodyWhereItIsNow) {
+TEST(StateProbe, FindsTheBodyWhereItIsNow) {
     const sim::Scene scene = block(0.5f, true);
     Stage stage(test::device(), scene, {});
-    const BoundsProbe probe(test::device(), stage.simulation().positions());
+    const StateProbe probe(test::device(), stage.simulation());
     VkCommandBuffer commands = test::queue().begin();
     stage.recordReset(commands);
     for (int i = 0; i < 4; ++i) stage.recordStep(commands);
+    stage.recordSkin(commands);
     probe.record(commands);
     test::queue().wait(test::queue().submit(commands));
     const float t = 4.0f / 60, fallen = 0.5f - 0.5f * 9.81f * t * t;
-    EXPECT_NEAR(probe.read().min().y(), fallen, 2e-3f);
-    EXPECT_NEAR(probe.read().sizes().y(), 0.4f, 1e-3f);
+    EXPECT_NEAR(probe.bounds().min().y(), fallen, 2e-3f);
+    EXPECT_NEAR(probe.bounds().sizes().y(), 0.4f, 1e-3f);
+    EXPECT_EQ(probe.positions().size(), scene.particles.size());
+    ASSERT_EQ(probe.vertices().size(), scene.skins[0].vertexCount());
+    float lowest = 1;
+    for (const auto& vertex : probe.vertices()) lowest = std::min(lowest, vertex.position.y);
+    EXPECT_NEAR(lowest, fallen, 2e-3f);
+}
+
+TEST(Picture, ShowsTheHandAndItsRope) {
+    const sim::Scene scene = block(0, true);
+    Shot shot(scene, viewOf(scene));
+    const Picture without = shot.take();
+    const Vector3 hand(0.35f, 0.5f, 0.2f);
+    const sim::Vec3& at = scene.particles[124].position;
+    const Picture with = shot.take(0, Hand{.particle = 124, .offset = {0, 0, 0}, .target = hand});
+    const Vector3 middle = 0.5f * (hand + Vector3(at.x, at.y, at.z));
+    for (const Vector3& place : {hand, middle}) {
+        const Color before = colorAt(without, shot.camera, place), now = colorAt(with, shot.camera, place);
+        EXPECT_GT(now[0] - now[2], before[0] - before[2] + 40) << "orange";
+    }
+}
+
+// A picture of a heap of which all sleep is paler than the same one awake.
+TEST(Picture, ShowsWhatSleepsPaler) {
+    sim::Scene scene = block(0, true);
+    sim::Settings settings{.substeps = 16, .sleeps = true};
+    scene.damping = 20;
+    const Camera camera = viewOf(scene);
+    StageLight light = lightFor(scene, camera);
+    std::array<Color, 2> colors;
+    for (const bool isShown : {false, true}) {
+        light.showsSleep = isShown;
+        Stage stage(test::device(), scene, settings);
+        Offscreen offscreen(test::device(), extent, light, quick);
+        for (int s = 0; s < 300 && (s == 0 || stage.sleeping(stage.steps()) == 0); ++s) {
+            VkCommandBuffer commands = test::queue().begin();
+            if (s == 0) stage.recordReset(commands);
+            stage.recordStep(commands);
+            stage.recordSkin(commands);
+            offscreen.record(commands, camera, stage.simulation());
+            test::queue().wait(test::queue().submit(commands));
+        }
+        EXPECT_EQ(stage.sleeping(stage.steps()), scene.particles.size());
+        colors[isShown] = colorAt(offscreen.read(), camera, {0, 0.2f, 0.2f});
+    }
+    EXPECT_LT(redness(colors[1]), redness(colors[0]) - 30);
 }
 
 TEST(Stage, NamesBodyParticleAndStepThatBroke) {

@@ -81,9 +81,10 @@ xdotool windowmove "$window" 0 0
 keys space
 awaitTitle paused
 awaitStill paused.png
-drag 1 30 -8
+drag 3 30 -8
 awaitStill orbited.png
 same paused.png orbited.png && fail "an orbit drag changed nothing"
+drag 1 0 30 # still on the body: a paused one is held, and moves no camera
 drag 3 -20 0
 drag 2 12 6
 xdotool click 4 click 4 click 5
@@ -109,6 +110,41 @@ keys h
 keys v v Escape
 awaitStill still.png
 grep -q 'Ctrl + Q' viewer.out || fail "H printed no help"
+
+echo "window: a hand grabs the body, lifts it and lets go"
+# The block is the one red thing. Row of its lowest pixel, and of its highest.
+rows() { # FILE
+    convert "$1" -colorspace sRGB -channel RGB -fx 'u.r > 1.5 * u.g && u.r > 0.3 ? 1 : 0' -trim -format '%O %h\n' info: |
+        sed 's/.*+\([0-9]*\) \([0-9]*\)$/\1 \2/'
+}
+keys r f
+xdotool mousemove 320 200 click 5 click 5 click 5 click 5
+keys space
+awaitTitle fps
+sleep 3 # it falls to the floor
+keys space
+awaitTitle paused
+awaitStill before.png
+keys space
+awaitTitle fps
+read -r top height < <(rows before.png)
+((height > 20)) || fail "the block is not seen: $height rows"
+xdotool mousemove 320 $((top + height / 2)) mousedown 1
+awaitTitle holding
+for _ in {1..12}; do xdotool mousemove_relative -- 0 -8; sleep 0.1; done
+sleep 1
+shoot held.png
+read -r heldTop heldHeight < <(rows held.png)
+((heldTop < top - 30)) || fail "the block was not lifted: its top is at $heldTop, was at $top"
+xdotool mouseup 1
+for _ in {1..100}; do [[ $(title) != *holding* ]] && break; sleep 0.1; done
+[[ $(title) != *holding* ]] || fail "the block was not let go"
+sleep 2
+shoot dropped.png
+read -r droppedTop droppedHeight < <(rows dropped.png)
+((droppedTop > heldTop + 20)) || fail "the block did not fall: its top is at $droppedTop, was at $heldTop"
+keys space
+awaitTitle paused
 
 echo "window: sizes, hiding, full screen"
 keys space

@@ -3,14 +3,17 @@
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/frame.glsl"
 
+layout(push_constant) uniform Push { SkinPush push; };
 layout(location = 0) in vec4 corner; // on the unit ball
-layout(location = 1) in vec4 center; // public position of a particle
+layout(location = 1) in vec4 center; // public position of a particle; w = 0: does not move
 layout(location = 2) in float radius;
 layout(location = 0) out vec3 worldPosition;
 layout(location = 1) out vec3 worldNormal;
+layout(location = 2) out float asleep;
 
 void main() {
     worldPosition = center.xyz + radius * corner.xyz;
     worldNormal = corner.xyz;
+    asleep = center.w == 0.0 ? push.position.w : 0.0;
     gl_Position = frame.clipFromWorld * vec4(worldPosition, 1.0);
 }

@@ -30,7 +30,7 @@ struct FrameParams {
 
 struct SkinPush {
     vec4 color; // linear RGB; w: gloss, 1 = moist tissue
-    vec4 position; // where the vertices' frame is: 0 for skins [m]
+    vec4 position; // where the vertices' frame is: 0 for skins [m]; w: 1 = what sleeps is paler
     vec4 rotation; // unit quaternion x, y, z, w
 };
 

@@ -6,6 +6,7 @@
 layout(push_constant) uniform Push { SkinPush push; };
 layout(location = 0) in vec3 worldPosition;
 layout(location = 1) in vec3 worldNormal;
+layout(location = 2) in float asleep; // 1 = paler
 layout(location = 0) out vec4 shown;
 
 const float reflectance = 0.042; // at normal incidence: moist tissue
@@ -41,7 +42,7 @@ void main() {
     const float nv = max(dot(n, v), 0.02), facing = dot(n, l), nl = max(facing, 0.0);
     const float phase = 2.0 * pi * pixelNoise(gl_FragCoord.xy);
     const float lit = nl > 0.0 ? keyShadow(worldPosition, n, shadowTaps, phase) : 0.0;
-    const vec3 albedo = push.color.rgb;
+    const vec3 albedo = mix(push.color.rgb, vec3(0.62, 0.66, 0.72), 0.55 * asleep);
 
     // Light that enters beside the point and leaves here wraps around the terminator, further where the
     // material is brighter. There the map is of no use: it sees the surface itself.

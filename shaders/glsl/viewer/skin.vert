@@ -8,9 +8,11 @@ layout(location = 0) in vec4 position;
 layout(location = 1) in vec4 normal;
 layout(location = 0) out vec3 worldPosition;
 layout(location = 1) out vec3 worldNormal;
+layout(location = 2) out float asleep;
 
 void main() {
     worldPosition = rotated(push.rotation, position.xyz) + push.position.xyz;
     worldNormal = rotated(push.rotation, normal.xyz);
+    asleep = position.w == 0.0 ? push.position.w : 0.0;
     gl_Position = frame.clipFromWorld * vec4(worldPosition, 1.0);
 }

@@ -1,0 +1,68 @@
+// A tube of twelve sides and a ball in one list.
+#include "viewer/hand_mesh.hpp"
+
+#include "viewer/balls.hpp"
+
+#include <cmath>
+#include <cstring>
+
+namespace sinew::viewer {
+
+namespace {
+
+using Corner = std::array<float, 4>; // rope: across, across, along, 0; ball: corner, 1
+
+struct Mesh {
+    std::vector<Corner> corners;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+Mesh makeMesh() {
+    constexpr std::uint32_t sides = 12;
+    const BallMesh ball = makeBall(2);
+    Mesh mesh{ball.corners, ball.triangles};
+    for (Corner& corner : mesh.corners) corner[3] = 1;
+    const auto first = static_cast<std::uint32_t>(mesh.corners.size());
+    for (std::uint32_t side = 0; side < sides; ++side) {
+        const float angle = 6.2831853f * static_cast<float>(side) / sides;
+        for (const float along : {0.0f, 1.0f})
+            mesh.corners.push_back({std::cos(angle), std::sin(angle), along, 0});
+        const std::uint32_t a = first + 2 * side, b = first + 2 * ((side + 1) % sides);
+        mesh.triangles.push_back({a, b, b + 1});
+        mesh.triangles.push_back({a, b + 1, a + 1});
+    }
+    return mesh;
+}
+
+template <typename T>
+vk::Buffer filled(const vk::Device& device, const std::string& name, const std::vector<T>& elements,
+                  VkBufferUsageFlags usage) {
+    vk::Buffer buffer(device, {.name = name,
+                               .count = elements.size(),
+                               .stride = sizeof(T),
+                               .kind = vk::MemoryKind::upload,
+                               .usage = usage});
+    std::memcpy(buffer.mapped(), elements.data(), elements.size() * sizeof(T));
+    return buffer;
+}
+
+} // namespace
+
+HandMesh::HandMesh(const vk::Device& device)
+    : device_(device),
+      vertices_(filled(device, "hand.vertices", makeMesh().corners, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT)),
+      indices_(filled(device, "hand.indices", makeMesh().triangles, VK_BUFFER_USAGE_INDEX_BUFFER_BIT)),
+      indexCount_(static_cast<std::uint32_t>(3 * indices_.count())) {}
+
+void HandMesh::draw(VkCommandBuffer commands, const vk::BufferView& positions,
+                    std::uint32_t particle) const noexcept {
+    const vk::BufferView vertices = vertices_.view(), indices = indices_.view();
+    const std::array buffers{vertices.buffer, positions.buffer};
+    const std::array offsets{vertices.offset, positions.offset};
+    const vk::DeviceFunctions& functions = device_.functions();
+    functions.vkCmdBindVertexBuffers(commands, 0, buffers.size(), buffers.data(), offsets.data());
+    functions.vkCmdBindIndexBuffer(commands, indices.buffer, indices.offset, VK_INDEX_TYPE_UINT32);
+    functions.vkCmdDrawIndexed(commands, indexCount_, 1, 0, 0, particle);
+}
+
+} // namespace sinew::viewer

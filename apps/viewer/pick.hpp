@@ -1,0 +1,26 @@
+// Which particle lies under the pointer: the nearest one to where a ray meets a skin, or a ball.
+#pragma once
+
+#include "layout.h"
+#include "viewer/balls.hpp"
+#include "viewer/camera.hpp"
+
+namespace sinew::viewer {
+
+struct Pick {
+    std::uint32_t particle = 0;       ///< that moves
+    Vector3 point = Vector3::Zero();  ///< where the ray meets what is seen [m]
+    Vector3 offset = Vector3::Zero(); ///< of that point from the particle [m]
+    float distance = 0;               ///< along the ray [m]
+};
+
+/// A state as StateProbe reads it. Nothing where the ray meets no body, or only what is fixed.
+std::optional<Pick> pick(const sim::Scene& scene, const BallList& balls, const Ray& ray,
+                         std::span<const sim::layout::vec4> positions,
+                         std::span<const sim::layout::SkinVertex> vertices);
+
+/// How far around a picked particle a hand takes hold [m]: an eighth of the size of its body at the start,
+/// but more than its next neighbours are away.
+float holdRadius(const sim::Scene& scene, std::uint32_t particle);
+
+} // namespace sinew::viewer

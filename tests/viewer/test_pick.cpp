@@ -1,0 +1,155 @@
+// What lies under the pointer, and what the hand makes of it.
+#include "viewer/grab_tool.hpp"
+
+#include "sim/bodies.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace sinew::viewer {
+namespace {
+
+namespace layout = sim::layout;
+
+// A scene as StateProbe would read it at the start.
+struct Seen {
+    sim::Scene scene;
+    BallList balls;
+    std::vector<layout::vec4> positions;
+    std::vector<layout::SkinVertex> vertices;
+
+    void look() {
+        balls = ballsOf(scene);
+        for (const sim::Particle& p : scene.particles)
+            positions.push_back({p.position.x, p.position.y, p.position.z, p.inverseMass});
+        for (const sim::Skin& skin : scene.skins)
+            for (std::size_t v = 0; v < skin.vertexCount(); ++v) vertices.push_back(vertexOf(skin, v));
+    }
+    layout::SkinVertex vertexOf(const sim::Skin& skin, std::size_t v) const {
+        if (skin.cells.empty()) return {positions[skin.particles[v]], {}};
+        const sim::CellEmbedding& cell = skin.cells[v];
+        Vector3 x = Vector3::Zero();
+        for (std::uint32_t k = 0; k < 8; ++k) {
+            const layout::vec4& at = positions[cell.particles[k]];
+            const float share = ((k & 1) != 0 ? cell.weights.x : 1 - cell.weights.x) *
+                                ((k & 2) != 0 ? cell.weights.y : 1 - cell.weights.y) *
+                                ((k & 4) != 0 ? cell.weights.z : 1 - cell.weights.z);
+            x += share * Vector3(at.x, at.y, at.z);
+        }
+        return {{x.x(), x.y(), x.z(), 1}, {}};
+    }
+    std::optional<Pick> at(const Ray& ray) const { return pick(scene, balls, ray, positions, vertices); }
+};
+
+// 0.4 m wide around the origin; with a second one 2 m behind it.
+Seen blocks() {
+    Seen seen;
+    for (const float z : {-0.2f, -2.2f}) {
+        const sim::Lattice lattice{.origin = {-0.2f, -0.2f, z}, .cells = {4, 4, 4}, .spacing = 0.1f};
+        const sim::LatticeCorners corners = sim::addLattice(seen.scene, lattice);
+        sim::addLatticeSkin(seen.scene, lattice, corners, {0.7f, 0.1f, 0.1f});
+    }
+    seen.look();
+    return seen;
+}
+
+const Camera fromFront{.distance = 3, .azimuth = 0, .elevation = 0};
+
+TEST(Pick, FindsTheNearestBodyAndItsParticleWhereTheRayMeetsIt) {
+    const Seen seen = blocks();
+    const auto found = seen.at({{0.11f, 0.02f, 3}, {0, 0, -1}});
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->point.z(), 0.2f, 1e-5f);
+    EXPECT_NEAR(found->distance, 2.8f, 1e-5f);
+    const sim::Vec3& particle = seen.scene.particles[found->particle].position;
+    EXPECT_NEAR(particle.x, 0.1f, 1e-5f);
+    EXPECT_NEAR(particle.y, 0, 1e-5f);
+    EXPECT_NEAR(particle.z, 0.2f, 1e-5f);
+    EXPECT_LT((found->offset - Vector3(0.01f, 0.02f, 0)).norm(), 1e-5f);
+}
+
+TEST(Pick, FindsNothingBesideAndBehind) {
+    const Seen seen = blocks();
+    EXPECT_FALSE(seen.at({{0.21f, 0, 3}, {0, 0, -1}}));
+    EXPECT_FALSE(seen.at({{0, 0, 3}, {0, 0, 1}}));
+}
+
+TEST(Pick, OfWhatIsFixedHoldsNothing) {
+    Seen seen = blocks();
+    for (std::uint32_t i = 0; i < 125; ++i) seen.scene.fixed.push_back({i});
+    EXPECT_FALSE(seen.at({{0.11f, 0.02f, 3}, {0, 0, -1}})) << "nor does it reach through it";
+}
+
+TEST(Pick, MeetsBalls) {
+    Seen seen;
+    seen.scene.particles = {{.position = {0, 0, 0}, .radius = 0.1f}, {.position = {0, 0, 1}, .radius = 0.1f}};
+    seen.scene.bodies = {{.name = "balls", .firstParticle = 0, .particleCount = 2}};
+    seen.look();
+    const auto found = seen.at({{0.06f, 0, 3}, {0, 0, -1}});
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->particle, 1u);
+    EXPECT_NEAR(found->point.z(), 1.08f, 1e-5f);
+    EXPECT_FALSE(seen.at({{0.11f, 0, 3}, {0, 0, -1}}));
+    EXPECT_EQ(holdRadius(seen.scene, 1), 0) << "what has no links is held alone";
+}
+
+TEST(Pick, HoldsAnEighthOfABodyAround) {
+    const Seen seen = blocks();
+    EXPECT_NEAR(holdRadius(seen.scene, 62), 0.15f, 1e-5f) << "1.5 spacings, more than 0.4 sqrt(3) / 8";
+}
+
+TEST(Ray, GoesThroughThePlaceThatThePictureShows) {
+    Camera camera = lookingFrom({1.2f, 0.8f, 1.6f}, {0.1f, 0.3f, -0.2f}, 40);
+    const float aspect = 1.6f;
+    const Vector3 place(0.2f, 0.1f, 0.3f);
+    const Eigen::Vector4f clip = clipMatrix(camera, aspect, 100) * place.homogeneous();
+    const Vector2 pointer(0.5f * aspect * clip.x() / clip.w(), 0.5f * clip.y() / clip.w());
+    const Ray ray = rayThrough(camera, pointer);
+    const Vector3 way = place - ray.origin;
+    EXPECT_LT(way.cross(ray.direction).norm(), 1e-5f);
+    EXPECT_GT(way.dot(ray.direction), 0);
+}
+
+TEST(GrabTool, HoldsAtTheDepthAtWhichItTook) {
+    GrabTool tool;
+    tool.press(fromFront, {0, 0});
+    ASSERT_TRUE(tool.question());
+    EXPECT_TRUE(tool.grabs().empty()) << "it has to ask first";
+    tool.answer(Pick{7, {0, 0, 0.2f}, {0, 0, 0.01f}, 2.8f}, 0.15f);
+    ASSERT_EQ(tool.grabs().size(), 1u);
+    EXPECT_EQ(tool.grabs()[0].particle, 7u);
+    const Vector2 aside(0.1f, -0.05f);
+    tool.move(fromFront, aside);
+    const sim::Vec3& target = tool.grabs()[0].target;
+    EXPECT_NEAR(target.z, 0.2f, 1e-5f);
+    const float height = 2 * 2.8f * std::tan(fromFront.fieldOfView / 2);
+    EXPECT_NEAR(target.x, 0.1f * height, 1e-5f);
+    EXPECT_NEAR(target.y, 0.05f * height, 1e-5f);
+    EXPECT_TRUE(tool.drag(aside).isZero()) << "what is held does not turn the camera";
+    tool.release();
+    EXPECT_TRUE(tool.grabs().empty());
+    EXPECT_FALSE(tool.hand());
+}
+
+TEST(GrabTool, TurnsTheCameraByAllOfADragBesideBodies) {
+    GrabTool tool;
+    tool.press(fromFront, {0.5f, 0});
+    EXPECT_TRUE(tool.drag({0.1f, 0}).isZero()) << "not known yet";
+    tool.answer(std::nullopt, 0);
+    EXPECT_EQ(tool.drag({0.2f, 0.1f}), Vector2(0.1f + 0.2f, 0.1f));
+    EXPECT_EQ(tool.drag({0.1f, 0}), Vector2(0.1f, 0));
+    tool.release();
+    EXPECT_TRUE(tool.drag({0.1f, 0}).isZero());
+}
+
+TEST(GrabTool, AnAnswerThatComesAfterTheReleaseHoldsNothing) {
+    GrabTool tool;
+    tool.press(fromFront, {0, 0});
+    tool.release();
+    tool.answer(Pick{}, 1);
+    EXPECT_FALSE(tool.isHolding());
+}
+
+} // namespace
+} // namespace sinew::viewer
