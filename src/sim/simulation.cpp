@@ -63,12 +63,25 @@ StepProgram compileFor(const vk::Device& device, const Scene& scene, Settings se
     return compile(scene, settings);
 }
 
+// All that passes of a step write: the state between steps is among it.
+std::vector<BufferId> writtenBy(const StepProgram& program) {
+    std::vector<bool> isWritten(program.buffers.size());
+    for (const Pass& pass : program.step)
+        for (const BufferUse& use : pass.uses)
+            if (use.access != vk::Access::read) isWritten[use.buffer.index] = true;
+    std::vector<BufferId> buffers;
+    for (std::uint32_t b = 0; b < isWritten.size(); ++b)
+        if (isWritten[b]) buffers.push_back({b});
+    return buffers;
+}
+
 } // namespace
 
 struct Simulation::State {
     const vk::Device& device;
     StepProgram program;
     GpuExecutor executor;
+    std::vector<BufferId> written;
     vk::Buffer statusRing; // one slot a frame in flight, read by the host
     std::vector<SkinRange> skins;
     constraints::attachment::Anchors anchors;
@@ -100,10 +113,10 @@ struct Simulation::State {
     struct Resolved {};
     State(const vk::Device& d, const Scene& scene, const Settings& settings, Resolved)
         : device(d), program(compileFor(d, scene, settings)), executor(d, program),
-          statusRing(d, {.name = "status.ring",
-                         .count = framesInFlight,
-                         .stride = sizeof(layout::StatusWords),
-                         .kind = vk::MemoryKind::readback}),
+          written(writtenBy(program)), statusRing(d, {.name = "status.ring",
+                                                      .count = framesInFlight,
+                                                      .stride = sizeof(layout::StatusWords),
+                                                      .kind = vk::MemoryKind::readback}),
           skins(rangesOf(scene.skins)), anchors(scene.attachments),
           hands(settings.grabs, scene.particles.size()), colliders(scene.colliders),
           budget(scene.dampingTime > 0 ? splitBudget(scene, settings) : SplitBudget{}),
@@ -216,6 +229,46 @@ void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from) 
     state_->anchors = from.state_->anchors;
     state_->hands = from.state_->hands;
     state_->colliders.moveTo(end.time);
+}
+
+std::uint64_t Simulation::stateSize() const noexcept {
+    std::uint64_t size = 0;
+    for (const BufferId buffer : state_->written) size += view(buffer).size;
+    return size;
+}
+
+SavedState Simulation::recordSaveState(VkCommandBuffer buffer, const vk::BufferView& to) const {
+    vk::Commands commands(state_->device, buffer);
+    commands.beginStep();
+    vk::BufferView part = to;
+    for (const BufferId written : state_->written) {
+        const vk::BufferView from = view(written);
+        part.size = from.size;
+        commands.copy(from, part);
+        part.offset += from.size;
+    }
+    commands.endStep();
+    return {state_->previousH, state_->colliders.time(), state_->anchors.places()};
+}
+
+void Simulation::recordLoadState(VkCommandBuffer buffer, const vk::BufferView& from,
+                                 const SavedState& saved) noexcept {
+    vk::Commands commands(state_->device, buffer);
+    commands.beginStep();
+    vk::BufferView part = from;
+    for (const BufferId written : state_->written) {
+        const vk::BufferView to = view(written);
+        part.size = to.size;
+        commands.copy(part, to);
+        part.offset += to.size;
+    }
+    commands.endStep();
+    state_->previousH = saved.h;
+    state_->settledEnd = {saved.h, saved.colliderTime};
+    state_->unsettled = {};
+    state_->anchors.moveTo(saved.anchors);
+    state_->hands.reset();
+    state_->colliders.moveTo(saved.colliderTime);
 }
 
 void Simulation::recordSkin(VkCommandBuffer buffer) noexcept {

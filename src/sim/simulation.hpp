@@ -73,6 +73,13 @@ struct SkinRange {
     std::uint32_t firstIndex = 0, indexCount = 0;
 };
 
+/// What the host has of a state between steps, beside what recordSaveState() copies.
+struct SavedState {
+    float h = 0;               ///< substep of the step before [s]; 0 = none was taken
+    double colliderTime = 0;   ///< how far colliders have gone along their paths [s]
+    std::vector<Vec3> anchors; ///< of the scene's attachments [m]
+};
+
 /// Owns the buffers and pipelines of one scene. Must not outlive the Device. Never submits, waits or owns a
 /// queue. One thread per Simulation; different ones are independent.
 class Simulation {
@@ -101,6 +108,16 @@ public:
     /// steps of `from` must have finished. Colliders on a path are where they were at the end of the last
     /// step that was not undone.
     void recordTakeOver(VkCommandBuffer commands, const Simulation& from) noexcept;
+
+    /// Size of a copy of the whole state between steps [B].
+    std::uint64_t stateSize() const noexcept;
+    /// Records the copy of the state after the newest recorded step into `to`, of stateSize() bytes, and
+    /// returns the rest of it. `commands` as in recordReset().
+    SavedState recordSaveState(VkCommandBuffer commands, const vk::BufferView& to) const;
+    /// Records the copy back: what follows has the same bits as what followed the save, but hands take hold
+    /// anew and what a step says of frames goes on. Of this very simulation.
+    void recordLoadState(VkCommandBuffer commands, const vk::BufferView& from,
+                         const SavedState& saved) noexcept;
 
     /// Records the skins of the newest recorded state; afterwards skinVertices() is visible to vertex input.
     void recordSkin(VkCommandBuffer commands) noexcept;

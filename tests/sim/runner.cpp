@@ -74,6 +74,24 @@ void Runner::skin() {
     queue().wait(queue().submit(commands));
 }
 
+Runner::Saved Runner::save() {
+    Saved saved{vk::Buffer(device(), {.name = "saved",
+                                      .count = simulation_.stateSize() / 4,
+                                      .stride = 4,
+                                      .kind = vk::MemoryKind::device}),
+                {}};
+    const VkCommandBuffer commands = queue().begin();
+    saved.host = simulation_.recordSaveState(commands, saved.buffer.view());
+    queue().wait(queue().submit(commands));
+    return saved;
+}
+
+void Runner::load(const Saved& saved) {
+    const VkCommandBuffer commands = queue().begin();
+    simulation_.recordLoadState(commands, saved.buffer.view(), saved.host);
+    queue().wait(queue().submit(commands));
+}
+
 void Runner::writePosition(std::uint32_t particle, float x) {
     vk::BufferView target;
     const auto& buffers = simulation_.program().buffers;

@@ -23,6 +23,13 @@ public:
     /// Goes on where `from` stands, with its next frame.
     void takeOver(const Runner& from);
     void skin();
+    /// The state between steps, to come back to.
+    struct Saved {
+        vk::Buffer buffer;
+        sim::SavedState host;
+    };
+    Saved save();
+    void load(const Saved& saved);
     /// Overwrites x of a particle in the solver's own state, as a fault would.
     void writePosition(std::uint32_t particle, float x);
 

@@ -75,6 +75,20 @@ void Anchors::reset() noexcept {
     }
 }
 
+std::vector<Vec3> Anchors::places() const {
+    std::vector<Vec3> result;
+    for (std::size_t a = 0; a < attachments_.size(); ++a) {
+        const layout::vec4& at = values_[2 * a + 1];
+        result.push_back({at.x, at.y, at.z});
+    }
+    return result;
+}
+
+void Anchors::moveTo(std::span<const Vec3> places) noexcept {
+    for (std::size_t a = 0; a < std::min(places.size(), attachments_.size()); ++a)
+        values_[2 * a] = values_[2 * a + 1] = {places[a].x, places[a].y, places[a].z, 0};
+}
+
 void Anchors::advance(std::span<const Vec3> targets, float dt) noexcept {
     for (std::size_t a = 0; a < attachments_.size(); ++a) {
         values_[2 * a] = values_[2 * a + 1];

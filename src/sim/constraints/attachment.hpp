@@ -32,6 +32,10 @@ public:
     /// The points start where they ended and go towards `targets` (one an attachment; others stay) as fast as
     /// they may within `dt` [s]. A target that is not finite is none. Never allocates.
     void advance(std::span<const Vec3> targets, float dt) noexcept;
+    /// Where the points are.
+    std::vector<Vec3> places() const;
+    /// One an attachment; at once.
+    void moveTo(std::span<const Vec3> places) noexcept;
     /// From and to of every attachment.
     std::span<const layout::vec4> values() const noexcept { return values_; }
 
