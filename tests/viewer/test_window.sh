@@ -121,7 +121,14 @@ keys r f
 xdotool mousemove 320 200 click 5 click 5 click 5 click 5
 keys space
 awaitTitle fps
-sleep 3 # it falls to the floor
+fell=no
+for _ in {1..60}; do # to the floor, where it rests
+    shoot one.png
+    sleep 2
+    shoot two.png
+    [[ $(rows one.png) == "$(rows two.png)" ]] && fell=yes && break
+done
+[[ $fell == yes ]] || fail "the block does not come to rest"
 keys space
 awaitTitle paused
 awaitStill before.png
@@ -129,20 +136,23 @@ keys space
 awaitTitle fps
 read -r top height < <(rows before.png)
 ((height > 20)) || fail "the block is not seen: $height rows"
+awaitTop() { # FILE TEST ROW: until the block's top is there
+    for _ in {1..100}; do
+        shoot "$1"
+        read -r now height < <(rows "$1")
+        test "$now" "$2" "$3" && return
+        sleep 0.3
+    done
+    fail "the top of the block is at $now, not $2 $3"
+}
 xdotool mousemove 320 $((top + height / 2)) mousedown 1
 awaitTitle holding
 for _ in {1..12}; do xdotool mousemove_relative -- 0 -8; sleep 0.1; done
-sleep 1
-shoot held.png
-read -r heldTop heldHeight < <(rows held.png)
-((heldTop < top - 30)) || fail "the block was not lifted: its top is at $heldTop, was at $top"
+awaitTop held.png -lt $((top - 30))
 xdotool mouseup 1
 for _ in {1..100}; do [[ $(title) != *holding* ]] && break; sleep 0.1; done
 [[ $(title) != *holding* ]] || fail "the block was not let go"
-sleep 2
-shoot dropped.png
-read -r droppedTop droppedHeight < <(rows dropped.png)
-((droppedTop > heldTop + 20)) || fail "the block did not fall: its top is at $droppedTop, was at $heldTop"
+awaitTop dropped.png -gt $((top - 15))
 keys space
 awaitTitle paused
 
