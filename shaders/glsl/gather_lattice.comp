@@ -7,12 +7,14 @@
 // A node's word holds the fill of the eight cells around it, four bits each in 1/15; cell k lies on the side
 // (k & 1, k >> 1 & 1, k >> 2). A link's stiffness is the sum over the cells that hold it, times a unit per kind of
 // link: this is the assembly per cell, and a link that no cell holds is absent. SHEET: one layer of nodes in y; a link is
-// whole where any cell holds it. VOLUME: every cell also resists a change of its signed volume.
+// whole where any cell holds it. VOLUME: every cell also resists a change of its signed volume. HAS_MASKS: a second word says
+// which of a node's links no blade has cut yet, with VOLUME a third which cells are whole.
 #extension GL_GOOGLE_include_directive : require
 #define GROUP_SIZE LATTICE_GROUP
 #include "split.glsl"
 #include "lattice_window.glsl"
 #include "cell_fill.glsl"
+#include "held_links.glsl"
 #include "lattice_links.glsl"
 #ifdef VOLUME
 #include "cell_volume.glsl"

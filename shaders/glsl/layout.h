@@ -394,6 +394,57 @@ struct LatticePush {
     float recoveryShare;         // 2 k~ likewise
 };
 
+// Bodies that may be cut. What the host says of a step with a blade: a strip of quads between two poly-lines, and a ray.
+struct BladeHead {
+    vec4 low, high;  // box around all that cuts [m]
+    vec4 rayFrom;    // w = radius of the ray, 0 = there is none [m]
+    vec4 rayTo;
+    float extent;    // of the strip, its box's diagonal [m]
+    uint quads;      // of the strip; its points are from 0, to 0, from 1, to 1, ...
+    uint isCarried;  // the strip begins where the last ended and has moved with the material
+    uint unused0;
+};
+
+// What the device finds out in such a step; zeros at its head.
+struct CutWork {
+    uint farthest; // bits of a float: the longest way of a particle since the last blade [m]
+    uint cut;      // links
+    uint changed;  // 1 where labels of pieces were not yet the same at both ends of a link
+    uint unused0;
+};
+
+// What is known after it.
+struct CutCounts {
+    uint links;       // cut since the uncut body; those without stiffness do not count
+    uint linksOfStep; // in the newest step with a blade
+    uint pieces;
+    uint unused0;
+};
+
+// Where the links that a node owns were cut, of the seven that are edges of Kuhn's tetrahedra, in the order (1,0,0) (0,1,0)
+// (1,1,0) (0,0,1) (1,0,1) (0,1,1) (1,1,1): byte k % 4 of word k / 4, in 1/255 of the way from the node to the other end, from 5 to 250.
+// It stands from the cut on; of a link that is alive it means nothing.
+struct LinkHits {
+    uint low, high;
+};
+
+#define NO_PARTICLE 0xffffffffu
+
+struct CutPush {
+    uint first, count;           // slots
+    uint rowStride, sliceStride; // from a node to the next in y, in z; in a sheet there is no y and rowStride 0
+    uint stiffLinks;             // bits of the links that have stiffness
+    float spacing;               // [m]
+};
+
+// Slots that one invocation counts particles in.
+#define PIECE_CHUNK 32
+
+struct PiecesPush {
+    uint isFirst; // of the dispatches that say whether labels are still to change
+    uint runs;    // of slots; argument r is for all rounds of run r, argument runs + r for its count
+};
+
 struct DampedSubstepPush {
     uint count;
     uint isFirst;

@@ -18,34 +18,44 @@ void march(LatticeChunk chunk, Substep substep) {
     uint origin = chunk.origin;
     vec4 slice[SLICE], above[SLICE];
     Fill fill[NODES];
+    uint alive[NODES]; // links of the slice
     vec3 below[NODES]; // what the links to the slice before contribute
     loadSlice(origin - push.sliceStride, slice);
     loadSlice(origin, above);
     [[unroll]] for (int n = 0; n < NODES; ++n) {
         fill[n] = unpack(CELLS(nodeAt(origin, n)));
-        below[n] = gather(above, slice, homeOf(n), fill[n], -1, substep.hh);
+        alive[n] = LINKS(nodeAt(origin, n));
+        below[n] = gather(above, slice, homeOf(n), fill[n], alive[n], -1, substep.hh);
     }
+#ifdef HAS_WHOLE_CELLS
+    Fill whole[NODES];
+    [[unroll]] for (int n = 0; n < NODES; ++n) whole[n] = unpack(wholeCells[nodeAt(origin, n)]);
+#endif
 #ifdef VOLUME
     vec3 pressed[NODES], pressedBelow[NODES], pressedAbove[NODES];
-    pressCells(slice, above, fill, false, substep.hh, pressedAbove, pressedBelow);
+    pressCells(slice, above, whole, false, substep.hh, pressedAbove, pressedBelow);
 #endif
     for (uint layer = 0u; layer < chunk.layers; ++layer) {
         slice = above;
         loadSlice(origin + push.sliceStride, above);
 #ifdef VOLUME
         [[unroll]] for (int n = 0; n < NODES; ++n) pressed[n] = pressedBelow[n];
-        pressCells(slice, above, fill, true, substep.hh, pressedAbove, pressedBelow);
+        pressCells(slice, above, whole, true, substep.hh, pressedAbove, pressedBelow);
 #endif
         [[unroll]] for (int n = 0; n < NODES; ++n) {
             const uint i = nodeAt(origin, n);
             const int home = homeOf(n);
-            vec3 sum = below[n] + gather(slice, slice, home, fill[n], 0, substep.hh)
-                       + gather(slice, above, home, fill[n], 1, substep.hh);
+            vec3 sum = below[n] + gather(slice, slice, home, fill[n], alive[n], 0, substep.hh)
+                       + gather(slice, above, home, fill[n], alive[n], 1, substep.hh);
 #ifdef VOLUME
             sum += pressed[n] + pressedAbove[n];
 #endif
+#ifdef HAS_WHOLE_CELLS
+            whole[n] = unpack(wholeCells[i + push.sliceStride]);
+#endif
             fill[n] = unpack(CELLS(i + push.sliceStride));
-            below[n] = gather(above, slice, home, fill[n], -1, substep.hh);
+            alive[n] = LINKS(i + push.sliceStride);
+            below[n] = gather(above, slice, home, fill[n], alive[n], -1, substep.hh);
             advance(i, slice[home], velocities[i], sum, substep);
         }
         origin += push.sliceStride;

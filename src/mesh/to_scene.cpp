@@ -91,7 +91,8 @@ sim::Lattice makeLattice(const VoxelGrid& grid, const MeshBody& body, double vol
                          .poissonRatio = body.poissonRatio,
                          .recovery = body.recovery,
                          .density = body.density,
-                         .radius = body.touchesParticles ? grid.spacing / 2 : 0};
+                         .radius = body.touchesParticles ? grid.spacing / 2 : 0,
+                         .isCuttable = body.isCuttable};
     // A hull cell may hold the surface and none of the 64 samples: it exists all the same, the skin hangs on
     // it.
     for (std::size_t i = 0; i < grid.voxels.size(); ++i)

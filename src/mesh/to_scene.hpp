@@ -14,6 +14,7 @@ struct MeshBody {
     float recovery = 0;            ///< sim::Lattice::recovery
     float density = 1000;          ///< [kg/m^3]
     bool touchesParticles = false; ///< each particle has a radius of half a voxel
+    bool isCuttable = false;       ///< sim::Grid::isCuttable
     Vec3 color{0.78f, 0.36f, 0.32f};
 };
 

@@ -29,6 +29,7 @@ struct ClothSheet {
     std::uint32_t tethers = 0;         ///< of a particle, to the nearest pinned ones
     float radius = 0;                  ///< of a particle that others touch [m], at most half of the spacing
     std::vector<std::uint32_t> pinned; ///< particles (row-major within the sheet) held where they are
+    bool isCuttable = false;           ///< Grid::isCuttable
     Vec3 color{0.16f, 0.34f, 0.58f};
 };
 
@@ -123,6 +124,7 @@ struct Lattice {
     float density = 1000;          ///< [kg/m^3]
     float radius = 0;              ///< of a particle that others touch [m], at most half of the spacing
     bool hasBodyDiagonals = false; ///< 26 neighbours instead of 18
+    bool isCuttable = false;       ///< Grid::isCuttable
     float restVolume = 0;          ///< of the body [m^3]; 0 = sum of fill x cell volume
 };
 
@@ -142,7 +144,7 @@ struct LatticeCorners {
 /// mass ratio of the body and so asks for hardly more substeps). So far from the origin that float32 rounds
 /// positions by 1e-4 of the spacing, the links have the lengths that are stored and the body gets no grid.
 /// Throws std::invalid_argument for values out of range and std::domain_error where a body without a grid
-/// would need the volumes of its cells.
+/// would need the volumes of its cells or be cuttable.
 LatticeCorners addLattice(Scene& scene, const Lattice& lattice);
 
 /// Skins the boundary faces of a lattice (for bodies without a mesh of their own), creased at its edges.

@@ -248,7 +248,8 @@ void addGrid(Scene& scene, const Lattice& lattice, const Cells& cells, const Lat
               .kinds = kinds.count,
               .restLength = kinds.restLength,
               .volumeStiffness = static_cast<float>(volumeStiffness(lattice)),
-              .recoveryPressure = static_cast<float>(double{lattice.recovery} * shearModulus(lattice))};
+              .recoveryPressure = static_cast<float>(double{lattice.recovery} * shearModulus(lattice)),
+              .isCuttable = lattice.isCuttable};
     for (std::size_t kind = 0; kind < kinds.count; ++kind)
         grid.compliance[kind] = static_cast<float>(1 / kinds.stiffness[kind]);
     for (std::uint32_t node = 0; node < corners.particle.size(); ++node)
@@ -285,7 +286,7 @@ LatticeCorners addLattice(Scene& scene, const Lattice& lattice) {
     const std::size_t firstDistance = scene.distances.size();
     if (addLinks(scene, lattice, cells, corners, kinds))
         addGrid(scene, lattice, cells, corners, kinds, first, firstDistance);
-    else if (lattice.poissonRatio > 0.25f || lattice.recovery > 0)
+    else if (lattice.poissonRatio > 0.25f || lattice.recovery > 0 || lattice.isCuttable)
         throw std::domain_error("lattice \"" + lattice.name +
                                 "\" is so far from the origin that rounding distorts its cells");
     scene.bodies.push_back({lattice.name, first, static_cast<std::uint32_t>(scene.particles.size()) - first,

@@ -5,6 +5,7 @@
 #include "sim/collision/particle_contacts.hpp"
 #include "sim/constraints/fixed.hpp"
 #include "sim/constraints/grab.hpp"
+#include "sim/cutting/cut.hpp"
 #include "sim/lattice/cells.hpp"
 #include "sim/publish.hpp"
 #include "sim/sleep.hpp"
@@ -123,6 +124,7 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     program.updateParameters(particles.step);
     program.fill(built.status, 0);
     particles.grabs = constraints::grab::add(program, scene, settings, solver.layout);
+    cutting::add(program, scene, settings, particles);
     program.beginPhase("solve");
     solver.addPasses(program, particles);
     program.beginPhase("publish");

@@ -24,6 +24,7 @@ std::string line(const StepProgram& program, const Pass& pass) {
     }
     if (pass.isIndirect)
         text << ' ' << program.buffers[pass.uses.back().buffer.index].label << '[' << pass.value << "]:i";
+    if (pass.isOfCut) text << "  (with a blade)";
     return text.str();
 }
 
@@ -86,6 +87,7 @@ std::string megabytes(std::uint64_t bytes) {
 std::uint64_t declaredBytes(const StepProgram& program) {
     std::uint64_t bytes = 0;
     for (const Pass& pass : program.step) {
+        if (pass.isOfCut) continue;
         for (const BufferUse& use : pass.uses) {
             const std::uint64_t size = program.buffers[use.buffer.index].bytes();
             bytes += use.access == vk::Access::readWrite ? 2 * size : size;
@@ -107,12 +109,14 @@ std::string describe(const StepProgram& program) {
     text << '\n';
     print(text, program, program.step);
     if (!program.skin.empty()) print(text, program, program.skin);
-    std::size_t dispatches = 0, barriers = 0;
+    std::size_t passes = 0, dispatches = 0, barriers = 0;
     for (const Pass& pass : program.step) {
+        if (pass.isOfCut) continue;
+        ++passes;
         dispatches += pass.kind == PassKind::dispatch;
-        barriers += pass.barrierBefore;
+        barriers += pass.barrierWithoutCut;
     }
-    text << "\nper step: " << dispatches << " dispatches, " << program.step.size() - dispatches
+    text << "\nper step: " << dispatches << " dispatches, " << passes - dispatches
          << " fills, copies and updates, " << barriers << " barriers, " << megabytes(declaredBytes(program))
          << " declared, " << program.sweeps << " sweeps\n";
     for (const std::string& feature : program.skipped) text << "skipped: " << feature << '\n';

@@ -131,7 +131,9 @@ std::vector<GpuExecutor::Recorded> GpuExecutor::resolve(const std::vector<Pass>&
     result.reserve(passes.size());
     for (const Pass& pass : passes) {
         Recorded recorded{.kind = pass.kind,
+                          .isOfCut = pass.isOfCut,
                           .barrierBefore = pass.barrierBefore,
+                          .barrierWithoutCut = pass.barrierWithoutCut,
                           .isIndirect = pass.isIndirect,
                           .phase = pass.phase,
                           .groups = 0,
@@ -165,28 +167,31 @@ void GpuExecutor::upload(vk::Commands& commands) noexcept {
     commands.endStep();
 }
 
-void GpuExecutor::step(vk::Commands& commands, const HostBytes& host, vk::Timestamps* timestamps) noexcept {
-    record(commands, step_, host, timestamps);
+void GpuExecutor::step(vk::Commands& commands, const HostBytes& host, vk::Timestamps* timestamps,
+                       bool hasBlade) noexcept {
+    record(commands, step_, host, timestamps, hasBlade);
 }
 
 void GpuExecutor::skin(vk::Commands& commands) noexcept {
-    record(commands, skin_, {}, nullptr);
+    record(commands, skin_, {}, nullptr, true);
 }
 
 void GpuExecutor::record(vk::Commands& commands, const std::vector<Recorded>& passes, const HostBytes& host,
-                         vk::Timestamps* timestamps) noexcept {
+                         vk::Timestamps* timestamps, bool hasBlade) noexcept {
     std::uint32_t span = 0;
     for (std::size_t p = 0; p < passes.size(); ++p) {
         const bool opensPhase = p == 0 || passes[p - 1].phase != passes[p].phase;
         const bool closesPhase = p + 1 == passes.size() || passes[p + 1].phase != passes[p].phase;
         if (timestamps && opensPhase) timestamps->begin(commands, span);
-        recordPass(commands, passes[p], host);
+        if (hasBlade || !passes[p].isOfCut) {
+            if (hasBlade ? passes[p].barrierBefore : passes[p].barrierWithoutCut) commands.barrier();
+            recordPass(commands, passes[p], host);
+        }
         if (timestamps && closesPhase) timestamps->end(commands, span++);
     }
 }
 
 void GpuExecutor::recordPass(vk::Commands& commands, const Recorded& pass, const HostBytes& host) noexcept {
-    if (pass.barrierBefore) commands.barrier();
     switch (pass.kind) {
     case PassKind::dispatch:
         commands.bind(*pass.kernel, pass.set);

@@ -19,8 +19,9 @@ public:
     /// What update passes write, by HostData (<= 64 KiB each).
     using HostBytes = std::array<std::span<const std::byte>, hostDataCount>;
     /// Records a list with its planned barriers.
-    /// With `timestamps`, one span per phase of the step list.
-    void step(vk::Commands& commands, const HostBytes& host, vk::Timestamps* timestamps) noexcept;
+    /// With `timestamps`, one span per phase of the step list. Passes of cuts are left out unless `hasBlade`.
+    void step(vk::Commands& commands, const HostBytes& host, vk::Timestamps* timestamps,
+              bool hasBlade = true) noexcept;
     void skin(vk::Commands& commands) noexcept;
 
     vk::BufferView view(BufferId buffer) const noexcept; ///< empty for an invalid id
@@ -31,7 +32,7 @@ private:
     // A pass with everything looked up, so that recording is a plain walk.
     struct Recorded {
         PassKind kind;
-        bool barrierBefore, isIndirect;
+        bool isOfCut, barrierBefore, barrierWithoutCut, isIndirect;
         std::uint32_t phase, groups, value;
         const vk::Kernel* kernel;
         VkDescriptorSet set;
@@ -41,7 +42,7 @@ private:
     std::vector<Recorded> resolve(const std::vector<Pass>& passes, std::size_t& nextSet) const;
     static void checkGroups(const std::vector<Recorded>& passes, std::uint32_t most);
     void record(vk::Commands& commands, const std::vector<Recorded>& passes, const HostBytes& host,
-                vk::Timestamps* timestamps) noexcept;
+                vk::Timestamps* timestamps, bool hasBlade) noexcept;
     void recordPass(vk::Commands& commands, const Recorded& pass, const HostBytes& host) noexcept;
 
     std::vector<vk::Buffer> buffers_;

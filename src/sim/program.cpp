@@ -40,6 +40,21 @@ void planBarriers(std::span<Pass> passes, std::size_t bufferCount) {
     }
 }
 
+namespace {
+
+// The list without the passes of cuts has barriers of its own.
+void planWithoutCut(std::vector<Pass>& passes, std::size_t bufferCount) {
+    std::vector<Pass> others;
+    for (const Pass& pass : passes)
+        if (!pass.isOfCut) others.push_back({.uses = pass.uses});
+    planBarriers(others, bufferCount);
+    auto other = others.begin();
+    for (Pass& pass : passes)
+        if (!pass.isOfCut) pass.barrierWithoutCut = (other++)->barrierBefore;
+}
+
+} // namespace
+
 BufferId ProgramBuilder::add(BufferSpec spec) {
     program_.buffers.push_back(std::move(spec));
     return {static_cast<std::uint32_t>(program_.buffers.size() - 1)};
@@ -63,6 +78,7 @@ void ProgramBuilder::append(Pass pass) {
     if (program_.phases.empty()) throw std::logic_error("pass " + pass.label + " belongs to no phase");
     pass.phase = static_cast<std::uint32_t>(program_.phases.size() - 1);
     pass.substep = substep_;
+    pass.isOfCut = isCut_;
     (isSkin_ ? program_.skin : program_.step).push_back(std::move(pass));
 }
 
@@ -159,6 +175,7 @@ void ProgramBuilder::update(BufferId buffer, HostData data) {
 
 StepProgram ProgramBuilder::finish() {
     planBarriers(program_.step, program_.buffers.size());
+    planWithoutCut(program_.step, program_.buffers.size());
     planBarriers(program_.skin, program_.buffers.size());
     return std::move(program_);
 }

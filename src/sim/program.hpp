@@ -50,8 +50,8 @@ enum class PassKind : std::uint8_t {
 };
 
 /// What update passes can write.
-enum class HostData : std::uint32_t { parameters, anchors, colliders, grabs };
-constexpr std::size_t hostDataCount = 4;
+enum class HostData : std::uint32_t { parameters, anchors, colliders, grabs, blade, bladePoints };
+constexpr std::size_t hostDataCount = 6;
 
 /// One entry of the list.
 struct Pass {
@@ -62,10 +62,12 @@ struct Pass {
     std::vector<BufferUse> uses; ///< in binding order; then the arguments of an indirect dispatch
     std::vector<std::byte> push;
     std::uint32_t value = 0;
-    bool isIndirect = false;    ///< a kernel decides how many groups: element `value` of the last use
-    std::uint32_t phase = 0;    ///< index into StepProgram::phases
-    std::uint32_t substep = 0;  ///< 1-based; 0 = outside the substeps
-    bool barrierBefore = false; ///< set by planBarriers
+    bool isIndirect = false;        ///< a kernel decides how many groups: element `value` of the last use
+    std::uint32_t phase = 0;        ///< index into StepProgram::phases
+    std::uint32_t substep = 0;      ///< 1-based; 0 = outside the substeps
+    bool isOfCut = false;           ///< recorded only in a step with a blade
+    bool barrierBefore = false;     ///< set by planBarriers
+    bool barrierWithoutCut = false; ///< the same in a step without a blade
 };
 
 /// The uses that a dispatch binds to its kernel: all but the arguments.
@@ -95,6 +97,19 @@ struct Carried {
     BufferId to, from;
 };
 
+/// What is kept of bodies that may be cut (cutting/cut.hpp); invalid where a scene has none.
+struct CuttingBuffers {
+    BufferId links; ///< by slot: bits of the links that are alive (lattice/link_masks.hpp)
+    BufferId
+        wholeCells;  ///< by slot: fillAround without the cells that lost an edge; where cells have volumes
+    BufferId hits;   ///< by slot: layout::LinkHits of the links that the node owns
+    BufferId dirty;  ///< by 32 slots: not 0 where the last blade cut within a node's reach
+    BufferId counts; ///< one layout::CutCounts
+    BufferId pieces; ///< by particle: that which its piece is named after, or layout's NO_PARTICLE
+    BufferId pieceSizes;            ///< by particle: particles of the piece that is named after it, or 0
+    std::vector<BufferId> topology; ///< all that a copy of the cuts consists of
+};
+
 /// Immutable once built.
 struct StepProgram {
     std::vector<BufferSpec> buffers;
@@ -106,6 +121,7 @@ struct StepProgram {
     std::vector<Carried> carried;     ///< what a simulation that takes over another's state copies
     BufferId parameters, status, positions, velocities; ///< the public ones; velocities may be invalid
     BufferId skinVertices, skinIndices;                 ///< invalid without skins
+    CuttingBuffers cutting;
     std::uint32_t particleCount = 0, constraintCount = 0;
     std::uint64_t sweeps = 0; ///< times every constraint is read in one step
 };
@@ -200,6 +216,13 @@ public:
     void updateAnchors(BufferId anchors) { update(anchors, HostData::anchors); }
     void updateColliders(BufferId ways) { update(ways, HostData::colliders); }
     void updateGrabs(BufferId hands) { update(hands, HostData::grabs); }
+    void updateBlade(BufferId blade, BufferId points) {
+        update(blade, HostData::blade);
+        update(points, HostData::bladePoints);
+    }
+    /// Passes from here on, until endCut(), belong to steps with a blade alone.
+    void beginCut() { isCut_ = true; }
+    void endCut() { isCut_ = false; }
     void beginSkin() { isSkin_ = true; }
     void skip(std::string feature) { program_.skipped.push_back(std::move(feature)); }
 
@@ -222,7 +245,7 @@ private:
     std::vector<BufferId> remembered_, kept_;
     std::vector<std::function<void()>> checked_, endings_;
     Gate gate_;
-    bool isReversed_ = false, isSkin_ = false;
+    bool isReversed_ = false, isSkin_ = false, isCut_ = false;
     std::uint32_t substep_ = 0;
 };
 

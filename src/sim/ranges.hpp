@@ -41,6 +41,8 @@ inline constexpr Range maxSpeed{.low = 0, .high = largest, .isLowOpen = true}; /
 inline constexpr Range tetherLength{0, largest};                               // [m]
 /// Their moving points travel in the command buffer, which takes 64 KiB at a time.
 inline constexpr std::size_t mostAttachments = 1024;
+/// Points of each of the two poly-lines of a blade.
+inline constexpr std::size_t mostBladePoints = 256;
 inline constexpr Range friction{0, largest};
 inline constexpr Range restitution{0, 1};
 inline constexpr Range radius{0, largest};                                         // [m]

@@ -171,6 +171,8 @@ struct Grid {
     /// The pressure that unfolds flattened and mirrored cells: all of it where J < 0, falling to nothing at
     /// J = 1/2. [Pa]; 0 = none
     float recoveryPressure = 0;
+    /// Whether a blade may cut its links (Step::blade): keeps which of them are alive, for `split` alone.
+    bool isCuttable = false;
 };
 
 /// Whether the cells of a grid have volumes: an energy that stands in no list but the grid's.

@@ -8,6 +8,7 @@
 #include "sim/compile.hpp"
 #include "sim/constraints/attachment.hpp"
 #include "sim/constraints/grab.hpp"
+#include "sim/cutting/blade.hpp"
 #include "sim/gpu_executor.hpp"
 #include "sim/ranges.hpp"
 #include "sim/substeps.hpp"
@@ -17,6 +18,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 namespace sinew::sim {
 
@@ -82,11 +84,14 @@ struct Simulation::State {
     StepProgram program;
     GpuExecutor executor;
     std::vector<BufferId> written;
-    vk::Buffer statusRing; // one slot a frame in flight, read by the host
+    vk::Buffer statusRing;                // one slot a frame in flight, read by the host
+    std::optional<vk::Buffer> countsRing; // likewise; where bodies may be cut
     std::vector<SkinRange> skins;
     constraints::attachment::Anchors anchors;
     constraints::grab::Hands hands;
     collision::ColliderPaths colliders;
+    cutting::BladeWords blade;
+    std::array<bool, framesInFlight> hasBlade{}; // of the newest steps
     SplitBudget budget;
     float theta, omega, damping;
     std::uint32_t substeps;
@@ -122,7 +127,13 @@ struct Simulation::State {
           budget(scene.dampingTime > 0 ? splitBudget(scene, settings) : SplitBudget{}),
           theta(settings.solver == Solver::split ? settings.theta : 0), omega(settings.omega),
           damping(scene.damping), substeps(settings.substeps),
-          hasContacts(collision::particle_contacts::areIn(scene) || collision::face_contacts::areIn(scene)) {}
+          hasContacts(collision::particle_contacts::areIn(scene) || collision::face_contacts::areIn(scene)) {
+        if (program.cutting.counts != BufferId{})
+            countsRing.emplace(d, vk::BufferRequest{.name = "cut.counts.ring",
+                                                    .count = framesInFlight,
+                                                    .stride = sizeof(layout::CutCounts),
+                                                    .kind = vk::MemoryKind::readback});
+    }
 
     layout::StepParams parameters(const Step& step, float dt) const {
         const float h = dt / static_cast<float>(substeps);
@@ -149,6 +160,14 @@ struct Simulation::State {
         return words;
     }
 
+    layout::CutCounts cutCounts(std::uint64_t frame) const {
+        layout::CutCounts counts{};
+        if (countsRing)
+            std::memcpy(&counts, countsRing->mapped() + frame % framesInFlight * sizeof(counts),
+                        sizeof(counts));
+        return counts;
+    }
+
     // The last step before `frame` that settled has this `end`; where the one that this slot of the ring held
     // came to its end, that counts.
     Settled settled(std::uint64_t frame, const Settled& end) const {
@@ -158,11 +177,28 @@ struct Simulation::State {
         return words.nonFinite == 0 && words.candidates == 0 ? step.end : end;
     }
 
-    vk::BufferView statusSlot(std::uint64_t frame) const {
-        vk::BufferView slot = statusRing.view();
+    static vk::BufferView slotOf(const vk::Buffer& ring, std::uint64_t frame) {
+        vk::BufferView slot = ring.view();
         slot.size = slot.stride;
         slot.offset += slot.stride * (frame % framesInFlight);
         return slot;
+    }
+
+    // What steps have found out, where the host may read it.
+    void recordStatus(vk::Commands& commands, std::uint64_t frame) const noexcept {
+        commands.copy(executor.view(program.status), slotOf(statusRing, frame));
+        if (countsRing) commands.copy(executor.view(program.cutting.counts), slotOf(*countsRing, frame));
+    }
+
+    // Walks the buffers of the topology beside a copy of them.
+    template <typename Copy> void forTopology(vk::BufferView all, const Copy& copy) const {
+        for (const BufferId buffer : program.cutting.topology) {
+            const vk::BufferView own = executor.view(buffer);
+            vk::BufferView part = all;
+            part.size = own.size;
+            copy(own, part);
+            all.offset += own.size;
+        }
     }
 };
 
@@ -192,15 +228,18 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     state_->hands.advance(step.grabs, dt);
     state_->colliders.advance(dt);
     state_->unsettled[step.frame % framesInFlight] = {true, {parameters.h, state_->colliders.time()}};
+    const bool hasBlade = state_->countsRing && state_->blade.read(step);
+    state_->hasBlade[step.frame % framesInFlight] = hasBlade;
     vk::Commands commands(state_->device, buffer);
     if (timestamps) timestamps->reset(commands);
     commands.beginStep();
     state_->executor.step(commands,
                           {std::as_bytes(std::span(&parameters, 1)), std::as_bytes(state_->anchors.values()),
-                           std::as_bytes(state_->colliders.ways()), std::as_bytes(state_->hands.values())},
-                          timestamps);
+                           std::as_bytes(state_->colliders.ways()), std::as_bytes(state_->hands.values()),
+                           state_->blade.head(), state_->blade.points()},
+                          timestamps, hasBlade);
     commands.barrier();
-    commands.copy(state_->executor.view(state_->program.status), state_->statusSlot(step.frame));
+    state_->recordStatus(commands, step.frame);
     commands.endStep();
     commands.hostBarrier();
     state_->previousH = parameters.h;
@@ -271,6 +310,28 @@ void Simulation::recordLoadState(VkCommandBuffer buffer, const vk::BufferView& f
     state_->colliders.moveTo(saved.colliderTime);
 }
 
+std::uint64_t Simulation::topologySize() const noexcept {
+    std::uint64_t size = 0;
+    for (const BufferId buffer : state_->program.cutting.topology) size += view(buffer).size;
+    return size;
+}
+
+void Simulation::recordSaveTopology(VkCommandBuffer buffer, const vk::BufferView& to) const noexcept {
+    vk::Commands commands(state_->device, buffer);
+    commands.beginStep();
+    state_->forTopology(
+        to, [&](const vk::BufferView& own, const vk::BufferView& copy) { commands.copy(own, copy); });
+    commands.endStep();
+}
+
+void Simulation::recordLoadTopology(VkCommandBuffer buffer, const vk::BufferView& from) noexcept {
+    vk::Commands commands(state_->device, buffer);
+    commands.beginStep();
+    state_->forTopology(
+        from, [&](const vk::BufferView& own, const vk::BufferView& copy) { commands.copy(copy, own); });
+    commands.endStep();
+}
+
 void Simulation::recordSkin(VkCommandBuffer buffer) noexcept {
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
@@ -283,6 +344,12 @@ vk::BufferView Simulation::positions() const noexcept {
 }
 vk::BufferView Simulation::velocities() const noexcept {
     return state_->executor.view(state_->program.velocities);
+}
+vk::BufferView Simulation::pieces() const noexcept {
+    return state_->executor.view(state_->program.cutting.pieces);
+}
+vk::BufferView Simulation::pieceSizes() const noexcept {
+    return state_->executor.view(state_->program.cutting.pieceSizes);
 }
 vk::BufferView Simulation::skinVertices() const noexcept {
     return state_->executor.view(state_->program.skinVertices);
@@ -306,13 +373,17 @@ const StepProgram& Simulation::program() const noexcept {
 Status Simulation::status(std::uint64_t frame) const noexcept {
     const layout::StatusWords words = state_->statusWords(frame);
     const std::size_t slot = frame % framesInFlight;
+    const layout::CutCounts counts = state_->cutCounts(frame);
     return {.frame = words.frame,
             .nonFinite = words.nonFinite,
             .firstBadParticle = ~words.invertedFirstBad,
             .contactRoom = words.candidates,
             .slowed = words.slowed,
             .sleeping = words.sleeping,
-            .lostTime = state_->lostTime[slot]};
+            .lostTime = state_->lostTime[slot],
+            .linksCut = state_->hasBlade[slot] ? counts.linksOfStep : 0,
+            .linksCutInAll = counts.links,
+            .pieces = counts.pieces};
 }
 
 std::vector<std::string> Simulation::phases() const {

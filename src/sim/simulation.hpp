@@ -30,6 +30,24 @@ struct Grab {
     float maxSpeed = 10;         ///< of the held point on its way to the target [m/s]
 };
 
+/// The surface that the edge of a blade sweeps in a step: quads between two poly-lines, each of two triangles
+/// that share the edge from a point of `from` to the next of `to`. It cuts the links of bodies that may be
+/// cut (Grid::isCuttable) where these are as the step begins, and it may end inside of a body. Both [m],
+/// equally many points, 2 to ranges::mostBladePoints; anything else is no blade.
+struct Blade {
+    std::span<const Vec3> from, to;
+    /// `from` is where the last blade's `to` was, and goes on from there wherever the material has moved
+    /// since: a stroke over several steps then leaves no link between its sweeps. False begins a stroke.
+    bool isCarried = false;
+};
+
+/// Cuts every link that comes nearer than `radius` to a segment, as a pointer's ray of a certain depth: the
+/// plain cut, without a surface. [m]; radius 0 = none.
+struct RayCut {
+    Vec3 from, to;
+    float radius = 0;
+};
+
 /// What changes from step to step.
 struct Step {
     float dt =
@@ -47,6 +65,8 @@ struct Step {
     /// Wakes all that sleeps (Settings::sleeps). Not needed for what a step itself says: another gravity or
     /// dt wakes all, an anchor or a collider that moves wakes what it holds or comes near.
     bool wakes = false;
+    Blade blade; ///< read by record() only; repeat it where the step was undone
+    RayCut ray;
 };
 
 /// What a finished step found out about itself.
@@ -64,6 +84,9 @@ struct Status {
     std::uint32_t slowed = 0;
     std::uint32_t sleeping = 0; ///< particles that sleep at the end of the step
     float lostTime = 0;         ///< how much longer than the longest step Step::dt was [s]
+    std::uint32_t linksCut = 0; ///< in this step; links that only serve the surface of a cut do not count
+    std::uint32_t linksCutInAll = 0; ///< since the uncut bodies, or those of recordLoadTopology()
+    std::uint32_t pieces = 0;        ///< of bodies that may be cut, single particles among them
 };
 
 /// A range of the skin buffers that is one Skin of the scene.
@@ -118,6 +141,12 @@ public:
     /// anew and what a step says of frames goes on. Of this very simulation.
     void recordLoadState(VkCommandBuffer commands, const vk::BufferView& from,
                          const SavedState& saved) noexcept;
+    /// Size of a copy of what cuts have done: links, pieces and counts; 0 where no body may be cut [B].
+    std::uint64_t topologySize() const noexcept;
+    /// Records the copy of it into `to`, or back from `from`, both of topologySize(): an undo of cuts.
+    /// Positions are not in it. Between steps; `commands` as in recordReset(). Afterwards begin a new stroke.
+    void recordSaveTopology(VkCommandBuffer commands, const vk::BufferView& to) const noexcept;
+    void recordLoadTopology(VkCommandBuffer commands, const vk::BufferView& from) noexcept;
 
     /// Records the skins of the newest recorded state; afterwards skinVertices() is visible to vertex input.
     void recordSkin(VkCommandBuffer commands) noexcept;
@@ -127,6 +156,12 @@ public:
     /// velocities, an empty view, without Settings::publishesVelocities.
     vk::BufferView positions() const noexcept;
     vk::BufferView velocities() const noexcept;
+    /// Pieces of bodies that may be cut, as of the newest step: for each particle a uint32, the particle that
+    /// its piece is named after (one of them; 0xffffffff in other bodies), and for each particle the number
+    /// of particles of the piece that is named after it, 0 where none is. Empty views where no body may be
+    /// cut.
+    vk::BufferView pieces() const noexcept;
+    vk::BufferView pieceSizes() const noexcept;
     /// layout::SkinVertex (position, normal; stride 32) and 32-bit triangle indices; empty views without
     /// skins.
     vk::BufferView skinVertices() const noexcept;

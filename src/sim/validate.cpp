@@ -408,6 +408,25 @@ void checkGrids(const Scene& scene, Complaints& complaints) {
     checkOverlap(scene, complaints);
 }
 
+// Only where `split` computes a body are there links to cut. The scene is right in all else.
+void checkCutting(const Scene& scene, const Settings& settings, Complaints& complaints) {
+    if (std::ranges::none_of(scene.grids, &Grid::isCuttable)) return;
+    const std::vector<std::uint32_t> computed = lattice::computedGrids(scene, settings);
+    for (std::uint32_t g = 0; g < scene.grids.size(); ++g) {
+        if (!scene.grids[g].isCuttable) continue;
+        const std::string may = "may be cut, ";
+        if (settings.solver != Solver::split)
+            complaints.add(nameOf(scene, g), may + "which solver " + solverName(settings.solver) +
+                                                 " has no form for: use split");
+        else if (!settings.forms.usesGrids)
+            complaints.add(nameOf(scene, g), may + "which needs settings.forms.usesGrids");
+        else if (!std::ranges::binary_search(computed, g))
+            complaints.add(nameOf(scene, g), may +
+                                                 "which split can do only to a body that no other constraint "
+                                                 "holds, in a scene without bends and internal damping");
+    }
+}
+
 // Volumes stand in no list of constraints: where they cannot be computed they must not be lost. The scene is
 // right in all else.
 void checkCellVolumes(const Scene& scene, const Settings& settings, Complaints& complaints) {
@@ -471,6 +490,7 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings) 
     checkGrids(scene, complaints);
     for (std::size_t i = 0; i < scene.skins.size(); ++i)
         checkSkin(scene.skins[i], element("skin", i), scene.particles.size(), complaints);
+    if (complaints.isEmpty()) checkCutting(scene, settings, complaints);
     if (complaints.isEmpty()) checkCellVolumes(scene, settings, complaints);
     if (complaints.isEmpty()) checkChosenSweeps(scene, settings, complaints);
     if (complaints.isEmpty()) checkColors(scene, settings, complaints);

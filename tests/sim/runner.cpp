@@ -54,6 +54,10 @@ sim::Status Runner::step(float dt, std::span<const sim::Vec3> anchors) {
     return step({.dt = dt, .gravity = gravity_, .anchors = anchors});
 }
 
+sim::Status Runner::cut(const sim::Blade& blade, const sim::RayCut& ray) {
+    return step({.dt = dt_, .gravity = gravity_, .blade = blade, .ray = ray});
+}
+
 sim::Status Runner::step(sim::Step step) {
     step.frame = frame_;
     const VkCommandBuffer commands = queue().begin();

@@ -17,6 +17,8 @@ public:
     sim::Status step(float dt, std::span<const sim::Vec3> anchors = {});
     /// One step as it says, but for its frame.
     sim::Status step(sim::Step step);
+    /// One step of the scene's dt under its gravity with a blade or a ray.
+    sim::Status cut(const sim::Blade& blade, const sim::RayCut& ray = {});
     /// Steps of the scene's dt; returns the status of the last.
     sim::Status run(int steps);
     void reset();

@@ -10,19 +10,12 @@ namespace {
 
 constexpr std::uint32_t sheetColumns = 4; // COLUMNS_X of gather_sheet
 
+constexpr std::uint32_t cuttableColumns = 2; // of the kernels for lattices that may be cut
+
 // Columns of a block in x and in y.
 std::array<std::uint32_t, 2> blockOf(const Grid& grid, std::uint32_t columns) {
+    if (grid.isCuttable) columns = cuttableColumns;
     return isSheet(grid) ? std::array{sheetColumns, 1u} : std::array{columns, columns};
-}
-
-std::vector<Box> boxesOf(const Scene& scene, std::span<const std::uint32_t> grids) {
-    std::vector<Box> boxes;
-    auto first = static_cast<std::uint32_t>(paddedCount(listedParticles(scene, grids)));
-    for (const std::uint32_t grid : grids) {
-        boxes.push_back(place(scene.grids[grid], first));
-        first = boxes.back().end;
-    }
-    return boxes;
 }
 
 bool isFull(const Grid& grid) {
@@ -75,11 +68,17 @@ Batch& batchFor(std::vector<Batch>& batches, const Grid& grid, const layout::Lat
         layout::LatticePush other = batch.push;
         other.bodyChunks = push.bodyChunks; // grows with the bodies
         if (batch.isSheet == isSheet(grid) && batch.hasBodyDiagonals == hasBodyDiagonals &&
-            std::memcmp(&other, &push, sizeof push) == 0)
+            batch.isCuttable == grid.isCuttable && std::memcmp(&other, &push, sizeof push) == 0)
             return batch;
     }
-    return batches.emplace_back(Batch{
-        isSheet(grid), hasBodyDiagonals, hasCellVolumes(grid), grid.recoveryPressure > 0, push, {}, {}});
+    return batches.emplace_back(Batch{isSheet(grid),
+                                      hasBodyDiagonals,
+                                      hasCellVolumes(grid),
+                                      grid.recoveryPressure > 0,
+                                      grid.isCuttable,
+                                      push,
+                                      {},
+                                      {}});
 }
 
 std::size_t wholeGroups(std::size_t chunks) {
@@ -142,6 +141,16 @@ std::uint32_t listedParticles(const Scene& scene, std::span<const std::uint32_t>
     return static_cast<std::uint32_t>(count);
 }
 
+std::vector<Box> boxesOf(const Scene& scene, std::span<const std::uint32_t> grids) {
+    std::vector<Box> boxes;
+    auto first = static_cast<std::uint32_t>(paddedCount(listedParticles(scene, grids)));
+    for (const std::uint32_t grid : grids) {
+        boxes.push_back(place(scene.grids[grid], first));
+        first = boxes.back().end;
+    }
+    return boxes;
+}
+
 StateLayout layoutOf(const Scene& scene, std::span<const std::uint32_t> grids) {
     if (grids.empty()) return orderedLayout(scene.particles.size());
     constexpr std::uint32_t unset = 0xffffffffu;
@@ -171,7 +180,8 @@ bool isResident(const Scene& scene, const Settings& settings, std::span<const st
     if (grids.empty() || listedParticles(scene, grids) > 0) return false;
     return std::ranges::all_of(grids, [&](std::uint32_t g) {
         const Grid& grid = scene.grids[g];
-        return std::uint64_t{place(grid, 0).slots} * 2 * sizeof(layout::vec4) <= settings.forms.residentBytes;
+        return !grid.isCuttable &&
+               std::uint64_t{place(grid, 0).slots} * 2 * sizeof(layout::vec4) <= settings.forms.residentBytes;
     });
 }
 

@@ -17,9 +17,13 @@ std::uint32_t listedParticles(const Scene& scene, std::span<const std::uint32_t>
 
 StateLayout layoutOf(const Scene& scene, std::span<const std::uint32_t> grids);
 
+/// Where each of `grids` is in the state.
+std::vector<Box> boxesOf(const Scene& scene, std::span<const std::uint32_t> grids);
+
 /// One dispatch of a substep, or of all substeps of a step where the bodies are resident.
 struct Batch {
-    bool isSheet = false, hasBodyDiagonals = false, hasVolumes = false, hasRecovery = false;
+    bool isSheet = false, hasBodyDiagonals = false, hasVolumes = false, hasRecovery = false,
+         isCuttable = false;
     layout::LatticePush push{}; ///< count = chunks, or lanes of all bodies
     std::vector<layout::LatticeChunk>
         chunks;                        ///< padded with empty ones, to whole work groups (for each body)
@@ -31,7 +35,8 @@ struct Batches {
     std::vector<std::uint32_t> cells; ///< fill around the node in each slot
 };
 
-/// Whether all of the scene fits into the shared memory that the settings grant, body by body.
+/// Whether all of the scene fits into the shared memory that the settings grant, body by body. Bodies that
+/// may be cut never do: their kernels have no resident form.
 bool isResident(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids);
 
 Batches batchesOf(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids,

@@ -25,6 +25,10 @@
 // Pressure that unfolds cells acts only in cells without volume and shall cost the others nothing: it takes
 // no part in sum k~, but overdraws a particle by up to the factor 1 + recoveryBudget, which the bound on
 // omega leaves room for.
+//
+// A cut leaves tau as it is. Of the sum that bounds a particle only terms go, so the bound holds with the old
+// tau, and each link keeps the clamp that it had: what is cut off is as stiff as before, though some of its
+// links might have become stiffer.
 #pragma once
 
 #include "sim/scene.hpp"

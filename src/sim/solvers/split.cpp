@@ -181,6 +181,9 @@ Gather gridGather(const Common& common, const lattice::Batch& batch, BufferId ce
     if (batch.hasVolumes) gather.constants[recoveryId] = batch.hasRecovery;
     gather.buffers.push_back(cells);
     gather.buffers.push_back(common.program.upload("grid.chunks", batch.chunks));
+    const CuttingBuffers& cutting = common.program.program().cutting;
+    if (batch.isCuttable) gather.buffers.push_back(cutting.links);
+    if (batch.isCuttable && batch.hasVolumes) gather.buffers.push_back(cutting.wholeCells);
     return gather;
 }
 

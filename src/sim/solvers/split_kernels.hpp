@@ -55,6 +55,13 @@ inline constexpr Kernel volumeSingle{&k::gatherLatticeVolumeSingle, &k::gatherLa
 inline constexpr Kernel residentVolume = inOneForm(k::residentLatticeVolume, k::residentLatticeVolumePlanes);
 inline constexpr Kernel sheet{&k::gatherSheet, &k::gatherSheetPlanes, &k::gatherSheetLoads,
                               &k::gatherSheetLoadsPlanes};
+// Of bodies that may be cut.
+inline constexpr Kernel cuttable{&k::gatherCuttable, &k::gatherCuttablePlanes, &k::gatherCuttableLoads,
+                                 &k::gatherCuttableLoadsPlanes};
+inline constexpr Kernel cuttableVolume{&k::gatherCuttableVolume, &k::gatherCuttableVolumePlanes,
+                                       &k::gatherCuttableVolumeLoads, &k::gatherCuttableVolumeLoadsPlanes};
+inline constexpr Kernel cuttableSheet{&k::gatherCuttableSheet, &k::gatherCuttableSheetPlanes,
+                                      &k::gatherCuttableSheetLoads, &k::gatherCuttableSheetLoadsPlanes};
 
 // Gathers links in the general form, with what else the scene has.
 inline const Kernel& generalKernel(bool isRanged, bool bends, bool damps) {
@@ -65,6 +72,7 @@ inline const Kernel& generalKernel(bool isRanged, bool bends, bool damps) {
 
 // Marches a batch once a substep.
 inline const Kernel& kernelFor(const lattice::Batch& batch, std::uint32_t columns) {
+    if (batch.isCuttable) return batch.isSheet ? cuttableSheet : batch.hasVolumes ? cuttableVolume : cuttable;
     if (batch.isSheet) return sheet;
     if (batch.hasVolumes) return columns == 2 ? volumePairs : volumeSingle;
     return columns == 2 ? latticePairs : latticeSingle;

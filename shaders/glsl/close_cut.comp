@@ -1,0 +1,25 @@
+#version 460
+// Closes a step with a blade: counts what was cut, or takes it back where the step is undone.
+#extension GL_GOOGLE_include_directive : require
+#include "cut.glsl"
+#include "link_masks.glsl"
+
+layout(std430, binding = 0) buffer Links { uint links[]; };
+layout(std430, binding = 1) readonly buffer SavedLinks { uint savedLinks[]; };
+layout(std430, binding = 2) readonly buffer Places { vec4 places[]; };
+layout(std430, binding = 3) writeonly buffer PlacesBefore { vec4 before[]; };
+layout(std430, binding = 4) readonly buffer Status { StatusWords status; };
+layout(std430, binding = 5) buffer Work { CutWork work; };
+
+void main() {
+    const uint item = itemIndex(push.count);
+    if (item >= push.count) return;
+    const uint i = push.first + item;
+    if (!isFinished(status)) {
+        links[i] = savedLinks[i];
+        return;
+    }
+    before[i] = places[i];
+    const uint cut = savedLinks[i] & ~links[i] & OWNED_MASK & push.stiffLinks;
+    if (cut != 0u) atomicAdd(work.cut, uint(bitCount(cut)));
+}

@@ -1,0 +1,8 @@
+// Part of the kernels that cut: which slot an item stands for.
+#include "kernel.glsl"
+layout(push_constant) uniform Push { CutPush push; };
+
+// From a node to the next along a direction of one step at most in x, y and z.
+int offsetOf(ivec3 direction) {
+    return direction.x + direction.y * int(push.rowStride) + direction.z * int(push.sliceStride);
+}

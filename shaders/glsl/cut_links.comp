@@ -1,0 +1,105 @@
+#version 460
+// Cuts the links that the blade has swept over since the step before, or that a ray comes near: clears their bits at both ends, in
+// the state that the step begins with. Every node tests the links that it owns; first their box against that of the blade, then
+// what is left against every quad. Bits are only ever cleared, so order and repetition change nothing.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#include "cut.glsl"
+#include "link_masks.glsl"
+#include "blade_hit.glsl"
+
+#ifdef TEXELS
+layout(binding = 0) uniform samplerBuffer places;
+#define PLACE(i) texelFetch(places, int(i)).xyz
+#else
+layout(std430, binding = 0) readonly buffer Places { vec4 places[]; };
+#define PLACE(i) places[i].xyz
+#endif
+layout(std430, binding = 1) readonly buffer PlacesBefore { vec4 before[]; };
+layout(std430, binding = 2) buffer Links { uint links[]; };
+layout(std430, binding = 3) buffer Hits { LinkHits hits[]; };
+layout(std430, binding = 4) writeonly buffer Dirty { uint dirty[]; };
+layout(std140, binding = 5) uniform Blade { BladeHead blade; };
+layout(std430, binding = 6) readonly buffer Points { vec4 points[]; };
+layout(std430, binding = 7) readonly buffer Work { CutWork work; };
+layout(std430, binding = 8) readonly buffer SavedLinks { uint savedLinks[]; }; // before this blade, whatever is cut meanwhile
+
+// The best affine motion of what i is linked with [Mueller 2005]; none where that lies in a plane.
+mat3 turnAround(uint i) {
+    mat3 moved = mat3(0.0), spread = mat3(0.0);
+    for (int bit = 0; bit < FIRST_OWNED + OWNED_LINKS; ++bit) {
+        if ((savedLinks[i] >> bit & 1u) == 0u) continue;
+        const uint j = uint(int(i) + offsetOf(directionOf(bit)));
+        const vec3 d = before[j].xyz - before[i].xyz;
+        moved += outerProduct(PLACE(j) - PLACE(i), d);
+        spread += outerProduct(d, d);
+    }
+    const float size = spread[0].x + spread[1].y + spread[2].z;
+    return determinant(spread) > 1e-3 * size * size * size ? moved * inverse(spread) : mat3(1.0);
+}
+
+// How far along the link from i to j, which lie at a and b.
+float hitOf(uint i, uint j, vec3 a, vec3 b, mat3 turn, float eps) {
+    const bool isMoved = blade.isCarried != 0u && min(before[i].w, before[j].w) > 0.0;
+    const Motion motion = Motion(0.5 * (before[i].xyz + before[j].xyz), 0.5 * (a + b), turn, isMoved ? overlap * push.spacing : 0.0);
+    float nearest = never;
+    vec3 from = carried(points[0].xyz, points[1].xyz, motion), to = points[1].xyz;
+    for (uint q = 1u; q <= blade.quads; ++q) {
+        const vec3 nextTo = points[2u * q + 1u].xyz, nextFrom = carried(points[2u * q].xyz, nextTo, motion);
+        nearest = min(nearest, quadHit(a, b, from, nextFrom, to, nextTo, eps));
+        from = nextFrom;
+        to = nextTo;
+    }
+    if (blade.rayFrom.w > 0.0) nearest = min(nearest, rayHit(a, b, blade.rayFrom.xyz, blade.rayTo.xyz, blade.rayFrom.w));
+    return nearest;
+}
+
+void storeHit(uint i, int bit, float t) {
+    const int k = kuhnIndexOf(bit);
+    if (k < 0) return;
+    const uint value = uint(round(255.0 * clamp(t, 0.02, 0.98)));
+    if (k < 4) hits[i].low = bitfieldInsert(hits[i].low, value, 8 * k, 8);
+    else hits[i].high = bitfieldInsert(hits[i].high, value, 8 * k - 32, 8);
+}
+
+// Links of nodes within a step of i may now hang on others that died: marks those nodes.
+void markAround(uint i) {
+    for (int z = -1; z <= 1; ++z)
+        for (int y = -1; y <= 1; ++y) {
+            const uint row = uint(int(i) + offsetOf(ivec3(0, y, z)));
+            dirty[row - 1u >> 5] = 1u;
+            dirty[row + 1u >> 5] = 1u;
+        }
+}
+
+void main() {
+    const uint item = itemIndex(push.count), i = push.first + min(item, push.count - 1u);
+    const uint owned = item < push.count ? links[i] & OWNED_MASK : 0u;
+    const vec3 a = PLACE(i);
+    const float eps = max(1e-4 * push.spacing, 5e-7 * blade.extent);
+    // what is carried to a link may come from as far away as anything has moved, and turns by less than a cell within one
+    const float margin = eps + (blade.isCarried != 0u ? uintBitsToFloat(work.farthest) + push.spacing : 0.0);
+    const vec3 low = blade.low.xyz - margin, high = blade.high.xyz + margin;
+    uint near = 0u;
+    [[unroll]] for (int bit = FIRST_OWNED; bit < FIRST_OWNED + OWNED_LINKS; ++bit) {
+        const vec3 b = PLACE(uint(int(i) + offsetOf(directionOf(bit))));
+        near |= uint(all(lessThanEqual(min(a, b), high)) && all(greaterThanEqual(max(a, b), low))) << bit;
+    }
+    near &= owned;
+    mat3 turn = mat3(1.0);
+    if (near != 0u && blade.isCarried != 0u) turn = turnAround(i);
+    uint cut = 0u;
+    while (near != 0u) {
+        const int bit = findLSB(near);
+        near &= near - 1u;
+        const uint j = uint(int(i) + offsetOf(directionOf(bit)));
+        const float t = hitOf(i, j, a, PLACE(j), turn, eps);
+        if (t > 1.0) continue;
+        cut |= 1u << bit;
+        atomicAnd(links[j], ~(1u << 25 - bit));
+        storeHit(i, bit, t);
+    }
+    if (cut == 0u) return;
+    atomicAnd(links[i], ~cut);
+    markAround(i);
+}

@@ -1,0 +1,28 @@
+// Which links of a node are alive (src/sim/lattice/link_masks.hpp): bit b is the link in the direction of step s,
+// s = x + 1 + 3 (y + 1) + 9 (z + 1) without the one that stays. The other end has it as bit 25 - b. Bits from FIRST_OWNED on lead
+// to higher nodes (z, then y, then x): the node owns those links.
+#define FIRST_OWNED 13
+#define OWNED_LINKS 13
+#define OWNED_MASK 0x3ffe000u
+
+int bitOf(int dx, int dy, int dz) {
+    const int s = dx + 1 + 3 * (dy + 1) + 9 * (dz + 1);
+    return s < FIRST_OWNED ? s : s - 1;
+}
+
+// Corner k of a box, as everywhere.
+ivec3 cornerOf(int k) { return ivec3(k & 1, k >> 1 & 1, k >> 2); }
+
+bool isAlive(uint links, int dx, int dy, int dz) { return (links >> bitOf(dx, dy, dz) & 1u) != 0u; }
+
+ivec3 directionOf(int bit) {
+    const int s = bit < FIRST_OWNED ? bit : bit + 1;
+    return ivec3(s % 3, s / 3 % 3, s / 9) - 1;
+}
+
+// Of the seven owned links that are edges of Kuhn's tetrahedra the how manieth this is, in the order of their bits; -1 for the
+// others. (1,0,0) (0,1,0) (1,1,0) (0,0,1) (1,0,1) (0,1,1) (1,1,1)
+int kuhnIndexOf(int bit) {
+    const ivec3 d = directionOf(bit);
+    return any(lessThan(d, ivec3(0))) ? -1 : d.x + 2 * d.y + 4 * d.z - 1;
+}

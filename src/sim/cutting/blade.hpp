@@ -1,0 +1,32 @@
+// What a step says of its blade and its ray, in the form that kernels read. Host only; never allocates.
+#pragma once
+
+#include "layout.h"
+#include "sim/ranges.hpp"
+#include "sim/simulation.hpp"
+
+#include <array>
+#include <span>
+
+namespace sinew::sim::cutting {
+
+class BladeWords {
+public:
+    /// Reads `step`; whether there is anything that cuts. A blade with too many points, poly-lines of unequal
+    /// length or numbers that are not finite is none.
+    bool read(const Step& step) noexcept;
+
+    std::span<const std::byte> head() const noexcept { return std::as_bytes(std::span(&head_, 1)); }
+    std::span<const std::byte> points() const noexcept {
+        return std::as_bytes(std::span(points_).first(2 * (head_.quads + std::size_t{1})));
+    }
+
+private:
+    bool readBlade(const Blade& blade) noexcept;
+    bool readRay(const RayCut& ray) noexcept;
+
+    layout::BladeHead head_{};
+    std::array<layout::vec4, 2 * ranges::mostBladePoints> points_{};
+};
+
+} // namespace sinew::sim::cutting

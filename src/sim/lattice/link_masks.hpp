@@ -1,0 +1,38 @@
+// Which links of a node are alive, one bit each: what cutting clears and kernels for bodies that may be cut
+// read (shaders/glsl/link_masks.glsl has the same bits). Bit b is the link in direction directionOf(b); its
+// other end has the same link as bit 25 - b, and both always agree.
+#pragma once
+
+#include "sim/lattice/placement.hpp"
+
+namespace sinew::sim::lattice {
+
+inline constexpr std::uint32_t directionCount = 26;
+/// Bits from here on lead to a higher node, by z, then y, then x: the node owns those links.
+inline constexpr std::uint32_t firstOwned = 13;
+
+/// Steps along x, y and z, each -1, 0 or 1: x + 1 + 3 (y + 1) + 9 (z + 1) without the one that stays.
+constexpr std::array<int, 3> directionOf(std::uint32_t bit) {
+    const int step = static_cast<int>(bit < firstOwned ? bit : bit + 1);
+    return {step % 3 - 1, step / 3 % 3 - 1, step / 9 - 1};
+}
+
+/// Directions of the edges of the six tetrahedra into which a cell is split (Kuhn): along axes, the face
+/// diagonals of which both steps have one sign, and (1, 1, 1). All of them are links of the mask, in bodies
+/// without body diagonals too, where (1, 1, 1) has no stiffness.
+constexpr bool isKuhn(const std::array<int, 3>& direction) {
+    bool isUp = false, isDown = false;
+    for (const int step : direction) {
+        isUp = isUp || step > 0;
+        isDown = isDown || step < 0;
+    }
+    return isUp != isDown;
+}
+
+/// Bits of the links that have stiffness.
+std::uint32_t stiffLinks(const Grid& grid);
+
+/// Links of an uncut body, written into `words` by slot; what is no node keeps its word.
+void writeLinks(const Grid& grid, const Box& box, std::span<std::uint32_t> words);
+
+} // namespace sinew::sim::lattice

@@ -1,0 +1,32 @@
+// Connected components of bodies by their links, on the host: of the uncut ones, and to check the device's.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sinew::sim::lattice {
+
+struct Pieces {
+    std::vector<std::uint32_t> labels;      ///< by slot: lowest slot of the piece
+    std::vector<std::uint32_t> ofParticles; ///< by particle: that in the piece's lowest slot, or NO_PARTICLE
+    std::vector<std::uint32_t> sizes;       ///< by particle: particles of the piece if it is that one, else 0
+    std::uint32_t count = 0;                ///< of pieces
+};
+
+class PieceFinder {
+public:
+    explicit PieceFinder(std::size_t slots);
+
+    /// A link leads from slot `a` to slot `b`.
+    void join(std::uint32_t a, std::uint32_t b);
+
+    /// `particles` by slot, NO_PARTICLE where there is none.
+    Pieces finish(std::span<const std::uint32_t> particles, std::size_t particleCount);
+
+private:
+    std::uint32_t lowest(std::uint32_t slot);
+    std::vector<std::uint32_t> labels_;
+};
+
+} // namespace sinew::sim::lattice

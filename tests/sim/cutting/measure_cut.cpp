@@ -1,0 +1,75 @@
+// ms of processor time of a step without a blade, in a body that may be cut and in one that may not, and of
+// what a blade adds: through the body and beside it. With LP_NUM_THREADS=0 a software device computes on one
+// thread and steadily.
+#include "sim/bodies.hpp"
+#include "sim/simulation.hpp"
+#include "vk/loader.hpp"
+#include "vk/queue.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+
+using namespace sinew;
+using namespace sinew::sim;
+
+namespace {
+
+constexpr float spacing = 0.02f;
+
+Scene cube(std::uint32_t side, bool hasBodyDiagonals, bool isCuttable) {
+    Scene scene{.name = "cube"};
+    addLattice(scene, {.cells = {side - 1, side - 1, side - 1},
+                       .spacing = spacing,
+                       .youngModulus = 1e5f,
+                       .hasBodyDiagonals = hasBodyDiagonals,
+                       .isCuttable = isCuttable});
+    return scene;
+}
+
+// The shortest of some steps, each from the scene's state.
+double shortest(const vk::Device& device, vk::Queue& queue, const Scene& scene, std::uint32_t substeps,
+                const Blade& blade) {
+    Simulation simulation(device, scene, {.substeps = substeps, .publishesVelocities = false});
+    double best = 1e9;
+    for (int run = 0; run < 9; ++run) {
+        VkCommandBuffer commands = queue.begin();
+        simulation.recordReset(commands);
+        queue.wait(queue.submit(commands));
+        commands = queue.begin();
+        simulation.record(commands, {.blade = blade});
+        const std::clock_t start = std::clock();
+        queue.wait(queue.submit(commands));
+        best = std::min(best, 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+    }
+    return best;
+}
+
+} // namespace
+
+int main() {
+    const vk::Loader loader;
+    const vk::Device device = vk::Device::create(loader.getInstanceProcAddr(), {});
+    vk::Queue queue(device);
+    for (const std::uint32_t side : {16u, 32u})
+        for (const bool hasBodyDiagonals : {false, true}) {
+            const Scene plain = cube(side, hasBodyDiagonals, false),
+                        scene = cube(side, hasBodyDiagonals, true);
+            const auto links = static_cast<double>(scene.distances.size());
+            const float x = 0.4871f * spacing * static_cast<float>(side);
+            const Vec3 from[] = {{x, -1, -1}, {x, -1, 2}}, to[] = {{x + 0.01f, 2, -1}, {x, 2, 2}},
+                       fromBeside[] = {{-x, -1, -1}, {-x, -1, 2}}, toBeside[] = {{-x, 2, -1}, {-x, 2, 2}};
+            const double one = shortest(device, queue, scene, 1, {}),
+                         many = shortest(device, queue, scene, 33, {}),
+                         onePlain = shortest(device, queue, plain, 1, {}),
+                         manyPlain = shortest(device, queue, plain, 33, {}),
+                         through = shortest(device, queue, scene, 1, {.from = from, .to = to}),
+                         beside = shortest(device, queue, scene, 1, {.from = fromBeside, .to = toBeside});
+            std::printf("%2u^3, %d neighbours, %.0f links: substep %.3f ms, uncuttable %.3f ms; a blade "
+                        "through it adds "
+                        "%.3f ms = %.2f ns a link, beside it %.3f ms = %.2f ns\n",
+                        side, hasBodyDiagonals ? 26 : 18, links, (many - one) / 32,
+                        (manyPlain - onePlain) / 32, through - one, 1e6 * (through - one) / links,
+                        beside - one, 1e6 * (beside - one) / links);
+        }
+}

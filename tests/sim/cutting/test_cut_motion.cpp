@@ -1,0 +1,127 @@
+// Strokes over many steps through a body that moves meanwhile, and what becomes of the pieces.
+#include "sim/bodies.hpp"
+#include "sim/cutting/cut_body.hpp"
+#include "sim/scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <numeric>
+
+using namespace sinew;
+using namespace sinew::sim;
+using Eigen::Vector3d;
+using test::CutBody;
+using test::Sweep;
+
+namespace {
+
+constexpr float spacing = 0.05f;
+constexpr std::uint32_t cells = 6;
+
+Scene movingCube(const Vector3d& velocity, const Vector3d& turning = Vector3d::Zero()) {
+    Scene scene{.name = "moving cube", .gravity = {0, 0, 0}};
+    addLattice(scene, {.origin = {0, 0, 0},
+                       .cells = {cells, cells, cells},
+                       .spacing = spacing,
+                       .youngModulus = 1e5f,
+                       .isCuttable = true});
+    const Vector3d centre = Vector3d::Constant(0.5 * cells * double{spacing});
+    for (Particle& particle : scene.particles)
+        particle.velocity =
+            test::toFloats(velocity + turning.cross(test::toVector(particle.position) - centre));
+    return scene;
+}
+
+// A blade along y that moves through the body along x from `beyond` cells before it to as many behind, in
+// `steps` steps of equal way in the body's frame, in the plane z = height.
+Status stroke(CutBody& body, int steps, double height, const Vector3d& perStep, double beyond = 0.5) {
+    const double low = -beyond * double{spacing}, high = (cells + beyond) * double{spacing};
+    Sweep sweep;
+    Status status;
+    std::vector<Vec3> last;
+    for (int s = 0; s <= steps; ++s) {
+        const Vector3d shift = s * perStep;
+        const double x = low + (high - low) * s / steps;
+        sweep.from = last;
+        sweep.to = {test::toFloats(Vector3d(x, low, height) + shift),
+                    test::toFloats(Vector3d(x, high, height) + shift)};
+        sweep.isCarried = s > 1;
+        last = sweep.to;
+        if (s > 0) status = body.cut(sweep);
+    }
+    return status;
+}
+
+} // namespace
+
+// Cutting design, 9.3. The body moves 0.02 to 0.3 cells a step, along the stroke, across it and both. 28
+// steps over 7 cells end on a column of particles in every fourth.
+TEST(Stroke, Of30StepsThroughAMovingBodyLeavesTwoPieces) {
+    struct Case {
+        Vector3d cellsAStep;
+        double height; // of the blade [cells]
+        int steps;
+    };
+    const Case cases[] = {{{0, 0, 0}, 3, 28},     {{0, 0, 0}, 2.5, 30},      {{0.02, 0, 0}, 3, 28},
+                          {{-0.1, 0, 0}, 3, 28},  {{0.3, 0, 0}, 2.5, 28},    {{0, 0, 0.02}, 2.5, 28},
+                          {{0, 0, 0.3}, 2.5, 30}, {{-0.2, 0, 0.2}, 2.6, 28}, {{0.1, 0.3, -0.1}, 2.4, 30}};
+    for (const Case& each : cases) {
+        const Vector3d way = double{spacing} * each.cellsAStep;
+        CutBody body(movingCube(way * 60));
+        const Status status = stroke(body, each.steps, each.height * double{spacing}, way);
+        EXPECT_EQ(status.pieces, 2u) << each.cellsAStep.transpose() << " cells a step, height "
+                                     << each.height;
+        EXPECT_EQ(body.oneSided(), 0u);
+        EXPECT_EQ(body.pieces(), body.expectedPieces());
+    }
+}
+
+// The blade stands still in the world and the body falls onto it: `from` and `to` are the same, carried edges
+// make the sweep.
+TEST(Stroke, OfABladeThatABodyMovesOntoCutsIt) {
+    const double way = 0.2 * double{spacing};
+    CutBody body(movingCube(Vector3d(-way * 60, 0, 0)));
+    const auto x = static_cast<float>(-0.5 * double{spacing}), z = 2.5f * spacing;
+    const Sweep still{.from = {{x, -1, z}, {x, 1, z}}, .to = {{x, -1, z}, {x, 1, z}}, .isCarried = true};
+    Status status;
+    for (int s = 0; s < 45; ++s) status = body.cut(still);
+    EXPECT_EQ(status.pieces, 2u);
+}
+
+// A turning body, of which every link sees the blade's old edge elsewhere.
+TEST(Stroke, ThroughATurningBodyLeavesNoLinkBetweenTwoLargePieces) {
+    for (const double turns : {0.5, 2.0}) { // rad/s
+        CutBody body(movingCube(Vector3d::Zero(), Vector3d(turns, 0.5 * turns, turns)));
+        const Status status = stroke(body, 30, 2.6 * double{spacing}, Vector3d::Zero(), 3);
+        std::vector<std::uint32_t> sizes = body.pieceSizes();
+        std::ranges::sort(sizes, std::greater<>());
+        EXPECT_GE(status.pieces, 2u);
+        EXPECT_GT(sizes[1], 60u) << "of 343";
+        EXPECT_GE(sizes[0] + sizes[1], 338u) << "and hardly a crumb";
+    }
+}
+
+TEST(Pieces, FallApartAndKeepMassAndMomentum) {
+    Scene scene = movingCube(Vector3d::Zero());
+    const double middle = 2.5 * double{spacing};
+    for (Particle& particle : scene.particles) // two halves that part once nothing holds them
+        particle.velocity = {0, 0, double{particle.position.z} < middle ? -0.5f : 0.5f};
+    CutBody body(scene, {.substeps = 8});
+    const Sweep sweep = test::sweepOf({Vector3d(0, 0, middle), Vector3d::UnitZ()}, 2, 2);
+    EXPECT_EQ(body.cut(sweep).pieces, 2u);
+    body.runner().run(59);
+    const auto x = body.runner().positions(), v = body.runner().velocities();
+    const auto pieces = body.pieces();
+    Vector3d momentum = Vector3d::Zero(), expected = Vector3d::Zero();
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const double mass = 1 / double{scene.particles[i].inverseMass};
+        momentum += mass * v[i];
+        expected += mass * test::toVector(scene.particles[i].velocity);
+        const double gone = pieces[i] == pieces[0] ? -0.5 : 0.5;
+        EXPECT_NEAR(x[i].z() - body.at(static_cast<std::uint32_t>(i)).z(), gone, 1e-4) << "particle " << i;
+    }
+    EXPECT_LE((momentum - expected).norm(), 1e-5 * test::massOf(scene));
+}
