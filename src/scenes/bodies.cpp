@@ -186,7 +186,9 @@ void addOneBox(LoadedScene& loaded, const Section& box, const sim::Lattice& latt
     try {
         corners = sim::addLattice(loaded.scene, lattice);
     } catch (const std::domain_error& error) {
-        box.fail(lattice.poissonRatio > 0.25f ? "poisson_ratio" : "recovery",
+        box.fail(lattice.isCuttable             ? "cuttable"
+                 : lattice.poissonRatio > 0.25f ? "poisson_ratio"
+                                                : "recovery",
                  std::string("cannot be had: ") + error.what(), "move the body nearer to the origin");
     }
     clampFaces(loaded.scene, box, corners);
@@ -245,6 +247,7 @@ void addCloth(LoadedScene& loaded, const Section& cloth) {
                           .tethers = cloth.count("tethers"),
                           .radius = radiusOf(cloth),
                           .pinned = {},
+                          .isCuttable = cloth.flag("cuttable"),
                           .color = cloth.vector("color")};
     checkRoom(loaded, std::uint64_t{sheet.size[0]} * sheet.size[1], cloth, "size");
     addPins(cloth, sheet);
@@ -286,7 +289,8 @@ void addBox(LoadedScene& loaded, const Section& box) {
                                .poissonRatio = box.number("poisson_ratio"),
                                .recovery = box.number("recovery"),
                                .density = box.number("density"),
-                               .radius = radiusOf(box)};
+                               .radius = radiusOf(box),
+                               .isCuttable = box.flag("cuttable")};
     const BoxRows rows = rowsOf(box, lattice, copies, loaded.origin);
     const std::size_t first = loaded.scene.particles.size();
     for (std::uint64_t i = 0; i < count; ++i) {

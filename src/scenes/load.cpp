@@ -2,6 +2,7 @@
 // validates.
 #include "scenes/load.hpp"
 
+#include "scenes/blades.hpp"
 #include "scenes/bodies.hpp"
 #include "scenes/built_in.hpp"
 #include "scenes/origin.hpp"
@@ -87,6 +88,8 @@ void readBodies(LoadedScene& loaded, const Section& top, const Source& source, s
     for (const Section& mesh : top.list("mesh_collider")) addMeshCollider(loaded, mesh, source);
     for (const Section& plane : top.list("plane")) addPlane(loaded, plane);
     for (const Section& collider : top.list("collider")) addCollider(loaded, collider);
+    for (const Section& blade : top.list("blade")) addBlade(loaded, blade);
+    checkBlades(loaded, top);
 }
 
 void warnAboutSize(const sim::Body& body, LoadedScene& loaded) {

@@ -29,6 +29,13 @@ struct MeshSummary {
     mesh::VoxelGrid voxels;
 };
 
+/// The edge of a blade, a poly-line, at certain times; in between it moves straight.
+struct BladeMotion {
+    std::string name;
+    std::vector<double> times;                 ///< [s] since the start, at least two, ascending
+    std::vector<std::vector<sim::Vec3>> edges; ///< one a time, of equally many points [m]
+};
+
 struct LoadedScene {
     sim::Scene scene;
     sim::Settings settings;      ///< substeps is a number
@@ -38,6 +45,7 @@ struct LoadedScene {
     std::array<double, 3> origin{};
     std::optional<Camera> camera;
     std::vector<MeshSummary> meshes;
+    std::vector<BladeMotion> blades;   ///< no two of them in one step; ScriptedBlades plays them
     std::vector<std::string> warnings; ///< sentences, such as "mesh bunny.obj is open: 72 boundary edges ..."
 };
 

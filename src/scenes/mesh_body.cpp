@@ -141,6 +141,7 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
                         .recovery = section.number("recovery"),
                         .density = section.number("density"),
                         .touchesParticles = section.flag("collides"),
+                        .isCuttable = section.flag("cuttable"),
                         .color = section.vector("color")};
     body.voxels.resolution = section.count("resolution");
     if (section.has("voxel")) body.voxels.spacing = section.number("voxel");
@@ -155,7 +156,9 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
         section.fail("voxel", std::string("is too small for this mesh (") + error.what() + ")",
                      "give larger voxels");
     } catch (const std::domain_error& error) {
-        section.fail(body.poissonRatio > 0.25f ? "poisson_ratio" : "recovery",
+        section.fail(body.isCuttable             ? "cuttable"
+                     : body.poissonRatio > 0.25f ? "poisson_ratio"
+                                                 : "recovery",
                      std::string("cannot be had: ") + error.what(), "move the body nearer to the origin");
     }
     addSurface(loaded, section, first);

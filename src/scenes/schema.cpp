@@ -27,6 +27,7 @@ constexpr Range side{2, 4096}, chainLength{2, 100'000}, cellsAlong{1, 512}, deta
 constexpr Range rowLength{1, 4096}, copies{1, 4096}, particleNumber{1, 2'000'000}, seed{0, 1e6};
 constexpr Range jitter{0, 1e6}, speed{-1e6, 1e6};
 constexpr Range mass{.low = 0, .high = 1e9, .isLowOpen = true}, load{0, 1e9};
+constexpr Range time{0, 1e6};
 constexpr Range view{.low = 0, .high = 180, .isLowOpen = true, .isHighOpen = true};
 
 constexpr KindRule kindRules[] = {
@@ -40,6 +41,8 @@ constexpr KindRule kindRules[] = {
     {Kind::pins, "a list of corner or edge names and [column, row] pairs", 0, false},
     {Kind::names, "a list of names in quotes", 0, false},
     {Kind::flag, "true or false", 0, false},
+    {Kind::numbers, "a list of numbers", 0, false},
+    {Kind::lines, "a list of poly-lines [[x, y, z], ...]", 0, false},
     {Kind::table, "a table", 0, false},
     {Kind::tables, "a list of tables", 0, false},
 };
@@ -62,6 +65,7 @@ constexpr Key keys[] = {
     {"", "plane", Kind::tables, "", {}, "", "half spaces that particles stay in"},
     {"", "collider", Kind::tables, "", {}, "", "spheres, capsules and boxes that particles stay out of, still or moving"},
     {"", "contacts", Kind::table, "", {}, "", "how particles touch each other"},
+    {"", "blade", Kind::tables, "", {}, "", "blades that cut at given times"},
     {"", "camera", Kind::table, "", {}, "", "where a picture is taken from"},
 
     {"solver", "name", Kind::text, "", {}, "\"split\"", "split, jacobi or gauss_seidel"},
@@ -94,6 +98,7 @@ constexpr Key keys[] = {
     {"cloth", "friction", Kind::number, "", ranges::friction, "", "Coulomb's coefficient of a pair: the geometric mean of both; that of [contacts] where it is missing"},
     {"cloth", "restitution", Kind::number, "", ranges::restitution, "", "0 = no rebound, 1 = elastic; a pair has the larger of both; that of [contacts] where it is missing"},
     {"cloth", "thickness", Kind::number, "m", length, "", "of a sheet that touches particles, meshes, other sheets and itself by its triangles; instead of collides and radius"},
+    {"cloth", "cuttable", Kind::flag, "", {}, "false", "whether a blade may cut the body"},
     {"cloth", "color", Kind::vector, "", ranges::color, "[0.16, 0.34, 0.58]", "linear red, green and blue"},
 
     {"chain", "name", Kind::text, "", {}, "\"chain\"", "name of the body in reports and files"},
@@ -123,6 +128,7 @@ constexpr Key keys[] = {
     {"box", "restitution", Kind::number, "", ranges::restitution, "", "0 = no rebound, 1 = elastic; a pair has the larger of both; that of [contacts] where it is missing"},
     {"box", "copies", Kind::counts3, "", copies, "[1, 1, 1]", "so many such boxes along x, y and z, in the place of one"},
     {"box", "pitch", Kind::vector, "m", coordinate, "", "from a box to the next along x, y and z; the side and two spacings where it is missing"},
+    {"box", "cuttable", Kind::flag, "", {}, "false", "whether a blade may cut the body"},
     {"box", "color", Kind::vector, "", ranges::color, "[0.78, 0.36, 0.32]", "linear red, green and blue"},
 
     {"mesh", "name", Kind::text, "", {}, "", "name of the body in reports and files; that of the mesh file or shape where it is missing"},
@@ -142,6 +148,7 @@ constexpr Key keys[] = {
     {"mesh", "collides", Kind::flag, "", {}, "false", "whether its particles touch others, with a radius of half a voxel"},
     {"mesh", "friction", Kind::number, "", ranges::friction, "", "Coulomb's coefficient of a pair: the geometric mean of both; that of [contacts] where it is missing"},
     {"mesh", "restitution", Kind::number, "", ranges::restitution, "", "0 = no rebound, 1 = elastic; a pair has the larger of both; that of [contacts] where it is missing"},
+    {"mesh", "cuttable", Kind::flag, "", {}, "false", "whether a blade may cut the body"},
     {"mesh", "color", Kind::vector, "", ranges::color, "[0.78, 0.36, 0.32]", "linear red, green and blue"},
 
     {"particles", "name", Kind::text, "", {}, "\"particles\"", "name of the body in reports and files"},
@@ -198,6 +205,10 @@ constexpr Key keys[] = {
     {"collider.keyframe", "time", Kind::number, "s", moment, "", "since the simulation began; later than the keyframe before", true},
     {"collider.keyframe", "center", Kind::vector, "m", coordinate, "", "where the middle then is; that of the collider where it is missing"},
     {"collider.keyframe", "rotation", Kind::vector, "degrees", angle, "", "as that of the collider, which counts where it is missing; at most 170 from one keyframe to the next"},
+
+    {"blade", "name", Kind::text, "", {}, "\"blade\"", "name of the blade"},
+    {"blade", "times", Kind::numbers, "s", time, "", "when the edge is where `edges` say, at least two, growing", true},
+    {"blade", "edges", Kind::lines, "m", coordinate, "", "the edge at each of the times, a poly-line of 2 to 256 points, all of equally many", true},
 
     {"camera", "eye", Kind::vector, "m", coordinate, "[1.2, 0.8, 1.6]", "where the camera stands"},
     {"camera", "target", Kind::vector, "m", coordinate, "[0, 0.2, 0]", "what it looks at"},

@@ -1,6 +1,7 @@
 // Checks are driven by the schema alone: no key has code of its own here.
 #include "scenes/section.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <sstream>
 #include <stdexcept>
@@ -57,6 +58,27 @@ bool isNameList(const toml::node& node) {
     return list && (list->empty() || list->is_homogeneous(toml::node_type::string));
 }
 
+bool isNumberList(const toml::node& node) {
+    const toml::array* list = node.as_array();
+    return list && std::ranges::all_of(*list, [](const toml::node& element) { return element.is_number(); });
+}
+
+bool isPoint(const toml::node& node) {
+    return isNumberList(node) && node.as_array()->size() == 3;
+}
+
+bool isLineList(const toml::node& node) {
+    const auto isLine = [](const toml::node& line) {
+        return line.as_array() && std::ranges::all_of(*line.as_array(), isPoint);
+    };
+    return node.as_array() && std::ranges::all_of(*node.as_array(), isLine);
+}
+
+double numberOf(const toml::node& node) {
+    return node.is_integer() ? static_cast<double>(node.as_integer()->get())
+                             : node.as_floating_point()->get();
+}
+
 bool isAuto(const toml::node& node) {
     return node.value_or(std::string_view()) == "auto";
 }
@@ -95,16 +117,24 @@ void Section::check(const toml::key& name, const toml::node& node) const {
     if (!key)
         scenes::fail(lineOf(file_, name.source()), "unknown key " + fullName(name.str().substr(0, 64)),
                      "did you mean " + std::string(nearestKey(section_, name.str()).name) + "?");
-    const bool isRight = key->kind == Kind::text     ? node.is_string()
-                         : key->kind == Kind::pins   ? isPinList(node)
-                         : key->kind == Kind::names  ? isNameList(node)
-                         : key->kind == Kind::flag   ? node.is_boolean()
-                         : key->kind == Kind::table  ? node.is_table()
-                         : key->kind == Kind::tables ? isTables(node)
-                                                     : true;
+    const bool isRight = key->kind == Kind::text      ? node.is_string()
+                         : key->kind == Kind::pins    ? isPinList(node)
+                         : key->kind == Kind::names   ? isNameList(node)
+                         : key->kind == Kind::flag    ? node.is_boolean()
+                         : key->kind == Kind::numbers ? isNumberList(node)
+                         : key->kind == Kind::lines   ? isLineList(node)
+                         : key->kind == Kind::table   ? node.is_table()
+                         : key->kind == Kind::tables  ? isTables(node)
+                                                      : true;
     if (!isRight) fail(key->name, "is " + describeValue(node), "write " + expectedText(*key));
     if (key->kind == Kind::countOrAuto && isAuto(node)) return;
     if (ruleOf(key->kind).components > 0) checkNumbers(*key, node);
+    if (key->kind == Kind::numbers)
+        for (const double value : numbers(key->name)) checkRange(*key, value);
+    if (key->kind == Kind::lines)
+        for (const auto& line : lines(key->name))
+            for (const auto& point : line)
+                for (const double value : point) checkRange(*key, value);
 }
 
 void Section::checkNumbers(const Key& key, const toml::node& node) const {
@@ -119,8 +149,7 @@ void Section::checkNumbers(const Key& key, const toml::node& node) const {
             fail(key.name, "is " + describeValue(wrong), "write " + expectedText(key) + hint);
         }
         // not value<double>(): that is empty for whole numbers that a double cannot hold
-        checkRange(key, element->is_integer() ? static_cast<double>(element->as_integer()->get())
-                                              : element->as_floating_point()->get());
+        checkRange(key, numberOf(*element));
     }
 }
 
@@ -206,6 +235,24 @@ std::vector<std::string> Section::names(std::string_view name) const {
     const toml::array* list = node(name).as_array();
     for (std::size_t i = 0; list && i < list->size(); ++i)
         result.push_back(list->get(i)->value_or(std::string()));
+    return result;
+}
+
+std::vector<double> Section::numbers(std::string_view name) const {
+    std::vector<double> result;
+    for (const toml::node& element : *node(name).as_array()) result.push_back(numberOf(element));
+    return result;
+}
+
+std::vector<std::vector<std::array<double, 3>>> Section::lines(std::string_view name) const {
+    std::vector<std::vector<std::array<double, 3>>> result;
+    for (const toml::node& element : *node(name).as_array()) {
+        auto& line = result.emplace_back();
+        for (const toml::node& point : *element.as_array()) {
+            const toml::array& axes = *point.as_array();
+            line.push_back({numberOf(axes[0]), numberOf(axes[1]), numberOf(axes[2])});
+        }
+    }
     return result;
 }
 

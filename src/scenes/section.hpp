@@ -48,6 +48,9 @@ public:
     /// A list of texts.
     std::vector<std::string> names(std::string_view name) const;
 
+    std::vector<double> numbers(std::string_view name) const;
+    std::vector<std::vector<std::array<double, 3>>> lines(std::string_view name) const;
+
     /// The tables [[name]] in order.
     std::vector<Section> list(std::string_view name) const;
     /// The table [name]; empty where the file has none, so that its defaults apply.

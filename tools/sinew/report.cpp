@@ -25,9 +25,11 @@ std::vector<std::string> distinctPasses(const sim::StepProgram& program) {
     return labels;
 }
 
+// Of a step without a blade.
 std::size_t dispatches(const sim::StepProgram& program) {
-    return static_cast<std::size_t>(
-        std::ranges::count(program.step, sim::PassKind::dispatch, &sim::Pass::kind));
+    return static_cast<std::size_t>(std::ranges::count_if(program.step, [](const sim::Pass& pass) {
+        return pass.kind == sim::PassKind::dispatch && !pass.isOfCut;
+    }));
 }
 
 double peakMemoryMib() {
@@ -39,7 +41,7 @@ double peakMemoryMib() {
 Json stepJson(const RunRecord& record) {
     const sim::StepProgram& program = record.program;
     return {{"dispatches", dispatches(program)},
-            {"barriers", std::ranges::count(program.step, true, &sim::Pass::barrierBefore)},
+            {"barriers", std::ranges::count(program.step, true, &sim::Pass::barrierWithoutCut)},
             {"declared_bytes", sim::declaredBytes(program)},
             {"sweeps", program.sweeps},
             {"record_ms", record.recordMs}};
@@ -139,6 +141,11 @@ Json overflowJson(const RunRecord& record) {
     return overflow;
 }
 
+Json cutJson(const RunRecord& record) {
+    if (record.program.cutting.counts == sim::BufferId{}) return nullptr;
+    return {{"blades", record.loaded.blades.size()}, {"links", record.linksCut}, {"pieces", record.pieces}};
+}
+
 } // namespace
 
 Json toJson(const Errors& errors) {
@@ -192,6 +199,7 @@ std::string toJson(const RunRecord& record) {
     json["stiffness"] = stiffnessJson(record.loaded);
     json["finite"] = !record.divergence || record.divergence->isCrowded;
     json["divergence"] = divergenceJson(record.divergence, double{scene.dt});
+    json["cut"] = cutJson(record);
     json["overflow"] = overflowJson(record);
     json["sleeping"] = sleepJson(record);
     json["state_hash"] = fmt::format("{:016x}", stateHash(record.state));
@@ -240,6 +248,8 @@ std::string toText(const RunRecord& record) {
     if (const Json sleeping = sleepJson(record); !sleeping.is_null())
         text += fmt::format("asleep: {} particles, {} whole bodies\n",
                             sleeping["particles"].get<std::size_t>(), sleeping["bodies"].get<std::size_t>());
+    if (record.program.cutting.counts != sim::BufferId{})
+        text += fmt::format("cut: {} links, {} pieces\n", record.linksCut, record.pieces);
     text += fmt::format("state hash: {:016x}\n", stateHash(record.state));
     if (record.hasValidation)
         text += fmt::format("validation: {} messages\n", record.validationMessages.size());

@@ -27,6 +27,7 @@ struct RunRecord {
     std::optional<Divergence> divergence;
     app::ContactRoom contactRoom;
     std::uint64_t slowed = 0; ///< as Runner::slowed()
+    std::uint32_t linksCut = 0, pieces = 0; ///< of bodies that may be cut
     bool isInterrupted = false;
     State state;
     std::vector<mesh::TriangleMesh> skins;

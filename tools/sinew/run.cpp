@@ -67,6 +67,8 @@ RunRecord simulate(const RunOptions& options, const scenes::LoadedScene& loaded,
             .divergence = runner.divergence(),
             .contactRoom = runner.contactRoom(),
             .slowed = runner.slowed(),
+            .linksCut = runner.linksCut(),
+            .pieces = runner.pieces(),
             .isInterrupted = app::isInterrupted() && runner.steps() < options.frames,
             .state = runner.readState(),
             .skins = runner.readSkins(),
@@ -114,7 +116,7 @@ int run(const RunOptions& options) {
     constexpr std::uint64_t worthTuning = 100; // frames: below, measuring forms costs more than it gains
     if (options.frames >= worthTuning)
         loaded.settings = sim::tuned(session.device, session.queue, loaded.scene, loaded.settings);
-    Runner runner(session, loaded.scene, loaded.settings);
+    Runner runner(session, loaded.scene, loaded.settings, {loaded.blades, loaded.scene.dt});
     const RunRecord record = simulate(options, loaded, session, runner);
     for (const std::string& message : record.validationMessages)
         std::fprintf(stderr, "validation: %s\n", message.c_str());

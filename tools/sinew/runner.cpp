@@ -30,8 +30,10 @@ std::string bodyOf(const sim::Scene& scene, std::uint32_t particle) {
 
 } // namespace
 
-Runner::Runner(Session& session, const sim::Scene& scene, const sim::Settings& settings)
-    : session_(session), scene_(scene), sleeps_(settings.sleeps), growing_(session.device, scene, settings) {
+Runner::Runner(Session& session, const sim::Scene& scene, const sim::Settings& settings,
+               scenes::ScriptedBlades blades)
+    : session_(session), scene_(scene), sleeps_(settings.sleeps), blades_(std::move(blades)),
+      growing_(session.device, scene, settings) {
     const auto phases = static_cast<std::uint32_t>(simulation().phases().size());
     for (std::uint32_t i = 0; i < sim::Simulation::framesInFlight; ++i)
         timestamps_.emplace_back(session.device, phases);
@@ -63,7 +65,12 @@ void Runner::submitStep(std::uint64_t frame) {
     const double start = nowMs();
     const std::size_t slot = frame % submitted_.size();
     const VkCommandBuffer commands = session_.queue.begin();
-    growing_.simulation().record(commands, {.dt = scene_.dt, .gravity = scene_.gravity, .frame = frame},
+    growing_.simulation().record(commands,
+                                 {.dt = scene_.dt,
+                                  .gravity = scene_.gravity,
+                                  .frame = frame,
+                                  .anchors = {},
+                                  .blade = blades_.at(frame)},
                                  &timestamps_[slot]);
     submitted_[slot] = session_.queue.submit(commands);
     recordSum_ += nowMs() - start;
@@ -89,6 +96,8 @@ bool Runner::finishStep(std::uint64_t frame) {
     else {
         ++done_;
         slowed_ += status.slowed;
+        linksCut_ = status.linksCutInAll;
+        pieces_ = status.pieces;
     }
     return true;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/growing_simulation.hpp"
+#include "scenes/blades.hpp"
 #include "sinew/measure.hpp"
 #include "sinew/session.hpp"
 
@@ -21,7 +22,8 @@ class Runner {
 public:
     /// Creates the simulation and runs one step that is thrown away, so that drivers which compile late do so
     /// now. `session` and `scene` must outlive the Runner.
-    Runner(Session& session, const sim::Scene& scene, const sim::Settings& settings);
+    Runner(Session& session, const sim::Scene& scene, const sim::Settings& settings,
+           scenes::ScriptedBlades blades = {});
 
     /// Steps until `count` more are done, isInterrupted() or there is a divergence(). A step without room for
     /// its contacts is done again with more. `inFlight` is 1 to Simulation::framesInFlight. `onStep` gets the
@@ -37,6 +39,9 @@ public:
     std::uint64_t slowed() const { return slowed_; } ///< sum of Status::slowed over those steps
     const sim::Simulation& simulation() const { return growing_.simulation(); }
     const app::ContactRoom& contactRoom() const { return growing_.contactRoom(); }
+    /// Of the newest step with a finite state.
+    std::uint32_t linksCut() const { return linksCut_; }
+    std::uint32_t pieces() const { return pieces_; }
 
     /// Wall-clock time [ms] from the end of one step to the end of the next, of the newest 65,536 steps at
     /// most, the one that diverged included: an endless run must not grow. In no order.
@@ -61,6 +66,7 @@ private:
     Session& session_;
     const sim::Scene& scene_;
     bool sleeps_ = false;
+    scenes::ScriptedBlades blades_;
     app::GrowingSimulation growing_;
     std::vector<vk::Timestamps> timestamps_;                                 // one a step in flight
     std::array<std::uint64_t, sim::Simulation::framesInFlight> submitted_{}; // timeline values
@@ -69,6 +75,7 @@ private:
     std::vector<double> frameMs_, deviceMs_, phaseSums_;
     double recordSum_ = 0, lastEnd_ = 0; // [ms]
     std::uint64_t recorded_ = 0, timed_ = 0;
+    std::uint32_t linksCut_ = 0, pieces_ = 0;
 };
 
 } // namespace sinew::tools

@@ -1,0 +1,32 @@
+// Scripted blades: the [[blade]] tables of a scene file, and what they do in a step. A cut is then the same
+// in every run, with nobody at a pointer.
+#pragma once
+
+#include "scenes/load.hpp"
+#include "scenes/section.hpp"
+#include "sim/simulation.hpp"
+
+namespace sinew::scenes {
+
+void addBlade(LoadedScene& loaded, const Section& blade);
+
+/// Fails where blades have nothing to cut, or two of them cut in one step. After all tables are read.
+void checkBlades(const LoadedScene& loaded, const Section& top);
+
+/// Plays blades step by step. Keeps the points that a step refers to.
+class ScriptedBlades {
+public:
+    ScriptedBlades() = default;
+    ScriptedBlades(std::vector<BladeMotion> motions, float dt);
+
+    /// What cuts in step `frame`, counted from 0: a blade that cuts nothing where none is on its way. Good
+    /// until the next call. Never allocates.
+    sim::Blade at(std::uint64_t frame) noexcept;
+
+private:
+    std::vector<BladeMotion> motions_;
+    double dt_ = 1;
+    std::vector<sim::Vec3> from_, to_;
+};
+
+} // namespace sinew::scenes
