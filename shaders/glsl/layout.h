@@ -435,6 +435,7 @@ struct CutPush {
     uint rowStride, sliceStride; // from a node to the next in y, in z; in a sheet there is no y and rowStride 0
     uint stiffLinks;             // bits of the links that have stiffness
     float spacing;               // [m]
+    uint contactRow;             // elements of a list of contacts from one candidate to the next
 };
 
 // Slots that one invocation counts particles in.
@@ -442,7 +443,7 @@ struct CutPush {
 
 struct PiecesPush {
     uint isFirst; // of the dispatches that say whether labels are still to change
-    uint runs;    // of slots; argument r is for all rounds of run r, argument runs + r for its count
+    uint runs;    // of slots; argument r is for all rounds of run r, runs + r for its count, 2 runs + r for what is made of them
 };
 
 struct DampedSubstepPush {

@@ -20,6 +20,16 @@ ivec3 directionOf(int bit) {
     return ivec3(s % 3, s / 3 % 3, s / 9) - 1;
 }
 
+// The bit of the link that leads `slots` further; -1 where none does. In a sheet, rowStride 0, there is no y.
+int bitTo(int slots, uint rowStride, uint sliceStride) {
+    for (int bit = 0; bit < FIRST_OWNED + OWNED_LINKS; ++bit) {
+        const ivec3 d = directionOf(bit);
+        const bool isInSheet = d.y == 0 || rowStride > 0u;
+        if (isInSheet && d.x + d.y * int(rowStride) + d.z * int(sliceStride) == slots) return bit;
+    }
+    return -1;
+}
+
 // Of the seven owned links that are edges of Kuhn's tetrahedra the how manieth this is, in the order of their bits; -1 for the
 // others. (1,0,0) (0,1,0) (1,1,0) (0,0,1) (1,0,1) (0,1,1) (1,1,1)
 int kuhnIndexOf(int bit) {

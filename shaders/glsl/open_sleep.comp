@@ -1,6 +1,6 @@
 #version 460
 // Begins a step of a scene that sleeps: says whether there may be a reason to wake somebody: another gravity or length of the
-// step, a wish of the host, an anchor or a collider that is not where it was. One group.
+// step, a wish of the host, an anchor or a collider that is not where it was, a cut (wake_cut). One group.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -33,7 +33,8 @@ void main() {
     state.wakes |= step.wakes; // until a step comes to its end
     const bool wakesAll = state.wakes != 0u || state.gravity.xyz != step.gravity.xyz || state.h != step.h;
     state.wakesAll = wakesAll ? 1u : 0u;
-    const uint one = state.sleeping > 0u && (wakesAll || changes != 0u) ? 1u : 0u;
+    const uint one = state.sleeping > 0u && (wakesAll || changes != 0u || state.touched != 0u) ? 1u : 0u;
+    state.touched = 0u;
     waking[SLEEP_OPENING] = DispatchArguments(one * push.groups, 1u, 1u, 0u);
     waking[SLEEP_OPENING_ONE] = DispatchArguments(one, 1u, 1u, 0u);
     waking[SLEEP_WAKING] = waking[SLEEP_WAKING_ONE] = DispatchArguments(0u, 1u, 1u, 0u);

@@ -15,7 +15,9 @@ void main() {
     const uint whole = isFirst ? min(work.cut, 1u) : work.changed;
     for (uint r = 0u; r < push.runs; ++r) {
         arguments[r] = DispatchArguments(whole * groups[r], 1u, 1u, 0u);
-        if (isFirst) arguments[push.runs + r] = DispatchArguments(whole * groups[push.runs + r], 1u, 1u, 0u);
+        if (!isFirst) continue;
+        arguments[push.runs + r] = DispatchArguments(whole * groups[push.runs + r], 1u, 1u, 0u);
+        arguments[2u * push.runs + r] = DispatchArguments(whole * groups[r], 1u, 1u, 0u);
     }
     work.changed = 0u;
     if (!isFirst) return;

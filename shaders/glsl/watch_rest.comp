@@ -19,11 +19,12 @@ void main() {
     const uint i = itemIndex(push.count);
     least[i] = 0x7f800000u;
     const vec4 velocity = velocities[i];
-    if (weights[i] == 0.0 || velocity.w == 0.0) return; // asleep: its island stays
+    if (weights[i] > 0.0 && velocity.w == 0.0) return; // asleep: its island stays
+    islands[i] = components[i]; // of what never moves too: a piece may be named after that (part_islands)
+    if (weights[i] == 0.0) return;
     const vec3 x = positions[i].xyz - step.thetaH * velocity.xyz;
     const vec4 rest = rests[i];
     const bool isSlow = dot(velocity.xyz, velocity.xyz) <= SLEEP_SPEED * SLEEP_SPEED;
     const bool rests_ = rest.w >= 0.0 && isSlow && distance(x, rest.xyz) <= limits[i]; // below 0: it woke in this step
     rests[i] = rests_ ? vec4(rest.xyz, rest.w + float(push.substeps) * step.h) : vec4(x, 0.0);
-    islands[i] = components[i];
 }

@@ -85,7 +85,7 @@ void ProgramBuilder::append(Pass pass) {
 void ProgramBuilder::dispatchDirect(const vk::ShaderCode& code, std::uint32_t items,
                                     std::span<const BufferId> buffers, std::span<const std::byte> push,
                                     const Constants& constants) {
-    if (!gate_ || isSkin_) return dispatchBytes(code, items, buffers, push, constants);
+    if (!gate_ || isSkin_ || isCut_) return dispatchBytes(code, items, buffers, push, constants);
     const GatedDispatch gated = gate_(code, items);
     std::vector<BufferId> all(buffers.begin(), buffers.end());
     if (gated.last != BufferId{}) all.push_back(gated.last);

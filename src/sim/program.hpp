@@ -97,16 +97,26 @@ struct Carried {
     BufferId to, from;
 };
 
+/// Slots of bodies one behind another that are cut alike: one dispatch.
+struct CutRun {
+    std::uint32_t first = 0, count = 0;           ///< slots
+    std::uint32_t rowStride = 0, sliceStride = 0; ///< as layout::CutPush has them
+};
+
 /// What is kept of bodies that may be cut (cutting/cut.hpp); invalid where a scene has none.
 struct CuttingBuffers {
     BufferId links; ///< by slot: bits of the links that are alive (lattice/link_masks.hpp)
     BufferId
-        wholeCells;  ///< by slot: fillAround without the cells that lost an edge; where cells have volumes
-    BufferId hits;   ///< by slot: layout::LinkHits of the links that the node owns
-    BufferId dirty;  ///< by 32 slots: not 0 where the last blade cut within a node's reach
-    BufferId counts; ///< one layout::CutCounts
-    BufferId pieces; ///< by particle: that which its piece is named after, or layout's NO_PARTICLE
-    BufferId pieceSizes;            ///< by particle: particles of the piece that is named after it, or 0
+        wholeCells; ///< by slot: fillAround without the cells that lost an edge; where cells have volumes
+    BufferId hits;  ///< by slot: layout::LinkHits of the links that the node owns
+    BufferId savedLinks;      ///< likewise before the step
+    BufferId dirty;           ///< by 32 slots: not 0 where the last blade cut within a node's reach
+    std::vector<CutRun> runs; ///< what passes over slots that may be cut are dispatched for
+    BufferId places;          ///< by slot: where particles were when the step began [m]
+    BufferId contactsSeen;    ///< where particles were when contacts were listed; invalid without contacts
+    BufferId counts;          ///< one layout::CutCounts
+    BufferId pieces;          ///< by particle: that which its piece is named after, or layout's NO_PARTICLE
+    BufferId pieceSizes;      ///< by particle: particles of the piece that is named after it, or 0
     std::vector<BufferId> topology; ///< all that a copy of the cuts consists of
 };
 
@@ -220,7 +230,7 @@ public:
         update(blade, HostData::blade);
         update(points, HostData::bladePoints);
     }
-    /// Passes from here on, until endCut(), belong to steps with a blade alone.
+    /// Passes from here on, until endCut(), belong to steps with a blade alone; no gate changes them.
     void beginCut() { isCut_ = true; }
     void endCut() { isCut_ = false; }
     void beginSkin() { isSkin_ = true; }

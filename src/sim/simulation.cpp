@@ -29,6 +29,9 @@ const Scene& valid(const Scene& scene, const Settings& settings) {
     return scene;
 }
 
+// Bits of a float, 1e18: nobody is there [m].
+constexpr std::uint32_t farAwayBits = 0x5d5e0b6b;
+
 // A step that is no number is the shortest one.
 float withinRange(float dt) {
     const auto low = static_cast<float>(ranges::dt.low), high = static_cast<float>(ranges::dt.high);
@@ -92,6 +95,7 @@ struct Simulation::State {
     collision::ColliderPaths colliders;
     cutting::BladeWords blade;
     std::array<bool, framesInFlight> hasBlade{}; // of the newest steps
+    bool hasNewTopology = false;                 // loaded since the last step
     SplitBudget budget;
     float theta, omega, damping;
     std::uint32_t substeps;
@@ -151,7 +155,7 @@ struct Simulation::State {
                     static_cast<float>(dampingBudget(budget, double{theta}, longest) / double{omega}),
                 .multiplierScale = previousH > 0 ? std::min(1.0f, h * h / (previousH * previousH)) : 0,
                 .thetaHStored = hasContacts ? 0 : theta * h,
-                .wakes = step.wakes ? 1u : 0u};
+                .wakes = step.wakes || hasNewTopology ? 1u : 0u};
     }
 
     layout::StatusWords statusWords(std::uint64_t frame) const {
@@ -243,6 +247,7 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     commands.endStep();
     commands.hostBarrier();
     state_->previousH = parameters.h;
+    state_->hasNewTopology = false;
 }
 
 void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from) noexcept {
@@ -329,7 +334,10 @@ void Simulation::recordLoadTopology(VkCommandBuffer buffer, const vk::BufferView
     commands.beginStep();
     state_->forTopology(
         from, [&](const vk::BufferView& own, const vk::BufferView& copy) { commands.copy(copy, own); });
+    const vk::BufferView seen = view(state_->program.cutting.contactsSeen);
+    if (seen.size > 0) commands.fill(seen, farAwayBits); // contacts are listed anew
     commands.endStep();
+    state_->hasNewTopology = true;
 }
 
 void Simulation::recordSkin(VkCommandBuffer buffer) noexcept {

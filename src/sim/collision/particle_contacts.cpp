@@ -4,6 +4,7 @@
 #include "kernels.hpp"
 #include "sim/collision/face_contacts.hpp"
 #include "sim/collision/overlaps.hpp"
+#include "sim/cutting/cut_contacts.hpp"
 #include "sim/ranges.hpp"
 #include "sim/sleep.hpp"
 
@@ -143,7 +144,8 @@ void addMemory(ProgramBuilder& program, Contacts& contacts, const FirstLists& fi
         program.carry(buffer, buffer);
     if (!contacts.hasRecovery) return;
     contacts.keptOffsets = program.scratch<float>("contacts.kept_offsets", elements);
-    contacts.savedOffsets = program.upload("contacts.offsets.saved", first.offsets);
+    contacts.savedOffsets = first.offsets.empty() ? program.scratch<float>("contacts.offsets.saved", elements)
+                                                  : program.upload("contacts.offsets.saved", first.offsets);
     program.carry(contacts.savedOffsets, contacts.savedOffsets);
 }
 
@@ -220,6 +222,9 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     const overlaps::Overlaps overlaps = overlapsOf(scene, settings, layout, radii, exclusions);
     // What overlaps at first must not be forgotten for want of room.
     const std::uint32_t room = std::max(settings.contactRoom, overlaps::mostPartners(overlaps));
+    const bool isCuttable = !exclusions.empty() && cutting::canMeet(program.program(), scene);
+    BufferId allExcluded;
+    if (isCuttable) allExcluded = program.upload("contacts.all_excluded", exclusions);
     FirstLists first;
     if (!overlaps.empty()) first = firstLists(overlaps, radii, room);
     Contacts contacts{
@@ -235,12 +240,15 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
         .surfaces = surfaces::add(program, scene, layout),
         .hasRebound =
             std::ranges::any_of(scene.planes, [](const Plane& plane) { return plane.restitution > 0; }),
-        .hasRecovery = !overlaps.empty()};
+        .hasRecovery = !overlaps.empty() || isCuttable,
+        .allExcluded = allExcluded};
     contacts.push = {.count = contacts.lists.push.count,
                      .row = contacts.lists.push.row,
                      .friction = contacts.surfaces.friction,
                      .restitution = contacts.surfaces.restitution,
-                     .recoverySpeed = scene.contacts.recoverySpeed,
+                     .recoverySpeed = isCuttable
+                                          ? std::min(scene.contacts.recoverySpeed, cutting::recoverySpeed)
+                                          : scene.contacts.recoverySpeed,
                      .surfaces = contacts.surfaces.count};
     contacts.touching = program.scratch<layout::vec4>("contacts.touching", layout.count);
     contacts.firsts = program.scratch<float>("contacts.firsts", layout.count);
@@ -267,8 +275,9 @@ void addOpening(ProgramBuilder& program, const Contacts& contacts, BufferId velo
 }
 
 void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
-               const ParticleBuffers& next) {
+               const ParticleBuffers& next, bool isFirst) {
     addListUpdate(program, contacts, predicted);
+    if (isFirst) cutting::addContactOpening(program, contacts);
     sleep::addTouches(program, predicted);
     addCount(program, contacts, predicted);
     addGather(program, contacts, predicted, next);

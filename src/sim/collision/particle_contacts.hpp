@@ -20,12 +20,16 @@ struct Contacts {
     surfaces::Surfaces surfaces;
     layout::ContactPush push{};
     bool hasRebound = false;  ///< of a plane
-    bool hasRecovery = false; ///< some pair overlaps when the scene is loaded
+    bool hasRecovery = false; ///< some pair overlaps when the scene is loaded, or may after a cut
     BufferId touching, firsts, before, bouncing, rebounding;
     /// What is remembered of candidates, from substep to substep, while lists are made again, and from step
     /// to step; `...Offsets` where hasRecovery.
     BufferId slips, kept, keptCounts, keptOffsets, saved, savedCounts, savedOffsets;
 
+    /// Pairs of the uncut bodies that never touch; invalid where no body that may be cut touches.
+    BufferId allExcluded;
+
+    bool isCuttable() const { return allExcluded != BufferId{}; }
     bool hasMemory() const { return surfaces.hasFriction || hasRecovery; }
 };
 
@@ -39,9 +43,10 @@ void joinIslands(const Contacts& contacts, sleep::Sleep& sleep);
 /// Before the links of a substep, whose velocities are `velocities`.
 void addOpening(ProgramBuilder& program, const Contacts& contacts, BufferId velocities);
 
-/// The end of a substep: from predicted positions and velocities to those of `next`.
+/// The end of a substep, the first of a step or not: from predicted positions and velocities to those of
+/// `next`.
 void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
-               const ParticleBuffers& next);
+               const ParticleBuffers& next, bool isFirst);
 
 /// After them, where contacts.surfaces.hasRestitution: what rebounds. The velocities after the substep then
 /// are in contacts.rebounding, which must not be those of `next`; those that come in are free.

@@ -7,6 +7,7 @@
 #include "sim/lattice/link_masks.hpp"
 #include "sim/lattice/pieces.hpp"
 #include "sim/ranges.hpp"
+#include "sim/sleep.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -17,7 +18,7 @@ namespace {
 
 namespace k = kernels;
 
-// Slots of bodies one behind another that are computed alike: one dispatch.
+// A CutRun, with what else its passes say.
 struct Run {
     layout::CutPush push{};
     bool hasVolumes = false;
@@ -32,7 +33,7 @@ struct Initial {
 struct Cut {
     std::vector<Run> runs;
     CuttingBuffers buffers;
-    BufferId cells, savedLinks, places, placesBefore, blade, points, work;
+    BufferId cells, placesBefore, blade, points, work;
     BufferId labels, particles, arguments, groups; // of pieces
     bool usesTexels = false;
     std::uint32_t rounds = 0;
@@ -49,7 +50,8 @@ Run runOf(const Grid& grid, const lattice::Box& box) {
                      .rowStride = lattice::isSheet(grid) ? 0 : box.rowStride,
                      .sliceStride = box.sliceStride,
                      .stiffLinks = lattice::stiffLinks(grid),
-                     .spacing = grid.restLength[0]},
+                     .spacing = grid.restLength[0],
+                     .contactRow = 0},
             .hasVolumes = hasCellVolumes(grid)};
 }
 
@@ -118,7 +120,7 @@ void addPieces(ProgramBuilder& program, Cut& cut, Initial& initial, std::size_t 
     cut.labels = program.upload("pieces.labels", pieces.labels);
     cut.particles = program.upload("pieces.particles", initial.particles);
     cut.groups = program.upload("pieces.groups", groups);
-    cut.arguments = program.scratch<layout::DispatchArguments>("pieces.arguments", 2 * std::uint64_t{runs});
+    cut.arguments = program.scratch<layout::DispatchArguments>("pieces.arguments", 3 * std::uint64_t{runs});
     cut.buffers.pieces = program.upload("pieces", pieces.ofParticles);
     cut.buffers.pieceSizes = program.upload("pieces.sizes", pieces.sizes);
     cut.buffers.counts = program.upload(
@@ -127,7 +129,8 @@ void addPieces(ProgramBuilder& program, Cut& cut, Initial& initial, std::size_t 
 }
 
 Cut addBuffers(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-               std::span<const std::uint32_t> grids, const StateLayout& layout) {
+               std::span<const std::uint32_t> grids, const ParticleBuffers& particles) {
+    const StateLayout& layout = particles.layout;
     Cut cut{.usesTexels = settings.forms.usesTexels};
     Initial initial = readGrids(scene, grids, layout, cut.runs);
     if (cut.runs.empty()) return cut;
@@ -138,17 +141,20 @@ Cut addBuffers(ProgramBuilder& program, const Scene& scene, const Settings& sett
     }
     cut.buffers.hits = program.scratch<layout::LinkHits>("cut.hits", layout.count);
     cut.buffers.dirty = program.scratch<std::uint32_t>("cut.dirty", layout.count / 32 + 1);
-    cut.savedLinks = program.scratch<std::uint32_t>("cut.saved_links", layout.count);
-    cut.places = program.scratch<layout::vec4>("cut.places", layout.count);
+    cut.buffers.savedLinks = program.scratch<std::uint32_t>("cut.saved_links", layout.count);
+    cut.buffers.places = program.scratch<layout::vec4>("cut.places", layout.count);
     cut.placesBefore = program.scratch<layout::vec4>("cut.places_before", layout.count);
     cut.blade = program.scratch<layout::BladeHead>("cut.blade", 1);
     cut.points = program.scratch<layout::vec4>("cut.points", 2 * ranges::mostBladePoints);
     cut.work = program.scratch<layout::CutWork>("cut.work", 1);
     addPieces(program, cut, initial, scene.particles.size());
     CuttingBuffers& buffers = cut.buffers;
+    for (const Run& run : cut.runs)
+        buffers.runs.push_back({run.push.first, run.push.count, run.push.rowStride, run.push.sliceStride});
     buffers.topology = {buffers.links,  buffers.hits,   cut.placesBefore,  cut.labels,
                         buffers.counts, buffers.pieces, buffers.pieceSizes};
     if (buffers.wholeCells != BufferId{}) buffers.topology.push_back(buffers.wholeCells);
+    if (particles.sleep) buffers.topology.push_back(particles.sleep->components);
     for (const BufferId buffer : buffers.topology) program.carry(buffer, buffer);
     program.program().cutting = buffers;
     return cut;
@@ -162,6 +168,17 @@ void addWholeCells(ProgramBuilder& program, const Cut& cut) {
                              {buffers.links, cut.cells, buffers.wholeCells, buffers.dirty}, run.push);
 }
 
+// What was cut wakes as the step begins.
+void addWaking(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& particles) {
+    if (!particles.sleep) return;
+    const sleep::Sleep& sleep = *particles.sleep;
+    for (const Run& run : cut.runs)
+        program.dispatch(k::wakeCut, run.push.count,
+                         {cut.buffers.links, cut.buffers.savedLinks, sleep.weights, particles.velocities,
+                          sleep.islands, sleep.marks, sleep.state},
+                         run.push);
+}
+
 void addOpening(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& particles) {
     const CuttingBuffers& buffers = cut.buffers;
     program.updateBlade(cut.blade, cut.points);
@@ -170,16 +187,17 @@ void addOpening(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& 
     for (const Run& run : cut.runs)
         program.dispatch(k::openCut, run.push.count,
                          {particles.positions, particles.velocities, particles.step, buffers.links,
-                          cut.savedLinks, cut.places, cut.placesBefore, cut.work},
+                          buffers.savedLinks, buffers.places, cut.placesBefore, cut.work},
                          run.push);
     for (const Run& run : cut.runs)
         program.dispatch(cut.usesTexels ? k::cutLinks : k::cutLinksLoads, run.push.count,
-                         {cut.places, cut.placesBefore, buffers.links, buffers.hits, buffers.dirty, cut.blade,
-                          cut.points, cut.work, cut.savedLinks},
+                         {buffers.places, cut.placesBefore, buffers.links, buffers.hits, buffers.dirty,
+                          cut.blade, cut.points, cut.work, buffers.savedLinks},
                          run.push);
     for (const Run& run : cut.runs)
         program.dispatch(k::settleLinks, run.push.count, {buffers.links, buffers.dirty}, run.push);
     addWholeCells(program, cut);
+    addWaking(program, cut, particles);
 }
 
 void addPlan(ProgramBuilder& program, const Cut& cut, bool isFirst) {
@@ -196,7 +214,7 @@ void addIndirect(ProgramBuilder& program, const Cut& cut, const vk::ShaderCode& 
                                  cut.runs[r].push);
 }
 
-void addFindingPieces(ProgramBuilder& program, const Cut& cut) {
+void addFindingPieces(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& particles) {
     const CuttingBuffers& buffers = cut.buffers;
     const auto slots = [](const Run& run) { return run.push.count; };
     addPlan(program, cut, true);
@@ -208,17 +226,20 @@ void addFindingPieces(ProgramBuilder& program, const Cut& cut) {
     }
     addIndirect(program, cut, k::countPieces, static_cast<std::uint32_t>(cut.runs.size()),
                 {cut.labels, cut.particles, buffers.pieces, buffers.pieceSizes, buffers.counts}, chunksOf);
+    if (particles.sleep)
+        addIndirect(program, cut, k::partIslands, 2 * static_cast<std::uint32_t>(cut.runs.size()),
+                    {cut.labels, cut.particles, particles.sleep->components}, slots);
 }
 
-void addClosing(ProgramBuilder& program, const Cut& cut) {
+void addClosing(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& particles) {
     const CuttingBuffers& buffers = cut.buffers;
     for (const Run& run : cut.runs)
-        program.dispatch(
-            k::closeCut, run.push.count,
-            {buffers.links, cut.savedLinks, cut.places, cut.placesBefore, program.program().status, cut.work},
-            run.push);
+        program.dispatch(k::closeCut, run.push.count,
+                         {buffers.links, buffers.savedLinks, buffers.places, cut.placesBefore,
+                          program.program().status, cut.work},
+                         run.push);
     addWholeCells(program, cut); // those that an undone step has given back
-    addFindingPieces(program, cut);
+    addFindingPieces(program, cut, particles);
 }
 
 } // namespace
@@ -227,15 +248,15 @@ void add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
          const ParticleBuffers& particles) {
     const std::vector<std::uint32_t> grids = cuttableGrids(scene, settings);
     if (grids.empty()) return;
-    const Cut cut = addBuffers(program, scene, settings, grids, particles.layout);
+    const Cut cut = addBuffers(program, scene, settings, grids, particles);
     if (cut.runs.empty()) return;
     program.beginPhase("cut");
     program.beginCut();
     addOpening(program, cut, particles);
     program.endCut();
-    program.atEnd([&program, cut] {
+    program.atEnd([&program, cut, particles] {
         program.beginCut();
-        addClosing(program, cut);
+        addClosing(program, cut, particles);
         program.endCut();
     });
 }

@@ -12,6 +12,7 @@
 #include "sim/constraints/distance.hpp"
 #include "sim/constraints/grab.hpp"
 #include "sim/constraints/tether.hpp"
+#include "sim/cutting/cut_contacts.hpp"
 #include "sim/lattice/batches.hpp"
 #include "sim/sleep.hpp"
 #include "sim/solvers/shares.hpp"
@@ -273,10 +274,10 @@ struct Touching {
         if (pairs) collision::particle_contacts::addOpening(program, *pairs, velocities);
     }
     // Returns what pairs were found with.
-    ParticleBuffers addPasses(ProgramBuilder& program, ParticleBuffers predicted,
-                              const ParticleBuffers& next) const {
+    ParticleBuffers addPasses(ProgramBuilder& program, ParticleBuffers predicted, const ParticleBuffers& next,
+                              bool isFirst) const {
         if (faces) predicted = collision::face_contacts::addPasses(program, *faces, predicted, next);
-        if (pairs) collision::particle_contacts::addPasses(program, *pairs, predicted, next);
+        if (pairs) collision::particle_contacts::addPasses(program, *pairs, predicted, next, isFirst);
         return predicted;
     }
     void joinIslands(sleep::Sleep& sleep) const {
@@ -309,6 +310,7 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
     const std::uint32_t substeps = common.settings.substeps;
     Touching contacts = addTouching(common, particles);
     if (particles.sleep) contacts.joinIslands(*particles.sleep);
+    if (contacts.pairs) cutting::addContactFilter(program, *contacts.pairs);
     const std::vector<Gather> gathers = addGathers(common);
     const bool alternates = std::ranges::any_of(gathers, &Gather::alternatesVelocities);
     const auto attachments = constraints::attachment::add(program, common.scene, layout);
@@ -325,7 +327,7 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
         predicted.velocities = alternates ? spare : current.velocities;
         addLinks(gathers, current, predicted, substep == 0);
         if (!alternates) std::swap(current.velocities, spare);
-        const ParticleBuffers met = contacts.addPasses(program, predicted, current);
+        const ParticleBuffers met = contacts.addPasses(program, predicted, current, substep == 0);
         if (contacts.pairs && contacts.pairs->surfaces.hasRestitution) {
             collision::particle_contacts::addBounces(program, *contacts.pairs, met, current);
             std::swap(current.velocities, contacts.pairs->rebounding);

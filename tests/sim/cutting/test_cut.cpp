@@ -230,8 +230,7 @@ TEST(Cut, OfEveryLinkLeavesFreeParticlesThatFall) {
     Scene scene = cube(3);
     scene.gravity = {0, -9.81f, 0};
     CutBody body(scene);
-    const Status status =
-        body.runner().cut({}, {.from = {-5, 0.5f, 0}, .to = {5, 0.5f, 0}, .radius = 10});
+    const Status status = body.runner().cut({}, {.from = {-5, 0.5f, 0}, .to = {5, 0.5f, 0}, .radius = 10});
     EXPECT_EQ(status.pieces, 64u);
     EXPECT_EQ(status.linksCutInAll, scene.distances.size());
     EXPECT_TRUE(body.links().empty());
@@ -255,8 +254,8 @@ TEST(Cut, OfASingleParticleLetsItFallFreelyFromABodyThatIsHeld) {
     CutBody body(scene);
     const Vector3d start = body.at(0);
     const Vec3 at = test::toFloats(start);
-    const Status status = body.runner().cut(
-        {}, {.from = at, .to = {at.x, at.y - 0.001f, at.z}, .radius = 0.3f * spacing});
+    const Status status =
+        body.runner().cut({}, {.from = at, .to = {at.x, at.y - 0.001f, at.z}, .radius = 0.3f * spacing});
     EXPECT_EQ(status.pieces, 2u);
     EXPECT_EQ(status.linksCut, 3u + 3u);
     EXPECT_EQ(body.pieceSizes()[0], 1u);
@@ -271,9 +270,8 @@ TEST(RayCut, CutsTheLinksThatComeNearerThanItsRadius) {
                    to = from + Vector3d(0.7, 0.2, 12) * body.spacing();
     const double radius = 0.4 * body.spacing();
     const auto before = body.links();
-    body.runner().cut({}, {.from = test::toFloats(from),
-                           .to = test::toFloats(to),
-                           .radius = static_cast<float>(radius)});
+    body.runner().cut(
+        {}, {.from = test::toFloats(from), .to = test::toFloats(to), .radius = static_cast<float>(radius)});
     std::vector<bool> isAlive(before.size());
     const auto after = body.links();
     for (std::size_t l = 0, m = 0; l < before.size() && m < after.size(); ++l)

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cstdio>
 #include <numeric>
 
 using namespace sinew;
@@ -101,6 +102,93 @@ TEST(Stroke, ThroughATurningBodyLeavesNoLinkBetweenTwoLargePieces) {
         EXPECT_GE(status.pieces, 2u);
         EXPECT_GT(sizes[1], 60u) << "of 343";
         EXPECT_GE(sizes[0] + sizes[1], 338u) << "and hardly a crumb";
+    }
+}
+
+namespace {
+
+// Where the material around each particle has gone by its live links, as an affine motion, inverted: from the
+// world to the body at rest.
+std::vector<Eigen::Affine3d> toRest(const CutBody& body, const std::vector<Vector3d>& x) {
+    std::vector<Eigen::Matrix3d> moved(x.size(), Eigen::Matrix3d::Zero()), spread = moved;
+    for (const test::LiveLink& link : body.links()) {
+        const Vector3d d = body.at(link.b) - body.at(link.a);
+        for (const std::uint32_t end : {link.a, link.b}) {
+            moved[end] += (x[link.b] - x[link.a]) * d.transpose();
+            spread[end] += d * d.transpose();
+        }
+    }
+    std::vector<Eigen::Affine3d> motions;
+    for (std::uint32_t i = 0; i < x.size(); ++i) {
+        Eigen::Affine3d motion = Eigen::Affine3d::Identity();
+        motion.linear() = spread[i] * moved[i].inverse();
+        motion.translation() = body.at(i) - motion.linear() * x[i];
+        motions.push_back(motion);
+    }
+    return motions;
+}
+
+// What a stroke has swept over in the body at rest, triangle by triangle.
+using Triangle = std::array<Vector3d, 3>;
+
+// Whether a segment whose ends lie farther than `least` from the triangle's plane crosses it.
+bool crosses(const Vector3d& a, const Vector3d& b, const Triangle& triangle, double least) {
+    const auto& [p, q, r] = triangle;
+    const Vector3d normal = (q - p).cross(r - p).normalized();
+    const double above = normal.dot(a - p), below = normal.dot(b - p);
+    if (!(std::min(std::abs(above), std::abs(below)) > least) || above * below > 0) return false;
+    const Vector3d at = a + above / (above - below) * (b - a);
+    const double u = normal.dot((q - p).cross(at - p)), v = normal.dot((r - q).cross(at - q)),
+                 w = normal.dot((p - r).cross(at - r));
+    return std::min({u, v, w}) >= 0 || std::max({u, v, w}) <= 0;
+}
+
+} // namespace
+
+// Brute force, in double, over all links and all that the blade has swept over, as the material around each
+// link has seen it: there the edge of a step is where the next one begins.
+TEST(Stroke, ThroughATurningAndMovingBodyLeavesNoLiveLinkThatCrossesItsSweep) {
+    for (const double turns : {0.7, 2.5}) { // rad/s
+        const Vector3d velocity(0.6, -0.3, 0.4);
+        CutBody body(movingCube(velocity, Vector3d(turns, 0.5 * turns, -turns)));
+        const auto before = body.links();
+        constexpr int steps = 30;
+        std::vector<std::vector<Eigen::Affine3d>> motions; // by step
+        std::vector<std::array<Vector3d, 2>> edges;
+        for (int s = 0; s <= steps; ++s) {
+            const Vector3d middle = Vector3d::Constant(0.5 * cells * double{spacing}) + s / 60.0 * velocity;
+            const double x = (2.0 * s / steps - 1) * 7 * double{spacing};
+            edges.push_back({middle + Vector3d(x, -0.4, 0.01), middle + Vector3d(x, 0.4, -0.03)});
+            motions.push_back(toRest(body, body.runner().positions()));
+            if (s == 0) continue;
+            const auto &last = edges[edges.size() - 2], &now = edges.back();
+            const Sweep sweep{.from = {test::toFloats(last[0]), test::toFloats(last[1])},
+                              .to = {test::toFloats(now[0]), test::toFloats(now[1])},
+                              .isCarried = s > 1};
+            body.cut(sweep);
+            if (s == 1) motions[0] = motions[1]; // the first edge is taken where it is as the step begins
+        }
+        const auto isCrossed = [&](const test::LiveLink& link) {
+            for (std::size_t s = 1; s < edges.size(); ++s) {
+                const Eigen::Affine3d &from = motions[s - 1][link.a], &to = motions[s][link.a];
+                const Vector3d a = from * edges[s - 1][0], b = from * edges[s - 1][1], c = to * edges[s][0],
+                               d = to * edges[s][1];
+                for (const Triangle& triangle : {Triangle{a, b, d}, Triangle{a, d, c}})
+                    if (crosses(body.at(link.a), body.at(link.b), triangle, 0.03 * double{spacing}))
+                        return true;
+            }
+            return false;
+        };
+        const auto after = body.links();
+        const auto crossed = std::ranges::count_if(before, isCrossed),
+                   left = std::ranges::count_if(after, isCrossed);
+        const auto dead = static_cast<std::ptrdiff_t>(before.size() - after.size());
+        std::printf("at %.1f rad/s: %td of %zu links crossed, %td dead, %td left\n", turns, crossed,
+                    before.size(), dead, left);
+        EXPECT_GT(crossed, 200);
+        EXPECT_EQ(left, 0);
+        EXPECT_LT(static_cast<double>(dead), 1.25 * static_cast<double>(crossed)) << "and hardly others";
+        EXPECT_GE(body.runner().run(1).pieces, 2u);
     }
 }
 

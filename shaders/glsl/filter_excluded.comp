@@ -1,0 +1,35 @@
+#version 460
+// Particles that are linked never touch each other, those on both sides of a cut do (contacts: 3): keeps of each particle's
+// excluded partners those that it is still linked with. Rows stay sorted and as long as they were: the last one is repeated.
+// Where links were cut, or given back, all lists of contacts are made again.
+#extension GL_GOOGLE_include_directive : require
+#include "cut.glsl"
+#include "link_masks.glsl"
+
+layout(std430, binding = 0) readonly buffer Links { uint links[]; };
+layout(std430, binding = 1) readonly buffer SavedLinks { uint savedLinks[]; };
+layout(std430, binding = 2) readonly buffer Dirty { uint dirty[]; };
+layout(std430, binding = 3) readonly buffer AllExcluded { uint allExcluded[]; }; // of the uncut body
+layout(std430, binding = 4) buffer Excluded { uint excluded[]; };
+layout(std430, binding = 5) buffer Bounds { GridBounds bounds; };
+
+bool staysExcluded(uint i, uint partner) {
+    const int bit = bitTo(int(partner) - int(i), push.rowStride, push.sliceStride);
+    return bit < 0 || (links[i] >> bit & 1u) != 0u;
+}
+
+void main() {
+    const uint item = itemIndex(push.count);
+    if (item >= push.count) return;
+    const uint i = push.first + item;
+    if (dirty[i >> 5] == 0u) return;
+    if (links[i] != savedLinks[i] && bounds.moved == 0u) atomicMax(bounds.moved, 1u);
+    const uint end = allExcluded[i + 1u];
+    uint next = allExcluded[i], last = i; // nobody is listed with itself
+    for (uint e = allExcluded[i]; e < end; ++e) {
+        if (!staysExcluded(i, allExcluded[e])) continue;
+        last = allExcluded[e];
+        excluded[next++] = last;
+    }
+    for (; next < end; ++next) excluded[next] = last;
+}

@@ -1,0 +1,27 @@
+#version 460
+// In the first substep after a cut, when contacts are listed anew: pairs that a link held until now may overlap, and part at a
+// limited speed, as pairs do that overlap when a scene is loaded (contacts: 3). Both copies of a pair get the same bits.
+#extension GL_GOOGLE_include_directive : require
+#include "cut.glsl"
+#include "link_masks.glsl"
+
+layout(std430, binding = 0) readonly buffer Links { uint links[]; };
+layout(std430, binding = 1) readonly buffer SavedLinks { uint savedLinks[]; };
+layout(std430, binding = 2) readonly buffer Places { vec4 places[]; }; // when the step began [m]
+layout(std430, binding = 3) readonly buffer Contacts { ContactCandidate contacts[]; };
+layout(std430, binding = 4) readonly buffer Counts { uint counts[]; };
+layout(std430, binding = 5) buffer Slips { vec4 slips[]; }; // w: what is left of an overlap [m]
+
+void main() {
+    const uint item = itemIndex(push.count);
+    if (item >= push.count) return;
+    const uint i = push.first + item, dead = savedLinks[i] & ~links[i];
+    if (dead == 0u) return;
+    for (uint s = 0u; s < counts[i]; ++s) {
+        const uint slot = s * push.contactRow + i;
+        const ContactCandidate candidate = contacts[slot];
+        const int bit = bitTo(int(candidate.other) - int(i), push.rowStride, push.sliceStride);
+        if (bit < 0 || (dead >> bit & 1u) == 0u) continue;
+        slips[slot].w = max(0.0, candidate.reach - length(places[i].xyz - places[candidate.other].xyz));
+    }
+}

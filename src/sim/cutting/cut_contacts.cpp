@@ -1,0 +1,67 @@
+// The table of pairs that never touch is kept twice: as of the uncut bodies, and as it is.
+#include "sim/cutting/cut_contacts.hpp"
+
+#include "kernels.hpp"
+
+#include <algorithm>
+
+namespace sinew::sim::cutting {
+
+namespace {
+
+namespace k = kernels;
+using collision::particle_contacts::Contacts;
+
+layout::CutPush pushOf(const CutRun& run, const Contacts& contacts) {
+    return {.first = run.first,
+            .count = run.count,
+            .rowStride = run.rowStride,
+            .sliceStride = run.sliceStride,
+            .stiffLinks = 0,
+            .spacing = 0,
+            .contactRow = contacts.lists.push.row};
+}
+
+void addFilter(ProgramBuilder& program, const Contacts& contacts) {
+    const CuttingBuffers cutting = program.program().cutting;
+    program.beginCut();
+    for (const CutRun& run : cutting.runs)
+        program.dispatch(k::filterExcluded, run.count,
+                         {cutting.links, cutting.savedLinks, cutting.dirty, contacts.allExcluded,
+                          contacts.lists.excluded, contacts.lists.grid.bounds},
+                         pushOf(run, contacts));
+    program.endCut();
+}
+
+} // namespace
+
+bool canMeet(const StepProgram& program, const Scene& scene) {
+    if (program.cutting.links == BufferId{}) return false;
+    return std::ranges::any_of(scene.grids, [&](const Grid& grid) {
+        return grid.isCuttable && scene.particles[grid.firstParticle].radius > 0;
+    });
+}
+
+void addContactFilter(ProgramBuilder& program, const Contacts& contacts) {
+    if (!contacts.isCuttable()) return;
+    CuttingBuffers& cutting = program.program().cutting;
+    cutting.contactsSeen = contacts.lists.grid.detected;
+    cutting.topology.push_back(contacts.lists.excluded);
+    program.carry(contacts.lists.excluded, contacts.lists.excluded);
+    addFilter(program, contacts);
+    program.atEnd([&program, contacts] { addFilter(program, contacts); }); // after links were given back
+}
+
+void addContactOpening(ProgramBuilder& program, const Contacts& contacts) {
+    if (!contacts.isCuttable()) return;
+    const CuttingBuffers cutting = program.program().cutting;
+    program.beginCut();
+    for (const CutRun& run : cutting.runs)
+        program.dispatch(k::openCutContacts, run.count,
+                         {cutting.links, cutting.savedLinks, cutting.places, contacts.lists.contacts,
+                          contacts.lists.counts, contacts.slips},
+                         pushOf(run, contacts));
+    program.endCut();
+}
+
+} // namespace sinew::sim::cutting
