@@ -418,7 +418,7 @@ struct CutCounts {
     uint links;       // cut since the uncut body; those without stiffness do not count
     uint linksOfStep; // in the newest step with a blade
     uint pieces;
-    uint unused0;
+    uint missing;     // SurfaceState::missing
 };
 
 // Where the links that a node owns were cut, of the seven that are edges of Kuhn's tetrahedra, in the order (1,0,0) (0,1,0)
@@ -444,6 +444,54 @@ struct CutPush {
 struct PiecesPush {
     uint isFirst; // of the dispatches that say whether labels are still to change
     uint runs;    // of slots; argument r is for all rounds of run r, runs + r for its count, 2 runs + r for what is made of them
+};
+
+// The surface of cuts. Slots that one invocation adds up.
+#define SURFACE_CHUNK 64
+
+// Of the cell above a slot: points that the slot owns, triangles inside, triangles outside, 8 bits each; which of the cell's outer
+// faces are drawn in pieces (cut_outside.glsl).
+struct SurfaceCounts {
+    uint sizes, pieces;
+};
+
+struct SurfaceState {
+    uint points, inside, outside; // points, triangles; a triangle outside has three vertices of its own behind the points
+    uint missing;                 // room that a surface would need for which there is too little, else 0; it is empty then
+};
+
+struct SurfacePush {
+    uint chunks; // of slots
+    uint room;   // triangles, and as many vertices
+    uint runs;   // of slots: arguments 0 .. runs - 1 are for them, the one after for all vertices
+};
+
+// VkDrawIndexedIndirectCommand.
+struct DrawArguments {
+    uint indexCount, instanceCount, firstIndex;
+    int vertexOffset;
+    uint firstInstance;
+};
+
+// A vertex of a cut surface: hangs on up to four corners, x = sum of share (x_c + F_c (rest - rest_c)).
+struct CutVertex {
+    vec4 rest;       // [m], where the body was when the scene was loaded; w = index of its skin
+    vec4 shares;     // 0 for no corner
+    uint corners[4]; // slots
+    int normal[3];   // at rest, outward from its piece; of any length
+    uint point;      // the point that it is at, or SURFACE_PARTICLE and a particle
+};
+#define SURFACE_PARTICLE 0x80000000u
+#define SURFACE_NORMAL 1048576.0 // unit of a normal; that of a triangle in squares of the spacing
+
+// Best linear motion of what is around a particle: columns of dx / dX.
+struct Gradient {
+    vec4 x, y, z;
+};
+
+// A triangle of a skin that is an outer face of a cell: the cell's slot and bit of SurfaceCounts::pieces, and the triangle.
+struct SkinFace {
+    uint cell, bit, triangle;
 };
 
 struct DampedSubstepPush {

@@ -25,11 +25,12 @@ std::vector<vk::Buffer> makeBuffers(const vk::Device& device, const StepProgram&
     for (std::uint32_t b = 0; b < program.buffers.size(); ++b) {
         const BufferSpec& spec = program.buffers[b];
         VkBufferUsageFlags usage = 0;
-        if (BufferId{b} == program.skinVertices || BufferId{b} == program.positions) {
+        const CutSurfaceBuffers& cut = program.cutSurface;
+        const BufferId id{b};
+        if (id == program.skinVertices || id == program.positions || id == cut.vertices || id == cut.rest)
             usage |= VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
-        }
-        if (holdsArguments[b]) usage |= VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
-        if (BufferId{b} == program.skinIndices) usage |= VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+        if (holdsArguments[b] || id == cut.draws) usage |= VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
+        if (id == program.skinIndices || id == cut.indices) usage |= VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
         buffers.emplace_back(device, vk::BufferRequest{.name = spec.label,
                                                        .count = spec.count,
                                                        .stride = spec.stride,

@@ -120,6 +120,15 @@ struct CuttingBuffers {
     std::vector<BufferId> topology; ///< all that a copy of the cuts consists of
 };
 
+/// The surface of cuts (surface/cut_surface.hpp); invalid where no skin is clipped.
+struct CutSurfaceBuffers {
+    BufferId state;    ///< one layout::SurfaceState
+    BufferId vertices; ///< layout::SkinVertex, as of the last skin list
+    BufferId rest;     ///< layout::CutVertex of each
+    BufferId indices;  ///< of triangles inside, then outside
+    BufferId draws;    ///< layout::DrawArguments for each of the two
+};
+
 /// Immutable once built.
 struct StepProgram {
     std::vector<BufferSpec> buffers;
@@ -132,6 +141,7 @@ struct StepProgram {
     BufferId parameters, status, positions, velocities; ///< the public ones; velocities may be invalid
     BufferId skinVertices, skinIndices;                 ///< invalid without skins
     CuttingBuffers cutting;
+    CutSurfaceBuffers cutSurface;
     std::uint32_t particleCount = 0, constraintCount = 0;
     std::uint64_t sweeps = 0; ///< times every constraint is read in one step
 };
@@ -220,6 +230,9 @@ public:
     void atEnd(std::function<void()> addPasses) { endings_.push_back(std::move(addPasses)); }
     const std::vector<std::function<void()>>& endings() const { return endings_; }
     const std::vector<BufferId>& remembered() const { return remembered_; }
+    /// Passes that end the list of skins.
+    void atSkin(std::function<void()> addPasses) { skinEndings_.push_back(std::move(addPasses)); }
+    const std::vector<std::function<void()>>& skinEndings() const { return skinEndings_; }
     void fill(BufferId buffer, std::uint32_t value);
     void copy(BufferId from, BufferId to);
     void updateParameters(BufferId parameters) { update(parameters, HostData::parameters); }
@@ -253,7 +266,7 @@ private:
 
     StepProgram program_;
     std::vector<BufferId> remembered_, kept_;
-    std::vector<std::function<void()>> checked_, endings_;
+    std::vector<std::function<void()>> checked_, endings_, skinEndings_;
     Gate gate_;
     bool isReversed_ = false, isSkin_ = false, isCut_ = false;
     std::uint32_t substep_ = 0;

@@ -368,6 +368,10 @@ vk::BufferView Simulation::skinIndices() const noexcept {
 const std::vector<SkinRange>& Simulation::skins() const noexcept {
     return state_->skins;
 }
+CutSurface Simulation::cutSurface() const noexcept {
+    const CutSurfaceBuffers& buffers = state_->program.cutSurface;
+    return {view(buffers.vertices), view(buffers.rest), view(buffers.indices), view(buffers.draws)};
+}
 std::span<const Pose> Simulation::colliderPoses() const noexcept {
     return state_->colliders.poses();
 }
@@ -391,7 +395,8 @@ Status Simulation::status(std::uint64_t frame) const noexcept {
             .lostTime = state_->lostTime[slot],
             .linksCut = state_->hasBlade[slot] ? counts.linksOfStep : 0,
             .linksCutInAll = counts.links,
-            .pieces = counts.pieces};
+            .pieces = counts.pieces,
+            .cutSurfaceMissing = counts.missing};
 }
 
 std::vector<std::string> Simulation::phases() const {

@@ -87,6 +87,9 @@ struct Status {
     std::uint32_t linksCut = 0; ///< in this step; links that only serve the surface of a cut do not count
     std::uint32_t linksCutInAll = 0; ///< since the uncut bodies, or those of recordLoadTopology()
     std::uint32_t pieces = 0;        ///< of bodies that may be cut, single particles among them
+    /// Triangles and vertices that the surface of cuts needs, where that is more than there is room for; else
+    /// 0. The surface is not drawn then, and skins are not clipped; nothing else is missing.
+    std::uint32_t cutSurfaceMissing = 0;
 };
 
 /// A range of the skin buffers that is one Skin of the scene.
@@ -105,6 +108,22 @@ struct SavedState {
 
 /// Owns the buffers and pipelines of one scene. Must not outlive the Device. Never submits, waits or owns a
 /// queue. One thread per Simulation; different ones are independent.
+/// The surface of cuts, to be drawn beside the skins after recordSkin(): the inside that a blade laid open,
+/// and the pieces of skins beside it. Those of the skin's own triangles that pieces stand for are degenerate
+/// from then on. Closed where both are taken together, two-sided: each piece has its own side. Views are
+/// empty where no skin is clipped: only bodies that may be cut whose skin is the outer faces of their cells
+/// (addLatticeSkin) have such a surface.
+struct CutSurface {
+    vk::BufferView vertices; ///< layout::SkinVertex (position, normal; stride 32)
+    /// layout::CutVertex of each (stride 64), of which the first vec4 is for a solid texture: where the point
+    /// is in the body as the scene was loaded [m], w = index of the skin that it belongs to.
+    vk::BufferView rest;
+    vk::BufferView indices; ///< 32 bits, of triangles
+    /// Two VkDrawIndexedIndirectCommand, stride 20: the inside, then the pieces of skins. Both draw nothing
+    /// while nothing is cut.
+    vk::BufferView draws;
+};
+
 class Simulation {
 public:
     static constexpr std::uint32_t framesInFlight = 4; ///< steps recorded but not finished, at most
@@ -167,6 +186,7 @@ public:
     vk::BufferView skinVertices() const noexcept;
     vk::BufferView skinIndices() const noexcept;
     const std::vector<SkinRange>& skins() const noexcept;
+    CutSurface cutSurface() const noexcept;
     /// Where the scene's colliders are at the end of the newest recorded step, one each in their order. Valid
     /// until the next one is recorded.
     std::span<const Pose> colliderPoses() const noexcept;

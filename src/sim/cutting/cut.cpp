@@ -8,6 +8,7 @@
 #include "sim/lattice/pieces.hpp"
 #include "sim/ranges.hpp"
 #include "sim/sleep.hpp"
+#include "sim/surface/cut_surface.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -35,6 +36,7 @@ struct Cut {
     CuttingBuffers buffers;
     BufferId cells, placesBefore, blade, points, work;
     BufferId labels, particles, arguments, groups; // of pieces
+    std::shared_ptr<surface::CutSurface> surface;  // none where no skin is clipped
     bool usesTexels = false;
     std::uint32_t rounds = 0;
 };
@@ -94,7 +96,7 @@ Initial readGrids(const Scene& scene, std::span<const std::uint32_t> grids, cons
         isRowOpen = true;
         lattice::writeLinks(grid, boxes[g], initial.links);
         joinLinks(run, initial);
-        if (run.hasVolumes) lattice::writeCells(grid, boxes[g], initial.cells);
+        lattice::writeCells(grid, boxes[g], initial.cells);
         for (std::uint32_t i = 0; i < grid.node.size(); ++i)
             initial.particles[layout.slot[grid.firstParticle + i]] = grid.firstParticle + i;
     }
@@ -125,7 +127,19 @@ void addPieces(ProgramBuilder& program, Cut& cut, Initial& initial, std::size_t 
     cut.buffers.pieceSizes = program.upload("pieces.sizes", pieces.sizes);
     cut.buffers.counts = program.upload(
         "cut.counts",
-        std::vector{layout::CutCounts{.links = 0, .linksOfStep = 0, .pieces = pieces.count, .unused0 = 0}});
+        std::vector{layout::CutCounts{.links = 0, .linksOfStep = 0, .pieces = pieces.count, .missing = 0}});
+}
+
+void addSurface(ProgramBuilder& program, const Scene& scene, const Settings& settings,
+                const StateLayout& layout, Cut& cut) {
+    surface::CutSource source{.runs = {},
+                              .cells = cut.cells,
+                              .particles = cut.particles,
+                              .groups = cut.groups,
+                              .arguments = cut.arguments,
+                              .firstArgument = 2 * static_cast<std::uint32_t>(cut.runs.size())};
+    for (const Run& run : cut.runs) source.runs.push_back(run.push);
+    cut.surface = surface::addCutSurface(program, scene, settings, layout, source);
 }
 
 Cut addBuffers(ProgramBuilder& program, const Scene& scene, const Settings& settings,
@@ -135,10 +149,10 @@ Cut addBuffers(ProgramBuilder& program, const Scene& scene, const Settings& sett
     Initial initial = readGrids(scene, grids, layout, cut.runs);
     if (cut.runs.empty()) return cut;
     cut.buffers.links = program.upload("cut.links", initial.links);
-    if (std::ranges::any_of(cut.runs, &Run::hasVolumes)) {
-        cut.cells = program.upload("cut.cells", initial.cells);
-        cut.buffers.wholeCells = program.upload("cut.whole_cells", initial.cells);
-    }
+    const bool hasVolumes = std::ranges::any_of(cut.runs, &Run::hasVolumes);
+    const bool hasSurface = surface::hasCutSurface(scene, settings);
+    if (hasVolumes || hasSurface) cut.cells = program.upload("cut.cells", initial.cells);
+    if (hasVolumes) cut.buffers.wholeCells = program.upload("cut.whole_cells", initial.cells);
     cut.buffers.hits = program.scratch<layout::LinkHits>("cut.hits", layout.count);
     cut.buffers.dirty = program.scratch<std::uint32_t>("cut.dirty", layout.count / 32 + 1);
     cut.buffers.savedLinks = program.scratch<std::uint32_t>("cut.saved_links", layout.count);
@@ -157,6 +171,7 @@ Cut addBuffers(ProgramBuilder& program, const Scene& scene, const Settings& sett
     if (particles.sleep) buffers.topology.push_back(particles.sleep->components);
     for (const BufferId buffer : buffers.topology) program.carry(buffer, buffer);
     program.program().cutting = buffers;
+    if (hasSurface) addSurface(program, scene, settings, layout, cut);
     return cut;
 }
 
@@ -240,6 +255,7 @@ void addClosing(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& 
                          run.push);
     addWholeCells(program, cut); // those that an undone step has given back
     addFindingPieces(program, cut, particles);
+    if (cut.surface) surface::addCutSurfacePasses(program, *cut.surface);
 }
 
 } // namespace

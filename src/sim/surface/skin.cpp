@@ -11,18 +11,6 @@ namespace sinew::sim::surface {
 
 namespace {
 
-std::vector<std::uint32_t> joinIndices(const std::vector<Skin>& skins) {
-    std::vector<std::uint32_t> indices;
-    std::uint32_t firstVertex = 0;
-    for (const Skin& skin : skins) {
-        for (const auto& triangle : skin.triangles) {
-            for (const std::uint32_t corner : triangle) indices.push_back(firstVertex + corner);
-        }
-        firstVertex += static_cast<std::uint32_t>(skin.vertexCount());
-    }
-    return indices;
-}
-
 struct Fans {
     std::vector<layout::VertexTriangles> fans;
     std::vector<std::uint32_t> triangles;
@@ -69,6 +57,18 @@ void addVertices(ProgramBuilder& program, const Skin& skin, BufferId positions, 
 
 } // namespace
 
+std::vector<std::uint32_t> joinIndices(const std::vector<Skin>& skins) {
+    std::vector<std::uint32_t> indices;
+    std::uint32_t firstVertex = 0;
+    for (const Skin& skin : skins) {
+        for (const auto& triangle : skin.triangles) {
+            for (const std::uint32_t corner : triangle) indices.push_back(firstVertex + corner);
+        }
+        firstVertex += static_cast<std::uint32_t>(skin.vertexCount());
+    }
+    return indices;
+}
+
 void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins) {
     StepProgram& built = program.program();
     std::uint32_t vertexCount = 0;
@@ -79,7 +79,7 @@ void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins) {
     program.beginSkin();
     program.beginPhase("skin");
     built.skinVertices = program.scratch<layout::SkinVertex>("skin.vertices", vertexCount);
-    built.skinIndices = program.upload("skin.indices", indices);
+    if (built.skinIndices == BufferId{}) built.skinIndices = program.upload("skin.indices", indices);
     std::uint32_t firstVertex = 0;
     for (const Skin& skin : skins) {
         if (skin.vertexCount() == 0) continue;
@@ -92,6 +92,7 @@ void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins) {
     program.dispatch(kernels::skinNormals, vertexCount,
                      {built.skinVertices, built.skinIndices, fanBuffer, triangles},
                      layout::CountPush{vertexCount});
+    for (const auto& addMore : program.skinEndings()) addMore();
 }
 
 } // namespace sinew::sim::surface

@@ -1,0 +1,40 @@
+#version 460
+// The surface of a cut, third pass: how many points a slot owns, and how many triangles there are inside and outside of the cell above
+// it. The same code makes them in write_inside and write_outside.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#include "cut.glsl"
+#include "link_masks.glsl"
+#include "kuhn.glsl"
+#include "cut_points.glsl"
+
+layout(std430, binding = 0) readonly buffer Cells { uint cells[]; };
+layout(std430, binding = 1) readonly buffer Dirty { uint dirty[]; };
+layout(std430, binding = 2) readonly buffer Partitions { uint partitions[]; };
+layout(std430, binding = 3) readonly buffer Owned { uvec4 owned[]; };
+layout(std430, binding = 4) writeonly buffer Counts { SurfaceCounts counts[]; };
+
+uint triangles = 0u;
+void triangle(uvec2 a, uvec2 b, uvec2 c) { ++triangles; }
+bool hasPoint(uvec2 point) { return hasBit(owned[point.x], point.y & ~1u); }
+void setNormal(uint axis, bool isHigh) {}
+#include "cut_inside.glsl"
+#include "cut_outside.glsl"
+
+// Points on edges of a cell are owned a step away.
+bool isDirty(uint cell) {
+    uint all = 0u;
+    [[dont_unroll]] for (uint k = 0u; k < 8u; ++k) all |= dirty[slotOf(cell, k) >> 5];
+    return all != 0u;
+}
+
+void main() {
+    const uint item = itemIndex(push.count);
+    if (item >= push.count) return;
+    const uint i = push.first + item;
+    if (!isDirty(i)) return;
+    addInside(i);
+    const uint inside = triangles;
+    const uint pieces = addOutside(i);
+    counts[i] = SurfaceCounts(countOf(owned[i]) | inside << 8 | triangles - inside << 16, pieces);
+}

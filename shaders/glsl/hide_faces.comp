@@ -1,0 +1,19 @@
+#version 460
+// The surface of a cut, last pass: triangles of a skin of which pieces are drawn instead shrink to a point.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+
+layout(std430, binding = 0) readonly buffer Counts { SurfaceCounts counts[]; };
+layout(std430, binding = 1) readonly buffer State { SurfaceState state; };
+layout(std430, binding = 2) readonly buffer Faces { SkinFace faces[]; };
+layout(std430, binding = 3) readonly buffer AllIndices { uint allIndices[]; }; // of the uncut skins
+layout(std430, binding = 4) writeonly buffer Indices { uint indices[]; };
+layout(push_constant) uniform Push { CountPush push; };
+
+void main() {
+    const uint i = itemIndex(push.count);
+    if (i >= push.count) return;
+    const SkinFace face = faces[i];
+    const bool isHidden = state.missing == 0u && (counts[face.cell].pieces >> face.bit & 1u) != 0u;
+    for (uint n = 0u; n < 3u; ++n) indices[3u * face.triangle + n] = allIndices[3u * face.triangle + (isHidden ? 0u : n)];
+}

@@ -1,0 +1,52 @@
+// The complex that surfaces of cuts are made of (cutting design, 5): every filled cell is six tetrahedra (Kuhn), one for each
+// order in which a way along the axes leads from its lowest corner to its highest. All their edges are links.
+//
+//   tetrahedron p   order (i, j, k) of axes: 012 021 102 120 201 210; corners 0, 1 << i, 1 << i | 1 << j, 7 of the cell
+//   opposite of 0   on the cell's high face along i; beyond lies (j, k, i) of the next cell, there opposite of 3
+//   opposite of 1   beyond lies (j, i, k) of the same cell; opposite of 2: (i, k, j)
+//   opposite of 3   on the low face along k; beyond lies (k, i, j) of the cell before, there opposite of 0
+//
+// Both sides see the corners of a face in the same order. A partition says which corners of a tetrahedron hang together by
+// live links: the lowest of its part for each corner, in 0, 1, 2 and 2 bits; 0 = all do.
+
+const uint tetrahedra = 6u, partitionBits = 5u;
+const uint secondCorner[6] = uint[6](1u, 1u, 2u, 2u, 4u, 4u), thirdCorner[6] = uint[6](3u, 5u, 3u, 6u, 5u, 6u);
+const uint beyondFirst[6] = uint[6](3u, 5u, 1u, 4u, 0u, 2u);  // (j, k, i)
+const uint beyondSecond[6] = uint[6](2u, 4u, 0u, 5u, 1u, 3u); // (j, i, k)
+const uint beyondThird[6] = uint[6](1u, 0u, 3u, 2u, 5u, 4u);  // (i, k, j)
+const uint beyondLast[6] = uint[6](4u, 2u, 5u, 0u, 3u, 1u);   // (k, i, j)
+const uint lastAxis[6] = uint[6](2u, 1u, 2u, 0u, 1u, 0u);
+const bool isEven[6] = bool[6](true, false, false, true, true, false); // whether its corners in order are right-handed
+
+uvec4 cornersOf(uint p) { return uvec4(0u, secondCorner[p], thirdCorner[p], 7u); }
+
+// Whether the cell above a node is filled, from the fill of the cells around it.
+bool isFilled(uint around) { return around >> 28 != 0u; }
+
+// The slot of a cell's corner.
+uint slotOf(uint cell, uint corner) { return uint(int(cell) + offsetOf(cornerOf(int(corner)))); }
+
+uint partitionOf(uint word, uint p) { return bitfieldExtract(word, int(partitionBits * p), int(partitionBits)); }
+uvec4 labelsOf(uint parted) { return uvec4(0u, parted & 1u, parted >> 1 & 3u, parted >> 3); }
+
+// Parts of a tetrahedron.
+uint partsOf(uvec4 labels) {
+    return 1u + (labels.y == 1u ? 1u : 0u) + (labels.z == 2u ? 1u : 0u) + (labels.w == 3u ? 1u : 0u);
+}
+
+// The corners of the face opposite of corner m, in order.
+uvec3 faceOf(uint m) { return uvec3(m == 0u ? 1u : 0u, m <= 1u ? 2u : 1u, m <= 2u ? 3u : 2u); }
+
+// Whether the corners of that face are in right-handed order seen from outside.
+bool isOutward(uint p, uint m) { return isEven[p] == ((m & 1u) == 0u); }
+
+// A partition as the three corners of a face see it: the lowest place of its part for each.
+uvec3 restricted(uvec4 labels, uvec3 face) {
+    const uint a = labels[face.x], b = labels[face.y], c = labels[face.z];
+    return uvec3(0u, a == b ? 0u : 1u, c == a ? 0u : c == b ? 1u : 2u);
+}
+
+uint waysOf(uvec3 pattern) { return 1u + (pattern.y == 1u ? 1u : 0u) + (pattern.z == 2u ? 1u : 0u); }
+
+// Of a face that is split in two: the place of the corner that is alone.
+uint loneOf(uvec3 pattern) { return pattern.y == 0u ? 2u : pattern.z == 0u ? 1u : 0u; }

@@ -1,0 +1,41 @@
+#version 460
+// The surface of a cut, first pass: which corners of every tetrahedron near the last blade hang together (cutting design, 5).
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#include "cut.glsl"
+#include "link_masks.glsl"
+#include "kuhn.glsl"
+
+layout(std430, binding = 0) readonly buffer Links { uint links[]; };
+layout(std430, binding = 1) readonly buffer Cells { uint cells[]; };
+layout(std430, binding = 2) readonly buffer Dirty { uint dirty[]; };
+layout(std430, binding = 3) writeonly buffer Partitions { uint partitions[]; }; // of the cell above a slot, 5 bits each
+layout(std430, binding = 4) writeonly buffer Near { uint near[]; };             // 1 = a point may hang on the particle
+
+bool isLinked(uint words[8], uint low, uint high) {
+    const ivec3 d = cornerOf(int(low ^ high));
+    return isAlive(words[low], d.x, d.y, d.z);
+}
+
+uint partitionOf(uint words[8], uvec4 corners) {
+    uvec4 labels = uvec4(0u, 1u, 2u, 3u);
+    [[dont_unroll]] for (int round = 0; round < 3; ++round) // three links at most lead from a corner to another
+        [[dont_unroll]] for (int a = 0; a < 3; ++a)
+            [[dont_unroll]] for (int b = a + 1; b < 4; ++b)
+                if (isLinked(words, corners[a], corners[b])) labels[a] = labels[b] = min(labels[a], labels[b]);
+    return labels.y | labels.z << 1 | labels.w << 3;
+}
+
+void main() {
+    const uint item = itemIndex(push.count);
+    if (item >= push.count) return;
+    const uint i = push.first + item;
+    if (dirty[i >> 5] == 0u || !isFilled(cells[i])) return;
+    uint words[8];
+    [[dont_unroll]] for (uint k = 0u; k < 8u; ++k) words[k] = links[slotOf(i, k)];
+    uint all = 0u;
+    [[dont_unroll]] for (uint p = 0u; p < tetrahedra; ++p) all |= partitionOf(words, cornersOf(p)) << partitionBits * p;
+    partitions[i] = all;
+    if (all == 0u) return;
+    [[dont_unroll]] for (uint k = 0u; k < 8u; ++k) near[slotOf(i, k)] = 1u;
+}

@@ -1,0 +1,46 @@
+#version 460
+// Where every chunk of slots begins in the lists of a cut surface, in the order of slots, so that the surface does not depend on timing;
+// what is drawn of it; and what there is no room for: then nothing is, and the host is told. One group.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+
+layout(std430, binding = 0) buffer Sums { uvec4 sums[]; }; // points, triangles inside, outside; becomes where those begin
+layout(std430, binding = 1) writeonly buffer Arguments { DispatchArguments arguments[]; };
+layout(std430, binding = 2) writeonly buffer Draws { DrawArguments draws[]; };
+layout(std430, binding = 3) writeonly buffer State { SurfaceState state; };
+layout(std430, binding = 4) readonly buffer Groups { uint groups[]; }; // of every run of slots
+layout(std430, binding = 5) buffer Counts { CutCounts counts; };
+layout(push_constant) uniform Push { SurfacePush push; };
+
+shared uvec4 ofLane[GROUP_SIZE];
+
+uint groupsOf(uint items) { return (items + GROUP_SIZE - 1u) / GROUP_SIZE; }
+
+void main() {
+    const uint lane = gl_LocalInvocationID.x, run = (push.chunks - 1u) / GROUP_SIZE + 1u;
+    const uint first = min(lane * run, push.chunks), end = min(first + run, push.chunks);
+    uvec4 sum = uvec4(0u);
+    for (uint c = first; c < end; ++c) sum += sums[c];
+    ofLane[lane] = sum;
+    barrier();
+    uvec4 start = uvec4(0u), total = uvec4(0u);
+    for (uint l = 0u; l < GROUP_SIZE; ++l) {
+        if (l == lane) start = total;
+        total += ofLane[l];
+    }
+    for (uint c = first; c < end; ++c) {
+        const uvec4 own = sums[c];
+        sums[c] = start;
+        start += own;
+    }
+    if (lane > 0u) return;
+    const uint needed = max(total.y + total.z, total.x + 3u * total.z);
+    const uint fits = needed <= push.room ? 1u : 0u;
+    total *= fits;
+    state = SurfaceState(total.x, total.y, total.z, fits == 0u ? needed : 0u);
+    counts.missing = fits == 0u ? needed : 0u;
+    draws[0] = DrawArguments(3u * total.y, 1u, 0u, 0, 0u);
+    draws[1] = DrawArguments(3u * total.z, 1u, 3u * total.y, 0, 0u);
+    for (uint r = 0u; r < push.runs; ++r) arguments[r] = DispatchArguments(min(total.x, 1u) * groups[r], 1u, 1u, 0u);
+    arguments[push.runs] = DispatchArguments(groupsOf(total.x + 3u * total.z), 1u, 1u, 0u);
+}

@@ -1,0 +1,23 @@
+#version 460
+// Where every slot's part of a cut surface begins.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+
+layout(std430, binding = 0) readonly buffer Counts { SurfaceCounts counts[]; };
+layout(std430, binding = 1) readonly buffer Sums { uvec4 sums[]; }; // points, triangles inside, outside before the chunk
+layout(std430, binding = 2) buffer Owned { uvec4 owned[]; };        // w: the first point
+layout(std430, binding = 3) writeonly buffer Starts { uvec2 starts[]; }; // first triangle inside, outside
+layout(push_constant) uniform Push { CountPush push; };
+
+void main() {
+    const uint chunk = itemIndex(push.count);
+    if (chunk >= push.count) return;
+    uvec4 next = sums[chunk];
+    for (uint i = chunk * SURFACE_CHUNK; i < (chunk + 1u) * SURFACE_CHUNK; ++i) {
+        const uint sizes = counts[i].sizes;
+        if (sizes == 0u) continue;
+        owned[i].w = next.x;
+        starts[i] = next.yz;
+        next += uvec4(sizes & 255u, sizes >> 8 & 255u, sizes >> 16, 0u);
+    }
+}

@@ -1,0 +1,47 @@
+#version 460
+// The surface of a cut, fifth pass: triangles inside. Their normals at rest add up at the points in whole numbers, so that the
+// order does not matter.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#include "cut.glsl"
+#include "link_masks.glsl"
+#include "kuhn.glsl"
+#include "cut_points.glsl"
+
+layout(std430, binding = 0) readonly buffer Cells { uint cells[]; };
+layout(std430, binding = 1) readonly buffer Partitions { uint partitions[]; };
+layout(std430, binding = 2) readonly buffer Owned { uvec4 owned[]; };
+layout(std430, binding = 3) readonly buffer Counts { SurfaceCounts counts[]; };
+layout(std430, binding = 4) readonly buffer Starts { uvec2 starts[]; };
+layout(std430, binding = 5) readonly buffer State { SurfaceState state; };
+layout(std430, binding = 6) buffer Vertices { CutVertex vertices[]; };
+layout(std430, binding = 7) writeonly buffer Indices { uint indices[]; };
+
+uint next; // triangle
+
+uint indexOf(uvec2 point) {
+    const uvec4 own = owned[point.x];
+    return placeOf(own, copyOf(own, point.y));
+}
+
+void triangle(uvec2 a, uvec2 b, uvec2 c) {
+    const uint corners[3] = uint[3](indexOf(a), indexOf(b), indexOf(c));
+    const vec3 at = vertices[corners[0]].rest.xyz;
+    const vec3 area = 0.5 * cross(vertices[corners[1]].rest.xyz - at, vertices[corners[2]].rest.xyz - at);
+    const ivec3 normal = ivec3(round(area * (SURFACE_NORMAL / (push.spacing * push.spacing))));
+    [[dont_unroll]] for (int n = 0; n < 3; ++n) {
+        indices[3u * next + uint(n)] = corners[n];
+        [[dont_unroll]] for (int axis = 0; axis < 3; ++axis) atomicAdd(vertices[corners[n]].normal[axis], normal[axis]);
+    }
+    ++next;
+}
+#include "cut_inside.glsl"
+
+void main() {
+    const uint item = itemIndex(push.count);
+    if (item >= push.count || state.missing > 0u) return;
+    const uint i = push.first + item;
+    if ((counts[i].sizes >> 8 & 255u) == 0u) return;
+    next = starts[i].x;
+    addInside(i);
+}

@@ -1,0 +1,60 @@
+#version 460
+// The surface of a cut, sixth pass: pieces of outer faces. Each triangle has vertices of its own: a body's faces meet in edges.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#include "cut.glsl"
+#include "link_masks.glsl"
+#include "kuhn.glsl"
+#include "cut_points.glsl"
+
+layout(std430, binding = 0) readonly buffer Cells { uint cells[]; };
+layout(std430, binding = 1) readonly buffer Partitions { uint partitions[]; };
+layout(std430, binding = 2) readonly buffer Owned { uvec4 owned[]; };
+layout(std430, binding = 3) readonly buffer Counts { SurfaceCounts counts[]; };
+layout(std430, binding = 4) readonly buffer Starts { uvec2 starts[]; };
+layout(std430, binding = 5) readonly buffer State { SurfaceState state; };
+layout(std430, binding = 6) readonly buffer Rest { vec4 rest[]; }; // w = index of the body's skin
+layout(std430, binding = 7) buffer Vertices { CutVertex vertices[]; };
+layout(std430, binding = 8) writeonly buffer Indices { uint indices[]; };
+layout(std430, binding = 9) readonly buffer Particles { uint particles[]; }; // of each slot
+
+uint next; // triangle, of those outside
+int normal[3];
+
+void setNormal(uint axis, bool isHigh) {
+    const int size = int(SURFACE_NORMAL) * (isHigh ? 1 : -1);
+    [[dont_unroll]] for (uint n = 0u; n < 3u; ++n) normal[n] = axis == 1u << n ? size : 0;
+}
+
+bool hasPoint(uvec2 point) { return hasBit(owned[point.x], point.y & ~1u); }
+
+const uint ofParticle = 128u; // particleBit of cut_outside
+
+CutVertex vertexAt(uvec2 point) {
+    const uint i = point.x;
+    if (point.y == ofParticle)
+        return CutVertex(rest[i], vec4(1.0, 0.0, 0.0, 0.0), uint[4](i, i, i, i), normal, SURFACE_PARTICLE | particles[i]);
+    CutVertex vertex = vertices[placeOf(owned[i], copyOf(owned[i], point.y))];
+    vertex.normal = normal;
+    return vertex;
+}
+
+void triangle(uvec2 a, uvec2 b, uvec2 c) {
+    const uvec2 corners[3] = uvec2[3](a, b, c);
+    [[dont_unroll]] for (uint n = 0u; n < 3u; ++n) {
+        const uint vertex = state.points + 3u * next + n;
+        vertices[vertex] = vertexAt(corners[n]);
+        indices[3u * (state.inside + next) + n] = vertex;
+    }
+    ++next;
+}
+#include "cut_outside.glsl"
+
+void main() {
+    const uint item = itemIndex(push.count);
+    if (item >= push.count || state.missing > 0u) return;
+    const uint i = push.first + item;
+    if (counts[i].sizes >> 16 == 0u) return;
+    next = starts[i].y;
+    addOutside(i);
+}

@@ -1,0 +1,144 @@
+// A point is named as layout::CutVertex does: its own number, or a particle.
+#include "sim/surface/closed_surface.hpp"
+
+#include "layout.h"
+#include "sim/scenes.hpp"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <numeric>
+
+namespace sinew::test {
+
+using Eigen::Vector3d;
+using namespace sim;
+
+namespace {
+
+template <typename T> std::vector<T> read(CutBody& body, BufferId buffer, std::uint64_t& hash) {
+    const vk::BufferView view = body.runner().simulation().view(buffer);
+    for (const std::uint8_t byte : queue().download<std::uint8_t>(view))
+        hash = (hash ^ byte) * 1099511628211u;
+    return queue().download<T>(view);
+}
+
+Vector3d xyz(const layout::vec4& v) {
+    return {double{v.x}, double{v.y}, double{v.z}};
+}
+
+} // namespace
+
+ClosedSurface::ClosedSurface(CutBody& body) {
+    body.runner().skin();
+    addSkin(body);
+    addCut(body);
+}
+
+std::uint32_t ClosedSurface::pointOf(std::uint32_t key, const Vector3d& rest, const Vector3d& drawn) {
+    const auto [entry, isNew] = points_.try_emplace(key, static_cast<std::uint32_t>(rest_.size()));
+    if (isNew) {
+        rest_.push_back(rest);
+        drawn_.push_back(drawn);
+    }
+    return entry->second;
+}
+
+void ClosedSurface::addSkin(CutBody& body) {
+    const StepProgram& program = body.runner().simulation().program();
+    const Skin& skin = body.scene().skins.at(0);
+    const auto indices = read<std::uint32_t>(body, program.skinIndices, hash_);
+    const auto vertices = read<layout::SkinVertex>(body, program.skinVertices, hash_);
+    for (std::size_t t = 0; t < skin.triangles.size(); ++t) {
+        if (indices[3 * t] == indices[3 * t + 1]) continue; // drawn in pieces
+        Triangle triangle;
+        for (std::size_t n = 0; n < 3; ++n) {
+            const std::uint32_t vertex = indices[3 * t + n], particle = skin.particles[vertex];
+            triangle.points[n] =
+                pointOf(SURFACE_PARTICLE | particle, body.at(particle), xyz(vertices[vertex].position));
+            triangle.normals[n] = xyz(vertices[vertex].normal);
+        }
+        triangles_.push_back(triangle);
+    }
+}
+
+void ClosedSurface::addCut(CutBody& body) {
+    const CutSurfaceBuffers& buffers = body.runner().simulation().program().cutSurface;
+    const auto draws = read<layout::DrawArguments>(body, buffers.draws, hash_);
+    const auto indices = read<std::uint32_t>(body, buffers.indices, hash_);
+    const auto vertices = read<layout::SkinVertex>(body, buffers.vertices, hash_);
+    const auto rest = read<layout::CutVertex>(body, buffers.rest, hash_);
+    for (std::size_t draw = 0; draw < 2; ++draw)
+        for (std::uint32_t t = 0; t < draws[draw].indexCount / 3; ++t) {
+            Triangle triangle{.points = {}, .normals = {}, .part = draw == 0 ? Part::inside : Part::outside};
+            for (std::size_t n = 0; n < 3; ++n) {
+                const std::uint32_t v = indices[draws[draw].firstIndex + 3 * t + n];
+                triangle.points[n] = pointOf(rest[v].point, xyz(rest[v].rest), xyz(vertices[v].position));
+                triangle.normals[n] = xyz(vertices[v].normal);
+            }
+            triangles_.push_back(triangle);
+        }
+}
+
+std::size_t ClosedSurface::openEdges() const {
+    std::map<std::array<std::uint32_t, 2>, int> balance;
+    for (const Triangle& triangle : triangles_)
+        for (std::size_t n = 0; n < 3; ++n) {
+            const std::uint32_t a = triangle.points[n], b = triangle.points[(n + 1) % 3];
+            if (a != b) balance[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
+        }
+    return static_cast<std::size_t>(
+        std::ranges::count_if(balance, [](const auto& e) { return e.second != 0; }));
+}
+
+std::size_t ClosedSurface::crowdedEdges() const {
+    std::map<std::array<std::uint32_t, 2>, int> count;
+    for (const Triangle& triangle : triangles_)
+        for (std::size_t n = 0; n < 3; ++n) {
+            const std::uint32_t a = triangle.points[n], b = triangle.points[(n + 1) % 3];
+            ++count[{std::min(a, b), std::max(a, b)}];
+        }
+    return static_cast<std::size_t>(std::ranges::count_if(count, [](const auto& e) { return e.second > 2; }));
+}
+
+std::vector<double> ClosedSurface::volumes(double cell) const {
+    std::vector<std::uint32_t> parent(rest_.size());
+    std::iota(parent.begin(), parent.end(), 0u);
+    const auto root = [&](std::uint32_t i) {
+        while (parent[i] != i) i = parent[i] = parent[parent[i]];
+        return i;
+    };
+    for (const Triangle& t : triangles_)
+        for (std::size_t n = 1; n < 3; ++n) parent[root(t.points[0])] = root(t.points[n]);
+    std::map<std::uint32_t, double> volumes;
+    for (const Triangle& t : triangles_)
+        volumes[root(t.points[0])] +=
+            rest_[t.points[0]].dot(rest_[t.points[1]].cross(rest_[t.points[2]])) / 6;
+    std::vector<double> result;
+    for (const auto& [point, volume] : volumes)
+        if (std::abs(volume) > 1e-9 * cell) result.push_back(volume);
+    std::ranges::sort(result, std::greater<>());
+    return result;
+}
+
+double ClosedSurface::volume() const {
+    double sum = 0;
+    for (const Triangle& t : triangles_)
+        sum += rest_[t.points[0]].dot(rest_[t.points[1]].cross(rest_[t.points[2]])) / 6;
+    return sum;
+}
+
+double ClosedSurface::area(Part part) const {
+    double sum = 0;
+    for (const Triangle& t : triangles_) {
+        const Vector3d a = rest_[t.points[0]];
+        if (t.part == part) sum += (rest_[t.points[1]] - a).cross(rest_[t.points[2]] - a).norm() / 2;
+    }
+    return sum;
+}
+
+std::uint64_t ClosedSurface::hash() const {
+    return hash_;
+}
+
+} // namespace sinew::test

@@ -1,0 +1,49 @@
+// The whole surface of a body that was cut, read back and joined point by point: what is left of its skin,
+// the pieces beside the cut and the inside, at rest and where it is drawn.
+#pragma once
+
+#include "sim/cutting/cut_body.hpp"
+
+#include <map>
+
+namespace sinew::test {
+
+class ClosedSurface {
+public:
+    enum class Part { skin, outside, inside };
+    struct Triangle {
+        std::array<std::uint32_t, 3> points{}; ///< index into rest() and drawn()
+        std::array<Eigen::Vector3d, 3> normals;
+        Part part = Part::skin;
+    };
+
+    /// The only skin of a body of one grid; records the skin list first.
+    explicit ClosedSurface(CutBody& body);
+
+    const std::vector<Triangle>& triangles() const { return triangles_; }
+    const std::vector<Eigen::Vector3d>& rest() const { return rest_; }
+    const std::vector<Eigen::Vector3d>& drawn() const { return drawn_; }
+
+    /// Directed edges that no other runs against.
+    std::size_t openEdges() const;
+    /// Edges with more than two triangles.
+    std::size_t crowdedEdges() const;
+    /// Signed volume of each connected part, largest first; those of less than a billionth of a cell are
+    /// counted alone.
+    std::vector<double> volumes(double cell) const;
+    double volume() const;
+    double area(Part part) const; ///< at rest
+    std::uint64_t hash() const;   ///< over the bits of all buffers
+
+private:
+    std::uint32_t pointOf(std::uint32_t key, const Eigen::Vector3d& rest, const Eigen::Vector3d& drawn);
+    void addSkin(CutBody& body);
+    void addCut(CutBody& body);
+
+    std::map<std::uint32_t, std::uint32_t> points_; // by key
+    std::vector<Eigen::Vector3d> rest_, drawn_;
+    std::vector<Triangle> triangles_;
+    std::uint64_t hash_ = 14695981039346656037u;
+};
+
+} // namespace sinew::test
