@@ -54,15 +54,15 @@ HandMesh::HandMesh(const vk::Device& device)
       indices_(filled(device, "hand.indices", makeMesh().triangles, VK_BUFFER_USAGE_INDEX_BUFFER_BIT)),
       indexCount_(static_cast<std::uint32_t>(3 * indices_.count())) {}
 
-void HandMesh::draw(VkCommandBuffer commands, const vk::BufferView& positions,
-                    std::uint32_t particle) const noexcept {
+void HandMesh::draw(VkCommandBuffer commands, const vk::BufferView& points,
+                    std::uint32_t first) const noexcept {
     const vk::BufferView vertices = vertices_.view(), indices = indices_.view();
-    const std::array buffers{vertices.buffer, positions.buffer};
-    const std::array offsets{vertices.offset, positions.offset};
+    const std::array buffers{vertices.buffer, points.buffer};
+    const std::array offsets{vertices.offset, points.offset};
     const vk::DeviceFunctions& functions = device_.functions();
     functions.vkCmdBindVertexBuffers(commands, 0, buffers.size(), buffers.data(), offsets.data());
     functions.vkCmdBindIndexBuffer(commands, indices.buffer, indices.offset, VK_INDEX_TYPE_UINT32);
-    functions.vkCmdDrawIndexed(commands, indexCount_, 1, 0, 0, particle);
+    functions.vkCmdDrawIndexed(commands, indexCount_, 1, 0, 0, first);
 }
 
 } // namespace sinew::viewer

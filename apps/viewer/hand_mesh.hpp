@@ -2,7 +2,9 @@
 #pragma once
 
 #include "viewer/geometry.hpp"
+
 #include "vk/buffer.hpp"
+#include <span>
 
 namespace sinew::viewer {
 
@@ -12,15 +14,22 @@ struct Hand {
     Vector3 target = Vector3::Zero(); ///< where the hand is [m]
 };
 
+/// What tools show over the bodies.
+struct Overlay {
+    std::optional<Hand> hand;
+    std::span<const Vector3> stroke; ///< path of a blade, near the eye [m]; at most mostStrokePoints
+};
+
+constexpr std::size_t mostStrokePoints = 256;
+
 /// Vertices for hand.vert and indices, for one hand. Must not outlive its Device, which must not move.
 class HandMesh {
 public:
     explicit HandMesh(const vk::Device& device);
 
-    /// With vertices (binding 0) and the public `positions` of the simulation (binding 1) and the pipeline
-    /// bound by the caller's push constants.
-    void draw(VkCommandBuffer commands, const vk::BufferView& positions,
-              std::uint32_t particle) const noexcept;
+    /// A rope from element `first` of `points` (vec4: the public positions, or a stroke) and a ball, as the
+    /// push constants of the caller say; the pipeline must be bound.
+    void draw(VkCommandBuffer commands, const vk::BufferView& points, std::uint32_t first) const noexcept;
 
 private:
     const vk::Device& device_;

@@ -84,7 +84,9 @@ class Recorder {
 public:
     Recorder(const Options& options, const Opening& opening, const vk::Device& device)
         : opening_(opening), device_(device), stage_(device, opening.loaded.scene, opening.loaded.settings),
-          offscreen_(device, options.size, opening.light), queue_(device) {}
+          offscreen_(device, options.size, opening.light), queue_(device) {
+        stage_.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
+    }
 
     /// Submits a frame; with `isPictured`, waits for its picture.
     std::optional<Picture> advance(std::uint64_t frame, bool isPictured) {

@@ -31,8 +31,8 @@ Offscreen::Offscreen(const vk::Device& device, VkExtent2D extent, const StageLig
       canvas_(renderer_.makeCanvas(extent, std::array{image_.view()})) {}
 
 void Offscreen::record(VkCommandBuffer commands, const Camera& camera, const sim::Simulation& simulation,
-                       const std::optional<Hand>& hand) const noexcept {
-    renderer_.record(commands, 0, canvas_, 0, camera, simulation, hand);
+                       const Overlay& overlay) const noexcept {
+    renderer_.record(commands, 0, canvas_, 0, camera, simulation, overlay);
     const VkBufferImageCopy region{.bufferOffset = readback_.view().offset,
                                    .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                    .imageExtent = {image_.extent().width, image_.extent().height, 1}};

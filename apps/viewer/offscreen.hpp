@@ -14,7 +14,7 @@ public:
 
     /// Records picture and copy. As Renderer::record; the previous picture must be finished.
     void record(VkCommandBuffer commands, const Camera& camera, const sim::Simulation& simulation,
-                const std::optional<Hand>& hand = std::nullopt) const noexcept;
+                const Overlay& overlay = {}) const noexcept;
 
     /// The picture of the newest finished record().
     Picture read() const;

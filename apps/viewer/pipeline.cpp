@@ -54,11 +54,25 @@ constexpr std::array ballAttributes{VkVertexInputAttributeDescription{0, 0, VK_F
                                     VkVertexInputAttributeDescription{1, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 0},
                                     VkVertexInputAttributeDescription{2, 2, VK_FORMAT_R32_SFLOAT, 0}};
 
+constexpr std::array cutBindings{
+    skinBinding,
+    VkVertexInputBindingDescription{1, sizeof(sim::layout::CutVertex), VK_VERTEX_INPUT_RATE_VERTEX}};
+constexpr std::array cutAttributes{skinAttributes[0], skinAttributes[1],
+                                   VkVertexInputAttributeDescription{2, 1, VK_FORMAT_R32G32B32A32_SFLOAT,
+                                                                     offsetof(sim::layout::CutVertex, rest)}};
+
 VkPipelineVertexInputStateCreateInfo vertexInput(PipelineRequest::Input input) {
     using Input = PipelineRequest::Input;
     VkPipelineVertexInputStateCreateInfo state{.sType =
                                                    VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
     if (input == Input::none) return state;
+    if (input == Input::cuts) {
+        state.vertexBindingDescriptionCount = cutBindings.size();
+        state.pVertexBindingDescriptions = cutBindings.data();
+        state.vertexAttributeDescriptionCount = cutAttributes.size();
+        state.pVertexAttributeDescriptions = cutAttributes.data();
+        return state;
+    }
     const bool isBalls = input == Input::balls || input == Input::hand;
     const std::uint32_t perBall = input == Input::hand ? 2 : 3;
     state.vertexBindingDescriptionCount = isBalls ? perBall : 1;

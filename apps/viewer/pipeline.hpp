@@ -14,8 +14,8 @@ struct PipelineRequest {
     VkRenderPass pass = VK_NULL_HANDLE;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     /// Of SkinVertex, binding 0; or corners of a ball, and its place and radius an instance, bindings 0 to 2;
-    /// of a hand those without a radius.
-    enum class Input { none, positions, positionsAndNormals, balls, hand } input = Input::none;
+    /// of a hand those without a radius. Of a cut SkinVertex and CutVertex, bindings 0 and 1.
+    enum class Input { none, positions, positionsAndNormals, balls, hand, cuts } input = Input::none;
     enum class Depth { none, test, testAndWrite } depth = Depth::none;
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     std::span<const vk::SpecialisationConstant> constants; ///< of both stages; ids a shader lacks are ignored

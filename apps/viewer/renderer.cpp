@@ -20,6 +20,8 @@ enum PipelineIndex : std::size_t {
     groundPipeline,
     skyPipeline,
     handPipeline,
+    insidePipeline,
+    clippedPipeline,
     ballShadowPipeline,
     ballPlanPipeline,
     ballPipeline
@@ -28,7 +30,7 @@ enum PipelineIndex : std::size_t {
 constexpr float ballGloss = 0.6f;      // of a skin's: balls are hard and dry
 constexpr float colliderGloss = 0.15f; // dull beside tissue
 
-constexpr sim::Vec3 handColor{0.95f, 0.62f, 0.10f};
+constexpr sim::Vec3 handColor{0.95f, 0.62f, 0.10f}, strokeColor{0.10f, 0.55f, 0.95f};
 
 constexpr std::array plan{vk::SpecialisationConstant{3, 1}};
 
@@ -67,8 +69,14 @@ Renderer::Renderer(const vk::Device& device, const Target& target, const Quality
                                          .depth = format_.depth,
                                          .samples = format_.samples,
                                          .finalLayout = target.finalLayout})),
-      sets_(device, maps_, slots), balls_(device, light.balls), hand_(device) {
+      sets_(device, maps_, slots), balls_(device, light.balls), hand_(device),
+      strokes_(device, {.name = "strokes",
+                        .count = slots * mostStrokePoints,
+                        .stride = sizeof(sim::layout::vec4),
+                        .kind = vk::MemoryKind::upload,
+                        .usage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT}) {
     createPipelines(target, quality);
+    createCutPipelines(target, quality);
     if (!balls_.ranges().empty()) createBallPipelines(target, quality);
 }
 
@@ -131,6 +139,22 @@ void Renderer::createPipelines(const Target& target, const Quality& quality) {
          .constants = look});
 }
 
+void Renderer::createCutPipelines(const Target& target, const Quality& quality) {
+    const auto look = lookOf(target, quality);
+    PipelineRequest request{.name = "picture.inside",
+                            .vertex = &shaders::cutVert,
+                            .fragment = &shaders::insideFrag,
+                            .pass = pass_.handle(),
+                            .samples = quality.samples,
+                            .input = PipelineRequest::Input::cuts,
+                            .depth = PipelineRequest::Depth::testAndWrite,
+                            .constants = look};
+    addPipeline(request);
+    request.name = "picture.clipped";
+    request.fragment = &shaders::clippedFrag;
+    addPipeline(request);
+}
+
 void Renderer::createBallPipelines(const Target& target, const Quality& quality) {
     const PipelineRequest depth{.name = "picture.ball_shadow",
                                 .vertex = &shaders::ballDepthVert,
@@ -160,7 +184,7 @@ Canvas Renderer::makeCanvas(VkExtent2D extent, std::span<const VkImageView> pict
 
 void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, const Canvas& canvas, std::size_t picture,
                       const Camera& camera, const sim::Simulation& simulation,
-                      const std::optional<Hand>& hand) const noexcept {
+                      const Overlay& overlay) const noexcept {
     sets_.write(slot, frameParams(light_, camera, canvas.aspect()));
     sets_.bind(commands, slot);
     vk::Commands labels(device_, commands);
@@ -168,7 +192,7 @@ void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, const Canvas
     recordMaps(commands, simulation);
     labels.endLabel();
     labels.beginLabel("picture");
-    recordPicture(commands, canvas, picture, simulation, hand);
+    recordPicture(commands, canvas, picture, simulation, overlay, slot);
     labels.endLabel();
 }
 
@@ -181,10 +205,14 @@ void Renderer::recordMaps(VkCommandBuffer commands, const sim::Simulation& simul
     };
     beginMap(maps_.shadow, far);
     drawBodies(commands, shadowPipeline, ballShadowPipeline, simulation);
+    drawCuts(commands, shadowPipeline, shadowPipeline, simulation);
     functions.vkCmdEndRenderPass(commands);
     // Without a ground the other two are only cleared: the shaders' bindings stay readable.
     beginMap(maps_.plan, far);
-    if (light_.ground) drawBodies(commands, planPipeline, ballPlanPipeline, simulation);
+    if (light_.ground) {
+        drawBodies(commands, planPipeline, ballPlanPipeline, simulation);
+        drawCuts(commands, planPipeline, planPipeline, simulation);
+    }
     functions.vkCmdEndRenderPass(commands);
     beginMap(maps_.floor, open);
     if (light_.ground) {
@@ -195,13 +223,15 @@ void Renderer::recordMaps(VkCommandBuffer commands, const sim::Simulation& simul
 }
 
 void Renderer::recordPicture(VkCommandBuffer commands, const Canvas& canvas, std::size_t picture,
-                             const sim::Simulation& simulation,
-                             const std::optional<Hand>& hand) const noexcept {
+                             const sim::Simulation& simulation, const Overlay& overlay,
+                             std::uint32_t slot) const noexcept {
     const vk::DeviceFunctions& functions = device_.functions();
     const std::array clear{VkClearValue{.color = {{0, 0, 0, 1}}}, VkClearValue{.depthStencil = {1, 0}}};
     begin(commands, pass_, canvas.framebuffer(picture), canvas.extent(), clear);
     drawBodies(commands, skinPipeline, ballPipeline, simulation);
-    if (hand) drawHand(commands, simulation, *hand);
+    drawCuts(commands, insidePipeline, clippedPipeline, simulation);
+    if (overlay.hand) drawHand(commands, simulation, *overlay.hand);
+    drawStroke(commands, overlay.stroke, slot);
     if (light_.ground) {
         bind(commands, groundPipeline);
         functions.vkCmdDraw(commands, 4, 1, 0, 0);
@@ -301,8 +331,44 @@ void Renderer::drawHand(VkCommandBuffer commands, const sim::Simulation& simulat
     const Vector3 &at = hand.target, &held = hand.offset;
     push(commands, {{handColor.x, handColor.y, handColor.z, ballGloss},
                     {at.x(), at.y(), at.z(), 0.02f * light_.radius()},
-                    {held.x(), held.y(), held.z(), 0}});
+                    {held.x(), held.y(), held.z(), 1}});
     hand_.draw(commands, simulation.positions(), hand.particle);
+}
+
+// Both draws come from the device, which alone knows how much there is.
+void Renderer::drawCuts(VkCommandBuffer commands, std::size_t ofInside, std::size_t ofClipped,
+                        const sim::Simulation& simulation) const noexcept {
+    const sim::CutSurface surface = simulation.cutSurface();
+    if (surface.draws.size == 0) return;
+    const vk::DeviceFunctions& functions = device_.functions();
+    const std::array buffers{surface.vertices.buffer, surface.rest.buffer};
+    const std::array offsets{surface.vertices.offset, surface.rest.offset};
+    functions.vkCmdBindVertexBuffers(commands, 0, buffers.size(), buffers.data(), offsets.data());
+    functions.vkCmdBindIndexBuffer(commands, surface.indices.buffer, surface.indices.offset,
+                                   VK_INDEX_TYPE_UINT32);
+    for (const std::size_t draw : {std::size_t{0}, std::size_t{1}}) {
+        bind(commands, draw == 0 ? ofInside : ofClipped);
+        push(commands, {}, 0, {});
+        functions.vkCmdDrawIndexedIndirect(commands, surface.draws.buffer,
+                                           surface.draws.offset + draw * surface.draws.stride, 1,
+                                           static_cast<std::uint32_t>(surface.draws.stride));
+    }
+}
+
+void Renderer::drawStroke(VkCommandBuffer commands, std::span<const Vector3> stroke,
+                          std::uint32_t slot) const noexcept {
+    if (stroke.size() < 2) return;
+    const std::size_t first = slot * mostStrokePoints, count = std::min(stroke.size(), mostStrokePoints);
+    auto* points = reinterpret_cast<sim::layout::vec4*>(strokes_.mapped()) + first;
+    for (std::size_t i = 0; i < count; ++i) points[i] = {stroke[i].x(), stroke[i].y(), stroke[i].z(), 0};
+    bind(commands, handPipeline);
+    for (std::size_t i = 0; i + 1 < count; ++i) {
+        const Vector3& to = stroke[i + 1];
+        push(commands, {{strokeColor.x, strokeColor.y, strokeColor.z, ballGloss},
+                        {to.x(), to.y(), to.z(), 0.008f * light_.radius()},
+                        {0, 0, 0, 0.3f}});
+        hand_.draw(commands, strokes_.view(), static_cast<std::uint32_t>(first + i));
+    }
 }
 
 } // namespace sinew::viewer

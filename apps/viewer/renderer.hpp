@@ -48,15 +48,17 @@ public:
     /// picture in the final layout.
     void record(VkCommandBuffer commands, std::uint32_t slot, const Canvas& canvas, std::size_t picture,
                 const Camera& camera, const sim::Simulation& simulation,
-                const std::optional<Hand>& hand = std::nullopt) const noexcept;
+                const Overlay& overlay = {}) const noexcept;
 
 private:
     void addPipeline(PipelineRequest request);
     void createPipelines(const Target& target, const Quality& quality);
+    void createCutPipelines(const Target& target, const Quality& quality);
     void createBallPipelines(const Target& target, const Quality& quality);
     void recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept;
     void recordPicture(VkCommandBuffer commands, const Canvas& canvas, std::size_t picture,
-                       const sim::Simulation& simulation, const std::optional<Hand>& hand) const noexcept;
+                       const sim::Simulation& simulation, const Overlay& overlay,
+                       std::uint32_t slot) const noexcept;
     void begin(VkCommandBuffer commands, const RenderPass& pass, VkFramebuffer framebuffer, VkExtent2D extent,
                std::span<const VkClearValue> clear) const noexcept;
     void bind(VkCommandBuffer commands, std::size_t pipeline) const noexcept;
@@ -66,6 +68,10 @@ private:
     void drawSkins(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept;
     void drawColliders(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept;
     void drawBalls(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept;
+    void drawCuts(VkCommandBuffer commands, std::size_t ofInside, std::size_t ofClipped,
+                  const sim::Simulation& simulation) const noexcept;
+    void drawStroke(VkCommandBuffer commands, std::span<const Vector3> stroke,
+                    std::uint32_t slot) const noexcept;
     void drawHand(VkCommandBuffer commands, const sim::Simulation& simulation,
                   const Hand& hand) const noexcept;
     void bindMesh(VkCommandBuffer commands, const vk::BufferView& vertices,
@@ -83,6 +89,7 @@ private:
     PictureSets sets_;
     Balls balls_;
     HandMesh hand_;
+    vk::Buffer strokes_; // vec4, mostStrokePoints a slot
     std::vector<Pipeline> pipelines_;
 };
 

@@ -56,12 +56,15 @@ Show::Show(Window& window, const vk::Device& device, const Opening& opening)
     : window_(window), device_(device), opening_(opening),
       controller_(opening.camera, opening.loaded.scene.dt),
       stage_(device, opening.loaded.scene, fastest(device, opening.loaded)),
-      probe_(std::in_place, device, stage_.simulation()), presenter_(device, window),
+      probe_(std::in_place, device, stage_.simulation()), blade_(opening.light.bounds), history_(device),
+      canCut_(std::ranges::any_of(opening.loaded.scene.grids, &sim::Grid::isCuttable)),
+      presenter_(device, window),
       moving_(device, presenter_.format(), isSoftware(device) ? reducedQuality() : Quality{}, opening.light),
       status_(opening.loaded.scene, device) {
     if (isSoftware(device)) still_.emplace(device, presenter_.format(), Quality{}, opening.light);
     const auto spans = static_cast<std::uint32_t>(stage_.simulation().phases().size());
     for (std::uint32_t slot = 0; slot < Presenter::framesInFlight; ++slot) times_.emplace_back(device, spans);
+    stage_.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
     controller_.playback.reset(); // fills the buffers
 }
 
@@ -89,7 +92,7 @@ void Show::turn() {
     const Plan plan = controller_.playback.plan(elapsed);
     const bool isChanged = !controller_.playback.isPaused() || plan.isReset || plan.steps > 0 ||
                            !input.isEmpty() || wantsScreenshot_ || wantsProbe_ || hand_.question() ||
-                           shown_ == Shown::nothing;
+                           wantsUndo_ || wantsRedo_ || shown_ == Shown::nothing;
     if (isChanged) lastChange_ = now;
     if (isChanged || shown_ != Shown::still) {
         const bool isLast = !isChanged && now - lastChange_ >= std::chrono::duration<double>(stillAfter);
@@ -108,16 +111,24 @@ void Show::handle(const Input& input) {
     for (const Input::Drag& drag : input.drags) {
         if (drag.action != Action::grab)
             controller_.drag(drag.action, drag.heights);
+        else if (blade_.isOn())
+            continue;
         else if (const Vector2 turn = hand_.drag(drag.heights); !turn.isZero())
             controller_.drag(Action::orbit, turn);
     }
     hand_.move(controller_.camera, input.pointer);
-    status_.setHolding(hand_.isHolding());
+    blade_.move(controller_.camera, input.pointer);
+    status_.setTool(hand_.isHolding() ? " - holding" : blade_.isOn() ? " - blade" : "");
     if (input.notches != 0) controller_.wheel(input.notches, input.pointer);
 }
 
 void Show::handle(const Input::Press& press) {
     if (press.action != Action::grab) return;
+    if (blade_.isOn()) {
+        if (press.isDown) return blade_.press(controller_.camera, press.pointer);
+        blade_.move(controller_.camera, press.pointer);
+        return blade_.release();
+    }
     if (press.isDown)
         hand_.press(controller_.camera, press.pointer);
     else
@@ -126,6 +137,22 @@ void Show::handle(const Input::Press& press) {
 
 void Show::handle(Action action) {
     switch (action) {
+    case Action::blade:
+        if (canCut_)
+            blade_.toggle();
+        else
+            std::fprintf(stderr, "note: no body of this scene is cuttable (cuttable = true)\n");
+        break;
+    case Action::drop:
+        blade_.drop();
+        hand_.release();
+        break;
+    case Action::undo:
+        wantsUndo_ = true;
+        break;
+    case Action::redo:
+        wantsRedo_ = true;
+        break;
     case Action::frame:
         wantsProbe_ = true;
         break;
@@ -177,7 +204,7 @@ void Show::draw(Plan plan, View& view) {
     recordSteps(*frame, plan);
     if (!view.canvas) view.canvas = view.renderer.makeCanvas(presenter_.extent(), presenter_.views());
     view.renderer.record(frame->commands, frame->slot, *view.canvas, frame->image, controller_.camera,
-                         stage_.simulation(), hand_.hand());
+                         stage_.simulation(), {hand_.hand(), blade_.path()});
     if (std::exchange(wantsScreenshot_, false)) recordScreenshot(*frame);
     presenter_.end(*frame);
     status_.frameDrawn();
@@ -188,14 +215,36 @@ void Show::recordSteps(const Presenter::Frame& frame, const Plan& plan) {
     if (plan.isReset) {
         stage_.recordReset(frame.commands);
         hand_.release();
+        blade_.drop();
         isDiverged_ = false;
     }
+    recordHistory(frame);
     flight.firstStep = stage_.steps() + 1;
     flight.steps = plan.steps;
-    for (std::uint32_t step = 0; step < plan.steps; ++step)
-        stage_.recordStep(frame.commands, step == 0 ? &times_[frame.slot] : nullptr, hand_.grabs());
+    for (std::uint32_t step = 0; step < plan.steps; ++step) recordStep(frame, step == 0);
     stage_.recordSkin(frame.commands);
     recordProbe(frame);
+}
+
+void Show::recordHistory(const Presenter::Frame& frame) {
+    const bool isUndo = std::exchange(wantsUndo_, false), isRedo = std::exchange(wantsRedo_, false);
+    if (!isUndo && !isRedo) return;
+    hand_.release();
+    blade_.drop();
+    const bool isDone = isUndo ? history_.recordUndo(frame.commands, stage_.simulation())
+                               : history_.recordRedo(frame.commands, stage_.simulation());
+    if (isDone) isDiverged_ = false;
+}
+
+void Show::recordStep(const Presenter::Frame& frame, bool isTimed) {
+    if (blade_.beginsStroke()) history_.recordBefore(frame.commands, stage_.simulation());
+    const std::optional<Sweep> sweep = blade_.next();
+    sim::Blade blade;
+    if (sweep) {
+        inFlight_[frame.slot].sweeps.push_back(*sweep);
+        blade = {.from = sweep->from, .to = sweep->to, .isCarried = sweep->isCarried};
+    }
+    stage_.recordStep(frame.commands, isTimed ? &times_[frame.slot] : nullptr, hand_.grabs(), blade);
 }
 
 // One copy is enough for all that is in flight: a question is asked again until it is answered.
@@ -212,7 +261,8 @@ void Show::recordScreenshot(const Presenter::Frame& frame) {
     InFlight& flight = inFlight_[frame.slot];
     flight.screenshot = std::make_unique<Offscreen>(device_, presenter_.extent(), opening_.light);
     flight.screenshotStep = stage_.steps();
-    flight.screenshot->record(frame.commands, controller_.camera, stage_.simulation(), hand_.hand());
+    flight.screenshot->record(frame.commands, controller_.camera, stage_.simulation(),
+                              {hand_.hand(), blade_.path()});
 }
 
 // Takes what a finished frame has brought.
@@ -226,11 +276,12 @@ void Show::settle(std::uint32_t slot) {
     for (std::uint32_t i = 0; i < flight.steps && !isDiverged_; ++i) {
         const std::uint64_t step = flight.firstStep + i;
         if (stage_.neededRoom(step) > 0) {
-            makeRoom(step);
+            makeRoom(step, flight);
             break; // what came after it was undone as well
         }
         if (const std::optional<Divergence> divergence = stage_.check(step)) stop(divergence->sentence());
-        status_.setSleeping(stage_.sleeping(step));
+        const sim::Status status = stage_.simulation().status(step);
+        status_.setCounts(status.sleeping, status.pieces);
     }
     if (flight.screenshot) {
         const std::filesystem::path file = screenshotFile(opening_.loaded.scene.name, flight.screenshotStep);
@@ -259,13 +310,17 @@ void Show::stop(const std::string& why) {
 }
 
 // Later frames take the undone steps again.
-void Show::makeRoom(std::uint64_t step) {
+void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
     presenter_.waitIdle();
     vk::Queue queue(device_);
     if (!stage_.makeRoom(step, queue)) return stop(app::tooCrowded(step));
     probe_.emplace(device_, stage_.simulation());
+    history_.clear(); // its states are of a simulation that is no more
+    for (const InFlight& later : inFlight_) blade_.putBack(later.sweeps); // at most one is
+    blade_.putBack(undone.sweeps);
     for (InFlight& other : inFlight_) {
         other.steps = 0;
+        other.sweeps.clear();
         wantsProbe_ = std::exchange(other.isProbed, false) || wantsProbe_;
         other.question.reset();
     }

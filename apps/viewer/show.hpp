@@ -3,7 +3,9 @@
 #pragma once
 
 #include "viewer/controller.hpp"
+#include "viewer/cut_tool.hpp"
 #include "viewer/grab_tool.hpp"
+#include "viewer/history.hpp"
 #include "viewer/offscreen.hpp"
 #include "viewer/opening.hpp"
 #include "viewer/picture_writer.hpp"
@@ -44,6 +46,7 @@ private:
     struct InFlight {
         std::uint64_t firstStep = 0;
         std::uint32_t steps = 0;
+        std::vector<Sweep> sweeps;   // of its first steps
         bool isProbed = false;       // for the bounds
         std::optional<Ray> question; // for the hand
         std::unique_ptr<Offscreen> screenshot;
@@ -59,12 +62,14 @@ private:
     bool prepareSwapchain();
     void draw(Plan plan, View& view);
     void recordSteps(const Presenter::Frame& frame, const Plan& plan);
+    void recordHistory(const Presenter::Frame& frame);
+    void recordStep(const Presenter::Frame& frame, bool isTimed);
     void recordProbe(const Presenter::Frame& frame);
     void recordScreenshot(const Presenter::Frame& frame);
     void settle(std::uint32_t slot);
     void settleProbe(InFlight& flight);
     void stop(const std::string& why);
-    void makeRoom(std::uint64_t step);
+    void makeRoom(std::uint64_t step, const InFlight& undone);
     void settleAll();
     void reportFiles(PictureWriter::Wait wait);
 
@@ -75,6 +80,9 @@ private:
     Stage stage_;
     std::optional<StateProbe> probe_; // of the stage's simulation
     GrabTool hand_;
+    CutTool blade_;
+    History history_;
+    bool canCut_ = false, wantsUndo_ = false, wantsRedo_ = false;
     std::vector<vk::Timestamps> times_; // one a slot
     Presenter presenter_;
     View moving_;

@@ -21,11 +21,13 @@ void Stage::recordReset(VkCommandBuffer commands) noexcept {
     steps_ = 0;
 }
 
-void Stage::recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps,
-                       std::span<const sim::Grab> grabs) noexcept {
-    growing_.simulation().record(
-        commands, {.dt = scene_.dt, .gravity = scene_.gravity, .frame = ++steps_, .grabs = grabs},
-        timestamps);
+void Stage::recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps, std::span<const sim::Grab> grabs,
+                       const sim::Blade& blade) noexcept {
+    const sim::Blade scripted = blades_.at(steps_);
+    sim::Step step{.dt = scene_.dt, .gravity = scene_.gravity, .frame = ++steps_};
+    step.grabs = grabs;
+    step.blade = scripted.from.empty() ? blade : scripted;
+    growing_.simulation().record(commands, step, timestamps);
 }
 
 std::optional<Divergence> Stage::check(std::uint64_t step) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/growing_simulation.hpp"
+#include "scenes/blades.hpp"
 #include "viewer/camera.hpp"
 
 namespace sinew::viewer {
@@ -25,8 +26,14 @@ public:
     /// As those of sim::Simulation. A new stage must be reset once before its first step.
     void recordReset(VkCommandBuffer commands) noexcept;
     void recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps = nullptr,
-                    std::span<const sim::Grab> grabs = {}) noexcept;
+                    std::span<const sim::Grab> grabs = {}, const sim::Blade& blade = {}) noexcept;
     void recordSkin(VkCommandBuffer commands) noexcept { growing_.simulation().recordSkin(commands); }
+
+    /// Blades that cut by themselves, from the reset on; in their steps no other one does.
+    void setBlades(scenes::ScriptedBlades blades) { blades_ = std::move(blades); }
+
+    /// For what goes back to earlier states.
+    sim::Simulation& simulation() noexcept { return growing_.simulation(); }
 
     /// Taken since the reset.
     std::uint64_t steps() const noexcept { return steps_; }
@@ -41,15 +48,13 @@ public:
     /// was submitted. False where there can be no such room. Throws vk::Error.
     bool makeRoom(std::uint64_t step, vk::Queue& queue);
 
-    /// Status::sleeping of such a step.
-    std::uint32_t sleeping(std::uint64_t step) const { return simulation().status(step).sleeping; }
-
     const sim::Scene& scene() const noexcept { return scene_; }
     const sim::Simulation& simulation() const noexcept { return growing_.simulation(); }
 
 private:
     sim::Scene scene_;
     app::GrowingSimulation growing_;
+    scenes::ScriptedBlades blades_;
     std::uint64_t steps_ = 0;
 };
 

@@ -65,7 +65,10 @@ StageLight lightFor(const sim::Scene& scene, const Camera& camera) {
     light.bounds.extend(Vector3(light.bounds.min() - Vector3(room, light.ground ? 0 : room, room)));
     light.bounds.extend(Vector3(light.bounds.max() + Vector3(room, 0.5f * room, room)));
     const float azimuth = camera.azimuth + keyAzimuth, level = std::cos(keyElevation);
-    for (const sim::Skin& skin : scene.skins) light.gloss.push_back(glossOf(scene, skin));
+    for (const sim::Skin& skin : scene.skins) {
+        light.gloss.push_back(glossOf(scene, skin));
+        light.skins.push_back(skin.color);
+    }
     light.balls = ballsOf(scene);
     light.colliders = scene.colliders;
     light.toLight = {level * std::sin(azimuth), std::sin(keyElevation), level * std::cos(azimuth)};
@@ -93,18 +96,24 @@ layout::FrameParams frameParams(const StageLight& light, const Camera& camera, f
     const layout::vec4 floor = floorSquare(light.bounds, ground, light.toLight);
     const Eigen::Matrix3f axes = viewMatrix(camera).block<3, 3>(0, 0);
     const float tall = std::tan(camera.fieldOfView / 2);
-    return {.clipFromWorld = packed(clipMatrix(camera, aspect, reach)),
-            .shadowFromWorld = packed(Matrix4(orthographic(seen) * fromLight)),
-            .planFromWorld = packed(planMatrix(floor, ground)),
-            .eye = packed(at, 1),
-            .rayRight = packed(Vector3(axes.row(0)) * tall * aspect, 0),
-            .rayUp = packed(Vector3(axes.row(1)) * -tall, 0),
-            .rayForward = packed(Vector3(-axes.row(2)), 0),
-            .toLight = packed(light.toLight, 0),
-            .stage = packed(center, radius),
-            .ground = {ground, gridSpacing(2 * radius), haze, light.ground ? 1.0f : 0.0f},
-            .shadow = {width, seen.sizes().z(), 0, 0},
-            .floor = floor};
+    layout::FrameParams params{.clipFromWorld = packed(clipMatrix(camera, aspect, reach)),
+                               .shadowFromWorld = packed(Matrix4(orthographic(seen) * fromLight)),
+                               .planFromWorld = packed(planMatrix(floor, ground)),
+                               .eye = packed(at, 1),
+                               .rayRight = packed(Vector3(axes.row(0)) * tall * aspect, 0),
+                               .rayUp = packed(Vector3(axes.row(1)) * -tall, 0),
+                               .rayForward = packed(Vector3(-axes.row(2)), 0),
+                               .toLight = packed(light.toLight, 0),
+                               .stage = packed(center, radius),
+                               .ground = {ground, gridSpacing(2 * radius), haze, light.ground ? 1.0f : 0.0f},
+                               .shadow = {width, seen.sizes().z(), 0, 0},
+                               .skins = {},
+                               .floor = floor};
+    for (std::size_t i = 0; i < std::min<std::size_t>(light.skins.size(), SKIN_COLORS); ++i) {
+        const sim::Vec3& color = light.skins[i];
+        params.skins[i] = {color.x, color.y, color.z, light.gloss[i]};
+    }
+    return params;
 }
 
 } // namespace sinew::viewer

@@ -13,6 +13,7 @@ struct StageLight {
     std::optional<float> ground;          ///< its height [m]; none = no floor is drawn
     Vector3 toLight = Vector3::UnitY();   ///< unit direction to the key light
     std::vector<float> gloss;             ///< of each skin: 1 moist tissue, less for cloth
+    std::vector<sim::Vec3> skins;         ///< their colors, linear RGB
     BallList balls;                       ///< what is drawn of bodies that have none
     bool showsSleep = false;              ///< bodies that sleep are paler
     std::vector<sim::Collider> colliders; ///< drawn where the simulation has them

@@ -15,9 +15,9 @@ public:
     /// GPU time of one step [ms].
     void stepTimed(double milliseconds);
 
-    /// Particles that sleep, and whether a hand holds something.
-    void setSleeping(std::uint32_t particles) { sleeping_ = particles; }
-    void setHolding(bool isHolding) { isHolding_ = isHolding; }
+    /// Particles that sleep and pieces of bodies that were cut, and what is in the hand: " - holding".
+    void setCounts(std::uint32_t sleeping, std::uint32_t pieces);
+    void setTool(const char* tool) { tool_ = tool; }
 
     /// A new title, twice a second or when what it says about playing has changed.
     std::optional<std::string> title(bool isPaused, bool isDiverged);
@@ -28,8 +28,9 @@ private:
     Clock::time_point since_ = Clock::now();
     std::uint64_t frames_ = 0;
     double framesPerSecond_ = 0, stepMs_ = 0; ///< stepMs_: smoothed; 0 = not measured
-    std::uint32_t sleeping_ = 0;
-    bool isHolding_ = false, wasHolding_ = false;
+    std::uint32_t sleeping_ = 0, pieces_ = 0;
+    bool isFresh_ = false; // the number of pieces
+    std::string tool_, lastTool_;
     bool wasPaused_ = false, wasDiverged_ = false, isFirst_ = true;
 };
 

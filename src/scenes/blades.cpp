@@ -16,7 +16,7 @@ struct Frames {
 
 // Steps that a blade is on its way in. A hair of rounding in a time is no step.
 Frames framesOf(const BladeMotion& motion, double dt) {
-    constexpr double hair = 1e-6;
+    constexpr double hair = 1e-4; // nine digits of a time and of dt leave 1e-6
     return {static_cast<std::uint64_t>(motion.times.front() / dt + hair),
             static_cast<std::uint64_t>(std::ceil(motion.times.back() / dt - hair))};
 }

@@ -36,12 +36,12 @@ struct Shot {
         : camera(view), light(lightFor(scene, view)), stage(test::device(), scene, {}),
           offscreen(test::device(), extent, light, quality) {}
 
-    Picture take(int steps = 0, const std::optional<Hand>& hand = std::nullopt) {
+    Picture take(int steps = 0, const Overlay& overlay = {}) {
         VkCommandBuffer commands = test::queue().begin();
         if (stage.steps() == 0) stage.recordReset(commands);
         for (int i = 0; i < steps; ++i) stage.recordStep(commands);
         stage.recordSkin(commands);
-        offscreen.record(commands, camera, stage.simulation(), hand);
+        offscreen.record(commands, camera, stage.simulation(), overlay);
         test::queue().wait(test::queue().submit(commands));
         return offscreen.read();
     }
@@ -288,12 +288,16 @@ TEST(Picture, ShowsTheHandAndItsRope) {
     const Picture without = shot.take();
     const Vector3 hand(0.35f, 0.5f, 0.2f);
     const sim::Vec3& at = scene.particles[124].position;
-    const Picture with = shot.take(0, Hand{.particle = 124, .offset = {0, 0, 0}, .target = hand});
+    const Picture with = shot.take(0, {Hand{.particle = 124, .offset = {0, 0, 0}, .target = hand}, {}});
     const Vector3 middle = 0.5f * (hand + Vector3(at.x, at.y, at.z));
     for (const Vector3& place : {hand, middle}) {
         const Color before = colorAt(without, shot.camera, place), now = colorAt(with, shot.camera, place);
         EXPECT_GT(now[0] - now[2], before[0] - before[2] + 40) << "orange";
     }
+}
+
+std::uint32_t sleepers(const Stage& stage) {
+    return stage.simulation().status(stage.steps()).sleeping;
 }
 
 // A picture of a heap of which all sleep is paler than the same one awake.
@@ -308,7 +312,7 @@ TEST(Picture, ShowsWhatSleepsPaler) {
         light.showsSleep = isShown;
         Stage stage(test::device(), scene, settings);
         Offscreen offscreen(test::device(), extent, light, quick);
-        for (int s = 0; s < 300 && (s == 0 || stage.sleeping(stage.steps()) == 0); ++s) {
+        for (int s = 0; s < 300 && (s == 0 || sleepers(stage) == 0); ++s) {
             VkCommandBuffer commands = test::queue().begin();
             if (s == 0) stage.recordReset(commands);
             stage.recordStep(commands);
@@ -316,7 +320,7 @@ TEST(Picture, ShowsWhatSleepsPaler) {
             offscreen.record(commands, camera, stage.simulation());
             test::queue().wait(test::queue().submit(commands));
         }
-        EXPECT_EQ(stage.sleeping(stage.steps()), scene.particles.size());
+        EXPECT_EQ(sleepers(stage), scene.particles.size());
         colors[isShown] = colorAt(offscreen.read(), camera, {0, 0.2f, 0.2f});
     }
     EXPECT_LT(redness(colors[1]), redness(colors[0]) - 30);

@@ -117,8 +117,7 @@ rows() { # FILE
     convert "$1" -colorspace sRGB -channel RGB -fx 'u.r > 1.5 * u.g && u.r > 0.3 ? 1 : 0' -trim -format '%O %h\n' info: |
         sed 's/.*+\([0-9]*\) \([0-9]*\)$/\1 \2/'
 }
-keys r f
-xdotool mousemove 320 200 click 5 click 5 click 5 click 5
+keys r
 keys space
 awaitTitle fps
 fell=no
@@ -129,6 +128,9 @@ for _ in {1..60}; do # to the floor, where it rests
     [[ $(rows one.png) == "$(rows two.png)" ]] && fell=yes && break
 done
 [[ $fell == yes ]] || fail "the block does not come to rest"
+keys f
+sleep 1
+for _ in {1..5}; do xdotool mousemove 320 200 click 5; sleep 0.2; done
 keys space
 awaitTitle paused
 awaitStill before.png
@@ -153,6 +155,41 @@ xdotool mouseup 1
 for _ in {1..100}; do [[ $(title) != *holding* ]] && break; sleep 0.1; done
 [[ $(title) != *holding* ]] || fail "the block was not let go"
 awaitTop dropped.png -gt $((top - 15))
+keys space
+awaitTitle paused
+
+echo "window: a blade cuts it through, the halves part, undo joins them"
+inside() { # FILE: pixels of the inside: dark red, the rest of the picture is not
+    convert "$1" -colorspace sRGB -channel RGB -fx 'u.r > 2 * u.g && u.r > 0.08 ? 1 : 0' -format '%[fx:round(mean*w*h)]' info:
+}
+keys space
+awaitTitle fps
+keys c
+awaitTitle blade
+xdotool mousemove 320 $((now - 25)) mousedown 1
+for ((way = 0; way < height + 60; way += 8)); do xdotool mousemove_relative -- 0 8; sleep 0.05; done
+xdotool mouseup 1
+awaitTitle '2 pieces'
+keys c # the hand again
+shoot cut.png
+xdotool mousemove 345 $((now + height / 2)) mousedown 1
+awaitTitle holding
+for _ in {1..20}; do xdotool mousemove_relative -- 8 -3; sleep 0.05; done
+for _ in {1..100}; do
+    shoot parted.png
+    (($(inside parted.png) > 200)) && break
+    sleep 0.3
+done
+(($(inside parted.png) > 200)) || fail "the inside is not seen: $(inside parted.png) pixels of it"
+xdotool mouseup 1
+keys ctrl+z
+for _ in {1..100}; do [[ $(title) != *pieces* ]] && break; sleep 0.1; done
+[[ $(title) != *pieces* ]] || fail "Ctrl + Z did not join the halves"
+sleep 1
+shoot undone.png
+(($(inside undone.png) < 50)) || fail "the inside is still seen: $(inside undone.png) pixels of it"
+keys ctrl+shift+z
+awaitTitle '2 pieces'
 keys space
 awaitTitle paused
 

@@ -13,6 +13,8 @@ struct alignas(16) mat4 {
 };
 #endif
 
+#define SKIN_COLORS 16
+
 struct FrameParams {
     mat4 clipFromWorld;
     mat4 shadowFromWorld; // the key light's map: xy in [-1, 1], z in [0, 1] growing away from the light
@@ -25,6 +27,7 @@ struct FrameParams {
     vec4 stage;   // centre and radius of what is lit and shadowed [m]
     vec4 ground; // height [m], grid spacing [m], distance from the stage where it ends in haze [m], 1 = drawn
     vec4 shadow; // width and depth of the shadow map's volume [m]
+    vec4 skins[SKIN_COLORS]; // linear RGB and gloss of the first skins, for the surface of cuts
     vec4 floor;  // x and z of the floor map's middle, its width, the plan map's height [m]
 };
 

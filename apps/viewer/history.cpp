@@ -1,0 +1,55 @@
+// Buffers go around: what is forgotten serves the next state.
+#include "viewer/history.hpp"
+
+#include <algorithm>
+
+namespace sinew::viewer {
+
+History::State History::record(VkCommandBuffer commands, const sim::Simulation& simulation) {
+    if (spare_.empty())
+        spare_.emplace_back(device_, vk::BufferRequest{.name = "history",
+                                                       .count = simulation.stateSize() / 4,
+                                                       .stride = 4,
+                                                       .kind = vk::MemoryKind::device});
+    State state{std::move(spare_.back()), {}};
+    spare_.pop_back();
+    state.host = simulation.recordSaveState(commands, state.buffer.view());
+    return state;
+}
+
+void History::recordBefore(VkCommandBuffer commands, const sim::Simulation& simulation) {
+    const std::uint64_t size = std::max<std::uint64_t>(simulation.stateSize(), 1);
+    const auto most = std::clamp<std::size_t>(mostBytes / size, 1, mostStates);
+    const auto forget = [this](States& states) {
+        spare_.push_back(std::move(states.front().buffer));
+        states.pop_front();
+    };
+    while (!after_.empty()) forget(after_);
+    while (before_.size() >= most) forget(before_);
+    before_.push_back(record(commands, simulation));
+}
+
+bool History::recordSwap(VkCommandBuffer commands, sim::Simulation& simulation, States& from, States& to) {
+    if (from.empty()) return false;
+    to.push_back(record(commands, simulation));
+    simulation.recordLoadState(commands, from.back().buffer.view(), from.back().host);
+    spare_.push_back(std::move(from.back().buffer));
+    from.pop_back();
+    return true;
+}
+
+bool History::recordUndo(VkCommandBuffer commands, sim::Simulation& simulation) {
+    return recordSwap(commands, simulation, before_, after_);
+}
+
+bool History::recordRedo(VkCommandBuffer commands, sim::Simulation& simulation) {
+    return recordSwap(commands, simulation, after_, before_);
+}
+
+void History::clear() {
+    before_.clear();
+    after_.clear();
+    spare_.clear();
+}
+
+} // namespace sinew::viewer

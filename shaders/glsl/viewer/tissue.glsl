@@ -1,0 +1,61 @@
+// Soft tissue and cloth: wrapped diffuse light that reddens at the terminator, two highlights, a rim of sky.
+#include "viewer/light.glsl"
+
+const float reflectance = 0.042; // at normal incidence: moist tissue
+const uint floorTaps = 4u + shadowTaps / 4u;
+
+// GGX distribution with the visibility term of [Karis 2014].
+float highlight(float roughness, float nl, float nv, float nh) {
+    const float a2 = pow(roughness, 4.0);
+    const float d = nh * nh * (a2 - 1.0) + 1.0;
+    const float k = 0.5 * roughness * roughness;
+    return a2 / (pi * d * d) / (4.0 * (nl * (1.0 - k) + k) * (nv * (1.0 - k) + k));
+}
+
+// The light of the floor that a place faces: the higher, the wider the piece of floor it sees.
+vec2 floorBelow(vec3 position, vec3 n, float phase) {
+    const float height = max(position.y - frame.ground.x, 0.0);
+    const vec3 center = position + vec3(n.x, 0.0, n.z) * (height + 0.03 * frame.stage.w);
+    const float spread = 1.2 * height + 0.02 * frame.stage.w;
+    vec2 sum = vec2(0.0);
+    vec2 turn = firstTurn(phase);
+    for (uint i = 0u; i < floorTaps; ++i, turn = nextTurn(turn)) {
+        const vec2 offset = spread * discRadius(i, floorTaps) * turn;
+        sum += floorLight(center + vec3(offset.x, 0.0, offset.y));
+    }
+    return mix(sum / float(floorTaps), vec2(1.0), smoothstep(0.2, 1.5, height / frame.stage.w));
+}
+
+// The color of the pixel that sees a place. `moist`: 1 = wet tissue.
+vec4 shade(vec3 worldPosition, vec3 worldNormal, vec3 albedo, float moist) {
+    const vec3 v = normalize(frame.eye.xyz - worldPosition);
+    const vec3 n = normalize(worldNormal) * (gl_FrontFacing ? 1.0 : -1.0);
+    const vec3 l = frame.toLight.xyz;
+    const vec3 halfway = normalize(l + v);
+    const float nv = max(dot(n, v), 0.02), facing = dot(n, l), nl = max(facing, 0.0);
+    const float phase = 2.0 * pi * pixelNoise(gl_FragCoord.xy);
+    const float lit = nl > 0.0 ? keyShadow(worldPosition, n, shadowTaps, phase) : 0.0;
+
+    // Light that enters beside the point and leaves here wraps around the terminator, further where the
+    // material is brighter. There the map is of no use: it sees the surface itself.
+    const vec3 wrap = 0.10 + 0.30 * albedo;
+    const vec3 wrapped = max((facing + wrap) / (1.0 + wrap), 0.0) / (1.0 + wrap);
+    const float litAround = mix(0.45, lit, smoothstep(0.0, 0.4, facing));
+    const vec3 direct = keyLight * mix(vec3(nl * lit), wrapped * litAround, 0.6);
+
+    const float upward = 0.5 + 0.5 * n.y;
+    const vec2 below = floorBelow(worldPosition, n, phase);
+    const vec3 bounce = floorAlbedo * (skyLight * below.y + keyLight * frame.toLight.y * below.x);
+    const vec3 ambient = mix(0.7 * bounce, skyLight, upward) * mix(0.35 + 0.65 * below.y, 1.0, upward);
+
+    const float nh = max(dot(n, halfway), 0.0);
+    const float fresnel = reflectance + (1.0 - reflectance) * pow(1.0 - max(dot(v, halfway), 0.0), 5.0);
+    const float gloss = 0.55 * highlight(0.30, nl, nv, nh) + 0.45 * highlight(0.55, nl, nv, nh);
+    const vec3 r = reflect(-v, n);
+    const vec3 above = skyColor(vec3(r.x, max(r.y, 0.0), r.z));
+    const vec3 mirrored = mix(bounce / pi, above, smoothstep(-0.3, 0.5, r.y)) * mix(0.3, 1.0, below.y);
+    const vec3 rim = mirrored * (moist * reflectance + 0.34 * pow(1.0 - nv, 4.0));
+
+    const vec3 diffuse = albedo * (direct + ambient) / pi;
+    return finish(diffuse + moist * keyLight * nl * lit * fresnel * gloss + rim, gl_FragCoord.xy);
+}
