@@ -1,0 +1,100 @@
+// The part of layout.h, which alone includes it, that is about cuts.
+// Bodies that may be cut. What the host says of a step with a blade: a strip of quads between two poly-lines, and a ray.
+struct BladeHead {
+    vec4 low, high;  // box around all that cuts [m]
+    vec4 rayFrom;    // w = radius of the ray, 0 = there is none [m]
+    vec4 rayTo;
+    float extent;    // of the strip, its box's diagonal [m]
+    uint quads;      // of the strip; its points are from 0, to 0, from 1, to 1, ...
+    uint isCarried;  // the strip begins where the last ended and has moved with the material
+    uint unused0;
+};
+
+// What the device finds out in such a step; zeros at its head.
+struct CutWork {
+    uint farthest; // bits of a float: the longest way of a particle since the last blade [m]
+    uint cut;      // links
+    uint changed;  // 1 where labels of pieces were not yet the same at both ends of a link
+    uint unused0;
+};
+
+// What is known after it.
+struct CutCounts {
+    uint links;       // cut since the uncut body; those without stiffness do not count
+    uint linksOfStep; // in the newest step with a blade
+    uint pieces;
+    uint missing;     // SurfaceState::missing
+};
+
+// Where the links that a node owns were cut, of the seven that are edges of Kuhn's tetrahedra, in the order (1,0,0) (0,1,0)
+// (1,1,0) (0,0,1) (1,0,1) (0,1,1) (1,1,1): byte k % 4 of word k / 4, in 1/255 of the way from the node to the other end, from 5 to 250.
+// It stands from the cut on; of a link that is alive it means nothing.
+struct LinkHits {
+    uint low, high;
+};
+
+#define NO_PARTICLE 0xffffffffu
+
+struct CutPush {
+    uint first, count;           // slots
+    uint rowStride, sliceStride; // from a node to the next in y, in z; in a sheet there is no y and rowStride 0
+    uint stiffLinks;             // bits of the links that have stiffness
+    float spacing;               // [m]
+    uint contactRow;             // elements of a list of contacts from one candidate to the next
+};
+
+// Slots that one invocation counts particles in.
+#define PIECE_CHUNK 32
+
+struct PiecesPush {
+    uint isFirst; // of the dispatches that say whether labels are still to change
+    uint runs;    // of slots; argument r is for all rounds of run r, runs + r for its count, 2 runs + r for what is made of them
+};
+
+// The surface of cuts. Slots that one invocation adds up.
+#define SURFACE_CHUNK 64
+
+// Of the cell above a slot: points that the slot owns, triangles inside, triangles outside, 8 bits each; which of the cell's outer
+// faces are drawn in pieces (cut_outside.glsl).
+struct SurfaceCounts {
+    uint sizes, pieces;
+};
+
+struct SurfaceState {
+    uint points, inside, outside; // points, triangles; a triangle outside has three vertices of its own behind the points
+    uint missing;                 // room that a surface would need for which there is too little, else 0; it is empty then
+};
+
+struct SurfacePush {
+    uint chunks; // of slots
+    uint room;   // triangles, and as many vertices
+    uint runs;   // of slots: arguments 0 .. runs - 1 are for them, the one after for all vertices
+};
+
+// VkDrawIndexedIndirectCommand.
+struct DrawArguments {
+    uint indexCount, instanceCount, firstIndex;
+    int vertexOffset;
+    uint firstInstance;
+};
+
+// A vertex of a cut surface: hangs on up to four corners, x = sum of share (x_c + F_c (rest - rest_c)).
+struct CutVertex {
+    vec4 rest;       // [m], where the body was when the scene was loaded; w = index of its skin
+    vec4 shares;     // 0 for no corner
+    uint corners[4]; // slots
+    int normal[3];   // at rest, outward from its piece; of any length
+    uint point;      // the point that it is at, or SURFACE_PARTICLE and a particle
+};
+#define SURFACE_PARTICLE 0x80000000u
+#define SURFACE_NORMAL 1048576.0 // unit of a normal; that of a triangle in squares of the spacing
+
+// Best linear motion of what is around a particle: columns of dx / dX.
+struct Gradient {
+    vec4 x, y, z;
+};
+
+// A triangle of a skin that is an outer face of a cell: the cell's slot and bit of SurfaceCounts::pieces, and the triangle.
+struct SkinFace {
+    uint cell, bit, triangle;
+};
