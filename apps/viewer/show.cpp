@@ -56,9 +56,7 @@ Show::Show(Window& window, const vk::Device& device, const Opening& opening)
     : window_(window), device_(device), opening_(opening),
       controller_(opening.camera, opening.loaded.scene.dt),
       stage_(device, opening.loaded.scene, fastest(device, opening.loaded)),
-      probe_(std::in_place, device, stage_.simulation()), blade_(opening.light.bounds), history_(device),
-      canCut_(std::ranges::any_of(opening.loaded.scene.grids, &sim::Grid::isCuttable)),
-      presenter_(device, window),
+      probe_(std::in_place, device, stage_.simulation()), tools_(device, opening), presenter_(device, window),
       moving_(device, presenter_.format(), isSoftware(device) ? reducedQuality() : Quality{}, opening.light),
       status_(opening.loaded.scene, device) {
     if (isSoftware(device)) still_.emplace(device, presenter_.format(), Quality{}, opening.light);
@@ -91,8 +89,8 @@ void Show::turn() {
     if (isHidden_) return; // time stands still while nobody can look
     const Plan plan = controller_.playback.plan(elapsed);
     const bool isChanged = !controller_.playback.isPaused() || plan.isReset || plan.steps > 0 ||
-                           !input.isEmpty() || wantsScreenshot_ || wantsProbe_ || hand_.question() ||
-                           wantsUndo_ || wantsRedo_ || shown_ == Shown::nothing;
+                           !input.isEmpty() || wantsScreenshot_ || wantsProbe_ || tools_.isWaiting() ||
+                           shown_ == Shown::nothing;
     if (isChanged) lastChange_ = now;
     if (isChanged || shown_ != Shown::still) {
         const bool isLast = !isChanged && now - lastChange_ >= std::chrono::duration<double>(stillAfter);
@@ -106,53 +104,14 @@ void Show::turn() {
 
 void Show::handle(const Input& input) {
     for (const Action action : input.actions)
-        if (!controller_.act(action)) handle(action);
-    for (const Input::Press& press : input.presses) handle(press);
-    for (const Input::Drag& drag : input.drags) {
-        if (drag.action != Action::grab)
-            controller_.drag(drag.action, drag.heights);
-        else if (blade_.isOn())
-            continue;
-        else if (const Vector2 turn = hand_.drag(drag.heights); !turn.isZero())
-            controller_.drag(Action::orbit, turn);
-    }
-    hand_.move(controller_.camera, input.pointer);
-    blade_.move(controller_.camera, input.pointer);
-    status_.setTool(hand_.isHolding() ? " - holding" : blade_.isOn() ? " - blade" : "");
+        if (!controller_.act(action) && !tools_.act(action)) handle(action);
+    tools_.handle(input, controller_);
+    status_.setTool(tools_.name());
     if (input.notches != 0) controller_.wheel(input.notches, input.pointer);
-}
-
-void Show::handle(const Input::Press& press) {
-    if (press.action != Action::grab) return;
-    if (blade_.isOn()) {
-        if (press.isDown) return blade_.press(controller_.camera, press.pointer);
-        blade_.move(controller_.camera, press.pointer);
-        return blade_.release();
-    }
-    if (press.isDown)
-        hand_.press(controller_.camera, press.pointer);
-    else
-        hand_.release();
 }
 
 void Show::handle(Action action) {
     switch (action) {
-    case Action::blade:
-        if (canCut_)
-            blade_.toggle();
-        else
-            std::fprintf(stderr, "note: no body of this scene is cuttable (cuttable = true)\n");
-        break;
-    case Action::drop:
-        blade_.drop();
-        hand_.release();
-        break;
-    case Action::undo:
-        wantsUndo_ = true;
-        break;
-    case Action::redo:
-        wantsRedo_ = true;
-        break;
     case Action::frame:
         wantsProbe_ = true;
         break;
@@ -204,7 +163,7 @@ void Show::draw(Plan plan, View& view) {
     recordSteps(*frame, plan);
     if (!view.canvas) view.canvas = view.renderer.makeCanvas(presenter_.extent(), presenter_.views());
     view.renderer.record(frame->commands, frame->slot, *view.canvas, frame->image, controller_.camera,
-                         stage_.simulation(), {hand_.hand(), blade_.path()});
+                         stage_.simulation(), tools_.overlay());
     if (std::exchange(wantsScreenshot_, false)) recordScreenshot(*frame);
     presenter_.end(*frame);
     status_.frameDrawn();
@@ -214,37 +173,16 @@ void Show::recordSteps(const Presenter::Frame& frame, const Plan& plan) {
     InFlight& flight = inFlight_[frame.slot];
     if (plan.isReset) {
         stage_.recordReset(frame.commands);
-        hand_.release();
-        blade_.drop();
+        tools_.drop();
         isDiverged_ = false;
     }
-    recordHistory(frame);
+    if (tools_.recordHistory(frame.commands, stage_.simulation())) isDiverged_ = false;
     flight.firstStep = stage_.steps() + 1;
     flight.steps = plan.steps;
-    for (std::uint32_t step = 0; step < plan.steps; ++step) recordStep(frame, step == 0);
+    for (std::uint32_t step = 0; step < plan.steps; ++step)
+        tools_.recordStep(frame.commands, stage_, step == 0 ? &times_[frame.slot] : nullptr, flight.sweeps);
     stage_.recordSkin(frame.commands);
     recordProbe(frame);
-}
-
-void Show::recordHistory(const Presenter::Frame& frame) {
-    const bool isUndo = std::exchange(wantsUndo_, false), isRedo = std::exchange(wantsRedo_, false);
-    if (!isUndo && !isRedo) return;
-    hand_.release();
-    blade_.drop();
-    const bool isDone = isUndo ? history_.recordUndo(frame.commands, stage_.simulation())
-                               : history_.recordRedo(frame.commands, stage_.simulation());
-    if (isDone) isDiverged_ = false;
-}
-
-void Show::recordStep(const Presenter::Frame& frame, bool isTimed) {
-    if (blade_.beginsStroke()) history_.recordBefore(frame.commands, stage_.simulation());
-    const std::optional<Sweep> sweep = blade_.next();
-    sim::Blade blade;
-    if (sweep) {
-        inFlight_[frame.slot].sweeps.push_back(*sweep);
-        blade = {.from = sweep->from, .to = sweep->to, .isCarried = sweep->isCarried};
-    }
-    stage_.recordStep(frame.commands, isTimed ? &times_[frame.slot] : nullptr, hand_.grabs(), blade);
 }
 
 // One copy is enough for all that is in flight: a question is asked again until it is answered.
@@ -253,7 +191,7 @@ void Show::recordProbe(const Presenter::Frame& frame) {
     const auto isAsked = [](const InFlight& other) { return other.isProbed || other.question; };
     if (std::ranges::any_of(inFlight_, isAsked)) return;
     flight.isProbed = std::exchange(wantsProbe_, false);
-    flight.question = hand_.question();
+    flight.question = tools_.hand().question();
     if (isAsked(flight)) probe_->record(frame.commands);
 }
 
@@ -261,8 +199,7 @@ void Show::recordScreenshot(const Presenter::Frame& frame) {
     InFlight& flight = inFlight_[frame.slot];
     flight.screenshot = std::make_unique<Offscreen>(device_, presenter_.extent(), opening_.light);
     flight.screenshotStep = stage_.steps();
-    flight.screenshot->record(frame.commands, controller_.camera, stage_.simulation(),
-                              {hand_.hand(), blade_.path()});
+    flight.screenshot->record(frame.commands, controller_.camera, stage_.simulation(), tools_.overlay());
 }
 
 // Takes what a finished frame has brought.
@@ -290,11 +227,11 @@ void Show::settle(std::uint32_t slot) {
 }
 
 void Show::settleProbe(InFlight& flight) {
-    if (flight.question && flight.question == hand_.question()) {
+    if (flight.question && flight.question == tools_.hand().question()) {
         const sim::Scene& scene = stage_.scene();
         const auto found =
             pick(scene, opening_.light.balls, *flight.question, probe_->positions(), probe_->vertices());
-        hand_.answer(found, found ? holdRadius(scene, found->particle) : 0);
+        tools_.hand().answer(found, found ? holdRadius(scene, found->particle) : 0);
     }
     if (!flight.isProbed) return;
     if (const Box bounds = probe_->bounds(); !bounds.isEmpty()) {
@@ -315,9 +252,10 @@ void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
     vk::Queue queue(device_);
     if (!stage_.makeRoom(step, queue)) return stop(app::tooCrowded(step));
     probe_.emplace(device_, stage_.simulation());
-    history_.clear(); // its states are of a simulation that is no more
-    for (const InFlight& later : inFlight_) blade_.putBack(later.sweeps); // at most one is
-    blade_.putBack(undone.sweeps);
+    std::vector<Sweep> sweeps = undone.sweeps;
+    for (const InFlight& later : inFlight_) // at most one has some
+        sweeps.insert(sweeps.end(), later.sweeps.begin(), later.sweeps.end());
+    tools_.restart(sweeps);
     for (InFlight& other : inFlight_) {
         other.steps = 0;
         other.sweeps.clear();

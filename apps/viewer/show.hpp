@@ -3,9 +3,6 @@
 #pragma once
 
 #include "viewer/controller.hpp"
-#include "viewer/cut_tool.hpp"
-#include "viewer/grab_tool.hpp"
-#include "viewer/history.hpp"
 #include "viewer/offscreen.hpp"
 #include "viewer/opening.hpp"
 #include "viewer/picture_writer.hpp"
@@ -13,6 +10,7 @@
 #include "viewer/stage.hpp"
 #include "viewer/state_probe.hpp"
 #include "viewer/status_line.hpp"
+#include "viewer/tools.hpp"
 #include "viewer/window.hpp"
 #include "vk/timestamps.hpp"
 
@@ -58,12 +56,9 @@ private:
     void turn();
     void handle(const Input& input);
     void handle(Action action);
-    void handle(const Input::Press& press);
     bool prepareSwapchain();
     void draw(Plan plan, View& view);
     void recordSteps(const Presenter::Frame& frame, const Plan& plan);
-    void recordHistory(const Presenter::Frame& frame);
-    void recordStep(const Presenter::Frame& frame, bool isTimed);
     void recordProbe(const Presenter::Frame& frame);
     void recordScreenshot(const Presenter::Frame& frame);
     void settle(std::uint32_t slot);
@@ -79,10 +74,7 @@ private:
     Controller controller_;
     Stage stage_;
     std::optional<StateProbe> probe_; // of the stage's simulation
-    GrabTool hand_;
-    CutTool blade_;
-    History history_;
-    bool canCut_ = false, wantsUndo_ = false, wantsRedo_ = false;
+    Tools tools_;
     std::vector<vk::Timestamps> times_; // one a slot
     Presenter presenter_;
     View moving_;
