@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <sstream>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -72,6 +73,36 @@ constexpr const char* reportFields[] = {"schema",
                                         "warnings"};
 
 } // namespace
+
+TEST_F(Run, TracesEnergyOverlapAndSleepOverTime) {
+    write("balls.toml", balls + "[contacts]\nfriction = 0.3\n");
+    const Outcome outcome =
+        run({"run", "balls.toml", "--frames", "10", "--trace", "trace.csv", "--trace-every", "4"});
+    ASSERT_EQ(outcome.code, 0) << outcome.error;
+    std::ifstream stream(folder_ / "trace.csv");
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    ASSERT_EQ(lines.size(), 4u) << "after 4, 8 and 10 steps";
+    EXPECT_EQ(lines[0], "step,time,kinetic_energy,penetration_max,penetration_rms,asleep");
+    const auto fields = [&](std::size_t line) {
+        std::istringstream text(lines[line]);
+        std::vector<double> values;
+        for (std::string value; std::getline(text, value, ',');) values.push_back(std::stod(value));
+        return values;
+    };
+    ASSERT_EQ(fields(1).size(), 6u);
+    EXPECT_EQ(fields(1)[0], 4);
+    EXPECT_EQ(fields(3)[0], 10);
+    EXPECT_NEAR(fields(3)[1], 10 / 60.0, 1e-5);
+    EXPECT_GT(fields(1)[2], 0) << "they fall";
+    EXPECT_EQ(fields(3)[5], 0);
+    // What the report says of the end, and the trace changes nothing of the motion.
+    const json traced =
+        report({"balls.toml", "--frames", "10", "--trace", "trace.csv", "--trace-every", "3"});
+    EXPECT_NEAR(fields(3)[3], traced["error"]["penetration_max"].get<double>(), 1e-6);
+    EXPECT_EQ(traced["state_hash"], report({"balls.toml", "--frames", "10"})["state_hash"]);
+    expectOneError(run({"run", "balls.toml", "--frames", "1", "--trace", "none/trace.csv"}), 6, "none");
+}
 
 TEST_F(Run, ReportHasEveryDocumentedField) {
     write("scene.toml", sheet);

@@ -98,10 +98,13 @@ double depthInColliders(const sim::Scene& scene, const State& state, double time
     return deepest;
 }
 
-void measurePenetration(const sim::Scene& scene, const State& state, std::uint64_t frames, Errors& errors) {
+} // namespace
+
+Errors measurePenetration(const sim::Scene& scene, const State& state, std::uint64_t frames) {
+    Errors errors;
     const std::optional<Overlap> overlap = overlapOf(scene, state);
     if (overlap) errors.penetrationRms = overlap->rms;
-    if (scene.planes.empty() && scene.colliders.empty() && !overlap) return;
+    if (scene.planes.empty() && scene.colliders.empty() && !overlap) return errors;
     double deepest = overlap ? overlap->max : 0;
     deepest =
         std::max(deepest, depthInColliders(scene, state, double{scene.dt} * static_cast<double>(frames)));
@@ -114,18 +117,23 @@ void measurePenetration(const sim::Scene& scene, const State& state, std::uint64
         }
     }
     errors.penetrationMax = deepest;
+    return errors;
 }
-
-} // namespace
 
 Errors measure(const sim::Scene& scene, const State& state, std::span<const mesh::TriangleMesh> skins,
                std::uint64_t frames) {
-    Errors errors;
+    Errors errors = measurePenetration(scene, state, frames);
     measureStrain(scene, state, errors);
     measureVolume(scene, skins, errors);
     measureMomentum(scene, state, frames, errors);
-    measurePenetration(scene, state, frames, errors);
     return errors;
+}
+
+double kineticEnergy(const State& state) {
+    double energy = 0;
+    for (const auto& v : state.velocities)
+        if (v[3] > 0) energy += 0.5 * dot(pointOf(v), pointOf(v)) / double{v[3]};
+    return energy;
 }
 
 std::uint64_t stateHash(const State& state) {

@@ -31,6 +31,12 @@ struct Errors {
 Errors measure(const sim::Scene& scene, const State& state, std::span<const mesh::TriangleMesh> skins,
                std::uint64_t frames);
 
+/// Of the same figures penetrationMax and penetrationRms alone.
+Errors measurePenetration(const sim::Scene& scene, const State& state, std::uint64_t frames);
+
+/// Of everything that moves [J], from the velocities that the device publishes.
+double kineticEnergy(const State& state);
+
 /// FNV-1a (64 bits) of the bytes of positions, then velocities.
 std::uint64_t stateHash(const State& state);
 

@@ -6,6 +6,7 @@
 #include "sinew/commands.hpp"
 #include "sinew/outputs.hpp"
 #include "sinew/report.hpp"
+#include "sinew/trace.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -21,7 +22,8 @@ struct RunOptions {
     SceneOptions scene;
     DeviceOptions device;
     std::uint64_t frames = 240;
-    std::optional<std::string> folder, json;
+    std::uint64_t traceEvery = 10;
+    std::optional<std::string> folder, json, trace;
 };
 
 std::vector<mesh::ParticleState> particleStates(const State& state) {
@@ -48,11 +50,14 @@ void writeFolder(const std::filesystem::path& folder, const RunRecord& record, c
 
 /// What the device says about itself stays in `session`; everything else is copied out.
 RunRecord simulate(const RunOptions& options, const scenes::LoadedScene& loaded, Session& session,
-                   Runner& runner) {
+                   Runner& runner, std::vector<Sample>& samples) {
     {
         app::Progress progress(options.frames, stderr);
-        runner.advance(options.frames, sim::Simulation::framesInFlight,
-                       [&](std::uint64_t done) { progress.update(done); });
+        const auto update = [&](std::uint64_t done) { progress.update(done); };
+        if (options.trace)
+            samples = trace(runner, loaded.scene, options.frames, options.traceEvery, update);
+        else
+            runner.advance(options.frames, sim::Simulation::framesInFlight, update);
         progress.finish();
     }
     return {.loaded = loaded,
@@ -108,8 +113,9 @@ int run(const RunOptions& options) {
     app::catchSignals();
     // Before anything costs time: an output that cannot be written is known now.
     std::optional<OutputFolder> folder;
-    std::optional<TextOutput> json;
+    std::optional<TextOutput> json, traceOutput;
     if (options.json) json.emplace(*options.json);
+    if (options.trace) traceOutput.emplace(*options.trace);
     scenes::LoadedScene loaded = loadScene(options.scene);
     if (options.folder) folder.emplace(*options.folder);
     Session session(options.device);
@@ -117,7 +123,8 @@ int run(const RunOptions& options) {
     if (options.frames >= worthTuning)
         loaded.settings = sim::tuned(session.device, session.queue, loaded.scene, loaded.settings);
     Runner runner(session, loaded.scene, loaded.settings, {loaded.blades, loaded.scene.dt});
-    const RunRecord record = simulate(options, loaded, session, runner);
+    std::vector<Sample> samples;
+    const RunRecord record = simulate(options, loaded, session, runner, samples);
     for (const std::string& message : record.validationMessages)
         std::fprintf(stderr, "validation: %s\n", message.c_str());
     warnAboutRun(record, loaded.warnings);
@@ -125,7 +132,8 @@ int run(const RunOptions& options) {
     const std::string report = toJson(record);
     if (folder) writeFolder(folder->path(), record, report);
     if (json) json->write(report);
-    if (options.json != "-") TextOutput("-").write(toText(record));
+    if (traceOutput) traceOutput->write(toCsv(samples));
+    if (options.json != "-" && options.trace != "-") TextOutput("-").write(toText(record));
     return conclude(record);
 }
 
@@ -143,6 +151,11 @@ void addRun(CLI::App& app, Chosen& chosen) {
     command.add_option("--out", options->folder,
                        "folder for report.json, state.ply, and an OBJ and a PLY of every skin at the end");
     command.add_option("--json", options->json, "file for the report, or - for the standard output");
+    command.add_option("--trace", options->trace,
+                       "file for energy, overlap and sleep over time as CSV, or - for the standard output");
+    command.add_option("--trace-every", options->traceEvery, "steps between two lines of it")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
+        ->capture_default_str();
     command.callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 
