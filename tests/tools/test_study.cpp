@@ -2,9 +2,10 @@
 #include "sinew/study/analysis.hpp"
 #include "sinew/study/plan.hpp"
 #include "sinew/study/plot_axes.hpp"
-#include "sinew/study/report.hpp"
+#include "sinew/study/rest_report.hpp"
 
 #include "sim/compile.hpp"
+#include "sim/reference/trajectory.hpp"
 
 #include <gtest/gtest.h>
 
@@ -40,6 +41,17 @@ SceneResult resultOf(std::vector<Trial> trials) {
     result.truth.growth = {0, 0};
     result.trials = std::move(trials);
     return result;
+}
+
+/// Samples of (time [s], kinetic energy [J]), 0.1 m deep before 4 s and 0.04 m then.
+RestRun restOf(const std::vector<std::pair<double, double>>& samples) {
+    RestRun run{.settings = {.substeps = 16}, .isRun = true};
+    for (const auto& [time, energy] : samples)
+        run.samples.push_back({.time = time,
+                               .kineticEnergy = energy,
+                               .penetrationMax = time < 4 ? 0.1 : 0.04,
+                               .penetrationRms = 0.01});
+    return run;
 }
 
 } // namespace
@@ -144,16 +156,113 @@ TEST(Plan, SplitsOneNumberOfSweepsWithoutTryingAnythingTwice) {
         }
 }
 
-TEST(Plan, HasFiveScenesWhoseTruthCanBeComputed) {
+TEST(Plan, HasFiveElasticScenesWhoseTruthCanBeComputedAndFourOfContacts) {
     const std::vector<StudyScene> scenes = studyScenes("all", {});
-    ASSERT_EQ(scenes.size(), 5u);
-    EXPECT_EQ(studySceneNames().size(), 5u);
+    ASSERT_EQ(scenes.size(), 9u);
+    EXPECT_EQ(studySceneNames().size(), 9u);
+    std::size_t touching = 0;
     for (const StudyScene& scene : scenes) {
+        EXPECT_GE(scene.frames * double{scene.loaded.scene.dt}, 0.29);
+        if (isOfContacts(scene.loaded.scene)) {
+            ++touching;
+            EXPECT_LT(scene.points, mostPoints) << scene.name << ": its runs end where 1 % is long reached";
+            continue;
+        }
         EXPECT_NO_THROW(sim::reference::trueTrajectory(scene.loaded.scene, {.frames = 1, .dt = 1e-5}))
             << scene.name;
-        EXPECT_GE(scene.frames * double{scene.loaded.scene.dt}, 0.29);
+        EXPECT_EQ(scene.points, mostPoints);
     }
+    EXPECT_EQ(touching, 4u);
     EXPECT_EQ(studyScenes("chain", 7).at(0).frames, 7u);
+}
+
+TEST(Plan, LetsEverySolverThatCanDoAContactSceneComeToRest) {
+    std::vector<StudyScene> loose = studyScenes("clutter", {}), cloth = studyScenes("cloth_on_sphere", {});
+    std::set<std::pair<std::string, std::uint32_t>> tried;
+    for (const sim::Settings& s : restSettings(loose.at(0)))
+        tried.insert({sim::solverName(s.solver), s.substeps});
+    EXPECT_EQ(tried,
+              (std::set<std::pair<std::string, std::uint32_t>>{{"split", 8}, {"split", 16}, {"split", 32}}))
+        << "no other has a form for particles that touch";
+    tried.clear();
+    for (const sim::Settings& s : restSettings(cloth.at(0)))
+        tried.insert({sim::solverName(s.solver), s.substeps});
+    EXPECT_TRUE(tried.contains({"jacobi", 32}));
+    EXPECT_TRUE(tried.contains({"gauss_seidel", 32}));
+    EXPECT_TRUE(tried.contains({"split", 8}));
+    loose.at(0).loaded.settings.contactRoom = 77;
+    for (const sim::Settings& s : restSettings(loose.at(0))) EXPECT_EQ(s.contactRoom, 77u) << "of the file";
+}
+
+TEST(Truth, IsDoubtedWhereHalvingOrChaosSaysSo) {
+    Truth truth;
+    truth.growth = {1e-7, 1e-5, 2e-3, 0.5};
+    EXPECT_EQ(truth.doubt(), truth.growth);
+    EXPECT_EQ(framesAtTarget(truth), 2u) << "a tenth of 1 % is 1e-3";
+    truth.halving = {1e-6, 2e-3, 1e-3, 1e-3};
+    EXPECT_EQ(truth.doubt(), (std::vector{1e-6, 2e-3, 2e-3, 0.5}));
+    EXPECT_EQ(framesAtTarget(truth), 1u);
+}
+
+TEST(Truth, OfContactsComparesAllRunsOverTheSameFrames) {
+    Truth truth;
+    truth.growth = {1e-7, 1e-5, 9e-4, 0.5};
+    const std::vector good{1e-4, 1e-4, 1e-4, 1e-4}, bad{0.5, 0.5, 0.5, 0.5};
+    EXPECT_LT(comparableFrames(good, truth), comparableFrames(bad, truth));
+    truth.halving = {0, 1e-5, 0, 0};
+    EXPECT_EQ(comparableFrames(good, truth), 3u);
+    EXPECT_EQ(comparableFrames(bad, truth), 3u);
+    truth.halving[0] = 1;
+    EXPECT_EQ(comparableFrames(bad, truth), 1u) << "at least one";
+    EXPECT_EQ(errorOf(trialOf(sim::Solver::split, 1, 0.01), truth)->frames, 1u);
+}
+
+TEST(Truth, OfContactsIsMeasuredByTheLargestBody) {
+    sim::Scene scene;
+    for (const float x : {0.0f, 3.0f, 4.0f, 100.0f})
+        scene.particles.push_back({.position = {x, 0, 0}, .radius = 0.5f});
+    EXPECT_NEAR(largestBody(scene), 1, 1e-6) << "balls";
+    scene.distances = {{1, 2, 1, 0}};
+    scene.particles[3].inverseMass = 0;
+    scene.particles[1].radius = scene.particles[2].radius = 0;
+    EXPECT_NEAR(largestBody(scene), 1, 1e-6);
+    scene.particles[2].position.y = 5;
+    EXPECT_NEAR(largestBody(scene), std::sqrt(26), 1e-6);
+}
+
+TEST(Rest, IsReachedWhereEnergyStaysLow) {
+    const RestRun run = restOf({{1, 100}, {2, 0.05}, {3, 1}, {4, 0.05}, {5, 0.01}});
+    EXPECT_EQ(timeToRest(run, 1e-3), 4);
+    EXPECT_EQ(timeToRest(run, 1e-2), 2);
+    EXPECT_FALSE(timeToRest(run, 1e-5).has_value());
+    EXPECT_NEAR(*deepest(run), 0.1, 1e-12);
+    EXPECT_NEAR(*deepest(run, 4), 0.04, 1e-12);
+    EXPECT_FALSE(timeToRest(RestRun{}, 1).has_value());
+}
+
+TEST(Rest, IsWrittenDrawnAndTabulated) {
+    SceneResult result = resultOf({trialOf(sim::Solver::split, 1, 0.01)});
+    EXPECT_TRUE(restPlots(result).empty());
+    EXPECT_EQ(restTable(result), "");
+    result.isOfContacts = true;
+    result.rest = {restOf({{1, 100}, {2, 1}, {3, 0}}), restOf({{1, 1}})};
+    result.rest[1].isDiverged = true;
+    const std::vector<Plot> plots = restPlots(result);
+    ASSERT_EQ(plots.size(), 2u);
+    for (const Plot& plot : plots) {
+        ASSERT_EQ(plot.curves.size(), 1u) << "a diverged one has no line";
+        EXPECT_EQ(plot.curves[0].points.size(), 3u);
+        const std::string svg = draw(plot, Style::own);
+        EXPECT_EQ(count(svg, "class=\"line\""), 1u);
+        EXPECT_EQ(count(svg, "class=\"dot\"") + count(svg, "class=\"target\"") + count(svg, "class=\"best\""),
+                  0u);
+        EXPECT_EQ(count(svg, ">split 16</text>"), 2u) << "the name and the paper around it";
+        EXPECT_EQ(svg.find("nan"), std::string::npos);
+        EXPECT_EQ(svg.find("inf"), std::string::npos);
+    }
+    EXPECT_EQ(count(restTable(result), "<tr><td>"), 2u);
+    EXPECT_NE(restTable(result).find("100 mm"), std::string::npos);
+    EXPECT_NE(restText(result).find("diverged"), std::string::npos);
 }
 
 TEST(Headline, ComparesWithJacobiAtEqualError) {
@@ -235,6 +344,15 @@ TEST(Plot, DrawsWhatHasNoFinitePoint) {
 TEST(Axes, TickAtOneTwoFiveOrAtDecades) {
     EXPECT_EQ(ticks(1.5, 60), (std::vector<double>{2, 5, 10, 20, 50}));
     EXPECT_EQ(ticks(1, 10'000), (std::vector<double>{1, 10, 100, 1000, 10'000}));
+}
+
+TEST(Axes, TickTimesFromNought) {
+    EXPECT_EQ(linearTicks(4), (std::vector<double>{0, 0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4}));
+    EXPECT_EQ(linearTicks(10), (std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}));
+    for (const double high : {0.03, 0.07, 1.0, 13.0, 99.0, 100.0}) {
+        EXPECT_GE(linearTicks(high).size(), 4u) << high;
+        EXPECT_LE(linearTicks(high).size(), 12u) << high;
+    }
 }
 
 TEST(Axes, WriteErrorsAsPercent) {

@@ -2,6 +2,7 @@
 // refuses.
 #include "tools/program.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -15,6 +16,10 @@ namespace {
 const std::string scene =
     "name = \"tiny\"\n[[chain]]\nlength = 0.3\nparticles = 4\nstretch_compliance = 1e-2\n"
     "direction = [1, 0, 0]\n";
+
+// Falls on a floor and on each other.
+const std::string balls = "name = \"tiny\"\n[contacts]\nfriction = 0.3\n[[particles]]\ncount = [2, 3, 2]\n"
+                          "radius = 0.05\njitter = 0.01\nspacing = 0.13\ncenter = [0, 0.19, 0]\n[[plane]]\n";
 
 class Study : public sinew::test::Program {
 protected:
@@ -87,6 +92,44 @@ TEST_F(Study, WritesWhatItsDocumentationSays) {
     EXPECT_EQ(lines, points + 1);
 }
 
+TEST_F(Study, ComparesContactsWithShortStepsAndFollowsThemToRest) {
+    write("scene.toml", balls);
+    const Outcome outcome = study();
+    ASSERT_EQ(outcome.code, 0) << outcome.error;
+    const Json json = Json::parse(text("study.json"))["scenes"][0];
+    EXPECT_EQ(json["truth"]["kind"], "split");
+    EXPECT_NEAR(json["truth"]["h"].get<double>(), 1 / 60e3, 1e-9);
+    ASSERT_EQ(json["truth"]["halving"].size(), 4u);
+    EXPECT_GT(json["truth"]["halving"][3], 0) << "half as many substeps are another run";
+    EXPECT_LT(json["truth"]["halving"][3], 1e-3);
+    EXPECT_EQ(json["truth"]["frames_at_1_percent"], 4);
+    EXPECT_TRUE(json["ms_to_1_percent"]["split"].is_number());
+    EXPECT_EQ(json["curves"].size(), 1u) << "no other solver has a form for particles that touch";
+    EXPECT_NE(json["notes"].dump().find("jacobi was not tried everywhere"), std::string::npos);
+    for (const Json& point : json["curves"][0]["points"]) EXPECT_GT(point["error_rms"], 0);
+    ASSERT_EQ(json["rest"].size(), 3u);
+    for (const Json& run : json["rest"]) {
+        EXPECT_EQ(run["diverged"], false);
+        ASSERT_EQ(run["samples"].size(), 8u) << "32 frames, every fourth";
+        EXPECT_NEAR(run["samples"][7]["time"].get<double>(), 32 / 60.0, 1e-6);
+        EXPECT_GT(run["samples"][0]["kinetic_energy"], 0);
+        EXPECT_GE(run["penetration_max"], run["penetration_max_at_end"]);
+        EXPECT_GE(run["penetration_max_at_end"], run["penetration_rms_at_end"]);
+    }
+    EXPECT_LT(json["rest"][2]["penetration_max"], json["rest"][0]["penetration_max"]) << "32 substeps, 8";
+    for (const char* name : {"tiny-penetration.svg", "tiny-energy.svg"})
+        EXPECT_EQ(text(name).substr(0, 4), "<svg") << name;
+    EXPECT_NE(text("study.html").find("coming to rest"), std::string::npos);
+    const std::string csv = text("rest.csv");
+    EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 3 * 8);
+    EXPECT_NE(outcome.out.find("split 32"), std::string::npos) << outcome.out;
+
+    const std::string before = text("study.json");
+    const Outcome again = study();
+    EXPECT_EQ(again.error.find("runs to"), std::string::npos) << again.error;
+    EXPECT_EQ(text("study.json"), before);
+}
+
 TEST_F(Study, RunsNothingAgain) {
     write("scene.toml", scene);
     ASSERT_EQ(study().code, 0);
@@ -133,8 +176,8 @@ TEST_F(Study, KnowsAnotherSceneOfTheSameNameFromItsRuns) {
 TEST_F(Study, RefusesWhatItCannotStudy) {
     expectOneError(run({"study", "--scene", "beem", "--out", "out"}), 3,
                    "cannot study: beem: no such scene: possible are beam, ");
-    write("planes.toml", scene + "[[plane]]\noffset = -5\n");
-    expectOneError(run({"study", "--scene", "planes.toml", "--out", "out", "--points", "1"}), 3, "planes");
+    write("damped.toml", "damping = 1\n" + scene);
+    expectOneError(run({"study", "--scene", "damped.toml", "--out", "out", "--points", "1"}), 3, "damping");
     write("rigid.toml", "[[chain]]\nlength = 1\n");
     expectOneError(run({"study", "--scene", "rigid.toml", "--out", "out", "--points", "1"}), 3,
                    "cannot study rigid");

@@ -222,7 +222,7 @@ Json compare(Session& session, const sim::Scene& scene, std::uint32_t mostSweeps
     fmt::print(stderr, "{}: computing the true motion\n", scene.name);
     study::StudyScene studied{.name = scene.name, .frames = frames};
     studied.loaded.scene = scene;
-    const study::Truth truth = study::truthOf(studied);
+    const study::Truth truth = study::truthOf(session, studied);
     std::vector<Entrant> entrants = entrantsFor(scene, mostSweeps);
     fmt::print(stderr, "{}: {} runs\n", scene.name, entrants.size());
     runAll(session, scene, truth, entrants);

@@ -3,6 +3,7 @@
 
 #include "sim/compile.hpp"
 #include "sinew/study/plot_axes.hpp"
+#include "sinew/study/rest_report.hpp"
 
 #include <fmt/format.h>
 
@@ -35,6 +36,8 @@ figure{margin:1rem 0 0;background:#fff;border-radius:.5rem;overflow:hidden}
 figure svg{display:block;width:100%;height:auto}
 .plots{display:grid;gap:1rem;grid-template-columns:repeat(auto-fit,minmax(min(100%,25rem),1fr))}
 .plots figure:first-child{grid-column:1/-1;max-width:44rem;width:100%}
+h3{font-size:1.05rem;margin:1.6rem 0 .2rem}
+.pair{display:grid;gap:1rem;grid-template-columns:repeat(auto-fit,minmax(min(100%,25rem),1fr))}
 a{color:#0067a8}details{margin:1rem 0}summary{cursor:pointer;color:#0067a8}
 details table{font-size:.85rem}details th,details td{padding:.2rem .6rem}
 @media (prefers-color-scheme:dark){body{background:#0d0f12;color:#eceff3}.quiet,td small{color:#a9b1bb}
@@ -114,18 +117,36 @@ std::string details(const std::vector<Curve>& curves) {
            rows + "</tbody></table></div></details>\n";
 }
 
+std::string restSection(const SceneResult& scene) {
+    std::string html = fmt::format("<h3>{}, coming to rest</h3>\n", escaped(scene.name)) + restTable(scene);
+    html += "<div class=\"pair\">\n";
+    for (const Plot& plot : restPlots(scene))
+        html += "<figure>" + draw(plot, Style::fromPage) + "</figure>\n";
+    return html + "</div>\n";
+}
+
+std::string truthText(const SceneResult& scene) {
+    const std::string known =
+        fmt::format("the truth is known to {:.1g} of body size", scene.truth.selfDifference);
+    if (!scene.isOfContacts) return known;
+    return fmt::format(
+        "the truth is what split does with {} substeps: half as many, or a disturbance, leave an "
+        "error of 1 % comparable over {} frames",
+        truthSubsteps, framesAtTarget(scene.truth));
+}
+
 std::string section(const SceneResult& scene) {
     const std::vector<Curve> curves = curvesOf(scene);
     std::string html = fmt::format("<section id=\"{0}\">\n<h2>{0}</h2>\n", escaped(scene.name));
-    html += fmt::format(
-        "<p class=\"quiet\">{} particles, {} springs, {} frames of {:.4g} ms; the truth is known to "
-        "{:.1g} of body size</p>\n",
-        scene.particles, scene.constraints, scene.frames, 1000 * scene.dt, scene.truth.selfDifference);
+    html += fmt::format("<p class=\"quiet\">{} particles, {} springs, {} frames of {:.4g} ms; {}</p>\n",
+                        scene.particles, scene.constraints, scene.frames, 1000 * scene.dt, truthText(scene));
     for (const std::string& note : scene.notes) html += "<p class=\"quiet\">" + escaped(note) + "</p>\n";
     html += "<div class=\"plots\">\n";
     for (const Price& price : prices)
         html += "<figure>" + draw(plotOf(scene, price), Style::fromPage) + "</figure>\n";
-    return html + "</div>\n" + details(curves) + "</section>\n";
+    html += "</div>\n" + details(curves);
+    if (!scene.rest.empty()) html += restSection(scene);
+    return html + "</section>\n";
 }
 
 } // namespace
@@ -170,7 +191,10 @@ std::string toHtml(const StudyRecord& record) {
         "where a curve meets 1 %. Where a disturbance of the truth by 1e-7 grows to a tenth of an error, the "
         "comparison stops; growth below 1e-6 counts as none, so that an error below 1e-5 (0.001 %) may hold "
         "as "
-        "much of chaos as of the solver.</p>\n";
+        "much of chaos as of the solver. Where things touch, the truth is what split tends to with short "
+        "substeps, and comparison stops as well where half as many of them differ by a tenth of an error. "
+        "Penetration is that of the deepest particle in another, in a plane or in a collider; things are at "
+        "rest when kinetic energy stays below a thousandth of its peak.</p>\n";
     for (const SceneResult& scene : record.scenes) html += section(scene);
     return html + "</body></html>\n";
 }

@@ -1,6 +1,7 @@
 // Two tables: scenes and tunings.
 #include "sinew/study/plan.hpp"
 
+#include "sim/collision/particle_contacts.hpp"
 #include "sim/compile.hpp"
 #include "sim/ranges.hpp"
 #include "sinew/outputs.hpp"
@@ -15,11 +16,13 @@ namespace {
 struct Shipped {
     const char* name;
     std::uint32_t frames; // of 1/60 s
+    std::uint32_t points = mostPoints;
 };
-constexpr Shipped shipped[] = {
-    {"beam", 18}, {"beam_stiff", 18}, {"cloth_study", 30}, {"chain", 30}, {"cube_load", 30}};
+// Of contacts so many frames that the first of them are over; their trials end where 1 % is long reached.
+constexpr Shipped shipped[] = {{"beam", 18},     {"beam_stiff", 18}, {"cloth_study", 30},
+                               {"chain", 30},    {"cube_load", 30},  {"clutter", 30, 6},
+                               {"stack", 30, 7}, {"incline", 30, 6}, {"cloth_on_sphere", 30, 6}};
 
-constexpr std::uint32_t fewestSweeps = 8;
 constexpr std::uint32_t wholeFrame = 0; // all sweeps of a frame in one substep
 
 using Variation = void (*)(sim::Settings&);
@@ -57,13 +60,13 @@ struct SweepCount {
     bool isBetween; // two powers of two
 };
 
-/// 8, 16, 32 ... With `isFine` one more between any two: errors may fall by a factor of a thousand from one
-/// to the next.
-std::vector<SweepCount> sweepCounts(std::uint32_t points, bool isFine) {
+/// `fewest`, twice that ... With `isFine` one more between any two: errors may fall by a factor of a thousand
+/// from one to the next.
+std::vector<SweepCount> sweepCounts(std::uint32_t points, std::uint32_t fewest, bool isFine) {
     const auto mostSubsteps = static_cast<std::uint32_t>(sim::ranges::substeps.high);
     std::vector<SweepCount> counts;
     for (std::uint32_t i = 0; i < points; ++i) {
-        const std::uint32_t sweeps = fewestSweeps << i;
+        const std::uint32_t sweeps = fewest << i;
         if (isFine && i > 0)
             counts.push_back({static_cast<std::uint32_t>(std::lround(sweeps / std::sqrt(2.0))), true});
         counts.push_back({std::min(sweeps, mostSubsteps), false});
@@ -96,12 +99,24 @@ std::vector<StudyScene> studyScenes(const std::string& which, std::optional<std:
     std::vector<StudyScene> scenes;
     for (const Shipped& scene : shipped)
         if (which == "all" || which == scene.name)
-            scenes.push_back({scene.name, frames.value_or(scene.frames), scenes::loadBuiltIn(scene.name)});
+            scenes.push_back(
+                {scene.name, frames.value_or(scene.frames), scene.points, scenes::loadBuiltIn(scene.name)});
     if (!scenes.empty()) return scenes;
     scenes::LoadedScene loaded = scenes::load(which);
     const std::string name = fileName(loaded.scene.name);
-    scenes.push_back({name, frames.value_or(defaultFrames), std::move(loaded)});
+    scenes.push_back({name, frames.value_or(defaultFrames), mostPoints, std::move(loaded)});
     return scenes;
+}
+
+bool isOfContacts(const sim::Scene& scene) {
+    return !scene.planes.empty() || !scene.colliders.empty() || !scene.faces.empty() ||
+           sim::collision::particle_contacts::areIn(scene);
+}
+
+sim::Settings settingsOfContacts(const StudyScene& scene, sim::Settings settings) {
+    settings.contactMargin = scene.loaded.settings.contactMargin;
+    settings.contactRoom = scene.loaded.settings.contactRoom;
+    return settings;
 }
 
 std::vector<sim::Settings> settingsAt(sim::Solver solver, std::uint32_t sweeps) {
@@ -120,9 +135,9 @@ std::vector<sim::Settings> settingsAt(sim::Solver solver, std::uint32_t sweeps) 
     return list;
 }
 
-std::vector<sim::Settings> settingsToTry(sim::Solver solver, std::uint32_t points) {
+std::vector<sim::Settings> settingsToTry(sim::Solver solver, std::uint32_t points, std::uint32_t fewest) {
     std::vector<sim::Settings> list;
-    for (const SweepCount& count : sweepCounts(points, tuningOf(sim::solverName(solver)).isFine))
+    for (const SweepCount& count : sweepCounts(points, fewest, tuningOf(sim::solverName(solver)).isFine))
         for (const sim::Settings& settings : settingsAt(solver, count.sweeps))
             if (!count.isBetween || settings.iterations == 1) list.push_back(settings);
     return list;

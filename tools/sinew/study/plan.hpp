@@ -9,13 +9,23 @@
 
 namespace sinew::tools::study {
 
+inline constexpr std::uint32_t mostPoints = 8;
+/// Sweeps of a frame that curves start with; of contacts, which bear fewer, another.
+inline constexpr std::uint32_t fewestSweeps = 8, fewestSweepsOfContacts = 2;
+
 struct StudyScene {
     std::string name; ///< unique in a study; a file name too
     std::uint32_t frames = 0;
+    std::uint32_t points = mostPoints; ///< sweep counts it is worth, at most
     scenes::LoadedScene loaded;
 };
 
-inline constexpr std::uint32_t mostPoints = 8;
+/// Whether anything in it may touch: particles, faces, planes or colliders. Its true motion is another then.
+bool isOfContacts(const sim::Scene& scene);
+
+/// With the margin and the room that the scene's file says.
+sim::Settings settingsOfContacts(const StudyScene& scene, sim::Settings settings);
+
 inline constexpr std::uint32_t defaultFrames = 30; ///< of a scene that is not one of ours
 
 /// Names of the shipped scenes that a study of "all" runs.
@@ -34,8 +44,9 @@ std::vector<std::string> curveNames();
 /// solver.
 std::vector<sim::Settings> settingsAt(sim::Solver solver, std::uint32_t sweeps);
 
-/// All of settingsAt() at `points` sweep counts from 8, each twice the one before. But for `jacobi` there is
-/// one count more between any two, in substeps of one sweep alone.
-std::vector<sim::Settings> settingsToTry(sim::Solver solver, std::uint32_t points);
+/// All of settingsAt() at `points` sweep counts from `fewest`, each twice the one before. But for `jacobi`
+/// there is one count more between any two, in substeps of one sweep alone.
+std::vector<sim::Settings> settingsToTry(sim::Solver solver, std::uint32_t points,
+                                         std::uint32_t fewest = fewestSweeps);
 
 } // namespace sinew::tools::study

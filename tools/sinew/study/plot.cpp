@@ -49,6 +49,7 @@ std::vector<Spot> frontOf(const PlotCurve& curve, const Axes& axes) {
 
 /// The best of all solvers: a broad band under the curves, along the points that nobody undercuts.
 std::string bestOfAll(const Plot& plot, const Axes& axes) {
+    if (plot.kind == PlotKind::overTime) return {};
     std::vector<std::pair<double, double>> all;
     for (const PlotCurve& curve : plot.curves)
         for (const PlotPoint& point : curve.points)
@@ -71,6 +72,8 @@ std::string draw(const PlotCurve& curve, const Axes& axes) {
         if (!point.y) // a little wedge that points out of the diagram
             marks +=
                 fmt::format("<path class=\"hollow\" d=\"M{:.1f} {:.1f}l5 9h-10z\"/>", x, axes.box.top - 4);
+        else if (axes.kind == PlotKind::overTime)
+            continue; // a line says it
         else if (point.isOnFront)
             marks += marker(curve.slot, x, axes.y(*point.y), 4, "dot");
         else
@@ -148,7 +151,8 @@ std::string draw(const Plot& plot, Style style) {
     svg += bestOfAll(plot, axes) + drawAxes(axes, plot.xLabel);
     LabelPlacer placer(axes.box);
     const double target = axes.y(axes.target);
-    placer.avoid({{axes.box.left, target}, {axes.box.right, target}}, nobody);
+    if (plot.kind == PlotKind::precision)
+        placer.avoid({{axes.box.left, target}, {axes.box.right, target}}, nobody);
     for (const PlotCurve& curve : plot.curves) {
         svg += draw(curve, axes);
         placer.avoid(frontOf(curve, axes), curve.slot);

@@ -23,9 +23,16 @@ struct PlotCurve {
     std::optional<double> xAtTarget;
 };
 
+enum class PlotKind {
+    precision, ///< error as percent over a price, both logarithmic, with a target
+    overTime,  ///< lines of a positive figure, logarithmic, over a linear x from 0
+};
+
 struct Plot {
     std::string title, xLabel;
     double target = 0.01;
+    PlotKind kind = PlotKind::precision;
+    std::string name{}; ///< in file names, where the scene's and a price's are not enough
     std::vector<PlotCurve> curves;
 };
 

@@ -26,6 +26,7 @@ std::string superscript(int value) {
 } // namespace
 
 double Axes::x(double value) const {
+    if (kind == PlotKind::overTime) return box.left + value / xHigh * (box.right - box.left);
     return box.left + share(value, xLow, xHigh) * (box.right - box.left);
 }
 
@@ -34,7 +35,29 @@ double Axes::y(double value) const {
     return box.bottom - share(clamped, yLow, yHigh) * (box.bottom - box.top);
 }
 
+namespace {
+
+Axes axesOverTime(const Plot& plot) {
+    Axes axes{.box = box, .kind = plot.kind, .xLow = 0, .xHigh = 0, .yLow = INFINITY, .yHigh = 0};
+    for (const PlotCurve& curve : plot.curves)
+        for (const PlotPoint& point : curve.points) {
+            axes.xHigh = std::max(axes.xHigh, point.x);
+            if (!point.y || *point.y <= 0) continue;
+            axes.yLow = std::min(axes.yLow, *point.y);
+            axes.yHigh = std::max(axes.yHigh, *point.y);
+        }
+    if (!(axes.xHigh > 0)) axes.xHigh = 1;
+    if (!(axes.yHigh > 0)) axes.yLow = axes.yHigh = 1;
+    axes.yHigh = std::pow(10, std::ceil(std::log10(axes.yHigh) - 1e-9));
+    axes.yLow = std::pow(10, std::floor(std::log10(axes.yLow) + 1e-9));
+    axes.yLow = std::clamp(axes.yLow, 1e-9 * axes.yHigh, 0.1 * axes.yHigh);
+    return axes;
+}
+
+} // namespace
+
 Axes axesFor(const Plot& plot) {
+    if (plot.kind == PlotKind::overTime) return axesOverTime(plot);
     Axes axes{.box = box,
               .xLow = INFINITY,
               .xHigh = 0,
@@ -78,9 +101,30 @@ std::string percentText(double share) {
     return "10" + superscript(static_cast<int>(std::lround(std::log10(percent)))) + " %";
 }
 
+std::vector<double> linearTicks(double high) {
+    const double decade = std::pow(10, std::floor(std::log10(high)) - 1);
+    double step = decade;
+    for (const double factor : {2.0, 5.0, 10.0, 20.0})
+        if (high / step > 10) step = factor * decade;
+    std::vector<double> values;
+    for (int i = 0; i * step <= high * 1.001; ++i) values.push_back(i * step);
+    return values;
+}
+
+namespace {
+
+/// A power of ten.
+std::string powerText(double value) {
+    const int power = static_cast<int>(std::lround(std::log10(value)));
+    return std::abs(power) <= 3 ? fmt::format("{:g}", std::pow(10, power)) : "10" + superscript(power);
+}
+
+} // namespace
+
 std::string drawAxes(const Axes& axes, const std::string& xLabel) {
     std::string grid, text;
-    for (const double value : ticks(axes.xLow, axes.xHigh)) {
+    const bool isOverTime = axes.kind == PlotKind::overTime;
+    for (const double value : isOverTime ? linearTicks(axes.xHigh) : ticks(axes.xLow, axes.xHigh)) {
         const double x = axes.x(value);
         grid += fmt::format("M{:.1f} {:.1f}V{:.1f}", x, axes.box.top, axes.box.bottom);
         text += fmt::format(
@@ -91,15 +135,19 @@ std::string drawAxes(const Axes& axes, const std::string& xLabel) {
         const double y = axes.y(value);
         grid += fmt::format("M{:.1f} {:.1f}H{:.1f}", axes.box.left, y, axes.box.right);
         text += fmt::format("<text class=\"muted\" text-anchor=\"end\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
-                            axes.box.left - 7, y + 4.4, percentText(value));
+                            axes.box.left - 7, y + 4.4, isOverTime ? powerText(value) : percentText(value));
     }
     const Box& b = axes.box;
+    const std::string target = isOverTime
+                                   ? std::string()
+                                   : fmt::format("<path class=\"target\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>\n",
+                                                 b.left, axes.y(axes.target), b.right);
     return fmt::format(
         "<path class=\"grid\" d=\"{}\"/>\n<path class=\"frame\" d=\"M{:.1f} {:.1f}V{:.1f}H{:.1f}\"/>\n"
-        "<path class=\"target\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>\n{}"
+        "{}{}"
         "<text class=\"ink\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
-        grid, b.left, b.top, b.bottom, b.right, b.left, axes.y(axes.target), b.right, text,
-        (b.left + b.right) / 2, b.bottom + 40, escaped(xLabel));
+        grid, b.left, b.top, b.bottom, b.right, target, text, (b.left + b.right) / 2, b.bottom + 40,
+        escaped(xLabel));
 }
 
 } // namespace sinew::tools::study

@@ -15,9 +15,10 @@ struct Box {
     double left = 0, top = 0, right = 0, bottom = 0;
 };
 
-/// Logarithmic scales from values to the drawing.
+/// Scales from values to the drawing: logarithmic, but for a time.
 struct Axes {
     Box box;
+    PlotKind kind = PlotKind::precision;
     double xLow = 1, xHigh = 10, yLow = 1e-3, yHigh = 1, target = 0.01;
 
     double x(double value) const;
@@ -25,7 +26,7 @@ struct Axes {
     bool holdsX(double value) const { return value >= xLow && value <= xHigh; }
 };
 
-/// Whole decades of error that hold every point and the target.
+/// Whole decades of error that hold every point and the target; over time at most nine below the largest.
 Axes axesFor(const Plot& plot);
 
 std::string drawAxes(const Axes& axes, const std::string& xLabel);
@@ -36,5 +37,8 @@ std::vector<double> ticks(double low, double high);
 
 /// "100 %", "0.01 %", and powers of ten where zeros could not be counted any more.
 std::string percentText(double share);
+
+/// 0, 1, 2 ..., or steps of 2 or 5 times a power of ten: four to ten of them from 0 to `high`.
+std::vector<double> linearTicks(double high);
 
 } // namespace sinew::tools::study

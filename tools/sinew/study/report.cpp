@@ -1,8 +1,8 @@
 // JSON, CSV and the few lines a terminal gets.
 #include "sinew/study/report.hpp"
 
-#include "sinew/json.hpp"
 #include "sinew/report.hpp"
+#include "sinew/study/rest_report.hpp"
 
 #include <fmt/format.h>
 
@@ -100,10 +100,13 @@ Json sceneJson(const SceneResult& scene) {
               {"dt", scene.dt},
               {"body_size", scene.truth.bodySize},
               {"truth",
-               {{"h", scene.truth.h},
+               {{"kind", scene.isOfContacts ? "split" : "verlet"},
+                {"h", scene.truth.h},
                 {"self_difference", scene.truth.selfDifference},
                 {"perturbation", perturbation},
-                {"growth", scene.truth.growth}}}};
+                {"growth", scene.truth.growth},
+                {"halving", scene.truth.halving},
+                {"frames_at_1_percent", framesAtTarget(scene.truth)}}}};
     json["curves"] = Json::array();
     const char* headlines[] = {"ms_to_1_percent", "sweeps_to_1_percent", "barriers_to_1_percent"};
     for (const char* headline : headlines) json[headline] = Json::object();
@@ -116,6 +119,7 @@ Json sceneJson(const SceneResult& scene) {
         json["speedup_over_jacobi"][curve.solver] =
             advantage ? Json{{"ratio", advantage->ratio}, {"at_least", advantage->isBound}} : Json(nullptr);
     }
+    json["rest"] = restJson(scene);
     json["notes"] = scene.notes;
     return json;
 }
@@ -166,13 +170,14 @@ std::string toText(const StudyRecord& record) {
         for (const Curve& curve : curves) {
             const std::optional<double> ms = curve.costOf(targetError, prices[0]);
             const std::optional<Advantage> advantage = advantageOf(curve, curves);
-            text += fmt::format("{:<12} {:<16} {:>12}", scene.name, curve.solver,
+            text += fmt::format("{:<16} {:<16} {:>12}", scene.name, curve.solver,
                                 ms ? fmt::format("{:.3g} ms", *ms) : "never");
             if (advantage && curve.solver != "jacobi")
                 text += fmt::format("   {}{:.3g} x faster than jacobi",
                                     advantage->isBound ? "more than " : "", advantage->ratio);
             text += '\n';
         }
+        text += restText(scene);
     }
     return text;
 }

@@ -8,8 +8,6 @@
 
 namespace sinew::tools::study {
 
-inline constexpr double targetError = 0.01; ///< of body size: the headline is the time to reach it
-
 /// What a point may cost.
 struct Price {
     const char* name; ///< in file names and JSON

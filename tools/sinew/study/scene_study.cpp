@@ -32,7 +32,8 @@ Trial prepare(const StudyScene& scene, const sim::Settings& settings, const vk::
     const sim::StepProgram program = sim::compile(scene.loaded.scene, settings);
     Trial trial{.settings = settings};
     trial.identity = identityOf(scene, settings, program, device);
-    trial.sweeps = program.sweeps;
+    // Without links a sweep is one over what touches.
+    trial.sweeps = std::max(program.sweeps, std::uint64_t{settings.substeps} * settings.iterations);
     trial.barriers =
         static_cast<std::uint64_t>(std::ranges::count(program.step, true, &sim::Pass::barrierBefore));
     trial.clamped = clampedShare(scene.loaded.scene, settings);
@@ -42,12 +43,14 @@ Trial prepare(const StudyScene& scene, const sim::Settings& settings, const vk::
 /// Trials of few sweeps first, solvers next to each other.
 std::vector<Trial> prepareAll(const StudyScene& scene, std::uint32_t points,
                               const vk::DeviceDescription& device, std::vector<std::string>& notes) {
+    const std::uint32_t fewest = isOfContacts(scene.loaded.scene) ? fewestSweepsOfContacts : fewestSweeps;
     std::vector<Trial> trials;
     for (const std::string& name : sim::solverNames()) {
         sim::Solver solver{};
         sim::parseSolver(name, solver);
         std::string refusal;
-        for (const sim::Settings& settings : settingsToTry(solver, points)) {
+        for (const sim::Settings& tried : settingsToTry(solver, std::min(points, scene.points), fewest)) {
+            const sim::Settings settings = settingsOfContacts(scene, tried);
             const std::vector<std::string> complaints = sim::validate(scene.loaded.scene, settings);
             if (complaints.empty())
                 trials.push_back(prepare(scene, settings, device));
@@ -153,13 +156,13 @@ void timeAll(Session& session, const StudyScene& scene, const std::vector<Trial*
 }
 
 /// The truth with its frames only where a trial must be compared with it.
-Truth findTruth(const StudyScene& scene, bool needsFrames, const Store& store) {
-    const std::string identity = identityOfTruth(scene);
+Truth findTruth(Session& session, const StudyScene& scene, bool needsFrames, const Store& store) {
+    const std::string identity = identityOfTruth(scene, session.device.description());
     if (!needsFrames)
         if (std::optional<Truth> kept = store.loadTruth(identity)) return *kept;
     fmt::print(stderr, "{}: computing the true motion\n", scene.name);
-    Truth truth = truthOf(scene);
-    store.keepTruth(identity, truth);
+    Truth truth = truthOf(session, scene);
+    if (!app::isInterrupted()) store.keepTruth(identity, truth);
     return truth;
 }
 
@@ -170,11 +173,12 @@ SceneResult study(Session& session, const StudyScene& scene, std::uint32_t point
                        .particles = scene.loaded.scene.particles.size(),
                        .constraints = scene.loaded.scene.distances.size(),
                        .frames = scene.frames,
-                       .dt = double{scene.loaded.scene.dt}};
+                       .dt = double{scene.loaded.scene.dt},
+                       .isOfContacts = isOfContacts(scene.loaded.scene)};
     std::vector<Trial> trials = prepareAll(scene, points, session.device.description(), result.notes);
     for (Trial& trial : trials) store.load(trial);
     const std::vector<Trial*> toRun = missing(trials);
-    result.truth = findTruth(scene, !toRun.empty(), store);
+    result.truth = findTruth(session, scene, !toRun.empty(), store);
     if (!toRun.empty()) {
         fmt::print(stderr, "{}: {} of {} runs to do\n", scene.name, toRun.size(), trials.size());
         compareAll(session, scene, result.truth, toRun, store);
@@ -186,6 +190,7 @@ SceneResult study(Session& session, const StudyScene& scene, std::uint32_t point
         fmt::print(stderr, "{}: timing {} runs in turns\n", scene.name, toTime.size());
         timeAll(session, scene, toTime, store);
     }
+    if (result.isOfContacts) result.rest = studyRest(session, scene, store);
     std::erase_if(trials, [](const Trial& trial) { return !trial.isRun; });
     result.trials = std::move(trials);
     return result;
@@ -193,7 +198,7 @@ SceneResult study(Session& session, const StudyScene& scene, std::uint32_t point
 
 std::optional<TrialError> errorOf(const Trial& trial, const Truth& truth) {
     if (trial.isDiverged) return {};
-    const std::size_t frames = comparableFrames(trial.frameRms, truth.growth, perturbation);
+    const std::size_t frames = comparableFrames(trial.frameRms, truth);
     return TrialError{rmsOver(trial.frameRms, frames),
                       *std::max_element(trial.frameMax.begin(),
                                         trial.frameMax.begin() + static_cast<std::ptrdiff_t>(frames)),

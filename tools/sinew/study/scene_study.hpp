@@ -2,7 +2,7 @@
 // matter.
 #pragma once
 
-#include "sinew/study/store.hpp"
+#include "sinew/study/rest.hpp"
 
 namespace sinew::tools::study {
 
@@ -10,9 +10,11 @@ struct SceneResult {
     std::string name;
     std::size_t particles = 0, constraints = 0;
     std::uint32_t frames = 0;
-    double dt = 0;                  ///< length of a frame [s]
-    Truth truth;                    ///< without its frames
-    std::vector<Trial> trials;      ///< that have run
+    double dt = 0;             ///< length of a frame [s]
+    Truth truth;               ///< without its frames
+    std::vector<Trial> trials; ///< that have run
+    bool isOfContacts = false;
+    std::vector<RestRun> rest;      ///< of contacts, those that have run
     std::vector<std::string> notes; ///< sentences: what could not run, and why
 };
 

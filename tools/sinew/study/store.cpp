@@ -1,9 +1,10 @@
 // The file's name is a hash of the identity; the identity inside decides.
-#include "sinew/study/store.hpp"
+#include "sinew/study/rest.hpp"
 
 #include "app/guard.hpp"
 #include "mesh/export.hpp"
 #include "sim/compile.hpp"
+#include "sim/validate.hpp"
 #include "sinew/json.hpp"
 
 #include <fmt/format.h>
@@ -35,13 +36,37 @@ private:
     std::uint64_t value_ = 0xcbf29ce484222325u;
 };
 
-std::string hashOf(const sim::Scene& scene) {
-    Hash hash;
-    hash.addValues(scene.gravity, scene.dt, scene.damping);
-    for (const sim::Particle& p : scene.particles) hash.addValues(p.position, p.velocity, p.inverseMass);
+void addBodies(Hash& hash, const sim::Scene& scene) {
+    for (const sim::Particle& p : scene.particles)
+        hash.addValues(p.position, p.velocity, p.inverseMass, p.contactOffset, p.radius, p.surface);
     for (const sim::DistanceConstraint& d : scene.distances)
         hash.addValues(d.a, d.b, d.restLength, d.compliance);
+    for (const sim::BendConstraint& b : scene.bends) hash.addValues(b.a, b.b, b.c, b.compliance);
+    for (const sim::Attachment& a : scene.attachments)
+        hash.addValues(a.particle, a.anchor, a.compliance, a.maxForce, a.maxSpeed);
+    for (const sim::Tether& t : scene.tethers) hash.addValues(t.particle, t.anchor, t.length);
     for (const sim::FixedConstraint& f : scene.fixed) hash.addValues(f.particle);
+    for (const sim::Grid& g : scene.grids) hash.addValues(g.volumeStiffness, g.recoveryPressure);
+}
+
+void addWhatTouches(Hash& hash, const sim::Scene& scene) {
+    for (const sim::Plane& p : scene.planes) hash.addValues(p.normal, p.offset, p.friction, p.restitution);
+    for (const sim::Collider& c : scene.colliders) {
+        hash.addValues(c.shape, c.radius, c.halfLength, c.halfExtents, c.margin, c.friction, c.staticFriction,
+                       c.restitution, c.pose, c.pathEnd);
+        for (const sim::Keyframe& k : c.path) hash.addValues(k.time, k.pose);
+    }
+    for (const sim::Face& f : scene.faces) hash.addValues(f.particles, f.thickness);
+    const sim::ContactSettings& contacts = scene.contacts;
+    hash.addValues(contacts.friction, contacts.restitution, contacts.recoverySpeed);
+    for (const sim::Surface& s : contacts.surfaces) hash.addValues(s.friction, s.restitution);
+}
+
+std::string hashOf(const sim::Scene& scene) {
+    Hash hash;
+    hash.addValues(scene.gravity, scene.dt, scene.damping, scene.dampingTime);
+    addBodies(hash, scene);
+    addWhatTouches(hash, scene);
     return hash.text();
 }
 
@@ -82,6 +107,14 @@ Json read(const fs::path& file, const std::string& identity) {
     return json;
 }
 
+std::optional<double> valueOf(const Json& json) {
+    return json.is_null() ? std::nullopt : std::optional(json.get<double>());
+}
+
+std::string text(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 void write(const fs::path& file, const Json& json) {
     mesh::writeWhole(file, [&](std::ostream& stream) { stream << dump(json); });
 }
@@ -90,19 +123,30 @@ void write(const fs::path& file, const Json& json) {
 
 std::string identityOf(const StudyScene& scene, const sim::Settings& settings,
                        const sim::StepProgram& program, const vk::DeviceDescription& device) {
-    return Json{{"version", SINEW_VERSION},  {"device", device.name},
-                {"driver", device.driver},   {"scene", hashOf(scene.loaded.scene)},
-                {"frames", scene.frames},    {"settings", toJson(settings)},
-                {"program", hashOf(program)}}
-        .dump(-1, ' ', false, Json::error_handler_t::replace);
+    return text({{"version", SINEW_VERSION},
+                 {"device", device.name},
+                 {"driver", device.driver},
+                 {"scene", hashOf(scene.loaded.scene)},
+                 {"frames", scene.frames},
+                 {"settings", toJson(settings)},
+                 {"program", hashOf(program)}});
 }
 
-std::string identityOfTruth(const StudyScene& scene) {
-    return Json{{"version", SINEW_VERSION},
-                {"truth", hashOf(scene.loaded.scene)},
-                {"frames", scene.frames},
-                {"perturbation", perturbation}}
-        .dump();
+std::string identityOfTruth(const StudyScene& scene, const vk::DeviceDescription& device) {
+    Json json{{"version", SINEW_VERSION},
+              {"truth", hashOf(scene.loaded.scene)},
+              {"frames", scene.frames},
+              {"perturbation", perturbation}};
+    const sim::Settings settings{.solver = sim::Solver::split, .substeps = truthSubsteps};
+    if (isOfContacts(scene.loaded.scene) && sim::validate(scene.loaded.scene, settings).empty()) {
+        json["run"] = identityOf(scene, settings, sim::compile(scene.loaded.scene, settings), device);
+    }
+    return text(json);
+}
+
+std::string identityOfRest(const StudyScene& scene, const sim::Settings& settings,
+                           const sim::StepProgram& program, const vk::DeviceDescription& device) {
+    return text({{"rest", restLength}, {"run", identityOf(scene, settings, program, device)}});
 }
 
 Store::Store(fs::path folder) : folder_(std::move(folder)) {
@@ -144,6 +188,33 @@ void Store::keep(const Trial& trial) const {
                                    {"frame_ms", trial.frameMs}});
 }
 
+bool Store::load(RestRun& run) const {
+    const Json json = read(fileOf(run.identity), run.identity);
+    if (json.is_null()) return false;
+    try {
+        run.isDiverged = json.at("diverged").get<bool>();
+        for (const Json& s : json.at("samples"))
+            run.samples.push_back({.step = s.at(0).get<std::uint64_t>(),
+                                   .time = s.at(1).get<double>(),
+                                   .kineticEnergy = s.at(2).get<double>(),
+                                   .penetrationMax = valueOf(s.at(3)),
+                                   .penetrationRms = valueOf(s.at(4))});
+    } catch (const Json::exception&) {
+        run.samples.clear();
+        return false;
+    }
+    return run.isRun = true;
+}
+
+void Store::keep(const RestRun& run) const {
+    Json samples = Json::array();
+    for (const Sample& s : run.samples)
+        samples.push_back(Json::array(
+            {s.step, s.time, s.kineticEnergy, orNull(s.penetrationMax), orNull(s.penetrationRms)}));
+    write(fileOf(run.identity),
+          {{"identity", run.identity}, {"diverged", run.isDiverged}, {"samples", std::move(samples)}});
+}
+
 std::optional<Truth> Store::loadTruth(const std::string& identity) const {
     const Json json = read(fileOf(identity), identity);
     if (json.is_null()) return {};
@@ -151,7 +222,9 @@ std::optional<Truth> Store::loadTruth(const std::string& identity) const {
         return Truth{.bodySize = json.at("body_size").get<double>(),
                      .h = json.at("h").get<double>(),
                      .selfDifference = json.at("self_difference").get<double>(),
-                     .growth = json.at("growth").get<std::vector<double>>()};
+                     .growth = json.at("growth").get<std::vector<double>>(),
+                     .halving = json.at("halving").get<std::vector<double>>(),
+                     .frames = {}};
     } catch (const Json::exception&) {
         return {};
     }
@@ -162,7 +235,8 @@ void Store::keepTruth(const std::string& identity, const Truth& truth) const {
                              {"body_size", truth.bodySize},
                              {"h", truth.h},
                              {"self_difference", truth.selfDifference},
-                             {"growth", truth.growth}});
+                             {"growth", truth.growth},
+                             {"halving", truth.halving}});
 }
 
 } // namespace sinew::tools::study

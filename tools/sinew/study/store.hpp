@@ -13,8 +13,10 @@ namespace sinew::tools::study {
 /// of its physics), frames, settings, and a hash of the compiled step, kernels included.
 std::string identityOf(const StudyScene& scene, const sim::Settings& settings,
                        const sim::StepProgram& program, const vk::DeviceDescription& device);
-/// The same for the truth, which no device has a part in.
-std::string identityOfTruth(const StudyScene& scene);
+/// The same for the truth, in which a device has a part only where it is one of contacts.
+std::string identityOfTruth(const StudyScene& scene, const vk::DeviceDescription& device);
+std::string identityOfRest(const StudyScene& scene, const sim::Settings& settings,
+                           const sim::StepProgram& program, const vk::DeviceDescription& device);
 
 class Store {
 public:
@@ -26,6 +28,9 @@ public:
     bool load(Trial& trial) const;
     /// Throws mesh::ExportError.
     void keep(const Trial& trial) const;
+
+    bool load(RestRun& run) const;
+    void keep(const RestRun& run) const;
 
     /// The truth without its frames.
     std::optional<Truth> loadTruth(const std::string& identity) const;

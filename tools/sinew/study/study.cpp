@@ -6,6 +6,7 @@
 #include "sinew/outputs.hpp"
 #include "sinew/study/page.hpp"
 #include "sinew/study/png.hpp"
+#include "sinew/study/rest_report.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -42,18 +43,24 @@ void write(const fs::path& file, const std::string& text) {
     mesh::writeWhole(file, [&](std::ostream& stream) { stream << text; });
 }
 
+void writePlot(const fs::path& folder, const std::string& name, const study::Plot& plot, bool& hasPng) {
+    write(folder / (name + ".svg"), study::draw(plot, study::Style::own));
+    hasPng = study::convertToPng(folder / (name + ".svg"), folder / (name + ".png")) && hasPng;
+}
+
 void writePlots(const fs::path& folder, const study::SceneResult& scene, bool& hasPng) {
-    for (const study::Price& price : study::prices) {
-        const std::string name = scene.name + "-" + price.name;
-        write(folder / (name + ".svg"), study::draw(study::plotOf(scene, price), study::Style::own));
-        hasPng = study::convertToPng(folder / (name + ".svg"), folder / (name + ".png")) && hasPng;
-    }
+    for (const study::Price& price : study::prices)
+        writePlot(folder, scene.name + "-" + price.name, study::plotOf(scene, price), hasPng);
+    for (const study::Plot& plot : study::restPlots(scene))
+        writePlot(folder, scene.name + "-" + plot.name, plot, hasPng);
 }
 
 void writeAll(const fs::path& folder, const study::StudyRecord& record) {
     bool hasPng = true;
     for (const study::SceneResult& scene : record.scenes) writePlots(folder, scene, hasPng);
     write(folder / "study.csv", toCsv(record));
+    if (std::ranges::any_of(record.scenes, [](const auto& scene) { return !scene.rest.empty(); }))
+        write(folder / "rest.csv", restCsv(record));
     write(folder / "study.html", toHtml(record));
     write(folder / "study.json", toJson(record));
     if (!hasPng)
@@ -87,7 +94,7 @@ void addStudy(CLI::App& app, Chosen& chosen) {
     const auto options = std::make_shared<StudyOptions>();
     command
         .add_option("--scene", options->scene,
-                    fmt::format("{}, all, or a scene file without planes and damping",
+                    fmt::format("{}, all, or a scene file, without damping where nothing touches",
                                 fmt::join(study::studySceneNames(), ", ")))
         ->capture_default_str();
     command

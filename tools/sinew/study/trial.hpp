@@ -2,26 +2,10 @@
 // time on the device.
 #pragma once
 
-#include "sim/reference/trajectory.hpp"
-#include "sinew/runner.hpp"
-#include "sinew/study/plan.hpp"
+#include "sinew/study/truth.hpp"
+#include "sinew/trace.hpp"
 
 namespace sinew::tools::study {
-
-/// Of body size: what the second truth starts with (cases: 1, chaos check).
-inline constexpr double perturbation = 1e-7;
-
-/// The true motion of a scene, and how fast a small disturbance of it grows.
-struct Truth {
-    double bodySize = 0;        ///< [m]
-    double h = 0;               ///< step of the truth [s]
-    double selfDifference = 0;  ///< what halving h still changes, by body size
-    std::vector<double> growth; ///< of the perturbation: RMS of each frame, by body size
-    std::vector<std::vector<Eigen::Vector3d>> frames; ///< positions [m]; empty where only the rest was kept
-};
-
-/// Throws app::Failure (badInput) for a scene whose true motion cannot be computed.
-Truth truthOf(const StudyScene& scene);
 
 struct Trial {
     sim::Settings settings;
@@ -34,6 +18,14 @@ struct Trial {
     bool hasDeviceClock = false;            ///< frameMs are device timestamps, else wall-clock times
 
     double medianMs() const;
+};
+
+/// A run on to rest.
+struct RestRun {
+    sim::Settings settings;
+    std::string identity;
+    bool isRun = false, isDiverged = false;
+    std::vector<Sample> samples; ///< by rising time
 };
 
 /// Runs the motion once and compares every frame with the truth. Where the state stops being finite, or is
