@@ -1,0 +1,120 @@
+// Every shipped scene in which anything may touch, a few frames after the first contact: the same bits from
+// run to run, with one thread and two, in reversed order and with other lists. Scenes are found in their
+// folder, so that a new one is held to it as well.
+#include "sinew/study/plan.hpp"
+#include "sinew/study/truth.hpp"
+#include "tools/program.hpp"
+
+#include <fstream>
+
+using namespace sinew;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::uint64_t framesAfterContact = 4, mostFrames = 60;
+constexpr double moved = 1e-3; // [m] off the way without contacts, beyond any rounding
+
+/// With all of its particles, which are what a large scene is there for, but fewer substeps.
+constexpr std::size_t large = 50'000;
+constexpr std::uint32_t substepsOfLarge = 4;
+
+std::vector<std::string> sceneNames() {
+    std::vector<std::string> names;
+    for (const fs::directory_entry& file : fs::directory_iterator(SINEW_SOURCE_FOLDER "/scenes"))
+        if (file.path().extension() == ".toml") names.push_back(file.path().stem().string());
+    std::ranges::sort(names);
+    return names;
+}
+
+class ContactScenes : public test::Program, public testing::WithParamInterface<std::string> {
+protected:
+    /// The scene's file, or a mesh for the scene that drops one.
+    std::string argument() const {
+        if (GetParam() != "drop_mesh") return test::shippedScene(GetParam());
+        return write("tetrahedron.obj",
+                     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+            .string();
+    }
+
+    static tools::Session& session() {
+        static tools::Session shared{tools::DeviceOptions{}};
+        return shared;
+    }
+};
+
+sim::Scene withoutContacts(sim::Scene scene) {
+    scene.planes.clear();
+    scene.colliders.clear();
+    scene.faces.clear();
+    for (sim::Particle& particle : scene.particles) particle.radius = 0;
+    return scene;
+}
+
+/// Until contacts have moved something, and a little longer; 0 where they never do.
+std::uint64_t framesOf(tools::Session& session, const scenes::LoadedScene& loaded) {
+    const sim::Scene free = withoutContacts(loaded.scene);
+    tools::Runner touching(session, loaded.scene, loaded.settings), falling(session, free, loaded.settings);
+    for (std::uint64_t frame = 1; frame <= mostFrames; ++frame) {
+        touching.advance(1, 1);
+        falling.advance(1, 1);
+        const auto a = tools::study::positionsOf(touching.readState()),
+                   b = tools::study::positionsOf(falling.readState());
+        if (tools::study::distanceOf(a, b).max > moved) return frame + framesAfterContact;
+    }
+    return 0;
+}
+
+std::string hashOf(tools::Session& session, const sim::Scene& scene, const sim::Settings& settings,
+                   std::uint64_t frames) {
+    tools::Runner runner(session, scene, settings);
+    runner.advance(frames, 1);
+    EXPECT_EQ(runner.steps(), frames);
+    char text[17];
+    std::snprintf(text, sizeof text, "%016llx",
+                  static_cast<unsigned long long>(tools::stateHash(runner.readState())));
+    return text;
+}
+
+} // namespace
+
+TEST_P(ContactScenes, EndInTheSameBitsWhateverRunsThem) {
+    scenes::LoadedScene loaded = scenes::load(argument());
+    if (!tools::study::isOfContacts(loaded.scene)) GTEST_SKIP() << "nothing in it touches";
+    sim::Settings& settings = loaded.settings;
+    if (loaded.scene.particles.size() > large) settings.substeps = substepsOfLarge;
+    const std::uint64_t frames = framesOf(session(), loaded);
+    ASSERT_GT(frames, 0u) << "no contact within " << mostFrames << " frames";
+    const auto hash = [&](const sim::Settings& with) {
+        return hashOf(session(), loaded.scene, with, frames);
+    };
+
+    const std::string first = hash(settings);
+    std::printf("%s: %s after %u frames\n", GetParam().c_str(), first.c_str(), static_cast<unsigned>(frames));
+    EXPECT_EQ(hash(settings), first) << "second run";
+    sim::Settings other = settings;
+    other.isReversed = true;
+    EXPECT_EQ(hash(other), first) << "reversed";
+    for (const float margin : {0.4f, 1.5f}) {
+        other = settings;
+        other.contactMargin *= margin;
+        EXPECT_EQ(hash(other), first) << "margin " << other.contactMargin;
+    }
+    for (const char* threads : {"1", "2"})
+        EXPECT_EQ(report({argument(), "--frames", std::to_string(frames), "--substeps",
+                          std::to_string(settings.substeps)},
+                         {{"LP_NUM_THREADS", threads}})["state_hash"],
+                  first)
+            << "threads " << threads;
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, ContactScenes, testing::ValuesIn(sceneNames()),
+                         [](const auto& scene) { return scene.param; });
+
+TEST(ShippedScenes, HaveContactsInMoreThanAFew) {
+    std::size_t found = 0;
+    for (const std::string& name : sceneNames())
+        if (name != "drop_mesh")
+            found += tools::study::isOfContacts(scenes::load(test::shippedScene(name)).scene) ? 1u : 0u;
+    EXPECT_GE(found, 10u);
+}
