@@ -7,6 +7,29 @@
 
 namespace sinew::tools::clutter {
 
+namespace {
+
+constexpr btScalar wide = 1000, thick = 1; // [m]
+
+// What lies behind a plane. One along the axes is a slab: Bullet pairs a plane, which is everywhere, with
+// every ball, but a slab only with those near it.
+struct Wall {
+    std::unique_ptr<btCollisionShape> shape;
+    btVector3 at{0, 0, 0};
+};
+
+Wall wallOf(const sim::Plane& plane) {
+    const btVector3 normal(plane.normal.x, plane.normal.y, plane.normal.z);
+    const int axis = normal.absolute().maxAxis();
+    if (btFabs(normal[axis]) < 1)
+        return {std::make_unique<btStaticPlaneShape>(normal, btScalar(plane.offset))};
+    btVector3 half(wide, wide, wide);
+    half[axis] = thick / 2;
+    return {std::make_unique<btBoxShape>(half), (btScalar(plane.offset) - thick / 2) * normal};
+}
+
+} // namespace
+
 struct Bullet::Parts {
     Balls start;
     btDefaultCollisionConfiguration configuration;
@@ -15,7 +38,7 @@ struct Bullet::Parts {
     btSequentialImpulseConstraintSolver solver;
     btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
     btSphereShape ball;
-    std::vector<std::unique_ptr<btStaticPlaneShape>> planes;
+    std::vector<Wall> walls;
     std::vector<std::unique_ptr<btRigidBody>> bodies;
 
     explicit Parts(const Balls& balls) : start(balls), ball(btScalar(balls.radius)) {}
@@ -46,10 +69,9 @@ Bullet::Bullet(const Balls& balls) : parts_(std::make_unique<Parts>(balls)) {
         parts_->add(btScalar(1 / x[3]), parts_->ball, {x[0], x[1], x[2]}, {v[0], v[1], v[2]}, balls.friction);
     }
     for (const sim::Plane& plane : balls.planes) {
-        const btVector3 normal(plane.normal.x, plane.normal.y, plane.normal.z);
-        parts_->planes.push_back(std::make_unique<btStaticPlaneShape>(normal, btScalar(plane.offset)));
+        const Wall& wall = parts_->walls.emplace_back(wallOf(plane));
         const float own = balls.friction > 0 ? plane.friction * plane.friction / balls.friction : 0;
-        parts_->add(0, *parts_->planes.back(), {0, 0, 0}, {0, 0, 0}, own);
+        parts_->add(0, *wall.shape, wall.at, {0, 0, 0}, own);
     }
 }
 

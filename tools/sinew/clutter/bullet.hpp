@@ -9,8 +9,8 @@ namespace sinew::tools::clutter {
 
 class Bullet {
 public:
-    /// A sphere a ball, a static plane each plane, Bullet's default world and solver but for `iterations` of
-    /// a substep. Spheres may turn, as ours cannot.
+    /// A sphere a ball, a static slab or plane each plane, Bullet's default world and solver but for
+    /// `iterations` of a substep. Spheres may turn, as ours cannot.
     explicit Bullet(const Balls& balls);
     ~Bullet();
     Bullet(const Bullet&) = delete;
