@@ -28,11 +28,25 @@ bool isDirty(uint cell) {
     return all != 0u;
 }
 
+// Triangles of a cell, and on its low faces, have corners that its corners own.
+bool hasPoints(uint cell) {
+    uint all = 0u;
+    [[dont_unroll]] for (uint k = 0u; k < 8u; ++k) {
+        const uvec4 own = owned[slotOf(cell, k)];
+        all |= own.x | own.y | own.z;
+    }
+    return all != 0u;
+}
+
 void main() {
     const uint item = itemIndex(push.count);
     if (item >= push.count) return;
     const uint i = push.first + item;
     if (!isDirty(i)) return;
+    if (!hasPoints(i)) {
+        counts[i] = SurfaceCounts(0u, 0u);
+        return;
+    }
     addInside(i);
     const uint inside = triangles;
     const uint pieces = addOutside(i);

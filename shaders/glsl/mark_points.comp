@@ -50,12 +50,23 @@ void markFace(uint i, uint q, inout uvec4 own) {
     else if (min(a.z, b.z) == 1u && !areFirst) setBit(own, mergeBit(q));
 }
 
+// Whether any tetrahedron at a node is split.
+bool isSplitAround(uint i) {
+    uint all = 0u;
+    [[dont_unroll]] for (uint k = 0u; k < 8u; ++k) all |= partitions[i - slotOf(0u, k)];
+    return all != 0u;
+}
+
 void main() {
     const uint item = itemIndex(push.count);
     if (item >= push.count) return;
     const uint i = push.first + item;
     if (dirty[i >> 5] == 0u) return;
     uvec4 own = uvec4(0u);
+    if (!isSplitAround(i)) {
+        owned[i] = own;
+        return;
+    }
     [[dont_unroll]] for (uint d = 1u; d < 8u; ++d) {
         const ivec3 direction = cornerOf(int(d));
         if (!isAlive(links[i], direction.x, direction.y, direction.z)) markEdge(i, d, own);

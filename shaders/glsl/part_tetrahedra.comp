@@ -26,6 +26,15 @@ uint partitionOf(uint words[8], uvec4 corners) {
     return labels.y | labels.z << 1 | labels.w << 3;
 }
 
+// Whether all edges of a cell's tetrahedra live: those of a corner lead along the axes on which it is low.
+bool isWhole(uint words[8]) {
+    uint dead = 0u;
+    [[dont_unroll]] for (uint low = 0u; low < 7u; ++low)
+        [[dont_unroll]] for (uint d = 1u; d < 8u; ++d)
+            if ((low & d) == 0u && !isLinked(words, low, low | d)) ++dead;
+    return dead == 0u;
+}
+
 void main() {
     const uint item = itemIndex(push.count);
     if (item >= push.count) return;
@@ -34,7 +43,8 @@ void main() {
     uint words[8];
     [[dont_unroll]] for (uint k = 0u; k < 8u; ++k) words[k] = links[slotOf(i, k)];
     uint all = 0u;
-    [[dont_unroll]] for (uint p = 0u; p < tetrahedra; ++p) all |= partitionOf(words, cornersOf(p)) << partitionBits * p;
+    const uint first = isWhole(words) ? tetrahedra : 0u;
+    [[dont_unroll]] for (uint p = first; p < tetrahedra; ++p) all |= partitionOf(words, cornersOf(p)) << partitionBits * p;
     partitions[i] = all;
     if (all == 0u) return;
     [[dont_unroll]] for (uint k = 0u; k < 8u; ++k) near[slotOf(i, k)] = 1u;

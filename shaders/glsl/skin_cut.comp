@@ -18,13 +18,16 @@ void main() {
     const CutVertex vertex = cutVertices[i];
     const vec3 normal = vec3(vertex.normal[0], vertex.normal[1], vertex.normal[2]) / SURFACE_NORMAL;
     vec3 x = vec3(0.0), turned = vec3(0.0);
+    float moving = 0.0;
     for (int c = 0; c < 4; ++c) {
         const uint corner = vertex.corners[c];
         const Gradient g = gradients[corner];
         const mat3 f = mat3(g.x.xyz, g.y.xyz, g.z.xyz), cofactor = mat3(cross(f[1], f[2]), cross(f[2], f[0]), cross(f[0], f[1]));
-        x += vertex.shares[c] * (positions[particles[corner]].xyz + f * (vertex.rest.xyz - rest[corner].xyz));
+        const vec4 place = positions[particles[corner]];
+        x += vertex.shares[c] * (place.xyz + f * (vertex.rest.xyz - rest[corner].xyz));
+        moving += vertex.shares[c] * place.w;
         turned += vertex.shares[c] * (cofactor * normal);
     }
     const float size = length(turned);
-    vertices[i] = SkinVertex(vec4(x, 1.0), vec4(size > 0.0 ? turned / size : vec3(0.0, 1.0, 0.0), 0.0));
+    vertices[i] = SkinVertex(vec4(x, moving > 0.0 ? 1.0 : 0.0), vec4(size > 0.0 ? turned / size : vec3(0.0, 1.0, 0.0), 0.0));
 }

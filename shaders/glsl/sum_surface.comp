@@ -4,7 +4,7 @@
 #include "kernel.glsl"
 
 layout(std430, binding = 0) readonly buffer Counts { SurfaceCounts counts[]; };
-layout(std430, binding = 1) writeonly buffer Sums { uvec4 sums[]; }; // points, triangles inside, outside
+layout(std430, binding = 1) writeonly buffer Sums { uvec4 sums[]; }; // points, triangles inside, outside, slots that have any
 layout(push_constant) uniform Push { CountPush push; };
 
 void main() {
@@ -13,7 +13,7 @@ void main() {
     uvec4 sum = uvec4(0u);
     for (uint i = chunk * SURFACE_CHUNK; i < (chunk + 1u) * SURFACE_CHUNK; ++i) {
         const uint sizes = counts[i].sizes;
-        sum += uvec4(sizes & 255u, sizes >> 8 & 255u, sizes >> 16, 0u);
+        sum += uvec4(sizes & 255u, sizes >> 8 & 255u, sizes >> 16, min(sizes, 1u));
     }
     sums[chunk] = sum;
 }

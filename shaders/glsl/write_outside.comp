@@ -10,7 +10,7 @@
 layout(std430, binding = 0) readonly buffer Cells { uint cells[]; };
 layout(std430, binding = 1) readonly buffer Partitions { uint partitions[]; };
 layout(std430, binding = 2) readonly buffer Owned { uvec4 owned[]; };
-layout(std430, binding = 3) readonly buffer Counts { SurfaceCounts counts[]; };
+layout(std430, binding = 3) readonly buffer Listed { uint listed[]; }; // how many, and then the slots
 layout(std430, binding = 4) readonly buffer Starts { uvec2 starts[]; };
 layout(std430, binding = 5) readonly buffer State { SurfaceState state; };
 layout(std430, binding = 6) readonly buffer Rest { vec4 rest[]; }; // w = index of the body's skin
@@ -51,10 +51,10 @@ void triangle(uvec2 a, uvec2 b, uvec2 c) {
 #include "cut_outside.glsl"
 
 void main() {
-    const uint item = itemIndex(push.count);
-    if (item >= push.count || state.missing > 0u) return;
-    const uint i = push.first + item;
-    if (counts[i].sizes >> 16 == 0u) return;
+    const uint item = itemIndex(listed[0]);
+    if (item >= listed[0]) return;
+    const uint i = listed[1u + item];
+    if (i - push.first >= push.count) return; // of another run
     next = starts[i].y;
     addOutside(i);
 }

@@ -8,13 +8,12 @@
 #include "kuhn.glsl"
 #include "cut_points.glsl"
 
-layout(std430, binding = 0) readonly buffer Counts { SurfaceCounts counts[]; };
+layout(std430, binding = 0) readonly buffer Listed { uint listed[]; }; // how many, and then the slots
 layout(std430, binding = 1) readonly buffer Owned { uvec4 owned[]; };
 layout(std430, binding = 2) readonly buffer Partitions { uint partitions[]; };
 layout(std430, binding = 3) readonly buffer Hits { LinkHits hits[]; };
 layout(std430, binding = 4) readonly buffer Rest { vec4 rest[]; }; // w = index of the body's skin
-layout(std430, binding = 5) readonly buffer State { SurfaceState state; };
-layout(std430, binding = 6) writeonly buffer Vertices { CutVertex vertices[]; };
+layout(std430, binding = 5) writeonly buffer Vertices { CutVertex vertices[]; };
 
 // Where a link was cut. One that died by rule K alone has no place: its middle.
 float shareOf(uint slot, uint d) {
@@ -77,10 +76,10 @@ void writeMiddle(uint i, uint p) {
 }
 
 void main() {
-    const uint item = itemIndex(push.count);
-    if (item >= push.count || state.missing > 0u) return;
-    const uint i = push.first + item;
-    if ((counts[i].sizes & 255u) == 0u) return;
+    const uint item = itemIndex(listed[0]);
+    if (item >= listed[0]) return;
+    const uint i = listed[1u + item];
+    if (i - push.first >= push.count) return; // of another run
     [[dont_unroll]] for (uint d = 1u; d < 8u; ++d)
         if (hasBit(owned[i], edgeBit(d, 0u))) writeEdge(i, d);
     [[dont_unroll]] for (uint q = 0u; q < 12u; ++q)

@@ -63,10 +63,20 @@ void addSlots(ProgramBuilder& program, CutSurface& surface, const Bodies& bodies
     surface.near = program.scratch<std::uint32_t>("surface.near", slots);
     surface.owned = program.scratch<std::array<std::uint32_t, 4>>("surface.owned", slots);
     surface.counts = program.scratch<layout::SurfaceCounts>("surface.counts", slots);
+    surface.slots = static_cast<std::uint32_t>(slots);
+    surface.listed = program.scratch<std::uint32_t>("surface.listed", slots + 1);
     surface.starts = program.scratch<std::array<std::uint32_t, 2>>("surface.starts", slots);
     surface.sums = program.scratch<std::array<std::uint32_t, 4>>("surface.sums", surface.push.chunks);
     surface.rest = program.upload("surface.rest", bodies.rest);
     surface.gradients = program.scratch<layout::Gradient>("surface.gradients", slots);
+}
+
+// Dispatches over the slots of every run that have some of the surface.
+void addListed(ProgramBuilder& program, const CutSurface& surface, const vk::ShaderCode& code,
+               std::initializer_list<BufferId> buffers) {
+    for (const layout::CutPush& run : surface.source.runs)
+        program.dispatchIndirect(code, {surface.arguments, surface.push.runs + 1, surface.slots}, buffers,
+                                 run);
 }
 
 // Dispatches over the slots of every run, where something was cut.
@@ -125,7 +135,7 @@ std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& 
     drawn.indices = program.scratch<std::uint32_t>("surface.indices", 3 * std::uint64_t{room});
     drawn.draws = program.scratch<layout::DrawArguments>("surface.draws", 2);
     surface->arguments =
-        program.scratch<layout::DispatchArguments>("surface.arguments", surface->push.runs + 1);
+        program.scratch<layout::DispatchArguments>("surface.arguments", surface->push.runs + 2);
     surface->skinFaces = program.upload("surface.skin_faces", bodies.faces);
     surface->allIndices = program.upload("surface.all_indices", joinIndices(scene.skins));
     built.skinIndices = program.upload("skin.indices", joinIndices(scene.skins));
@@ -149,20 +159,20 @@ void addCutSurfacePasses(ProgramBuilder& program, const CutSurface& surface) {
     addRuns(program, surface, k::countSurface, {cells, cutting.dirty, partitions, owned, surface.counts});
     const layout::CountPush chunks{surface.push.chunks};
     program.dispatch(k::sumSurface, chunks.count, {surface.counts, surface.sums}, chunks);
-    program.dispatch(
-        k::scanSurface, GROUP_ITEMS,
-        {surface.sums, surface.arguments, drawn.draws, drawn.state, surface.source.groups, cutting.counts},
-        surface.push);
-    program.dispatch(k::startSurface, chunks.count, {surface.counts, surface.sums, owned, surface.starts},
-                     chunks);
-    addRuns(program, surface, k::writePoints,
-            {surface.counts, owned, partitions, cutting.hits, surface.rest, drawn.state, drawn.rest});
-    addRuns(
-        program, surface, k::writeInside,
-        {cells, partitions, owned, surface.counts, surface.starts, drawn.state, drawn.rest, drawn.indices});
-    addRuns(program, surface, k::writeOutside,
-            {cells, partitions, owned, surface.counts, surface.starts, drawn.state, surface.rest, drawn.rest,
-             drawn.indices, surface.source.particles});
+    program.dispatch(k::scanSurface, GROUP_ITEMS,
+                     {surface.sums, surface.arguments, drawn.draws, drawn.state, surface.source.groups,
+                      cutting.counts, surface.listed},
+                     surface.push);
+    program.dispatch(k::startSurface, chunks.count,
+                     {surface.counts, surface.sums, owned, surface.starts, surface.listed}, chunks);
+    const BufferId listed = surface.listed;
+    addListed(program, surface, k::writePoints,
+              {listed, owned, partitions, cutting.hits, surface.rest, drawn.rest});
+    addListed(program, surface, k::writeInside,
+              {cells, partitions, owned, listed, surface.starts, drawn.rest, drawn.indices});
+    addListed(program, surface, k::writeOutside,
+              {cells, partitions, owned, listed, surface.starts, drawn.state, surface.rest, drawn.rest,
+               drawn.indices, surface.source.particles});
     program.dispatch(
         k::hideFaces, surface.faces,
         {surface.counts, drawn.state, surface.skinFaces, surface.allIndices, program.program().skinIndices},

@@ -36,8 +36,9 @@ struct CutSource {
 struct CutSurface {
     CutSource source;
     layout::SurfacePush push{};
-    std::uint32_t faces = 0;
-    BufferId partitions, near, owned, counts, starts, sums, arguments, rest, skinFaces, allIndices, gradients;
+    std::uint32_t faces = 0, slots = 0;
+    BufferId partitions, near, owned, counts, starts, sums, listed, arguments, rest, skinFaces, allIndices,
+        gradients;
 };
 
 /// Whether any skin is clipped.

@@ -1,6 +1,6 @@
 // ms of processor time of a step without a blade, in a body that may be cut and in one that may not, and of
-// what a blade adds: through the body and beside it. With LP_NUM_THREADS=0 a software device computes on one
-// thread and steadily.
+// what a blade adds: through the body and beside it, and what the surface of that cut does. With
+// LP_NUM_THREADS=0 a software device computes on one thread and steadily.
 #include "sim/bodies.hpp"
 #include "sim/simulation.hpp"
 #include "vk/loader.hpp"
@@ -17,13 +17,15 @@ namespace {
 
 constexpr float spacing = 0.02f;
 
-Scene cube(std::uint32_t side, bool hasBodyDiagonals, bool isCuttable) {
+Scene cube(std::uint32_t side, bool hasBodyDiagonals, bool isCuttable, bool hasSkin = false) {
     Scene scene{.name = "cube"};
-    addLattice(scene, {.cells = {side - 1, side - 1, side - 1},
-                       .spacing = spacing,
-                       .youngModulus = 1e5f,
-                       .hasBodyDiagonals = hasBodyDiagonals,
-                       .isCuttable = isCuttable});
+    const Lattice lattice{.cells = {side - 1, side - 1, side - 1},
+                          .spacing = spacing,
+                          .youngModulus = 1e5f,
+                          .hasBodyDiagonals = hasBodyDiagonals,
+                          .isCuttable = isCuttable};
+    const LatticeCorners corners = addLattice(scene, lattice);
+    if (hasSkin) addLatticeSkin(scene, lattice, corners, {1, 1, 1});
     return scene;
 }
 
@@ -54,7 +56,8 @@ int main() {
     for (const std::uint32_t side : {16u, 32u})
         for (const bool hasBodyDiagonals : {false, true}) {
             const Scene plain = cube(side, hasBodyDiagonals, false),
-                        scene = cube(side, hasBodyDiagonals, true);
+                        scene = cube(side, hasBodyDiagonals, true),
+                        skinned = cube(side, hasBodyDiagonals, true, true);
             const auto links = static_cast<double>(scene.distances.size());
             const float x = 0.4871f * spacing * static_cast<float>(side);
             const Vec3 from[] = {{x, -1, -1}, {x, -1, 2}}, to[] = {{x + 0.01f, 2, -1}, {x, 2, 2}},
@@ -64,12 +67,13 @@ int main() {
                          onePlain = shortest(device, queue, plain, 1, {}),
                          manyPlain = shortest(device, queue, plain, 33, {}),
                          through = shortest(device, queue, scene, 1, {.from = from, .to = to}),
-                         beside = shortest(device, queue, scene, 1, {.from = fromBeside, .to = toBeside});
+                         beside = shortest(device, queue, scene, 1, {.from = fromBeside, .to = toBeside}),
+                         surface = shortest(device, queue, skinned, 1, {.from = from, .to = to});
             std::printf("%2u^3, %d neighbours, %.0f links: substep %.3f ms, uncuttable %.3f ms; a blade "
                         "through it adds "
-                        "%.3f ms = %.2f ns a link, beside it %.3f ms = %.2f ns\n",
+                        "%.3f ms = %.2f ns a link, beside it %.3f ms = %.2f ns; its surface %.3f ms\n",
                         side, hasBodyDiagonals ? 26 : 18, links, (many - one) / 32,
                         (manyPlain - onePlain) / 32, through - one, 1e6 * (through - one) / links,
-                        beside - one, 1e6 * (beside - one) / links);
+                        beside - one, 1e6 * (beside - one) / links, surface - through);
         }
 }
