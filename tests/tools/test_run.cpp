@@ -241,6 +241,23 @@ TEST_F(Run, FolderHoldsReportMeshesAndStateThatReadBack) {
     EXPECT_GT(particles[0].inverseMass, 0);
 }
 
+// A cube that is cut in two as it lands and spreads: the skin is clipped along the cut and closed by the
+// inside.
+TEST_F(Run, WritesWhatWasCutAsAClosedMeshWithItsInside) {
+    write("cut.toml", "dt = 0.01\n[solver]\nsubsteps = 8\n[[plane]]\nfriction = 0\n[[box]]\nname = \"box\"\n"
+                      "particles = [5, 5, 5]\nspacing = 0.1\ncenter = [0, 0.5, 0]\nyoung_modulus = 1e5\n"
+                      "cuttable = true\n[[blade]]\ntimes = [0.22, 0.25]\n"
+                      "edges = [[[0.03, 2, -1], [0.03, 2, 1]], [[0.03, -1, -1], [0.03, -1, 1]]]\n");
+    const Outcome outcome = run({"run", "cut.toml", "--frames", "60", "--out", "out", "--json", "r.json"});
+    ASSERT_EQ(outcome.code, 0) << outcome.error;
+    mesh::MeshDefects defects;
+    const mesh::TriangleMesh skin = mesh::importMesh(folder_ / "out/box.obj", defects);
+    EXPECT_TRUE(defects.isClosed());
+    const mesh::MeshReport report = mesh::inspect(skin);
+    EXPECT_NEAR(report.volume, 0.064, 0.002);
+    EXPECT_GT(report.area, 6 * 0.16 + 1.8 * 0.16) << "and both sides of the cut";
+}
+
 TEST_F(Run, TextGoesToStdoutUnlessTheReportDoes) {
     write("scene.toml", sheet);
     const Outcome text = run({"run", "scene.toml", "--frames", "2"});

@@ -5,6 +5,7 @@
 #include "app/guard.hpp"
 #include "layout.h"
 #include "sim/compile.hpp"
+#include "sinew/cut_mesh.hpp"
 #include "sinew/skin_mesh.hpp"
 
 #include <chrono>
@@ -26,6 +27,24 @@ std::string bodyOf(const sim::Scene& scene, std::uint32_t particle) {
         if (particle >= body.firstParticle && particle - body.firstParticle < body.particleCount)
             return body.name;
     return {};
+}
+
+// What there is to draw, after recordSkin().
+CutDownload downloadDrawn(vk::Queue& queue, const sim::Simulation& simulation) {
+    CutDownload drawn{.skinVertices = queue.download<sim::layout::SkinVertex>(simulation.skinVertices()),
+                      .vertices = {},
+                      .skinIndices = {},
+                      .indices = {},
+                      .rest = {},
+                      .draws = {}};
+    const sim::CutSurface cut = simulation.cutSurface();
+    if (cut.vertices.size == 0) return drawn;
+    drawn.skinIndices = queue.download<std::uint32_t>(simulation.skinIndices());
+    drawn.vertices = queue.download<sim::layout::SkinVertex>(cut.vertices);
+    drawn.indices = queue.download<std::uint32_t>(cut.indices);
+    drawn.rest = queue.download<sim::layout::CutVertex>(cut.rest);
+    drawn.draws = queue.download<sim::layout::DrawArguments>(cut.draws);
+    return drawn;
 }
 
 } // namespace
@@ -165,14 +184,17 @@ std::vector<mesh::TriangleMesh> Runner::readSkins() {
     const VkCommandBuffer commands = session_.queue.begin();
     growing_.simulation().recordSkin(commands);
     session_.queue.wait(session_.queue.submit(commands));
-    const auto vertices = session_.queue.download<sim::layout::SkinVertex>(simulation().skinVertices());
+    const CutDownload cut = downloadDrawn(session_.queue, simulation());
+    const auto& vertices = cut.skinVertices;
     std::vector<mesh::TriangleMesh> meshes;
     std::size_t first = 0;
-    for (const sim::Skin& skin : scene_.skins) {
+    for (std::size_t s = 0; s < scene_.skins.size(); ++s) {
+        const sim::Skin& skin = scene_.skins[s];
         std::vector<sim::Vec3> positions;
         for (std::size_t v = first; v < first + skin.vertexCount(); ++v)
             positions.push_back({vertices[v].position.x, vertices[v].position.y, vertices[v].position.z});
-        meshes.push_back(skinMesh(skin, positions));
+        auto closed = cutMesh(scene_, s, cut);
+        meshes.push_back(closed ? std::move(*closed) : skinMesh(skin, positions));
         first += skin.vertexCount();
     }
     return meshes;
