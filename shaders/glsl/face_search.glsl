@@ -13,6 +13,7 @@ layout(std430, binding = 6) buffer FaceFound { uint faceFound[]; };      // poin
 layout(std430, binding = 7) writeonly buffer FaceCandidates { uint faceCandidates[]; };
 layout(std430, binding = 8) readonly buffer Excluded { uint excluded[]; }; // first of each face, then points, sorted
 layout(std140, binding = 9) uniform Step { StepParams step; };
+layout(std430, binding = WEIGHT_BINDING) readonly buffer Masses { float inverseMass[]; }; // also of what sleeps [1/kg]
 layout(push_constant) uniform Push { FaceFindPush push; };
 
 // A face at the end of its way.
@@ -56,7 +57,7 @@ bool isInBox(Searched face, vec3 x, float reach) {
 bool isNear(Searched face, uint i, vec3 x, float reach) {
     const uint f = face.index;
     if (i == face.face.a || i == face.face.b || i == face.face.c) return false;
-    if (f >= push.moving && velocities[i].w == 0.0) return false;
+    if (f >= push.moving && inverseMass[i] == 0.0) return false; // neither ever moves
     const vec3 d = nearestOf(x - face.a, face.triangle).d;
     return dot(d, d) < reach * reach && !isExcluded(f, i);
 }

@@ -3,6 +3,7 @@
 // point the face is listed too. In any order: sort_faces and link_faces sort. A face with too much around it is left to
 // find_wide_faces.
 #extension GL_GOOGLE_include_directive : require
+#define WEIGHT_BINDING 17
 #include "face_search.glsl"
 #include "hash_grid.glsl"
 

@@ -1,6 +1,7 @@
 #version 460
 // Every point is compared with the few faces that are much larger than the others or have too much around them.
 #extension GL_GOOGLE_include_directive : require
+#define WEIGHT_BINDING 14
 #include "face_search.glsl"
 
 layout(std430, binding = 10) readonly buffer Large { uint large[]; };

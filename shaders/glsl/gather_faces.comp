@@ -1,23 +1,45 @@
 #version 460
 // Contacts with faces, last pass: a particle is moved by all of its contacts at once, x_i += w_i sum beta_ic l_c n_c, as a
 // point and as a corner. Momentum is exact to rounding, for impulses are the same bits wherever they are read.
-// ENDS_SUBSTEP: no contacts between particles follow; boundary planes come last and one after another.
+// EDGES: as an end of edges, whose impulses are summed up already. ENDS_SUBSTEP: no other contacts follow; boundary planes
+// come last and one after another. REBOUND: what velocities get of impulses [kg m/s] after all contacts of a substep.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
+#ifdef EDGES
+layout(std430, binding = 0) readonly buffer Corners { uint corners[]; };   // first of each particle; then 2 x edge + end
+layout(std430, binding = 1) readonly buffer Impulses { vec4 impulses[]; }; // on each end of all edges [kg m]
+layout(push_constant) uniform Push { FacePush push; };
+#define STATE_BINDING 2
+#else
 #include "face_shares.glsl"
 layout(std430, binding = 6) readonly buffer Impulses { vec4 impulses[]; };   // [kg m]
-layout(std430, binding = 7) readonly buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
-layout(std430, binding = 8) readonly buffer Predicted { vec4 predicted[]; };  // w: passed on
-layout(std430, binding = 9) writeonly buffer NextPositions { vec4 nextPositions[]; };
-layout(std430, binding = 10) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
-layout(std140, binding = 11) uniform Step { StepParams step; };
+#define STATE_BINDING 7
+#endif
+#ifdef REBOUND
+layout(std430, binding = STATE_BINDING) buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
+layout(std430, binding = STATE_BINDING + 1) buffer State { vec4 state[]; };       // x + thetaH v
+layout(std140, binding = STATE_BINDING + 2) uniform Step { StepParams step; };
+#else
+layout(std430, binding = STATE_BINDING) readonly buffer Velocities { vec4 velocities[]; };   // w = inverse mass [1/kg]
+layout(std430, binding = STATE_BINDING + 1) readonly buffer Predicted { vec4 predicted[]; }; // w: passed on
+layout(std430, binding = STATE_BINDING + 2) writeonly buffer NextPositions { vec4 nextPositions[]; };
+layout(std430, binding = STATE_BINDING + 3) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
+layout(std140, binding = STATE_BINDING + 4) uniform Step { StepParams step; };
+#endif
 #ifdef HAS_PLANES
 #include "planes.glsl"
-layout(std430, binding = 12) readonly buffer Planes { PlaneCollider planes[]; };
-layout(std430, binding = 13) readonly buffer ContactOffsets { float contactOffsets[]; };
-layout(std430, binding = 14) readonly buffer Before { vec4 before[]; }; // velocities before the substep
+layout(std430, binding = STATE_BINDING + 5) readonly buffer Planes { PlaneCollider planes[]; };
+layout(std430, binding = STATE_BINDING + 6) readonly buffer ContactOffsets { float contactOffsets[]; };
+layout(std430, binding = STATE_BINDING + 7) readonly buffer Before { vec4 before[]; }; // velocities before the substep
 #endif
 
+#ifdef EDGES
+vec3 impulseOn(uint i) {
+    vec3 sum = vec3(0.0);
+    for (uint k = corners[i]; k < corners[i + 1u]; ++k) sum += impulses[corners[k]].xyz;
+    return sum;
+}
+#else
 vec3 impulseOn(uint i) {
     const uint n = counts[i];
     vec3 sum = vec3(0.0);
@@ -32,7 +54,16 @@ vec3 impulseOn(uint i) {
     }
     return sum;
 }
+#endif
 
+#ifdef REBOUND
+void main() {
+    const uint i = itemIndex(push.count);
+    const vec3 change = velocities[i].w * impulseOn(i);
+    velocities[i].xyz += change;
+    state[i].xyz += step.thetaH * change;
+}
+#else
 void main() {
     const uint i = itemIndex(push.count);
     const vec4 self = predicted[i], velocity = velocities[i];
@@ -60,3 +91,4 @@ void main() {
 #endif
     nextVelocities[i] = vec4(v, w);
 }
+#endif

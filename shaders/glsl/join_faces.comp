@@ -1,5 +1,6 @@
 #version 460
-// Joins the islands of particles and of the corners of faces that they have touched in the last substep.
+// Joins the islands of particles and of the corners of faces that they have touched in the last substep. EDGES: of the ends
+// of edges that have touched; a particle sees to those that it ends.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "islands.glsl"
@@ -7,18 +8,21 @@
 layout(std430, binding = 3) readonly buffer Contacts { ContactCandidate contacts[]; };
 layout(std430, binding = 4) readonly buffer Counts { uint counts[]; };
 layout(std430, binding = 5) readonly buffer Directions { vec4 directions[]; }; // w: depth [m]
-layout(std430, binding = 6) readonly buffer Faces { ContactFace faces[]; };
 layout(push_constant) uniform Push { SleepPush push; };
+#define TOUCHING_BINDING 6
+#include "touching.glsl"
 
 void main() {
     const uint i = itemIndex(push.count);
-    for (uint s = 0u; s < counts[i]; ++s) {
-        const uint element = s * push.faceRow + i;
-        if (!(directions[element].w > 0.0)) continue;
-        const ContactFace face = faces[contacts[element].other];
-        const uint all[4] = uint[](i, face.a, face.b, face.c);
-        for (uint k = 1u; k < 4u; ++k)
-            for (uint l = 0u; l < k; ++l)
-                if (isAwake(all[k]) && isAwake(all[l])) join(all[k], all[l]);
+    for (uint k = firstList(i); k < lastList(i); ++k) {
+        const uint list = listOf(k);
+        for (uint s = 0u; s < counts[list]; ++s) {
+            const uint element = s * push.faceRow + list;
+            if (!(directions[element].w > 0.0)) continue;
+            const uint all[4] = touchingOf(list, contacts[element].other);
+            for (uint m = 1u; m < 4u; ++m)
+                for (uint l = 0u; l < m; ++l)
+                    if (isAwake(all[m]) && isAwake(all[l])) join(all[m], all[l]);
+        }
     }
 }

@@ -346,11 +346,19 @@ struct FaceFindPush {
     uint large;    // faces that every point is compared with, beside wide ones
 };
 
+// An edge of faces that other edges touch. In the grid it is its middle.
+struct ContactEdge {
+    uint a, b;
+    uint isMoving; // 1 = one of its ends may move
+    float radius;  // of the ball around its middle that holds all of it; below 0 in padding [m]
+};
+
 struct FacePush {
-    uint count;   // of particles; whole work groups
+    uint count;   // of particles, or edges; whole work groups
     uint row;     // elements of a point's list from one face to the next
     uint faceRow; // of a face's list from one point to the next
-    float friction;
+    uint surfaces; // pair (a, b) of them is element a * surfaces + b of a table
+    float recoverySpeed; // of what overlapped when the scene was loaded [m/s]
 };
 
 struct SubstepPush {

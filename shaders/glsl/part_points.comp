@@ -1,6 +1,6 @@
 #version 460
 // Before faces look for points: those too wide or too fast for the grid are listed, in any order; of the others the widest
-// says how far around itself a face must look.
+// says how far around itself a face must look. Likewise middles of edges.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

@@ -16,20 +16,25 @@ layout(std430, binding = 3) readonly buffer Counts { uint counts[]; };
 layout(std430, binding = 4) readonly buffer Directions { vec4 directions[]; };
 layout(std430, binding = 5) readonly buffer Weights { vec4 weights[]; };
 layout(std430, binding = 6) readonly buffer Shares { float shares[]; };
-layout(std430, binding = 7) buffer Memory { vec4 memory[]; };            // t [m], side
+layout(std430, binding = 7) buffer Memory { vec4 memory[]; };            // t [m], side and overlap
 layout(std430, binding = 8) writeonly buffer Impulses { vec4 impulses[]; }; // [kg m]
 layout(std430, binding = 9) readonly buffer Before { vec4 before[]; };      // velocities when the substep began
 layout(std140, binding = 10) uniform Step { StepParams step; };
+layout(std430, binding = 11) readonly buffer Surfaces { uint surfaces[]; }; // of each particle
+layout(std430, binding = 12) readonly buffer Pairs { SurfacePair pairs[]; };
 layout(push_constant) uniform Push { FacePush push; };
 
 vec3 relative(vec4 point, vec4 a, vec4 b, vec4 c, vec4 weight) {
     return point.xyz - (weight.x * a.xyz + weight.y * b.xyz + weight.z * c.xyz);
 }
 
+// A face has the surface of its first corner.
+float frictionOf(uint i, ContactFace face) { return pairs[surfaces[i] * push.surfaces + surfaces[face.a]].friction; }
+
 void press(uint i, uint element) {
     const vec4 direction = directions[element], weight = weights[element];
     if (!(direction.w > 0.0)) {
-        memory[element] = vec4(0.0);
+        memory[element] = vec4(vec3(0.0), weight.w); // an overlap that has yet to part
         return;
     }
     const ContactFace face = faces[contacts[element].x];
@@ -40,7 +45,7 @@ void press(uint i, uint element) {
     if (memory[element].w != 0.0) slid = memory[element].xyz + step.h * relative(before[i], before[face.a], before[face.b], before[face.c], weight);
     vec3 slip = slid + step.h * relative(velocities[i], velocities[face.a], velocities[face.b], velocities[face.c], weight);
     slip -= dot(slip, n) * n;
-    const float force = length(slip) * share, most = push.friction * lambda;
+    const float force = length(slip) * share, most = frictionOf(i, face) * lambda;
     const float held = force > most ? most / force : 1.0;
     memory[element] = vec4(slid - (1.0 - held) * slip, weight.w);
     slip *= held;

@@ -15,17 +15,18 @@ layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; };
 layout(std430, binding = 2) readonly buffer Faces { ContactFace faces[]; };
 layout(std430, binding = 3) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
 layout(std430, binding = 4) readonly buffer Counts { uint counts[]; };
-layout(std430, binding = 5) readonly buffer Memory { vec4 memory[]; };       // w: the side of the face, 0 = has not touched
+layout(std430, binding = 5) readonly buffer Memory { vec4 memory[]; };       // w: side and overlap, 0 = has not touched
 layout(std430, binding = 6) writeonly buffer Directions { vec4 directions[]; }; // n, depth [m]; 0 = does not touch
 layout(std430, binding = 7) writeonly buffer Weights { vec4 weights[]; };       // b, side
 layout(std140, binding = 8) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { FacePush push; };
+#include "recovery.glsl"
 
 struct Touch {
     vec3 n;
     float depth;    // > 0 where they touch [m]
     vec3 b;
-    float side;     // 1 = where the normal points
+    float remembered; // the side, 1 = where the normal points, and the overlap
     bool isThrough; // the point is beyond the face's plane, and came through the face
     ContactFace face;
 };
@@ -57,7 +58,7 @@ Touch touchOf(uint i, uint element, vec3 through) {
     const float height = dot(normal, ap);
     const float heightBefore = dot(before.normal, ap - h * vp) / max(length(before.normal), 1e-30);
     const bool isForced = dot(through, through) > 0.0;
-    float side = isForced ? (dot(normal, through) < 0.0 ? -1.0 : 1.0) : memory[element].w;
+    float side = isForced ? (dot(normal, through) < 0.0 ? -1.0 : 1.0) : sideOf(memory[element].w);
     const bool hasTouched = side != 0.0;
     if (!hasTouched) side = heightBefore < 0.0 ? -1.0 : 1.0;
     vec3 b = nearest.weights;
@@ -75,15 +76,17 @@ Touch touchOf(uint i, uint element, vec3 through) {
     const float distance = length(nearest.d);
     const bool isAbove = touch.isThrough || nearest.isInside || distance < 1e-15;
     touch.n = isAbove ? side * normal : nearest.d / distance;
-    touch.depth = max(0.0, reach - (isAbove ? side * height : distance));
     touch.b = b;
-    touch.side = touch.depth > 0.0 ? side : 0.0;
+    const float overlap = reach - (isAbove ? side * height : distance), approach = -h * dot(touch.n, vp - b.y * vb - b.z * vc);
+    const float left = overlapLeft(memory[element].w, overlap, approach, push.recoverySpeed * h);
+    touch.depth = max(0.0, overlap - left);
+    touch.remembered = rememberedOf(side, touch.depth, left);
     return touch;
 }
 
 void write(uint element, Touch touch) {
     directions[element] = vec4(touch.n, touch.depth);
-    weights[element] = vec4(touch.b, touch.side);
+    weights[element] = vec4(touch.b, touch.remembered);
 }
 
 bool isCorner(uint i, ContactFace face) { return i == face.a || i == face.b || i == face.c; }

@@ -1,6 +1,6 @@
 #version 460
 // Marks the islands of particles and faces that touch in this substep, where one of the four particles of a contact is awake
-// and another is not.
+// and another is not. EDGES: likewise of edges.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "sleep.glsl"
@@ -13,22 +13,25 @@ layout(std430, binding = 4) buffer State { SleepState state; };
 layout(std430, binding = 5) readonly buffer Contacts { ContactCandidate contacts[]; };
 layout(std430, binding = 6) readonly buffer Counts { uint counts[]; };
 layout(std430, binding = 7) readonly buffer Directions { vec4 directions[]; }; // w: depth [m]
-layout(std430, binding = 8) readonly buffer Faces { ContactFace faces[]; };
 layout(push_constant) uniform Push { SleepPush push; };
+#define TOUCHING_BINDING 8
+#include "touching.glsl"
 
 void main() {
     const uint i = itemIndex(push.count);
-    for (uint s = 0u; s < counts[i]; ++s) {
-        const uint element = s * push.faceRow + i;
-        if (!(directions[element].w > 0.0)) continue;
-        const ContactFace face = faces[contacts[element].other];
-        const uint all[4] = uint[](i, face.a, face.b, face.c);
-        bool isTouched = false;
-        for (uint k = 0u; k < 4u; ++k) isTouched = isTouched || velocities[all[k]].w > 0.0;
-        for (uint k = 0u; k < 4u; ++k) {
-            if (!isTouched || !isAsleep(weights[all[k]], velocities[all[k]])) continue;
-            atomicOr(marks[islands[all[k]]], 1u);
-            atomicOr(state.touched, 1u);
+    for (uint k = firstList(i); k < lastList(i); ++k) {
+        const uint list = listOf(k);
+        for (uint s = 0u; s < counts[list]; ++s) {
+            const uint element = s * push.faceRow + list;
+            if (!(directions[element].w > 0.0)) continue;
+            const uint all[4] = touchingOf(list, contacts[element].other);
+            bool isTouched = false;
+            for (uint m = 0u; m < 4u; ++m) isTouched = isTouched || velocities[all[m]].w > 0.0;
+            for (uint m = 0u; m < 4u; ++m) {
+                if (!isTouched || !isAsleep(weights[all[m]], velocities[all[m]])) continue;
+                atomicOr(marks[islands[all[m]]], 1u);
+                atomicOr(state.touched, 1u);
+            }
         }
     }
 }

@@ -23,8 +23,7 @@ struct ClothSheet {
     float skipStiffness = 0; ///< of links two apart in a row or column, which resist folding [N/m]; 0 = none
     float bendingStiffness = 0; ///< of rows and columns [N m]; 0 = no bends. Twist has none
     /// Of the sheet where it touches particles, faces and itself: particles get half of it as radius and
-    /// contact offset, triangles as thickness. Best below `spacing`, and above a fifth of it: only points and
-    /// triangles are kept apart, not two edges. 0 = touches nothing but planes. [m]
+    /// contact offset, triangles as thickness. Best below `spacing`. 0 = touches nothing but planes. [m]
     float thickness = 0;
     std::uint32_t tethers = 0;         ///< of a particle, to the nearest pinned ones
     float radius = 0;                  ///< of a particle that others touch [m], at most half of the spacing

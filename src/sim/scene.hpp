@@ -42,8 +42,8 @@ struct Particle {
     std::uint32_t surface = 0;
 };
 
-/// What a particle is like to touch. A pair has the geometric mean of both frictions, so that what is smooth
-/// slides on everything, and the larger restitution. Planes keep their own.
+/// What a particle or a face is like to touch. A pair has the geometric mean of both frictions, so that what
+/// is smooth slides on everything, and the larger restitution. Planes keep their own.
 struct Surface {
     float friction = 0;    ///< Coulomb coefficient, >= 0
     float restitution = 0; ///< 0 (no rebound) to 1 (elastic)
@@ -51,9 +51,11 @@ struct Surface {
 
 /// A triangle that particles with a radius touch, from both sides: cloth, or with corners that never move a
 /// collider. Kept at the sum of radius and thickness; corners feel it by the weights of the place that is
-/// touched. A face and a particle of one linked body that are nearer than 1.05 times that at rest never
-/// touch, nor do a face and its corners. Where a face is at least as thick as a corner is wide, others touch
-/// the face instead of the corner. A face thinner than a thousandth of its length touches nothing.
+/// touched. Its edges touch those of other faces, at the sum of both thicknesses. A face and a particle, or
+/// two edges, of one linked body that are nearer than 1.05 times that at rest never touch, nor does what
+/// shares a corner. A face has the surface of its first corner. Where a face is at least as thick as a corner
+/// is wide, others touch the face instead of the corner. A face thinner than a thousandth of its length
+/// touches nothing.
 struct Face {
     std::array<std::uint32_t, 3> particles{};
     float thickness = 0; ///< from its middle [m]
@@ -63,8 +65,8 @@ struct Face {
 struct ContactSettings {
     float friction = 0;    ///< of all whose Particle::surface is 0; see Surface
     float restitution = 0; ///< likewise
-    /// With which two particles part that overlap when the scene is loaded [m/s]. Does not limit what a
-    /// contact carries.
+    /// With which particles, faces and edges part that overlap when the scene is loaded [m/s]. Does not limit
+    /// what a contact carries.
     float recoverySpeed = 0.5f;
     std::vector<Surface> surfaces; ///< further ones, at most 64
 };
@@ -259,10 +261,11 @@ struct Settings {
     float warmStart =
         0.9f; ///< `gauss_seidel`: most that a substep starts with of the multipliers of the last; 0 = cold
     /// How much farther than touching particles are listed together, in median radii (with faces: or eighths
-    /// of a median face, if longer); lists are made again when one may have moved half of that. Changes
-    /// speed, but no result.
+    /// of a median face or edge, if longer); lists are made again when one may have moved half of that.
+    /// Changes speed, but no result.
     float contactMargin = 0.5f;
-    /// Particles that may be listed with one, faces with a particle, particles with a face that moves; 1..256
+    /// Particles that may be listed with one, faces with a particle, particles with a face that moves, edges
+    /// with an edge; 1..256
     std::uint32_t contactRoom = 24;
     /// Bodies that rest for half a second sleep: they cost nothing and stay where they are, bit for bit,
     /// until somebody touches them, what holds them moves, or Step::wakes. `split` only.

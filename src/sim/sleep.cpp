@@ -111,6 +111,13 @@ void closeGate(ProgramBuilder& program, const std::shared_ptr<Sleep>& sleep) {
         [sleep](const vk::ShaderCode& code, std::uint32_t items) { return gated(*sleep, code, items); });
 }
 
+// Of kernels that read lists of edges.
+layout::SleepPush pushOfEdges(const Sleep& sleep) {
+    layout::SleepPush push = sleep.push;
+    push.faceRow = sleep.edges.row;
+    return push;
+}
+
 // After the check of a step: who rests, and who sleeps from now on.
 void addJudgement(ProgramBuilder& program, const Sleep& sleep, const ParticleBuffers& particles) {
     const auto& status = program.program().status;
@@ -128,12 +135,18 @@ void addJudgement(ProgramBuilder& program, const Sleep& sleep, const ParticleBuf
                        sleep.components, sleep.islands, sleep.least});
     const auto& pairs = sleep.pairs;
     const auto& faces = sleep.faces;
+    const auto& edges = sleep.edges;
     if (pairs.contacts != BufferId{})
         add(k::joinIslands,
             {sleep.weights, velocities, sleep.islands, pairs.contacts, pairs.counts, pairs.touching});
     if (faces.contacts != BufferId{})
         add(k::joinFaces, {sleep.weights, velocities, sleep.islands, faces.contacts, faces.counts,
                            faces.directions, faces.faces});
+    if (edges.contacts != BufferId{})
+        program.dispatchIndirect(k::joinEdges, wakingItems(sleep, SLEEP_RESTING, sleep.push.count),
+                                 {sleep.weights, velocities, sleep.islands, edges.contacts, edges.counts,
+                                  edges.directions, edges.edges, edges.corners},
+                                 pushOfEdges(sleep));
     add(k::findIslands, {sleep.weights, velocities, sleep.rests, sleep.islands, sleep.least});
     add(k::fallAsleep,
         {sleep.weights, positions, velocities, particles.step, sleep.islands, sleep.least, sleep.rests});
@@ -248,6 +261,17 @@ void addFaceTouches(ProgramBuilder& program, const ParticleBuffers& predicted) {
                              {sleep.weights, predicted.velocities, sleep.islands, sleep.marks, sleep.state,
                               faces.contacts, faces.counts, faces.directions, faces.faces},
                              sleep.push);
+    addWakingTouched(program, sleep, predicted.velocities);
+}
+
+void addEdgeTouches(ProgramBuilder& program, const ParticleBuffers& predicted) {
+    if (!predicted.sleep) return;
+    Sleep& sleep = *predicted.sleep;
+    const auto& edges = sleep.edges;
+    program.dispatchIndirect(k::wakeEdges, itemsOf(sleep, SLEEP_MIXED_ALL, sleep.push.count, GROUP_ITEMS),
+                             {sleep.weights, predicted.velocities, sleep.islands, sleep.marks, sleep.state,
+                              edges.contacts, edges.counts, edges.directions, edges.edges, edges.corners},
+                             pushOfEdges(sleep));
     addWakingTouched(program, sleep, predicted.velocities);
 }
 

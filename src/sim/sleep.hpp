@@ -25,6 +25,10 @@ struct Sleep {
     struct {
         BufferId faces, contacts, counts, directions;
     } faces;
+    struct {
+        BufferId edges, contacts, counts, directions, corners;
+        std::uint32_t row = 0;
+    } edges;
     std::vector<layout::SleepPass> passesSeen; ///< by element of `arguments`
 };
 
@@ -40,8 +44,9 @@ void addOpening(ProgramBuilder& program, const ParticleBuffers& particles,
 
 /// In a substep, before contacts of `predicted` are counted: what is touched wakes.
 void addTouches(ProgramBuilder& program, const ParticleBuffers& predicted);
-/// Likewise, after contacts with faces were found.
+/// Likewise, after contacts with faces, or between edges, were found.
 void addFaceTouches(ProgramBuilder& program, const ParticleBuffers& predicted);
+void addEdgeTouches(ProgramBuilder& program, const ParticleBuffers& predicted);
 
 /// After publishing: ends what addOpening began.
 void finish(ProgramBuilder& program, const ParticleBuffers& particles);

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <set>
 
 using namespace sinew;
 using namespace sinew::sim;
@@ -279,6 +280,92 @@ TEST(Sleep, ComesOverALatticeOnAFloorAndEndsWhenABallHitsIt) {
         EXPECT_EQ(stepsUntilAsleep(runner, nodes + 1) > 0, true);
         EXPECT_GT((runner.positions()[0] - before[0]).norm(), 0);
     }
+}
+
+namespace {
+
+// `layers` sheets over each other on a table of triangles, where they lie at rest.
+Scene clothOnTable(std::uint32_t layers) {
+    Scene scene;
+    addMeshCollider(scene, {.vertices = {{-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}},
+                            .triangles = {{0, 1, 2}, {0, 2, 3}},
+                            .thickness = 0.01f});
+    for (std::uint32_t layer = 0; layer < layers; ++layer)
+        addCloth(scene, {.origin = {-0.1f + 0.01f * static_cast<float>(layer),
+                                    0.0201f + 0.0201f * static_cast<float>(layer), -0.1f},
+                         .size = {5, 5},
+                         .spacing = 0.05f,
+                         .areaDensity = 0.3f,
+                         .membraneStiffness = 300,
+                         .thickness = 0.02f});
+    scene.contacts.friction = 0.5f;
+    scene.damping = 2;
+    return scene;
+}
+
+const Settings roomy{.substeps = 16, .contactRoom = 96, .sleeps = true};
+
+} // namespace
+
+TEST(Sleep, ComesOverClothOnAMeshAndEndsWhenABallFallsOntoIt) {
+    Scene scene = clothOnTable(2);
+    const std::uint32_t cloth = countOf(scene) - 4;
+    scene.particles.push_back(ballAt({0.02f, 6, 0.01f}, {}, 0.005f));
+    test::Runner runner(scene, roomy);
+    ASSERT_GT(stepsUntilAsleep(runner, cloth, 70), 30) << "half a second";
+    const auto before = runner.positions();
+    bool woke = false;
+    int steps = 0;
+    for (; steps < 150 && !woke; ++steps) {
+        const Status status = runner.run(1);
+        ASSERT_EQ(status.nonFinite + status.contactRoom, 0u);
+        woke = status.sleeping == 0;
+        if (status.sleeping != cloth) continue;
+        const auto x = runner.positions();
+        for (std::size_t i = 0; i + 1 < before.size(); ++i) ASSERT_EQ(x[i], before[i]);
+    }
+    EXPECT_TRUE(woke) << "both sheets";
+    const auto after = runner.positions();
+    EXPECT_GE(after.back().y(), 0.02 + 2 * 0.02) << "the ball is above both";
+    EXPECT_EQ(stepsUntilAsleep(runner, cloth + 1) > 0, true) << "all rest again";
+    const auto x = runner.positions();
+    for (std::size_t i = 4; i + 1 < x.size(); ++i) EXPECT_GE(x[i].y(), 0.0195) << "particle " << i;
+}
+
+// Lists are made again for a ball that falls beside it: what sleeps must stay listed with what it lies on.
+TEST(Sleep, OfClothOnAMeshEndsByWishWhereItCameToRest) {
+    Scene scene = clothOnTable(2);
+    const std::uint32_t cloth = countOf(scene) - 4;
+    scene.particles.push_back(ballAt({0.7f, 6, 0.6f}, {}, 0.05f));
+    std::set<std::uint64_t> hashes;
+    for (const float margin : {0.5f, 0.15f}) {
+        Settings settings = roomy;
+        settings.contactMargin = margin;
+        test::Runner runner(scene, settings);
+        ASSERT_GT(stepsUntilAsleep(runner, cloth, 70), 30);
+        const auto before = runner.positions();
+        runner.run(15);
+        Step step{.dt = scene.dt};
+        step.wakes = true;
+        EXPECT_EQ(runner.step(step).sleeping, 0u);
+        runner.run(5);
+        const auto after = runner.positions();
+        double farthestOff = 0;
+        for (std::size_t i = 4; i + 1 < after.size(); ++i)
+            farthestOff = std::max(farthestOff, (after[i] - before[i]).norm());
+        std::printf("cloth woken: %.2e m from where it slept\n", farthestOff);
+        EXPECT_LE(farthestOff, 5e-4);
+        hashes.insert(runner.stateHash());
+    }
+    EXPECT_EQ(hashes.size(), 1u) << "another margin";
+}
+
+TEST(Sleep, OfClothEndsInTheSameBitsInAnyOrder) {
+    Scene scene = clothOnTable(2);
+    scene.particles.push_back(ballAt({0.02f, 5, 0.01f}, {}, 0.005f));
+    Settings reversed = roomy;
+    reversed.isReversed = true;
+    EXPECT_EQ(test::hashOfRun(scene, roomy, 80), test::hashOfRun(scene, reversed, 80));
 }
 
 TEST(Sleep, SurvivesAStepThatIsUndone) {

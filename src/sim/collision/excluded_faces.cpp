@@ -2,6 +2,7 @@
 // there is kept apart by links.
 #include "sim/collision/contact_lists.hpp"
 #include "sim/collision/face_contacts.hpp"
+#include "sim/collision/vectors.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,28 +14,6 @@ namespace sinew::sim::collision::face_contacts {
 namespace {
 
 constexpr double nearness = 1.05;
-
-using Vector = std::array<double, 3>;
-
-Vector minus(const Vector& a, const Vector& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-double dot(const Vector& a, const Vector& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-Vector cross(const Vector& a, const Vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vector toVector(const Vec3& v) {
-    return {double{v.x}, double{v.y}, double{v.z}};
-}
-
-double squaredToSegment(const Vector& p, const Vector& a, const Vector& b) {
-    const Vector ab = minus(b, a), ap = minus(p, a);
-    const double length = dot(ab, ab), t = length > 0 ? std::clamp(dot(ap, ab) / length, 0.0, 1.0) : 0;
-    const Vector d{ap[0] - t * ab[0], ap[1] - t * ab[1], ap[2] - t * ab[2]};
-    return dot(d, d);
-}
 
 double distance(const Vector& p, const std::array<Vector, 3>& x) {
     const Vector ab = minus(x[1], x[0]), ac = minus(x[2], x[0]), ap = minus(p, x[0]), n = cross(ab, ac);

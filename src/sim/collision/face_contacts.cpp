@@ -81,12 +81,13 @@ std::vector<std::uint32_t> cornersOf(const Faces& faces, const std::vector<float
 }
 
 face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-                           const StateLayout& layout, Faces faces) {
+                           const StateLayout& layout, const std::vector<float>& inverseMass, Faces faces) {
     const std::vector<float> byParticle = pointRadii(scene);
     const std::vector<std::uint32_t> exclusions = excludedPoints(scene, faces.faces, byParticle, layout);
-    std::vector<float> radii(layout.count, -1), wide;
+    std::vector<float> radii(layout.count, -1), masses(layout.count, 0), wide;
     for (std::size_t i = 0; i < byParticle.size(); ++i) {
         radii[layout.slot[i]] = byParticle[i];
+        masses[layout.slot[i]] = inverseMass[i];
         if (byParticle[i] > 0) wide.push_back(byParticle[i]);
     }
     for (layout::ContactFace& face : faces.faces)
@@ -95,6 +96,7 @@ face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
     // candidates.
     const float length = std::max(median(wide), median(faces.extents) / 8);
     return face_lists::add(program, {.radii = radii,
+                                     .inverseMasses = masses,
                                      .faces = faces.faces,
                                      .moving = faces.moving,
                                      .extents = faces.extents,
@@ -103,17 +105,6 @@ face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
                                      .capacity = settings.contactRoom,
                                      .limit = ranges::mostContactRoom,
                                      .usesTexels = settings.forms.usesTexels});
-}
-
-void addMemory(ProgramBuilder& program, Contacts& contacts, std::size_t count, std::size_t elements) {
-    contacts.memory = program.scratch<layout::vec4>("faces.memory", elements);
-    contacts.kept = program.scratch<layout::vec4>("faces.kept", elements);
-    contacts.keptCounts = program.scratch<std::uint32_t>("faces.kept_counts", count);
-    contacts.saved = program.scratch<layout::vec4>("faces.memory.saved", elements);
-    contacts.savedCounts = program.scratch<std::uint32_t>("faces.counts.saved", count);
-    for (const BufferId buffer : {contacts.lists.contacts, contacts.lists.counts, contacts.memory,
-                                  contacts.saved, contacts.savedCounts})
-        program.carry(buffer, buffer);
 }
 
 // The forms of gather_faces: with contacts between particles after it, or as the end of a substep.
@@ -125,10 +116,9 @@ const vk::ShaderCode& gatherForm(const Contacts& contacts) {
 void addListUpdate(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted) {
     const face_lists::Lists& lists = contacts.lists;
     face_lists::addWatch(program, lists, predicted);
-    const auto buffers = {lists.contacts, lists.counts, contacts.memory, contacts.kept, contacts.keptCounts};
-    program.dispatchIndirect(k::keepSides, lists.grid.particles, buffers, contacts.push);
+    side_memory::addKeeping(program, contacts.memory);
     face_lists::addLists(program, lists, predicted);
-    program.dispatchIndirect(k::returnSides, lists.grid.particles, buffers, contacts.push);
+    side_memory::addReturning(program, contacts.memory);
 }
 
 void addGather(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
@@ -143,6 +133,16 @@ void addGather(ProgramBuilder& program, const Contacts& contacts, const Particle
                        {contacts.planes.planes, contacts.planes.contactOffsets, contacts.before});
     program.dispatch(gatherForm(contacts), contacts.push.count, buffers, contacts.push,
                      contacts.planes.count > 0 ? contacts.planes.constants() : ProgramBuilder::Constants{});
+}
+
+// How particles are shared among contacts that have something in the last word of `directions`.
+void addShares(ProgramBuilder& program, const Contacts& contacts, BufferId directions,
+               const ParticleBuffers& particles) {
+    const face_lists::Lists& lists = contacts.lists;
+    program.dispatch(k::shareFaces, contacts.push.count,
+                     {lists.counts, directions, contacts.weights, contacts.corners, lists.links,
+                      lists.linkCounts, particles.velocities, contacts.shares},
+                     contacts.push);
 }
 
 } // namespace
@@ -174,17 +174,22 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     const StateLayout& layout = particles.layout;
     const std::vector<float> inverseMass = inverseMasses(scene);
     const Faces faces = facesOf(scene, inverseMass);
-    Contacts contacts{.lists = addLists(program, scene, settings, layout, faces),
+    Contacts contacts{.lists = addLists(program, scene, settings, layout, inverseMass, faces),
                       .endsSubstep = endsSubstep,
                       .moved = particles};
     const layout::FaceFindPush& find = contacts.lists.push;
-    contacts.push = {find.points, find.row, find.faceRow, scene.contacts.friction};
+    contacts.surfaces = surfaces::addTable(program, scene, layout, "faces.surface");
+    contacts.push = {find.points, find.row, find.faceRow, contacts.surfaces.count,
+                     scene.contacts.recoverySpeed};
     const std::size_t elements = std::size_t{find.row} * find.capacity;
     contacts.corners = program.upload("faces.corners", cornersOf(faces, inverseMass, layout));
-    addMemory(program, contacts, layout.count, elements);
+    contacts.memory = side_memory::add(program, "faces", contacts.lists.contacts, contacts.lists.counts,
+                                       contacts.lists.grid, contacts.push, elements);
     contacts.directions = program.scratch<layout::vec4>("faces.directions", elements);
     contacts.weights = program.scratch<layout::vec4>("faces.weights", elements);
     contacts.impulses = program.scratch<layout::vec4>("faces.impulses", elements);
+    if (contacts.surfaces.hasRestitution)
+        contacts.bounces = program.scratch<layout::vec4>("faces.bounces", elements);
     contacts.shares = program.scratch<float>("faces.shares", layout.count);
     contacts.before = program.scratch<layout::vec4>("faces.before", layout.count);
     if (endsSubstep) {
@@ -213,28 +218,41 @@ ParticleBuffers addPasses(ProgramBuilder& program, const Contacts& contacts, con
     addListUpdate(program, contacts, predicted);
     program.dispatch(k::touchFaces, contacts.push.count,
                      {predicted.positions, predicted.velocities, lists.faces, lists.contacts, lists.counts,
-                      contacts.memory, contacts.directions, contacts.weights, predicted.step},
+                      contacts.memory.memory, contacts.directions, contacts.weights, predicted.step},
                      contacts.push);
     sleep::addFaceTouches(program, predicted);
-    program.dispatch(k::shareFaces, contacts.push.count,
-                     {lists.counts, contacts.directions, contacts.weights, contacts.corners, lists.links,
-                      lists.linkCounts, predicted.velocities, contacts.shares},
-                     contacts.push);
+    addShares(program, contacts, contacts.directions, predicted);
     program.dispatch(k::pressFaces, contacts.push.count,
                      {predicted.velocities, lists.faces, lists.contacts, lists.counts, contacts.directions,
-                      contacts.weights, contacts.shares, contacts.memory, contacts.impulses, contacts.before,
-                      predicted.step},
+                      contacts.weights, contacts.shares, contacts.memory.memory, contacts.impulses,
+                      contacts.before, predicted.step, contacts.surfaces.ofParticles,
+                      contacts.surfaces.pairs},
                      contacts.push);
     addGather(program, contacts, predicted, moved);
     return moved;
 }
 
-void addPublishing(ProgramBuilder& program, const Contacts& contacts) {
+void addBounces(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state) {
+    if (!contacts.surfaces.hasRestitution) return;
     const face_lists::Lists& lists = contacts.lists;
-    program.dispatch(k::publishSides, contacts.push.count,
-                     {lists.contacts, lists.counts, contacts.memory, contacts.saved, contacts.savedCounts,
-                      program.program().status, lists.grid.detected},
+    const surfaces::Surfaces& surfaces = contacts.surfaces;
+    program.dispatch(k::bounceFaces, contacts.push.count,
+                     {contacts.before, lists.faces, lists.contacts, lists.counts, contacts.directions,
+                      contacts.weights, surfaces.ofParticles, surfaces.pairs, state.step, contacts.bounces},
                      contacts.push);
+    addShares(program, contacts, contacts.bounces, state);
+    program.dispatch(k::reboundFaces, contacts.push.count,
+                     {state.velocities, lists.faces, lists.contacts, lists.counts, contacts.bounces,
+                      contacts.weights, contacts.shares, contacts.impulses},
+                     contacts.push);
+    program.dispatch(k::gatherFacesRebound, contacts.push.count,
+                     {lists.counts, contacts.bounces, contacts.weights, contacts.corners, lists.links,
+                      lists.linkCounts, contacts.impulses, state.velocities, state.positions, state.step},
+                     contacts.push);
+}
+
+void addPublishing(ProgramBuilder& program, const Contacts& contacts) {
+    side_memory::addPublishing(program, contacts.memory);
 }
 
 } // namespace sinew::sim::collision::face_contacts

@@ -14,6 +14,8 @@
 
 #include "sim/collision/face_lists.hpp"
 #include "sim/collision/planes.hpp"
+#include "sim/collision/side_memory.hpp"
+#include "sim/collision/surfaces.hpp"
 
 namespace sinew::sim::collision::face_contacts {
 
@@ -29,12 +31,15 @@ struct Contacts {
     planes::Colliders planes; ///< without particle contacts, which else take care of them
     layout::FacePush push{};
     bool endsSubstep = false;
-    BufferId corners, memory, kept, keptCounts, saved, savedCounts, directions, weights, shares, impulses;
-    BufferId before;
-    ParticleBuffers moved; ///< between these contacts and those of particles
+    side_memory::Memory memory;
+    surfaces::Surfaces surfaces;
+    BufferId corners, directions, weights, shares, impulses;
+    BufferId bounces;      ///< only where something rebounds
+    BufferId before;       ///< velocities when the substep began
+    ParticleBuffers moved; ///< between these contacts and those that follow
 };
 
-/// Only where areIn(). `endsSubstep` = no contacts between particles follow.
+/// Only where areIn(). `endsSubstep` = no contacts between edges or particles follow.
 Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
              const ParticleBuffers& particles, bool endsSubstep);
 
@@ -48,6 +53,9 @@ void addOpening(ProgramBuilder& program, const Contacts& contacts, BufferId velo
 /// if they end the substep.
 ParticleBuffers addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                           const ParticleBuffers& next);
+
+/// Restitution, after all contacts of a substep, which `state` then is of; nothing where nothing rebounds.
+void addBounces(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state);
 
 /// The end of a step: what contacts remember is saved, or taken back with an undone step.
 void addPublishing(ProgramBuilder& program, const Contacts& contacts);

@@ -71,6 +71,7 @@ Lists add(ProgramBuilder& program, const Request& request) {
     lists.links = program.scratch<std::uint32_t>("faces.links", linked);
     lists.linkCounts = program.scratch<std::uint32_t>("faces.link_counts", lists.push.faceRow);
     lists.radii = program.upload("faces.radii", request.radii);
+    lists.inverseMasses = program.upload("faces.inverse_masses", request.inverseMasses);
     lists.faces = program.upload("faces", request.faces);
     lists.found = program.scratch<std::uint32_t>("faces.found", count);
     lists.candidates = program.scratch<std::uint32_t>("faces.candidates", elements);
@@ -100,10 +101,11 @@ void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers
                              lists.push);
     std::vector<BufferId> buffers = searchBuffers(lists, particles);
     buffers.insert(buffers.end(), {grid.sorted, grid.starts, grid.bounds, lists.points, lists.apart,
-                                   lists.searched, lists.wide});
+                                   lists.searched, lists.wide, lists.inverseMasses});
     program.dispatchIndirect(k::findFaces, grid.others, buffers, lists.push);
     buffers = searchBuffers(lists, particles);
-    buffers.insert(buffers.end(), {lists.large, lists.wide, lists.points, program.program().status});
+    buffers.insert(buffers.end(),
+                   {lists.large, lists.wide, lists.points, program.program().status, lists.inverseMasses});
     program.dispatchIndirect(k::findWideFaces, grid.particles, buffers, lists.push);
     program.dispatchIndirect(k::sortFaces, grid.particles,
                              {lists.candidates, lists.radii, lists.faces, lists.found, lists.contacts,

@@ -15,7 +15,8 @@ namespace sinew::sim::collision::face_lists {
 
 /// What can touch what, between state slots.
 struct Request {
-    std::span<const float> radii; ///< by state slot, whole work groups [m]; below 0 = touches no face
+    std::span<const float> radii;         ///< by state slot, whole work groups [m]; below 0 = touches no face
+    std::span<const float> inverseMasses; ///< likewise; 0 = never moves [1/kg]
     std::span<const layout::ContactFace> faces;
     std::uint32_t moving = 0;       ///< faces before that one have a corner that moves
     std::span<const float> extents; ///< of each face: the longest side of its box at first [m]
@@ -34,7 +35,7 @@ struct Lists {
     hash_grid::Grid grid;
     layout::FaceFindPush push{};
     BufferId contacts, counts, links, linkCounts;
-    BufferId radii, faces, found, candidates, faceFound, faceCandidates, excluded;
+    BufferId radii, inverseMasses, faces, found, candidates, faceFound, faceCandidates, excluded;
     BufferId points, apart, searched, large, wide;
 };
 

@@ -44,7 +44,12 @@ Surfaces add(ProgramBuilder& program, const Scene& scene, const StateLayout& lay
         surfaces.hasRestitution = only.restitution > 0;
         return surfaces;
     }
-    surfaces.count = static_cast<std::uint32_t>(contacts.surfaces.size() + 1);
+    return addTable(program, scene, layout, "contacts.surface");
+}
+
+Surfaces addTable(ProgramBuilder& program, const Scene& scene, const StateLayout& layout, const char* name) {
+    const ContactSettings& contacts = scene.contacts;
+    Surfaces surfaces{.count = static_cast<std::uint32_t>(contacts.surfaces.size() + 1)};
     std::vector<layout::SurfacePair> pairs;
     for (std::uint32_t a = 0; a < surfaces.count; ++a)
         for (std::uint32_t b = 0; b < surfaces.count; ++b)
@@ -55,8 +60,8 @@ Surfaces add(ProgramBuilder& program, const Scene& scene, const StateLayout& lay
     surfaces.hasFriction = std::ranges::any_of(pairs, [](const auto& pair) { return pair.friction > 0; });
     surfaces.hasRestitution =
         std::ranges::any_of(pairs, [](const auto& pair) { return pair.restitution > 0; });
-    surfaces.ofParticles = program.upload("contacts.surfaces", ofParticles);
-    surfaces.pairs = program.upload("contacts.surface_pairs", pairs);
+    surfaces.ofParticles = program.upload(std::string(name) + "s", ofParticles);
+    surfaces.pairs = program.upload(std::string(name) + "_pairs", pairs);
     return surfaces;
 }
 

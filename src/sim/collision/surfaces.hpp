@@ -16,4 +16,8 @@ struct Surfaces {
 
 Surfaces add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout);
 
+/// With a table in any case, for contacts with faces: a face has the surface of its first corner. Buffers are
+/// called `name`s and `name`_pairs.
+Surfaces addTable(ProgramBuilder& program, const Scene& scene, const StateLayout& layout, const char* name);
+
 } // namespace sinew::sim::collision::surfaces

@@ -4,6 +4,7 @@
 #include "sim/solvers/split.hpp"
 
 #include "sim/collision/colliders.hpp"
+#include "sim/collision/edge_contacts.hpp"
 #include "sim/collision/face_contacts.hpp"
 #include "sim/collision/particle_contacts.hpp"
 #include "sim/collision/planes.hpp"
@@ -264,9 +265,11 @@ void addSubsteps(const Common& common, const ParticleBuffers& particles) {
     if (current.velocities != particles.velocities) program.copy(current.velocities, particles.velocities);
 }
 
-// The contacts that a scene has: of particles with faces, then of particles with particles.
+// The contacts that a scene has: of particles with faces, of edges of faces, then of particles with
+// particles.
 struct Touching {
     std::optional<collision::face_contacts::Contacts> faces;
+    std::optional<collision::edge_contacts::Contacts> edges;
     std::optional<collision::particle_contacts::Contacts> pairs;
 
     void addOpening(ProgramBuilder& program, BufferId velocities) const {
@@ -277,15 +280,26 @@ struct Touching {
     ParticleBuffers addPasses(ProgramBuilder& program, ParticleBuffers predicted, const ParticleBuffers& next,
                               bool isFirst) const {
         if (faces) predicted = collision::face_contacts::addPasses(program, *faces, predicted, next);
+        if (edges) predicted = collision::edge_contacts::addPasses(program, *edges, predicted, next);
         if (pairs) collision::particle_contacts::addPasses(program, *pairs, predicted, next, isFirst);
         return predicted;
     }
+    // After all contacts of a substep; velocities alternate.
+    void addBounces(ProgramBuilder& program, const ParticleBuffers& met, ParticleBuffers& current) {
+        if (faces) collision::face_contacts::addBounces(program, *faces, current);
+        if (edges) collision::edge_contacts::addBounces(program, *edges, current);
+        if (!pairs || !pairs->surfaces.hasRestitution) return;
+        collision::particle_contacts::addBounces(program, *pairs, met, current);
+        std::swap(current.velocities, pairs->rebounding);
+    }
     void joinIslands(sleep::Sleep& sleep) const {
         if (faces) collision::face_contacts::joinIslands(*faces, sleep);
+        if (edges) collision::edge_contacts::joinIslands(*edges, sleep);
         if (pairs) collision::particle_contacts::joinIslands(*pairs, sleep);
     }
     void addPublishing(ProgramBuilder& program) const {
         if (faces) collision::face_contacts::addPublishing(program, *faces);
+        if (edges) collision::edge_contacts::addPublishing(program, *edges);
         if (pairs) collision::particle_contacts::addPublishing(program, *pairs);
     }
 };
@@ -293,11 +307,16 @@ struct Touching {
 Touching addTouching(const Common& common, const ParticleBuffers& particles) {
     namespace pairs = collision::particle_contacts;
     namespace faces = collision::face_contacts;
+    namespace edges = collision::edge_contacts;
     const Scene& scene = common.scene;
-    const bool hasPairs = pairs::areIn(scene);
+    const bool hasPairs = pairs::areIn(scene), hasEdges = edges::areIn(scene);
     Touching touching;
     if (faces::areIn(scene))
-        touching.faces = faces::add(common.program, scene, common.settings, particles, !hasPairs);
+        touching.faces =
+            faces::add(common.program, scene, common.settings, particles, !hasEdges && !hasPairs);
+    if (hasEdges)
+        touching.edges =
+            edges::add(common.program, scene, common.settings, particles, *touching.faces, !hasPairs);
     if (hasPairs) touching.pairs = pairs::add(common.program, scene, common.settings, common.layout);
     return touching;
 }
@@ -328,10 +347,7 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
         addLinks(gathers, current, predicted, substep == 0);
         if (!alternates) std::swap(current.velocities, spare);
         const ParticleBuffers met = contacts.addPasses(program, predicted, current, substep == 0);
-        if (contacts.pairs && contacts.pairs->surfaces.hasRestitution) {
-            collision::particle_contacts::addBounces(program, *contacts.pairs, met, current);
-            std::swap(current.velocities, contacts.pairs->rebounding);
-        }
+        contacts.addBounces(program, met, current);
         constraints::attachment::addPass(program, current, attachments, substep, substeps);
         constraints::grab::addPass(program, current, substep, substeps, Kick::whole);
         constraints::tether::addPass(program, current, tethers);

@@ -1,6 +1,7 @@
 // Particles that touch triangles, on the device: rest, momentum, fast particles, cloth on meshes, on itself
 // and in stacks, and the same bits whatever lists look like.
 #include "sim/bodies.hpp"
+#include "sim/collision/face_scenes.hpp"
 #include "sim/compile.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
@@ -19,6 +20,8 @@
 using namespace sinew;
 using namespace sinew::sim;
 using Eigen::Vector3d;
+using test::intersections;
+using test::rms;
 
 namespace {
 
@@ -59,12 +62,6 @@ Vector3d angularMomentum(const Scene& scene, const std::vector<Vector3d>& x, con
     return sum;
 }
 
-double rms(const std::vector<Vector3d>& v) {
-    double sum = 0;
-    for (const Vector3d& one : v) sum += one.squaredNorm();
-    return std::sqrt(sum / static_cast<double>(v.size()));
-}
-
 std::uint64_t hashOf(const Scene& scene, const Settings& settings, int steps) {
     test::Runner runner(scene, settings);
     for (int step = 0; step < steps; ++step) {
@@ -73,39 +70,6 @@ std::uint64_t hashOf(const Scene& scene, const Settings& settings, int steps) {
         EXPECT_EQ(status.contactRoom, 0u);
     }
     return runner.stateHash();
-}
-
-// Whether segment a b passes through the inside of a triangle.
-bool passes(const Vector3d& a, const Vector3d& b, const std::array<Vector3d, 3>& x) {
-    const Vector3d n = (x[1] - x[0]).cross(x[2] - x[0]);
-    const double ha = n.dot(a - x[0]), hb = n.dot(b - x[0]);
-    if (!(ha * hb < 0)) return false;
-    const Vector3d p = a + (b - a) * (ha / (ha - hb));
-    for (int k = 0; k < 3; ++k)
-        if (!((x[(k + 1) % 3] - x[k]).cross(p - x[k]).dot(n) > 0)) return false;
-    return true;
-}
-
-// Edges of faces that pass through faces they share no corner with.
-int intersections(const Scene& scene, const std::vector<Vector3d>& x) {
-    int found = 0;
-    for (const Face& face : scene.faces) {
-        const std::array<Vector3d, 3> at{x[face.particles[0]], x[face.particles[1]], x[face.particles[2]]};
-        const Vector3d low = at[0].cwiseMin(at[1]).cwiseMin(at[2]),
-                       high = at[0].cwiseMax(at[1]).cwiseMax(at[2]);
-        for (const Face& other : scene.faces)
-            for (int k = 0; k < 3; ++k) {
-                const std::uint32_t a = other.particles[k], b = other.particles[(k + 1) % 3];
-                const auto isCorner = [&](std::uint32_t i) {
-                    return std::ranges::count(face.particles, i) > 0;
-                };
-                if (a > b || isCorner(a) || isCorner(b)) continue;
-                if ((x[a].cwiseMax(x[b]) - low).minCoeff() < 0 || (high - x[a].cwiseMin(x[b])).minCoeff() < 0)
-                    continue;
-                found += passes(x[a], x[b], at) ? 1 : 0;
-            }
-    }
-    return found;
 }
 
 } // namespace
@@ -251,83 +215,133 @@ TEST(FaceContacts, HoldByFrictionUpToItsAngle) {
 
 namespace {
 
-// A ball of triangles, `rings` from pole to pole.
-MeshCollider sphere(float size, std::uint32_t rings) {
-    MeshCollider mesh{.name = "ball", .thickness = 0.005f};
-    const std::uint32_t around = 2 * rings;
-    for (std::uint32_t r = 0; r <= rings; ++r)
-        for (std::uint32_t s = 0; s < around; ++s) {
-            const double theta = std::numbers::pi * r / rings, phi = 2 * std::numbers::pi * s / around;
-            mesh.vertices.push_back({size * static_cast<float>(std::sin(theta) * std::cos(phi)),
-                                     size * static_cast<float>(std::cos(theta)),
-                                     size * static_cast<float>(std::sin(theta) * std::sin(phi))});
-        }
-    for (std::uint32_t r = 0; r < rings; ++r) // triangles at the poles have no area: a case of their own
-        for (std::uint32_t s = 0; s < around; ++s) {
-            const std::uint32_t a = r * around + s, b = r * around + (s + 1) % around;
-            mesh.triangles.push_back({a, b, b + around});
-            mesh.triangles.push_back({a, b + around, a + around});
-        }
-    return mesh;
-}
-
-Scene clothOnBall() {
-    Scene scene;
-    addMeshCollider(scene, sphere(0.3f, 12));
-    addCloth(scene, {.origin = {-0.5f, 0.35f, -0.5f},
-                     .size = {26, 26},
-                     .spacing = 0.04f,
-                     .areaDensity = 0.3f,
-                     .membraneStiffness = 1000,
-                     .bendingStiffness = 1e-4f,
-                     .thickness = 0.02f});
-    scene.contacts.friction = 0.3f;
-    scene.damping = 0.5f;
-    scene.planes = {{.offset = -0.5f, .friction = 0.5f}};
-    return scene;
-}
-
-// A sheet that stands upright and falls onto itself.
-Scene fallingFold() {
-    Scene scene;
-    addCloth(scene, {.origin = {-0.2f, 0.8f, 0},
-                     .down = {0, -1, 0},
-                     .size = {11, 41},
-                     .spacing = 0.02f,
-                     .areaDensity = 0.3f,
-                     .membraneStiffness = 500,
-                     .bendingStiffness = 2e-5f,
-                     .thickness = 0.01f});
-    for (Particle& particle : scene.particles) // it leans, so that it does not stand on its edge
-        particle.position.z += 0.03f * std::sin(7 * particle.position.y);
-    scene.contacts.friction = 0.2f;
-    scene.damping = 1;
-    scene.planes = {{.friction = 0.5f}};
-    return scene;
-}
-
-Scene layers(std::uint32_t count) {
-    Scene scene;
-    for (std::uint32_t layer = 0; layer < count; ++layer)
-        addCloth(scene, {.name = "layer " + std::to_string(layer),
-                         .origin = {0.004f * static_cast<float>(layer % 3),
-                                    0.02f + 0.015f * static_cast<float>(layer),
-                                    0.003f * static_cast<float>(layer % 5)},
-                         .size = {8, 8},
-                         .spacing = 0.03f,
-                         .areaDensity = 0.3f,
-                         .membraneStiffness = 500,
-                         .thickness = 0.01f});
-    scene.contacts.friction = 0.2f;
-    scene.damping = 1;
-    scene.planes = {{.friction = 0.5f}};
-    return scene;
+// A square around the origin in the plane y = 0, which never moves.
+MeshCollider square() {
+    return {.vertices = {{-2, 0, -2}, {-2, 0, 2}, {2, 0, 2}, {2, 0, -2}},
+            .triangles = {{0, 1, 2}, {0, 2, 3}},
+            .thickness = thickness};
 }
 
 } // namespace
 
+// Case 16, at 600 substeps a second, on a mesh; where it falls two triangles share an edge.
+TEST(FaceContacts, LetABallReboundToTheSquareOfItsRestitution) {
+    for (const float e : {0.5f, 0.9f, 1.0f}) {
+        Scene scene;
+        addMeshCollider(scene, square());
+        scene.particles.push_back(ballAt({0.3f, 1 + static_cast<float>(reach), 0.3f}));
+        scene.contacts.restitution = e;
+        test::Runner runner(scene, {.substeps = 10});
+        double highest = 0;
+        bool hasFallen = false;
+        for (int step = 0; step < 80; ++step) {
+            runner.run(1);
+            const double height = runner.positions()[4].y() - reach, speed = runner.velocities()[4].y();
+            hasFallen = hasFallen || speed > 0.1;
+            if (hasFallen) highest = std::max(highest, height);
+            EXPECT_LE(9.81 * height + 0.5 * speed * speed, 9.81 * 1.005) << "no energy gained, step " << step;
+            if (hasFallen && speed < 0) break;
+        }
+        const double expected = double{e} * double{e};
+        std::printf("rebound, e = %.1f: %+.2f %% of e^2 h\n", double{e}, 100 * (highest / expected - 1));
+        EXPECT_NEAR(highest, expected, 0.02 * expected);
+    }
+}
+
+// Newton's law at the place that is touched, of a face that is free to go; and momentum.
+TEST(FaceContacts, PartAsRestitutionHasItFromAFreeFace) {
+    for (const float e : {0.3f, 1.0f}) {
+        Scene scene = weightless(triangle(2));
+        scene.contacts.restitution = e;
+        const std::array<double, 3> b{0.5, 0.3, 0.2};
+        Vector3d foot = Vector3d::Zero();
+        for (int k = 0; k < 3; ++k) foot += b[k] * test::toVector(scene.particles[k].position);
+        scene.particles.push_back(
+            ballAt({static_cast<float>(foot.x()), 0.05f, static_cast<float>(foot.z())}, {0, -1, 0}));
+        test::Runner runner(scene, {.substeps = 16});
+        const Vector3d before = momentum(scene, runner.velocities());
+        runner.run(3);
+        const auto v = runner.velocities();
+        const double there = b[0] * v[0].y() + b[1] * v[1].y() + b[2] * v[2].y();
+        EXPECT_NEAR(v[3].y() - there, double{e}, 5e-3);
+        EXPECT_LE((momentum(scene, v) - before).norm(), 1e-5);
+    }
+}
+
+// Friction 1 upon 0.25: the geometric mean, 0.5, of which the angle is 26.57 degrees (case 17).
+TEST(FaceContacts, HoldByTheFrictionOfBothSurfaces) {
+    const auto slid = [](double degrees) {
+        Scene scene;
+        const double angle = degrees * std::numbers::pi / 180;
+        scene.gravity = {static_cast<float>(9.81 * std::sin(angle)),
+                         static_cast<float>(-9.81 * std::cos(angle)), 0};
+        addMeshCollider(scene, square());
+        scene.contacts.surfaces = {{.friction = 1}, {.friction = 0.25f}};
+        for (Particle& corner : scene.particles) corner.surface = 1;
+        scene.particles.push_back(ballAt({0.1f, static_cast<float>(reach), 0.7f}));
+        scene.particles.back().surface = 2;
+        test::Runner runner(scene, {.substeps = 16});
+        runner.run(60);
+        return runner.positions()[4].x() - 0.1;
+    };
+    EXPECT_NEAR(slid(25.57), 0, 1e-4);
+    const double angle = 27.57 * std::numbers::pi / 180;
+    EXPECT_NEAR(slid(27.57), 0.5 * 9.81 * (std::sin(angle) - 0.5 * std::cos(angle)), 0.01);
+}
+
+// What overlaps when the scene is loaded parts at the speed of recovery, from a face that never moves and
+// from one that does.
+TEST(FaceContacts, PartSlowlyWhatOverlapsAtLoad) {
+    for (const float mass : {0.0f, 2.0f}) {
+        Scene scene = weightless(triangle(mass));
+        scene.particles.push_back(ballAt({0.1f, 0.01f, 0.05f}));
+        test::Runner runner(scene, {.substeps = 16});
+        double fastest = 0;
+        for (int step = 0; step < 6; ++step) {
+            runner.run(1);
+            const auto v = runner.velocities();
+            for (const Vector3d& one : v) fastest = std::max(fastest, (v[3] - one).norm());
+        }
+        const auto x = runner.positions();
+        const Vector3d n = (x[2] - x[0]).cross(x[1] - x[0]).normalized();
+        EXPECT_GE(std::abs(n.dot(x[3] - x[0])), 0.999 * reach) << "parted";
+        EXPECT_NEAR(fastest, 0.5, mass > 0 ? 0.5 : 0.01) << "[m/s]";
+        EXPECT_GE(fastest, 0.45);
+    }
+}
+
+// Sheets at half of their thickness. The bound is that of a stack of n that widens evenly while neighbours
+// part at 2 v_rec, as of heaps of particles (test_overlaps).
+TEST(FaceContacts, PartAStackThatOverlapsAtLoadWithTheEnergyOfItsSpeedOfRecovery) {
+    constexpr std::uint32_t count = 6;
+    const auto energyOf = [](float speed) {
+        Scene scene = weightless(test::stackOfLayers(count));
+        scene.planes.clear();
+        scene.damping = 0;
+        scene.contacts.recoverySpeed = speed;
+        for (std::uint32_t i = 0; i < scene.particles.size(); ++i)
+            scene.particles[i].position.y = 0.005f * static_cast<float>(i / 64);
+        test::Runner runner(scene, {.substeps = 16, .contactRoom = 128});
+        double most = 0;
+        for (int step = 0; step < 20; ++step) {
+            const Status status = runner.run(1);
+            EXPECT_EQ(status.nonFinite + status.contactRoom, 0u) << "step " << step;
+            most = std::max(most, test::kineticEnergy(scene, runner.velocities()));
+        }
+        EXPECT_EQ(intersections(scene, runner.positions()), 0);
+        std::printf("stack that overlaps, v_rec %g m/s: at most %.5f J\n", double{speed}, most);
+        return most;
+    };
+    const Scene scene = test::stackOfLayers(count);
+    double mass = 0;
+    for (const Particle& particle : scene.particles) mass += 1 / double{particle.inverseMass};
+    const double bound = 0.5 * mass * (count * count - 1) / 12; // at 2 v_rec = 1 m/s
+    EXPECT_LE(energyOf(0.5f), bound);
+    EXPECT_GT(energyOf(1e6f), bound) << "at once";
+}
+
 TEST(FaceContacts, LayAClothOverABallOfTriangles) {
-    const Scene scene = clothOnBall();
+    const Scene scene = test::clothOnBall();
     test::Runner runner(scene, {.substeps = 16, .contactRoom = 96});
     const std::size_t first = scene.bodies[1].firstParticle;
     double deepest = 0;
@@ -348,7 +362,7 @@ TEST(FaceContacts, LayAClothOverABallOfTriangles) {
 
 // Hard case 17.
 TEST(FaceContacts, KeepAFallingFoldOutOfItself) {
-    const Scene scene = fallingFold();
+    const Scene scene = test::fallingFold();
     test::Runner runner(scene, {.substeps = 32, .contactRoom = 96});
     int worst = 0;
     for (int step = 0; step < 150; ++step) {
@@ -367,8 +381,8 @@ TEST(FaceContacts, KeepAFallingFoldOutOfItself) {
 
 // Hard case 16: no layer changes places with another.
 TEST(FaceContacts, KeepAStackOfLayersInOrder) {
-    constexpr std::uint32_t count = 20;
-    const Scene scene = layers(count);
+    constexpr std::uint32_t count = 50;
+    const Scene scene = test::stackOfLayers(count);
     test::Runner runner(scene, {.substeps = 32, .contactRoom = 96});
     for (int step = 0; step < 90; ++step) {
         const Status status = runner.run(1);
@@ -390,7 +404,7 @@ TEST(FaceContacts, KeepAStackOfLayersInOrder) {
 }
 
 TEST(FaceContacts, EndInTheSameBitsForAnyMarginRoomOrderAndForm) {
-    Scene scene = fallingFold();
+    Scene scene = test::fallingFold();
     scene.particles.push_back(
         ballAt({-0.1f, 0.9f, 0.05f}, {0, -3, 0}, 0.01f)); // contacts between particles too
     scene.particles.push_back(ballAt({-0.1f, 1.0f, 0.05f}, {0, -4, 0}, 0.01f));
@@ -410,7 +424,7 @@ TEST(FaceContacts, EndInTheSameBitsForAnyMarginRoomOrderAndForm) {
 
 // Hard case 29, as for contacts between particles.
 TEST(FaceContacts, ThatHaveNoRoomAreSaidAndRepeatedToTheSameBits) {
-    const Scene scene = clothOnBall();
+    const Scene scene = test::clothOnBall();
     constexpr int steps = 24;
     const std::uint64_t hash = hashOf(scene, {.substeps = 8, .contactRoom = 128}, steps);
     Settings settings{.substeps = 8, .contactRoom = 1};

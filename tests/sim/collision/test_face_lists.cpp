@@ -26,6 +26,10 @@ using Neighbours = std::vector<std::vector<std::uint32_t>>;
 constexpr std::uint32_t count = 256, faceCount = 64, movingFaces = 40;
 constexpr float substep = 1e-3f;
 
+float inverseMassOf(std::uint32_t i) {
+    return i >= 3 * movingFaces && (i < 3 * faceCount || i % 5 == 0) ? 0.0f : 1.0f;
+}
+
 // Faces between particles 3 f, 3 f + 1 and 3 f + 2; all others are loose.
 struct Cloud {
     std::vector<float> radii = std::vector<float>(count, 0.02f); // below 0 = nobody
@@ -62,7 +66,10 @@ public:
                       .step = builder_.upload("step", step),
                       .positions = builder_.scratch<layout::vec4>("positions", count),
                       .velocities = builder_.scratch<layout::vec4>("velocities", count)};
+        std::vector<float> masses;
+        for (std::uint32_t i = 0; i < count; ++i) masses.push_back(inverseMassOf(i));
         lists_ = lists::add(builder_, {.radii = cloud.radii,
+                                       .inverseMasses = masses,
                                        .faces = cloud.faces(),
                                        .moving = movingFaces,
                                        .extents = cloud.extents,
@@ -263,7 +270,7 @@ State placed(std::mt19937& random, const Placing& place, Shape shape, float spee
         }
         state.v[i] = within(random, {}, speed);
         if (i % 50 == 7) state.v[i] = within(random, {}, 20 * speed);
-        const bool isHeld = i >= 3 * movingFaces && (i < 3 * faceCount || i % 5 == 0);
+        const bool isHeld = inverseMassOf(i) == 0;
         if (isHeld) state.v[i] = {};
         state.v[i].w = isHeld ? 0.0f : 1.0f;
     }

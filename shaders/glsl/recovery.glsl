@@ -1,0 +1,15 @@
+// What contacts with faces and between edges remember beside how far they have slid, in one number: the side on which the
+// two are, and how much they still overlap of what they did when the scene was loaded (contacts: 3): side x (1 + overlap).
+// 0 = they do not touch.
+float sideOf(float remembered) { return sign(remembered); }
+
+// As much as remains is taken for touching, so that the two part at the speed with which they recover, `part` a substep. In
+// the first step of a simulation what overlaps did so before; `approach` is what it has come nearer by in this substep.
+float overlapLeft(float remembered, float overlap, float approach, float part) {
+    float left = 0.0;
+    if (remembered != 0.0) left = abs(remembered) - 1.0;
+    else if (step.hPrevious == 0.0 && overlap - approach > part) left = overlap - approach;
+    return max(0.0, min(left - part, overlap));
+}
+
+float rememberedOf(float side, float depth, float left) { return depth > 0.0 || left > 0.0 ? side * (1.0 + left) : 0.0; }

@@ -1,0 +1,38 @@
+// Two segments in space: how near they are, and where their lines are nearest.
+
+// Lines x = a + s ab and c + t cd.
+struct Crossing {
+    vec3 n;       // unit, across both
+    float height; // of the first above the second along n [m]
+    float s, t;   // where they are nearest; inside both segments between 0 and 1
+    bool exists;  // they are not parallel
+};
+
+// `least`: the square of the sine of their angle below which they are taken for parallel. ca = a - c.
+Crossing crossingOf(vec3 ca, vec3 ab, vec3 cd, float least) {
+    const vec3 across = cross(ab, cd);
+    const float squared = dot(across, across), lengths = dot(ab, ab) * dot(cd, cd);
+    const bool exists = squared > least * lengths && lengths > 0.0;
+    const float scale = exists ? 1.0 / squared : 0.0;
+    const vec3 n = sqrt(scale) * across;
+    return Crossing(n, dot(n, ca), scale * dot(cross(cd, ca), across), scale * dot(cross(ab, ca), across), exists);
+}
+
+bool isInside(Crossing crossing, float slack) {
+    return crossing.exists && min(crossing.s, crossing.t) >= -slack && max(crossing.s, crossing.t) <= 1.0 + slack;
+}
+
+float squaredToSegment(vec3 ap, vec3 ab) {
+    const vec3 d = ap - clamp(dot(ap, ab) / max(dot(ab, ab), 1e-37), 0.0, 1.0) * ab;
+    return dot(d, d);
+}
+
+// The distance, squared, of segments from a and from c [m^2].
+float squaredBetween(vec3 ca, vec3 ab, vec3 cd) {
+    const vec3 bc = ca + ab; // b - c
+    float least = min(min(squaredToSegment(ca, cd), squaredToSegment(bc, cd)),
+                      min(squaredToSegment(-ca, ab), squaredToSegment(cd - ca, ab)));
+    const Crossing crossing = crossingOf(ca, ab, cd, 1e-10);
+    if (isInside(crossing, 0.0)) least = min(least, crossing.height * crossing.height);
+    return least;
+}

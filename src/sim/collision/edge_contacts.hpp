@@ -1,0 +1,60 @@
+// Edges of faces that touch each other, in `split`: temporary constraints, solved after contacts of points
+// with faces and before those between particles. Without them two faces may cross where no corner comes near:
+// coarse cloth on a ridge, cloth on cloth. How the four ends of a contact are moved, what they give of
+// themselves, and why that is stable, is as for faces (face_contacts.hpp), with the weights 1 - s and s of
+// the places on both edges. Each edge sums up what its own contacts do to its two ends, and a particle then
+// sums up its edges: both in a fixed order, without float atomics. A scene in which no two edges can meet has
+// none of this.
+#pragma once
+
+#include "sim/collision/edge_lists.hpp"
+#include "sim/collision/face_contacts.hpp"
+#include "sim/collision/planes.hpp"
+#include "sim/collision/side_memory.hpp"
+#include "sim/collision/surfaces.hpp"
+
+namespace sinew::sim::collision::edge_contacts {
+
+/// Whether particles of the scene touch faces, and two of their edges may meet.
+bool areIn(const Scene& scene);
+
+struct Contacts {
+    edge_lists::Lists lists;
+    planes::Colliders planes; ///< without particle contacts, which else take care of them
+    layout::FacePush push{};
+    bool endsSubstep = false;
+    side_memory::Memory memory;
+    surfaces::Surfaces surfaces; ///< those of the contacts with faces
+    BufferId corners, directions, weights, sums, shares, impulses;
+    BufferId bounces;      ///< only where something rebounds
+    BufferId before;       ///< velocities when the substep began, of the contacts with faces
+    ParticleBuffers moved; ///< between these contacts and those of particles
+};
+
+/// Only where areIn(), beside `faces`. `endsSubstep` = no contacts between particles follow.
+Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
+             const ParticleBuffers& particles, const face_contacts::Contacts& faces, bool endsSubstep);
+
+/// What touches sleeps together.
+void joinIslands(const Contacts& contacts, sleep::Sleep& sleep);
+
+/// From predicted positions and velocities to those after the contacts, which are returned: those of `next`
+/// if they end the substep.
+ParticleBuffers addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
+                          const ParticleBuffers& next);
+
+/// Restitution, after all contacts of a substep, which `state` then is of; nothing where nothing rebounds.
+void addBounces(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state);
+
+/// The end of a step: what contacts remember is saved, or taken back with an undone step.
+void addPublishing(ProgramBuilder& program, const Contacts& contacts);
+
+/// All edges that may touch others, between particles, in ascending order: those of faces, but for one in the
+/// plane of two that never move.
+std::vector<edge_lists::Edge> edgesOf(const Scene& scene);
+
+/// Edges that one never touches, as edge_lists::Request says: those of its own linked body that are nearer
+/// than 1.05 times touching at rest.
+std::vector<std::uint32_t> excludedEdges(const Scene& scene, std::span<const edge_lists::Edge> edges);
+
+} // namespace sinew::sim::collision::edge_contacts

@@ -1,0 +1,124 @@
+// The host side of lists of edges: sizes, and the order of the passes.
+#include "sim/collision/edge_lists.hpp"
+
+#include "kernels.hpp"
+
+#include <algorithm>
+
+namespace sinew::sim::collision::edge_lists {
+
+namespace {
+
+namespace k = kernels;
+
+// Half of the margin is what two edges may come nearer by each; a little less for rounding.
+constexpr float slackShare = 0.49f;
+
+// Edges whose ball, with their way in a substep, is at most so many times that of most others are searched
+// for in cells.
+constexpr float widestInCells = 2;
+
+// By edge, whole work groups.
+struct Tables {
+    std::vector<layout::ContactEdge> edges;
+    std::vector<float> radii, points, thickness;
+};
+
+Tables tablesOf(const Request& request) {
+    const std::size_t count = paddedCount(request.edges.size());
+    Tables tables{std::vector<layout::ContactEdge>(count, {0, 0, 0, -1}), std::vector<float>(count, -1),
+                  std::vector<float>(count, -1), std::vector<float>(count, 0)};
+    for (std::size_t e = 0; e < request.edges.size(); ++e) {
+        const Edge& edge = request.edges[e];
+        tables.edges[e] = {edge.ends[0], edge.ends[1], edge.moves ? 1u : 0u, edge.radius};
+        tables.radii[e] = edge.radius;
+        tables.points[e] = 0;
+        tables.thickness[e] = edge.thickness;
+    }
+    return tables;
+}
+
+// What sort_contacts takes.
+layout::FindPush sortPush(const layout::FaceFindPush& push) {
+    return {.count = push.points,
+            .cells = push.cells,
+            .edge = push.edge,
+            .most = push.most,
+            .margin = push.margin,
+            .capacity = push.capacity,
+            .row = push.row,
+            .limit = push.limit,
+            .large = 0,
+            .quiet = 0};
+}
+
+} // namespace
+
+Lists add(ProgramBuilder& program, const Request& request) {
+    Tables tables = tablesOf(request);
+    const std::size_t count = tables.edges.size();
+    const float largest = hash_grid::largestInGrid(tables.radii);
+    Lists lists{.grid = hash_grid::add(program, {.radii = tables.points,
+                                                 .margin = request.margin,
+                                                 .slack = slackShare * request.margin,
+                                                 .edge = 2 * largest + request.margin,
+                                                 .usesTexels = request.usesTexels,
+                                                 .name = "edges.grid",
+                                                 .radiiName = "edges.grid.radii"})};
+    const layout::GridPush& grid = lists.grid.push;
+    lists.push = {.points = grid.count,
+                  .searched = 0,
+                  .cells = grid.cells,
+                  .edge = grid.edge,
+                  .most = widestInCells * largest,
+                  .margin = request.margin,
+                  .capacity = request.capacity,
+                  .row = grid.count + CONTACT_ROW_EXTRA,
+                  .faceRow = 0,
+                  .limit = request.limit,
+                  .moving = 0,
+                  .large = 0};
+    const std::size_t elements = request.capacity * std::size_t{lists.push.row};
+    lists.edges = program.upload("edges", tables.edges);
+    lists.contacts = program.scratch<layout::ContactCandidate>("edges.contacts", elements);
+    lists.counts = program.scratch<std::uint32_t>("edges.counts", count);
+    lists.radii = program.upload("edges.radii", tables.radii);
+    lists.thickness = program.upload("edges.thickness", tables.thickness);
+    lists.middles = program.scratch<layout::vec4>("edges.middles", count);
+    lists.speeds = program.scratch<layout::vec4>("edges.speeds", count);
+    lists.ends = program.scratch<layout::vec4>("edges.ends", 2 * count);
+    lists.found = program.scratch<std::uint32_t>("edges.found", count);
+    lists.candidates = program.scratch<std::uint32_t>("edges.candidates", elements);
+    lists.excluded = program.upload("edges.excluded", request.exclusions);
+    lists.points = program.scratch<layout::FacePoints>("edges.points", 1);
+    lists.apart = program.scratch<std::uint32_t>("edges.apart", count);
+    return lists;
+}
+
+void addWatch(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {
+    const hash_grid::Grid& grid = lists.grid;
+    program.dispatch(k::placeEdges, grid.push.count,
+                     {particles.positions, particles.velocities, lists.edges, lists.ends, grid.detected,
+                      lists.middles, lists.speeds, grid.bounds, lists.points, particles.step},
+                     grid.push);
+    hash_grid::addSort(program, grid, lists.middles);
+}
+
+void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {
+    const hash_grid::Grid& grid = lists.grid;
+    program.dispatchIndirect(k::partPoints, grid.particles,
+                             {lists.speeds, lists.radii, lists.points, lists.apart, particles.step},
+                             lists.push);
+    program.dispatchIndirect(k::findEdges, grid.particles,
+                             {particles.positions, lists.edges, lists.middles, lists.speeds, lists.thickness,
+                              grid.sorted, grid.starts, grid.bounds, lists.points, lists.apart,
+                              lists.excluded, lists.found, lists.candidates, lists.ends,
+                              program.program().status, particles.step},
+                             lists.push);
+    program.dispatchIndirect(k::sortContactsLoads, grid.particles,
+                             {lists.candidates, lists.thickness, lists.found, lists.contacts, lists.counts,
+                              program.program().status},
+                             sortPush(lists.push));
+}
+
+} // namespace sinew::sim::collision::edge_lists

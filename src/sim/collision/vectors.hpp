@@ -1,0 +1,33 @@
+// Vectors in double, for what the host finds out about a scene at rest.
+#pragma once
+
+#include "sim/scene.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace sinew::sim::collision {
+
+using Vector = std::array<double, 3>;
+
+inline Vector minus(const Vector& a, const Vector& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+inline double dot(const Vector& a, const Vector& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+inline Vector cross(const Vector& a, const Vector& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline Vector toVector(const Vec3& v) {
+    return {double{v.x}, double{v.y}, double{v.z}};
+}
+
+inline double squaredToSegment(const Vector& p, const Vector& a, const Vector& b) {
+    const Vector ab = minus(b, a), ap = minus(p, a);
+    const double length = dot(ab, ab), t = length > 0 ? std::clamp(dot(ap, ab) / length, 0.0, 1.0) : 0;
+    const Vector d{ap[0] - t * ab[0], ap[1] - t * ab[1], ap[2] - t * ab[2]};
+    return dot(d, d);
+}
+
+} // namespace sinew::sim::collision

@@ -1,0 +1,190 @@
+// Edges of faces that touch other edges, on the device.
+#include "sim/collision/face_scenes.hpp"
+#include "sim/runner.hpp"
+#include "sim/scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+using namespace sinew;
+using namespace sinew::sim;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr float thickness = 0.01f;
+constexpr double reach = 0.02;
+
+struct Outcome {
+    int worst = 0, end = 0;
+    double speed = 0;
+};
+
+Outcome outcomeOf(const Scene& scene, const Settings& settings, int steps) {
+    test::Runner runner(scene, settings);
+    Outcome outcome;
+    for (int step = 0; step < steps; ++step) {
+        const Status status = runner.run(1);
+        EXPECT_EQ(status.nonFinite + status.contactRoom, 0u) << "step " << step << ": " << status.contactRoom;
+        if (status.contactRoom > 0) return outcome;
+        if (step % 10 == 9)
+            outcome.worst = std::max(outcome.worst, test::intersections(scene, runner.positions()));
+    }
+    outcome.end = test::intersections(scene, runner.positions());
+    outcome.speed = test::rms(runner.velocities());
+    return outcome;
+}
+
+// Two triangles of which an edge of each lies towards the other, across it: the lower one along x at the
+// height 0, the upper one along z at `height`; its corners of `mass` [kg] each, 0 = the lower ones never
+// move.
+Scene crossedEdges(float lowerMass, float height, float speed) {
+    Scene scene;
+    scene.gravity = {};
+    const auto add = [&](const Vec3& x, float mass, float down) {
+        scene.particles.push_back({.position = x,
+                                   .velocity = {0, -down, 0},
+                                   .inverseMass = mass > 0 ? 1 / mass : 0,
+                                   .radius = thickness});
+    };
+    for (const Vec3& x : {Vec3{-0.9f, 0, 0.02f}, Vec3{1.1f, 0, -0.03f}, Vec3{0, -2, 0.1f}})
+        add(x, lowerMass, 0);
+    for (const Vec3& x : {Vec3{0.1f, 0, -1}, Vec3{-0.05f, 0, 0.8f}, Vec3{0, 2, 0}})
+        add({x.x, x.y + height, x.z}, 1, speed);
+    scene.faces = {{{0, 1, 2}, thickness}, {{3, 4, 5}, thickness}};
+    return scene;
+}
+
+Vector3d momentumOf(const Scene& scene, const std::vector<Vector3d>& v) {
+    Vector3d sum = Vector3d::Zero();
+    for (std::size_t i = 0; i < v.size(); ++i)
+        if (scene.particles[i].inverseMass > 0) sum += v[i] / double{scene.particles[i].inverseMass};
+    return sum;
+}
+
+// How fast the places at which the two edges of crossedEdges() cross come apart [m/s], and how far they are
+// [m], along y.
+std::array<double, 2> apart(const std::vector<Vector3d>& x, const std::vector<Vector3d>& v) {
+    const auto cross = [](const Vector3d& p, const Vector3d& q) { return p.x() * q.z() - p.z() * q.x(); };
+    const Vector3d d = x[1] - x[0], e = x[4] - x[3], r = x[3] - x[0];
+    const double s = cross(r, e) / cross(d, e), t = cross(r, d) / cross(d, e);
+    const Vector3d between = x[3] + t * e - x[0] - s * d;
+    return {(v[3] + t * (v[4] - v[3]) - v[0] - s * (v[1] - v[0])).y(), between.y()};
+}
+
+} // namespace
+
+// Inelastic, and with restitution: momentum is kept, and the two places part as Newton has it.
+TEST(EdgeContacts, PartAsRestitutionHasItAndKeepMomentum) {
+    for (const float e : {0.0f, 0.5f, 1.0f}) {
+        Scene scene = crossedEdges(2, 0.1f, 1);
+        scene.contacts.restitution = e;
+        test::Runner runner(scene, {.substeps = 16});
+        const Vector3d before = momentumOf(scene, runner.velocities());
+        for (int step = 0; step < 8; ++step) ASSERT_EQ(runner.run(1).nonFinite, 0u);
+        const auto [speed, distance] = apart(runner.positions(), runner.velocities());
+        EXPECT_NEAR(speed, double{e}, 0.01) << "restitution " << e;
+        EXPECT_GE(distance, 0.99 * reach);
+        EXPECT_LE((momentumOf(scene, runner.velocities()) - before).norm(), 1e-5);
+    }
+}
+
+// Up to 150 thicknesses a substep, upon an edge that moves and one that does not.
+TEST(EdgeContacts, StopEdgesThatAreFasterThanTheirThickness) {
+    for (const float mass : {0.0f, 100.0f})
+        for (const float speed : {5.0f, 60.0f, 300.0f, 1000.0f}) {
+            Scene scene = crossedEdges(mass, 0.037f * speed, speed);
+            test::Runner runner(scene, {.substeps = 4});
+            const double before = test::kineticEnergy(scene, runner.velocities());
+            for (int step = 0; step < 4; ++step) ASSERT_EQ(runner.run(1).nonFinite, 0u);
+            const double distance = apart(runner.positions(), runner.velocities())[1];
+            EXPECT_GE(distance, 0.9 * reach) << speed << " m/s, corners of " << mass << " kg";
+            EXPECT_LT(test::kineticEnergy(scene, runner.velocities()), before) << "inelastic";
+        }
+}
+
+TEST(EdgeContacts, LetEdgesPassBesideEachOther) {
+    Scene scene = crossedEdges(0, 0.5f, 40);
+    for (std::size_t i = 3; i < 6; ++i) scene.particles[i].position.x += 1.2f;
+    test::Runner runner(scene, {.substeps = 8});
+    runner.run(2);
+    for (const Vector3d& v : runner.velocities()) EXPECT_TRUE(v.y() == 0 || std::abs(v.y() + 40) < 1e-3);
+}
+
+TEST(EdgeContacts, KeepACoarseClothOutOfABoxOfTriangles) {
+    for (const float spacing : {0.15f, 0.1f}) {
+        const Outcome outcome =
+            outcomeOf(test::clothOnBox(spacing), {.substeps = 16, .contactRoom = 96}, 120);
+        std::printf(
+            "cloth on box, spacing %.2f m: %d edges through faces at worst, %d at the end; v rms %.4f m/s\n",
+            double{spacing}, outcome.worst, outcome.end, outcome.speed);
+        EXPECT_EQ(outcome.end, 0);
+    }
+}
+
+TEST(EdgeContacts, KeepTwoCoarseSheetsApartThatCross) {
+    for (const float spacing : {0.15f, 0.1f}) {
+        const Outcome outcome =
+            outcomeOf(test::crossedSheets(spacing), {.substeps = 16, .contactRoom = 96}, 120);
+        std::printf("crossed sheets, spacing %.2f m: %d edges through faces at worst, %d at the end; v rms "
+                    "%.4f m/s\n",
+                    double{spacing}, outcome.worst, outcome.end, outcome.speed);
+        EXPECT_EQ(outcome.end, 0);
+    }
+}
+
+// Hard case 17: each end turns by so many turns while the two come nearer, and then all settles.
+TEST(EdgeContacts, KeepATwistedStripOutOfItself) {
+    const Scene scene = test::strip(0.01f);
+    test::Runner runner(scene, {.substeps = 16, .contactRoom = 160});
+    Outcome outcome;
+    constexpr int turning = 90, settling = 40;
+    constexpr double turns = 1.5;
+    for (int step = 1; step <= turning + settling; ++step) {
+        const double part = std::min(1.0, step / double{turning});
+        const std::vector<Vec3> anchors =
+            test::twistedEnds(scene, turns * 2 * std::numbers::pi * part, 0.1 * part);
+        const Status status = runner.step(scene.dt, anchors);
+        ASSERT_EQ(status.nonFinite + status.contactRoom, 0u) << "step " << step << ": " << status.contactRoom;
+        if (step % 10 == 0)
+            outcome.worst = std::max(outcome.worst, test::intersections(scene, runner.positions()));
+    }
+    outcome.end = test::intersections(scene, runner.positions());
+    std::printf("twist by %.1f turns: %d edges through faces at worst, %d at the end; v rms %.4f m/s\n",
+                2 * turns, outcome.worst, outcome.end, test::rms(runner.velocities()));
+    EXPECT_EQ(outcome.end, 0);
+}
+
+TEST(EdgeContacts, EndInTheSameBitsForAnyMarginRoomOrderAndForm) {
+    Scene scene = test::crossedSheets(0.1f);
+    scene.contacts.restitution = 0.3f;
+    constexpr int steps = 25;
+    const Settings settings{.substeps = 8, .contactRoom = 96};
+    const auto hash = [&](const Settings& asked) { return test::hashOfRun(scene, asked, steps); };
+    const std::uint64_t expected = hash(settings);
+    Settings narrow = settings, roomy = settings, reversed = settings, loads = settings;
+    narrow.contactMargin = 0.2f;
+    roomy.contactRoom = 128;
+    reversed.isReversed = true;
+    loads.forms.usesTexels = false;
+    EXPECT_EQ(hash(narrow), expected) << "another margin";
+    EXPECT_EQ(hash(roomy), expected) << "more room";
+    EXPECT_EQ(hash(reversed), expected) << "reversed";
+    EXPECT_EQ(hash(loads), expected) << "without texels";
+}
+
+TEST(EdgeContacts, AreAbsentWhereNoTwoEdgesCanMeet) {
+    Scene scene;
+    addMeshCollider(scene, {.vertices = {{-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}},
+                            .triangles = {{0, 1, 2}, {0, 2, 3}},
+                            .thickness = thickness});
+    scene.particles.push_back({.position = {0, 1, 0}, .radius = thickness});
+    EXPECT_FALSE(test::usesKernel(scene, "touch_edges"));
+    EXPECT_TRUE(test::usesKernel(scene, "touch_faces"));
+    EXPECT_TRUE(test::usesKernel(test::crossedSheets(0.15f), "touch_edges"));
+}
