@@ -175,12 +175,14 @@ void addMeshCollider(LoadedScene& loaded, const Section& section, const Source& 
                      "makes more than " + std::to_string(mostParticles) + " particles",
                      "take a coarser mesh");
     place(found.mesh, section, loaded.origin);
+    const std::size_t first = loaded.scene.particles.size();
     sim::addMeshCollider(loaded.scene, {.name = section.has("name") ? section.text("name")
                                                                     : fs::path(found.file).stem().string(),
                                         .vertices = found.mesh.positions,
                                         .triangles = found.mesh.triangles,
                                         .thickness = section.number("thickness"),
                                         .color = section.vector("color")});
+    addSurface(loaded, section, first);
 }
 
 } // namespace sinew::scenes

@@ -167,9 +167,9 @@ constexpr Key keys[] = {
     {"particles", "restitution", Kind::number, "", ranges::restitution, "", "0 = no rebound, 1 = elastic; a pair has the larger of both; that of [contacts] where it is missing"},
     {"particles", "color", Kind::vector, "", ranges::color, "[0.62, 0.62, 0.6]", "linear red, green and blue"},
 
-    {"contacts", "friction", Kind::number, "", ranges::friction, "0", "Coulomb's coefficient between particles, and of faces"},
+    {"contacts", "friction", Kind::number, "", ranges::friction, "0", "Coulomb's coefficient between particles and of faces"},
     {"contacts", "restitution", Kind::number, "", ranges::restitution, "0", "0 = no rebound, 1 = elastic"},
-    {"contacts", "recovery_speed", Kind::number, "m/s", ranges::recoverySpeed, "0.5", "with which two particles part that overlap when the scene is loaded; limits no other contact"},
+    {"contacts", "recovery_speed", Kind::number, "m/s", ranges::recoverySpeed, "0.5", "with which part what overlaps when the scene is loaded: particles, faces, edges; limits no other contact"},
     {"contacts", "margin", Kind::number, "median radii", ranges::contactMargin, "0.5", "how much farther than touching particles are listed together; changes speed, no result"},
     {"contacts", "room", Kind::count, "particles", ranges::contactRoom, "24", "that may be listed with one at first; programs make more where it is too little"},
 
@@ -181,6 +181,8 @@ constexpr Key keys[] = {
     {"mesh_collider", "center", Kind::vector, "m", coordinate, "", "where the middle of the bounding box goes; unmoved where it is missing"},
     {"mesh_collider", "rotation", Kind::vector, "degrees", angle, "[0, 0, 0]", "about x, then y, then z, around the middle"},
     {"mesh_collider", "thickness", Kind::number, "m", length, "0.002", "what particles keep from the triangles beside their radius"},
+    {"mesh_collider", "friction", Kind::number, "", ranges::friction, "", "Coulomb's coefficient of a pair: the geometric mean of both; that of [contacts] where it is missing"},
+    {"mesh_collider", "restitution", Kind::number, "", ranges::restitution, "", "0 = no rebound, 1 = elastic; a pair has the larger of both; that of [contacts] where it is missing"},
     {"mesh_collider", "color", Kind::vector, "", ranges::color, "[0.55, 0.53, 0.5]", "linear red, green and blue"},
 
     {"plane", "normal", Kind::vector, "", direction, "[0, 1, 0]", "unit length, points to the free side"},

@@ -12,9 +12,6 @@ bool isSame(const sim::Surface& a, const sim::Surface& b) {
 }
 
 void requireContacts(const LoadedScene& loaded, const Section& body, const char* key, std::size_t first) {
-    if (body.has("thickness"))
-        body.fail(key, "stands beside thickness, but faces have the friction of [contacts]",
-                  "write it there, or collides = true instead of thickness");
     if (loaded.scene.particles[first].radius <= 0)
         body.fail(key, "is given, but the body touches nothing", "write collides = true");
 }

@@ -6,8 +6,7 @@
 namespace sinew::scenes {
 
 /// Gives the particles from `first` on the surface that `body` asks for; none of its keys, that of
-/// [contacts]. Throws SceneError where they touch nothing, or touch by faces, which have no surface of their
-/// own.
+/// [contacts]. Throws SceneError where they touch nothing.
 void addSurface(LoadedScene& loaded, const Section& body, std::size_t first);
 
 } // namespace sinew::scenes

@@ -237,14 +237,26 @@ TEST_F(LoadContacts, GivesBodiesSurfacesOfTheirOwn) {
     for (std::size_t body = 0; body < 5; ++body) EXPECT_EQ(surfaceOf(body), expected[body]) << body;
 }
 
+TEST_F(LoadContacts, GivesSurfacesToFaces) {
+    const sim::Scene scene =
+        load(smallCloth + "thickness = 0.04\nfriction = 0.5\n" +
+             "[[mesh_collider]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 0.5\nrestitution = 0.25\n")
+            .scene;
+    ASSERT_EQ(scene.contacts.surfaces.size(), 2u);
+    EXPECT_EQ(scene.contacts.surfaces[0].friction, 0.5f);
+    EXPECT_EQ(scene.contacts.surfaces[1].restitution, 0.25f);
+    for (std::size_t body = 0; body < 2; ++body)
+        EXPECT_EQ(scene.particles[scene.bodies.at(body).firstParticle].surface, body + 1);
+    expectError(balls + "[[mesh_collider]]\ngenerate = \"sphere\"\nfriction = -1\n",
+                "scene.toml:6: mesh_collider[0].friction is -1: must be at least 0");
+}
+
 TEST_F(LoadContacts, RefusesSurfacesOfWhatHasNone) {
     expectError(
         box + "friction = 0.5\n",
         "scene.toml:5: box[0].friction is given, but the body touches nothing: write collides = true");
     expectError(smallCloth + "restitution = 0.5\n",
                 "scene.toml:4: cloth[0].restitution is given, but the body touches nothing");
-    expectError(smallCloth + "thickness = 0.04\nfriction = 0.5\n",
-                "scene.toml:5: cloth[0].friction stands beside thickness, but faces have the friction of");
     expectError(balls + "friction = -0.5\n",
                 "scene.toml:4: particles[0].friction is -0.5: must be at least 0");
     expectError(balls + "restitution = 1.5\n",
