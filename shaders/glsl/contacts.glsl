@@ -36,7 +36,8 @@ Direction directionOf(vec3 d, uint i, uint j) {
 
 // When two that are at difference d after a substep, in which that changed by `way`, met on the way: the first root t of
 // |d - way + t way| = reach, and their difference then. Only where they move far enough to pass through each other unseen,
-// |way| > reach / 2 (contacts: 2); two that touched before, and press on, meet at once.
+// |way| > reach / 2 (contacts: 2). Two that touched before have met already: they touch like any others. Stopped where they
+// were, they stored energy in the links that pulled on, substep after substep.
 struct Meeting {
     float time; // of the substep, 0 to 1; more = they did not meet
     vec3 at;
@@ -47,8 +48,7 @@ Meeting meetingOf(vec3 d, vec3 way, float reach) {
     const vec3 start = d - way;
     precise float a = dot(way, way), b = dot(start, way), c = dot(start, start) - reach * reach;
     precise float root = b * b - a * c;
-    if (!(a > 0.25 * reach * reach) || b >= 0.0 || root < 0.0) return Meeting(never, d);
-    if (c <= 0.0) return dot(start, start) > 1e-6 * reach * reach ? Meeting(0.0, start) : Meeting(never, d);
+    if (!(a > 0.25 * reach * reach) || b >= 0.0 || c <= 0.0 || root < 0.0) return Meeting(never, d);
     precise float t = c / (sqrt(root) - b);
     if (t > 1.0) return Meeting(never, d);
     return Meeting(t, start + t * way);

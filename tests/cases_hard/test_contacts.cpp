@@ -161,6 +161,35 @@ TEST(HardContacts, Case15TwoFastBallsHeadOnKeepTheSquareOfRestitutionOfTheirEner
         }
 }
 
+// Who touches already and presses on faster than half a radius a substep was once stopped where he was, while
+// links pulled on: that stored energy in the links, substep after substep (1e5 J and more in a collapsed
+// stack).
+TEST(HardContacts, Case15BodiesThatPressIntoEachOtherFastGainNoEnergy) {
+    for (const float friction : {0.0f, 0.5f})
+        for (const std::uint32_t substeps : {4u, 8u, 16u}) {
+            Scene scene = overlappingCubes(6, 0.3f);
+            const std::size_t half = scene.particles.size() / 2;
+            scene.contacts.friction = friction;
+            for (std::size_t i = 0; i < scene.particles.size(); ++i) {
+                Particle& particle = scene.particles[i];
+                particle.position.x += i < half ? -0.5f : 0.5f;
+                particle.velocity.x = i < half ? 30.0f : -30.0f;
+            }
+            const Settings settings{.substeps = substeps, .contactRoom = 128};
+            Runner runner(scene, settings);
+            const double before = kineticEnergy(scene, runner.velocities());
+            double most = 0;
+            for (int step = 0; step < 60; ++step) {
+                const Status status = runner.run(1);
+                ASSERT_EQ(status.nonFinite + status.contactRoom, 0u);
+                most = std::max(most, kineticEnergy(scene, runner.velocities()));
+            }
+            std::printf("friction %.1f, %2u substeps: %.0f J at first, at most %.0f J\n", double{friction},
+                        substeps, before, most);
+            EXPECT_LE(most, 1.01 * before);
+        }
+}
+
 // Many fast ones: all are searched for up to 256, beyond all are slowed down and counted, never lost.
 TEST(HardContacts, Case15MoreFastParticlesThanThereIsRoomForAreSlowedDownAndCounted) {
     const auto swarm = [](std::uint32_t count, float speed) {
