@@ -37,7 +37,8 @@ void recover(uint slot, vec3 x) {
     const float before = slips[slot].w;
     if (before == 0.0) return;
     const uvec2 candidate = CONTACT(slot);
-    const float overlap = uintBitsToFloat(candidate.y) - length(x - PREDICTED(candidate.x).xyz);
+    const float reach = uintBitsToFloat(candidate.y), overlap = reach - length(x - PREDICTED(candidate.x).xyz);
+    if (before == reach) return; // interlocked bodies part in passes of their own
     slips[slot].w = recovering(before, push.recoverySpeed * step.h, overlap);
 }
 #endif

@@ -310,6 +310,35 @@ struct ContactPush {
     uint surfaces;       // where there are several: pair (a, b) of them is element a * surfaces + b of a table
 };
 
+// A particle of bodies that lie in each other when the scene is loaded. Where it is a node of a lattice: the slots before and
+// after it along the three axes, its own where there is none.
+struct InterlockNode {
+    uint before[3], after[3];
+    uint body; // from 1 on; 0 = of none of these bodies
+    uint unused0;
+};
+
+// The depth of a node from which no way leads out, and of what is no node.
+#define INTERLOCK_DEEPEST 1e30f
+
+// What becomes of two such bodies: they part along their lattices' normals, have just done so, touch like any others.
+#define INTERLOCK_APART 0
+#define INTERLOCK_PARTING 1
+#define INTERLOCK_LEFT 2
+#define INTERLOCK_SHALLOW 0.05 // of the reach of a contact: a tenth of a radius
+
+struct InterlockPair {
+    uint state;
+    uint deepest; // overlap in this step by the reach of the contact, bits of a float; 0 = nobody awake looked
+};
+
+struct InterlockPush {
+    uint count; // of particles; whole work groups
+    uint row;   // elements of a list from one candidate to the next
+    float recoverySpeed; // [m/s]
+    uint pairs; // of bodies
+};
+
 // What two surfaces make of a contact.
 struct SurfacePair {
     float friction;

@@ -66,7 +66,8 @@ struct ContactSettings {
     float friction = 0;    ///< of all whose Particle::surface is 0; see Surface
     float restitution = 0; ///< likewise
     /// With which particles, faces and edges part that overlap when the scene is loaded [m/s]. Does not limit
-    /// what a contact carries.
+    /// what a contact carries, but for bodies that interlock: of which one reaches the inside of another's
+    /// lattice.
     float recoverySpeed = 0.5f;
     std::vector<Surface> surfaces; ///< further ones, at most 64
 };

@@ -1,8 +1,6 @@
-// Hard cases 14, 15, 25 and 26: particles that touch, where it breaks others.
+// Hard cases 15, 25 and 26: particles that touch, where it breaks others. 14 is in test_interlocked.
 #include "cases_hard/trial.hpp"
-#include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
-#include "sim/compile.hpp"
 #include "sim/scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -20,29 +18,6 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double radius = double{ballRadius};
-
-// Two cubes of side^3 particles that touch, in a row, of which the second overlaps half of the first and lies
-// `off` of a cell beside it.
-Scene overlappingCubes(std::uint32_t side, float off) {
-    constexpr float spacing = 2 * ballRadius;
-    Scene scene = weightless();
-    const std::uint32_t cells = side - 1;
-    const float half = 0.5f * static_cast<float>(side) * spacing;
-    for (const float at : {0.0f, 1.0f})
-        addLattice(scene, {.name = at > 0 ? "right" : "left",
-                           .origin = {at * half, at * off * spacing, at * off * spacing},
-                           .cells = {cells, cells, cells},
-                           .spacing = spacing,
-                           .youngModulus = 1e5f});
-    for (Particle& particle : scene.particles) particle.radius = ballRadius;
-    return scene;
-}
-
-Vector3d centerOf(const std::vector<Vector3d>& x, std::size_t first, std::size_t count) {
-    Vector3d center = Vector3d::Zero();
-    for (std::size_t i = first; i < first + count; ++i) center += x[i] / static_cast<double>(count);
-    return center;
-}
 
 // Balls in a plane, as near as they can be without touching; `isFixed` ones hold everything.
 Scene sheetOfBalls(int side, bool isFixed) {
@@ -68,36 +43,6 @@ std::uint64_t hashOf(const Scene& scene, const Settings& settings, int steps,
 }
 
 } // namespace
-
-// Particle normals do not take two lattices apart that lie in each other (contacts: 3): a limit. What is held
-// is that they do not explode: the kinetic energy stays far below that of parting at once, and momentum is
-// kept.
-TEST(HardContacts, Case14CubesOverlappingByHalfDoNotExplode) {
-    for (const float off : {0.0f, 0.3f}) {
-        const auto mostOf = [&](float recoverySpeed) {
-            Scene scene = overlappingCubes(6, off);
-            scene.contacts.recoverySpeed = recoverySpeed;
-            const std::size_t count = scene.particles.size() / 2;
-            Runner runner(scene, {.substeps = 16, .contactRoom = 64});
-            double most = 0;
-            for (int step = 0; step < 60; ++step) {
-                const Status status = runner.run(1);
-                EXPECT_EQ(status.nonFinite + status.contactRoom, 0u);
-                most = std::max(most, kineticEnergy(scene, runner.velocities()));
-            }
-            const auto x = runner.positions();
-            const double apart = (centerOf(x, count, count) - centerOf(x, 0, count)).norm() / (12 * radius);
-            std::printf("off %.1f, v_rec %g m/s: kinetic energy at most %.1f J, %.2f sides apart after 1 s\n",
-                        double{off}, double{recoverySpeed}, most, apart);
-            EXPECT_LE(momentumOf(scene, runner.velocities()).norm(), 0.02) << "of 250 kg";
-            return most;
-        };
-        EXPECT_LE(mostOf(0.1f), 0.2 * mostOf(1e6f));
-    }
-    const Scene scene = overlappingCubes(6, 0.3f);
-    EXPECT_EQ(hashOf(scene, {.substeps = 16, .contactRoom = 64, .isReversed = true}, 20),
-              hashOf(scene, {.substeps = 16, .contactRoom = 64}, 20));
-}
 
 // 300 m/s are 100 radii a step, 6 to 25 a substep.
 TEST(HardContacts, Case15AProjectilePassesNoSheetThatHolds) {

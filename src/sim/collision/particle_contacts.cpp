@@ -113,9 +113,11 @@ FirstLists firstLists(const overlaps::Overlaps& found, std::span<const float> ra
     for (std::size_t i = 0; i < found.size(); ++i) {
         lists.counts[i] = static_cast<std::uint32_t>(found[i].size());
         for (std::size_t s = 0; s < found[i].size(); ++s) {
-            const auto& [other, depth] = found[i][s];
+            const std::uint32_t other = found[i][s].other;
             const std::size_t slot = s * row + i;
-            lists.contacts[slot] = {other, radii[i] + radii[other]};
+            const float reach = radii[i] + radii[other];
+            const float depth = std::min(found[i][s].depth, 0.999999f * reach); // all is what interlocks
+            lists.contacts[slot] = {other, reach};
             lists.slips[slot].w = depth;
             lists.saved[slot].w = std::bit_cast<float>(other);
             lists.offsets[slot] = depth;
@@ -253,6 +255,8 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     contacts.touching = program.scratch<layout::vec4>("contacts.touching", layout.count);
     contacts.firsts = program.scratch<float>("contacts.firsts", layout.count);
     if (contacts.hasMemory()) addMemory(program, contacts, first);
+    contacts.interlocks = interlocks::add(program, interlocks::find(scene, layout, overlaps), layout.count,
+                                          scene.contacts.recoverySpeed);
     if (contacts.hasRebound || contacts.surfaces.hasRestitution || contacts.hasMemory())
         contacts.before = program.scratch<layout::vec4>("contacts.before", layout.count);
     if (contacts.surfaces.hasRestitution) {
@@ -278,6 +282,11 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
                const ParticleBuffers& next, bool isFirst) {
     addListUpdate(program, contacts, predicted);
     if (isFirst) cutting::addContactOpening(program, contacts);
+    if (contacts.interlocks) {
+        interlocks::addPasses(program, *contacts.interlocks,
+                              {contacts.lists, contacts.slips, contacts.touching}, predicted);
+        addListUpdate(program, contacts, predicted); // they have moved since
+    }
     sleep::addTouches(program, predicted);
     addCount(program, contacts, predicted);
     addGather(program, contacts, predicted, next);
@@ -311,6 +320,7 @@ void addPublishing(ProgramBuilder& program, const Contacts& contacts) {
                      : contacts.hasMemory() ? k::publishSlips
                                             : k::publishLists,
                      contacts.push.count, buffers, contacts.push);
+    if (contacts.interlocks) interlocks::addClosing(program, *contacts.interlocks);
 }
 
 } // namespace sinew::sim::collision::particle_contacts

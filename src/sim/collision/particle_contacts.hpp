@@ -6,6 +6,7 @@
 #pragma once
 
 #include "sim/collision/contact_lists.hpp"
+#include "sim/collision/interlocks.hpp"
 #include "sim/collision/planes.hpp"
 #include "sim/collision/surfaces.hpp"
 
@@ -28,6 +29,8 @@ struct Contacts {
 
     /// Pairs of the uncut bodies that never touch; invalid where no body that may be cut touches.
     BufferId allExcluded;
+
+    std::optional<interlocks::Interlocks> interlocks; ///< only where hasRecovery
 
     bool isCuttable() const { return allExcluded != BufferId{}; }
     bool hasMemory() const { return surfaces.hasFriction || hasRecovery; }

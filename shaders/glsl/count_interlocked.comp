@@ -1,0 +1,48 @@
+#version 460
+// Interlocked bodies, first pass: how many contacts with partners push a particle, which is what it is divided by. Takes these
+// contacts out of the ordinary passes, how deep they are into account for close_interlocks, and copies velocities.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "interlocks.glsl"
+
+layout(std430, binding = 5) buffer Pairs { InterlockPair pairs[]; };
+layout(std430, binding = 6) writeonly buffer Touching { vec4 touching[]; }; // x, contacts x inverse mass
+layout(std430, binding = 8) readonly buffer Predicted { vec4 predicted[]; };
+layout(std430, binding = 9) readonly buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
+layout(std430, binding = 10) writeonly buffer Moving { vec4 moving[]; };
+layout(std430, binding = 11) buffer Slips { vec4 slips[]; }; // w: what is left of an overlap [m]
+
+// Somebody awake looks at the pairs of a body: 0 is nobody, next to 0 no contact.
+void see(uint body) {
+    for (uint p = partners[body - 1u]; p < partners[body]; p += 2u) atomicMax(pairs[partners[p + 1u]].deepest, 1u);
+}
+
+// Whether the candidate in a slot is a contact of a pair that parts, and pushes.
+bool pushes(uint i, uint slot, uint pair, vec3 x, vec4 velocity) {
+    const uvec2 candidate = contacts[slot];
+    const float reach = uintBitsToFloat(candidate.y);
+    const uint state = pairs[pair].state;
+    // An overlap of all of the reach is what ordinary contacts never touch in; a little less recovers there.
+    if (state == INTERLOCK_PARTING) slips[slot] = vec4(0.0, 0.0, 0.0, reach);
+    else if (state == INTERLOCK_LEFT && slips[slot].w == reach) slips[slot].w = 0.999999 * reach;
+    const vec3 d = x - predicted[candidate.x].xyz;
+    if (state != INTERLOCK_PARTING || !touches(d, reach)) return false;
+    atomicMax(pairs[pair].deepest, floatBitsToUint(max((reach - length(d)) / reach, 1e-30)));
+    const vec3 way = step.h * (velocity.xyz - velocities[candidate.x].xyz);
+    return partingOf(normalOf(i, candidate.x, d), d, way, reach, step.h * push.recoverySpeed) > 0.0;
+}
+
+void main() {
+    const uint i = itemIndex(push.count), body = nodes[i].body, n = body > 0u ? counts[i] : 0u;
+    const vec3 x = predicted[i].xyz;
+    const vec4 velocity = velocities[i];
+    if (body > 0u && velocity.w > 0.0) see(body);
+    float contactCount = 0.0;
+    for (uint s = 0u; s < n; ++s) {
+        const uint slot = s * push.row + i, other = nodes[contacts[slot].x].body;
+        const uint pair = other > 0u ? pairOf(body, other) : noPair;
+        if (pair != noPair) contactCount += float(pushes(i, slot, pair, x, velocity));
+    }
+    touching[i] = vec4(x, contactCount * velocity.w);
+    moving[i] = velocity;
+}

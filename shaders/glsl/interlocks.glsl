@@ -1,0 +1,36 @@
+// What the two passes that part interlocked bodies share: which contacts are theirs, along which normal each pushes, and
+// how far (contacts: 3). Both ends of a contact compute equal bits, or exactly opposite ones.
+#include "contacts.glsl"
+
+layout(std430, binding = 0) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
+layout(std430, binding = 1) readonly buffer Counts { uint counts[]; };
+layout(std430, binding = 2) readonly buffer Normals { vec4 normals[]; }; // out of the body, 0 = none; depth at rest [m]
+layout(std430, binding = 3) readonly buffer Nodes { InterlockNode nodes[]; };
+layout(std430, binding = 4) readonly buffer Partners { uint partners[]; }; // firsts of bodies; partner and pair of each
+layout(std140, binding = 7) uniform Step { StepParams step; };
+layout(push_constant) uniform Push { InterlockPush push; };
+
+const uint noPair = ~0u;
+
+uint pairOf(uint body, uint other) {
+    for (uint p = partners[body - 1u]; p < partners[body]; p += 2u)
+        if (partners[p] == other) return partners[p + 1u];
+    return noPair;
+}
+
+// From j to i: out of the body of the one that lies less deep, of two as deep the first. Between two surfaces, the line
+// between them: where these have parted they touch like any others.
+vec3 normalOf(uint i, uint j, vec3 d) {
+    const vec4 own = normals[i], other = normals[j];
+    const bool isOwn = own.w < other.w || own.w == other.w && i < j;
+    const vec3 n = isOwn ? -own.xyz : other.xyz;
+    if (max(own.w, other.w) > 0.0 && n != vec3(0.0)) return n;
+    return directionOf(d, i, j).n;
+}
+
+// By which a contact parts two in a substep that changed their difference d by `way`: what they came nearer, and what is
+// left of the overlap no faster than `most` [m].
+float partingOf(vec3 n, vec3 d, vec3 way, float reach, float most) {
+    precise float depth = reach - dot(n, d), approach = -dot(n, way);
+    return max(0.0, min(depth, approach + most));
+}
