@@ -2,6 +2,9 @@
 #include "kernel.glsl"
 layout(push_constant) uniform Push { CutPush push; };
 
+// Of an uncut body, in the unit in which pieces are weighed.
+#define WHOLE_PIECE 1073741824.0
+
 // From a node to the next along a direction of one step at most in x, y and z.
 int offsetOf(ivec3 direction) {
     return direction.x + direction.y * int(push.rowStride) + direction.z * int(push.sliceStride);

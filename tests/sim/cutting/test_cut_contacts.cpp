@@ -195,6 +195,41 @@ TEST(Cut, LetsPiecesSleepEachForItself) {
     EXPECT_EQ(status.sleeping, 2 * ofCube - 2 * 25) << "the two layers above the first cut are awake";
 }
 
+// A hand takes what is linked to what it takes: not what lies across a cut, however near, and with the mass
+// of the piece alone.
+TEST(Cut, LetsAHandHoldOnePieceAlone) {
+    for (const bool isReversed : {false, true}) {
+        const Scene scene = restingCubes();
+        test::Runner runner(scene, {.substeps = 8, .isReversed = isReversed, .grabs = 1});
+        const std::vector<Vec3> from{{-1, 0.11f, -1}, {-1, 0.11f, 1}},
+            to{{0.5f, 0.11f, -1}, {0.5f, 0.11f, 1}};
+        ASSERT_EQ(runner.cut(bladeAt(from, to)).pieces, 3u);
+        const auto before = runner.positions();
+        std::uint32_t held = 0;
+        for (std::uint32_t i = 0; i < ofCube; ++i)
+            if (std::abs(before[i].y() - 0.15) < 0.01 && std::abs(before[i].x() - 0.1) < 0.01 &&
+                std::abs(before[i].z() - 0.1) < 0.01)
+                held = i;
+        ASSERT_NE(held, 0u);
+        const Vec3& place = scene.particles[held].position;
+        Grab grab{.particle = held, .radius = 0.12f, .target = place, .maxAcceleration = 1};
+        runner.step({.dt = scene.dt, .gravity = scene.gravity, .grabs = std::span(&grab, 1)});
+        grab.target.y += 5; // far: pulled as hard as the hand may
+        grab.maxSpeed = 100;
+        for (int step = 0; step < 30; ++step)
+            ASSERT_EQ(runner.step({.dt = scene.dt, .gravity = scene.gravity, .grabs = std::span(&grab, 1)})
+                          .nonFinite,
+                      0u);
+        const auto x = runner.positions();
+        double upper = 0, lower = 0;
+        for (std::uint32_t i = 0; i < ofCube; ++i)
+            (before[i].y() > 0.11 ? upper : lower) += x[i].y() - before[i].y();
+        std::printf("held half went %.4f m, the other %.2e m\n", upper / 50, lower / 75);
+        EXPECT_NEAR(upper / 50, 0.5 * 1 * 0.5 * 0.5, 0.02) << "at 1 m/s^2 for half a second";
+        EXPECT_LT(std::abs(lower / 75), 1e-5);
+    }
+}
+
 TEST(Topology, ThatIsLoadedWakesAll) {
     test::Runner runner(restingCubes(), sleeping);
     Simulation& simulation = runner.simulation();

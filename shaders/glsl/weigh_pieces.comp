@@ -1,0 +1,17 @@
+#version 460
+// After pieces were found anew: what each one weighs, for the hands that hold it, as a part of the uncut body in whole numbers, so that
+// the order does not matter.
+#extension GL_GOOGLE_include_directive : require
+#include "cut.glsl"
+
+layout(std430, binding = 0) readonly buffer Particles { uint particles[]; }; // of each slot
+layout(std430, binding = 1) readonly buffer Pieces { uint pieces[]; };
+layout(std430, binding = 2) readonly buffer UncutBodies { GrabBody uncutBodies[]; };
+layout(std430, binding = 3) buffer Weights { uint weights[]; }; // of the piece that is named after a particle
+
+void main() {
+    const uint item = itemIndex(push.count);
+    if (item >= push.count) return;
+    const uint p = particles[push.first + item];
+    if (p != NO_PARTICLE) atomicAdd(weights[pieces[p]], uint(uncutBodies[p].part * WHOLE_PIECE + 0.5));
+}

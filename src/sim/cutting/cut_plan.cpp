@@ -1,0 +1,170 @@
+// Reads the grids, and makes runs of bodies that are alike.
+#include "sim/cutting/cut_plan.hpp"
+
+#include "sim/constraints/grab.hpp"
+#include "sim/lattice/batches.hpp"
+#include "sim/lattice/link_masks.hpp"
+#include "sim/lattice/pieces.hpp"
+#include "sim/ranges.hpp"
+#include "sim/sleep.hpp"
+#include "sim/surface/cut_surface.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+namespace sinew::sim::cutting {
+
+namespace {
+
+// Words by slot.
+struct Initial {
+    std::vector<std::uint32_t> links, cells, particles;
+    lattice::PieceFinder pieces;
+};
+
+std::vector<std::uint32_t> cuttableGrids(const Scene& scene, const Settings& settings) {
+    if (settings.solver != Solver::split || std::ranges::none_of(scene.grids, &Grid::isCuttable)) return {};
+    return lattice::computedGrids(scene, settings);
+}
+
+Run runOf(const Grid& grid, const lattice::Box& box) {
+    return {.push = {.first = box.origin,
+                     .count = box.slots,
+                     .rowStride = lattice::isSheet(grid) ? 0 : box.rowStride,
+                     .sliceStride = box.sliceStride,
+                     .stiffLinks = lattice::stiffLinks(grid),
+                     .spacing = grid.restLength[0],
+                     .contactRow = 0},
+            .hasVolumes = hasCellVolumes(grid)};
+}
+
+bool isAlike(const Run& a, const Run& b) {
+    return a.push.rowStride == b.push.rowStride && a.push.sliceStride == b.push.sliceStride &&
+           a.push.stiffLinks == b.push.stiffLinks && a.push.spacing == b.push.spacing &&
+           a.hasVolumes == b.hasVolumes;
+}
+
+// Each link once, from the node that owns it.
+void joinLinks(const Run& run, Initial& initial) {
+    for (std::uint32_t i = run.push.first; i < run.push.first + run.push.count; ++i)
+        for (std::uint32_t bit = lattice::firstOwned; bit < lattice::directionCount; ++bit) {
+            if ((initial.links[i] >> bit & 1) == 0) continue;
+            const auto [x, y, z] = lattice::directionOf(bit);
+            initial.pieces.join(i,
+                                i + static_cast<std::uint32_t>(x + y * static_cast<int>(run.push.rowStride) +
+                                                               z * static_cast<int>(run.push.sliceStride)));
+        }
+}
+
+Initial readGrids(const Scene& scene, std::span<const std::uint32_t> grids, const StateLayout& layout,
+                  std::vector<Run>& runs) {
+    Initial initial{std::vector<std::uint32_t>(layout.count), std::vector<std::uint32_t>(layout.count),
+                    std::vector<std::uint32_t>(layout.count, NO_PARTICLE),
+                    lattice::PieceFinder(layout.count)};
+    const std::vector<lattice::Box> boxes = lattice::boxesOf(scene, grids);
+    bool isRowOpen = false; // whether a run ends at the grid before
+    for (std::size_t g = 0; g < grids.size(); ++g) {
+        const Grid& grid = scene.grids[grids[g]];
+        const Run run = runOf(grid, boxes[g]);
+        if (!grid.isCuttable) {
+            isRowOpen = false;
+            continue;
+        }
+        if (isRowOpen && isAlike(runs.back(), run))
+            runs.back().push.count = run.push.first + run.push.count - runs.back().push.first;
+        else
+            runs.push_back(run);
+        isRowOpen = true;
+        lattice::writeLinks(grid, boxes[g], initial.links);
+        joinLinks(run, initial);
+        lattice::writeCells(grid, boxes[g], initial.cells);
+        for (std::uint32_t i = 0; i < grid.node.size(); ++i)
+            initial.particles[layout.slot[grid.firstParticle + i]] = grid.firstParticle + i;
+    }
+    return initial;
+}
+
+std::uint32_t groupsOf(std::uint32_t items) {
+    return (items - 1) / GROUP_ITEMS + 1;
+}
+
+void addPieces(ProgramBuilder& program, Cut& cut, Initial& initial, std::size_t particles) {
+    const lattice::Pieces pieces = initial.pieces.finish(initial.particles, particles);
+    const auto runs = static_cast<std::uint32_t>(cut.runs.size());
+    std::vector<std::uint32_t> groups;
+    for (const Run& run : cut.runs) groups.push_back(groupsOf(run.push.count));
+    for (const Run& run : cut.runs) groups.push_back(groupsOf(chunksOf(run)));
+    // every round leaves at most half of the pieces that are not yet whole
+    cut.rounds = static_cast<std::uint32_t>(std::bit_width(initial.links.size())) + 1;
+    cut.labels = program.upload("pieces.labels", pieces.labels);
+    cut.particles = program.upload("pieces.particles", initial.particles);
+    cut.groups = program.upload("pieces.groups", groups);
+    cut.arguments = program.scratch<layout::DispatchArguments>("pieces.arguments", 3 * std::uint64_t{runs});
+    cut.buffers.pieces = program.upload("pieces", pieces.ofParticles);
+    cut.buffers.pieceSizes = program.upload("pieces.sizes", pieces.sizes);
+    cut.buffers.counts = program.upload(
+        "cut.counts",
+        std::vector{layout::CutCounts{.links = 0, .linksOfStep = 0, .pieces = pieces.count, .missing = 0}});
+}
+
+void addSurface(ProgramBuilder& program, const Scene& scene, const Settings& settings,
+                const StateLayout& layout, Cut& cut) {
+    surface::CutSource source{.runs = {},
+                              .cells = cut.cells,
+                              .particles = cut.particles,
+                              .groups = cut.groups,
+                              .arguments = cut.arguments,
+                              .firstArgument = 2 * static_cast<std::uint32_t>(cut.runs.size())};
+    for (const Run& run : cut.runs) source.runs.push_back(run.push);
+    cut.surface = surface::addCutSurface(program, scene, settings, layout, source);
+}
+
+void addHands(ProgramBuilder& program, Cut& cut, const constraints::grab::Grabs& grabs) {
+    const BufferSpec spec = program.program().buffers[grabs.bodies.index]; // adding moves the list
+    std::vector<layout::GrabBody> bodies(spec.count);
+    std::memcpy(bodies.data(), spec.initial.data(), spec.initial.size());
+    cut.uncutBodies = program.upload("pieces.uncut_bodies", bodies);
+    cut.weights = program.scratch<std::uint32_t>("pieces.weights", spec.count);
+    cut.buffers.topology.push_back(grabs.bodies);
+}
+
+} // namespace
+
+Cut addBuffers(ProgramBuilder& program, const Scene& scene, const Settings& settings,
+               const ParticleBuffers& particles) {
+    const StateLayout& layout = particles.layout;
+    Cut cut{.usesTexels = settings.forms.usesTexels};
+    const std::vector<std::uint32_t> grids = cuttableGrids(scene, settings);
+    if (grids.empty()) return cut;
+    Initial initial = readGrids(scene, grids, layout, cut.runs);
+    if (cut.runs.empty()) return cut;
+    cut.buffers.links = program.upload("cut.links", initial.links);
+    const bool hasVolumes = std::ranges::any_of(cut.runs, &Run::hasVolumes);
+    const bool hasSurface = surface::hasCutSurface(scene, settings);
+    if (hasVolumes || hasSurface) cut.cells = program.upload("cut.cells", initial.cells);
+    if (hasVolumes) cut.buffers.wholeCells = program.upload("cut.whole_cells", initial.cells);
+    cut.buffers.hits = program.scratch<layout::LinkHits>("cut.hits", layout.count);
+    cut.buffers.dirty = program.scratch<std::uint32_t>("cut.dirty", layout.count / 32 + 1);
+    cut.buffers.savedLinks = program.scratch<std::uint32_t>("cut.saved_links", layout.count);
+    cut.buffers.places = program.scratch<layout::vec4>("cut.places", layout.count);
+    cut.placesBefore = program.scratch<layout::vec4>("cut.places_before", layout.count);
+    cut.blade = program.scratch<layout::BladeHead>("cut.blade", 1);
+    cut.points = program.scratch<layout::vec4>("cut.points", 2 * ranges::mostBladePoints);
+    cut.work = program.scratch<layout::CutWork>("cut.work", 1);
+    addPieces(program, cut, initial, scene.particles.size());
+    CuttingBuffers& buffers = cut.buffers;
+    for (const Run& run : cut.runs)
+        buffers.runs.push_back({run.push.first, run.push.count, run.push.rowStride, run.push.sliceStride});
+    buffers.topology = {buffers.links,  buffers.hits,   cut.placesBefore,  cut.labels,
+                        buffers.counts, buffers.pieces, buffers.pieceSizes};
+    if (buffers.wholeCells != BufferId{}) buffers.topology.push_back(buffers.wholeCells);
+    if (particles.sleep) buffers.topology.push_back(particles.sleep->components);
+    if (particles.grabs) addHands(program, cut, *particles.grabs);
+    for (const BufferId buffer : buffers.topology) program.carry(buffer, buffer);
+    program.program().cutting = buffers;
+    if (hasSurface) addSurface(program, scene, settings, layout, cut);
+    return cut;
+}
+
+} // namespace sinew::sim::cutting

@@ -1,0 +1,39 @@
+// The buffers of bodies that may be cut, and what they hold of an uncut one.
+#pragma once
+
+#include "layout.h"
+#include "sim/compile.hpp"
+
+namespace sinew::sim::surface {
+struct CutSurface;
+}
+
+namespace sinew::sim::cutting {
+
+/// A CutRun, with what else its passes say.
+struct Run {
+    layout::CutPush push{};
+    bool hasVolumes = false;
+};
+
+struct Cut {
+    std::vector<Run> runs;
+    CuttingBuffers buffers;
+    BufferId cells, placesBefore, blade, points, work;
+    BufferId labels, particles, arguments, groups; // of pieces
+    BufferId uncutBodies, weights;                 // likewise, where hands may hold some
+    std::shared_ptr<surface::CutSurface> surface;  // none where no skin is clipped
+    bool usesTexels = false;
+    std::uint32_t rounds = 0;
+};
+
+/// Items of a run's kernels that take a chunk of slots each.
+inline std::uint32_t chunksOf(const Run& run) {
+    return (run.push.count - 1) / PIECE_CHUNK + 1;
+}
+
+/// No runs where no body of `scene` may be cut.
+Cut addBuffers(ProgramBuilder& program, const Scene& scene, const Settings& settings,
+               const ParticleBuffers& particles);
+
+} // namespace sinew::sim::cutting
