@@ -1,0 +1,161 @@
+// Prints how deep particles are in each other in columns, stacks, a drop and clutter at 8, 16 and 32
+// substeps: the scenes by which the ways to share out contacts were compared. docs/accuracy.md holds the
+// figures side by side. Not a test: what can fail of it is one in test_particle_contacts and
+// test_contact_cases.
+//   measure_contacts [part of a scene's name]
+#include "sinew/overlap.hpp"
+#include "sinew/runner.hpp"
+
+#include "sim/bodies.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <string>
+
+using namespace sinew;
+using namespace sinew::tools;
+
+namespace {
+
+constexpr float spacing = 0.05f, half = spacing / 2; // of lattices, and the radius of their particles
+constexpr std::uint32_t samples = 4;                 // a frame of 1/60 s: what rings shows its peaks
+
+struct Measured {
+    std::string name;
+    double seconds;
+    double radius; // that depths are given in [m]
+    sim::Scene scene;
+};
+
+/// As the prototype had them: they keep their radius from the floor, and every particle has the mass of a
+/// cell. (Those of a lattice on its faces have half and less, and give the more.)
+void addCube(sim::Scene& scene, std::uint32_t side, float youngModulus, const sim::Vec3& lowest) {
+    const std::size_t first = scene.particles.size();
+    sim::addLattice(scene, {.name = "cube",
+                            .origin = lowest,
+                            .cells = {side - 1, side - 1, side - 1},
+                            .spacing = spacing,
+                            .youngModulus = youngModulus,
+                            .radius = half});
+    for (std::size_t i = first; i < scene.particles.size(); ++i) {
+        scene.particles[i].contactOffset = half;
+        scene.particles[i].inverseMass = 1 / (1000 * spacing * spacing * spacing);
+    }
+}
+
+sim::Scene onAFloor(float damping) {
+    sim::Scene scene;
+    scene.damping = damping;
+    scene.contacts.friction = 0.5f;
+    scene.planes = {{.friction = 0.5f}};
+    return scene;
+}
+
+/// `count` cubes of 8^3 on each other, every second one aside by `offset` of a cell along x and z.
+sim::Scene stack(std::uint32_t count, float offset) {
+    sim::Scene scene = onAFloor(1);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const float aside = i % 2 == 1 ? offset * spacing : 0;
+        addCube(scene, 8, 1e6f, {aside, half + static_cast<float>(8 * i) * spacing, aside});
+    }
+    return scene;
+}
+
+sim::Scene drop() {
+    sim::Scene scene = onAFloor(1);
+    addCube(scene, 10, 1e5f, {0, 0.5f + half, 0});
+    return scene;
+}
+
+sim::Scene column(float ratio) {
+    sim::Scene scene = onAFloor(0);
+    for (int i = 0; i < 4; ++i)
+        scene.particles.push_back({.position = {0, half + static_cast<float>(i) * spacing, 0},
+                                   .inverseMass = i == 3 ? 1 / ratio : 1,
+                                   .contactOffset = half,
+                                   .radius = half});
+    return scene;
+}
+
+/// Packed rows in a box that they fill, or as many at random places above its floor.
+sim::Scene clutter(std::uint32_t random) {
+    constexpr float radius = 0.05f, friction = 0.3f, wide = 0.6f;
+    sim::Scene scene;
+    scene.contacts.friction = friction;
+    scene.planes = {{.friction = friction}};
+    for (const float sign : {1.0f, -1.0f}) {
+        scene.planes.push_back({.normal = {sign, 0, 0}, .offset = -wide, .friction = friction});
+        scene.planes.push_back({.normal = {0, 0, sign}, .offset = -wide, .friction = friction});
+    }
+    if (random > 0)
+        sim::addParticles(scene, {.center = {0, 0.85f, 0}, .random = random, .size = {1.2f, 1.5f, 1.2f}});
+    else
+        sim::addParticles(
+            scene, {.center = {0, 0.6f, 0}, .count = {10, 10, 10}, .jitter = 0.0099f, .radius = radius});
+    return scene;
+}
+
+double speedOf(const State& state) {
+    double squares = 0;
+    for (const auto& v : state.velocities)
+        for (std::size_t axis = 0; axis < 3; ++axis) squares += double{v[axis]} * double{v[axis]};
+    return std::sqrt(squares / static_cast<double>(state.velocities.size()));
+}
+
+double topOf(const State& state) {
+    double top = -1e9;
+    for (const auto& x : state.positions) top = std::max(top, double{x[1]});
+    return top;
+}
+
+void measure(Session& session, Measured measured, std::uint32_t substeps) {
+    sim::Scene& scene = measured.scene;
+    scene.dt = 1.0f / 60 / samples;
+    const auto steps = static_cast<std::uint32_t>(std::lround(measured.seconds * 60.0 * samples));
+    Runner runner(session, scene, {.substeps = substeps / samples, .contactRoom = 64});
+    double deepest = 0, highest = 0, squares = 0, slowSince = 0;
+    std::uint32_t late = 0;
+    Overlap last;
+    State state;
+    for (std::uint32_t step = 1; step <= steps; ++step) {
+        runner.advance(1, 1);
+        if (runner.divergence()) break;
+        state = runner.readState();
+        last = overlapOf(scene, state).value_or(Overlap{});
+        deepest = std::max(deepest, last.max);
+        highest = std::max(highest, topOf(state));
+        const double speed = speedOf(state);
+        if (speed > 0.01) slowSince = double{scene.dt} * step;
+        if (step + 30 * samples <= steps) continue; // the last half second
+        squares += speed * speed;
+        ++late;
+    }
+    std::printf("%-28s %2u substeps: deepest %6.3f, at the end %6.3f (RMS %6.4f) radii; v_rms %8.2e m/s over "
+                "the last 0.5 s, below 1 cm/s after %4.2f s; top at %5.3f, at most %5.3f m%s\n",
+                measured.name.c_str(), substeps, deepest / measured.radius, last.max / measured.radius,
+                last.rms / measured.radius, std::sqrt(squares / std::max(late, 1u)), slowSince, topOf(state),
+                highest, runner.divergence() ? "; diverged" : "");
+    std::fflush(stdout);
+}
+
+std::vector<Measured> allMeasured() {
+    constexpr double ball = 0.05, node = double{half};
+    return {
+        {"two cubes, offset", 1.5, node, stack(2, 0.5f)},  {"five cubes, aligned", 2.5, node, stack(5, 0)},
+        {"five cubes, offset", 2.5, node, stack(5, 0.5f)}, {"drop of a cube", 2.5, node, drop()},
+        {"column, ratio 1", 2, node, column(1)},           {"column, ratio 10", 2, node, column(10)},
+        {"column, ratio 100", 2, node, column(100)},       {"column, ratio 1000", 2, node, column(1000)},
+        {"clutter 1000, packed", 4, ball, clutter(0)},     {"clutter 1000, random", 4, ball, clutter(1000)}};
+}
+
+} // namespace
+
+int main(int count, char** arguments) {
+    const std::string part = count > 1 ? arguments[1] : "";
+    Session session{DeviceOptions{}};
+    for (const Measured& measured : allMeasured())
+        if (measured.name.find(part) != std::string::npos)
+            for (const std::uint32_t substeps : {8u, 16u, 32u}) measure(session, measured, substeps);
+}
