@@ -18,10 +18,11 @@ struct Shipped {
     std::uint32_t frames; // of 1/60 s
     std::uint32_t points = mostPoints;
 };
-// Of contacts so many frames that the first of them are over; their trials end where 1 % is long reached.
+// Of contacts so many frames that the first of them are over; their trials end where 1 % is long reached. Not
+// cloth_on_sphere: it creases as it touches, and from that frame on a disturbance of 1e-7 is one of 1e-3.
 constexpr Shipped shipped[] = {{"beam", 18},     {"beam_stiff", 18}, {"cloth_study", 30},
                                {"chain", 30},    {"cube_load", 30},  {"clutter", 30, 6},
-                               {"stack", 30, 7}, {"incline", 30, 6}, {"cloth_on_sphere", 30, 6}};
+                               {"stack", 30, 7}, {"incline", 30, 6}, {"cube", 30, 5}};
 
 constexpr std::uint32_t wholeFrame = 0; // all sweeps of a frame in one substep
 

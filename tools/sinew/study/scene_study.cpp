@@ -190,7 +190,7 @@ SceneResult study(Session& session, const StudyScene& scene, std::uint32_t point
         fmt::print(stderr, "{}: timing {} runs in turns\n", scene.name, toTime.size());
         timeAll(session, scene, toTime, store);
     }
-    if (result.isOfContacts) result.rest = studyRest(session, scene, store);
+    if (result.isOfContacts && !app::isInterrupted()) result.rest = studyRest(session, scene, store);
     std::erase_if(trials, [](const Trial& trial) { return !trial.isRun; });
     result.trials = std::move(trials);
     return result;
