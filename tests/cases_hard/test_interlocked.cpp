@@ -169,6 +169,20 @@ TEST(HardContacts, Case14PartsAtTheSpeedOfRecovery) {
     }
 }
 
+// What rebounds does so along the lines between particles, meanwhile too: they part all the same.
+TEST(HardContacts, Case14PartsWhereParticlesRebound) {
+    for (const float restitution : {0.5f, 1.0f}) {
+        Scene scene = interlockedCubes({.off = 0.3});
+        scene.contacts.restitution = restitution;
+        const Parting parting = part(scene, {.substeps = 16, .contactRoom = 64}, 120);
+        std::printf("restitution %.1f: ", double{restitution});
+        print({.off = 0.3}, 16, parting);
+        EXPECT_EQ(parting.deepest, 0);
+        EXPECT_GE(parting.apart, 1);
+        EXPECT_LE(parting.energy, 70) << "[J]";
+    }
+}
+
 TEST(HardContacts, Case14EndsInTheSameBitsInReversedOrder) {
     const Scene scene = interlockedCubes({.off = 0.3, .angle = 0.35, .spin = 3});
     const auto hashOf = [&](bool isReversed) {
