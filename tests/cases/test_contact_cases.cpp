@@ -77,6 +77,22 @@ struct Hill {
     }
 };
 
+// Balls on rigid strings of 1 m, the first of them pulled aside.
+Scene cradle(std::uint32_t balls, std::uint32_t raised) {
+    Scene scene;
+    scene.contacts.restitution = 1;
+    for (std::uint32_t i = 0; i < balls; ++i) {
+        const float x = static_cast<float>(2 * i) * ballRadius, angle = i < raised ? 0.5f : 0;
+        scene.particles.push_back(ballAt({x - std::sin(angle), 1 - std::cos(angle), 0}));
+    }
+    for (std::uint32_t i = 0; i < balls; ++i) {
+        scene.particles.push_back(
+            {.position = {static_cast<float>(2 * i) * ballRadius, 1, 0}, .inverseMass = 0});
+        scene.distances.push_back({.a = i, .b = balls + i, .restLength = 1});
+    }
+    return scene;
+}
+
 // A block of side^3 particles on a bed of particles that never move, each right above one; gravity leans.
 Scene blockOnBed(std::uint32_t cells, double degrees, float friction) {
     constexpr float spacing = 2 * ballRadius;
@@ -246,6 +262,76 @@ TEST(Case21ElasticCollision, OfARowKeepsMomentumAndGainsNoEnergy) {
     EXPECT_NEAR(momentumOf(scene, v).x(), 2, 4e-6);
     EXPECT_LE(most, 2 * (1 + 1e-5));
     EXPECT_GE(kineticEnergy(scene, v), 0.5);
+}
+
+// Newton's cradle: balls on strings of 1 m that just touch, of which the first `raised` are let go from half
+// a radian. As many leave at the other end, with nearly all of the energy; a substep takes the blow on by one
+// ball.
+TEST(Case21ElasticCollision, OfACradleLetsAsManyBallsGoAsStrikeIt) {
+    constexpr std::uint32_t balls = 7;
+    for (const std::uint32_t substeps : {16u, 32u})
+        for (const std::uint32_t raised : {1u, 2u, 4u}) {
+            const Scene scene = cradle(balls, raised);
+            CaseRunner runner(scene, {.substeps = substeps});
+            const auto energyOf = [&](std::uint32_t first) {
+                const auto x = runner.positions(), v = runner.velocities();
+                double energy = 0;
+                for (std::uint32_t i = first; i < balls; ++i)
+                    energy += 0.5 * v[i].squaredNorm() + g * x[i].y();
+                return energy;
+            };
+            const double before = energyOf(0);
+            double most = before;
+            for (int step = 0; step < 36; ++step) {
+                runner.run(1);
+                most = std::max(most, energyOf(0));
+            }
+            const double after = energyOf(0), leaving = energyOf(balls - raised);
+            double slowest = 10, staying = 0;
+            const auto v = runner.velocities();
+            for (std::uint32_t i = 0; i < balls; ++i)
+                if (i < balls - raised)
+                    staying = std::max(staying, v[i].norm());
+                else
+                    slowest = std::min(slowest, v[i].norm());
+            std::printf(
+                "cradle, %2u substeps, %u of %u: %.2f %% of the energy left, %.2f %% leave with, slowest "
+                "at %.3f m/s, others at most at %.4f m/s; never more than %.6f of the energy\n",
+                substeps, raised, balls, 100 * after / before, 100 * leaving / before, slowest, staying,
+                most / before);
+            EXPECT_GE(leaving, 0.999 * before);
+            EXPECT_LE(staying, 0.005) << "[m/s]";
+            EXPECT_GE(slowest, 1.45) << "[m/s]";
+            EXPECT_LE(most, before * (1 + 1e-4));
+        }
+}
+
+// To and fro, five blows and more. Less of the energy is lost in shorter substeps, none is gained.
+TEST(Case21ElasticCollision, OfACradleGainsNothingInFiveSeconds) {
+    constexpr std::uint32_t balls = 5;
+    std::vector<double> lost;
+    for (const std::uint32_t substeps : {8u, 16u}) {
+        const Scene scene = cradle(balls, 1);
+        CaseRunner runner(scene, {.substeps = substeps});
+        const auto energyOf = [&] {
+            double energy = kineticEnergy(scene, runner.velocities());
+            const auto x = runner.positions();
+            for (std::uint32_t i = 0; i < balls; ++i) energy += g * x[i].y();
+            return energy;
+        };
+        const double before = energyOf();
+        double most = before;
+        for (int step = 0; step < 300; ++step) {
+            runner.run(1);
+            most = std::max(most, energyOf());
+        }
+        lost.push_back(1 - energyOf() / before);
+        std::printf("cradle, %2u substeps: %.2f %% of the energy lost in 5 s, never more than %.6f\n",
+                    substeps, 100 * lost.back(), most / before);
+        EXPECT_LE(most, before * (1 + 1e-3));
+    }
+    EXPECT_LE(lost[0], 0.2);
+    EXPECT_LE(lost[1], lost[0]);
 }
 
 // In a box without gravity. A pair keeps its energy; of three that meet within one substep some is lost, and
