@@ -22,6 +22,7 @@ void main() {
         const ContactCandidate candidate = contacts[slot];
         const int bit = bitTo(int(candidate.other) - int(i), push.rowStride, push.sliceStride);
         if (bit < 0 || (dead >> bit & 1u) == 0u) continue;
-        slips[slot].w = max(0.0, candidate.reach - length(places[i].xyz - places[candidate.other].xyz));
+        const float overlap = candidate.reach - length(places[i].xyz - places[candidate.other].xyz);
+        slips[slot].w = clamp(overlap, 0.0, 0.999999 * candidate.reach); // all of it would be what interlocks
     }
 }
