@@ -200,7 +200,7 @@ TEST(Cut, LetsPiecesSleepEachForItself) {
 TEST(Cut, LetsAHandHoldOnePieceAlone) {
     for (const bool isReversed : {false, true}) {
         const Scene scene = restingCubes();
-        test::Runner runner(scene, {.substeps = 8, .isReversed = isReversed, .grabs = 1});
+        test::Runner runner(scene, {.substeps = 8, .grabs = 1, .isReversed = isReversed});
         const std::vector<Vec3> from{{-1, 0.11f, -1}, {-1, 0.11f, 1}},
             to{{0.5f, 0.11f, -1}, {0.5f, 0.11f, 1}};
         ASSERT_EQ(runner.cut(bladeAt(from, to)).pieces, 3u);
