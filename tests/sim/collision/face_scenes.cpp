@@ -104,14 +104,14 @@ Scene fallingFold() {
     return scene;
 }
 
-Scene stackOfLayers(std::uint32_t count) {
+Scene stackOfLayers(std::uint32_t count, std::uint32_t side, float pitch) {
     Scene scene;
     for (std::uint32_t layer = 0; layer < count; ++layer)
         addCloth(scene, {.name = "layer " + std::to_string(layer),
                          .origin = {0.004f * static_cast<float>(layer % 3),
-                                    0.02f + 0.015f * static_cast<float>(layer),
+                                    0.02f + pitch * static_cast<float>(layer),
                                     0.003f * static_cast<float>(layer % 5)},
-                         .size = {8, 8},
+                         .size = {side, side},
                          .spacing = 0.03f,
                          .areaDensity = 0.3f,
                          .membraneStiffness = 500,

@@ -14,8 +14,8 @@ namespace sinew::test {
 sim::Scene clothOnBall();
 /// A sheet that stands upright and falls onto itself.
 sim::Scene fallingFold();
-/// Square sheets over each other, a little apart, above a floor.
-sim::Scene stackOfLayers(std::uint32_t count);
+/// Square sheets of side^2 particles over each other, `pitch` apart and 0.01 m thick, above a floor.
+sim::Scene stackOfLayers(std::uint32_t count, std::uint32_t side, float pitch);
 /// A coarse sheet above a box of twelve triangles, whose edges lie aslant below it: it falls onto ridges that
 /// none of its particles may be near.
 sim::Scene clothOnBox(float spacing);
