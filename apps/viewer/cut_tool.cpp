@@ -42,10 +42,10 @@ std::optional<CutTool::Edge> CutTool::edgeAt(const Camera& camera, const Vector2
 
 void CutTool::press(const Camera& camera, const Vector2& pointer) {
     if (!isOn_) return;
-    drop();
     isDown_ = isFirst_ = true;
     pointer_ = pointer;
     last_ = edgeAt(camera, pointer);
+    path_.clear();
     if (last_) path_ = {last_->drawn};
 }
 
@@ -58,7 +58,7 @@ void CutTool::move(const Camera& camera, const Vector2& pointer) {
         isFirst_ = true;
         return;
     }
-    if (sweeps_.size() == mostWaiting) { // the last piece goes on to here
+    if (sweeps_.size() >= mostWaiting && !isFirst_) { // the last piece goes on to here
         sweeps_.back().to = {toVec3(edge->near), toVec3(edge->far)};
     } else {
         sweeps_.push_back({{toVec3(last_->near), toVec3(last_->far)},

@@ -5,20 +5,20 @@
 
 namespace sinew::viewer {
 
-History::State History::record(VkCommandBuffer commands, const sim::Simulation& simulation) {
+History::State History::record(VkCommandBuffer commands, const Stage& stage) {
     if (spare_.empty())
         spare_.emplace_back(device_, vk::BufferRequest{.name = "history",
-                                                       .count = simulation.stateSize() / 4,
+                                                       .count = stage.simulation().stateSize() / 4,
                                                        .stride = 4,
                                                        .kind = vk::MemoryKind::device});
-    State state{std::move(spare_.back()), {}};
+    State state{std::move(spare_.back()), {}, stage.played()};
     spare_.pop_back();
-    state.host = simulation.recordSaveState(commands, state.buffer.view());
+    state.host = stage.simulation().recordSaveState(commands, state.buffer.view());
     return state;
 }
 
-void History::recordBefore(VkCommandBuffer commands, const sim::Simulation& simulation) {
-    const std::uint64_t size = std::max<std::uint64_t>(simulation.stateSize(), 1);
+void History::recordBefore(VkCommandBuffer commands, const Stage& stage) {
+    const std::uint64_t size = std::max<std::uint64_t>(stage.simulation().stateSize(), 1);
     const auto most = std::clamp<std::size_t>(mostBytes / size, 1, mostStates);
     const auto forget = [this](States& states) {
         spare_.push_back(std::move(states.front().buffer));
@@ -26,24 +26,25 @@ void History::recordBefore(VkCommandBuffer commands, const sim::Simulation& simu
     };
     while (!after_.empty()) forget(after_);
     while (before_.size() >= most) forget(before_);
-    before_.push_back(record(commands, simulation));
+    before_.push_back(record(commands, stage));
 }
 
-bool History::recordSwap(VkCommandBuffer commands, sim::Simulation& simulation, States& from, States& to) {
+bool History::recordSwap(VkCommandBuffer commands, Stage& stage, States& from, States& to) {
     if (from.empty()) return false;
-    to.push_back(record(commands, simulation));
-    simulation.recordLoadState(commands, from.back().buffer.view(), from.back().host);
+    to.push_back(record(commands, stage));
+    stage.simulation().recordLoadState(commands, from.back().buffer.view(), from.back().host);
+    stage.setPlayed(from.back().played);
     spare_.push_back(std::move(from.back().buffer));
     from.pop_back();
     return true;
 }
 
-bool History::recordUndo(VkCommandBuffer commands, sim::Simulation& simulation) {
-    return recordSwap(commands, simulation, before_, after_);
+bool History::recordUndo(VkCommandBuffer commands, Stage& stage) {
+    return recordSwap(commands, stage, before_, after_);
 }
 
-bool History::recordRedo(VkCommandBuffer commands, sim::Simulation& simulation) {
-    return recordSwap(commands, simulation, after_, before_);
+bool History::recordRedo(VkCommandBuffer commands, Stage& stage) {
+    return recordSwap(commands, stage, after_, before_);
 }
 
 void History::clear() {

@@ -1,14 +1,15 @@
 // States to go back to: one from before every cut, with its time, and what was undone.
 #pragma once
 
-#include "sim/simulation.hpp"
+#include "viewer/stage.hpp"
 #include "vk/buffer.hpp"
 
 #include <deque>
 
 namespace sinew::viewer {
 
-/// Of one simulation, which is given to every call. Must not outlive its Device, which must not move.
+/// Of the simulation of one stage, which is given to every call. Must not outlive its Device, which must not
+/// move.
 class History {
 public:
     static constexpr std::uint64_t mostBytes = 256u << 20; ///< of device memory, but one state always
@@ -18,10 +19,10 @@ public:
 
     /// Records a copy of the state as it is, to come back to. What was undone is forgotten. Throws vk::Error
     /// where there is no memory for it.
-    void recordBefore(VkCommandBuffer commands, const sim::Simulation& simulation);
+    void recordBefore(VkCommandBuffer commands, const Stage& stage);
     /// Records the way back to the newest of those states, or forwards again; false where there is none.
-    bool recordUndo(VkCommandBuffer commands, sim::Simulation& simulation);
-    bool recordRedo(VkCommandBuffer commands, sim::Simulation& simulation);
+    bool recordUndo(VkCommandBuffer commands, Stage& stage);
+    bool recordRedo(VkCommandBuffer commands, Stage& stage);
 
     std::size_t undos() const { return before_.size(); }
     std::size_t redos() const { return after_.size(); }
@@ -32,10 +33,11 @@ private:
     struct State {
         vk::Buffer buffer;
         sim::SavedState host;
+        std::uint64_t played = 0; ///< Stage::played()
     };
     using States = std::deque<State>;
-    State record(VkCommandBuffer commands, const sim::Simulation& simulation);
-    bool recordSwap(VkCommandBuffer commands, sim::Simulation& simulation, States& from, States& to);
+    State record(VkCommandBuffer commands, const Stage& stage);
+    bool recordSwap(VkCommandBuffer commands, Stage& stage, States& from, States& to);
 
     const vk::Device& device_;
     States before_, after_;

@@ -174,15 +174,27 @@ void Show::recordSteps(const Presenter::Frame& frame, const Plan& plan) {
     if (plan.isReset) {
         stage_.recordReset(frame.commands);
         tools_.drop();
+        forgetFlights();
         isDiverged_ = false;
     }
-    if (tools_.recordHistory(frame.commands, stage_.simulation())) isDiverged_ = false;
+    if (tools_.recordHistory(frame.commands, stage_)) {
+        forgetFlights();
+        isDiverged_ = false;
+    }
     flight.firstStep = stage_.steps() + 1;
     flight.steps = plan.steps;
     for (std::uint32_t step = 0; step < plan.steps; ++step)
         tools_.recordStep(frame.commands, stage_, step == 0 ? &times_[frame.slot] : nullptr, flight.sweeps);
     stage_.recordSkin(frame.commands);
     recordProbe(frame);
+}
+
+// What is on its way belongs to a state that is no more: nobody need look at it, nor cut it again.
+void Show::forgetFlights() {
+    for (InFlight& flight : inFlight_) {
+        flight.steps = 0;
+        flight.sweeps.clear();
+    }
 }
 
 // One copy is enough for all that is in flight: a question is asked again until it is answered.
@@ -219,6 +231,7 @@ void Show::settle(std::uint32_t slot) {
         if (const std::optional<Divergence> divergence = stage_.check(step)) stop(divergence->sentence());
         const sim::Status status = stage_.simulation().status(step);
         status_.setCounts(status.sleeping, status.pieces);
+        if (status.cutSurfaceMissing > 0) warnOfSurface();
     }
     if (flight.screenshot) {
         const std::filesystem::path file = screenshotFile(opening_.loaded.scene.name, flight.screenshotStep);
@@ -238,6 +251,12 @@ void Show::settleProbe(InFlight& flight) {
         controller_.camera = framing(controller_.camera, bounds, aspect(presenter_.extent()));
         shown_ = Shown::nothing; // what is on screen was seen from elsewhere
     }
+}
+
+// Once: nothing but the picture suffers.
+void Show::warnOfSurface() {
+    if (std::exchange(isSurfaceMissing_, true)) return;
+    std::fprintf(stderr, "warning: the cuts have more surface than there is room for: it is not drawn\n");
 }
 
 void Show::stop(const std::string& why) {

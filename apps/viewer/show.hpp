@@ -59,6 +59,8 @@ private:
     bool prepareSwapchain();
     void draw(Plan plan, View& view);
     void recordSteps(const Presenter::Frame& frame, const Plan& plan);
+    void forgetFlights();
+    void warnOfSurface();
     void recordProbe(const Presenter::Frame& frame);
     void recordScreenshot(const Presenter::Frame& frame);
     void settle(std::uint32_t slot);
@@ -85,8 +87,8 @@ private:
     Clock::time_point lastTurn_ = Clock::now(), lastChange_ = lastTurn_;
     VkExtent2D pixels_{};
     Shown shown_ = Shown::nothing;
-    bool isHidden_ = false, isDiverged_ = false, isVsync_ = true, wantsScreenshot_ = false,
-         wantsProbe_ = false;
+    bool isHidden_ = false, isDiverged_ = false, isSurfaceMissing_ = false, isVsync_ = true,
+         wantsScreenshot_ = false, wantsProbe_ = false;
 };
 
 } // namespace sinew::viewer

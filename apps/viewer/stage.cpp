@@ -18,12 +18,12 @@ Stage::Stage(const vk::Device& device, sim::Scene scene, const sim::Settings& se
 
 void Stage::recordReset(VkCommandBuffer commands) noexcept {
     growing_.simulation().recordReset(commands);
-    steps_ = 0;
+    steps_ = played_ = 0;
 }
 
 void Stage::recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps, std::span<const sim::Grab> grabs,
                        const sim::Blade& blade) noexcept {
-    const sim::Blade scripted = blades_.at(steps_);
+    const sim::Blade scripted = blades_.at(played_++);
     sim::Step step{.dt = scene_.dt, .gravity = scene_.gravity, .frame = ++steps_};
     step.grabs = grabs;
     step.blade = scripted.from.empty() ? blade : scripted;
@@ -51,6 +51,7 @@ std::uint32_t Stage::neededRoom(std::uint64_t step) const {
 
 bool Stage::makeRoom(std::uint64_t step, vk::Queue& queue) {
     if (!growing_.grow(neededRoom(step), queue)) return false;
+    played_ -= steps_ - (step - 1);
     steps_ = step - 1;
     return true;
 }

@@ -35,6 +35,10 @@ public:
     /// For what goes back to earlier states.
     sim::Simulation& simulation() noexcept { return growing_.simulation(); }
 
+    /// Steps of the time that blades cut by themselves in: steps() where no earlier state was gone back to.
+    std::uint64_t played() const noexcept { return played_; }
+    void setPlayed(std::uint64_t steps) noexcept { played_ = steps; }
+
     /// Taken since the reset.
     std::uint64_t steps() const noexcept { return steps_; }
 
@@ -55,7 +59,7 @@ private:
     sim::Scene scene_;
     app::GrowingSimulation growing_;
     scenes::ScriptedBlades blades_;
-    std::uint64_t steps_ = 0;
+    std::uint64_t steps_ = 0, played_ = 0;
 };
 
 } // namespace sinew::viewer

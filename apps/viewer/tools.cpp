@@ -3,6 +3,7 @@
 
 #include "viewer/controller.hpp"
 #include "viewer/opening.hpp"
+#include "vk/check.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -65,16 +66,26 @@ void Tools::drop() {
     blade_.drop();
 }
 
-bool Tools::recordHistory(VkCommandBuffer commands, sim::Simulation& simulation) {
+bool Tools::recordHistory(VkCommandBuffer commands, Stage& stage) {
     const bool isUndo = std::exchange(wantsUndo_, false), isRedo = std::exchange(wantsRedo_, false);
     if (!isUndo && !isRedo) return false;
     drop();
-    return isUndo ? history_.recordUndo(commands, simulation) : history_.recordRedo(commands, simulation);
+    return isUndo ? history_.recordUndo(commands, stage) : history_.recordRedo(commands, stage);
+}
+
+// Without memory for a way back there is a cut all the same.
+void Tools::remember(VkCommandBuffer commands, Stage& stage) {
+    try {
+        history_.recordBefore(commands, stage);
+    } catch (const vk::Error& error) {
+        if (!std::exchange(isForgetful_, true))
+            std::fprintf(stderr, "warning: this cut cannot be undone: %s\n", error.what());
+    }
 }
 
 void Tools::recordStep(VkCommandBuffer commands, Stage& stage, vk::Timestamps* timestamps,
                        std::vector<Sweep>& sweeps) {
-    if (blade_.beginsStroke()) history_.recordBefore(commands, stage.simulation());
+    if (blade_.beginsStroke()) remember(commands, stage);
     const std::optional<Sweep> sweep = blade_.next();
     sim::Blade blade;
     if (sweep) {
@@ -85,6 +96,8 @@ void Tools::recordStep(VkCommandBuffer commands, Stage& stage, vk::Timestamps* t
 }
 
 void Tools::restart(std::span<const Sweep> undone) {
+    if (history_.undos() + history_.redos() > 0)
+        std::fprintf(stderr, "note: more room for contacts was made: earlier cuts can no longer be undone\n");
     history_.clear(); // its states are of a simulation that is no more
     blade_.putBack(undone);
 }

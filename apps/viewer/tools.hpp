@@ -27,7 +27,7 @@ public:
     /// Whether something is to be recorded even where no step is.
     bool isWaiting() const { return hand_.question() || wantsUndo_ || wantsRedo_; }
     /// The way back or forwards, where it was asked for; whether there was one.
-    bool recordHistory(VkCommandBuffer commands, sim::Simulation& simulation);
+    bool recordHistory(VkCommandBuffer commands, Stage& stage);
     /// A step with what the tools do in it; what the blade cut is added to `sweeps`.
     void recordStep(VkCommandBuffer commands, Stage& stage, vk::Timestamps* timestamps,
                     std::vector<Sweep>& sweeps);
@@ -45,7 +45,9 @@ private:
     GrabTool hand_;
     CutTool blade_;
     History history_;
-    bool canCut_ = false, wantsUndo_ = false, wantsRedo_ = false;
+    void remember(VkCommandBuffer commands, Stage& stage);
+
+    bool canCut_ = false, isForgetful_ = false, wantsUndo_ = false, wantsRedo_ = false;
 };
 
 } // namespace sinew::viewer

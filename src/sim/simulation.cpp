@@ -292,7 +292,7 @@ SavedState Simulation::recordSaveState(VkCommandBuffer buffer, const vk::BufferV
         part.offset += from.size;
     }
     commands.endStep();
-    return {state_->previousH, state_->colliders.time(), state_->anchors.places()};
+    return {state_->previousH, state_->colliders.time(), state_->anchors.places(), state_->hasNewTopology};
 }
 
 void Simulation::recordLoadState(VkCommandBuffer buffer, const vk::BufferView& from,
@@ -311,6 +311,7 @@ void Simulation::recordLoadState(VkCommandBuffer buffer, const vk::BufferView& f
     state_->settledEnd = {saved.h, saved.colliderTime};
     state_->unsettled = {};
     state_->anchors.moveTo(saved.anchors);
+    state_->hasNewTopology = saved.hasNewTopology;
     state_->hands.reset();
     state_->colliders.moveTo(saved.colliderTime);
 }

@@ -18,8 +18,8 @@ struct BufferId;
 /// A hand that holds what is near a particle and linked to it, and pulls that towards a target. In the first
 /// step of a grab the held point is the target, so taking hold moves nothing; what is nearest to the particle
 /// is held most. Gains are accelerations of all that is linked, so light and heavy bodies feel alike; the
-/// pull is implicit and limited, so it is stable for any target; gains are taken as at most 1e8. What never
-/// moves is not held.
+/// pull is implicit and limited, so it is stable for any target up to 1e9 m; gains are taken as at most 1e8.
+/// What never moves is not held.
 struct Grab {
     std::uint32_t particle = 0;
     float radius = 0;            ///< [m] at first, around the particle; 0 = it alone
@@ -101,18 +101,17 @@ struct SkinRange {
 
 /// What the host has of a state between steps, beside what recordSaveState() copies.
 struct SavedState {
-    float h = 0;               ///< substep of the step before [s]; 0 = none was taken
-    double colliderTime = 0;   ///< how far colliders have gone along their paths [s]
-    std::vector<Vec3> anchors; ///< of the scene's attachments [m]
+    float h = 0;                 ///< substep of the step before [s]; 0 = none was taken
+    double colliderTime = 0;     ///< how far colliders have gone along their paths [s]
+    std::vector<Vec3> anchors;   ///< of the scene's attachments [m]
+    bool hasNewTopology = false; ///< recordLoadTopology() since the last step
 };
 
-/// Owns the buffers and pipelines of one scene. Must not outlive the Device. Never submits, waits or owns a
-/// queue. One thread per Simulation; different ones are independent.
 /// The surface of cuts, to be drawn beside the skins after recordSkin(): the inside that a blade laid open,
 /// and the pieces of skins beside it. Those of the skin's own triangles that pieces stand for are degenerate
 /// from then on. Closed where both are taken together, two-sided: each piece has its own side. Views are
 /// empty where no skin is clipped: only bodies that may be cut whose skin is the outer faces of their cells
-/// (addLatticeSkin) have such a surface.
+/// (addLatticeSkin) have such a surface, and only where every solid body that may be cut is one.
 struct CutSurface {
     vk::BufferView vertices; ///< layout::SkinVertex (position, normal; stride 32)
     /// layout::CutVertex of each (stride 64), of which the first vec4 is for a solid texture: where the point
@@ -124,6 +123,8 @@ struct CutSurface {
     vk::BufferView draws;
 };
 
+/// Owns the buffers and pipelines of one scene. Must not outlive the Device. Never submits, waits or owns a
+/// queue. One thread per Simulation; different ones are independent.
 class Simulation {
 public:
     static constexpr std::uint32_t framesInFlight = 4; ///< steps recorded but not finished, at most

@@ -21,6 +21,8 @@ std::string shortest(double value) {
 /// A right value for a key that must be there.
 std::string filler(const Key& key) {
     if (!key.fallback.empty()) return std::string(key.fallback);
+    if (key.kind == Kind::lines) return "[[[0, 0, 0], [0, 0, 1]]]";
+    if (key.kind == Kind::numbers) return "[0, 1]";
     return key.kind == Kind::text ? "\"x\"" : "1";
 }
 
@@ -151,7 +153,11 @@ TEST(EveryRequiredKey, IsMissedAtTheHeadOfItsTable) {
     for (const Key& key : scenes::schema()) {
         if (!key.isRequired) continue;
         const std::string name(key.section.substr(key.section.rfind('.') + 1)); // of a table in a table
-        const toml::table table = scenes::parse("\n[[" + name + "]]\n", file);
+        std::string text = "\n[[" + name + "]]\n";
+        for (const Key& other : scenes::schema())
+            if (other.section == key.section && other.isRequired && other.name != key.name)
+                text += std::string(other.name) + " = " + filler(other) + "\n";
+        const toml::table table = scenes::parse(text, file);
         const toml::table& body = *table.begin()->second.as_array()->get(0)->as_table();
         try {
             const scenes::Section section(body, key.section, "item", file);

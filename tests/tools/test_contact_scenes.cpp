@@ -65,9 +65,9 @@ std::uint64_t framesOf(tools::Session& session, const scenes::LoadedScene& loade
     return 0;
 }
 
-std::string hashOf(tools::Session& session, const sim::Scene& scene, const sim::Settings& settings,
+std::string hashOf(tools::Session& session, const scenes::LoadedScene& loaded, const sim::Settings& settings,
                    std::uint64_t frames) {
-    tools::Runner runner(session, scene, settings);
+    tools::Runner runner(session, loaded.scene, settings, {loaded.blades, loaded.scene.dt});
     runner.advance(frames, 1);
     EXPECT_EQ(runner.steps(), frames);
     char text[17];
@@ -85,9 +85,7 @@ TEST_P(ContactScenes, EndInTheSameBitsWhateverRunsThem) {
     if (loaded.scene.particles.size() > large) settings.substeps = substepsOfLarge;
     const std::uint64_t frames = framesOf(session(), loaded);
     ASSERT_GT(frames, 0u) << "no contact within " << mostFrames << " frames";
-    const auto hash = [&](const sim::Settings& with) {
-        return hashOf(session(), loaded.scene, with, frames);
-    };
+    const auto hash = [&](const sim::Settings& with) { return hashOf(session(), loaded, with, frames); };
 
     const std::string first = hash(settings);
     std::printf("%s: %s after %u frames\n", GetParam().c_str(), first.c_str(), static_cast<unsigned>(frames));

@@ -33,8 +33,8 @@ TEST(Bindings, AreAllInTheHelpText) {
     }
 }
 
-TEST(Bindings, EscapeDoesNothingAndControlQQuits) {
-    EXPECT_FALSE(actionFor({Trigger::Kind::key, GLFW_KEY_ESCAPE, 0}));
+TEST(Bindings, EscapeDropsWhatIsHeldAndControlQQuits) {
+    EXPECT_EQ(actionFor({Trigger::Kind::key, GLFW_KEY_ESCAPE, 0}), Action::drop);
     EXPECT_FALSE(actionFor({Trigger::Kind::key, GLFW_KEY_Q, 0}));
     EXPECT_EQ(actionFor({Trigger::Kind::key, GLFW_KEY_Q, GLFW_MOD_CONTROL}), Action::quit);
 }

@@ -86,6 +86,31 @@ TEST(CutTool, KeepsTheWholeWayOfAStrokeThatStepsDoNotKeepUpWith) {
     EXPECT_LT(end.cross(last.direction).norm(), 1e-4f);
 }
 
+TEST(CutTool, CutsNoChordWhereAStrokeLeftTheStage) {
+    CutTool tool = withBlade();
+    tool.press(fromFront, {-0.2f, 0});
+    for (int i = 1; i <= 40; ++i) tool.move(fromFront, {-0.2f + 0.004f * static_cast<float>(i), 0});
+    tool.move(fromFront, {3, 0});
+    tool.move(fromFront, {0.2f, 0.1f});
+    tool.move(fromFront, {0.21f, 0.1f});
+    std::vector<Sweep> sweeps;
+    while (const auto sweep = tool.next()) sweeps.push_back(*sweep);
+    ASSERT_EQ(sweeps.size(), 17u);
+    EXPECT_FALSE(sweeps.back().isCarried);
+}
+
+TEST(CutTool, KeepsWhatWaitsOfAStrokeWhenTheNextBegins) {
+    CutTool tool = withBlade();
+    for (const float y : {0.0f, 0.1f}) {
+        tool.press(fromFront, {0, y});
+        tool.move(fromFront, {0.1f, y});
+        tool.release();
+    }
+    EXPECT_TRUE(tool.next());
+    EXPECT_TRUE(tool.beginsStroke());
+    EXPECT_TRUE(tool.next());
+}
+
 TEST(CutTool, DropsWhatIsStillToBeCut) {
     CutTool tool = withBlade();
     tool.press(fromFront, {0, 0});

@@ -43,10 +43,15 @@ IndirectItems itemsOf(const Grabs& grabs) {
     return {grabs.pulling, 0, grabs.push.count};
 }
 
+// Within what squares of differences can be of.
+bool isPlace(const Vec3& v) {
+    constexpr float farthest = 1e9f; // [m]
+    return std::abs(v.x) <= farthest && std::abs(v.y) <= farthest && std::abs(v.z) <= farthest;
+}
+
 bool isNumber(const Grab& grab) {
-    return std::isfinite(grab.target.x) && std::isfinite(grab.target.y) && std::isfinite(grab.target.z) &&
-           std::isfinite(grab.radius) && std::isfinite(grab.stiffness) && std::isfinite(grab.damping) &&
-           std::isfinite(grab.maxAcceleration) && !std::isnan(grab.maxSpeed);
+    return isPlace(grab.target) && std::isfinite(grab.radius) && std::isfinite(grab.stiffness) &&
+           std::isfinite(grab.damping) && std::isfinite(grab.maxAcceleration) && !std::isnan(grab.maxSpeed);
 }
 
 // From `from` towards `target`, at most `reach` far. In double: differences of float32 may overflow.

@@ -96,7 +96,9 @@ void addPieces(ProgramBuilder& program, Cut& cut, Initial& initial, std::size_t 
     for (const Run& run : cut.runs) groups.push_back(groupsOf(run.push.count));
     for (const Run& run : cut.runs) groups.push_back(groupsOf(chunksOf(run)));
     // every round leaves at most half of the pieces that are not yet whole
-    cut.rounds = static_cast<std::uint32_t>(std::bit_width(initial.links.size())) + 1;
+    // Two rounds at least halve the labels that are not final: a low one may take only its least neighbour in
+    // one.
+    cut.rounds = 2 * static_cast<std::uint32_t>(std::bit_width(initial.links.size())) + 2;
     cut.labels = program.upload("pieces.labels", pieces.labels);
     cut.particles = program.upload("pieces.particles", initial.particles);
     cut.groups = program.upload("pieces.groups", groups);

@@ -108,11 +108,17 @@ void addDrawing(ProgramBuilder& program, const CutSurface& surface) {
 bool hasCutSurface(const Scene& scene, const Settings& settings) {
     const std::vector<std::uint32_t> grids = lattice::computedGrids(scene, settings);
     const std::vector<lattice::Box> boxes = lattice::boxesOf(scene, grids);
-    for (std::size_t g = 0; g < grids.size(); ++g)
-        for (const Skin& skin : scene.skins)
-            if (scene.grids[grids[g]].isCuttable && latticeFaces(skin, scene.grids[grids[g]], boxes[g], 0))
-                return true;
-    return false;
+    bool hasSome = false;
+    for (std::size_t g = 0; g < grids.size(); ++g) {
+        const Grid& grid = scene.grids[grids[g]];
+        if (!grid.isCuttable || grid.nodes[1] == 1) continue; // sheets have no inside
+        const auto isItsSkin = [&](const Skin& skin) {
+            return latticeFaces(skin, grid, boxes[g], 0).has_value();
+        };
+        if (std::ranges::none_of(scene.skins, isItsSkin)) return false; // passes would run over it, too
+        hasSome = true;
+    }
+    return hasSome;
 }
 
 std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& scene,

@@ -3,15 +3,15 @@
 // marching tetrahedra on dead links, closed and two-sided. For bodies whose skin is the outer faces of their
 // cells (lattice_faces).
 //
-//   step with a cut   part_tetrahedra   which corners of each tetrahedron near the blade hang together
-//                     mark_points       which points there are on edges, on faces and in middles, and which
-//                     hold both sides count_surface     triangles of every cell            - only near the
-//                     blade so far - sum, scan, start  where each cell's part begins, by counts in the order
-//                     of slots; what is drawn write_points      rest places, what they hang on write_inside
-//                     indices, normals at rest write_outside     pieces of outer faces, with vertices of
-//                     their own hide_faces        skin triangles that pieces stand for
-//   drawing           find_gradients    how the material around particles near a cut has turned and strained
-//                     skin_cut          vertices and normals
+// In a step with a cut, near the blade alone: part_tetrahedra (which corners of each tetrahedron hang
+// together), mark_points (which points on edges, faces and in middles hold both sides), count_surface
+// (triangles of every cell). Of all that was ever cut: sum, scan and start (where each cell's part begins, by
+// counts in the order of slots; what is drawn), write_points (rest places, what they hang on), write_inside
+// (indices, normals at rest), write_outside (pieces of outer faces, with vertices of their own), hide_faces
+// (skin triangles that pieces stand for).
+//
+// When somebody draws: find_gradients (how the material around particles near a cut has turned and strained),
+// skin_cut (vertices and normals).
 //
 // Nothing is appended by a counter: the same cut makes the same bits in any order.
 #pragma once

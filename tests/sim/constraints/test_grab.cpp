@@ -196,6 +196,7 @@ TEST_P(Held, WhatIsNoNumberOrNoParticleIsNotHeld) {
     const Vec3 place = placeOf(scene, chosen);
     for (const Grab& grab : {Grab{.particle = chosen, .radius = nan, .target = place},
                              Grab{.particle = chosen, .radius = 1, .target = {nan, 0, 0}},
+                             Grab{.particle = chosen, .radius = 1, .target = {0, 2e9f, 0}},
                              Grab{.particle = chosen, .radius = 1, .target = place, .stiffness = inf},
                              Grab{.particle = chosen, .radius = 1, .target = place, .maxSpeed = nan},
                              Grab{.particle = 64, .radius = 1, .target = place},
@@ -207,15 +208,16 @@ TEST_P(Held, WhatIsNoNumberOrNoParticleIsNotHeld) {
     test::Runner runner(scene, settings(GetParam())); // all gains 0, or as large as they get
     const float most = std::numeric_limits<float>::max();
     for (int s = 0; s < 10; ++s)
-        EXPECT_EQ(runner
-                      .step(stepOf(scene, std::array{Grab{.particle = chosen,
-                                                          .target = place,
-                                                          .stiffness = most,
-                                                          .damping = most,
-                                                          .maxAcceleration = most,
-                                                          .maxSpeed = inf}}))
-                      .nonFinite,
-                  0u);
+        for (const Vec3& target : {place, Vec3{1e9f, -1e9f, 0}})
+            EXPECT_EQ(runner
+                          .step(stepOf(scene, std::array{Grab{.particle = chosen,
+                                                              .target = target,
+                                                              .stiffness = most,
+                                                              .damping = most,
+                                                              .maxAcceleration = most,
+                                                              .maxSpeed = inf}}))
+                          .nonFinite,
+                      0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Solvers, Held, ::testing::Values(Solver::split, Solver::jacobi, Solver::gaussSeidel),

@@ -175,6 +175,7 @@ double largestBody(const sim::Scene& scene) {
 }
 
 Truth truthOf(Session& session, const StudyScene& scene) {
+    if (!scene.loaded.blades.empty()) refuse(scene, "it has a [[blade]], and what cuts is not studied");
     return isOfContacts(scene.loaded.scene) ? contactTruth(session, scene) : elasticTruth(scene);
 }
 
