@@ -1,7 +1,6 @@
 #version 460
-// Connected components, first half of a round: where the ends of a link have two labels, the higher hangs on the lower. At least
-// every second piece that is not yet whole disappears, and labels only become smaller: all end with the lowest slot of their piece,
-// whatever the order.
+// Connected components, first half of a round: where the ends of a link have two labels, the higher hangs on the lower, on the
+// lowest where there are several. Labels only become smaller: all end with the lowest slot of their piece, whatever the order.
 #extension GL_GOOGLE_include_directive : require
 #include "cut.glsl"
 #include "link_masks.glsl"
