@@ -2,10 +2,10 @@
 #include "viewer/balls.hpp"
 
 #include "viewer/geometry.hpp"
+#include "viewer/mesh_buffer.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <map>
 
@@ -92,18 +92,6 @@ void cut(BallMesh& ball) {
     ball.triangles = std::move(quarters);
 }
 
-template <typename T>
-vk::Buffer filled(const vk::Device& device, const std::string& name, const std::vector<T>& elements,
-                  VkBufferUsageFlags usage) {
-    vk::Buffer buffer(device, {.name = name,
-                               .count = elements.size(),
-                               .stride = sizeof(T),
-                               .kind = vk::MemoryKind::upload,
-                               .usage = usage});
-    std::memcpy(buffer.mapped(), elements.data(), elements.size() * sizeof(T));
-    return buffer;
-}
-
 } // namespace
 
 BallList ballsOf(const sim::Scene& scene) {
@@ -137,9 +125,11 @@ Balls::Balls(const vk::Device& device, const BallList& list) : device_(device), 
     std::size_t balls = 0;
     for (const BallRange& range : ranges_) balls += range.count;
     const BallMesh ball = makeBall(cutsFor(balls));
-    buffers_.push_back(filled(device, "balls.corners", ball.corners, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT));
-    buffers_.push_back(filled(device, "balls.radii", list.radii, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT));
-    buffers_.push_back(filled(device, "balls.triangles", ball.triangles, VK_BUFFER_USAGE_INDEX_BUFFER_BIT));
+    buffers_.push_back(
+        filledBuffer(device, "balls.corners", ball.corners, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT));
+    buffers_.push_back(filledBuffer(device, "balls.radii", list.radii, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT));
+    buffers_.push_back(
+        filledBuffer(device, "balls.triangles", ball.triangles, VK_BUFFER_USAGE_INDEX_BUFFER_BIT));
     indexCount_ = static_cast<std::uint32_t>(3 * ball.triangles.size());
 }
 

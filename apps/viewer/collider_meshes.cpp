@@ -3,9 +3,9 @@
 #include "viewer/collider_meshes.hpp"
 
 #include "viewer/geometry.hpp"
+#include "viewer/mesh_buffer.hpp"
 
 #include <array>
-#include <cstring>
 #include <utility>
 
 namespace sinew::viewer {
@@ -102,18 +102,6 @@ private:
     ColliderMesh mesh_;
 };
 
-template <typename T>
-vk::Buffer filled(const vk::Device& device, const char* name, const std::vector<T>& values,
-                  VkBufferUsageFlags usage) {
-    vk::Buffer buffer(device, {.name = name,
-                               .count = values.size(),
-                               .stride = sizeof(T),
-                               .kind = vk::MemoryKind::upload,
-                               .usage = usage});
-    std::memcpy(buffer.mapped(), values.data(), values.size() * sizeof(T));
-    return buffer;
-}
-
 } // namespace
 
 ColliderMesh meshOf(const sim::Collider& collider) {
@@ -140,8 +128,8 @@ ColliderMeshes::ColliderMeshes(const vk::Device& device, const std::vector<sim::
         all.indices.insert(all.indices.end(), mesh.indices.begin(), mesh.indices.end());
     }
     if (colliders.empty()) return;
-    vertices_ = filled(device, "colliders.vertices", all.vertices, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
-    indices_ = filled(device, "colliders.indices", all.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+    vertices_ = filledBuffer(device, "colliders.vertices", all.vertices, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    indices_ = filledBuffer(device, "colliders.indices", all.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
 }
 
 } // namespace sinew::viewer

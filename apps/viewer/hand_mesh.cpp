@@ -2,9 +2,9 @@
 #include "viewer/hand_mesh.hpp"
 
 #include "viewer/balls.hpp"
+#include "viewer/mesh_buffer.hpp"
 
 #include <cmath>
-#include <cstring>
 
 namespace sinew::viewer {
 
@@ -34,24 +34,12 @@ Mesh makeMesh() {
     return mesh;
 }
 
-template <typename T>
-vk::Buffer filled(const vk::Device& device, const std::string& name, const std::vector<T>& elements,
-                  VkBufferUsageFlags usage) {
-    vk::Buffer buffer(device, {.name = name,
-                               .count = elements.size(),
-                               .stride = sizeof(T),
-                               .kind = vk::MemoryKind::upload,
-                               .usage = usage});
-    std::memcpy(buffer.mapped(), elements.data(), elements.size() * sizeof(T));
-    return buffer;
-}
-
 } // namespace
 
 HandMesh::HandMesh(const vk::Device& device)
     : device_(device),
-      vertices_(filled(device, "hand.vertices", makeMesh().corners, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT)),
-      indices_(filled(device, "hand.indices", makeMesh().triangles, VK_BUFFER_USAGE_INDEX_BUFFER_BIT)),
+      vertices_(filledBuffer(device, "hand.vertices", makeMesh().corners, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT)),
+      indices_(filledBuffer(device, "hand.indices", makeMesh().triangles, VK_BUFFER_USAGE_INDEX_BUFFER_BIT)),
       indexCount_(static_cast<std::uint32_t>(3 * indices_.count())) {}
 
 void HandMesh::draw(VkCommandBuffer commands, const vk::BufferView& points,

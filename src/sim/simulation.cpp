@@ -194,14 +194,25 @@ struct Simulation::State {
         if (countsRing) commands.copy(executor.view(program.cutting.counts), slotOf(*countsRing, frame));
     }
 
-    // Walks the buffers of the topology beside a copy of them.
-    template <typename Copy> void forTopology(vk::BufferView all, const Copy& copy) const {
-        for (const BufferId buffer : program.cutting.topology) {
+    // Copies buffers out, one behind the other.
+    void save(vk::Commands& commands, const std::vector<BufferId>& buffers,
+              vk::BufferView to) const noexcept {
+        for (const BufferId buffer : buffers) {
             const vk::BufferView own = executor.view(buffer);
-            vk::BufferView part = all;
-            part.size = own.size;
-            copy(own, part);
-            all.offset += own.size;
+            to.size = own.size;
+            commands.copy(own, to);
+            to.offset += own.size;
+        }
+    }
+
+    // What save() has copied.
+    void load(vk::Commands& commands, const std::vector<BufferId>& buffers,
+              vk::BufferView from) const noexcept {
+        for (const BufferId buffer : buffers) {
+            const vk::BufferView own = executor.view(buffer);
+            from.size = own.size;
+            commands.copy(from, own);
+            from.offset += own.size;
         }
     }
 };
@@ -284,13 +295,7 @@ std::uint64_t Simulation::stateSize() const noexcept {
 SavedState Simulation::recordSaveState(VkCommandBuffer buffer, const vk::BufferView& to) const {
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
-    vk::BufferView part = to;
-    for (const BufferId written : state_->written) {
-        const vk::BufferView from = view(written);
-        part.size = from.size;
-        commands.copy(from, part);
-        part.offset += from.size;
-    }
+    state_->save(commands, state_->written, to);
     commands.endStep();
     return {state_->previousH, state_->colliders.time(), state_->anchors.places(), state_->hasNewTopology};
 }
@@ -299,13 +304,7 @@ void Simulation::recordLoadState(VkCommandBuffer buffer, const vk::BufferView& f
                                  const SavedState& saved) noexcept {
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
-    vk::BufferView part = from;
-    for (const BufferId written : state_->written) {
-        const vk::BufferView to = view(written);
-        part.size = to.size;
-        commands.copy(part, to);
-        part.offset += to.size;
-    }
+    state_->load(commands, state_->written, from);
     commands.endStep();
     state_->previousH = saved.h;
     state_->settledEnd = {saved.h, saved.colliderTime};
@@ -325,16 +324,14 @@ std::uint64_t Simulation::topologySize() const noexcept {
 void Simulation::recordSaveTopology(VkCommandBuffer buffer, const vk::BufferView& to) const noexcept {
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
-    state_->forTopology(
-        to, [&](const vk::BufferView& own, const vk::BufferView& copy) { commands.copy(own, copy); });
+    state_->save(commands, state_->program.cutting.topology, to);
     commands.endStep();
 }
 
 void Simulation::recordLoadTopology(VkCommandBuffer buffer, const vk::BufferView& from) noexcept {
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
-    state_->forTopology(
-        from, [&](const vk::BufferView& own, const vk::BufferView& copy) { commands.copy(copy, own); });
+    state_->load(commands, state_->program.cutting.topology, from);
     const vk::BufferView seen = view(state_->program.cutting.contactsSeen);
     if (seen.size > 0) commands.fill(seen, farAwayBits); // contacts are listed anew
     commands.endStep();

@@ -2,6 +2,7 @@
 #include "sim/constraints/attachment.hpp"
 
 #include "kernels.hpp"
+#include "sim/constraints/moving_point.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,17 +14,6 @@ namespace {
 
 bool isFinite(const Vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-// From `from` towards `target`, at most `reach` far. In double: differences of float32 may overflow.
-layout::vec4 towards(const layout::vec4& from, const Vec3& target, double reach) {
-    const double x = double{target.x} - double{from.x}, y = double{target.y} - double{from.y},
-                 z = double{target.z} - double{from.z};
-    const double way = std::hypot(x, y, z);
-    if (way <= reach) return {target.x, target.y, target.z, 0};
-    const double part = reach / way;
-    return {static_cast<float>(double{from.x} + part * x), static_cast<float>(double{from.y} + part * y),
-            static_cast<float>(double{from.z} + part * z), 0};
 }
 
 layout::AttachmentPush pushOf(const Attachments& attachments, std::uint32_t substep, std::uint32_t substeps) {
@@ -96,7 +86,7 @@ void Anchors::advance(std::span<const Vec3> targets, float dt) noexcept {
         const bool isUnlimited = attachments_[a].maxSpeed == Attachment::unlimited;
         const double reach = isUnlimited ? std::numeric_limits<double>::infinity()
                                          : double{attachments_[a].maxSpeed} * double{dt};
-        values_[2 * a + 1] = towards(values_[2 * a], targets[a], reach);
+        values_[2 * a + 1] = movedTowards(values_[2 * a], targets[a], reach);
     }
 }
 

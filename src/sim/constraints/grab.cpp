@@ -3,6 +3,7 @@
 
 #include "kernels.hpp"
 #include "sim/components.hpp"
+#include "sim/constraints/moving_point.hpp"
 #include "sim/ranges.hpp"
 
 #include <algorithm>
@@ -52,17 +53,6 @@ bool isPlace(const Vec3& v) {
 bool isNumber(const Grab& grab) {
     return isPlace(grab.target) && std::isfinite(grab.radius) && std::isfinite(grab.stiffness) &&
            std::isfinite(grab.damping) && std::isfinite(grab.maxAcceleration) && !std::isnan(grab.maxSpeed);
-}
-
-// From `from` towards `target`, at most `reach` far. In double: differences of float32 may overflow.
-layout::vec4 towards(const layout::vec4& from, const Vec3& target, double reach) {
-    const double x = double{target.x} - double{from.x}, y = double{target.y} - double{from.y},
-                 z = double{target.z} - double{from.z};
-    const double way = std::hypot(x, y, z);
-    if (way <= reach) return {target.x, target.y, target.z, 0};
-    const double part = reach / way;
-    return {static_cast<float>(double{from.x} + part * x), static_cast<float>(double{from.y} + part * y),
-            static_cast<float>(double{from.z} + part * z), 0};
 }
 
 } // namespace
@@ -125,7 +115,8 @@ void Hands::advance(std::span<const Grab> grabs, float dt) noexcept {
         const bool isHeld = hand.serial > 0 && hand.particle == grab.particle;
         const Vec3& target = grab.target;
         const layout::vec4 from = isHeld ? hand.to : layout::vec4{target.x, target.y, target.z, 0};
-        const layout::vec4 to = towards(from, target, double{std::max(grab.maxSpeed, 0.0f)} * double{dt});
+        const layout::vec4 to =
+            movedTowards(from, target, double{std::max(grab.maxSpeed, 0.0f)} * double{dt});
         hand = {.from = from,
                 .to = to,
                 .velocity = {(to.x - from.x) / dt, (to.y - from.y) / dt, (to.z - from.z) / dt, 0},

@@ -1,0 +1,22 @@
+// A point that the host moves from step to step, as attachments and hands hold one.
+#pragma once
+
+#include "layout.h"
+#include "sim/scene.hpp"
+
+#include <cmath>
+
+namespace sinew::sim::constraints {
+
+/// From `from` towards `target`, at most `reach` far [m]. In double: differences of float32 may overflow.
+inline layout::vec4 movedTowards(const layout::vec4& from, const Vec3& target, double reach) noexcept {
+    const double x = double{target.x} - double{from.x}, y = double{target.y} - double{from.y},
+                 z = double{target.z} - double{from.z};
+    const double way = std::hypot(x, y, z);
+    if (way <= reach) return {target.x, target.y, target.z, 0};
+    const double part = reach / way;
+    return {static_cast<float>(double{from.x} + part * x), static_cast<float>(double{from.y} + part * y),
+            static_cast<float>(double{from.z} + part * z), 0};
+}
+
+} // namespace sinew::sim::constraints
