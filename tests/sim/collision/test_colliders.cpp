@@ -458,9 +458,13 @@ TEST(ClothOnASphere, ComesToRestOutsideIt) {
     for (int step = 0; step < 240; ++step) {
         ASSERT_EQ(runner.run(1).nonFinite, 0u);
         const std::vector<Vector3d> x = runner.positions();
-        for (const auto& [a, b, c] : scene.skins[0].triangles)
-            for (const Vector3d& point : {x[a], Vector3d((x[a] + x[b] + x[c]) / 3)})
+        const Skin& skin = scene.skins[0];
+        for (const auto& triangle : skin.triangles) {
+            Vector3d middle{0, 0, 0};
+            for (const std::uint32_t vertex : triangle) middle += x.at(skin.particles[vertex]) / 3;
+            for (const Vector3d& point : {x[skin.particles[triangle[0]]], middle})
                 deepest = std::max(deepest, -gapOf(scene.colliders[0], scene.colliders[0].pose, point));
+        }
     }
     RecordProperty("penetration", std::to_string(deepest / radius));
     EXPECT_LE(deepest, 0.01 * radius);
