@@ -3,15 +3,14 @@
 // of a particle leads from s0, seen from where the collider was when the substep began, to s1, seen from where it then is.
 // Shapes are convex. So the gap is convex along the way, and Newton's iteration on it comes to the surface from outside and
 // never passes it; and a particle in front of a tangent plane is outside. What is found is always such a plane.
+#include "pose.glsl"
+
 layout(constant_id = 2) const uint colliderCount = 1;
 layout(constant_id = 3) const bool isMoving = false; // any of them
 
 // How fast one that is inside is moved out [m/s]; it is given no speed by that.
 const float leavingSpeed = 1.0;
 
-vec3 rotated(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
-vec3 toLocal(ColliderPose pose, vec3 x) { return rotated(vec4(-pose.rotation.xyz, pose.rotation.w), x - pose.position.xyz); }
-vec3 toWorld(ColliderPose pose, vec3 s) { return rotated(pose.rotation, s) + pose.position.xyz; }
 float largest(vec3 v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
 
 // A plane that touches the shape.

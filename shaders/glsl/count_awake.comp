@@ -21,7 +21,7 @@ void main() {
     if (lane == 0u) awake = asleep = 0u;
     barrier();
     if (isAsleep(weights[i], velocities[i])) atomicAdd(asleep, 1u);
-    else if (weights[i] > 0.0) atomicOr(awake, 1u);
+    else if (weights[i] > 0.0 || weights[i] == SLEEP_DRIVEN && velocities[i].xyz != vec3(0.0)) atomicOr(awake, 1u);
     marks[i] = 0u;
     barrier();
     if (lane > 0u) return;

@@ -84,6 +84,18 @@ struct ColoredBend {
     float compliance; // [m/N]
 };
 
+struct DrivenParticle {
+    vec4 place; // in the frame of its body [m]
+    uint particle;
+    uint pose; // among those of a substep
+    uint unused0, unused1;
+};
+
+struct DrivenPush {
+    uint count;
+    uint before, after; // first of the poses when the substep begins and when it ends
+};
+
 struct AttachedParticle {
     uint particle;
     float compliance; // [m/N]
@@ -458,6 +470,7 @@ struct PlacePush {
 // What rests for so long, no faster than that, sleeps (contacts: 6).
 #define SLEEP_TIME 0.5   // [s]
 #define SLEEP_SPEED 0.03 // [m/s]
+#define SLEEP_DRIVEN -1.0f // stands for the inverse mass of what is driven
 
 // Indices into the arguments of waking and falling asleep: all particles, or one group, when a step begins, in a substep,
 // and after a step that came to its end; one group after any step in which somebody was awake.
@@ -495,6 +508,7 @@ struct SleepPush {
     uint groups; // of them
     uint row, faceRow; // elements of a list of contacts from one candidate to the next
     uint attachments, colliders;
+    uint driven;   // so many of the colliders, the last, are balls around driven bodies
     uint passes;   // entries of the list of SleepPass
     uint substeps; // of a step
 };

@@ -1,6 +1,6 @@
 #version 460
 // Marks the islands that wake when a step begins: all, or those of particles on an anchor that has moved, and of those near
-// the way of a collider, taken as the ball around it.
+// the way of a collider or a driven body, taken as the ball around it; and what is driven when that begins to move.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "sleep.glsl"
@@ -37,8 +37,15 @@ bool isNearMoving(vec3 x, float offset) {
     return isNear;
 }
 
+bool haveDrivenMoved() {
+    bool have = false;
+    for (uint c = push.colliders - push.driven; c < push.colliders; ++c) have = have || ways[2u * c + 1u] != seenPoses[c];
+    return have;
+}
+
 void main() {
     const uint i = itemIndex(push.count);
+    if (weights[i] == SLEEP_DRIVEN && haveDrivenMoved()) atomicOr(marks[islands[i]], 1u);
     if (isAsleep(weights[i], velocities[i]) && (state.wakesAll != 0u || isNearMoving(positions[i].xyz, contactOffsets[i])))
         atomicOr(marks[islands[i]], 1u);
     if (i >= push.attachments || anchors[2u * i + 1u].xyz == seenAnchors[i].xyz) return;

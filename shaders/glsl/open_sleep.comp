@@ -20,12 +20,15 @@ void main() {
     const uint lane = gl_LocalInvocationID.x;
     if (lane == 0u) changes = 0u;
     barrier();
-    bool isChanged = false;
+    bool isChanged = false, isDriven = false;
     for (uint a = lane; a < push.attachments; a += GROUP_SIZE)
         isChanged = isChanged || anchors[2u * a + 1u].xyz != seenAnchors[a].xyz;
-    for (uint c = lane; c < push.colliders; c += GROUP_SIZE)
-        isChanged = isChanged || ways[2u * c + 1u] != seenPoses[c];
-    if (isChanged) atomicOr(changes, 1u);
+    for (uint c = lane; c < push.colliders; c += GROUP_SIZE) {
+        if (ways[2u * c + 1u] == seenPoses[c]) continue;
+        isChanged = true;
+        isDriven = isDriven || c >= push.colliders - push.driven;
+    }
+    if (isChanged) atomicOr(changes, isDriven ? 3u : 1u);
     barrier();
     if (lane > 0u) return;
     status.frame = step.frame; // nobody else says so while all sleep
@@ -33,7 +36,8 @@ void main() {
     state.wakes |= step.wakes; // until a step comes to its end
     const bool wakesAll = state.wakes != 0u || state.gravity.xyz != step.gravity.xyz || state.h != step.h;
     state.wakesAll = wakesAll ? 1u : 0u;
-    const uint one = state.sleeping > 0u && (wakesAll || changes != 0u || state.touched != 0u) ? 1u : 0u;
+    const bool wakes = state.sleeping > 0u && (wakesAll || changes != 0u || state.touched != 0u);
+    const uint one = wakes || (changes & 2u) != 0u ? 1u : 0u;
     state.touched = 0u;
     waking[SLEEP_OPENING] = DispatchArguments(one * push.groups, 1u, 1u, 0u);
     waking[SLEEP_OPENING_ONE] = DispatchArguments(one, 1u, 1u, 0u);

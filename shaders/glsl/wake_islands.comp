@@ -1,5 +1,5 @@
 #version 460
-// Gives the particles of marked islands their masses back. How long they rest is counted anew when the step ends.
+// Gives the particles of marked islands their masses back, and runs what is driven again. How long they rest is counted anew when the step ends.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "sleep.glsl"
@@ -13,7 +13,8 @@ layout(push_constant) uniform Push { SleepPush push; };
 
 void main() {
     const uint i = itemIndex(push.count);
-    if (!isAsleep(weights[i], velocities[i]) || marks[islands[i]] == 0u) return;
-    velocities[i].w = weights[i];
+    const bool isDriven = weights[i] == SLEEP_DRIVEN;
+    if (!isDriven && !isAsleep(weights[i], velocities[i]) || marks[islands[i]] == 0u) return;
+    if (!isDriven) velocities[i].w = weights[i];
     atomicOr(groups[i / GROUP_SIZE], 1u);
 }

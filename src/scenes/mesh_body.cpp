@@ -4,6 +4,7 @@
 
 #include "mesh/generate.hpp"
 #include "mesh/import.hpp"
+#include "scenes/path.hpp"
 #include "scenes/surface.hpp"
 #include "sim/bodies.hpp"
 
@@ -75,8 +76,8 @@ Eigen::Vector3d toEigen(sim::Vec3 v) {
     return {double{v.x}, double{v.y}, double{v.z}};
 }
 
-/// Scales, then turns about the middle of the bounding box, then moves that middle.
-void place(mesh::TriangleMesh& mesh, const Section& section, const std::array<double, 3>& origin) {
+/// Scales, then turns about the middle of the bounding box, then moves that middle. Returns where it then is.
+sim::Vec3 place(mesh::TriangleMesh& mesh, const Section& section, const std::array<double, 3>& origin) {
     const mesh::MeshReport report = mesh::inspect(mesh);
     const Eigen::Vector3d low = toEigen(report.low), high = toEigen(report.high), middle = (low + high) / 2;
     const double longest = (high - low).maxCoeff();
@@ -99,6 +100,7 @@ void place(mesh::TriangleMesh& mesh, const Section& section, const std::array<do
         position = {static_cast<float>(placed.x()), static_cast<float>(placed.y()),
                     static_cast<float>(placed.z())};
     }
+    return {static_cast<float>(center.x()), static_cast<float>(center.y()), static_cast<float>(center.z())};
 }
 
 void warn(const MeshSummary& summary, std::vector<std::string>& warnings) {
@@ -174,13 +176,17 @@ void addMeshCollider(LoadedScene& loaded, const Section& section, const Source& 
         section.fail(section.has("file") ? "file" : "detail",
                      "makes more than " + std::to_string(mostParticles) + " particles",
                      "take a coarser mesh");
-    place(found.mesh, section, loaded.origin);
+    const sim::Pose pose{place(found.mesh, section, loaded.origin), rotationOf(section)};
+    Path path = readPath(section, loaded.origin, pose);
     const std::size_t first = loaded.scene.particles.size();
     sim::addMeshCollider(loaded.scene, {.name = section.has("name") ? section.text("name")
                                                                     : fs::path(found.file).stem().string(),
                                         .vertices = found.mesh.positions,
                                         .triangles = found.mesh.triangles,
                                         .thickness = section.number("thickness"),
+                                        .pose = pose,
+                                        .path = std::move(path.keyframes),
+                                        .pathEnd = path.end,
                                         .color = section.vector("color")});
     addSurface(loaded, section, first);
 }

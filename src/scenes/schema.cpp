@@ -61,7 +61,7 @@ constexpr Key keys[] = {
     {"", "box", Kind::tables, "", {}, "", "cuboids of voxels"},
     {"", "mesh", Kind::tables, "", {}, "", "triangle meshes filled with voxels"},
     {"", "particles", Kind::tables, "", {}, "", "loose particles that touch each other"},
-    {"", "mesh_collider", Kind::tables, "", {}, "", "triangle meshes that never move and that particles touch"},
+    {"", "mesh_collider", Kind::tables, "", {}, "", "triangle meshes that particles touch, still or moving"},
     {"", "plane", Kind::tables, "", {}, "", "half spaces that particles stay in"},
     {"", "collider", Kind::tables, "", {}, "", "spheres, capsules and boxes that particles stay out of, still or moving"},
     {"", "contacts", Kind::table, "", {}, "", "how particles touch each other"},
@@ -183,7 +183,13 @@ constexpr Key keys[] = {
     {"mesh_collider", "thickness", Kind::number, "m", length, "0.002", "what particles keep from the triangles beside their radius"},
     {"mesh_collider", "friction", Kind::number, "", ranges::friction, "", "Coulomb's coefficient of a pair: the geometric mean of both; that of [contacts] where it is missing"},
     {"mesh_collider", "restitution", Kind::number, "", ranges::restitution, "", "0 = no rebound, 1 = elastic; a pair has the larger of both; that of [contacts] where it is missing"},
+    {"mesh_collider", "keyframe", Kind::tables, "", {}, "", "where it is at given times; stands still without them"},
+    {"mesh_collider", "path_end", Kind::text, "", {}, "\"hold\"", "after the last keyframe: \"hold\" stays there, \"loop\" begins anew with the first, which must be in the same place"},
     {"mesh_collider", "color", Kind::vector, "", ranges::color, "[0.55, 0.53, 0.5]", "linear red, green and blue"},
+
+    {"mesh_collider.keyframe", "time", Kind::number, "s", moment, "", "since the simulation began; later than the keyframe before", true},
+    {"mesh_collider.keyframe", "center", Kind::vector, "m", coordinate, "", "where the middle then is; that of the mesh collider where it is missing"},
+    {"mesh_collider.keyframe", "rotation", Kind::vector, "degrees", angle, "", "as that of the mesh collider, which counts where it is missing; at most 170 from one keyframe to the next"},
 
     {"plane", "normal", Kind::vector, "", direction, "[0, 1, 0]", "unit length, points to the free side"},
     {"plane", "offset", Kind::number, "m", coordinate, "0", "distance of the plane from the origin along the normal"},

@@ -43,12 +43,15 @@ struct MeshCollider {
     std::vector<Vec3> vertices; ///< [m]
     std::vector<std::array<std::uint32_t, 3>> triangles;
     float thickness = 0; ///< what particles keep from it beside their radius [m]
+    Pose pose;           ///< where the frame that `path` moves is while vertices are where they are given
+    std::vector<Keyframe> path; ///< as a collider's; empty = never moves
+    PathEnd pathEnd = PathEnd::hold;
     Vec3 color{0.55f, 0.53f, 0.5f};
 };
 
-/// Appends a particle for each vertex, a face for each triangle with three corners, a body and a skin.
-/// Returns the index of the first particle. Throws std::invalid_argument for a triangle without such a
-/// vertex.
+/// Appends a particle for each vertex, a face for each triangle with three corners, a body, a skin and, where
+/// there is a path, a driven body: its particles are then where the path begins. Returns the index of the
+/// first particle. Throws std::invalid_argument for a triangle without such a vertex.
 std::uint32_t addMeshCollider(Scene& scene, const MeshCollider& mesh);
 
 /// Equal masses in a straight line, each linked to the next.

@@ -1,5 +1,7 @@
-// A triangle mesh as faces between particles that never move.
+// A triangle mesh as faces between particles that never move, or as a path says.
 #include "sim/bodies.hpp"
+
+#include "sim/colliders.hpp"
 
 #include <stdexcept>
 
@@ -12,10 +14,15 @@ std::uint32_t addMeshCollider(Scene& scene, const MeshCollider& mesh) {
         for (const std::uint32_t corner : triangle)
             if (corner >= count) throw std::invalid_argument("a triangle names a vertex that does not exist");
     Skin skin{.name = mesh.name, .triangles = mesh.triangles, .color = mesh.color};
+    const DrivenBody driven{
+        .firstParticle = first, .particleCount = count, .path = mesh.path, .pathEnd = mesh.pathEnd};
+    const Pose start = poseAt(driven, 0);
     for (const Vec3& vertex : mesh.vertices) {
         skin.particles.push_back(static_cast<std::uint32_t>(scene.particles.size()));
-        scene.particles.push_back({.position = vertex, .inverseMass = 0, .radius = mesh.thickness});
+        const Vec3 position = mesh.path.empty() ? vertex : toWorld(start, toLocal(mesh.pose, vertex));
+        scene.particles.push_back({.position = position, .inverseMass = 0, .radius = mesh.thickness});
     }
+    if (!mesh.path.empty()) scene.driven.push_back(driven);
     for (const auto& [a, b, c] : mesh.triangles)
         if (a != b && b != c && c != a)
             scene.faces.push_back({{first + a, first + b, first + c}, mesh.thickness});

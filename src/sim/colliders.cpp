@@ -38,13 +38,10 @@ Pose between(const Pose& a, const Pose& b, double part) noexcept {
 
 using Point = std::array<double, 3>;
 
-// In the frame of `pose`.
-Point localOf(const Pose& pose, const Vec3& point) {
-    const Quaternion& q = pose.rotation;
+// `sign` -1 turns back.
+Point rotated(const Quaternion& q, double sign, const Point& x) {
     const double w = double{q.w};
-    const Point x{double{point.x} - double{pose.position.x}, double{point.y} - double{pose.position.y},
-                  double{point.z} - double{pose.position.z}},
-        u{-double{q.x}, -double{q.y}, -double{q.z}};
+    const Point u{sign * double{q.x}, sign * double{q.y}, sign * double{q.z}};
     const auto cross = [](const Point& a, const Point& b) {
         return Point{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
     };
@@ -52,6 +49,29 @@ Point localOf(const Pose& pose, const Vec3& point) {
     for (std::size_t axis = 0; axis < 3; ++axis) turned[axis] += w * x[axis];
     turned = cross(u, turned);
     return {x[0] + 2 * turned[0], x[1] + 2 * turned[1], x[2] + 2 * turned[2]};
+}
+
+// In the frame of `pose`.
+Point localOf(const Pose& pose, const Vec3& point) {
+    return rotated(pose.rotation, -1,
+                   {double{point.x} - double{pose.position.x}, double{point.y} - double{pose.position.y},
+                    double{point.z} - double{pose.position.z}});
+}
+
+Vec3 toFloats(const Point& x) {
+    return {static_cast<float>(x[0]), static_cast<float>(x[1]), static_cast<float>(x[2])};
+}
+
+Pose poseOn(const std::vector<Keyframe>& path, PathEnd end, double time) noexcept {
+    const double first = double{path.front().time}, length = double{path.back().time} - first;
+    if (end == PathEnd::loop && time > first && length > 0) time = first + std::fmod(time - first, length);
+    const auto next =
+        std::ranges::find_if(path, [&](const Keyframe& key) { return double{key.time} > time; });
+    if (next == path.begin()) return path.front().pose;
+    if (next == path.end()) return path.back().pose;
+    const Keyframe& last = *(next - 1);
+    return between(last.pose, next->pose,
+                   (time - double{last.time}) / (double{next->time} - double{last.time}));
 }
 
 // Half extents of the box that the shape's radius goes around.
@@ -67,19 +87,29 @@ bool isMoving(const Collider& collider) {
     return collider.path.size() > 1;
 }
 
+bool isMoving(const DrivenBody& body) {
+    return body.path.size() > 1;
+}
+
 Pose poseAt(const Collider& collider, double time) noexcept {
-    const std::vector<Keyframe>& path = collider.path;
-    if (path.empty()) return collider.pose;
-    const double first = double{path.front().time}, length = double{path.back().time} - first;
-    if (collider.pathEnd == PathEnd::loop && time > first && length > 0)
-        time = first + std::fmod(time - first, length);
-    const auto next =
-        std::ranges::find_if(path, [&](const Keyframe& key) { return double{key.time} > time; });
-    if (next == path.begin()) return path.front().pose;
-    if (next == path.end()) return path.back().pose;
-    const Keyframe& last = *(next - 1);
-    return between(last.pose, next->pose,
-                   (time - double{last.time}) / (double{next->time} - double{last.time}));
+    return collider.path.empty() ? collider.pose : poseOn(collider.path, collider.pathEnd, time);
+}
+
+Pose poseAt(const DrivenBody& body, double time) noexcept {
+    return body.path.empty() ? Pose{} : poseOn(body.path, body.pathEnd, time);
+}
+
+Vec3 toLocal(const Pose& pose, const Vec3& point) noexcept {
+    return toFloats(localOf(pose, point));
+}
+
+Vec3 toWorld(const Pose& pose, const Vec3& point) noexcept {
+    const Vec3& p = pose.position;
+    Point x = rotated(pose.rotation, 1, {double{point.x}, double{point.y}, double{point.z}});
+    x[0] += double{p.x};
+    x[1] += double{p.y};
+    x[2] += double{p.z};
+    return toFloats(x);
 }
 
 double gapTo(const Collider& collider, const Pose& pose, const Vec3& point) noexcept {

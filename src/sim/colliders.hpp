@@ -1,5 +1,5 @@
-// What follows from a collider alone, for whoever draws or measures: where its path leads, and how far away a
-// point is.
+// What follows from a collider or a driven body alone, for whoever draws or measures: where its path leads,
+// and how far away a point is.
 #pragma once
 
 #include "sim/scene.hpp"
@@ -8,9 +8,15 @@ namespace sinew::sim {
 
 /// Whether its path leads anywhere.
 bool isMoving(const Collider& collider);
+bool isMoving(const DrivenBody& body);
 
 /// Where it is at `time` [s] since the simulation began. Never throws or allocates.
 Pose poseAt(const Collider& collider, double time) noexcept;
+Pose poseAt(const DrivenBody& body, double time) noexcept;
+
+/// `point` in the frame of `pose`, and back.
+Vec3 toLocal(const Pose& pose, const Vec3& point) noexcept;
+Vec3 toWorld(const Pose& pose, const Vec3& point) noexcept;
 
 /// From its surface, its margin not counted, to `point`; below 0 inside [m].
 double gapTo(const Collider& collider, const Pose& pose, const Vec3& point) noexcept;

@@ -151,6 +151,15 @@ struct Collider {
     Vec3 color{0.45f, 0.45f, 0.48f}; ///< linear RGB, for whoever draws it
 };
 
+/// Particles that go along a path as one rigid thing, whatever they meet: a mesh that moves
+/// (addMeshCollider), or what others hang on. Each is held: its inverse mass is 0 or a FixedConstraint has
+/// it. The scene has them where they are when the simulation begins. For `split` alone.
+struct DrivenBody {
+    std::uint32_t firstParticle = 0, particleCount = 0;
+    std::vector<Keyframe> path; ///< as a collider's; of a frame that they keep their places in
+    PathEnd pathEnd = PathEnd::hold;
+};
+
 /// Particles on the nodes of a regular grid, linked to their neighbours by distance constraints: a body whose
 /// topology a solver may compute instead of reading it (addLattice, addCloth). Says nothing new: particles
 /// and constraints stand in the scene's lists, and validate() holds the two against each other.
@@ -227,6 +236,7 @@ struct Scene {
     std::vector<FixedConstraint> fixed;
     std::vector<Plane> planes;
     std::vector<Collider> colliders;
+    std::vector<DrivenBody> driven;
     std::vector<Face> faces;
     ContactSettings contacts;
     std::vector<Body> bodies;

@@ -127,7 +127,7 @@ struct Simulation::State {
                                                       .stride = sizeof(layout::StatusWords),
                                                       .kind = vk::MemoryKind::readback}),
           skins(rangesOf(scene.skins)), anchors(scene.attachments),
-          hands(settings.grabs, scene.particles.size()), colliders(scene.colliders),
+          hands(settings.grabs, scene.particles.size()), colliders(scene.colliders, scene.driven),
           budget(scene.dampingTime > 0 ? splitBudget(scene, settings) : SplitBudget{}),
           theta(settings.solver == Solver::split ? settings.theta : 0), omega(settings.omega),
           damping(scene.damping), substeps(settings.substeps),

@@ -3,6 +3,7 @@
 
 #include "kernels.hpp"
 #include "sim/components.hpp"
+#include "sim/constraints/driven.hpp"
 #include "sim/constraints/grab.hpp"
 
 #include <algorithm>
@@ -24,7 +25,8 @@ std::uint32_t groupsOf(std::uint32_t items, std::uint32_t groupSize) {
 std::vector<std::uint32_t> componentsOf(const Scene& scene, const StateLayout& layout,
                                         std::span<const float> weights) {
     std::vector<float> inverseMass(scene.particles.size());
-    for (std::size_t i = 0; i < inverseMass.size(); ++i) inverseMass[i] = weights[layout.slot[i]];
+    for (std::size_t i = 0; i < inverseMass.size(); ++i)
+        inverseMass[i] = std::max(weights[layout.slot[i]], 0.0f);
     const std::vector<std::uint32_t> components = linkedComponents(scene, inverseMass);
     std::vector<std::uint32_t> least(components.size(), ~0u), result(layout.count);
     for (std::size_t i = 0; i < components.size(); ++i)
@@ -54,8 +56,10 @@ std::vector<float> limitsOf(const Scene& scene, const StateLayout& layout) {
 
 std::vector<float> weightsOf(const Scene& scene, const StateLayout& layout) {
     const std::vector<float> inverseMass = inverseMasses(scene);
+    const std::vector<bool> isDriven = constraints::driven::areDriven(scene);
     std::vector<float> weights(layout.count, 0);
-    for (std::size_t i = 0; i < inverseMass.size(); ++i) weights[layout.slot[i]] = inverseMass[i];
+    for (std::size_t i = 0; i < inverseMass.size(); ++i)
+        weights[layout.slot[i]] = isDriven[i] ? SLEEP_DRIVEN : inverseMass[i];
     return weights;
 }
 
@@ -156,7 +160,8 @@ void addJudgement(ProgramBuilder& program, const Sleep& sleep, const ParticleBuf
 void setMoving(ProgramBuilder& program, Sleep& sleep, const constraints::attachment::Attachments& attachments,
                const collision::colliders::Colliders& colliders) {
     sleep.push.attachments = attachments.count;
-    sleep.push.colliders = colliders.areMoving ? colliders.count : 0;
+    sleep.push.colliders = colliders.areMoving ? colliders.placed : 0;
+    sleep.push.driven = colliders.areMoving ? colliders.placed - colliders.count : 0;
     const bool areAttached = attachments.count > 0, areMoving = colliders.areMoving;
     const std::uint64_t anchors = std::max(sleep.push.attachments, 1u);
     const std::uint64_t poses = std::max(sleep.push.colliders, 1u);
@@ -166,8 +171,9 @@ void setMoving(ProgramBuilder& program, Sleep& sleep, const constraints::attachm
     sleep.seenAnchors = program.scratch<layout::vec4>("sleep.anchors", anchors);
     sleep.colliders =
         areMoving ? colliders.shapes : program.scratch<layout::Collider>("sleep.no_colliders", 1);
-    sleep.contactOffsets =
-        areMoving ? colliders.contactOffsets : program.scratch<float>("sleep.no_offsets", sleep.push.count);
+    sleep.contactOffsets = areMoving && colliders.count > 0
+                               ? colliders.contactOffsets
+                               : program.scratch<float>("sleep.no_offsets", sleep.push.count);
     sleep.ways = areMoving ? colliders.ways : program.scratch<layout::ColliderPose>("sleep.no_ways", 1);
     sleep.seenPoses = program.scratch<layout::ColliderPose>("sleep.poses", poses);
     program.carry(sleep.seenAnchors, sleep.seenAnchors);

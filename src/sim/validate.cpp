@@ -303,6 +303,10 @@ void checkContacts(const Scene& scene, const Settings& settings, Complaints& com
         complaints.add(std::string("solver ") + solverName(settings.solver) +
                            " has no form for particles that touch faces (Scene::faces)",
                        "use split");
+    if (settings.solver != Solver::split && !scene.driven.empty())
+        complaints.add(std::string("solver ") + solverName(settings.solver) +
+                           " has no form for bodies that are driven (Scene::driven)",
+                       "use split");
 }
 
 // Only of a scene that is right so far: the number follows from its links. Most settings need none.
@@ -486,6 +490,7 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings) 
     checkSurfaces(scene.contacts, complaints);
     checkPlanes(scene, complaints);
     collision::checkColliders(scene.colliders, complaints);
+    collision::checkDriven(scene, heldParticles(scene), complaints);
     checkBodies(scene, complaints);
     checkGrids(scene, complaints);
     for (std::size_t i = 0; i < scene.skins.size(); ++i)

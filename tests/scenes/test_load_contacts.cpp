@@ -105,6 +105,36 @@ TEST_F(LoadContacts, MakesMeshesThatNeverMoveFaces) {
                 "scene.toml: solver jacobi has no form for particles that touch");
 }
 
+TEST_F(LoadContacts, ReadsThePathOfAMeshCollider) {
+    const std::string knot = "[[particles]]\nradius = 0.01\ncenter = [0, 3, 0]\n[[mesh_collider]]\ngenerate "
+                             "= \"sphere\"\ndetail = 8\n"
+                             "size = 0.5\ncenter = [0, 2, 0]\n";
+    const sim::Scene still = load(knot).scene;
+    EXPECT_TRUE(still.driven.empty());
+    const sim::Scene scene =
+        load(knot + "path_end = \"loop\"\n[[mesh_collider.keyframe]]\ntime = 0\ncenter = [1, 2, 0]\n"
+                    "[[mesh_collider.keyframe]]\ntime = 2\nrotation = [0, 90, 0]\n"
+                    "[[mesh_collider.keyframe]]\ntime = 3\ncenter = [1, 2, 0]\n")
+            .scene;
+    ASSERT_EQ(scene.driven.size(), 1u);
+    const sim::DrivenBody& body = scene.driven[0];
+    EXPECT_EQ(body.firstParticle, scene.bodies[1].firstParticle);
+    EXPECT_EQ(body.particleCount, scene.bodies[1].particleCount);
+    EXPECT_EQ(body.pathEnd, sim::PathEnd::loop);
+    ASSERT_EQ(body.path.size(), 3u);
+    EXPECT_EQ(body.path[1].time, 2);
+    EXPECT_EQ(body.path[1].pose.position.x, 0);
+    EXPECT_NEAR(body.path[1].pose.rotation.y, std::sqrt(0.5), 1e-6);
+    for (std::uint32_t i = body.firstParticle; i < scene.particles.size(); ++i) {
+        EXPECT_NEAR(scene.particles[i].position.x, still.particles[i].position.x + 1, 1e-6);
+        EXPECT_NEAR(scene.particles[i].position.y, still.particles[i].position.y, 1e-6);
+    }
+    expectError(knot + "[[mesh_collider.keyframe]]\ntime = 0\n[[mesh_collider.keyframe]]\ntime = 1\nrotation "
+                       "= [0, 0, 175]\n",
+                "scene.toml:13: mesh_collider[0].keyframe[1].rotation is more than 170 degrees from the "
+                "keyframe before");
+}
+
 TEST_F(LoadContacts, RepeatsABoxInRows) {
     const std::string corner = "[[box]]\nparticles = [2, 2, 2]\nspacing = 0.1\norigin = [1, 2, 3]\n";
     const sim::Scene one = load(corner).scene, six = load(corner + "copies = [1, 2, 3]\n").scene;

@@ -1,4 +1,4 @@
-// Sizes, poses and paths of colliders.
+// Sizes, poses and paths of colliders and driven bodies.
 #include "sim/collision/check_colliders.hpp"
 
 namespace sinew::sim::collision {
@@ -27,8 +27,8 @@ bool isSame(const Pose& a, const Pose& b) {
            !differ(a.position.z, b.position.z) && std::abs(cosine) > 1 - 1e-6;
 }
 
-void checkPath(const Collider& collider, const std::string& name, Complaints& complaints) {
-    const std::vector<Keyframe>& path = collider.path;
+void checkPath(const std::vector<Keyframe>& path, PathEnd end, const std::string& name,
+               Complaints& complaints) {
     for (std::size_t k = 0; k < path.size(); ++k) {
         const std::string key = name + element(".path", k);
         checkPose(path[k].pose, key, complaints);
@@ -37,7 +37,7 @@ void checkPath(const Collider& collider, const std::string& name, Complaints& co
             complaints.add(key + ".time", "is " + number(path[k].time) + ", must be above " +
                                               number(path[k - 1].time) + ", that of the keyframe before");
     }
-    if (collider.pathEnd == PathEnd::loop && path.size() > 1 && !isSame(path.front().pose, path.back().pose))
+    if (end == PathEnd::loop && path.size() > 1 && !isSame(path.front().pose, path.back().pose))
         complaints.add(name + ".path", "loops, but its last keyframe is not where its first one is");
 }
 
@@ -78,8 +78,40 @@ void checkColliders(std::span<const Collider> colliders, Complaints& complaints)
                          [&] { return name + ".restitution"; });
         for (const float channel : {collider.color.x, collider.color.y, collider.color.z})
             complaints.check(double{channel}, ranges::color, [&] { return name + ".color"; });
-        checkPath(collider, name, complaints);
+        checkPath(collider.path, collider.pathEnd, name, complaints);
     }
+}
+
+void checkDriven(const Scene& scene, const std::vector<bool>& isHeld, Complaints& complaints) {
+    if (scene.driven.size() > ranges::mostColliders)
+        complaints.add("driven", "are " + number(scene.driven.size()) + ", at most " +
+                                     number(ranges::mostColliders) + " are possible");
+    std::vector<bool> isDriven(isHeld.size(), false);
+    for (std::size_t b = 0; b < scene.driven.size(); ++b) {
+        const DrivenBody& body = scene.driven[b];
+        const std::string name = element("driven", b);
+        checkPath(body.path, body.pathEnd, name, complaints);
+        const std::uint64_t end = std::uint64_t{body.firstParticle} + body.particleCount;
+        if (end > isHeld.size()) {
+            complaints.add(name, "ends with particle " + number(end) + " of " + number(isHeld.size()));
+            continue;
+        }
+        for (std::uint32_t i = body.firstParticle; i < end; ++i) {
+            if (isHeld[i] && !isDriven[i]) {
+                isDriven[i] = true;
+                continue;
+            }
+            complaints.add(name, "has particle " + number(i) +
+                                     (isHeld[i] ? ", which another has too: leave it to one of them"
+                                                : ", which is not held: fix it or leave it out"));
+            break;
+        }
+    }
+    for (std::size_t t = 0; t < scene.tethers.size(); ++t)
+        if (scene.tethers[t].anchor < isDriven.size() && isDriven[scene.tethers[t].anchor])
+            complaints.add(element("tether", t) + ".anchor",
+                           "is particle " + number(scene.tethers[t].anchor) +
+                               ", which is driven: take one that never moves");
 }
 
 } // namespace sinew::sim::collision

@@ -8,5 +8,7 @@
 namespace sinew::sim::collision {
 
 void checkColliders(std::span<const Collider> colliders, Complaints& complaints);
+/// `isHeld` by particle: never moves.
+void checkDriven(const Scene& scene, const std::vector<bool>& isHeld, Complaints& complaints);
 
 } // namespace sinew::sim::collision

@@ -5,6 +5,7 @@
 #include "sim/collision/collider_paths.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sinew::sim::collision::colliders {
 
@@ -27,9 +28,9 @@ layout::Collider shapeOf(const Collider& collider) {
 // After every substep, and at the beginning; where nothing moves, once and for all.
 BufferId addPoses(ProgramBuilder& program, const Scene& scene, std::uint32_t substeps, bool areMoving,
                   BufferId& ways) {
-    const ColliderPaths paths(scene.colliders);
+    const ColliderPaths paths(scene.colliders, scene.driven);
     std::vector<layout::ColliderPose> poses;
-    for (const Pose& pose : paths.poses()) {
+    for (const Pose& pose : paths.allPoses()) {
         const Vec3& x = pose.position;
         const Quaternion& q = pose.rotation;
         poses.push_back({{x.x, x.y, x.z, 0}, {q.x, q.y, q.z, q.w}});
@@ -46,8 +47,36 @@ BufferId addPoses(ProgramBuilder& program, const Scene& scene, std::uint32_t sub
     return placed;
 }
 
+// A ball around all of a driven body that anybody may touch, for who asks what is near it (sleep).
+layout::Collider ballAround(const DrivenBody& body, const Scene& scene) {
+    float widest = 0, thickest = 0;
+    double farthest = 0;
+    for (const Particle& particle : scene.particles) widest = std::max(widest, particle.radius);
+    for (const Face& face : scene.faces) thickest = std::max(thickest, face.thickness);
+    const Pose pose = poseAt(body, 0);
+    for (std::uint32_t i = 0; i < body.particleCount; ++i) {
+        const Vec3 local = toLocal(pose, scene.particles[body.firstParticle + i].position);
+        farthest = std::max(farthest, std::hypot(double{local.x}, double{local.y}, double{local.z}));
+    }
+    layout::Collider ball{};
+    ball.core.w = static_cast<float>(farthest) + 2 * widest + thickest;
+    return ball;
+}
+
+void addShapes(ProgramBuilder& program, const Scene& scene, const StateLayout& layout, Colliders& colliders) {
+    std::vector<layout::Collider> shapes;
+    for (const Collider& collider : scene.colliders) shapes.push_back(shapeOf(collider));
+    for (const DrivenBody& body : scene.driven) shapes.push_back(ballAround(body, scene));
+    colliders.shapes = program.upload("colliders", shapes);
+    if (colliders.count == 0) return;
+    std::vector<float> offsets(layout.count, 0);
+    for (std::size_t i = 0; i < scene.particles.size(); ++i)
+        offsets[layout.slot[i]] = scene.particles[i].contactOffset;
+    colliders.contactOffsets = program.upload("colliders.contact_offsets", offsets);
+}
+
 layout::ColliderPush pushOf(const Colliders& colliders, std::uint32_t substep, Kick kick) {
-    const std::uint32_t row = colliders.areMoving ? colliders.count : 0;
+    const std::uint32_t row = colliders.areMoving ? colliders.placed : 0;
     return {colliders.particles, substep * row, (substep + 1) * row, kick == Kick::half ? 0.5f : 0};
 }
 
@@ -59,22 +88,20 @@ ProgramBuilder::Constants constantsOf(const Colliders& colliders) {
 
 Colliders add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout,
               std::uint32_t substeps) {
-    if (scene.colliders.empty()) return {};
+    if (scene.colliders.empty() && scene.driven.empty()) return {};
+    const auto moves = [](const auto& item) { return isMoving(item); };
     const auto rebounds = [](const auto& item) { return item.restitution > 0; };
-    std::vector<layout::Collider> shapes;
-    for (const Collider& collider : scene.colliders) shapes.push_back(shapeOf(collider));
-    std::vector<float> offsets(layout.count, 0);
-    for (std::size_t i = 0; i < scene.particles.size(); ++i)
-        offsets[layout.slot[i]] = scene.particles[i].contactOffset;
-    Colliders colliders{.count = static_cast<std::uint32_t>(shapes.size()),
+    Colliders colliders{.count = static_cast<std::uint32_t>(scene.colliders.size()),
                         .particles = static_cast<std::uint32_t>(layout.count),
-                        .areMoving = std::ranges::any_of(scene.colliders, isMoving),
-                        .hasRebound =
-                            std::ranges::any_of(scene.colliders, rebounds) ||
-                            std::ranges::any_of(scene.planes, rebounds) || rebounds(scene.contacts) ||
-                            std::ranges::any_of(scene.contacts.surfaces, rebounds), // the way is then not h v
-                        .shapes = program.upload("colliders", shapes)};
-    colliders.contactOffsets = program.upload("colliders.contact_offsets", offsets);
+                        .placed = static_cast<std::uint32_t>(scene.colliders.size() + scene.driven.size()),
+                        .areMoving = std::ranges::any_of(scene.colliders, moves) ||
+                                     std::ranges::any_of(scene.driven, moves)};
+    colliders.hasRebound =
+        colliders.count > 0 &&
+        (std::ranges::any_of(scene.colliders, rebounds) || std::ranges::any_of(scene.planes, rebounds) ||
+         rebounds(scene.contacts) ||
+         std::ranges::any_of(scene.contacts.surfaces, rebounds)); // the way is then not h v
+    addShapes(program, scene, layout, colliders);
     colliders.poses = addPoses(program, scene, substeps, colliders.areMoving, colliders.ways);
     return colliders;
 }

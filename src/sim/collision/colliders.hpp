@@ -11,12 +11,15 @@ namespace sinew::sim::collision::colliders {
 struct Colliders {
     std::uint32_t count = 0;
     std::uint32_t particles = 0; ///< slots of the state
-    bool areMoving = false, hasRebound = false;
-    BufferId shapes, poses, contactOffsets, before;
+    std::uint32_t placed = 0;    ///< poses of a substep: of colliders, then of driven bodies
+    bool areMoving = false;      ///< any of those
+    bool hasRebound = false;
+    BufferId shapes; ///< of colliders; after them balls around driven bodies
+    BufferId poses, contactOffsets, before;
     BufferId ways; ///< of this step, from and to; invalid unless areMoving
 };
 
-/// Adds the passes that place them: call it once, before the substeps.
+/// Adds the pass that places them and driven bodies: call it once, before the substeps.
 Colliders add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout, std::uint32_t substeps);
 
 /// `split` and `jacobi`: room for what addOpening() keeps; only where something rebounds there is anything.

@@ -55,10 +55,13 @@ Faces facesOf(const Scene& scene, const std::vector<float>& inverseMass) {
     return faces;
 }
 
-std::vector<float> pointRadii(const Scene& scene) {
+// What never gives way can touch only faces that do: where there are none it is no point.
+std::vector<float> pointRadii(const Scene& scene, const std::vector<float>& inverseMass, const Faces& faces) {
     std::vector<float> radii;
-    for (const Particle& particle : scene.particles)
-        radii.push_back(particle.radius > 0 ? particle.radius : -1);
+    for (std::size_t i = 0; i < scene.particles.size(); ++i) {
+        const float radius = scene.particles[i].radius;
+        radii.push_back(radius > 0 && (inverseMass[i] > 0 || faces.moving > 0) ? radius : -1);
+    }
     return radii;
 }
 
@@ -82,13 +85,13 @@ std::vector<std::uint32_t> cornersOf(const Faces& faces, const std::vector<float
 
 face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Settings& settings,
                            const StateLayout& layout, const std::vector<float>& inverseMass, Faces faces) {
-    const std::vector<float> byParticle = pointRadii(scene);
+    const std::vector<float> byParticle = pointRadii(scene, inverseMass, faces);
     const std::vector<std::uint32_t> exclusions = excludedPoints(scene, faces.faces, byParticle, layout);
     std::vector<float> radii(layout.count, -1), masses(layout.count, 0), wide;
     for (std::size_t i = 0; i < byParticle.size(); ++i) {
         radii[layout.slot[i]] = byParticle[i];
         masses[layout.slot[i]] = inverseMass[i];
-        if (byParticle[i] > 0) wide.push_back(byParticle[i]);
+        if (byParticle[i] > 0 && inverseMass[i] > 0) wide.push_back(byParticle[i]);
     }
     for (layout::ContactFace& face : faces.faces)
         for (std::uint32_t* corner : {&face.a, &face.b, &face.c}) *corner = layout.slot[*corner];

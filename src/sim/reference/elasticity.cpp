@@ -24,6 +24,7 @@ void requireSprings(const Scene& scene, const char* what) {
     if (!scene.bends.empty()) refuse(scene, what, "the scene has bends");
     if (!scene.attachments.empty()) refuse(scene, what, "the scene has attachments");
     if (!scene.tethers.empty()) refuse(scene, what, "the scene has tethers");
+    if (!scene.driven.empty()) refuse(scene, what, "the scene has driven bodies");
     if (!scene.colliders.empty()) refuse(scene, what, "the scene has colliders");
     if (!scene.planes.empty()) refuse(scene, what, "the scene has boundary planes");
 }

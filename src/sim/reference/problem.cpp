@@ -40,6 +40,8 @@ Problem::Problem(const Scene& scene)
     : linkCount(scene.particles.size(), 0), bendCount(scene.particles.size(), 0), cells(cellsOf(scene)),
       gravity(toEigen(scene.gravity)), damping(double{scene.damping}),
       dampingTime(double{scene.dampingTime}) {
+    if (!scene.driven.empty())
+        throw std::invalid_argument("the scene has driven bodies, which the references have no form for");
     if (!scene.colliders.empty())
         throw std::invalid_argument("the scene has colliders, which the references have no form for");
     for (const Particle& particle : scene.particles) {

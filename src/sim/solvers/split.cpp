@@ -11,6 +11,7 @@
 #include "sim/constraints/attachment.hpp"
 #include "sim/constraints/bend.hpp"
 #include "sim/constraints/distance.hpp"
+#include "sim/constraints/driven.hpp"
 #include "sim/constraints/grab.hpp"
 #include "sim/constraints/tether.hpp"
 #include "sim/cutting/cut_contacts.hpp"
@@ -246,6 +247,7 @@ void addSubsteps(const Common& common, const ParticleBuffers& particles) {
     const auto attachments = constraints::attachment::add(program, common.scene, layout);
     const auto tethers = constraints::tether::add(program, common.scene, layout);
     const auto rigid = addRigid(common);
+    const auto driven = constraints::driven::add(program, common.scene, layout, rigid);
     sleep::addOpening(program, particles, attachments, rigid);
     ParticleBuffers current = particles, next = particles;
     next.positions = program.scratch<layout::vec4>("state.next_positions", layout.count);
@@ -255,6 +257,7 @@ void addSubsteps(const Common& common, const ParticleBuffers& particles) {
         collision::colliders::addOpening(program, current, rigid, substep == 0);
         addLinks(gathers, current, next, substep == 0);
         std::swap(current, next);
+        constraints::driven::addPass(program, current, driven, substep);
         constraints::attachment::addPass(program, current, attachments, substep, substeps);
         constraints::grab::addPass(program, current, substep, substeps, Kick::whole);
         constraints::tether::addPass(program, current, tethers);
@@ -335,6 +338,7 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
     const auto attachments = constraints::attachment::add(program, common.scene, layout);
     const auto tethers = constraints::tether::add(program, common.scene, layout);
     const auto rigid = addRigid(common);
+    const auto driven = constraints::driven::add(program, common.scene, layout, rigid);
     sleep::addOpening(program, particles, attachments, rigid);
     ParticleBuffers current = particles, predicted = particles;
     predicted.positions = program.scratch<layout::vec4>("state.next_positions", layout.count);
@@ -345,6 +349,7 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
         contacts.addOpening(program, current.velocities);
         predicted.velocities = alternates ? spare : current.velocities;
         addLinks(gathers, current, predicted, substep == 0);
+        constraints::driven::addPass(program, predicted, driven, substep);
         if (!alternates) std::swap(current.velocities, spare);
         const ParticleBuffers met = contacts.addPasses(program, predicted, current, substep == 0);
         contacts.addBounces(program, met, current);
