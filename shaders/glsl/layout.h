@@ -400,6 +400,7 @@ struct FacePush {
     uint faceRow; // of a face's list from one point to the next
     uint surfaces; // pair (a, b) of them is element a * surfaces + b of a table
     float recoverySpeed; // of what overlapped when the scene was loaded [m/s]
+    uint moving; // faces before that one have a corner that moves; of edges nothing
 };
 
 struct SubstepPush {

@@ -33,14 +33,14 @@ float frictionOf(uint i, ContactFace face) { return pairs[surfaces[i] * push.sur
 
 void press(uint i, uint element) {
     const vec4 direction = directions[element], weight = weights[element];
-    if (!(direction.w > 0.0)) {
+    if (direction.w == 0.0) {
         memory[element] = vec4(vec3(0.0), weight.w); // an overlap that has yet to part
         return;
     }
     const ContactFace face = faces[contacts[element].x];
     const vec3 n = direction.xyz;
     const float D = shares[i] + weight.x * shares[face.a] + weight.y * shares[face.b] + weight.z * shares[face.c];
-    const float share = D > 0.0 ? 1.0 / D : 0.0, lambda = share * direction.w;
+    const float share = D > 0.0 ? 1.0 / D : 0.0, lambda = share * abs(direction.w);
     vec3 slid = vec3(0.0); // until this substep
     if (memory[element].w != 0.0) slid = memory[element].xyz + step.h * relative(before[i], before[face.a], before[face.b], before[face.c], weight);
     vec3 slip = slid + step.h * relative(velocities[i], velocities[face.a], velocities[face.b], velocities[face.c], weight);

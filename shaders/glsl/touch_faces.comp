@@ -16,8 +16,8 @@ layout(std430, binding = 2) readonly buffer Faces { ContactFace faces[]; };
 layout(std430, binding = 3) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
 layout(std430, binding = 4) readonly buffer Counts { uint counts[]; };
 layout(std430, binding = 5) readonly buffer Memory { vec4 memory[]; };       // w: side and overlap, 0 = has not touched
-layout(std430, binding = 6) writeonly buffer Directions { vec4 directions[]; }; // n, depth [m]; 0 = does not touch
-layout(std430, binding = 7) writeonly buffer Weights { vec4 weights[]; };       // b, side
+layout(std430, binding = 6) buffer Directions { vec4 directions[]; }; // n, depth [m]; 0 = does not touch; below 0 = see hide
+layout(std430, binding = 7) buffer Weights { vec4 weights[]; };       // b, side
 layout(std140, binding = 8) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { FacePush push; };
 #include "recovery.glsl"
@@ -30,6 +30,17 @@ struct Touch {
     bool isThrough; // the point is beyond the face's plane, and came through the face
     ContactFace face;
 };
+
+// Corners of a face between which its nearest place lies, bit k for corner k: all three, or those of an edge or a corner that
+// is as near to that place as rounding may decide where it lies. They stand in the lowest bits of a depth.
+float withCorners(float depth, vec3 b, Triangle triangle, float reach) {
+    const vec3 bc = triangle.ac - triangle.ab;
+    const vec3 heights = length(triangle.normal) * inversesqrt(vec3(dot(bc, bc), dot(triangle.ac, triangle.ac), dot(triangle.ab, triangle.ab)));
+    const bvec3 isFar = greaterThan(b * heights, vec3(0.01 * reach));
+    const uint corners = (isFar.x ? 1u : 0u) | (isFar.y ? 2u : 0u) | (isFar.z ? 4u : 0u);
+    return depth > 1e-30 ? uintBitsToFloat(floatBitsToUint(depth) & ~7u | corners) : 0.0;
+}
+uint cornersIn(float depth) { return floatBitsToUint(depth) & 7u; }
 
 // Whether a point that has passed a plane went through the face in it: on straight ways, where it was in the plane. A face
 // that turns was not quite there; what it never was within reach of may be in no list.
@@ -80,6 +91,7 @@ Touch touchOf(uint i, uint element, vec3 through) {
     const float overlap = reach - (isAbove ? side * height : distance), approach = -h * dot(touch.n, vp - b.y * vb - b.z * vc);
     const float left = overlapLeft(memory[element].w, overlap, approach, push.recoverySpeed * h);
     touch.depth = max(0.0, overlap - left);
+    if (candidate.x >= push.moving) touch.depth = withCorners(touch.depth, b, triangle, reach);
     touch.remembered = rememberedOf(side, touch.depth, left);
     return touch;
 }
@@ -94,6 +106,33 @@ bool areNeighbours(ContactFace one, ContactFace other) {
     return isCorner(one.a, other) || isCorner(one.b, other) || isCorner(one.c, other);
 }
 
+// Whether `other` has all corners of `face` in the bit set `corners`.
+bool has(ContactFace other, ContactFace face, uint corners) {
+    return ((corners & 1u) == 0u || isCorner(face.a, other)) && ((corners & 2u) == 0u || isCorner(face.b, other)) &&
+           ((corners & 4u) == 0u || isCorner(face.c, other));
+}
+
+// A face of which an edge or a corner is nearest says nothing that a face beside it does not, which has that edge or corner
+// too, and something nearer, or the same: then the first of them. Pushed from inner edges of a flat surface as well, what hits
+// it would be pushed aslant, too softly, and be thrown as it comes out. So such a contact does not push: its depth is below
+// 0. What it remembers goes on, for the nearest place may change from one face to the other. Only among faces that never move:
+// where cloth lies on cloth, to push its neighbours as well spreads what a point presses with, and folds rest sooner for it.
+void hide(uint i, uint n) {
+    for (uint s = 0u; s < n; ++s) {
+        const uint element = s * push.row + i, corners = cornersIn(directions[element].w);
+        if (!(directions[element].w > 0.0) || corners == 7u || contacts[element].x < push.moving) continue;
+        const ContactFace face = faces[contacts[element].x];
+        bool isHidden = false;
+        for (uint t = 0u; t < n && !isHidden; ++t) {
+            const uint beside = t * push.row + i;
+            if (t == s || directions[beside].w == 0.0 || contacts[beside].x < push.moving) continue;
+            const ContactFace other = faces[contacts[beside].x];
+            isHidden = has(other, face, corners) && (t < s || !has(face, other, cornersIn(directions[beside].w)));
+        }
+        if (isHidden) directions[element].w = -directions[element].w;
+    }
+}
+
 void main() {
     const uint i = itemIndex(push.count), n = counts[i];
     uint passed = ~0u;
@@ -106,7 +145,10 @@ void main() {
         }
         write(s * push.row + i, touch);
     }
-    if (passed == ~0u) return;
+    if (passed == ~0u) {
+        hide(i, n);
+        return;
+    }
     // Below a surface the sides of the faces around are those of the face that was passed: what slides below another face
     // must not be pushed out there.
     for (uint s = 0u; s < n; ++s) {

@@ -119,8 +119,8 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
                       .before = faces.before,
                       .moved = particles};
     const layout::FaceFindPush& find = contacts.lists.push;
-    contacts.push = {find.points, find.row, find.faceRow, contacts.surfaces.count,
-                     scene.contacts.recoverySpeed};
+    contacts.push = {
+        find.points, find.row, find.faceRow, contacts.surfaces.count, scene.contacts.recoverySpeed, 0};
     const std::size_t elements = std::size_t{find.row} * find.capacity, count = find.points;
     contacts.memory = side_memory::add(program, "edges", contacts.lists.contacts, contacts.lists.counts,
                                        contacts.lists.grid, contacts.push, elements);

@@ -182,8 +182,9 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
                       .moved = particles};
     const layout::FaceFindPush& find = contacts.lists.push;
     contacts.surfaces = surfaces::addTable(program, scene, layout, "faces.surface");
-    contacts.push = {find.points, find.row, find.faceRow, contacts.surfaces.count,
-                     scene.contacts.recoverySpeed};
+    contacts.push = {
+        find.points, find.row, find.faceRow, contacts.surfaces.count, scene.contacts.recoverySpeed,
+        find.moving};
     const std::size_t elements = std::size_t{find.row} * find.capacity;
     contacts.corners = program.upload("faces.corners", cornersOf(faces, inverseMass, layout));
     contacts.memory = side_memory::add(program, "faces", contacts.lists.contacts, contacts.lists.counts,
