@@ -26,7 +26,7 @@ need() {
 # What a build of everything but the tests needs, and what the programs need to run on a machine without a GPU.
 build_packages=(ca-certificates cmake ninja-build g++ libc6-dev
     libvulkan-dev libvulkan1 mesa-vulkan-drivers glslang-tools spirv-tools
-    libeigen3-dev libassimp-dev zlib1g-dev libglfw3-dev libstb-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev
+    libeigen3-dev libassimp-dev zlib1g-dev libglfw3-dev libimgui-dev libstb-dev fonts-dejavu-core libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev
     librsvg2-bin libbullet-dev # plots of `sinew study` as PNG; `sinew bench --peers`
     libgtest-dev) # the configure step looks for it, tests or not
 # What the tests need beyond that.

@@ -21,22 +21,25 @@ constexpr std::array table{
     Binding{{drag, GLFW_MOUSE_BUTTON_MIDDLE}, pan, "middle drag", "pan"},
     Binding{{drag, GLFW_MOUSE_BUTTON_RIGHT, GLFW_MOD_SHIFT}, pan, "Shift + right drag", "pan"},
     Binding{{wheel}, zoom, "wheel", "zoom to the pointer"},
-    Binding{{key, GLFW_KEY_F}, frame, "F", "frame everything"},
+    Binding{{key, GLFW_KEY_F}, frame, "F", "frame everything", "Frame"},
     Binding{{key, GLFW_KEY_HOME}, frame, "Home", "frame everything"},
-    Binding{{key, GLFW_KEY_SPACE}, pause, "Space", "pause or go on"},
+    Binding{{key, GLFW_KEY_SPACE}, pause, "Space", "pause or go on", "Pause"},
     Binding{{key, GLFW_KEY_P}, pause, "P", "pause or go on"},
-    Binding{{key, GLFW_KEY_PERIOD}, step, ".", "pause and take one step"},
-    Binding{{key, GLFW_KEY_R}, reset, "R", "reset the scene"},
-    Binding{{key, GLFW_KEY_C}, blade, "C", "blade: left drag cuts, from the front through to the back"},
-    Binding{{key, GLFW_KEY_ESCAPE}, drop, "Esc", "drop the blade, let go"},
-    Binding{{key, GLFW_KEY_Z, GLFW_MOD_CONTROL}, undo, "Ctrl + Z", "undo a cut: back to before it"},
-    Binding{{key, GLFW_KEY_Z, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT}, redo, "Shift + Ctrl + Z", "redo it"},
-    Binding{{key, GLFW_KEY_F12}, screenshot, "F12", "save a picture (PNG) in the current folder"},
-    Binding{{key, GLFW_KEY_F11}, fullScreen, "F11", "full screen"},
-    Binding{{key, GLFW_KEY_V}, vsync, "V", "wait for the screen (vsync) or not"},
-    Binding{{key, GLFW_KEY_H}, help, "H", "print this help"},
-    Binding{{key, GLFW_KEY_F1}, help, "F1", "print this help"},
-    Binding{{key, GLFW_KEY_Q, GLFW_MOD_CONTROL}, quit, "Ctrl + Q", "quit"},
+    Binding{{key, GLFW_KEY_PERIOD}, step, ".", "pause and take one step", "Step"},
+    Binding{{key, GLFW_KEY_R}, reset, "R", "reset the scene", "Reset"},
+    Binding{
+        {key, GLFW_KEY_C}, blade, "C", "blade: left drag cuts, from the front through to the back", "Blade"},
+    Binding{{key, GLFW_KEY_ESCAPE}, drop, "Esc", "drop the blade, let go", "Let go"},
+    Binding{{key, GLFW_KEY_Z, GLFW_MOD_CONTROL}, undo, "Ctrl + Z", "undo a cut: back to before it", "Undo"},
+    Binding{
+        {key, GLFW_KEY_Z, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT}, redo, "Shift + Ctrl + Z", "redo it", "Redo"},
+    Binding{{key, GLFW_KEY_F12}, screenshot, "F12", "save a picture (PNG) in the current folder", "Picture"},
+    Binding{{key, GLFW_KEY_F11}, fullScreen, "F11", "full screen", "Full screen"},
+    Binding{{key, GLFW_KEY_V}, vsync, "V", "wait for the screen (vsync) or not", "Vsync"},
+    Binding{{key, GLFW_KEY_TAB}, panels, "Tab", "show or hide the panels", "Hide"},
+    Binding{{key, GLFW_KEY_H}, help, "H", "show or hide this help", "Help"},
+    Binding{{key, GLFW_KEY_F1}, help, "F1", "show or hide this help"},
+    Binding{{key, GLFW_KEY_Q, GLFW_MOD_CONTROL}, quit, "Ctrl + Q", "quit", "Quit"},
 };
 
 } // namespace
@@ -52,18 +55,65 @@ std::optional<Action> actionFor(const Trigger& trigger) {
     return found == table.end() ? std::nullopt : std::optional(found->action);
 }
 
-std::string helpText() {
-    std::string text;
+std::vector<HelpLine> helpLines() {
+    std::vector<HelpLine> lines;
     for (const auto* line = table.begin(); line != table.end();) {
         std::string triggers(line->shown);
         const auto* next = line + 1;
         for (; next != table.end() && next->action == line->action; ++next)
             triggers.append(", ").append(next->shown);
-        triggers.resize(std::max<std::size_t>(triggers.size() + 2, 34), ' ');
-        text.append("  ").append(triggers).append(line->help).append("\n");
+        lines.push_back({std::move(triggers), line->help});
         line = next;
     }
+    return lines;
+}
+
+std::string helpText() {
+    std::string text;
+    for (HelpLine& line : helpLines()) {
+        line.triggers.resize(std::max<std::size_t>(line.triggers.size() + 2, 34), ' ');
+        text.append("  ").append(line.triggers).append(line.help).append("\n");
+    }
     return text;
+}
+
+std::string_view keyOf(Action action) {
+    const auto* found = std::ranges::find(table, action, &Binding::action);
+    return found == table.end() ? std::string_view() : found->shown;
+}
+
+std::string hintText(Hands hands) {
+    constexpr std::string_view apart = "   \u00b7   ";
+    std::string text;
+    const auto add = [&](std::string_view words, std::initializer_list<Action> keys = {}) {
+        if (!text.empty()) text.append(apart);
+        const char* between = "";
+        for (const Action action : keys) {
+            text.append(between).append(keyOf(action));
+            between = " or ";
+        }
+        text.append(keys.size() > 0 ? " " : "").append(words);
+    };
+    if (hands == Hands::holding) {
+        add("pull; let go of the button to drop");
+    } else if (hands == Hands::blade) {
+        add("left drag cuts through");
+        add("puts the blade away", {blade});
+        add("goes back to before a cut", {undo});
+    } else {
+        add("left drag grabs");
+        add("cuts", {blade});
+        add("orbits", {orbit});
+        add("pauses", {pause});
+        add("resets", {reset});
+    }
+    add("panels", {Action::panels});
+    add("help", {help});
+    return text;
+}
+
+std::string shortHintText() {
+    return std::string(keyOf(help)) + " help";
 }
 
 } // namespace sinew::viewer

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sinew::viewer {
 
@@ -25,6 +26,7 @@ enum class Action {
     screenshot,
     fullScreen,
     vsync,
+    panels,
     help,
     quit
 };
@@ -40,8 +42,9 @@ struct Trigger {
 struct Binding {
     Trigger trigger;
     Action action;
-    std::string_view shown; ///< how the help text names it
+    std::string_view shown; ///< how the help names it
     std::string_view help;
+    std::string_view button = {}; ///< what its button in the panels says; only the first of an action has one
 };
 
 std::span<const Binding> bindings();
@@ -49,6 +52,20 @@ std::span<const Binding> bindings();
 std::optional<Action> actionFor(const Trigger& trigger);
 
 /// One line per action: its triggers and what it does.
+struct HelpLine {
+    std::string triggers; ///< "Space, P"
+    std::string_view help;
+};
+std::vector<HelpLine> helpLines();
+/// The same as text.
 std::string helpText();
+
+/// How the first key of an action is shown: "Space".
+std::string_view keyOf(Action action);
+/// What can be done now, in a line: with the blade in hand, while a body is held, or with empty hands.
+enum class Hands { empty, holding, blade };
+std::string hintText(Hands hands);
+/// Where there is no room for it: how to get help.
+std::string shortHintText();
 
 } // namespace sinew::viewer

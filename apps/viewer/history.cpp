@@ -47,6 +47,13 @@ bool History::recordRedo(VkCommandBuffer commands, Stage& stage) {
     return recordSwap(commands, stage, after_, before_);
 }
 
+std::vector<std::uint64_t> History::times() const {
+    std::vector<std::uint64_t> times;
+    for (const State& state : before_) times.push_back(state.played);
+    for (auto state = after_.rbegin(); state != after_.rend(); ++state) times.push_back(state->played);
+    return times;
+}
+
 void History::clear() {
     before_.clear();
     after_.clear();

@@ -26,6 +26,9 @@ public:
 
     std::size_t undos() const { return before_.size(); }
     std::size_t redos() const { return after_.size(); }
+    /// When the states are of, as Stage::played(): those to go back to from the oldest on, then those to go
+    /// forwards to from the nearest on.
+    std::vector<std::uint64_t> times() const;
     /// Nothing of it may be in use on the device.
     void clear();
 

@@ -33,9 +33,10 @@ int runInteractive(const Options& options, std::size_t& messages) {
     if (isSoftware(device))
         std::printf("software device: small shadow maps and no multisampling while things move, all of it "
                     "when paused\n");
-    std::printf("H prints help, Ctrl + Q quits\n");
+    std::printf("H shows help, Ctrl + Q quits\n");
     std::fflush(stdout);
-    Show show(window, device, opening);
+    Screen screen(window, device);
+    Show show(screen, device, opening);
     show.run();
     return app::isInterrupted() ? app::interrupted : app::done;
 }

@@ -4,6 +4,7 @@
 #include "layout.h"
 #include "vk/check.hpp"
 
+#include <array>
 #include <utility>
 
 namespace sinew::viewer {
@@ -61,25 +62,33 @@ constexpr std::array cutAttributes{skinAttributes[0], skinAttributes[1],
                                    VkVertexInputAttributeDescription{2, 1, VK_FORMAT_R32G32B32A32_SFLOAT,
                                                                      offsetof(sim::layout::CutVertex, rest)}};
 
+constexpr std::array panelBindings{
+    VkVertexInputBindingDescription{0, sizeof(PanelVertex), VK_VERTEX_INPUT_RATE_VERTEX}};
+constexpr std::array panelAttributes{
+    VkVertexInputAttributeDescription{0, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(PanelVertex, place)},
+    VkVertexInputAttributeDescription{1, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(PanelVertex, atlas)},
+    VkVertexInputAttributeDescription{2, 0, VK_FORMAT_R8G8B8A8_UNORM, offsetof(PanelVertex, color)}};
+
+// What a vertex consists of, in the order of PipelineRequest::Input.
+struct VertexForm {
+    std::span<const VkVertexInputBindingDescription> bindings;
+    std::span<const VkVertexInputAttributeDescription> attributes;
+};
+constexpr std::array vertexForms{VertexForm{},
+                                 VertexForm{{&skinBinding, 1}, {skinAttributes.data(), 1}},
+                                 VertexForm{{&skinBinding, 1}, skinAttributes},
+                                 VertexForm{ballBindings, ballAttributes},
+                                 VertexForm{{ballBindings.data(), 2}, {ballAttributes.data(), 2}},
+                                 VertexForm{cutBindings, cutAttributes},
+                                 VertexForm{panelBindings, panelAttributes}};
+
 VkPipelineVertexInputStateCreateInfo vertexInput(PipelineRequest::Input input) {
-    using Input = PipelineRequest::Input;
-    VkPipelineVertexInputStateCreateInfo state{.sType =
-                                                   VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
-    if (input == Input::none) return state;
-    if (input == Input::cuts) {
-        state.vertexBindingDescriptionCount = cutBindings.size();
-        state.pVertexBindingDescriptions = cutBindings.data();
-        state.vertexAttributeDescriptionCount = cutAttributes.size();
-        state.pVertexAttributeDescriptions = cutAttributes.data();
-        return state;
-    }
-    const bool isBalls = input == Input::balls || input == Input::hand;
-    const std::uint32_t perBall = input == Input::hand ? 2 : 3;
-    state.vertexBindingDescriptionCount = isBalls ? perBall : 1;
-    state.pVertexBindingDescriptions = isBalls ? ballBindings.data() : &skinBinding;
-    state.vertexAttributeDescriptionCount = isBalls ? perBall : input == Input::positions ? 1 : 2;
-    state.pVertexAttributeDescriptions = isBalls ? ballAttributes.data() : skinAttributes.data();
-    return state;
+    const VertexForm& form = vertexForms[static_cast<std::size_t>(input)];
+    return {.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
+            .vertexBindingDescriptionCount = static_cast<std::uint32_t>(form.bindings.size()),
+            .pVertexBindingDescriptions = form.bindings.data(),
+            .vertexAttributeDescriptionCount = static_cast<std::uint32_t>(form.attributes.size()),
+            .pVertexAttributeDescriptions = form.attributes.data()};
 }
 
 VkPipelineDepthStencilStateCreateInfo depthState(PipelineRequest::Depth depth) {
@@ -102,9 +111,16 @@ constexpr VkPipelineRasterizationStateCreateInfo rasterState{
     .cullMode = VK_CULL_MODE_NONE,
     .frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE,
     .lineWidth = 1};
-constexpr VkPipelineColorBlendAttachmentState opaque{.colorWriteMask =
-                                                         VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
-                                                         VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT};
+constexpr VkColorComponentFlags allComponents =
+    VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+constexpr VkPipelineColorBlendAttachmentState opaque{.colorWriteMask = allComponents};
+constexpr VkPipelineColorBlendAttachmentState blended{.blendEnable = VK_TRUE,
+                                                      .srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA,
+                                                      .dstColorBlendFactor =
+                                                          VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+                                                      .srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO,
+                                                      .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
+                                                      .colorWriteMask = allComponents};
 
 VkPipeline create(const vk::Device& device, const PipelineRequest& request,
                   std::span<const VkPipelineShaderStageCreateInfo> stages) {
@@ -118,7 +134,7 @@ VkPipeline create(const vk::Device& device, const PipelineRequest& request,
     const VkPipelineColorBlendStateCreateInfo blend{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
         .attachmentCount = request.fragment ? 1u : 0u,
-        .pAttachments = &opaque};
+        .pAttachments = request.isBlended ? &blended : &opaque};
     const VkGraphicsPipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
                                             .stageCount = static_cast<std::uint32_t>(stages.size()),
                                             .pStages = stages.data(),

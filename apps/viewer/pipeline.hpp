@@ -6,6 +6,13 @@
 
 namespace sinew::viewer {
 
+/// A corner of a panel's triangle, as Dear ImGui lays it out.
+struct PanelVertex {
+    float place[2];        ///< from the upper left corner of the picture [pixels]
+    float atlas[2];        ///< in the glyph atlas, which is 1 wide and high
+    std::uint8_t color[4]; ///< red, green, blue as shown (sRGB), alpha
+};
+
 struct PipelineRequest {
     std::string name;
     const vk::ShaderCode* vertex = nullptr;
@@ -14,10 +21,12 @@ struct PipelineRequest {
     VkRenderPass pass = VK_NULL_HANDLE;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     /// Of SkinVertex, binding 0; or corners of a ball, and its place and radius an instance, bindings 0 to 2;
-    /// of a hand those without a radius. Of a cut SkinVertex and CutVertex, bindings 0 and 1.
-    enum class Input { none, positions, positionsAndNormals, balls, hand, cuts } input = Input::none;
+    /// of a hand those without a radius. Of a cut SkinVertex and CutVertex, bindings 0 and 1. Of panels
+    /// PanelVertex.
+    enum class Input { none, positions, positionsAndNormals, balls, hand, cuts, panels } input = Input::none;
     enum class Depth { none, test, testAndWrite } depth = Depth::none;
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    bool isBlended = false;                                ///< over what is there, by alpha
     std::span<const vk::SpecialisationConstant> constants; ///< of both stages; ids a shader lacks are ignored
 };
 

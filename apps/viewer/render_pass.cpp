@@ -132,6 +132,29 @@ RenderPass RenderPass::picture(const vk::Device& device, const Picture& picture)
     return RenderPass(device, passInfo(attachments, subpass, dependencies), "picture");
 }
 
+RenderPass RenderPass::over(const vk::Device& device, VkFormat color) {
+    std::array attachments{attachment(color, VK_SAMPLE_COUNT_1_BIT, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR)};
+    attachments[0].loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
+    attachments[0].initialLayout = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR;
+    const VkSubpassDescription subpass{.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
+                                       .colorAttachmentCount = 1,
+                                       .pColorAttachments = &colorReference};
+    const std::array dependencies{
+        VkSubpassDependency{.srcSubpass = VK_SUBPASS_EXTERNAL,
+                            .dstSubpass = 0,
+                            .srcStageMask = colorStage,
+                            .dstStageMask = colorStage,
+                            .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
+                            .dstAccessMask = colorAccess},
+        VkSubpassDependency{.srcSubpass = 0, // the semaphore of the submission does the rest
+                            .dstSubpass = VK_SUBPASS_EXTERNAL,
+                            .srcStageMask = colorStage,
+                            .dstStageMask = colorStage,
+                            .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
+                            .dstAccessMask = 0}};
+    return RenderPass(device, passInfo(attachments, subpass, dependencies), "over");
+}
+
 RenderPass::RenderPass(RenderPass&& other) noexcept
     : device_(other.device_), pass_(std::exchange(other.pass_, VK_NULL_HANDLE)) {}
 

@@ -3,15 +3,15 @@
 #pragma once
 
 #include "viewer/controller.hpp"
+#include "viewer/gauges.hpp"
 #include "viewer/offscreen.hpp"
 #include "viewer/opening.hpp"
 #include "viewer/picture_writer.hpp"
-#include "viewer/presenter.hpp"
+#include "viewer/screen.hpp"
 #include "viewer/stage.hpp"
 #include "viewer/state_probe.hpp"
 #include "viewer/status_line.hpp"
 #include "viewer/tools.hpp"
-#include "viewer/window.hpp"
 #include "vk/timestamps.hpp"
 
 #include <chrono>
@@ -19,10 +19,10 @@
 
 namespace sinew::viewer {
 
-/// Main thread only. Window, device and opening must outlive it; the device must not move.
+/// Main thread only. Screen, device and opening must outlive it; the device must not move.
 class Show {
 public:
-    Show(Window& window, const vk::Device& device, const Opening& opening);
+    Show(Screen& screen, const vk::Device& device, const Opening& opening);
     ~Show(); ///< waits for the queue
     Show(const Show&) = delete;
     Show& operator=(const Show&) = delete;
@@ -46,6 +46,7 @@ private:
         std::uint32_t steps = 0;
         std::vector<Sweep> sweeps;   // of its first steps
         bool isProbed = false;       // for the bounds
+        bool isMeasured = false;     // for the strain
         std::optional<Ray> question; // for the hand
         std::unique_ptr<Offscreen> screenshot;
         std::uint64_t screenshotStep = 0;
@@ -58,9 +59,12 @@ private:
     void handle(Action action);
     bool prepareSwapchain();
     void draw(Plan plan, View& view);
+    void drawPanels(const Presenter::Frame& frame, bool isFullQuality);
+    Facts facts(bool isFullQuality) const;
     void recordSteps(const Presenter::Frame& frame, const Plan& plan);
     void forgetFlights();
     void warnOfSurface();
+    bool isStrainDue(std::uint32_t steps);
     void recordProbe(const Presenter::Frame& frame);
     void recordScreenshot(const Presenter::Frame& frame);
     void settle(std::uint32_t slot);
@@ -70,7 +74,7 @@ private:
     void settleAll();
     void reportFiles(PictureWriter::Wait wait);
 
-    Window& window_;
+    Screen& screen_;
     const vk::Device& device_;
     const Opening& opening_;
     Controller controller_;
@@ -78,16 +82,17 @@ private:
     std::optional<StateProbe> probe_; // of the stage's simulation
     Tools tools_;
     std::vector<vk::Timestamps> times_; // one a slot
-    Presenter presenter_;
+    SceneFacts sceneFacts_;
+    Gauges gauges_;
+    Wishes wishes_; // of the newest picture
     View moving_;
     std::optional<View> still_; // where `moving_` has less than full quality
     std::array<InFlight, Presenter::framesInFlight> inFlight_;
     PictureWriter writer_{1};
     StatusLine status_;
-    Clock::time_point lastTurn_ = Clock::now(), lastChange_ = lastTurn_;
-    VkExtent2D pixels_{};
+    Clock::time_point lastTurn_ = Clock::now(), lastChange_ = lastTurn_, lastStrain_ = lastTurn_;
     Shown shown_ = Shown::nothing;
-    bool isHidden_ = false, isDiverged_ = false, isSurfaceMissing_ = false, isVsync_ = true,
+    bool isHidden_ = false, isDiverged_ = false, isSurfaceMissing_ = false, isCut_ = false,
          wantsScreenshot_ = false, wantsProbe_ = false;
 };
 

@@ -54,6 +54,7 @@ public:
 
     const sim::Scene& scene() const noexcept { return scene_; }
     const sim::Simulation& simulation() const noexcept { return growing_.simulation(); }
+    const app::ContactRoom& contactRoom() const noexcept { return growing_.contactRoom(); }
 
 private:
     sim::Scene scene_;

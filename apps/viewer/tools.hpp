@@ -35,6 +35,9 @@ public:
     void restart(std::span<const Sweep> undone);
 
     GrabTool& hand() { return hand_; }
+    bool isHolding() const { return hand_.isHolding(); }
+    bool isBladeOn() const { return blade_.isOn(); }
+    const History& history() const { return history_; }
     Overlay overlay() const { return {hand_.hand(), blade_.path()}; }
     /// For the title: " - holding".
     const char* name() const { return hand_.isHolding() ? " - holding" : blade_.isOn() ? " - blade" : ""; }

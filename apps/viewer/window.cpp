@@ -35,6 +35,9 @@ int layoutKey(int key, int scancode) {
 struct Window::State {
     GLFWwindow* window = nullptr;
     Input input;
+    Cover cover;
+    std::array<bool, 3> isDownInPanel{};
+    bool wasCovered = false; // the pointer
     std::optional<Action> dragged;
     int dragButton = 0;
     Vector2 cursor = Vector2::Zero();        // screen coordinates
@@ -55,13 +58,46 @@ struct Window::State {
         return (cursor - 0.5f * Vector2(static_cast<float>(wide), static_cast<float>(high))) / windowHeight();
     }
 
+    // From the upper left corner of the picture.
+    Vector2 pixels() const {
+        int wide = 0, high = 0;
+        glfwGetFramebufferSize(window, &wide, &high);
+        return static_cast<float>(high) / windowHeight() * cursor;
+    }
+
+    bool isCovered() const { return cover.holds(pixels()); }
+
     void onKey(int key, int scancode, int event, int modifiers) {
-        if (event == GLFW_RELEASE) return;
+        input.panels.modifiers = modifiers;
+        if (event == GLFW_RELEASE || cover.takesKeys()) {
+            input.panels.keys.emplace_back(key, event != GLFW_RELEASE);
+            input.panels.isTouched = input.panels.isTouched || cover.takesKeys();
+            return;
+        }
         const auto action = actionFor({Trigger::Kind::key, layoutKey(key, scancode), modifiers});
         if (action && (event == GLFW_PRESS || *action == Action::step)) input.actions.push_back(*action);
     }
 
+    void onCharacter(unsigned character) {
+        if (!cover.takesKeys()) return;
+        input.panels.characters.push_back(character);
+        input.panels.isTouched = true;
+    }
+
+    // Whoever gets a press gets the release.
+    bool isOfPanels(int button, int event) {
+        if (button < 0 || button >= static_cast<int>(isDownInPanel.size())) return false;
+        const auto b = static_cast<std::size_t>(button);
+        const bool isTheirs = event == GLFW_PRESS ? !dragged && isCovered() : isDownInPanel[b];
+        if (!isTheirs) return false;
+        isDownInPanel[b] = event == GLFW_PRESS;
+        input.panels.wasPressed[b] = input.panels.wasPressed[b] || event == GLFW_PRESS;
+        return input.panels.isTouched = true;
+    }
+
     void onButton(int button, int event, int modifiers) {
+        input.panels.modifiers = modifiers;
+        if (isOfPanels(button, event)) return;
         if (event == GLFW_PRESS && !dragged) {
             dragged = actionFor({Trigger::Kind::drag, button, modifiers});
             dragButton = button;
@@ -76,10 +112,18 @@ struct Window::State {
         const Vector2 to(static_cast<float>(toX), static_cast<float>(toY));
         if (dragged) input.drags.push_back({*dragged, (to - cursor) / windowHeight()});
         cursor = to;
+        const bool isOver = isCovered() || isDownInPanel != std::array<bool, 3>{};
+        input.panels.isTouched = input.panels.isTouched || isOver || wasCovered;
+        wasCovered = isOver;
     }
 
     void onWheel(double notches) {
-        if (actionFor({Trigger::Kind::wheel}) == Action::zoom) input.notches += static_cast<float>(notches);
+        if (isCovered()) {
+            input.panels.notches += static_cast<float>(notches);
+            input.panels.isTouched = true;
+        } else if (actionFor({Trigger::Kind::wheel}) == Action::zoom) {
+            input.notches += static_cast<float>(notches);
+        }
     }
 
     void listen() {
@@ -87,6 +131,7 @@ struct Window::State {
         glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int event, int modifiers) {
             of(w).onKey(key, scancode, event, modifiers);
         });
+        glfwSetCharCallback(window, [](GLFWwindow* w, unsigned character) { of(w).onCharacter(character); });
         glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int event, int modifiers) {
             of(w).onButton(button, event, modifiers);
         });
@@ -148,7 +193,19 @@ Input Window::poll(double seconds) {
         glfwPollEvents();
     Input input = std::exchange(state_->input, {});
     input.pointer = state_->pointer();
+    input.panels.pointer = state_->pixels();
+    input.panels.isDown = state_->isDownInPanel;
     return input;
+}
+
+void Window::setCover(Cover cover) {
+    state_->cover = std::move(cover);
+}
+
+float Window::scale() const {
+    float across = 1, down = 1;
+    glfwGetWindowContentScale(state_->window, &across, &down);
+    return std::max(1.0f, down);
 }
 
 VkExtent2D Window::pixels() const {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "viewer/bindings.hpp"
-#include "viewer/geometry.hpp"
+#include "viewer/panel_input.hpp"
 #include "vk/device.hpp"
 
 #include <memory>
@@ -31,6 +31,7 @@ struct Input {
     float notches = 0;                 ///< of the wheel, forwards positive
     Vector2 pointer = Vector2::Zero(); ///< from the middle, x right, y down, in window heights
     bool needsRedraw = false;          ///< resized or uncovered
+    PanelInput panels;                 ///< what is not in the others
     bool isEmpty() const {
         return actions.empty() && presses.empty() && drags.empty() && notches == 0 && !needsRedraw;
     }
@@ -51,9 +52,13 @@ public:
     /// The caller destroys it. Throws vk::Error.
     VkSurfaceKHR createSurface(VkInstance instance) const;
 
+    /// From now on `cover` is asked first. What it refers to must outlive the last poll().
+    void setCover(Cover cover);
+
     /// Handles waiting events; waits for the first one at most `seconds`.
     Input poll(double seconds);
 
+    float scale() const;       ///< of texts, as the display wants them; 1 = 96 pixels an inch
     VkExtent2D pixels() const; ///< 0 x 0 while minimised
     bool isClosing() const;
     void close();

@@ -93,7 +93,7 @@ same orbited.png moved.png && fail "pan and wheel changed nothing"
 colors=$(convert orbited.png -format %k info:)
 ((colors > 500)) || fail "the picture has only $colors colours"
 
-echo "window: frame, step, reset, screenshot, help, vsync, Escape"
+echo "window: frame, step, reset, screenshot, vsync, help, panels"
 keys f
 awaitStill framed.png
 same moved.png framed.png && fail "F changed nothing"
@@ -106,10 +106,30 @@ same stepped.png reset.png && fail "R changed nothing"
 keys F12
 for _ in {1..100}; do grep -q '^picture: ' viewer.out && break; sleep 0.1; done
 [[ $(identify -format '%wx%h' block-000000.png) == 640x400 ]] || fail "F12 wrote no picture of the window's size"
-keys h
-keys v v Escape
+dark() { # FILE CROP: whether a panel covers that part, which is light or red without
+    [[ $(convert "$1" -crop "$2" +repage -colorspace sRGB -format '%[fx:mean < 0.33 ? 1 : 0]' info:) == 1 ]]
+}
+middle=200x200+220+100 side=200x200+420+40
+keys v v
 awaitStill still.png
-grep -q 'Ctrl + Q' viewer.out || fail "H printed no help"
+dark still.png $middle && fail "something covers the middle"
+keys h
+awaitStill help.png
+dark help.png $middle || fail "H shows no help"
+keys Escape
+awaitStill closed.png
+dark closed.png $middle && fail "Escape does not close the help"
+dark closed.png $side && fail "panels cover a small window unasked"
+keys Tab
+awaitStill panels.png
+dark panels.png $side || fail "Tab shows no panels"
+xdotool mousemove 390 147 click 1 # the first button goes on, like Space
+awaitTitle fps
+keys space
+awaitTitle paused
+keys Tab
+awaitStill hidden.png
+dark hidden.png $side && fail "Tab does not hide the panels"
 
 echo "window: a hand grabs the body, lifts it and lets go"
 # The block is the one red thing. Row of its lowest pixel, and of its highest.

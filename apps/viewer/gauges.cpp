@@ -1,0 +1,147 @@
+// Reads step programs and status words.
+#include "viewer/gauges.hpp"
+
+#include "sim/compile.hpp"
+#include "viewer/renderer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace sinew::viewer {
+
+namespace {
+
+// "32 of 50,000 links are clamped (0.1 %); the softest has 87 % of its stiffness".
+std::string stiffnessText(const sim::Scene& scene, const sim::Settings& settings) {
+    const sim::StiffnessReport report = sim::inspectStiffness(scene, settings);
+    if (report.elastic == 0) return "";
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "%zu of %zu links are clamped (%.1f %%); the softest has %.0f %% of its stiffness",
+                  report.clamped, report.elastic,
+                  100.0 * static_cast<double>(report.clamped) / static_cast<double>(report.elastic),
+                  100 * report.softest);
+    return text;
+}
+
+// "solve_distance[3]" is one of several that differ in their range only.
+std::string withoutNumber(const std::string& label) {
+    return label.substr(0, label.find('['));
+}
+
+void add(std::vector<PassLine>& lines, const sim::StepProgram& program, const sim::Pass& pass) {
+    const bool isDispatch = pass.kind == sim::PassKind::dispatch;
+    PassLine line{.phase = program.phases[pass.phase],
+                  .label = withoutNumber(pass.label),
+                  .items = isDispatch ? pass.items : 0,
+                  .isOfCut = pass.isOfCut};
+    const auto same = [&](const PassLine& other) {
+        return other.phase == line.phase && other.label == line.label && other.isOfCut == line.isOfCut &&
+               (other.items == 0) == (line.items == 0);
+    };
+    const auto found = std::ranges::find_if(lines, same);
+    if (found == lines.end()) return lines.push_back(std::move(line));
+    ++found->times;
+    found->items = std::max(found->items, line.items);
+}
+
+void addProgram(SceneFacts& facts, const sim::StepProgram& program) {
+    for (const sim::Pass& pass : program.step) {
+        add(facts.passes, program, pass);
+        if (pass.isOfCut) continue;
+        facts.dispatches += pass.kind == sim::PassKind::dispatch ? 1 : 0;
+        facts.barriers += pass.barrierWithoutCut ? 1 : 0;
+    }
+    facts.skipped = program.skipped;
+}
+
+} // namespace
+
+SceneFacts sceneFacts(const Opening& opening, const Stage& stage, const vk::Device& device) {
+    const sim::Scene& scene = stage.scene();
+    const scenes::LoadedScene& loaded = opening.loaded;
+    SceneFacts facts{.name = scene.name,
+                     .device = device.description().name,
+                     .driver = device.description().driver,
+                     .isSoftware = isSoftware(device),
+                     .particles = scene.particles.size(),
+                     .constraints = stage.simulation().program().constraintCount,
+                     .substepsWhy = sim::toText(loaded.substeps, loaded.settings),
+                     .stiffness = stiffnessText(scene, loaded.settings),
+                     .canCut = std::ranges::any_of(scene.grids, &sim::Grid::isCuttable)};
+    addProgram(facts, stage.simulation().program());
+    return facts;
+}
+
+Strain measureStrain(const sim::Scene& scene, std::span<const sim::layout::vec4> positions) {
+    double squares = 0, largest = 0;
+    std::size_t count = 0;
+    for (const sim::DistanceConstraint& link : scene.distances) {
+        if (!(link.restLength > 0)) continue;
+        const sim::layout::vec4 &a = positions[link.a], &b = positions[link.b];
+        const double length =
+            std::hypot(double{a.x} - double{b.x}, double{a.y} - double{b.y}, double{a.z} - double{b.z});
+        const double strain = length / double{link.restLength} - 1;
+        squares += strain * strain;
+        largest = std::max(largest, std::abs(strain));
+        ++count;
+    }
+    return count == 0 ? Strain{} : Strain{std::sqrt(squares / static_cast<double>(count)), largest};
+}
+
+Gauges::Gauges(const Stage& stage, double dt) : dt_(dt) {
+    for (const std::string& phase : stage.simulation().phases()) facts_.phases.push_back({phase, {}});
+}
+
+void Gauges::frame(double seconds, std::uint32_t steps) {
+    facts_.frameMs.add(static_cast<float>(1000 * seconds));
+    seconds_ += seconds;
+    shown_ += steps * dt_;
+    ++frames_;
+    if (seconds_ < 0.5) return;
+    facts_.framesPerSecond = frames_ / seconds_;
+    facts_.keptPace = shown_ / seconds_;
+    seconds_ = shown_ = 0;
+    frames_ = 0;
+}
+
+void Gauges::stepTimed(std::span<const double> milliseconds) {
+    for (std::size_t p = 0; p < std::min(facts_.phases.size(), milliseconds.size()); ++p)
+        facts_.phases[p].ms.add(static_cast<float>(milliseconds[p]));
+}
+
+void Gauges::stepFinished(const sim::Status& status) {
+    facts_.slowed = status.slowed;
+    facts_.sleeping = status.sleeping;
+    facts_.pieces = status.pieces;
+    facts_.linksCut = status.linksCutInAll;
+}
+
+void Gauges::strainMeasured(const Strain& strain) {
+    facts_.strainRms.add(static_cast<float>(strain.rms));
+    facts_.strainMax.add(static_cast<float>(strain.largest));
+}
+
+void Gauges::restart() {
+    facts_.strainRms.clear();
+    facts_.strainMax.clear();
+    facts_.slowed = facts_.sleeping = facts_.pieces = facts_.linksCut = 0;
+}
+
+Facts Gauges::facts(const Stage& stage) const {
+    Facts facts = facts_;
+    facts.steps = stage.steps();
+    facts.time = static_cast<double>(stage.played()) * dt_;
+    const auto& skipped = stage.simulation().program().skipped;
+    if (std::ranges::find(skipped, "contacts") == skipped.end()) {
+        const app::ContactRoom& room = stage.contactRoom();
+        facts.contactRoom = room.room;
+        facts.contactsNeeded = room.needed;
+        facts.timesGrown = room.grown;
+        facts.isContactRoomShort = room.needed > room.room;
+    }
+    return facts;
+}
+
+} // namespace sinew::viewer

@@ -1,0 +1,45 @@
+// Facts about a scene on show, out of the simulation: what its step consists of, what finished steps say.
+#pragma once
+
+#include "layout.h"
+#include "viewer/facts.hpp"
+#include "viewer/opening.hpp"
+#include "viewer/stage.hpp"
+
+namespace sinew::viewer {
+
+/// What stays the same. `settings` as the stage runs with them.
+SceneFacts sceneFacts(const Opening& opening, const Stage& stage, const vk::Device& device);
+
+/// Of links, (length - rest length) / rest length: root of the mean square, and largest. `positions` of every
+/// particle [m].
+struct Strain {
+    double rms = 0, largest = 0;
+};
+Strain measureStrain(const sim::Scene& scene, std::span<const sim::layout::vec4> positions);
+
+/// Collects what changes.
+class Gauges {
+public:
+    Gauges(const Stage& stage, double dt);
+
+    /// A picture, `seconds` after the last, with `steps` before it.
+    void frame(double seconds, std::uint32_t steps);
+    /// GPU time of a step, by phase [ms].
+    void stepTimed(std::span<const double> milliseconds);
+    void stepFinished(const sim::Status& status);
+    void strainMeasured(const Strain& strain);
+    /// After a reset, or a way back.
+    void restart();
+
+    /// Filled in but for what the window, the tools and the player know.
+    Facts facts(const Stage& stage) const;
+
+private:
+    double dt_;
+    Facts facts_;
+    double seconds_ = 0, shown_ = 0; // of the clock and of the scene, for the pace
+    std::uint32_t frames_ = 0;
+};
+
+} // namespace sinew::viewer

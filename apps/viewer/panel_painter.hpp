@@ -1,0 +1,71 @@
+// Draws what Dear ImGui made of the panels over a finished picture, with the viewer's own pipelines: ImGui's
+// Vulkan backend would link the loader, which this program opens at run time, and mixes colors without regard
+// to sRGB.
+#pragma once
+
+#include "viewer/pipeline.hpp"
+#include "viewer/render_pass.hpp"
+#include "vk/buffer.hpp"
+
+#include <optional>
+#include <vector>
+
+struct ImDrawData;
+struct ImDrawList;
+
+namespace sinew::viewer {
+
+/// One byte a texel: how much of it a glyph covers. Rows from the top.
+struct GlyphAtlas {
+    std::uint32_t width = 0, height = 0; ///< [texels]; width is a multiple of 4
+    std::vector<std::uint8_t> coverage;
+};
+
+/// Must not outlive its Device, which must not move.
+class PanelPainter {
+public:
+    /// `format` as RenderPass::over(); `slots` pictures may be recorded but not finished. Throws vk::Error.
+    PanelPainter(const vk::Device& device, VkFormat format, std::uint32_t slots);
+    PanelPainter(const PanelPainter&) = delete;
+    PanelPainter& operator=(const PanelPainter&) = delete;
+    ~PanelPainter();
+
+    /// Glyphs from now on. Nothing that was recorded may be unfinished.
+    void setAtlas(const GlyphAtlas& atlas);
+
+    /// Framebuffers for pictures of a size. The views belong to the caller and must outlive them; what was
+    /// drawn into the old ones must be finished.
+    void setPictures(VkExtent2D extent, std::span<const VkImageView> pictures);
+
+    /// Draws over a picture in PRESENT_SRC_KHR layout and leaves it there. `commands` must be recording,
+    /// outside a render pass; the slot's previous picture must be finished. Throws vk::Error where there is
+    /// no memory for more triangles than ever before.
+    void record(VkCommandBuffer commands, std::uint32_t slot, std::size_t picture, const ImDrawData& drawn);
+
+private:
+    struct Slot {
+        std::optional<vk::Buffer> vertices, indices;
+    };
+    void createLayouts();
+    void createSet();
+    void release() noexcept;
+    void upload(Slot& slot, const ImDrawData& drawn);
+    void begin(VkCommandBuffer commands, std::size_t picture) const noexcept;
+    void bind(VkCommandBuffer commands, const Slot& slot) const noexcept;
+    void drawList(VkCommandBuffer commands, const ImDrawList& list, std::uint32_t firstVertex,
+                  std::uint32_t firstIndex) const noexcept;
+
+    const vk::Device& device_;
+    RenderPass pass_;
+    VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
+    VkPipelineLayout layout_ = VK_NULL_HANDLE;
+    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    VkDescriptorSet set_ = VK_NULL_HANDLE;
+    std::optional<Pipeline> pipeline_;
+    std::optional<vk::Buffer> atlas_;
+    VkExtent2D atlasSize_{}, extent_{};
+    std::vector<Slot> slots_;
+    std::vector<Framebuffer> framebuffers_;
+};
+
+} // namespace sinew::viewer

@@ -1,0 +1,101 @@
+// Swapchain and panels change together.
+#include "viewer/screen.hpp"
+
+#include "vk/check.hpp"
+
+#include <cstdio>
+#include <utility>
+
+namespace sinew::viewer {
+
+namespace {
+
+constexpr std::chrono::seconds warningStays{12}, notePasses{4};
+
+// What came in several polls before one picture.
+void merge(PanelInput& all, const PanelInput& next) {
+    const auto wasPressed = all.wasPressed;
+    PanelInput merged = next;
+    for (std::size_t b = 0; b < wasPressed.size(); ++b)
+        merged.wasPressed[b] = merged.wasPressed[b] || wasPressed[b];
+    merged.notches += all.notches;
+    merged.characters.insert(merged.characters.begin(), all.characters.begin(), all.characters.end());
+    merged.keys.insert(merged.keys.begin(), all.keys.begin(), all.keys.end());
+    all = std::move(merged);
+}
+
+} // namespace
+
+Screen::Screen(Window& window, const vk::Device& device)
+    : window_(window), presenter_(device, window), panels_(window.scale()),
+      painter_(device, presenter_.format(), Presenter::framesInFlight) {
+    painter_.setAtlas(panels_.atlas());
+    window_.setCover({[this](const Vector2& pixels) { return panels_.covers(pixels); },
+                      [this] { return panels_.takesKeys(); }});
+}
+
+Screen::~Screen() {
+    window_.setCover({});
+    try {
+        presenter_.waitIdle();   // the painter's buffers may be in use
+    } catch (const vk::Error&) { // of a lost device there is nothing to wait for
+    }
+}
+
+bool Screen::prepare(const std::function<void()>& beforehand) {
+    const VkExtent2D pixels = window_.pixels();
+    const bool isSame = pixels.width == pixels_.width && pixels.height == pixels_.height;
+    if (pixels.width > 0 && isSame && !presenter_.isOutdated()) return true;
+    pixels_ = pixels;
+    if (pixels.width > 0) presenter_.waitIdle();
+    beforehand();
+    if (pixels.width == 0 || !presenter_.resize(pixels, isVsync_)) return false;
+    painter_.setPictures(presenter_.extent(), presenter_.views());
+    return true;
+}
+
+void Screen::toggleVsync() {
+    isVsync_ = !isVsync_;
+    pixels_ = {}; // makes a new swapchain
+}
+
+void Screen::feed(const PanelInput& input) {
+    merge(input_, input);
+}
+
+Wishes Screen::drawPanels(const Presenter::Frame& frame, const SceneFacts& scene, Facts facts) {
+    const auto now = Clock::now();
+    const double seconds = std::chrono::duration<double>(now - std::exchange(lastPicture_, now)).count();
+    facts.isVsync = isVsync_;
+    facts.notice = notice_.text;
+    facts.isNoticeBad = notice_.isBad;
+    PanelInput input = std::move(input_);
+    input_ = {};
+    input_.pointer = input.pointer;
+    input_.isDown = input.isDown;
+    input_.modifiers = input.modifiers;
+    Wishes wishes = panels_.build(scene, facts, input, presenter_.extent(), seconds);
+    painter_.record(frame.commands, frame.slot, frame.image, panels_.drawn());
+    return wishes;
+}
+
+void Screen::warn(const std::string& text) {
+    std::fprintf(stderr, "warning: %s\n", text.c_str());
+    notice_ = {text, true, Clock::now() + warningStays};
+    isNoticeNew_ = true;
+}
+
+void Screen::tell(const std::string& text) {
+    notice_ = {text, false, Clock::now() + notePasses};
+    isNoticeNew_ = true;
+}
+
+bool Screen::hasNewNotice() {
+    if (!notice_.text.empty() && Clock::now() >= notice_.until) {
+        notice_ = {};
+        isNoticeNew_ = true;
+    }
+    return std::exchange(isNoticeNew_, false);
+}
+
+} // namespace sinew::viewer

@@ -1,0 +1,63 @@
+// The window as scenes find it and leave it to each other: swapchain, panels, and what was chosen for all
+// scenes.
+#pragma once
+
+#include "viewer/panels.hpp"
+#include "viewer/presenter.hpp"
+
+#include <chrono>
+
+namespace sinew::viewer {
+
+/// Main thread only. Window and device must outlive it; the device must not move.
+class Screen {
+public:
+    /// Throws vk::Error.
+    Screen(Window& window, const vk::Device& device);
+    ~Screen(); ///< the window gets its events back
+    Screen(const Screen&) = delete;
+    Screen& operator=(const Screen&) = delete;
+
+    Window& window() { return window_; }
+    Presenter& presenter() { return presenter_; }
+    Panels& panels() { return panels_; }
+
+    /// Makes a swapchain where one is due. `beforehand` is called when the old views are about to go, and
+    /// nothing is in flight. False while the window has no size.
+    bool prepare(const std::function<void()>& beforehand);
+    bool isVsync() const { return isVsync_; }
+    void toggleVsync();
+
+    /// Input for the next drawPanels(), with what earlier pictures have not seen.
+    void feed(const PanelInput& input);
+    /// Lays the panels out and draws them over the frame's picture, which must be in PRESENT_SRC_KHR layout.
+    /// What they say of the window and its messages is filled in. Throws vk::Error.
+    Wishes drawPanels(const Presenter::Frame& frame, const SceneFacts& scene, Facts facts);
+
+    /// Says something in the window for a while, and in a line on stderr: "warning: <text>".
+    void warn(const std::string& text);
+    /// Says it in the window alone.
+    void tell(const std::string& text);
+    /// True once when a message has come or gone.
+    bool hasNewNotice();
+
+private:
+    using Clock = std::chrono::steady_clock;
+    struct Notice {
+        std::string text;
+        bool isBad = false;
+        Clock::time_point until;
+    };
+
+    Window& window_;
+    Presenter presenter_;
+    Panels panels_;
+    PanelPainter painter_;
+    PanelInput input_;
+    Notice notice_;
+    Clock::time_point lastPicture_ = Clock::now();
+    VkExtent2D pixels_{};
+    bool isVsync_ = true, isNoticeNew_ = false;
+};
+
+} // namespace sinew::viewer

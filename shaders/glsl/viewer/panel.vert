@@ -1,0 +1,22 @@
+#version 460
+// Panels: from pixels of the picture to clip space, and colors as they are meant to look to what the target takes.
+#extension GL_GOOGLE_include_directive : require
+#include "viewer/panel.h"
+
+layout(constant_id = 0) const uint isLinear = 1; // the target encodes what it is given
+layout(push_constant) uniform Push { PanelPush push; };
+layout(location = 0) in vec2 place;
+layout(location = 1) in vec2 atlasPlace;
+layout(location = 2) in vec4 tint;
+layout(location = 0) out vec2 texel;
+layout(location = 1) out vec4 color;
+
+vec3 decoded(vec3 shown) {
+    return mix(pow((shown + 0.055) / 1.055, vec3(2.4)), shown / 12.92, lessThanEqual(shown, vec3(0.04045)));
+}
+
+void main() {
+    texel = atlasPlace * push.atlas;
+    color = vec4(isLinear != 0 ? decoded(tint.rgb) : tint.rgb, tint.a);
+    gl_Position = vec4(place * push.scale - 1.0, 0.0, 1.0);
+}

@@ -1,0 +1,142 @@
+// The panels without a device: what a pointer does in them, and what belongs to them.
+#include "viewer/panels.hpp"
+
+#include <gtest/gtest.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <set>
+
+namespace sinew::viewer {
+namespace {
+
+constexpr VkExtent2D large{1280, 720}, small{640, 400};
+
+SceneFacts someScene() {
+    return {.name = "organ",
+            .device = "llvmpipe",
+            .driver = "Mesa",
+            .isSoftware = true,
+            .particles = 4211,
+            .constraints = 50'000,
+            .substepsWhy = "32 substeps: as asked",
+            .passes = {{"solve", "gather_lattice", 32, 4224, false}},
+            .dispatches = 34,
+            .skipped = {"bends"},
+            .canCut = true};
+}
+
+// Everything that is not a drag, the wheel, or a press of the panels' own key.
+std::set<Action> actionsOfButtons() {
+    std::set<Action> actions;
+    for (const Binding& binding : bindings())
+        if (!binding.button.empty()) actions.insert(binding.action);
+    return actions;
+}
+
+class PanelsTest : public testing::Test {
+protected:
+    // A click of the left button there, seen by as many pictures as it takes.
+    Wishes click(const Vector2& at, VkExtent2D extent = large) {
+        PanelInput input{.pointer = at};
+        picture(input, extent);
+        input.isDown[0] = input.wasPressed[0] = true;
+        Wishes wishes = picture(input, extent);
+        input.isDown[0] = input.wasPressed[0] = false;
+        const Wishes after = picture(input, extent);
+        wishes.actions.insert(wishes.actions.end(), after.actions.begin(), after.actions.end());
+        return wishes;
+    }
+    Wishes picture(const PanelInput& input = {}, VkExtent2D extent = large) {
+        return panels.build(scene, facts, input, extent, 1.0 / 60);
+    }
+    // Twice: Dear ImGui learns sizes in the first.
+    void settle(VkExtent2D extent = large) {
+        picture({}, extent);
+        picture({}, extent);
+    }
+
+    Panels panels{1};
+    SceneFacts scene = someScene();
+    Facts facts;
+};
+
+TEST_F(PanelsTest, HaveAButtonForEveryActionThatAKeyDoes) {
+    for (const Binding& binding : bindings()) {
+        const bool isKey = binding.trigger.kind == Trigger::Kind::key;
+        EXPECT_TRUE(!isKey || actionsOfButtons().contains(binding.action)) << binding.shown;
+    }
+    settle();
+    std::set<Action> clicked;
+    for (float y = 20; y < 720; y += 12)
+        for (float x = 1010; x < 1260; x += 40)
+            for (const Action action : click({x, y}).actions) clicked.insert(action);
+    EXPECT_EQ(clicked, actionsOfButtons());
+}
+
+TEST_F(PanelsTest, CoverTheirSideAndNothingOfTheMiddle) {
+    settle();
+    EXPECT_TRUE(panels.covers({1200, 60}));
+    EXPECT_FALSE(panels.covers({640, 360}));
+    EXPECT_FALSE(panels.covers({100, 700})) << "the hint lets the pointer through";
+    panels.toggle();
+    settle();
+    EXPECT_FALSE(panels.covers({1200, 60}));
+}
+
+TEST_F(PanelsTest, LeaveASmallWindowToTheSceneUntilAskedFor) {
+    settle(small);
+    EXPECT_FALSE(panels.covers({600, 60}));
+    panels.toggle();
+    settle(small);
+    EXPECT_TRUE(panels.covers({600, 60}));
+}
+
+TEST_F(PanelsTest, ShowHelpOverTheMiddleUntilItIsClosed) {
+    panels.toggleHelp();
+    settle();
+    EXPECT_TRUE(panels.covers({640, 360}));
+    panels.closeHelp();
+    settle();
+    EXPECT_FALSE(panels.covers({640, 360}));
+}
+
+TEST_F(PanelsTest, DrawMoreWhereThereIsMoreToSay) {
+    settle();
+    const int before = panels.drawn().TotalVtxCount;
+    facts.notice = "no such mesh";
+    settle();
+    EXPECT_GT(panels.drawn().TotalVtxCount, before);
+}
+
+TEST_F(PanelsTest, FitIntoAnyWindow) {
+    panels.toggleHelp();
+    facts.phases = {{"begin", {}}, {"solve", {}}};
+    for (PhaseCurve& phase : facts.phases)
+        for (int i = 0; i < 300; ++i) phase.ms.add(static_cast<float>(i % 7));
+    for (const VkExtent2D extent : {VkExtent2D{1, 1}, VkExtent2D{33, 500}, VkExtent2D{700, 20}, large}) {
+        settle(extent);
+        EXPECT_GE(panels.drawn().CmdListsCount, 0);
+    }
+}
+
+TEST(GlyphAtlas, CoversItsTexels) {
+    const Panels panels(2);
+    const GlyphAtlas& atlas = panels.atlas();
+    ASSERT_EQ(atlas.coverage.size(), std::size_t{atlas.width} * atlas.height);
+    EXPECT_EQ(atlas.width % 4, 0u);
+    EXPECT_TRUE(std::ranges::any_of(atlas.coverage, [](std::uint8_t texel) { return texel == 255; }));
+    EXPECT_TRUE(std::ranges::any_of(atlas.coverage, [](std::uint8_t texel) { return texel == 0; }));
+}
+
+TEST(Curve, KeepsTheNewestValues) {
+    Curve curve;
+    EXPECT_EQ(curve.mean(), 0);
+    for (std::size_t i = 0; i < Curve::length + 3; ++i) curve.add(static_cast<float>(i));
+    EXPECT_EQ(curve.count(), Curve::length);
+    EXPECT_EQ(curve.at(0), 3);
+    EXPECT_EQ(curve.newest(), static_cast<float>(Curve::length + 2));
+}
+
+} // namespace
+} // namespace sinew::viewer
