@@ -7,17 +7,17 @@
 
 namespace sinew::viewer {
 
-Plan Playback::plan(double elapsed) {
+Plan Playback::plan(double elapsed, std::uint32_t mostSteps) {
     Plan plan{.isReset = std::exchange(wantsReset_, false)};
     if (isPaused_ || plan.isReset) {
         owed_ = 0;
-        plan.steps = isPaused_ ? std::min(singleSteps_, maxSteps) : 0;
+        plan.steps = isPaused_ ? std::min(singleSteps_, mostSteps) : 0;
         singleSteps_ -= plan.steps;
         return plan;
     }
-    owed_ += elapsed;
+    owed_ += pace_ * elapsed;
     const double due = std::floor(owed_ / dt_);
-    plan.steps = static_cast<std::uint32_t>(std::min(due, double{maxSteps}));
+    plan.steps = static_cast<std::uint32_t>(std::min(due, static_cast<double>(mostSteps)));
     owed_ = std::min(owed_ - plan.steps * dt_, dt_);
     return plan;
 }
@@ -39,6 +39,9 @@ bool Controller::act(Action action) {
         return true;
     case Action::step:
         playback.step();
+        return true;
+    case Action::slowMotion:
+        playback.slowDown();
         return true;
     case Action::reset:
         playback.reset();

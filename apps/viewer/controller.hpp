@@ -22,7 +22,13 @@ public:
     explicit Playback(double dt) : dt_(dt) {}
 
     /// `elapsed` is the time since the last call [s].
-    Plan plan(double elapsed);
+    Plan plan(double elapsed, std::uint32_t mostSteps = maxSteps);
+
+    /// Seconds of the scene in a second of the clock, from now on.
+    void setPace(double pace) { pace_ = pace; }
+    double pace() const { return pace_; }
+    /// A half, a quarter, an eighth, and then full pace again.
+    void slowDown() { pace_ = pace_ > 0.2 ? pace_ / 2 : 1; }
 
     void pause() { isPaused_ = true; }
     void toggle();
@@ -31,7 +37,7 @@ public:
     bool isPaused() const { return isPaused_; }
 
 private:
-    double dt_, owed_ = 0; // [s]
+    double dt_, owed_ = 0, pace_ = 1; // [s]; pace: 1 = real time
     std::uint32_t singleSteps_ = 0;
     bool isPaused_ = false, wantsReset_ = false;
 };

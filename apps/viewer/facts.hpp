@@ -4,6 +4,7 @@
 
 #include "viewer/bindings.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -34,6 +35,15 @@ public:
         return count_ > 0 ? sum / static_cast<float>(count_) : 0;
     }
 
+    /// What half of them are below; 0 of none.
+    float median() const { return quantile(0.5f); }
+    float quantile(float share) const {
+        if (count_ == 0) return 0;
+        std::array<float, length> sorted = values_;
+        std::sort(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(count_));
+        return sorted[static_cast<std::size_t>(share * static_cast<float>(count_ - 1))];
+    }
+
 private:
     std::array<float, length> values_{};
     std::size_t next_ = 0, count_ = 0;
@@ -55,11 +65,10 @@ struct PassLine {
 
 /// What can be turned while the scene plays.
 struct Knobs {
-    float gravity = 9.81f; ///< downwards [m/s^2]
-    float damping = 0;     ///< [1/s]
-    std::uint32_t substeps = 1;
-    std::size_t solver = 0; ///< of SceneFacts::solvers
-    float slowMotion = 1;   ///< seconds of the clock for a second of the scene
+    float gravity = 9.81f; ///< downwards [m/s^2]; acts in the next step
+    float pace = 1;        ///< seconds of the scene in a second of the clock; likewise
+    int substeps = 1;      ///< 0 = as many as the scene needs; begins the scene anew
+    int solver = 0;        ///< of SceneFacts::solvers; likewise
     bool operator==(const Knobs&) const = default;
 };
 
@@ -75,7 +84,7 @@ struct SceneFacts {
     std::vector<std::string> skipped;         ///< features that the scene does not need
     bool canCut = false;
     std::vector<std::string> solvers;
-    Knobs fromFile; ///< as the scene has them
+    Knobs fromFile; ///< as the file has them
 };
 
 /// What changes.

@@ -25,6 +25,15 @@ std::string stiffnessText(const sim::Scene& scene, const sim::Settings& settings
     return text;
 }
 
+Knobs knobsOf(const scenes::LoadedScene& loaded) {
+    const std::vector<std::string> solvers = sim::solverNames();
+    const auto solver = std::ranges::find(solvers, sim::solverName(loaded.settings.solver));
+    const sim::Vec3& g = loaded.scene.gravity;
+    return {.gravity = std::hypot(g.x, g.y, g.z),
+            .substeps = static_cast<int>(loaded.settings.substeps),
+            .solver = static_cast<int>(solver - solvers.begin())};
+}
+
 // "solve_distance[3]" is one of several that differ in their range only.
 std::string withoutNumber(const std::string& label) {
     return label.substr(0, label.find('['));
@@ -69,7 +78,9 @@ SceneFacts sceneFacts(const Opening& opening, const Stage& stage, const vk::Devi
                      .constraints = stage.simulation().program().constraintCount,
                      .substepsWhy = sim::toText(loaded.substeps, loaded.settings),
                      .stiffness = stiffnessText(scene, loaded.settings),
-                     .canCut = std::ranges::any_of(scene.grids, &sim::Grid::isCuttable)};
+                     .canCut = std::ranges::any_of(scene.grids, &sim::Grid::isCuttable),
+                     .solvers = sim::solverNames(),
+                     .fromFile = knobsOf(loaded)};
     addProgram(facts, stage.simulation().program());
     return facts;
 }
@@ -116,6 +127,9 @@ void Gauges::stepFinished(const sim::Status& status) {
     facts_.sleeping = status.sleeping;
     facts_.pieces = status.pieces;
     facts_.linksCut = status.linksCutInAll;
+    if (status.linksCutInAll == 0) return;
+    facts_.strainRms.clear(); // the length of a cut link is no error
+    facts_.strainMax.clear();
 }
 
 void Gauges::strainMeasured(const Strain& strain) {

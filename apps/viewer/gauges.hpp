@@ -28,6 +28,7 @@ public:
     /// GPU time of a step, by phase [ms].
     void stepTimed(std::span<const double> milliseconds);
     void stepFinished(const sim::Status& status);
+    /// Shown until something is cut.
     void strainMeasured(const Strain& strain);
     /// After a reset, or a way back.
     void restart();

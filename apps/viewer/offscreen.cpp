@@ -32,7 +32,16 @@ Offscreen::Offscreen(const vk::Device& device, VkExtent2D extent, const StageLig
 
 void Offscreen::record(VkCommandBuffer commands, const Camera& camera, const sim::Simulation& simulation,
                        const Overlay& overlay) const noexcept {
+    recordPicture(commands, camera, simulation, overlay);
+    recordCopy(commands);
+}
+
+void Offscreen::recordPicture(VkCommandBuffer commands, const Camera& camera,
+                              const sim::Simulation& simulation, const Overlay& overlay) const noexcept {
     renderer_.record(commands, 0, canvas_, 0, camera, simulation, overlay);
+}
+
+void Offscreen::recordCopy(VkCommandBuffer commands) const noexcept {
     const VkBufferImageCopy region{.bufferOffset = readback_.view().offset,
                                    .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                    .imageExtent = {image_.extent().width, image_.extent().height, 1}};

@@ -16,6 +16,13 @@ public:
     void record(VkCommandBuffer commands, const Camera& camera, const sim::Simulation& simulation,
                 const Overlay& overlay = {}) const noexcept;
 
+    /// The same in two, for what draws over the picture in between: it finds and leaves view() in
+    /// TRANSFER_SRC_OPTIMAL layout.
+    void recordPicture(VkCommandBuffer commands, const Camera& camera, const sim::Simulation& simulation,
+                       const Overlay& overlay = {}) const noexcept;
+    void recordCopy(VkCommandBuffer commands) const noexcept;
+    VkImageView view() const noexcept { return image_.view(); }
+
     /// The picture of the newest finished record().
     Picture read() const;
 

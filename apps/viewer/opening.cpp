@@ -37,7 +37,7 @@ std::string grouped(std::size_t number) {
 
 Opening open(const Options& options, float aspect) {
     Opening opening;
-    opening.loaded = options.scene.empty() ? scenes::loadBuiltIn("organ", options.overrides)
+    opening.loaded = options.scene.empty() ? scenes::loadBuiltIn(options.builtIn, options.overrides)
                                            : scenes::load(options.scene, options.overrides);
     for (const std::string& warning : opening.loaded.warnings)
         std::fprintf(stderr, "warning: %s\n", warning.c_str());

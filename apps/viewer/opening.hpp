@@ -1,6 +1,7 @@
 // What a window and a headless run begin with: the scene, the first view of it, its light.
 #pragma once
 
+#include "viewer/facts.hpp"
 #include "viewer/options.hpp"
 #include "viewer/png.hpp"
 #include "viewer/stage_light.hpp"
@@ -8,10 +9,17 @@
 
 namespace sinew::viewer {
 
+/// What is kept of a scene that is opened once more because something was turned.
+struct Again {
+    Camera camera;
+    Knobs turned, fromFile;
+};
+
 struct Opening {
     scenes::LoadedScene loaded;
     Camera camera;
     StageLight light;
+    std::optional<Again> again;
 };
 
 /// Loads the scene, prints its warnings to stderr and looks at it: from where the file says, or with every

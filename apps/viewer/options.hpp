@@ -14,7 +14,8 @@
 namespace sinew::viewer {
 
 struct Options {
-    std::string scene; ///< file; empty = the built-in organ
+    std::string scene;             ///< file; empty = the built-in one
+    std::string builtIn = "organ"; ///< as scenes::loadBuiltIn
     scenes::Overrides overrides;
     std::string device; ///< as vk::DeviceRequest::device
     bool hasValidation = false;

@@ -37,8 +37,9 @@ void grow(std::optional<vk::Buffer>& buffer, const vk::Device& device, const cha
 
 } // namespace
 
-PanelPainter::PanelPainter(const vk::Device& device, VkFormat format, std::uint32_t slots)
-    : device_(device), pass_(RenderPass::over(device, format)), slots_(slots) {
+PanelPainter::PanelPainter(const vk::Device& device, VkFormat format, VkImageLayout finalLayout,
+                           std::uint32_t slots)
+    : device_(device), pass_(RenderPass::over(device, format, finalLayout)), slots_(slots) {
     try {
         createLayouts();
         createSet();
@@ -108,6 +109,7 @@ void PanelPainter::createSet() {
 
 void PanelPainter::setAtlas(const GlyphAtlas& atlas) {
     atlasSize_ = {atlas.width, atlas.height};
+    full_ = atlas.full;
     atlas_.emplace(device_, vk::BufferRequest{.name = "panels.atlas",
                                               .count = atlas.coverage.size() / 4,
                                               .stride = 4,
@@ -163,7 +165,8 @@ void PanelPainter::bind(VkCommandBuffer commands, const Slot& slot) const noexce
     const vk::BufferView vertices = slot.vertices->view(), indices = slot.indices->view();
     const layout::PanelPush push{
         .scale = {2 / static_cast<float>(extent_.width), 2 / static_cast<float>(extent_.height)},
-        .atlas = {static_cast<float>(atlasSize_.width), static_cast<float>(atlasSize_.height)}};
+        .atlas = {static_cast<float>(atlasSize_.width), static_cast<float>(atlasSize_.height)},
+        .full = {full_.x(), full_.y()}};
     functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_->handle());
     functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 1, &set_, 0,
                                       nullptr);

@@ -3,6 +3,7 @@
 // to sRGB.
 #pragma once
 
+#include "viewer/geometry.hpp"
 #include "viewer/pipeline.hpp"
 #include "viewer/render_pass.hpp"
 #include "vk/buffer.hpp"
@@ -18,14 +19,16 @@ namespace sinew::viewer {
 /// One byte a texel: how much of it a glyph covers. Rows from the top.
 struct GlyphAtlas {
     std::uint32_t width = 0, height = 0; ///< [texels]; width is a multiple of 4
+    Vector2 full = Vector2::Zero();      ///< a place that is covered whole: what is no glyph has it [texels]
     std::vector<std::uint8_t> coverage;
 };
 
 /// Must not outlive its Device, which must not move.
 class PanelPainter {
 public:
-    /// `format` as RenderPass::over(); `slots` pictures may be recorded but not finished. Throws vk::Error.
-    PanelPainter(const vk::Device& device, VkFormat format, std::uint32_t slots);
+    /// Format and layout of the pictures as RenderPass::over(); `slots` of them may be recorded but not
+    /// finished. Throws vk::Error.
+    PanelPainter(const vk::Device& device, VkFormat format, VkImageLayout finalLayout, std::uint32_t slots);
     PanelPainter(const PanelPainter&) = delete;
     PanelPainter& operator=(const PanelPainter&) = delete;
     ~PanelPainter();
@@ -37,7 +40,7 @@ public:
     /// drawn into the old ones must be finished.
     void setPictures(VkExtent2D extent, std::span<const VkImageView> pictures);
 
-    /// Draws over a picture in PRESENT_SRC_KHR layout and leaves it there. `commands` must be recording,
+    /// Draws over a picture in its final layout and leaves it there. `commands` must be recording,
     /// outside a render pass; the slot's previous picture must be finished. Throws vk::Error where there is
     /// no memory for more triangles than ever before.
     void record(VkCommandBuffer commands, std::uint32_t slot, std::size_t picture, const ImDrawData& drawn);
@@ -64,6 +67,7 @@ private:
     std::optional<Pipeline> pipeline_;
     std::optional<vk::Buffer> atlas_;
     VkExtent2D atlasSize_{}, extent_{};
+    Vector2 full_ = Vector2::Zero();
     std::vector<Slot> slots_;
     std::vector<Framebuffer> framebuffers_;
 };

@@ -43,12 +43,12 @@ float buttonWidth(std::size_t inARow);
 void button(Action action, Wishes& wishes, float width, bool isOn = false, const char* name = nullptr);
 
 void device(const SceneFacts& scene, const Facts& facts);
-void play(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
+void play(const Facts& facts, Wishes& wishes);
 void speed(const Facts& facts);
 void counts(const SceneFacts& scene, const Facts& facts);
 void cuts(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
 void program(const SceneFacts& scene);
-void scenes(const Facts& facts, Wishes& wishes);
+void scenes(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
 void knobs(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
 
 /// The table of keys over everything.

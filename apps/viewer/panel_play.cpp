@@ -17,8 +17,7 @@ std::string timeText(const Facts& facts) {
 
 } // namespace
 
-void play(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
-    heading(scene.name.c_str());
+void play(const Facts& facts, Wishes& wishes) {
     row("time", timeText(facts));
     float width = buttonWidth(3);
     button(Action::pause, wishes, width, facts.isPaused, facts.isPaused ? "Go on" : "Pause");
@@ -26,18 +25,22 @@ void play(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
     button(Action::step, wishes, width);
     ImGui::SameLine();
     button(Action::reset, wishes, width);
+    button(Action::slowMotion, wishes, width, facts.knobs.pace < 1);
+    ImGui::SameLine();
     button(Action::blade, wishes, width, facts.isBladeOn);
     ImGui::SameLine();
     button(Action::drop, wishes, width);
-    ImGui::SameLine();
     button(Action::frame, wishes, width);
+    ImGui::SameLine();
     button(Action::screenshot, wishes, width);
     ImGui::SameLine();
+    button(Action::record, wishes, width, facts.isRecording, facts.isRecording ? "Stop" : nullptr);
     button(Action::vsync, wishes, width, facts.isVsync);
     ImGui::SameLine();
     button(Action::fullScreen, wishes, width);
-    button(Action::help, wishes, width);
     ImGui::SameLine();
+    button(Action::help, wishes, width);
+    width = buttonWidth(2);
     button(Action::panels, wishes, width);
     ImGui::SameLine();
     button(Action::quit, wishes, width);

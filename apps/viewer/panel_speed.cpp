@@ -56,13 +56,15 @@ void label(const Field& field, const std::string& text) {
 // Columns of phases on top of each other, the newest on the right.
 void phasePlot(const std::vector<PhaseCurve>& phases) {
     const std::size_t count = phases.front().ms.count();
-    float most = 0.01f;
+    Curve sums;
     for (std::size_t i = 0; i < count; ++i) {
         float sum = 0;
         for (const PhaseCurve& phase : phases) sum += phase.ms.at(i);
-        most = std::max(most, sum);
+        sums.add(sum);
     }
-    const Field field = makeField(5 * ImGui::GetTextLineHeight(), most);
+    // One slow step (a driver compiles what has never run before) is cut off at the top.
+    const Field field =
+        makeField(5 * ImGui::GetTextLineHeight(), std::max(1.2f * sums.quantile(0.9f), 0.01f));
     ImDrawList& list = *ImGui::GetWindowDrawList();
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t place = i + Curve::length - count;
@@ -91,7 +93,7 @@ void swatch(ImU32 color) {
 void legend(const std::vector<PhaseCurve>& phases) {
     for (std::size_t p = 0; p < phases.size(); ++p) {
         swatch(phaseColor(p));
-        row(phases[p].name.c_str(), number("%.2f ms", double{phases[p].ms.mean()}));
+        row(phases[p].name.c_str(), number("%.2f ms", double{phases[p].ms.median()}));
     }
 }
 
@@ -129,8 +131,8 @@ void speed(const Facts& facts) {
         wrapped(facts.phases.empty() ? "This device has no clock for it." : "No step yet.", quiet());
     }
     const bool isBehind = !facts.isPaused && facts.keptPace < 0.95 * facts.pace;
-    pair("frame", number("%.0f ms", double{facts.frameMs.mean()}), "pace",
-         facts.isPaused ? "paused" : number("%.2f of real time", facts.keptPace),
+    pair("frame", number("%.0f ms", double{facts.frameMs.median()}), "pace",
+         facts.isPaused ? "paused" : number("%.2f x real", facts.keptPace),
          isBehind ? warning() : ImGui::GetStyleColorVec4(ImGuiCol_Text));
     if (facts.strainMax.count() > 0) strainPlot(facts);
 }

@@ -28,9 +28,13 @@ void cuts(const SceneFacts&, const Facts& facts, Wishes& wishes) {
     pair("links cut", grouped(facts.linksCut), "pieces", grouped(facts.pieces),
          ImGui::GetStyleColorVec4(ImGuiCol_Text));
     const float width = buttonWidth(2);
+    ImGui::BeginDisabled(facts.undos == 0);
     button(Action::undo, wishes, width);
+    ImGui::EndDisabled();
     ImGui::SameLine();
+    ImGui::BeginDisabled(facts.undos == facts.cuts.size());
     button(Action::redo, wishes, width);
+    ImGui::EndDisabled();
     for (std::size_t i = 0; i < facts.cuts.size(); ++i) {
         const bool isUndone = i >= facts.undos;
         row(isUndone ? "undone" : "cut", facts.cuts[i],
@@ -40,12 +44,12 @@ void cuts(const SceneFacts&, const Facts& facts, Wishes& wishes) {
 
 void program(const SceneFacts& scene) {
     ImGui::Dummy({0, ImGui::GetStyle().ItemSpacing.y});
-    const std::string name = "step program: " + grouped(scene.dispatches) + " dispatches, " +
-                             grouped(scene.barriers) + " barriers###program";
+    const std::string name = "step program: " + grouped(scene.dispatches) + " dispatches###program";
     ImGui::PushStyleColor(ImGuiCol_Text, quiet());
     const bool isOpen = ImGui::CollapsingHeader(name.c_str());
     ImGui::PopStyleColor();
     if (!isOpen) return;
+    row("barriers", grouped(scene.barriers));
     std::string phase;
     for (const PassLine& pass : scene.passes) {
         if (pass.phase != phase) ImGui::TextColored(accent(), "%s", (phase = pass.phase).c_str());

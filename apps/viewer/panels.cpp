@@ -48,7 +48,10 @@ GlyphAtlas makeAtlas(float scale) {
     unsigned char* coverage = nullptr;
     int width = 0, height = 0;
     fonts.GetTexDataAsAlpha8(&coverage, &width, &height);
-    GlyphAtlas atlas{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), {}};
+    GlyphAtlas atlas{.width = static_cast<std::uint32_t>(width),
+                     .height = static_cast<std::uint32_t>(height)};
+    atlas.full = {fonts.TexUvWhitePixel.x * static_cast<float>(width),
+                  fonts.TexUvWhitePixel.y * static_cast<float>(height)};
     atlas.coverage.assign(coverage,
                           coverage + static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     fonts.ClearTexData();
@@ -214,10 +217,12 @@ void Panels::buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D e
         {width, 0}, {width, std::max(static_cast<float>(extent.height) - 2 * edge, 40.0f)});
     ImGui::Begin("side", nullptr, fixed);
     parts::device(scene, facts);
-    parts::play(scene, facts, wishes);
+    parts::scenes(scene, facts, wishes);
+    parts::play(facts, wishes);
     parts::speed(facts);
     parts::counts(scene, facts);
     if (scene.canCut) parts::cuts(scene, facts, wishes);
+    parts::knobs(scene, facts, wishes);
     parts::program(scene);
     ImGui::End();
 }

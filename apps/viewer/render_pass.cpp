@@ -60,6 +60,17 @@ VkRenderPassCreateInfo passInfo(std::span<const VkAttachmentDescription> attachm
             .pDependencies = dependencies.data()};
 }
 
+// Who reads a picture in its final layout: a copy, or a presentation, which a semaphore holds back.
+struct Reader {
+    VkPipelineStageFlags stage;
+    VkAccessFlags access;
+};
+Reader readerOf(VkImageLayout layout) {
+    return layout == VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL
+               ? Reader{VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT}
+               : Reader{colorStage, 0};
+}
+
 constexpr VkAttachmentReference colorReference{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
 
 } // namespace
@@ -111,10 +122,7 @@ RenderPass RenderPass::picture(const vk::Device& device, const Picture& picture)
                                        .pColorAttachments = &colorReference,
                                        .pResolveAttachments = isResolved ? &resolve : nullptr,
                                        .pDepthStencilAttachment = &depth};
-    const bool isCopied = picture.finalLayout == VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
-    const VkPipelineStageFlags copyStage =
-        isCopied ? VkPipelineStageFlags{VK_PIPELINE_STAGE_TRANSFER_BIT} : colorStage;
-    const VkAccessFlags copyAccess = isCopied ? VkAccessFlags{VK_ACCESS_TRANSFER_READ_BIT} : VkAccessFlags{0};
+    const auto [copyStage, copyAccess] = readerOf(picture.finalLayout);
     const std::array dependencies{
         VkSubpassDependency{.srcSubpass = VK_SUBPASS_EXTERNAL,
                             .dstSubpass = 0,
@@ -132,26 +140,26 @@ RenderPass RenderPass::picture(const vk::Device& device, const Picture& picture)
     return RenderPass(device, passInfo(attachments, subpass, dependencies), "picture");
 }
 
-RenderPass RenderPass::over(const vk::Device& device, VkFormat color) {
-    std::array attachments{attachment(color, VK_SAMPLE_COUNT_1_BIT, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR)};
+RenderPass RenderPass::over(const vk::Device& device, VkFormat color, VkImageLayout finalLayout) {
+    std::array attachments{attachment(color, VK_SAMPLE_COUNT_1_BIT, finalLayout)};
     attachments[0].loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
-    attachments[0].initialLayout = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR;
+    attachments[0].initialLayout = finalLayout;
     const VkSubpassDescription subpass{.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
                                        .colorAttachmentCount = 1,
                                        .pColorAttachments = &colorReference};
-    const std::array dependencies{
-        VkSubpassDependency{.srcSubpass = VK_SUBPASS_EXTERNAL,
-                            .dstSubpass = 0,
-                            .srcStageMask = colorStage,
-                            .dstStageMask = colorStage,
-                            .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
-                            .dstAccessMask = colorAccess},
-        VkSubpassDependency{.srcSubpass = 0, // the semaphore of the submission does the rest
-                            .dstSubpass = VK_SUBPASS_EXTERNAL,
-                            .srcStageMask = colorStage,
-                            .dstStageMask = colorStage,
-                            .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
-                            .dstAccessMask = 0}};
+    const auto [copyStage, copyAccess] = readerOf(finalLayout);
+    const std::array dependencies{VkSubpassDependency{.srcSubpass = VK_SUBPASS_EXTERNAL,
+                                                      .dstSubpass = 0,
+                                                      .srcStageMask = colorStage | copyStage,
+                                                      .dstStageMask = colorStage,
+                                                      .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
+                                                      .dstAccessMask = colorAccess},
+                                  VkSubpassDependency{.srcSubpass = 0,
+                                                      .dstSubpass = VK_SUBPASS_EXTERNAL,
+                                                      .srcStageMask = colorStage,
+                                                      .dstStageMask = copyStage,
+                                                      .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
+                                                      .dstAccessMask = copyAccess}};
     return RenderPass(device, passInfo(attachments, subpass, dependencies), "over");
 }
 

@@ -27,8 +27,8 @@ public:
     /// With one sample there is no third: the first attachment is the picture.
     static RenderPass picture(const vk::Device& device, const Picture& picture);
 
-    /// Draws over a picture that another pass has left in PRESENT_SRC_KHR layout, and leaves it there.
-    static RenderPass over(const vk::Device& device, VkFormat color);
+    /// Draws over a picture that picture() has left in its final layout, and leaves it there.
+    static RenderPass over(const vk::Device& device, VkFormat color, VkImageLayout finalLayout);
 
     RenderPass(RenderPass&& other) noexcept;
     RenderPass& operator=(RenderPass&&) = delete;

@@ -28,7 +28,7 @@ void merge(PanelInput& all, const PanelInput& next) {
 
 Screen::Screen(Window& window, const vk::Device& device)
     : window_(window), presenter_(device, window), panels_(window.scale()),
-      painter_(device, presenter_.format(), Presenter::framesInFlight) {
+      painter_(device, presenter_.format(), VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, Presenter::framesInFlight) {
     painter_.setAtlas(panels_.atlas());
     window_.setCover({[this](const Vector2& pixels) { return panels_.covers(pixels); },
                       [this] { return panels_.takesKeys(); }});

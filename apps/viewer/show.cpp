@@ -23,17 +23,11 @@ constexpr double stillAfter = 0.25;  // [s] without a change before a paused pic
 static_assert(Presenter::framesInFlight * Playback::maxSteps <= sim::Simulation::framesInFlight);
 static_assert(Presenter::framesInFlight <= Renderer::slots);
 
-// "organ-000120.png", or with a number where that exists.
-std::filesystem::path screenshotFile(const std::string& scene, std::uint64_t step) {
+// "organ-000120".
+std::string nameAt(const std::string& scene, std::uint64_t step) {
     char stem[40];
     std::snprintf(stem, sizeof stem, "-%06" PRIu64, step);
-    std::string name = scene + stem;
-    for (char& c : name)
-        if (c == '/' || c == '\\' || static_cast<unsigned char>(c) < 32) c = '_';
-    std::filesystem::path file = name + ".png";
-    for (int copy = 2; std::filesystem::exists(file); ++copy)
-        file = name + "-" + std::to_string(copy) + ".png";
-    return file;
+    return scene + stem;
 }
 
 float aspect(VkExtent2D extent) {
@@ -53,20 +47,33 @@ sim::Settings fastest(const vk::Device& device, const scenes::LoadedScene& loade
 Show::View::View(const vk::Device& device, VkFormat format, const Quality& quality, const StageLight& light)
     : renderer(device, {.color = format, .finalLayout = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR}, quality, light) {}
 
-Show::Show(Screen& screen, const vk::Device& device, const Opening& opening)
-    : screen_(screen), device_(device), opening_(opening),
-      controller_(opening.camera, opening.loaded.scene.dt),
-      stage_(device, opening.loaded.scene, fastest(device, opening.loaded)),
-      probe_(std::in_place, device, stage_.simulation()), tools_(device, opening),
-      sceneFacts_(sceneFacts(opening, stage_, device)), gauges_(stage_, opening.loaded.scene.dt),
+Show::Show(Screen& screen, Library& library, const vk::Device& device, std::unique_ptr<Opening> opening)
+    : screen_(screen), library_(library), device_(device), ownOpening_(std::move(opening)),
+      opening_(*ownOpening_), controller_(opening_.camera, opening_.loaded.scene.dt),
+      stage_(device, opening_.loaded.scene, fastest(device, opening_.loaded)),
+      probe_(std::in_place, device, stage_.simulation()), tools_(device, opening_),
+      sceneFacts_(sceneFacts(opening_, stage_, device)), gauges_(stage_, opening_.loaded.scene.dt),
+      knobs_(sceneFacts_.fromFile),
       moving_(device, screen.presenter().format(), isSoftware(device) ? reducedQuality() : Quality{},
-              opening.light),
-      status_(opening.loaded.scene, device) {
-    if (isSoftware(device)) still_.emplace(device, screen_.presenter().format(), Quality{}, opening.light);
+              opening_.light),
+      status_(opening_.loaded.scene, device) {
+    if (isSoftware(device)) still_.emplace(device, screen.presenter().format(), Quality{}, opening_.light);
     const auto spans = static_cast<std::uint32_t>(stage_.simulation().phases().size());
     for (std::uint32_t slot = 0; slot < Presenter::framesInFlight; ++slot) times_.emplace_back(device, spans);
-    stage_.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
+    stage_.setBlades({opening_.loaded.blades, opening_.loaded.scene.dt});
     controller_.playback.reset(); // fills the buffers
+    if (opening_.again) goOn(*opening_.again);
+}
+
+// A scene that begins anew because something was turned is seen from where it was, and stays as it was
+// turned.
+void Show::goOn(const Again& again) {
+    controller_.camera = again.camera;
+    sceneFacts_.fromFile = again.fromFile;
+    knobs_.gravity = again.turned.gravity;
+    knobs_.pace = again.turned.pace;
+    stage_.setGravity(knobs_.gravity);
+    controller_.playback.setPace(double{knobs_.pace});
 }
 
 Show::~Show() {
@@ -76,15 +83,40 @@ Show::~Show() {
     }
 }
 
-void Show::run() {
-    while (!screen_.window().isClosing() && !app::isInterrupted()) turn();
+std::unique_ptr<Opening> Show::run() {
+    std::unique_ptr<Opening> next;
+    while (!next && !screen_.window().isClosing() && !app::isInterrupted()) {
+        turn();
+        next = takeOpened();
+    }
     settleAll();
+    stopRecording();
     reportFiles(PictureWriter::Wait::yes);
+    shown_ = Shown::nothing; // should it go on
+    return next;
+}
+
+// What cannot be opened leaves all as it is.
+std::unique_ptr<Opening> Show::takeOpened() {
+    try {
+        return library_.take();
+    } catch (const app::Failure& failure) {
+        screen_.warn(failure.what());
+    } catch (const mesh::ImportError& error) {
+        screen_.warn(error.what());
+    }
+    return nullptr;
+}
+
+float Show::pictureAspect() const {
+    const VkExtent2D extent = screen_.presenter().extent();
+    return extent.height > 0 ? aspect(extent) : 1;
 }
 
 void Show::turn() {
     Input input = screen_.window().poll(isHidden_ || shown_ == Shown::still ? idleWait : 0);
     const Wishes wishes = std::exchange(wishes_, {});
+    grant(wishes);
     input.actions.insert(input.actions.end(), wishes.actions.begin(), wishes.actions.end());
     handle(input);
     reportFiles(PictureWriter::Wait::no);
@@ -92,7 +124,7 @@ void Show::turn() {
     const auto now = Clock::now();
     const double elapsed = std::chrono::duration<double>(now - std::exchange(lastTurn_, now)).count();
     if (isHidden_) return; // time stands still while nobody can look
-    const Plan plan = controller_.playback.plan(elapsed);
+    const Plan plan = this->plan(elapsed);
     const bool isChanged = !controller_.playback.isPaused() || plan.isReset || plan.steps > 0 ||
                            !input.isEmpty() || input.panels.isTouched || screen_.hasNewNotice() ||
                            wantsScreenshot_ || wantsProbe_ || tools_.isWaiting() || shown_ == Shown::nothing;
@@ -108,7 +140,35 @@ void Show::turn() {
         screen_.window().setTitle(*title);
 }
 
+// A film has a picture of every step.
+Plan Show::plan(double elapsed) {
+    Plan plan = controller_.playback.plan(elapsed, recording_ ? 1 : Playback::maxSteps);
+    if (recording_ && !controller_.playback.isPaused() && !plan.isReset) plan.steps = 1;
+    return plan;
+}
+
+void Show::grant(const Wishes& wishes) {
+    if (wishes.scene) library_.open(*wishes.scene, pictureAspect());
+    if (wishes.knobs) turnKnobs(*wishes.knobs);
+}
+
+void Show::turnKnobs(const Knobs& knobs) {
+    if (knobs.gravity != knobs_.gravity) stage_.setGravity(knobs.gravity);
+    controller_.playback.setPace(double{knobs.pace});
+    knobs_.gravity = knobs.gravity;
+    knobs_.pace = knobs.pace;
+    const auto shape = [](const Knobs& some) { return std::pair(some.substeps, some.solver); };
+    if (shape(knobs) == shape(knobs_) || library_.isOpening()) return;
+    scenes::Overrides overrides; // none where it is as in the file
+    if (shape(knobs) != shape(sceneFacts_.fromFile)) {
+        overrides.solver = sceneFacts_.solvers[static_cast<std::size_t>(knobs.solver)];
+        overrides.substeps = static_cast<std::uint32_t>(knobs.substeps);
+    }
+    library_.reopen(overrides, {controller_.camera, knobs, sceneFacts_.fromFile}, pictureAspect());
+}
+
 void Show::handle(const Input& input) {
+    if (!input.files.empty()) library_.openFile(input.files.front(), pictureAspect());
     for (const Action action : input.actions) {
         if (action == Action::drop && screen_.panels().isHelpShown())
             screen_.panels().closeHelp();
@@ -134,6 +194,15 @@ void Show::handle(Action action) {
         break;
     case Action::vsync:
         screen_.toggleVsync();
+        break;
+    case Action::previousScene:
+        library_.openNext(-1, pictureAspect());
+        break;
+    case Action::nextScene:
+        library_.openNext(1, pictureAspect());
+        break;
+    case Action::record:
+        toggleRecording();
         break;
     case Action::panels:
         screen_.panels().toggle();
@@ -168,6 +237,7 @@ void Show::draw(Plan plan, View& view) {
         return;
     }
     recordSteps(*frame, plan);
+    if (recording_ && plan.steps > 0) recordCamera(*frame);
     if (!view.canvas)
         view.canvas = view.renderer.makeCanvas(screen_.presenter().extent(), screen_.presenter().views());
     view.renderer.record(frame->commands, frame->slot, *view.canvas, frame->image, controller_.camera,
@@ -196,6 +266,13 @@ Facts Show::facts(bool isFullQuality) const {
         facts.cuts.push_back(time);
     }
     facts.undos = tools_.history().undos();
+    facts.scenes = library_.names();
+    facts.scene = library_.current();
+    facts.isOpening = library_.isOpening();
+    facts.isRecording = recording_.has_value();
+    facts.knobs = knobs_;
+    facts.pace = controller_.playback.pace();
+    facts.knobs.pace = static_cast<float>(facts.pace);
     return facts;
 }
 
@@ -224,6 +301,7 @@ void Show::recordSteps(const Presenter::Frame& frame, const Plan& plan) {
 void Show::forgetFlights() {
     for (InFlight& flight : inFlight_) {
         flight.steps = 0;
+        flight.isRecorded = false;
         flight.sweeps.clear();
     }
 }
@@ -266,10 +344,12 @@ void Show::settle(std::uint32_t slot) {
         gauges_.stepTimed(phases);
     }
     settleProbe(flight);
+    bool isUndone = false;
     for (std::uint32_t i = 0; i < flight.steps && !isDiverged_; ++i) {
         const std::uint64_t step = flight.firstStep + i;
         if (stage_.neededRoom(step) > 0) {
             makeRoom(step, flight);
+            isUndone = true;
             break; // what came after it was undone as well
         }
         if (const std::optional<Divergence> divergence = stage_.check(step)) stop(divergence->sentence());
@@ -279,8 +359,10 @@ void Show::settle(std::uint32_t slot) {
         isCut_ = status.linksCutInAll > 0;
         if (status.cutSurfaceMissing > 0) warnOfSurface();
     }
+    if (flight.isRecorded && !isUndone) settleCamera(slot);
     if (flight.screenshot) {
-        const std::filesystem::path file = screenshotFile(opening_.loaded.scene.name, flight.screenshotStep);
+        const std::string name = nameAt(opening_.loaded.scene.name, flight.screenshotStep);
+        const std::filesystem::path file = freeName(name, ".png");
         writer_.add(file, flight.screenshot->read(), pictureText(opening_, device_, flight.screenshotStep));
     }
 }
@@ -292,7 +374,8 @@ void Show::settleProbe(InFlight& flight) {
             pick(scene, opening_.light.balls, *flight.question, probe_->positions(), probe_->vertices());
         tools_.hand().answer(found, found ? holdRadius(scene, found->particle) : 0);
     }
-    if (flight.isMeasured) gauges_.strainMeasured(measureStrain(stage_.scene(), probe_->positions()));
+    if (flight.isMeasured && !isCut_)
+        gauges_.strainMeasured(measureStrain(stage_.scene(), probe_->positions()));
     if (!flight.isProbed) return;
     if (const Box bounds = probe_->bounds(); !bounds.isEmpty()) {
         controller_.camera = framing(controller_.camera, bounds, aspect(screen_.presenter().extent()));
@@ -326,7 +409,7 @@ void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
         other.steps = 0;
         other.sweeps.clear();
         wantsProbe_ = std::exchange(other.isProbed, false) || wantsProbe_;
-        other.isMeasured = false;
+        other.isMeasured = other.isRecorded = false;
         other.question.reset();
     }
 }
@@ -334,6 +417,57 @@ void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
 void Show::settleAll() {
     screen_.presenter().waitIdle();
     for (std::uint32_t slot = 0; slot < Presenter::framesInFlight; ++slot) settle(slot);
+}
+
+void Show::toggleRecording() {
+    if (recording_) return stopRecording();
+    const VkExtent2D extent = screen_.presenter().extent();
+    try {
+        recording_.emplace(nameAt(opening_.loaded.scene.name, stage_.steps()), extent.width, extent.height,
+                           1 / double{stage_.scene().dt});
+        for (auto& camera : cameras_) camera = std::make_unique<Offscreen>(device_, extent, opening_.light);
+        std::printf("recording %s\n", recording_->target().c_str());
+        std::fflush(stdout);
+        screen_.tell("recording " + recording_->target().string() + ", a picture a step; " +
+                     std::string(keyOf(Action::record)) + " stops");
+    } catch (const app::Failure& failure) {
+        recording_.reset();
+        screen_.warn(failure.what());
+    }
+}
+
+void Show::stopRecording() {
+    if (!recording_) return;
+    settleAll(); // the last pictures
+    if (!recording_) return;
+    try {
+        recording_->finish();
+        const std::string text =
+            std::to_string(recording_->count()) + " pictures in " + recording_->target().string();
+        std::printf("%s\n", text.c_str());
+        std::fflush(stdout);
+        screen_.tell(text);
+    } catch (const std::runtime_error& error) { // app::Failure, mesh::ExportError
+        screen_.warn(error.what());
+    }
+    recording_.reset();
+    for (auto& camera : cameras_) camera.reset();
+}
+
+void Show::recordCamera(const Presenter::Frame& frame) {
+    cameras_[frame.slot]->record(frame.commands, controller_.camera, stage_.simulation(), tools_.overlay());
+    inFlight_[frame.slot].isRecorded = true;
+}
+
+// What goes wrong here ends the film, and nothing else.
+void Show::settleCamera(std::uint32_t slot) {
+    if (!recording_) return;
+    try {
+        recording_->add(cameras_[slot]->read(), pictureText(opening_, device_, stage_.steps()));
+    } catch (const std::runtime_error& error) { // app::Failure, mesh::ExportError
+        recording_.reset();
+        screen_.warn(error.what());
+    }
 }
 
 // A picture that cannot be written is no reason to close the window.

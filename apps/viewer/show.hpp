@@ -4,9 +4,11 @@
 
 #include "viewer/controller.hpp"
 #include "viewer/gauges.hpp"
+#include "viewer/library.hpp"
 #include "viewer/offscreen.hpp"
 #include "viewer/opening.hpp"
 #include "viewer/picture_writer.hpp"
+#include "viewer/recording.hpp"
 #include "viewer/screen.hpp"
 #include "viewer/stage.hpp"
 #include "viewer/state_probe.hpp"
@@ -19,16 +21,18 @@
 
 namespace sinew::viewer {
 
-/// Main thread only. Screen, device and opening must outlive it; the device must not move.
+/// Main thread only. Screen, library and device must outlive it; the device must not move.
 class Show {
 public:
-    Show(Screen& screen, const vk::Device& device, const Opening& opening);
+    /// Throws std::invalid_argument and vk::Error, as sim::Simulation.
+    Show(Screen& screen, Library& library, const vk::Device& device, std::unique_ptr<Opening> opening);
     ~Show(); ///< waits for the queue
     Show(const Show&) = delete;
     Show& operator=(const Show&) = delete;
 
-    /// Plays until the window is closed or the program is interrupted. Throws vk::Error.
-    void run();
+    /// Plays until the window is closed or the program is interrupted, or until another scene is there, which
+    /// it returns; it may then be called again. Throws vk::Error.
+    std::unique_ptr<Opening> run();
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -47,6 +51,7 @@ private:
         std::vector<Sweep> sweeps;   // of its first steps
         bool isProbed = false;       // for the bounds
         bool isMeasured = false;     // for the strain
+        bool isRecorded = false;     // by cameras_
         std::optional<Ray> question; // for the hand
         std::unique_ptr<Offscreen> screenshot;
         std::uint64_t screenshotStep = 0;
@@ -55,7 +60,17 @@ private:
     enum class Shown { nothing, moving, still };
 
     void turn();
+    Plan plan(double elapsed);
     void handle(const Input& input);
+    void grant(const Wishes& wishes);
+    void turnKnobs(const Knobs& knobs);
+    void goOn(const Again& again);
+    float pictureAspect() const;
+    std::unique_ptr<Opening> takeOpened();
+    void toggleRecording();
+    void stopRecording();
+    void recordCamera(const Presenter::Frame& frame);
+    void settleCamera(std::uint32_t slot);
     void handle(Action action);
     bool prepareSwapchain();
     void draw(Plan plan, View& view);
@@ -75,7 +90,9 @@ private:
     void reportFiles(PictureWriter::Wait wait);
 
     Screen& screen_;
+    Library& library_;
     const vk::Device& device_;
+    std::unique_ptr<const Opening> ownOpening_;
     const Opening& opening_;
     Controller controller_;
     Stage stage_;
@@ -85,6 +102,9 @@ private:
     SceneFacts sceneFacts_;
     Gauges gauges_;
     Wishes wishes_; // of the newest picture
+    Knobs knobs_;
+    std::optional<Recording> recording_;
+    std::array<std::unique_ptr<Offscreen>, Presenter::framesInFlight> cameras_; // of the recording
     View moving_;
     std::optional<View> still_; // where `moving_` has less than full quality
     std::array<InFlight, Presenter::framesInFlight> inFlight_;

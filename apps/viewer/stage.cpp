@@ -2,6 +2,7 @@
 #include "viewer/stage.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sinew::viewer {
 
@@ -14,7 +15,11 @@ std::string Divergence::sentence() const {
 }
 
 Stage::Stage(const vk::Device& device, sim::Scene scene, const sim::Settings& settings)
-    : scene_(std::move(scene)), growing_(device, scene_, settings) {}
+    : scene_(std::move(scene)), growing_(device, scene_, settings), gravity_(scene_.gravity) {
+    const sim::Vec3& g = scene_.gravity;
+    const float length = std::hypot(g.x, g.y, g.z);
+    if (length > 0) down_ = {g.x / length, g.y / length, g.z / length};
+}
 
 void Stage::recordReset(VkCommandBuffer commands) noexcept {
     growing_.simulation().recordReset(commands);
@@ -24,10 +29,17 @@ void Stage::recordReset(VkCommandBuffer commands) noexcept {
 void Stage::recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps, std::span<const sim::Grab> grabs,
                        const sim::Blade& blade) noexcept {
     const sim::Blade scripted = blades_.at(played_++);
-    sim::Step step{.dt = scene_.dt, .gravity = scene_.gravity, .frame = ++steps_};
+    sim::Step step{.dt = scene_.dt, .gravity = gravity_, .frame = ++steps_};
     step.grabs = grabs;
     step.blade = scripted.from.empty() ? blade : scripted;
     growing_.simulation().record(commands, step, timestamps);
+}
+
+void Stage::setGravity(float gravity) noexcept {
+    gravity_ = down_;
+    gravity_.x *= gravity;
+    gravity_.y *= gravity;
+    gravity_.z *= gravity;
 }
 
 std::optional<Divergence> Stage::check(std::uint64_t step) const {

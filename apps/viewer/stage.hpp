@@ -32,6 +32,9 @@ public:
     /// Blades that cut by themselves, from the reset on; in their steps no other one does.
     void setBlades(scenes::ScriptedBlades blades) { blades_ = std::move(blades); }
 
+    /// Downwards, from the next step on: along the scene's own, or -y where that is none [m/s^2].
+    void setGravity(float gravity) noexcept;
+
     /// For what goes back to earlier states.
     sim::Simulation& simulation() noexcept { return growing_.simulation(); }
 
@@ -60,6 +63,7 @@ private:
     sim::Scene scene_;
     app::GrowingSimulation growing_;
     scenes::ScriptedBlades blades_;
+    sim::Vec3 gravity_, down_{0, -1, 0};
     std::uint64_t steps_ = 0, played_ = 0;
 };
 

@@ -67,6 +67,10 @@ std::vector<std::string> ffmpegArguments(std::uint32_t width, std::uint32_t heig
 
 } // namespace
 
+bool hasFfmpeg() {
+    return !findOnPath("ffmpeg").empty();
+}
+
 Video::Video(std::filesystem::path file, std::uint32_t width, std::uint32_t height, double picturesPerSecond)
     : file_(std::move(file)) {
     const std::string program = findOnPath("ffmpeg");
@@ -92,7 +96,13 @@ void Video::start(const std::string& program, const std::vector<std::string>& ar
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
-    const int error = ::posix_spawn(&process_, program.c_str(), &actions, nullptr, argv.data(), environ);
+    posix_spawnattr_t
+        attributes; // a group of its own: Ctrl + C is for this program, which then ends the video
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    const int error = ::posix_spawn(&process_, program.c_str(), &actions, &attributes, argv.data(), environ);
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     ::close(ends[0]);
     pipe_ = ends[1];

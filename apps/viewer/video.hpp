@@ -7,6 +7,9 @@
 
 namespace sinew::viewer {
 
+/// Whether ffmpeg is on the PATH.
+bool hasFfmpeg();
+
 /// Runs ffmpeg while it lives. The file gets its name only when finish() has succeeded.
 class Video {
 public:

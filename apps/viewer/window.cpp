@@ -138,6 +138,9 @@ struct Window::State {
         glfwSetCursorPosCallback(window,
                                  [](GLFWwindow* w, double toX, double toY) { of(w).onMove(toX, toY); });
         glfwSetScrollCallback(window, [](GLFWwindow* w, double, double notches) { of(w).onWheel(notches); });
+        glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** files) {
+            of(w).input.files.assign(files, files + count);
+        });
         glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { of(w).input.needsRedraw = true; });
         glfwSetFramebufferSizeCallback(window,
                                        [](GLFWwindow* w, int, int) { of(w).input.needsRedraw = true; });

@@ -28,12 +28,14 @@ struct Input {
     std::vector<Action> actions;
     std::vector<Press> presses;
     std::vector<Drag> drags;
+    std::vector<std::string> files;    ///< dropped on the window
     float notches = 0;                 ///< of the wheel, forwards positive
     Vector2 pointer = Vector2::Zero(); ///< from the middle, x right, y down, in window heights
     bool needsRedraw = false;          ///< resized or uncovered
     PanelInput panels;                 ///< what is not in the others
     bool isEmpty() const {
-        return actions.empty() && presses.empty() && drags.empty() && notches == 0 && !needsRedraw;
+        return actions.empty() && presses.empty() && drags.empty() && files.empty() && notches == 0 &&
+               !needsRedraw;
     }
 };
 

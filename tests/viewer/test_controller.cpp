@@ -60,6 +60,29 @@ TEST(Playback, DropsTimeItCannotKeepUpWith) {
     EXPECT_EQ(playback.plan(0).steps, 0u);
 }
 
+TEST(Playback, TakesItsTimeInSlowMotion) {
+    Playback playback(dt);
+    playback.slowDown();
+    playback.slowDown();
+    EXPECT_EQ(playback.pace(), 0.25);
+    std::uint32_t steps = 0;
+    for (int frame = 0; frame < 240; ++frame) steps += playback.plan(1.0 / 60).steps;
+    EXPECT_NEAR(steps, 60, 1);
+    playback.slowDown();
+    playback.slowDown();
+    EXPECT_EQ(playback.pace(), 1) << "and round again";
+}
+
+TEST(Playback, TakesNoMoreStepsThanAskedFor) {
+    Playback playback(dt);
+    EXPECT_EQ(playback.plan(1, 1).steps, 1u);
+    playback.step();
+    playback.step();
+    EXPECT_EQ(playback.plan(0, 1).steps, 1u);
+    EXPECT_EQ(playback.plan(0, 1).steps, 1u);
+    EXPECT_EQ(playback.plan(0, 1).steps, 0u);
+}
+
 TEST(Playback, StandsStillWhilePausedAndDoesNotJumpAfterwards) {
     Playback playback(dt);
     playback.toggle();

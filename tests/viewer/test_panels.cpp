@@ -66,12 +66,24 @@ TEST_F(PanelsTest, HaveAButtonForEveryActionThatAKeyDoes) {
         const bool isKey = binding.trigger.kind == Trigger::Kind::key;
         EXPECT_TRUE(!isKey || actionsOfButtons().contains(binding.action)) << binding.shown;
     }
+    facts.cuts = {"at 1.00 s", "at 2.00 s"};
+    facts.undos = 1;
     settle();
     std::set<Action> clicked;
     for (float y = 20; y < 720; y += 12)
         for (float x = 1010; x < 1260; x += 40)
             for (const Action action : click({x, y}).actions) clicked.insert(action);
     EXPECT_EQ(clicked, actionsOfButtons());
+}
+
+TEST_F(PanelsTest, OfferToUndoOnlyWhatWasDone) {
+    settle();
+    std::set<Action> clicked;
+    for (float y = 20; y < 720; y += 12)
+        for (float x = 1010; x < 1260; x += 40)
+            for (const Action action : click({x, y}).actions) clicked.insert(action);
+    EXPECT_FALSE(clicked.contains(Action::undo));
+    EXPECT_FALSE(clicked.contains(Action::redo));
 }
 
 TEST_F(PanelsTest, CoverTheirSideAndNothingOfTheMiddle) {
@@ -125,6 +137,9 @@ TEST(GlyphAtlas, CoversItsTexels) {
     const GlyphAtlas& atlas = panels.atlas();
     ASSERT_EQ(atlas.coverage.size(), std::size_t{atlas.width} * atlas.height);
     EXPECT_EQ(atlas.width % 4, 0u);
+    const auto column = static_cast<std::size_t>(atlas.full.x()),
+               row = static_cast<std::size_t>(atlas.full.y());
+    EXPECT_EQ(atlas.coverage.at(row * atlas.width + column), 255);
     EXPECT_TRUE(std::ranges::any_of(atlas.coverage, [](std::uint8_t texel) { return texel == 255; }));
     EXPECT_TRUE(std::ranges::any_of(atlas.coverage, [](std::uint8_t texel) { return texel == 0; }));
 }
@@ -136,6 +151,7 @@ TEST(Curve, KeepsTheNewestValues) {
     EXPECT_EQ(curve.count(), Curve::length);
     EXPECT_EQ(curve.at(0), 3);
     EXPECT_EQ(curve.newest(), static_cast<float>(Curve::length + 2));
+    EXPECT_EQ(curve.median(), 3 + static_cast<float>((Curve::length - 1) / 2));
 }
 
 } // namespace

@@ -123,7 +123,7 @@ dark closed.png $side && fail "panels cover a small window unasked"
 keys Tab
 awaitStill panels.png
 dark panels.png $side || fail "Tab shows no panels"
-xdotool mousemove 390 147 click 1 # the first button goes on, like Space
+xdotool mousemove 390 174 click 1 # its button goes on, like Space
 awaitTitle fps
 keys space
 awaitTitle paused
@@ -241,6 +241,37 @@ keys F11
 awaitTitle fps
 keys ctrl+q
 awaitEnd 0
+
+echo "window: another scene, one that cannot be opened, a film"
+mkdir scenes
+cp "$scene" scenes/block.toml
+printf 'name = "other"\n[[box]]\nparticles = [4, 4, 4]\ncenter = [0, 0.5, 0]\nspacing = 0.1\n[[plane]]\n' >scenes/other.toml
+echo 'name = ' >scenes/broken.toml
+scene=scenes/block.toml
+start
+keys Prior # Page Up, round the end of the list
+awaitTitle 'other'
+keys space
+awaitTitle paused
+keys Prior
+for _ in {1..200}; do [[ -s viewer.err ]] && break; sleep 0.1; done
+[[ $(cat viewer.err) == "warning: cannot read scene: "*broken.toml* ]] || fail "a scene that is none was not refused in a line"
+[[ $(title) == *other*paused* ]] || fail "a scene that is none took the place of one"
+keys F9
+for _ in {1..200}; do grep -q '^recording other-' viewer.out && break; sleep 0.1; done
+for _ in {1..4}; do keys period; done
+sleep 1
+awaitStill filmed.png
+keys F9
+for _ in {1..200}; do grep -q '^4 pictures in other-' viewer.out && break; sleep 0.1; done
+grep -q '^4 pictures in other-' viewer.out || fail "F9 made no film of the four steps"
+film=$(sed -n 's/^recording //p' viewer.out)
+[[ -s $film && ( ! -d $film || -s $film/frame_0003.png ) ]] || fail "the film is not there"
+[[ $(wc -l <viewer.err) == 1 ]] || fail "more was said on stderr"
+keys ctrl+q
+code=0
+wait "$running" || code=$?
+[[ $code == 0 ]] || fail "exit code $code, expected 0"
 
 echo "window: interrupted"
 start

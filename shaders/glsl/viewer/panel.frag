@@ -1,5 +1,6 @@
 #version 460
-// Panels: the color, as far as the atlas covers this pixel. Glyphs are drawn pixel on pixel, so nothing is filtered.
+// Panels: the color, as far as the atlas covers this pixel. Glyphs are drawn pixel on pixel, so nothing is filtered; areas,
+// which are most pixels, read nothing.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/panel.h"
 
@@ -10,8 +11,10 @@ layout(location = 1) in vec4 color;
 layout(location = 0) out vec4 shown;
 
 void main() {
-    const uvec2 at = uvec2(clamp(texel, vec2(0.0), push.atlas - 1.0));
-    const uint index = at.y * uint(push.atlas.x) + at.x;
-    const float covered = float(bitfieldExtract(coverage[index >> 2], int(index & 3u) * 8, 8)) / 255.0;
-    shown = vec4(color.rgb, color.a * covered);
+    shown = color;
+    if (any(greaterThan(abs(texel - push.full), vec2(0.25)))) {
+        const uvec2 at = uvec2(clamp(texel, vec2(0.0), push.atlas - 1.0));
+        const uint index = at.y * uint(push.atlas.x) + at.x;
+        shown.a *= float(bitfieldExtract(coverage[index >> 2], int(index & 3u) * 8, 8)) / 255.0;
+    }
 }

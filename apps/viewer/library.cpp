@@ -1,0 +1,106 @@
+// Lists a folder, loads in a thread.
+#include "viewer/library.hpp"
+
+#include "scenes/built_in.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace sinew::viewer {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t none = static_cast<std::size_t>(-1);
+constexpr const char* frameOfMeshes = "drop_mesh"; // drops what it is given, and has no body of its own
+
+// Scene files in a folder, by name; none where it cannot be read.
+std::vector<fs::path> sceneFiles(const fs::path& folder) {
+    std::vector<fs::path> files;
+    std::error_code error;
+    for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
+         entry.increment(error))
+        if (entry->path().extension() == ".toml" && entry->path().stem() != frameOfMeshes)
+            files.push_back(entry->path());
+    std::ranges::sort(files);
+    return files;
+}
+
+} // namespace
+
+Library::Library(Options options) : options_(std::move(options)), current_(none) {
+    const fs::path opened = options_.scene;
+    if (opened.extension() == ".toml")
+        for (const fs::path& file : sceneFiles(opened.parent_path())) {
+            names_.push_back(file.stem().string());
+            files_.push_back(file.string());
+            if (file.filename() == opened.filename()) current_ = names_.size() - 1;
+        }
+    if (names_.empty())
+        for (const std::string_view name : scenes::builtInNames())
+            if (name != frameOfMeshes) {
+                names_.emplace_back(name);
+                if (opened.empty() && name == options_.builtIn) current_ = names_.size() - 1;
+            }
+    shown_ = Request{options_, current_};
+}
+
+void Library::open(std::size_t name, float aspect) {
+    if (name >= names_.size()) return;
+    Options options = options_;
+    options.scene = files_.empty() ? "" : files_[name];
+    options.builtIn = names_[name];
+    options.overrides = {};
+    begin({std::move(options), name}, aspect);
+}
+
+void Library::openNext(int by, float aspect) {
+    if (names_.empty()) return;
+    const std::size_t count = names_.size();
+    const std::size_t first = by > 0 ? 0 : count - 1; // where none is current
+    open(current_ == none
+             ? first
+             : (current_ + count + static_cast<std::size_t>(by + static_cast<int>(count))) % count,
+         aspect);
+}
+
+void Library::openFile(const std::string& file, float aspect) {
+    Options options = options_;
+    options.scene = file;
+    options.overrides = {};
+    begin({std::move(options), none}, aspect);
+}
+
+void Library::reopen(const scenes::Overrides& overrides, const Again& again, float aspect) {
+    Request request = *shown_;
+    request.options.overrides = overrides;
+    request.again = again;
+    begin(std::move(request), aspect);
+}
+
+void Library::begin(Request request, float aspect) {
+    if (isOpening()) return;
+    asked_ = std::move(request);
+    opening_ = std::async(std::launch::async, [asked = *asked_, aspect] {
+        auto opening = std::make_unique<Opening>(viewer::open(asked.options, aspect));
+        opening->again = asked.again;
+        return opening;
+    });
+}
+
+std::unique_ptr<Opening> Library::take() {
+    if (!isOpening() || opening_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+        return nullptr;
+    std::unique_ptr<Opening> opened = opening_.get();
+    before_ = std::exchange(shown_, std::move(asked_));
+    current_ = shown_->name;
+    return opened;
+}
+
+void Library::putBack() {
+    shown_ = before_;
+    current_ = shown_->name;
+}
+
+} // namespace sinew::viewer

@@ -1,0 +1,112 @@
+// Panels over a picture, drawn under core, synchronisation and queue-submit validation.
+#include "viewer/offscreen.hpp"
+#include "viewer/panels.hpp"
+#include "viewer/stage.hpp"
+
+#include "sim/bodies.hpp"
+#include "support/device.hpp"
+
+#include <gtest/gtest.h>
+#include <imgui.h>
+
+#include <array>
+
+namespace sinew::viewer {
+namespace {
+
+constexpr VkExtent2D extent{800, 420};
+constexpr Quality quick{.shadowSize = 256, .floorSize = 128, .shadowTaps = 4, .skyTaps = 4};
+constexpr std::uint32_t sideFrom = 500; // where panels are, columns from here on
+
+sim::Scene ball() {
+    sim::Scene scene;
+    sim::addParticles(scene, {.center = {0, 0.5f, 0}, .count = {1, 1, 1}, .radius = 0.3f});
+    scene.planes.push_back({});
+    return scene;
+}
+
+// A scene under panels; a picture of it with them or without.
+struct Table {
+    Table()
+        : scene(ball()), camera(framing({}, stageBounds(scene), 1.9f)), stage(test::device(), scene, {}),
+          offscreen(test::device(), extent, lightFor(scene, camera), quick),
+          painter(test::device(), VK_FORMAT_R8G8B8A8_SRGB, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, 2) {
+        painter.setAtlas(panels.atlas());
+        painter.setPictures(extent, std::array{offscreen.view()});
+    }
+
+    Picture take(bool withPanels, std::uint32_t slot = 0) {
+        panels.build(facts, changing, {}, extent, 1.0 / 60); // twice: sizes are learnt in the first
+        panels.build(facts, changing, {}, extent, 1.0 / 60);
+        VkCommandBuffer commands = test::queue().begin();
+        stage.recordReset(commands);
+        stage.recordSkin(commands);
+        offscreen.recordPicture(commands, camera, stage.simulation());
+        if (withPanels) painter.record(commands, slot, 0, panels.drawn());
+        offscreen.recordCopy(commands);
+        test::queue().wait(test::queue().submit(commands));
+        return offscreen.read();
+    }
+
+    sim::Scene scene;
+    Camera camera;
+    Stage stage;
+    Offscreen offscreen;
+    Panels panels{1};
+    PanelPainter painter;
+    SceneFacts facts{.name = "ball", .device = "a device", .driver = "a driver", .isSoftware = true};
+    Facts changing;
+};
+
+double brightness(const Picture& picture, std::uint32_t column, std::uint32_t row) {
+    const std::uint8_t* at = &picture.pixels[4 * (std::size_t{row} * picture.width + column)];
+    return (at[0] + at[1] + at[2]) / 765.0;
+}
+
+// Of columns from..to of the rows between the hint and the upper edge.
+double mean(const Picture& picture, std::uint32_t from, std::uint32_t to) {
+    double sum = 0;
+    for (std::uint32_t row = 20; row < 360; ++row)
+        for (std::uint32_t column = from; column < to; ++column) sum += brightness(picture, column, row);
+    return sum / (340.0 * (to - from));
+}
+
+TEST(PanelPainter, DarkensTheSideAndLeavesTheSceneBesideItAsItWas) {
+    Table table;
+    table.panels.toggle(); // the picture is too small to have panels unasked
+    const Picture without = table.take(false), with = table.take(true);
+    EXPECT_GT(mean(without, sideFrom, 780), 0.5);
+    EXPECT_LT(mean(with, sideFrom, 780), 0.4);
+    for (std::uint32_t row = 0; row < 360; ++row)
+        for (std::uint32_t column = 0; column < 480; ++column)
+            ASSERT_EQ(brightness(with, column, row), brightness(without, column, row))
+                << column << ' ' << row;
+}
+
+TEST(PanelPainter, DrawsTextInTheColorsItIsMeantToHave) {
+    Table table;
+    table.panels.toggle();
+    const Picture picture = table.take(true);
+    double lightest = 0, darkest = 1;
+    for (std::uint32_t row = 20; row < 120; ++row)
+        for (std::uint32_t column = sideFrom + 20; column < 770; ++column) {
+            lightest = std::max(lightest, brightness(picture, column, row));
+            darkest = std::min(darkest, brightness(picture, column, row));
+        }
+    EXPECT_NEAR(lightest, 234.0 / 255, 0.03) << "text: 232, 234, 237 as shown";
+    EXPECT_LT(darkest, 0.35);
+}
+
+TEST(PanelPainter, TakesAnySlotAndMoreTrianglesThanBefore) {
+    Table table;
+    const Picture few = table.take(true, 0);
+    table.panels.toggle();
+    table.panels.toggleHelp();
+    table.changing.notice = "something happened";
+    const Picture first = table.take(true, 0), second = table.take(true, 1);
+    EXPECT_LT(mean(first, 300, 480), mean(few, 300, 480) - 0.2) << "help stands in the middle";
+    EXPECT_EQ(first.pixels, second.pixels);
+}
+
+} // namespace
+} // namespace sinew::viewer
