@@ -8,11 +8,12 @@
 #include "kuhn.glsl"
 #include "cut_points.glsl"
 
-layout(std430, binding = 0) readonly buffer Cells { uint cells[]; };
+layout(std430, binding = 0) readonly buffer Complex { uint complex[]; };
 layout(std430, binding = 1) readonly buffer Dirty { uint dirty[]; };
 layout(std430, binding = 2) readonly buffer Partitions { uint partitions[]; };
 layout(std430, binding = 3) readonly buffer Owned { uvec4 owned[]; };
 layout(std430, binding = 4) writeonly buffer Counts { SurfaceCounts counts[]; };
+layout(std430, binding = 5) readonly buffer Links { uint links[]; };
 
 uint triangles = 0u;
 void triangle(uvec2 a, uvec2 b, uvec2 c) { ++triangles; }

@@ -3,6 +3,8 @@
 //
 //   triangle(a, b, c)   points as (slot, bit), right-handed seen from outside of the part that it belongs to
 
+#include "seen_faces.glsl"
+
 void oriented(bool isKept, uvec2 a, uvec2 b, uvec2 c) {
     triangle(a, isKept ? b : c, isKept ? c : b);
 }
@@ -67,12 +69,12 @@ void partTetrahedron(uint cell, uint p, uint parted) {
     else partOne(cell, p, others == 3u ? 0u : labels.y != 0u ? 1u : labels.z != 0u ? 2u : 3u);
 }
 
-// Between two tetrahedra that split their face differently, one of them in two.
+// Between two tetrahedra, or one and prisms, that split their face differently, one of them in two.
 void fillFace(uint slot, uint q) {
     Side two = firstSide(slot, q), other = secondSide(slot, q);
-    if (!isFilled(cells[two.cell]) || !isFilled(cells[other.cell])) return;
-    uvec3 pattern = restricted(labelsOf(partitionOf(partitions[two.cell], two.p)), faceOf(two.m));
-    uvec3 beyond = restricted(labelsOf(partitionOf(partitions[other.cell], other.p)), faceOf(other.m));
+    const bool hasTwo = hasTetrahedron(complex[two.cell], two.p), hasOther = hasTetrahedron(complex[other.cell], other.p);
+    if (!hasTwo && !hasOther || !(hasTwo && hasOther) && !hasPrisms(complex[slot], q)) return;
+    uvec3 pattern = hasTwo ? seenFrom(two) : seenAlone(two), beyond = hasOther ? seenFrom(other) : seenAlone(other);
     if (pattern == beyond || min(waysOf(pattern), waysOf(beyond)) != 2u) return;
     if (waysOf(pattern) != 2u) {
         const Side swapped = two;
@@ -93,7 +95,7 @@ void fillFace(uint slot, uint q) {
 }
 
 void addInside(uint cell) {
-    if (isFilled(cells[cell]))
-        [[dont_unroll]] for (uint p = 0u; p < tetrahedra; ++p) partTetrahedron(cell, p, partitionOf(partitions[cell], p));
+    [[dont_unroll]] for (uint p = 0u; p < tetrahedra; ++p)
+        if (hasTetrahedron(complex[cell], p)) partTetrahedron(cell, p, partitionOf(partitions[cell], p));
     [[dont_unroll]] for (uint q = 0u; q < 12u; ++q) fillFace(cell, q);
 }

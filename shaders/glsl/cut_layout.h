@@ -69,6 +69,7 @@ struct SurfacePush {
     uint chunks; // of slots
     uint room;   // triangles, and as many vertices
     uint runs;   // of slots: arguments 0 .. runs - 1 are for them, the one after for all vertices
+    uint hung;   // vertices of skins that hang on a lattice: the third argument after those of runs
 };
 
 // VkDrawIndexedIndirectCommand.
@@ -84,9 +85,10 @@ struct CutVertex {
     vec4 shares;     // 0 for no corner
     uint corners[4]; // slots
     int normal[3];   // at rest, outward from its piece; of any length
-    uint point;      // the point that it is at, or SURFACE_PARTICLE and a particle
+    uint point;      // the point that it is at, or SURFACE_PARTICLE and a particle, or SURFACE_SKIN and a vertex of all skins
 };
 #define SURFACE_PARTICLE 0x80000000u
+#define SURFACE_SKIN 0x40000000u // it is where that vertex is, and hangs on nothing
 #define SURFACE_NORMAL 1048576.0 // unit of a normal; that of a triangle in squares of the spacing
 
 // Best linear motion of what is around a particle: columns of dx / dX.
@@ -97,4 +99,38 @@ struct Gradient {
 // A triangle of a skin that is an outer face of a cell: the cell's slot and bit of SurfaceCounts::pieces, and the triangle.
 struct SkinFace {
     uint cell, bit, triangle;
+};
+
+// Skins of meshes hang on the lattice by prisms: between a triangle of the skin and the particles that its corners go with, which
+// are corners of one tetrahedron. What a slot has of the complex of both (src/sim/surface/skin_complex): tetrahedra of the cell above
+// it in bits 0 to 5, then ...
+#define COMPLEX_FACES 6           // 12 bits: whether prisms stand on a face that the slot owns (surface_points.glsl)
+#define COMPLEX_EDGES 18          // 7 bits: whether prisms with only two particles stand on an edge that it owns
+#define COMPLEX_HAS_FACES (1u << 25) // the skin is the outer faces of the cell
+#define COMPLEX_IS_CELL (1u << 26)   // the cell is filled
+#define COMPLEX_HAS_PRISMS (1u << 27) // on some face or edge that the slot owns
+
+// A triangle of a skin with what it stands on. Edge n leads from corner n to the next.
+struct SkinPrism {
+    uint vertices[3]; // HungVertex
+    uint anchors[3];  // slots
+    uint beyond[3];   // across edge n: 4 times the other prism, and which of its edges
+    uint face;        // the slot that owns the face between the anchors; NO_PARTICLE where they are not three
+    uint links;       // 4 bits an edge: the direction of the link as a corner, 0 = both ends go with one particle; 8 = to the start
+    uint places;      // which of the slot's faces, and from bit 4 on the place of each corner in it, 2 bits
+};
+
+// A vertex of such a skin.
+struct HungVertex {
+    vec4 rest;    // [m]; w = index of the skin
+    vec4 weights; // in its cell; w unused
+    vec4 normal;  // at rest; w = spacing of the grid [m]
+    uint vertex;  // of all skins
+    uint cell, anchor; // slots
+    uint corner;  // of the cell, that the anchor is
+};
+
+struct PrismPush {
+    uint first; // items of the surface before prisms: slots
+    uint count; // prisms, or vertices that hang
 };

@@ -62,13 +62,13 @@ uint outsideFace(uint cell, uint p, uint m, uint parted) {
 
 // Which outer faces of a cell are drawn in pieces: bit 2 p for the face opposite of 0, 2 p + 1 for that of 3.
 uint addOutside(uint cell) {
-    if (!isFilled(cells[cell])) return 0u;
+    if ((complex[cell] & COMPLEX_HAS_FACES) == 0u) return 0u;
     uint pieces = 0u;
     [[dont_unroll]] for (uint p = 0u; p < tetrahedra; ++p)
         [[dont_unroll]] for (uint side = 0u; side < 2u; ++side) {
             const uint axis = side == 0u ? secondCorner[p] : 1u << lastAxis[p];
             const uint next = side == 0u ? slotOf(cell, axis) : cell - slotOf(0u, axis);
-            if (isFilled(cells[next])) continue;
+            if (isCell(complex[next])) continue;
             setNormal(axis, side == 0u);
             if (outsideFace(cell, p, 3u * side, partitionOf(partitions[cell], p)) > 0u) pieces |= 1u << 2u * p + side;
         }

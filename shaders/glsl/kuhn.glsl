@@ -1,4 +1,4 @@
-// The complex that surfaces of cuts are made of (cutting design, 5): every filled cell is six tetrahedra (Kuhn), one for each
+// The complex that surfaces of cuts are made of (cutting design, 5): every cell is six tetrahedra (Kuhn), one for each
 // order in which a way along the axes leads from its lowest corner to its highest. All their edges are links.
 //
 //   tetrahedron p   order (i, j, k) of axes: 012 021 102 120 201 210; corners 0, 1 << i, 1 << i | 1 << j, 7 of the cell
@@ -20,8 +20,11 @@ const bool isEven[6] = bool[6](true, false, false, true, true, false); // whethe
 
 uvec4 cornersOf(uint p) { return uvec4(0u, secondCorner[p], thirdCorner[p], 7u); }
 
-// Whether the cell above a node is filled, from the fill of the cells around it.
-bool isFilled(uint around) { return around >> 28 != 0u; }
+// Of the words of the complex (COMPLEX_FACES): tetrahedra that a surface encloses, and prisms that stand on a face or an edge.
+bool hasTetrahedron(uint word, uint p) { return (word >> p & 1u) != 0u; }
+bool hasPrisms(uint word, uint q) { return (word >> COMPLEX_FACES + q & 1u) != 0u; }
+bool hasThinPrisms(uint word, uint direction) { return (word >> COMPLEX_EDGES + direction - 1u & 1u) != 0u; }
+bool isCell(uint word) { return (word & COMPLEX_IS_CELL) != 0u; }
 
 // The slot of a cell's corner.
 uint slotOf(uint cell, uint corner) { return uint(int(cell) + offsetOf(cornerOf(int(corner)))); }

@@ -15,6 +15,11 @@ ivec3 cornerOf(int k) { return ivec3(k & 1, k >> 1 & 1, k >> 2); }
 
 bool isAlive(uint links, int dx, int dy, int dz) { return (links >> bitOf(dx, dy, dz) & 1u) != 0u; }
 
+// How three corners hang together by the links between them: the lowest place of its part for each.
+uvec3 patternOf(bool ab, bool bc, bool ca) {
+    return uvec3(0u, ab || bc && ca ? 0u : 1u, ca || ab && bc ? 0u : bc ? 1u : 2u);
+}
+
 ivec3 directionOf(int bit) {
     const int s = bit < FIRST_OWNED ? bit : bit + 1;
     return ivec3(s % 3, s / 3 % 3, s / 9) - 1;

@@ -10,22 +10,40 @@
 #include "cut_points.glsl"
 
 layout(std430, binding = 0) readonly buffer Links { uint links[]; };
-layout(std430, binding = 1) readonly buffer Cells { uint cells[]; };
+layout(std430, binding = 1) readonly buffer Complex { uint complex[]; };
 layout(std430, binding = 2) readonly buffer Dirty { uint dirty[]; };
 layout(std430, binding = 3) readonly buffer Partitions { uint partitions[]; };
 layout(std430, binding = 4) writeonly buffer Owned { uvec4 owned[]; };
 
+#include "seen_faces.glsl"
+
+// What prisms on the two faces of a tetrahedron at the edge from corner a to b make of it.
+void seePrisms(uint cell, uint p, uint a, uint b, inout bool isNeeded, inout bool isJoined) {
+    [[dont_unroll]] for (uint m = 0u; m < 4u; ++m) {
+        const Face owner = ownerOf(cell, p, m);
+        if (m == a || m == b || !hasPrisms(complex[owner.slot], owner.q)) continue;
+        const uvec3 face = faceOf(m), seen = seenAlone(Side(cell, p, m));
+        const uint first = face.x == a ? 0u : 1u, second = face.z == b ? 2u : 1u; // a < b
+        if (seen[first] == seen[second]) isJoined = true;
+        else isNeeded = true;
+    }
+}
+
 void markEdge(uint i, uint d, inout uvec4 own) {
-    bool isNeeded = false, isJoined = false;
+    const bool arePrismsNear = (complex[i] & COMPLEX_HAS_PRISMS) != 0u;
+    bool isNeeded = hasThinPrisms(complex[i], d), isJoined = false;
     [[dont_unroll]] for (uint low = 0u; low < 8u; ++low) {
         const uint cell = i - slotOf(0u, low), high = low | d;
-        if ((low & d) != 0u || !isFilled(cells[cell])) continue;
+        if ((low & d) != 0u) continue;
         [[dont_unroll]] for (uint p = 0u; p < tetrahedra; ++p) {
             const uvec4 corners = cornersOf(p), labels = labelsOf(partitionOf(partitions[cell], p));
             const int a = bitCount(low), b = bitCount(high); // corners of a way have 0, 1, 2, 3 bits
             if (corners[a] != low || corners[b] != high) continue;
-            if (labels[a] == labels[b]) isJoined = true;
-            else isNeeded = true;
+            if (hasTetrahedron(complex[cell], p)) {
+                if (labels[a] == labels[b]) isJoined = true;
+                else isNeeded = true;
+            }
+            if (arePrismsNear) seePrisms(cell, p, uint(a), uint(b), isNeeded, isJoined);
         }
     }
     if (!isNeeded) return;
@@ -33,26 +51,29 @@ void markEdge(uint i, uint d, inout uvec4 own) {
     setBit(own, isJoined ? weldBit(d) : edgeBit(d, 1u));
 }
 
-// As one side sees a face.
-uvec3 seen(Side side) {
-    return restricted(labelsOf(partitionOf(partitions[side.cell], side.p)), faceOf(side.m));
-}
-
 void markFace(uint i, uint q, inout uvec4 own) {
     const Side first = firstSide(i, q), second = secondSide(i, q);
-    const bool hasFirst = isFilled(cells[first.cell]), hasSecond = isFilled(cells[second.cell]);
-    const uvec3 apart = uvec3(0u, 1u, 2u), a = hasFirst ? seen(first) : apart, b = hasSecond ? seen(second) : apart;
-    if (!(hasFirst && a == apart) && !(hasSecond && b == apart)) return;
-    const bool areFirst = min(a.y, b.y) == 0u, isLast = min(a.z, b.z) == 2u;
+    const bool hasFirst = hasTetrahedron(complex[first.cell], first.p), hasSecond = hasTetrahedron(complex[second.cell], second.p);
+    const bool isStoodOn = hasPrisms(complex[i], q);
+    const uvec3 apart = uvec3(0u, 1u, 2u);
+    const uvec3 all[3] = uvec3[3](hasFirst ? seenFrom(first) : apart, hasSecond ? seenFrom(second) : apart, isStoodOn ? seenAlone(first) : apart);
+    if (!(hasFirst && all[0] == apart || hasSecond && all[1] == apart || isStoodOn && all[2] == apart)) return;
+    bool isSecondFirst = false, isThirdFirst = false, isThirdSecond = false;
+    [[dont_unroll]] for (uint n = 0u; n < 3u; ++n) {
+        isSecondFirst = isSecondFirst || all[n].y == 0u;
+        isThirdFirst = isThirdFirst || all[n].z == 0u;
+        isThirdSecond = isThirdSecond || all[n].z == 1u;
+    }
+    const bool areAll = isThirdSecond && (isSecondFirst || isThirdFirst);
     setBit(own, faceBit(q, 0u));
-    if (!areFirst) setBit(own, faceBit(q, 1u));
-    if (isLast) setBit(own, faceBit(q, 2u));
-    else if (min(a.z, b.z) == 1u && !areFirst) setBit(own, mergeBit(q));
+    if (!isSecondFirst && !areAll) setBit(own, faceBit(q, 1u));
+    if (!isThirdFirst && !isThirdSecond) setBit(own, faceBit(q, 2u));
+    else if (isThirdSecond && !areAll) setBit(own, mergeBit(q));
 }
 
-// Whether any tetrahedron at a node is split.
+// Whether any tetrahedron at a node is split, or a prism may be.
 bool isSplitAround(uint i) {
-    uint all = 0u;
+    uint all = complex[i] & COMPLEX_HAS_PRISMS;
     [[dont_unroll]] for (uint k = 0u; k < 8u; ++k) all |= partitions[i - slotOf(0u, k)];
     return all != 0u;
 }
@@ -72,7 +93,8 @@ void main() {
         if (!isAlive(links[i], direction.x, direction.y, direction.z)) markEdge(i, d, own);
     }
     [[dont_unroll]] for (uint q = 0u; q < 12u; ++q) markFace(i, q, own);
-    [[dont_unroll]] for (uint p = 0u; p < tetrahedra && isFilled(cells[i]); ++p) {
+    [[dont_unroll]] for (uint p = 0u; p < tetrahedra; ++p) {
+        if (!hasTetrahedron(complex[i], p)) continue;
         const uvec4 labels = labelsOf(partitionOf(partitions[i], p));
         [[dont_unroll]] for (uint n = 0u; n < 4u && partsOf(labels) > 2u; ++n)
             if (labels[n] == n) setBit(own, middleBit(p, n));

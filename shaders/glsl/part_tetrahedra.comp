@@ -7,7 +7,7 @@
 #include "kuhn.glsl"
 
 layout(std430, binding = 0) readonly buffer Links { uint links[]; };
-layout(std430, binding = 1) readonly buffer Cells { uint cells[]; };
+layout(std430, binding = 1) readonly buffer Complex { uint complex[]; };
 layout(std430, binding = 2) readonly buffer Dirty { uint dirty[]; };
 layout(std430, binding = 3) writeonly buffer Partitions { uint partitions[]; }; // of the cell above a slot, 5 bits each
 layout(std430, binding = 4) writeonly buffer Near { uint near[]; };             // 1 = a point may hang on the particle
@@ -39,7 +39,7 @@ void main() {
     const uint item = itemIndex(push.count);
     if (item >= push.count) return;
     const uint i = push.first + item;
-    if (dirty[i >> 5] == 0u || !isFilled(cells[i])) return;
+    if (dirty[i >> 5] == 0u || !isCell(complex[i])) return;
     uint words[8];
     [[dont_unroll]] for (uint k = 0u; k < 8u; ++k) words[k] = links[slotOf(i, k)];
     uint all = 0u;

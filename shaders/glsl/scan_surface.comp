@@ -45,5 +45,6 @@ void main() {
     for (uint r = 0u; r < push.runs; ++r) arguments[r] = DispatchArguments(min(total.x, 1u) * groups[r], 1u, 1u, 0u);
     listed[0] = total.w;
     arguments[push.runs + 1u] = DispatchArguments(counts.linksOfStep > 0u ? groupsOf(total.w) : 0u, 1u, 1u, 0u);
+    arguments[push.runs + 2u] = DispatchArguments(min(total.x, 1u) * groupsOf(push.hung), 1u, 1u, 0u);
     arguments[push.runs] = DispatchArguments(groupsOf(total.x + 3u * total.z), 1u, 1u, 0u);
 }

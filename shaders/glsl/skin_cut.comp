@@ -10,12 +10,17 @@ layout(std430, binding = 3) readonly buffer Particles { uint particles[]; }; // 
 layout(std430, binding = 4) readonly buffer Positions { vec4 positions[]; }; // of each particle
 layout(std430, binding = 5) readonly buffer Gradients { Gradient gradients[]; };
 layout(std430, binding = 6) writeonly buffer Vertices { SkinVertex vertices[]; };
+layout(std430, binding = 7) readonly buffer SkinVertices { SkinVertex skinVertices[]; };
 layout(push_constant) uniform Push { CountPush push; };
 
 void main() {
     const uint count = min(push.count, state.points + 3u * state.outside), i = itemIndex(count);
     if (i >= count) return;
     const CutVertex vertex = cutVertices[i];
+    if (vertex.point >> 30 == 1u) { // a corner of a skin
+        vertices[i] = skinVertices[vertex.point ^ SURFACE_SKIN];
+        return;
+    }
     const vec3 normal = vec3(vertex.normal[0], vertex.normal[1], vertex.normal[2]) / SURFACE_NORMAL;
     vec3 x = vec3(0.0), turned = vec3(0.0);
     float moving = 0.0;

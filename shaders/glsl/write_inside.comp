@@ -8,13 +8,14 @@
 #include "kuhn.glsl"
 #include "cut_points.glsl"
 
-layout(std430, binding = 0) readonly buffer Cells { uint cells[]; };
+layout(std430, binding = 0) readonly buffer Complex { uint complex[]; };
 layout(std430, binding = 1) readonly buffer Partitions { uint partitions[]; };
 layout(std430, binding = 2) readonly buffer Owned { uvec4 owned[]; };
 layout(std430, binding = 3) readonly buffer Listed { uint listed[]; }; // how many, and then the slots
 layout(std430, binding = 4) readonly buffer Starts { uvec2 starts[]; };
 layout(std430, binding = 5) buffer Vertices { CutVertex vertices[]; };
 layout(std430, binding = 6) writeonly buffer Indices { uint indices[]; };
+layout(std430, binding = 7) readonly buffer Links { uint links[]; };
 
 uint next; // triangle
 

@@ -7,7 +7,7 @@
 #include "kuhn.glsl"
 #include "cut_points.glsl"
 
-layout(std430, binding = 0) readonly buffer Cells { uint cells[]; };
+layout(std430, binding = 0) readonly buffer Complex { uint complex[]; };
 layout(std430, binding = 1) readonly buffer Partitions { uint partitions[]; };
 layout(std430, binding = 2) readonly buffer Owned { uvec4 owned[]; };
 layout(std430, binding = 3) readonly buffer Listed { uint listed[]; }; // how many, and then the slots

@@ -12,7 +12,7 @@ layout(std430, binding = 0) readonly buffer Listed { uint listed[]; }; // how ma
 layout(std430, binding = 1) readonly buffer Owned { uvec4 owned[]; };
 layout(std430, binding = 2) readonly buffer Partitions { uint partitions[]; };
 layout(std430, binding = 3) readonly buffer Hits { LinkHits hits[]; };
-layout(std430, binding = 4) readonly buffer Rest { vec4 rest[]; }; // w = index of the body's skin
+layout(std430, binding = 4) readonly buffer Rest { vec4 rest[]; }; // where a blade has particles; w = index of the body's skin
 layout(std430, binding = 5) writeonly buffer Vertices { CutVertex vertices[]; };
 
 // Where a link was cut. One that died by rule K alone has no place: its middle.
@@ -62,7 +62,7 @@ void writeFace(uint i, uint q) {
 
 void writeMiddle(uint i, uint p) {
     const uvec4 corners = cornersOf(p), labels = labelsOf(partitionOf(partitions[i], p));
-    if (partsOf(labels) < 3u) return;
+    if (!hasBit(owned[i], middleBit(p, 0u))) return;
     vec4 sum = vec4(0.0);
     [[dont_unroll]] for (uint a = 0u; a < 3u; ++a)
         [[dont_unroll]] for (uint b = a + 1u; b < 4u; ++b)

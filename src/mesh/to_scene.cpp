@@ -4,6 +4,7 @@
 
 #include "mesh/inside.hpp"
 #include "mesh/place_grid.hpp"
+#include "mesh/split_skin.hpp"
 #include "mesh/topology.hpp"
 #include "sim/bodies.hpp"
 
@@ -46,8 +47,8 @@ Cell findCell(const VoxelGrid& grid, const Vector3& point) {
     return best;
 }
 
-sim::CellEmbedding embed(const VoxelGrid& grid, const sim::LatticeCorners& corners, Vec3 position) {
-    const Vector3 point = (toVector(position) - toVector(grid.origin)) / double{grid.spacing};
+/// `point` in cell units.
+sim::CellEmbedding embed(const VoxelGrid& grid, const sim::LatticeCorners& corners, const Vector3& point) {
     const Cell cell = findCell(grid, point);
     sim::CellEmbedding embedding;
     for (std::uint32_t corner = 0; corner < 8; ++corner)
@@ -101,6 +102,23 @@ sim::Lattice makeLattice(const VoxelGrid& grid, const MeshBody& body, double vol
     return lattice;
 }
 
+/// Every vertex into its cell; of a skin that is clipped also to the particle that it goes with.
+void hang(sim::Skin& skin, std::vector<Vector3> positions, const VoxelGrid& grid,
+          const sim::LatticeCorners& corners, bool isClipped) {
+    if (isClipped) {
+        SplitSkin split = splitSkin(std::move(positions), std::move(skin.triangles));
+        positions = std::move(split.positions);
+        skin.triangles = std::move(split.triangles);
+        for (const auto& node : split.anchors)
+            skin.anchors.push_back(corners.at(static_cast<std::uint32_t>(node[0]),
+                                              static_cast<std::uint32_t>(node[1]),
+                                              static_cast<std::uint32_t>(node[2])));
+        if (std::ranges::count(skin.anchors, sim::LatticeCorners::noParticle) > 0) skin.anchors.clear();
+    }
+    skin.cells.reserve(positions.size());
+    for (const Vector3& position : positions) skin.cells.push_back(embed(grid, corners, position));
+}
+
 } // namespace
 
 VoxelGrid addMesh(sim::Scene& scene, const TriangleMesh& mesh, const MeshBody& body) {
@@ -114,10 +132,8 @@ VoxelGrid addMesh(sim::Scene& scene, const TriangleMesh& mesh, const MeshBody& b
     const sim::LatticeCorners corners = addLattice(scene, makeLattice(grid, body, volume));
     setContactOffsets(scene, corners, grid, clean);
 
-    sim::Skin skin{.name = body.name, .triangles = clean.triangles, .color = body.color};
-    skin.cells.reserve(clean.positions.size());
-    for (const Vec3& position : clean.positions) skin.cells.push_back(embed(grid, corners, position));
-    scene.skins.push_back(std::move(skin));
+    scene.skins.push_back({.name = body.name, .triangles = clean.triangles, .color = body.color});
+    hang(scene.skins.back(), toCellUnits(clean, grid), grid, corners, body.isCuttable && defects.isClosed());
     return grid;
 }
 

@@ -14,7 +14,9 @@ struct MeshBody {
     float recovery = 0;            ///< sim::Lattice::recovery
     float density = 1000;          ///< [kg/m^3]
     bool touchesParticles = false; ///< each particle has a radius of half a voxel
-    bool isCuttable = false;       ///< sim::Grid::isCuttable
+    /// sim::Grid::isCuttable. The skin of a closed mesh is split along the cells, into three to seven times
+    /// as many triangles, and has sim::Skin::anchors: it is clipped along cuts.
+    bool isCuttable = false;
     Vec3 color{0.78f, 0.36f, 0.32f};
 };
 

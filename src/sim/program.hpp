@@ -230,6 +230,9 @@ public:
     void atEnd(std::function<void()> addPasses) { endings_.push_back(std::move(addPasses)); }
     const std::vector<std::function<void()>>& endings() const { return endings_; }
     const std::vector<BufferId>& remembered() const { return remembered_; }
+    /// Passes of the list of skins between places and normals of vertices.
+    void beforeNormals(std::function<void()> addPasses) { skinMiddles_.push_back(std::move(addPasses)); }
+    const std::vector<std::function<void()>>& skinMiddles() const { return skinMiddles_; }
     /// Passes that end the list of skins.
     void atSkin(std::function<void()> addPasses) { skinEndings_.push_back(std::move(addPasses)); }
     const std::vector<std::function<void()>>& skinEndings() const { return skinEndings_; }
@@ -266,7 +269,7 @@ private:
 
     StepProgram program_;
     std::vector<BufferId> remembered_, kept_;
-    std::vector<std::function<void()>> checked_, endings_, skinEndings_;
+    std::vector<std::function<void()>> checked_, endings_, skinMiddles_, skinEndings_;
     Gate gate_;
     bool isReversed_ = false, isSkin_ = false, isCut_ = false;
     std::uint32_t substep_ = 0;

@@ -215,6 +215,11 @@ struct Skin {
     std::vector<std::array<std::uint32_t, 3>> triangles; ///< counter-clockwise seen from outside
     std::vector<std::uint32_t> particles;
     std::vector<CellEmbedding> cells;
+    /// Empty, or the particle that each vertex of a skin in cells goes with where the body is cut: a corner
+    /// of its cell. Such a skin is clipped along cuts and closed with their inside, if it is closed and the
+    /// anchors of every triangle are corners of one tetrahedron (lattice::isKuhn) of a filled cell;
+    /// mesh::addMesh splits skins so. Else it stretches over a cut.
+    std::vector<std::uint32_t> anchors;
     Vec3 color{0.78f, 0.36f, 0.32f}; ///< linear RGB
     std::size_t vertexCount() const { return particles.empty() ? cells.size() : particles.size(); }
 };

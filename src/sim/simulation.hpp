@@ -110,8 +110,8 @@ struct SavedState {
 /// The surface of cuts, to be drawn beside the skins after recordSkin(): the inside that a blade laid open,
 /// and the pieces of skins beside it. Those of the skin's own triangles that pieces stand for are degenerate
 /// from then on. Closed where both are taken together, two-sided: each piece has its own side. Views are
-/// empty where no skin is clipped: only bodies that may be cut whose skin is the outer faces of their cells
-/// (addLatticeSkin) have such a surface, and only where every solid body that may be cut is one.
+/// empty where no skin is clipped: bodies that may be cut have such a surface where their skin is the outer
+/// faces of their cells (addLatticeSkin), or a closed mesh with Skin::anchors (mesh::addMesh).
 struct CutSurface {
     vk::BufferView vertices; ///< layout::SkinVertex (position, normal; stride 32)
     /// layout::CutVertex of each (stride 64), of which the first vec4 is for a solid texture: where the point

@@ -252,6 +252,12 @@ void checkSkin(const Skin& skin, const std::string& name, std::size_t particles,
         complaints.checkIndex(skin.particles[v], particles, "particles",
                               [&] { return name + element(".particles", v); });
     checkCells(skin, name, particles, complaints);
+    if (!skin.anchors.empty() && skin.anchors.size() != skin.cells.size())
+        complaints.add(name, "has " + number(skin.anchors.size()) + " anchors for " +
+                                 number(skin.cells.size()) + " vertices in cells, must have as many or none");
+    for (std::size_t v = 0; v < skin.anchors.size(); ++v)
+        complaints.checkIndex(skin.anchors[v], particles, "particles",
+                              [&] { return name + element(".anchors", v); });
     for (std::size_t t = 0; t < skin.triangles.size(); ++t)
         for (const std::uint32_t corner : skin.triangles[t])
             complaints.checkIndex(corner, skin.vertexCount(), "vertices",

@@ -38,7 +38,9 @@ void addSkin(const sim::Scene& scene, std::size_t index, const CutDownload& down
         if (corners[0] == corners[1]) continue; // drawn in pieces
         std::array<std::uint32_t, 3> triangle{};
         for (std::size_t n = 0; n < 3; ++n)
-            triangle[n] = joined.vertex(SURFACE_PARTICLE | skin.particles[corners[n] - firstVertex],
+            triangle[n] = joined.vertex(skin.particles.empty()
+                                            ? SURFACE_SKIN | corners[n]
+                                            : SURFACE_PARTICLE | skin.particles[corners[n] - firstVertex],
                                         download.skinVertices[corners[n]].position);
         joined.triangle(triangle);
     }

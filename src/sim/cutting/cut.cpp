@@ -32,7 +32,7 @@ void addWaking(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& p
                          run.push);
 }
 
-void addOpening(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& particles) {
+void addOpening(ProgramBuilder& program, Cut& cut, const ParticleBuffers& particles) {
     const CuttingBuffers& buffers = cut.buffers;
     program.updateBlade(cut.blade, cut.points);
     program.fill(cut.work, 0);
@@ -42,13 +42,16 @@ void addOpening(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& 
                          {particles.positions, particles.velocities, particles.step, buffers.links,
                           buffers.savedLinks, buffers.places, cut.placesBefore, cut.work},
                          run.push);
+    if (cut.surface) cut.bladePlaces = surface::addPulling(program, *cut.surface, cut.placesBefore, cut.work);
     for (const Run& run : cut.runs)
         program.dispatch(cut.usesTexels ? k::cutLinks : k::cutLinksLoads, run.push.count,
-                         {buffers.places, cut.placesBefore, buffers.links, buffers.hits, buffers.dirty,
+                         {cut.bladePlaces, cut.placesBefore, buffers.links, buffers.hits, buffers.dirty,
                           cut.blade, cut.points, cut.work, buffers.savedLinks},
                          run.push);
     for (const Run& run : cut.runs)
         program.dispatch(k::settleLinks, run.push.count, {buffers.links, buffers.dirty}, run.push);
+    if (cut.surface)
+        surface::addSkinHits(program, *cut.surface, cut.bladePlaces, cut.placesBefore, cut.blade, cut.points);
     addWholeCells(program, cut);
     addWaking(program, cut, particles);
 }
@@ -102,7 +105,7 @@ void addClosing(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& 
     const CuttingBuffers& buffers = cut.buffers;
     for (const Run& run : cut.runs)
         program.dispatch(k::closeCut, run.push.count,
-                         {buffers.links, buffers.savedLinks, buffers.places, cut.placesBefore,
+                         {buffers.links, buffers.savedLinks, cut.bladePlaces, cut.placesBefore,
                           program.program().status, cut.work},
                          run.push);
     addWholeCells(program, cut); // those that an undone step has given back
@@ -114,8 +117,9 @@ void addClosing(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& 
 
 void add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
          const ParticleBuffers& particles) {
-    const Cut cut = addBuffers(program, scene, settings, particles);
+    Cut cut = addBuffers(program, scene, settings, particles);
     if (cut.runs.empty()) return;
+    cut.bladePlaces = cut.buffers.places;
     program.beginPhase("cut");
     program.beginCut();
     addOpening(program, cut, particles);

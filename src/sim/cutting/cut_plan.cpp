@@ -110,16 +110,14 @@ void addPieces(ProgramBuilder& program, Cut& cut, Initial& initial, std::size_t 
         std::vector{layout::CutCounts{.links = 0, .linksOfStep = 0, .pieces = pieces.count, .missing = 0}});
 }
 
-void addSurface(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-                const StateLayout& layout, Cut& cut) {
+void addSurface(ProgramBuilder& program, const Scene& scene, const surface::CutBodies& bodies, Cut& cut) {
     surface::CutSource source{.runs = {},
-                              .cells = cut.cells,
                               .particles = cut.particles,
                               .groups = cut.groups,
                               .arguments = cut.arguments,
                               .firstArgument = 2 * static_cast<std::uint32_t>(cut.runs.size())};
     for (const Run& run : cut.runs) source.runs.push_back(run.push);
-    cut.surface = surface::addCutSurface(program, scene, settings, layout, source);
+    cut.surface = surface::addCutSurface(program, scene, bodies, source);
 }
 
 void addHands(ProgramBuilder& program, Cut& cut, const constraints::grab::Grabs& grabs) {
@@ -143,8 +141,7 @@ Cut addBuffers(ProgramBuilder& program, const Scene& scene, const Settings& sett
     if (cut.runs.empty()) return cut;
     cut.buffers.links = program.upload("cut.links", initial.links);
     const bool hasVolumes = std::ranges::any_of(cut.runs, &Run::hasVolumes);
-    const bool hasSurface = surface::hasCutSurface(scene, settings);
-    if (hasVolumes || hasSurface) cut.cells = program.upload("cut.cells", initial.cells);
+    if (hasVolumes) cut.cells = program.upload("cut.cells", initial.cells);
     if (hasVolumes) cut.buffers.wholeCells = program.upload("cut.whole_cells", initial.cells);
     cut.buffers.hits = program.scratch<layout::LinkHits>("cut.hits", layout.count);
     cut.buffers.dirty = program.scratch<std::uint32_t>("cut.dirty", layout.count / 32 + 1);
@@ -165,7 +162,10 @@ Cut addBuffers(ProgramBuilder& program, const Scene& scene, const Settings& sett
     if (particles.grabs) addHands(program, cut, *particles.grabs);
     for (const BufferId buffer : buffers.topology) program.carry(buffer, buffer);
     program.program().cutting = buffers;
-    if (hasSurface) addSurface(program, scene, settings, layout, cut);
+    std::vector<layout::CutPush> pushes;
+    for (const Run& run : cut.runs) pushes.push_back(run.push);
+    const surface::CutBodies bodies = surface::readCutBodies(scene, settings, layout, pushes);
+    if (bodies.cells > 0) addSurface(program, scene, bodies, cut);
     return cut;
 }
 

@@ -2,8 +2,7 @@
 #include "sim/surface/cut_surface.hpp"
 
 #include "kernels.hpp"
-#include "sim/lattice/batches.hpp"
-#include "sim/surface/lattice_faces.hpp"
+#include "sim/surface/hung_surface.hpp"
 #include "sim/surface/skin.hpp"
 
 #include <algorithm>
@@ -15,59 +14,31 @@ namespace {
 
 namespace k = kernels;
 
-// What is known of the bodies before anything is built.
-struct Bodies {
-    std::vector<layout::SkinFace> faces;
-    std::vector<layout::vec4> rest; // by slot; w = index of the skin
-    double cells = 0;
-};
-
-void addBody(Bodies& bodies, const Scene& scene, const Grid& grid, const StateLayout& layout,
-             std::size_t skin) {
-    for (std::uint32_t i = grid.firstParticle; i < grid.firstParticle + grid.node.size(); ++i) {
-        const Vec3& x = scene.particles[i].position;
-        bodies.rest[layout.slot[i]] = {x.x, x.y, x.z, static_cast<float>(skin)};
-    }
-    bodies.cells +=
-        static_cast<double>(std::ranges::count_if(grid.fill, [](std::uint8_t fill) { return fill > 0; }));
+// Triangles: all that some cuts through the whole body make, or every cell shattered, if that is less. A
+// triangle of a mesh's skin beside a cut has up to nine vertices; one in twenty may be.
+std::uint32_t roomFor(const CutBodies& bodies) {
+    constexpr double ofCell = 200, ofLayer = 240, few = 65536, ofPrism = 0.5;
+    const double inside = std::min(ofCell * bodies.cells, few + ofLayer * std::pow(bodies.cells, 2.0 / 3.0));
+    return static_cast<std::uint32_t>(inside + ofPrism * static_cast<double>(bodies.prisms.size()));
 }
 
-Bodies readBodies(const Scene& scene, const Settings& settings, const StateLayout& layout) {
-    Bodies bodies{.faces = {}, .rest = std::vector<layout::vec4>(layout.count)};
-    const std::vector<std::uint32_t> grids = lattice::computedGrids(scene, settings);
-    const std::vector<lattice::Box> boxes = lattice::boxesOf(scene, grids);
-    for (std::size_t g = 0; g < grids.size(); ++g) {
-        const Grid& grid = scene.grids[grids[g]];
-        if (!grid.isCuttable) continue;
-        std::uint32_t first = 0;
-        for (std::size_t s = 0; s < scene.skins.size(); ++s) {
-            const auto faces = latticeFaces(scene.skins[s], grid, boxes[g], first);
-            first += static_cast<std::uint32_t>(scene.skins[s].triangles.size());
-            if (!faces) continue;
-            bodies.faces.insert(bodies.faces.end(), faces->begin(), faces->end());
-            addBody(bodies, scene, grid, layout, s);
-        }
-    }
-    return bodies;
+std::uint32_t chunksFor(std::size_t items) {
+    return static_cast<std::uint32_t>((items + SURFACE_CHUNK - 1) / SURFACE_CHUNK);
 }
 
-// Triangles: all that some cuts through the whole body make, or every cell shattered, if that is less.
-std::uint32_t roomFor(double cells) {
-    constexpr double ofCell = 200, ofLayer = 240, few = 65536;
-    return static_cast<std::uint32_t>(std::min(ofCell * cells, few + ofLayer * std::pow(cells, 2.0 / 3.0)));
-}
-
-void addSlots(ProgramBuilder& program, CutSurface& surface, const Bodies& bodies) {
-    const std::size_t slots = bodies.rest.size();
+void addItems(ProgramBuilder& program, CutSurface& surface, const CutBodies& bodies) {
+    const std::size_t slots = bodies.rest.size(), items = std::size_t{SURFACE_CHUNK} * surface.push.chunks;
     surface.partitions = program.scratch<std::uint32_t>("surface.partitions", slots);
     surface.near = program.scratch<std::uint32_t>("surface.near", slots);
-    surface.owned = program.scratch<std::array<std::uint32_t, 4>>("surface.owned", slots);
-    surface.counts = program.scratch<layout::SurfaceCounts>("surface.counts", slots);
+    surface.owned = program.scratch<std::array<std::uint32_t, 4>>("surface.owned", items);
+    surface.counts = program.scratch<layout::SurfaceCounts>("surface.counts", items);
     surface.slots = static_cast<std::uint32_t>(slots);
-    surface.listed = program.scratch<std::uint32_t>("surface.listed", slots + 1);
-    surface.starts = program.scratch<std::array<std::uint32_t, 2>>("surface.starts", slots);
+    surface.items = static_cast<std::uint32_t>(items);
+    surface.listed = program.scratch<std::uint32_t>("surface.listed", items + 1);
+    surface.starts = program.scratch<std::array<std::uint32_t, 2>>("surface.starts", items);
     surface.sums = program.scratch<std::array<std::uint32_t, 4>>("surface.sums", surface.push.chunks);
-    surface.rest = program.upload("surface.rest", bodies.rest);
+    surface.complex = program.upload("surface.complex", bodies.complex);
+    surface.rest = surface.bladeRest = program.upload("surface.rest", bodies.rest);
     surface.gradients = program.scratch<layout::Gradient>("surface.gradients", slots);
 }
 
@@ -75,7 +46,7 @@ void addSlots(ProgramBuilder& program, CutSurface& surface, const Bodies& bodies
 void addListed(ProgramBuilder& program, const CutSurface& surface, const vk::ShaderCode& code,
                std::initializer_list<BufferId> buffers) {
     for (const layout::CutPush& run : surface.source.runs)
-        program.dispatchIndirect(code, {surface.arguments, surface.push.runs + 1, surface.slots}, buffers,
+        program.dispatchIndirect(code, {surface.arguments, surface.push.runs + 1, surface.items}, buffers,
                                  run);
 }
 
@@ -88,50 +59,39 @@ void addRuns(ProgramBuilder& program, const CutSurface& surface, const vk::Shade
                                  buffers, source.runs[r]);
 }
 
-void addDrawing(ProgramBuilder& program, const CutSurface& surface) {
+void addGradients(ProgramBuilder& program, const CutSurface& surface) {
     const CutSource& source = surface.source;
     const StepProgram& built = program.program();
-    const CutSurfaceBuffers drawn = built.cutSurface;
     for (std::uint32_t r = 0; r < source.runs.size(); ++r)
         program.dispatchIndirect(k::findGradients, {surface.arguments, r, source.runs[r].count},
                                  {surface.near, built.cutting.links, surface.rest, source.particles,
                                   built.positions, surface.gradients},
                                  source.runs[r]);
+}
+
+void addDrawing(ProgramBuilder& program, const CutSurface& surface) {
+    const StepProgram& built = program.program();
+    const CutSurfaceBuffers drawn = built.cutSurface;
+    if (surface.hung.prismCount == 0) addGradients(program, surface);
+    addRimNormals(program, surface);
     program.dispatchIndirect(k::skinCut, {surface.arguments, surface.push.runs, surface.push.room},
-                             {drawn.state, drawn.rest, surface.rest, source.particles, built.positions,
-                              surface.gradients, drawn.vertices},
+                             {drawn.state, drawn.rest, surface.rest, surface.source.particles,
+                              built.positions, surface.gradients, drawn.vertices, built.skinVertices},
                              layout::CountPush{surface.push.room});
 }
 
 } // namespace
 
-bool hasCutSurface(const Scene& scene, const Settings& settings) {
-    const std::vector<std::uint32_t> grids = lattice::computedGrids(scene, settings);
-    const std::vector<lattice::Box> boxes = lattice::boxesOf(scene, grids);
-    bool hasSome = false;
-    for (std::size_t g = 0; g < grids.size(); ++g) {
-        const Grid& grid = scene.grids[grids[g]];
-        if (!grid.isCuttable || grid.nodes[1] == 1) continue; // sheets have no inside
-        const auto isItsSkin = [&](const Skin& skin) {
-            return latticeFaces(skin, grid, boxes[g], 0).has_value();
-        };
-        if (std::ranges::none_of(scene.skins, isItsSkin)) return false; // passes would run over it, too
-        hasSome = true;
-    }
-    return hasSome;
-}
-
 std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& scene,
-                                          const Settings& settings, const StateLayout& layout,
-                                          const CutSource& source) {
-    const Bodies bodies = readBodies(scene, settings, layout);
+                                          const CutBodies& bodies, const CutSource& source) {
     auto surface = std::make_shared<CutSurface>();
     surface->source = source;
-    surface->push = {.chunks = static_cast<std::uint32_t>(layout.count / SURFACE_CHUNK),
-                     .room = roomFor(bodies.cells),
-                     .runs = static_cast<std::uint32_t>(source.runs.size())};
+    surface->push = {.chunks = chunksFor(bodies.rest.size() + bodies.prisms.size()),
+                     .room = roomFor(bodies),
+                     .runs = static_cast<std::uint32_t>(source.runs.size()),
+                     .hung = static_cast<std::uint32_t>(bodies.vertices.size())};
     surface->faces = static_cast<std::uint32_t>(bodies.faces.size());
-    addSlots(program, *surface, bodies);
+    addItems(program, *surface, bodies);
     const std::uint32_t room = surface->push.room;
     StepProgram& built = program.program();
     CutSurfaceBuffers& drawn = built.cutSurface;
@@ -141,7 +101,7 @@ std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& 
     drawn.indices = program.scratch<std::uint32_t>("surface.indices", 3 * std::uint64_t{room});
     drawn.draws = program.scratch<layout::DrawArguments>("surface.draws", 2);
     surface->arguments =
-        program.scratch<layout::DispatchArguments>("surface.arguments", surface->push.runs + 2);
+        program.scratch<layout::DispatchArguments>("surface.arguments", surface->push.runs + 3);
     surface->skinFaces = program.upload("surface.skin_faces", bodies.faces);
     surface->allIndices = program.upload("surface.all_indices", joinIndices(scene.skins));
     built.skinIndices = program.upload("skin.indices", joinIndices(scene.skins));
@@ -151,6 +111,12 @@ std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& 
         built.cutting.topology.push_back(buffer);
         program.carry(buffer, buffer);
     }
+    addHungBuffers(program, *surface, bodies);
+    if (surface->hung.prismCount > 0)
+        program.beforeNormals([&program, surface] {
+            addGradients(program, *surface);
+            addSplitVertices(program, *surface);
+        });
     program.atSkin([&program, surface] { addDrawing(program, *surface); });
     return surface;
 }
@@ -158,11 +124,13 @@ std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& 
 void addCutSurfacePasses(ProgramBuilder& program, const CutSurface& surface) {
     const CuttingBuffers& cutting = program.program().cutting;
     const CutSurfaceBuffers& drawn = program.program().cutSurface;
-    const BufferId cells = surface.source.cells, partitions = surface.partitions, owned = surface.owned;
+    const BufferId complex = surface.complex, partitions = surface.partitions, owned = surface.owned;
     addRuns(program, surface, k::partTetrahedra,
-            {cutting.links, cells, cutting.dirty, partitions, surface.near});
-    addRuns(program, surface, k::markPoints, {cutting.links, cells, cutting.dirty, partitions, owned});
-    addRuns(program, surface, k::countSurface, {cells, cutting.dirty, partitions, owned, surface.counts});
+            {cutting.links, complex, cutting.dirty, partitions, surface.near});
+    addRuns(program, surface, k::markPoints, {cutting.links, complex, cutting.dirty, partitions, owned});
+    addRuns(program, surface, k::countSurface,
+            {complex, cutting.dirty, partitions, owned, surface.counts, cutting.links});
+    addPrismParting(program, surface);
     const layout::CountPush chunks{surface.push.chunks};
     program.dispatch(k::sumSurface, chunks.count, {surface.counts, surface.sums}, chunks);
     program.dispatch(k::scanSurface, GROUP_ITEMS,
@@ -173,12 +141,14 @@ void addCutSurfacePasses(ProgramBuilder& program, const CutSurface& surface) {
                      {surface.counts, surface.sums, owned, surface.starts, surface.listed}, chunks);
     const BufferId listed = surface.listed;
     addListed(program, surface, k::writePoints,
-              {listed, owned, partitions, cutting.hits, surface.rest, drawn.rest});
+              {listed, owned, partitions, cutting.hits, surface.bladeRest, drawn.rest});
+    addRimPoints(program, surface);
     addListed(program, surface, k::writeInside,
-              {cells, partitions, owned, listed, surface.starts, drawn.rest, drawn.indices});
+              {complex, partitions, owned, listed, surface.starts, drawn.rest, drawn.indices, cutting.links});
     addListed(program, surface, k::writeOutside,
-              {cells, partitions, owned, listed, surface.starts, drawn.state, surface.rest, drawn.rest,
+              {complex, partitions, owned, listed, surface.starts, drawn.state, surface.rest, drawn.rest,
                drawn.indices, surface.source.particles});
+    addPrismTriangles(program, surface);
     program.dispatch(
         k::hideFaces, surface.faces,
         {surface.counts, drawn.state, surface.skinFaces, surface.allIndices, program.program().skinIndices},

@@ -1,7 +1,8 @@
 // The surface of cuts: what a blade lays open inside of a body on a grid, and what is left of its skin beside
 // it. Built on the device in a step that cut something, by one rule per tetrahedron (cutting design, 5):
 // marching tetrahedra on dead links, closed and two-sided. For bodies whose skin is the outer faces of their
-// cells (lattice_faces).
+// cells (lattice_faces) or a mesh that hangs on them (skin_complex); what is different for the latter stands
+// in hung_surface.
 //
 // In a step with a cut, near the blade alone: part_tetrahedra (which corners of each tetrahedron hang
 // together), mark_points (which points on edges, faces and in middles hold both sides), count_surface
@@ -10,14 +11,14 @@
 // (indices, normals at rest), write_outside (pieces of outer faces, with vertices of their own), hide_faces
 // (skin triangles that pieces stand for).
 //
-// When somebody draws: find_gradients (how the material around particles near a cut has turned and strained),
-// skin_cut (vertices and normals).
+// Items of the surface are slots, and prisms behind them. When somebody draws: find_gradients (how the
+// material around particles near a cut has turned and strained), skin_cut (vertices and normals).
 //
 // Nothing is appended by a counter: the same cut makes the same bits in any order.
 #pragma once
 
 #include "layout.h"
-#include "sim/compile.hpp"
+#include "sim/surface/cut_bodies.hpp"
 
 #include <memory>
 
@@ -26,31 +27,45 @@ namespace sinew::sim::surface {
 /// What cutting keeps that a surface is made from.
 struct CutSource {
     std::vector<layout::CutPush> runs;
-    BufferId cells;     ///< by slot: fill of the cells around
     BufferId particles; ///< by slot: NO_PARTICLE where there is none
     BufferId groups;    ///< of runs
     BufferId arguments; ///< by run from `first` on: all slots where something was cut, else none
     std::uint32_t firstArgument = 0;
 };
 
+/// Of skins of meshes; no prisms where none is clipped.
+struct HungSurface {
+    std::vector<HungRange> ranges;
+    std::uint32_t prismCount = 0, vertexCount = 0;
+    BufferId prisms, vertices;
+    BufferId hits;         ///< by prism: where its edges were cut
+    BufferId rims;         ///< by vertex: whether a triangle around is drawn in pieces
+    BufferId pulledPlaces; ///< by slot, where particles are for a blade [m]; invalid = at their places
+};
+
 struct CutSurface {
     CutSource source;
     layout::SurfacePush push{};
-    std::uint32_t faces = 0, slots = 0;
-    BufferId partitions, near, owned, counts, starts, sums, listed, arguments, rest, skinFaces, allIndices,
-        gradients;
+    std::uint32_t faces = 0, slots = 0, items = 0;
+    BufferId complex, partitions, near, owned, counts, starts, sums, listed, arguments, rest, skinFaces,
+        allIndices, gradients;
+    BufferId bladeRest; ///< where a blade has particles at rest: `rest`, or below the skin
+    HungSurface hung;
 };
-
-/// Whether any skin is clipped.
-bool hasCutSurface(const Scene& scene, const Settings& settings);
 
 /// Buffers, and the skin's indices, which cuts change. After those of StepProgram::cutting, to whose topology
 /// they are added.
 std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& scene,
-                                          const Settings& settings, const StateLayout& layout,
-                                          const CutSource& source);
+                                          const CutBodies& bodies, const CutSource& source);
 
-/// After the links of a step are settled.
+/// In the phase "cut", after places were put down: those that a blade meets. Returns them.
+BufferId addPulling(ProgramBuilder& program, const CutSurface& surface, BufferId placesBefore, BufferId work);
+
+/// In the phase "cut", after the links of a step are settled.
+void addSkinHits(ProgramBuilder& program, const CutSurface& surface, BufferId bladePlaces,
+                 BufferId placesBefore, BufferId blade, BufferId points);
+
+/// When a step came to its end.
 void addCutSurfacePasses(ProgramBuilder& program, const CutSurface& surface);
 
 } // namespace sinew::sim::surface

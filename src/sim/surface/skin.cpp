@@ -86,6 +86,7 @@ void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins) {
         addVertices(program, skin, built.positions, built.skinVertices, firstVertex);
         firstVertex += static_cast<std::uint32_t>(skin.vertexCount());
     }
+    for (const auto& addMore : program.skinMiddles()) addMore();
     const Fans fans = fansOf(indices, vertexCount);
     const BufferId fanBuffer = program.upload("skin.fans", fans.fans);
     const BufferId triangles = program.upload("skin.triangles_of_vertex", fans.triangles);

@@ -27,6 +27,17 @@ Vector3d xyz(const layout::vec4& v) {
     return {double{v.x}, double{v.y}, double{v.z}};
 }
 
+Vector3d embedded(const CutBody& body, const CellEmbedding& cell) {
+    Vector3d x = Vector3d::Zero();
+    const Vector3d t(double{cell.weights.x}, double{cell.weights.y}, double{cell.weights.z});
+    for (std::uint32_t k = 0; k < 8; ++k) {
+        double share = 1;
+        for (std::uint32_t axis = 0; axis < 3; ++axis) share *= (k >> axis & 1) != 0 ? t[axis] : 1 - t[axis];
+        x += share * body.at(cell.particles[k]);
+    }
+    return x;
+}
+
 } // namespace
 
 ClosedSurface::ClosedSurface(CutBody& body) {
@@ -53,9 +64,12 @@ void ClosedSurface::addSkin(CutBody& body) {
         if (indices[3 * t] == indices[3 * t + 1]) continue; // drawn in pieces
         Triangle triangle;
         for (std::size_t n = 0; n < 3; ++n) {
-            const std::uint32_t vertex = indices[3 * t + n], particle = skin.particles[vertex];
+            const std::uint32_t vertex = indices[3 * t + n];
+            const bool isMesh = skin.particles.empty();
             triangle.points[n] =
-                pointOf(SURFACE_PARTICLE | particle, body.at(particle), xyz(vertices[vertex].position));
+                pointOf(isMesh ? SURFACE_SKIN | vertex : SURFACE_PARTICLE | skin.particles[vertex],
+                        isMesh ? embedded(body, skin.cells[vertex]) : body.at(skin.particles[vertex]),
+                        xyz(vertices[vertex].position));
             triangle.normals[n] = xyz(vertices[vertex].normal);
         }
         triangles_.push_back(triangle);

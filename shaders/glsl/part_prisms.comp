@@ -1,0 +1,45 @@
+#version 460
+// The surface of a cut, second pass for skins of meshes: how the corners of every prism near the last blade hang together, which points
+// there are (as mark_points has it for tetrahedra), and how many triangles.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#include "kernel.glsl"
+#include "link_masks.glsl"
+
+layout(std430, binding = 0) readonly buffer Links { uint links[]; };
+layout(std430, binding = 1) readonly buffer Dirty { uint dirty[]; };
+layout(std430, binding = 2) readonly buffer Prisms { SkinPrism prisms[]; };
+layout(std430, binding = 3) writeonly buffer Near { uint near[]; };    // 1 = a point may hang on the particle
+layout(std430, binding = 4) writeonly buffer Owned { uvec4 owned[]; };
+layout(std430, binding = 5) writeonly buffer Counts { SurfaceCounts counts[]; };
+layout(std430, binding = 6) writeonly buffer Rims { uint rims[]; };    // of vertices that hang: 1 = a triangle around is in pieces
+layout(push_constant) uniform Push { PrismPush push; };
+
+#include "skin_prisms.glsl"
+
+void main() {
+    const uint i = itemIndex(push.count);
+    if (i >= push.count) return;
+    const SkinPrism prism = prisms[i];
+    if ((dirty[prism.anchors[0] >> 5] | dirty[prism.anchors[1] >> 5] | dirty[prism.anchors[2] >> 5]) == 0u) return;
+    const uvec3 pattern = patternOf(prism);
+    const uint ways = 1u + (pattern.y == 1u ? 1u : 0u) + (pattern.z == 2u ? 1u : 0u);
+    uint points = 0u, used = 0u;
+    [[dont_unroll]] for (uint n = 0u; n < 3u; ++n) {
+        if (isHeld(prism, n)) continue;
+        const bool isApart = areApart(pattern, n), isApartBeyond = areApart(patternOf(prisms[prism.beyond[n] >> 2]), prism.beyond[n] & 3u);
+        if (!isApart && !isApartBeyond) continue;
+        used |= 1u << n;
+        if (i < prism.beyond[n] >> 2) points |= 1u << 2u * n | (isApart && isApartBeyond ? 2u << 2u * n : 1u << 6u + n);
+    }
+    if (ways == 3u) points |= 7u << firstCenter;
+    const bool isThin = linkOf(prism, 0u) == 0u || linkOf(prism, 1u) == 0u || linkOf(prism, 2u) == 0u;
+    const uint inside = ways == 1u ? 0u : ways == 3u ? 12u : isThin ? 2u : 4u;
+    const uint outside = ways == 1u ? (used == 0u ? 0u : 2u) : ways == 2u ? 3u : 6u;
+    owned[push.first + i] = uvec4(points, 0u, 0u, 0u);
+    counts[push.first + i] = SurfaceCounts(bitCount(points & skinPoints) | inside << 8 | outside << 16, outside == 0u ? 0u : 1u);
+    [[dont_unroll]] for (uint n = 0u; n < 3u && outside > 0u; ++n) {
+        near[prism.anchors[n]] = 1u;
+        rims[prism.vertices[n]] = 1u;
+    }
+}

@@ -1,0 +1,31 @@
+#version 460
+// Where particles are for a blade: those that the skin of a mesh goes with, but that lie outside of it, are just below the skin
+// (src/sim/surface/skin_complex), moved with what is around them.
+#extension GL_GOOGLE_include_directive : require
+#include "cut.glsl"
+#include "link_masks.glsl"
+
+layout(std430, binding = 0) readonly buffer Links { uint links[]; };
+layout(std430, binding = 1) readonly buffer Rest { vec4 rest[]; };
+layout(std430, binding = 2) readonly buffer PulledRest { vec4 pulledRest[]; };
+layout(std430, binding = 3) readonly buffer Places { vec4 places[]; };
+layout(std430, binding = 4) writeonly buffer PulledPlaces { vec4 pulledPlaces[]; };
+layout(std430, binding = 5) readonly buffer PlacesBefore { vec4 before[]; }; // w = 0: no blade yet
+layout(std430, binding = 6) buffer Work { CutWork work; };
+
+#define ALIVE(i) links[i]
+#define AT(i) places[i].xyz
+#define REST(i) rest[i].xyz
+#include "gradient.glsl"
+
+void main() {
+    const uint item = itemIndex(push.count);
+    if (item >= push.count) return;
+    const uint i = push.first + item;
+    const vec3 pull = pulledRest[i].xyz - rest[i].xyz;
+    vec3 x = places[i].xyz;
+    if (pull != vec3(0.0)) x += gradientAt(i) * pull;
+    pulledPlaces[i] = vec4(x, 1.0);
+    const uint way = before[i].w > 0.0 ? floatBitsToUint(distance(x, before[i].xyz)) : 0u;
+    if (way > work.farthest) atomicMax(work.farthest, way);
+}

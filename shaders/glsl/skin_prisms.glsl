@@ -1,0 +1,44 @@
+// Skins of meshes and the prisms that they stand on (src/sim/surface/skin_complex). An edge of a skin is cut where the link between the
+// particles that its ends go with is; a prism is cut like the face between its three particles. Points of a prism are owned by the item
+// of the surface that stands for it, behind all slots:
+//
+//   0 .. 5    edges that no prism before it has: 2 n + side, 0 = on the side of corner n; only side 0 where both are one (6 + n)
+//   9 .. 11   the middle of the triangle, for each corner, where all three are apart
+//
+// Whoever includes this has prisms[], links[] and owned[].
+
+const uint skinPoints = 0xe3fu, firstCenter = 9u;
+
+uint linkOf(SkinPrism prism, uint n) { return bitfieldExtract(prism.links, int(4u * n), 4); }
+
+// The lower end of the link below an edge.
+uint lowEnd(SkinPrism prism, uint n) { return prism.anchors[linkOf(prism, n) < 8u ? n : (n + 1u) % 3u]; }
+
+bool areLinked(uint word, uint link) {
+    const ivec3 d = cornerOf(int(link & 7u));
+    return isAlive(word, d.x, d.y, d.z);
+}
+
+// Whether one particle or a live link is below edge n.
+bool isHeld(SkinPrism prism, uint n) {
+    const uint link = linkOf(prism, n);
+    return link == 0u || areLinked(links[lowEnd(prism, n)], link);
+}
+
+// How the corners hang together.
+uvec3 patternOf(SkinPrism prism) { return patternOf(isHeld(prism, 0u), isHeld(prism, 1u), isHeld(prism, 2u)); }
+
+bool areApart(uvec3 pattern, uint n) { return pattern[n] != pattern[(n + 1u) % 3u]; }
+
+// Which item owns an edge, and as which of its edges; reversed where that is another prism.
+struct SkinEdge {
+    uint prism, edge;
+    bool isReversed;
+};
+SkinEdge edgeOf(SkinPrism prism, uint self, uint n) {
+    const uint other = prism.beyond[n] >> 2;
+    return self < other ? SkinEdge(self, n, false) : SkinEdge(other, prism.beyond[n] & 3u, true);
+}
+
+// The bit of the point on an edge on the side of its start, or of its end.
+uint sideBit(SkinEdge edge, bool isStart) { return 2u * edge.edge + (isStart == edge.isReversed ? 1u : 0u); }

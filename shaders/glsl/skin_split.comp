@@ -1,0 +1,31 @@
+#version 460
+// Vertices of skins in cells that a cut has parted: over skin_cells, which goes before.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#include "cut.glsl"
+#include "link_masks.glsl"
+#include "kuhn.glsl"
+
+layout(std430, binding = 0) readonly buffer Hung { HungVertex hung[]; };
+layout(std430, binding = 1) readonly buffer Partitions { uint partitions[]; };
+layout(std430, binding = 2) readonly buffer Links { uint links[]; };
+layout(std430, binding = 3) readonly buffer Rest { vec4 rest[]; };
+layout(std430, binding = 4) readonly buffer Particles { uint particles[]; }; // of each slot
+layout(std430, binding = 5) readonly buffer Positions { vec4 positions[]; }; // of each particle
+layout(std430, binding = 6) readonly buffer Gradients { Gradient gradients[]; };
+layout(std430, binding = 7) buffer Vertices { SkinVertex vertices[]; };
+
+#define ALIVE(i) links[i]
+#define AT(i) positions[particles[i]].xyz
+#define REST(i) rest[i].xyz
+#define TURN(i) mat3(gradients[i].x.xyz, gradients[i].y.xyz, gradients[i].z.xyz)
+#include "skin_place.glsl"
+
+void main() {
+    const uint item = itemIndex(push.count);
+    if (item >= push.count) return;
+    const HungVertex vertex = hung[push.first + item];
+    if (partitions[vertex.cell] == 0u) return;
+    const uint held = heldWith(vertex.cell, vertex.corner);
+    if (held != 255u) vertices[vertex.vertex].position.xyz = placeOf(vertex, held);
+}

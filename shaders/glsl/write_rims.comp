@@ -1,0 +1,56 @@
+#version 460
+// The surface of a cut, fourth pass for skins of meshes: the points on the edges of a skin and in the middle of its triangles, with what
+// they hang on, as write_points has it.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#include "kernel.glsl"
+#include "link_masks.glsl"
+
+layout(std430, binding = 0) readonly buffer Listed { uint listed[]; }; // how many, and then the items
+layout(std430, binding = 1) readonly buffer Owned { uvec4 owned[]; };
+layout(std430, binding = 2) readonly buffer Links { uint links[]; };
+layout(std430, binding = 3) readonly buffer Prisms { SkinPrism prisms[]; };
+layout(std430, binding = 4) readonly buffer Hung { HungVertex hung[]; };
+layout(std430, binding = 5) readonly buffer SkinHits { uint skinHits[]; };
+layout(std430, binding = 6) writeonly buffer Vertices { CutVertex vertices[]; };
+layout(push_constant) uniform Push { PrismPush push; };
+
+#include "skin_prisms.glsl"
+#include "skin_points.glsl"
+
+// How far along edge n the cut is.
+float shareOf(SkinPrism prism, uint self, uint n) {
+    const SkinEdge edge = edgeOf(prism, self, n);
+    const uint value = bitfieldExtract(skinHits[edge.prism], int(8u * edge.edge), 8);
+    const float share = value == 0u ? 0.5 : float(value) / 255.0;
+    return edge.isReversed ? 1.0 - share : share;
+}
+
+vec4 edgePlace(SkinPrism prism, uint self, uint n) {
+    const vec4 from = hung[prism.vertices[n]].rest, to = hung[prism.vertices[(n + 1u) % 3u]].rest;
+    return vec4(mix(from.xyz, to.xyz, shareOf(prism, self, n)), from.w);
+}
+
+void write(uint at, vec4 place, uint a, uint b, float share) {
+    vertices[at] = CutVertex(place, vec4(1.0 - share, share, 0.0, 0.0), uint[4](a, b, a, a), int[3](0, 0, 0), at);
+}
+
+void main() {
+    const uint item = itemIndex(listed[0]);
+    if (item >= listed[0] || listed[1u + item] < push.first) return;
+    const uint self = listed[1u + item] - push.first;
+    const SkinPrism prism = prisms[self];
+    const uint points = owned[push.first + self].x;
+    [[dont_unroll]] for (uint n = 0u; n < 3u; ++n) {
+        if ((points >> 2u * n & 1u) == 0u) continue;
+        const vec4 place = edgePlace(prism, self, n);
+        const uint a = prism.anchors[n], b = prism.anchors[(n + 1u) % 3u];
+        const bool isOne = (points >> 6u + n & 1u) != 0u;
+        write(skinPoint(prism, self, n, true), place, a, b, isOne ? shareOf(prism, self, n) : 0.0);
+        if (!isOne) write(skinPoint(prism, self, n, false), place, b, a, 0.0);
+    }
+    if ((points >> firstCenter & 1u) == 0u) return;
+    const vec4 center = (edgePlace(prism, self, 0u) + edgePlace(prism, self, 1u) + edgePlace(prism, self, 2u)) / 3.0;
+    [[dont_unroll]] for (uint n = 0u; n < 3u; ++n)
+        write(skinCenter(self, n), vec4(center.xyz, hung[prism.vertices[n]].rest.w), prism.anchors[n], prism.anchors[n], 0.0);
+}

@@ -1,0 +1,117 @@
+// Reads grids and their skins; of each grid the first that can be clipped.
+#include "sim/surface/cut_bodies.hpp"
+
+#include "sim/lattice/batches.hpp"
+#include "sim/surface/lattice_faces.hpp"
+#include "sim/surface/skin_complex.hpp"
+
+#include <algorithm>
+
+namespace sinew::sim::surface {
+
+namespace {
+
+class Reader {
+public:
+    Reader(const Scene& scene, const StateLayout& layout, std::span<const layout::CutPush> runs)
+        : scene_(scene), layout_(layout), runs_(runs) {
+        bodies_.complex.resize(layout.count);
+        bodies_.rest.resize(layout.count);
+    }
+
+    void add(const Grid& grid, const lattice::Box& box) {
+        SkinPlace place;
+        for (const Skin& skin : scene_.skins) {
+            if (skin.anchors.empty() ? addFaces(grid, box, place) : addMesh(grid, box, place)) return;
+            ++place.index;
+            place.firstVertex += static_cast<std::uint32_t>(skin.vertexCount());
+            place.firstTriangle += static_cast<std::uint32_t>(skin.triangles.size());
+        }
+    }
+
+    CutBodies finish() {
+        if (pulled_.empty()) return std::move(bodies_);
+        bodies_.pulled = bodies_.rest;
+        for (const auto& [slot, x] : pulled_) bodies_.pulled[slot] = {x.x, x.y, x.z, bodies_.rest[slot].w};
+        return std::move(bodies_);
+    }
+
+private:
+    bool addFaces(const Grid& grid, const lattice::Box& box, const SkinPlace& place) {
+        const auto faces = latticeFaces(scene_.skins[place.index], grid, box, place.firstTriangle);
+        if (!faces) return false;
+        bodies_.faces.insert(bodies_.faces.end(), faces->begin(), faces->end());
+        addBody(grid, place.index);
+        for (const std::uint32_t index : grid.node) {
+            const std::array<std::uint32_t, 3> node = lattice::coordinates(grid, index);
+            if (lattice::fillAround(grid, node) >> 28 != 0)
+                bodies_.complex[box.slot(node[0], node[1], node[2])] =
+                    63 | COMPLEX_HAS_FACES | COMPLEX_IS_CELL;
+        }
+        return true;
+    }
+
+    bool addMesh(const Grid& grid, const lattice::Box& box, const SkinPlace& place) {
+        const auto firstPrism = static_cast<std::uint32_t>(bodies_.prisms.size()),
+                   firstHung = static_cast<std::uint32_t>(bodies_.vertices.size());
+        const auto complex = hangSkin(scene_, grid, box, place, firstPrism, firstHung);
+        if (!complex) return false;
+        const auto prisms = static_cast<std::uint32_t>(complex->prisms.size());
+        for (std::uint32_t t = 0; t < prisms; ++t) // prisms come behind all slots
+            bodies_.faces.push_back({.cell = static_cast<std::uint32_t>(layout_.count) + firstPrism + t,
+                                     .bit = 0,
+                                     .triangle = place.firstTriangle + t});
+        bodies_.prisms.insert(bodies_.prisms.end(), complex->prisms.begin(), complex->prisms.end());
+        bodies_.vertices.insert(bodies_.vertices.end(), complex->vertices.begin(), complex->vertices.end());
+        std::ranges::copy(complex->words, bodies_.complex.begin() + box.origin);
+        const auto pulled = pullAnchors(scene_, grid, box, *complex);
+        pulled_.insert(pulled_.end(), pulled.begin(), pulled.end());
+        addBody(grid, place.index);
+        addRange(box, firstPrism, prisms, firstHung, static_cast<std::uint32_t>(complex->vertices.size()));
+        return true;
+    }
+
+    void addBody(const Grid& grid, std::uint32_t skin) {
+        for (std::uint32_t i = grid.firstParticle; i < grid.firstParticle + grid.node.size(); ++i) {
+            const Vec3& x = scene_.particles[i].position;
+            bodies_.rest[layout_.slot[i]] = {x.x, x.y, x.z, static_cast<float>(skin)};
+        }
+        bodies_.cells +=
+            static_cast<double>(std::ranges::count_if(grid.fill, [](std::uint8_t fill) { return fill > 0; }));
+    }
+
+    void addRange(const lattice::Box& box, std::uint32_t firstPrism, std::uint32_t prisms,
+                  std::uint32_t firstHung, std::uint32_t vertices) {
+        const auto run = std::ranges::find_if(runs_, [&](const layout::CutPush& push) {
+            return box.origin >= push.first && box.origin - push.first < push.count;
+        });
+        HungRange range{*run, *run};
+        range.prisms.first = firstPrism;
+        range.prisms.count = prisms;
+        range.vertices.first = firstHung;
+        range.vertices.count = vertices;
+        bodies_.ranges.push_back(range);
+    }
+
+    const Scene& scene_;
+    const StateLayout& layout_;
+    const std::span<const layout::CutPush> runs_;
+    CutBodies bodies_;
+    std::vector<std::pair<std::uint32_t, Vec3>> pulled_;
+};
+
+} // namespace
+
+CutBodies readCutBodies(const Scene& scene, const Settings& settings, const StateLayout& layout,
+                        std::span<const layout::CutPush> runs) {
+    Reader reader(scene, layout, runs);
+    const std::vector<std::uint32_t> grids = lattice::computedGrids(scene, settings);
+    const std::vector<lattice::Box> boxes = lattice::boxesOf(scene, grids);
+    for (std::size_t g = 0; g < grids.size(); ++g) {
+        const Grid& grid = scene.grids[grids[g]];
+        if (grid.isCuttable && !lattice::isSheet(grid)) reader.add(grid, boxes[g]);
+    }
+    return reader.finish();
+}
+
+} // namespace sinew::sim::surface

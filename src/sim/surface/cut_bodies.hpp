@@ -1,0 +1,34 @@
+// What the surface of cuts is made of, body by body, before anything is built: skins that are the outer faces
+// of cells, and skins of meshes with the prisms that they stand on.
+#pragma once
+
+#include "layout.h"
+#include "sim/compile.hpp"
+
+#include <span>
+
+namespace sinew::sim::surface {
+
+/// Prisms of a body and the vertices of its skin, as the kernels over them say: `first` and `count` among
+/// those of all bodies.
+struct HungRange {
+    layout::CutPush prisms{}, vertices{};
+};
+
+struct CutBodies {
+    std::vector<layout::SkinFace> faces; ///< triangles of skins that pieces may stand for
+    std::vector<std::uint32_t> complex;  ///< by slot, as COMPLEX_FACES says
+    std::vector<layout::vec4> rest;      ///< by slot; w = index of the skin
+    std::vector<layout::vec4> pulled;    ///< the same as blades see it; empty where that is no different
+    std::vector<layout::SkinPrism> prisms;
+    std::vector<layout::HungVertex> vertices;
+    std::vector<HungRange> ranges; ///< of bodies with prisms
+    double cells = 0;              ///< of all bodies whose skin is clipped; 0 = there are none
+};
+
+/// Of those bodies that may be cut and whose skin can be clipped; the others are left out. `runs` are those
+/// of all that may be cut.
+CutBodies readCutBodies(const Scene& scene, const Settings& settings, const StateLayout& layout,
+                        std::span<const layout::CutPush> runs);
+
+} // namespace sinew::sim::surface

@@ -1,0 +1,118 @@
+// The passes over prisms and over vertices that hang.
+#include "sim/surface/hung_surface.hpp"
+
+#include "kernels.hpp"
+
+namespace sinew::sim::surface {
+
+namespace {
+
+namespace k = kernels;
+
+layout::PrismPush pushOf(const CutSurface& surface, std::uint32_t count) {
+    return {.first = surface.slots, .count = count};
+}
+
+// Items of the surface that have any of it.
+void addListed(ProgramBuilder& program, const CutSurface& surface, const vk::ShaderCode& code,
+               std::initializer_list<BufferId> buffers) {
+    program.dispatchIndirect(code, {surface.arguments, surface.push.runs + 1, surface.items}, buffers,
+                             pushOf(surface, surface.hung.prismCount));
+}
+
+} // namespace
+
+void addHungBuffers(ProgramBuilder& program, CutSurface& surface, const CutBodies& bodies) {
+    if (bodies.prisms.empty()) return;
+    HungSurface& hung = surface.hung;
+    hung.ranges = bodies.ranges;
+    hung.prismCount = static_cast<std::uint32_t>(bodies.prisms.size());
+    hung.vertexCount = static_cast<std::uint32_t>(bodies.vertices.size());
+    hung.prisms = program.upload("surface.prisms", bodies.prisms);
+    hung.vertices = program.upload("surface.hung_vertices", bodies.vertices);
+    hung.hits = program.scratch<std::uint32_t>("surface.skin_hits", hung.prismCount);
+    hung.rims = program.scratch<std::uint32_t>("surface.rims", hung.vertexCount);
+    if (!bodies.pulled.empty()) {
+        surface.bladeRest = program.upload("surface.pulled_rest", bodies.pulled);
+        hung.pulledPlaces = program.scratch<layout::vec4>("surface.pulled_places", surface.slots);
+    }
+    for (const BufferId buffer : {hung.hits, hung.rims}) {
+        program.program().cutting.topology.push_back(buffer);
+        program.carry(buffer, buffer);
+    }
+}
+
+BufferId addPulling(ProgramBuilder& program, const CutSurface& surface, BufferId placesBefore,
+                    BufferId work) {
+    const CuttingBuffers& cutting = program.program().cutting;
+    if (surface.hung.pulledPlaces == BufferId{}) return cutting.places;
+    for (const layout::CutPush& run : surface.source.runs)
+        program.dispatch(k::pullPlaces, run.count,
+                         {cutting.links, surface.rest, surface.bladeRest, cutting.places,
+                          surface.hung.pulledPlaces, placesBefore, work},
+                         run);
+    return surface.hung.pulledPlaces;
+}
+
+void addSkinHits(ProgramBuilder& program, const CutSurface& surface, BufferId bladePlaces,
+                 BufferId placesBefore, BufferId blade, BufferId points) {
+    const CuttingBuffers& cutting = program.program().cutting;
+    const HungSurface& hung = surface.hung;
+    for (const HungRange& range : hung.ranges)
+        program.dispatch(k::cutSkin, range.prisms.count,
+                         {bladePlaces, placesBefore, cutting.links, hung.hits, cutting.dirty, blade, points,
+                          cutting.savedLinks, cutting.places, surface.rest, hung.prisms, hung.vertices},
+                         range.prisms);
+}
+
+void addPrismParting(ProgramBuilder& program, const CutSurface& surface) {
+    const CuttingBuffers& cutting = program.program().cutting;
+    const HungSurface& hung = surface.hung;
+    if (hung.prismCount == 0) return;
+    program.dispatch(
+        k::partPrisms, hung.prismCount,
+        {cutting.links, cutting.dirty, hung.prisms, surface.near, surface.owned, surface.counts, hung.rims},
+        pushOf(surface, hung.prismCount));
+}
+
+void addRimPoints(ProgramBuilder& program, const CutSurface& surface) {
+    const HungSurface& hung = surface.hung;
+    if (hung.prismCount == 0) return;
+    addListed(program, surface, k::writeRims,
+              {surface.listed, surface.owned, program.program().cutting.links, hung.prisms, hung.vertices,
+               hung.hits, program.program().cutSurface.rest});
+}
+
+void addPrismTriangles(ProgramBuilder& program, const CutSurface& surface) {
+    const CutSurfaceBuffers& drawn = program.program().cutSurface;
+    const BufferId links = program.program().cutting.links;
+    const HungSurface& hung = surface.hung;
+    if (hung.prismCount == 0) return;
+    addListed(program, surface, k::writePrisms,
+              {surface.listed, surface.owned, links, hung.prisms, hung.vertices, surface.starts, drawn.rest,
+               drawn.indices});
+    addListed(program, surface, k::writePieces,
+              {surface.listed, surface.owned, links, hung.prisms, hung.vertices, surface.starts, drawn.state,
+               drawn.rest, drawn.indices});
+}
+
+void addSplitVertices(ProgramBuilder& program, const CutSurface& surface) {
+    const StepProgram& built = program.program();
+    const HungSurface& hung = surface.hung;
+    for (const HungRange& range : hung.ranges)
+        program.dispatchIndirect(k::skinSplit, {surface.arguments, surface.push.runs + 2, hung.vertexCount},
+                                 {hung.vertices, surface.partitions, built.cutting.links, surface.rest,
+                                  surface.source.particles, built.positions, surface.gradients,
+                                  built.skinVertices},
+                                 range.vertices);
+}
+
+void addRimNormals(ProgramBuilder& program, const CutSurface& surface) {
+    const HungSurface& hung = surface.hung;
+    if (hung.prismCount == 0) return;
+    program.dispatchIndirect(k::turnRims, {surface.arguments, surface.push.runs + 2, hung.vertexCount},
+                             {hung.rims, hung.vertices, surface.gradients, program.program().skinVertices},
+                             pushOf(surface, hung.vertexCount));
+}
+
+} // namespace sinew::sim::surface

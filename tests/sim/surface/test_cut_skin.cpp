@@ -1,0 +1,273 @@
+// Skins of meshes are clipped along a cut and closed with its inside.
+#include "layout.h"
+#include "mesh/generate.hpp"
+#include "mesh/to_scene.hpp"
+#include "mesh/voxelise.hpp"
+#include "sim/scenes.hpp"
+#include "sim/surface/closed_surface.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <numeric>
+#include <random>
+
+using namespace sinew;
+using namespace sinew::sim;
+using Eigen::Vector3d;
+using test::ClosedSurface;
+using test::CutBody;
+using test::CutPlane;
+using test::sweepOf;
+using Part = test::ClosedSurface::Part;
+
+namespace {
+
+struct Shape {
+    const char* name;
+    std::uint32_t detail, resolution;
+};
+constexpr Shape sphere{"sphere", 24, 10}, knot{"torus_knot", 48, 18}, organ{"organ", 32, 14};
+
+Scene sceneOf(const Shape& shape, float youngModulus = 1e5f) {
+    Scene scene{.name = shape.name, .gravity = {0, 0, 0}};
+    mesh::MeshBody body{.name = shape.name, .youngModulus = youngModulus, .isCuttable = true};
+    body.voxels.resolution = shape.resolution;
+    mesh::addMesh(scene, mesh::generate(shape.name, shape.detail), body);
+    return scene;
+}
+
+double cellOf(const CutBody& body) {
+    return std::pow(body.spacing(), 3);
+}
+
+// What every surface must be; returns how many parts have a volume.
+std::size_t expectClosed(const ClosedSurface& surface, double volume, double cell, const char* what) {
+    EXPECT_EQ(surface.openEdges(), 0u) << what;
+    EXPECT_NEAR(surface.volume() / volume, 1, 1e-5) << what;
+    const auto volumes = surface.volumes(cell);
+    EXPECT_NEAR(std::accumulate(volumes.begin(), volumes.end(), 0.0) / volume, 1, 1e-5) << what;
+    return volumes.size();
+}
+
+// Of the section of a skin by a plane: the sum over its triangles of what the segments in them enclose.
+double sectionOf(const ClosedSurface& surface, const CutPlane& plane) {
+    double twice = 0;
+    for (const auto& triangle : surface.triangles()) {
+        std::array<Vector3d, 2> ends; // where the triangle leads up through the plane, and down
+        int found = 0;
+        for (std::size_t n = 0; n < 3; ++n) {
+            const Vector3d a = surface.rest()[triangle.points[n]],
+                           b = surface.rest()[triangle.points[(n + 1) % 3]];
+            const double from = plane.normal.dot(a - plane.point), to = plane.normal.dot(b - plane.point);
+            if ((from >= 0) == (to >= 0)) continue;
+            ends[from < 0 ? 0 : 1] = a + from / (from - to) * (b - a);
+            ++found;
+        }
+        if (found == 2) twice += plane.normal.dot((ends[0] - plane.point).cross(ends[1] - plane.point));
+    }
+    return std::abs(twice) / 2;
+}
+
+Vector3d random(std::mt19937& numbers) {
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    const double x = uniform(numbers), y = uniform(numbers), z = uniform(numbers);
+    return {x, y, z};
+}
+
+// Triangles of which two corners hang on different pieces.
+std::size_t stretched(const ClosedSurface& surface, double spacing) {
+    std::size_t count = 0;
+    for (const auto& triangle : surface.triangles())
+        for (std::size_t n = 0; n < 3; ++n) {
+            const std::uint32_t a = triangle.points[n], b = triangle.points[(n + 1) % 3];
+            const Vector3d rest = surface.rest()[b] - surface.rest()[a],
+                           drawn = surface.drawn()[b] - surface.drawn()[a];
+            count += (drawn - rest).norm() > 0.1 * spacing ? 1 : 0;
+        }
+    return count;
+}
+
+} // namespace
+
+TEST(CutSkin, OfAnUncutBodyIsItsMesh) {
+    for (const Shape& shape : {sphere, knot, organ}) {
+        CutBody body(sceneOf(shape));
+        ASSERT_NE(body.runner().simulation().cutSurface().vertices.size, 0u) << shape.name;
+        body.runner().run(1);
+        const mesh::TriangleMesh mesh = mesh::generate(shape.name, shape.detail);
+        const ClosedSurface surface(body);
+        const double volume = mesh::inspect(mesh).volume;
+        EXPECT_EQ(expectClosed(surface, volume, cellOf(body), shape.name), 1u);
+        std::printf("%-10s %zu particles, %zu triangles of the mesh, %zu of the skin (x %.2f)\n", shape.name,
+                    body.scene().particles.size(), mesh.triangles.size(), surface.triangles().size(),
+                    static_cast<double>(surface.triangles().size()) /
+                        static_cast<double>(mesh.triangles.size()));
+    }
+}
+
+// Cutting design, 7: one through cut of each body, and its table of planes on the sphere.
+TEST(CutSkin, OfAPlaneIsClosedAndHasItsArea) {
+    struct Case {
+        Shape shape;
+        const char* name;
+        Vector3d at, normal; // from the origin [cells]
+        double areaError;    // of bodies four cells thick much of the surface is near the skin
+    };
+    const Case cases[] = {{sphere, "between layers", {0, 0, 0.5}, {0, 0, 1}, 0.001},
+                          {sphere, "generic", {0.2, 0.1, 0.3}, {0.3, -0.4, 1}, 0.05},
+                          {sphere, "x = y", {0, 0, 0}, {1, -1, 0}, 0.05},
+                          {sphere, "x + y + z = 0", {0, 0, 0}, {1, 1, 1}, 0.05},
+                          {knot, "generic", {0.2, 0.1, 0.3}, {0.3, -0.4, 1}, 0.16},
+                          {organ, "generic", {0.2, 0.1, 0.3}, {1, 0.3, -0.4}, 0.14}};
+    for (const Case& each : cases) {
+        CutBody body(sceneOf(each.shape));
+        const double spacing = body.spacing();
+        const CutPlane plane{spacing * each.at, each.normal.normalized()};
+        body.runner().run(1);
+        const ClosedSurface uncut(body);
+        const Status status = body.cut(sweepOf(plane, 1, 3));
+        const ClosedSurface surface(body);
+        expectClosed(surface, uncut.volume(), cellOf(body), each.name);
+        const auto volumes = surface.volumes(cellOf(body));
+        const auto parts = std::ranges::count_if(volumes, [&](double v) { return v > cellOf(body); });
+        const auto pieces =
+            std::ranges::count_if(body.pieceSizes(), [](std::uint32_t size) { return size > 0; });
+        const bool isLinkedAcross = each.shape.resolution == knot.resolution; // strands nearer than a cell
+        EXPECT_TRUE(parts == pieces || isLinkedAcross) << each.name << ": " << parts << " parts";
+        const double area = surface.area(Part::inside) / 2, section = sectionOf(uncut, plane);
+        double off = 0, mean = 0; // the blade
+        std::vector<Vec3> inside;
+        for (const auto& triangle : surface.triangles())
+            for (const std::uint32_t point : triangle.points) {
+                if (triangle.part != Part::inside) continue;
+                inside.push_back(test::toFloats(surface.rest()[point]));
+                const double away = std::abs(plane.normal.dot(surface.rest()[point] - plane.point)) / spacing;
+                off = std::max(off, away);
+                mean += away;
+            }
+        const auto depths = mesh::signedDistance(mesh::generate(each.shape.name, each.shape.detail), inside);
+        const double out = double{std::ranges::max(depths)} / spacing; // of the skin
+        std::printf("%-10s %-14s area %+.2f %%, %u pieces, %zu triangles, %zu crowded edges; off the blade "
+                    "%.2f cells at most, %.3f in the mean; out of the skin %.3f\n",
+                    each.shape.name, each.name, 100 * (area / section - 1), status.pieces,
+                    surface.triangles().size(), surface.crowdedEdges(), off,
+                    mean / static_cast<double>(inside.size()), out);
+        EXPECT_NEAR(area / section, 1, each.areaError) << each.name;
+        EXPECT_LT(out, 0.2) << each.name << ": no fins";
+        EXPECT_LT(off, 0.87) << each.name;
+    }
+}
+
+TEST(CutSkin, OfCutsThatCrossOrEndInsideIsClosed) {
+    std::mt19937 numbers(7);
+    for (const Shape& shape : {sphere, knot, organ}) {
+        CutBody body(sceneOf(shape));
+        body.runner().run(1);
+        const double volume = ClosedSurface(body).volume(), spacing = body.spacing();
+        for (int cut = 0; cut < 6; ++cut) {
+            const CutPlane plane{3 * spacing * random(numbers), random(numbers).normalized()};
+            const Status status = body.cut(sweepOf(plane, cut % 2 == 0 ? 4 * spacing : 1, 2));
+            const ClosedSurface surface(body);
+            const std::size_t parts = expectClosed(surface, volume, cellOf(body), shape.name);
+            std::printf("%-10s after %d cuts: %zu parts, %u pieces, %zu crowded edges\n", shape.name, cut + 1,
+                        parts, status.pieces, surface.crowdedEdges());
+            EXPECT_EQ(body.runner().simulation().status(status.frame).cutSurfaceMissing, 0u);
+        }
+    }
+}
+
+TEST(CutSkin, HasTheSameBitsInReversedOrder) {
+    std::vector<std::uint64_t> hashes;
+    for (const bool isReversed : {false, true}) {
+        CutBody body(sceneOf(sphere), {.substeps = 2, .isReversed = isReversed});
+        body.cut(sweepOf({Vector3d::Zero(), Vector3d(0.2, 1, 0.1).normalized()}, 1, 2));
+        body.cut(sweepOf({Vector3d::Zero(), Vector3d(1, 0.2, -0.3).normalized()}, 0.1, 2));
+        body.runner().run(3);
+        hashes.push_back(ClosedSurface(body).hash());
+    }
+    EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+// At rest a cut moves nothing that is drawn, but for what it puts in.
+TEST(CutSkin, IsWhereItWasAfterACut) {
+    CutBody body(sceneOf(organ));
+    body.runner().run(1);
+    body.cut(sweepOf({Vector3d::Zero(), Vector3d(1, 0.3, -0.4).normalized()}, 1, 2));
+    const ClosedSurface surface(body);
+    double most = 0;
+    for (std::size_t p = 0; p < surface.rest().size(); ++p)
+        most = std::max(most, (surface.rest()[p] - surface.drawn()[p]).norm());
+    std::printf("%.2g cells off at most\n", most / body.spacing());
+    EXPECT_LT(most, 1e-5 * body.spacing());
+    double turned = 1; // least cosine between the normals of the skin and of its triangles
+    for (const auto& triangle : surface.triangles()) {
+        const Vector3d a = surface.rest()[triangle.points[0]], b = surface.rest()[triangle.points[1]],
+                       c = surface.rest()[triangle.points[2]], area = (b - a).cross(c - a);
+        for (const Vector3d& normal : triangle.normals) {
+            EXPECT_NEAR(normal.norm(), 1, 1e-5);
+            if (triangle.part != Part::inside && area.norm() > 0.02 * std::pow(body.spacing(), 2))
+                turned = std::min(turned, normal.dot(area.normalized()));
+        }
+    }
+    std::printf("least cosine of the skin's normals: %.3f\n", turned);
+    EXPECT_GT(turned, 0);
+}
+
+// Cutting design, 6: halves pulled apart; nothing is stretched between them, and what is far from the cut
+// goes as it would without one.
+TEST(CutSkin, GoesWithItsPieces) {
+    Scene scene = sceneOf(sphere);
+    const double spacing = double{scene.grids[0].restLength[0]}, height = 0.3 * spacing;
+    for (Particle& particle : scene.particles)
+        particle.velocity = {0, 0, double{particle.position.z} < height ? -0.25f : 0.25f};
+    CutBody body(scene, {.substeps = 4});
+    body.cut(sweepOf({Vector3d(0, 0, height), Vector3d::UnitZ()}, 1, 2));
+    body.runner().run(59);
+    const ClosedSurface surface(body);
+    EXPECT_EQ(surface.openEdges(), 0u);
+    EXPECT_EQ(stretched(surface, spacing), 0u);
+    double farthest = 0;
+    for (std::size_t p = 0; p < surface.rest().size(); ++p)
+        farthest = std::max(farthest, (surface.drawn()[p] - surface.rest()[p]).norm());
+    EXPECT_NEAR(farthest, 0.25, 0.01);
+}
+
+TEST(CutSkin, OfAStepThatIsUndoneIsUndoneWithItAndComesBackWithTheTopology) {
+    CutBody body(sceneOf(sphere));
+    Simulation& simulation = body.runner().simulation();
+    body.cut(sweepOf({Vector3d::Zero(), Vector3d(0.2, 1, 0.1).normalized()}, 1, 2));
+    vk::Buffer copy(test::device(), {.name = "copy", .count = simulation.topologySize() / 4, .stride = 4});
+    const auto submit = [](const auto& record) {
+        const VkCommandBuffer commands = test::queue().begin();
+        record(commands);
+        test::queue().wait(test::queue().submit(commands));
+    };
+    submit([&](VkCommandBuffer commands) { simulation.recordSaveTopology(commands, copy.view()); });
+    const auto second = sweepOf({Vector3d::Zero(), Vector3d(1, 0.2, -0.3).normalized()}, 1, 2);
+    EXPECT_EQ(body.cut(second).pieces, 4u);
+    EXPECT_EQ(ClosedSurface(body).volumes(cellOf(body)).size(), 4u);
+    submit([&](VkCommandBuffer commands) { simulation.recordLoadTopology(commands, copy.view()); });
+    EXPECT_EQ(ClosedSurface(body).volumes(cellOf(body)).size(), 2u);
+    const std::uint64_t hash = ClosedSurface(body).hash();
+    body.runner().writePosition(3, std::numeric_limits<float>::quiet_NaN());
+    EXPECT_GT(body.cut(second).nonFinite, 0u);
+    EXPECT_EQ(ClosedSurface(body).hash(), hash);
+    body.runner().reset();
+    body.runner().run(1);
+    EXPECT_EQ(ClosedSurface(body).triangles().size(), body.scene().skins[0].triangles.size());
+}
+
+// What is not as anchors must be is not clipped, and stretches over a cut as it did.
+TEST(CutSkin, OfWrongAnchorsIsNotClipped) {
+    Scene scene = sceneOf(sphere);
+    scene.skins[0].triangles.pop_back();
+    EXPECT_EQ(test::Runner(scene).simulation().cutSurface().vertices.size, 0u) << "an open skin";
+    scene = sceneOf(sphere);
+    std::swap(scene.skins[0].anchors.front(), scene.skins[0].anchors.back());
+    EXPECT_EQ(test::Runner(scene).simulation().cutSurface().vertices.size, 0u) << "no corners of a cell";
+}
