@@ -310,10 +310,14 @@ void Renderer::drawSkins(VkCommandBuffer commands, const sim::Simulation& simula
     if (simulation.skins().empty()) return;
     const vk::DeviceFunctions& functions = device_.functions();
     bindMesh(commands, simulation.skinVertices(), simulation.skinIndices());
+    const vk::BufferView pieces = simulation.pieceDraws();
     for (std::size_t i = 0; i < simulation.skins().size(); ++i) {
         const sim::SkinRange& skin = simulation.skins()[i];
         push(commands, skin.color, light_.gloss[i], {});
         functions.vkCmdDrawIndexed(commands, skin.indexCount, 1, skin.firstIndex, 0, 0);
+        if (pieces.size > 0)
+            functions.vkCmdDrawIndexedIndirect(commands, pieces.buffer, pieces.offset + i * pieces.stride, 1,
+                                               static_cast<std::uint32_t>(pieces.stride));
     }
 }
 

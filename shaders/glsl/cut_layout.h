@@ -134,3 +134,70 @@ struct PrismPush {
     uint first; // items of the surface before prisms: slots
     uint count; // prisms, or vertices that hang
 };
+
+// What the skin of a sheet falls into beside cuts (surface/sheet_pieces.hpp). A triangle of such a skin is half of the cell above a slot:
+// of the corners a, c = a + z, d = a + x + z, or of a, d, b = a + x.
+struct SheetTriangle {
+    uint slot; // of a
+    uint kind; // bit 0: the second half; bit 1: its corners run the other way
+};
+
+// Of the pieces of a triangle, 0 where it is whole; then where they begin.
+struct SheetCounts {
+    uint triangles, vertices;
+};
+
+struct SheetState {
+    uint triangles, vertices;
+    uint missing; // room in triangles that all pieces would need, where that is more than there is; there are none then
+};
+
+// A vertex of a piece: x_a + x f_x + z f_z, f the tangents of the sheet at a; with a share it lies between a and b.
+struct SheetVertex {
+    uint a, b;   // slots
+    float share; // of b
+    float x, z;  // from a at rest [cells]
+    float turn;  // of the normal: 1 as the corners of halves run, else -1
+};
+
+struct SheetPush {
+    uint triangles;               // of the skin
+    uint firstIndex;              // likewise
+    uint firstPiece, room;        // index, triangles
+    uint firstVertex, vertexRoom; // behind those of all skins
+    uint sliceStride;             // slots from a node to the next in z
+    uint skin;
+    uint isFirst; // to say what there is no room for
+};
+
+struct SheetSkinPush {
+    vec4 right, down; // from a node to the next in x, in z, where the scene has them [m]
+    uint firstVertex, vertexRoom;
+    uint sliceStride;
+};
+
+// A contact face that is half of a cell of a sheet, and its place in the list that it is searched by.
+struct CutFace {
+    uint slot, kind; // as of a SheetTriangle
+    uint place, face;
+    uint isLarge; // of the list of large ones
+};
+
+// A contact edge that is a link of a sheet.
+struct CutEdge {
+    uint slot, way; // of its lower end; slots to the other
+    uint edge;
+};
+
+struct CutFacesPush {
+    uint count;
+    uint sliceStride;
+};
+
+// A link or bend in a list of `split`, and the one or two links of the masks that it leads over.
+struct CutTie {
+    uint element;
+    float stiffness;    // [N/m], uncut
+    uint first, second; // slots that own them
+    uint bits;          // of the first, and << 8 of the second
+};

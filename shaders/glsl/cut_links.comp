@@ -23,24 +23,19 @@ layout(std140, binding = 5) uniform Blade { BladeHead blade; };
 layout(std430, binding = 6) readonly buffer Points { vec4 points[]; };
 layout(std430, binding = 7) readonly buffer Work { CutWork work; };
 layout(std430, binding = 8) readonly buffer SavedLinks { uint savedLinks[]; }; // before this blade, whatever is cut meanwhile
+#include "hits.glsl"
 
 #include "blade_sweep.glsl"
 
-void storeHit(uint i, int bit, float t) {
-    const int k = kuhnIndexOf(bit);
-    if (k < 0) return;
-    const uint value = uint(round(255.0 * clamp(t, 0.02, 0.98)));
-    if (k < 4) hits[i].low = bitfieldInsert(hits[i].low, value, 8 * k, 8);
-    else hits[i].high = bitfieldInsert(hits[i].high, value, 8 * k - 32, 8);
-}
+uint wordOf(int slot) { return uint(clamp(slot - int(push.first), 0, int(push.count) - 1) + int(push.first)) >> 5; }
 
 // Links of nodes within a step of i may now hang on others that died: marks those nodes.
 void markAround(uint i) {
     for (int z = -1; z <= 1; ++z)
         for (int y = -1; y <= 1; ++y) {
-            const uint row = uint(int(i) + offsetOf(ivec3(0, y, z)));
-            dirty[row - 1u >> 5] = 1u;
-            dirty[row + 1u >> 5] = 1u;
+            const int row = int(i) + offsetOf(ivec3(0, y, z));
+            dirty[wordOf(row - 1)] = 1u;
+            dirty[wordOf(row + 1)] = 1u;
         }
 }
 
@@ -54,7 +49,8 @@ void main() {
     const vec3 low = blade.low.xyz - margin, high = blade.high.xyz + margin;
     uint near = 0u;
     [[unroll]] for (int bit = FIRST_OWNED; bit < FIRST_OWNED + OWNED_LINKS; ++bit) {
-        const vec3 b = PLACE(uint(int(i) + offsetOf(directionOf(bit))));
+        const bool isLink = (owned >> bit & 1u) != 0u; // else there may be no such node
+        const vec3 b = PLACE(uint(int(i) + (isLink ? offsetOf(directionOf(bit)) : 0)));
         near |= uint(all(lessThanEqual(min(a, b), high)) && all(greaterThanEqual(max(a, b), low))) << bit;
     }
     near &= owned;

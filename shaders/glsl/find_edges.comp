@@ -57,8 +57,8 @@ bool isExcluded(uint e, uint f) {
 bool shareAnEnd(ContactEdge e, ContactEdge f) { return e.a == f.a || e.a == f.b || e.b == f.a || e.b == f.b; }
 
 bool isNear(Searched one, uint f) {
-    if (f == one.index) return false;
     const ContactEdge edge = edges[f];
+    if (f == one.index || edge.radius < 0.0) return false; // that, cut
     const vec3 d = one.middle - middles[f].xyz;
     const float more = push.margin + (one.way + wayOf(f)), outer = one.edge.radius + edge.radius + more;
     if (dot(d, d) >= outer * outer || (one.edge.isMoving | edge.isMoving) == 0u || shareAnEnd(one.edge, edge)) return false;

@@ -17,7 +17,9 @@ void main() {
     const uint all = push.large + points.wide;
     if (all > FACE_MOST_WIDE) atomicMax(status.candidates, push.limit + 1u); // more than can be done: said, not lost
     for (uint l = 0u; l < min(all, FACE_MOST_WIDE); ++l) {
-        const Searched face = searchedOf(l < push.large ? large[l] : wide[l - push.large]);
+        const uint f = l < push.large ? large[l] : wide[l - push.large];
+        if (f == ~0u) continue; // a cut has parted it
+        const Searched face = searchedOf(f);
         const float reach = face.reach + size;
         if (!isInBox(face, x, reach) || !isNear(face, i, x, reach)) continue;
         listAtPoint(i, face.index);

@@ -29,7 +29,8 @@ std::vector<vk::Buffer> makeBuffers(const vk::Device& device, const StepProgram&
         const BufferId id{b};
         if (id == program.skinVertices || id == program.positions || id == cut.vertices || id == cut.rest)
             usage |= VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
-        if (holdsArguments[b] || id == cut.draws) usage |= VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
+        if (holdsArguments[b] || id == cut.draws || id == program.pieceDraws)
+            usage |= VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
         if (id == program.skinIndices || id == cut.indices) usage |= VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
         buffers.emplace_back(device, vk::BufferRequest{.name = spec.label,
                                                        .count = spec.count,

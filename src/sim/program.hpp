@@ -113,11 +113,12 @@ struct CuttingBuffers {
     BufferId dirty;           ///< by 32 slots: not 0 where the last blade cut within a node's reach
     std::vector<CutRun> runs; ///< what passes over slots that may be cut are dispatched for
     BufferId places;          ///< by slot: where particles were when the step began [m]
-    BufferId contactsSeen;    ///< where particles were when contacts were listed; invalid without contacts
     BufferId counts;          ///< one layout::CutCounts
     BufferId pieces;          ///< by particle: that which its piece is named after, or layout's NO_PARTICLE
     BufferId pieceSizes;      ///< by particle: particles of the piece that is named after it, or 0
     std::vector<BufferId> topology; ///< all that a copy of the cuts consists of
+    /// Where everything was when contacts that cuts change were listed.
+    std::vector<BufferId> contactsSeen;
 };
 
 /// The surface of cuts (surface/cut_surface.hpp); invalid where no skin is clipped.
@@ -142,6 +143,8 @@ struct StepProgram {
     BufferId skinVertices, skinIndices;                 ///< invalid without skins
     CuttingBuffers cutting;
     CutSurfaceBuffers cutSurface;
+    BufferId pieceDraws; ///< by skin: layout::DrawArguments of what sheets fall into; invalid without them
+    std::uint32_t pieceVertices = 0; ///< room for the vertices of those, behind those of all skins
     std::uint32_t particleCount = 0, constraintCount = 0;
     std::uint64_t sweeps = 0; ///< times every constraint is read in one step
 };

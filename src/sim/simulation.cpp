@@ -332,8 +332,8 @@ void Simulation::recordLoadTopology(VkCommandBuffer buffer, const vk::BufferView
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
     state_->load(commands, state_->program.cutting.topology, from);
-    const vk::BufferView seen = view(state_->program.cutting.contactsSeen);
-    if (seen.size > 0) commands.fill(seen, farAwayBits); // contacts are listed anew
+    for (const BufferId seen : state_->program.cutting.contactsSeen)
+        commands.fill(view(seen), farAwayBits); // contacts are listed anew
     commands.endStep();
     state_->hasNewTopology = true;
 }
@@ -369,6 +369,9 @@ const std::vector<SkinRange>& Simulation::skins() const noexcept {
 CutSurface Simulation::cutSurface() const noexcept {
     const CutSurfaceBuffers& buffers = state_->program.cutSurface;
     return {view(buffers.vertices), view(buffers.rest), view(buffers.indices), view(buffers.draws)};
+}
+vk::BufferView Simulation::pieceDraws() const noexcept {
+    return state_->executor.view(state_->program.pieceDraws);
 }
 std::span<const Pose> Simulation::colliderPoses() const noexcept {
     return state_->colliders.poses();

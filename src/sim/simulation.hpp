@@ -188,6 +188,11 @@ public:
     vk::BufferView skinIndices() const noexcept;
     const std::vector<SkinRange>& skins() const noexcept;
     CutSurface cutSurface() const noexcept;
+    /// What the skins of sheets fall into along cuts, to be drawn beside skins() with the same two buffers:
+    /// one VkDrawIndexedIndirectCommand a skin, stride 20, of nothing where nothing is cut. The skin's own
+    /// triangles that pieces stand for are degenerate from then on. An empty view where no skin of a sheet
+    /// may be cut.
+    vk::BufferView pieceDraws() const noexcept;
     /// Where the scene's colliders are at the end of the newest recorded step, one each in their order. Valid
     /// until the next one is recorded.
     std::span<const Pose> colliderPoses() const noexcept;

@@ -7,6 +7,7 @@
 #include "sim/coloring.hpp"
 #include "sim/compile.hpp"
 #include "sim/complaints.hpp"
+#include "sim/cutting/cut_lists.hpp"
 #include "sim/lattice/batches.hpp"
 #include "sim/lattice/check_grid.hpp"
 #include "sim/ranges.hpp"
@@ -428,6 +429,8 @@ void checkCutting(const Scene& scene, const Settings& settings, Complaints& comp
         if (settings.solver != Solver::split)
             complaints.add(nameOf(scene, g), may + "which solver " + solverName(settings.solver) +
                                                  " has no form for: use split");
+        else if (cutting::isListed(scene, settings, g))
+            continue;
         else if (!settings.forms.usesGrids)
             complaints.add(nameOf(scene, g), may + "which needs settings.forms.usesGrids");
         else if (!std::ranges::binary_search(computed, g))

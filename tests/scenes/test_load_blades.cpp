@@ -30,6 +30,12 @@ TEST_F(LoadBlades, MakesBodiesCuttable) {
               std::string::npos);
 }
 
+TEST_F(LoadBlades, OfTheShippedClothLoad) {
+    const scenes::LoadedScene curtain = scenes::load(SINEW_SOURCE_FOLDER "/scenes/cloth_cut.toml");
+    EXPECT_EQ(curtain.blades.size(), 3u);
+    EXPECT_TRUE(curtain.scene.grids.at(0).isCuttable);
+}
+
 TEST_F(LoadBlades, PlaysABladeThroughItsPoses) {
     const scenes::LoadedScene loaded = load(box + blade);
     ASSERT_EQ(loaded.blades.size(), 1u);

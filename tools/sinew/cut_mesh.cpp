@@ -48,6 +48,27 @@ void addSkin(const sim::Scene& scene, std::size_t index, const CutDownload& down
 
 } // namespace
 
+std::optional<mesh::TriangleMesh> cutSheet(const sim::Scene& scene, std::size_t index,
+                                           const CutDownload& download) {
+    if (download.pieceDraws.empty() || download.pieceDraws[index].indexCount == 0) return std::nullopt;
+    Joined joined(scene.skins[index].name);
+    const auto add = [&](std::size_t first, std::size_t triangles) {
+        for (std::size_t t = 0; t < triangles; ++t) {
+            const std::uint32_t* corners = &download.skinIndices[first + 3 * t];
+            if (corners[0] == corners[1]) continue; // drawn in pieces
+            std::array<std::uint32_t, 3> triangle{};
+            for (std::size_t n = 0; n < 3; ++n)
+                triangle[n] = joined.vertex(corners[n], download.skinVertices[corners[n]].position);
+            joined.triangle(triangle);
+        }
+    };
+    std::size_t first = 0;
+    for (std::size_t s = 0; s < index; ++s) first += 3 * scene.skins[s].triangles.size();
+    add(first, scene.skins[index].triangles.size());
+    add(download.pieceDraws[index].firstIndex, download.pieceDraws[index].indexCount / 3);
+    return joined.finish();
+}
+
 std::optional<mesh::TriangleMesh> cutMesh(const sim::Scene& scene, std::size_t index,
                                           const CutDownload& download) {
     const auto mine = static_cast<float>(index);

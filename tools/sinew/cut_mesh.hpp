@@ -13,8 +13,13 @@ struct CutDownload {
     std::vector<sim::layout::SkinVertex> skinVertices, vertices;
     std::vector<std::uint32_t> skinIndices, indices;
     std::vector<sim::layout::CutVertex> rest;
-    std::vector<sim::layout::DrawArguments> draws;
+    std::vector<sim::layout::DrawArguments> draws, pieceDraws; // of the surface; by skin
 };
+
+/// What is left of the skin of a sheet, and what it falls into, which has vertices of its own. None where
+/// that skin is not cut, or of no sheet.
+std::optional<mesh::TriangleMesh> cutSheet(const sim::Scene& scene, std::size_t index,
+                                           const CutDownload& download);
 
 /// What is left of skin `index` of the scene, the pieces beside cuts and the inside, joined point by point:
 /// both sides of a cut stay apart where they lie on each other. None where that skin is not cut.

@@ -36,10 +36,14 @@ CutDownload downloadDrawn(vk::Queue& queue, const sim::Simulation& simulation) {
                       .skinIndices = {},
                       .indices = {},
                       .rest = {},
-                      .draws = {}};
+                      .draws = {},
+                      .pieceDraws = {}};
     const sim::CutSurface cut = simulation.cutSurface();
-    if (cut.vertices.size == 0) return drawn;
+    const vk::BufferView pieces = simulation.pieceDraws();
+    if (cut.vertices.size + pieces.size == 0) return drawn;
     drawn.skinIndices = queue.download<std::uint32_t>(simulation.skinIndices());
+    if (pieces.size > 0) drawn.pieceDraws = queue.download<sim::layout::DrawArguments>(pieces);
+    if (cut.vertices.size == 0) return drawn;
     drawn.vertices = queue.download<sim::layout::SkinVertex>(cut.vertices);
     drawn.indices = queue.download<std::uint32_t>(cut.indices);
     drawn.rest = queue.download<sim::layout::CutVertex>(cut.rest);
@@ -194,6 +198,7 @@ std::vector<mesh::TriangleMesh> Runner::readSkins() {
         for (std::size_t v = first; v < first + skin.vertexCount(); ++v)
             positions.push_back({vertices[v].position.x, vertices[v].position.y, vertices[v].position.z});
         auto closed = cutMesh(scene_, s, cut);
+        if (!closed) closed = cutSheet(scene_, s, cut);
         meshes.push_back(closed ? std::move(*closed) : skinMesh(skin, positions));
         first += skin.vertexCount();
     }

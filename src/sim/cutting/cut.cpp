@@ -6,6 +6,7 @@
 #include "sim/cutting/cut_plan.hpp"
 #include "sim/sleep.hpp"
 #include "sim/surface/cut_surface.hpp"
+#include "sim/surface/sheet_pieces.hpp"
 
 namespace sinew::sim::cutting {
 
@@ -111,6 +112,7 @@ void addClosing(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& 
     addWholeCells(program, cut); // those that an undone step has given back
     addFindingPieces(program, cut, particles);
     if (cut.surface) surface::addCutSurfacePasses(program, *cut.surface);
+    if (cut.sheets) surface::addSheetPasses(program, *cut.sheets, !cut.surface);
 }
 
 } // namespace

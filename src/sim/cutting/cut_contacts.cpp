@@ -45,7 +45,7 @@ bool canMeet(const StepProgram& program, const Scene& scene) {
 void addContactFilter(ProgramBuilder& program, const Contacts& contacts) {
     if (!contacts.isCuttable()) return;
     CuttingBuffers& cutting = program.program().cutting;
-    cutting.contactsSeen = contacts.lists.grid.detected;
+    cutting.contactsSeen.push_back(contacts.lists.grid.detected);
     cutting.topology.push_back(contacts.lists.excluded);
     program.carry(contacts.lists.excluded, contacts.lists.excluded);
     addFilter(program, contacts);

@@ -2,12 +2,14 @@
 #include "sim/cutting/cut_plan.hpp"
 
 #include "sim/constraints/grab.hpp"
+#include "sim/cutting/cut_lists.hpp"
 #include "sim/lattice/batches.hpp"
 #include "sim/lattice/link_masks.hpp"
 #include "sim/lattice/pieces.hpp"
 #include "sim/ranges.hpp"
 #include "sim/sleep.hpp"
 #include "sim/surface/cut_surface.hpp"
+#include "sim/surface/sheet_pieces.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -23,9 +25,33 @@ struct Initial {
     lattice::PieceFinder pieces;
 };
 
-std::vector<std::uint32_t> cuttableGrids(const Scene& scene, const Settings& settings) {
-    if (settings.solver != Solver::split || std::ranges::none_of(scene.grids, &Grid::isCuttable)) return {};
-    return lattice::computedGrids(scene, settings);
+// Grids among which some may be cut, with where they are.
+struct Placed {
+    std::vector<std::uint32_t> grids;
+    std::vector<lattice::Box> boxes;
+};
+
+// Of a sheet whose particles lie in a row.
+lattice::Box listedBox(const Grid& grid, const StateLayout& layout) {
+    lattice::Box box;
+    box.sliceStride = grid.nodes[0];
+    box.slots = grid.nodes[0] * grid.nodes[2];
+    box.origin = layout.slot[grid.firstParticle];
+    return box;
+}
+
+Placed cuttableGrids(const Scene& scene, const Settings& settings, const StateLayout& layout) {
+    Placed placed;
+    if (settings.solver != Solver::split || std::ranges::none_of(scene.grids, &Grid::isCuttable))
+        return placed;
+    placed.grids = lattice::computedGrids(scene, settings);
+    placed.boxes = lattice::boxesOf(scene, placed.grids);
+    for (std::uint32_t g = 0; g < scene.grids.size(); ++g) {
+        if (!isListed(scene, settings, g)) continue;
+        placed.grids.push_back(g);
+        placed.boxes.push_back(listedBox(scene.grids[g], layout));
+    }
+    return placed;
 }
 
 Run runOf(const Grid& grid, const lattice::Box& box) {
@@ -57,25 +83,26 @@ void joinLinks(const Run& run, Initial& initial) {
         }
 }
 
-Initial readGrids(const Scene& scene, std::span<const std::uint32_t> grids, const StateLayout& layout,
+Initial readGrids(const Scene& scene, const Placed& placed, const StateLayout& layout,
                   std::vector<Run>& runs) {
     Initial initial{std::vector<std::uint32_t>(layout.count), std::vector<std::uint32_t>(layout.count),
                     std::vector<std::uint32_t>(layout.count, NO_PARTICLE),
                     lattice::PieceFinder(layout.count)};
-    const std::vector<lattice::Box> boxes = lattice::boxesOf(scene, grids);
+    const auto& [grids, boxes] = placed;
     bool isRowOpen = false; // whether a run ends at the grid before
     for (std::size_t g = 0; g < grids.size(); ++g) {
         const Grid& grid = scene.grids[grids[g]];
         const Run run = runOf(grid, boxes[g]);
+        const bool isBoxed = boxes[g].end > 0; // else a listed sheet, which need not follow on others
         if (!grid.isCuttable) {
             isRowOpen = false;
             continue;
         }
-        if (isRowOpen && isAlike(runs.back(), run))
+        if (isRowOpen && isBoxed && isAlike(runs.back(), run))
             runs.back().push.count = run.push.first + run.push.count - runs.back().push.first;
         else
             runs.push_back(run);
-        isRowOpen = true;
+        isRowOpen = isBoxed;
         lattice::writeLinks(grid, boxes[g], initial.links);
         joinLinks(run, initial);
         lattice::writeCells(grid, boxes[g], initial.cells);
@@ -135,9 +162,9 @@ Cut addBuffers(ProgramBuilder& program, const Scene& scene, const Settings& sett
                const ParticleBuffers& particles) {
     const StateLayout& layout = particles.layout;
     Cut cut{.usesTexels = settings.forms.usesTexels};
-    const std::vector<std::uint32_t> grids = cuttableGrids(scene, settings);
-    if (grids.empty()) return cut;
-    Initial initial = readGrids(scene, grids, layout, cut.runs);
+    const Placed placed = cuttableGrids(scene, settings, layout);
+    if (placed.grids.empty()) return cut;
+    Initial initial = readGrids(scene, placed, layout, cut.runs);
     if (cut.runs.empty()) return cut;
     cut.buffers.links = program.upload("cut.links", initial.links);
     const bool hasVolumes = std::ranges::any_of(cut.runs, &Run::hasVolumes);
@@ -162,6 +189,7 @@ Cut addBuffers(ProgramBuilder& program, const Scene& scene, const Settings& sett
     if (particles.grabs) addHands(program, cut, *particles.grabs);
     for (const BufferId buffer : buffers.topology) program.carry(buffer, buffer);
     program.program().cutting = buffers;
+    cut.sheets = surface::addSheetPieces(program, scene, layout, cut.particles);
     std::vector<layout::CutPush> pushes;
     for (const Run& run : cut.runs) pushes.push_back(run.push);
     const surface::CutBodies bodies = surface::readCutBodies(scene, settings, layout, pushes);

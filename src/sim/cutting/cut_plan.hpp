@@ -6,7 +6,8 @@
 
 namespace sinew::sim::surface {
 struct CutSurface;
-}
+struct SheetPieces;
+} // namespace sinew::sim::surface
 
 namespace sinew::sim::cutting {
 
@@ -24,6 +25,7 @@ struct Cut {
     BufferId labels, particles, arguments, groups; // of pieces
     BufferId uncutBodies, weights;                 // likewise, where hands may hold some
     std::shared_ptr<surface::CutSurface> surface;  // none where no skin is clipped
+    std::shared_ptr<surface::SheetPieces> sheets;  // likewise
     bool usesTexels = false;
     std::uint32_t rounds = 0;
 };

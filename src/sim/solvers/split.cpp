@@ -15,6 +15,8 @@
 #include "sim/constraints/grab.hpp"
 #include "sim/constraints/tether.hpp"
 #include "sim/cutting/cut_contacts.hpp"
+#include "sim/cutting/cut_faces.hpp"
+#include "sim/cutting/cut_lists.hpp"
 #include "sim/lattice/batches.hpp"
 #include "sim/sleep.hpp"
 #include "sim/solvers/shares.hpp"
@@ -102,23 +104,59 @@ layout::PackedSubstepPush packedPush(const constraints::distance::GatherLinks& l
     return push;
 }
 
+// Of links in slots, in ranges and of bends: what a blade may cut.
+std::vector<cutting::Listed> allOf(const constraints::distance::GatherLinks& links) {
+    std::vector<cutting::Listed> all;
+    for (std::uint32_t i = 0; i < links.particles; ++i)
+        for (std::uint32_t slot = 0; slot < links.degree; ++slot) {
+            const std::size_t element = links.element(i, slot);
+            const layout::SplitLink& link = links.links[element];
+            if (link.other != i)
+                all.push_back({static_cast<std::uint32_t>(element), {i, link.other}, 2, link.stiffness});
+        }
+    return all;
+}
+
+std::vector<cutting::Listed> allOf(const constraints::distance::RangedLinks& links) {
+    std::vector<cutting::Listed> all;
+    for (std::uint32_t i = 0; i + 1 < links.first.size(); ++i)
+        for (std::uint32_t element = links.first[i]; element < links.first[i + 1]; ++element) {
+            const layout::SplitLink& link = links.links[element];
+            all.push_back({element, {i, link.other}, 2, link.stiffness});
+        }
+    return all;
+}
+
+std::vector<cutting::Listed> allOf(const constraints::bend::GatherBends& bends) {
+    std::vector<cutting::Listed> all;
+    for (std::uint32_t element = 0; element < bends.bends.size(); ++element) {
+        const layout::SplitBend& bend = bends.bends[element];
+        if (bend.a != bend.b) all.push_back({element, {bend.a, bend.b, bend.c}, 3, bend.stiffness});
+    }
+    return all;
+}
+
 // Any links, with bends and internal damping where the scene has those.
 Gather generalGather(const Common& common, std::span<const constraints::distance::GatherLink> listed,
                      bool isRanged, const constraints::bend::GatherBends& bends, std::uint32_t count) {
     Gather gather = common.gather();
+    const bool isCut = cutting::haveLists(common.program.program(), count);
     if (isRanged) {
         const auto links = constraints::distance::rangedLinks(listed, count);
         gather.buffers.push_back(common.program.upload("distance.links", links.links));
+        if (isCut) cutting::addListFilter(common.program, gather.buffers.back(), allOf(links), false);
         gather.buffers.push_back(common.program.upload("distance.first_links", links.first));
     } else {
         auto links = constraints::distance::gatherLinks(listed, count);
         if (links.degree == 0) constraints::distance::pad(links, 1);
         gather.constants[degreeId] = links.degree;
         gather.buffers.push_back(common.program.upload("distance.links", links.links));
+        if (isCut) cutting::addListFilter(common.program, gather.buffers.back(), allOf(links), false);
     }
     if (bends.degree > 0) {
         gather.constants[bendDegreeId] = bends.degree;
         gather.buffers.push_back(common.program.upload("bends", bends.bends));
+        if (isCut) cutting::addListFilter(common.program, gather.buffers.back(), allOf(bends), true);
     }
     gather.alternatesVelocities = !listed.empty() && common.scene.dampingTime > 0;
     const Kernel& kernel = generalKernel(isRanged, bends.degree > 0, gather.alternatesVelocities);
@@ -151,7 +189,7 @@ Gather listedGather(const Common& common, std::uint32_t count) {
                                                       omegaOfBends(common.settings));
     const bool isDamped = !listed.empty() && common.scene.dampingTime > 0;
     const bool isRanged = constraints::distance::isIrregular(listed, count);
-    if (bends.degree > 0 || isDamped || isRanged)
+    if (bends.degree > 0 || isDamped || isRanged || cutting::haveLists(common.program.program(), count))
         return generalGather(common, listed, isRanged, bends, count);
     if (listed.empty()) {
         Gather gather = common.gather();
@@ -332,6 +370,8 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
     const std::uint32_t substeps = common.settings.substeps;
     Touching contacts = addTouching(common, particles);
     if (particles.sleep) contacts.joinIslands(*particles.sleep);
+    if (contacts.faces) cutting::addFaceFilter(program, *contacts.faces);
+    if (contacts.edges) cutting::addEdgeFilter(program, *contacts.edges);
     if (contacts.pairs) cutting::addContactFilter(program, *contacts.pairs);
     const std::vector<Gather> gathers = addGathers(common);
     const bool alternates = std::ranges::any_of(gathers, &Gather::alternatesVelocities);

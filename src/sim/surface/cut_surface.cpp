@@ -104,10 +104,12 @@ std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& 
         program.scratch<layout::DispatchArguments>("surface.arguments", surface->push.runs + 3);
     surface->skinFaces = program.upload("surface.skin_faces", bodies.faces);
     surface->allIndices = program.upload("surface.all_indices", joinIndices(scene.skins));
-    built.skinIndices = program.upload("skin.indices", joinIndices(scene.skins));
+    const bool hasPieces = built.skinIndices != BufferId{}; // of sheets: then they are in the topology
+    if (!hasPieces) built.skinIndices = program.upload("skin.indices", joinIndices(scene.skins));
     for (const BufferId buffer :
          {surface->partitions, surface->near, surface->owned, surface->counts, surface->starts, drawn.state,
           drawn.rest, drawn.indices, drawn.draws, surface->arguments, built.skinIndices}) {
+        if (hasPieces && buffer == built.skinIndices) continue;
         built.cutting.topology.push_back(buffer);
         program.carry(buffer, buffer);
     }

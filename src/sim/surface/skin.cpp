@@ -78,7 +78,8 @@ void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins) {
 
     program.beginSkin();
     program.beginPhase("skin");
-    built.skinVertices = program.scratch<layout::SkinVertex>("skin.vertices", vertexCount);
+    built.skinVertices =
+        program.scratch<layout::SkinVertex>("skin.vertices", vertexCount + built.pieceVertices);
     if (built.skinIndices == BufferId{}) built.skinIndices = program.upload("skin.indices", indices);
     std::uint32_t firstVertex = 0;
     for (const Skin& skin : skins) {

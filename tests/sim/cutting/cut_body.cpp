@@ -32,6 +32,8 @@ CutBody::CutBody(const Scene& scene, const Settings& settings)
     : scene_(scene), slots_(stateLayout(scene, settings).slot), runner_(scene, settings) {
     const Grid& grid = scene_.grids.at(0);
     box_ = lattice::place(grid, 0);
+    if (lattice::isSheet(grid)) // one that is listed has no box
+        box_.sliceStride = slots_[grid.firstParticle + grid.nodes[0]] - slots_[grid.firstParticle];
     const auto first = lattice::coordinates(grid, grid.node[0]);
     const std::uint32_t shift =
         slots_[grid.firstParticle] - box_.slot(first[0], first[1], first[2]); // others stand before it

@@ -1,0 +1,23 @@
+#version 460
+// Edges on a sheet of which the link is dead touch nothing, as edges with a radius below 0 do, and do again where links are given
+// back. Where links at one have changed, all lists are made again.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "link_masks.glsl"
+
+layout(std430, binding = 0) readonly buffer Links { uint links[]; };
+layout(std430, binding = 1) readonly buffer SavedLinks { uint savedLinks[]; };
+layout(std430, binding = 2) readonly buffer CutEdges { CutEdge cutEdges[]; };
+layout(std430, binding = 3) readonly buffer Radii { float radii[]; };
+layout(std430, binding = 4) buffer Edges { ContactEdge edges[]; };
+layout(std430, binding = 5) buffer Bounds { GridBounds bounds; };
+layout(push_constant) uniform Push { CutFacesPush push; };
+
+void main() {
+    const uint item = itemIndex(push.count);
+    if (item >= push.count) return;
+    const CutEdge edge = cutEdges[item];
+    const int bit = bitTo(int(edge.way), 0u, push.sliceStride);
+    edges[edge.edge].radius = (links[edge.slot] >> bit & 1u) != 0u ? radii[edge.edge] : -1.0;
+    if (links[edge.slot] != savedLinks[edge.slot] && bounds.moved == 0u) atomicMax(bounds.moved, 1u);
+}

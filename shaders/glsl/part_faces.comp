@@ -1,0 +1,27 @@
+#version 460
+// Faces on a sheet between corners that a cut has parted leave the list of those that look for points near them, and come back with
+// links that are given back. Where links around one have changed, all lists are made again.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+
+layout(std430, binding = 0) readonly buffer Links { uint links[]; };
+layout(std430, binding = 1) readonly buffer SavedLinks { uint savedLinks[]; };
+layout(std430, binding = 2) readonly buffer Faces { CutFace faces[]; };
+layout(std430, binding = 3) writeonly buffer Searched { uint searched[]; }; // ~0 = none
+layout(std430, binding = 4) writeonly buffer Large { uint large[]; };       // likewise
+layout(std430, binding = 5) buffer Bounds { GridBounds bounds; };
+layout(push_constant) uniform Push { CutFacesPush push; };
+#include "sheet_edges.glsl"
+
+void main() {
+    const uint item = itemIndex(push.count);
+    if (item >= push.count) return;
+    const CutFace face = faces[item];
+    const Cuts cuts = cutsOf(SheetTriangle(face.slot, face.kind));
+    const uint left = cuts.dead < 2u ? face.face : ~0u;
+    if (face.isLarge != 0u) large[face.place] = left;
+    else searched[face.place] = left;
+    bool isNew = false;
+    for (int n = 0; n < 3; ++n) isNew = isNew || links[cuts.edges[n].owner] != savedLinks[cuts.edges[n].owner];
+    if (isNew && bounds.moved == 0u) atomicMax(bounds.moved, 1u);
+}

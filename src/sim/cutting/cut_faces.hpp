@@ -1,0 +1,17 @@
+// Contacts of faces and of their edges on a sheet that a cut has parted: a face between corners that no
+// longer hang together touches nothing, as its triangle is drawn no more, and neither does an edge of which
+// the link is dead. Their particles still touch the faces of others. Lists of contacts are made again in the
+// same step.
+#pragma once
+
+#include "sim/collision/edge_contacts.hpp"
+#include "sim/collision/face_contacts.hpp"
+
+namespace sinew::sim::cutting {
+
+/// Before the substeps: which faces and edges are left. Nothing where none of them may be cut. After
+/// cutting::add.
+void addFaceFilter(ProgramBuilder& program, const collision::face_contacts::Contacts& contacts);
+void addEdgeFilter(ProgramBuilder& program, const collision::edge_contacts::Contacts& contacts);
+
+} // namespace sinew::sim::cutting

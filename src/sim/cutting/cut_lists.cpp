@@ -1,0 +1,108 @@
+// What leads two nodes far leads over the node between.
+#include "sim/cutting/cut_lists.hpp"
+
+#include "kernels.hpp"
+#include "layout.h"
+#include "sim/lattice/batches.hpp"
+#include "sim/lattice/link_masks.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace sinew::sim::cutting {
+
+namespace {
+
+namespace k = kernels;
+
+// A link of the masks: its owner and bit.
+struct Link {
+    std::uint32_t owner = 0, bit = 0;
+};
+
+struct Way {
+    int x = 0, z = 0;
+};
+
+Way wayBetween(const CutRun& run, std::uint32_t from, std::uint32_t to) {
+    const std::uint32_t a = from - run.first, b = to - run.first, stride = run.sliceStride;
+    return {static_cast<int>(b % stride) - static_cast<int>(a % stride),
+            static_cast<int>(b / stride) - static_cast<int>(a / stride)};
+}
+
+std::optional<Link> linkBetween(const CutRun& run, std::uint32_t from, std::uint32_t to) {
+    const Way way = wayBetween(run, from, to);
+    for (std::uint32_t bit = lattice::firstOwned; bit < lattice::directionCount; ++bit) {
+        const auto [x, y, z] = lattice::directionOf(bit);
+        if (y != 0) continue;
+        if (way.x == x && way.z == z) return Link{from, bit};
+        if (way.x == -x && way.z == -z) return Link{to, bit};
+    }
+    return std::nullopt;
+}
+
+const CutRun* runOf(const CuttingBuffers& cutting, const Listed& one) {
+    for (const CutRun& run : cutting.runs) {
+        const auto isIn = [&](std::uint32_t slot) {
+            return slot >= run.first && slot - run.first < run.count;
+        };
+        if (run.rowStride == 0 && std::all_of(one.slots.begin(), one.slots.begin() + one.count, isIn))
+            return &run;
+    }
+    return nullptr;
+}
+
+// None where it is no link along a sheet.
+std::optional<layout::CutTie> tieOf(const CuttingBuffers& cutting, Listed one) {
+    const CutRun* run = runOf(cutting, one);
+    if (run == nullptr) return std::nullopt;
+    if (one.count == 2) {
+        const Way way = wayBetween(*run, one.slots[0], one.slots[1]);
+        if (way.x % 2 == 0 && way.z % 2 == 0) { // over a node
+            one.slots[2] = one.slots[1];
+            one.slots[1] = (one.slots[0] + one.slots[2]) / 2;
+            one.count = 3;
+        }
+    }
+    const auto first = linkBetween(*run, one.slots[0], one.slots[1]);
+    const auto second = one.count == 3 ? linkBetween(*run, one.slots[1], one.slots[2]) : first;
+    if (!first || !second) return std::nullopt;
+    return layout::CutTie{one.element, one.stiffness, first->owner, second->owner,
+                          first->bit | second->bit << 8};
+}
+
+} // namespace
+
+bool isListed(const Scene& scene, const Settings& settings, std::uint32_t g) {
+    const Grid& grid = scene.grids[g];
+    if (!grid.isCuttable || settings.solver != Solver::split || !lattice::isSheet(grid) ||
+        grid.node.size() != std::size_t{grid.nodes[0]} * grid.nodes[2])
+        return false;
+    return !std::ranges::binary_search(lattice::computedGrids(scene, settings), g);
+}
+
+bool haveLists(const StepProgram& program, std::uint32_t listed) {
+    return std::ranges::any_of(program.cutting.runs, [&](const CutRun& run) { return run.first < listed; });
+}
+
+void addListFilter(ProgramBuilder& program, BufferId list, std::span<const Listed> all, bool areBends) {
+    CuttingBuffers& cutting = program.program().cutting;
+    std::vector<layout::CutTie> ties;
+    for (const Listed& one : all)
+        if (const auto tie = tieOf(cutting, one)) ties.push_back(*tie);
+    if (ties.empty()) return;
+    cutting.topology.push_back(list);
+    program.carry(list, list);
+    const BufferId uploaded = program.upload(areBends ? "cut.bends" : "cut.listed", ties),
+                   links = cutting.links;
+    const auto addPass = [&program, links, uploaded, list, areBends, count = ties.size()] {
+        program.beginCut();
+        program.dispatch(areBends ? k::partBends : k::partLinks, static_cast<std::uint32_t>(count),
+                         {links, uploaded, list}, layout::CountPush{static_cast<std::uint32_t>(count)});
+        program.endCut();
+    };
+    addPass();
+    program.atEnd(addPass); // after links were given back
+}
+
+} // namespace sinew::sim::cutting

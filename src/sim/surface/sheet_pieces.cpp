@@ -1,0 +1,204 @@
+// The buffers and the order of the passes of the pieces of sheets.
+#include "sim/surface/sheet_pieces.hpp"
+
+#include "kernels.hpp"
+#include "sim/lattice/placement.hpp"
+#include "sim/surface/skin.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sinew::sim::surface {
+
+namespace {
+
+namespace k = kernels;
+
+using Nodes = std::array<std::array<std::uint32_t, 3>, 3>; // of the corners of a triangle
+
+// Corners in the order of the skin, from the cell's node: bit 0 x, bit 1 z.
+std::optional<std::uint32_t> kindOf(const Nodes& nodes, std::uint32_t x, std::uint32_t z) {
+    std::array<std::uint32_t, 3> corners{};
+    for (std::size_t n = 0; n < 3; ++n) {
+        const std::uint32_t right = nodes[n][0] - x, down = nodes[n][2] - z;
+        if (right > 1 || down > 1) return std::nullopt;
+        corners[n] = right | down << 1;
+    }
+    std::ranges::rotate(corners, std::ranges::min_element(corners));
+    constexpr std::array<std::array<std::uint32_t, 3>, 4> kinds{{{0, 2, 3}, {0, 3, 1}, {0, 3, 2}, {0, 1, 3}}};
+    const auto found = std::ranges::find(kinds, corners);
+    if (found == kinds.end()) return std::nullopt;
+    return static_cast<std::uint32_t>(found - kinds.begin());
+}
+
+// Triangles: all that a few dozen cuts from end to end make, or every triangle shattered, if that is less.
+std::uint32_t roomFor(std::size_t triangles) {
+    constexpr double ofTriangle = 6, few = 4096, ofRow = 200;
+    const auto all = static_cast<double>(triangles);
+    return static_cast<std::uint32_t>(std::min(ofTriangle * all, few + ofRow * std::sqrt(all)));
+}
+
+// From a node of a sheet to the next along an axis, where the scene has them.
+layout::vec4 stepAlong(const Scene& scene, const Grid& grid, std::uint32_t axis) {
+    for (std::uint32_t i = 0; i < grid.node.size(); ++i) {
+        auto next = lattice::coordinates(grid, grid.node[i]);
+        if (++next[axis] >= grid.nodes[axis]) continue;
+        const auto at = std::ranges::lower_bound(grid.node, next[0] + grid.nodes[0] * next[2]);
+        if (at == grid.node.end() || *at != next[0] + grid.nodes[0] * next[2]) continue;
+        const Vec3 &from = scene.particles[grid.firstParticle + i].position,
+                   &to =
+                       scene.particles[grid.firstParticle + static_cast<std::size_t>(at - grid.node.begin())]
+                           .position;
+        return {to.x - from.x, to.y - from.y, to.z - from.z, 0};
+    }
+    return {axis == 0 ? grid.restLength[0] : 0, 0, axis == 0 ? 0 : grid.restLength[0], 0};
+}
+
+// Where a sheet's nodes are among the slots.
+struct Place {
+    std::uint32_t origin = 0, sliceStride = 0;
+};
+
+Place placeOf(const Grid& grid, const CutRun& run, const StateLayout& layout) {
+    const auto first = lattice::coordinates(grid, grid.node[0]);
+    return {layout.slot[grid.firstParticle] - first[0] - run.sliceStride * first[2], run.sliceStride};
+}
+
+// The run that a sheet which may be cut is part of.
+const CutRun* runOf(const StepProgram& program, const Grid& grid, const StateLayout& layout) {
+    if (!grid.isCuttable || !lattice::isSheet(grid)) return nullptr;
+    const std::uint32_t slot = layout.slot[grid.firstParticle];
+    for (const CutRun& run : program.cutting.runs)
+        if (slot >= run.first && slot - run.first < run.count) return &run;
+    return nullptr;
+}
+
+// Lies behind what all skins have, and behind the pieces of those before it.
+struct Room {
+    std::uint32_t index = 0, vertex = 0;
+};
+
+void addSkin(ProgramBuilder& program, SheetPieces& pieces, const Skin& skin, SheetSkin sheet,
+             const std::vector<layout::SheetTriangle>& triangles, Room& room) {
+    sheet.push.triangles = static_cast<std::uint32_t>(triangles.size());
+    sheet.push.firstPiece = room.index;
+    sheet.push.room = roomFor(triangles.size());
+    sheet.push.firstVertex = room.vertex;
+    sheet.push.vertexRoom =
+        (7 * sheet.push.room + 2) / 3; // of a triangle in three pieces 7, the most for one
+    sheet.skinPush.firstVertex = sheet.push.firstVertex;
+    sheet.skinPush.vertexRoom = sheet.push.vertexRoom;
+    sheet.skinPush.sliceStride = sheet.push.sliceStride;
+    sheet.triangles = program.upload(skin.name + ".halves", triangles);
+    sheet.counts = program.scratch<layout::SheetCounts>(skin.name + ".pieces.starts", triangles.size());
+    sheet.state = program.scratch<layout::SheetState>(skin.name + ".pieces.state", 1);
+    sheet.vertices =
+        program.scratch<layout::SheetVertex>(skin.name + ".pieces.vertices", sheet.push.vertexRoom);
+    room.index += 3 * sheet.push.room;
+    room.vertex += sheet.push.vertexRoom;
+    pieces.skins.push_back(sheet);
+}
+
+void findSkins(ProgramBuilder& program, const Scene& scene, const StateLayout& layout, SheetPieces& pieces,
+               Room& room) {
+    std::uint32_t firstIndex = 0;
+    for (std::uint32_t s = 0; s < scene.skins.size(); ++s) {
+        const Skin& skin = scene.skins[s];
+        for (const Grid& grid : scene.grids) {
+            const CutRun* run = runOf(program.program(), grid, layout);
+            if (run == nullptr) continue;
+            const Place place = placeOf(grid, *run, layout);
+            const auto triangles = sheetTriangles(skin, grid, place.origin, place.sliceStride);
+            if (!triangles) continue;
+            SheetSkin sheet;
+            sheet.push.firstIndex = firstIndex;
+            sheet.push.sliceStride = place.sliceStride;
+            sheet.push.skin = s;
+            sheet.skinPush.right = stepAlong(scene, grid, 0);
+            sheet.skinPush.down = stepAlong(scene, grid, 2);
+            addSkin(program, pieces, skin, sheet, *triangles, room);
+            break;
+        }
+        firstIndex += static_cast<std::uint32_t>(3 * skin.triangles.size());
+    }
+}
+
+void addDrawing(ProgramBuilder& program, const SheetPieces& pieces) {
+    const StepProgram& built = program.program();
+    for (const SheetSkin& skin : pieces.skins)
+        program.dispatchIndirect(k::skinSheet,
+                                 {pieces.arguments, 2 * skin.push.skin + 1, skin.push.vertexRoom},
+                                 {skin.state, skin.vertices, built.cutting.links, pieces.particles,
+                                  built.positions, built.skinVertices},
+                                 skin.skinPush);
+}
+
+} // namespace
+
+std::optional<std::vector<layout::SheetTriangle>>
+sheetTriangles(const Skin& skin, const Grid& grid, std::uint32_t slot, std::uint32_t sliceStride) {
+    if (skin.particles.empty() || skin.triangles.empty()) return std::nullopt;
+    std::vector<layout::SheetTriangle> triangles;
+    for (const auto& corners : skin.triangles) {
+        Nodes nodes;
+        for (std::size_t n = 0; n < 3; ++n) {
+            const std::uint32_t index = skin.particles[corners[n]] - grid.firstParticle;
+            if (index >= grid.node.size()) return std::nullopt;
+            nodes[n] = lattice::coordinates(grid, grid.node[index]);
+        }
+        const std::uint32_t x = std::min({nodes[0][0], nodes[1][0], nodes[2][0]}),
+                            z = std::min({nodes[0][2], nodes[1][2], nodes[2][2]});
+        const auto kind = kindOf(nodes, x, z);
+        if (!kind) return std::nullopt;
+        triangles.push_back({slot + x + sliceStride * z, *kind});
+    }
+    return triangles;
+}
+
+std::shared_ptr<SheetPieces> addSheetPieces(ProgramBuilder& program, const Scene& scene,
+                                            const StateLayout& layout, BufferId particles) {
+    auto pieces = std::make_shared<SheetPieces>();
+    std::vector<std::uint32_t> indices = joinIndices(scene.skins);
+    std::uint32_t vertices = 0;
+    for (const Skin& skin : scene.skins) vertices += static_cast<std::uint32_t>(skin.vertexCount());
+    Room room{static_cast<std::uint32_t>(indices.size()), vertices};
+    findSkins(program, scene, layout, *pieces, room);
+    if (pieces->skins.empty()) return nullptr;
+    StepProgram& built = program.program();
+    pieces->particles = particles;
+    pieces->allIndices = program.upload("skin.all_indices", indices);
+    indices.resize(room.index, 0);
+    built.skinIndices = program.upload("skin.indices", indices);
+    built.pieceVertices = room.vertex - vertices;
+    built.pieceDraws = program.scratch<layout::DrawArguments>("skin.piece_draws", scene.skins.size());
+    pieces->arguments =
+        program.scratch<layout::DispatchArguments>("skin.piece_arguments", 2 * scene.skins.size());
+    std::vector<BufferId> topology{built.skinIndices, built.pieceDraws, pieces->arguments};
+    for (const SheetSkin& skin : pieces->skins) topology.insert(topology.end(), {skin.state, skin.vertices});
+    for (const BufferId buffer : topology) {
+        built.cutting.topology.push_back(buffer);
+        program.carry(buffer, buffer);
+    }
+    program.atSkin([&program, pieces] { addDrawing(program, *pieces); });
+    return pieces;
+}
+
+void addSheetPasses(ProgramBuilder& program, const SheetPieces& pieces, bool isFirst) {
+    const StepProgram& built = program.program();
+    for (const SheetSkin& skin : pieces.skins) {
+        layout::SheetPush push = skin.push;
+        push.isFirst = isFirst ? 1 : 0;
+        isFirst = false;
+        program.dispatch(k::countSheet, push.triangles, {built.cutting.links, skin.triangles, skin.counts},
+                         push);
+        program.dispatch(k::scanSheet, GROUP_ITEMS,
+                         {skin.counts, skin.state, built.pieceDraws, pieces.arguments, built.cutting.counts},
+                         push);
+        program.dispatchIndirect(k::writeSheet, {pieces.arguments, 2 * push.skin, push.triangles},
+                                 {built.cutting.links, built.cutting.hits, skin.triangles, skin.counts,
+                                  skin.state, pieces.allIndices, built.skinIndices, skin.vertices},
+                                 push);
+    }
+}
+
+} // namespace sinew::sim::surface
