@@ -10,6 +10,7 @@ layout(std430, binding = 2) readonly buffer Places { vec4 places[]; };
 layout(std430, binding = 3) writeonly buffer PlacesBefore { vec4 before[]; };
 layout(std430, binding = 4) readonly buffer Status { StatusWords status; };
 layout(std430, binding = 5) buffer Work { CutWork work; };
+layout(std140, binding = 6) uniform Blade { BladeHead blade; };
 
 void main() {
     const uint item = itemIndex(push.count);
@@ -19,7 +20,7 @@ void main() {
         links[i] = savedLinks[i];
         return;
     }
-    before[i] = places[i];
+    if (blade.quads > 0u || blade.rayFrom.w > 0.0) before[i] = places[i]; // strokes go on over steps without a blade
     const uint cut = savedLinks[i] & ~links[i] & OWNED_MASK & push.stiffLinks;
     if (cut != 0u) atomicAdd(work.cut, uint(bitCount(cut)));
 }

@@ -201,3 +201,20 @@ struct CutTie {
     uint first, second; // slots that own them
     uint bits;          // of the first, and << 8 of the second
 };
+
+// Tearing of sheets. Of the cell above a slot: the greatest stretch - 1, below 0 for no cell, and its direction in the grid.
+struct CellStrain {
+    float strain, x, z;
+};
+
+struct TearCount {
+    uint count; // of cells that might tear
+};
+
+struct TearPush {
+    uint first, count; // slots
+    uint sliceStride;
+    float spacing; // [m]
+    float limit;   // of the strain
+    uint most;     // cells that tear in a step
+};

@@ -231,6 +231,8 @@ void addCloth(LoadedScene& loaded, const Section& cloth) {
     for (const char* key : {"collides", "radius"})
         if (cloth.has("thickness") && cloth.has(key))
             cloth.fail("thickness", std::string("stands beside ") + key, "leave one of them out");
+    if (cloth.number("tear") > 0 && !cloth.flag("cuttable"))
+        cloth.fail("tear", "is given, but the cloth may not be cut", "add cuttable = true");
     sim::ClothSheet sheet{.name = cloth.text("name"),
                           .origin = localPoint(cloth, "origin", loaded.origin),
                           .right = cloth.vector("right"),
@@ -248,6 +250,8 @@ void addCloth(LoadedScene& loaded, const Section& cloth) {
                           .radius = radiusOf(cloth),
                           .pinned = {},
                           .isCuttable = cloth.flag("cuttable"),
+                          .tearStrain = cloth.number("tear"),
+                          .tearsPerStep = cloth.count("tears_per_step"),
                           .color = cloth.vector("color")};
     checkRoom(loaded, std::uint64_t{sheet.size[0]} * sheet.size[1], cloth, "size");
     addPins(cloth, sheet);

@@ -99,6 +99,8 @@ constexpr Key keys[] = {
     {"cloth", "restitution", Kind::number, "", ranges::restitution, "", "0 = no rebound, 1 = elastic; a pair has the larger of both; that of [contacts] where it is missing"},
     {"cloth", "thickness", Kind::number, "m", length, "", "of a sheet that touches particles, meshes, other sheets and itself by its triangles; instead of collides and radius"},
     {"cloth", "cuttable", Kind::flag, "", {}, "false", "whether a blade may cut the body"},
+    {"cloth", "tear", Kind::number, "", ranges::tearStrain, "0", "strain beyond which what is cuttable tears, in whichever direction it is stretched; 0 = never"},
+    {"cloth", "tears_per_step", Kind::count, "cells", ranges::tearsPerStep, "16", "most that tear in a step, those stretched most"},
     {"cloth", "color", Kind::vector, "", ranges::color, "[0.16, 0.34, 0.58]", "linear red, green and blue"},
 
     {"chain", "name", Kind::text, "", {}, "\"chain\"", "name of the body in reports and files"},

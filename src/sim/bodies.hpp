@@ -29,6 +29,8 @@ struct ClothSheet {
     float radius = 0;                  ///< of a particle that others touch [m], at most half of the spacing
     std::vector<std::uint32_t> pinned; ///< particles (row-major within the sheet) held where they are
     bool isCuttable = false;           ///< Grid::isCuttable
+    float tearStrain = 0;              ///< Grid::tearStrain
+    std::uint32_t tearsPerStep = 16;   ///< Grid::tearsPerStep
     Vec3 color{0.16f, 0.34f, 0.58f};
 };
 

@@ -101,7 +101,9 @@ void addGrid(Scene& scene, const ClothSheet& sheet, std::uint32_t first, std::si
               .fill = std::vector<std::uint8_t>(std::size_t{columns - 1} * (rows - 1), fullCell),
               .compliance = {sheet.stretchCompliance, sheet.shearCompliance, 0},
               .restLength = {sheet.spacing, static_cast<float>(sheet.spacing * std::sqrt(2.0)), 0},
-              .isCuttable = sheet.isCuttable};
+              .isCuttable = sheet.isCuttable,
+              .tearStrain = sheet.tearStrain,
+              .tearsPerStep = sheet.tearsPerStep};
     for (std::uint32_t node = 0; node < columns * rows; ++node) grid.node.push_back(node);
     scene.grids.push_back(std::move(grid));
 }

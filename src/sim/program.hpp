@@ -111,6 +111,7 @@ struct CuttingBuffers {
     BufferId hits;  ///< by slot: layout::LinkHits of the links that the node owns
     BufferId savedLinks;      ///< likewise before the step
     BufferId dirty;           ///< by 32 slots: not 0 where the last blade cut within a node's reach
+    bool tears = false;       ///< whether something may be cut in a step without a blade
     std::vector<CutRun> runs; ///< what passes over slots that may be cut are dispatched for
     BufferId places;          ///< by slot: where particles were when the step began [m]
     BufferId counts;          ///< one layout::CutCounts

@@ -64,6 +64,8 @@ inline constexpr Range pressure{0, largest};        // [Pa]
 inline constexpr Range restVolume{0, largest};      // [m^3]
 inline constexpr Range embeddingWeight{-1e-3, 1 + 1e-3}; // rounding of a vertex on a cell's face
 inline constexpr Range color{0, 1};
+inline constexpr Range tearStrain{0, 100};
+inline constexpr Range tearsPerStep{1, 65535};
 inline constexpr std::size_t mostPlanes = 32; // bits of the touched set in planes.glsl
 
 // Settings

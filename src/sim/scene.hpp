@@ -185,6 +185,11 @@ struct Grid {
     float recoveryPressure = 0;
     /// Whether a blade may cut its links (Step::blade): keeps which of them are alive, for `split` alone.
     bool isCuttable = false;
+    /// A sheet that may be cut also tears where it is stretched farther than that, in whichever direction: by
+    /// a cut through a cell, across the direction. Of all cells stretched so far at most `tearsPerStep` in a
+    /// step, those stretched most. 0.2 = to 1.2 times its length; 0 = never.
+    float tearStrain = 0;
+    std::uint32_t tearsPerStep = 16;
 };
 
 /// Whether the cells of a grid have volumes: an energy that stands in no list but the grid's.

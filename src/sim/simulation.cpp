@@ -243,7 +243,8 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     state_->hands.advance(step.grabs, dt);
     state_->colliders.advance(dt);
     state_->unsettled[step.frame % framesInFlight] = {true, {parameters.h, state_->colliders.time()}};
-    const bool hasBlade = state_->countsRing && state_->blade.read(step);
+    const bool isBlade = state_->countsRing && state_->blade.read(step);
+    const bool hasBlade = isBlade || state_->program.cutting.tears;
     state_->hasBlade[step.frame % framesInFlight] = hasBlade;
     vk::Commands commands(state_->device, buffer);
     if (timestamps) timestamps->reset(commands);

@@ -84,7 +84,8 @@ struct Status {
     std::uint32_t slowed = 0;
     std::uint32_t sleeping = 0; ///< particles that sleep at the end of the step
     float lostTime = 0;         ///< how much longer than the longest step Step::dt was [s]
-    std::uint32_t linksCut = 0; ///< in this step; links that only serve the surface of a cut do not count
+    /// In this step, or torn; links that only serve the surface of a cut do not count.
+    std::uint32_t linksCut = 0;
     std::uint32_t linksCutInAll = 0; ///< since the uncut bodies, or those of recordLoadTopology()
     std::uint32_t pieces = 0;        ///< of bodies that may be cut, single particles among them
     /// Triangles and vertices that the surface of cuts needs, where that is more than there is room for; else

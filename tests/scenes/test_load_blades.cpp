@@ -30,10 +30,27 @@ TEST_F(LoadBlades, MakesBodiesCuttable) {
               std::string::npos);
 }
 
-TEST_F(LoadBlades, OfTheShippedClothLoad) {
+TEST_F(LoadBlades, MakesClothTear) {
+    const auto grid = [&](const std::string& keys) { return load(test::smallCloth + keys).scene.grids[0]; };
+    EXPECT_EQ(grid("cuttable = true\n").tearStrain, 0);
+    EXPECT_EQ(grid("cuttable = true\ntear = 0.2\n").tearStrain, 0.2f);
+    EXPECT_EQ(grid("cuttable = true\ntear = 0.2\n").tearsPerStep, 16u);
+    EXPECT_EQ(grid("cuttable = true\ntear = 0.2\ntears_per_step = 3\n").tearsPerStep, 3u);
+    const auto error = [&](const std::string& keys) { return errorOfText(test::smallCloth + keys); };
+    EXPECT_NE(error("tear = 0.2\n").find("tear is given, but the cloth may not be cut: add cuttable = true"),
+              std::string::npos);
+    EXPECT_NE(error("cuttable = true\ntear = -1\n").find("cloth[0].tear is -1: must be from 0 to 100"),
+              std::string::npos);
+    EXPECT_NE(error("cuttable = true\ntear = 1\ntears_per_step = 0\n").find("must be from 1 to 65535"),
+              std::string::npos);
+    EXPECT_EQ(error("cuttable = true\nskip_stiffness = 5\nbending_stiffness = 1e-4\n"), "");
+}
+
+TEST_F(LoadBlades, OfTheShippedClothsLoad) {
     const scenes::LoadedScene curtain = scenes::load(SINEW_SOURCE_FOLDER "/scenes/cloth_cut.toml");
     EXPECT_EQ(curtain.blades.size(), 3u);
     EXPECT_TRUE(curtain.scene.grids.at(0).isCuttable);
+    EXPECT_GT(scenes::load(SINEW_SOURCE_FOLDER "/scenes/tear.toml").scene.grids.at(0).tearStrain, 0);
 }
 
 TEST_F(LoadBlades, PlaysABladeThroughItsPoses) {

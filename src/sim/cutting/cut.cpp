@@ -4,6 +4,7 @@
 #include "kernels.hpp"
 #include "sim/constraints/grab.hpp"
 #include "sim/cutting/cut_plan.hpp"
+#include "sim/cutting/tearing.hpp"
 #include "sim/sleep.hpp"
 #include "sim/surface/cut_surface.hpp"
 #include "sim/surface/sheet_pieces.hpp"
@@ -49,6 +50,7 @@ void addOpening(ProgramBuilder& program, Cut& cut, const ParticleBuffers& partic
                          {cut.bladePlaces, cut.placesBefore, buffers.links, buffers.hits, buffers.dirty,
                           cut.blade, cut.points, cut.work, buffers.savedLinks},
                          run.push);
+    if (cut.tearing) addTearingPasses(program, *cut.tearing, cut);
     for (const Run& run : cut.runs)
         program.dispatch(k::settleLinks, run.push.count, {buffers.links, buffers.dirty}, run.push);
     if (cut.surface)
@@ -107,7 +109,7 @@ void addClosing(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& 
     for (const Run& run : cut.runs)
         program.dispatch(k::closeCut, run.push.count,
                          {buffers.links, buffers.savedLinks, cut.bladePlaces, cut.placesBefore,
-                          program.program().status, cut.work},
+                          program.program().status, cut.work, cut.blade},
                          run.push);
     addWholeCells(program, cut); // those that an undone step has given back
     addFindingPieces(program, cut, particles);

@@ -3,6 +3,7 @@
 
 #include "sim/constraints/grab.hpp"
 #include "sim/cutting/cut_lists.hpp"
+#include "sim/cutting/tearing.hpp"
 #include "sim/lattice/batches.hpp"
 #include "sim/lattice/link_masks.hpp"
 #include "sim/lattice/pieces.hpp"
@@ -62,13 +63,16 @@ Run runOf(const Grid& grid, const lattice::Box& box) {
                      .stiffLinks = lattice::stiffLinks(grid),
                      .spacing = grid.restLength[0],
                      .contactRow = 0},
-            .hasVolumes = hasCellVolumes(grid)};
+            .hasVolumes = hasCellVolumes(grid),
+            .tearStrain = grid.tearStrain,
+            .tearsPerStep = grid.tearsPerStep};
 }
 
 bool isAlike(const Run& a, const Run& b) {
     return a.push.rowStride == b.push.rowStride && a.push.sliceStride == b.push.sliceStride &&
            a.push.stiffLinks == b.push.stiffLinks && a.push.spacing == b.push.spacing &&
-           a.hasVolumes == b.hasVolumes;
+           a.hasVolumes == b.hasVolumes && a.tearStrain == 0 &&
+           b.tearStrain == 0; // tears are counted by body
 }
 
 // Each link once, from the node that owns it.
@@ -168,7 +172,8 @@ Cut addBuffers(ProgramBuilder& program, const Scene& scene, const Settings& sett
     if (cut.runs.empty()) return cut;
     cut.buffers.links = program.upload("cut.links", initial.links);
     const bool hasVolumes = std::ranges::any_of(cut.runs, &Run::hasVolumes);
-    if (hasVolumes) cut.cells = program.upload("cut.cells", initial.cells);
+    const bool hasTears = std::ranges::any_of(cut.runs, [](const Run& run) { return run.tearStrain > 0; });
+    if (hasVolumes || hasTears) cut.cells = program.upload("cut.cells", initial.cells);
     if (hasVolumes) cut.buffers.wholeCells = program.upload("cut.whole_cells", initial.cells);
     cut.buffers.hits = program.scratch<layout::LinkHits>("cut.hits", layout.count);
     cut.buffers.dirty = program.scratch<std::uint32_t>("cut.dirty", layout.count / 32 + 1);
@@ -190,6 +195,7 @@ Cut addBuffers(ProgramBuilder& program, const Scene& scene, const Settings& sett
     for (const BufferId buffer : buffers.topology) program.carry(buffer, buffer);
     program.program().cutting = buffers;
     cut.sheets = surface::addSheetPieces(program, scene, layout, cut.particles);
+    if (hasTears) cut.tearing = addTearing(program, cut, layout.count);
     std::vector<layout::CutPush> pushes;
     for (const Run& run : cut.runs) pushes.push_back(run.push);
     const surface::CutBodies bodies = surface::readCutBodies(scene, settings, layout, pushes);

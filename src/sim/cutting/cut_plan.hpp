@@ -15,7 +15,11 @@ namespace sinew::sim::cutting {
 struct Run {
     layout::CutPush push{};
     bool hasVolumes = false;
+    float tearStrain = 0;
+    std::uint32_t tearsPerStep = 0;
 };
+
+struct Tearing;
 
 struct Cut {
     std::vector<Run> runs;
@@ -26,6 +30,7 @@ struct Cut {
     BufferId uncutBodies, weights;                 // likewise, where hands may hold some
     std::shared_ptr<surface::CutSurface> surface;  // none where no skin is clipped
     std::shared_ptr<surface::SheetPieces> sheets;  // likewise
+    std::shared_ptr<Tearing> tearing;              // likewise
     bool usesTexels = false;
     std::uint32_t rounds = 0;
 };

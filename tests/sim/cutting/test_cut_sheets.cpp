@@ -212,7 +212,7 @@ TEST(CutSheet, ThatIsListedComesBackWithAnUndoneStepAndWithTheTopology) {
     EXPECT_EQ(listOf<std::uint32_t>(body, bends), cutBends);
 }
 
-TEST(CutSheet, IsRefusedForOtherSolvers) {
+TEST(CutSheet, IsRefusedForOtherSolversAndTearingForWhatIsNoSheet) {
     const auto complaint = [](const Scene& scene, const Settings& settings = {}) {
         const auto complaints = validate(scene, settings);
         return complaints.empty() ? std::string("none") : complaints.front();
@@ -222,4 +222,19 @@ TEST(CutSheet, IsRefusedForOtherSolvers) {
     scene.dampingTime = 0;
     EXPECT_NE(complaint(scene, {.solver = Solver::gaussSeidel}).find("may be cut, which solver"),
               std::string::npos);
+    scene.grids[0].tearStrain = -0.1f;
+    EXPECT_NE(complaint(scene).find(".tearStrain: is"), std::string::npos);
+    scene.grids[0].tearStrain = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_NE(complaint(scene).find(".tearStrain: is"), std::string::npos);
+    scene.grids[0].tearStrain = 0.1f;
+    EXPECT_EQ(complaint(scene), "none");
+    scene.grids[0].tearsPerStep = 0;
+    EXPECT_NE(complaint(scene).find(".tearsPerStep: is"), std::string::npos);
+    scene.grids[0].tearsPerStep = 1;
+    scene.grids[0].isCuttable = false;
+    EXPECT_NE(complaint(scene).find("which only a sheet with isCuttable can"), std::string::npos);
+    Scene cube;
+    addLattice(cube, {.cells = {2, 2, 2}, .spacing = spacing, .isCuttable = true});
+    cube.grids[0].tearStrain = 0.1f;
+    EXPECT_NE(complaint(cube).find("which only a sheet with isCuttable can"), std::string::npos);
 }

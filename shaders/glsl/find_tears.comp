@@ -1,0 +1,25 @@
+#version 460
+// Tearing, second pass: lists cells that are stretched beyond the limit and more than all around them, in any order: no two of them
+// share a link.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+
+layout(std430, binding = 0) readonly buffer Strains { CellStrain strains[]; };
+layout(std430, binding = 1) writeonly buffer Found { uint found[]; };
+layout(std430, binding = 2) buffer Tears { TearCount tears; };
+layout(push_constant) uniform Push { TearPush push; };
+#include "tears.glsl"
+
+void main() {
+    const uint item = itemIndex(push.count);
+    if (item >= push.count) return;
+    const uint cell = push.first + item;
+    if (!(strains[cell].strain > push.limit)) return;
+    for (int z = -1; z <= 1; ++z)
+        for (int x = -1; x <= 1; ++x) {
+            const int other = int(item) + x + z * int(push.sliceStride);
+            if ((x | z) == 0 || other < 0 || other >= int(push.count)) continue;
+            if (isBefore(push.first + uint(other), cell)) return;
+        }
+    found[atomicAdd(tears.count, 1u)] = cell;
+}
