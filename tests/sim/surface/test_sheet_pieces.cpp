@@ -346,25 +346,23 @@ Scene sheetUnderABall(float facesThickness, float sheetSpacing) {
 
 } // namespace
 
-TEST(CutFaces, LetABallThroughThatTheyCarriedBefore) {
+TEST(CutFaces, LetABallThrough) {
     for (const bool isReversed : {false, true}) {
         const Scene scene = sheetUnderABall(0.02f, 0.1f);
         const std::size_t ball = scene.particles.size() - 1;
         CutBody body(scene, {.substeps = 8, .isReversed = isReversed});
-        ASSERT_EQ(body.runner().run(15).contactRoom, 0u);
-        EXPECT_GT(body.runner().positions()[ball].y(), -0.05) << "carried";
         // a slot from one rim to the other, along x below the ball
         const Sweep slot{.from = {{-0.05f, -1, 0.452f}, {-0.05f, 1, 0.452f}},
                          .to = {{0.85f, -1, 0.452f}, {0.85f, 1, 0.452f}}};
         EXPECT_GT(body.cut(slot).linksCut, 20u);
-        body.runner().run(25);
+        ASSERT_EQ(body.runner().run(20).contactRoom, 0u);
         const double height = body.runner().positions()[ball].y();
-        std::printf("the ball is at %.3f m 25 steps after the cut\n", height);
+        std::printf("the ball is at %.3f m 20 steps after the cut\n", height);
         EXPECT_LT(height, -0.2);
     }
 }
 
-TEST(CutFaces, ComeBackWithTheTopology) {
+TEST(CutFaces, ComeBackWithTheTopologyAndCarryTheBall) {
     const Scene scene = sheetUnderABall(0.02f, 0.1f);
     const std::size_t ball = scene.particles.size() - 1;
     CutBody body(scene, {.substeps = 8});
