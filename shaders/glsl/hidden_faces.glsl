@@ -1,0 +1,42 @@
+// Which of the faces that never move and that a point touches push it. Inner edges of a flat surface must not: a point over one
+// face is near an edge of the next one too. Needs faces, contacts, directions and push.
+bool isCorner(uint i, ContactFace face) { return i == face.a || i == face.b || i == face.c; }
+
+// Corners of a face between which its nearest place lies, bit k for corner k: all three, or those of an edge or a corner that
+// is as near to that place as rounding may decide where it lies. They stand in the lowest bits of a depth.
+float withCorners(float depth, vec3 b, Triangle triangle, float reach) {
+    const vec3 bc = triangle.ac - triangle.ab;
+    const vec3 heights = length(triangle.normal) * inversesqrt(vec3(dot(bc, bc), dot(triangle.ac, triangle.ac), dot(triangle.ab, triangle.ab)));
+    const bvec3 isFar = greaterThan(b * heights, vec3(0.01 * reach));
+    const uint corners = (isFar.x ? 1u : 0u) | (isFar.y ? 2u : 0u) | (isFar.z ? 4u : 0u);
+    // of a triangle as small as that all count
+    return depth > 1e-30 ? uintBitsToFloat(floatBitsToUint(depth) & ~7u | (corners == 0u ? 7u : corners)) : 0.0;
+}
+uint cornersIn(float depth) { return floatBitsToUint(depth) & 7u; }
+
+// Whether `other` has all corners of `face` in the bit set `corners`.
+bool has(ContactFace other, ContactFace face, uint corners) {
+    return ((corners & 1u) == 0u || isCorner(face.a, other)) && ((corners & 2u) == 0u || isCorner(face.b, other)) &&
+           ((corners & 4u) == 0u || isCorner(face.c, other));
+}
+
+// A face of which an edge or a corner is nearest says nothing that a face beside it does not, which has that edge or corner
+// too, and something nearer, or the same: then the first of them. Pushed from inner edges of a flat surface as well, what hits
+// it would be pushed aslant, too softly, and be thrown as it comes out. So such a contact does not push: its depth is below
+// 0. What it remembers goes on, for the nearest place may change from one face to the other. Only among faces that never move:
+// where cloth lies on cloth, to push its neighbours as well spreads what a point presses with, and folds rest sooner for it.
+void hide(uint i, uint n) {
+    for (uint s = 0u; s < n; ++s) {
+        const uint element = s * push.row + i, corners = cornersIn(directions[element].w);
+        if (!(directions[element].w > 0.0) || corners == 7u || contacts[element].x < push.moving) continue;
+        const ContactFace face = faces[contacts[element].x];
+        bool isHidden = false;
+        for (uint t = 0u; t < n && !isHidden; ++t) {
+            const uint beside = t * push.row + i;
+            if (t == s || directions[beside].w == 0.0 || contacts[beside].x < push.moving) continue;
+            const ContactFace other = faces[contacts[beside].x];
+            isHidden = has(other, face, corners) && (t < s || !has(face, other, cornersIn(directions[beside].w)));
+        }
+        if (isHidden) directions[element].w = -directions[element].w;
+    }
+}
