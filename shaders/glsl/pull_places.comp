@@ -1,6 +1,7 @@
 #version 460
 // Where particles are for a blade: those that the skin of a mesh goes with, but that lie outside of it, are just below the skin
-// (src/sim/surface/skin_complex), moved with what is around them.
+// (src/sim/surface/skin_complex), moved with what is around them. Within a stroke they keep their way there: what is around them
+// changes as it is cut, and a link must not leap over the blade.
 #extension GL_GOOGLE_include_directive : require
 #include "cut.glsl"
 #include "link_masks.glsl"
@@ -12,6 +13,8 @@ layout(std430, binding = 3) readonly buffer Places { vec4 places[]; };
 layout(std430, binding = 4) writeonly buffer PulledPlaces { vec4 pulledPlaces[]; };
 layout(std430, binding = 5) readonly buffer PlacesBefore { vec4 before[]; }; // w = 0: no blade yet
 layout(std430, binding = 6) buffer Work { CutWork work; };
+layout(std140, binding = 7) uniform Blade { BladeHead blade; };
+layout(std430, binding = 8) buffer Pulls { vec4 pulls[]; }; // of the stroke; w = 0: none yet
 
 #define ALIVE(i) links[i]
 #define AT(i) places[i].xyz
@@ -24,7 +27,10 @@ void main() {
     const uint i = push.first + item;
     const vec3 pull = pulledRest[i].xyz - rest[i].xyz;
     vec3 x = places[i].xyz;
-    if (pull != vec3(0.0)) x += gradientAt(i) * pull;
+    if (pull != vec3(0.0)) {
+        if (blade.isCarried == 0u || pulls[i].w == 0.0) pulls[i] = vec4(gradientAt(i) * pull, 1.0);
+        x += pulls[i].xyz;
+    }
     pulledPlaces[i] = vec4(x, 1.0);
     const uint way = before[i].w > 0.0 ? floatBitsToUint(distance(x, before[i].xyz)) : 0u;
     if (way > work.farthest) atomicMax(work.farthest, way);

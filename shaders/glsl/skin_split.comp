@@ -15,17 +15,25 @@ layout(std430, binding = 5) readonly buffer Positions { vec4 positions[]; }; // 
 layout(std430, binding = 6) readonly buffer Gradients { Gradient gradients[]; };
 layout(std430, binding = 7) buffer Vertices { SkinVertex vertices[]; };
 
+layout(std430, binding = 8) readonly buffer Rims { uint rims[]; };
+layout(std430, binding = 9) readonly buffer Moved { vec4 moved[]; };
+
 #define ALIVE(i) links[i]
 #define AT(i) positions[particles[i]].xyz
 #define REST(i) rest[i].xyz
 #define TURN(i) mat3(gradients[i].x.xyz, gradients[i].y.xyz, gradients[i].z.xyz)
 #include "skin_place.glsl"
+#include "skin_rest.glsl"
 
 void main() {
     const uint item = itemIndex(push.count);
     if (item >= push.count) return;
     const HungVertex vertex = hung[push.first + item];
-    if (partitions[vertex.cell] == 0u) return;
+    const vec3 shift = restOf(push.first + item).xyz - vertex.rest.xyz;
+    if (partitions[vertex.cell] == 0u && shift == vec3(0.0)) return;
     const uint held = heldWith(vertex.cell, vertex.corner);
-    if (held != 255u) vertices[vertex.vertex].position.xyz = placeOf(vertex, held);
+    if (held == 255u && shift == vec3(0.0)) return;
+    vec3 x = placeOf(vertex, held);
+    if (shift != vec3(0.0)) x += TURN(vertex.anchor) * shift;
+    vertices[vertex.vertex].position.xyz = x;
 }

@@ -15,10 +15,13 @@ layout(std430, binding = 5) readonly buffer Starts { uvec2 starts[]; };
 layout(std430, binding = 6) readonly buffer State { SurfaceState state; };
 layout(std430, binding = 7) buffer Vertices { CutVertex vertices[]; };
 layout(std430, binding = 8) writeonly buffer Indices { uint indices[]; };
+layout(std430, binding = 9) readonly buffer Rims { uint rims[]; };
+layout(std430, binding = 10) readonly buffer Moved { vec4 moved[]; };
 layout(push_constant) uniform Push { PrismPush push; };
 
 #include "skin_prisms.glsl"
 #include "skin_points.glsl"
+#include "skin_rest.glsl"
 
 uint next; // triangle, of those outside
 SkinPrism prism;
@@ -31,11 +34,11 @@ CutVertex vertexAt(uint point) {
     if (point < 3u) {
         const uint i = from.anchor;
         const ivec3 normal = ivec3(from.normal.xyz * SURFACE_NORMAL);
-        return CutVertex(from.rest, vec4(0.0), uint[4](i, i, i, i), int[3](normal.x, normal.y, normal.z), SURFACE_SKIN | from.vertex);
+        return CutVertex(restOf(prism.vertices[n]), vec4(0.0), uint[4](i, i, i, i), int[3](normal.x, normal.y, normal.z), SURFACE_SKIN | from.vertex);
     }
     CutVertex vertex = vertices[point < firstCenter ? skinPoint(prism, self, n, point < 6u) : skinCenter(self, n)];
-    const vec3 way = to.rest.xyz - from.rest.xyz;
-    const float share = clamp(dot(vertex.rest.xyz - from.rest.xyz, way) / max(dot(way, way), 1e-30), 0.0, 1.0);
+    const vec3 start = restOf(prism.vertices[n]).xyz, way = restOf(prism.vertices[(n + 1u) % 3u]).xyz - start;
+    const float share = clamp(dot(vertex.rest.xyz - start, way) / max(dot(way, way), 1e-30), 0.0, 1.0);
     const vec3 third = hung[prism.vertices[(n + 2u) % 3u]].normal.xyz;
     const vec3 mean = point < firstCenter ? mix(from.normal.xyz, to.normal.xyz, share) : from.normal.xyz + to.normal.xyz + third;
     const ivec3 normal = ivec3(mean * SURFACE_NORMAL);

@@ -13,10 +13,13 @@ layout(std430, binding = 3) readonly buffer Prisms { SkinPrism prisms[]; };
 layout(std430, binding = 4) readonly buffer Hung { HungVertex hung[]; };
 layout(std430, binding = 5) readonly buffer SkinHits { uint skinHits[]; };
 layout(std430, binding = 6) writeonly buffer Vertices { CutVertex vertices[]; };
+layout(std430, binding = 7) readonly buffer Rims { uint rims[]; };
+layout(std430, binding = 8) readonly buffer Moved { vec4 moved[]; };
 layout(push_constant) uniform Push { PrismPush push; };
 
 #include "skin_prisms.glsl"
 #include "skin_points.glsl"
+#include "skin_rest.glsl"
 
 // How far along edge n the cut is.
 float shareOf(SkinPrism prism, uint self, uint n) {
@@ -27,7 +30,7 @@ float shareOf(SkinPrism prism, uint self, uint n) {
 }
 
 vec4 edgePlace(SkinPrism prism, uint self, uint n) {
-    const vec4 from = hung[prism.vertices[n]].rest, to = hung[prism.vertices[(n + 1u) % 3u]].rest;
+    const vec4 from = restOf(prism.vertices[n]), to = restOf(prism.vertices[(n + 1u) % 3u]);
     return vec4(mix(from.xyz, to.xyz, shareOf(prism, self, n)), from.w);
 }
 

@@ -44,7 +44,8 @@ void addOpening(ProgramBuilder& program, Cut& cut, const ParticleBuffers& partic
                          {particles.positions, particles.velocities, particles.step, buffers.links,
                           buffers.savedLinks, buffers.places, cut.placesBefore, cut.work},
                          run.push);
-    if (cut.surface) cut.bladePlaces = surface::addPulling(program, *cut.surface, cut.placesBefore, cut.work);
+    if (cut.surface)
+        cut.bladePlaces = surface::addPulling(program, *cut.surface, cut.placesBefore, cut.work, cut.blade);
     for (const Run& run : cut.runs)
         program.dispatch(cut.usesTexels ? k::cutLinks : k::cutLinksLoads, run.push.count,
                          {cut.bladePlaces, cut.placesBefore, buffers.links, buffers.hits, buffers.dirty,

@@ -40,6 +40,9 @@ struct HungSurface {
     BufferId prisms, vertices;
     BufferId hits;         ///< by prism: where its edges were cut
     BufferId rims;         ///< by vertex: whether a triangle around is drawn in pieces
+    BufferId moved;        ///< by vertex: where it has moved to beside a cut [m]
+    BufferId fans, around; ///< by vertex: range of the list of prisms around it
+    BufferId pulls;        ///< by slot: from a particle to its pulled place [m]
     BufferId pulledPlaces; ///< by slot, where particles are for a blade [m]; invalid = at their places
 };
 
@@ -59,7 +62,8 @@ std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& 
                                           const CutBodies& bodies, const CutSource& source);
 
 /// In the phase "cut", after places were put down: those that a blade meets. Returns them.
-BufferId addPulling(ProgramBuilder& program, const CutSurface& surface, BufferId placesBefore, BufferId work);
+BufferId addPulling(ProgramBuilder& program, const CutSurface& surface, BufferId placesBefore, BufferId work,
+                    BufferId blade);
 
 /// In the phase "cut", after the links of a step are settled.
 void addSkinHits(ProgramBuilder& program, const CutSurface& surface, BufferId bladePlaces,

@@ -20,6 +20,27 @@ void addListed(ProgramBuilder& program, const CutSurface& surface, const vk::Sha
                              pushOf(surface, surface.hung.prismCount));
 }
 
+// The prisms around every vertex.
+void addFans(ProgramBuilder& program, HungSurface& hung, const CutBodies& bodies) {
+    std::vector<std::array<std::uint32_t, 2>> fans(bodies.vertices.size()); // first, count
+    for (const layout::SkinPrism& prism : bodies.prisms)
+        for (const std::uint32_t vertex : prism.vertices) ++fans[vertex][1];
+    std::uint32_t first = 0;
+    for (auto& [start, count] : fans) {
+        start = first;
+        first += count;
+        count = 0;
+    }
+    std::vector<std::uint32_t> around(first);
+    for (std::uint32_t t = 0; t < bodies.prisms.size(); ++t)
+        for (std::uint32_t n = 0; n < 3; ++n) {
+            auto& [start, count] = fans[bodies.prisms[t].vertices[n]];
+            around[start + count++] = 4 * t + n;
+        }
+    hung.fans = program.upload("surface.hung_fans", fans);
+    hung.around = program.upload("surface.hung_around", around);
+}
+
 } // namespace
 
 void addHungBuffers(ProgramBuilder& program, CutSurface& surface, const CutBodies& bodies) {
@@ -32,24 +53,29 @@ void addHungBuffers(ProgramBuilder& program, CutSurface& surface, const CutBodie
     hung.vertices = program.upload("surface.hung_vertices", bodies.vertices);
     hung.hits = program.scratch<std::uint32_t>("surface.skin_hits", hung.prismCount);
     hung.rims = program.scratch<std::uint32_t>("surface.rims", hung.vertexCount);
+    hung.moved = program.scratch<layout::vec4>("surface.moved", hung.vertexCount);
+    addFans(program, hung, bodies);
     if (!bodies.pulled.empty()) {
         surface.bladeRest = program.upload("surface.pulled_rest", bodies.pulled);
         hung.pulledPlaces = program.scratch<layout::vec4>("surface.pulled_places", surface.slots);
+        hung.pulls = program.scratch<layout::vec4>("surface.pulls", surface.slots);
+        program.program().cutting.topology.push_back(hung.pulls);
+        program.carry(hung.pulls, hung.pulls);
     }
-    for (const BufferId buffer : {hung.hits, hung.rims}) {
+    for (const BufferId buffer : {hung.hits, hung.rims, hung.moved}) {
         program.program().cutting.topology.push_back(buffer);
         program.carry(buffer, buffer);
     }
 }
 
-BufferId addPulling(ProgramBuilder& program, const CutSurface& surface, BufferId placesBefore,
-                    BufferId work) {
+BufferId addPulling(ProgramBuilder& program, const CutSurface& surface, BufferId placesBefore, BufferId work,
+                    BufferId blade) {
     const CuttingBuffers& cutting = program.program().cutting;
     if (surface.hung.pulledPlaces == BufferId{}) return cutting.places;
     for (const layout::CutPush& run : surface.source.runs)
         program.dispatch(k::pullPlaces, run.count,
                          {cutting.links, surface.rest, surface.bladeRest, cutting.places,
-                          surface.hung.pulledPlaces, placesBefore, work},
+                          surface.hung.pulledPlaces, placesBefore, work, blade, surface.hung.pulls},
                          run);
     return surface.hung.pulledPlaces;
 }
@@ -63,6 +89,12 @@ void addSkinHits(ProgramBuilder& program, const CutSurface& surface, BufferId bl
                          {bladePlaces, placesBefore, cutting.links, hung.hits, cutting.dirty, blade, points,
                           cutting.savedLinks, cutting.places, surface.rest, hung.prisms, hung.vertices},
                          range.prisms);
+    for (const HungRange& range : hung.ranges)
+        program.dispatch(k::moveRims, range.vertices.count,
+                         {bladePlaces, placesBefore, cutting.links, hung.moved, cutting.dirty, blade, points,
+                          cutting.savedLinks, cutting.places, surface.rest, hung.prisms, hung.vertices,
+                          hung.rims, hung.fans, hung.around},
+                         range.vertices);
 }
 
 void addPrismParting(ProgramBuilder& program, const CutSurface& surface) {
@@ -80,7 +112,7 @@ void addRimPoints(ProgramBuilder& program, const CutSurface& surface) {
     if (hung.prismCount == 0) return;
     addListed(program, surface, k::writeRims,
               {surface.listed, surface.owned, program.program().cutting.links, hung.prisms, hung.vertices,
-               hung.hits, program.program().cutSurface.rest});
+               hung.hits, program.program().cutSurface.rest, hung.rims, hung.moved});
 }
 
 void addPrismTriangles(ProgramBuilder& program, const CutSurface& surface) {
@@ -93,7 +125,7 @@ void addPrismTriangles(ProgramBuilder& program, const CutSurface& surface) {
                drawn.indices});
     addListed(program, surface, k::writePieces,
               {surface.listed, surface.owned, links, hung.prisms, hung.vertices, surface.starts, drawn.state,
-               drawn.rest, drawn.indices});
+               drawn.rest, drawn.indices, hung.rims, hung.moved});
 }
 
 void addSplitVertices(ProgramBuilder& program, const CutSurface& surface) {
@@ -103,7 +135,7 @@ void addSplitVertices(ProgramBuilder& program, const CutSurface& surface) {
         program.dispatchIndirect(k::skinSplit, {surface.arguments, surface.push.runs + 2, hung.vertexCount},
                                  {hung.vertices, surface.partitions, built.cutting.links, surface.rest,
                                   surface.source.particles, built.positions, surface.gradients,
-                                  built.skinVertices},
+                                  built.skinVertices, hung.rims, hung.moved},
                                  range.vertices);
 }
 

@@ -42,8 +42,8 @@ Vector3d embedded(const CutBody& body, const CellEmbedding& cell) {
 
 ClosedSurface::ClosedSurface(CutBody& body) {
     body.runner().skin();
+    addCut(body); // says where vertices of skins are that have moved to a cut
     addSkin(body);
-    addCut(body);
 }
 
 std::uint32_t ClosedSurface::pointOf(std::uint32_t key, const Vector3d& rest, const Vector3d& drawn) {
