@@ -198,7 +198,7 @@ stroke() {
     xdotool mouseup 1
 }
 stroke
-for _ in {1..50}; do [[ $(title) == *pieces* ]] && break; sleep 0.1; done
+for _ in {1..300}; do [[ $(title) == *pieces* ]] && break; sleep 0.1; done
 [[ $(title) == *pieces* ]] || stroke # where so little time goes to the window that it saw no more than an end of the first
 awaitTitle 'pieces'
 keys c # the hand again
@@ -216,8 +216,11 @@ xdotool mouseup 1
 keys ctrl+z
 for _ in {1..100}; do [[ $(title) != *pieces* ]] && break; sleep 0.1; done
 [[ $(title) != *pieces* ]] || fail "Ctrl + Z did not join the halves"
-sleep 1
-shoot undone.png
+for _ in {1..100}; do # the title knows before the picture does
+    shoot undone.png
+    (($(inside undone.png) < 50)) && break
+    sleep 0.3
+done
 (($(inside undone.png) < 50)) || fail "the inside is still seen: $(inside undone.png) pixels of it"
 keys ctrl+shift+z
 awaitTitle 'pieces'
