@@ -90,8 +90,11 @@ vec3 linkImpulse(vec3 a, vec3 b, float restLength, float stiffness) {
 // Moves particle i by the sum of its links' impulses and writes it.
 void advance(uint i, vec4 y, vec4 velocity, vec3 impulses, Substep substep) {
     const float w = velocity.w, h = step.h;
-    vec3 v = velocity.xyz + substep.impulse * w * impulses;
-    if (w > 0.0) v += substep.kick * step.gravity.xyz;
+    vec3 v = velocity.xyz;
+    if (w > 0.0) { // 0 times a NaN next to it would stay for ever in a slot that holds no particle, which nobody restores
+        v += substep.impulse * w * impulses;
+        v += substep.kick * step.gravity.xyz;
+    }
     v *= step.velocityFactor;
     vec3 x = y.xyz - substep.thetaH * velocity.xyz + h * v;
 #ifdef HAS_PLANES

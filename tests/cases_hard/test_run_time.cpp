@@ -82,6 +82,21 @@ TEST_P(RunTimeCase, Case13ANaNCostsOneStepAndReachesNoOtherBody) {
                 solverName(GetParam()), spoilt.nonFinite, difference);
 }
 
+// A body on a grid has slots that hold no particle, which nobody restores: none of it may get there.
+TEST_P(RunTimeCase, Case13ANaNInABodyWithEmptyCellsCostsOneStepToo) {
+    Scene scene{.name = "ragged"};
+    Lattice body{.origin = {0, 1, 0}, .cells = {5, 4, 6}, .spacing = 0.1f, .youngModulus = 1e5f};
+    body.fill = test::raggedFill(5 * 4 * 6);
+    addLattice(scene, body);
+    test::Runner runner(scene, settings());
+    ASSERT_EQ(runner.run(3).nonFinite, 0u);
+    for (std::uint32_t hit = 0; hit < scene.particles.size(); hit += 17) {
+        runner.writePosition(hit, std::numeric_limits<float>::quiet_NaN());
+        EXPECT_GE(runner.run(1).nonFinite, 1u);
+        EXPECT_EQ(runner.run(1).nonFinite, 0u) << "particle " << hit;
+    }
+}
+
 // No constraint is left over: there are as many colors as it takes, and a step that would have too many is
 // refused with their number. Solvers without colors take it.
 TEST_P(RunTimeCase, Case30MoreColorsThanAStepHasRoomForAreRefusedByNumber) {
