@@ -43,7 +43,7 @@ std::unique_ptr<Show> change(std::unique_ptr<Show> show, std::unique_ptr<Opening
     } catch (const vk::Error& error) {
         if (error.failure() != vk::Failure::outOfMemory) throw;
         refuse(error);
-    } catch (const std::invalid_argument& error) {
+    } catch (const std::exception& error) {
         refuse(error);
     }
     return show;

@@ -74,7 +74,8 @@ void Library::openFile(const std::string& file, float aspect) {
 
 void Library::reopen(const scenes::Overrides& overrides, const Again& again, float aspect) {
     Request request = *shown_;
-    request.options.overrides = overrides;
+    if (overrides.solver) request.options.overrides.solver = overrides.solver;
+    if (overrides.substeps) request.options.overrides.substeps = overrides.substeps;
     request.again = again;
     begin(std::move(request), aspect);
 }

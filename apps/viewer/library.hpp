@@ -28,7 +28,8 @@ public:
     void openNext(int by, float aspect);
     /// A scene or a mesh: as on the command line.
     void openFile(const std::string& file, float aspect);
-    /// The scene on show once more, as it was turned: with another solver or other substeps.
+    /// The scene on show once more, as it was turned: with another solver or other substeps, all else that
+    /// was asked for as before.
     void reopen(const scenes::Overrides& overrides, const Again& again, float aspect);
 
     bool isOpening() const { return opening_.valid(); }

@@ -100,12 +100,16 @@ std::unique_ptr<Opening> Show::run() {
 std::unique_ptr<Opening> Show::takeOpened() {
     try {
         return library_.take();
-    } catch (const app::Failure& failure) {
-        screen_.warn(failure.what());
-    } catch (const mesh::ImportError& error) {
+    } catch (const std::exception& error) {
         screen_.warn(error.what());
     }
     return nullptr;
+}
+
+// One at a time.
+bool Show::mayOpen() {
+    if (library_.isOpening()) screen_.tell("another scene is still being opened");
+    return !library_.isOpening();
 }
 
 float Show::pictureAspect() const {
@@ -148,7 +152,7 @@ Plan Show::plan(double elapsed) {
 }
 
 void Show::grant(const Wishes& wishes) {
-    if (wishes.scene) library_.open(*wishes.scene, pictureAspect());
+    if (wishes.scene && mayOpen()) library_.open(*wishes.scene, pictureAspect());
     if (wishes.knobs) turnKnobs(*wishes.knobs);
 }
 
@@ -159,16 +163,14 @@ void Show::turnKnobs(const Knobs& knobs) {
     knobs_.pace = knobs.pace;
     const auto shape = [](const Knobs& some) { return std::pair(some.substeps, some.solver); };
     if (shape(knobs) == shape(knobs_) || library_.isOpening()) return;
-    scenes::Overrides overrides; // none where it is as in the file
-    if (shape(knobs) != shape(sceneFacts_.fromFile)) {
-        overrides.solver = sceneFacts_.solvers[static_cast<std::size_t>(knobs.solver)];
-        overrides.substeps = static_cast<std::uint32_t>(knobs.substeps);
-    }
+    scenes::Overrides overrides;
+    overrides.solver = sceneFacts_.solvers[static_cast<std::size_t>(knobs.solver)];
+    overrides.substeps = static_cast<std::uint32_t>(knobs.substeps);
     library_.reopen(overrides, {controller_.camera, knobs, sceneFacts_.fromFile}, pictureAspect());
 }
 
 void Show::handle(const Input& input) {
-    if (!input.files.empty()) library_.openFile(input.files.front(), pictureAspect());
+    if (!input.files.empty() && mayOpen()) library_.openFile(input.files.front(), pictureAspect());
     for (const Action action : input.actions) {
         if (action == Action::drop && screen_.panels().isHelpShown())
             screen_.panels().closeHelp();
@@ -196,10 +198,10 @@ void Show::handle(Action action) {
         screen_.toggleVsync();
         break;
     case Action::previousScene:
-        library_.openNext(-1, pictureAspect());
+        if (mayOpen()) library_.openNext(-1, pictureAspect());
         break;
     case Action::nextScene:
-        library_.openNext(1, pictureAspect());
+        if (mayOpen()) library_.openNext(1, pictureAspect());
         break;
     case Action::record:
         toggleRecording();
@@ -299,9 +301,11 @@ void Show::recordSteps(const Presenter::Frame& frame, const Plan& plan) {
 
 // What is on its way belongs to a state that is no more: nobody need look at it, nor cut it again.
 void Show::forgetFlights() {
-    for (InFlight& flight : inFlight_) {
+    if (recording_) screen_.presenter().waitIdle(); // the film keeps what has happened
+    for (std::uint32_t slot = 0; slot < Presenter::framesInFlight; ++slot) {
+        InFlight& flight = inFlight_[slot];
+        if (std::exchange(flight.isRecorded, false)) settleCamera(slot, flight);
         flight.steps = 0;
-        flight.isRecorded = false;
         flight.sweeps.clear();
     }
 }
@@ -330,7 +334,13 @@ void Show::recordProbe(const Presenter::Frame& frame) {
 
 void Show::recordScreenshot(const Presenter::Frame& frame) {
     InFlight& flight = inFlight_[frame.slot];
-    flight.screenshot = std::make_unique<Offscreen>(device_, screen_.presenter().extent(), opening_.light);
+    try {
+        flight.screenshot =
+            std::make_unique<Offscreen>(device_, screen_.presenter().extent(), opening_.light);
+    } catch (const vk::Error& error) {
+        if (error.failure() != vk::Failure::outOfMemory) throw;
+        return screen_.warn(std::string("no picture: ") + error.what());
+    }
     flight.screenshotStep = stage_.steps();
     flight.screenshot->record(frame.commands, controller_.camera, stage_.simulation(), tools_.overlay());
 }
@@ -359,7 +369,7 @@ void Show::settle(std::uint32_t slot) {
         isCut_ = status.linksCutInAll > 0;
         if (status.cutSurfaceMissing > 0) warnOfSurface();
     }
-    if (flight.isRecorded && !isUndone) settleCamera(slot);
+    if (flight.isRecorded && !isUndone) settleCamera(slot, flight);
     if (flight.screenshot) {
         const std::string name = nameAt(opening_.loaded.scene.name, flight.screenshotStep);
         const std::filesystem::path file = freeName(name, ".png");
@@ -386,7 +396,8 @@ void Show::settleProbe(InFlight& flight) {
 // Once: nothing but the picture suffers.
 void Show::warnOfSurface() {
     if (std::exchange(isSurfaceMissing_, true)) return;
-    screen_.warn("the cuts have more surface than there is room for: it is not drawn");
+    screen_.warn(
+        "the cuts have more surface than there is room for: what is beyond is not drawn, or drawn uncut");
 }
 
 void Show::stop(const std::string& why) {
@@ -422,6 +433,7 @@ void Show::settleAll() {
 void Show::toggleRecording() {
     if (recording_) return stopRecording();
     const VkExtent2D extent = screen_.presenter().extent();
+    screen_.presenter().waitIdle(); // frames may still use the cameras of a film that failed
     try {
         recording_.emplace(nameAt(opening_.loaded.scene.name, stage_.steps()), extent.width, extent.height,
                            1 / double{stage_.scene().dt});
@@ -430,9 +442,9 @@ void Show::toggleRecording() {
         std::fflush(stdout);
         screen_.tell("recording " + recording_->target().string() + ", a picture a step; " +
                      std::string(keyOf(Action::record)) + " stops");
-    } catch (const app::Failure& failure) {
+    } catch (const std::runtime_error& error) { // app::Failure; vk::Error: no memory for the pictures
         recording_.reset();
-        screen_.warn(failure.what());
+        screen_.warn(error.what());
     }
 }
 
@@ -460,12 +472,16 @@ void Show::recordCamera(const Presenter::Frame& frame) {
 }
 
 // What goes wrong here ends the film, and nothing else.
-void Show::settleCamera(std::uint32_t slot) {
+void Show::settleCamera(std::uint32_t slot, const InFlight& flight) {
     if (!recording_) return;
     try {
-        recording_->add(cameras_[slot]->read(), pictureText(opening_, device_, stage_.steps()));
+        const std::uint64_t step = flight.firstStep + flight.steps - 1;
+        recording_->add(cameras_[slot]->read(), pictureText(opening_, device_, step));
+    } catch (const vk::Error&) {
+        throw;
     } catch (const std::runtime_error& error) { // app::Failure, mesh::ExportError
         recording_.reset();
+        for (InFlight& other : inFlight_) other.isRecorded = false;
         screen_.warn(error.what());
     }
 }

@@ -67,10 +67,11 @@ private:
     void goOn(const Again& again);
     float pictureAspect() const;
     std::unique_ptr<Opening> takeOpened();
+    bool mayOpen();
     void toggleRecording();
     void stopRecording();
     void recordCamera(const Presenter::Frame& frame);
-    void settleCamera(std::uint32_t slot);
+    void settleCamera(std::uint32_t slot, const InFlight& flight);
     void handle(Action action);
     bool prepareSwapchain();
     void draw(Plan plan, View& view);

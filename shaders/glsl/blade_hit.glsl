@@ -1,5 +1,5 @@
 // Part of cut_links: where a link meets what cuts. A link from a (the node that owns it) to b; all expressions that decide between
-// neighbouring triangles are the same for both, bit for bit, so no link passes between two of them (cutting design, 3).
+// neighbouring triangles are the same for both, bit for bit, so no link passes between two of them.
 //
 //   side of a triangle's plane   n . (x - o) / |n| + eps >= 0: what lies in the plane is on its upper side, whichever triangle says so;
 //                                all triangles of a strip turn the same way

@@ -1,4 +1,4 @@
-// The triangles inside of what was cut, as seen from a cell (cutting design, 5): between the parts of its tetrahedra, each twice,
+// The triangles inside of what was cut, as seen from a cell: between the parts of its tetrahedra, each twice,
 // once a side, and on faces that their two tetrahedra see split in different ways. Whoever includes this says what becomes of
 //
 //   triangle(a, b, c)   points as (slot, bit), right-handed seen from outside of the part that it belongs to

@@ -165,6 +165,7 @@ struct SheetPush {
     uint firstIndex;              // likewise
     uint firstPiece, room;        // index, triangles
     uint firstVertex, vertexRoom; // behind those of all skins
+    uint firstSlot;               // of the sheet
     uint sliceStride;             // slots from a node to the next in z
     uint skin;
     uint isFirst; // to say what there is no room for

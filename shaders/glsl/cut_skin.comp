@@ -1,5 +1,5 @@
 #version 460
-// Where a blade has met the edges of a skin whose links it cut (cutting design, 4, static): in the state that the step begins with. Where
+// Where a blade has met the edges of a skin whose links it cut: in the state that the step begins with. Where
 // it has not, it passed between an end of the edge and the particle that it goes with: then near that end.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

@@ -1,7 +1,7 @@
 #version 460
 // `split` for bodies on a regular grid: neighbours are computed, not listed. An invocation marches a block of COLUMNS_X x
 // COLUMNS_Y columns of nodes along z and keeps two slices of it and its rim in registers, so that a node is loaded
-// once for every column that needs it (lattice design, 0.1). Every link is computed from both of its ends and a node's
+// once for every column that needs it. Every link is computed from both of its ends and a node's
 // links are summed in the order z, y, x: bits do not depend on the shape of the block.
 //
 // A node's word holds the fill of the eight cells around it, four bits each in 1/15; cell k lies on the side

@@ -1,4 +1,4 @@
-// How what is around a particle has turned and strained since the scene was loaded (cutting design, 6):
+// How what is around a particle has turned and strained since the scene was loaded:
 // F = (sum d D^T) (sum D D^T)^-1 over its live links, D at rest. Where those lie in a plane the normal is that of the image;
 // where they lie in a line, or there is none, nothing is known and F = 1. Whoever includes this says what are
 //

@@ -17,7 +17,7 @@ layout(std430, binding = CHUNK_BINDING + 2) readonly buffer WholeCells { uint wh
 #define whole fill // cells of the march
 #endif
 
-// What holds a link: 0 where it is cut. AND, because lavapipe makes a branch of a choice (lattice design, 2).
+// What holds a link: 0 where it is cut. AND, because lavapipe makes a branch of a choice.
 float held(Fill fill, uint links, int dx, int dy, int dz) {
     const float sum = heldBy(fill, dx, dy, dz);
 #ifdef HAS_MASKS

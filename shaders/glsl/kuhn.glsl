@@ -1,4 +1,4 @@
-// The complex that surfaces of cuts are made of (cutting design, 5): every cell is six tetrahedra (Kuhn), one for each
+// The complex that surfaces of cuts are made of: every cell is six tetrahedra (Kuhn), one for each
 // order in which a way along the axes leads from its lowest corner to its highest. All their edges are links.
 //
 //   tetrahedron p   order (i, j, k) of axes: 012 021 102 120 201 210; corners 0, 1 << i, 1 << i | 1 << j, 7 of the cell

@@ -1,5 +1,5 @@
 #version 460
-// The surface of a cut, first pass: which corners of every tetrahedron near the last blade hang together (cutting design, 5).
+// The surface of a cut, first pass: which corners of every tetrahedron near the last blade hang together.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "cut.glsl"

@@ -10,6 +10,7 @@ float hitOf(Edge edge) { return hitAt(edge.owner, bitOf(edge.way.x, 0, edge.way.
 bool isJoinedBeyond(int n) {
     const ivec2 p = cornerAt(triangle.kind, n), q = cornerAt(triangle.kind, (n + 1) % 3);
     const ivec2 beyond = p + q - cornerAt(triangle.kind, (n + 2) % 3);
+    if (int(slotAt(triangle.slot, beyond)) < int(push.firstSlot)) return false; // before the first row may lie another sheet
     return edgeBetween(triangle.slot, p, beyond).isAlive && edgeBetween(triangle.slot, beyond, q).isAlive;
 }
 

@@ -1,6 +1,6 @@
 // Where a vertex of a skin is: trilinear over the corners of its cell, as skin_cells has it. Corners that do not hang together with the
-// particle that it goes with, by live links within the cell, are taken for where that particle's surroundings would have them
-// (cutting design, 6), so that a skin does not stretch over a cut. Whoever includes this says what are
+// particle that it goes with, by live links within the cell, are taken for where that particle's surroundings would have them,
+// so that a skin does not stretch over a cut. Whoever includes this says what are
 //
 //   ALIVE(i), AT(i), REST(i)   as for gradient.glsl
 //   TURN(i)                    the gradient there

@@ -1,6 +1,6 @@
 #version 460
 // Where the vertices of pieces of the skin of a sheet are, and their normals: moved with the tangents of the sheet around the corner that
-// each hangs on, which are the best linear motion of what that is still linked with (cutting design, 6). Where those
+// each hangs on, which are the best linear motion of what that is still linked with. Where those
 // links lie in a line it is a neighbour's, where there is none the sheet's own at rest.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"

@@ -1,6 +1,6 @@
 #version 460
 // The surface of a cut, fourth pass: the points that a slot owns, with what they hang on: a point on one side of a cut on that side's
-// corners alone, one that holds both sides together on both (cutting design, 5).
+// corners alone, one that holds both sides together on both.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "cut.glsl"

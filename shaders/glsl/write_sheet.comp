@@ -1,7 +1,7 @@
 #version 460
 // Pieces of the skin of a sheet, last pass: triangles that a cut has reached shrink to a point in the skin's own indices, and what they
 // fall into is written behind. A point on a dead edge has a copy at either end, which hangs on that end alone, unless the triangle beyond
-// still joins the two: then it lies between them, which closes the end of a cut (cutting design, 5). Both triangles
+// still joins the two: then it lies between them, which closes the end of a cut. Both triangles
 // compute the same bits, from the edge's owner.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"

@@ -164,6 +164,10 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
                      std::string("cannot be had: ") + error.what(), "move the body nearer to the origin");
     }
     addSurface(loaded, section, first);
+    if (body.isCuttable && loaded.scene.skins.back().anchors.empty())
+        loaded.warnings.push_back(
+            "mesh " + summary.file +
+            " is open, or too thin for its voxels: cuts stretch its skin and show no inside");
     warn(summary, loaded.warnings);
     loaded.meshes.push_back(std::move(summary));
 }

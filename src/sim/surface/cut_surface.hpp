@@ -1,5 +1,5 @@
 // The surface of cuts: what a blade lays open inside of a body on a grid, and what is left of its skin beside
-// it. Built on the device in a step that cut something, by one rule per tetrahedron (cutting design, 5):
+// it. Built on the device in a step that cut something, by one rule per tetrahedron:
 // marching tetrahedra on dead links, closed and two-sided. For bodies whose skin is the outer faces of their
 // cells (lattice_faces) or a mesh that hangs on them (skin_complex); what is different for the latter stands
 // in hung_surface.

@@ -112,6 +112,7 @@ void findSkins(ProgramBuilder& program, const Scene& scene, const StateLayout& l
             if (!triangles) continue;
             SheetSkin sheet;
             sheet.push.firstIndex = firstIndex;
+            sheet.push.firstSlot = place.origin;
             sheet.push.sliceStride = place.sliceStride;
             sheet.push.skin = s;
             sheet.skinPush.right = stepAlong(scene, grid, 0);

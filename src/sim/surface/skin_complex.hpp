@@ -1,4 +1,4 @@
-// How the skin of a mesh hangs on the lattice that carries it (cutting design, 2): a prism between each of
+// How the skin of a mesh hangs on the lattice that carries it: a prism between each of
 // its triangles and the particles that the corners go with, and below the prisms the tetrahedra that those
 // particles enclose. Prisms and tetrahedra together are what the skin encloses, without gaps, so one rule
 // for both gives a closed surface of any cut. Made once, on the host.
