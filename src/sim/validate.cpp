@@ -433,9 +433,13 @@ void checkCutting(const Scene& scene, const Settings& settings, Complaints& comp
         if (settings.solver != Solver::split)
             complaints.add(nameOf(scene, g), may + "which solver " + solverName(settings.solver) +
                                                  " has no form for: use split");
-        else if (cutting::isListed(scene, settings, g))
-            continue;
-        else if (!settings.forms.usesGrids)
+        else if (cutting::isListed(scene, settings, g)) {
+            const std::string tied = cutting::tiedPast(scene, scene.grids[g]);
+            if (!tied.empty())
+                complaints.add(nameOf(scene, g), may + "but " + tied +
+                                                     " leads out of it, or past more than one of its nodes: "
+                                                     "leave it out or do not cut the sheet");
+        } else if (!settings.forms.usesGrids)
             complaints.add(nameOf(scene, g), may + "which needs settings.forms.usesGrids");
         else if (!std::ranges::binary_search(computed, g))
             complaints.add(nameOf(scene, g), may +

@@ -27,11 +27,14 @@ std::vector<std::string> sceneNames() {
     return names;
 }
 
-/// Those in which something may touch. The one that drops a mesh has none yet, but a floor.
+/// Those in which something may touch. The one that drops a mesh has none yet, but a floor. Of cloth_cut
+/// nothing does before its first strip has come down, long after the cut: its bits are a matter of
+/// test_cut_sheets.
 std::vector<std::string> contactSceneNames() {
     std::vector<std::string> names = sceneNames();
     std::erase_if(names, [](const std::string& name) {
-        return name != "drop_mesh" &&
+        if (name == "drop_mesh") return false;
+        return name == "cloth_cut" ||
                !tools::study::isOfContacts(scenes::load(test::shippedScene(name)).scene);
     });
     return names;

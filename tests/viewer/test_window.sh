@@ -190,7 +190,9 @@ awaitRest
 read -r now height < <(rows two.png)
 keys c
 awaitTitle blade
+strokes=0
 stroke() {
+    strokes=$((strokes + 1))
     xdotool mousemove 320 $((now - 25)) mousedown 1
     sleep 0.3
     for ((way = 0; way < height + 60; way += 8)); do xdotool mousemove_relative -- 0 8; sleep 0.05; done
@@ -213,7 +215,7 @@ for _ in {1..100}; do
 done
 (($(inside parted.png) > 200)) || fail "the inside is not seen: $(inside parted.png) pixels of it"
 xdotool mouseup 1
-keys ctrl+z
+for ((undo = 0; undo < strokes; ++undo)); do keys ctrl+z; sleep 1; done
 for _ in {1..100}; do [[ $(title) != *pieces* ]] && break; sleep 0.1; done
 [[ $(title) != *pieces* ]] || fail "Ctrl + Z did not join the halves"
 for _ in {1..100}; do # the title knows before the picture does
@@ -222,7 +224,7 @@ for _ in {1..100}; do # the title knows before the picture does
     sleep 0.3
 done
 (($(inside undone.png) < 50)) || fail "the inside is still seen: $(inside undone.png) pixels of it"
-keys ctrl+shift+z
+for ((redo = 0; redo < strokes; ++redo)); do keys ctrl+shift+z; sleep 1; done
 awaitTitle 'pieces'
 keys space
 awaitTitle paused

@@ -81,6 +81,32 @@ bool isListed(const Scene& scene, const Settings& settings, std::uint32_t g) {
     return !std::ranges::binary_search(lattice::computedGrids(scene, settings), g);
 }
 
+std::string tiedPast(const Scene& scene, const Grid& sheet) {
+    const auto has = [&](std::uint32_t i) { return i - sheet.firstParticle < sheet.node.size(); };
+    // Nodes apart in x and z: up to one is a link of the mask, two in a row lead over one.
+    const auto isTie = [&](std::uint32_t a, std::uint32_t b, bool mayLeap) {
+        if (!has(a) || !has(b)) return false;
+        const auto from = lattice::coordinates(sheet, sheet.node[a - sheet.firstParticle]),
+                   to = lattice::coordinates(sheet, sheet.node[b - sheet.firstParticle]);
+        const auto apart = [&](std::size_t axis) {
+            return std::abs(static_cast<int>(to[axis]) - static_cast<int>(from[axis]));
+        };
+        const int x = apart(0), z = apart(2);
+        return std::max(x, z) == 1 || (mayLeap && std::max(x, z) == 2 && x % 2 == 0 && z % 2 == 0);
+    };
+    for (std::size_t c = 0; c < scene.distances.size(); ++c) {
+        const auto& [a, b, length, compliance] = scene.distances[c];
+        if ((has(a) || has(b)) && !isTie(a, b, true)) return "distance[" + std::to_string(c) + "]";
+    }
+    for (std::size_t c = 0; c < scene.bends.size(); ++c) {
+        const BendConstraint& bend = scene.bends[c];
+        if ((has(bend.a) || has(bend.b) || has(bend.c)) &&
+            !(isTie(bend.a, bend.b, false) && isTie(bend.b, bend.c, false)))
+            return "bend[" + std::to_string(c) + "]";
+    }
+    return {};
+}
+
 bool haveLists(const StepProgram& program, std::uint32_t listed) {
     return std::ranges::any_of(program.cutting.runs, [&](const CutRun& run) { return run.first < listed; });
 }

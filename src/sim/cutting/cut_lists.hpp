@@ -5,10 +5,16 @@
 
 #include "sim/compile.hpp"
 
+#include <string>
+
 namespace sinew::sim::cutting {
 
 /// Whether grid `g` is such a sheet: its particles lie in a row among the listed ones.
 bool isListed(const Scene& scene, const Settings& settings, std::uint32_t g);
+
+/// The first distance constraint or bend of the scene that such a sheet has and no mask: it leads out of the
+/// sheet or past other nodes than one, and would hold cut pieces together. "distance[3]", or empty.
+std::string tiedPast(const Scene& scene, const Grid& sheet);
 
 /// Whether the links of the first `listed` slots may be cut. After cutting::add.
 bool haveLists(const StepProgram& program, std::uint32_t listed);

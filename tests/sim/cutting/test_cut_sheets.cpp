@@ -219,6 +219,11 @@ TEST(CutSheet, IsRefusedForOtherSolversAndTearingForWhatIsNoSheet) {
     };
     Scene scene = sheet(materials[3]);
     EXPECT_EQ(complaint(scene), "none");
+    Scene sewn = scene; // to a particle beside it: no mask has that link
+    sewn.particles.push_back({.position = {9, 9, 9}});
+    sewn.distances.push_back(
+        {sewn.grids[0].firstParticle, static_cast<std::uint32_t>(sewn.particles.size() - 1), 1});
+    EXPECT_NE(complaint(sewn).find("leads out of it"), std::string::npos) << complaint(sewn);
     scene.dampingTime = 0;
     EXPECT_NE(complaint(scene, {.solver = Solver::gaussSeidel}).find("may be cut, which solver"),
               std::string::npos);
