@@ -8,6 +8,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -18,10 +19,15 @@ namespace {
 static_assert(sizeof(ImDrawVert) == sizeof(PanelVertex));
 static_assert(sizeof(ImDrawIdx) == 2);
 
-constexpr VkShaderStageFlags drawingStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+constexpr VkDescriptorSetLayoutBinding atlasBinding{.binding = 0,
+                                                    .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                                    .descriptorCount = 1,
+                                                    .stageFlags = VK_SHADER_STAGE_FRAGMENT_BIT};
 
-bool encodesSrgb(VkFormat format) {
-    return format == VK_FORMAT_B8G8R8A8_SRGB || format == VK_FORMAT_R8G8B8A8_SRGB;
+// Whether the picture encodes what is written, as sRGB (panel.frag).
+std::array<vk::SpecialisationConstant, 1> srgbConstant(VkFormat format) {
+    const bool encodes = format == VK_FORMAT_B8G8R8A8_SRGB || format == VK_FORMAT_R8G8B8A8_SRGB;
+    return {vk::SpecialisationConstant{0, encodes ? 1u : 0u}};
 }
 
 // At least `bytes` long; a new one has room for half as much again.
@@ -39,73 +45,17 @@ void grow(std::optional<vk::Buffer>& buffer, const vk::Device& device, const cha
 
 PanelPainter::PanelPainter(const vk::Device& device, VkFormat format, VkImageLayout finalLayout,
                            std::uint32_t slots)
-    : device_(device), pass_(RenderPass::over(device, format, finalLayout)), slots_(slots) {
-    try {
-        createLayouts();
-        createSet();
-        const std::array constants{vk::SpecialisationConstant{0, encodesSrgb(format) ? 1u : 0u}};
-        pipeline_.emplace(device, PipelineRequest{.name = "panels",
-                                                  .vertex = &shaders::panelVert,
-                                                  .fragment = &shaders::panelFrag,
-                                                  .layout = layout_,
-                                                  .pass = pass_.handle(),
-                                                  .input = PipelineRequest::Input::panels,
-                                                  .isBlended = true,
-                                                  .constants = constants});
-    } catch (...) {
-        release();
-        throw;
-    }
-}
-
-PanelPainter::~PanelPainter() {
-    release();
-}
-
-void PanelPainter::release() noexcept {
-    const vk::DeviceFunctions& functions = device_.functions();
-    functions.vkDestroyDescriptorPool(device_.handle(), pool_, nullptr);
-    functions.vkDestroyPipelineLayout(device_.handle(), layout_, nullptr);
-    functions.vkDestroyDescriptorSetLayout(device_.handle(), setLayout_, nullptr);
-}
-
-void PanelPainter::createLayouts() {
-    const VkDescriptorSetLayoutBinding binding{.binding = 0,
-                                               .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                               .descriptorCount = 1,
-                                               .stageFlags = VK_SHADER_STAGE_FRAGMENT_BIT};
-    const VkDescriptorSetLayoutCreateInfo setInfo{.sType =
-                                                      VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-                                                  .bindingCount = 1,
-                                                  .pBindings = &binding};
-    vk::check(
-        device_.functions().vkCreateDescriptorSetLayout(device_.handle(), &setInfo, nullptr, &setLayout_),
-        "vkCreateDescriptorSetLayout", "panels");
-    const VkPushConstantRange push{drawingStages, 0, sizeof(layout::PanelPush)};
-    const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-                                          .setLayoutCount = 1,
-                                          .pSetLayouts = &setLayout_,
-                                          .pushConstantRangeCount = 1,
-                                          .pPushConstantRanges = &push};
-    vk::check(device_.functions().vkCreatePipelineLayout(device_.handle(), &info, nullptr, &layout_),
-              "vkCreatePipelineLayout", "panels");
-}
-
-void PanelPainter::createSet() {
-    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1};
-    const VkDescriptorPoolCreateInfo poolInfo{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-                                              .maxSets = 1,
-                                              .poolSizeCount = 1,
-                                              .pPoolSizes = &size};
-    vk::check(device_.functions().vkCreateDescriptorPool(device_.handle(), &poolInfo, nullptr, &pool_),
-              "vkCreateDescriptorPool", "panels");
-    const VkDescriptorSetAllocateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-                                           .descriptorPool = pool_,
-                                           .descriptorSetCount = 1,
-                                           .pSetLayouts = &setLayout_};
-    vk::check(device_.functions().vkAllocateDescriptorSets(device_.handle(), &info, &set_),
-              "vkAllocateDescriptorSets", "panels");
-}
+    : device_(device), pass_(RenderPass::over(device, format, finalLayout)),
+      set_(device, "panels", std::span(&atlasBinding, 1), sizeof(layout::PanelPush), 1),
+      pipeline_(device, {.name = "panels",
+                         .vertex = &shaders::panelVert,
+                         .fragment = &shaders::panelFrag,
+                         .layout = set_.handle(),
+                         .pass = pass_.handle(),
+                         .input = PipelineRequest::Input::panels,
+                         .isBlended = true,
+                         .constants = srgbConstant(format)}),
+      slots_(slots) {}
 
 void PanelPainter::setAtlas(const GlyphAtlas& atlas) {
     atlasSize_ = {atlas.width, atlas.height};
@@ -118,7 +68,7 @@ void PanelPainter::setAtlas(const GlyphAtlas& atlas) {
     const vk::BufferView view = atlas_->view();
     const VkDescriptorBufferInfo buffer{view.buffer, view.offset, view.size};
     const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                     .dstSet = set_,
+                                     .dstSet = set_.set(0),
                                      .descriptorCount = 1,
                                      .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                      .pBufferInfo = &buffer};
@@ -167,12 +117,11 @@ void PanelPainter::bind(VkCommandBuffer commands, const Slot& slot) const noexce
         .scale = {2 / static_cast<float>(extent_.width), 2 / static_cast<float>(extent_.height)},
         .atlas = {static_cast<float>(atlasSize_.width), static_cast<float>(atlasSize_.height)},
         .full = {full_.x(), full_.y()}};
-    functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_->handle());
-    functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 1, &set_, 0,
-                                      nullptr);
+    functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.handle());
+    set_.bind(commands, 0);
     functions.vkCmdBindVertexBuffers(commands, 0, 1, &vertices.buffer, &vertices.offset);
     functions.vkCmdBindIndexBuffer(commands, indices.buffer, indices.offset, VK_INDEX_TYPE_UINT16);
-    functions.vkCmdPushConstants(commands, layout_, drawingStages, 0, sizeof(push), &push);
+    functions.vkCmdPushConstants(commands, set_.handle(), drawingStages, 0, sizeof(push), &push);
 }
 
 void PanelPainter::drawList(VkCommandBuffer commands, const ImDrawList& list, std::uint32_t firstVertex,

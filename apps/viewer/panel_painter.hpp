@@ -6,6 +6,7 @@
 #include "viewer/geometry.hpp"
 #include "viewer/pipeline.hpp"
 #include "viewer/render_pass.hpp"
+#include "viewer/set_layout.hpp"
 #include "vk/buffer.hpp"
 
 #include <optional>
@@ -29,9 +30,6 @@ public:
     /// Format and layout of the pictures as RenderPass::over(); `slots` of them may be recorded but not
     /// finished. Throws vk::Error.
     PanelPainter(const vk::Device& device, VkFormat format, VkImageLayout finalLayout, std::uint32_t slots);
-    PanelPainter(const PanelPainter&) = delete;
-    PanelPainter& operator=(const PanelPainter&) = delete;
-    ~PanelPainter();
 
     /// Glyphs from now on. Nothing that was recorded may be unfinished.
     void setAtlas(const GlyphAtlas& atlas);
@@ -49,9 +47,6 @@ private:
     struct Slot {
         std::optional<vk::Buffer> vertices, indices;
     };
-    void createLayouts();
-    void createSet();
-    void release() noexcept;
     void upload(Slot& slot, const ImDrawData& drawn);
     void begin(VkCommandBuffer commands, std::size_t picture) const noexcept;
     void bind(VkCommandBuffer commands, const Slot& slot) const noexcept;
@@ -60,11 +55,8 @@ private:
 
     const vk::Device& device_;
     RenderPass pass_;
-    VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
-    VkPipelineLayout layout_ = VK_NULL_HANDLE;
-    VkDescriptorPool pool_ = VK_NULL_HANDLE;
-    VkDescriptorSet set_ = VK_NULL_HANDLE;
-    std::optional<Pipeline> pipeline_;
+    SetLayout set_;
+    Pipeline pipeline_;
     std::optional<vk::Buffer> atlas_;
     VkExtent2D atlasSize_{}, extent_{};
     Vector2 full_ = Vector2::Zero();

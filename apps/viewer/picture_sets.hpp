@@ -3,6 +3,7 @@
 
 #include "viewer/frame.h"
 #include "viewer/light_maps.hpp"
+#include "viewer/set_layout.hpp"
 #include "vk/buffer.hpp"
 
 namespace sinew::viewer {
@@ -12,28 +13,19 @@ namespace sinew::viewer {
 class PictureSets {
 public:
     PictureSets(const vk::Device& device, const LightMaps& maps, std::uint32_t slots);
-    PictureSets(const PictureSets&) = delete;
-    PictureSets& operator=(const PictureSets&) = delete;
-    ~PictureSets();
 
     /// Of every picture pipeline: this set, and layout::SkinPush for fragment shaders.
-    VkPipelineLayout layout() const noexcept { return layout_; }
+    VkPipelineLayout layout() const noexcept { return sets_.handle(); }
 
     /// The picture that last used the slot must be finished.
     void write(std::uint32_t slot, const layout::FrameParams& params) const noexcept;
-    void bind(VkCommandBuffer commands, std::uint32_t slot) const noexcept;
+    void bind(VkCommandBuffer commands, std::uint32_t slot) const noexcept { sets_.bind(commands, slot); }
 
 private:
-    void createLayouts();
-    void createSets(const LightMaps& maps);
     void writeSet(std::uint32_t slot, const LightMaps& maps) const;
-    void release() noexcept;
 
     const vk::Device& device_;
-    VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
-    VkPipelineLayout layout_ = VK_NULL_HANDLE;
-    VkDescriptorPool pool_ = VK_NULL_HANDLE;
-    std::vector<VkDescriptorSet> sets_;
+    SetLayout sets_;
     std::vector<vk::Buffer> params_;
 };
 

@@ -13,7 +13,6 @@ namespace {
 constexpr VkPipelineStageFlags depthStages =
     VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
 constexpr VkPipelineStageFlags colorStage = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
-constexpr VkPipelineStageFlags readingStage = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
 constexpr VkAccessFlags depthAccess =
     VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
 constexpr VkAccessFlags colorAccess =
@@ -31,22 +30,40 @@ VkAttachmentDescription attachment(VkFormat format, VkSampleCountFlagBits sample
             .finalLayout = finalLayout};
 }
 
-// A map is drawn after the pictures that still read it, and read after it is drawn.
-std::array<VkSubpassDependency, 2> mapDependencies(VkPipelineStageFlags stages, VkAccessFlags access,
-                                                   VkAccessFlags writes) {
+// Who reads a picture in its final layout: a copy, or a presentation, which a semaphore holds back.
+struct Reader {
+    VkPipelineStageFlags stage;
+    VkAccessFlags access;
+};
+Reader readerOf(VkImageLayout layout) {
+    return layout == VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL
+               ? Reader{VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT}
+               : Reader{colorStage, 0};
+}
+
+// Of a pass that draws in `stages`: after whoever reads what it draws into, and before whoever reads it then.
+struct Drawing {
+    VkPipelineStageFlags stages;
+    VkAccessFlags access, writes;
+};
+std::array<VkSubpassDependency, 2> between(const Reader& reader, const Drawing& drawing) {
     return {VkSubpassDependency{.srcSubpass = VK_SUBPASS_EXTERNAL,
                                 .dstSubpass = 0,
-                                .srcStageMask = readingStage | stages,
-                                .dstStageMask = stages,
-                                .srcAccessMask = writes,
-                                .dstAccessMask = access},
+                                .srcStageMask = reader.stage | drawing.stages,
+                                .dstStageMask = drawing.stages,
+                                .srcAccessMask = drawing.writes,
+                                .dstAccessMask = drawing.access},
             VkSubpassDependency{.srcSubpass = 0,
                                 .dstSubpass = VK_SUBPASS_EXTERNAL,
-                                .srcStageMask = stages,
-                                .dstStageMask = readingStage,
-                                .srcAccessMask = writes,
-                                .dstAccessMask = VK_ACCESS_SHADER_READ_BIT}};
+                                .srcStageMask = drawing.stages,
+                                .dstStageMask = reader.stage,
+                                .srcAccessMask = drawing.writes,
+                                .dstAccessMask = reader.access}};
 }
+
+constexpr Drawing colors{colorStage, colorAccess, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT};
+constexpr Drawing depths{depthStages, depthAccess, VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
+constexpr Reader sampling{VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT};
 
 VkRenderPassCreateInfo passInfo(std::span<const VkAttachmentDescription> attachments,
                                 const VkSubpassDescription& subpass,
@@ -58,17 +75,6 @@ VkRenderPassCreateInfo passInfo(std::span<const VkAttachmentDescription> attachm
             .pSubpasses = &subpass,
             .dependencyCount = static_cast<std::uint32_t>(dependencies.size()),
             .pDependencies = dependencies.data()};
-}
-
-// Who reads a picture in its final layout: a copy, or a presentation, which a semaphore holds back.
-struct Reader {
-    VkPipelineStageFlags stage;
-    VkAccessFlags access;
-};
-Reader readerOf(VkImageLayout layout) {
-    return layout == VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL
-               ? Reader{VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT}
-               : Reader{colorStage, 0};
 }
 
 constexpr VkAttachmentReference colorReference{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
@@ -88,8 +94,7 @@ RenderPass RenderPass::depthMap(const vk::Device& device, VkFormat depth, const 
     const VkAttachmentReference reference{0, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
     const VkSubpassDescription subpass{.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
                                        .pDepthStencilAttachment = &reference};
-    const auto dependencies =
-        mapDependencies(depthStages, depthAccess, VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT);
+    const auto dependencies = between(sampling, depths);
     return RenderPass(device, passInfo(attachments, subpass, dependencies), name);
 }
 
@@ -99,7 +104,7 @@ RenderPass RenderPass::colorMap(const vk::Device& device, VkFormat color, const 
     const VkSubpassDescription subpass{.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
                                        .colorAttachmentCount = 1,
                                        .pColorAttachments = &colorReference};
-    const auto dependencies = mapDependencies(colorStage, colorAccess, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT);
+    const auto dependencies = between(sampling, colors);
     return RenderPass(device, passInfo(attachments, subpass, dependencies), name);
 }
 
@@ -147,19 +152,7 @@ RenderPass RenderPass::over(const vk::Device& device, VkFormat color, VkImageLay
     const VkSubpassDescription subpass{.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
                                        .colorAttachmentCount = 1,
                                        .pColorAttachments = &colorReference};
-    const auto [copyStage, copyAccess] = readerOf(finalLayout);
-    const std::array dependencies{VkSubpassDependency{.srcSubpass = VK_SUBPASS_EXTERNAL,
-                                                      .dstSubpass = 0,
-                                                      .srcStageMask = colorStage | copyStage,
-                                                      .dstStageMask = colorStage,
-                                                      .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
-                                                      .dstAccessMask = colorAccess},
-                                  VkSubpassDependency{.srcSubpass = 0,
-                                                      .dstSubpass = VK_SUBPASS_EXTERNAL,
-                                                      .srcStageMask = colorStage,
-                                                      .dstStageMask = copyStage,
-                                                      .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
-                                                      .dstAccessMask = copyAccess}};
+    const auto dependencies = between(readerOf(finalLayout), colors);
     return RenderPass(device, passInfo(attachments, subpass, dependencies), "over");
 }
 

@@ -194,25 +194,18 @@ struct Simulation::State {
         if (countsRing) commands.copy(executor.view(program.cutting.counts), slotOf(*countsRing, frame));
     }
 
-    // Copies buffers out, one behind the other.
-    void save(vk::Commands& commands, const std::vector<BufferId>& buffers,
-              vk::BufferView to) const noexcept {
+    // Copies buffers out to where they stand one behind the other, or back from there.
+    enum class Way { out, back };
+    void copy(vk::Commands& commands, const std::vector<BufferId>& buffers, vk::BufferView copies,
+              Way way) const noexcept {
         for (const BufferId buffer : buffers) {
             const vk::BufferView own = executor.view(buffer);
-            to.size = own.size;
-            commands.copy(own, to);
-            to.offset += own.size;
-        }
-    }
-
-    // What save() has copied.
-    void load(vk::Commands& commands, const std::vector<BufferId>& buffers,
-              vk::BufferView from) const noexcept {
-        for (const BufferId buffer : buffers) {
-            const vk::BufferView own = executor.view(buffer);
-            from.size = own.size;
-            commands.copy(from, own);
-            from.offset += own.size;
+            copies.size = own.size;
+            if (way == Way::out)
+                commands.copy(own, copies);
+            else
+                commands.copy(copies, own);
+            copies.offset += own.size;
         }
     }
 };
@@ -296,7 +289,7 @@ std::uint64_t Simulation::stateSize() const noexcept {
 SavedState Simulation::recordSaveState(VkCommandBuffer buffer, const vk::BufferView& to) const {
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
-    state_->save(commands, state_->written, to);
+    state_->copy(commands, state_->written, to, State::Way::out);
     commands.endStep();
     return {state_->previousH, state_->colliders.time(), state_->anchors.places(), state_->hasNewTopology};
 }
@@ -305,7 +298,7 @@ void Simulation::recordLoadState(VkCommandBuffer buffer, const vk::BufferView& f
                                  const SavedState& saved) noexcept {
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
-    state_->load(commands, state_->written, from);
+    state_->copy(commands, state_->written, from, State::Way::back);
     commands.endStep();
     state_->previousH = saved.h;
     state_->settledEnd = {saved.h, saved.colliderTime};
@@ -325,14 +318,14 @@ std::uint64_t Simulation::topologySize() const noexcept {
 void Simulation::recordSaveTopology(VkCommandBuffer buffer, const vk::BufferView& to) const noexcept {
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
-    state_->save(commands, state_->program.cutting.topology, to);
+    state_->copy(commands, state_->program.cutting.topology, to, State::Way::out);
     commands.endStep();
 }
 
 void Simulation::recordLoadTopology(VkCommandBuffer buffer, const vk::BufferView& from) noexcept {
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
-    state_->load(commands, state_->program.cutting.topology, from);
+    state_->copy(commands, state_->program.cutting.topology, from, State::Way::back);
     for (const BufferId seen : state_->program.cutting.contactsSeen)
         commands.fill(view(seen), farAwayBits); // contacts are listed anew
     commands.endStep();

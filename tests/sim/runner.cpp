@@ -96,6 +96,20 @@ void Runner::load(const Saved& saved) {
     queue().wait(queue().submit(commands));
 }
 
+vk::Buffer Runner::saveTopology() const {
+    vk::Buffer saved(device(), {.name = "topology", .count = simulation_.topologySize() / 4, .stride = 4});
+    const VkCommandBuffer commands = queue().begin();
+    simulation_.recordSaveTopology(commands, saved.view());
+    queue().wait(queue().submit(commands));
+    return saved;
+}
+
+void Runner::loadTopology(const vk::Buffer& saved) {
+    const VkCommandBuffer commands = queue().begin();
+    simulation_.recordLoadTopology(commands, saved.view());
+    queue().wait(queue().submit(commands));
+}
+
 void Runner::writePosition(std::uint32_t particle, float x) {
     vk::BufferView target;
     const auto& buffers = simulation_.program().buffers;

@@ -32,6 +32,9 @@ public:
     };
     Saved save();
     void load(const Saved& saved);
+    /// What is cut, to be put back into the state of another time.
+    vk::Buffer saveTopology() const;
+    void loadTopology(const vk::Buffer& saved);
     /// Overwrites x of a particle in the solver's own state, as a fault would.
     void writePosition(std::uint32_t particle, float x);
 

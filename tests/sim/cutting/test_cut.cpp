@@ -349,18 +349,11 @@ TEST(Cut, OfAStepThatIsUndoneIsUndoneWithIt) {
 TEST(Topology, CanBeSavedRestoredAndReset) {
     CutBody body(cube(5, {.poissonRatio = 0.4f}));
     const auto uncut = body.words();
-    Simulation& simulation = body.runner().simulation();
     body.cut(sweepOf(betweenLayers(body, 1, 0.5, Vector3d::UnitX()), 1));
     const auto words = body.words(), pieces = body.pieces(), cells = body.wholeCells();
-    vk::Buffer copy(test::device(), {.name = "copy", .count = simulation.topologySize() / 4, .stride = 4});
-    const auto submit = [](const auto& record) {
-        const VkCommandBuffer commands = test::queue().begin();
-        record(commands);
-        test::queue().wait(test::queue().submit(commands));
-    };
-    submit([&](VkCommandBuffer commands) { simulation.recordSaveTopology(commands, copy.view()); });
+    const vk::Buffer topology = body.runner().saveTopology();
     EXPECT_EQ(body.cut(sweepOf(betweenLayers(body, 3, 0.5, Vector3d::UnitY()), 1)).pieces, 4u);
-    submit([&](VkCommandBuffer commands) { simulation.recordLoadTopology(commands, copy.view()); });
+    body.runner().loadTopology(topology);
     EXPECT_EQ(body.words(), words);
     EXPECT_EQ(body.pieces(), pieces);
     EXPECT_EQ(body.wholeCells(), cells);

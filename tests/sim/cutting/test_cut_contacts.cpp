@@ -232,16 +232,9 @@ TEST(Cut, LetsAHandHoldOnePieceAlone) {
 
 TEST(Topology, ThatIsLoadedWakesAll) {
     test::Runner runner(restingCubes(), sleeping);
-    Simulation& simulation = runner.simulation();
-    vk::Buffer copy(test::device(), {.name = "copy", .count = simulation.topologySize() / 4, .stride = 4});
-    const auto submit = [](const auto& record) {
-        const VkCommandBuffer commands = test::queue().begin();
-        record(commands);
-        test::queue().wait(test::queue().submit(commands));
-    };
-    submit([&](VkCommandBuffer commands) { simulation.recordSaveTopology(commands, copy.view()); });
+    const vk::Buffer topology = runner.saveTopology();
     ASSERT_EQ(runner.run(40).sleeping, 2 * ofCube);
-    submit([&](VkCommandBuffer commands) { simulation.recordLoadTopology(commands, copy.view()); });
+    runner.loadTopology(topology);
     EXPECT_EQ(runner.run(1).sleeping, 0u);
     EXPECT_EQ(runner.run(40).sleeping, 2 * ofCube);
 }

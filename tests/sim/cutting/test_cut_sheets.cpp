@@ -188,17 +188,10 @@ TEST(CutSheet, ThatIsListedEndsInTheSameBitsInReversedOrder) {
 
 TEST(CutSheet, ThatIsListedComesBackWithAnUndoneStepAndWithTheTopology) {
     CutBody body(sheet(materials[3]));
-    Simulation& simulation = body.runner().simulation();
     const std::string links = "distance.links", bends = "bends";
     body.cut(sweepOf(upright(body, 0.3, 0.2, 0.5), 2));
     const auto cutLinks = listOf<std::uint32_t>(body, links), cutBends = listOf<std::uint32_t>(body, bends);
-    vk::Buffer copy(test::device(), {.name = "copy", .count = simulation.topologySize() / 4, .stride = 4});
-    const auto submit = [](const auto& record) {
-        const VkCommandBuffer commands = test::queue().begin();
-        record(commands);
-        test::queue().wait(test::queue().submit(commands));
-    };
-    submit([&](VkCommandBuffer commands) { simulation.recordSaveTopology(commands, copy.view()); });
+    const vk::Buffer topology = body.runner().saveTopology();
     const auto second = sweepOf(upright(body, 0.1, -0.7, -0.9), 2);
     body.runner().writePosition(3, std::numeric_limits<float>::quiet_NaN());
     EXPECT_GT(body.cut(second).nonFinite, 0u);
@@ -207,7 +200,7 @@ TEST(CutSheet, ThatIsListedComesBackWithAnUndoneStepAndWithTheTopology) {
     EXPECT_EQ(body.cut(second).pieces, 4u);
     EXPECT_NE(listOf<std::uint32_t>(body, links), cutLinks);
     EXPECT_NE(listOf<std::uint32_t>(body, bends), cutBends);
-    submit([&](VkCommandBuffer commands) { simulation.recordLoadTopology(commands, copy.view()); });
+    body.runner().loadTopology(topology);
     EXPECT_EQ(listOf<std::uint32_t>(body, links), cutLinks);
     EXPECT_EQ(listOf<std::uint32_t>(body, bends), cutBends);
 }

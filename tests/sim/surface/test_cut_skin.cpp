@@ -240,19 +240,12 @@ TEST(CutSkin, GoesWithItsPieces) {
 
 TEST(CutSkin, OfAStepThatIsUndoneIsUndoneWithItAndComesBackWithTheTopology) {
     CutBody body(sceneOf(sphere));
-    Simulation& simulation = body.runner().simulation();
     body.cut(sweepOf({Vector3d::Zero(), Vector3d(0.2, 1, 0.1).normalized()}, 1, 2));
-    vk::Buffer copy(test::device(), {.name = "copy", .count = simulation.topologySize() / 4, .stride = 4});
-    const auto submit = [](const auto& record) {
-        const VkCommandBuffer commands = test::queue().begin();
-        record(commands);
-        test::queue().wait(test::queue().submit(commands));
-    };
-    submit([&](VkCommandBuffer commands) { simulation.recordSaveTopology(commands, copy.view()); });
+    const vk::Buffer topology = body.runner().saveTopology();
     const auto second = sweepOf({Vector3d::Zero(), Vector3d(1, 0.2, -0.3).normalized()}, 1, 2);
     EXPECT_EQ(body.cut(second).pieces, 4u);
     EXPECT_EQ(ClosedSurface(body).volumes(cellOf(body)).size(), 4u);
-    submit([&](VkCommandBuffer commands) { simulation.recordLoadTopology(commands, copy.view()); });
+    body.runner().loadTopology(topology);
     EXPECT_EQ(ClosedSurface(body).volumes(cellOf(body)).size(), 2u);
     const std::uint64_t hash = ClosedSurface(body).hash();
     body.runner().writePosition(3, std::numeric_limits<float>::quiet_NaN());

@@ -239,19 +239,12 @@ TEST(CutSurface, OfAStepThatIsUndoneIsUndoneWithIt) {
 
 TEST(CutSurface, ComesBackWithTheTopology) {
     CutBody body(cube(5));
-    Simulation& simulation = body.runner().simulation();
     body.cut(sweepOf({middle(body), Vector3d(0.2, 1, 0.1).normalized()}, 1, 2));
     const std::size_t triangles = ClosedSurface(body).triangles().size();
-    vk::Buffer copy(test::device(), {.name = "copy", .count = simulation.topologySize() / 4, .stride = 4});
-    const auto submit = [](const auto& record) {
-        const VkCommandBuffer commands = test::queue().begin();
-        record(commands);
-        test::queue().wait(test::queue().submit(commands));
-    };
-    submit([&](VkCommandBuffer commands) { simulation.recordSaveTopology(commands, copy.view()); });
+    const vk::Buffer topology = body.runner().saveTopology();
     body.cut(sweepOf({middle(body), Vector3d(1, 0.2, -0.3).normalized()}, 1, 2));
     EXPECT_GT(ClosedSurface(body).triangles().size(), triangles);
-    submit([&](VkCommandBuffer commands) { simulation.recordLoadTopology(commands, copy.view()); });
+    body.runner().loadTopology(topology);
     const ClosedSurface restored(body);
     EXPECT_EQ(restored.triangles().size(), triangles);
     EXPECT_EQ(expectClosed(restored, 125 * cell, "restored"), 2u);

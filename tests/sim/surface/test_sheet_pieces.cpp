@@ -270,24 +270,17 @@ TEST(SheetPieces, HaveTheSameBitsInReversedOrder) {
 
 TEST(SheetPieces, OfAStepThatIsUndoneAreUndoneWithItAndComeBackWithTheTopology) {
     CutBody body(sheet());
-    Simulation& simulation = body.runner().simulation();
     body.cut(sweepOf(upright(body, 0.3, 0.2, 0.5), 2));
     const Drawn before = drawn(body);
     const auto saved = body.runner().save();
-    vk::Buffer copy(test::device(), {.name = "copy", .count = simulation.topologySize() / 4, .stride = 4});
-    const auto submit = [](const auto& record) {
-        const VkCommandBuffer commands = test::queue().begin();
-        record(commands);
-        test::queue().wait(test::queue().submit(commands));
-    };
-    submit([&](VkCommandBuffer commands) { simulation.recordSaveTopology(commands, copy.view()); });
+    const vk::Buffer topology = body.runner().saveTopology();
     const Sweep second = sweepOf(upright(body, 0.1, -0.7, -0.9), 2);
     body.runner().writePosition(3, std::numeric_limits<float>::quiet_NaN());
     EXPECT_GT(body.cut(second).nonFinite, 0u);
     EXPECT_EQ(drawn(body).indices, before.indices);
     EXPECT_EQ(body.cut(second).pieces, 4u);
     EXPECT_NE(drawn(body).indices, before.indices);
-    submit([&](VkCommandBuffer commands) { simulation.recordLoadTopology(commands, copy.view()); });
+    body.runner().loadTopology(topology);
     EXPECT_EQ(drawn(body).indices, before.indices);
     EXPECT_EQ(body.cut(second).pieces, 4u);
     const Drawn after = drawn(body);
@@ -366,19 +359,12 @@ TEST(CutFaces, ComeBackWithTheTopologyAndCarryTheBall) {
     const Scene scene = sheetUnderABall(0.02f, 0.1f);
     const std::size_t ball = scene.particles.size() - 1;
     CutBody body(scene, {.substeps = 8});
-    Simulation& simulation = body.runner().simulation();
     body.runner().run(15);
-    vk::Buffer copy(test::device(), {.name = "copy", .count = simulation.topologySize() / 4, .stride = 4});
-    const auto submit = [](const auto& record) {
-        const VkCommandBuffer commands = test::queue().begin();
-        record(commands);
-        test::queue().wait(test::queue().submit(commands));
-    };
-    submit([&](VkCommandBuffer commands) { simulation.recordSaveTopology(commands, copy.view()); });
+    const vk::Buffer topology = body.runner().saveTopology();
     const Sweep slot{.from = {{-0.05f, -1, 0.452f}, {-0.05f, 1, 0.452f}},
                      .to = {{0.85f, -1, 0.452f}, {0.85f, 1, 0.452f}}};
     body.cut(slot);
-    submit([&](VkCommandBuffer commands) { simulation.recordLoadTopology(commands, copy.view()); });
+    body.runner().loadTopology(topology);
     body.runner().run(15);
     EXPECT_GT(body.runner().positions()[ball].y(), -0.06);
 }
