@@ -3,7 +3,7 @@ file(READ ${SPIRV} bytes HEX)
 string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1," words ${bytes}) # SPIR-V words are little endian here
 string(REGEX REPLACE "(0x[^,]*,0x[^,]*,0x[^,]*,0x[^,]*,0x[^,]*,0x[^,]*,0x[^,]*,0x[^,]*,)" "\\1\n    " words ${words})
 file(WRITE ${OUTPUT}
-"#include \"vk/spirv.hpp\"
+"#include \"vk/shader_code.hpp\"
 
 namespace ${NAMESPACE} {
 namespace vk = ::sinew::vk;

@@ -91,7 +91,7 @@ function(add_kernels target)
 "// Generated from the shader files by cmake/Shaders.cmake.
 #pragma once
 
-#include \"vk/spirv.hpp\"
+#include \"vk/shader_code.hpp\"
 
 namespace @ARG_NAMESPACE@ {
 namespace vk = ::sinew::vk;

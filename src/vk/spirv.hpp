@@ -2,20 +2,15 @@
 // size. Pure: includes no Vulkan header, so that sim/program can plan barriers from it without a device.
 #pragma once
 
+#include "vk/shader_code.hpp"
+
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 namespace sinew::vk {
-
-/// A compiled kernel as the build embeds it (cmake/Shaders.cmake). Static storage.
-struct ShaderCode {
-    const char* name;                     ///< file stem, such as "solve_distance"
-    std::span<const std::uint32_t> words; ///< SPIR-V, validated at build time
-};
 
 enum class Access : std::uint8_t { read = 1, write = 2, readWrite = 3 };
 

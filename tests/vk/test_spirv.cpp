@@ -1,5 +1,6 @@
 // The reader of kernel interfaces: what it reads, what it refuses, and that spirv-cross reads the same.
 #include "test_kernels.hpp"
+#include "vk/spirv.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,7 @@
-// ms of processor time that building the grid, finding candidates and sorting them cost, for particles on a
-// lattice and in random places. Everybody moves farther than the margin from update to update, so that each
-// makes its lists anew. With LP_NUM_THREADS=0 a software device computes on one thread and steadily.
+// ms by the clock and of processor time that building the grid, finding candidates and sorting them cost, for
+// particles on a lattice and in random places. Everybody moves farther than the margin from update to update,
+// so that each makes its lists anew. With LP_NUM_THREADS=0 a software device computes on one thread and
+// steadily.
 #include "layout.h"
 #include "sim/collision/contact_lists.hpp"
 #include "sim/gpu_executor.hpp"
@@ -8,6 +9,7 @@
 #include "vk/queue.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -36,7 +38,16 @@ std::vector<layout::vec4> cloud(std::uint32_t side, bool isRandom, float shift) 
 
 enum class Part { build, find, all };
 
-double shortest(const vk::Device& device, vk::Queue& queue, std::uint32_t side, bool isRandom, Part part) {
+// [ms]
+struct Duration {
+    double clock = 1e9, processor = 1e9;
+};
+
+Duration operator-(Duration a, Duration b) {
+    return {a.clock - b.clock, a.processor - b.processor};
+}
+
+Duration shortest(const vk::Device& device, vk::Queue& queue, std::uint32_t side, bool isRandom, Part part) {
     ProgramBuilder builder(false);
     builder.program().status = builder.scratch<layout::StatusWords>("status", 1);
     constexpr float radius = 0.4f * spacing, margin = 0.2f * spacing; // cells as large as the spacing
@@ -64,13 +75,18 @@ double shortest(const vk::Device& device, vk::Queue& queue, std::uint32_t side, 
         vk::Commands commands(device, buffer);
         record(commands);
         const std::clock_t start = std::clock();
+        const auto time = std::chrono::steady_clock::now();
         queue.wait(queue.submit(buffer));
-        return 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+        return Duration{
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - time).count(),
+            1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC};
     };
     submit([&](vk::Commands& commands) { executor.upload(commands); });
-    double best = 1e9;
-    for (int run = 0; run < 12; ++run)
-        best = std::min(best, submit([&](vk::Commands& c) { executor.step(c, {}, nullptr); }) / 2);
+    Duration best;
+    for (int run = 0; run < 12; ++run) {
+        const Duration both = submit([&](vk::Commands& c) { executor.step(c, {}, nullptr); });
+        best = {std::min(best.clock, both.clock / 2), std::min(best.processor, both.processor / 2)};
+    }
     return best;
 }
 
@@ -82,11 +98,18 @@ int main() {
     vk::Queue queue(device);
     for (const std::uint32_t side : {10u, 22u, 47u})
         for (const bool isRandom : {false, true}) {
-            const double build = shortest(device, queue, side, isRandom, Part::build);
-            const double find = shortest(device, queue, side, isRandom, Part::find);
-            const double all = shortest(device, queue, side, isRandom, Part::all);
-            std::printf("%7u particles, %s: grid %6.3f, find %6.3f, sort %6.3f, together %6.3f ms\n",
-                        side * side * side, isRandom ? "random " : "lattice", build, find - build, all - find,
-                        all);
+            const Duration build = shortest(device, queue, side, isRandom, Part::build);
+            const Duration find = shortest(device, queue, side, isRandom, Part::find);
+            const Duration all = shortest(device, queue, side, isRandom, Part::all);
+            std::printf("%7u particles, %s [ms, of processors]:", side * side * side,
+                        isRandom ? "random " : "lattice");
+            const auto print = [](const char* what, Duration d) {
+                std::printf(" %s %6.3f (%6.3f)", what, d.clock, d.processor);
+            };
+            print("grid", build);
+            print("find", find - build);
+            print("sort", all - find);
+            print("together", all);
+            std::printf("\n");
         }
 }

@@ -1,0 +1,23 @@
+# Headers of libraries, parsed once for each target in place of once for each source file. Ours are not among them: a
+# source file still includes what it uses, which a build with SINEW_PRECOMPILE off proves.
+option(SINEW_PRECOMPILE "Precompile the headers of libraries" ON)
+
+# What GCC 12 says of the inside of std::string (its bugs 105329, 105651) once it no longer counts as a system header.
+set(SINEW_PRECOMPILED_OPTIONS $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-restrict;-Wno-stringop-overflow>)
+
+# sinew_precompile(<target> <header>...)
+function(sinew_precompile target)
+    if(SINEW_PRECOMPILE)
+        list(TRANSFORM ARGN REPLACE "(.+)" "<\\1>")
+        target_precompile_headers(${target} PRIVATE ${ARGN})
+        target_compile_options(${target} PRIVATE ${SINEW_PRECOMPILED_OPTIONS})
+    endif()
+endfunction()
+
+# sinew_precompile_as(<target> <other target, of the same flags>)
+function(sinew_precompile_as target other)
+    if(SINEW_PRECOMPILE)
+        target_precompile_headers(${target} REUSE_FROM ${other})
+        target_compile_options(${target} PRIVATE ${SINEW_PRECOMPILED_OPTIONS})
+    endif()
+endfunction()
