@@ -3,11 +3,39 @@
 // theirs, or has no stiffness, dies unless its ends hang together by stiff edges within its own square or cell. The rule clears
 // no bit that it asks for, so it may read while others clear.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "cut.glsl"
 #include "link_masks.glsl"
 
 layout(std430, binding = 0) buffer Links { uint links[]; };
 layout(std430, binding = 1) readonly buffer Dirty { uint dirty[]; };
+
+const int across[3] = int[3](14, 18, 20); // the links across squares that are no edges: (-1,1,0) (0,-1,1) (-1,0,1)
+
+uint stiffLinksOf(uint slot) { return links[slot] & push.stiffLinks; }
+
+bool has(uint word, ivec3 direction) { return isAlive(word, direction.x, direction.y, direction.z); }
+
+// The link between two corners a and b of a square, from whose lowest corner `first` and `second` lead to them: around the lowest
+// or the highest corner, or over the diagonal between those, which is an edge.
+bool areJoinedAcross(uint low, uint a, uint b, ivec3 first, ivec3 second) {
+    const bool toA = has(low, first), toB = has(low, second), fromA = has(a, second), fromB = has(b, first);
+    return toA && toB || fromA && fromB || has(low, first + second) && (toA && fromB || toB && fromA);
+}
+
+// Of the three links across squares of node i, whose links are `owned`: those whose ends have come apart.
+uint partedAcross(uint i, uint owned) {
+    const uint own = stiffLinksOf(i);
+    uint parted = 0u;
+    [[unroll]] for (int k = 0; k < 3; ++k) {
+        const ivec3 direction = directionOf(across[k]), back = max(-direction, ivec3(0)), ahead = max(direction, ivec3(0));
+        const bool isLink = (owned >> across[k] & 1u) != 0u; // else there may be no such square
+        const uint low = stiffLinksOf(i - uint(isLink ? offsetOf(back) : 0));
+        const uint end = stiffLinksOf(uint(int(i) + (isLink ? offsetOf(direction) : 0)));
+        if (isLink && !areJoinedAcross(low, own, end, back, ahead)) parted |= 1u << across[k];
+    }
+    return parted;
+}
 
 // Corner c of the box between the ends of a link: along axis k at the higher end where bit k is set. Flat boxes have no axis there.
 bool areJoined(uint i, int bit) {
@@ -36,11 +64,15 @@ void main() {
     const uint i = push.first + item;
     if (dirty[i >> 5] == 0u) return;
     const uint owned = links[i] & OWNED_MASK;
-    uint cut = 0u;
-    for (int bit = FIRST_OWNED; bit < FIRST_OWNED + OWNED_LINKS; ++bit) {
-        const bool isEdge = kuhnIndexOf(bit) >= 0 && (push.stiffLinks >> bit & 1u) != 0u;
-        if (isEdge || (owned >> bit & 1u) == 0u || areJoined(i, bit)) continue;
-        cut |= 1u << bit;
+    uint cut = partedAcross(i, owned), others = owned;
+    [[unroll]] for (int bit = FIRST_OWNED; bit < FIRST_OWNED + OWNED_LINKS; ++bit) {
+        const bool isAcross = bit == across[0] || bit == across[1] || bit == across[2];
+        if (isAcross || kuhnIndexOf(bit) >= 0 && (push.stiffLinks >> bit & 1u) != 0u) others &= ~(1u << bit);
+    }
+    for (; others != 0u; others &= others - 1u)
+        if (!areJoined(i, findLSB(others))) cut |= others & -others;
+    for (uint rest = cut; rest != 0u; rest &= rest - 1u) {
+        const int bit = findLSB(rest);
         atomicAnd(links[uint(int(i) + offsetOf(directionOf(bit)))], ~(1u << 25 - bit));
     }
     if (cut != 0u) atomicAnd(links[i], ~cut);
