@@ -2,6 +2,7 @@
 // Connected components, first half of a round: where the ends of a link have two labels, the higher hangs on the lower, on the
 // lowest where there are several. Labels only become smaller: all end with the lowest slot of their piece, whatever the order.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "cut.glsl"
 #include "link_masks.glsl"
 
@@ -12,13 +13,16 @@ layout(std430, binding = 2) buffer Work { CutWork work; };
 void main() {
     const uint item = itemIndex(push.count);
     if (item >= push.count) return;
-    const uint i = push.first + item, own = labels[i];
-    bool isNew = false;
-    for (uint owned = links[i] & OWNED_MASK; owned != 0u; owned &= owned - 1u) {
-        const uint other = labels[uint(int(i) + offsetOf(directionOf(findLSB(owned))))];
-        if (other == own) continue;
-        atomicMin(labels[max(own, other)], min(own, other));
-        isNew = true;
+    const uint i = push.first + item, own = labels[i], owned = links[i] & OWNED_MASK;
+    uint others[OWNED_LINKS];
+    uint differ = 0u;
+    [[unroll]] for (int k = 0; k < OWNED_LINKS; ++k) {
+        const bool isLink = (owned >> FIRST_OWNED + k & 1u) != 0u; // else there may be no such node
+        others[k] = labels[uint(int(i) + (isLink ? offsetOf(directionOf(FIRST_OWNED + k)) : 0))];
+        differ |= uint(others[k] != own) << k;
     }
-    if (isNew) work.changed = 1u;
+    if (differ == 0u) return;
+    [[unroll]] for (int k = 0; k < OWNED_LINKS; ++k)
+        if ((differ >> k & 1u) != 0u) atomicMin(labels[max(own, others[k])], min(own, others[k]));
+    work.changed = 1u;
 }

@@ -94,7 +94,9 @@ void addFindingPieces(ProgramBuilder& program, const Cut& cut, const ParticleBuf
     const CuttingBuffers& buffers = cut.buffers;
     const auto slots = [](const Run& run) { return run.push.count; };
     addPlan(program, cut, true);
-    addIndirect(program, cut, k::startPieces, 0, {cut.labels, cut.particles, buffers.pieceSizes}, slots);
+    addIndirect(program, cut, k::startPieces, 0,
+                {cut.labels, cut.particles, buffers.pieceSizes, buffers.links}, slots);
+    addIndirect(program, cut, k::jumpPieces, 0, {cut.labels}, slots);
     for (std::uint32_t round = 0; round < cut.rounds; ++round) {
         addIndirect(program, cut, k::hookPieces, 0, {buffers.links, cut.labels, cut.work}, slots);
         addIndirect(program, cut, k::jumpPieces, 0, {cut.labels}, slots);
