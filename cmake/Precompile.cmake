@@ -1,6 +1,6 @@
 # Headers of libraries, parsed once for each target in place of once for each source file. Ours are not among them: a
 # source file still includes what it uses, which a build with SINEW_PRECOMPILE off proves.
-option(SINEW_PRECOMPILE "Precompile the headers of libraries" ON)
+option(SINEW_PRECOMPILE "Precompile the headers of libraries" ${PROJECT_IS_TOP_LEVEL})
 
 # What GCC 12 says of the inside of std::string (its bugs 105329, 105651) once it no longer counts as a system header.
 set(SINEW_PRECOMPILED_OPTIONS $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-restrict;-Wno-stringop-overflow>)

@@ -41,7 +41,6 @@ TEST_F(SameState, OverRunsThreadsAndReversedOrder) {
         for (const char* solver : {"split", "jacobi", "gauss_seidel"}) {
             const std::string first = hash(scene, solver);
             EXPECT_EQ(hash(scene, solver), first) << scene << ", second run";
-            EXPECT_EQ(hash(scene, solver), first) << scene << ", third run";
             for (const char* threads : {"0", "1", "2"})
                 EXPECT_EQ(hash(scene, solver, {}, {{"LP_NUM_THREADS", threads}}), first)
                     << scene << ", threads " << threads;
