@@ -18,6 +18,11 @@ const uint beyondLast[6] = uint[6](4u, 2u, 5u, 0u, 3u, 1u);   // (k, i, j)
 const uint lastAxis[6] = uint[6](2u, 1u, 2u, 0u, 1u, 0u);
 const bool isEven[6] = bool[6](true, false, false, true, true, false); // whether its corners in order are right-handed
 
+// The four or six tetrahedra around the edge from a node in direction d, twice where four: c + 8 p, the node being corner c of the cell.
+const uint aroundEdge[42] = uint[42](0u, 8u, 18u, 36u, 30u, 46u, 16u, 24u, 1u, 44u, 13u, 37u, 0u, 16u, 36u, 44u, 0u, 16u, 32u, 40u, 9u, 26u, 3u,
+                                     19u, 8u, 32u, 18u, 26u, 8u, 32u, 24u, 40u, 1u, 9u, 24u, 40u, 0u, 8u, 16u, 24u, 32u, 40u);
+uint aroundOf(uint d, uint n) { return aroundEdge[6u * (d - 1u) + n]; }
+
 uvec4 cornersOf(uint p) { return uvec4(0u, secondCorner[p], thirdCorner[p], 7u); }
 
 // Of the words of the complex (COMPLEX_FACES): tetrahedra that a surface encloses, and prisms that stand on a face or an edge.

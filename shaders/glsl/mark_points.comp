@@ -32,19 +32,15 @@ void seePrisms(uint cell, uint p, uint a, uint b, inout bool isNeeded, inout boo
 void markEdge(uint i, uint d, inout uvec4 own) {
     const bool arePrismsNear = (complex[i] & COMPLEX_HAS_PRISMS) != 0u;
     bool isNeeded = hasThinPrisms(complex[i], d), isJoined = false;
-    [[dont_unroll]] for (uint low = 0u; low < 8u; ++low) {
-        const uint cell = i - slotOf(0u, low), high = low | d;
-        if ((low & d) != 0u) continue;
-        [[dont_unroll]] for (uint p = 0u; p < tetrahedra; ++p) {
-            const uvec4 corners = cornersOf(p), labels = labelsOf(partitionOf(partitions[cell], p));
-            const int a = bitCount(low), b = bitCount(high); // corners of a way have 0, 1, 2, 3 bits
-            if (corners[a] != low || corners[b] != high) continue;
-            if (hasTetrahedron(complex[cell], p)) {
-                if (labels[a] == labels[b]) isJoined = true;
-                else isNeeded = true;
-            }
-            if (arePrismsNear) seePrisms(cell, p, uint(a), uint(b), isNeeded, isJoined);
+    [[dont_unroll]] for (uint n = 0u; n < 6u; ++n) {
+        const uint around = aroundOf(d, n), low = around & 7u, p = around >> 3, cell = i - slotOf(0u, low);
+        const uint a = uint(bitCount(low)), b = uint(bitCount(low | d)); // corners of a way have 0, 1, 2, 3 bits
+        const uvec4 labels = labelsOf(partitionOf(partitions[cell], p));
+        if (hasTetrahedron(complex[cell], p)) {
+            if (labels[a] == labels[b]) isJoined = true;
+            else isNeeded = true;
         }
+        if (arePrismsNear) seePrisms(cell, p, a, b, isNeeded, isJoined);
     }
     if (!isNeeded) return;
     setBit(own, edgeBit(d, 0u));

@@ -29,9 +29,14 @@ uint partitionOf(uint words[8], uvec4 corners) {
 // Whether all edges of a cell's tetrahedra live: those of a corner lead along the axes on which it is low.
 bool isWhole(uint words[8]) {
     uint dead = 0u;
-    [[dont_unroll]] for (uint low = 0u; low < 7u; ++low)
-        [[dont_unroll]] for (uint d = 1u; d < 8u; ++d)
-            if ((low & d) == 0u && !isLinked(words, low, low | d)) ++dead;
+    [[unroll]] for (uint low = 0u; low < 7u; ++low) {
+        uint edges = 0u; // folded to a number
+        [[unroll]] for (uint d = 1u; d < 8u; ++d) {
+            const ivec3 direction = cornerOf(int(d));
+            if ((low & d) == 0u) edges |= 1u << bitOf(direction.x, direction.y, direction.z);
+        }
+        dead |= edges & ~words[low];
+    }
     return dead == 0u;
 }
 
@@ -41,7 +46,7 @@ void main() {
     const uint i = push.first + item;
     if (dirty[i >> 5] == 0u || !isCell(complex[i])) return;
     uint words[8];
-    [[dont_unroll]] for (uint k = 0u; k < 8u; ++k) words[k] = links[slotOf(i, k)];
+    [[unroll]] for (uint k = 0u; k < 8u; ++k) words[k] = links[slotOf(i, k)];
     uint all = 0u;
     const uint first = isWhole(words) ? tetrahedra : 0u;
     [[dont_unroll]] for (uint p = first; p < tetrahedra; ++p) all |= partitionOf(words, cornersOf(p)) << partitionBits * p;
