@@ -445,7 +445,7 @@ TEST(FaceContacts, KeepAStackOfLayersInOrder) {
     std::printf("layers: %.4f of a thickness between two at least, %.4f m high, %.2e J, %d intersections\n",
                 least / 0.01, x.back().y(), energy, intersections(scene, x));
     EXPECT_GE(least, 0.5 * 0.01);
-    EXPECT_LE(energy, 1e-3) << "of 20 layers; docs/accuracy.md has 50";
+    EXPECT_LE(energy, 1e-4) << "of 20 layers; docs/accuracy.md has 50";
     EXPECT_EQ(intersections(scene, x), 0);
 }
 
