@@ -162,13 +162,14 @@ TriangleMesh importMesh(const fs::path& file, MeshDefects& defects, const Import
     const std::string content = RegularFile(file, limits).readAll(file);
     const std::string_view bytes = withoutMark(content);
     const Format format = formatOf(file, bytes);
+    const double forSize = std::floor(static_cast<double>(bytes.size()) / limits.bytesPerSecond);
     std::string result;
     try {
         result = runInChild([&] { return answer(format, bytes, limits); },
                             {.addressSpaceBytes = limits.addressSpaceBytes,
                              .answerBytes = 4096 + limits.triangles * triangleBytes,
-                             .cpuSeconds = limits.cpuSeconds,
-                             .wallSeconds = limits.wallSeconds});
+                             .cpuSeconds = limits.cpuSeconds + forSize,
+                             .wallSeconds = limits.wallSeconds + 2 * forSize});
     } catch (const ChildFailure& failure) {
         fail(file, "",
              std::string("the importer failed (") + failure.what() +
