@@ -46,10 +46,9 @@ struct Motion {
     float back; // how far sweeps overlap [m]; 0 = nothing is carried
 };
 
-// Where the start of a sweep is for this link: it has moved with the material, which neighbouring links see alike as far as it
-// turns and strains evenly, and a little back, so that nothing is missed between two sweeps.
+// Where the start of a sweep is for this link: it has moved with the material, and a little back, so that rounding leaves nothing
+// between two sweeps.
 vec3 carried(vec3 from, vec3 to, Motion motion) {
-    if (motion.back == 0.0) return from;
     precise const vec3 moved = motion.now + motion.turn * (from - motion.before), gone = moved - to;
     return moved + motion.back * inversesqrt(dot(gone, gone) + 1e-30) * gone;
 }

@@ -143,6 +143,19 @@ bool crosses(const Vector3d& a, const Vector3d& b, const Triangle& triangle, dou
     return std::min({u, v, w}) >= 0 || std::max({u, v, w}) <= 0;
 }
 
+// Whether an edge that goes evenly from a and b to c and d crosses the segment from p to q on its way.
+bool sweeps(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d, const Vector3d& p,
+            const Vector3d& q, double least) {
+    constexpr int parts = 32; // the way of a twisted edge is no pair of triangles
+    for (int n = 0; n < parts; ++n) {
+        const double low = static_cast<double>(n) / parts, high = (n + 1.0) / parts;
+        const Vector3d e = a + low * (b - a), f = a + high * (b - a), g = c + low * (d - c),
+                       h = c + high * (d - c);
+        if (crosses(p, q, {e, f, h}, least) || crosses(p, q, {e, h, g}, least)) return true;
+    }
+    return false;
+}
+
 } // namespace
 
 // Brute force, in double, over all links and all that the blade has swept over, as the material around each
@@ -173,9 +186,7 @@ TEST(Stroke, ThroughATurningAndMovingBodyLeavesNoLiveLinkThatCrossesItsSweep) {
                 const Eigen::Affine3d &from = motions[s - 1][link.a], &to = motions[s][link.a];
                 const Vector3d a = from * edges[s - 1][0], b = from * edges[s - 1][1], c = to * edges[s][0],
                                d = to * edges[s][1];
-                for (const Triangle& triangle : {Triangle{a, b, d}, Triangle{a, d, c}})
-                    if (crosses(body.at(link.a), body.at(link.b), triangle, 0.03 * double{spacing}))
-                        return true;
+                if (sweeps(a, b, c, d, body.at(link.a), body.at(link.b), 0.03 * double{spacing})) return true;
             }
             return false;
         };
