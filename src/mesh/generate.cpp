@@ -99,6 +99,46 @@ TriangleMesh makeTorusKnot(std::uint32_t resolution) {
     return mesh;
 }
 
+/// The wall of a tube along x, cut lengthwise: two straight sides and two half circles, (x, distance from the
+/// axis), in the order outer side, rim, inner side, rim.
+std::vector<std::array<double, 2>> tubeProfile(std::uint32_t resolution) {
+    constexpr double outer = 0.06, inner = 0.032, rim = (outer - inner) / 2, reach = 0.15 - rim;
+    const auto count = [resolution](double length) {
+        return static_cast<std::uint32_t>(std::max(std::lround(length / 0.3 * resolution), 3l));
+    };
+    const std::uint32_t along = count(2 * reach), round = count(std::numbers::pi * rim);
+    std::vector<std::array<double, 2>> profile;
+    for (const double end : {1.0, -1.0}) { // the side that leads to this end, and the rim there
+        const double side = end > 0 ? outer : inner;
+        for (std::uint32_t i = 0; i < along; ++i)
+            profile.push_back({end * reach * (2.0 * i / along - 1), side});
+        for (std::uint32_t i = 0; i < round; ++i) {
+            const double angle = std::numbers::pi * i / round;
+            profile.push_back(
+                {end * (reach + rim * std::sin(angle)), (outer + inner) / 2 + end * rim * std::cos(angle)});
+        }
+    }
+    return profile;
+}
+
+TriangleMesh makeTube(std::uint32_t resolution) {
+    const auto profile = tubeProfile(resolution);
+    const auto rows = static_cast<std::uint32_t>(profile.size()), around = std::max(resolution, 8u);
+    TriangleMesh mesh;
+    for (std::uint32_t i = 0; i < rows; ++i)
+        for (std::uint32_t j = 0; j < around; ++j) {
+            const double angle = tau * j / around;
+            mesh.positions.push_back(toVec3(
+                Vector3(profile[i][0], profile[i][1] * std::cos(angle), profile[i][1] * std::sin(angle))));
+            const std::uint32_t next = (i + 1) % rows, up = (j + 1) % around;
+            const std::uint32_t a = i * around + j, b = i * around + up, c = next * around + up,
+                                d = next * around + j;
+            mesh.triangles.push_back({a, b, c});
+            mesh.triangles.push_back({a, c, d});
+        }
+    return mesh;
+}
+
 /// An open square of 1 m in the plane y = 0, facing up.
 TriangleMesh makeCloth(std::uint32_t resolution) {
     TriangleMesh mesh;
@@ -116,13 +156,15 @@ TriangleMesh makeCloth(std::uint32_t resolution) {
 
 using Maker = TriangleMesh (*)(std::uint32_t resolution);
 
-constexpr std::array<Shape, 5> table{
+constexpr std::array<Shape, 6> table{
     {{"organ", "a liver: smooth lobes, a notch, a hollow underside; 0.3 m"},
      {"torus_knot", "a tube along a (2, 3) torus knot; 0.3 m"},
      {"slab_with_hole", "a rounded slab, 0.3 x 0.06 x 0.2 m, with a hole through it"},
      {"sphere", "a geodesic sphere of radius 0.15 m"},
+     {"tube", "a hollow tube along x with round rims, 0.3 m long, 0.06 and 0.032 m in radius"},
      {"cloth", "a flat square sheet of 1 m, open"}}};
-constexpr std::array<Maker, table.size()> makers{makeOrgan, makeTorusKnot, makeSlab, makeSphere, makeCloth};
+constexpr std::array<Maker, table.size()> makers{makeOrgan,  makeTorusKnot, makeSlab,
+                                                 makeSphere, makeTube,      makeCloth};
 
 } // namespace
 

@@ -10,15 +10,17 @@ namespace sinew::scenes {
 
 namespace {
 
-struct Frames {
-    std::uint64_t first = 0, end = 0;
-};
-
-// Steps that a blade is on its way in. A hair of rounding in a time is no step.
-Frames framesOf(const BladeMotion& motion, double dt) {
-    constexpr double hair = 1e-4; // nine digits of a time and of dt leave 1e-6
-    return {static_cast<std::uint64_t>(motion.times.front() / dt + hair),
-            static_cast<std::uint64_t>(std::ceil(motion.times.back() / dt - hair))};
+// Of all blades that come to a step, in the order in which they begin.
+std::vector<BladeTurn> turnsOf(std::span<const BladeMotion> motions, double dt) {
+    std::vector<BladeTurn> turns;
+    for (std::size_t m = 0; m < motions.size(); ++m) {
+        const auto& times = motions[m].times;
+        const BladeTurn turn{static_cast<std::uint64_t>(times.front() / dt + hairOfStep),
+                             static_cast<std::uint64_t>(std::ceil(times.back() / dt - hairOfStep)), m};
+        if (turn.first < turn.end) turns.push_back(turn);
+    }
+    std::ranges::stable_sort(turns, {}, &BladeTurn::first);
+    return turns;
 }
 
 float between(float a, float b, double part) {
@@ -67,40 +69,39 @@ void addBlade(LoadedScene& loaded, const Section& section) {
 void checkBlades(const LoadedScene& loaded, const Section& top) {
     if (loaded.blades.empty()) return;
     if (std::ranges::none_of(loaded.scene.grids, &sim::Grid::isCuttable))
-        top.fail("blade", "has nothing to cut", "give a [[box]], [[mesh]] or [[cloth]] cuttable = true");
-    const double dt = double{loaded.scene.dt};
-    for (std::size_t b = 0; b < loaded.blades.size(); ++b)
-        for (std::size_t other = 0; other < b; ++other) {
-            const Frames one = framesOf(loaded.blades[b], dt), two = framesOf(loaded.blades[other], dt);
-            if (one.first < two.end && two.first < one.end)
-                top.fail("blade",
-                         std::string("number ")
-                             .append(std::to_string(b + 1))
-                             .append(" cuts in a step in which number ")
-                             .append(std::to_string(other + 1))
-                             .append(" does"),
-                         "let one begin after the other has ended");
-        }
+        top.fail(top.has("blade") ? "blade" : "strokes", "has nothing to cut",
+                 "give a [[box]], [[mesh]] or [[cloth]] cuttable = true");
+    const std::vector<BladeTurn> turns = turnsOf(loaded.blades, double{loaded.scene.dt});
+    const auto both = std::ranges::adjacent_find(
+        turns, [](const BladeTurn& one, const BladeTurn& next) { return next.first < one.end; });
+    if (both == turns.end()) return;
+    const auto [one, other] = std::minmax(both->motion, std::next(both)->motion);
+    top.fail(top.has("blade") ? "blade" : "strokes",
+             std::string("number ")
+                 .append(std::to_string(other + 1))
+                 .append(" cuts in a step in which number ")
+                 .append(std::to_string(one + 1))
+                 .append(" does"),
+             "let one begin after the other has ended");
 }
 
 ScriptedBlades::ScriptedBlades(std::vector<BladeMotion> motions, float dt)
-    : motions_(std::move(motions)), dt_(double{dt}) {
+    : motions_(std::move(motions)), turns_(turnsOf(motions_, double{dt})), dt_(double{dt}) {
     for (const BladeMotion& motion : motions_)
         if (motion.edges[0].size() > from_.size()) from_.resize(motion.edges[0].size());
     to_.resize(from_.size());
 }
 
 sim::Blade ScriptedBlades::at(std::uint64_t frame) noexcept {
-    for (const BladeMotion& motion : motions_) {
-        const Frames frames = framesOf(motion, dt_);
-        if (frame < frames.first || frame >= frames.end) continue;
-        const std::size_t points = motion.edges[0].size();
-        const auto from = std::span(from_).first(points), to = std::span(to_).first(points);
-        readEdge(motion, static_cast<double>(frame) * dt_, from);
-        readEdge(motion, static_cast<double>(frame + 1) * dt_, to);
-        return {.from = from, .to = to, .isCarried = frame > frames.first};
-    }
-    return {};
+    const auto next = std::ranges::upper_bound(turns_, frame, {}, &BladeTurn::first);
+    if (next == turns_.begin() || frame >= std::prev(next)->end) return {};
+    const BladeTurn& turn = *std::prev(next);
+    const BladeMotion& motion = motions_[turn.motion];
+    const std::size_t points = motion.edges[0].size();
+    const auto from = std::span(from_).first(points), to = std::span(to_).first(points);
+    readEdge(motion, static_cast<double>(frame) * dt_, from);
+    readEdge(motion, static_cast<double>(frame + 1) * dt_, to);
+    return {.from = from, .to = to, .isCarried = frame > turn.first};
 }
 
 } // namespace sinew::scenes

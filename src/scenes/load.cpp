@@ -89,6 +89,7 @@ void readBodies(LoadedScene& loaded, const Section& top, const Source& source, s
     for (const Section& plane : top.list("plane")) addPlane(loaded, plane);
     for (const Section& collider : top.list("collider")) addCollider(loaded, collider);
     for (const Section& blade : top.list("blade")) addBlade(loaded, blade);
+    for (const Section& strokes : top.list("strokes")) addStrokes(loaded, strokes);
     checkBlades(loaded, top);
 }
 

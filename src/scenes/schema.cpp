@@ -24,7 +24,8 @@ constexpr Range membrane{0, 1e15}, bending{0, 1e6}, tethers{0, 8};
 constexpr Range angle{-360, 360};
 constexpr Range side{2, 4096}, chainLength{2, 100'000}, cellsAlong{1, 512}, detail{8, 256},
     particleBudget{8, 2'000'000};
-constexpr Range rowLength{1, 4096}, copies{1, 4096}, particleNumber{1, 2'000'000}, seed{0, 1e6};
+constexpr Range rowLength{1, 4096}, copies{1, 4096}, particleNumber{1, 2'000'000}, seed{0, 1e6},
+    strokeCount{1, 10'000};
 constexpr Range jitter{0, 1e6}, speed{-1e6, 1e6};
 constexpr Range mass{.low = 0, .high = 1e9, .isLowOpen = true}, load{0, 1e9};
 constexpr Range time{0, 1e6};
@@ -66,6 +67,7 @@ constexpr Key keys[] = {
     {"", "collider", Kind::tables, "", {}, "", "spheres, capsules and boxes that particles stay out of, still or moving"},
     {"", "contacts", Kind::table, "", {}, "", "how particles touch each other"},
     {"", "blade", Kind::tables, "", {}, "", "blades that cut at given times"},
+    {"", "strokes", Kind::tables, "", {}, "", "many blades at random places"},
     {"", "camera", Kind::table, "", {}, "", "where a picture is taken from"},
 
     {"solver", "name", Kind::text, "", {}, "\"split\"", "split, jacobi or gauss_seidel"},
@@ -219,6 +221,15 @@ constexpr Key keys[] = {
     {"blade", "name", Kind::text, "", {}, "\"blade\"", "name of the blade"},
     {"blade", "times", Kind::numbers, "s", time, "", "when the edge is where `edges` say, at least two, growing", true},
     {"blade", "edges", Kind::lines, "m", coordinate, "", "the edge at each of the times, a poly-line of 2 to 256 points, all of equally many", true},
+
+    {"strokes", "count", Kind::count, "strokes", strokeCount, "", "how many", true},
+    {"strokes", "seed", Kind::count, "", seed, "1", "another number, other strokes"},
+    {"strokes", "center", Kind::vector, "m", coordinate, "", "middle of the cuboid in which the middles of strokes lie", true},
+    {"strokes", "size", Kind::vector, "m", reach, "", "sides of that cuboid", true},
+    {"strokes", "length", Kind::number, "m", length, "", "of a blade's edge, and of its way", true},
+    {"strokes", "begin", Kind::number, "s", moment, "0", "when the first begins"},
+    {"strokes", "every", Kind::number, "s", moment, "0.1", "from the begin of one to that of the next, in whole steps"},
+    {"strokes", "duration", Kind::number, "s", moment, "", "of a stroke, in whole steps; one where it is missing"},
 
     {"camera", "eye", Kind::vector, "m", coordinate, "[1.2, 0.8, 1.6]", "where the camera stands"},
     {"camera", "target", Kind::vector, "m", coordinate, "[0, 0.2, 0]", "what it looks at"},

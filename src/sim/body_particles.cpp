@@ -3,10 +3,11 @@
 // volume).
 #include "sim/bodies.hpp"
 
+#include "sim/random.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <stdexcept>
 #include <unordered_map>
 
@@ -14,17 +15,6 @@ namespace sinew::sim {
 namespace {
 
 constexpr std::uint32_t mostTries = 1000; // for one place
-
-// The standard's distributions differ between libraries, its generator does not.
-class Random {
-public:
-    explicit Random(std::uint32_t seed) : bits_(seed) {}
-    /// Evenly from -1 to 1.
-    double symmetric() { return (static_cast<double>(bits_()) + 0.5) / 2147483648.0 - 1; }
-
-private:
-    std::mt19937 bits_;
-};
 
 float spacingOf(const LooseParticles& p) {
     return p.spacing > 0 ? p.spacing : 2 * (p.radius + p.jitter);

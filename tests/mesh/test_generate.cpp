@@ -21,7 +21,7 @@ long eulerNumber(const TriangleMesh& mesh) {
 
 TEST(Generate, MakesClosedManifoldsOfTheRightGenusAtAnyResolution) {
     const std::map<std::string_view, long> eulerNumbers{
-        {"organ", 2}, {"sphere", 2}, {"torus_knot", 0}, {"slab_with_hole", 0}};
+        {"organ", 2}, {"sphere", 2}, {"torus_knot", 0}, {"slab_with_hole", 0}, {"tube", 0}};
     for (const auto& [name, euler] : eulerNumbers)
         for (const std::uint32_t resolution : {8, 9, 11, 14, 19, 27, 40, 64}) {
             const TriangleMesh mesh = generate(name, resolution);
@@ -45,6 +45,16 @@ TEST(Generate, ConvergesToASphere) {
     const double coarse = exact - inspect(generate("sphere", 32)).volume;
     const double fine = exact - inspect(generate("sphere", 64)).volume;
     EXPECT_NEAR(coarse / fine, 4, 0.1);
+    EXPECT_LT(fine / exact, 2e-3);
+}
+
+// Pappus: the profile is two half circles and what is between them, its middle 0.046 m from the axis.
+TEST(Generate, ConvergesToATube) {
+    const double rim = 0.014, profile = std::numbers::pi * rim * rim + 2 * rim * (0.3 - 2 * rim);
+    const double exact = 2 * std::numbers::pi * 0.046 * profile;
+    const double coarse = exact - inspect(generate("tube", 64)).volume;
+    const double fine = exact - inspect(generate("tube", 128)).volume;
+    EXPECT_NEAR(coarse / fine, 4, 0.4);
     EXPECT_LT(fine / exact, 2e-3);
 }
 

@@ -2,6 +2,10 @@
 #include "scenes/blades.hpp"
 #include "scenes/load_fixture.hpp"
 
+#include <Eigen/Geometry>
+
+#include <algorithm>
+
 using namespace sinew;
 
 namespace {
@@ -103,6 +107,113 @@ TEST_F(LoadBlades, RefusesABladeWithNothingToCutAndTwoInOneStep) {
     EXPECT_NE(
         errorOfText(box + from(0, 0.021) + from(0.025, 0.05)).find("cuts in a step in which number 1 does"),
         std::string::npos);
+}
+
+namespace {
+
+std::vector<sim::Vec3> pointsOf(const scenes::LoadedScene& loaded) {
+    std::vector<sim::Vec3> points;
+    for (const scenes::BladeMotion& motion : loaded.blades)
+        for (const auto& edge : motion.edges) points.insert(points.end(), edge.begin(), edge.end());
+    return points;
+}
+
+const std::string strokes =
+    "[[strokes]]\ncount = 300\ncenter = [1, 2, 3]\nsize = [0.4, 0.2, 0]\nlength = 0.1\n";
+
+} // namespace
+
+TEST_F(LoadBlades, OfStrokesAreSquaresInTheirCuboidInAnyDirection) {
+    const scenes::LoadedScene loaded = load(box + strokes);
+    ASSERT_EQ(loaded.blades.size(), 300u);
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero(), low = mean, high = mean;
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero(); // of the normals
+    for (const scenes::BladeMotion& motion : loaded.blades) {
+        std::vector<Eigen::Vector3d> corners;
+        for (const auto& edge : motion.edges)
+            for (const sim::Vec3& x : edge) corners.emplace_back(double{x.x}, double{x.y}, double{x.z});
+        ASSERT_EQ(corners.size(), 4u);
+        const Eigen::Vector3d edge = corners[1] - corners[0], way = corners[2] - corners[0];
+        EXPECT_NEAR(edge.norm(), 0.1, 1e-6);
+        EXPECT_NEAR(way.norm(), 0.1, 1e-6);
+        EXPECT_NEAR(edge.dot(way), 0, 1e-6);
+        EXPECT_LT((corners[3] - corners[1] - way).norm(), 1e-6) << "the edge keeps its direction";
+        const Eigen::Vector3d middle =
+            (corners[0] + corners[1] + corners[2] + corners[3]) / 4 - Eigen::Vector3d(1, 2, 3);
+        mean += middle / 300;
+        low = low.cwiseMin(middle);
+        high = high.cwiseMax(middle);
+        const Eigen::Vector3d normal = edge.cross(way).normalized();
+        spread += normal * normal.transpose() / 300;
+    }
+    EXPECT_LT((high - Eigen::Vector3d(0.2, 0.1, 0)).norm() + (low + Eigen::Vector3d(0.2, 0.1, 0)).norm(),
+              0.02);
+    EXPECT_LT(mean.norm(), 0.03) << "no more of them on one side";
+    EXPECT_LT((spread - Eigen::Matrix3d::Identity() / 3).norm(), 0.1)
+        << "in no direction more than in others";
+}
+
+TEST_F(LoadBlades, OfStrokesAreThoseOfTheirSeed) {
+    const auto with = [&](const std::string& keys) { return pointsOf(load(box + strokes + keys)); };
+    const auto isSame = [](const auto& a, const auto& b) {
+        return std::ranges::equal(
+            a, b, [](sim::Vec3 p, sim::Vec3 q) { return p.x == q.x && p.y == q.y && p.z == q.z; });
+    };
+    EXPECT_TRUE(isSame(with(""), with("seed = 1\n")));
+    EXPECT_FALSE(isSame(with(""), with("seed = 2\n")));
+    EXPECT_TRUE(isSame(with(""), with("begin = 3\nevery = 0.5\n"))) << "times change no places";
+}
+
+TEST_F(LoadBlades, OfStrokesComeInWholeStepsOneAfterTheOther) {
+    const auto framesOf = [&](const std::string& keys) {
+        const scenes::LoadedScene loaded = load(box + strokes + keys);
+        scenes::ScriptedBlades blades(loaded.blades, loaded.scene.dt);
+        std::vector<int> frames; // negative: goes on
+        for (int frame = 0; frame < 20; ++frame) {
+            const sim::Blade cut = blades.at(static_cast<std::uint64_t>(frame));
+            if (!cut.from.empty()) frames.push_back(cut.isCarried ? -frame : frame);
+        }
+        return frames;
+    };
+    EXPECT_EQ(framesOf(""), (std::vector<int>{0, 10}));
+    EXPECT_EQ(framesOf("begin = 0.05\nevery = 0.06\n"), (std::vector<int>{5, 11, 17}));
+    EXPECT_EQ(framesOf("begin = 0.041\nevery = 0.052\nduration = 0.02\n"),
+              (std::vector<int>{5, -6, 11, -12, 17, -18}));
+    EXPECT_EQ(framesOf("every = 0\n").size(), 20u) << "one in every step, but no two";
+}
+
+TEST_F(LoadBlades, RefusesStrokesThatAreNone) {
+    const auto error = [&](const std::string& from, const std::string& to) {
+        std::string text = strokes;
+        text.replace(text.find(from), from.size(), to);
+        return errorOfText(box + text);
+    };
+    EXPECT_EQ(errorOfText(box + strokes), "");
+    const auto expect = [](const std::string& text, const std::string& part) {
+        EXPECT_NE(text.find(part), std::string::npos) << text;
+    };
+    expect(error("count = 300", "count = 0"), "strokes[0].count is 0 strokes: must be from 1 to 10000");
+    expect(error("count = 300", "count = 10001"), "must be from 1 to 10000");
+    expect(error("count = 300", "count = 2.5"), "strokes[0].count is the number 2.5: write a whole number");
+    expect(error("count = 300\n", ""), "strokes[0].count is missing");
+    expect(error("length = 0.1", "length = 0"), "strokes[0].length is 0 m: must be above 0");
+    expect(error("size = [0.4, 0.2, 0]", "size = [0.4, -1, 0]"), "strokes[0].size is -1 m: must be from 0");
+    expect(error("length = 0.1", "length = nan"), "strokes[0].length is nan");
+    expect(error("length = 0.1", "length = 0.1\nevery = 0.01\nduration = 0.02"),
+           "strokes[0].every is shorter than a stroke's duration");
+    expect(error("length = 0.1", "lenght = 0.1"), "did you mean length?");
+    const std::string plain = box.substr(0, box.find("cuttable"));
+    expect(errorOfText(plain + strokes), "strokes has nothing to cut");
+    expect(errorOfText(box + strokes + strokes), "strokes number 301 cuts in a step in which number 1 does");
+}
+
+TEST_F(LoadBlades, OfStrokesFarAwayAreNearTheirScene) {
+    std::string far = box, text = strokes;
+    far.replace(far.find("[0, 0, 0]"), 9, "[-1e6, 0, 0]");
+    text.replace(text.find("[1, 2, 3]"), 9, "[-999999, 2, 3]");
+    const auto near = pointsOf(load(box + strokes)), there = pointsOf(load(far + text));
+    ASSERT_EQ(near.size(), there.size());
+    for (std::size_t p = 0; p < near.size(); ++p) EXPECT_EQ(near[p].x, there[p].x);
 }
 
 TEST_F(LoadBlades, OfTheShippedSceneCutInTwoStepsOneAfterTheOther) {
