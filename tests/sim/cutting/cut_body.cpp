@@ -143,6 +143,22 @@ std::uint32_t CutBody::hit(std::uint32_t particle, std::array<int, 3> direction)
     return bytes[sizeof(layout::LinkHits) * slots_[particle] + static_cast<std::size_t>(kuhn)];
 }
 
+std::vector<Vector3d> CutBody::bladePlaces() const {
+    const StepProgram& program = runner_.simulation().program();
+    const auto pulled =
+        std::ranges::find(program.buffers, std::string("surface.pulled_places"), &BufferSpec::label);
+    const BufferId buffer = pulled == program.buffers.end()
+                                ? program.cutting.places
+                                : BufferId{static_cast<std::uint32_t>(pulled - program.buffers.begin())};
+    const auto places = queue().download<std::array<float, 4>>(runner_.simulation().view(buffer));
+    std::vector<Vector3d> result;
+    for (const std::uint32_t slot : slots_) {
+        const auto& [x, y, z, w] = places[slot];
+        result.emplace_back(double{x}, double{y}, double{z});
+    }
+    return result;
+}
+
 std::vector<std::uint32_t> CutBody::expectedWholeCells() const {
     std::vector<std::vector<bool>> isLinked(scene_.particles.size(), std::vector<bool>(26));
     for (const LiveLink& link : links()) isLinked[link.a][link.bit] = true;

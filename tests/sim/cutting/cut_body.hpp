@@ -61,6 +61,9 @@ public:
     }
     std::vector<std::uint32_t> expectedWholeCells() const;
 
+    /// Where the newest blade saw each particle [m]: those outside of the skin of a mesh just below it.
+    std::vector<Eigen::Vector3d> bladePlaces() const;
+
     std::uint32_t particleAt(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
         return particles_[box_.slot(x, y, z)];
     }
