@@ -1,4 +1,5 @@
-// Writes OBJ and PLY files whole: to a temporary name in the same folder, flushed, then renamed.
+// Writes OBJ and PLY files (export_gltf: GLB) whole: to a temporary name in the same folder, flushed, then
+// renamed.
 #pragma once
 
 #include "mesh/triangle_mesh.hpp"

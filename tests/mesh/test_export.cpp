@@ -1,5 +1,5 @@
 // Files are written whole or not at all.
-#include "mesh/export.hpp"
+#include "mesh/export_gltf.hpp"
 
 #include "mesh/generate.hpp"
 #include "mesh/import.hpp"
@@ -7,7 +7,11 @@
 #include "meshes.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <bit>
+#include <cmath>
 #include <ostream>
 #include <sys/stat.h>
 
@@ -152,6 +156,140 @@ TEST(Export, WritesParticlesThatReadBackToTheSameBytes) {
     }
     exportParticles(folder / "none.ply", {});
     EXPECT_TRUE(importParticles(folder / "none.ply").empty());
+}
+
+namespace {
+
+// With normals that point away from its middle, of any length.
+ShadedMesh shaded(const TriangleMesh& mesh, const Vec3& color) {
+    ShadedMesh result{.name = mesh.name,
+                      .color = color,
+                      .parts = {{.positions = mesh.positions, .normals = {}, .triangles = mesh.triangles}}};
+    const MeshReport report = inspect(mesh);
+    for (const Vec3& x : mesh.positions)
+        result.parts[0].normals.push_back({2 * x.x - report.low.x - report.high.x,
+                                           2 * x.y - report.low.y - report.high.y,
+                                           2 * x.z - report.low.z - report.high.z});
+    return result;
+}
+
+// Words of a little endian file.
+std::uint32_t wordAt(const std::string& bytes, std::size_t at) {
+    std::uint32_t word = 0;
+    for (std::size_t byte = 4; byte-- > 0;)
+        word = word << 8 | static_cast<unsigned char>(bytes.at(at + byte));
+    return word;
+}
+
+} // namespace
+
+TEST(ExportGlb, WritesMeshesThatReadBackToTheSameFloats) {
+    const Folder folder;
+    TriangleMesh first = box({-0.1f, 1.0f / 3, 1e-20f}, {0.1f, 0.5f, 7}), second = box({5, 0, 0}, {6, 1, 1});
+    first.name = "first \xff\"\n"; // no UTF-8, and what JSON escapes
+    second.name = "second";
+    std::vector<ShadedMesh> meshes{shaded(first, {0.1f, 0.2f, 0.3f}), shaded(second, {0.1f, 0.2f, 0.3f})};
+    meshes[1].parts.push_back(shaded(box({8, 0, 0}, {9, 1, 1}), {}).parts[0]);
+    meshes[1].parts.back().isInside = true;
+    meshes.push_back({.name = "nothing", .parts = {{}}});
+    exportGlb(folder / "a.glb", meshes);
+    MeshDefects defects;
+    const TriangleMesh back = importMesh(folder / "a.glb", defects);
+    EXPECT_TRUE(defects.isClosed());
+    EXPECT_EQ(back.triangles.size(), 36u);
+    EXPECT_EQ(back.positions.size(), 24u);
+    for (const TriangleMesh& mesh : {first, second})
+        for (const Vec3& x : mesh.positions)
+            EXPECT_EQ(
+                std::ranges::count_if(back.positions,
+                                      [&](const Vec3& y) { return x.x == y.x && x.y == y.y && x.z == y.z; }),
+                1);
+    EXPECT_NEAR(inspect(back).volume, 0.2 * (0.5 - 1.0 / 3) * 7 + 2, 1e-6);
+}
+
+// What assimp does not look at: glTF 2.0, sections 3.6.2 (alignment, bounds, targets), 3.7.2 (normals), 4.4
+// (chunks).
+TEST(ExportGlb, KeepsTheRulesOfTheFormat) {
+    const Folder folder;
+    ShadedMesh mesh = shaded(box({-1, 0, 0}, {1, 2, 3}), {0.1f, 0.2f, 0.3f});
+    mesh.name = "abc"; // a length that is padded
+    mesh.parts.push_back(mesh.parts[0]);
+    mesh.parts[1].isInside = true;
+    mesh.parts[1].normals[0] = {};
+    exportGlb(folder / "a.glb", std::vector{mesh, mesh});
+    const std::string bytes = read(folder / "a.glb");
+    EXPECT_EQ(bytes.substr(0, 4), "glTF");
+    EXPECT_EQ(wordAt(bytes, 4), 2u);
+    EXPECT_EQ(wordAt(bytes, 8), bytes.size());
+    const std::size_t text = wordAt(bytes, 12);
+    EXPECT_EQ(text % 4, 0u);
+    EXPECT_EQ(bytes.substr(16, 4), "JSON");
+    EXPECT_EQ(wordAt(bytes, 20 + text) + 28 + text, bytes.size());
+    EXPECT_EQ(wordAt(bytes, 20 + text) % 4, 0u);
+    EXPECT_EQ(bytes.substr(24 + text, 4), std::string("BIN\0", 4));
+    const auto document = nlohmann::json::parse(bytes.substr(20, text));
+    EXPECT_EQ(document["asset"]["version"], "2.0");
+    EXPECT_EQ(document["scenes"][0]["nodes"].size(), 2u);
+    EXPECT_EQ(document["materials"].size(), 2u) << "two meshes share them";
+    EXPECT_EQ(document["buffers"][0]["byteLength"], wordAt(bytes, 20 + text));
+    for (const auto& node : document["nodes"])
+        for (const auto& part : document["meshes"][node["mesh"].get<std::size_t>()]["primitives"]) {
+            const auto accessorOf = [&](const nlohmann::json& index) {
+                return document["accessors"][index.get<std::size_t>()];
+            };
+            const auto positions = accessorOf(part["attributes"]["POSITION"]),
+                       normals = accessorOf(part["attributes"]["NORMAL"]),
+                       indices = accessorOf(part["indices"]);
+            EXPECT_EQ(positions["min"], nlohmann::json({-1.0, 0.0, 0.0}));
+            EXPECT_EQ(positions["max"], nlohmann::json({1.0, 2.0, 3.0}));
+            EXPECT_EQ(positions["count"], 8);
+            EXPECT_EQ(normals["count"], 8);
+            EXPECT_EQ(indices["count"], 36);
+            EXPECT_EQ(document["bufferViews"][indices["bufferView"].get<std::size_t>()]["target"], 34963);
+            const auto view = document["bufferViews"][normals["bufferView"].get<std::size_t>()];
+            EXPECT_EQ(view["target"], 34962);
+            EXPECT_EQ(view["byteLength"], 8 * 12);
+            const std::size_t start = 28 + text + view["byteOffset"].get<std::size_t>();
+            for (std::size_t v = 0; v < 8; ++v) {
+                double square = 0;
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    square +=
+                        std::pow(double{std::bit_cast<float>(wordAt(bytes, start + 12 * v + 4 * axis))}, 2);
+                EXPECT_NEAR(square, 1, 1e-6);
+            }
+        }
+}
+
+TEST(ExportGlb, WritesAFileWithoutMeshesWhereThereAreNone) {
+    const Folder folder;
+    exportGlb(folder / "a.glb", {});
+    const std::string bytes = read(folder / "a.glb");
+    EXPECT_EQ(wordAt(bytes, 8), bytes.size());
+    EXPECT_EQ(wordAt(bytes, 12) + 20, bytes.size());
+    const auto document = nlohmann::json::parse(bytes.substr(20));
+    EXPECT_FALSE(document.contains("meshes") || document.contains("buffers"));
+}
+
+TEST(ExportGlb, RefusesWhatNoReaderWouldTake) {
+    const Folder folder;
+    const ShadedMesh good = shaded(box({}, {1, 1, 1}), {});
+    const auto error = [&](const auto& change) {
+        ShadedMesh mesh = good;
+        change(mesh.parts[0]);
+        return complaint([&] { exportGlb(folder / "a.glb", std::span(&mesh, 1)); });
+    };
+    EXPECT_EQ(error([](ShadedPart&) {}), "no error");
+    fs::remove(folder / "a.glb");
+    EXPECT_NE(error([](ShadedPart& part) { part.positions[3].y = NAN; }).find("a vertex is not finite"),
+              std::string::npos);
+    EXPECT_NE(error([](ShadedPart& part) { part.triangles[3][2] = 8; }).find("that does not exist"),
+              std::string::npos);
+    EXPECT_NE(error([](ShadedPart& part) { part.normals.pop_back(); }).find("has no normal"),
+              std::string::npos);
+    EXPECT_EQ(filesIn(folder), 0u);
+    if (!fs::is_character_file("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
+    EXPECT_NE(complaint([&] { exportGlb("/dev/full", std::span(&good, 1)); }).find("No space left"),
+              std::string::npos);
 }
 
 TEST(ImportParticles, RefusesEveryPrefixAndEveryOtherFile) {

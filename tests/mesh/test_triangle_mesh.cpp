@@ -2,11 +2,14 @@
 #include "mesh/triangle_mesh.hpp"
 
 #include "mesh/generate.hpp"
+#include "mesh/split_edges.hpp"
 #include "meshes.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 using namespace sinew::mesh;
 using namespace sinew::mesh::test;
@@ -113,4 +116,80 @@ TEST(Orient, TurnsAMeshThatIsInsideOut) {
 TEST(Orient, LeavesACavityACavity) {
     const TriangleMesh hollow = joined(box({0, 0, 0}, {3, 3, 3}), withFlipped(box({1, 1, 1}, {2, 2, 2}), 1));
     EXPECT_NEAR(inspect(orient(hollow)).volume, 26, 1e-12);
+}
+
+namespace {
+
+// Triangles by edge, lower vertex first: along it, against it.
+std::map<std::array<std::uint32_t, 2>, std::array<int, 2>> edgesOf(const TriangleMesh& mesh) {
+    std::map<std::array<std::uint32_t, 2>, std::array<int, 2>> edges;
+    for (const auto& triangle : mesh.triangles)
+        for (std::size_t n = 0; n < 3; ++n) {
+            const std::uint32_t a = triangle[n], b = triangle[(n + 1) % 3];
+            ++edges[{std::min(a, b), std::max(a, b)}][a < b ? 0 : 1];
+        }
+    return edges;
+}
+
+// Boxes around the z axis, each with an edge on it, as one mesh with that edge in common.
+TriangleMesh boxesAroundAnEdge(std::initializer_list<std::array<float, 2>> corners) {
+    TriangleMesh mesh;
+    for (const auto& [x, y] : corners)
+        mesh = joined(
+            mesh, box({std::min(x, 0.0f), std::min(y, 0.0f), 0}, {std::max(x, 0.0f), std::max(y, 0.0f), 1}));
+    MeshDefects defects;
+    return weld(mesh, defects);
+}
+
+} // namespace
+
+TEST(SplitCrowdedEdges, GivesEachPairOfTrianglesAMiddleOfItsOwn) {
+    for (TriangleMesh mesh :
+         {boxesAroundAnEdge({{1, 1}, {-1, -1}}), boxesAroundAnEdge({{1, 1}, {-1, -2}, {0.5f, -1}})}) {
+        const MeshReport before = inspect(mesh);
+        EXPECT_GT(before.defects.nonManifoldEdges, 0u);
+        const std::size_t vertices = mesh.positions.size(), triangles = mesh.triangles.size();
+        EXPECT_EQ(splitCrowdedEdges(mesh), before.defects.nonManifoldEdges);
+        for (const auto& [edge, sides] : edgesOf(mesh)) EXPECT_EQ(sides, (std::array{1, 1}));
+        EXPECT_NEAR(inspect(mesh).volume, before.volume, 1e-6);
+        EXPECT_EQ(mesh.triangles.size(), triangles + 2 * (mesh.positions.size() - vertices));
+        for (std::uint32_t middle = static_cast<std::uint32_t>(vertices); middle < mesh.positions.size();
+             ++middle)
+            for (const auto& triangle : mesh.triangles) { // those around a middle are all of one box
+                if (std::ranges::find(triangle, middle) == triangle.end()) continue;
+                EXPECT_EQ(mesh.positions[middle].z, 0.5f);
+            }
+        EXPECT_EQ(splitCrowdedEdges(mesh), 0u) << "nothing is left to do";
+    }
+}
+
+TEST(SplitCrowdedEdges, KeepsBoxesApart) {
+    TriangleMesh mesh = boxesAroundAnEdge({{1, 1}, {-1, -1}});
+    const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
+    splitCrowdedEdges(mesh);
+    ASSERT_EQ(mesh.positions.size(), vertices + 2);
+    for (std::uint32_t middle = vertices; middle < vertices + 2; ++middle) {
+        float side = 0;
+        for (const auto& triangle : mesh.triangles)
+            if (std::ranges::find(triangle, middle) != triangle.end())
+                for (const std::uint32_t corner : triangle) {
+                    const float x = mesh.positions[corner].x;
+                    EXPECT_GE(side * x, 0) << "a middle joins two boxes";
+                    side = x == 0 ? side : x;
+                }
+        EXPECT_NE(side, 0);
+    }
+}
+
+TEST(SplitCrowdedEdges, LeavesAloneWhatIsOpenOrClosedAlready) {
+    TriangleMesh closed = box({0, 0, 0}, {1, 1, 1});
+    EXPECT_EQ(splitCrowdedEdges(closed), 0u);
+    EXPECT_EQ(closed.triangles.size(), 12u);
+    TriangleMesh fins{.name = "", // three triangles at an edge, and one without area
+                      .positions = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}},
+                      .triangles = {{0, 1, 2}, {0, 1, 3}, {1, 0, 4}, {0, 0, 1}}};
+    EXPECT_EQ(splitCrowdedEdges(fins), 0u);
+    EXPECT_EQ(fins.triangles.size(), 4u);
+    TriangleMesh none;
+    EXPECT_EQ(splitCrowdedEdges(none), 0u);
 }
