@@ -94,7 +94,7 @@ std::string_view keyOf(Action action) {
     return found == table.end() ? std::string_view() : found->shown;
 }
 
-std::string hintText(Hands hands) {
+std::string hintText(Hands hands, bool canCut) {
     constexpr std::string_view apart = "   \u00b7   ";
     std::string text;
     const auto add = [&](std::string_view words, std::initializer_list<Action> keys = {}) {
@@ -114,7 +114,7 @@ std::string hintText(Hands hands) {
         add("goes back to before a cut", {undo});
     } else {
         add("left drag grabs");
-        add("cuts", {blade});
+        if (canCut) add("cuts", {blade});
         add("orbits", {orbit});
         add("pauses", {pause});
         add("resets", {reset});

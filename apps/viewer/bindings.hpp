@@ -68,7 +68,7 @@ std::string helpText();
 std::string_view keyOf(Action action);
 /// What can be done now, in a line: with the blade in hand, while a body is held, or with empty hands.
 enum class Hands { empty, holding, blade };
-std::string hintText(Hands hands);
+std::string hintText(Hands hands, bool canCut);
 /// Where there is no room for it: how to get help.
 std::string shortHintText();
 

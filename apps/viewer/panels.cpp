@@ -189,7 +189,7 @@ Wishes Panels::build(const SceneFacts& scene, const Facts& facts, const PanelInp
     Wishes wishes;
     ImGui::NewFrame();
     if (isShown(extent)) buildSide(scene, facts, extent, wishes);
-    buildHint(facts, extent);
+    buildHint(scene, facts, extent);
     buildNotice(facts, extent);
     if (isHelpShown_) parts::help(scale_);
     ImGui::Render();
@@ -227,12 +227,12 @@ void Panels::buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D e
     ImGui::End();
 }
 
-void Panels::buildHint(const Facts& facts, VkExtent2D extent) {
+void Panels::buildHint(const SceneFacts& scene, const Facts& facts, VkExtent2D extent) {
     const Hands hands = facts.isHolding ? Hands::holding : facts.isBladeOn ? Hands::blade : Hands::empty;
     const float edge = gap * scale_, pad = 10 * scale_;
     const float room =
         static_cast<float>(extent.width) - 2 * edge - (isShown(extent) ? sideWidth * scale_ + edge : 0);
-    std::string text = hintText(hands);
+    std::string text = hintText(hands, scene.canCut);
     if (ImGui::CalcTextSize(text.c_str()).x + 2 * pad > room) text = shortHintText();
     ImGui::SetNextWindowPos({edge, static_cast<float>(extent.height) - edge}, ImGuiCond_Always, {0, 1});
     ImGui::SetNextWindowBgAlpha(0.85f);

@@ -46,7 +46,7 @@ public:
 private:
     void feed(const PanelInput& input, VkExtent2D extent, double seconds);
     void buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D extent, Wishes& wishes);
-    void buildHint(const Facts& facts, VkExtent2D extent);
+    void buildHint(const SceneFacts& scene, const Facts& facts, VkExtent2D extent);
     void buildNotice(const Facts& facts, VkExtent2D extent);
     void remember();
 

@@ -16,9 +16,10 @@ namespace sinew::viewer {
 
 namespace {
 
-constexpr double idleWait = 0.1;     // [s] at most between looks at signals while nothing moves
-constexpr double strainEvery = 0.25; // [s]: a copy of all positions
-constexpr double stillAfter = 0.25;  // [s] without a change before a paused picture is the last one
+constexpr double idleWait = 0.1;              // [s] at most between looks at signals while nothing moves
+constexpr double strainEvery = 0.25;          // [s]: a copy of all positions
+constexpr std::uint32_t picturesOfATouch = 3; // until Dear ImGui shows what a press has changed
+constexpr double stillAfter = 0.25;           // [s] without a change before a paused picture is the last one
 
 static_assert(Presenter::framesInFlight * Playback::maxSteps <= sim::Simulation::framesInFlight);
 static_assert(Presenter::framesInFlight <= Renderer::slots);
@@ -118,7 +119,8 @@ float Show::pictureAspect() const {
 }
 
 void Show::turn() {
-    Input input = screen_.window().poll(isHidden_ || shown_ == Shown::still ? idleWait : 0);
+    Input input =
+        screen_.window().poll(isHidden_ || (shown_ == Shown::still && panelsDue_ == 0) ? idleWait : 0);
     const Wishes wishes = std::exchange(wishes_, {});
     grant(wishes);
     input.actions.insert(input.actions.end(), wishes.actions.begin(), wishes.actions.end());
@@ -130,11 +132,15 @@ void Show::turn() {
     if (isHidden_) return; // time stands still while nobody can look
     const Plan plan = this->plan(elapsed);
     const bool isChanged = !controller_.playback.isPaused() || plan.isReset || plan.steps > 0 ||
-                           !input.isEmpty() || input.panels.isTouched || screen_.hasNewNotice() ||
-                           wantsScreenshot_ || wantsProbe_ || tools_.isWaiting() || shown_ == Shown::nothing;
+                           !input.isEmpty() || wantsScreenshot_ || wantsProbe_ || tools_.isWaiting() ||
+                           shown_ == Shown::nothing;
     if (isChanged) lastChange_ = now;
-    if (isChanged || shown_ != Shown::still) {
-        const bool isLast = !isChanged && now - lastChange_ >= std::chrono::duration<double>(stillAfter);
+    // Panels change over a still scene without taking its quality away.
+    if (input.panels.isTouched || screen_.hasNewNotice()) panelsDue_ = picturesOfATouch;
+    if (isChanged || shown_ != Shown::still || panelsDue_ > 0) {
+        const bool isLast = !isChanged && (shown_ == Shown::still ||
+                                           now - lastChange_ >= std::chrono::duration<double>(stillAfter));
+        panelsDue_ -= std::min(panelsDue_, 1u);
         shown_ = isLast ? Shown::still : Shown::moving;
         gauges_.frame(elapsed, plan.steps);
         draw(plan, isLast && still_ ? *still_ : moving_);
@@ -178,6 +184,7 @@ void Show::handle(const Input& input) {
             handle(action);
     }
     tools_.handle(input, controller_);
+    if (const std::string note = tools_.takeNote(); !note.empty()) screen_.tell(note);
     screen_.feed(input.panels);
     status_.setTool(tools_.name());
     if (input.notches != 0) controller_.wheel(input.notches, input.pointer);
@@ -252,7 +259,7 @@ void Show::draw(Plan plan, View& view) {
 
 void Show::drawPanels(const Presenter::Frame& frame, bool isFullQuality) {
     wishes_ = screen_.drawPanels(frame, sceneFacts_, facts(isFullQuality));
-    if (!wishes_.isEmpty()) lastChange_ = Clock::now();
+    if (!wishes_.isEmpty()) panelsDue_ = picturesOfATouch;
 }
 
 Facts Show::facts(bool isFullQuality) const {

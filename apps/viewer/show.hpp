@@ -113,6 +113,7 @@ private:
     StatusLine status_;
     Clock::time_point lastTurn_ = Clock::now(), lastChange_ = lastTurn_, lastStrain_ = lastTurn_;
     Shown shown_ = Shown::nothing;
+    std::uint32_t panelsDue_ = 0; // pictures until the panels look as they should
     bool isHidden_ = false, isDiverged_ = false, isSurfaceMissing_ = false, isCut_ = false,
          wantsScreenshot_ = false, wantsProbe_ = false;
 };

@@ -47,7 +47,7 @@ bool Tools::act(Action action) {
         if (canCut_)
             blade_.toggle();
         else
-            std::fprintf(stderr, "note: no body of this scene can be cut: cuttable = true makes it so\n");
+            say("note: no body of this scene can be cut: cuttable = true makes it so");
         return true;
     case Action::drop:
         drop();
@@ -59,6 +59,11 @@ bool Tools::act(Action action) {
     default:
         return false;
     }
+}
+
+void Tools::say(const std::string& note) {
+    std::fprintf(stderr, "%s\n", note.c_str());
+    note_ = note;
 }
 
 void Tools::drop() {
@@ -79,7 +84,7 @@ void Tools::remember(VkCommandBuffer commands, Stage& stage) {
         history_.recordBefore(commands, stage);
     } catch (const vk::Error& error) {
         if (!std::exchange(isForgetful_, true))
-            std::fprintf(stderr, "warning: this cut cannot be undone: %s\n", error.what());
+            say(std::string("warning: this cut cannot be undone: ") + error.what());
     }
 }
 
@@ -97,7 +102,7 @@ void Tools::recordStep(VkCommandBuffer commands, Stage& stage, vk::Timestamps* t
 
 void Tools::restart(std::span<const Sweep> undone) {
     if (history_.undos() + history_.redos() > 0)
-        std::fprintf(stderr, "note: more room for contacts was made: earlier cuts can no longer be undone\n");
+        say("note: more room for contacts was made: earlier cuts can no longer be undone");
     history_.clear(); // its states are of a simulation that is no more
     blade_.putBack(undone);
 }

@@ -7,6 +7,8 @@
 #include "viewer/stage.hpp"
 #include "viewer/window.hpp"
 
+#include <utility>
+
 namespace sinew::viewer {
 
 class Controller;
@@ -39,15 +41,19 @@ public:
     bool isBladeOn() const { return blade_.isOn(); }
     const History& history() const { return history_; }
     Overlay overlay() const { return {hand_.hand(), blade_.path()}; }
+    /// What they said last, once: also a line on stderr.
+    std::string takeNote() { return std::exchange(note_, {}); }
     /// For the title: " - holding".
     const char* name() const { return hand_.isHolding() ? " - holding" : blade_.isOn() ? " - blade" : ""; }
 
 private:
     void press(const Input::Press& press, const Camera& camera);
+    void say(const std::string& note);
 
     GrabTool hand_;
     CutTool blade_;
     History history_;
+    std::string note_;
     void remember(VkCommandBuffer commands, Stage& stage);
 
     bool canCut_ = false, isForgetful_ = false, wantsUndo_ = false, wantsRedo_ = false;

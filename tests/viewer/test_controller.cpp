@@ -33,6 +33,15 @@ TEST(Bindings, AreAllInTheHelpText) {
     }
 }
 
+TEST(Bindings, HintAtWhatHandsCanDoNow) {
+    const std::string empty = hintText(Hands::empty, true), blade = hintText(Hands::blade, true);
+    EXPECT_NE(empty.find("C cuts"), std::string::npos);
+    EXPECT_EQ(hintText(Hands::empty, false).find("cuts"), std::string::npos);
+    EXPECT_NE(blade.find("Ctrl + Z"), std::string::npos);
+    for (const std::string& hint : {empty, blade, hintText(Hands::holding, true)})
+        EXPECT_NE(hint.find("H help"), std::string::npos) << hint;
+}
+
 TEST(Bindings, EscapeDropsWhatIsHeldAndControlQQuits) {
     EXPECT_EQ(actionFor({Trigger::Kind::key, GLFW_KEY_ESCAPE, 0}), Action::drop);
     EXPECT_FALSE(actionFor({Trigger::Kind::key, GLFW_KEY_Q, 0}));
