@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace sinew::viewer {
@@ -121,15 +123,54 @@ TEST_F(PanelsTest, DrawMoreWhereThereIsMoreToSay) {
     EXPECT_GT(panels.drawn().TotalVtxCount, before);
 }
 
+// What the painter trusts: places are numbers, triangles have corners, nothing is cut out beyond the picture.
+void expectSound(const ImDrawData& drawn, VkExtent2D extent) {
+    EXPECT_EQ(drawn.DisplaySize.x, static_cast<float>(extent.width));
+    EXPECT_EQ(drawn.DisplaySize.y, static_cast<float>(extent.height));
+    for (int l = 0; l < drawn.CmdListsCount; ++l) {
+        const ImDrawList& list = *drawn.CmdLists[l];
+        for (const ImDrawVert& vertex : list.VtxBuffer)
+            ASSERT_TRUE(std::isfinite(vertex.pos.x) && std::isfinite(vertex.pos.y)) << extent.width;
+        for (const ImDrawCmd& draw : list.CmdBuffer) {
+            ASSERT_LE(draw.IdxOffset + draw.ElemCount, static_cast<unsigned>(list.IdxBuffer.Size));
+            for (unsigned i = draw.IdxOffset; i < draw.IdxOffset + draw.ElemCount; ++i)
+                ASSERT_LT(draw.VtxOffset + list.IdxBuffer[static_cast<int>(i)],
+                          static_cast<unsigned>(list.VtxBuffer.Size));
+        }
+    }
+}
+
+// Every panel lies within the picture.
+void expectWithin(VkExtent2D extent) {
+    int seen = 0;
+    for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+        if (!window->Active || window->Hidden || (window->Flags & ImGuiWindowFlags_ChildWindow) != 0)
+            continue;
+        if (std::string(window->Name) == "Debug##Default") continue;
+        ++seen;
+        EXPECT_GE(window->Pos.x, 0) << window->Name << " in " << extent.width << " x " << extent.height;
+        EXPECT_GE(window->Pos.y, 0) << window->Name << " in " << extent.width << " x " << extent.height;
+        EXPECT_LE(window->Pos.x + window->Size.x, static_cast<float>(extent.width)) << window->Name;
+        EXPECT_LE(window->Pos.y + window->Size.y, static_cast<float>(extent.height)) << window->Name;
+    }
+    EXPECT_GE(seen, 3) << "the hint, the message and a panel";
+}
+
 TEST_F(PanelsTest, FitIntoAnyWindow) {
-    panels.toggleHelp();
+    panels.toggle();
+    if (!panels.isShown(large)) panels.toggle();
     facts.phases = {{"begin", {}}, {"solve", {}}};
     for (PhaseCurve& phase : facts.phases)
         for (int i = 0; i < 300; ++i) phase.ms.add(static_cast<float>(i % 7));
-    for (const VkExtent2D extent : {VkExtent2D{1, 1}, VkExtent2D{33, 500}, VkExtent2D{700, 20}, large}) {
-        settle(extent);
-        EXPECT_GE(panels.drawn().CmdListsCount, 0);
-    }
+    facts.notice = "a message that is long enough to need more than one line in a window that is not wide";
+    for (const bool isHelp : {false, true})
+        for (const VkExtent2D extent : {VkExtent2D{1, 1}, VkExtent2D{33, 500}, VkExtent2D{700, 20},
+                                        VkExtent2D{320, 200}, small, large}) {
+            if (isHelp != panels.isHelpShown()) panels.toggleHelp();
+            settle(extent);
+            expectSound(panels.drawn(), extent);
+            if (extent.width >= 320 && extent.height >= 200) expectWithin(extent);
+        }
 }
 
 TEST(GlyphAtlas, CoversItsTexels) {
