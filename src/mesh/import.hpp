@@ -17,7 +17,8 @@ struct ImportLimits {
     std::uint64_t triangles = 5'000'000;
     std::uint64_t addressSpaceBytes = 1ull << 30; ///< of the child, beyond what the parent holds
     double cpuSeconds = 3, wallSeconds = 10;
-    double bytesPerSecond = 16e6; ///< large files have a second of CPU time more for each, and two of the clock
+    double bytesPerSecond =
+        16e6; ///< large files have a second of CPU time more for each, and two of the clock
 };
 
 /// "cannot read mesh: <file[:line or element]>: <why>: <what to do>". Exit code 3.
