@@ -8,29 +8,70 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 
 namespace sinew::viewer {
 
 namespace {
 
-std::vector<bool> skinnedParticles(const sim::Scene& scene) {
-    std::vector<bool> isSkinned(scene.particles.size());
+// Of every particle, of the skin that it carries.
+using Color = std::optional<sim::Vec3>;
+std::vector<Color> skinColors(const sim::Scene& scene) {
+    std::vector<Color> colors(scene.particles.size());
     for (const sim::Skin& skin : scene.skins) {
-        for (const std::uint32_t particle : skin.particles) isSkinned[particle] = true;
+        for (const std::uint32_t particle : skin.particles) colors[particle] = skin.color;
         for (const sim::CellEmbedding& cell : skin.cells)
-            for (const std::uint32_t particle : cell.particles) isSkinned[particle] = true;
+            for (const std::uint32_t particle : cell.particles) colors[particle] = skin.color;
     }
-    return isSkinned;
+    return colors;
 }
 
-// Of particles that touch nothing: of linked ones 0.4 of the shortest link, of others a speck.
-float quietRadius(const sim::Scene& scene, const sim::Body& body) {
-    float shortest = std::numeric_limits<float>::max();
-    for (const sim::DistanceConstraint& link : scene.distances)
-        if (link.a - body.firstParticle < body.particleCount && link.restLength > 0)
-            shortest = std::min(shortest, link.restLength);
-    const bool isLinked = shortest < std::numeric_limits<float>::max();
-    return isLinked ? 0.4f * shortest : 0.004f * particleBounds(scene).diagonal().norm();
+// Of one of its particles; none where it has no skin.
+Color skinColor(const sim::Body& body, const std::vector<Color>& colors) {
+    const auto first = colors.begin() + body.firstParticle, end = first + body.particleCount;
+    const auto found = std::find_if(first, end, [](const Color& color) { return color.has_value(); });
+    return found == end ? std::nullopt : *found;
+}
+
+// Of each particle's links [m]; `none` where it has none.
+constexpr float none = std::numeric_limits<float>::max();
+std::vector<float> shortestLinks(const sim::Scene& scene) {
+    std::vector<float> shortest(scene.particles.size(), none);
+    for (const sim::DistanceConstraint& link : scene.distances) {
+        if (!(link.restLength > 0)) continue;
+        for (const std::uint32_t end : {link.a, link.b})
+            shortest[end] = std::min(shortest[end], link.restLength);
+    }
+    return shortest;
+}
+
+// How large a body's particles are that touch nothing: where linked `share` of the shortest link, else
+// `speck`.
+float quietRadius(const sim::Body& body, const std::vector<float>& shortest, float share, float speck) {
+    const auto first = shortest.begin() + body.firstParticle;
+    const float length =
+        body.particleCount == 0 ? none : *std::min_element(first, first + body.particleCount);
+    return length < none ? share * length : speck;
+}
+
+enum class Which { bare, all };
+
+BallList listBalls(const sim::Scene& scene, Which which) {
+    BallList list;
+    const std::vector<Color> colors = skinColors(scene);
+    const std::vector<float> shortest = shortestLinks(scene);
+    const float speck = 0.004f * particleBounds(scene).diagonal().norm();
+    list.radii.resize(scene.particles.size());
+    for (const sim::Body& body : scene.bodies) {
+        const Color skin = skinColor(body, colors);
+        if (skin && which == Which::bare) continue;
+        list.ranges.push_back({body.firstParticle, body.particleCount, skin.value_or(body.color)});
+        const float quiet = quietRadius(body, shortest, skin ? 0.2f : 0.4f, speck);
+        for (std::uint32_t i = body.firstParticle; i < body.firstParticle + body.particleCount; ++i)
+            list.radii[i] = scene.particles[i].radius > 0 ? scene.particles[i].radius : quiet;
+    }
+    if (list.ranges.empty()) list.radii.clear();
+    return list;
 }
 
 std::uint32_t cutsFor(std::size_t balls) {
@@ -95,22 +136,11 @@ void cut(BallMesh& ball) {
 } // namespace
 
 BallList ballsOf(const sim::Scene& scene) {
-    BallList list;
-    const std::vector<bool> isSkinned = skinnedParticles(scene);
-    for (const sim::Body& body : scene.bodies) {
-        const auto first = isSkinned.begin() + body.firstParticle;
-        if (std::any_of(first, first + body.particleCount, [](bool is) { return is; })) continue;
-        list.ranges.push_back({body.firstParticle, body.particleCount, body.color});
-    }
-    if (list.ranges.empty()) return list;
-    list.radii.resize(scene.particles.size());
-    for (const sim::Body& body : scene.bodies) {
-        if (isSkinned[body.firstParticle]) continue;
-        const float quiet = quietRadius(scene, body);
-        for (std::uint32_t i = body.firstParticle; i < body.firstParticle + body.particleCount; ++i)
-            list.radii[i] = scene.particles[i].radius > 0 ? scene.particles[i].radius : quiet;
-    }
-    return list;
+    return listBalls(scene, Which::bare);
+}
+
+BallList allBallsOf(const sim::Scene& scene) {
+    return listBalls(scene, Which::all);
 }
 
 BallMesh makeBall(std::uint32_t cuts) {
@@ -133,13 +163,15 @@ Balls::Balls(const vk::Device& device, const BallList& list) : device_(device), 
     indexCount_ = static_cast<std::uint32_t>(3 * ball.triangles.size());
 }
 
-void Balls::bind(VkCommandBuffer commands, const vk::BufferView& positions) const noexcept {
+void Balls::bind(VkCommandBuffer commands, const vk::BufferView& positions,
+                 const vk::BufferView& values) const noexcept {
     const vk::BufferView corners = buffers_[0].view(), radii = buffers_[1].view(),
                          indices = buffers_[2].view();
-    const std::array buffers{corners.buffer, positions.buffer, radii.buffer};
-    const std::array offsets{corners.offset, positions.offset, radii.offset};
+    const std::array buffers{corners.buffer, positions.buffer, radii.buffer, values.buffer};
+    const std::array offsets{corners.offset, positions.offset, radii.offset, values.offset};
+    const std::uint32_t count = values.size > 0 ? 4 : 3;
     const vk::DeviceFunctions& functions = device_.functions();
-    functions.vkCmdBindVertexBuffers(commands, 0, buffers.size(), buffers.data(), offsets.data());
+    functions.vkCmdBindVertexBuffers(commands, 0, count, buffers.data(), offsets.data());
     functions.vkCmdBindIndexBuffer(commands, indices.buffer, indices.offset, VK_INDEX_TYPE_UINT32);
 }
 

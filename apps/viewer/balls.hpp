@@ -21,6 +21,8 @@ struct BallList {
 /// A particle is as large as where it touches others; where it touches none, balls of linked ones nearly
 /// meet.
 BallList ballsOf(const sim::Scene& scene);
+/// The same for bodies with a skin too, in its color; smaller, so that it is seen.
+BallList allBallsOf(const sim::Scene& scene);
 
 /// A ball of radius 1 in triangles, counter-clockwise seen from outside: an icosahedron of which every
 /// triangle was cut in four `cuts` times.
@@ -36,8 +38,10 @@ public:
     Balls(const vk::Device& device, const BallList& list);
 
     const std::vector<BallRange>& ranges() const noexcept { return ranges_; }
-    /// Binds vertices (binding 0), positions (1) and radii (2), and indices. Only where there are ranges().
-    void bind(VkCommandBuffer commands, const vk::BufferView& positions) const noexcept;
+    /// Binds vertices (binding 0), positions (1) and radii (2), and indices; values of particles (3) unless
+    /// that is empty. Only where there are ranges().
+    void bind(VkCommandBuffer commands, const vk::BufferView& positions,
+              const vk::BufferView& values = {}) const noexcept;
     void draw(VkCommandBuffer commands, const BallRange& range) const noexcept;
 
 private:

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "viewer/bindings.hpp"
+#include "viewer/layers.hpp"
 
 #include <algorithm>
 #include <array>
@@ -109,7 +110,11 @@ struct Facts {
     std::size_t scene = static_cast<std::size_t>(-1); ///< of `scenes`; none of them = -1
     bool isOpening = false;
     Knobs knobs;
-    std::string notice; ///< the newest message; empty = none
+    Layers layers;
+    MapReading map;                  ///< of the map that is on, if one is
+    float mapRange = 0;              ///< which value has the last color; 0 = not known yet
+    std::uint32_t contactsFound = 0; ///< where they are shown
+    std::string notice;              ///< the newest message; empty = none
     bool isNoticeBad = false;
 };
 

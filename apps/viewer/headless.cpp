@@ -4,6 +4,7 @@
 
 #include "app/guard.hpp"
 #include "app/progress.hpp"
+#include "viewer/inspection.hpp"
 #include "viewer/offscreen.hpp"
 #include "viewer/opening.hpp"
 #include "viewer/picture_writer.hpp"
@@ -84,7 +85,7 @@ class Recorder {
 public:
     Recorder(const Options& options, const Opening& opening, const vk::Device& device)
         : opening_(opening), device_(device), stage_(device, opening.loaded.scene, opening.loaded.settings),
-          offscreen_(device, options.size, opening.light), queue_(device) {
+          offscreen_(device, options.size, opening.light), layers_(options.layers), queue_(device) {
         stage_.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
     }
 
@@ -96,7 +97,8 @@ public:
         settle(); // first: a step that is done again would show in no picture
         VkCommandBuffer commands = queue_.begin();
         stage_.recordSkin(commands);
-        offscreen_.record(commands, opening_.camera, stage_.simulation());
+        const Overlay overlay = recordLayers(commands);
+        offscreen_.record(commands, opening_.camera, stage_.simulation(), overlay);
         queue_.wait(queue_.submit(commands));
         return offscreen_.read();
     }
@@ -109,6 +111,23 @@ public:
     PictureText text(std::uint64_t frame) const { return pictureText(opening_, device_, frame); }
 
 private:
+    // The range of a map is that of its own picture, whichever others are taken.
+    Overlay recordLayers(VkCommandBuffer& commands) {
+        if (layers_ == Layers{}) return {};
+        offscreen_.prepare(layers_);
+        if (!layers_.needsBuffers()) return {.layers = layers_};
+        if (!inspection_) inspection_.emplace(device_, stage_, 1);
+        inspection_->prepare(layers_);
+        inspection_->record(commands, layers_, 0);
+        float range = 0;
+        if (layers_.map != ColorMap::none) {
+            queue_.wait(queue_.submit(commands));
+            range = inspection_->reading(0).range;
+            commands = queue_.begin();
+        }
+        return {.layers = layers_, .buffers = inspection_->buffers(layers_, range)};
+    }
+
     struct Submission {
         std::uint64_t frame, value;
     };
@@ -127,6 +146,7 @@ private:
         const std::uint64_t last = stage_.steps();
         if (!stage_.makeRoom(first, queue_)) throw app::Failure(app::diverged, app::tooCrowded(first));
         submissions_.clear();
+        inspection_.reset(); // there is another simulation now
         for (std::uint64_t frame = first; frame <= last; ++frame) submit(frame);
     }
 
@@ -144,6 +164,8 @@ private:
     const vk::Device& device_;
     Stage stage_;
     Offscreen offscreen_;
+    Layers layers_;
+    std::optional<Inspection> inspection_;
     vk::Queue queue_; // last: waits for what still uses the others
     std::deque<Submission> submissions_;
 };

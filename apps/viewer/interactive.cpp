@@ -59,6 +59,7 @@ int runInteractive(const Options& options, std::size_t& messages) {
     const vk::Loader loader;
     const vk::Device device = createDevice(loader, window, options, messages);
     Screen screen(window, device);
+    screen.layers() = options.layers;
     announce(*opening, device, screen);
     if (isSoftware(device))
         std::printf("software device: small shadow maps and no multisampling while things move, all of it "

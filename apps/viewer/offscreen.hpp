@@ -12,6 +12,9 @@ public:
     Offscreen(const vk::Device& device, VkExtent2D extent, const StageLight& light,
               const Quality& quality = {});
 
+    /// As Renderer::prepare.
+    void prepare(const Layers& layers) { renderer_.prepare(layers); }
+
     /// Records picture and copy. As Renderer::record; the previous picture must be finished.
     void record(VkCommandBuffer commands, const Camera& camera, const sim::Simulation& simulation,
                 const Overlay& overlay = {}) const noexcept;

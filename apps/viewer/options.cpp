@@ -101,12 +101,16 @@ bool Options::wantsPicture(std::uint64_t frame) const {
 std::optional<Options> parseOptions(int argc, const char* const* argv) {
     Options options;
     std::string size;
+    std::vector<std::string> layers;
     CLI::App app(description, "sinew-viewer");
     app.set_version_flag("--version", "sinew-viewer " SINEW_VERSION);
     app.footer("In the window:\n" + helpText() + "\n" + exitCodes);
     addSceneOptions(app, options);
     app.add_option("--size", size,
                    "of the window or the pictures in pixels, WIDTHxHEIGHT (default 1280x720)");
+    app.add_option("--show", layers, "what is drawn beside skins or instead of them")
+        ->delimiter(',')
+        ->check(CLI::IsMember(layerNames()));
     addHeadlessOptions(app, options);
     try {
         app.parse(argc, argv);
@@ -115,6 +119,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         app.exit(error); // --help, --version
         return std::nullopt;
     }
+    for (const std::string& layer : layers) addLayer(layer, options.layers);
     if (app.count("--size") > 0) options.size = parseSize(size);
     checkHeadless(options, app.count("--frames") > 0);
     return options;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenes/load.hpp"
+#include "viewer/layers.hpp"
 
 #include <vulkan/vulkan_core.h>
 
@@ -20,6 +21,7 @@ struct Options {
     std::string device; ///< as vk::DeviceRequest::device
     bool hasValidation = false;
     VkExtent2D size{1280, 720};
+    Layers layers;
 
     bool isHeadless = false;
     std::uint64_t frames = 240;          ///< steps to take without a window

@@ -2,6 +2,7 @@
 #include "viewer/pipeline.hpp"
 
 #include "layout.h"
+#include "viewer/values.h"
 #include "vk/check.hpp"
 
 #include <array>
@@ -62,6 +63,32 @@ constexpr std::array cutAttributes{skinAttributes[0], skinAttributes[1],
                                    VkVertexInputAttributeDescription{2, 1, VK_FORMAT_R32G32B32A32_SFLOAT,
                                                                      offsetof(sim::layout::CutVertex, rest)}};
 
+// The same with a value each.
+constexpr VkVertexInputBindingDescription valueBinding(std::uint32_t binding, VkVertexInputRate rate) {
+    return {binding, sizeof(float), rate};
+}
+constexpr VkVertexInputAttributeDescription valueAttribute(std::uint32_t binding) {
+    return {3, binding, VK_FORMAT_R32_SFLOAT, 0};
+}
+constexpr std::array skinValueBindings{skinBinding, valueBinding(1, VK_VERTEX_INPUT_RATE_VERTEX)};
+constexpr std::array skinValueAttributes{skinAttributes[0], skinAttributes[1], valueAttribute(1)};
+constexpr std::array ballValueBindings{ballBindings[0], ballBindings[1], ballBindings[2],
+                                       valueBinding(3, VK_VERTEX_INPUT_RATE_INSTANCE)};
+constexpr std::array ballValueAttributes{ballAttributes[0], ballAttributes[1], ballAttributes[2],
+                                         valueAttribute(3)};
+constexpr std::array cutValueBindings{cutBindings[0], cutBindings[1],
+                                      valueBinding(2, VK_VERTEX_INPUT_RATE_VERTEX)};
+constexpr std::array cutValueAttributes{cutAttributes[0], cutAttributes[1], valueAttribute(2)};
+
+constexpr std::array markBindings{
+    ballBindings[0],
+    VkVertexInputBindingDescription{1, sizeof(layout::ContactMark), VK_VERTEX_INPUT_RATE_INSTANCE}};
+constexpr std::array markAttributes{ballAttributes[0],
+                                    VkVertexInputAttributeDescription{1, 1, VK_FORMAT_R32G32B32A32_SFLOAT,
+                                                                      offsetof(layout::ContactMark, point)},
+                                    VkVertexInputAttributeDescription{2, 1, VK_FORMAT_R32G32B32A32_SFLOAT,
+                                                                      offsetof(layout::ContactMark, normal)}};
+
 constexpr std::array panelBindings{
     VkVertexInputBindingDescription{0, sizeof(PanelVertex), VK_VERTEX_INPUT_RATE_VERTEX}};
 constexpr std::array panelAttributes{
@@ -80,7 +107,11 @@ constexpr std::array vertexForms{VertexForm{},
                                  VertexForm{ballBindings, ballAttributes},
                                  VertexForm{{ballBindings.data(), 2}, {ballAttributes.data(), 2}},
                                  VertexForm{cutBindings, cutAttributes},
-                                 VertexForm{panelBindings, panelAttributes}};
+                                 VertexForm{panelBindings, panelAttributes},
+                                 VertexForm{skinValueBindings, skinValueAttributes},
+                                 VertexForm{ballValueBindings, ballValueAttributes},
+                                 VertexForm{cutValueBindings, cutValueAttributes},
+                                 VertexForm{markBindings, markAttributes}};
 
 VkPipelineVertexInputStateCreateInfo vertexInput(PipelineRequest::Input input) {
     const VertexForm& form = vertexForms[static_cast<std::size_t>(input)];
@@ -105,12 +136,13 @@ constexpr VkPipelineDynamicStateCreateInfo dynamicState{
     .pDynamicStates = dynamicStates.data()};
 constexpr VkPipelineViewportStateCreateInfo viewportState{
     .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, .viewportCount = 1, .scissorCount = 1};
-constexpr VkPipelineRasterizationStateCreateInfo rasterState{
-    .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
-    .polygonMode = VK_POLYGON_MODE_FILL,
-    .cullMode = VK_CULL_MODE_NONE,
-    .frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE,
-    .lineWidth = 1};
+VkPipelineRasterizationStateCreateInfo rasterState(bool hasEdgesAlone) {
+    return {.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
+            .polygonMode = hasEdgesAlone ? VK_POLYGON_MODE_LINE : VK_POLYGON_MODE_FILL,
+            .cullMode = VK_CULL_MODE_NONE,
+            .frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE,
+            .lineWidth = 1};
+}
 constexpr VkColorComponentFlags allComponents =
     VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
 constexpr VkPipelineColorBlendAttachmentState opaque{.colorWriteMask = allComponents};
@@ -126,6 +158,7 @@ VkPipeline create(const vk::Device& device, const PipelineRequest& request,
                   std::span<const VkPipelineShaderStageCreateInfo> stages) {
     const VkPipelineVertexInputStateCreateInfo input = vertexInput(request.input);
     const VkPipelineDepthStencilStateCreateInfo depth = depthState(request.depth);
+    const VkPipelineRasterizationStateCreateInfo raster = rasterState(request.hasEdgesAlone);
     const VkPipelineInputAssemblyStateCreateInfo assembly{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO, .topology = request.topology};
     const VkPipelineMultisampleStateCreateInfo multisample{
@@ -141,7 +174,7 @@ VkPipeline create(const vk::Device& device, const PipelineRequest& request,
                                             .pVertexInputState = &input,
                                             .pInputAssemblyState = &assembly,
                                             .pViewportState = &viewportState,
-                                            .pRasterizationState = &rasterState,
+                                            .pRasterizationState = &raster,
                                             .pMultisampleState = &multisample,
                                             .pDepthStencilState = &depth,
                                             .pColorBlendState = &blend,

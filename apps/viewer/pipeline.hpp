@@ -22,10 +22,24 @@ struct PipelineRequest {
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     /// Of SkinVertex, binding 0; or corners of a ball, and its place and radius an instance, bindings 0 to 2;
     /// of a hand those without a radius. Of a cut SkinVertex and CutVertex, bindings 0 and 1. Of panels
-    /// PanelVertex.
-    enum class Input { none, positions, positionsAndNormals, balls, hand, cuts, panels } input = Input::none;
+    /// PanelVertex. With a value (float) at location 3: skins at binding 1, balls an instance at 3, cuts
+    /// at 2. Of a mark corners as of a hand, and ContactMark an instance, bindings 0 and 1.
+    enum class Input {
+        none,
+        positions,
+        positionsAndNormals,
+        balls,
+        hand,
+        cuts,
+        panels,
+        skinValues,
+        ballValues,
+        cutValues,
+        marks
+    } input = Input::none;
     enum class Depth { none, test, testAndWrite } depth = Depth::none;
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    bool hasEdgesAlone = false;                            ///< of triangles; only where drawsEdges()
     bool isBlended = false;                                ///< over what is there, by alpha
     std::span<const vk::SpecialisationConstant> constants; ///< of both stages; ids a shader lacks are ignored
 };

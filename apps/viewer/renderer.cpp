@@ -12,21 +12,6 @@ namespace sinew::viewer {
 
 namespace {
 
-enum PipelineIndex : std::size_t {
-    shadowPipeline,
-    planPipeline,
-    floorPipeline,
-    skinPipeline,
-    groundPipeline,
-    skyPipeline,
-    handPipeline,
-    insidePipeline,
-    clippedPipeline,
-    ballShadowPipeline,
-    ballPlanPipeline,
-    ballPipeline
-};
-
 constexpr float ballGloss = 0.6f;      // of a skin's: balls are hard and dry
 constexpr float colliderGloss = 0.15f; // dull beside tissue
 
@@ -74,108 +59,99 @@ Renderer::Renderer(const vk::Device& device, const Target& target, const Quality
                         .count = slots * mostStrokePoints,
                         .stride = sizeof(sim::layout::vec4),
                         .kind = vk::MemoryKind::upload,
-                        .usage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT}) {
-    createPipelines(target, quality);
-    createCutPipelines(target, quality);
-    if (!balls_.ranges().empty()) createBallPipelines(target, quality);
+                        .usage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT}),
+      look_(lookOf(target, quality)) {
+    createMapPipelines();
+    createPipelines();
+    createCutPipelines();
+    if (!balls_.ranges().empty()) createBallPipelines();
 }
 
-void Renderer::addPipeline(PipelineRequest request) {
+void Renderer::addPipeline(std::size_t index, PipelineRequest request) {
     request.layout = sets_.layout();
-    pipelines_.emplace_back(device_, request);
+    pipelines_[index].emplace(device_, request);
 }
 
-void Renderer::createPipelines(const Target& target, const Quality& quality) {
+PipelineRequest Renderer::litRequest(const std::string& name) const {
+    return {.name = "picture." + name,
+            .pass = pass_.handle(),
+            .samples = format_.samples,
+            .depth = PipelineRequest::Depth::testAndWrite,
+            .constants = look_};
+}
+
+void Renderer::createMapPipelines() {
     using Input = PipelineRequest::Input;
     using Depth = PipelineRequest::Depth;
-    const auto look = lookOf(target, quality);
-    const auto add = [&](const PipelineRequest& request) { addPipeline(request); };
-    add({.name = "picture.shadow",
-         .vertex = &shaders::depthVert,
-         .pass = maps_.shadow.pass.handle(),
-         .input = Input::positions,
-         .depth = Depth::testAndWrite});
-    add({.name = "picture.plan",
-         .vertex = &shaders::depthVert,
-         .pass = maps_.plan.pass.handle(),
-         .input = Input::positions,
-         .depth = Depth::testAndWrite,
-         .constants = plan});
-    add({.name = "picture.floor",
-         .vertex = &shaders::screenVert,
-         .fragment = &shaders::floorFrag,
-         .pass = maps_.floor.pass.handle(),
-         .constants = look});
-    add({.name = "picture.skin",
-         .vertex = &shaders::skinVert,
-         .fragment = &shaders::skinFrag,
-         .pass = pass_.handle(),
-         .samples = quality.samples,
-         .input = Input::positionsAndNormals,
-         .depth = Depth::testAndWrite,
-         .constants = look});
-    add({.name = "picture.ground",
-         .vertex = &shaders::groundVert,
-         .fragment = &shaders::groundFrag,
-         .pass = pass_.handle(),
-         .samples = quality.samples,
-         .depth = Depth::testAndWrite,
-         .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP,
-         .constants = look});
-    add({.name = "picture.sky",
-         .vertex = &shaders::screenVert,
-         .fragment = &shaders::skyFrag,
-         .pass = pass_.handle(),
-         .samples = quality.samples,
-         .depth = Depth::test,
-         .constants = look});
-    add({.name = "picture.hand",
-         .vertex = &shaders::handVert,
-         .fragment = &shaders::skinFrag,
-         .pass = pass_.handle(),
-         .samples = quality.samples,
-         .input = Input::hand,
-         .depth = Depth::testAndWrite,
-         .constants = look});
+    addPipeline(shadowPipeline, {.name = "picture.shadow",
+                                 .vertex = &shaders::depthVert,
+                                 .pass = maps_.shadow.pass.handle(),
+                                 .input = Input::positions,
+                                 .depth = Depth::testAndWrite});
+    addPipeline(planPipeline, {.name = "picture.plan",
+                               .vertex = &shaders::depthVert,
+                               .pass = maps_.plan.pass.handle(),
+                               .input = Input::positions,
+                               .depth = Depth::testAndWrite,
+                               .constants = plan});
+    addPipeline(floorPipeline, {.name = "picture.floor",
+                                .vertex = &shaders::screenVert,
+                                .fragment = &shaders::floorFrag,
+                                .pass = maps_.floor.pass.handle(),
+                                .constants = look_});
 }
 
-void Renderer::createCutPipelines(const Target& target, const Quality& quality) {
-    const auto look = lookOf(target, quality);
-    PipelineRequest request{.name = "picture.inside",
-                            .vertex = &shaders::cutVert,
-                            .fragment = &shaders::insideFrag,
-                            .pass = pass_.handle(),
-                            .samples = quality.samples,
-                            .input = PipelineRequest::Input::cuts,
-                            .depth = PipelineRequest::Depth::testAndWrite,
-                            .constants = look};
-    addPipeline(request);
+void Renderer::createPipelines() {
+    using Input = PipelineRequest::Input;
+    PipelineRequest request = litRequest("skin");
+    request.vertex = &shaders::skinVert;
+    request.fragment = &shaders::skinFrag;
+    request.input = Input::positionsAndNormals;
+    addPipeline(skinPipeline, request);
+    request = litRequest("hand");
+    request.vertex = &shaders::handVert;
+    request.fragment = &shaders::skinFrag;
+    request.input = Input::hand;
+    addPipeline(handPipeline, request);
+    request = litRequest("ground");
+    request.vertex = &shaders::groundVert;
+    request.fragment = &shaders::groundFrag;
+    request.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP;
+    addPipeline(groundPipeline, request);
+    request = litRequest("sky");
+    request.vertex = &shaders::screenVert;
+    request.fragment = &shaders::skyFrag;
+    request.depth = PipelineRequest::Depth::test;
+    addPipeline(skyPipeline, request);
+}
+
+void Renderer::createCutPipelines() {
+    PipelineRequest request = litRequest("inside");
+    request.vertex = &shaders::cutVert;
+    request.fragment = &shaders::insideFrag;
+    request.input = PipelineRequest::Input::cuts;
+    addPipeline(insidePipeline, request);
     request.name = "picture.clipped";
     request.fragment = &shaders::clippedFrag;
-    addPipeline(request);
+    addPipeline(clippedPipeline, request);
 }
 
-void Renderer::createBallPipelines(const Target& target, const Quality& quality) {
-    const PipelineRequest depth{.name = "picture.ball_shadow",
-                                .vertex = &shaders::ballDepthVert,
-                                .pass = maps_.shadow.pass.handle(),
-                                .input = PipelineRequest::Input::balls,
-                                .depth = PipelineRequest::Depth::testAndWrite};
-    addPipeline(depth);
-    PipelineRequest request = depth;
+void Renderer::createBallPipelines() {
+    PipelineRequest request{.name = "picture.ball_shadow",
+                            .vertex = &shaders::ballDepthVert,
+                            .pass = maps_.shadow.pass.handle(),
+                            .input = PipelineRequest::Input::balls,
+                            .depth = PipelineRequest::Depth::testAndWrite};
+    addPipeline(ballShadowPipeline, request);
     request.name = "picture.ball_plan";
     request.pass = maps_.plan.pass.handle();
     request.constants = plan;
-    addPipeline(request);
-    const auto look = lookOf(target, quality);
-    request = depth;
-    request.name = "picture.ball";
+    addPipeline(ballPlanPipeline, request);
+    request = litRequest("ball");
     request.vertex = &shaders::ballVert;
     request.fragment = &shaders::skinFrag;
-    request.pass = pass_.handle();
-    request.samples = quality.samples;
-    request.constants = look;
-    addPipeline(request);
+    request.input = PipelineRequest::Input::balls;
+    addPipeline(ballPipeline, request);
 }
 
 Canvas Renderer::makeCanvas(VkExtent2D extent, std::span<const VkImageView> pictures) const {
@@ -189,14 +165,25 @@ void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, const Canvas
     sets_.bind(commands, slot);
     vk::Commands labels(device_, commands);
     labels.beginLabel("light maps");
-    recordMaps(commands, simulation);
+    recordMaps(commands, simulation, overlay);
     labels.endLabel();
     labels.beginLabel("picture");
     recordPicture(commands, canvas, picture, simulation, overlay, slot);
     labels.endLabel();
 }
 
-void Renderer::recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept {
+// Under a translucent skin balls throw the shadows, where there are some.
+void Renderer::recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation,
+                          const Overlay& overlay) const noexcept {
+    const Layers& layers = overlay.layers;
+    const bool hasSkins =
+        layers.skin == SkinLook::solid || (layers.skin == SkinLook::glass && !layers.hasBalls);
+    const auto draw = [&](std::size_t ofSkins, std::size_t ofBalls) {
+        if (hasSkins) drawSkins(commands, ofSkins, simulation);
+        if (hasSkins) drawCuts(commands, ofSkins, ofSkins, simulation);
+        drawColliders(commands, ofSkins, simulation);
+        drawBalls(commands, ofBalls, simulation, overlay);
+    };
     const vk::DeviceFunctions& functions = device_.functions();
     const std::array far{VkClearValue{.depthStencil = {1, 0}}};
     const std::array open{VkClearValue{.color = {{1, 1, 1, 1}}}};
@@ -204,15 +191,11 @@ void Renderer::recordMaps(VkCommandBuffer commands, const sim::Simulation& simul
         begin(commands, map.pass, map.framebuffer.handle(), map.image.extent(), clear);
     };
     beginMap(maps_.shadow, far);
-    drawBodies(commands, shadowPipeline, ballShadowPipeline, simulation);
-    drawCuts(commands, shadowPipeline, shadowPipeline, simulation);
+    draw(shadowPipeline, ballShadowPipeline);
     functions.vkCmdEndRenderPass(commands);
     // Without a ground the other two are only cleared: the shaders' bindings stay readable.
     beginMap(maps_.plan, far);
-    if (light_.ground) {
-        drawBodies(commands, planPipeline, ballPlanPipeline, simulation);
-        drawCuts(commands, planPipeline, planPipeline, simulation);
-    }
+    if (light_.ground) draw(planPipeline, ballPlanPipeline);
     functions.vkCmdEndRenderPass(commands);
     beginMap(maps_.floor, open);
     if (light_.ground) {
@@ -228,8 +211,16 @@ void Renderer::recordPicture(VkCommandBuffer commands, const Canvas& canvas, std
     const vk::DeviceFunctions& functions = device_.functions();
     const std::array clear{VkClearValue{.color = {{0, 0, 0, 1}}}, VkClearValue{.depthStencil = {1, 0}}};
     begin(commands, pass_, canvas.framebuffer(picture), canvas.extent(), clear);
-    drawBodies(commands, skinPipeline, ballPipeline, simulation);
-    drawCuts(commands, insidePipeline, clippedPipeline, simulation);
+    drawColliders(commands, skinPipeline, simulation);
+    if (overlay.layers.map != ColorMap::none) {
+        drawValues(commands, simulation, overlay);
+    } else {
+        drawBalls(commands, ballPipeline, simulation, overlay);
+        if (overlay.layers.skin == SkinLook::solid) {
+            drawSkins(commands, skinPipeline, simulation);
+            drawCuts(commands, insidePipeline, clippedPipeline, simulation);
+        }
+    }
     if (overlay.hand) drawHand(commands, simulation, *overlay.hand);
     drawStroke(commands, overlay.stroke, slot);
     if (light_.ground) {
@@ -238,6 +229,7 @@ void Renderer::recordPicture(VkCommandBuffer commands, const Canvas& canvas, std
     }
     bind(commands, skyPipeline);
     functions.vkCmdDraw(commands, 3, 1, 0, 0);
+    recordLayers(commands, simulation, overlay);
     functions.vkCmdEndRenderPass(commands);
 }
 
@@ -259,17 +251,7 @@ void Renderer::begin(VkCommandBuffer commands, const RenderPass& pass, VkFramebu
 
 void Renderer::bind(VkCommandBuffer commands, std::size_t pipeline) const noexcept {
     device_.functions().vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                                          pipelines_[pipeline].handle());
-}
-
-void Renderer::drawBodies(VkCommandBuffer commands, std::size_t ofSkins, std::size_t ofBalls,
-                          const sim::Simulation& simulation) const noexcept {
-    bind(commands, ofSkins);
-    drawSkins(commands, simulation);
-    drawColliders(commands, simulation);
-    if (balls_.ranges().empty()) return;
-    bind(commands, ofBalls);
-    drawBalls(commands, simulation);
+                                          pipelines_[pipeline]->handle());
 }
 
 void Renderer::bindMesh(VkCommandBuffer commands, const vk::BufferView& vertices,
@@ -294,9 +276,11 @@ void Renderer::push(VkCommandBuffer commands, const layout::SkinPush& values) co
                                            sizeof(values), &values);
 }
 
-void Renderer::drawColliders(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept {
+void Renderer::drawColliders(VkCommandBuffer commands, std::size_t pipeline,
+                             const sim::Simulation& simulation) const noexcept {
     const auto& ranges = colliders_.ranges();
     if (ranges.empty()) return;
+    bind(commands, pipeline);
     const std::span<const sim::Pose> poses = simulation.colliderPoses();
     bindMesh(commands, colliders_.vertices(), colliders_.indices());
     for (std::size_t i = 0; i < std::min(ranges.size(), poses.size()); ++i) {
@@ -306,14 +290,18 @@ void Renderer::drawColliders(VkCommandBuffer commands, const sim::Simulation& si
     }
 }
 
-void Renderer::drawSkins(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept {
+void Renderer::drawSkins(VkCommandBuffer commands, std::size_t pipeline, const sim::Simulation& simulation,
+                         const LayerBuffers& buffers) const noexcept {
     if (simulation.skins().empty()) return;
     const vk::DeviceFunctions& functions = device_.functions();
+    const vk::BufferView& values = buffers.skins;
+    bind(commands, pipeline);
     bindMesh(commands, simulation.skinVertices(), simulation.skinIndices());
+    if (values.size > 0) functions.vkCmdBindVertexBuffers(commands, 1, 1, &values.buffer, &values.offset);
     const vk::BufferView pieces = simulation.pieceDraws();
     for (std::size_t i = 0; i < simulation.skins().size(); ++i) {
         const sim::SkinRange& skin = simulation.skins()[i];
-        push(commands, skin.color, light_.gloss[i], {});
+        push(commands, values.size > 0 ? sim::Vec3{buffers.range} : skin.color, light_.gloss[i], {});
         functions.vkCmdDrawIndexed(commands, skin.indexCount, 1, skin.firstIndex, 0, 0);
         if (pieces.size > 0)
             functions.vkCmdDrawIndexedIndirect(commands, pieces.buffer, pieces.offset + i * pieces.stride, 1,
@@ -321,11 +309,17 @@ void Renderer::drawSkins(VkCommandBuffer commands, const sim::Simulation& simula
     }
 }
 
-void Renderer::drawBalls(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept {
-    balls_.bind(commands, simulation.positions());
-    for (const BallRange& range : balls_.ranges()) {
-        push(commands, range.color, ballGloss, {});
-        balls_.draw(commands, range);
+void Renderer::drawBalls(VkCommandBuffer commands, std::size_t pipeline, const sim::Simulation& simulation,
+                         const Overlay& overlay) const noexcept {
+    const bool isAll = overlay.layers.hasBalls && overlay.buffers.balls != nullptr;
+    const Balls& balls = isAll ? *overlay.buffers.balls : balls_;
+    if (balls.ranges().empty() || !has(pipeline)) return;
+    const bool isMap = pipeline == ballValuesPipeline;
+    bind(commands, pipeline);
+    balls.bind(commands, simulation.positions(), isMap ? overlay.buffers.particles : vk::BufferView{});
+    for (const BallRange& range : balls.ranges()) {
+        push(commands, isMap ? sim::Vec3{overlay.buffers.range} : range.color, ballGloss, {});
+        balls.draw(commands, range);
     }
 }
 
@@ -341,18 +335,19 @@ void Renderer::drawHand(VkCommandBuffer commands, const sim::Simulation& simulat
 
 // Both draws come from the device, which alone knows how much there is.
 void Renderer::drawCuts(VkCommandBuffer commands, std::size_t ofInside, std::size_t ofClipped,
-                        const sim::Simulation& simulation) const noexcept {
+                        const sim::Simulation& simulation, const LayerBuffers& buffers) const noexcept {
     const sim::CutSurface surface = simulation.cutSurface();
     if (surface.draws.size == 0) return;
     const vk::DeviceFunctions& functions = device_.functions();
-    const std::array buffers{surface.vertices.buffer, surface.rest.buffer};
-    const std::array offsets{surface.vertices.offset, surface.rest.offset};
-    functions.vkCmdBindVertexBuffers(commands, 0, buffers.size(), buffers.data(), offsets.data());
+    const vk::BufferView& values = buffers.cuts;
+    const std::array bound{surface.vertices.buffer, surface.rest.buffer, values.buffer};
+    const std::array offsets{surface.vertices.offset, surface.rest.offset, values.offset};
+    functions.vkCmdBindVertexBuffers(commands, 0, values.size > 0 ? 3 : 2, bound.data(), offsets.data());
     functions.vkCmdBindIndexBuffer(commands, surface.indices.buffer, surface.indices.offset,
                                    VK_INDEX_TYPE_UINT32);
     for (const std::size_t draw : {std::size_t{0}, std::size_t{1}}) {
         bind(commands, draw == 0 ? ofInside : ofClipped);
-        push(commands, {}, 0, {});
+        push(commands, {buffers.range}, 0, {});
         functions.vkCmdDrawIndexedIndirect(commands, surface.draws.buffer,
                                            surface.draws.offset + draw * surface.draws.stride, 1,
                                            static_cast<std::uint32_t>(surface.draws.stride));

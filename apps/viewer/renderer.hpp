@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sim/simulation.hpp"
+#include "viewer/balls.hpp"
 #include "viewer/canvas.hpp"
 #include "viewer/collider_meshes.hpp"
 #include "viewer/hand_mesh.hpp"
@@ -21,6 +22,9 @@ struct Quality {
 
 /// For a window on a software device: smaller maps, fewer taps.
 Quality reducedQuality();
+
+/// Whether a device of our own making draws the edges of triangles.
+bool drawsEdges(const vk::Device& device);
 
 /// True for a device that draws on the CPU.
 bool isSoftware(const vk::Device& device);
@@ -41,35 +45,51 @@ public:
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
+    /// Makes what overlays with these layers are drawn with, and is not there yet. Throws vk::Error.
+    void prepare(const Layers& layers);
+
     Canvas makeCanvas(VkExtent2D extent, std::span<const VkImageView> pictures) const;
 
     /// Records one picture. `commands` must be recording, outside a render pass, after recordSkin() of
     /// `simulation` in the same queue. `slot` < slots; its previous picture must be finished. Leaves the
-    /// picture in the final layout.
+    /// picture in the final layout. The layers of `overlay` must be prepared; what the device cannot draw of
+    /// them is left out.
     void record(VkCommandBuffer commands, std::uint32_t slot, const Canvas& canvas, std::size_t picture,
                 const Camera& camera, const sim::Simulation& simulation,
                 const Overlay& overlay = {}) const noexcept;
 
 private:
-    void addPipeline(PipelineRequest request);
-    void createPipelines(const Target& target, const Quality& quality);
-    void createCutPipelines(const Target& target, const Quality& quality);
-    void createBallPipelines(const Target& target, const Quality& quality);
-    void recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept;
+    void addPipeline(std::size_t index, PipelineRequest request);
+    bool has(std::size_t pipeline) const noexcept { return pipelines_[pipeline].has_value(); }
+    void prepareGlass();
+    void prepareValues();
+    void prepareWires();
+    void prepareContacts();
+    PipelineRequest litRequest(const std::string& name) const;
+    void createMapPipelines();
+    void createPipelines();
+    void createCutPipelines();
+    void createBallPipelines();
+    void recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation,
+                    const Overlay& overlay) const noexcept;
+    void recordLayers(VkCommandBuffer commands, const sim::Simulation& simulation,
+                      const Overlay& overlay) const noexcept;
+    void drawValues(VkCommandBuffer commands, const sim::Simulation& simulation,
+                    const Overlay& overlay) const noexcept;
     void recordPicture(VkCommandBuffer commands, const Canvas& canvas, std::size_t picture,
                        const sim::Simulation& simulation, const Overlay& overlay,
                        std::uint32_t slot) const noexcept;
     void begin(VkCommandBuffer commands, const RenderPass& pass, VkFramebuffer framebuffer, VkExtent2D extent,
                std::span<const VkClearValue> clear) const noexcept;
     void bind(VkCommandBuffer commands, std::size_t pipeline) const noexcept;
-    /// Skins and colliders with one pipeline, balls with another.
-    void drawBodies(VkCommandBuffer commands, std::size_t ofSkins, std::size_t ofBalls,
-                    const sim::Simulation& simulation) const noexcept;
-    void drawSkins(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept;
-    void drawColliders(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept;
-    void drawBalls(VkCommandBuffer commands, const sim::Simulation& simulation) const noexcept;
+    void drawSkins(VkCommandBuffer commands, std::size_t pipeline, const sim::Simulation& simulation,
+                   const LayerBuffers& buffers = {}) const noexcept;
+    void drawColliders(VkCommandBuffer commands, std::size_t pipeline,
+                       const sim::Simulation& simulation) const noexcept;
+    void drawBalls(VkCommandBuffer commands, std::size_t pipeline, const sim::Simulation& simulation,
+                   const Overlay& overlay) const noexcept;
     void drawCuts(VkCommandBuffer commands, std::size_t ofInside, std::size_t ofClipped,
-                  const sim::Simulation& simulation) const noexcept;
+                  const sim::Simulation& simulation, const LayerBuffers& buffers = {}) const noexcept;
     void drawStroke(VkCommandBuffer commands, std::span<const Vector3> stroke,
                     std::uint32_t slot) const noexcept;
     void drawHand(VkCommandBuffer commands, const sim::Simulation& simulation,
@@ -89,8 +109,32 @@ private:
     PictureSets sets_;
     Balls balls_;
     HandMesh hand_;
-    vk::Buffer strokes_; // vec4, mostStrokePoints a slot
-    std::vector<Pipeline> pipelines_;
+    vk::Buffer strokes_;                             // vec4, mostStrokePoints a slot
+    std::array<vk::SpecialisationConstant, 3> look_; // of what is lit
+    enum PipelineIndex : std::size_t {
+        shadowPipeline,
+        planPipeline,
+        floorPipeline,
+        skinPipeline,
+        groundPipeline,
+        skyPipeline,
+        handPipeline,
+        insidePipeline,
+        clippedPipeline,
+        ballShadowPipeline,
+        ballPlanPipeline,
+        ballPipeline,
+        skinGlassPipeline,
+        insideGlassPipeline,
+        clippedGlassPipeline,
+        skinValuesPipeline,
+        cutValuesPipeline,
+        ballValuesPipeline,
+        wiresPipeline,
+        contactPipeline,
+        pipelineCount
+    };
+    std::array<std::optional<Pipeline>, pipelineCount> pipelines_; // of layers where they were prepared
 };
 
 } // namespace sinew::viewer

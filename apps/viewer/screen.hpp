@@ -25,6 +25,10 @@ public:
     /// Makes a swapchain where one is due. `beforehand` is called when the old views are about to go, and
     /// nothing is in flight. False while the window has no size.
     bool prepare(const std::function<void()>& beforehand);
+    /// What is on, of every scene.
+    Layers& layers() { return layers_; }
+    const Layers& layers() const { return layers_; }
+
     bool isVsync() const { return isVsync_; }
     void toggleVsync();
 
@@ -55,6 +59,7 @@ private:
     PanelPainter painter_;
     PanelInput input_;
     Notice notice_;
+    Layers layers_;
     Clock::time_point lastPicture_ = Clock::now();
     VkExtent2D pixels_{};
     bool isVsync_ = true, isNoticeNew_ = false;

@@ -210,6 +210,22 @@ void Show::handle(Action action) {
     case Action::nextScene:
         if (mayOpen()) library_.openNext(1, pictureAspect());
         break;
+    case Action::skinLook:
+        screen_.layers().skin = next(screen_.layers().skin);
+        break;
+    case Action::wires:
+        toggleWires();
+        break;
+    case Action::balls:
+        screen_.layers().hasBalls = !screen_.layers().hasBalls;
+        break;
+    case Action::contacts:
+        screen_.layers().hasContacts = !screen_.layers().hasContacts;
+        break;
+    case Action::colorMap:
+        screen_.layers().map = next(screen_.layers().map);
+        mapRange_ = {};
+        break;
     case Action::record:
         toggleRecording();
         break;
@@ -246,12 +262,14 @@ void Show::draw(Plan plan, View& view) {
         return;
     }
     recordSteps(*frame, plan);
-    if (recording_ && plan.steps > 0) recordCamera(*frame);
+    const Overlay overlay = recordLayers(*frame);
+    if (recording_ && plan.steps > 0) recordCamera(*frame, overlay);
     if (!view.canvas)
         view.canvas = view.renderer.makeCanvas(screen_.presenter().extent(), screen_.presenter().views());
+    view.renderer.prepare(overlay.layers);
     view.renderer.record(frame->commands, frame->slot, *view.canvas, frame->image, controller_.camera,
-                         stage_.simulation(), tools_.overlay());
-    if (std::exchange(wantsScreenshot_, false)) recordScreenshot(*frame);
+                         stage_.simulation(), overlay);
+    if (std::exchange(wantsScreenshot_, false)) recordScreenshot(*frame, overlay);
     drawPanels(*frame, &view != &moving_ || !still_);
     screen_.presenter().end(*frame);
     status_.frameDrawn();
@@ -278,6 +296,10 @@ Facts Show::facts(bool isFullQuality) const {
     facts.scenes = library_.names();
     facts.scene = library_.current();
     facts.isOpening = library_.isOpening();
+    facts.layers = screen_.layers();
+    facts.map = mapRange_.newest();
+    facts.mapRange = mapRange_.range();
+    facts.contactsFound = contactsFound_;
     facts.isRecording = recording_.has_value();
     facts.knobs = knobs_;
     facts.pace = controller_.playback.pace();
@@ -339,7 +361,35 @@ void Show::recordProbe(const Presenter::Frame& frame) {
     if (isAsked(flight)) probe_->record(frame.commands);
 }
 
-void Show::recordScreenshot(const Presenter::Frame& frame) {
+// Without memory for them there are no layers.
+Overlay Show::recordLayers(const Presenter::Frame& frame) {
+    Overlay overlay = tools_.overlay();
+    Layers& layers = screen_.layers();
+    if (layers.needsBuffers()) {
+        try {
+            if (!inspection_) inspection_.emplace(device_, stage_, Presenter::framesInFlight);
+            inspection_->prepare(layers);
+        } catch (const vk::Error& error) {
+            if (error.failure() != vk::Failure::outOfMemory) throw;
+            layers = {};
+            screen_.warn(error.what());
+            return overlay;
+        }
+        inspection_->record(frame.commands, layers, frame.slot);
+        inFlight_[frame.slot].map = layers.map;
+        inFlight_[frame.slot].hasContacts = layers.hasContacts;
+        overlay.buffers = inspection_->buffers(layers, mapRange_.range());
+    }
+    overlay.layers = layers;
+    return overlay;
+}
+
+void Show::toggleWires() {
+    if (!drawsEdges(device_)) return screen_.warn("this device cannot draw the edges of triangles");
+    screen_.layers().hasWires = !screen_.layers().hasWires;
+}
+
+void Show::recordScreenshot(const Presenter::Frame& frame, const Overlay& overlay) {
     InFlight& flight = inFlight_[frame.slot];
     try {
         flight.screenshot =
@@ -349,7 +399,8 @@ void Show::recordScreenshot(const Presenter::Frame& frame) {
         return screen_.warn(std::string("no picture: ") + error.what());
     }
     flight.screenshotStep = stage_.steps();
-    flight.screenshot->record(frame.commands, controller_.camera, stage_.simulation(), tools_.overlay());
+    flight.screenshot->prepare(overlay.layers);
+    flight.screenshot->record(frame.commands, controller_.camera, stage_.simulation(), overlay);
 }
 
 // Takes what a finished frame has brought.
@@ -361,6 +412,8 @@ void Show::settle(std::uint32_t slot) {
         gauges_.stepTimed(phases);
     }
     settleProbe(flight);
+    settleMap(slot, flight);
+    if (flight.hasContacts && inspection_) contactsFound_ = inspection_->contacts(slot);
     bool isUndone = false;
     for (std::uint32_t i = 0; i < flight.steps && !isDiverged_; ++i) {
         const std::uint64_t step = flight.firstStep + i;
@@ -400,6 +453,14 @@ void Show::settleProbe(InFlight& flight) {
     }
 }
 
+// A picture whose colors have another range by now is drawn once more.
+void Show::settleMap(std::uint32_t slot, const InFlight& flight) {
+    if (flight.map == ColorMap::none || flight.map != screen_.layers().map || !inspection_) return;
+    const float before = mapRange_.range();
+    mapRange_.read(inspection_->reading(slot));
+    if (mapRange_.range() != before) shown_ = Shown::nothing;
+}
+
 // Once: nothing but the picture suffers.
 void Show::warnOfSurface() {
     if (std::exchange(isSurfaceMissing_, true)) return;
@@ -419,6 +480,7 @@ void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
     vk::Queue queue(device_);
     if (!stage_.makeRoom(step, queue)) return stop(app::tooCrowded(step));
     probe_.emplace(device_, stage_.simulation());
+    inspection_.reset(); // as layers want it, of the other simulation
     std::vector<Sweep> sweeps = undone.sweeps;
     for (const InFlight& later : inFlight_) // at most one has some
         sweeps.insert(sweeps.end(), later.sweeps.begin(), later.sweeps.end());
@@ -428,6 +490,8 @@ void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
         other.sweeps.clear();
         wantsProbe_ = std::exchange(other.isProbed, false) || wantsProbe_;
         other.isMeasured = other.isRecorded = false;
+        other.map = ColorMap::none;
+        other.hasContacts = false;
         other.question.reset();
     }
 }
@@ -473,8 +537,9 @@ void Show::stopRecording() {
     for (auto& camera : cameras_) camera.reset();
 }
 
-void Show::recordCamera(const Presenter::Frame& frame) {
-    cameras_[frame.slot]->record(frame.commands, controller_.camera, stage_.simulation(), tools_.overlay());
+void Show::recordCamera(const Presenter::Frame& frame, const Overlay& overlay) {
+    cameras_[frame.slot]->prepare(overlay.layers);
+    cameras_[frame.slot]->record(frame.commands, controller_.camera, stage_.simulation(), overlay);
     inFlight_[frame.slot].isRecorded = true;
 }
 

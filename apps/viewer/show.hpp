@@ -4,6 +4,7 @@
 
 #include "viewer/controller.hpp"
 #include "viewer/gauges.hpp"
+#include "viewer/inspection.hpp"
 #include "viewer/library.hpp"
 #include "viewer/offscreen.hpp"
 #include "viewer/opening.hpp"
@@ -48,11 +49,13 @@ private:
     struct InFlight {
         std::uint64_t firstStep = 0;
         std::uint32_t steps = 0;
-        std::vector<Sweep> sweeps;   // of its first steps
-        bool isProbed = false;       // for the bounds
-        bool isMeasured = false;     // for the strain
-        bool isRecorded = false;     // by cameras_
-        std::optional<Ray> question; // for the hand
+        std::vector<Sweep> sweeps;     // of its first steps
+        bool isProbed = false;         // for the bounds
+        bool isMeasured = false;       // for the strain
+        bool isRecorded = false;       // by cameras_
+        ColorMap map = ColorMap::none; // of inspection_
+        bool hasContacts = false;      // likewise
+        std::optional<Ray> question;   // for the hand
         std::unique_ptr<Offscreen> screenshot;
         std::uint64_t screenshotStep = 0;
     };
@@ -70,7 +73,7 @@ private:
     bool mayOpen();
     void toggleRecording();
     void stopRecording();
-    void recordCamera(const Presenter::Frame& frame);
+    void recordCamera(const Presenter::Frame& frame, const Overlay& overlay);
     void settleCamera(std::uint32_t slot, const InFlight& flight);
     void handle(Action action);
     bool prepareSwapchain();
@@ -82,9 +85,12 @@ private:
     void warnOfSurface();
     bool isStrainDue(std::uint32_t steps);
     void recordProbe(const Presenter::Frame& frame);
-    void recordScreenshot(const Presenter::Frame& frame);
+    Overlay recordLayers(const Presenter::Frame& frame);
+    void recordScreenshot(const Presenter::Frame& frame, const Overlay& overlay);
     void settle(std::uint32_t slot);
     void settleProbe(InFlight& flight);
+    void settleMap(std::uint32_t slot, const InFlight& flight);
+    void toggleWires();
     void stop(const std::string& why);
     void makeRoom(std::uint64_t step, const InFlight& undone);
     void settleAll();
@@ -97,7 +103,10 @@ private:
     const Opening& opening_;
     Controller controller_;
     Stage stage_;
-    std::optional<StateProbe> probe_; // of the stage's simulation
+    std::optional<StateProbe> probe_;      // of the stage's simulation
+    std::optional<Inspection> inspection_; // likewise, where a layer wants it
+    MapRange mapRange_;
+    std::uint32_t contactsFound_ = 0;
     Tools tools_;
     std::vector<vk::Timestamps> times_; // one a slot
     SceneFacts sceneFacts_;

@@ -15,7 +15,8 @@ std::string Divergence::sentence() const {
 }
 
 Stage::Stage(const vk::Device& device, sim::Scene scene, const sim::Settings& settings)
-    : scene_(std::move(scene)), growing_(device, scene_, settings), gravity_(scene_.gravity) {
+    : scene_(std::move(scene)), settings_(settings), growing_(device, scene_, settings_),
+      gravity_(scene_.gravity) {
     const sim::Vec3& g = scene_.gravity;
     const float length = std::hypot(g.x, g.y, g.z);
     if (length > 0) down_ = {g.x / length, g.y / length, g.z / length};

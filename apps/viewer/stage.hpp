@@ -56,11 +56,13 @@ public:
     bool makeRoom(std::uint64_t step, vk::Queue& queue);
 
     const sim::Scene& scene() const noexcept { return scene_; }
+    const sim::Settings& settings() const noexcept { return settings_; }
     const sim::Simulation& simulation() const noexcept { return growing_.simulation(); }
     const app::ContactRoom& contactRoom() const noexcept { return growing_.contactRoom(); }
 
 private:
     sim::Scene scene_;
+    sim::Settings settings_;
     app::GrowingSimulation growing_;
     scenes::ScriptedBlades blades_;
     sim::Vec3 gravity_, down_{0, -1, 0};

@@ -1,6 +1,8 @@
 // Fits the light's maps to the stage.
 #include "viewer/stage_light.hpp"
 
+#include "viewer/layers.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -108,11 +110,16 @@ layout::FrameParams frameParams(const StageLight& light, const Camera& camera, f
                                .ground = {ground, gridSpacing(2 * radius), haze, light.ground ? 1.0f : 0.0f},
                                .shadow = {width, seen.sizes().z(), 0, 0},
                                .skins = {},
-                               .floor = floor};
+                               .floor = floor,
+                               .mapColors = {}};
     for (std::size_t i = 0; i < std::min<std::size_t>(light.skins.size(), SKIN_COLORS); ++i) {
         const sim::Vec3& color = light.skins[i];
         params.skins[i] = {color.x, color.y, color.z, light.gloss[i]};
     }
+    const auto colors = mapColors();
+    static_assert(mapColorCount == MAP_COLORS);
+    for (std::size_t i = 0; i < mapColorCount; ++i)
+        params.mapColors[i] = {colors[i][0], colors[i][1], colors[i][2], 1};
     return params;
 }
 

@@ -25,6 +25,7 @@ namespace {
 
 // Letters by what the layout prints on them, not by where they are on an American keyboard.
 int layoutKey(int key, int scancode) {
+    if (key >= GLFW_KEY_0 && key <= GLFW_KEY_9) return key; // a row, whatever comes before digits on them
     const char* name = glfwGetKeyName(key, scancode);
     const bool isOneLetter = name != nullptr && name[0] != '\0' && name[1] == '\0';
     return isOneLetter ? std::toupper(static_cast<unsigned char>(name[0])) : key;

@@ -74,6 +74,13 @@ VkQueueFamilyProperties readFamily(const InstanceFunctions& functions, VkPhysica
     return families[family];
 }
 
+// For whoever draws: the edges of triangles (VK_POLYGON_MODE_LINE), wherever the device can.
+VkBool32 canDrawEdges(const InstanceFunctions& functions, VkPhysicalDevice physical) {
+    VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+    functions.vkGetPhysicalDeviceFeatures2(physical, &features);
+    return features.features.fillModeNonSolid;
+}
+
 VkDevice createDevice(const InstanceFunctions& functions, const Candidate& chosen,
                       const DeviceRequest& request) {
     VkPhysicalDeviceVulkan12Features features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
@@ -86,12 +93,14 @@ VkDevice createDevice(const InstanceFunctions& functions, const Candidate& chose
                                         .pQueuePriorities = &priority};
     std::vector<const char*> extensions;
     for (const std::string& extension : request.deviceExtensions) extensions.push_back(extension.c_str());
+    const VkPhysicalDeviceFeatures drawn{.fillModeNonSolid = canDrawEdges(functions, chosen.physical)};
     const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                   .pNext = &features,
                                   .queueCreateInfoCount = 1,
                                   .pQueueCreateInfos = &queue,
                                   .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
-                                  .ppEnabledExtensionNames = extensions.data()};
+                                  .ppEnabledExtensionNames = extensions.data(),
+                                  .pEnabledFeatures = &drawn};
     VkDevice device = VK_NULL_HANDLE;
     check(functions.vkCreateDevice(chosen.physical, &info, nullptr, &device), "vkCreateDevice",
           chosen.description.name);

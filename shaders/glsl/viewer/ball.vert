@@ -9,11 +9,20 @@ layout(location = 1) in vec4 center; // public position of a particle; w = 0: do
 layout(location = 2) in float radius;
 layout(location = 0) out vec3 worldPosition;
 layout(location = 1) out vec3 worldNormal;
+#ifdef VALUES
+layout(location = 3) in float valueIn;
+layout(location = 2) out float value;
+#else
 layout(location = 2) out float asleep;
+#endif
 
 void main() {
     worldPosition = center.xyz + radius * corner.xyz;
     worldNormal = corner.xyz;
+#ifdef VALUES
+    value = valueIn;
+#else
     asleep = center.w == 0.0 ? push.position.w : 0.0;
+#endif
     gl_Position = frame.clipFromWorld * vec4(worldPosition, 1.0);
 }

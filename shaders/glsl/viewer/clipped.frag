@@ -11,4 +11,7 @@ layout(location = 0) out vec4 shown;
 void main() {
     const vec4 skin = frame.skins[min(uint(inBody.w + 0.5), SKIN_COLORS - 1u)];
     shown = shade(worldPosition, worldNormal, skin.rgb, skin.w);
+#ifdef GLASS
+    shown.a = glassAlpha(worldPosition, worldNormal);
+#endif
 }

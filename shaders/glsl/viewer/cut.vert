@@ -5,14 +5,25 @@
 
 layout(location = 0) in vec4 position;
 layout(location = 1) in vec4 normal;
+#ifndef VALUES
 layout(location = 2) in vec4 rest; // where the point is in the body as it was loaded [m]; w = index of its skin
+#endif
 layout(location = 0) out vec3 worldPosition;
 layout(location = 1) out vec3 worldNormal;
+#ifdef VALUES
+layout(location = 3) in float valueIn;
+layout(location = 2) out float value;
+#else
 layout(location = 2) out vec4 inBody;
+#endif
 
 void main() {
     worldPosition = position.xyz;
     worldNormal = normal.xyz;
+#ifdef VALUES
+    value = valueIn;
+#else
     inBody = rest;
+#endif
     gl_Position = frame.clipFromWorld * vec4(worldPosition, 1.0);
 }

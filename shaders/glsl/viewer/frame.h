@@ -14,6 +14,7 @@ struct alignas(16) mat4 {
 #endif
 
 #define SKIN_COLORS 16
+#define MAP_COLORS 17
 
 struct FrameParams {
     mat4 clipFromWorld;
@@ -29,10 +30,11 @@ struct FrameParams {
     vec4 shadow; // width and depth of the shadow map's volume [m]
     vec4 skins[SKIN_COLORS]; // linear RGB and gloss of the first skins, for the surface of cuts
     vec4 floor;  // x and z of the floor map's middle, its width, the plan map's height [m]
+    vec4 mapColors[MAP_COLORS]; // linear RGB of values, from the lowest to the highest
 };
 
 struct SkinPush {
-    vec4 color; // linear RGB; w: gloss, 1 = moist tissue
+    vec4 color; // linear RGB, of a map x: the value that has its last color; w: gloss, 1 = moist tissue
     vec4 position; // where the vertices' frame is: 0 for skins [m]; w: 1 = what sleeps is paler
     vec4 rotation; // unit quaternion x, y, z, w
 };

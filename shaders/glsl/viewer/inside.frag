@@ -39,4 +39,7 @@ void main() {
     const vec3 flesh = mix(0.5 * skin.rgb, vec3(0.36, 0.035, 0.03), 0.6);
     const vec3 albedo = mix(flesh * mix(0.55, 1.25, strand), vec3(0.74, 0.55, 0.30), 0.55 * fat);
     shown = shade(worldPosition, worldNormal, albedo, 1.3);
+#ifdef GLASS
+    shown.a = glassAlpha(worldPosition, worldNormal);
+#endif
 }

@@ -86,13 +86,16 @@ float keyShadow(vec3 position, vec3 normal, uint taps, float phase) {
     return lit / float(taps);
 }
 
-// Filmic tone curve [Narkowicz 2015], the target's encoding, noise of half a step against bands in the sky.
-vec4 finish(vec3 color, vec2 pixel) {
-    const vec3 x = 0.66 * color;
-    const vec3 shown = clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
+// The target's encoding, noise of half a step against bands in the sky.
+vec4 encoded(vec3 shown, vec2 pixel) {
     const float dither = (pixelNoise(pixel) - 0.5) / 255.0;
     if (!encodesSrgb) return vec4(shown + dither * 2.0 * sqrt(shown), 1.0); // nearly a root encodes
     const vec3 curved = 1.055 * pow(shown, vec3(1.0 / 2.4)) - 0.055;
-    const vec3 encoded = mix(12.92 * shown, curved, step(0.0031308, shown));
-    return vec4(encoded + dither, 1.0);
+    return vec4(mix(12.92 * shown, curved, step(0.0031308, shown)) + dither, 1.0);
+}
+
+// Filmic tone curve [Narkowicz 2015].
+vec4 finish(vec3 color, vec2 pixel) {
+    const vec3 x = 0.66 * color;
+    return encoded(clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0), pixel);
 }

@@ -8,11 +8,20 @@ layout(location = 0) in vec4 position;
 layout(location = 1) in vec4 normal;
 layout(location = 0) out vec3 worldPosition;
 layout(location = 1) out vec3 worldNormal;
+#ifdef VALUES
+layout(location = 3) in float valueIn;
+layout(location = 2) out float value;
+#else
 layout(location = 2) out float asleep;
+#endif
 
 void main() {
     worldPosition = rotated(push.rotation, position.xyz) + push.position.xyz;
     worldNormal = rotated(push.rotation, normal.xyz);
+#ifdef VALUES
+    value = valueIn;
+#else
     asleep = position.w == 0.0 ? push.position.w : 0.0;
+#endif
     gl_Position = frame.clipFromWorld * vec4(worldPosition, 1.0);
 }

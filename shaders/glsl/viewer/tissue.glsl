@@ -59,3 +59,18 @@ vec4 shade(vec3 worldPosition, vec3 worldNormal, vec3 albedo, float moist) {
     const vec3 diffuse = albedo * (direct + ambient) / pi;
     return finish(diffuse + moist * keyLight * nl * lit * fresnel * gloss + rim, gl_FragCoord.xy);
 }
+
+// How much of a translucent skin's own color is seen: more where it is seen from the side.
+float glassAlpha(vec3 worldPosition, vec3 worldNormal) {
+    const float facing = abs(dot(normalize(frame.eye.xyz - worldPosition), normalize(worldNormal)));
+    return 0.14 + 0.5 * pow(1.0 - facing, 3.0);
+}
+
+// A matt surface in just this color where the light is full, so that it can be read off a legend.
+vec4 matt(vec3 worldPosition, vec3 worldNormal, vec3 color) {
+    const vec3 n = normalize(worldNormal) * (gl_FrontFacing ? 1.0 : -1.0);
+    const float facing = dot(n, frame.toLight.xyz);
+    const float lit = facing > 0.0 ? keyShadow(worldPosition, n, shadowTaps, 2.0 * pi * pixelNoise(gl_FragCoord.xy)) : 0.0;
+    const float light = 0.62 + 0.10 * n.y + 0.38 * sqrt(max(facing, 0.0)) * lit;
+    return encoded(min(light, 1.0) * color, gl_FragCoord.xy);
+}

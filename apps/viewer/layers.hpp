@@ -1,0 +1,70 @@
+// What is drawn of bodies beside their lit skins, or instead of them: chosen by hands or on the command line.
+#pragma once
+
+#include "vk/buffer.hpp"
+
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sinew::viewer {
+
+class Balls;
+class ContactMarks;
+
+enum class SkinLook { solid, glass, hidden };
+
+/// A number of each particle that colors stand for.
+enum class ColorMap {
+    none,
+    strain, ///< of its live links, (length - rest) / rest: root of the mean square
+    speed   ///< [m/s]
+};
+
+struct Layers {
+    SkinLook skin = SkinLook::solid;
+    ColorMap map = ColorMap::none;
+    bool hasWires = false; ///< edges of all triangles of skins
+    bool hasBalls = false; ///< particles of bodies with a skin, too
+    bool hasContacts = false;
+    bool operator==(const Layers&) const = default;
+    /// Whether something of it comes from buffers that are made for it (Inspection).
+    bool needsBuffers() const { return map != ColorMap::none || hasBalls || hasContacts; }
+};
+
+/// The one after it, round and round: solid, glass, hidden.
+SkinLook next(SkinLook look);
+/// none, strain, speed.
+ColorMap next(ColorMap map);
+
+/// How the command line calls layers: "glass", "hidden", "strain", "speed", "wires", "particles", "contacts".
+std::vector<std::string> layerNames();
+/// One of them on top of others; false for a name that is none.
+bool addLayer(const std::string& name, Layers& layers);
+
+/// Colors of a map from its lowest value to its highest, linear RGB. Equal steps look equally far apart and
+/// get evenly lighter, which everybody can tell: in OKLCh [Ottosson 2020] a straight way up, half-way around,
+/// at one chroma.
+constexpr std::size_t mapColorCount = 17;
+std::array<std::array<float, 3>, mapColorCount> mapColors();
+
+/// How the values of a map spread over the particles.
+struct MapReading {
+    float range = 0; ///< 1, 2 or 5 times a power of ten: at most 1 % of all have more; 0 = nobody has a value
+    float largest = 0; ///< of all
+    float beyond = 0;  ///< share of those with more than `range`
+};
+
+/// Where layers are drawn from, as Inspection makes it. Views of what is not on are empty.
+struct LayerBuffers {
+    vk::BufferView particles; ///< float a particle: the map's value, below 0 where there is none
+    vk::BufferView skins;     ///< likewise a vertex of skins
+    vk::BufferView cuts;      ///< likewise a vertex of the surface of cuts
+    float range = 0;          ///< of the map's colors
+    const Balls* balls = nullptr;
+    const ContactMarks* contacts = nullptr;
+};
+
+} // namespace sinew::viewer

@@ -1,0 +1,87 @@
+// What is drawn of the bodies, and the legend of its colors.
+#include "viewer/panel_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace sinew::viewer::parts {
+
+namespace {
+
+constexpr std::array skinNames{"Skin", "Glass", "No skin"};
+constexpr std::array mapNames{"Colors", "Strain", "Speed"};
+
+// "2 %", "0.5 m/s".
+std::string valueText(ColorMap map, float value) {
+    char text[32];
+    std::snprintf(text, sizeof text, map == ColorMap::strain ? "%.3g %%" : "%.3g m/s",
+                  map == ColorMap::strain ? 100 * double{value} : double{value});
+    return text;
+}
+
+// As the screen shows it.
+ImU32 shown(const std::array<float, 3>& linear) {
+    const auto encoded = [](float x) {
+        return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
+    };
+    return ImGui::ColorConvertFloat4ToU32({encoded(linear[0]), encoded(linear[1]), encoded(linear[2]), 1});
+}
+
+void colorBar() {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float height = 0.7f * ImGui::GetTextLineHeight(), width = contentWidth();
+    const auto colors = mapColors();
+    for (std::size_t i = 0; i + 1 < mapColorCount; ++i) {
+        const auto place = [&](std::size_t color) {
+            return at.x + width * static_cast<float>(color) / static_cast<float>(mapColorCount - 1);
+        };
+        const ImU32 low = shown(colors[i]), high = shown(colors[i + 1]);
+        ImGui::GetWindowDrawList()->AddRectFilledMultiColor({place(i), at.y}, {place(i + 1), at.y + height},
+                                                            low, high, high, low);
+    }
+    ImGui::Dummy({width, height});
+}
+
+void legend(const Facts& facts) {
+    const ColorMap map = facts.layers.map;
+    if (facts.mapRange <= 0) return wrapped("nothing here has a value", quiet());
+    colorBar();
+    const std::string middle = valueText(map, facts.mapRange / 2), end = valueText(map, facts.mapRange);
+    const float left = ImGui::GetWindowContentRegionMin().x;
+    const auto textAt = [&](const std::string& text, float share) {
+        ImGui::SetCursorPosX(left + share * (contentWidth() - ImGui::CalcTextSize(text.c_str()).x));
+        ImGui::TextColored(quiet(), "%s", text.c_str());
+    };
+    textAt("0", 0);
+    ImGui::SameLine();
+    textAt(middle, 0.5f);
+    ImGui::SameLine();
+    textAt(end, 1);
+    char beyond[48];
+    std::snprintf(beyond, sizeof beyond, "%.2g %%, up to ", 100 * double{facts.map.beyond});
+    row(map == ColorMap::strain ? "strain of links beyond" : "faster than that",
+        beyond + valueText(map, facts.map.largest));
+}
+
+} // namespace
+
+void look(const Facts& facts, Wishes& wishes) {
+    const Layers& layers = facts.layers;
+    float width = buttonWidth(3);
+    button(Action::skinLook, wishes, width, layers.skin != SkinLook::solid,
+           skinNames[static_cast<std::size_t>(layers.skin)]);
+    ImGui::SameLine();
+    button(Action::wires, wishes, width, layers.hasWires);
+    ImGui::SameLine();
+    button(Action::balls, wishes, width, layers.hasBalls);
+    width = buttonWidth(2);
+    button(Action::contacts, wishes, width, layers.hasContacts);
+    ImGui::SameLine();
+    button(Action::colorMap, wishes, width, layers.map != ColorMap::none,
+           mapNames[static_cast<std::size_t>(layers.map)]);
+    if (layers.hasContacts) row("contacts", grouped(facts.contactsFound));
+    if (layers.map != ColorMap::none) legend(facts);
+}
+
+} // namespace sinew::viewer::parts

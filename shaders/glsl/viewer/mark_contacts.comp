@@ -1,0 +1,77 @@
+#version 460
+// Marks what touches in the state that is shown: particles and planes or colliders, and of the solver's lists of what may touch the
+// particles that do, and particles on faces. Marks come in any order.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "triangle.glsl"
+#include "pose.glsl"
+#include "viewer/values.h"
+
+layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
+layout(std430, binding = 1) readonly buffer Particles { MarkParticle particles[]; };
+layout(std430, binding = 2) readonly buffer BySlot { uint bySlot[]; }; // particle, or NO_PARTICLE
+layout(std430, binding = 3) readonly buffer Walls { MarkWall walls[]; };
+layout(std430, binding = 4) readonly buffer Pairs { uvec2 pairs[]; }; // ContactCandidate
+layout(std430, binding = 5) readonly buffer PairCounts { uint pairCounts[]; };
+layout(std430, binding = 6) readonly buffer Faces { ContactFace faces[]; };
+layout(std430, binding = 7) readonly buffer FacePairs { uvec2 facePairs[]; }; // ContactCandidate
+layout(std430, binding = 8) readonly buffer FaceCounts { uint faceCounts[]; };
+layout(std430, binding = 9) writeonly buffer Marks { ContactMark marks[]; };
+layout(std430, binding = 10) buffer Draw { MarkDraw draw; };
+layout(push_constant) uniform Push { MarkPush push; };
+
+void mark(vec3 point, vec3 normal, float kind) {
+    const uint place = atomicAdd(draw.found, 1u);
+    if (place >= push.room) return;
+    marks[place] = ContactMark(vec4(point, 1.0), vec4(normal, kind));
+    atomicMax(draw.instanceCount, place + 1u);
+}
+
+vec3 placeOf(uint slot) {
+    return positions[min(bySlot[slot], push.count - 1u)].xyz;
+}
+
+void markWall(MarkWall wall, vec3 x, float offset, float nearness) {
+    vec3 n = wall.core.xyz;
+    float gap = dot(n, x) - wall.core.w;
+    if (wall.position.w == 0.0) {
+        const ColliderPose pose = ColliderPose(wall.position, wall.rotation);
+        const vec3 s = toLocal(pose, x), outward = s - clamp(s, -wall.core.xyz, wall.core.xyz);
+        gap = length(outward) - wall.core.w;
+        n = rotated(wall.rotation, outward / max(length(outward), 1e-20));
+    }
+    if (gap - offset < nearness) mark(x - gap * n, n, 0.0);
+}
+
+void markPairs(uint i, uint slot, vec3 x) {
+    for (uint s = 0u; s < pairCounts[slot]; ++s) {
+        const uvec2 candidate = pairs[s * push.pairRow + slot];
+        const vec3 d = x - placeOf(candidate.x);
+        const float distance = length(d);
+        if (bySlot[candidate.x] <= i || distance > 1.02 * uintBitsToFloat(candidate.y)) continue; // one of the two says it
+        mark(x - 0.5 * d, d / max(distance, 1e-20), 1.0);
+    }
+}
+
+void markFaces(uint slot, vec3 x) {
+    for (uint s = 0u; s < faceCounts[slot]; ++s) {
+        const uvec2 candidate = facePairs[s * push.faceRow + slot];
+        const ContactFace face = faces[candidate.x];
+        const vec3 a = placeOf(face.a);
+        const Nearest nearest = nearestOf(x - a, triangleOf(placeOf(face.b) - a, placeOf(face.c) - a));
+        const float distance = length(nearest.d);
+        if (distance > 1.02 * uintBitsToFloat(candidate.y)) continue;
+        mark(x - nearest.d, nearest.d / max(distance, 1e-20), 2.0);
+    }
+}
+
+void main() {
+    const uint i = itemIndex(push.count);
+    if (i >= push.count) return;
+    const MarkParticle own = particles[i];
+    const vec3 x = positions[i].xyz;
+    if (positions[i].w > 0.0)
+        for (uint w = push.firstWall; w < push.firstWall + push.walls; ++w) markWall(walls[w], x, own.contactOffset, own.nearness);
+    if (push.pairRow > 0u) markPairs(i, own.slot, x);
+    if (push.faceRow > 0u) markFaces(own.slot, x);
+}

@@ -1,0 +1,19 @@
+#version 460
+// How fast each particle is.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "viewer/values.h"
+
+layout(std430, binding = 0) readonly buffer Velocities { vec4 velocities[]; };
+layout(std430, binding = 1) writeonly buffer Values { float values[]; };
+layout(std430, binding = 2) buffer Spread { ValueSpread spread; };
+layout(push_constant) uniform Push { ValuesPush push; };
+#include "viewer/spread.glsl"
+
+void main() {
+    const uint i = itemIndex(push.count);
+    if (i >= push.count) return;
+    const float speed = length(velocities[i].xyz);
+    values[i] = speed;
+    count(speed);
+}

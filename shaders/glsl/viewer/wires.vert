@@ -1,0 +1,10 @@
+#version 460
+// Vertices of skins and of cuts, a little nearer than the triangles that they are edges of.
+#extension GL_GOOGLE_include_directive : require
+#include "viewer/frame.glsl"
+
+layout(location = 0) in vec4 position;
+
+void main() {
+    gl_Position = frame.clipFromWorld * vec4(mix(position.xyz, frame.eye.xyz, 0.001), 1.0);
+}

@@ -1,0 +1,215 @@
+// Layers: their names and colors, the tables behind color maps, and what the device makes of them, under
+// validation.
+#include "viewer/inspection.hpp"
+#include "viewer/stage.hpp"
+
+#include "sim/bodies.hpp"
+#include "support/device.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+namespace sinew::viewer {
+namespace {
+
+TEST(Layers, AreAllReachedByTheirNames) {
+    Layers layers;
+    for (const std::string& name : layerNames()) {
+        const Layers before = layers;
+        EXPECT_TRUE(addLayer(name, layers)) << name;
+        EXPECT_NE(layers, before) << name;
+    }
+    EXPECT_FALSE(addLayer("x-rays", layers));
+}
+
+TEST(Layers, GoRoundThroughAllLooksAndMaps) {
+    EXPECT_EQ(next(next(next(SkinLook::solid))), SkinLook::solid);
+    EXPECT_EQ(next(next(next(ColorMap::none))), ColorMap::none);
+    EXPECT_NE(next(SkinLook::solid), SkinLook::solid);
+    EXPECT_EQ(next(ColorMap::none), ColorMap::strain);
+}
+
+// CIE 1976 L*, a, b of a color: another measure than the one that the map was made by.
+std::array<double, 3> cieLab(const std::array<float, 3>& c) {
+    const auto root = [](double t) { return t > 0.008856 ? std::cbrt(t) : 7.787 * t + 16.0 / 116; };
+    const double r = double{c[0]}, g = double{c[1]}, b = double{c[2]};
+    const double x = root((0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505),
+                 y = root(0.2126 * r + 0.7152 * g + 0.0722 * b),
+                 z = root((0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.089);
+    return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
+}
+
+TEST(MapColors, StayOnTheScreenAndGetEvenlyLighter) {
+    const auto colors = mapColors();
+    for (const auto& color : colors)
+        for (const float part : color) {
+            EXPECT_GE(part, 0);
+            EXPECT_LE(part, 1);
+        }
+    const double all = cieLab(colors.back())[0] - cieLab(colors.front())[0];
+    EXPECT_GT(all, 60);
+    for (std::size_t i = 0; i + 1 < mapColorCount; ++i) {
+        const double step = cieLab(colors[i + 1])[0] - cieLab(colors[i])[0];
+        EXPECT_NEAR(step * (mapColorCount - 1) / all, 1, 0.25) << "from color " << i;
+    }
+}
+
+// That many particles with `value`.
+void put(layout::ValueSpread& spread, std::size_t bin, std::uint32_t count) {
+    spread.counts[bin] += count;
+}
+
+TEST(MapReading, LeavesOnePercentBeyondItsRange) {
+    layout::ValueSpread spread{};
+    EXPECT_EQ(readingOf(spread).range, 0) << "nobody has a value";
+    put(spread, 15, 980); // up to 0.01
+    put(spread, 17, 11);  // up to 0.05
+    put(spread, 20, 9);   // up to 0.5
+    const float largest = 0.4f;
+    std::memcpy(&spread.largest, &largest, sizeof largest);
+    const MapReading reading = readingOf(spread);
+    EXPECT_FLOAT_EQ(reading.range, 0.05f);
+    EXPECT_FLOAT_EQ(reading.beyond, 0.009f);
+    EXPECT_FLOAT_EQ(reading.largest, largest);
+}
+
+TEST(MapRange, FollowsLargeChangesAlone) {
+    MapRange range;
+    range.read({.range = 0.1f});
+    range.read({.range = 0.05f});
+    EXPECT_FLOAT_EQ(range.range(), 0.1f);
+    range.read({.range = 0.02f});
+    EXPECT_FLOAT_EQ(range.range(), 0.02f);
+    range.read({.range = 0.05f});
+    EXPECT_FLOAT_EQ(range.range(), 0.05f);
+    range.read({});
+    EXPECT_EQ(range.range(), 0);
+}
+
+sim::Scene cuttableBlock() {
+    sim::Scene scene;
+    sim::Lattice lattice{.origin = {0, 0, 0}, .cells = {4, 4, 4}, .spacing = 0.1f};
+    lattice.isCuttable = true;
+    const sim::LatticeCorners corners = sim::addLattice(scene, lattice);
+    sim::addLatticeSkin(scene, lattice, corners, {0.7f, 0.1f, 0.1f});
+    scene.gravity = {0, 0, 0};
+    return scene;
+}
+
+TEST(LinkTable, HasEveryLinkAtBothEnds) {
+    const sim::Scene scene = cuttableBlock();
+    std::vector<std::uint32_t> slots;
+    for (std::uint32_t i = 0; i < scene.particles.size(); ++i) slots.push_back(1000 + i);
+    const LinkTable table = linkTable(scene, slots);
+    ASSERT_EQ(table.links.size(), 2 * scene.distances.size());
+    for (std::uint32_t i = 0; i < scene.particles.size(); ++i) {
+        const layout::ValueLinks& own = table.linksOf[i];
+        EXPECT_EQ(own.slot, 1000 + i);
+        for (std::uint32_t l = own.first; l < own.first + own.count; ++l) {
+            const layout::ValueLink& link = table.links[l];
+            const layout::ValueLinks& far = table.linksOf[link.other];
+            const auto back =
+                std::find_if(table.links.begin() + far.first, table.links.begin() + far.first + far.count,
+                             [&](const layout::ValueLink& other) { return other.other == i; });
+            ASSERT_NE(back, table.links.begin() + far.first + far.count);
+            const int bit = std::countr_zero(link.bit), other = std::countr_zero(back->bit);
+            EXPECT_EQ(bit + other, 25) << "both ends name the same link";
+        }
+    }
+}
+
+// A stage with a layer's buffers after some steps.
+struct Inspected {
+    Inspected(const sim::Scene& scene, const Layers& on, const sim::Settings& settings = {.substeps = 8})
+        : layers(on), stage(test::device(), scene, settings), inspection(test::device(), stage, 1) {
+        inspection.prepare(layers);
+    }
+    void step(int steps, const sim::Blade& blade = {}) {
+        VkCommandBuffer commands = test::queue().begin();
+        if (stage.steps() == 0) stage.recordReset(commands);
+        for (int i = 0; i < steps; ++i)
+            stage.recordStep(commands, nullptr, {}, i == 0 ? blade : sim::Blade{});
+        stage.recordSkin(commands);
+        inspection.record(commands, layers, 0);
+        test::queue().wait(test::queue().submit(commands));
+    }
+
+    Layers layers;
+    Stage stage;
+    Inspection inspection;
+};
+
+TEST(StrainMap, SaysHowFarABodyIsStretched) {
+    sim::Scene scene = cuttableBlock();
+    for (sim::DistanceConstraint& link : scene.distances) link.restLength /= 1.1f;
+    scene.grids[0].restLength = {0.1f / 1.1f, 0.1f * std::sqrt(2.0f) / 1.1f, 0.1f * std::sqrt(3.0f) / 1.1f};
+    Inspected stretched(scene, {.map = ColorMap::strain});
+    stretched.step(0);
+    const MapReading reading = stretched.inspection.reading(0);
+    EXPECT_NEAR(reading.largest, 0.1f, 1e-4f);
+    EXPECT_FLOAT_EQ(reading.range, reading.largest > 0.1f ? 0.2f : 0.1f);
+    Inspected resting(cuttableBlock(), {.map = ColorMap::strain});
+    resting.step(0);
+    EXPECT_LT(resting.inspection.reading(0).largest, 1e-5f);
+}
+
+// The halves of a block fly apart: the links that a blade has cut get long, the others do not.
+TEST(StrainMap, LeavesOutWhatWasCut) {
+    sim::Scene scene = cuttableBlock();
+    for (sim::Particle& particle : scene.particles)
+        particle.velocity = {particle.position.x < 0.19f ? -2.0f : 2.0f, 0, 0};
+    const std::array<sim::Vec3, 2> from{{{0.17f, 1, -1}, {0.17f, 1, 1}}},
+        to{{{0.17f, -1, -1}, {0.17f, -1, 1}}};
+    Inspected cut(scene, {.map = ColorMap::strain}), whole(scene, {.map = ColorMap::strain});
+    cut.step(20, {.from = from, .to = to});
+    whole.step(20);
+    EXPECT_GT(whole.inspection.reading(0).largest, 0.05f);
+    EXPECT_LT(cut.inspection.reading(0).largest, 0.02f);
+}
+
+TEST(SpeedMap, SaysHowFastParticlesAre) {
+    sim::Scene scene = cuttableBlock();
+    for (sim::Particle& particle : scene.particles) particle.velocity = {0, 2.4f, 3.2f};
+    Inspected flying(scene, {.map = ColorMap::speed});
+    flying.step(3);
+    EXPECT_NEAR(flying.inspection.reading(0).largest, 4, 1e-3f);
+    EXPECT_FLOAT_EQ(flying.inspection.reading(0).range, 5);
+}
+
+TEST(ContactMarks, AreWhereBallsLieOnTheFloorAndOnEachOther) {
+    sim::Scene scene;
+    sim::addParticles(scene, {.center = {0, 0.1f, 0}, .count = {1, 1, 1}, .radius = 0.1f});
+    sim::addParticles(scene, {.center = {0, 0.3f, 0}, .count = {1, 1, 1}, .radius = 0.1f});
+    sim::addParticles(scene, {.center = {1, 0.5f, 0}, .count = {1, 1, 1}, .radius = 0.1f});
+    scene.planes.push_back({});
+    scene.gravity = {0, 0, 0};
+    Inspected heap(scene, {.hasContacts = true});
+    heap.step(2);
+    EXPECT_EQ(heap.inspection.contacts(0), 2u) << "one on the floor, one on that, one in the air";
+}
+
+TEST(ContactMarks, AreWhereABallLiesOnATriangle) {
+    sim::Scene scene;
+    sim::addParticles(scene, {.center = {-0.4f, 0.1f, -0.4f}, .count = {1, 1, 1}, .radius = 0.1f});
+    sim::addMeshCollider(scene, {.vertices = {{-1, 0, -1}, {-1, 0, 1}, {1, 0, -1}, {1, 0, 1}},
+                                 .triangles = {{{0, 1, 2}}, {{2, 1, 3}}}});
+    scene.gravity = {0, 0, 0};
+    Inspected lying(scene, {.hasContacts = true});
+    lying.step(2);
+    EXPECT_EQ(lying.inspection.contacts(0), 1u);
+}
+
+TEST(ContactMarks, AreWhereABodyTouchesACollider) {
+    sim::Scene scene = cuttableBlock();
+    scene.colliders = {{.shape = sim::ColliderShape::box,
+                        .halfExtents = {1, 0.1f, 1},
+                        .pose = {.position = {0.2f, -0.1f, 0.2f}, .rotation = {}}}};
+    Inspected lying(scene, {.hasContacts = true});
+    lying.step(1);
+    EXPECT_EQ(lying.inspection.contacts(0), 25u) << "the lowest layer";
+}
+
+} // namespace
+} // namespace sinew::viewer
