@@ -60,8 +60,9 @@ void legend(const Facts& facts) {
     textAt(end, 1);
     char beyond[48];
     std::snprintf(beyond, sizeof beyond, "%.2g %%, up to ", 100 * double{facts.map.beyond});
-    row(map == ColorMap::strain ? "strain of links beyond" : "faster than that",
-        beyond + valueText(map, facts.map.largest));
+    const std::string limit = std::string(map == ColorMap::strain ? "strain beyond " : "faster than ") +
+                              valueText(map, facts.map.range); // of this state, whatever the colors reach to
+    row(limit.c_str(), beyond + valueText(map, facts.map.largest));
 }
 
 } // namespace
