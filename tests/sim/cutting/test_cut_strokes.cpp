@@ -93,15 +93,15 @@ struct Case {
     const char* name;
     Scene scene;
     double at;
-    std::array<int, 3> steps;
+    std::vector<int> steps;
 };
 
 } // namespace
 
 // Links that saw the blade's old edge each elsewhere left up to 74 of them across such cuts, and one piece.
 TEST(SlowStroke, PartsABodyAsOneStepDoes) {
-    const Case cases[] = {{"beam", beam(), 0.22, {1, 15, 30}},
-                          {"beam along a layer", beam(), 0.2, {1, 4, 30}},
+    const Case cases[] = {{"beam", beam(), 0.22, {1, 30}},
+                          {"beam along a layer", beam(), 0.2, {1, 30}},
                           {"sphere", sphere(), 0.01, {1, 15, 60}}};
     for (const Case& each : cases) {
         std::uint32_t least = 0;
@@ -120,7 +120,7 @@ TEST(SlowStroke, PartsABodyAsOneStepDoes) {
 
 TEST(SlowStroke, HasTheSameBitsInReversedOrder) {
     const Scene scene = sphere();
-    const Outcome one = strokeDown(scene, 10, 0.01), other = strokeDown(scene, 10, 0.01, true);
+    const Outcome one = strokeDown(scene, 5, 0.01), other = strokeDown(scene, 5, 0.01, true);
     EXPECT_EQ(one.hash, other.hash);
     EXPECT_EQ(one.sizes, other.sizes);
 }
