@@ -18,12 +18,21 @@ std::string shortest(double value) {
     return {text, std::to_chars(std::begin(text), std::end(text), value).ptr};
 }
 
+/// `text` as the value of a key: as often as the key has components.
+std::string repeated(const Key& key, const std::string& text) {
+    const std::size_t components = scenes::ruleOf(key.kind).components;
+    if (components == 1) return text;
+    std::string list = "[";
+    for (std::size_t i = 0; i < components; ++i) list += (i > 0 ? ", " : "") + text;
+    return list + "]";
+}
+
 /// A right value for a key that must be there.
 std::string filler(const Key& key) {
     if (!key.fallback.empty()) return std::string(key.fallback);
     if (key.kind == Kind::lines) return "[[[0, 0, 0], [0, 0, 1]]]";
     if (key.kind == Kind::numbers) return "[0, 1]";
-    return key.kind == Kind::text ? "\"x\"" : "1";
+    return key.kind == Kind::text ? "\"x\"" : repeated(key, "1");
 }
 
 /// The error of a section in which `key` has `value` and all other required keys are right; "" if there is
@@ -41,15 +50,6 @@ std::string errorOf(const Key& key, const std::string& value) {
         return error.what();
     }
     return "";
-}
-
-/// `text` as the value of a key: as often as the key has components.
-std::string repeated(const Key& key, const std::string& text) {
-    const std::size_t components = scenes::ruleOf(key.kind).components;
-    if (components == 1) return text;
-    std::string list = "[";
-    for (std::size_t i = 0; i < components; ++i) list += (i > 0 ? ", " : "") + text;
-    return list + "]";
 }
 
 std::string text(const Key& key, double value) {
