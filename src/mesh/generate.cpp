@@ -66,6 +66,18 @@ TriangleMesh makeSphere(std::uint32_t resolution) {
     return mesh;
 }
 
+/// Triangles of a closed net of `along` rings, each of `around` points that follow each other.
+void addRings(TriangleMesh& mesh, std::uint32_t along, std::uint32_t around) {
+    for (std::uint32_t i = 0; i < along; ++i)
+        for (std::uint32_t j = 0; j < around; ++j) {
+            const std::uint32_t next = (i + 1) % along, up = (j + 1) % around;
+            const std::uint32_t a = i * around + j, b = i * around + up, c = next * around + up,
+                                d = next * around + j;
+            mesh.triangles.push_back({a, b, c});
+            mesh.triangles.push_back({a, c, d});
+        }
+}
+
 /// The centre line of a (2, 3) torus knot.
 Vector3 knotAt(double t) {
     const double radius = 0.09 * (1 + 0.45 * std::cos(3 * t));
@@ -88,14 +100,8 @@ TriangleMesh makeTorusKnot(std::uint32_t resolution) {
             mesh.positions.push_back(
                 toVec3(center + tube * (std::cos(angle) * normal + std::sin(angle) * binormal)));
         }
-        for (std::uint32_t j = 0; j < around; ++j) {
-            const std::uint32_t next = (i + 1) % along, up = (j + 1) % around;
-            const std::uint32_t a = i * around + j, b = i * around + up, c = next * around + up,
-                                d = next * around + j;
-            mesh.triangles.push_back({a, b, c});
-            mesh.triangles.push_back({a, c, d});
-        }
     }
+    addRings(mesh, along, around);
     return mesh;
 }
 
@@ -130,12 +136,8 @@ TriangleMesh makeTube(std::uint32_t resolution) {
             const double angle = tau * j / around;
             mesh.positions.push_back(toVec3(
                 Vector3(profile[i][0], profile[i][1] * std::cos(angle), profile[i][1] * std::sin(angle))));
-            const std::uint32_t next = (i + 1) % rows, up = (j + 1) % around;
-            const std::uint32_t a = i * around + j, b = i * around + up, c = next * around + up,
-                                d = next * around + j;
-            mesh.triangles.push_back({a, b, c});
-            mesh.triangles.push_back({a, c, d});
         }
+    addRings(mesh, rows, around);
     return mesh;
 }
 
