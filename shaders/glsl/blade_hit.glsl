@@ -1,56 +1,57 @@
-// Part of cut_links: where a link meets what cuts. A link from a (the node that owns it) to b; all expressions that decide between
-// neighbouring triangles are the same for both, bit for bit, so no link passes between two of them.
+// Part of the kernels that find what a blade meets. In a step the ends a and b of a link go from where they were to where they are, and
+// an edge of the blade from (e, g) at its start to (e, g) at its end. In space and time, where both are straight, link and edge are
+// surfaces of two triangles each,
 //
-//   side of a triangle's plane   n . (x - o) / |n| + eps >= 0: what lies in the plane is on its upper side, whichever triangle says so;
-//                                all triangles of a strip turn the same way
-//   side of a triangle's edge    (e x g) . (b - a) >= 0, e and g its ends seen from a: those of the earlier poly-line first, then
-//                                the lower index, in both triangles that share it
+//   link  a0 b0 b1, a0 a1 b1        edge  e0 g0 g1, e0 g1 e1
+//
+// and the blade meets the link where those meet: two triangles in four dimensions do in a point, where six determinants have the
+// right signs. Links that share a particle have the determinants of its way in common, edges that share a point those of that
+// point's way, and steps that follow on each other those of the moment between: so no link passes between two edges or two steps, whatever
+// the material does meanwhile, for all expressions are the same bit for bit.
+// Where particles lie in the blade's way exactly, as those of a lattice at rest like to, rounding would say now this and now that:
+// so the blade is moved by a thousandth of a cell, always to the same side, which is that of no plane or row of a lattice.
 
 const float never = 2.0;
+const vec3 bladeShift = vec3(BLADE_SHIFT_X, BLADE_SHIFT_Y, BLADE_SHIFT_Z);
 
-// Share of the overlap of a sweep with the one before, of a cell.
-const float overlap = 0.1;
-
-bool isAbove(vec3 e, vec3 g, vec3 link) {
-    precise const float volume = dot(cross(e, g), link);
-    return volume >= 0.0;
-}
-
-// How far along the link its line meets the plane of a triangle; never where both ends are on one side.
-float crossing(vec3 a, vec3 b, vec3 o, vec3 p, vec3 q, float eps) {
-    precise const vec3 normal = cross(p - o, q - o);
-    const float size = length(normal);
-    if (!(size > 0.0)) return never;
-    precise const float height = dot(normal, a - o), other = dot(normal, b - o);
-    const float above = height / size + eps, beyond = other / size + eps;
-    if ((above >= 0.0) == (beyond >= 0.0)) return never;
-    return above / (above - beyond);
-}
-
-// A quad: two triangles that share the edge from `from` to `nextTo`.
-float quadHit(vec3 a, vec3 b, vec3 from, vec3 nextFrom, vec3 to, vec3 nextTo, float eps) {
-    const float first = crossing(a, b, from, nextFrom, nextTo, eps), second = crossing(a, b, from, nextTo, to, eps);
-    if (min(first, second) == never) return never;
-    precise const vec3 link = b - a, f = from - a, g = nextFrom - a, t = to - a, u = nextTo - a;
-    const bool start = isAbove(f, g, link), end = isAbove(t, u, link), low = isAbove(f, t, link), high = isAbove(g, u, link),
-               across = isAbove(f, u, link);
-    const bool inFirst = start == high && start != across; // from, nextFrom, nextTo
-    const bool inSecond = across != end && across != low;  // from, nextTo, to
-    return min(inFirst ? first : never, inSecond ? second : never);
-}
-
-// How the material around a link has moved since the last blade: x -> now + turn (x - before).
-struct Motion {
-    vec3 before, now;
-    mat3 turn;
-    float back; // how far sweeps overlap [m]; 0 = nothing is carried
+struct Ends {
+    vec3 a0, b0, a1, b1;
 };
 
-// Where the start of a sweep is for this link: it has moved with the material, and a little back, so that rounding leaves nothing
-// between two sweeps.
-vec3 carried(vec3 from, vec3 to, Motion motion) {
-    precise const vec3 moved = motion.now + motion.turn * (from - motion.before), gone = moved - to;
-    return moved + motion.back * inversesqrt(dot(gone, gone) + 1e-30) * gone;
+float volumeOf(vec3 a, vec3 b, vec3 c) {
+    precise const float volume = dot(cross(a, b), c);
+    return volume;
+}
+
+// Where on the link two triangles meet. A number for each of their six corners, to be taken with a sign: the determinant of the other
+// five; corners of one triangle times their numbers add up to a point of the other. What is 0 is above, whichever sign it is taken with.
+float meetingOf(vec3 link, vec3 linkSigns, vec3 edge, vec3 edgeSigns, vec3 isB) {
+    const bvec3 l = notEqual(greaterThanEqual(link, vec3(0.0)), lessThan(linkSigns, vec3(0.0)));
+    const bvec3 e = notEqual(greaterThanEqual(edge, vec3(0.0)), lessThan(edgeSigns, vec3(0.0)));
+    if (l.x != l.y || l.y != l.z || e.x != e.y || e.y != e.z || l.x == e.x) return never;
+    const vec3 weights = abs(link);
+    return dot(weights, isB) / max(weights.x + weights.y + weights.z, 1e-37);
+}
+
+// How far along the link.
+float edgeHit(Ends x, vec3 e0, vec3 g0, vec3 e1, vec3 g1) {
+    precise const vec3 l0 = x.b0 - x.a0, l1 = x.b1 - x.a1;
+    precise const vec3 ae0 = e0 - x.a0, ag0 = g0 - x.a0, ae1 = e1 - x.a1, ag1 = g1 - x.a1;
+    precise const vec3 be0 = e0 - x.b0, bg0 = g0 - x.b0, be1 = e1 - x.b1, bg1 = g1 - x.b1;
+    const float a1 = volumeOf(ae0, ag0, ag1), a2 = volumeOf(ae0, ag1, ae1); // the way of a
+    const float b1 = volumeOf(be0, bg0, bg1), b2 = volumeOf(be0, bg1, be1); // of b
+    const float d1 = volumeOf(ae0, ag0, bg1), d2 = volumeOf(ae0, bg1, be1);           // from a to b meanwhile
+    const float s0 = volumeOf(ae0, ag0, l0), s1 = volumeOf(ae1, ag1, l1);             // the link before and now
+    const float x1 = volumeOf(l0, ae0, bg1), x2 = volumeOf(l1, ae0, ag1);             // from e to g meanwhile
+    const float e1_ = volumeOf(l0, ae0, be1), e2 = volumeOf(l1, ae0, ae1);            // the way of e
+    const float g1_ = volumeOf(l0, ag0, bg1), g2 = volumeOf(l1, ag0, ag1);            // of g
+    const float m1 = volumeOf(g0 - e0, l1, ag1), m2 = volumeOf(l0, ae0, e1 - g1);
+    const float n1 = volumeOf(ae0, ag0, l1), n2 = volumeOf(l0, bg1, be1);
+    const vec3 first = vec3(0.0, 1.0, 1.0), second = vec3(0.0, 0.0, 1.0);
+    return min(min(meetingOf(vec3(b1, d1, s0), vec3(1, -1, -1), vec3(g1_, x1, s0), vec3(1, -1, 1), first),
+                   meetingOf(vec3(b2, d2, m2), vec3(1, -1, 1), vec3(n2, e1_, x1), vec3(1, -1, 1), first)),
+               min(meetingOf(vec3(m1, d1, a1), vec3(-1, -1, 1), vec3(g2, x2, n1), vec3(-1, 1, -1), second),
+                   meetingOf(vec3(s1, d2, a2), vec3(-1, -1, 1), vec3(s1, e2, x2), vec3(1, 1, -1), second)));
 }
 
 // The nearest points of two segments, a to b and p to q [Ericson 2005, 5.1.9]: how far along the first, where they are nearer than

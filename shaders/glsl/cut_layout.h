@@ -4,28 +4,15 @@ struct BladeHead {
     vec4 low, high;  // box around all that cuts [m]
     vec4 rayFrom;    // w = radius of the ray, 0 = there is none [m]
     vec4 rayTo;
-    float extent;    // of the strip, its box's diagonal [m]
     uint quads;      // of the strip; its points are from 0, to 0, from 1, to 1, ...
     uint isCarried;  // the strip begins where the last ended and has moved with the material
-    uint parts;      // of each quad, where it is carried
-    float way;       // the longest of a point of the strip [m]
-    uint unused0, unused1, unused2;
+    uint unused0, unused1;
 };
 
-// The edges of a strip, quad by quad in `parts`, behind its points: where the last one ended, where the material around has taken
-// that, and where this one ends.
-#define MOST_EDGE_POINTS 256
-#define EDGE_BEFORE 512
-#define EDGE_CARRIED 768
-#define EDGE_AFTER 1024
-#define BLADE_POINTS 1280
-
-// What particles near a point of the last edge say of where it has gone, in fixed point: the sum of their weights, and of ways.
-struct EdgeWay {
-    int weight, x, y, z;
-};
-#define EDGE_WEIGHT 1024.0
-#define EDGE_WAY 131072.0 // how often the longest way of a particle is in one
+// How far a blade is moved to one side, so that no particle is just in its way [cells].
+#define BLADE_SHIFT_X 0.000947
+#define BLADE_SHIFT_Y 0.000168
+#define BLADE_SHIFT_Z 0.000274
 
 // What the device finds out in such a step; zeros at its head.
 struct CutWork {

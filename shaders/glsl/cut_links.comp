@@ -43,9 +43,7 @@ void main() {
     const uint item = itemIndex(push.count), i = push.first + min(item, push.count - 1u);
     const uint owned = item < push.count ? links[i] & OWNED_MASK : 0u;
     const vec3 a = PLACE(i);
-    const float eps = max(1e-4 * push.spacing, 5e-7 * blade.extent);
-    // what is carried to a link may come from as far away as anything has moved, and turns by less than a cell within one
-    const float margin = eps + (blade.isCarried != 0u ? uintBitsToFloat(work.farthest) + push.spacing : 0.0);
+    const float margin = 1e-3 * push.spacing + (blade.isCarried != 0u ? uintBitsToFloat(work.farthest) : 0.0);
     const vec3 low = blade.low.xyz - margin, high = blade.high.xyz + margin;
     uint near = 0u;
     [[unroll]] for (int bit = FIRST_OWNED; bit < FIRST_OWNED + OWNED_LINKS; ++bit) {
@@ -54,14 +52,14 @@ void main() {
         near |= uint(all(lessThanEqual(min(a, b), high)) && all(greaterThanEqual(max(a, b), low))) << bit;
     }
     near &= owned;
-    mat3 turn = mat3(1.0);
-    if (near != 0u && blade.isCarried != 0u) turn = turnAround(i);
+    const vec3 aBefore = near != 0u ? placeBefore(i) : a;
     uint cut = 0u;
     while (near != 0u) {
         const int bit = findLSB(near);
         near &= near - 1u;
         const uint j = uint(int(i) + offsetOf(directionOf(bit)));
-        const float t = hitOf(i, j, a, PLACE(j), turn, eps);
+        const vec3 b = PLACE(j);
+        const float t = hitOf(Ends(aBefore, placeBefore(j), a, b));
         if (t > 1.0) continue;
         cut |= 1u << bit;
         atomicAnd(links[j], ~(1u << 25 - bit));

@@ -35,12 +35,9 @@ float hitOf(SkinPrism prism, uint n) {
     const HungVertex from = hung[prism.vertices[n]], to = hung[prism.vertices[(n + 1u) % 3u]];
     const vec3 a = placeOf(from, heldWith(from.cell, from.corner)), b = placeOf(to, heldWith(to.cell, to.corner));
     const uint i = from.anchor, j = to.anchor;
-    const float eps = max(1e-4 * push.spacing, 5e-7 * blade.extent);
-    mat3 turn = mat3(1.0);
-    if (blade.isCarried != 0u) turn = turnAround(i);
-    const float t = hitOf(i, j, a, b, turn, eps);
+    const float t = hitOf(i, j, a, b);
     if (t <= 1.0) return t;
-    const bool isBeforeA = hitOf(i, i, a, PLACE(i), turn, eps) <= 1.0, isBeforeB = hitOf(j, j, b, PLACE(j), turn, eps) <= 1.0;
+    const bool isBeforeA = hitOf(i, i, a, PLACE(i)) <= 1.0, isBeforeB = hitOf(j, j, b, PLACE(j)) <= 1.0;
     return isBeforeA == isBeforeB ? 0.5 : isBeforeA ? 0.0 : 1.0;
 }
 

@@ -46,11 +46,8 @@ bool isAtCut(uvec2 fan) {
 
 vec4 movedTo(HungVertex self, uvec2 fan) {
     const uint i = self.anchor;
-    const float eps = max(1e-4 * push.spacing, 5e-7 * blade.extent);
     const vec3 x = placeNow(self);
-    mat3 turn = mat3(1.0);
-    if (blade.isCarried != 0u) turn = turnAround(i);
-    if (hitOf(i, i, x, PLACE(i), turn, eps) > 1.0) return vec4(0.0);
+    if (hitOf(i, i, x, PLACE(i)) > 1.0) return vec4(0.0);
     float least = 1e30;
     vec4 best = vec4(0.0);
     for (uint s = fan.x; s < fan.x + fan.y; ++s) {
@@ -59,7 +56,7 @@ vec4 movedTo(HungVertex self, uvec2 fan) {
         if (!isHeld(prism, n)) continue;
         const HungVertex other = hung[prism.vertices[(n + 1u) % 3u]];
         const vec3 y = placeNow(other);
-        const float t = hitOf(i, other.anchor, x, y, turn, eps), way = t * distance(x, y);
+        const float t = hitOf(i, other.anchor, x, y), way = t * distance(x, y);
         if (t > 1.0 || way >= least) continue;
         least = way;
         best = vec4(mix(self.rest.xyz, other.rest.xyz, min(t, 0.95)), 1.0);

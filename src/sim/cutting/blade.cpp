@@ -18,18 +18,6 @@ layout::vec4 at(const Vec3& v, float w = 0) {
     return {v.x, v.y, v.z, w};
 }
 
-float distance(const Vec3& a, const Vec3& b) {
-    return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
-}
-
-// About squares, as far as there is room: what moves along an edge is told apart as finely as along the way.
-std::uint32_t partsOf(const layout::BladeHead& head, float length) {
-    constexpr float finest = 64;
-    const float most = std::min(finest, float{MOST_EDGE_POINTS - 1} / static_cast<float>(head.quads));
-    return static_cast<std::uint32_t>(
-        std::max(1.0f, std::min(most, length / std::max(head.way, length / finest))));
-}
-
 void grow(layout::BladeHead& head, const Vec3& v, float radius) {
     head.low = {std::min(head.low.x, v.x - radius), std::min(head.low.y, v.y - radius),
                 std::min(head.low.z, v.z - radius), 0};
@@ -43,20 +31,14 @@ bool BladeWords::readBlade(const Blade& blade) noexcept {
     const std::size_t count = blade.from.size();
     if (count < 2 || count > ranges::mostBladePoints || blade.to.size() != count) return false;
     if (!std::ranges::all_of(blade.from, isNear) || !std::ranges::all_of(blade.to, isNear)) return false;
-    float length = 0;
     for (std::size_t p = 0; p < count; ++p) {
         points_[2 * p] = at(blade.from[p]);
         points_[2 * p + 1] = at(blade.to[p]);
         grow(head_, blade.from[p], 0);
         grow(head_, blade.to[p], 0);
-        head_.way = std::max(head_.way, distance(blade.from[p], blade.to[p]));
-        if (p > 0) length = std::max(length, distance(blade.to[p - 1], blade.to[p]));
     }
-    head_.extent =
-        std::hypot(head_.high.x - head_.low.x, head_.high.y - head_.low.y, head_.high.z - head_.low.z);
     head_.quads = static_cast<std::uint32_t>(count - 1);
     head_.isCarried = blade.isCarried ? 1 : 0;
-    head_.parts = blade.isCarried ? partsOf(head_, length) : 1;
     return true;
 }
 

@@ -34,19 +34,6 @@ void addWaking(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& p
                          run.push);
 }
 
-// Where the material has taken the edge that the last step of the stroke ended with.
-void addCarrying(ProgramBuilder& program, const Cut& cut) {
-    const CuttingBuffers& buffers = cut.buffers;
-    program.fill(cut.edgeWays, 0);
-    for (const Run& run : cut.runs)
-        program.dispatch(k::carryEdge, run.push.count,
-                         {cut.bladePlaces, cut.placesBefore, buffers.savedLinks, cut.blade, cut.points,
-                          cut.work, cut.edgeWays},
-                         run.push);
-    program.dispatch(k::averageEdge, MOST_EDGE_POINTS, {cut.blade, cut.points, cut.work, cut.edgeWays},
-                     layout::CountPush{MOST_EDGE_POINTS});
-}
-
 void addOpening(ProgramBuilder& program, Cut& cut, const ParticleBuffers& particles) {
     const CuttingBuffers& buffers = cut.buffers;
     program.updateBlade(cut.blade, cut.points);
@@ -59,7 +46,6 @@ void addOpening(ProgramBuilder& program, Cut& cut, const ParticleBuffers& partic
                          run.push);
     if (cut.surface)
         cut.bladePlaces = surface::addPulling(program, *cut.surface, cut.placesBefore, cut.work, cut.blade);
-    addCarrying(program, cut);
     for (const Run& run : cut.runs)
         program.dispatch(cut.usesTexels ? k::cutLinks : k::cutLinksLoads, run.push.count,
                          {cut.bladePlaces, cut.placesBefore, buffers.links, buffers.hits, buffers.dirty,

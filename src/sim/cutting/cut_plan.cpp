@@ -181,9 +181,7 @@ Cut addBuffers(ProgramBuilder& program, const Scene& scene, const Settings& sett
     cut.buffers.places = program.scratch<layout::vec4>("cut.places", layout.count);
     cut.placesBefore = program.scratch<layout::vec4>("cut.places_before", layout.count);
     cut.blade = program.scratch<layout::BladeHead>("cut.blade", 1);
-    static_assert(EDGE_BEFORE == 2 * ranges::mostBladePoints && MOST_EDGE_POINTS >= ranges::mostBladePoints);
-    cut.points = program.scratch<layout::vec4>("cut.points", BLADE_POINTS);
-    cut.edgeWays = program.scratch<layout::EdgeWay>("cut.edge_ways", MOST_EDGE_POINTS);
+    cut.points = program.scratch<layout::vec4>("cut.points", 2 * ranges::mostBladePoints);
     cut.work = program.scratch<layout::CutWork>("cut.work", 1);
     addPieces(program, cut, initial, scene.particles.size());
     CuttingBuffers& buffers = cut.buffers;

@@ -24,7 +24,7 @@ struct Tearing;
 struct Cut {
     std::vector<Run> runs;
     CuttingBuffers buffers;
-    BufferId cells, placesBefore, blade, points, work, edgeWays;
+    BufferId cells, placesBefore, blade, points, work;
     BufferId bladePlaces; // by slot: where particles are for the blade, buffers.places but for some
     BufferId labels, particles, arguments, groups; // of pieces
     BufferId uncutBodies, weights;                 // likewise, where hands may hold some

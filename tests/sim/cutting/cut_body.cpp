@@ -79,14 +79,16 @@ std::vector<LiveLink> CutBody::links() const {
     return links;
 }
 
+bool CutBody::isAbove(const Vector3d& point, const CutPlane& plane) const {
+    const Vector3d shift = spacing() * Vector3d(BLADE_SHIFT_X, BLADE_SHIFT_Y, BLADE_SHIFT_Z);
+    return plane.normal.dot(point - plane.point - shift) >= 0;
+}
+
 std::size_t CutBody::bridges(const CutPlane& plane) const {
     const auto x = runner_.positions();
-    const Vector3d normal = plane.normal.normalized();
-    const auto isAbove = [&](const Vector3d& p) {
-        return normal.dot(p - plane.point) + 1e-4 * spacing() >= 0;
-    };
     std::size_t count = 0;
-    for (const LiveLink& link : links()) count += isAbove(x[link.a]) != isAbove(x[link.b]) ? 1 : 0;
+    for (const LiveLink& link : links())
+        count += isAbove(x[link.a], plane) != isAbove(x[link.b], plane) ? 1 : 0;
     return count;
 }
 

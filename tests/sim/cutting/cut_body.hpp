@@ -44,7 +44,9 @@ public:
     /// Bits that do not agree with the other end's.
     std::size_t oneSided() const;
     std::vector<LiveLink> links() const;
-    /// Live links from one side of the plane to the other, ends in it counted as above.
+    /// The plane is moved as a blade in it is (BLADE_SHIFT).
+    bool isAbove(const Eigen::Vector3d& point, const CutPlane& plane) const;
+    /// Live links from one side to the other.
     std::size_t bridges(const CutPlane& plane) const;
     /// Live links that no edges of tetrahedra within their own square or cell stand in for.
     std::size_t looseLinks() const;

@@ -70,9 +70,7 @@ struct Count {
 };
 
 Count bendsAcross(CutBody& body, const CutPlane& plane) {
-    const auto isAbove = [&](std::uint32_t i) {
-        return plane.normal.dot(body.at(i) - plane.point) + 1e-4 * double{spacing} >= 0;
-    };
+    const auto isAbove = [&](std::uint32_t i) { return body.isAbove(body.at(i), plane); };
     Count count;
     for (const layout::SplitBend& bend : listOf<layout::SplitBend>(body, "bends")) {
         if (bend.stiffness == 0) continue;
@@ -87,9 +85,7 @@ Count linksAcross(CutBody& body, const CutPlane& plane, bool isRanged) {
     const auto links = listOf<layout::SplitLink>(body, "distance.links");
     const auto first = listOf<std::uint32_t>(body, "distance.first_links");
     const auto particles = static_cast<std::uint32_t>(body.scene().particles.size());
-    const auto isAbove = [&](std::uint32_t i) {
-        return plane.normal.dot(body.at(i) - plane.point) + 1e-4 * double{spacing} >= 0;
-    };
+    const auto isAbove = [&](std::uint32_t i) { return body.isAbove(body.at(i), plane); };
     Count count;
     const auto add = [&](std::uint32_t i, const layout::SplitLink& link) {
         if (link.stiffness == 0 || link.other == i) return;
