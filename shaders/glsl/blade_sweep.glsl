@@ -5,25 +5,37 @@
 // Where the particle of a slot was when the edge was where it now begins.
 vec3 placeBefore(uint i) { return blade.isCarried != 0u && before[i].w > 0.0 ? before[i].xyz : PLACE(i); }
 
-float stripHit(Ends x) {
+// How far along a way, and what the blade's surface is normal to there, as who went that way has seen it. [not of unit length]
+struct Meeting {
+    float at;
+    vec3 normal;
+};
+
+vec3 normalOf(Ends x, float at, vec3 e0, vec3 g0, vec3 e1, vec3 g1) {
+    const vec3 place = mix(x.a1, x.b1, at), edge = g1 - e1;
+    const float share = clamp(dot(place - e1, edge) / max(dot(edge, edge), 1e-30), 0.0, 1.0);
+    return cross(edge, mix(e1 - e0, g1 - g0, share) - mix(x.a1 - x.a0, x.b1 - x.b0, at));
+}
+
+Meeting stripMeeting(Ends x) {
     const vec3 low = min(min(x.a0, x.b0), min(x.a1, x.b1)), high = max(max(x.a0, x.b0), max(x.a1, x.b1));
     const vec3 shift = push.spacing * bladeShift;
-    float nearest = never;
+    Meeting nearest = Meeting(never, vec3(0.0));
     vec3 e0 = points[0].xyz + shift, e1 = points[1].xyz + shift;
     for (uint q = 1u; q <= blade.quads; ++q) {
         const vec3 g0 = points[2u * q].xyz + shift, g1 = points[2u * q + 1u].xyz + shift;
-        if (all(lessThanEqual(min(min(e0, g0), min(e1, g1)), high)) && all(greaterThanEqual(max(max(e0, g0), max(e1, g1)), low)))
-            nearest = min(nearest, edgeHit(x, e0, g0, e1, g1));
+        if (all(lessThanEqual(min(min(e0, g0), min(e1, g1)), high)) && all(greaterThanEqual(max(max(e0, g0), max(e1, g1)), low))) {
+            const float at = edgeHit(x, e0, g0, e1, g1);
+            if (at < nearest.at) nearest = Meeting(at, normalOf(x, at, e0, g0, e1, g1));
+        }
         e0 = g0;
         e1 = g1;
     }
     return nearest;
 }
 
+// How far along, also of a ray.
 float hitOf(Ends x) {
-    const float nearest = stripHit(x);
+    const float nearest = stripMeeting(x).at;
     return blade.rayFrom.w > 0.0 ? min(nearest, rayHit(x.a1, x.b1, blade.rayFrom.xyz, blade.rayTo.xyz, blade.rayFrom.w)) : nearest;
 }
-
-// The way between two points of a skin, which have gone as the particles of slots i and j.
-float hitOf(uint i, uint j, vec3 a, vec3 b) { return hitOf(Ends(a + placeBefore(i) - PLACE(i), b + placeBefore(j) - PLACE(j), a, b)); }

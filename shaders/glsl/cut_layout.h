@@ -127,7 +127,7 @@ struct SkinPrism {
 // A vertex of such a skin.
 struct HungVertex {
     vec4 rest;    // [m]; w = index of the skin
-    vec4 weights; // in its cell; w unused
+    vec4 weights; // in its cell; w = links of its anchor, uncut
     vec4 normal;  // at rest; w = spacing of the grid [m]
     uint vertex;  // of all skins
     uint cell, anchor; // slots
@@ -138,6 +138,11 @@ struct PrismPush {
     uint first; // items of the surface before prisms: slots
     uint count; // prisms, or vertices that hang
 };
+
+// Of such a vertex that is on the wrong side of a blade, as w of where that lets it be at rest: it moves there once its anchor
+// has lost a link; it has.
+#define VERTEX_MOVES 1.0
+#define VERTEX_MOVED 2.0
 
 // What the skin of a sheet falls into beside cuts (surface/sheet_pieces.hpp). A triangle of such a skin is half of the cell above a slot:
 // of the corners a, c = a + z, d = a + x + z, or of a, d, b = a + x.

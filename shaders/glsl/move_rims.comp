@@ -1,7 +1,6 @@
 #version 460
-// Vertices of a skin that a blade has left on the wrong side: it passed between them and the particle that they go with. They move to
-// where it met an edge to a neighbour that goes with the same side, so that both rims of the cut are where the blade was; the skin beyond
-// goes with the other side.
+// Vertices of a skin on the wrong side of a blade, which has passed between them and the particle that they go with: once that has lost a
+// link, they move along the skin to where the blade was, so that both rims of the cut are there; the skin beyond goes with the other side.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "cut.glsl"
@@ -12,22 +11,20 @@
 layout(std430, binding = 0) readonly buffer PulledPlaces { vec4 pulledPlaces[]; };
 layout(std430, binding = 1) readonly buffer PlacesBefore { vec4 before[]; };
 layout(std430, binding = 2) readonly buffer Links { uint links[]; };
-layout(std430, binding = 3) writeonly buffer Moved { vec4 moved[]; }; // of each vertex: where it is at rest; w = 0: where it was
-layout(std430, binding = 4) readonly buffer Dirty { uint dirty[]; };
-layout(std140, binding = 5) uniform Blade { BladeHead blade; };
-layout(std430, binding = 6) readonly buffer Points { vec4 points[]; };
-layout(std430, binding = 7) readonly buffer SavedLinks { uint savedLinks[]; };
-layout(std430, binding = 8) readonly buffer Places { vec4 places[]; };
-layout(std430, binding = 9) readonly buffer Rest { vec4 rest[]; };
-layout(std430, binding = 10) readonly buffer Prisms { SkinPrism prisms[]; };
-layout(std430, binding = 11) readonly buffer Hung { HungVertex hung[]; };
-layout(std430, binding = 12) readonly buffer Rims { uint rims[]; };
-layout(std430, binding = 13) readonly buffer Fans { uvec2 fans[]; };   // of each vertex: first, count of ...
-layout(std430, binding = 14) readonly buffer Around { uint around[]; }; // 4 times a prism, and which of its corners the vertex is
+layout(std430, binding = 3) buffer Moved { vec4 moved[]; };
+layout(std140, binding = 4) uniform Blade { BladeHead blade; };
+layout(std430, binding = 5) readonly buffer Points { vec4 points[]; };
+layout(std430, binding = 6) readonly buffer SavedLinks { uint savedLinks[]; };
+layout(std430, binding = 7) readonly buffer Places { vec4 places[]; };
+layout(std430, binding = 8) readonly buffer Rest { vec4 rest[]; };
+layout(std430, binding = 9) readonly buffer Hung { HungVertex hung[]; };
+layout(std430, binding = 10) buffer Rims { uint rims[]; };
+layout(std430, binding = 11) readonly buffer Status { StatusWords status; };
+layout(std430, binding = 12) readonly buffer Partitions { uint partitions[]; }; // before this step
 
 #define PLACE(i) pulledPlaces[i].xyz
 #include "blade_sweep.glsl"
-#include "skin_prisms.glsl"
+#include "blade_skin.glsl"
 #define ALIVE(i) savedLinks[i]
 #define AT(i) places[i].xyz
 #define REST(i) rest[i].xyz
@@ -35,40 +32,44 @@ layout(std430, binding = 14) readonly buffer Around { uint around[]; }; // 4 tim
 #include "gradient.glsl"
 #include "skin_place.glsl"
 
-vec3 placeNow(HungVertex vertex) { return placeOf(vertex, heldWith(vertex.cell, vertex.corner)); }
+const float mostWay = 1.5;      // [cells]
+const float leastTangent = 0.2; // of the normal of a blade along the skin, squared: flatter ones shave
 
-// Whether the link below any edge from the vertex is dead.
-bool isAtCut(uvec2 fan) {
-    bool isCut = false;
-    for (uint s = fan.x; s < fan.x + fan.y && !isCut; ++s) isCut = !isHeld(prisms[around[s] >> 2], around[s] & 3u);
-    return isCut;
-}
-
-vec4 movedTo(HungVertex self, uvec2 fan) {
+// Where the blade that meets the way to its particle lets the vertex be, at rest; w = 0 where it does not.
+vec4 behindBlade(HungVertex self) {
     const uint i = self.anchor;
-    const vec3 x = placeNow(self);
-    if (hitOf(i, i, x, PLACE(i)) > 1.0) return vec4(0.0);
-    float least = 1e30;
-    vec4 best = vec4(0.0);
-    for (uint s = fan.x; s < fan.x + fan.y; ++s) {
-        const SkinPrism prism = prisms[around[s] >> 2];
-        const uint n = around[s] & 3u;
-        if (!isHeld(prism, n)) continue;
-        const HungVertex other = hung[prism.vertices[(n + 1u) % 3u]];
-        const vec3 y = placeNow(other);
-        const float t = hitOf(i, other.anchor, x, y), way = t * distance(x, y);
-        if (t > 1.0 || way >= least) continue;
-        least = way;
-        best = vec4(mix(self.rest.xyz, other.rest.xyz, min(t, 0.95)), 1.0);
-    }
-    return best;
+    uint held = 255u; // of a cell that was whole
+    if (partitions[self.cell] != 0u) held = heldWith(self.cell, self.corner);
+    const vec3 x = placeOf(self, held);
+    const Meeting meeting = stripMeeting(waysOf(i, i, x, PLACE(i)));
+    const float size = length(meeting.normal);
+    if (meeting.at > 1.0 || !(size > 0.0)) return vec4(0.0);
+    const vec3 n = meeting.normal / size;
+    const mat3 turn = gradientAt(i);
+    const vec3 skin = normalize(cofactor(turn) * self.normal.xyz);
+    vec3 way = n - dot(n, skin) * skin;
+    if (dot(way, way) < leastTangent) way = n;
+    way *= dot(n, meeting.at * (PLACE(i) - x)) / dot(n, way);
+    way *= min(1.0, mostWay * push.spacing / max(length(way), 1e-30));
+    return vec4(self.rest.xyz + inverse(turn) * way, VERTEX_MOVES);
 }
 
 void main() {
     const uint item = itemIndex(push.count);
-    if (item >= push.count) return;
+    if (item >= push.count || !isFinished(status)) return;
     const uint v = push.first + item;
     const HungVertex self = hung[v];
-    if (dirty[self.anchor >> 5] == 0u || rims[v] != 0u) return; // beside a cut before, it stays
-    moved[v] = isAtCut(fans[v]) ? movedTo(self, fans[v]) : vec4(0.0);
+    vec4 to = moved[v];
+    const bool isNear = isNearBlade(self.anchor);
+    if (to.w == VERTEX_MOVED || !isNear && to.w == 0.0) return;
+    if (blade.isCarried == 0u) to = vec4(0.0);
+    if (isNear && (rims[v] == 0u || blade.isCarried != 0u)) {
+        const vec4 behind = behindBlade(self);
+        if (behind.w > 0.0) to = to.w == 0.0 ? behind : vec4(0.0); // else it came back
+    }
+    if (to.w > 0.0 && bitCount(links[self.anchor]) < int(self.weights.w)) {
+        to.w = VERTEX_MOVED;
+        rims[v] = 1u;
+    }
+    moved[v] = to;
 }

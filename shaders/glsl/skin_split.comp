@@ -15,8 +15,7 @@ layout(std430, binding = 5) readonly buffer Positions { vec4 positions[]; }; // 
 layout(std430, binding = 6) readonly buffer Gradients { Gradient gradients[]; };
 layout(std430, binding = 7) buffer Vertices { SkinVertex vertices[]; };
 
-layout(std430, binding = 8) readonly buffer Rims { uint rims[]; };
-layout(std430, binding = 9) readonly buffer Moved { vec4 moved[]; };
+layout(std430, binding = 8) readonly buffer Moved { vec4 moved[]; };
 
 #define ALIVE(i) links[i]
 #define AT(i) positions[particles[i]].xyz

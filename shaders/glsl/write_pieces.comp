@@ -15,8 +15,7 @@ layout(std430, binding = 5) readonly buffer Starts { uvec2 starts[]; };
 layout(std430, binding = 6) readonly buffer State { SurfaceState state; };
 layout(std430, binding = 7) buffer Vertices { CutVertex vertices[]; };
 layout(std430, binding = 8) writeonly buffer Indices { uint indices[]; };
-layout(std430, binding = 9) readonly buffer Rims { uint rims[]; };
-layout(std430, binding = 10) readonly buffer Moved { vec4 moved[]; };
+layout(std430, binding = 9) readonly buffer Moved { vec4 moved[]; };
 layout(push_constant) uniform Push { PrismPush push; };
 
 #include "skin_prisms.glsl"

@@ -13,20 +13,21 @@ layout(std430, binding = 3) readonly buffer Prisms { SkinPrism prisms[]; };
 layout(std430, binding = 4) readonly buffer Hung { HungVertex hung[]; };
 layout(std430, binding = 5) readonly buffer SkinHits { uint skinHits[]; };
 layout(std430, binding = 6) writeonly buffer Vertices { CutVertex vertices[]; };
-layout(std430, binding = 7) readonly buffer Rims { uint rims[]; };
-layout(std430, binding = 8) readonly buffer Moved { vec4 moved[]; };
+layout(std430, binding = 7) readonly buffer Moved { vec4 moved[]; };
 layout(push_constant) uniform Push { PrismPush push; };
 
 #include "skin_prisms.glsl"
 #include "skin_points.glsl"
 #include "skin_rest.glsl"
 
-// How far along edge n the cut is.
+// How far along edge n the cut is. Where the blade has not met it, it passed between an end of the edge and the particle that it goes with:
+// that end is on the blade.
 float shareOf(SkinPrism prism, uint self, uint n) {
     const SkinEdge edge = edgeOf(prism, self, n);
     const uint value = bitfieldExtract(skinHits[edge.prism], int(8u * edge.edge), 8);
-    const float share = value == 0u ? 0.5 : float(value) / 255.0;
-    return edge.isReversed ? 1.0 - share : share;
+    if (value > 0u) return edge.isReversed ? 1.0 - float(value) / 255.0 : float(value) / 255.0;
+    const bool isStart = moved[prism.vertices[n]].w == VERTEX_MOVED, isEnd = moved[prism.vertices[(n + 1u) % 3u]].w == VERTEX_MOVED;
+    return isStart == isEnd ? 0.5 : isStart ? 0.02 : 0.98;
 }
 
 vec4 edgePlace(SkinPrism prism, uint self, uint n) {

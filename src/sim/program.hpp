@@ -129,6 +129,8 @@ struct CutSurfaceBuffers {
     BufferId rest;     ///< layout::CutVertex of each
     BufferId indices;  ///< of triangles inside, then outside
     BufferId draws;    ///< layout::DrawArguments for each of the two
+    BufferId hung;     ///< layout::HungVertex of skins of meshes that are clipped; invalid without them
+    BufferId moved;    ///< of each: where it is at rest, if w is VERTEX_MOVED
 };
 
 /// Immutable once built.

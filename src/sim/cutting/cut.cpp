@@ -54,8 +54,6 @@ void addOpening(ProgramBuilder& program, Cut& cut, const ParticleBuffers& partic
     if (cut.tearing) addTearingPasses(program, *cut.tearing, cut);
     for (const Run& run : cut.runs)
         program.dispatch(k::settleLinks, run.push.count, {buffers.links, buffers.dirty}, run.push);
-    if (cut.surface)
-        surface::addSkinHits(program, *cut.surface, cut.bladePlaces, cut.placesBefore, cut.blade, cut.points);
     addWholeCells(program, cut);
     addWaking(program, cut, particles);
 }
@@ -109,6 +107,8 @@ void addFindingPieces(ProgramBuilder& program, const Cut& cut, const ParticleBuf
 
 void addClosing(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& particles) {
     const CuttingBuffers& buffers = cut.buffers;
+    if (cut.surface)
+        surface::addSkinHits(program, *cut.surface, cut.bladePlaces, cut.placesBefore, cut.blade, cut.points);
     for (const Run& run : cut.runs)
         program.dispatch(k::closeCut, run.push.count,
                          {buffers.links, buffers.savedLinks, cut.bladePlaces, cut.placesBefore,

@@ -38,17 +38,20 @@ std::uint32_t stiffLinks(const Grid& grid) {
     return links;
 }
 
+std::uint32_t linksAt(const Grid& grid, const std::array<std::uint32_t, 3>& node) {
+    const std::uint32_t around = fillAround(grid, node);
+    std::uint32_t word = 0;
+    for (std::uint32_t bit = 0; bit < directionCount; ++bit) {
+        const auto direction = directionOf(bit);
+        if (isLinked(grid, direction) && (around & cellsBeside(direction)) != 0) word |= 1u << bit;
+    }
+    return word;
+}
+
 void writeLinks(const Grid& grid, const Box& box, std::span<std::uint32_t> words) {
-    std::array<std::uint32_t, directionCount> cells{};
-    for (std::uint32_t bit = 0; bit < directionCount; ++bit)
-        if (isLinked(grid, directionOf(bit))) cells[bit] = cellsBeside(directionOf(bit));
     for (const std::uint32_t node : grid.node) {
         const auto at = coordinates(grid, node);
-        const std::uint32_t around = fillAround(grid, at);
-        std::uint32_t& word = words[box.slot(at[0], at[1], at[2])];
-        word = 0;
-        for (std::uint32_t bit = 0; bit < directionCount; ++bit)
-            if ((around & cells[bit]) != 0) word |= 1u << bit;
+        words[box.slot(at[0], at[1], at[2])] = linksAt(grid, at);
     }
 }
 

@@ -32,7 +32,10 @@ constexpr bool isKuhn(const std::array<int, 3>& direction) {
 /// Bits of the links that have stiffness.
 std::uint32_t stiffLinks(const Grid& grid);
 
-/// Links of an uncut body, written into `words` by slot; what is no node keeps its word.
+/// Links of a node of an uncut body.
+std::uint32_t linksAt(const Grid& grid, const std::array<std::uint32_t, 3>& node);
+
+/// Likewise of all, written into `words` by slot; what is no node keeps its word.
 void writeLinks(const Grid& grid, const Box& box, std::span<std::uint32_t> words);
 
 } // namespace sinew::sim::lattice

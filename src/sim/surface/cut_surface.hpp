@@ -41,7 +41,6 @@ struct HungSurface {
     BufferId hits;         ///< by prism: where its edges were cut
     BufferId rims;         ///< by vertex: whether a triangle around is drawn in pieces
     BufferId moved;        ///< by vertex: where it has moved to beside a cut [m]
-    BufferId fans, around; ///< by vertex: range of the list of prisms around it
     BufferId pulls;        ///< by slot: from a particle to its pulled place [m]
     BufferId pulledPlaces; ///< by slot, where particles are for a blade [m]; invalid = at their places
 };

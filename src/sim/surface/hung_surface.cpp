@@ -20,27 +20,6 @@ void addListed(ProgramBuilder& program, const CutSurface& surface, const vk::Sha
                              pushOf(surface, surface.hung.prismCount));
 }
 
-// The prisms around every vertex.
-void addFans(ProgramBuilder& program, HungSurface& hung, const CutBodies& bodies) {
-    std::vector<std::array<std::uint32_t, 2>> fans(bodies.vertices.size()); // first, count
-    for (const layout::SkinPrism& prism : bodies.prisms)
-        for (const std::uint32_t vertex : prism.vertices) ++fans[vertex][1];
-    std::uint32_t first = 0;
-    for (auto& [start, count] : fans) {
-        start = first;
-        first += count;
-        count = 0;
-    }
-    std::vector<std::uint32_t> around(first);
-    for (std::uint32_t t = 0; t < bodies.prisms.size(); ++t)
-        for (std::uint32_t n = 0; n < 3; ++n) {
-            auto& [start, count] = fans[bodies.prisms[t].vertices[n]];
-            around[start + count++] = 4 * t + n;
-        }
-    hung.fans = program.upload("surface.hung_fans", fans);
-    hung.around = program.upload("surface.hung_around", around);
-}
-
 } // namespace
 
 void addHungBuffers(ProgramBuilder& program, CutSurface& surface, const CutBodies& bodies) {
@@ -54,7 +33,8 @@ void addHungBuffers(ProgramBuilder& program, CutSurface& surface, const CutBodie
     hung.hits = program.scratch<std::uint32_t>("surface.skin_hits", hung.prismCount);
     hung.rims = program.scratch<std::uint32_t>("surface.rims", hung.vertexCount);
     hung.moved = program.scratch<layout::vec4>("surface.moved", hung.vertexCount);
-    addFans(program, hung, bodies);
+    program.program().cutSurface.hung = hung.vertices;
+    program.program().cutSurface.moved = hung.moved;
     if (!bodies.pulled.empty()) {
         surface.bladeRest = program.upload("surface.pulled_rest", bodies.pulled);
         hung.pulledPlaces = program.scratch<layout::vec4>("surface.pulled_places", surface.slots);
@@ -86,14 +66,15 @@ void addSkinHits(ProgramBuilder& program, const CutSurface& surface, BufferId bl
     const HungSurface& hung = surface.hung;
     for (const HungRange& range : hung.ranges)
         program.dispatch(k::cutSkin, range.prisms.count,
-                         {bladePlaces, placesBefore, cutting.links, hung.hits, cutting.dirty, blade, points,
-                          cutting.savedLinks, cutting.places, surface.rest, hung.prisms, hung.vertices},
+                         {bladePlaces, placesBefore, cutting.links, hung.hits, blade, points,
+                          cutting.savedLinks, cutting.places, surface.rest, hung.prisms, hung.vertices,
+                          program.program().status, surface.partitions},
                          range.prisms);
     for (const HungRange& range : hung.ranges)
         program.dispatch(k::moveRims, range.vertices.count,
-                         {bladePlaces, placesBefore, cutting.links, hung.moved, cutting.dirty, blade, points,
-                          cutting.savedLinks, cutting.places, surface.rest, hung.prisms, hung.vertices,
-                          hung.rims, hung.fans, hung.around},
+                         {bladePlaces, placesBefore, cutting.links, hung.moved, blade, points,
+                          cutting.savedLinks, cutting.places, surface.rest, hung.vertices, hung.rims,
+                          program.program().status, surface.partitions},
                          range.vertices);
 }
 
@@ -112,7 +93,7 @@ void addRimPoints(ProgramBuilder& program, const CutSurface& surface) {
     if (hung.prismCount == 0) return;
     addListed(program, surface, k::writeRims,
               {surface.listed, surface.owned, program.program().cutting.links, hung.prisms, hung.vertices,
-               hung.hits, program.program().cutSurface.rest, hung.rims, hung.moved});
+               hung.hits, program.program().cutSurface.rest, hung.moved});
 }
 
 void addPrismTriangles(ProgramBuilder& program, const CutSurface& surface) {
@@ -125,7 +106,7 @@ void addPrismTriangles(ProgramBuilder& program, const CutSurface& surface) {
                drawn.indices});
     addListed(program, surface, k::writePieces,
               {surface.listed, surface.owned, links, hung.prisms, hung.vertices, surface.starts, drawn.state,
-               drawn.rest, drawn.indices, hung.rims, hung.moved});
+               drawn.rest, drawn.indices, hung.moved});
 }
 
 void addSplitVertices(ProgramBuilder& program, const CutSurface& surface) {
@@ -135,7 +116,7 @@ void addSplitVertices(ProgramBuilder& program, const CutSurface& surface) {
         program.dispatchIndirect(k::skinSplit, {surface.arguments, surface.push.runs + 2, hung.vertexCount},
                                  {hung.vertices, surface.partitions, built.cutting.links, surface.rest,
                                   surface.source.particles, built.positions, surface.gradients,
-                                  built.skinVertices, hung.rims, hung.moved},
+                                  built.skinVertices, hung.moved},
                                  range.vertices);
 }
 

@@ -3,9 +3,9 @@
 // mesh is clipped.
 //
 //   cut    pull_places  particles outside of a skin are below it for the blade
-//          cut_skin     where edges of the skin met the blade
+//   end    cut_skin     where edges of the skin have met the blade
 //          move_rims    vertices on the wrong side of it move to it
-//   end    part_prisms; write_rims (points), write_prisms (inside), write_pieces (what is left of the skin)
+//          part_prisms; write_rims (points), write_prisms (inside), write_pieces (what is left of the skin)
 //   skin   skin_split   vertices in parted cells, before normals; turn_rims: normals beside cuts
 #pragma once
 

@@ -2,9 +2,11 @@
 // a tetrahedron follows from that of the one before it and the triangles on the face between them.
 #include "sim/surface/skin_complex.hpp"
 
+#include "sim/lattice/link_masks.hpp"
 #include "sim/surface/kuhn.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <tuple>
 
@@ -83,7 +85,8 @@ private:
                 vertex.rest.z += share * x.z;
             }
             vertex.rest.w = static_cast<float>(place_.index);
-            vertex.weights = {w.x, w.y, w.z, 0};
+            vertex.weights = {w.x, w.y, w.z,
+                              static_cast<float>(std::popcount(lattice::linksAt(grid_, nodes_[v])))};
             vertex.normal.w = grid_.restLength[0];
             vertex.vertex = place_.firstVertex + v;
             vertex.cell = slot(*cell);

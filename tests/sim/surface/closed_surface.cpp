@@ -42,7 +42,7 @@ Vector3d embedded(const CutBody& body, const CellEmbedding& cell) {
 
 ClosedSurface::ClosedSurface(CutBody& body) {
     body.runner().skin();
-    addCut(body); // says where vertices of skins are that have moved to a cut
+    addCut(body);
     addSkin(body);
 }
 
@@ -55,8 +55,21 @@ std::uint32_t ClosedSurface::pointOf(std::uint32_t key, const Vector3d& rest, co
     return entry->second;
 }
 
+// Vertices of skins, by where they have moved beside a cut.
+std::map<std::uint32_t, Vector3d> ClosedSurface::movedVertices(CutBody& body) {
+    const CutSurfaceBuffers& buffers = body.runner().simulation().program().cutSurface;
+    std::map<std::uint32_t, Vector3d> vertices;
+    if (buffers.hung == BufferId{}) return vertices;
+    const auto hung = read<layout::HungVertex>(body, buffers.hung, hash_);
+    const auto moved = read<layout::vec4>(body, buffers.moved, hash_);
+    for (std::size_t v = 0; v < hung.size(); ++v)
+        if (moved[v].w == VERTEX_MOVED) vertices.emplace(hung[v].vertex, xyz(moved[v]));
+    return vertices;
+}
+
 void ClosedSurface::addSkin(CutBody& body) {
     const StepProgram& program = body.runner().simulation().program();
+    const auto moved = movedVertices(body);
     const Skin& skin = body.scene().skins.at(0);
     const auto indices = read<std::uint32_t>(body, program.skinIndices, hash_);
     const auto vertices = read<layout::SkinVertex>(body, program.skinVertices, hash_);
@@ -66,9 +79,12 @@ void ClosedSurface::addSkin(CutBody& body) {
         for (std::size_t n = 0; n < 3; ++n) {
             const std::uint32_t vertex = indices[3 * t + n];
             const bool isMesh = skin.particles.empty();
+            const auto place = moved.find(vertex);
+            const Vector3d rest = place != moved.end() ? place->second
+                                  : isMesh             ? embedded(body, skin.cells[vertex])
+                                                       : body.at(skin.particles[vertex]);
             triangle.points[n] =
-                pointOf(isMesh ? SURFACE_SKIN | vertex : SURFACE_PARTICLE | skin.particles[vertex],
-                        isMesh ? embedded(body, skin.cells[vertex]) : body.at(skin.particles[vertex]),
+                pointOf(isMesh ? SURFACE_SKIN | vertex : SURFACE_PARTICLE | skin.particles[vertex], rest,
                         xyz(vertices[vertex].position));
             triangle.normals[n] = xyz(vertices[vertex].normal);
         }

@@ -37,6 +37,7 @@ public:
 
 private:
     std::uint32_t pointOf(std::uint32_t key, const Eigen::Vector3d& rest, const Eigen::Vector3d& drawn);
+    std::map<std::uint32_t, Eigen::Vector3d> movedVertices(CutBody& body);
     void addSkin(CutBody& body);
     void addCut(CutBody& body);
 
