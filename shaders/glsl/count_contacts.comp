@@ -31,37 +31,7 @@ layout(std430, binding = 8) buffer Slips { vec4 slips[]; }; // w: what is left o
 #endif
 layout(push_constant) uniform Push { ContactPush push; };
 
-#ifdef HAS_RECOVERY
-// Goes on with what is left of an overlap. Once a substep.
-void recover(uint slot, vec3 x) {
-    const float before = slips[slot].w;
-    if (before == 0.0) return;
-    const uvec2 candidate = CONTACT(slot);
-    const float reach = uintBitsToFloat(candidate.y), overlap = reach - length(x - PREDICTED(candidate.x).xyz);
-    if (before == reach) return; // interlocked bodies part in passes of their own
-    slips[slot].w = recovering(before, push.recoverySpeed * step.h, overlap);
-}
-#endif
-
-float reachOf(uint slot, float reach) {
-#ifdef HAS_RECOVERY
-    return reach - slips[slot].w;
-#else
-    return reach;
-#endif
-}
-
-// Of the candidate in a slot.
-struct Pair {
-    vec3 d, way;
-    float reach;
-};
-
-Pair pairOf(uint slot, vec3 x, vec3 velocity) {
-    const uvec2 candidate = CONTACT(slot);
-    const vec3 d = x - PREDICTED(candidate.x).xyz;
-    return Pair(d, step.h * (velocity - VELOCITY(candidate.x).xyz), reachOf(slot, uintBitsToFloat(candidate.y)));
-}
+#include "contact_reach.glsl"
 
 void main() {
     const uint i = itemIndex(push.count), n = counts[i];

@@ -37,16 +37,7 @@ Searched searchedOf(uint f) {
     return searched;
 }
 
-bool isExcluded(uint f, uint i) {
-    uint low = excluded[f], high = excluded[f + 1u];
-    const uint end = high;
-    while (low < high) {
-        const uint middle = (low + high) / 2u;
-        if (excluded[middle] < i) low = middle + 1u;
-        else high = middle;
-    }
-    return low < end && excluded[low] == i;
-}
+#include "excluded.glsl"
 
 // `reach` with radius and way of the point.
 bool isInBox(Searched face, vec3 x, float reach) {

@@ -25,52 +25,7 @@ layout(std430, binding = 14) buffer Status { StatusWords status; };
 layout(std140, binding = 15) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { FaceFindPush push; };
 
-struct Searched {
-    uint index;
-    ContactEdge edge;
-    vec3 middle;
-    vec3 a, ab;
-    float way; // of the faster end in this substep [m]
-};
-
-float wayOf(uint e) { return step.h * length(speeds[e].xyz); }
-
-Searched searchedOf(uint e) {
-    const ContactEdge edge = edges[e];
-    const vec3 a = positions[edge.a].xyz;
-    return Searched(e, edge, middles[e].xyz, a, positions[edge.b].xyz - a, wayOf(e));
-}
-
-bool isApart(uint e) { return !(edges[e].radius + wayOf(e) <= push.most); } // as part_points has it
-
-bool isExcluded(uint e, uint f) {
-    uint low = excluded[e], high = excluded[e + 1u];
-    const uint end = high;
-    while (low < high) {
-        const uint middle = (low + high) / 2u;
-        if (excluded[middle] < f) low = middle + 1u;
-        else high = middle;
-    }
-    return low < end && excluded[low] == f;
-}
-
-bool shareAnEnd(ContactEdge e, ContactEdge f) { return e.a == f.a || e.a == f.b || e.b == f.a || e.b == f.b; }
-
-bool isNear(Searched one, uint f) {
-    const ContactEdge edge = edges[f];
-    if (f == one.index || edge.radius < 0.0) return false; // that, cut
-    const vec3 d = one.middle - middles[f].xyz;
-    const float more = push.margin + (one.way + wayOf(f)), outer = one.edge.radius + edge.radius + more;
-    if (dot(d, d) >= outer * outer || (one.edge.isMoving | edge.isMoving) == 0u || shareAnEnd(one.edge, edge)) return false;
-    const vec3 c = positions[edge.a].xyz;
-    const float reach = thickness[one.index] + thickness[f] + more;
-    return squaredBetween(one.a - c, one.ab, positions[edge.b].xyz - c) < reach * reach && !isExcluded(one.index, f);
-}
-
-void list(uint e, uint f) {
-    const uint slot = atomicAdd(found[e], 1u);
-    if (slot < push.capacity) candidates[slot * push.row + e] = f;
-}
+#include "near_edges.glsl"
 
 // Three cells in a row from `cell` on, but none beyond `last` in x.
 void searchCells(Searched one, ivec3 cell, int last, Frame frame, uint total, inout uint n) {
@@ -84,16 +39,7 @@ void searchCells(Searched one, ivec3 cell, int last, Frame frame, uint total, in
     }
 }
 
-uint pointsIn(ivec3 first, ivec3 last, Frame frame) {
-    uint sum = 0u;
-    for (int z = first.z; z <= last.z; ++z)
-        for (int y = first.y; y <= last.y; ++y)
-            for (int x = first.x; x <= last.x; x += 3) {
-                const uint slot = slotOf(ivec3(x, y, z), frame);
-                sum += starts[slot + uint(min(last.x - x + 1, 3))] - starts[slot];
-            }
-    return sum;
-}
+#include "cell_points.glsl"
 
 void searchGrid(Searched one, uint total) {
     const Frame frame = frameOf(bounds, push.cells, push.edge);

@@ -35,33 +35,7 @@ layout(std430, binding = 6) writeonly buffer NextVelocities { vec4 nextVelocitie
 layout(std140, binding = 7) uniform Step { StepParams step; };
 layout(std140, binding = 8) uniform Bounds { GridBounds bounds; };
 layout(std430, binding = 9) readonly buffer Firsts { float firsts[]; }; // when each first met another, where isSwept
-#if defined HAS_MEMORY || defined HAS_REBOUND
-#ifdef TEXELS
-layout(binding = 10) uniform samplerBuffer before;
-#define BEFORE(i) texelFetch(before, int(i)).xyz
-#else
-layout(std430, binding = 10) readonly buffer Before { vec4 before[]; }; // velocities before the substep
-#define BEFORE(i) before[i].xyz
-#endif
-#endif
-#ifdef HAS_MEMORY
-layout(std430, binding = 11) buffer Slips { vec4 slips[]; }; // of each candidate: t [m]; what is left of an overlap [m]
-layout(constant_id = 3) const bool hasFriction = true;
-layout(constant_id = 4) const bool hasRecovery = false;
-#ifdef HAS_SURFACES
-layout(std430, binding = 12) readonly buffer Surfaces { uint surfaces[]; }; // of each particle
-layout(std430, binding = 13) readonly buffer Pairs { SurfacePair pairs[]; };
-#define FRICTION(i, j) pairs[surfaces[i] * push.surfaces + surfaces[j]].friction
-#define PLANE_BINDING 14
-#else
-#define FRICTION(i, j) push.friction
-#define PLANE_BINDING 12
-#endif
-#elif defined HAS_REBOUND
-#define PLANE_BINDING 11
-#else
-#define PLANE_BINDING 10
-#endif
+#include "contact_memory.glsl"
 #ifdef HAS_PLANES
 #include "planes.glsl"
 layout(std430, binding = PLANE_BINDING) readonly buffer Planes { PlaneCollider planes[]; };

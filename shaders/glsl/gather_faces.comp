@@ -33,28 +33,7 @@ layout(std430, binding = STATE_BINDING + 6) readonly buffer ContactOffsets { flo
 layout(std430, binding = STATE_BINDING + 7) readonly buffer Before { vec4 before[]; }; // velocities before the substep
 #endif
 
-#ifdef EDGES
-vec3 impulseOn(uint i) {
-    vec3 sum = vec3(0.0);
-    for (uint k = corners[i]; k < corners[i + 1u]; ++k) sum += impulses[corners[k]].xyz;
-    return sum;
-}
-#else
-vec3 impulseOn(uint i) {
-    const uint n = counts[i];
-    vec3 sum = vec3(0.0);
-    for (uint s = 0u; s < n; ++s)
-        if (directions[s * push.row + i].w > 0.0) sum += impulses[s * push.row + i].xyz;
-    for (uint k = corners[i]; k < corners[i + 1u]; ++k) {
-        const uint face = corners[k] / 4u, corner = corners[k] % 4u, points = linkCounts[face];
-        for (uint s = 0u; s < points; ++s) {
-            const uint element = links[s * push.faceRow + face];
-            if (directions[element].w > 0.0) sum -= weights[element][corner] * impulses[element].xyz;
-        }
-    }
-    return sum;
-}
-#endif
+#include "face_impulses.glsl"
 
 #ifdef REBOUND
 void main() {

@@ -1,0 +1,74 @@
+// How two edges touch in a substep, and on which side of each other they are. In the names and buffers of touch_edges.
+const float leastSine = 1e-3; // squared
+
+// The two edges at a time of the substep, 1 = its end.
+struct Lines {
+    vec3 ca, ab, cd;
+};
+
+struct Touch {
+    vec3 n; // of the first edge
+    float depth, remembered;
+    vec2 st;
+};
+
+// Whether two lines that have passed each other's plane did so inside both: the triple product is a cubic in time, of which
+// the root is cornered by halving and by chords in turn.
+bool hasPassed(Lines lines, Lines rates, out vec2 st) {
+    float low = 0.0, high = 1.0;
+    const float atLow = dot(cross(lines.ab - rates.ab, lines.cd - rates.cd), lines.ca - rates.ca);
+    float fLow = atLow, fHigh = dot(cross(lines.ab, lines.cd), lines.ca);
+    for (uint turn = 0u; turn < 8u; ++turn) {
+        const float chord = low + (high - low) * fLow / (fLow - fHigh);
+        const float t = (turn & 1u) == 0u && chord > low && chord < high ? chord : 0.5 * (low + high), back = 1.0 - t;
+        const float f = dot(cross(lines.ab - back * rates.ab, lines.cd - back * rates.cd), lines.ca - back * rates.ca);
+        if (f * atLow > 0.0) {
+            low = t;
+            fLow = f;
+        } else {
+            high = t;
+            fHigh = f;
+        }
+    }
+    const float back = 1.0 - high;
+    const Crossing crossing = crossingOf(lines.ca - back * rates.ca, lines.ab - back * rates.ab, lines.cd - back * rates.cd, leastSine);
+    st = clamp(vec2(crossing.s, crossing.t), 0.0, 1.0);
+    return isInside(crossing, 1e-3);
+}
+
+Touch touchOf(EdgePair pair, float reach, float remembered) {
+    const uint a = pair.first.a, b = pair.first.b, c = pair.second.a, d = pair.second.b;
+    const float h = step.h;
+    const vec3 xa = predicted[a].xyz, xc = predicted[c].xyz, va = velocities[a].xyz, vc = velocities[c].xyz;
+    const Lines lines = Lines(xa - xc, predicted[b].xyz - xa, predicted[d].xyz - xc);
+    const Lines rates = Lines(h * (va - vc), h * (velocities[b].xyz - va), h * (velocities[d].xyz - vc));
+    const Crossing now = crossingOf(lines.ca, lines.ab, lines.cd, leastSine);
+    const Crossing before = crossingOf(lines.ca - rates.ca, lines.ab - rates.ab, lines.cd - rates.cd, leastSine);
+    Touch touch = Touch(vec3(0.0), 0.0, 0.0, vec2(now.s, now.t));
+    // Balls around middles, as lists have it: an edge that was stretched beyond its own touches nothing with its ends.
+    const vec3 middles = lines.ca + 0.5 * (lines.ab - lines.cd);
+    const float wayFirst = max(length(velocities[a].xyz), length(velocities[b].xyz));
+    const float waySecond = max(length(velocities[c].xyz), length(velocities[d].xyz));
+    const float outer = pair.first.radius + pair.second.radius + h * (wayFirst + waySecond);
+    if (!now.exists || !before.exists || dot(now.n, before.n) <= 0.0 || dot(middles, middles) >= outer * outer) return touch;
+    float side = remembered != 0.0 ? sideOf(remembered) : before.height < 0.0 ? -1.0 : 1.0;
+    bool isInReach = isInside(now, 0.0) && abs(now.height) < reach;
+    if (side * now.height < 0.0 && !(remembered != 0.0 && side * before.height < 0.0 && isInReach)) {
+        vec2 passed = touch.st;
+        // Beyond reach and through since before: let go, it may be in no list.
+        if (side * before.height >= 0.0 && hasPassed(lines, rates, passed)) {
+            if (!isInside(now, 0.0)) touch.st = passed;
+            isInReach = true;
+        } else {
+            side = -side; // it went around
+        }
+    }
+    touch.n = side * now.n;
+    if (!isInReach) return touch;
+    const float overlap = reach - side * now.height;
+    const float approach = -dot(touch.n, rates.ca + touch.st.x * rates.ab - touch.st.y * rates.cd);
+    const float left = overlapLeft(remembered, overlap, approach, push.recoverySpeed * h);
+    touch.depth = max(0.0, overlap - left);
+    touch.remembered = rememberedOf(side, touch.depth, left);
+    return touch;
+}

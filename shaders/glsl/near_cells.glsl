@@ -1,0 +1,62 @@
+// Where find_contacts looks for those near a particle, in the hash grid. In the names of that kernel.
+
+bool isNear(uint i, uint j, float radius, vec3 d) {
+    const float touching = radius + (hasOneRadius ? radius : RADIUS(j)), reach = touching + push.margin;
+    return i != j && (dot(d, d) < reach * reach || wasNear(i, j, touching, d)) && !isExcluded(i, j);
+}
+
+// Appends each of the two to the other's list.
+void list(uint i, uint j) {
+    const uint s = atomicAdd(found[i], 1u), t = atomicAdd(found[j], 1u);
+    if (s < push.capacity) candidates[s * push.row + i] = j;
+    if (t < push.capacity) candidates[t * push.row + j] = i;
+}
+
+// Lists those near particle i among three rows of cells; n counts them. The rows are visited in one loop, because lanes
+// wait for the longest list among them: of three rows together it is less above the mean than of one. A batch is measured
+// first and the few that may be near are looked at then: what stands under a condition is what costs.
+void searchRows(uint i, vec3 x, float radius, ivec3 home, ivec3 firstCells[3], uint cells[3], Frame frame, uint total,
+                inout uint n) {
+    uint start[3], count[3];
+    [[unroll]] for (int row = 0; row < 3; ++row) {
+        const uint slot = slotOf(firstCells[row], frame);
+        start[row] = START(slot);
+        count[row] = START(slot + cells[row]) - start[row];
+    }
+    const uint second = count[0], third = second + count[1], all = third + count[2];
+    start[1] -= second;
+    start[2] -= third;
+    const float reach = wideOf(i, radius) + push.most + push.margin;
+    for (uint first = 0u; first < all && n <= push.limit; first += 32u) {
+        const uint last = min(first + 32u, all);
+        uint near = 0u;
+        for (uint visit = first; visit < last; ++visit) {
+            const uint k = visit + (visit < second ? start[0] : visit < third ? start[1] : start[2]);
+            const vec3 d = x - uintBitsToFloat(SORTED(k < total ? k : k - total).xyz);
+            near |= uint(dot(d, d) < reach * reach) << visit - first;
+        }
+        for (; near != 0u; near &= near - 1u) {
+            const uint visit = first + uint(findLSB(near));
+            const uint k = visit + (visit < second ? start[0] : visit < third ? start[1] : start[2]);
+            const uvec4 other = SORTED(k < total ? k : k - total);
+            const vec3 xj = uintBitsToFloat(other.xyz);
+            const ivec3 cell = cellOf(xj, frame);
+            const ivec2 row = firstCells[visit < second ? 0 : visit < third ? 1 : 2].yz;
+            if (cell.yz != row || cell == home && other.w <= i) continue; // of two in one cell the first lists both
+            if (isFast(other.w) || !isNear(i, other.w, radius, x - xj)) continue;
+            list(i, other.w);
+            ++n;
+        }
+    }
+}
+
+// Half of the 27 cells around a particle: those behind its own in z, y, x, and its own. A pair is found once.
+void searchCells(uint i, vec3 x, float radius, Frame frame) {
+    const ivec3 home = cellOf(x, frame);
+    const uint total = START(push.cells);
+    uint n = 0u;
+    searchRows(i, x, radius, home, ivec3[3](home, home + ivec3(-1, 1, 0), home), uint[3](2u, 3u, 0u), frame, total, n);
+    searchRows(i, x, radius, home,
+               ivec3[3](home + ivec3(-1, -1, 1), home + ivec3(-1, 0, 1), home + ivec3(-1, 1, 1)), uint[3](3u, 3u, 3u),
+               frame, total, n);
+}
