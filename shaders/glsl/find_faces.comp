@@ -16,8 +16,6 @@ layout(std430, binding = 15) readonly buffer SearchedFaces { uint searchedFaces[
 
 layout(std430, binding = 16) writeonly buffer Wide { uint wide[]; };
 
-const float mostCells = 1000.0; // around a face
-
 float wayOf(uint i) { return step.h * length(velocities[i].xyz); }
 
 void consider(Searched face, uint i, vec3 x, bool isApart, inout uint n) {
@@ -40,30 +38,7 @@ void searchCells(Searched face, ivec3 cell, int last, Frame frame, uint total, i
     }
 }
 
-struct Cells {
-    ivec3 first, last;
-    uint points; // in them
-};
-
-// None where there are too many.
-Cells cellsAround(Searched face, Frame frame) {
-    const float reach = face.reach + uintBitsToFloat(points.widest);
-    const vec3 top = vec3(valueOf(bounds.highX), valueOf(bounds.highY), valueOf(bounds.highZ));
-    const vec3 low = max(face.low - reach, frame.low), high = min(face.high + reach, top);
-    Cells cells = Cells(ivec3(0), ivec3(-1), 0u);
-    if (any(lessThan(high, low))) return cells;
-    cells.first = max(cellOf(low, frame) - 1, 0);
-    cells.last = cellOf(high, frame) + 1; // one more: rounding
-    const vec3 size = vec3(cells.last - cells.first + 1);
-    if (!(size.x * size.y * size.z <= mostCells)) return Cells(ivec3(0), ivec3(-1), ~0u);
-    for (int z = cells.first.z; z <= cells.last.z; ++z)
-        for (int y = cells.first.y; y <= cells.last.y; ++y)
-            for (int x = cells.first.x; x <= cells.last.x; x += 3) {
-                const uint slot = slotOf(ivec3(x, y, z), frame);
-                cells.points += starts[slot + uint(min(cells.last.x - x + 1, 3))] - starts[slot];
-            }
-    return cells;
-}
+#include "face_cells.glsl"
 
 void searchGrid(Searched face, Cells cells, Frame frame, uint total, inout uint n) {
     for (int z = cells.first.z; z <= cells.last.z; ++z)

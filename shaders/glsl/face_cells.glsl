@@ -1,0 +1,24 @@
+// The block of cells around a face in which find_faces looks for points. In the names of that kernel.
+const float mostCells = 1000.0; // around a face
+
+#include "cell_points.glsl"
+
+struct Cells {
+    ivec3 first, last;
+    uint points; // in them
+};
+
+// None where there are too many.
+Cells cellsAround(Searched face, Frame frame) {
+    const float reach = face.reach + uintBitsToFloat(points.widest);
+    const vec3 top = vec3(valueOf(bounds.highX), valueOf(bounds.highY), valueOf(bounds.highZ));
+    const vec3 low = max(face.low - reach, frame.low), high = min(face.high + reach, top);
+    Cells cells = Cells(ivec3(0), ivec3(-1), 0u);
+    if (any(lessThan(high, low))) return cells;
+    cells.first = max(cellOf(low, frame) - 1, 0);
+    cells.last = cellOf(high, frame) + 1; // one more: rounding
+    const vec3 size = vec3(cells.last - cells.first + 1);
+    if (!(size.x * size.y * size.z <= mostCells)) return Cells(ivec3(0), ivec3(-1), ~0u);
+    cells.points = pointsIn(cells.first, cells.last, frame);
+    return cells;
+}
