@@ -2,6 +2,7 @@
 // a constraint a loop there.
 #include "sim/substeps.hpp"
 
+#include "sim/collision/face_contacts.hpp"
 #include "sim/collision/loads.hpp"
 #include "sim/collision/particle_contacts.hpp"
 #include "sim/ranges.hpp"
@@ -133,14 +134,19 @@ std::uint32_t neededFor(const Scene& scene, const Settings& settings, const Load
     return tried.substeps;
 }
 
+// Whether particles may rest on each other, or on faces.
+bool canTouch(const Scene& scene) {
+    return collision::particle_contacts::areIn(scene) || collision::face_contacts::areIn(scene);
+}
+
 bool hasOnlyFreeParticles(const Scene& scene) {
     return scene.distances.empty() && scene.bends.empty() && scene.attachments.empty() &&
-           scene.planes.empty() && scene.colliders.empty() && !collision::particle_contacts::areIn(scene);
+           scene.planes.empty() && scene.colliders.empty() && !canTouch(scene);
 }
 
 // At least, of those that are chosen.
 std::uint32_t fewestFor(const Scene& scene) {
-    return collision::particle_contacts::areIn(scene) ? ranges::fewestTouching : ranges::fewestChosen;
+    return canTouch(scene) ? ranges::fewestTouching : ranges::fewestChosen;
 }
 
 SplitBudget budgetOf(const Terms& terms) {
@@ -190,7 +196,7 @@ SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings) {
     const Load load = loadOf(scene);
     const std::uint32_t fewest = fewestFor(scene);
     const double ofContacts =
-        collision::particle_contacts::areIn(scene)
+        canTouch(scene)
             ? collision::loads::longestSubstep(scene, load.inverseMass, stiffness::componentsOf(scene))
             : infinite;
     Settings tried = settings;

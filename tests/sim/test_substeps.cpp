@@ -2,6 +2,7 @@
 // stiffness is what a loaded body shows.
 #include "sim/substeps.hpp"
 
+#include "sim/bodies.hpp"
 #include "sim/compile.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
@@ -78,6 +79,29 @@ TEST(Substeps, OfAColumnPressItInByNoMoreThanOnePercentOfARadius) {
     EXPECT_EQ(chooseSubsteps(leaning, {}).substeps, chooseSubsteps(columnOf(40), {}).substeps);
     weightless.gravity = {};
     EXPECT_EQ(chooseSubsteps(weightless, {}).substeps, 16u);
+}
+
+// Likewise of sheets that touch by their triangles; one that falls on a mesh rests on it as well.
+TEST(Substeps, OfSheetsOnEachOtherRegardWhatLiesOnThem) {
+    Scene scene;
+    constexpr std::uint32_t count = 20;
+    for (std::uint32_t layer = 0; layer < count; ++layer)
+        addCloth(scene, {.origin = {0, 0.0105f * static_cast<float>(layer), 0},
+                         .size = {5, 5},
+                         .spacing = 0.05f,
+                         .areaDensity = 0.3f,
+                         .membraneStiffness = 10,
+                         .thickness = 0.01f});
+    const SubstepChoice choice = chooseSubsteps(scene, {});
+    const double radius{scene.particles[0].radius};
+    EXPECT_EQ(choice.reason, SubstepReason::contacts);
+    EXPECT_EQ(choice.substeps,
+              std::ceil(double{scene.dt} * std::sqrt((count - 1) * 9.81 * 4 / (0.01 * radius))));
+    Scene one = test::particleAt({0, 1, 0});
+    EXPECT_EQ(chooseSubsteps(one, {}).substeps, 1u);
+    one.particles[0].radius = 0.05f;
+    addMeshCollider(one, {.vertices = {{-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}}, .triangles = {{0, 1, 2}}});
+    EXPECT_EQ(chooseSubsteps(one, {}).substeps, 16u) << "at least, where something touches a face";
 }
 
 // What a body weighs rests on its own links, and on contacts only where it stands on another.
