@@ -3,7 +3,6 @@
 
 #include "layout.h"
 #include "sim/compile.hpp"
-#include "sim/inspect.hpp"
 #include "viewer/balls.hpp"
 #include "viewer/mesh_buffer.hpp"
 #include "viewer/value_maps.hpp"
@@ -59,8 +58,8 @@ ContactMarks::ContactMarks(const vk::Device& device, const sim::Scene& scene, co
       simulation_(simulation), push_{.count = static_cast<std::uint32_t>(scene.particles.size()),
                                      .walls = wallCount(scene),
                                      .firstWall = 0,
-                                     .pairRow = sim::contactLists(simulation.program()).pairRow,
-                                     .faceRow = sim::contactLists(simulation.program()).faceRow,
+                                     .pairRow = simulation.program().contacts.pairRow,
+                                     .faceRow = simulation.program().contacts.faceRow,
                                      .room = mostMarks},
       mesh_(device, shape),
       particles_(filledBuffer(device, "marks.particles",
@@ -87,7 +86,7 @@ ContactMarks::ContactMarks(const vk::Device& device, const sim::Scene& scene, co
 
 // What a scene has no lists of is never read.
 vk::BindingSets ContactMarks::bindingSets() const {
-    const sim::ContactListBuffers lists = sim::contactLists(simulation_.program());
+    const sim::ContactBuffers& lists = simulation_.program().contacts;
     const auto viewOf = [&](sim::BufferId id, std::uint32_t stride) {
         vk::BufferView view = simulation_.view(id);
         if (view.size > 0) return view;

@@ -3,7 +3,6 @@
 
 #include "layout.h"
 #include "sim/compile.hpp"
-#include "sim/inspect.hpp"
 #include "sim/lattice/link_masks.hpp"
 #include "viewer/mesh_buffer.hpp"
 #include "viewer_shaders.hpp"
@@ -173,7 +172,7 @@ namespace {
 // The skins of sheets that may be cut.
 template <typename Sheet> std::vector<Sheet> sheetsOf(const sim::Simulation& simulation) {
     std::vector<Sheet> sheets;
-    for (const sim::PieceVertices& pieces : sim::piecesOfSheets(simulation.program()))
+    for (const sim::PieceVertices& pieces : simulation.program().pieceSkins)
         sheets.push_back({pieces.first, elements(simulation.view(pieces.vertices))});
     return sheets;
 }
@@ -219,7 +218,7 @@ vk::BindingSets ValueMaps::bindingSets(const sim::Simulation& simulation) const 
         requests.push_back({&cut_,
                             {values, skinValues_.view(), simulation.cutSurface().rest, particleOfSlot_.view(),
                              cutValues_.view()}});
-    for (const sim::PieceVertices& pieces : sim::piecesOfSheets(simulation.program()))
+    for (const sim::PieceVertices& pieces : simulation.program().pieceSkins)
         requests.push_back(
             {&sheet_,
              {values, simulation.view(pieces.vertices), particleOfSlot_.view(), skinValues_.view()}});

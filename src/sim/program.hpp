@@ -133,6 +133,23 @@ struct CutSurfaceBuffers {
     BufferId moved;    ///< of each: where it is at rest, if w is VERTEX_MOVED
 };
 
+/// What may touch: lists by slot of layout::ContactCandidate (collision/contact_lists.hpp, face_lists.hpp),
+/// how many each has, and elements from one candidate of a slot to the next. Invalid, 0, where a scene has
+/// none.
+struct ContactBuffers {
+    BufferId pairs, pairCounts; ///< particles near a particle
+    std::uint32_t pairRow = 0;
+    BufferId faces;                 ///< layout::ContactFace, between slots
+    BufferId facePairs, faceCounts; ///< faces near a particle
+    std::uint32_t faceRow = 0;
+};
+
+/// What the vertices hang on that the skin of a sheet has along cuts (surface/sheet_pieces.hpp).
+struct PieceVertices {
+    BufferId vertices;       ///< layout::SheetVertex
+    std::uint32_t first = 0; ///< of skinVertices
+};
+
 /// Immutable once built.
 struct StepProgram {
     std::vector<BufferSpec> buffers;
@@ -144,8 +161,10 @@ struct StepProgram {
     std::vector<Carried> carried;     ///< what a simulation that takes over another's state copies
     BufferId parameters, status, positions, velocities; ///< the public ones; velocities may be invalid
     BufferId skinVertices, skinIndices;                 ///< invalid without skins
+    ContactBuffers contacts;
     CuttingBuffers cutting;
     CutSurfaceBuffers cutSurface;
+    std::vector<PieceVertices> pieceSkins; ///< by sheet that may be cut and has a skin
     BufferId pieceDraws; ///< by skin: layout::DrawArguments of what sheets fall into; invalid without them
     std::uint32_t pieceVertices = 0; ///< room for the vertices of those, behind those of all skins
     std::uint32_t particleCount = 0, constraintCount = 0;

@@ -185,6 +185,11 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     contacts.push = {
         find.points, find.row, find.faceRow, contacts.surfaces.count, scene.contacts.recoverySpeed,
         find.moving};
+    ContactBuffers& shown = program.program().contacts;
+    shown.faces = contacts.lists.faces;
+    shown.facePairs = contacts.lists.contacts;
+    shown.faceCounts = contacts.lists.counts;
+    shown.faceRow = contacts.push.row;
     const std::size_t elements = std::size_t{find.row} * find.capacity;
     contacts.corners = program.upload("faces.corners", cornersOf(faces, inverseMass, layout));
     contacts.memory = side_memory::add(program, "faces", contacts.lists.contacts, contacts.lists.counts,

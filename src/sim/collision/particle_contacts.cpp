@@ -252,6 +252,10 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
                                           ? std::min(scene.contacts.recoverySpeed, cutting::recoverySpeed)
                                           : scene.contacts.recoverySpeed,
                      .surfaces = contacts.surfaces.count};
+    ContactBuffers& shown = program.program().contacts;
+    shown.pairs = contacts.lists.contacts;
+    shown.pairCounts = contacts.lists.counts;
+    shown.pairRow = contacts.push.row;
     contacts.touching = program.scratch<layout::vec4>("contacts.touching", layout.count);
     contacts.firsts = program.scratch<float>("contacts.firsts", layout.count);
     if (contacts.hasMemory()) addMemory(program, contacts, first);

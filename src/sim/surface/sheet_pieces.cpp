@@ -96,6 +96,7 @@ void addSkin(ProgramBuilder& program, SheetPieces& pieces, const Skin& skin, She
         program.scratch<layout::SheetVertex>(skin.name + ".pieces.vertices", sheet.push.vertexRoom);
     room.index += 3 * sheet.push.room;
     room.vertex += sheet.push.vertexRoom;
+    program.program().pieceSkins.push_back({sheet.vertices, sheet.skinPush.firstVertex});
     pieces.skins.push_back(sheet);
 }
 
