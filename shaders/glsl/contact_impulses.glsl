@@ -1,17 +1,18 @@
 // The impulses of gather_contacts on a particle from others: normal, and friction with what it remembers. In the names and
 // buffers of that kernel.
 #ifdef HAS_MEMORY
-// What friction takes back of the way that a pair has slid on each other, x w = share of the pair, at most `most`. Remembered
+// What friction takes back of the way that a pair has slid on each other, x w = share of the pair: all of it up to the force
+// that holds what does not slide, else as much as `slides`. Remembered
 // is where they were before the substep, and the velocity after it says how far they then really went, whatever else
 // moved them: summing up predicted ways instead counts gravity's in every substep, and creeps uphill. `way` is that of this
 // substep, `wayBefore` that of the last. Who did not touch then has no memory: one that is 0 is marked by next to nothing.
-vec3 held(uint slot, vec3 n, vec3 way, vec3 wayBefore, float most, float share, float offset) {
+vec3 held(uint slot, vec3 n, vec3 way, vec3 wayBefore, float slides, float holds, float share, float offset) {
     vec3 slip = slips[slot].xyz;
     if (slip != vec3(0.0)) slip += wayBefore;
     slip += way;
     slip -= dot(slip, n) * n;
     const float force = length(slip) * share;
-    if (force > most) slip *= most / force;
+    if (force > holds) slip *= slides / force;
     const vec3 old = slip - (way - dot(way, n) * n);
     slips[slot] = vec4(old == vec3(0.0) ? vec3(1e-30, 0.0, 0.0) : old, offset);
     return share * slip;
@@ -41,7 +42,8 @@ vec3 impulseAlong(vec3 n, float depth, uint i, uint other, uint slot, vec3 veloc
 #ifdef HAS_MEMORY
     if (hasFriction) {
         const vec3 way = step.h * (velocity - VELOCITY(other).xyz), wayBefore = step.h * (BEFORE(i) - BEFORE(other));
-        impulse -= held(slot, n, way, wayBefore, FRICTION(i, other) * lambda, share, offset);
+        impulse -= held(slot, n, way, wayBefore, PAIR(i, other).friction * lambda, PAIR(i, other).staticFriction * lambda, share,
+                        offset);
     }
 #endif
     return impulse;

@@ -15,10 +15,10 @@ layout(constant_id = 4) const bool hasRecovery = false;
 #ifdef HAS_SURFACES
 layout(std430, binding = 12) readonly buffer Surfaces { uint surfaces[]; }; // of each particle
 layout(std430, binding = 13) readonly buffer Pairs { SurfacePair pairs[]; };
-#define FRICTION(i, j) pairs[surfaces[i] * push.surfaces + surfaces[j]].friction
+#define PAIR(i, j) pairs[surfaces[i] * push.surfaces + surfaces[j]]
 #define PLANE_BINDING 14
 #else
-#define FRICTION(i, j) push.friction
+#define PAIR(i, j) push
 #define PLANE_BINDING 12
 #endif
 #elif defined HAS_REBOUND

@@ -189,10 +189,11 @@ struct Incidence {
 };
 
 struct PlaneCollider {
-    vec4 normalOffset; // unit normal, offset [m]
-    float friction;
+    vec4 normalOffset;    // unit normal, offset [m]
+    float friction;       // of what slides
     float restitution;
-    float unused0, unused1;
+    float staticFriction; // of what does not, at least as much
+    float unused0;
 };
 
 // A box grown by a radius, about its middle and along its own axes.
@@ -316,7 +317,7 @@ struct FindPush {
 struct ContactPush {
     uint count; // of particles; whole work groups
     uint row;   // elements of a list from one candidate to the next
-    float friction;
+    float friction, staticFriction; // as a pair of surfaces has them
     float restitution;
     float recoverySpeed; // of pairs that overlapped when the scene was loaded [m/s]
     uint surfaces;       // where there are several: pair (a, b) of them is element a * surfaces + b of a table
@@ -353,8 +354,9 @@ struct InterlockPush {
 
 // What two surfaces make of a contact.
 struct SurfacePair {
-    float friction;
+    float friction;       // of what slides
     float restitution;
+    float staticFriction; // of what does not, at least as much
 };
 
 // A triangle between particles that others touch.

@@ -10,14 +10,16 @@ struct Motion {
 };
 
 // Keeps a particle in front of a plane; true if it touched. Coulomb friction in position form (Unified Particle
-// Physics, 2014): the tangential displacement of this substep is taken back up to friction x depth.
+// Physics, 2014): the tangential displacement of this substep is taken back whole if the static bound allows, else up to
+// friction x depth.
 bool projectOntoPlane(PlaneCollider plane, float contactOffset, float h, inout Motion motion) {
     const vec3 n = plane.normalOffset.xyz;
     const float depth = plane.normalOffset.w + contactOffset - dot(n, motion.x);
     if (depth <= 0.0) return false;
     const vec3 tangential = motion.displacement - dot(n, motion.displacement) * n;
     const float slip = length(tangential);
-    const float held = slip > 0.0 ? min(1.0, plane.friction * depth / slip) : 0.0;
+    const float friction = slip <= plane.staticFriction * depth ? plane.staticFriction : plane.friction;
+    const float held = slip > 0.0 ? min(1.0, friction * depth / slip) : 0.0;
     const vec3 correction = depth * n - held * tangential;
     motion.x += correction;
     motion.v += correction / h;

@@ -23,8 +23,9 @@ vec3 impulseOf(EdgePair pair, vec3 n, float depth, vec2 st, float remembered, ui
     if (memory[element].w != 0.0) slid = memory[element].xyz + step.h * between(before[a].xyz, before[b].xyz, before[c].xyz, before[d].xyz, st);
     vec3 slip = slid + step.h * between(velocities[a].xyz, velocities[b].xyz, velocities[c].xyz, velocities[d].xyz, st);
     slip -= dot(slip, n) * n;
-    const float force = length(slip) * share, most = pairs[surfaces[a] * push.surfaces + surfaces[c]].friction * lambda;
-    const float held = force > most ? most / force : 1.0;
+    const SurfacePair surface = pairs[surfaces[a] * push.surfaces + surfaces[c]];
+    const float force = length(slip) * share;
+    const float held = force > surface.staticFriction * lambda ? surface.friction * lambda / force : 1.0;
     memory[element] = vec4(slid - (1.0 - held) * slip, remembered);
     return lambda * n - share * held * slip;
 }

@@ -2,7 +2,7 @@
 // Contacts with faces, third pass: the impulse of each, along n and against the way t that the two would slide on each other
 // since they touched:
 //
-//   l = depth / D,   D = sum_k |beta_k| S_k w_k,   friction: t / D, at most friction x l.
+//   l = depth / D,   D = sum_k |beta_k| S_k w_k,   friction: t / D, at most static friction x l, else friction x l.
 //
 // What is remembered is the way that they really had slid when the substep began, less what is beyond the bound: the way that
 // was predicted is longer by what friction took back, and summing it up would let a slope be crept up.
@@ -29,7 +29,7 @@ vec3 relative(vec4 point, vec4 a, vec4 b, vec4 c, vec4 weight) {
 }
 
 // A face has the surface of its first corner.
-float frictionOf(uint i, ContactFace face) { return pairs[surfaces[i] * push.surfaces + surfaces[face.a]].friction; }
+SurfacePair pairOf(uint i, ContactFace face) { return pairs[surfaces[i] * push.surfaces + surfaces[face.a]]; }
 
 void press(uint i, uint element) {
     const vec4 direction = directions[element], weight = weights[element];
@@ -45,8 +45,9 @@ void press(uint i, uint element) {
     if (memory[element].w != 0.0) slid = memory[element].xyz + step.h * relative(before[i], before[face.a], before[face.b], before[face.c], weight);
     vec3 slip = slid + step.h * relative(velocities[i], velocities[face.a], velocities[face.b], velocities[face.c], weight);
     slip -= dot(slip, n) * n;
-    const float force = length(slip) * share, most = frictionOf(i, face) * lambda;
-    const float held = force > most ? most / force : 1.0;
+    const SurfacePair pair = pairOf(i, face);
+    const float force = length(slip) * share;
+    const float held = force > pair.staticFriction * lambda ? pair.friction * lambda / force : 1.0;
     memory[element] = vec4(slid - (1.0 - held) * slip, weight.w);
     slip *= held;
     impulses[element] = vec4(lambda * n - share * slip, 0.0);

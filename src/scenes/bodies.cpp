@@ -341,7 +341,8 @@ void addPlane(LoadedScene& loaded, const Section& plane) {
     loaded.scene.planes.push_back({.normal = plane.vector("normal"),
                                    .offset = localOffset(plane, loaded.origin),
                                    .friction = plane.number("friction"),
-                                   .restitution = plane.number("restitution")});
+                                   .restitution = plane.number("restitution"),
+                                   .staticFriction = staticFrictionOf(plane)});
 }
 
 } // namespace sinew::scenes

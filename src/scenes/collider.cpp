@@ -2,6 +2,7 @@
 #include "scenes/bodies.hpp"
 #include "scenes/origin.hpp"
 #include "scenes/path.hpp"
+#include "scenes/surface.hpp"
 
 #include <string>
 
@@ -41,7 +42,7 @@ void addCollider(LoadedScene& loaded, const Section& section) {
     sim::Collider collider{
         .margin = section.number("margin"),
         .friction = section.number("friction"),
-        .staticFriction = section.has("static_friction") ? section.number("static_friction") : 0,
+        .staticFriction = staticFrictionOf(section),
         .restitution = section.number("restitution"),
         .pose = {.position = localPoint(section, "center", loaded.origin), .rotation = rotationOf(section)},
         .path = {},

@@ -6,6 +6,7 @@
 #include "scenes/bodies.hpp"
 #include "scenes/built_in.hpp"
 #include "scenes/origin.hpp"
+#include "scenes/surface.hpp"
 #include "sim/compile.hpp"
 #include "sim/ranges.hpp"
 #include "sim/substeps.hpp"
@@ -63,6 +64,7 @@ void readSettings(LoadedScene& loaded, const Section& solver, const std::string&
 void readContacts(LoadedScene& loaded, const Section& contacts) {
     loaded.scene.contacts.friction = contacts.number("friction");
     loaded.scene.contacts.restitution = contacts.number("restitution");
+    loaded.scene.contacts.staticFriction = staticFrictionOf(contacts);
     loaded.scene.contacts.recoverySpeed = contacts.number("recovery_speed");
     loaded.settings.contactMargin = contacts.number("margin");
     loaded.settings.contactRoom = contacts.count("room");

@@ -8,7 +8,7 @@ namespace sinew::scenes {
 namespace {
 
 bool isSame(const sim::Surface& a, const sim::Surface& b) {
-    return a.friction == b.friction && a.restitution == b.restitution;
+    return a.friction == b.friction && a.restitution == b.restitution && a.staticFriction == b.staticFriction;
 }
 
 void requireContacts(const LoadedScene& loaded, const Section& body, const char* key, std::size_t first) {
@@ -19,7 +19,7 @@ void requireContacts(const LoadedScene& loaded, const Section& body, const char*
 /// As Particle::surface has it.
 std::uint32_t indexOf(sim::ContactSettings& contacts, const Section& body, const char* key,
                       const sim::Surface& wanted) {
-    if (isSame(wanted, {contacts.friction, contacts.restitution})) return 0;
+    if (isSame(wanted, {contacts.friction, contacts.restitution, contacts.staticFriction})) return 0;
     std::vector<sim::Surface>& surfaces = contacts.surfaces;
     const auto known =
         std::ranges::find_if(surfaces, [&](const sim::Surface& surface) { return isSame(surface, wanted); });
@@ -33,13 +33,21 @@ std::uint32_t indexOf(sim::ContactSettings& contacts, const Section& body, const
 
 } // namespace
 
+float staticFrictionOf(const Section& section) {
+    return section.has("static_friction") ? section.number("static_friction") : 0;
+}
+
 void addSurface(LoadedScene& loaded, const Section& body, std::size_t first) {
-    const char* key = body.has("friction") ? "friction" : body.has("restitution") ? "restitution" : nullptr;
+    const char* key = nullptr;
+    for (const char* candidate : {"friction", "static_friction", "restitution"})
+        if (!key && body.has(candidate)) key = candidate;
     if (!key) return;
     requireContacts(loaded, body, key, first);
     sim::Scene& scene = loaded.scene;
-    sim::Surface wanted{scene.contacts.friction, scene.contacts.restitution};
+    sim::Surface wanted{scene.contacts.friction, scene.contacts.restitution, scene.contacts.staticFriction};
     if (body.has("friction")) wanted.friction = body.number("friction");
+    // who slides in a way of his own is not held in that of others
+    if (body.has("friction") || body.has("static_friction")) wanted.staticFriction = staticFrictionOf(body);
     if (body.has("restitution")) wanted.restitution = body.number("restitution");
     const std::uint32_t index = indexOf(scene.contacts, body, key, wanted);
     for (std::size_t i = first; i < scene.particles.size(); ++i) scene.particles[i].surface = index;

@@ -1,9 +1,12 @@
-// The keys friction and restitution of a body: what its particles are like to touch.
+// The keys friction, static_friction and restitution of a body: what its particles are like to touch.
 #pragma once
 
 #include "scenes/section.hpp"
 
 namespace sinew::scenes {
+
+/// 0 where it is missing, which stands for as much as friction.
+float staticFrictionOf(const Section& section);
 
 /// Gives the particles from `first` on the surface that `body` asks for; none of its keys, that of
 /// [contacts]. Throws SceneError where they touch nothing.

@@ -45,8 +45,9 @@ struct Particle {
 /// What a particle or a face is like to touch. A pair has the geometric mean of both frictions, so that what
 /// is smooth slides on everything, and the larger restitution. Planes keep their own.
 struct Surface {
-    float friction = 0;    ///< Coulomb coefficient, >= 0
-    float restitution = 0; ///< 0 (no rebound) to 1 (elastic)
+    float friction = 0;       ///< Coulomb coefficient of what slides, >= 0
+    float restitution = 0;    ///< 0 (no rebound) to 1 (elastic)
+    float staticFriction = 0; ///< of what does not slide yet; less than `friction` is as much
 };
 
 /// A triangle that particles with a radius touch, from both sides: cloth, or with corners that never move a
@@ -63,8 +64,9 @@ struct Face {
 
 /// How particles touch each other and faces.
 struct ContactSettings {
-    float friction = 0;    ///< of all whose Particle::surface is 0; see Surface
-    float restitution = 0; ///< likewise
+    float friction = 0;       ///< of all whose Particle::surface is 0; see Surface
+    float restitution = 0;    ///< likewise
+    float staticFriction = 0; ///< likewise
     /// With which particles, faces and edges part that overlap when the scene is loaded [m/s]. Does not limit
     /// what a contact carries, but for bodies that interlock: of which one reaches the inside of another's
     /// lattice.
@@ -113,10 +115,11 @@ struct FixedConstraint {
 /// A half space that particles must stay in: normal . x >= offset + contactOffset. Found active anew each
 /// substep.
 struct Plane {
-    Vec3 normal{0, 1, 0};  ///< unit length, pointing into the free side
-    float offset = 0;      ///< [m]
-    float friction = 0;    ///< Coulomb coefficient, >= 0
-    float restitution = 0; ///< 0 (no rebound) to 1 (elastic)
+    Vec3 normal{0, 1, 0};     ///< unit length, pointing into the free side
+    float offset = 0;         ///< [m]
+    float friction = 0;       ///< Coulomb coefficient of what slides, >= 0
+    float restitution = 0;    ///< 0 (no rebound) to 1 (elastic)
+    float staticFriction = 0; ///< of what does not slide yet; less than `friction` is as much
 };
 
 /// Where a collider is at a time; between two times it moves evenly and turns evenly the shorter way, so that

@@ -214,6 +214,7 @@ void checkPlanes(const Scene& scene, Complaints& complaints) {
         complaints.check(double{plane.offset}, ranges::finite, name("offset"));
         complaints.check(double{plane.friction}, ranges::friction, name("friction"));
         complaints.check(double{plane.restitution}, ranges::restitution, name("restitution"));
+        complaints.check(double{plane.staticFriction}, ranges::friction, name("staticFriction"));
     }
 }
 
@@ -268,19 +269,20 @@ void checkSkin(const Skin& skin, const std::string& name, std::size_t particles,
 }
 
 void checkSurfaces(const ContactSettings& contacts, Complaints& complaints) {
-    const auto check = [&](const std::string& name, float friction, float restitution) {
-        complaints.check(double{friction}, ranges::friction, [&] { return name + ".friction"; });
-        complaints.check(double{restitution}, ranges::restitution, [&] { return name + ".restitution"; });
+    const auto check = [&](const std::string& name, const Surface& surface) {
+        const auto member = [&](const char* label) { return [&name, label] { return name + label; }; };
+        complaints.check(double{surface.friction}, ranges::friction, member(".friction"));
+        complaints.check(double{surface.restitution}, ranges::restitution, member(".restitution"));
+        complaints.check(double{surface.staticFriction}, ranges::friction, member(".staticFriction"));
     };
-    check("scene.contacts", contacts.friction, contacts.restitution);
+    check("scene.contacts", {contacts.friction, contacts.restitution, contacts.staticFriction});
     complaints.check(double{contacts.recoverySpeed}, ranges::recoverySpeed,
                      [] { return "scene.contacts.recoverySpeed"; });
     if (contacts.surfaces.size() > ranges::mostSurfaces)
         complaints.add("scene.contacts.surfaces", "are " + number(contacts.surfaces.size()) + ", at most " +
                                                       number(ranges::mostSurfaces) + " are possible");
     for (std::size_t i = 0; i < contacts.surfaces.size(); ++i)
-        check(element("scene.contacts.surfaces", i), contacts.surfaces[i].friction,
-              contacts.surfaces[i].restitution);
+        check(element("scene.contacts.surfaces", i), contacts.surfaces[i]);
 }
 
 void checkFaces(const Scene& scene, Complaints& complaints) {

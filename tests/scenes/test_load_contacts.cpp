@@ -267,6 +267,28 @@ TEST_F(LoadContacts, GivesBodiesSurfacesOfTheirOwn) {
     for (std::size_t body = 0; body < 5; ++body) EXPECT_EQ(surfaceOf(body), expected[body]) << body;
 }
 
+TEST_F(LoadContacts, GivesWhatRestsAFrictionOfItsOwn) {
+    const sim::Scene scene = load(balls + "static_friction = 0.5\n" + balls + "friction = 0.125\n" + balls +
+                                  "restitution = 1\n[[plane]]\nfriction = 0.25\nstatic_friction = 0.75\n" +
+                                  "[contacts]\nfriction = 0.25\nstatic_friction = 0.375\n")
+                                 .scene;
+    EXPECT_EQ(scene.contacts.staticFriction, 0.375f);
+    EXPECT_EQ(scene.planes[0].staticFriction, 0.75f);
+    ASSERT_EQ(scene.contacts.surfaces.size(), 3u);
+    EXPECT_EQ(scene.contacts.surfaces[0].friction, 0.25f) << "as in [contacts]";
+    EXPECT_EQ(scene.contacts.surfaces[0].staticFriction, 0.5f);
+    EXPECT_EQ(scene.contacts.surfaces[1].staticFriction, 0) << "its own friction, then";
+    EXPECT_EQ(scene.contacts.surfaces[2].staticFriction, 0.375f) << "as in [contacts]";
+    expectError(balls + "static_friction = -1\n",
+                "scene.toml:4: particles[0].static_friction is -1: must be at least 0");
+    expectError(balls + "[contacts]\nstatic_friction = -1\n",
+                "scene.toml:5: contacts.static_friction is -1: must be at least 0");
+    expectError(balls + "[[plane]]\nstatic_friction = -1\n",
+                "scene.toml:5: plane[0].static_friction is -1: must be at least 0");
+    expectError(box + "static_friction = 0.5\n",
+                "scene.toml:5: box[0].static_friction is given, but the body touches nothing");
+}
+
 TEST_F(LoadContacts, GivesSurfacesToFaces) {
     const sim::Scene scene =
         load(smallCloth + "thickness = 0.04\nfriction = 0.5\n" +

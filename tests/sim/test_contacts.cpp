@@ -102,6 +102,20 @@ TEST_P(Contact, SlidesOnAnInclineAboveTheFrictionAngle) {
     }
 }
 
+TEST_P(Contact, HoldsFasterWhatRestsThanWhatSlides) {
+    const double angle = 22 * std::numbers::pi / 180;
+    for (const double speed : {0.0, 0.2}) {
+        Scene scene = onIncline(22, {static_cast<float>(speed * std::cos(angle)),
+                                     static_cast<float>(-speed * std::sin(angle)), 0});
+        scene.planes[0].friction = 0.2f;
+        scene.planes[0].staticFriction = 0.5f;
+        test::Runner runner(scene, settings());
+        runner.run(60);
+        const double path = speed + g * (std::sin(angle) - 0.2 * std::cos(angle)) / 2;
+        EXPECT_NEAR(runner.positions()[0].norm(), speed > 0 ? path : 0, speed > 0 ? 0.01 * path : 1e-4);
+    }
+}
+
 // Case 18: d = v^2 / (2 mu g).
 TEST_P(Contact, SlidesToAStopWhereFrictionSays) {
     test::Runner runner(onIncline(0, {2, 0, 0}), settings());

@@ -247,6 +247,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     contacts.push = {.count = contacts.lists.push.count,
                      .row = contacts.lists.push.row,
                      .friction = contacts.surfaces.friction,
+                     .staticFriction = contacts.surfaces.staticFriction,
                      .restitution = contacts.surfaces.restitution,
                      .recoverySpeed = isCuttable
                                           ? std::min(scene.contacts.recoverySpeed, cutting::recoverySpeed)

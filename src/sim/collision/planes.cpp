@@ -3,6 +3,8 @@
 
 #include "kernels.hpp"
 
+#include <algorithm>
+
 namespace sinew::sim::collision::planes {
 
 namespace {
@@ -20,7 +22,11 @@ Colliders addColliders(ProgramBuilder& program, const Scene& scene, const StateL
     std::vector<layout::PlaneCollider> items;
     for (const Plane& plane : scene.planes) {
         const Vec3& n = plane.normal;
-        items.push_back({{n.x, n.y, n.z, plane.offset}, plane.friction, plane.restitution, 0, 0});
+        items.push_back({{n.x, n.y, n.z, plane.offset},
+                         plane.friction,
+                         plane.restitution,
+                         std::max(plane.friction, plane.staticFriction),
+                         0});
     }
     std::vector<float> offsets(layout.count, 0);
     for (std::size_t i = 0; i < scene.particles.size(); ++i)

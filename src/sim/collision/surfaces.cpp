@@ -9,14 +9,22 @@ namespace sinew::sim::collision::surfaces {
 namespace {
 
 Surface surfaceAt(const ContactSettings& contacts, std::uint32_t index) {
-    if (index == 0) return {contacts.friction, contacts.restitution};
+    if (index == 0) return {contacts.friction, contacts.restitution, contacts.staticFriction};
     return contacts.surfaces[index - 1];
 }
 
+float holding(const Surface& surface) {
+    return std::max(surface.friction, surface.staticFriction);
+}
+
+// One surface keeps its number to the bit.
+float meanOf(float a, float b) {
+    return a == b ? a : std::sqrt(a * b);
+}
+
 layout::SurfacePair pairOf(const Surface& a, const Surface& b) {
-    // one surface keeps its number to the bit
-    const float friction = a.friction == b.friction ? a.friction : std::sqrt(a.friction * b.friction);
-    return {friction, std::max(a.restitution, b.restitution)};
+    return {meanOf(a.friction, b.friction), std::max(a.restitution, b.restitution),
+            meanOf(holding(a), holding(b))};
 }
 
 bool hasSeveral(const Scene& scene) {
@@ -39,8 +47,9 @@ Surfaces add(ProgramBuilder& program, const Scene& scene, const StateLayout& lay
             std::ranges::find_if(scene.particles, [](const Particle& p) { return p.radius > 0; });
         const Surface only = surfaceAt(contacts, wide == scene.particles.end() ? 0 : wide->surface);
         surfaces.friction = only.friction;
+        surfaces.staticFriction = holding(only);
         surfaces.restitution = only.restitution;
-        surfaces.hasFriction = only.friction > 0;
+        surfaces.hasFriction = surfaces.staticFriction > 0;
         surfaces.hasRestitution = only.restitution > 0;
         return surfaces;
     }
@@ -57,7 +66,8 @@ Surfaces addTable(ProgramBuilder& program, const Scene& scene, const StateLayout
     std::vector<std::uint32_t> ofParticles(layout.count, 0);
     for (std::size_t i = 0; i < scene.particles.size(); ++i)
         ofParticles[layout.slot[i]] = scene.particles[i].surface;
-    surfaces.hasFriction = std::ranges::any_of(pairs, [](const auto& pair) { return pair.friction > 0; });
+    surfaces.hasFriction =
+        std::ranges::any_of(pairs, [](const auto& pair) { return pair.staticFriction > 0; });
     surfaces.hasRestitution =
         std::ranges::any_of(pairs, [](const auto& pair) { return pair.restitution > 0; });
     surfaces.ofParticles = program.upload(std::string(name) + "s", ofParticles);

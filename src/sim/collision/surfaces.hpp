@@ -1,4 +1,4 @@
-// What pairs of particles are like to touch (sim::Surface), as kernels take it: two numbers where all
+// What pairs of particles are like to touch (sim::Surface), as kernels take it: three numbers where all
 // particles that touch have one surface, else a table of pairs and an index per particle.
 #pragma once
 
@@ -8,8 +8,8 @@
 namespace sinew::sim::collision::surfaces {
 
 struct Surfaces {
-    float friction = 0, restitution = 0; ///< where there is one
-    std::uint32_t count = 0;             ///< where there are several; else 0, and no buffer exists
+    float friction = 0, staticFriction = 0, restitution = 0; ///< where there is one
+    std::uint32_t count = 0; ///< where there are several; else 0, and no buffer exists
     BufferId ofParticles, pairs;
     bool hasFriction = false, hasRestitution = false; ///< of any pair
 };

@@ -81,8 +81,8 @@ Problem::Problem(const Scene& scene)
         lattices.push_back(kinds);
     }
     for (const Plane& plane : scene.planes) {
-        walls.push_back(
-            {toEigen(plane.normal), double{plane.offset}, double{plane.friction}, double{plane.restitution}});
+        walls.push_back({toEigen(plane.normal), double{plane.offset}, double{plane.friction},
+                         double{std::max(plane.friction, plane.staticFriction)}, double{plane.restitution}});
     }
 }
 
@@ -115,8 +115,9 @@ Touched projectOntoWalls(const Problem& problem, std::size_t particle, const Eig
         const Eigen::Vector3d moved = x - before;
         const Eigen::Vector3d slid = moved - wall.normal.dot(moved) * wall.normal;
         x -= constraint * wall.normal;
-        const double reach = wall.friction * -constraint;
-        x -= slid.norm() <= reach ? slid : Eigen::Vector3d(reach * slid.normalized());
+        const double most = wall.friction * -constraint;
+        x -= slid.norm() <= wall.staticFriction * -constraint ? slid
+                                                              : Eigen::Vector3d(most * slid.normalized());
         touched |= Touched{1} << k;
     }
     return touched;

@@ -39,7 +39,7 @@ struct Rope { ///< of a tether
 
 struct Wall {
     Eigen::Vector3d normal;
-    double offset = 0, friction = 0, restitution = 0;
+    double offset = 0, friction = 0, staticFriction = 0, restitution = 0;
 };
 
 /// What a lattice's links are made of: by kind, for a whole link. Only of grids whose cells have volumes.
