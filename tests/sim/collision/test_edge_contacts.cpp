@@ -1,7 +1,11 @@
 // Edges of faces that touch other edges, on the device.
+#include "layout.h"
 #include "sim/collision/face_scenes.hpp"
+#include "sim/compile.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
+#include "sim/simulation.hpp"
+#include "support/device.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <numbers>
 
 using namespace sinew;
@@ -67,14 +72,33 @@ Vector3d momentumOf(const Scene& scene, const std::vector<Vector3d>& v) {
     return sum;
 }
 
-// How fast the places at which the two edges of crossedEdges() cross come apart [m/s], and how far they are
-// [m], along y.
-std::array<double, 2> apart(const std::vector<Vector3d>& x, const std::vector<Vector3d>& v) {
+// The upper one of the places at which the two edges of crossedEdges() cross, as seen from the lower one.
+struct Apart {
+    Vector3d speed, way; // [m/s], [m]
+};
+
+Apart apart(const std::vector<Vector3d>& x, const std::vector<Vector3d>& v) {
     const auto cross = [](const Vector3d& p, const Vector3d& q) { return p.x() * q.z() - p.z() * q.x(); };
     const Vector3d d = x[1] - x[0], e = x[4] - x[3], r = x[3] - x[0];
     const double s = cross(r, e) / cross(d, e), t = cross(r, d) / cross(d, e);
-    const Vector3d between = x[3] + t * e - x[0] - s * d;
-    return {(v[3] + t * (v[4] - v[3]) - v[0] - s * (v[1] - v[0])).y(), between.y()};
+    return {v[3] + t * (v[4] - v[3]) - v[0] - s * (v[1] - v[0]), x[3] + t * e - x[0] - s * d};
+}
+
+// Contacts between edges in the last substep; each stands at both.
+std::size_t edgesTouching(test::Runner& runner) {
+    const auto read = [&]<typename T>(const char* label, T) {
+        const auto& buffers = runner.simulation().program().buffers;
+        for (std::uint32_t b = 0; b < buffers.size(); ++b)
+            if (buffers[b].label == label) return test::queue().download<T>(runner.simulation().view({b}));
+        return std::vector<T>();
+    };
+    const auto counts = read("edges.counts", std::uint32_t{});
+    const auto directions = read("edges.directions", layout::vec4{});
+    const std::size_t row = counts.size() + CONTACT_ROW_EXTRA;
+    std::size_t touching = 0;
+    for (std::size_t e = 0; e < counts.size(); ++e)
+        for (std::uint32_t s = 0; s < counts[e]; ++s) touching += directions[s * row + e].w > 0 ? 1 : 0;
+    return touching;
 }
 
 } // namespace
@@ -87,11 +111,40 @@ TEST(EdgeContacts, PartAsRestitutionHasItAndKeepMomentum) {
         test::Runner runner(scene, {.substeps = 16});
         const Vector3d before = momentumOf(scene, runner.velocities());
         for (int step = 0; step < 8; ++step) ASSERT_EQ(runner.run(1).nonFinite, 0u);
-        const auto [speed, distance] = apart(runner.positions(), runner.velocities());
-        EXPECT_NEAR(speed, double{e}, 0.01) << "restitution " << e;
-        EXPECT_GE(distance, 0.99 * reach);
+        const Apart parting = apart(runner.positions(), runner.velocities());
+        EXPECT_NEAR(parting.speed.y(), double{e}, 0.01) << "restitution " << e;
+        EXPECT_GE(parting.way.y(), 0.99 * reach);
         EXPECT_LE((momentumOf(scene, runner.velocities()) - before).norm(), 1e-5);
     }
+}
+
+// A blow takes friction x as much along the edges as across them, for both meet the same masses, and all that
+// there is of it where it holds.
+TEST(EdgeContacts, SlideAndHoldByTheirFriction) {
+    for (const float mass : {0.0f, 2.0f})
+        for (const float holding : {0.0f, 3.0f}) {
+            Scene scene = crossedEdges(mass, 0.1f, 1);
+            for (std::size_t i = 3; i < 6; ++i) scene.particles[i].velocity.x = 1;
+            scene.contacts.friction = 0.3f;
+            scene.contacts.staticFriction = holding;
+            test::Runner runner(scene, {.substeps = 16});
+            const Vector3d before = momentumOf(scene, runner.velocities());
+            for (int step = 0; step < 8; ++step) ASSERT_EQ(runner.run(1).nonFinite, 0u);
+            const auto x = runner.positions(), v = runner.velocities();
+            const Vector3d blow = v[3] + v[4] + v[5] - Vector3d(3, -3, 0); // each has 1 kg
+            const double along = apart(x, v).speed.x();
+            std::printf(
+                "edges, lower corners of %.0f kg, static friction %.0f: %.5f of the blow, then %.5f m/s\n",
+                double{mass}, double{holding}, -blow.x() / blow.y(), along);
+            EXPECT_GE(blow.y(), 0.3) << "they have met";
+            if (holding == 0)
+                EXPECT_NEAR(-blow.x() / blow.y(), 0.3, 0.003);
+            else
+                EXPECT_NEAR(along, 0, 0.005);
+            if (mass > 0) {
+                EXPECT_LE((momentumOf(scene, v) - before).norm(), 1e-5);
+            }
+        }
 }
 
 // Up to 150 thicknesses a substep, upon an edge that moves and one that does not.
@@ -102,10 +155,28 @@ TEST(EdgeContacts, StopEdgesThatAreFasterThanTheirThickness) {
             test::Runner runner(scene, {.substeps = 4});
             const double before = test::kineticEnergy(scene, runner.velocities());
             for (int step = 0; step < 4; ++step) ASSERT_EQ(runner.run(1).nonFinite, 0u);
-            const double distance = apart(runner.positions(), runner.velocities())[1];
+            const double distance = apart(runner.positions(), runner.velocities()).way.y();
             EXPECT_GE(distance, 0.9 * reach) << speed << " m/s, corners of " << mass << " kg";
             EXPECT_LT(test::kineticEnergy(scene, runner.velocities()), before) << "inelastic";
         }
+}
+
+// What rests without gravity stays where it is to the bit, asleep or not: from the blow on all goes as if
+// nobody had slept.
+TEST(EdgeContacts, WakeWhatTheyTouch) {
+    Scene scene = crossedEdges(2, 0.8f, 1);
+    scene.contacts.friction = 0.3f;
+    test::Runner slept(scene, {.substeps = 8, .sleeps = true}), awake(scene, {.substeps = 8});
+    bool slumbered = false, woke = false;
+    for (int step = 0; step < 60; ++step) {
+        const Status status = slept.run(1);
+        awake.run(1);
+        slumbered = slumbered || status.sleeping == 3;
+        woke = woke || (slumbered && status.sleeping == 1); // but for the corner across
+        ASSERT_EQ(slept.positions(), awake.positions()) << "step " << step;
+        ASSERT_EQ(slept.velocities(), awake.velocities()) << "step " << step;
+    }
+    EXPECT_TRUE(slumbered && woke);
 }
 
 TEST(EdgeContacts, LetEdgesPassBesideEachOther) {
@@ -176,6 +247,36 @@ TEST(EdgeContacts, EndInTheSameBitsForAnyMarginRoomOrderAndForm) {
     EXPECT_EQ(hash(roomy), expected) << "more room";
     EXPECT_EQ(hash(reversed), expected) << "reversed";
     EXPECT_EQ(hash(loads), expected) << "without texels";
+}
+
+// Hard case 29, as for contacts between particles, where edges touch in many steps.
+TEST(EdgeContacts, ThatHaveNoRoomAreSaidAndRepeatedToTheSameBits) {
+    const Scene scene = test::crossedSheets(0.1f);
+    constexpr int steps = 25;
+    const std::uint64_t hash = test::hashOfRun(scene, {.substeps = 8, .contactRoom = 96}, steps);
+    Settings settings{.substeps = 8, .contactRoom = 1};
+    auto runner = std::make_unique<test::Runner>(scene, settings);
+    int growths = 0, touching = 0;
+    for (int step = 0; step < steps;) {
+        const std::uint64_t before = runner->stateHash();
+        const Status status = runner->run(1);
+        if (status.contactRoom == 0) {
+            touching += edgesTouching(*runner) > 0 ? 1 : 0;
+            ++step;
+            continue;
+        }
+        ASSERT_GT(status.contactRoom, settings.contactRoom);
+        EXPECT_EQ(runner->stateHash(), before) << "undone";
+        settings.contactRoom = status.contactRoom;
+        auto larger = std::make_unique<test::Runner>(scene, settings);
+        larger->takeOver(*runner);
+        EXPECT_EQ(larger->stateHash(), before);
+        runner = std::move(larger);
+        ++growths;
+    }
+    EXPECT_GE(growths, 1);
+    EXPECT_GE(touching, 3) << "steps";
+    EXPECT_EQ(runner->stateHash(), hash);
 }
 
 TEST(EdgeContacts, AreAbsentWhereNoTwoEdgesCanMeet) {
