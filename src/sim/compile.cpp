@@ -2,6 +2,7 @@
 #include "sim/compile.hpp"
 
 #include "layout.h"
+#include "sim/collision/face_contacts.hpp"
 #include "sim/collision/particle_contacts.hpp"
 #include "sim/constraints/fixed.hpp"
 #include "sim/constraints/grab.hpp"
@@ -61,6 +62,13 @@ std::vector<layout::vec4> spread(const std::vector<layout::vec4>& values, const 
     std::vector<layout::vec4> result(layout.count);
     for (std::size_t i = 0; i < values.size(); ++i) result[layout.slot[i]] = values[i];
     return result;
+}
+
+void skipContacts(ProgramBuilder& program, const Scene& scene) {
+    const bool ofParticles = collision::particle_contacts::areIn(scene);
+    const bool withFaces = collision::face_contacts::areIn(scene);
+    if (!ofParticles) program.skip(withFaces ? "contacts between particles" : "contacts");
+    if (!withFaces && ofParticles) program.skip("contacts with faces");
 }
 
 } // namespace
@@ -135,7 +143,8 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     if (scene.distances.empty()) program.skip("distance constraints");
     if (scene.damping == 0) program.skip("damping");
     if (scene.planes.empty()) program.skip("boundary planes");
-    if (!collision::particle_contacts::areIn(scene)) program.skip("contacts");
+    skipContacts(program, scene);
+    if (!settings.sleeps) program.skip("sleep");
     if (scene.fixed.empty()) program.skip("fixed constraints");
     if (scene.skins.empty()) program.skip("skins");
     return program.finish();

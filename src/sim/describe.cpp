@@ -82,6 +82,26 @@ std::string megabytes(std::uint64_t bytes) {
     return text.str();
 }
 
+// What a step costs while all, some or none are awake.
+std::string sleepText(const StepProgram& program) {
+    if (program.sleep.arguments == BufferId{}) return {};
+    std::size_t all = 0, listed = 0, whole = 0, always = 0;
+    for (const Pass& pass : program.step) {
+        if (pass.isOfCut || pass.kind != PassKind::dispatch) continue;
+        const bool isGated = pass.isIndirect && pass.uses.back().buffer == program.sleep.arguments;
+        const bool isListed = isGated && boundUses(pass).back().buffer == program.sleep.listed;
+        ++all;
+        listed += isListed ? 1 : 0;
+        whole += isGated && !isListed ? 1 : 0;
+        always += pass.isIndirect ? 0 : 1;
+    }
+    std::ostringstream text;
+    text << "sleep: of " << all << " dispatches " << listed
+         << " run for the work groups in which somebody is awake, " << whole << " whole while anybody is, "
+         << all - listed - whole - always << " when asked for by others, " << always << " always\n";
+    return text.str();
+}
+
 } // namespace
 
 std::uint64_t declaredBytes(const StepProgram& program) {
@@ -118,7 +138,8 @@ std::string describe(const StepProgram& program) {
     }
     text << "\nper step: " << dispatches << " dispatches, " << passes - dispatches
          << " fills, copies and updates, " << barriers << " barriers, " << megabytes(declaredBytes(program))
-         << " declared, " << program.sweeps << " sweeps\n";
+         << " declared, " << program.sweeps << " sweeps\n"
+         << sleepText(program);
     for (const std::string& feature : program.skipped) text << "skipped: " << feature << '\n';
     return text.str();
 }

@@ -150,6 +150,12 @@ struct PieceVertices {
     std::uint32_t first = 0; ///< of skinVertices
 };
 
+/// Where bodies may sleep (sleep.hpp); invalid where none may.
+struct SleepBuffers {
+    BufferId arguments; ///< of dispatches that run only while somebody is awake
+    BufferId listed;    ///< work groups in which somebody is: bound last by those that run for them alone
+};
+
 /// Immutable once built.
 struct StepProgram {
     std::vector<BufferSpec> buffers;
@@ -162,6 +168,7 @@ struct StepProgram {
     BufferId parameters, status, positions, velocities; ///< the public ones; velocities may be invalid
     BufferId skinVertices, skinIndices;                 ///< invalid without skins
     ContactBuffers contacts;
+    SleepBuffers sleep;
     CuttingBuffers cutting;
     CutSurfaceBuffers cutSurface;
     std::vector<PieceVertices> pieceSkins; ///< by sheet that may be cut and has a skin

@@ -215,6 +215,7 @@ std::shared_ptr<Sleep> add(ProgramBuilder& program, const Scene& scene, const Se
     sleep->passes = program.scratch<layout::SleepPass>("sleep.passes", mostPasses);
     sleep->arguments = program.scratch<layout::DispatchArguments>("sleep.arguments", mostPasses);
     sleep->waking = program.scratch<layout::DispatchArguments>("sleep.waking", SLEEP_ARGUMENTS);
+    program.program().sleep = {sleep->arguments, sleep->listed};
     for (const BufferId buffer : {sleep->state, sleep->rests, sleep->islands}) program.carry(buffer, buffer);
     itemsOf(*sleep, SLEEP_ALL, GROUP_ITEMS, GROUP_ITEMS); // element 0: whether anything runs
     return sleep;

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <regex>
 #include <set>
 
 using namespace sinew;
@@ -427,6 +428,27 @@ TEST(Sleep, IsRefusedBySolversWithoutAFormForIt) {
         ASSERT_EQ(complaints.size(), 1u);
         EXPECT_NE(complaints[0].find("settings.sleeps"), std::string::npos) << complaints[0];
     }
+}
+
+TEST(Sleep, IsSaidWhereAStepIsDescribed) {
+    const StepProgram program = compile(heap(3), {.substeps = 2, .sleeps = true});
+    std::size_t gated = 0, direct = 0;
+    for (const Pass& pass : program.step) {
+        if (pass.kind != PassKind::dispatch) continue;
+        gated += pass.isIndirect && pass.uses.back().buffer == program.sleep.arguments ? 1 : 0;
+        direct += pass.isIndirect ? 0 : 1;
+    }
+    const std::string text = describe(program);
+    const std::regex line(
+        "sleep: of (\\d+) dispatches (\\d+) run .* (\\d+) whole .* (\\d+) when .* (\\d+) always");
+    std::smatch said;
+    ASSERT_TRUE(std::regex_search(text, said, line)) << text;
+    const auto number = [&](std::size_t i) { return std::stoul(said[i]); };
+    EXPECT_EQ(number(2) + number(3), gated);
+    EXPECT_GE(number(2), 2u * 4) << "in each substep: moving, watching, counting, parting";
+    EXPECT_EQ(number(5), direct);
+    EXPECT_EQ(number(1), number(2) + number(3) + number(4) + number(5));
+    EXPECT_FALSE(std::regex_search(describe(compile(heap(3), {.substeps = 2})), line));
 }
 
 TEST(Sleep, LeavesASceneThatDoesNotAskForItAlone) {
