@@ -1,6 +1,7 @@
-// Every shipped scene in which anything may touch, a few frames after the first contact: the same bits from
-// run to run, with one thread and two, in reversed order and with other lists. Scenes are found in their
-// folder, so that a new one is held to it as well.
+// Every shipped scene in which anything may touch, a few frames after the first contact (of particles or
+// faces where it has such, for which lists are made): the same bits from run to run, with one thread and two,
+// in reversed order and with other lists. Scenes are found in their folder, so that a new one is held to it
+// as well.
 #include "sinew/study/plan.hpp"
 #include "sinew/study/truth.hpp"
 #include "tools/program.hpp"
@@ -56,9 +57,15 @@ protected:
     }
 };
 
+/// Where particles or faces touch, what is left is a floor and colliders: they may not be what moves things
+/// first.
 sim::Scene withoutContacts(sim::Scene scene) {
-    scene.planes.clear();
-    scene.colliders.clear();
+    const bool hasLists =
+        std::ranges::any_of(scene.particles, [](const sim::Particle& p) { return p.radius > 0; });
+    if (!hasLists) {
+        scene.planes.clear();
+        scene.colliders.clear();
+    }
     scene.faces.clear();
     for (sim::Particle& particle : scene.particles) particle.radius = 0;
     return scene;
@@ -119,5 +126,5 @@ INSTANTIATE_TEST_SUITE_P(Shipped, ContactScenes, testing::ValuesIn(contactSceneN
                          [](const auto& scene) { return scene.param; });
 
 TEST(ShippedScenes, HaveContactsInMoreThanAFew) {
-    EXPECT_GE(contactSceneNames().size(), 11u);
+    EXPECT_GE(contactSceneNames().size(), 16u);
 }
