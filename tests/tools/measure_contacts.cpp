@@ -9,6 +9,7 @@
 #include "sim/bodies.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -63,6 +64,30 @@ sim::Scene stack(std::uint32_t count, float offset) {
     return scene;
 }
 
+/// Two cubes of 8^3 without gravity or friction that meet, each at 1 m/s.
+sim::Scene collision() {
+    sim::Scene scene;
+    scene.gravity = {};
+    addCube(scene, 8, 1e6f, {0, 0, 0});
+    addCube(scene, 8, 1e6f, {9 * spacing, 0, 0});
+    for (std::size_t i = 0; i < scene.particles.size(); ++i)
+        scene.particles[i].velocity.x = i < scene.particles.size() / 2 ? 1.0f : -1.0f;
+    return scene;
+}
+
+/// 27 cubes of 5^3, a cell apart and every layer beside the one below by a third of one, 1 m above a floor.
+sim::Scene heap() {
+    sim::Scene scene = onAFloor(1);
+    for (std::uint32_t i = 0; i < 27; ++i) {
+        const auto layer = static_cast<float>(i / 9);
+        const auto at = [&](std::uint32_t index) {
+            return (6 * static_cast<float>(index) + layer / 3) * spacing;
+        };
+        addCube(scene, 5, 1e5f, {at(i % 3), 1 + 6 * layer * spacing, at(i / 3 % 3)});
+    }
+    return scene;
+}
+
 sim::Scene drop() {
     sim::Scene scene = onAFloor(1);
     addCube(scene, 10, 1e5f, {0, 0.5f + half, 0});
@@ -79,9 +104,9 @@ sim::Scene column(float ratio) {
     return scene;
 }
 
-/// Packed rows in a box that they fill, or as many at random places above its floor.
-sim::Scene clutter(std::uint32_t random) {
-    constexpr float radius = 0.05f, friction = 0.3f, wide = 0.6f;
+/// Packed rows in a box that they fill, or as many at random places above its floor, to `high` [m].
+sim::Scene clutter(std::uint32_t random, float wide = 0.6f, float high = 1.6f) {
+    constexpr float radius = 0.05f, friction = 0.3f;
     sim::Scene scene;
     scene.contacts.friction = friction;
     scene.planes = {{.friction = friction}};
@@ -90,7 +115,9 @@ sim::Scene clutter(std::uint32_t random) {
         scene.planes.push_back({.normal = {0, 0, sign}, .offset = -wide, .friction = friction});
     }
     if (random > 0)
-        sim::addParticles(scene, {.center = {0, 0.85f, 0}, .random = random, .size = {1.2f, 1.5f, 1.2f}});
+        sim::addParticles(scene, {.center = {0, 0.5f * high + 0.05f, 0},
+                                  .random = random,
+                                  .size = {2 * wide, high - 0.1f, 2 * wide}});
     else
         sim::addParticles(
             scene, {.center = {0, 0.6f, 0}, .count = {10, 10, 10}, .jitter = 0.0099f, .radius = radius});
@@ -102,6 +129,24 @@ double speedOf(const State& state) {
     for (const auto& v : state.velocities)
         for (std::size_t axis = 0; axis < 3; ++axis) squares += double{v[axis]} * double{v[axis]};
     return std::sqrt(squares / static_cast<double>(state.velocities.size()));
+}
+
+struct Motion {
+    std::array<double, 3> momentum{}; // [kg m/s]
+    double sum = 0, kinetic = 0;      // of the lengths [kg m/s]; [J]
+};
+
+Motion motionOf(const sim::Scene& scene, const State& state) {
+    Motion motion;
+    for (std::size_t i = 0; i < state.velocities.size(); ++i) {
+        const auto& v = state.velocities[i];
+        const double mass = 1 / double{scene.particles[i].inverseMass};
+        const double speed = std::hypot(double{v[0]}, double{v[1]}, double{v[2]});
+        for (std::size_t axis = 0; axis < 3; ++axis) motion.momentum[axis] += mass * double{v[axis]};
+        motion.sum += mass * speed;
+        motion.kinetic += 0.5 * mass * speed * speed;
+    }
+    return motion;
 }
 
 double topOf(const State& state) {
@@ -118,7 +163,8 @@ void measure(Session& session, Measured measured, std::uint32_t substeps) {
     double deepest = 0, highest = 0, squares = 0, slowSince = 0;
     std::uint32_t late = 0;
     Overlap last;
-    State state;
+    State state = runner.readState();
+    const Motion first = motionOf(scene, state);
     for (std::uint32_t step = 1; step <= steps; ++step) {
         runner.advance(1, 1);
         if (runner.divergence()) break;
@@ -137,17 +183,30 @@ void measure(Session& session, Measured measured, std::uint32_t substeps) {
                 measured.name.c_str(), substeps, deepest / measured.radius, last.max / measured.radius,
                 last.rms / measured.radius, std::sqrt(squares / std::max(late, 1u)), slowSince, topOf(state),
                 highest, runner.divergence() ? "; diverged" : "");
+    if (scene.gravity.y == 0) {
+        const Motion motion = motionOf(scene, state);
+        std::printf("  momentum off by %.1e of all that moved, %.3f of the kinetic energy kept\n",
+                    std::hypot(motion.momentum[0], motion.momentum[1], motion.momentum[2]) / first.sum,
+                    motion.kinetic / first.kinetic);
+    }
     std::fflush(stdout);
 }
 
 std::vector<Measured> allMeasured() {
     constexpr double ball = 0.05, node = double{half};
-    return {
-        {"two cubes, offset", 1.5, node, stack(2, 0.5f)},  {"five cubes, aligned", 2.5, node, stack(5, 0)},
-        {"five cubes, offset", 2.5, node, stack(5, 0.5f)}, {"drop of a cube", 2.5, node, drop()},
-        {"column, ratio 1", 2, node, column(1)},           {"column, ratio 10", 2, node, column(10)},
-        {"column, ratio 100", 2, node, column(100)},       {"column, ratio 1000", 2, node, column(1000)},
-        {"clutter 1000, packed", 4, ball, clutter(0)},     {"clutter 1000, random", 4, ball, clutter(1000)}};
+    return {{"two cubes, offset", 1.5, node, stack(2, 0.5f)},
+            {"five cubes, aligned", 2.5, node, stack(5, 0)},
+            {"five cubes, offset", 2.5, node, stack(5, 0.5f)},
+            {"drop of a cube", 2.5, node, drop()},
+            {"column, ratio 1", 2, node, column(1)},
+            {"column, ratio 10", 2, node, column(10)},
+            {"column, ratio 100", 2, node, column(100)},
+            {"column, ratio 1000", 2, node, column(1000)},
+            {"clutter 1000, packed", 4, ball, clutter(0)},
+            {"clutter 1000, random", 4, ball, clutter(1000)},
+            {"clutter 8000, random", 4, ball, clutter(8000, 1.15f, 3.3f)},
+            {"two cubes that meet", 0.5, node, collision()},
+            {"27 cubes", 2.5, node, heap()}};
 }
 
 } // namespace
