@@ -55,39 +55,66 @@ constexpr std::size_t particleBytes = 28;
 
 } // namespace
 
-void exportObj(const std::filesystem::path& file, const TriangleMesh& mesh) {
+void exportObj(const std::filesystem::path& file, std::span<const TriangleMesh> meshes) {
     writeWhole(file, [&](std::ostream& out) {
-        if (!mesh.name.empty()) out << "o " << oneLine(mesh.name) << '\n';
         std::string line;
-        for (const Vec3& position : mesh.positions) {
-            line.assign(1, 'v');
-            for (const float value : {position.x, position.y, position.z}) appendNumber(line += ' ', value);
-            out << (line += '\n');
+        std::size_t first = 1; // vertex of the mesh
+        for (const TriangleMesh& mesh : meshes) {
+            if (!mesh.name.empty()) out << "o " << oneLine(mesh.name) << '\n';
+            for (const Vec3& position : mesh.positions) {
+                line.assign(1, 'v');
+                for (const float value : {position.x, position.y, position.z})
+                    appendNumber(line += ' ', value);
+                out << (line += '\n');
+            }
+            for (const auto& [a, b, c] : mesh.triangles)
+                out << "f " << a + first << ' ' << b + first << ' ' << c + first << '\n';
+            first += mesh.positions.size();
         }
-        for (const auto& [a, b, c] : mesh.triangles)
-            out << "f " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
     });
 }
 
-void exportPly(const std::filesystem::path& file, const TriangleMesh& mesh) {
+void exportPly(const std::filesystem::path& file, std::span<const TriangleMesh> meshes) {
+    std::size_t vertices = 0, faces = 0;
+    for (const TriangleMesh& mesh : meshes) {
+        vertices += mesh.positions.size();
+        faces += mesh.triangles.size();
+    }
     writeWhole(file, [&](std::ostream& out) {
         out << "ply\nformat binary_little_endian 1.0\n";
-        if (!mesh.name.empty()) out << "comment " << oneLine(mesh.name) << '\n';
-        out << "element vertex " << mesh.positions.size()
-            << "\nproperty float x\nproperty float y\nproperty float z\nelement face "
-            << mesh.triangles.size() << "\nproperty list uchar uint vertex_indices\nend_header\n";
+        for (const TriangleMesh& mesh : meshes)
+            if (!mesh.name.empty()) out << "comment " << oneLine(mesh.name) << '\n';
+        out << "element vertex " << vertices
+            << "\nproperty float x\nproperty float y\nproperty float z\nelement face " << faces
+            << "\nproperty list uchar uint vertex_indices\n"
+            << (meshes.size() > 1 ? "property uint piece\n" : "") << "end_header\n";
         std::string bytes;
-        for (const Vec3& position : mesh.positions) {
-            bytes.clear();
-            for (const float value : {position.x, position.y, position.z}) appendLittleEndian(bytes, value);
-            out << bytes;
-        }
-        for (const auto& triangle : mesh.triangles) {
-            bytes.assign(1, '\3');
-            for (const std::uint32_t vertex : triangle) appendLittleEndian(bytes, vertex);
-            out << bytes;
+        for (const TriangleMesh& mesh : meshes)
+            for (const Vec3& position : mesh.positions) {
+                bytes.clear();
+                for (const float value : {position.x, position.y, position.z})
+                    appendLittleEndian(bytes, value);
+                out << bytes;
+            }
+        std::uint32_t first = 0;
+        for (std::uint32_t piece = 0; piece < meshes.size(); ++piece) {
+            for (const auto& triangle : meshes[piece].triangles) {
+                bytes.assign(1, '\3');
+                for (const std::uint32_t vertex : triangle) appendLittleEndian(bytes, first + vertex);
+                if (meshes.size() > 1) appendLittleEndian(bytes, piece);
+                out << bytes;
+            }
+            first += static_cast<std::uint32_t>(meshes[piece].positions.size());
         }
     });
+}
+
+void exportObj(const std::filesystem::path& file, const TriangleMesh& mesh) {
+    exportObj(file, std::span(&mesh, 1));
+}
+
+void exportPly(const std::filesystem::path& file, const TriangleMesh& mesh) {
+    exportPly(file, std::span(&mesh, 1));
 }
 
 void exportParticles(const std::filesystem::path& file, std::span<const ParticleState> particles) {

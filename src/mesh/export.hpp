@@ -23,8 +23,13 @@ public:
 /// writes goes through it.
 void writeWhole(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);
 
+/// One object a mesh.
+void exportObj(const std::filesystem::path& file, std::span<const TriangleMesh> meshes);
+/// Binary little endian. Where there are several meshes, each face says which it is of: property `piece`,
+/// from 0 on.
+void exportPly(const std::filesystem::path& file, std::span<const TriangleMesh> meshes);
 void exportObj(const std::filesystem::path& file, const TriangleMesh& mesh);
-void exportPly(const std::filesystem::path& file, const TriangleMesh& mesh); ///< binary little endian
+void exportPly(const std::filesystem::path& file, const TriangleMesh& mesh);
 
 /// Particles as PLY points: x y z, vx vy vz, inverse_mass (float each).
 struct ParticleState {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include <fcntl.h>
@@ -211,19 +212,38 @@ TEST_F(Run, FolderHoldsReportMeshesAndStateThatReadBack) {
     write("scene.toml", sheet + box + "name = \"../b x\"\n");
     const Outcome outcome = run({"run", "scene.toml", "--frames", "2", "--out", "a/b", "--json", "r.json"});
     ASSERT_EQ(outcome.code, 0) << outcome.error;
-    EXPECT_EQ(files(), (std::vector<std::string>{"a/b/___b_x.obj", "a/b/___b_x.ply", "a/b/report.json",
-                                                 "a/b/sheet.obj", "a/b/sheet.ply", "a/b/state.ply", "r.json",
-                                                 "scene.toml"}));
+    EXPECT_EQ(files(), (std::vector<std::string>{"a/b/___b_x.glb", "a/b/___b_x.obj", "a/b/___b_x.ply",
+                                                 "a/b/report.json", "a/b/sheet.glb", "a/b/sheet.obj",
+                                                 "a/b/sheet.ply", "a/b/state.ply", "r.json", "scene.toml"}));
     mesh::MeshDefects defects;
     const mesh::TriangleMesh skin = mesh::importMesh(folder_ / "a/b/___b_x.obj", defects);
     EXPECT_TRUE(defects.isClosed());
     EXPECT_NEAR(mesh::inspect(skin).volume, 0.008, 1e-5);
     EXPECT_EQ(mesh::importMesh(folder_ / "a/b/sheet.ply", defects).triangles.size(), 18u);
+    EXPECT_EQ(mesh::importMesh(folder_ / "a/b/sheet.glb", defects).triangles.size(), 36u) << "both sides";
+    EXPECT_NEAR(mesh::inspect(mesh::importMesh(folder_ / "a/b/___b_x.glb", defects)).volume, 0.008, 1e-5);
+    EXPECT_TRUE(defects.isClosed());
     const auto particles = mesh::importParticles(folder_ / "a/b/state.ply");
     ASSERT_EQ(particles.size(), 43u);
     EXPECT_LT(particles[0].velocity.y, -0.2f);
     EXPECT_GT(particles[0].inverseMass, 0);
 }
+
+namespace {
+
+std::string textOf(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+json gltfOf(const std::filesystem::path& file) {
+    const std::string bytes = textOf(file);
+    std::size_t size = 0; // of the first chunk
+    for (std::size_t byte = 16; byte-- > 12;) size = size << 8 | static_cast<unsigned char>(bytes.at(byte));
+    return json::parse(bytes.substr(20, size), nullptr, false);
+}
+
+} // namespace
 
 // A cube that is cut in two as it lands and spreads: the skin is clipped along the cut and closed by the
 // inside.
@@ -291,8 +311,8 @@ TEST_F(Run, AnInterruptedRunWritesWholeOutputs) {
     ASSERT_FALSE(report.is_discarded()) << outcome.out;
     EXPECT_EQ(report["interrupted"], true);
     EXPECT_LT(report["frames"], report["frames_wanted"]);
-    EXPECT_EQ(files(), (std::vector<std::string>{"out/report.json", "out/sheet.obj", "out/sheet.ply",
-                                                 "out/state.ply", "scene.toml"}));
+    EXPECT_EQ(files(), (std::vector<std::string>{"out/report.json", "out/sheet.glb", "out/sheet.obj",
+                                                 "out/sheet.ply", "out/state.ply", "scene.toml"}));
 }
 
 TEST_F(Run, ValidationHasNothingToSayAboutTheShippedScenes) {

@@ -1,93 +1,145 @@
-// Points are named as layout::CutVertex does.
+// Points are named as layout::CutVertex does, so that the two sides of a cut have two.
 #include "sinew/cut_mesh.hpp"
 
+#include "mesh/split_edges.hpp"
+
+#include <map>
 #include <unordered_map>
 
 namespace sinew::tools {
 
 namespace {
 
-class Joined {
-public:
-    explicit Joined(std::string name) { mesh_.name = std::move(name); }
+using Part = DrawnTriangle::Part;
 
-    std::uint32_t vertex(std::uint32_t point, const sim::layout::vec4& position) {
-        const auto next = static_cast<std::uint32_t>(mesh_.positions.size());
-        const auto [entry, isNew] = vertices_.try_emplace(point, next);
-        if (isNew) mesh_.positions.push_back({position.x, position.y, position.z});
+/// Gathers vertices as triangles name them.
+class Numbers {
+public:
+    /// Whether `key` is new is in `isNew`.
+    std::uint32_t of(std::uint32_t key, bool& isNew) {
+        const auto [entry, isFirst] = numbers_.try_emplace(key, static_cast<std::uint32_t>(numbers_.size()));
+        isNew = isFirst;
         return entry->second;
     }
-    void triangle(const std::array<std::uint32_t, 3>& corners) { mesh_.triangles.push_back(corners); }
-    mesh::TriangleMesh finish() { return std::move(mesh_); }
 
 private:
-    mesh::TriangleMesh mesh_;
-    std::unordered_map<std::uint32_t, std::uint32_t> vertices_; // by point
+    std::unordered_map<std::uint32_t, std::uint32_t> numbers_;
 };
 
-void addSkin(const sim::Scene& scene, std::size_t index, const CutDownload& download, Joined& joined) {
-    const sim::Skin& skin = scene.skins[index];
-    std::uint32_t firstVertex = 0;
-    std::size_t first = 0; // index
-    for (std::size_t s = 0; s < index; ++s) {
-        firstVertex += static_cast<std::uint32_t>(scene.skins[s].vertexCount());
-        first += 3 * scene.skins[s].triangles.size();
+sim::Vec3 xyz(const sim::layout::vec4& v) {
+    return {v.x, v.y, v.z};
+}
+
+const sim::layout::SkinVertex& vertexOf(const Drawn& drawn, const DrawnTriangle& triangle,
+                                        std::size_t corner) {
+    return (triangle.isOfSurface() ? drawn.vertices : drawn.skinVertices)[triangle.corners[corner]];
+}
+
+struct Piece {
+    mesh::TriangleMesh mesh;
+    Numbers numbers;
+
+    void add(const Drawn& drawn, const DrawnTriangle& triangle, const std::array<std::uint32_t, 3>& points) {
+        std::array<std::uint32_t, 3> own{};
+        for (std::size_t n = 0; n < 3; ++n) {
+            bool isNew = false;
+            own[n] = numbers.of(points[n], isNew);
+            if (isNew) mesh.positions.push_back(xyz(vertexOf(drawn, triangle, n).position));
+        }
+        mesh.triangles.push_back(own);
     }
-    for (std::size_t t = 0; t < skin.triangles.size(); ++t) {
-        const std::uint32_t* corners = &download.skinIndices[first + 3 * t];
-        if (corners[0] == corners[1]) continue; // drawn in pieces
-        std::array<std::uint32_t, 3> triangle{};
-        for (std::size_t n = 0; n < 3; ++n)
-            triangle[n] = joined.vertex(skin.particles.empty()
-                                            ? SURFACE_SKIN | corners[n]
-                                            : SURFACE_PARTICLE | skin.particles[corners[n] - firstVertex],
-                                        download.skinVertices[corners[n]].position);
-        joined.triangle(triangle);
+};
+
+/// Of each corner, for one skin. Those of a sheet are as the buffer has them: its sides are apart.
+std::array<std::uint32_t, 3> pointsOf(const sim::Skin& skin, std::uint32_t firstVertex, bool isSheet,
+                                      const Drawn& drawn, const DrawnTriangle& triangle) {
+    std::array<std::uint32_t, 3> points = triangle.corners;
+    for (std::uint32_t& point : points) {
+        if (triangle.isOfSurface())
+            point = drawn.rest[point].point;
+        else if (!isSheet)
+            point = skin.particles.empty() ? SURFACE_SKIN | point
+                                           : SURFACE_PARTICLE | skin.particles[point - firstVertex];
     }
+    return points;
+}
+
+struct ShadedPiece {
+    struct Shaded {
+        mesh::ShadedPart part;
+        Numbers numbers;
+    };
+    Shaded skin, beside, inside;
+
+    void add(const Drawn& drawn, const DrawnTriangle& triangle) {
+        Shaded& to = triangle.part == Part::inside ? inside : triangle.isOfSurface() ? beside : skin;
+        std::array<std::uint32_t, 3> own{};
+        for (std::size_t n = 0; n < 3; ++n) {
+            bool isNew = false;
+            own[n] = to.numbers.of(triangle.corners[n], isNew);
+            if (!isNew) continue;
+            const sim::layout::SkinVertex& vertex = vertexOf(drawn, triangle, n);
+            to.part.positions.push_back(xyz(vertex.position));
+            to.part.normals.push_back(xyz(vertex.normal));
+        }
+        to.part.triangles.push_back(own);
+    }
+};
+
+std::string nameOf(const std::string& name, std::size_t piece, std::size_t pieces) {
+    return pieces == 1 ? name : name + " " + std::to_string(piece + 1);
 }
 
 } // namespace
 
-std::optional<mesh::TriangleMesh> cutSheet(const sim::Scene& scene, std::size_t index,
-                                           const CutDownload& download) {
-    if (download.pieceDraws.empty() || download.pieceDraws[index].indexCount == 0) return std::nullopt;
-    Joined joined(scene.skins[index].name);
-    const auto add = [&](std::size_t first, std::size_t triangles) {
-        for (std::size_t t = 0; t < triangles; ++t) {
-            const std::uint32_t* corners = &download.skinIndices[first + 3 * t];
-            if (corners[0] == corners[1]) continue; // drawn in pieces
-            std::array<std::uint32_t, 3> triangle{};
-            for (std::size_t n = 0; n < 3; ++n)
-                triangle[n] = joined.vertex(corners[n], download.skinVertices[corners[n]].position);
-            joined.triangle(triangle);
-        }
-    };
-    std::size_t first = 0;
-    for (std::size_t s = 0; s < index; ++s) first += 3 * scene.skins[s].triangles.size();
-    add(first, scene.skins[index].triangles.size());
-    add(download.pieceDraws[index].firstIndex, download.pieceDraws[index].indexCount / 3);
-    return joined.finish();
+std::optional<std::vector<mesh::TriangleMesh>> cutMeshes(const sim::Scene& scene, std::size_t index,
+                                                         const Drawn& drawn) {
+    if (!isCut(index, drawn)) return std::nullopt;
+    const sim::Skin& skin = scene.skins[index];
+    const bool isSheet = index < drawn.pieceDraws.size() && drawn.pieceDraws[index].indexCount > 0;
+    std::uint32_t firstVertex = 0;
+    for (std::size_t s = 0; s < index; ++s)
+        firstVertex += static_cast<std::uint32_t>(scene.skins[s].vertexCount());
+    std::map<std::uint32_t, Piece> pieces;
+    eachTriangle(scene, index, drawn, [&](const DrawnTriangle& triangle) {
+        pieces[triangle.piece].add(drawn, triangle, pointsOf(skin, firstVertex, isSheet, drawn, triangle));
+    });
+    std::vector<mesh::TriangleMesh> meshes;
+    for (auto& [name, piece] : pieces) {
+        piece.mesh.name = nameOf(skin.name, meshes.size(), pieces.size());
+        mesh::splitCrowdedEdges(piece.mesh);
+        meshes.push_back(std::move(piece.mesh));
+    }
+    return meshes;
 }
 
-std::optional<mesh::TriangleMesh> cutMesh(const sim::Scene& scene, std::size_t index,
-                                          const CutDownload& download) {
-    const auto mine = static_cast<float>(index);
-    Joined joined(scene.skins[index].name);
-    bool isCut = false;
-    for (const sim::layout::DrawArguments& draw : download.draws)
-        for (std::uint32_t t = 0; t < draw.indexCount / 3; ++t) {
-            const std::uint32_t* corners = &download.indices[draw.firstIndex + 3 * std::size_t{t}];
-            if (download.rest[corners[0]].rest.w != mine) continue;
-            isCut = true;
-            std::array<std::uint32_t, 3> triangle{};
-            for (std::size_t n = 0; n < 3; ++n)
-                triangle[n] =
-                    joined.vertex(download.rest[corners[n]].point, download.vertices[corners[n]].position);
-            joined.triangle(triangle);
-        }
-    if (!isCut) return std::nullopt;
-    addSkin(scene, index, download, joined);
-    return joined.finish();
+std::vector<mesh::ShadedMesh> shadedPieces(const sim::Scene& scene, std::size_t index, const Drawn& drawn) {
+    const sim::Skin& skin = scene.skins[index];
+    const bool isWhole = !isCut(index, drawn);
+    std::map<std::uint32_t, ShadedPiece> pieces;
+    eachTriangle(scene, index, drawn, [&](const DrawnTriangle& triangle) {
+        pieces[isWhole ? 0 : triangle.piece].add(drawn, triangle);
+    });
+    std::vector<mesh::ShadedMesh> meshes;
+    for (auto& [name, piece] : pieces) {
+        piece.inside.part.isInside = true;
+        meshes.push_back({.name = nameOf(skin.name, meshes.size(), pieces.size()),
+                          .color = skin.color,
+                          .parts = {std::move(piece.skin.part), std::move(piece.beside.part),
+                                    std::move(piece.inside.part)}});
+    }
+    return meshes;
+}
+
+mesh::TriangleMesh joined(std::span<const mesh::TriangleMesh> pieces, const std::string& name) {
+    mesh::TriangleMesh all{.name = name, .positions = {}, .triangles = {}};
+    for (const mesh::TriangleMesh& piece : pieces) {
+        const auto first = static_cast<std::uint32_t>(all.positions.size());
+        all.positions.insert(all.positions.end(), piece.positions.begin(), piece.positions.end());
+        for (const auto& [a, b, c] : piece.triangles)
+            all.triangles.push_back({first + a, first + b, first + c});
+    }
+    return all;
 }
 
 } // namespace sinew::tools

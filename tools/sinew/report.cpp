@@ -195,7 +195,7 @@ std::string toJson(const RunRecord& record) {
     json["interrupted"] = record.isInterrupted;
     json["frame_ms"] = frameJson(summarise(record.frameMs));
     json["phase_ms"] = phaseJson(record);
-    json["error"] = toJson(measure(scene, record.state, record.skins, record.frames));
+    json["error"] = toJson(measure(scene, record.state, record.skins.whole, record.frames));
     json["stiffness"] = stiffnessJson(record.loaded);
     json["finite"] = !record.divergence || record.divergence->isCrowded;
     json["divergence"] = divergenceJson(record.divergence, double{scene.dt});
@@ -233,7 +233,7 @@ std::string toText(const RunRecord& record) {
         text += fmt::format("{} steps: {:.2f} ms each (median), {:.2f} ms at most in 99 %\n", record.frames,
                             frame->p50, frame->p99);
     text += stiffnessText(record.loaded);
-    const Errors errors = measure(record.loaded.scene, record.state, record.skins, record.frames);
+    const Errors errors = measure(record.loaded.scene, record.state, record.skins.whole, record.frames);
     if (errors.strainRms)
         text += fmt::format("strain: {:.3g} % rms, {:.3g} % at most\n", 100 * *errors.strainRms,
                             100 * *errors.strainMax);

@@ -30,7 +30,7 @@ struct RunRecord {
     std::uint32_t linksCut = 0, pieces = 0; ///< of bodies that may be cut
     bool isInterrupted = false;
     State state;
-    std::vector<mesh::TriangleMesh> skins;
+    SkinMeshes skins;
     bool hasValidation = false;
     std::vector<std::string> validationMessages;
 };

@@ -38,11 +38,12 @@ std::vector<mesh::ParticleState> particleStates(const State& state) {
 
 void writeFolder(const std::filesystem::path& folder, const RunRecord& record, const std::string& report) {
     std::set<std::string> used;
-    for (std::size_t i = 0; i < record.skins.size(); ++i) {
-        std::string name = fileName(record.skins[i].name);
+    for (std::size_t i = 0; i < record.skins.whole.size(); ++i) {
+        std::string name = fileName(record.skins.whole[i].name);
         if (!used.insert(name).second) used.insert(name += "-" + std::to_string(i));
-        mesh::exportObj(folder / (name + ".obj"), record.skins[i]);
-        mesh::exportPly(folder / (name + ".ply"), record.skins[i]);
+        mesh::exportObj(folder / (name + ".obj"), record.skins.pieces[i]);
+        mesh::exportPly(folder / (name + ".ply"), record.skins.pieces[i]);
+        mesh::exportGlb(folder / (name + ".glb"), record.skins.shaded[i]);
     }
     mesh::exportParticles(folder / "state.ply", particleStates(record.state));
     mesh::writeWhole(folder / "report.json", [&](std::ostream& stream) { stream << report; });
@@ -148,8 +149,9 @@ void addRun(CLI::App& app, Chosen& chosen) {
     command.add_option("--frames", options->frames, "steps to simulate")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
         ->capture_default_str();
-    command.add_option("--out", options->folder,
-                       "folder for report.json, state.ply, and an OBJ and a PLY of every skin at the end");
+    command.add_option(
+        "--out", options->folder,
+        "folder for report.json, state.ply, and an OBJ, a PLY and a GLB of every skin at the end");
     command.add_option("--json", options->json, "file for the report, or - for the standard output");
     command.add_option("--trace", options->trace,
                        "file for energy, overlap and sleep over time as CSV, or - for the standard output");

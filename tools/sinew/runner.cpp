@@ -3,7 +3,6 @@
 #include "sinew/runner.hpp"
 
 #include "app/guard.hpp"
-#include "layout.h"
 #include "sim/compile.hpp"
 #include "sinew/cut_mesh.hpp"
 #include "sinew/skin_mesh.hpp"
@@ -29,33 +28,11 @@ std::string bodyOf(const sim::Scene& scene, std::uint32_t particle) {
     return {};
 }
 
-// What there is to draw, after recordSkin().
-CutDownload downloadDrawn(vk::Queue& queue, const sim::Simulation& simulation) {
-    CutDownload drawn{.skinVertices = queue.download<sim::layout::SkinVertex>(simulation.skinVertices()),
-                      .vertices = {},
-                      .skinIndices = {},
-                      .indices = {},
-                      .rest = {},
-                      .draws = {},
-                      .pieceDraws = {}};
-    const sim::CutSurface cut = simulation.cutSurface();
-    const vk::BufferView pieces = simulation.pieceDraws();
-    if (cut.vertices.size + pieces.size == 0) return drawn;
-    drawn.skinIndices = queue.download<std::uint32_t>(simulation.skinIndices());
-    if (pieces.size > 0) drawn.pieceDraws = queue.download<sim::layout::DrawArguments>(pieces);
-    if (cut.vertices.size == 0) return drawn;
-    drawn.vertices = queue.download<sim::layout::SkinVertex>(cut.vertices);
-    drawn.indices = queue.download<std::uint32_t>(cut.indices);
-    drawn.rest = queue.download<sim::layout::CutVertex>(cut.rest);
-    drawn.draws = queue.download<sim::layout::DrawArguments>(cut.draws);
-    return drawn;
-}
-
 } // namespace
 
 Runner::Runner(Session& session, const sim::Scene& scene, const sim::Settings& settings,
                scenes::ScriptedBlades blades)
-    : session_(session), scene_(scene), sleeps_(settings.sleeps), blades_(std::move(blades)),
+    : session_(session), scene_(scene), settings_(settings), blades_(std::move(blades)),
       growing_(session.device, scene, settings) {
     const auto phases = static_cast<std::uint32_t>(simulation().phases().size());
     for (std::uint32_t i = 0; i < sim::Simulation::framesInFlight; ++i)
@@ -174,7 +151,7 @@ State Runner::readState() {
     State state{session_.queue.download<std::array<float, 4>>(simulation().positions()),
                 session_.queue.download<std::array<float, 4>>(simulation().velocities()),
                 {}};
-    if (!sleeps_) return state;
+    if (!settings_.sleeps) return state;
     const std::vector<float> inverseMass = sim::inverseMasses(scene_); // the device has 0 for what sleeps
     for (std::size_t i = 0; i < inverseMass.size(); ++i) {
         state.isAsleep.push_back(inverseMass[i] > 0 && state.positions[i][3] == 0);
@@ -183,23 +160,25 @@ State Runner::readState() {
     return state;
 }
 
-std::vector<mesh::TriangleMesh> Runner::readSkins() {
-    if (scene_.skins.empty()) return {};
+SkinMeshes Runner::readSkins() {
+    SkinMeshes meshes;
+    if (scene_.skins.empty()) return meshes;
     const VkCommandBuffer commands = session_.queue.begin();
     growing_.simulation().recordSkin(commands);
     session_.queue.wait(session_.queue.submit(commands));
-    const CutDownload cut = downloadDrawn(session_.queue, simulation());
-    const auto& vertices = cut.skinVertices;
-    std::vector<mesh::TriangleMesh> meshes;
+    const Drawn drawn = downloadDrawn(session_.queue, simulation(), scene_, settings_);
     std::size_t first = 0;
     for (std::size_t s = 0; s < scene_.skins.size(); ++s) {
         const sim::Skin& skin = scene_.skins[s];
         std::vector<sim::Vec3> positions;
-        for (std::size_t v = first; v < first + skin.vertexCount(); ++v)
-            positions.push_back({vertices[v].position.x, vertices[v].position.y, vertices[v].position.z});
-        auto closed = cutMesh(scene_, s, cut);
-        if (!closed) closed = cutSheet(scene_, s, cut);
-        meshes.push_back(closed ? std::move(*closed) : skinMesh(skin, positions));
+        for (std::size_t v = first; v < first + skin.vertexCount(); ++v) {
+            const auto& x = drawn.skinVertices[v].position;
+            positions.push_back({x.x, x.y, x.z});
+        }
+        auto cut = cutMeshes(scene_, s, drawn);
+        meshes.pieces.push_back(cut ? std::move(*cut) : std::vector{skinMesh(skin, positions)});
+        meshes.whole.push_back(joined(meshes.pieces.back(), skin.name));
+        meshes.shaded.push_back(shadedPieces(scene_, s, drawn));
         first += skin.vertexCount();
     }
     return meshes;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/growing_simulation.hpp"
+#include "mesh/export_gltf.hpp"
 #include "scenes/blades.hpp"
 #include "sinew/measure.hpp"
 #include "sinew/session.hpp"
@@ -16,6 +17,13 @@ struct Divergence {
     std::uint32_t particle = 0, count = 0;
     std::string body;       ///< empty where the particle belongs to none
     bool isCrowded = false; ///< all is finite: nothing else is meant but `step`
+};
+
+/// What is drawn of each skin of the scene.
+struct SkinMeshes {
+    std::vector<mesh::TriangleMesh> whole;
+    std::vector<std::vector<mesh::TriangleMesh>> pieces; ///< the same; one each where nothing is cut
+    std::vector<std::vector<mesh::ShadedMesh>> shaded;   ///< likewise, with normals
 };
 
 class Runner {
@@ -55,7 +63,7 @@ public:
 
     /// The newest finite state and the skins drawn from it, read back from the device.
     State readState();
-    std::vector<mesh::TriangleMesh> readSkins();
+    SkinMeshes readSkins();
 
 private:
     void submitReset();
@@ -65,7 +73,7 @@ private:
 
     Session& session_;
     const sim::Scene& scene_;
-    bool sleeps_ = false;
+    sim::Settings settings_;
     scenes::ScriptedBlades blades_;
     app::GrowingSimulation growing_;
     std::vector<vk::Timestamps> timestamps_;                                 // one a step in flight

@@ -1,0 +1,137 @@
+// A vertex of the surface of a cut goes with the first corner that it hangs on; one of a skin with its
+// particle or anchor. All three vertices of a triangle go with the same piece.
+#include "sinew/drawn.hpp"
+
+#include "sim/compile.hpp"
+
+#include <algorithm>
+
+namespace sinew::tools {
+
+namespace {
+
+using Corners = std::array<std::uint32_t, 3>;
+using Part = DrawnTriangle::Part;
+
+void downloadPieces(vk::Queue& queue, const sim::Simulation& simulation, const sim::Scene& scene,
+                    const sim::Settings& settings, Drawn& drawn) {
+    const vk::BufferView pieces = simulation.pieces();
+    if (pieces.size == 0) return;
+    const sim::StateLayout layout = sim::stateLayout(scene, settings);
+    drawn.pieces = queue.download<std::uint32_t>(pieces);
+    drawn.slotPieces.assign(layout.count, NO_PARTICLE);
+    for (std::size_t i = 0; i < layout.slot.size(); ++i) drawn.slotPieces[layout.slot[i]] = drawn.pieces[i];
+}
+
+void downloadSheets(vk::Queue& queue, const sim::Simulation& simulation, Drawn& drawn) {
+    drawn.pieceDraws = queue.download<sim::layout::DrawArguments>(simulation.pieceDraws());
+    drawn.sheetSlots.assign(drawn.skinVertices.size(), NO_PARTICLE);
+    for (const sim::PieceVertices& pieces : simulation.program().pieceSkins) {
+        const auto vertices = queue.download<sim::layout::SheetVertex>(simulation.view(pieces.vertices));
+        std::ranges::transform(vertices, drawn.sheetSlots.begin() + pieces.first,
+                               &sim::layout::SheetVertex::a);
+    }
+}
+
+class Walk {
+public:
+    Walk(const sim::Scene& scene, std::size_t index, const Drawn& drawn,
+         const std::function<void(const DrawnTriangle&)>& use)
+        : skin_(scene.skins[index]), drawn_(drawn), use_(use) {
+        for (std::size_t s = 0; s < index; ++s) {
+            firstVertex_ += static_cast<std::uint32_t>(scene.skins[s].vertexCount());
+            firstIndex_ += 3 * scene.skins[s].triangles.size();
+        }
+        walkSurface(static_cast<float>(index));
+        walkSkin();
+        if (index < drawn.pieceDraws.size()) walkSheet(drawn.pieceDraws[index]);
+    }
+
+private:
+    void walkSurface(float mine) {
+        for (std::size_t d = 0; d < drawn_.draws.size(); ++d)
+            for (std::uint32_t t = 0; t < drawn_.draws[d].indexCount / 3; ++t) {
+                const Corners corners =
+                    cornersAt(drawn_.indices, drawn_.draws[d].firstIndex + 3 * std::size_t{t});
+                const sim::layout::CutVertex& first = drawn_.rest[corners[0]];
+                if (first.rest.w != mine) continue;
+                const bool isOfSkin = (first.point & (SURFACE_SKIN | SURFACE_PARTICLE)) == SURFACE_SKIN;
+                use_({d == 0 ? Part::inside : Part::beside,
+                      isOfSkin ? pieceOf(first.point & ~SURFACE_SKIN) : drawn_.slotPieces[first.corners[0]],
+                      corners});
+            }
+    }
+
+    void walkSkin() {
+        for (std::size_t t = 0; t < skin_.triangles.size(); ++t) {
+            Corners corners = skin_.triangles[t];
+            if (drawn_.skinIndices.empty()) // they never change
+                for (std::uint32_t& corner : corners) corner += firstVertex_;
+            else
+                corners = cornersAt(drawn_.skinIndices, firstIndex_ + 3 * t);
+            if (corners[0] != corners[1]) use_({Part::skin, pieceOf(corners[0]), corners});
+        }
+    }
+
+    void walkSheet(const sim::layout::DrawArguments& draw) {
+        for (std::uint32_t t = 0; t < draw.indexCount / 3; ++t) {
+            const Corners corners = cornersAt(drawn_.skinIndices, draw.firstIndex + 3 * std::size_t{t});
+            if (corners[0] == corners[1]) continue;
+            use_({Part::ofSheet, drawn_.slotPieces[drawn_.sheetSlots[corners[0]]], corners});
+        }
+    }
+
+    static Corners cornersAt(const std::vector<std::uint32_t>& indices, std::size_t first) {
+        return {indices[first], indices[first + 1], indices[first + 2]};
+    }
+
+    /// Of a vertex of the buffer of all skins.
+    std::uint32_t pieceOf(std::uint32_t vertex) const {
+        if (drawn_.pieces.empty()) return NO_PARTICLE;
+        const std::uint32_t own = vertex - firstVertex_;
+        if (!skin_.particles.empty()) return drawn_.pieces[skin_.particles[own]];
+        return drawn_.pieces[skin_.anchors.empty() ? skin_.cells[own].particles[0] : skin_.anchors[own]];
+    }
+
+    const sim::Skin& skin_;
+    const Drawn& drawn_;
+    const std::function<void(const DrawnTriangle&)>& use_;
+    std::uint32_t firstVertex_ = 0;
+    std::size_t firstIndex_ = 0;
+};
+
+} // namespace
+
+Drawn downloadDrawn(vk::Queue& queue, const sim::Simulation& simulation, const sim::Scene& scene,
+                    const sim::Settings& settings) {
+    Drawn drawn;
+    drawn.skinVertices = queue.download<sim::layout::SkinVertex>(simulation.skinVertices());
+    downloadPieces(queue, simulation, scene, settings, drawn);
+    const sim::CutSurface cut = simulation.cutSurface();
+    if (cut.vertices.size + simulation.pieceDraws().size == 0) return drawn;
+    drawn.skinIndices = queue.download<std::uint32_t>(simulation.skinIndices());
+    if (simulation.pieceDraws().size > 0) downloadSheets(queue, simulation, drawn);
+    if (cut.vertices.size == 0) return drawn;
+    drawn.vertices = queue.download<sim::layout::SkinVertex>(cut.vertices);
+    drawn.indices = queue.download<std::uint32_t>(cut.indices);
+    drawn.rest = queue.download<sim::layout::CutVertex>(cut.rest);
+    drawn.draws = queue.download<sim::layout::DrawArguments>(cut.draws);
+    return drawn;
+}
+
+void eachTriangle(const sim::Scene& scene, std::size_t index, const Drawn& drawn,
+                  const std::function<void(const DrawnTriangle&)>& use) {
+    Walk(scene, index, drawn, use);
+}
+
+bool isCut(std::size_t index, const Drawn& drawn) {
+    if (index < drawn.pieceDraws.size() && drawn.pieceDraws[index].indexCount > 0) return true;
+    const auto mine = static_cast<float>(index);
+    return std::ranges::any_of(drawn.draws, [&](const sim::layout::DrawArguments& draw) {
+        for (std::uint32_t t = 0; t < draw.indexCount / 3; ++t)
+            if (drawn.rest[drawn.indices[draw.firstIndex + 3 * std::size_t{t}]].rest.w == mine) return true;
+        return false;
+    });
+}
+
+} // namespace sinew::tools
