@@ -16,6 +16,7 @@
 #include <cinttypes>
 #include <cstdio>
 #include <deque>
+#include <utility>
 
 namespace sinew::viewer {
 
@@ -106,6 +107,7 @@ public:
     /// Waits for every frame and checks it. Throws app::Failure (diverged).
     void settle() {
         while (!submissions_.empty()) settleOldest();
+        if (stage_.makeSurfaceRoom(std::exchange(surfaceMissing_, 0), queue_)) inspection_.reset();
     }
 
     PictureText text(std::uint64_t frame) const { return pictureText(opening_, device_, frame); }
@@ -158,6 +160,7 @@ private:
         if (stage_.neededRoom(oldest.frame) > 0) return redoFrom(oldest.frame);
         if (const std::optional<Divergence> divergence = stage_.check(oldest.frame))
             throw app::Failure(app::diverged, divergence->sentence());
+        surfaceMissing_ = stage_.simulation().status(oldest.frame).cutSurfaceMissing;
     }
 
     const Opening& opening_;
@@ -168,6 +171,7 @@ private:
     std::optional<Inspection> inspection_;
     vk::Queue queue_; // last: waits for what still uses the others
     std::deque<Submission> submissions_;
+    std::uint32_t surfaceMissing_ = 0; // Status::cutSurfaceMissing of the newest settled step
 };
 
 } // namespace

@@ -255,6 +255,7 @@ bool Show::prepareSwapchain() {
 void Show::draw(Plan plan, View& view) {
     screen_.presenter().waitForSlot();
     settle(screen_.presenter().nextSlot());
+    if (surfaceMissing_ > 0) makeSurfaceRoom();
     if (isDiverged_ && !plan.isReset) plan.steps = 0; // keeps the last finite picture
     const std::optional<Presenter::Frame> frame = screen_.presenter().begin();
     if (!frame) {
@@ -427,7 +428,7 @@ void Show::settle(std::uint32_t slot) {
         status_.setCounts(status.sleeping, status.pieces);
         gauges_.stepFinished(status);
         isCut_ = status.linksCutInAll > 0;
-        if (status.cutSurfaceMissing > 0) warnOfSurface();
+        surfaceMissing_ = status.cutSurfaceMissing;
     }
     if (flight.isRecorded && !isUndone) settleCamera(slot, flight);
     if (flight.screenshot) {
@@ -461,11 +462,25 @@ void Show::settleMap(std::uint32_t slot, const InFlight& flight) {
     if (mapRange_.range() != before) shown_ = Shown::nothing;
 }
 
+// All steps have been taken: only the picture lacked something.
+void Show::makeSurfaceRoom() {
+    if (isSurfaceMissing_) return; // there is no such room
+    settleAll();
+    const std::uint32_t needed = std::exchange(surfaceMissing_, 0);
+    if (needed == 0) return; // somebody has gone back to before
+    vk::Queue queue(device_);
+    if (!stage_.makeSurfaceRoom(needed, queue)) return warnOfSurface();
+    probe_.emplace(device_, stage_.simulation());
+    inspection_.reset(); // as layers want it, of the other simulation
+    tools_.restart({});
+    shown_ = Shown::nothing;
+}
+
 // Once: nothing but the picture suffers.
 void Show::warnOfSurface() {
     if (std::exchange(isSurfaceMissing_, true)) return;
     screen_.warn(
-        "the cuts have more surface than there is room for: what is beyond is not drawn, or drawn uncut");
+        "the cuts have more surface than there is memory for: what is beyond is not drawn, or drawn uncut");
 }
 
 void Show::stop(const std::string& why) {

@@ -82,6 +82,7 @@ private:
     Facts facts(bool isFullQuality) const;
     void recordSteps(const Presenter::Frame& frame, const Plan& plan);
     void forgetFlights();
+    void makeSurfaceRoom();
     void warnOfSurface();
     bool isStrainDue(std::uint32_t steps);
     void recordProbe(const Presenter::Frame& frame);
@@ -122,7 +123,8 @@ private:
     StatusLine status_;
     Clock::time_point lastTurn_ = Clock::now(), lastChange_ = lastTurn_, lastStrain_ = lastTurn_;
     Shown shown_ = Shown::nothing;
-    std::uint32_t panelsDue_ = 0; // pictures until the panels look as they should
+    std::uint32_t surfaceMissing_ = 0; // Status::cutSurfaceMissing of the newest settled step
+    std::uint32_t panelsDue_ = 0;      // pictures until the panels look as they should
     bool isHidden_ = false, isDiverged_ = false, isSurfaceMissing_ = false, isCut_ = false,
          wantsScreenshot_ = false, wantsProbe_ = false;
 };

@@ -69,4 +69,8 @@ bool Stage::makeRoom(std::uint64_t step, vk::Queue& queue) {
     return true;
 }
 
+bool Stage::makeSurfaceRoom(std::uint32_t needed, vk::Queue& queue) {
+    return growing_.lacksSurface(needed) && growing_.growSurface(needed, queue);
+}
+
 } // namespace sinew::viewer

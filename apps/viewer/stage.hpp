@@ -55,6 +55,11 @@ public:
     /// was submitted. False where there can be no such room. Throws vk::Error.
     bool makeRoom(std::uint64_t step, vk::Queue& queue);
 
+    /// After steps of which Status::cutSurfaceMissing was `needed` at most, all of them finished: goes on
+    /// after the newest with room for it, in another simulation(). False where there is none to be had, or
+    /// nothing to do. Waits for `queue`.
+    bool makeSurfaceRoom(std::uint32_t needed, vk::Queue& queue);
+
     const sim::Scene& scene() const noexcept { return scene_; }
     const sim::Settings& settings() const noexcept { return settings_; }
     const sim::Simulation& simulation() const noexcept { return growing_.simulation(); }

@@ -102,7 +102,7 @@ void Tools::recordStep(VkCommandBuffer commands, Stage& stage, vk::Timestamps* t
 
 void Tools::restart(std::span<const Sweep> undone) {
     if (history_.undos() + history_.redos() > 0)
-        say("note: more room for contacts was made: earlier cuts can no longer be undone");
+        say("note: more room was made: earlier cuts can no longer be undone");
     history_.clear(); // its states are of a simulation that is no more
     blade_.putBack(undone);
 }

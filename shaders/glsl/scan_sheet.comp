@@ -5,7 +5,7 @@
 #include "kernel.glsl"
 
 layout(std430, binding = 0) buffer Counts { SheetCounts counts[]; };
-layout(std430, binding = 1) writeonly buffer State { SheetState state; };
+layout(std430, binding = 1) buffer State { SheetState state; };
 layout(std430, binding = 2) writeonly buffer Draws { DrawArguments draws[]; };          // by skin
 layout(std430, binding = 3) writeonly buffer Arguments { DispatchArguments arguments[]; }; // by skin: triangles, vertices
 layout(std430, binding = 4) buffer CutCountsOfAll { CutCounts cut; };
@@ -36,9 +36,10 @@ void main() {
     const bool fits = total.x <= push.room && total.y <= push.vertexRoom;
     const uint missing = fits ? 0u : max(total.x, total.y);
     if (!fits) total = uvec2(0u);
+    const bool isWritten = cut.linksOfStep > 0u || state.missing > 0u; // there may be room by now for what there was none
     state = SheetState(total.x, total.y, missing);
     cut.missing = max(push.isFirst != 0u ? 0u : cut.missing, missing);
     draws[push.skin] = DrawArguments(3u * total.x, 1u, push.firstPiece, 0, 0u);
-    arguments[2u * push.skin] = DispatchArguments(cut.linksOfStep > 0u ? groupsOf(push.triangles) : 0u, 1u, 1u, 0u);
+    arguments[2u * push.skin] = DispatchArguments(isWritten ? groupsOf(push.triangles) : 0u, 1u, 1u, 0u);
     arguments[2u * push.skin + 1u] = DispatchArguments(groupsOf(total.y), 1u, 1u, 0u);
 }

@@ -7,7 +7,7 @@
 layout(std430, binding = 0) buffer Sums { uvec4 sums[]; }; // points, triangles inside, outside, slots; becomes where those begin
 layout(std430, binding = 1) writeonly buffer Arguments { DispatchArguments arguments[]; };
 layout(std430, binding = 2) writeonly buffer Draws { DrawArguments draws[]; };
-layout(std430, binding = 3) writeonly buffer State { SurfaceState state; };
+layout(std430, binding = 3) buffer State { SurfaceState state; };
 layout(std430, binding = 4) readonly buffer Groups { uint groups[]; }; // of every run of slots
 layout(std430, binding = 5) buffer Counts { CutCounts counts; };
 layout(std430, binding = 6) writeonly buffer Listed { uint listed[]; };
@@ -38,13 +38,14 @@ void main() {
     const uint needed = max(total.y + total.z, total.x + 3u * total.z);
     const uint fits = needed <= push.room ? 1u : 0u;
     total *= fits;
+    const bool isWritten = counts.linksOfStep > 0u || state.missing > 0u; // there may be room by now for what there was none
     state = SurfaceState(total.x, total.y, total.z, fits == 0u ? needed : 0u);
     counts.missing = fits == 0u ? needed : 0u;
     draws[0] = DrawArguments(3u * total.y, 1u, 0u, 0, 0u);
     draws[1] = DrawArguments(3u * total.z, 1u, 3u * total.y, 0, 0u);
     for (uint r = 0u; r < push.runs; ++r) arguments[r] = DispatchArguments(min(total.x, 1u) * groups[r], 1u, 1u, 0u);
     listed[0] = total.w;
-    arguments[push.runs + 1u] = DispatchArguments(counts.linksOfStep > 0u ? groupsOf(total.w) : 0u, 1u, 1u, 0u);
+    arguments[push.runs + 1u] = DispatchArguments(isWritten ? groupsOf(total.w) : 0u, 1u, 1u, 0u);
     arguments[push.runs + 2u] = DispatchArguments(min(total.x, 1u) * groupsOf(push.hung), 1u, 1u, 0u);
     arguments[push.runs] = DispatchArguments(groupsOf(total.x + 3u * total.z), 1u, 1u, 0u);
 }

@@ -2,6 +2,7 @@
 #include "app/growing_simulation.hpp"
 
 #include "sim/ranges.hpp"
+#include "vk/check.hpp"
 
 #include <algorithm>
 
@@ -26,18 +27,42 @@ GrowingSimulation::GrowingSimulation(const vk::Device& device, const sim::Scene&
 bool GrowingSimulation::grow(std::uint32_t needed, vk::Queue& queue) {
     room_.needed = std::max(room_.needed, needed);
     if (needed > sim::ranges::mostContactRoom) return false;
-    queue.waitIdle();
     sim::Settings settings = settings_;
     settings.contactRoom = roomFor(needed);
+    replace(settings, queue);
+    room_.room = settings.contactRoom;
+    ++room_.grown;
+    return true;
+}
+
+bool GrowingSimulation::lacksSurface(std::uint32_t needed) const noexcept {
+    return needed > 0 && !surface_.isShort;
+}
+
+bool GrowingSimulation::growSurface(std::uint32_t needed, vk::Queue& queue) {
+    surface_.needed = std::max(surface_.needed, needed);
+    sim::Settings settings = settings_;
+    settings.cutSurfaceRoom = std::min(needed + needed / 2, sim::ranges::mostCutSurfaceRoom);
+    surface_.isShort = settings.cutSurfaceRoom < needed;
+    if (surface_.isShort) return false;
+    try {
+        replace(settings, queue);
+    } catch (const vk::Error&) { // of memory, or a longer buffer than the device has
+        surface_.isShort = true;
+        return false;
+    }
+    ++surface_.grown;
+    return true;
+}
+
+void GrowingSimulation::replace(const sim::Settings& settings, vk::Queue& queue) {
+    queue.waitIdle();
     auto roomier = std::make_unique<sim::Simulation>(device_, scene_, settings);
     const VkCommandBuffer commands = queue.begin();
     roomier->recordTakeOver(commands, *simulation_);
     queue.wait(queue.submit(commands));
     simulation_ = std::move(roomier);
     settings_ = settings;
-    room_.room = settings.contactRoom;
-    ++room_.grown;
-    return true;
 }
 
 std::string tooCrowded(std::uint64_t step) {

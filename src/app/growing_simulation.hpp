@@ -1,5 +1,6 @@
-// A simulation that gets more room where a step finds too little for its contacts: what a program does about
-// Status::contactRoom. The step was undone by then; whoever steps does it again.
+// A simulation that gets more room where a step finds too little for its contacts or for the surface of its
+// cuts: what a program does about Status::contactRoom, of which the step was undone by then and is to be done
+// again, and about Status::cutSurfaceMissing.
 #pragma once
 
 #include "sim/simulation.hpp"
@@ -14,6 +15,13 @@ struct ContactRoom {
     std::uint32_t room = 0;   ///< particles that may be listed with one
     std::uint32_t needed = 0; ///< by a step that had less; 0 = none has
     std::uint32_t grown = 0;  ///< times
+};
+
+/// What became of Settings::cutSurfaceRoom.
+struct SurfaceRoom {
+    std::uint32_t needed = 0; ///< triangles and vertices; 0 = there was always enough
+    std::uint32_t grown = 0;  ///< times
+    bool isShort = false;     ///< there can be no such room: the surface of cuts is not drawn
 };
 
 class GrowingSimulation {
@@ -32,12 +40,23 @@ public:
     /// no memory for it.
     bool grow(std::uint32_t needed, vk::Queue& queue);
 
+    /// After steps of which Status::cutSurfaceMissing was `needed` at most, all of them finished: whether
+    /// there is to be more room, and was not less than that before.
+    bool lacksSurface(std::uint32_t needed) const noexcept;
+    /// Goes on after the newest step in a simulation with that much room and half as much again. False, and
+    /// nothing has changed, where the device has no memory for it. Waits for `queue`.
+    bool growSurface(std::uint32_t needed, vk::Queue& queue);
+    const SurfaceRoom& surfaceRoom() const noexcept { return surface_; }
+
 private:
+    void replace(const sim::Settings& settings, vk::Queue& queue);
+
     const vk::Device& device_;
     const sim::Scene& scene_;
     sim::Settings settings_;
     std::unique_ptr<sim::Simulation> simulation_;
     ContactRoom room_;
+    SurfaceRoom surface_;
 };
 
 /// Why a simulation that cannot grow() stops at `step`, and what to do about it.

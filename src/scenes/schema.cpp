@@ -66,6 +66,7 @@ constexpr Key keys[] = {
     {"", "plane", Kind::tables, "", {}, "", "half spaces that particles stay in"},
     {"", "collider", Kind::tables, "", {}, "", "spheres, capsules and boxes that particles stay out of, still or moving"},
     {"", "contacts", Kind::table, "", {}, "", "how particles touch each other"},
+    {"", "cut_surface_room", Kind::count, "triangles", ranges::cutSurfaceRoom, "0", "that the surface of cuts has room for at first, where that is more than some cuts through the whole of each body need; programs make more where it is too little"},
     {"", "blade", Kind::tables, "", {}, "", "blades that cut at given times"},
     {"", "strokes", Kind::tables, "", {}, "", "many blades at random places"},
     {"", "camera", Kind::table, "", {}, "", "where a picture is taken from"},

@@ -134,6 +134,7 @@ std::vector<GpuExecutor::Recorded> GpuExecutor::resolve(const std::vector<Pass>&
     for (const Pass& pass : passes) {
         Recorded recorded{.kind = pass.kind,
                           .isOfCut = pass.isOfCut,
+                          .isOfSurface = pass.isOfSurface,
                           .barrierBefore = pass.barrierBefore,
                           .barrierWithoutCut = pass.barrierWithoutCut,
                           .isIndirect = pass.isIndirect,
@@ -176,6 +177,14 @@ void GpuExecutor::step(vk::Commands& commands, const HostBytes& host, vk::Timest
 
 void GpuExecutor::skin(vk::Commands& commands) noexcept {
     record(commands, skin_, {}, nullptr, true);
+}
+
+void GpuExecutor::surface(vk::Commands& commands) noexcept {
+    for (const Recorded& pass : step_) {
+        if (!pass.isOfSurface) continue;
+        commands.barrier(); // it is rare, and no plan is for these alone
+        recordPass(commands, pass, {});
+    }
 }
 
 void GpuExecutor::record(vk::Commands& commands, const std::vector<Recorded>& passes, const HostBytes& host,

@@ -23,6 +23,8 @@ public:
     void step(vk::Commands& commands, const HostBytes& host, vk::Timestamps* timestamps,
               bool hasBlade = true) noexcept;
     void skin(vk::Commands& commands) noexcept;
+    /// Those of a step that write the surface of cuts, by themselves.
+    void surface(vk::Commands& commands) noexcept;
 
     vk::BufferView view(BufferId buffer) const noexcept; ///< empty for an invalid id
     /// Phases of the step list that hold a pass, in order: the spans of `timestamps`.
@@ -32,7 +34,7 @@ private:
     // A pass with everything looked up, so that recording is a plain walk.
     struct Recorded {
         PassKind kind;
-        bool isOfCut, barrierBefore, barrierWithoutCut, isIndirect;
+        bool isOfCut, isOfSurface, barrierBefore, barrierWithoutCut, isIndirect;
         std::uint32_t phase, groups, value;
         const vk::Kernel* kernel;
         VkDescriptorSet set;

@@ -79,6 +79,7 @@ void ProgramBuilder::append(Pass pass) {
     pass.phase = static_cast<std::uint32_t>(program_.phases.size() - 1);
     pass.substep = substep_;
     pass.isOfCut = isCut_;
+    pass.isOfSurface = isSurface_;
     (isSkin_ ? program_.skin : program_.step).push_back(std::move(pass));
 }
 

@@ -66,6 +66,7 @@ struct Pass {
     std::uint32_t phase = 0;        ///< index into StepProgram::phases
     std::uint32_t substep = 0;      ///< 1-based; 0 = outside the substeps
     bool isOfCut = false;           ///< recorded only in a step with a blade
+    bool isOfSurface = false;       ///< among those: writes the surface of cuts from what is known of cells
     bool barrierBefore = false;     ///< set by planBarriers
     bool barrierWithoutCut = false; ///< the same in a step without a blade
 };
@@ -172,6 +173,7 @@ struct StepProgram {
     CuttingBuffers cutting;
     CutSurfaceBuffers cutSurface;
     std::vector<PieceVertices> pieceSkins; ///< by sheet that may be cut and has a skin
+    std::vector<BufferId> sheetStates; ///< one layout::SheetState each: of skins that fall into pieces
     BufferId pieceDraws; ///< by skin: layout::DrawArguments of what sheets fall into; invalid without them
     std::uint32_t pieceVertices = 0; ///< room for the vertices of those, behind those of all skins
     std::uint32_t particleCount = 0, constraintCount = 0;
@@ -281,6 +283,9 @@ public:
     /// Passes from here on, until endCut(), belong to steps with a blade alone; no gate changes them.
     void beginCut() { isCut_ = true; }
     void endCut() { isCut_ = false; }
+    /// Among those: passes that write the surface of cuts anew from what is kept of cells.
+    void beginSurface() { isSurface_ = true; }
+    void endSurface() { isSurface_ = false; }
     void beginSkin() { isSkin_ = true; }
     void skip(std::string feature) { program_.skipped.push_back(std::move(feature)); }
 
@@ -303,7 +308,7 @@ private:
     std::vector<BufferId> remembered_, kept_;
     std::vector<std::function<void()>> checked_, endings_, skinMiddles_, skinEndings_;
     Gate gate_;
-    bool isReversed_ = false, isSkin_ = false, isCut_ = false;
+    bool isReversed_ = false, isSkin_ = false, isCut_ = false, isSurface_ = false;
     std::uint32_t substep_ = 0;
 };
 

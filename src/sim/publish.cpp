@@ -80,6 +80,10 @@ void addState(ProgramBuilder& program, const ParticleBuffers& particles) {
 
 void addPasses(ProgramBuilder& program, const ParticleBuffers& particles) {
     addState(program, particles);
+    if (program.kept().empty() &&
+        program.program().cutting.counts != BufferId{}) // room for their surface may grow
+        for (const BufferId buffer : {particles.positions, particles.velocities})
+            program.carry(buffer, buffer);
     for (const BufferId memory : program.remembered()) addMemory(program, memory);
     for (const auto& addEnding : program.endings()) addEnding();
 }

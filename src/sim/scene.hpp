@@ -291,6 +291,9 @@ struct Settings {
     /// Particles that may be listed with one, faces with a particle, particles with a face that moves, edges
     /// with an edge; 1..256
     std::uint32_t contactRoom = 24;
+    /// Triangles, and as many vertices, that the surface of cuts has room for at least, and the skin of each
+    /// sheet for what it falls into; 0 = as much as some cuts through the whole of each body need.
+    std::uint32_t cutSurfaceRoom = 0;
     /// Bodies that rest for half a second sleep: they cost nothing and stay where they are, bit for bit,
     /// until somebody touches them, what holds them moves, or Step::wakes. `split` only.
     bool sleeps = false;

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <optional>
 
@@ -194,6 +195,29 @@ struct Simulation::State {
         if (countsRing) commands.copy(executor.view(program.cutting.counts), slotOf(*countsRing, frame));
     }
 
+    // For the surface of cuts.
+    bool hasMoreRoom(const State& other) const noexcept {
+        return executor.view(program.cutSurface.rest).size >
+                   other.executor.view(other.program.cutSurface.rest).size ||
+               program.pieceVertices > other.program.pieceVertices;
+    }
+
+    // Writes what is missing of it, or has another place here.
+    void recordSurface(vk::Commands& commands) noexcept {
+        const auto setMissing = [&](BufferId buffer, std::size_t offset) {
+            vk::BufferView word = executor.view(buffer);
+            if (word.size == 0) return;
+            word.offset += offset;
+            word.size = sizeof(std::uint32_t);
+            commands.fill(word, 1);
+        };
+        commands.barrier(); // they were copied
+        setMissing(program.cutSurface.state, offsetof(layout::SurfaceState, missing));
+        for (const BufferId state : program.sheetStates)
+            setMissing(state, offsetof(layout::SheetState, missing));
+        executor.surface(commands);
+    }
+
     // Copies buffers out to where they stand one behind the other, or back from there.
     enum class Way { out, back };
     void copy(vk::Commands& commands, const std::vector<BufferId>& buffers, vk::BufferView copies,
@@ -269,6 +293,7 @@ void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from) 
     copy(own.velocities, other.velocities);
     const std::size_t carried = std::min(own.carried.size(), other.carried.size());
     for (std::size_t b = 0; b < carried; ++b) copy(own.carried[b].to, other.carried[b].from);
+    if (state_->hasMoreRoom(*from.state_)) state_->recordSurface(commands);
     commands.endStep();
     State::Settled end = from.state_->settledEnd;
     for (std::uint64_t frame = 0; frame < framesInFlight; ++frame) // from the oldest on

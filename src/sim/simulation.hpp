@@ -89,7 +89,8 @@ struct Status {
     std::uint32_t linksCutInAll = 0; ///< since the uncut bodies, or those of recordLoadTopology()
     std::uint32_t pieces = 0;        ///< of bodies that may be cut, single particles among them
     /// Triangles and vertices that the surface of cuts needs, where that is more than there is room for; else
-    /// 0. The surface is not drawn then, and skins are not clipped; nothing else is missing.
+    /// 0. The surface is not drawn then, and skins are not clipped; nothing else is missing, and no step is
+    /// undone. A simulation with more room (Settings::cutSurfaceRoom) that takes over draws it.
     std::uint32_t cutSurfaceMissing = 0;
 };
 
@@ -147,7 +148,8 @@ public:
     void record(VkCommandBuffer commands, const Step& step, vk::Timestamps* timestamps = nullptr) noexcept;
 
     /// Records the copies that put this simulation into the state of `from`, which was made of the same scene
-    /// and settings but for contactRoom, at most as much as here: the next step goes on where `from` stands.
+    /// and settings but for contactRoom and cutSurfaceRoom, at most as much as here: the next step goes on
+    /// where `from` stands.
     /// `from` must live until the commands have finished. Instead of recordReset(), which it contains. All
     /// steps of `from` must have finished. Colliders on a path are where they were at the end of the last
     /// step that was not undone.

@@ -42,6 +42,8 @@ constexpr SettingRow settingRows[] = {
      ranges::contactMargin},
     {"settings.contactRoom", [](const Settings& s) { return static_cast<double>(s.contactRoom); },
      ranges::contactRoom},
+    {"settings.cutSurfaceRoom", [](const Settings& s) { return static_cast<double>(s.cutSurfaceRoom); },
+     ranges::cutSurfaceRoom},
     {"settings.forms.columns", [](const Settings& s) { return static_cast<double>(s.forms.columns); },
      ranges::columns},
     {"settings.forms.chunk", [](const Settings& s) { return static_cast<double>(s.forms.chunk); },

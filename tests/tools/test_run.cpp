@@ -260,6 +260,66 @@ TEST_F(Run, WritesWhatWasCutAsAClosedMeshWithItsInside) {
     const mesh::MeshReport report = mesh::inspect(skin);
     EXPECT_NEAR(report.volume, 0.064, 0.002);
     EXPECT_GT(report.area, 6 * 0.16 + 1.8 * 0.16) << "and both sides of the cut";
+
+    const mesh::TriangleMesh pieces = mesh::importMesh(folder_ / "out/box.glb", defects);
+    EXPECT_TRUE(defects.isClosed());
+    EXPECT_NEAR(mesh::inspect(pieces).volume, report.volume, 1e-6);
+    EXPECT_NEAR(mesh::inspect(pieces).area, report.area, 1e-5);
+    const json document = gltfOf(folder_ / "out/box.glb");
+    ASSERT_EQ(document["meshes"].size(), 2u) << "a mesh for each piece";
+    std::vector<std::array<double, 2>> reach; // of each along x
+    for (const json& mesh : document["meshes"]) {
+        std::set<std::string> materials;
+        reach.push_back({1, -1});
+        for (const json& part : mesh["primitives"]) {
+            materials.insert(document["materials"][part["material"].get<std::size_t>()]["name"]);
+            EXPECT_TRUE(part["attributes"].contains("NORMAL"));
+            const json& at = document["accessors"][part["attributes"]["POSITION"].get<std::size_t>()];
+            reach.back() = {std::min(reach.back()[0], at["min"][0].get<double>()),
+                            std::max(reach.back()[1], at["max"][0].get<double>())};
+        }
+        EXPECT_EQ(materials, (std::set<std::string>{"inside", "outside"}));
+    }
+    for (const std::size_t end : {0u, 1u}) EXPECT_LT(reach[0][end] + 0.15, reach[1][end]) << "on either side";
+    const std::string obj = textOf(folder_ / "out/box.obj"), ply = textOf(folder_ / "out/box.ply");
+    EXPECT_NE(obj.find("o box 1\n"), std::string::npos);
+    EXPECT_NE(obj.find("\no box 2\n"), std::string::npos);
+    EXPECT_NE(ply.find("property uint piece\n"), std::string::npos);
+    EXPECT_NEAR(mesh::inspect(mesh::importMesh(folder_ / "out/box.ply", defects)).volume, report.volume,
+                1e-6);
+    EXPECT_TRUE(defects.isClosed());
+}
+
+// Sixty cuts through a box have more surface than it has room for at first.
+TEST_F(Run, MakesRoomForTheSurfaceOfCuts) {
+    write("shred.toml", "gravity = [0, -0.5, 0]\n[solver]\nsubsteps = 8\n[[box]]\nname = \"box\"\n"
+                        "particles = [10, 10, 10]\nspacing = 0.1\ncenter = [0, 0, 0]\ncuttable = "
+                        "true\n[[strokes]]\ncount = 60\n"
+                        "center = [0, 0, 0]\nsize = [0.9, 0.9, 0.9]\nlength = 3\nevery = 0.016666667\n");
+    const json grown = report({"shred.toml", "--frames", "62"});
+    const json& surface = grown["overflow"]["cut_surface"];
+    EXPECT_GE(surface["grown"], 1);
+    EXPECT_GT(surface["needed"], 65'536);
+    EXPECT_EQ(grown["warnings"], json::array());
+    EXPECT_NEAR(grown["error"]["volume"].get<double>(), 0, 1e-3) << "what is read back is closed";
+}
+
+TEST_F(Run, WritesTheHalvesOfASheetApart) {
+    write("cut.toml", "gravity = [0, 0, 0]\n[[cloth]]\nname = \"sheet\"\nsize = [5, 5]\nspacing = 0.1\n"
+                      "cuttable = true\norigin = [0, 0, 0]\n[[blade]]\ntimes = [0, 0.016666667]\n"
+                      "edges = [[[0.23, -1, -1], [0.23, -1, 1]], [[0.23, 1, -1], [0.23, 1, 1]]]\n");
+    const Outcome outcome = run({"run", "cut.toml", "--frames", "2", "--out", "out", "--json", "r.json"});
+    ASSERT_EQ(outcome.code, 0) << outcome.error;
+    const json document = gltfOf(folder_ / "out/sheet.glb");
+    ASSERT_EQ(document["meshes"].size(), 2u);
+    std::vector<std::array<double, 2>> reach;
+    for (const json& mesh : document["meshes"]) {
+        const json& part = mesh["primitives"][0];
+        const json& at = document["accessors"][part["attributes"]["POSITION"].get<std::size_t>()];
+        reach.push_back({at["min"][0].get<double>(), at["max"][0].get<double>()});
+    }
+    EXPECT_LT(reach[0][1], reach[1][0] + 1e-5) << "neither reaches over the cut";
+    EXPECT_NEAR(reach[0][1], 0.23, 0.01);
 }
 
 TEST_F(Run, TextGoesToStdoutUnlessTheReportDoes) {

@@ -138,6 +138,10 @@ Json overflowJson(const RunRecord& record) {
                                 {"needed", contacts.needed > 0 ? Json(contacts.needed) : Json(nullptr)},
                                 {"grown", contacts.grown},
                                 {"slowed", record.slowed}};
+    const app::SurfaceRoom& surface = record.surfaceRoom;
+    if (record.program.cutting.counts != sim::BufferId{})
+        overflow["cut_surface"] = {{"needed", surface.needed > 0 ? Json(surface.needed) : Json(nullptr)},
+                                   {"grown", surface.grown}};
     return overflow;
 }
 
@@ -245,6 +249,9 @@ std::string toText(const RunRecord& record) {
     if (record.contactRoom.grown > 0)
         text += fmt::format("room for contacts: grown {} times, to {}\n", record.contactRoom.grown,
                             record.contactRoom.room);
+    if (record.surfaceRoom.grown > 0)
+        text += fmt::format("room for the surface of cuts: grown {} times, {} triangles were needed\n",
+                            record.surfaceRoom.grown, record.surfaceRoom.needed);
     if (const Json sleeping = sleepJson(record); !sleeping.is_null())
         text += fmt::format("asleep: {} particles, {} whole bodies\n",
                             sleeping["particles"].get<std::size_t>(), sleeping["bodies"].get<std::size_t>());

@@ -26,6 +26,8 @@ struct RunRecord {
     std::uint64_t wantedFrames = 0, frames = 0; ///< asked for; done with a finite state
     std::optional<Divergence> divergence;
     app::ContactRoom contactRoom;
+    app::SurfaceRoom surfaceRoom;
+    std::uint32_t surfaceMissing = 0;       ///< at the end
     std::uint64_t slowed = 0;               ///< as Runner::slowed()
     std::uint32_t linksCut = 0, pieces = 0; ///< of bodies that may be cut
     bool isInterrupted = false;

@@ -72,6 +72,8 @@ RunRecord simulate(const RunOptions& options, const scenes::LoadedScene& loaded,
             .frames = runner.steps(),
             .divergence = runner.divergence(),
             .contactRoom = runner.contactRoom(),
+            .surfaceRoom = runner.surfaceRoom(),
+            .surfaceMissing = runner.surfaceMissing(),
             .slowed = runner.slowed(),
             .linksCut = runner.linksCut(),
             .pieces = runner.pieces(),
@@ -84,12 +86,17 @@ RunRecord simulate(const RunOptions& options, const scenes::LoadedScene& loaded,
 
 /// What only a run can show; the same on stderr and in the report.
 void warnAboutRun(const RunRecord& record, std::vector<std::string>& warnings) {
-    if (record.slowed == 0) return;
-    warnings.push_back(
-        std::to_string(record.slowed) +
-        " times a particle was slowed down, so that its contacts are found: momentum was lost, "
-        "take more substeps");
-    std::fprintf(stderr, "warning: %s\n", warnings.back().c_str());
+    const auto warn = [&](const std::string& sentence) {
+        warnings.push_back(sentence);
+        std::fprintf(stderr, "warning: %s\n", sentence.c_str());
+    };
+    if (record.slowed > 0)
+        warn(std::to_string(record.slowed) +
+             " times a particle was slowed down, so that its contacts are found: momentum was lost, "
+             "take more substeps");
+    if (record.surfaceMissing > 0)
+        warn("the cuts have a surface of " + std::to_string(record.surfaceMissing) +
+             " triangles, for which the device has no room: skins are written uncut, take coarser voxels");
 }
 
 /// The exit code of a run whose outputs are written.

@@ -48,6 +48,7 @@ void Runner::restart() {
     submitReset();
     session_.queue.waitIdle();
     done_ = slowed_ = timed_ = recorded_ = 0;
+    surfaceMissing_ = 0;
     recordSum_ = 0;
     divergence_.reset();
     frameMs_.clear();
@@ -98,6 +99,7 @@ bool Runner::finishStep(std::uint64_t frame) {
         slowed_ += status.slowed;
         linksCut_ = status.linksCutInAll;
         pieces_ = status.pieces;
+        surfaceMissing_ = status.cutSurfaceMissing;
     }
     return true;
 }
@@ -116,13 +118,21 @@ void Runner::countTime(std::size_t slot, double end) {
     timed_ += phases.empty() ? 0 : 1;
 }
 
+/// All steps have finished.
+void Runner::growSurface() {
+    if (!growing_.lacksSurface(surfaceMissing_)) return;
+    if (growing_.growSurface(surfaceMissing_, session_.queue)) surfaceMissing_ = 0;
+}
+
 void Runner::advance(std::uint64_t count, std::uint32_t inFlight,
                      const std::function<void(std::uint64_t)>& onStep) {
     const std::uint64_t end = done_ + count;
     std::uint64_t next = done_, waiting = done_;
     lastEnd_ = nowMs();
     while (waiting < end) {
-        const bool mayGoOn = next < end && !divergence_ && !app::isInterrupted();
+        if (waiting == next && !divergence_) growSurface();
+        const bool mayGoOn =
+            next < end && !growing_.lacksSurface(surfaceMissing_) && !divergence_ && !app::isInterrupted();
         if (mayGoOn && next - waiting < inFlight) {
             submitStep(next++);
         } else if (waiting < next && !finishStep(waiting)) {
@@ -134,6 +144,7 @@ void Runner::advance(std::uint64_t count, std::uint32_t inFlight,
             break;
         }
     }
+    if (!divergence_) growSurface();
 }
 
 std::vector<double> Runner::phaseMs() const {

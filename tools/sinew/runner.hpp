@@ -47,6 +47,8 @@ public:
     std::uint64_t slowed() const { return slowed_; } ///< sum of Status::slowed over those steps
     const sim::Simulation& simulation() const { return growing_.simulation(); }
     const app::ContactRoom& contactRoom() const { return growing_.contactRoom(); }
+    const app::SurfaceRoom& surfaceRoom() const { return growing_.surfaceRoom(); }
+    std::uint32_t surfaceMissing() const { return surfaceMissing_; } ///< Status::cutSurfaceMissing, likewise
     /// Of the newest step with a finite state.
     std::uint32_t linksCut() const { return linksCut_; }
     std::uint32_t pieces() const { return pieces_; }
@@ -69,6 +71,7 @@ private:
     void submitReset();
     void submitStep(std::uint64_t frame);
     bool finishStep(std::uint64_t frame);
+    void growSurface();
     void countTime(std::size_t slot, double end);
 
     Session& session_;
@@ -83,7 +86,7 @@ private:
     std::vector<double> frameMs_, deviceMs_, phaseSums_;
     double recordSum_ = 0, lastEnd_ = 0; // [ms]
     std::uint64_t recorded_ = 0, timed_ = 0;
-    std::uint32_t linksCut_ = 0, pieces_ = 0;
+    std::uint32_t linksCut_ = 0, pieces_ = 0, surfaceMissing_ = 0;
 };
 
 } // namespace sinew::tools

@@ -194,7 +194,7 @@ Cut addBuffers(ProgramBuilder& program, const Scene& scene, const Settings& sett
     if (particles.grabs) addHands(program, cut, *particles.grabs);
     for (const BufferId buffer : buffers.topology) program.carry(buffer, buffer);
     program.program().cutting = buffers;
-    cut.sheets = surface::addSheetPieces(program, scene, layout, cut.particles);
+    cut.sheets = surface::addSheetPieces(program, scene, layout, cut.particles, settings.cutSurfaceRoom);
     if (hasTears) cut.tearing = addTearing(program, cut, layout.count);
     std::vector<layout::CutPush> pushes;
     for (const Run& run : cut.runs) pushes.push_back(run.push);

@@ -111,7 +111,9 @@ CutBodies readCutBodies(const Scene& scene, const Settings& settings, const Stat
         const Grid& grid = scene.grids[grids[g]];
         if (grid.isCuttable && !lattice::isSheet(grid)) reader.add(grid, boxes[g]);
     }
-    return reader.finish();
+    CutBodies bodies = reader.finish();
+    bodies.room = settings.cutSurfaceRoom;
+    return bodies;
 }
 
 } // namespace sinew::sim::surface

@@ -19,7 +19,8 @@ namespace k = kernels;
 std::uint32_t roomFor(const CutBodies& bodies) {
     constexpr double ofCell = 200, ofLayer = 240, few = 65536, ofPrism = 0.5;
     const double inside = std::min(ofCell * bodies.cells, few + ofLayer * std::pow(bodies.cells, 2.0 / 3.0));
-    return static_cast<std::uint32_t>(inside + ofPrism * static_cast<double>(bodies.prisms.size()));
+    const double some = inside + ofPrism * static_cast<double>(bodies.prisms.size());
+    return std::max(static_cast<std::uint32_t>(some), bodies.room);
 }
 
 std::uint32_t chunksFor(std::size_t items) {
@@ -133,6 +134,7 @@ void addCutSurfacePasses(ProgramBuilder& program, const CutSurface& surface) {
     addRuns(program, surface, k::countSurface,
             {complex, cutting.dirty, partitions, owned, surface.counts, cutting.links});
     addPrismParting(program, surface);
+    program.beginSurface();
     const layout::CountPush chunks{surface.push.chunks};
     program.dispatch(k::sumSurface, chunks.count, {surface.counts, surface.sums}, chunks);
     program.dispatch(k::scanSurface, GROUP_ITEMS,
@@ -155,6 +157,7 @@ void addCutSurfacePasses(ProgramBuilder& program, const CutSurface& surface) {
         k::hideFaces, surface.faces,
         {surface.counts, drawn.state, surface.skinFaces, surface.allIndices, program.program().skinIndices},
         layout::CountPush{surface.faces});
+    program.endSurface();
 }
 
 } // namespace sinew::sim::surface

@@ -82,7 +82,7 @@ void addSkin(ProgramBuilder& program, SheetPieces& pieces, const Skin& skin, She
              const std::vector<layout::SheetTriangle>& triangles, Room& room) {
     sheet.push.triangles = static_cast<std::uint32_t>(triangles.size());
     sheet.push.firstPiece = room.index;
-    sheet.push.room = roomFor(triangles.size());
+    sheet.push.room = std::max(roomFor(triangles.size()), pieces.leastRoom);
     sheet.push.firstVertex = room.vertex;
     sheet.push.vertexRoom =
         (7 * sheet.push.room + 2) / 3; // of a triangle in three pieces 7, the most for one
@@ -158,8 +158,10 @@ sheetTriangles(const Skin& skin, const Grid& grid, std::uint32_t slot, std::uint
 }
 
 std::shared_ptr<SheetPieces> addSheetPieces(ProgramBuilder& program, const Scene& scene,
-                                            const StateLayout& layout, BufferId particles) {
+                                            const StateLayout& layout, BufferId particles,
+                                            std::uint32_t leastRoom) {
     auto pieces = std::make_shared<SheetPieces>();
+    pieces->leastRoom = leastRoom;
     std::vector<std::uint32_t> indices = joinIndices(scene.skins);
     std::uint32_t vertices = 0;
     for (const Skin& skin : scene.skins) vertices += static_cast<std::uint32_t>(skin.vertexCount());
@@ -176,7 +178,10 @@ std::shared_ptr<SheetPieces> addSheetPieces(ProgramBuilder& program, const Scene
     pieces->arguments =
         program.scratch<layout::DispatchArguments>("skin.piece_arguments", 2 * scene.skins.size());
     std::vector<BufferId> topology{built.skinIndices, built.pieceDraws, pieces->arguments};
-    for (const SheetSkin& skin : pieces->skins) topology.insert(topology.end(), {skin.state, skin.vertices});
+    for (const SheetSkin& skin : pieces->skins) {
+        topology.insert(topology.end(), {skin.state, skin.vertices});
+        built.sheetStates.push_back(skin.state);
+    }
     for (const BufferId buffer : topology) {
         built.cutting.topology.push_back(buffer);
         program.carry(buffer, buffer);
@@ -187,6 +192,7 @@ std::shared_ptr<SheetPieces> addSheetPieces(ProgramBuilder& program, const Scene
 
 void addSheetPasses(ProgramBuilder& program, const SheetPieces& pieces, bool isFirst) {
     const StepProgram& built = program.program();
+    program.beginSurface();
     for (const SheetSkin& skin : pieces.skins) {
         layout::SheetPush push = skin.push;
         push.isFirst = isFirst ? 1 : 0;
@@ -201,6 +207,7 @@ void addSheetPasses(ProgramBuilder& program, const SheetPieces& pieces, bool isF
                                   skin.state, pieces.allIndices, built.skinIndices, skin.vertices},
                                  push);
     }
+    program.endSurface();
 }
 
 } // namespace sinew::sim::surface

@@ -32,13 +32,15 @@ struct SheetPieces {
     std::vector<SheetSkin> skins;
     BufferId particles; ///< by slot
     BufferId allIndices, arguments;
+    std::uint32_t leastRoom = 0; ///< of each skin, in triangles
 };
 
 /// Buffers, and the skins' indices, which cuts change; none where no sheet that may be cut has such a skin.
 /// After those of StepProgram::cutting, to whose topology they are added, and before addCutSurface().
-/// `particles` is by slot, NO_PARTICLE where there is none.
+/// `particles` is by slot, NO_PARTICLE where there is none; `leastRoom` is Settings::cutSurfaceRoom.
 std::shared_ptr<SheetPieces> addSheetPieces(ProgramBuilder& program, const Scene& scene,
-                                            const StateLayout& layout, BufferId particles);
+                                            const StateLayout& layout, BufferId particles,
+                                            std::uint32_t leastRoom);
 
 /// After the links of a step are settled. `isFirst`: no surface of cuts before it says what is missing.
 void addSheetPasses(ProgramBuilder& program, const SheetPieces& pieces, bool isFirst);

@@ -155,6 +155,36 @@ TEST(CutSurface, OfFiftyRandomStrokesIsClosed) {
     }
 }
 
+// All links are cut at once: that is more than there is room for. A simulation with more goes on and draws
+// it.
+TEST(CutSurface, ForWhichThereIsNoRoomIsDrawnOnceThereIs) {
+    const RayCut everything{.from = {0, 0, 0}, .to = {0, 1, 0}, .radius = 9};
+    Scene scene = cube(9);
+    scene.gravity = {0, -9.81f, 0};
+    const Settings few{.substeps = 2}, enough{.substeps = 2, .cutSurfaceRoom = 300'000};
+    CutBody cramped(scene, few), roomy(scene, enough), taking(scene, enough);
+    cramped.runner().run(3);
+    roomy.runner().run(3);
+    const Status status = cramped.runner().cut({}, everything);
+    EXPECT_EQ(status.pieces, 1000u);
+    EXPECT_GT(status.cutSurfaceMissing, 65'536u);
+    EXPECT_LT(status.cutSurfaceMissing, enough.cutSurfaceRoom);
+    EXPECT_EQ(ClosedSurface(cramped).triangles().size(), scene.skins[0].triangles.size()) << "the whole skin";
+    EXPECT_EQ(roomy.runner().cut({}, everything).cutSurfaceMissing, 0u);
+    const ClosedSurface wanted(roomy);
+    taking.runner().takeOver(cramped.runner());
+    const ClosedSurface surface(taking);
+    expectClosed(surface, 729 * cell, "room was made");
+    EXPECT_EQ(surface.triangles().size(), wanted.triangles().size());
+    EXPECT_EQ(surface.hash(), wanted.hash());
+    const Status after = taking.runner().run(1);
+    EXPECT_EQ(after.cutSurfaceMissing, 0u);
+    EXPECT_EQ(after.linksCut, 0u);
+    EXPECT_EQ(after.linksCutInAll, status.linksCutInAll);
+    roomy.runner().run(1);
+    EXPECT_EQ(taking.runner().stateHash(), roomy.runner().stateHash());
+}
+
 TEST(CutSurface, OfABodyWithHolesIsClosed) {
     std::vector<float> fill(5 * 5 * 5, 1);
     for (const std::size_t hole : {62u, 63u, 31u, 7u, 100u, 124u}) fill[hole] = 0;

@@ -303,6 +303,12 @@ TEST(SheetPieces, ForWhichThereIsNoRoomAreSaidAndNoneIsDrawn) {
     const Drawn skin = drawn(body);
     EXPECT_EQ(skin.pieces.indexCount, 0u);
     EXPECT_EQ(skin.upper.size() + skin.lower.size(), whole);
+    const Settings enough{.substeps = 2, .cutSurfaceRoom = status.cutSurfaceMissing};
+    CutBody roomy(body.scene(), enough);
+    roomy.runner().takeOver(body.runner());
+    EXPECT_EQ(roomy.runner().run(1).cutSurfaceMissing, 0u);
+    const Drawn pieces = drawn(roomy);
+    EXPECT_EQ(pieces.upper.size() + pieces.lower.size(), 6 * whole) << "each in three, of two triangles";
 }
 
 TEST(SheetPieces, AreInNoOtherScene) {
