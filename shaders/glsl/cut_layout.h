@@ -50,6 +50,12 @@ struct CutPush {
 // Slots that one invocation counts particles in.
 #define PIECE_CHUNK 32
 
+// Of pieces that are removed: slots of a run, and how many particles a piece keeps for.
+struct CrumbPush {
+    uint first, count;
+    uint least;
+};
+
 struct PiecesPush {
     uint isFirst; // of the dispatches that say whether labels are still to change
     uint runs;    // of slots; argument r is for all rounds of run r, runs + r for its count, 2 runs + r for what is made of them

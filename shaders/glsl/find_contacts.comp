@@ -67,7 +67,8 @@ void main() {
     const bool isSmall = isInGrid(radius, push.most) && !isFast(i);
     if (isSmall) searchCells(i, x, radius, frameOf(bounds, push.cells, push.edge));
     if (radius < 0.0) return;
-    for (uint l = 0u; l < push.large; ++l) searchOne(i, x, radius, isSmall, large[l]);
+    for (uint l = 0u; l < push.large; ++l)
+        if (RADIUS(large[l]) >= 0.0) searchOne(i, x, radius, isSmall, large[l]);
 #ifdef SWEPT
     for (uint f = 0u; f < bounds.fast; ++f) searchOne(i, x, radius, isSmall, fast[f]);
 #endif

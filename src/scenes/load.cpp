@@ -167,6 +167,7 @@ LoadedScene read(const std::string& text, const Source& source, const Overrides&
     loaded.scene.dampingTime = top.number("damping_time");
     readSettings(loaded, top.child("solver"), source.file);
     readContacts(loaded, top.child("contacts"));
+    loaded.scene.crumbs = top.count("crumbs");
     loaded.settings.cutSurfaceRoom = top.count("cut_surface_room");
     apply(overrides, loaded);
     loaded.origin = originOf(top);

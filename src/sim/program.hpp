@@ -104,6 +104,11 @@ struct CutRun {
     std::uint32_t rowStride = 0, sliceStride = 0; ///< as layout::CutPush has them
 };
 
+/// Which slots are in a grid of contacts, or touch what is in it (below 0 = not), and the bounds of the grid.
+struct ContactGrid {
+    BufferId radii, bounds;
+};
+
 /// What is kept of bodies that may be cut (cutting/cut.hpp); invalid where a scene has none.
 struct CuttingBuffers {
     BufferId links; ///< by slot: bits of the links that are alive (lattice/link_masks.hpp)
@@ -121,6 +126,8 @@ struct CuttingBuffers {
     std::vector<BufferId> topology; ///< all that a copy of the cuts consists of
     /// Where everything was when contacts that cuts change were listed.
     std::vector<BufferId> contactsSeen;
+    std::uint32_t crumbs = 0;              ///< Scene::crumbs, where some may be made; 0 = nothing is removed
+    std::vector<ContactGrid> contactGrids; ///< that crumbs leave
 };
 
 /// The surface of cuts (surface/cut_surface.hpp); invalid where no skin is clipped.

@@ -94,6 +94,7 @@ inline constexpr std::uint32_t mostContactRoom = 256;
 inline constexpr Range contactRoom{1, mostContactRoom};
 inline constexpr std::uint32_t mostCutSurfaceRoom = 1u << 24;
 inline constexpr Range cutSurfaceRoom{0, mostCutSurfaceRoom};
+inline constexpr Range crumbs{0, 1'000'000};
 /// `jacobi` converges on any graph where its factor on averaged corrections is below this.
 inline constexpr double provenRelaxation = 4.0 / 3;
 inline constexpr Range overRelaxation{.low = 0, .high = 2, .isLowOpen = true, .isHighOpen = true};

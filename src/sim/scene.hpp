@@ -252,6 +252,11 @@ struct Scene {
     std::vector<DrivenBody> driven;
     std::vector<Face> faces;
     ContactSettings contacts;
+    /// Pieces of fewer particles than that, of bodies of voxels that may be cut, are removed as the step ends
+    /// whose cut has made them: nothing touches, draws or counts them any more. Their particles stay in the
+    /// state, as of no piece, with their mass, and move on under gravity, planes and colliders. An undo of
+    /// the cut brings them back. 0 = none.
+    std::uint32_t crumbs = 0;
     std::vector<Body> bodies;
     std::vector<Grid> grids;
     std::vector<Skin> skins;

@@ -498,6 +498,7 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings) 
     checkSettings(settings, complaints);
     complaints.check(double{scene.dt}, ranges::dt, [] { return "scene.dt"; });
     complaints.check(double{scene.damping}, ranges::damping, [] { return "scene.damping"; });
+    complaints.check(static_cast<double>(scene.crumbs), ranges::crumbs, [] { return "scene.crumbs"; });
     complaints.check(double{scene.dampingTime}, ranges::dampingTime, [] { return "scene.dampingTime"; });
     complaints.checkFinite(scene.gravity, [] { return "scene.gravity"; });
     checkParticles(scene, complaints);

@@ -38,6 +38,11 @@ public:
     Walk(const sim::Scene& scene, std::size_t index, const Drawn& drawn,
          const std::function<void(const DrawnTriangle&)>& use)
         : skin_(scene.skins[index]), drawn_(drawn), use_(use) {
+        mayVanish_ = scene.crumbs > 0 && std::ranges::any_of(scene.grids, [&](const sim::Grid& grid) {
+                         const std::uint32_t first =
+                             skin_.particles.empty() ? skin_.cells[0].particles[0] : skin_.particles[0];
+                         return grid.isCuttable && first - grid.firstParticle < grid.node.size();
+                     });
         for (std::size_t s = 0; s < index; ++s) {
             firstVertex_ += static_cast<std::uint32_t>(scene.skins[s].vertexCount());
             firstIndex_ += 3 * scene.skins[s].triangles.size();
@@ -56,7 +61,7 @@ private:
                 const sim::layout::CutVertex& first = drawn_.rest[corners[0]];
                 if (first.rest.w != mine) continue;
                 const bool isOfSkin = (first.point & (SURFACE_SKIN | SURFACE_PARTICLE)) == SURFACE_SKIN;
-                use_({d == 0 ? Part::inside : Part::beside,
+                give({d == 0 ? Part::inside : Part::beside,
                       isOfSkin ? pieceOf(first.point & ~SURFACE_SKIN) : drawn_.slotPieces[first.corners[0]],
                       corners});
             }
@@ -69,7 +74,7 @@ private:
                 for (std::uint32_t& corner : corners) corner += firstVertex_;
             else
                 corners = cornersAt(drawn_.skinIndices, firstIndex_ + 3 * t);
-            if (corners[0] != corners[1]) use_({Part::skin, pieceOf(corners[0]), corners});
+            if (corners[0] != corners[1]) give({Part::skin, pieceOf(corners[0]), corners});
         }
     }
 
@@ -77,8 +82,12 @@ private:
         for (std::uint32_t t = 0; t < draw.indexCount / 3; ++t) {
             const Corners corners = cornersAt(drawn_.skinIndices, draw.firstIndex + 3 * std::size_t{t});
             if (corners[0] == corners[1]) continue;
-            use_({Part::ofSheet, drawn_.slotPieces[drawn_.sheetSlots[corners[0]]], corners});
+            give({Part::ofSheet, drawn_.slotPieces[drawn_.sheetSlots[corners[0]]], corners});
         }
+    }
+
+    void give(const DrawnTriangle& triangle) const {
+        if (!mayVanish_ || triangle.piece != NO_PARTICLE) use_(triangle); // crumbs are removed
     }
 
     static Corners cornersAt(const std::vector<std::uint32_t>& indices, std::size_t first) {
@@ -96,6 +105,7 @@ private:
     const sim::Skin& skin_;
     const Drawn& drawn_;
     const std::function<void(const DrawnTriangle&)>& use_;
+    bool mayVanish_ = false;
     std::uint32_t firstVertex_ = 0;
     std::size_t firstIndex_ = 0;
 };

@@ -2,6 +2,7 @@
 #include "sim/collision/face_contacts.hpp"
 
 #include "kernels.hpp"
+#include "sim/cutting/crumbs.hpp"
 #include "sim/ranges.hpp"
 #include "sim/sleep.hpp"
 
@@ -98,16 +99,19 @@ face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
     // Thin cloth of coarse faces may wait longer than its radius says: an eighth of a face costs few
     // candidates.
     const float length = std::max(median(wide), median(faces.extents) / 8);
-    return face_lists::add(program, {.radii = radii,
-                                     .inverseMasses = masses,
-                                     .faces = faces.faces,
-                                     .moving = faces.moving,
-                                     .extents = faces.extents,
-                                     .exclusions = exclusions,
-                                     .margin = settings.contactMargin * length,
-                                     .capacity = settings.contactRoom,
-                                     .limit = ranges::mostContactRoom,
-                                     .usesTexels = settings.forms.usesTexels});
+    face_lists::Lists lists = face_lists::add(program, {.radii = radii,
+                                                        .inverseMasses = masses,
+                                                        .faces = faces.faces,
+                                                        .moving = faces.moving,
+                                                        .extents = faces.extents,
+                                                        .exclusions = exclusions,
+                                                        .margin = settings.contactMargin * length,
+                                                        .capacity = settings.contactRoom,
+                                                        .limit = ranges::mostContactRoom,
+                                                        .usesTexels = settings.forms.usesTexels});
+    cutting::letCrumbsLeave(program, lists.grid.radii, lists.grid);
+    cutting::letCrumbsLeave(program, lists.radii, lists.grid);
+    return lists;
 }
 
 // The forms of gather_faces: with contacts between particles after it, or as the end of a substep.

@@ -4,6 +4,7 @@
 #include "kernels.hpp"
 #include "sim/collision/face_contacts.hpp"
 #include "sim/collision/overlaps.hpp"
+#include "sim/cutting/crumbs.hpp"
 #include "sim/cutting/cut_contacts.hpp"
 #include "sim/ranges.hpp"
 #include "sim/sleep.hpp"
@@ -244,6 +245,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
             std::ranges::any_of(scene.planes, [](const Plane& plane) { return plane.restitution > 0; }),
         .hasRecovery = !overlaps.empty() || isCuttable,
         .allExcluded = allExcluded};
+    cutting::letCrumbsLeave(program, contacts.lists.grid.radii, contacts.lists.grid);
     contacts.push = {.count = contacts.lists.push.count,
                      .row = contacts.lists.push.row,
                      .friction = contacts.surfaces.friction,

@@ -3,6 +3,7 @@
 
 #include "kernels.hpp"
 #include "sim/constraints/grab.hpp"
+#include "sim/cutting/crumbs.hpp"
 #include "sim/cutting/cut_plan.hpp"
 #include "sim/cutting/tearing.hpp"
 #include "sim/sleep.hpp"
@@ -103,6 +104,7 @@ void addFindingPieces(ProgramBuilder& program, const Cut& cut, const ParticleBuf
     addIndirect(program, cut, k::countPieces, static_cast<std::uint32_t>(cut.runs.size()),
                 {cut.labels, cut.particles, buffers.pieces, buffers.pieceSizes, buffers.counts}, chunksOf);
     addParting(program, cut, particles);
+    addCrumbRemoval(program, cut);
 }
 
 void addClosing(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& particles) {
@@ -127,6 +129,7 @@ void add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
     Cut cut = addBuffers(program, scene, settings, particles);
     if (cut.runs.empty()) return;
     cut.bladePlaces = cut.buffers.places;
+    addCrumbs(program, scene, cut, particles.layout);
     program.beginPhase("cut");
     program.beginCut();
     addOpening(program, cut, particles);

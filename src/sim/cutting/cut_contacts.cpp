@@ -45,7 +45,9 @@ bool canMeet(const StepProgram& program, const Scene& scene) {
 void addContactFilter(ProgramBuilder& program, const Contacts& contacts) {
     if (!contacts.isCuttable()) return;
     CuttingBuffers& cutting = program.program().cutting;
-    cutting.contactsSeen.push_back(contacts.lists.grid.detected);
+    const BufferId seen = contacts.lists.grid.detected;
+    if (std::ranges::find(cutting.contactsSeen, seen) == cutting.contactsSeen.end()) // crumbs leave it too
+        cutting.contactsSeen.push_back(seen);
     cutting.topology.push_back(contacts.lists.excluded);
     program.carry(contacts.lists.excluded, contacts.lists.excluded);
     addFilter(program, contacts);

@@ -72,6 +72,7 @@ private:
     }
 
     void addBody(const Grid& grid, std::uint32_t skin) {
+        bodies_.skins.push_back(skin);
         for (std::uint32_t i = grid.firstParticle; i < grid.firstParticle + grid.node.size(); ++i) {
             const Vec3& x = scene_.particles[i].position;
             bodies_.rest[layout_.slot[i]] = {x.x, x.y, x.z, static_cast<float>(skin)};

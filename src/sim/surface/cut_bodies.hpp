@@ -25,6 +25,7 @@ struct CutBodies {
     std::vector<HungRange> ranges;    ///< of bodies with prisms
     double cells = 0;                 ///< of all bodies whose skin is clipped; 0 = there are none
     std::uint32_t room = 0;           ///< Settings::cutSurfaceRoom
+    std::vector<std::uint32_t> skins; ///< that are clipped
 };
 
 /// Of those bodies that may be cut and whose skin can be clipped; the others are left out. `runs` are those

@@ -87,6 +87,7 @@ std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& 
                                           const CutBodies& bodies, const CutSource& source) {
     auto surface = std::make_shared<CutSurface>();
     surface->source = source;
+    surface->skins = bodies.skins;
     surface->push = {.chunks = chunksFor(bodies.rest.size() + bodies.prisms.size()),
                      .room = roomFor(bodies),
                      .runs = static_cast<std::uint32_t>(source.runs.size()),

@@ -53,6 +53,7 @@ struct CutSurface {
         allIndices, gradients;
     BufferId bladeRest; ///< where a blade has particles at rest: `rest`, or below the skin
     HungSurface hung;
+    std::vector<std::uint32_t> skins; ///< that are clipped
 };
 
 /// Buffers, and the skin's indices, which cuts change. After those of StepProgram::cutting, to whose topology

@@ -1,0 +1,16 @@
+#version 460
+// After remove_crumbs, which reads them: pieces that were removed have no size.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+
+layout(std430, binding = 0) readonly buffer Particles { uint particles[]; };
+layout(std430, binding = 1) readonly buffer Pieces { uint pieces[]; };
+layout(std430, binding = 2) writeonly buffer Sizes { uint sizes[]; };
+layout(push_constant) uniform Push { CrumbPush push; };
+
+void main() {
+    const uint item = itemIndex(push.count);
+    if (item >= push.count) return;
+    const uint particle = particles[push.first + item];
+    if (particle != NO_PARTICLE && pieces[particle] == NO_PARTICLE) sizes[particle] = 0u;
+}

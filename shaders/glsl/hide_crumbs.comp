@@ -1,0 +1,11 @@
+#version 460
+// Skins of pieces that were removed shrink to a point each.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "crumbs.glsl"
+layout(push_constant) uniform Push { CountPush push; };
+
+void main() {
+    const uint i = itemIndex(push.count);
+    if (i < push.count) hide(i, slots[i]);
+}

@@ -1,0 +1,22 @@
+#version 460
+// After pieces were found anew: particles of those that have too few are of none.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+
+layout(std430, binding = 0) readonly buffer Labels { uint labels[]; };
+layout(std430, binding = 1) readonly buffer Particles { uint particles[]; };
+layout(std430, binding = 2) readonly buffer Sizes { uint sizes[]; };
+layout(std430, binding = 3) writeonly buffer Pieces { uint pieces[]; };
+layout(std430, binding = 4) buffer Counts { CutCounts counts; };
+layout(push_constant) uniform Push { CrumbPush push; };
+
+void main() {
+    const uint item = itemIndex(push.count);
+    if (item >= push.count) return;
+    const uint i = push.first + item, particle = particles[i];
+    if (particle == NO_PARTICLE) return;
+    const uint piece = particles[labels[i]];
+    if (sizes[piece] >= push.least) return;
+    pieces[particle] = NO_PARTICLE;
+    if (piece == particle) atomicAdd(counts.pieces, ~0u); // one less
+}
