@@ -1,0 +1,125 @@
+// Every shipped scene in which something may be cut, with all that must hold after each of its strokes, and
+// in steps in which something tears, looked at (sim/cutting/stroke_check). Scenes are found in their folder,
+// so that a new one is held to it as well. So that it takes seconds, voxels are coarser, substeps and strokes
+// few, and where something touches nobody waits between strokes for bodies to come to rest: SINEW_FULL=1 in
+// the environment plays scenes as they are.
+#include "scenes/blades.hpp"
+#include "sim/cutting/stroke_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+using namespace sinew;
+namespace fs = std::filesystem;
+using test::StrokeCheck;
+using test::StrokeResult;
+
+namespace {
+
+constexpr std::uint32_t fewSubsteps = 8, roomForContacts = 160, roomForSurface = 1u << 19;
+constexpr float coarseVoxel = 0.025f;                 // [m]
+constexpr std::uint64_t fewSteps = 2, someSteps = 90; // between strokes; of what tears
+constexpr std::size_t fewStrokes = 5;
+
+bool isFull() {
+    return std::getenv("SINEW_FULL") != nullptr;
+}
+
+std::vector<std::string> cutSceneNames() {
+    std::vector<std::string> names;
+    for (const fs::directory_entry& file : fs::directory_iterator(SINEW_SOURCE_FOLDER "/scenes")) {
+        std::ifstream stream(file.path());
+        const std::string text(std::istreambuf_iterator<char>(stream), {});
+        if (text.find("\ncuttable = true") != std::string::npos) names.push_back(file.path().stem().string());
+    }
+    std::ranges::sort(names);
+    return names;
+}
+
+scenes::LoadedScene loadScene(const std::string& name) {
+    scenes::Overrides overrides;
+    if (!isFull()) overrides.voxel = coarseVoxel;
+    scenes::LoadedScene loaded = scenes::load(SINEW_SOURCE_FOLDER "/scenes/" + name + ".toml", overrides);
+    loaded.settings.contactRoom = roomForContacts;
+    if (isFull())
+        loaded.settings.cutSurfaceRoom = roomForSurface;
+    else
+        loaded.settings.substeps = std::min(loaded.settings.substeps, fewSubsteps);
+    return loaded;
+}
+
+// The steps of a scene in which somebody looks: those with a blade, or every few of those in which something
+// may tear.
+std::vector<std::uint64_t> stepsToLookAt(const scenes::LoadedScene& loaded) {
+    scenes::ScriptedBlades blades(loaded.blades, loaded.scene.dt);
+    const bool tears = loaded.scene.grids[0].tearStrain > 0;
+    const std::uint64_t most = isFull() ? 2000 : tears ? someSteps : 1000;
+    std::vector<std::uint64_t> steps;
+    std::size_t strokes = 0;
+    for (std::uint64_t frame = 1; frame < most; ++frame) {
+        const sim::Blade blade = blades.at(frame);
+        strokes += !blade.from.empty() && !blade.isCarried ? 1 : 0;
+        if (strokes > fewStrokes && !isFull()) break;
+        if (!blade.from.empty() || (tears && frame % 10 == 0)) steps.push_back(frame);
+    }
+    return steps;
+}
+
+bool hasContacts(const sim::Scene& scene) {
+    return !scene.faces.empty() ||
+           std::ranges::any_of(scene.particles, [](const sim::Particle& one) { return one.radius > 0; });
+}
+
+class CutScenes : public testing::TestWithParam<std::string> {};
+
+} // namespace
+
+TEST_P(CutScenes, HoldAfterEveryStroke) {
+    const scenes::LoadedScene loaded = loadScene(GetParam());
+    ASSERT_EQ(loaded.scene.grids.size(), 1u) << "one body a scene";
+    scenes::ScriptedBlades blades(loaded.blades, loaded.scene.dt);
+    StrokeCheck check(loaded.scene, loaded.settings, false);
+    std::uint64_t done = 1; // the check has taken the first
+    std::size_t looked = 0, inVain = 0;
+    double volumeError = 0;
+    StrokeResult last;
+    for (const std::uint64_t step : stepsToLookAt(loaded)) {
+        const std::uint64_t wait = step - std::min(done, step);
+        const bool isPlayed = isFull() || !hasContacts(loaded.scene);
+        check.run(static_cast<int>(isPlayed ? wait : std::min(wait, fewSteps)));
+        done = step + 1;
+        const sim::Blade blade = blades.at(step);
+        const std::string what = GetParam() + ", step " + std::to_string(step);
+        last = check.stroke(blade, what);
+        check.checkSurface(last, what);
+        volumeError = std::max(volumeError, std::abs(last.volumeError));
+        (last.status.linksCut > 0 ? looked : inVain) += 1;
+        if (isFull() && last.status.linksCut > 0)
+            std::printf("step %4u: %5u links cut, %4u pieces, %zu triangles, %zu open edges, %zu with four "
+                        "triangles, volume %+.1e\n",
+                        static_cast<unsigned>(step), last.status.linksCut, last.status.pieces, last.triangles,
+                        last.openEdges, last.crowdedEdges, last.volumeError);
+        ASSERT_FALSE(HasFailure()); // what follows would only repeat it
+    }
+    EXPECT_GT(looked, 0u) << "nothing was cut";
+    if (GetParam() == "shred") {
+        EXPECT_EQ(inVain, 0u) << "every stroke meets the body";
+    }
+    std::printf("%s: %zu steps with cuts, %zu without, %u links cut, %u pieces, %zu triangles, volume within "
+                "%.1e\n",
+                GetParam().c_str(), looked, inVain, last.status.linksCutInAll, last.status.pieces,
+                last.triangles, volumeError);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, CutScenes, testing::ValuesIn(cutSceneNames()),
+                         [](const auto& scene) { return scene.param; });
+
+TEST(ShippedScenes, AreCutInSix) {
+    EXPECT_EQ(cutSceneNames(), (std::vector<std::string>{"cloth_cut", "cube_quarters", "organ_incision",
+                                                         "shred", "tear", "tube_slice"}));
+}
