@@ -1,5 +1,6 @@
 // What recording may not do: allocate, create buffers, or cost more than its dispatches. Without validation,
 // whose layer allocates on its own.
+#include "sim/bodies.hpp"
 #include "sim/count_allocations.hpp"
 #include "sim/program.hpp"
 #include "sim/scenes.hpp"
@@ -63,6 +64,32 @@ TEST(Recording, AllocatesNothing) {
             EXPECT_EQ(simulation.status(frame).nonFinite, 0u);
         }
     }
+}
+
+TEST(Recording, OfAStepWithABladeAllocatesNothing) {
+    if (!test::canCountAllocations()) GTEST_SKIP() << "AddressSanitizer needs operator new for itself";
+    Application application;
+    Scene scene{.name = "cube"};
+    const Lattice lattice{.cells = {4, 4, 4}, .spacing = 0.1f, .radius = 0.05f, .isCuttable = true};
+    addLatticeSkin(scene, lattice, addLattice(scene, lattice), {0.5f, 0.5f, 0.5f});
+    Simulation simulation(application.device, scene, {.substeps = 2, .contactRoom = 64});
+    application.reset(simulation);
+    const vk::AllocatorStatistics before = application.device.allocator().statistics();
+    for (std::uint64_t frame = 0; frame < 4; ++frame) {
+        const float x = 0.05f + 0.1f * static_cast<float>(frame);
+        const std::array from{Vec3{x, -1, -1}, Vec3{x, -1, 1}}, to{Vec3{x, 1, -1}, Vec3{x, 1, 1}};
+        const VkCommandBuffer commands = application.queue.begin();
+        EXPECT_EQ(test::countAllocations([&] {
+                      simulation.record(commands, {.frame = frame, .blade = {.from = from, .to = to}});
+                      simulation.recordSkin(commands);
+                  }),
+                  0u);
+        application.queue.wait(application.queue.submit(commands));
+        EXPECT_EQ(simulation.status(frame).pieces, frame + 2);
+    }
+    const vk::AllocatorStatistics after = application.device.allocator().statistics();
+    EXPECT_EQ(after.used, before.used);
+    EXPECT_EQ(after.reserved, before.reserved);
 }
 
 TEST(Recording, OfAThousandSubstepsCostsSoMuchADispatch) {
