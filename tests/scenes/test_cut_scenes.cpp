@@ -108,7 +108,7 @@ TEST_P(CutScenes, HoldAfterEveryStroke) {
     }
     EXPECT_GT(looked, 0u) << "nothing was cut";
     if (GetParam() == "shred") {
-        EXPECT_EQ(inVain, 0u) << "every stroke meets the body";
+        EXPECT_LE(50 * inVain, looked) << "strokes meet what is left of the body";
     }
     std::printf("%s: %zu steps with cuts, %zu without, %u links cut, %u pieces, %zu triangles, volume within "
                 "%.1e\n",
