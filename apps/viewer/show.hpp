@@ -1,5 +1,6 @@
 // A scene playing in a window: input, steps in real time, one submission a frame. A paused picture is drawn
-// once and then left alone; on a software device that last one has full quality.
+// once and then left alone; on a software device that last one has full quality. The loop stands in show.cpp,
+// the rest beside it: show_input, show_flights, show_pictures.
 #pragma once
 
 #include "viewer/controller.hpp"
@@ -88,6 +89,7 @@ private:
     void recordProbe(const Presenter::Frame& frame);
     Overlay recordLayers(const Presenter::Frame& frame);
     void recordScreenshot(const Presenter::Frame& frame, const Overlay& overlay);
+    void settleScreenshot(const InFlight& flight);
     void settle(std::uint32_t slot);
     void settleProbe(InFlight& flight);
     void settleMap(std::uint32_t slot, const InFlight& flight);

@@ -1,0 +1,204 @@
+// What a frame of the window takes along to the device, and what it has brought when it has finished.
+#include "viewer/show.hpp"
+
+#include "app/guard.hpp"
+#include "vk/check.hpp"
+#include "vk/queue.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace sinew::viewer {
+
+namespace {
+
+constexpr double strainEvery = 0.25; // [s]: a copy of all positions
+
+} // namespace
+
+void Show::recordSteps(const Presenter::Frame& frame, const Plan& plan) {
+    InFlight& flight = inFlight_[frame.slot];
+    if (plan.isReset) {
+        stage_.recordReset(frame.commands);
+        gauges_.restart();
+        tools_.drop();
+        forgetFlights();
+        isDiverged_ = false;
+    }
+    if (tools_.recordHistory(frame.commands, stage_)) {
+        forgetFlights();
+        isDiverged_ = false;
+    }
+    flight.firstStep = stage_.steps() + 1;
+    flight.steps = plan.steps;
+    for (std::uint32_t step = 0; step < plan.steps; ++step)
+        tools_.recordStep(frame.commands, stage_, step == 0 ? &times_[frame.slot] : nullptr, flight.sweeps);
+    stage_.recordSkin(frame.commands);
+    recordProbe(frame);
+}
+
+// What is on its way belongs to a state that is no more: nobody need look at it, nor cut it again.
+void Show::forgetFlights() {
+    if (recording_) screen_.presenter().waitIdle(); // the film keeps what has happened
+    for (std::uint32_t slot = 0; slot < Presenter::framesInFlight; ++slot) {
+        InFlight& flight = inFlight_[slot];
+        if (std::exchange(flight.isRecorded, false)) settleCamera(slot, flight);
+        flight.steps = 0;
+        flight.sweeps.clear();
+    }
+}
+
+// The length of cut links says nothing of error.
+bool Show::isStrainDue(std::uint32_t steps) {
+    const auto now = Clock::now();
+    const bool isDue = steps > 0 && !isCut_ && screen_.panels().isShown(screen_.presenter().extent()) &&
+                       now - lastStrain_ >= std::chrono::duration<double>(strainEvery);
+    if (isDue) lastStrain_ = now;
+    return isDue;
+}
+
+// One copy is enough for all that is in flight: a question is asked again until it is answered.
+void Show::recordProbe(const Presenter::Frame& frame) {
+    InFlight& flight = inFlight_[frame.slot];
+    const auto isAsked = [](const InFlight& other) {
+        return other.isProbed || other.question || other.isMeasured;
+    };
+    if (std::ranges::any_of(inFlight_, isAsked)) return;
+    flight.isProbed = std::exchange(wantsProbe_, false);
+    flight.question = tools_.hand().question();
+    flight.isMeasured = isStrainDue(flight.steps);
+    if (isAsked(flight)) probe_->record(frame.commands);
+}
+
+// Without memory for them there are no layers.
+Overlay Show::recordLayers(const Presenter::Frame& frame) {
+    Overlay overlay = tools_.overlay();
+    Layers& layers = screen_.layers();
+    if (layers.needsBuffers()) {
+        try {
+            if (!inspection_) inspection_.emplace(device_, stage_, Presenter::framesInFlight);
+            inspection_->prepare(layers);
+        } catch (const vk::Error& error) {
+            if (error.failure() != vk::Failure::outOfMemory) throw;
+            layers = {};
+            screen_.warn(error.what());
+            return overlay;
+        }
+        inspection_->record(frame.commands, layers, frame.slot);
+        inFlight_[frame.slot].map = layers.map;
+        inFlight_[frame.slot].hasContacts = layers.hasContacts;
+        overlay.buffers = inspection_->buffers(layers, mapRange_.range());
+    }
+    overlay.layers = layers;
+    return overlay;
+}
+
+// Takes what a finished frame has brought.
+void Show::settle(std::uint32_t slot) {
+    InFlight flight = std::exchange(inFlight_[slot], {});
+    if (flight.steps > 0) {
+        const std::vector<double> phases = times_[slot].milliseconds();
+        if (!phases.empty()) status_.stepTimed(std::accumulate(phases.begin(), phases.end(), 0.0));
+        gauges_.stepTimed(phases);
+    }
+    settleProbe(flight);
+    settleMap(slot, flight);
+    if (flight.hasContacts && inspection_) contactsFound_ = inspection_->contacts(slot);
+    bool isUndone = false;
+    for (std::uint32_t i = 0; i < flight.steps && !isDiverged_; ++i) {
+        const std::uint64_t step = flight.firstStep + i;
+        if (stage_.neededRoom(step) > 0) {
+            makeRoom(step, flight);
+            isUndone = true;
+            break; // what came after it was undone as well
+        }
+        if (const std::optional<Divergence> divergence = stage_.check(step)) stop(divergence->sentence());
+        const sim::Status status = stage_.simulation().status(step);
+        status_.setCounts(status.sleeping, status.pieces);
+        gauges_.stepFinished(status);
+        isCut_ = status.linksCutInAll > 0;
+        surfaceMissing_ = status.cutSurfaceMissing;
+    }
+    if (flight.isRecorded && !isUndone) settleCamera(slot, flight);
+    if (flight.screenshot) settleScreenshot(flight);
+}
+
+void Show::settleProbe(InFlight& flight) {
+    if (flight.question && flight.question == tools_.hand().question()) {
+        const sim::Scene& scene = stage_.scene();
+        const auto found =
+            pick(scene, opening_.light.balls, *flight.question, probe_->positions(), probe_->vertices());
+        tools_.hand().answer(found, found ? holdRadius(scene, found->particle) : 0);
+    }
+    if (flight.isMeasured && !isCut_)
+        gauges_.strainMeasured(measureStrain(stage_.scene(), probe_->positions()));
+    if (!flight.isProbed) return;
+    if (const Box bounds = probe_->bounds(); !bounds.isEmpty()) {
+        controller_.camera = framing(controller_.camera, bounds, pictureAspect());
+        shown_ = Shown::nothing; // what is on screen was seen from elsewhere
+    }
+}
+
+// A picture whose colors have another range by now is drawn once more.
+void Show::settleMap(std::uint32_t slot, const InFlight& flight) {
+    if (flight.map == ColorMap::none || flight.map != screen_.layers().map || !inspection_) return;
+    const float before = mapRange_.range();
+    mapRange_.read(inspection_->reading(slot));
+    if (mapRange_.range() != before) shown_ = Shown::nothing;
+}
+
+// All steps have been taken: only the picture lacked something.
+void Show::makeSurfaceRoom() {
+    if (isSurfaceMissing_) return; // there is no such room
+    settleAll();
+    const std::uint32_t needed = std::exchange(surfaceMissing_, 0);
+    if (needed == 0) return; // somebody has gone back to before
+    vk::Queue queue(device_);
+    if (!stage_.makeSurfaceRoom(needed, queue)) return warnOfSurface();
+    probe_.emplace(device_, stage_.simulation());
+    inspection_.reset(); // as layers want it, of the other simulation
+    tools_.restart({});
+    shown_ = Shown::nothing;
+}
+
+// Once: nothing but the picture suffers.
+void Show::warnOfSurface() {
+    if (std::exchange(isSurfaceMissing_, true)) return;
+    screen_.warn(
+        "the cuts have more surface than there is memory for: what is beyond is not drawn, or drawn uncut");
+}
+
+void Show::stop(const std::string& why) {
+    isDiverged_ = true;
+    controller_.playback.pause();
+    screen_.warn(why);
+}
+
+// Later frames take the undone steps again.
+void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
+    screen_.presenter().waitIdle();
+    vk::Queue queue(device_);
+    if (!stage_.makeRoom(step, queue)) return stop(app::tooCrowded(step));
+    probe_.emplace(device_, stage_.simulation());
+    inspection_.reset(); // as layers want it, of the other simulation
+    std::vector<Sweep> sweeps = undone.sweeps;
+    for (const InFlight& later : inFlight_) // at most one has some
+        sweeps.insert(sweeps.end(), later.sweeps.begin(), later.sweeps.end());
+    tools_.restart(sweeps);
+    for (InFlight& other : inFlight_) {
+        other.steps = 0;
+        other.sweeps.clear();
+        wantsProbe_ = std::exchange(other.isProbed, false) || wantsProbe_;
+        other.isMeasured = other.isRecorded = false;
+        other.map = ColorMap::none;
+        other.hasContacts = false;
+        other.question.reset();
+    }
+}
+
+void Show::settleAll() {
+    screen_.presenter().waitIdle();
+    for (std::uint32_t slot = 0; slot < Presenter::framesInFlight; ++slot) settle(slot);
+}
+
+} // namespace sinew::viewer

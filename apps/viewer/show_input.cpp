@@ -1,0 +1,105 @@
+// What keys, the pointer and the panels ask of a scene on show.
+#include "viewer/show.hpp"
+
+#include <utility>
+
+namespace sinew::viewer {
+
+void Show::grant(const Wishes& wishes) {
+    if (wishes.scene && mayOpen()) library_.open(*wishes.scene, pictureAspect());
+    if (wishes.knobs) turnKnobs(*wishes.knobs);
+}
+
+void Show::turnKnobs(const Knobs& knobs) {
+    if (knobs.gravity != knobs_.gravity) stage_.setGravity(knobs.gravity);
+    controller_.playback.setPace(double{knobs.pace});
+    knobs_.gravity = knobs.gravity;
+    knobs_.pace = knobs.pace;
+    const auto shape = [](const Knobs& some) { return std::pair(some.substeps, some.solver); };
+    if (shape(knobs) == shape(knobs_) || library_.isOpening()) return;
+    scenes::Overrides overrides;
+    overrides.solver = sceneFacts_.solvers[static_cast<std::size_t>(knobs.solver)];
+    overrides.substeps = static_cast<std::uint32_t>(knobs.substeps);
+    library_.reopen(overrides, {controller_.camera, knobs, sceneFacts_.fromFile}, pictureAspect());
+}
+
+// One at a time.
+bool Show::mayOpen() {
+    if (library_.isOpening()) screen_.tell("another scene is still being opened");
+    return !library_.isOpening();
+}
+
+void Show::handle(const Input& input) {
+    if (!input.files.empty() && mayOpen()) library_.openFile(input.files.front(), pictureAspect());
+    for (const Action action : input.actions) {
+        if (action == Action::drop && screen_.panels().isHelpShown())
+            screen_.panels().closeHelp();
+        else if (!controller_.act(action) && !tools_.act(action))
+            handle(action);
+    }
+    tools_.handle(input, controller_);
+    if (const std::string note = tools_.takeNote(); !note.empty()) screen_.tell(note);
+    screen_.feed(input.panels);
+    status_.setTool(tools_.name());
+    if (input.notches != 0) controller_.wheel(input.notches, input.pointer);
+}
+
+void Show::handle(Action action) {
+    switch (action) {
+    case Action::frame:
+        wantsProbe_ = true;
+        break;
+    case Action::screenshot:
+        wantsScreenshot_ = true;
+        break;
+    case Action::fullScreen:
+        screen_.window().toggleFullScreen();
+        break;
+    case Action::vsync:
+        screen_.toggleVsync();
+        break;
+    case Action::previousScene:
+        if (mayOpen()) library_.openNext(-1, pictureAspect());
+        break;
+    case Action::nextScene:
+        if (mayOpen()) library_.openNext(1, pictureAspect());
+        break;
+    case Action::skinLook:
+        screen_.layers().skin = next(screen_.layers().skin);
+        break;
+    case Action::wires:
+        toggleWires();
+        break;
+    case Action::balls:
+        screen_.layers().hasBalls = !screen_.layers().hasBalls;
+        break;
+    case Action::contacts:
+        screen_.layers().hasContacts = !screen_.layers().hasContacts;
+        break;
+    case Action::colorMap:
+        screen_.layers().map = next(screen_.layers().map);
+        mapRange_ = {};
+        break;
+    case Action::record:
+        toggleRecording();
+        break;
+    case Action::panels:
+        screen_.panels().toggle();
+        break;
+    case Action::help:
+        screen_.panels().toggleHelp();
+        break;
+    case Action::quit:
+        screen_.window().close();
+        break;
+    default:
+        break; // drags, the wheel, and what the controller has done
+    }
+}
+
+void Show::toggleWires() {
+    if (!drawsEdges(device_)) return screen_.warn("this device cannot draw the edges of triangles");
+    screen_.layers().hasWires = !screen_.layers().hasWires;
+}
+
+} // namespace sinew::viewer

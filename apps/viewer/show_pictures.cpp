@@ -1,0 +1,114 @@
+// Pictures and films of the scene on show, and what is said of their files.
+#include "viewer/show.hpp"
+
+#include "app/guard.hpp"
+#include "mesh/export.hpp"
+#include "vk/check.hpp"
+
+#include <cinttypes>
+#include <cstdio>
+
+namespace sinew::viewer {
+
+namespace {
+
+// "organ-000120".
+std::string nameAt(const std::string& scene, std::uint64_t step) {
+    char stem[40];
+    std::snprintf(stem, sizeof stem, "-%06" PRIu64, step);
+    return scene + stem;
+}
+
+} // namespace
+
+void Show::recordScreenshot(const Presenter::Frame& frame, const Overlay& overlay) {
+    InFlight& flight = inFlight_[frame.slot];
+    try {
+        flight.screenshot =
+            std::make_unique<Offscreen>(device_, screen_.presenter().extent(), opening_.light);
+    } catch (const vk::Error& error) {
+        if (error.failure() != vk::Failure::outOfMemory) throw;
+        return screen_.warn(std::string("no picture: ") + error.what());
+    }
+    flight.screenshotStep = stage_.steps();
+    flight.screenshot->prepare(overlay.layers);
+    flight.screenshot->record(frame.commands, controller_.camera, stage_.simulation(), overlay);
+}
+
+void Show::settleScreenshot(const InFlight& flight) {
+    const std::string name = nameAt(opening_.loaded.scene.name, flight.screenshotStep);
+    writer_.add(freeName(name, ".png"), flight.screenshot->read(),
+                pictureText(opening_, device_, flight.screenshotStep));
+}
+
+void Show::toggleRecording() {
+    if (recording_) return stopRecording();
+    const VkExtent2D extent = screen_.presenter().extent();
+    screen_.presenter().waitIdle(); // frames may still use the cameras of a film that failed
+    try {
+        recording_.emplace(nameAt(opening_.loaded.scene.name, stage_.steps()), extent.width, extent.height,
+                           1 / double{stage_.scene().dt});
+        for (auto& camera : cameras_) camera = std::make_unique<Offscreen>(device_, extent, opening_.light);
+        std::printf("recording %s\n", recording_->target().c_str());
+        std::fflush(stdout);
+        screen_.tell("recording " + recording_->target().string() + ", a picture a step; " +
+                     std::string(keyOf(Action::record)) + " stops");
+    } catch (const std::runtime_error& error) { // app::Failure; vk::Error: no memory for the pictures
+        recording_.reset();
+        screen_.warn(error.what());
+    }
+}
+
+void Show::stopRecording() {
+    if (!recording_) return;
+    settleAll(); // the last pictures
+    if (!recording_) return;
+    try {
+        recording_->finish();
+        const std::string text =
+            std::to_string(recording_->count()) + " pictures in " + recording_->target().string();
+        std::printf("%s\n", text.c_str());
+        std::fflush(stdout);
+        screen_.tell(text);
+    } catch (const std::runtime_error& error) { // app::Failure, mesh::ExportError
+        screen_.warn(error.what());
+    }
+    recording_.reset();
+    for (auto& camera : cameras_) camera.reset();
+}
+
+void Show::recordCamera(const Presenter::Frame& frame, const Overlay& overlay) {
+    cameras_[frame.slot]->prepare(overlay.layers);
+    cameras_[frame.slot]->record(frame.commands, controller_.camera, stage_.simulation(), overlay);
+    inFlight_[frame.slot].isRecorded = true;
+}
+
+// What goes wrong here ends the film, and nothing else.
+void Show::settleCamera(std::uint32_t slot, const InFlight& flight) {
+    if (!recording_) return;
+    try {
+        const std::uint64_t step = flight.firstStep + flight.steps - 1;
+        recording_->add(cameras_[slot]->read(), pictureText(opening_, device_, step));
+    } catch (const vk::Error&) {
+        throw;
+    } catch (const std::runtime_error& error) { // app::Failure, mesh::ExportError
+        recording_.reset();
+        for (InFlight& other : inFlight_) other.isRecorded = false;
+        screen_.warn(error.what());
+    }
+}
+
+// A picture that cannot be written is no reason to close the window.
+void Show::reportFiles(PictureWriter::Wait wait) {
+    try {
+        while (const auto file = writer_.take(wait)) {
+            std::printf("picture: %s\n", file->c_str());
+            std::fflush(stdout);
+            screen_.tell("picture: " + file->string());
+        }
+    } catch (const mesh::ExportError& error) {
+        screen_.warn(error.what());
+    }
+}
+
+} // namespace sinew::viewer
