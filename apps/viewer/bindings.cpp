@@ -53,6 +53,11 @@ constexpr std::array table{
     Binding{{key, GLFW_KEY_F12}, screenshot, "F12", "save a picture (PNG) in the current folder", "Picture"},
     Binding{{key, GLFW_KEY_F11}, fullScreen, "F11", "full screen", "Full screen"},
     Binding{{key, GLFW_KEY_V}, vsync, "V", "wait for the screen (vsync) or not", "Vsync"},
+    Binding{{key, GLFW_KEY_EQUAL, GLFW_MOD_CONTROL}, largerTexts, "Ctrl + plus", "larger texts", "Larger"},
+    Binding{{key, GLFW_KEY_EQUAL, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT}, largerTexts, "", "larger texts"},
+    Binding{{key, '+', GLFW_MOD_CONTROL}, largerTexts, "", "larger texts"}, // where it is a key of its own
+    Binding{
+        {key, GLFW_KEY_MINUS, GLFW_MOD_CONTROL}, smallerTexts, "Ctrl + minus", "smaller texts", "Smaller"},
     Binding{{key, GLFW_KEY_TAB}, panels, "Tab", "show or hide the panels", "Hide"},
     Binding{{key, GLFW_KEY_H}, help, "H", "show or hide this help", "Help"},
     Binding{{key, GLFW_KEY_F1}, help, "F1", "show or hide this help"},
@@ -78,7 +83,7 @@ std::vector<HelpLine> helpLines() {
         std::string triggers(line->shown);
         const auto* next = line + 1;
         for (; next != table.end() && next->action == line->action; ++next)
-            triggers.append(", ").append(next->shown);
+            if (!next->shown.empty()) triggers.append(", ").append(next->shown);
         lines.push_back({std::move(triggers), line->help});
         line = next;
     }

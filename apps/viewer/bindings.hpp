@@ -35,6 +35,8 @@ enum class Action {
     record,
     fullScreen,
     vsync,
+    largerTexts,
+    smallerTexts,
     panels,
     help,
     quit
@@ -51,7 +53,7 @@ struct Trigger {
 struct Binding {
     Trigger trigger;
     Action action;
-    std::string_view shown; ///< how the help names it
+    std::string_view shown; ///< how the help names it; empty = as the one before, on another keyboard
     std::string_view help;
     std::string_view button = {}; ///< what its button in the panels says; only the first of an action has one
 };

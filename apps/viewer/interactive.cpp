@@ -49,16 +49,58 @@ std::unique_ptr<Show> change(std::unique_ptr<Show> show, std::unique_ptr<Opening
     return show;
 }
 
+float aspectOf(VkExtent2D size) {
+    return static_cast<float>(size.width) / static_cast<float>(size.height);
+}
+
+// Started without a scene, the window goes on with the last one, in the size in which it was left.
+Options recalled(Options options, const Preferences& preferences) {
+    if (!options.hasSize && preferences.width > 0 && preferences.height > 0)
+        options.size = {preferences.width, preferences.height};
+    if (options.scene.empty() && !preferences.scene.empty()) {
+        const bool isFile = preferences.scene.front() == '/';
+        (isFile ? options.scene : options.builtIn) = preferences.scene;
+    }
+    return options;
+}
+
+// A last scene that is no more costs a line, and the one built in is shown.
+std::unique_ptr<Opening> openFirst(const Options& asked, Options& options) {
+    try {
+        return std::make_unique<Opening>(open(options, aspectOf(options.size)));
+    } catch (const std::exception& error) {
+        if (options.scene == asked.scene && options.builtIn == asked.builtIn) throw;
+        std::fprintf(stderr, "warning: the last scene is not opened again: %s\n", error.what());
+    }
+    options.scene = asked.scene;
+    options.builtIn = asked.builtIn;
+    return std::make_unique<Opening>(open(options, aspectOf(options.size)));
+}
+
+// A size that was asked for is of this run alone.
+Preferences leftBy(const Screen& screen, const Library& library, const Options& options,
+                   const Preferences& before) {
+    Preferences left = screen.preferences();
+    left.scene = rememberedScene(library.shown().scene, library.shown().builtIn);
+    if (options.hasSize || left.width == 0) {
+        left.width = before.width;
+        left.height = before.height;
+    }
+    return left;
+}
+
 } // namespace
 
-int runInteractive(const Options& options, std::size_t& messages) {
-    const float aspect = static_cast<float>(options.size.width) / static_cast<float>(options.size.height);
-    auto opening = std::make_unique<Opening>(open(options, aspect));
+int runInteractive(const Options& asked, std::size_t& messages) {
+    const std::filesystem::path file = preferencesFile();
+    const Preferences preferences = loadPreferences(file);
+    Options options = recalled(asked, preferences);
+    auto opening = openFirst(asked, options);
     if (options.hasValidation) vk::enableQueueSubmitValidation();
     Window window(options.size);
     const vk::Loader loader;
     const vk::Device device = createDevice(loader, window, options, messages);
-    Screen screen(window, device);
+    Screen screen(window, device, preferences);
     screen.layers() = options.layers;
     announce(*opening, device, screen);
     if (isSoftware(device))
@@ -69,6 +111,8 @@ int runInteractive(const Options& options, std::size_t& messages) {
     Library library(options);
     auto show = std::make_unique<Show>(screen, library, device, std::move(opening));
     while (auto next = show->run()) show = change(std::move(show), std::move(next), screen, library, device);
+    const Preferences left = leftBy(screen, library, options, preferences);
+    if (left != preferences) savePreferences(file, left);
     return app::isInterrupted() ? app::interrupted : app::done;
 }
 

@@ -18,6 +18,8 @@ public:
 
     /// What the first scene is opened with.
     const Options& options() const { return options_; }
+    /// What the one on show was opened with.
+    const Options& shown() const { return shown_->options; }
     const std::vector<std::string>& names() const { return names_; }
     /// Of the scene on show, or of none (-1).
     std::size_t current() const { return current_; }

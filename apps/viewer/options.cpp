@@ -107,7 +107,8 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     app.footer("In the window:\n" + helpText() + "\n" + exitCodes);
     addSceneOptions(app, options);
     app.add_option("--size", size,
-                   "of the window or the pictures in pixels, WIDTHxHEIGHT (default 1280x720)");
+                   "of the window or the pictures in pixels, WIDTHxHEIGHT (default 1280x720, or as the "
+                   "window was left)");
     app.add_option("--show", layers, "what is drawn beside skins or instead of them")
         ->delimiter(',')
         ->check(CLI::IsMember(layerNames()));
@@ -121,6 +122,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     }
     for (const std::string& layer : layers) addLayer(layer, options.layers);
     if (app.count("--size") > 0) options.size = parseSize(size);
+    options.hasSize = app.count("--size") > 0;
     checkHeadless(options, app.count("--frames") > 0);
     return options;
 }

@@ -21,6 +21,7 @@ struct Options {
     std::string device; ///< as vk::DeviceRequest::device
     bool hasValidation = false;
     VkExtent2D size{1280, 720};
+    bool hasSize = false; ///< asked for: a window does not begin as it was left
     Layers layers;
 
     bool isHeadless = false;

@@ -40,7 +40,11 @@ void play(const Facts& facts, Wishes& wishes) {
     button(Action::fullScreen, wishes, width);
     ImGui::SameLine();
     button(Action::help, wishes, width);
-    width = buttonWidth(2);
+    width = buttonWidth(4);
+    button(Action::largerTexts, wishes, width);
+    ImGui::SameLine();
+    button(Action::smallerTexts, wishes, width);
+    ImGui::SameLine();
     button(Action::panels, wishes, width);
     ImGui::SameLine();
     button(Action::quit, wishes, width);

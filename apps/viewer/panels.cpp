@@ -145,6 +145,13 @@ Panels::Panels(float scale) : context_(ImGui::CreateContext()), scale_(scale) {
     setStyle(scale);
 }
 
+void Panels::rescale(float scale) {
+    ImGui::GetIO().Fonts->Clear();
+    scale_ = scale;
+    atlas_ = makeAtlas(scale);
+    setStyle(scale);
+}
+
 Panels::~Panels() {
     ImGui::DestroyContext(context_);
 }
@@ -210,7 +217,9 @@ void Panels::remember() {
 }
 
 void Panels::buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D extent, Wishes& wishes) {
-    const float width = sideWidth * scale_, edge = gap * scale_;
+    const float edge = gap * scale_;
+    const float width =
+        std::min(sideWidth * scale_, std::max(static_cast<float>(extent.width) - 2 * edge, 40.0f));
     ImGui::SetNextWindowPos({static_cast<float>(extent.width) - width - edge, edge});
     ImGui::SetNextWindowSize({width, 0});
     ImGui::SetNextWindowSizeConstraints(

@@ -36,6 +36,12 @@ public:
     /// Whether keys are being typed into a panel.
     bool takesKeys() const;
 
+    /// As the constructor does. The atlas is another one then.
+    void rescale(float scale);
+
+    /// What somebody has said about whether panels are shown; nothing = nobody has.
+    const std::optional<bool>& choice() const { return isShown_; }
+    void choose(std::optional<bool> isShown) { isShown_ = isShown; }
     void toggle() { isShown_ = !isShown(lastExtent_); }
     void toggleHelp() { isHelpShown_ = !isHelpShown_; }
     void closeHelp() { isHelpShown_ = false; }

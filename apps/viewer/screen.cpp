@@ -3,6 +3,8 @@
 
 #include "vk/check.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -26,9 +28,11 @@ void merge(PanelInput& all, const PanelInput& next) {
 
 } // namespace
 
-Screen::Screen(Window& window, const vk::Device& device)
-    : window_(window), presenter_(device, window), panels_(window.scale()),
-      painter_(device, presenter_.format(), VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, Presenter::framesInFlight) {
+Screen::Screen(Window& window, const vk::Device& device, const Preferences& preferences)
+    : window_(window), presenter_(device, window), panels_(window.scale() * preferences.scale),
+      painter_(device, presenter_.format(), VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, Presenter::framesInFlight),
+      ownScale_(preferences.scale), windowScale_(window.scale()), isVsync_(preferences.isVsync) {
+    panels_.choose(preferences.arePanelsShown);
     painter_.setAtlas(panels_.atlas());
     window_.setCover({[this](const Vector2& pixels) { return panels_.covers(pixels); },
                       [this] { return panels_.takesKeys(); }});
@@ -43,6 +47,7 @@ Screen::~Screen() {
 }
 
 bool Screen::prepare(const std::function<void()>& beforehand) {
+    if (window_.scale() != windowScale_) rescale(); // it may have gone to another display
     const VkExtent2D pixels = window_.pixels();
     const bool isSame = pixels.width == pixels_.width && pixels.height == pixels_.height;
     if (pixels.width > 0 && isSame && !presenter_.isOutdated()) return true;
@@ -57,6 +62,38 @@ bool Screen::prepare(const std::function<void()>& beforehand) {
 void Screen::toggleVsync() {
     isVsync_ = !isVsync_;
     pixels_ = {}; // makes a new swapchain
+}
+
+Preferences Screen::preferences() const {
+    const VkExtent2D size = window_.size();
+    const auto isSensible = [](std::uint32_t side) {
+        return side >= Preferences::smallest && side <= Preferences::largest;
+    };
+    Preferences preferences{.arePanelsShown = panels_.choice(), .scale = ownScale_, .isVsync = isVsync_};
+    if (isSensible(size.width) && isSensible(size.height)) {
+        preferences.width = size.width;
+        preferences.height = size.height;
+    }
+    return preferences;
+}
+
+void Screen::changeScale(int steps) {
+    constexpr float step = 1.125f;
+    const float scale = ownScale_ * std::pow(step, static_cast<float>(steps));
+    const float whole = std::abs(scale - 1) < 0.01f ? 1 : scale; // the way back ends where it began
+    ownScale_ = std::clamp(whole, Preferences::leastScale, Preferences::mostScale);
+    rescale();
+    char text[40];
+    std::snprintf(text, sizeof text, "texts at %.0f %%", 100 * double{ownScale_});
+    tell(text);
+}
+
+void Screen::rescale() {
+    windowScale_ = window_.scale();
+    presenter_.waitIdle(); // the atlas may be in use
+    panels_.rescale(windowScale_ * ownScale_);
+    painter_.setAtlas(panels_.atlas());
+    isNoticeNew_ = true; // what is shown is laid out anew
 }
 
 void Screen::feed(const PanelInput& input) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "viewer/panels.hpp"
+#include "viewer/preferences.hpp"
 #include "viewer/presenter.hpp"
 
 #include <chrono>
@@ -13,7 +14,7 @@ namespace sinew::viewer {
 class Screen {
 public:
     /// Throws vk::Error.
-    Screen(Window& window, const vk::Device& device);
+    Screen(Window& window, const vk::Device& device, const Preferences& preferences = {});
     ~Screen(); ///< the window gets its events back
     Screen(const Screen&) = delete;
     Screen& operator=(const Screen&) = delete;
@@ -28,6 +29,11 @@ public:
     /// What is on, of every scene.
     Layers& layers() { return layers_; }
     const Layers& layers() const { return layers_; }
+
+    /// Of the window and the panels, as they are now.
+    Preferences preferences() const;
+    /// Texts and panels by so many steps larger, or smaller.
+    void changeScale(int steps);
 
     bool isVsync() const { return isVsync_; }
     void toggleVsync();
@@ -46,6 +52,7 @@ public:
     bool hasNewNotice();
 
 private:
+    void rescale();
     using Clock = std::chrono::steady_clock;
     struct Notice {
         std::string text;
@@ -60,9 +67,10 @@ private:
     PanelInput input_;
     Notice notice_;
     Layers layers_;
+    float ownScale_, windowScale_; // of texts: as chosen, and as the display wants them
     Clock::time_point lastPicture_ = Clock::now();
     VkExtent2D pixels_{};
-    bool isVsync_ = true, isNoticeNew_ = false;
+    bool isVsync_, isNoticeNew_ = false;
 };
 
 } // namespace sinew::viewer

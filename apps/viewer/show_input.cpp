@@ -58,6 +58,12 @@ void Show::handle(Action action) {
     case Action::vsync:
         screen_.toggleVsync();
         break;
+    case Action::largerTexts:
+        screen_.changeScale(1);
+        break;
+    case Action::smallerTexts:
+        screen_.changeScale(-1);
+        break;
     case Action::previousScene:
         if (mayOpen()) library_.openNext(-1, pictureAspect());
         break;

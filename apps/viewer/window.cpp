@@ -221,6 +221,12 @@ VkExtent2D Window::pixels() const {
                     : VkExtent2D{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
 }
 
+VkExtent2D Window::size() const {
+    int width = state_->width, height = state_->height;
+    if (glfwGetWindowMonitor(state_->window) == nullptr) glfwGetWindowSize(state_->window, &width, &height);
+    return {static_cast<std::uint32_t>(std::max(width, 0)), static_cast<std::uint32_t>(std::max(height, 0))};
+}
+
 bool Window::isClosing() const {
     return glfwWindowShouldClose(state_->window) == GLFW_TRUE;
 }

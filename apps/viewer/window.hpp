@@ -62,6 +62,7 @@ public:
 
     float scale() const;       ///< of texts, as the display wants them; 1 = 96 pixels an inch
     VkExtent2D pixels() const; ///< 0 x 0 while minimised
+    VkExtent2D size() const;   ///< for another one of this size; in full screen, as it was before
     bool isClosing() const;
     void close();
     void setTitle(const std::string& title);

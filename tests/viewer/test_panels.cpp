@@ -173,6 +173,23 @@ TEST_F(PanelsTest, FitIntoAnyWindow) {
         }
 }
 
+TEST_F(PanelsTest, FitIntoSmallWindowsWithLargeTexts) {
+    panels.choose(true);
+    facts.notice = "a message";
+    settle();
+    const auto texels = panels.atlas().coverage.size();
+    for (const float scale : {0.5f, 2.0f, 4.0f}) {
+        panels.rescale(scale);
+        for (const VkExtent2D extent : {VkExtent2D{320, 200}, small, large}) {
+            if (scale > 2 && extent.width < large.width) continue;
+            settle(extent);
+            expectSound(panels.drawn(), extent);
+            expectWithin(extent);
+        }
+    }
+    EXPECT_GT(panels.atlas().coverage.size(), texels) << "larger glyphs";
+}
+
 TEST(GlyphAtlas, CoversItsTexels) {
     const Panels panels(2);
     const GlyphAtlas& atlas = panels.atlas();

@@ -28,10 +28,11 @@ Xvfb -displayfd 3 -screen 0 1000x700x24 -nolisten tcp >/dev/null 2>&1 &
 processes+=($!)
 for _ in {1..100}; do [[ -s display ]] && break; sleep 0.1; done
 [[ -s display ]] || fail "Xvfb did not start"
+export XDG_CONFIG_HOME=$folder/config
 export DISPLAY=:$(tr -d '[:space:]' <display)
 
 start() {
-    "$viewer" "$scene" --validation --size 640x400 "$@" >viewer.out 2>viewer.err &
+    "$viewer" ${scene:+"$scene"} --validation --size 640x400 "$@" >viewer.out 2>viewer.err &
     running=$!
     processes+=("$running")
     for _ in {1..200}; do
@@ -278,14 +279,17 @@ code=0
 wait "$running" || code=$?
 [[ $code == 0 ]] || fail "exit code $code, expected 0"
 
-echo "window: interrupted"
+echo "window: without a scene the last one, interrupted"
+grep -q '^scene = .*/scenes/other.toml$' config/sinew/viewer.conf || fail "the last scene is not remembered"
+scene=
 start
+[[ $(title) == *other* ]] || fail "the last scene is not opened again"
 kill -INT "$running"
 awaitEnd 130
 
 echo "window: no display"
 code=0
-DISPLAY='' WAYLAND_DISPLAY='' "$viewer" "$scene" >viewer.out 2>viewer.err || code=$?
+DISPLAY='' WAYLAND_DISPLAY='' "$viewer" >viewer.out 2>viewer.err || code=$?
 [[ $code == 4 ]] || fail "without a display: exit code $code, expected 4"
 [[ $(wc -l <viewer.err) == 1 ]] || fail "without a display: more than one line"
 grep -q -- '--headless' viewer.err || fail "without a display: no way out is offered"
