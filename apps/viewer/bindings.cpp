@@ -30,6 +30,11 @@ constexpr std::array table{
     Binding{
         {key, GLFW_KEY_C}, blade, "C", "blade: left drag cuts, from the front through to the back", "Blade"},
     Binding{{key, GLFW_KEY_ESCAPE}, drop, "Esc", "drop the blade, let go", "Let go"},
+    Binding{{key, GLFW_KEY_N},
+            pin,
+            "N",
+            "pin what is under the pointer, or held, where it is; on a pin: take it out",
+            "Pin"},
     Binding{{key, GLFW_KEY_Z, GLFW_MOD_CONTROL}, undo, "Ctrl + Z", "undo a cut: back to before it", "Undo"},
     Binding{
         {key, GLFW_KEY_Z, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT}, redo, "Shift + Ctrl + Z", "redo it", "Redo"},
@@ -118,6 +123,7 @@ std::string hintText(Hands hands, bool canCut) {
     };
     if (hands == Hands::holding) {
         add("pull; let go of the button to drop");
+        add("pins it there", {pin});
     } else if (hands == Hands::blade) {
         add("left drag cuts through");
         add("puts the blade away", {blade});

@@ -21,6 +21,7 @@ enum class Action {
     reset,
     blade,
     drop,
+    pin,
     undo,
     redo,
     slowMotion,

@@ -93,6 +93,7 @@ struct Facts {
     bool isPaused = false, isDiverged = false, isVsync = true, isBladeOn = false, isHolding = false,
          isRecording = false;
     bool isFullQuality = true; ///< shadows and antialiasing; a software device has them when paused
+    std::size_t pins = 0;      ///< that hold something where it is
     double framesPerSecond = 0;
     double pace = 1;     ///< seconds of the scene in a second of the clock, as asked
     double keptPace = 1; ///< as the machine could

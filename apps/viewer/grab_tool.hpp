@@ -26,6 +26,9 @@ public:
     /// nothing is held, nothing otherwise.
     Vector2 drag(const Vector2& heights);
 
+    /// How far around its particle it holds, as answer() was told [m].
+    float radius() const { return grabs_.empty() ? 0 : grabs_[0].radius; }
+
     bool isHolding() const { return !grabs_.empty(); }
     /// For sim::Step::grabs.
     std::span<const sim::Grab> grabs() const { return grabs_; }

@@ -18,7 +18,8 @@ struct Hand {
 /// What is shown beside the bodies as they are: by tools, and layers.
 struct Overlay {
     std::optional<Hand> hand;
-    std::span<const Vector3> stroke; ///< path of a blade, near the eye [m]; at most mostStrokePoints
+    std::span<const Hand> pins = {};
+    std::span<const Vector3> stroke = {}; ///< path of a blade, near the eye [m]; at most mostStrokePoints
     Layers layers = {};
     LayerBuffers buffers = {}; ///< of what `layers` needs
 };

@@ -25,11 +25,15 @@ void play(const Facts& facts, Wishes& wishes) {
     button(Action::step, wishes, width);
     ImGui::SameLine();
     button(Action::reset, wishes, width);
+    width = buttonWidth(4);
     button(Action::slowMotion, wishes, width, facts.knobs.pace < 1);
     ImGui::SameLine();
     button(Action::blade, wishes, width, facts.isBladeOn);
     ImGui::SameLine();
     button(Action::drop, wishes, width);
+    ImGui::SameLine();
+    button(Action::pin, wishes, width, facts.pins > 0);
+    width = buttonWidth(3);
     button(Action::frame, wishes, width);
     ImGui::SameLine();
     button(Action::screenshot, wishes, width);

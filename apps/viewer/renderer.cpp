@@ -15,7 +15,8 @@ namespace {
 constexpr float ballGloss = 0.6f;      // of a skin's: balls are hard and dry
 constexpr float colliderGloss = 0.15f; // dull beside tissue
 
-constexpr sim::Vec3 handColor{0.95f, 0.62f, 0.10f}, strokeColor{0.10f, 0.55f, 0.95f};
+constexpr sim::Vec3 handColor{0.95f, 0.62f, 0.10f}, strokeColor{0.10f, 0.55f, 0.95f},
+    pinColor{0.02f, 0.30f, 0.72f};
 
 constexpr std::array plan{vk::SpecialisationConstant{3, 1}};
 
@@ -221,7 +222,8 @@ void Renderer::recordPicture(VkCommandBuffer commands, const Canvas& canvas, std
             drawCuts(commands, insidePipeline, clippedPipeline, simulation);
         }
     }
-    if (overlay.hand) drawHand(commands, simulation, *overlay.hand);
+    if (overlay.hand) drawHand(commands, simulation, *overlay.hand, handColor, 1);
+    for (const Hand& pin : overlay.pins) drawHand(commands, simulation, pin, pinColor, -1);
     drawStroke(commands, overlay.stroke, slot);
     if (light_.ground) {
         bind(commands, groundPipeline);
@@ -323,13 +325,13 @@ void Renderer::drawBalls(VkCommandBuffer commands, std::size_t pipeline, const s
     }
 }
 
-void Renderer::drawHand(VkCommandBuffer commands, const sim::Simulation& simulation,
-                        const Hand& hand) const noexcept {
+void Renderer::drawHand(VkCommandBuffer commands, const sim::Simulation& simulation, const Hand& hand,
+                        const sim::Vec3& color, float ball) const noexcept {
     bind(commands, handPipeline);
     const Vector3 &at = hand.target, &held = hand.offset;
-    push(commands, {{handColor.x, handColor.y, handColor.z, ballGloss},
+    push(commands, {{color.x, color.y, color.z, ballGloss},
                     {at.x(), at.y(), at.z(), 0.02f * light_.radius()},
-                    {held.x(), held.y(), held.z(), 1}});
+                    {held.x(), held.y(), held.z(), ball}});
     hand_.draw(commands, simulation.positions(), hand.particle);
 }
 

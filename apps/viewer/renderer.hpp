@@ -92,8 +92,8 @@ private:
                   const sim::Simulation& simulation, const LayerBuffers& buffers = {}) const noexcept;
     void drawStroke(VkCommandBuffer commands, std::span<const Vector3> stroke,
                     std::uint32_t slot) const noexcept;
-    void drawHand(VkCommandBuffer commands, const sim::Simulation& simulation,
-                  const Hand& hand) const noexcept;
+    void drawHand(VkCommandBuffer commands, const sim::Simulation& simulation, const Hand& hand,
+                  const sim::Vec3& color, float ball) const noexcept;
     void bindMesh(VkCommandBuffer commands, const vk::BufferView& vertices,
                   const vk::BufferView& indices) const noexcept;
     void push(VkCommandBuffer commands, const layout::SkinPush& values) const noexcept;

@@ -3,6 +3,7 @@
 
 #include "app/guard.hpp"
 #include "sim/gpu_tune.hpp"
+#include "sim/ranges.hpp"
 #include "vk/check.hpp"
 #include "vk/queue.hpp"
 
@@ -20,11 +21,11 @@ constexpr double stillAfter = 0.25;           // [s] without a change before a p
 static_assert(Presenter::framesInFlight * Playback::maxSteps <= sim::Simulation::framesInFlight);
 static_assert(Presenter::framesInFlight <= Renderer::slots);
 
-// With a hand for the pointer.
+// With hands for the pointer and its pins: those that hold nothing cost nothing.
 sim::Settings fastest(const vk::Device& device, const scenes::LoadedScene& loaded) {
     vk::Queue queue(device);
     sim::Settings settings = loaded.settings;
-    settings.grabs = std::max(settings.grabs, 1u);
+    settings.grabs = sim::ranges::mostGrabs;
     return sim::tuned(device, queue, loaded.scene, settings);
 }
 
@@ -101,8 +102,7 @@ void Show::turn() {
     Input input =
         screen_.window().poll(isHidden_ || (shown_ == Shown::still && panelsDue_ == 0) ? idleWait : 0);
     const Wishes wishes = std::exchange(wishes_, {});
-    grant(wishes);
-    input.actions.insert(input.actions.end(), wishes.actions.begin(), wishes.actions.end());
+    grant(wishes, input);
     handle(input);
     reportFiles(PictureWriter::Wait::no);
     isHidden_ = !prepareSwapchain();
@@ -181,6 +181,7 @@ Facts Show::facts(bool isFullQuality) const {
     facts.isFullQuality = isFullQuality;
     facts.isHolding = tools_.isHolding();
     facts.isBladeOn = tools_.isBladeOn();
+    facts.pins = tools_.pins();
     for (const std::uint64_t steps : tools_.history().times()) {
         char time[40];
         std::snprintf(time, sizeof time, "at %.2f s", static_cast<double>(steps) * double{stage_.scene().dt});

@@ -50,13 +50,13 @@ private:
     struct InFlight {
         std::uint64_t firstStep = 0;
         std::uint32_t steps = 0;
-        std::vector<Sweep> sweeps;     // of its first steps
-        bool isProbed = false;         // for the bounds
-        bool isMeasured = false;       // for the strain
-        bool isRecorded = false;       // by cameras_
-        ColorMap map = ColorMap::none; // of inspection_
-        bool hasContacts = false;      // likewise
-        std::optional<Ray> question;   // for the hand
+        std::vector<Sweep> sweeps;        // of its first steps
+        bool isProbed = false;            // for the bounds
+        bool isMeasured = false;          // for the strain
+        bool isRecorded = false;          // by cameras_
+        ColorMap map = ColorMap::none;    // of inspection_
+        bool hasContacts = false;         // likewise
+        std::optional<Question> question; // of the tools
         std::unique_ptr<Offscreen> screenshot;
         std::uint64_t screenshotStep = 0;
     };
@@ -66,7 +66,7 @@ private:
     void turn();
     Plan plan(double elapsed);
     void handle(const Input& input);
-    void grant(const Wishes& wishes);
+    void grant(const Wishes& wishes, Input& input);
     void turnKnobs(const Knobs& knobs);
     void goOn(const Again& again);
     float pictureAspect() const;

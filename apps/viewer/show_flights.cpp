@@ -21,7 +21,7 @@ void Show::recordSteps(const Presenter::Frame& frame, const Plan& plan) {
     if (plan.isReset) {
         stage_.recordReset(frame.commands);
         gauges_.restart();
-        tools_.drop();
+        tools_.clear();
         forgetFlights();
         isDiverged_ = false;
     }
@@ -65,7 +65,7 @@ void Show::recordProbe(const Presenter::Frame& frame) {
     };
     if (std::ranges::any_of(inFlight_, isAsked)) return;
     flight.isProbed = std::exchange(wantsProbe_, false);
-    flight.question = tools_.hand().question();
+    flight.question = tools_.question();
     flight.isMeasured = isStrainDue(flight.steps);
     if (isAsked(flight)) probe_->record(frame.commands);
 }
@@ -124,11 +124,11 @@ void Show::settle(std::uint32_t slot) {
 }
 
 void Show::settleProbe(InFlight& flight) {
-    if (flight.question && flight.question == tools_.hand().question()) {
+    if (flight.question && flight.question == tools_.question()) {
         const sim::Scene& scene = stage_.scene();
         const auto found =
-            pick(scene, opening_.light.balls, *flight.question, probe_->positions(), probe_->vertices());
-        tools_.hand().answer(found, found ? holdRadius(scene, found->particle) : 0);
+            pick(scene, opening_.light.balls, flight.question->ray, probe_->positions(), probe_->vertices());
+        tools_.answer(*flight.question, found, found ? holdRadius(scene, found->particle) : 0);
     }
     if (flight.isMeasured && !isCut_)
         gauges_.strainMeasured(measureStrain(stage_.scene(), probe_->positions()));

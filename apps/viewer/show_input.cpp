@@ -5,7 +5,13 @@
 
 namespace sinew::viewer {
 
-void Show::grant(const Wishes& wishes) {
+// A button has the pointer over the panel: what is to be pinned is pointed at next.
+void Show::grant(const Wishes& wishes, Input& input) {
+    for (const Action action : wishes.actions)
+        if (action == Action::pin)
+            tools_.armPin();
+        else
+            input.actions.push_back(action);
     if (wishes.scene && mayOpen()) library_.open(*wishes.scene, pictureAspect());
     if (wishes.knobs) turnKnobs(*wishes.knobs);
 }

@@ -12,7 +12,7 @@
 namespace sinew::viewer {
 
 Tools::Tools(const vk::Device& device, const Opening& opening)
-    : blade_(opening.light.bounds), history_(device),
+    : blade_(opening.light.bounds), history_(device), pinReach_(0.04f * opening.light.radius()),
       canCut_(std::ranges::any_of(opening.loaded.scene.grids, &sim::Grid::isCuttable)) {}
 
 void Tools::handle(const Input& input, Controller& controller) {
@@ -26,9 +26,47 @@ void Tools::handle(const Input& input, Controller& controller) {
     }
     hand_.move(controller.camera, input.pointer);
     blade_.move(controller.camera, input.pointer);
+    if (std::exchange(wantsPin_, false)) pinAt(rayThrough(controller.camera, input.pointer));
+}
+
+// What is held goes from hand to pin.
+void Tools::pinAt(const Ray& ray) {
+    if (const std::optional<Hand> held = hand_.hand()) {
+        pin(*held, hand_.radius());
+        return hand_.release();
+    }
+    if (!pins_.takeOut(ray, pinReach_)) pinned_ = ray;
+}
+
+void Tools::pin(const Hand& hand, float radius) {
+    if (!pins_.add(hand, radius)) note_ = "there are no more than " + std::to_string(Pins::most) + " pins";
+}
+
+const char* Tools::name() const {
+    return hand_.isHolding() ? " - holding" : isPinArmed_ ? " - pin" : blade_.isOn() ? " - blade" : "";
+}
+
+std::optional<Question> Tools::question() const {
+    if (hand_.question()) return Question{Question::Asker::hand, *hand_.question()};
+    if (pinned_) return Question{Question::Asker::pin, *pinned_};
+    return std::nullopt;
+}
+
+void Tools::answer(const Question& question, const std::optional<Pick>& pick, float radius) {
+    if (question != this->question()) return;
+    if (question.asker == Question::Asker::hand) return hand_.answer(pick, radius);
+    pinned_.reset();
+    if (pick)
+        pin({pick->particle, pick->offset, pick->point}, radius);
+    else
+        note_ = "there is nothing to pin under the pointer";
 }
 
 void Tools::press(const Input::Press& press, const Camera& camera) {
+    if (press.isDown && std::exchange(isPinArmed_, false)) {
+        wantsPin_ = true;
+        return;
+    }
     if (blade_.isOn()) {
         if (press.isDown) return blade_.press(camera, press.pointer);
         blade_.move(camera, press.pointer);
@@ -52,6 +90,8 @@ bool Tools::act(Action action) {
     case Action::drop:
         drop();
         return true;
+    case Action::pin:
+        return wantsPin_ = true;
     case Action::undo:
         return wantsUndo_ = true;
     case Action::redo:
@@ -67,14 +107,21 @@ void Tools::say(const std::string& note) {
 }
 
 void Tools::drop() {
+    isPinArmed_ = false;
     hand_.release();
     blade_.drop();
+}
+
+void Tools::clear() {
+    drop();
+    pins_.clear();
+    pinned_.reset();
 }
 
 bool Tools::recordHistory(VkCommandBuffer commands, Stage& stage) {
     const bool isUndo = std::exchange(wantsUndo_, false), isRedo = std::exchange(wantsRedo_, false);
     if (!isUndo && !isRedo) return false;
-    drop();
+    clear();
     return isUndo ? history_.recordUndo(commands, stage) : history_.recordRedo(commands, stage);
 }
 
@@ -97,7 +144,9 @@ void Tools::recordStep(VkCommandBuffer commands, Stage& stage, vk::Timestamps* t
         sweeps.push_back(*sweep);
         blade = {.from = sweep->from, .to = sweep->to, .isCarried = sweep->isCarried};
     }
-    stage.recordStep(commands, timestamps, hand_.grabs(), blade);
+    grabs_[0] = hand_.isHolding() ? hand_.grabs()[0] : emptyHand();
+    std::ranges::copy(pins_.grabs(), grabs_.begin() + 1);
+    stage.recordStep(commands, timestamps, grabs_, blade);
 }
 
 void Tools::restart(std::span<const Sweep> undone) {

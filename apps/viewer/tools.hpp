@@ -1,9 +1,10 @@
-// What the pointer holds, the hand or the blade, and what of their work can be undone.
+// What the pointer holds, the hand or the blade, what it has pinned, and what of their work can be undone.
 #pragma once
 
 #include "viewer/cut_tool.hpp"
 #include "viewer/grab_tool.hpp"
 #include "viewer/history.hpp"
+#include "viewer/pins.hpp"
 #include "viewer/stage.hpp"
 #include "viewer/window.hpp"
 
@@ -14,6 +15,13 @@ namespace sinew::viewer {
 class Controller;
 struct Opening;
 
+/// What a tool asks of the state on show: what lies there.
+struct Question {
+    enum class Asker { hand, pin } asker = Asker::hand;
+    Ray ray;
+    bool operator==(const Question&) const = default;
+};
+
 /// Must not outlive its Device, which must not move.
 class Tools {
 public:
@@ -23,11 +31,18 @@ public:
     void handle(const Input& input, Controller& controller);
     /// False for an action that is none of theirs.
     bool act(Action action);
-    /// Lets go of everything: what was held or to be cut is where nobody expects it.
-    void drop();
+    /// The next press of the left button pins what is under it, as the button of a panel cannot.
+    void armPin() { isPinArmed_ = true; }
+    /// Lets go of everything, and takes out all pins: what was held or to be cut is where nobody expects it.
+    void clear();
+
+    /// One at a time; it stays until it is answered, or is no question any more.
+    std::optional<Question> question() const;
+    /// What the ray meets. `radius` as holdRadius(). Of a question that nobody asks any more, nothing comes.
+    void answer(const Question& question, const std::optional<Pick>& pick, float radius);
 
     /// Whether something is to be recorded even where no step is.
-    bool isWaiting() const { return hand_.question() || wantsUndo_ || wantsRedo_; }
+    bool isWaiting() const { return question() || wantsPin_ || wantsUndo_ || wantsRedo_; }
     /// The way back or forwards, where it was asked for; whether there was one.
     bool recordHistory(VkCommandBuffer commands, Stage& stage);
     /// A step with what the tools do in it; what the blade cut is added to `sweeps`.
@@ -36,27 +51,35 @@ public:
     /// After the stage has another simulation. `undone`, in their order, are cut again.
     void restart(std::span<const Sweep> undone);
 
-    GrabTool& hand() { return hand_; }
     bool isHolding() const { return hand_.isHolding(); }
     bool isBladeOn() const { return blade_.isOn(); }
     const History& history() const { return history_; }
-    Overlay overlay() const { return {hand_.hand(), blade_.path()}; }
+    std::size_t pins() const { return pins_.count(); }
+    Overlay overlay() const { return {hand_.hand(), pins_.shown(), blade_.path()}; }
     /// What they said last, once: also a line on stderr.
     std::string takeNote() { return std::exchange(note_, {}); }
     /// For the title: " - holding".
-    const char* name() const { return hand_.isHolding() ? " - holding" : blade_.isOn() ? " - blade" : ""; }
+    const char* name() const;
 
 private:
     void press(const Input::Press& press, const Camera& camera);
+    void pinAt(const Ray& ray);
+    void pin(const Hand& hand, float radius);
+    void drop();
     void say(const std::string& note);
 
     GrabTool hand_;
+    Pins pins_;
     CutTool blade_;
     History history_;
     std::string note_;
     void remember(VkCommandBuffer commands, Stage& stage);
 
-    bool canCut_ = false, isForgetful_ = false, wantsUndo_ = false, wantsRedo_ = false;
+    float pinReach_;                                      // of the pointer around a pin [m]
+    std::optional<Ray> pinned_;                           // a question
+    std::array<sim::Grab, sim::ranges::mostGrabs> grabs_; // of the newest step
+    bool canCut_ = false, isForgetful_ = false, wantsPin_ = false, isPinArmed_ = false, wantsUndo_ = false,
+         wantsRedo_ = false;
 };
 
 } // namespace sinew::viewer
