@@ -32,6 +32,7 @@ enum class Action {
     balls,
     contacts,
     colorMap,
+    inspect,
     screenshot,
     record,
     fullScreen,

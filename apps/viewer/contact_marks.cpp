@@ -53,14 +53,15 @@ layout::MarkWall wallOf(const sim::Collider& collider, const sim::Pose& pose) {
 } // namespace
 
 ContactMarks::ContactMarks(const vk::Device& device, const sim::Scene& scene, const sim::Settings& settings,
-                           const sim::Simulation& simulation, std::uint32_t slots)
+                           const sim::Simulation& simulation, std::uint32_t slots, Room room)
     : device_(device), scene_(scene),
       simulation_(simulation), push_{.count = static_cast<std::uint32_t>(scene.particles.size()),
                                      .walls = wallCount(scene),
                                      .firstWall = 0,
                                      .pairRow = simulation.program().contacts.pairRow,
                                      .faceRow = simulation.program().contacts.faceRow,
-                                     .room = mostMarks},
+                                     .room = room == Room::many ? mostMarks : 1,
+                                     .only = NO_PARTICLE},
       mesh_(device, shape),
       particles_(filledBuffer(device, "marks.particles",
                               markParticles(scene, sim::stateLayout(scene, settings)), 0)),
@@ -71,7 +72,7 @@ ContactMarks::ContactMarks(const vk::Device& device, const sim::Scene& scene, co
                       .kind = vk::MemoryKind::upload}),
       nothing_(device, {.name = "marks.nothing", .count = 4, .stride = 4}),
       marks_(device, {.name = "marks",
-                      .count = mostMarks,
+                      .count = push_.room,
                       .stride = sizeof(layout::ContactMark),
                       .usage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT}),
       draw_(device, {.name = "marks.draw",
@@ -110,9 +111,20 @@ void ContactMarks::writeWalls(std::uint32_t slot) const noexcept {
         *wall++ = wallOf(scene_.colliders[c], c < poses.size() ? poses[c] : scene_.colliders[c].pose);
 }
 
-void ContactMarks::record(VkCommandBuffer handle, std::uint32_t slot) const noexcept {
-    writeWalls(slot);
+void ContactMarks::record(VkCommandBuffer commands, std::uint32_t slot) const noexcept {
+    record(commands, slot, push_, push_.count);
+}
+
+void ContactMarks::recordOf(VkCommandBuffer commands, std::uint32_t slot,
+                            std::uint32_t particle) const noexcept {
     layout::MarkPush push = push_;
+    push.only = particle;
+    record(commands, slot, push, 1);
+}
+
+void ContactMarks::record(VkCommandBuffer handle, std::uint32_t slot, layout::MarkPush push,
+                          std::uint32_t items) const noexcept {
+    writeWalls(slot);
     push.firstWall = slot * push.walls;
     const layout::MarkDraw empty{mesh_.indexCount(), 0, 0, 0, 0, 0, 0, 0};
     vk::BufferView read = draws_.view();
@@ -125,7 +137,7 @@ void ContactMarks::record(VkCommandBuffer handle, std::uint32_t slot) const noex
     commands.barrier();
     commands.bind(kernel_, sets_[0]);
     commands.push(kernel_, &push, sizeof push);
-    commands.dispatch((push.count + GROUP_ITEMS - 1) / GROUP_ITEMS);
+    commands.dispatch((items + GROUP_ITEMS - 1) / GROUP_ITEMS);
     commands.barrier();
     commands.copy(draw_.view(), read);
     commands.endStep();

@@ -12,11 +12,16 @@ namespace sinew::viewer {
 /// Must not outlive its Device, which must not move, nor the scene and the simulation.
 class ContactMarks {
 public:
+    /// For marks to be drawn, or to count only.
+    enum class Room { many, none };
+
     /// As ValueMaps. Throws vk::Error.
     ContactMarks(const vk::Device& device, const sim::Scene& scene, const sim::Settings& settings,
-                 const sim::Simulation& simulation, std::uint32_t slots);
+                 const sim::Simulation& simulation, std::uint32_t slots, Room room = Room::many);
 
     void record(VkCommandBuffer commands, std::uint32_t slot) const noexcept;
+    /// What one particle touches, alone.
+    void recordOf(VkCommandBuffer commands, std::uint32_t slot, std::uint32_t particle) const noexcept;
     /// Of a slot that has finished: how many there are, whether drawn or not.
     std::uint32_t found(std::uint32_t slot) const noexcept;
 
@@ -26,6 +31,8 @@ public:
 
 private:
     vk::BindingSets bindingSets() const;
+    void record(VkCommandBuffer commands, std::uint32_t slot, layout::MarkPush push,
+                std::uint32_t items) const noexcept;
     void writeWalls(std::uint32_t slot) const noexcept;
 
     const vk::Device& device_;

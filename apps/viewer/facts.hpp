@@ -3,6 +3,7 @@
 #pragma once
 
 #include "viewer/bindings.hpp"
+#include "viewer/found.hpp"
 #include "viewer/layers.hpp"
 
 #include <algorithm>
@@ -115,7 +116,9 @@ struct Facts {
     MapReading map;                  ///< of the map that is on, if one is
     float mapRange = 0;              ///< which value has the last color; 0 = not known yet
     std::uint32_t contactsFound = 0; ///< where they are shown
-    std::string notice;              ///< the newest message; empty = none
+    bool isInspecting = false;
+    std::optional<Found> found; ///< while inspecting
+    std::string notice;         ///< the newest message; empty = none
     bool isNoticeBad = false;
 };
 

@@ -11,11 +11,7 @@ namespace sinew::viewer {
 /// What stays the same. `settings` as the stage runs with them.
 SceneFacts sceneFacts(const Opening& opening, const Stage& stage, const vk::Device& device);
 
-/// Of links, (length - rest length) / rest length: root of the mean square, and largest. `positions` of every
-/// particle [m].
-struct Strain {
-    double rms = 0, largest = 0;
-};
+/// `positions` of every particle [m].
 Strain measureStrain(const sim::Scene& scene, std::span<const sim::layout::vec4> positions);
 
 /// Collects what changes.

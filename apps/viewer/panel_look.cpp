@@ -69,18 +69,19 @@ void legend(const Facts& facts) {
 
 void look(const Facts& facts, Wishes& wishes) {
     const Layers& layers = facts.layers;
-    float width = buttonWidth(3);
+    const float width = buttonWidth(3);
     button(Action::skinLook, wishes, width, layers.skin != SkinLook::solid,
            skinNames[static_cast<std::size_t>(layers.skin)]);
     ImGui::SameLine();
     button(Action::wires, wishes, width, layers.hasWires);
     ImGui::SameLine();
     button(Action::balls, wishes, width, layers.hasBalls);
-    width = buttonWidth(2);
     button(Action::contacts, wishes, width, layers.hasContacts);
     ImGui::SameLine();
     button(Action::colorMap, wishes, width, layers.map != ColorMap::none,
            mapNames[static_cast<std::size_t>(layers.map)]);
+    ImGui::SameLine();
+    button(Action::inspect, wishes, width, facts.isInspecting);
     if (layers.hasContacts) row("contacts", grouped(facts.contactsFound));
     if (layers.map != ColorMap::none) legend(facts);
 }

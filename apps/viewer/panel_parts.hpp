@@ -52,6 +52,9 @@ void program(const SceneFacts& scene);
 void scenes(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
 void knobs(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
 
+/// A little window beside the pointer; `free` pixels from the left are beside the panel.
+void probe(const Facts& facts, float scale, float free);
+
 /// The table of keys over everything.
 void help(float scale);
 

@@ -198,6 +198,8 @@ Wishes Panels::build(const SceneFacts& scene, const Facts& facts, const PanelInp
     if (isShown(extent)) buildSide(scene, facts, extent, wishes);
     buildHint(scene, facts, extent);
     buildNotice(facts, extent);
+    const float side = isShown(extent) ? (sideWidth + gap) * scale_ : 0;
+    parts::probe(facts, scale_, static_cast<float>(extent.width) - side);
     if (isHelpShown_) parts::help(scale_);
     ImGui::Render();
     remember();

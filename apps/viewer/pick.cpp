@@ -84,14 +84,16 @@ void lookAtBalls(const BallList& balls, const Ray& ray, std::span<const sim::lay
 
 std::optional<Pick> pick(const sim::Scene& scene, const BallList& balls, const Ray& ray,
                          std::span<const sim::layout::vec4> positions,
-                         std::span<const sim::layout::SkinVertex> vertices) {
+                         std::span<const sim::layout::SkinVertex> vertices, Among among) {
     Nearest nearest;
     if (!vertices.empty()) lookAtSkins(scene, ray, vertices, nearest);
     lookAtBalls(balls, ray, positions, nearest);
     if (nearest.distance == none) return std::nullopt;
     const Vector3 point = ray.origin + nearest.distance * ray.direction;
-    const std::vector<float> inverseMass = sim::inverseMasses(scene);
-    std::erase_if(nearest.holders, [&](std::uint32_t i) { return inverseMass[i] == 0; });
+    if (among == Among::moving) {
+        const std::vector<float> inverseMass = sim::inverseMasses(scene);
+        std::erase_if(nearest.holders, [&](std::uint32_t i) { return inverseMass[i] == 0; });
+    }
     if (nearest.holders.empty()) return std::nullopt;
     const auto apart = [&](std::uint32_t i) { return (placeOf(positions[i]) - point).squaredNorm(); };
     const std::uint32_t particle =

@@ -8,16 +8,19 @@
 namespace sinew::viewer {
 
 struct Pick {
-    std::uint32_t particle = 0;       ///< that moves
+    std::uint32_t particle = 0;       ///< the nearest to the point
     Vector3 point = Vector3::Zero();  ///< where the ray meets what is seen [m]
     Vector3 offset = Vector3::Zero(); ///< of that point from the particle [m]
     float distance = 0;               ///< along the ray [m]
 };
 
-/// A state as StateProbe reads it. Nothing where the ray meets no body, or only what is fixed.
+/// Whether what is fixed may be the nearest particle.
+enum class Among { moving, all };
+
+/// A state as StateProbe reads it. Nothing where the ray meets no body, or only what is not asked for.
 std::optional<Pick> pick(const sim::Scene& scene, const BallList& balls, const Ray& ray,
                          std::span<const sim::layout::vec4> positions,
-                         std::span<const sim::layout::SkinVertex> vertices);
+                         std::span<const sim::layout::SkinVertex> vertices, Among among = Among::moving);
 
 /// How far around a picked particle a hand takes hold [m]: an eighth of the size of its body at the start,
 /// but more than its next neighbours are away.

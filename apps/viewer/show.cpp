@@ -38,7 +38,8 @@ Show::Show(Screen& screen, Library& library, const vk::Device& device, std::uniq
     : screen_(screen), library_(library), device_(device), ownOpening_(std::move(opening)),
       opening_(*ownOpening_), controller_(opening_.camera, opening_.loaded.scene.dt),
       stage_(device, opening_.loaded.scene, fastest(device, opening_.loaded)),
-      probe_(std::in_place, device, stage_.simulation()), tools_(device, opening_),
+      probe_(std::in_place, device, stage_.simulation()),
+      inspector_(device, stage_, Presenter::framesInFlight), tools_(device, opening_),
       sceneFacts_(sceneFacts(opening_, stage_, device)), gauges_(stage_, opening_.loaded.scene.dt),
       knobs_(sceneFacts_.fromFile),
       moving_(device, screen.presenter().format(), isSoftware(device) ? reducedQuality() : Quality{},
@@ -115,7 +116,8 @@ void Show::turn() {
                            shown_ == Shown::nothing;
     if (isChanged) lastChange_ = now;
     // Panels change over a still scene without taking its quality away.
-    if (input.panels.isTouched || screen_.hasNewNotice()) panelsDue_ = picturesOfATouch;
+    const bool isPointed = inspector_.isOn() && input.pointer != std::exchange(pointer_, input.pointer);
+    if (input.panels.isTouched || isPointed || screen_.hasNewNotice()) panelsDue_ = picturesOfATouch;
     if (isChanged || shown_ != Shown::still || panelsDue_ > 0) {
         const bool isLast = !isChanged && (shown_ == Shown::still ||
                                            now - lastChange_ >= std::chrono::duration<double>(stillAfter));
@@ -195,6 +197,8 @@ Facts Show::facts(bool isFullQuality) const {
     facts.map = mapRange_.newest();
     facts.mapRange = mapRange_.range();
     facts.contactsFound = contactsFound_;
+    facts.isInspecting = inspector_.isOn();
+    facts.found = inspector_.found();
     facts.isRecording = recording_.has_value();
     facts.knobs = knobs_;
     facts.pace = controller_.playback.pace();

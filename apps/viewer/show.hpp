@@ -6,6 +6,7 @@
 #include "viewer/controller.hpp"
 #include "viewer/gauges.hpp"
 #include "viewer/inspection.hpp"
+#include "viewer/inspector.hpp"
 #include "viewer/library.hpp"
 #include "viewer/offscreen.hpp"
 #include "viewer/opening.hpp"
@@ -56,6 +57,7 @@ private:
         bool isRecorded = false;          // by cameras_
         ColorMap map = ColorMap::none;    // of inspection_
         bool hasContacts = false;         // likewise
+        bool isInspected = false;         // for the inspector
         std::optional<Question> question; // of the tools
         std::unique_ptr<Offscreen> screenshot;
         std::uint64_t screenshotStep = 0;
@@ -108,6 +110,8 @@ private:
     Stage stage_;
     std::optional<StateProbe> probe_;      // of the stage's simulation
     std::optional<Inspection> inspection_; // likewise, where a layer wants it
+    Inspector inspector_;
+    Vector2 pointer_ = Vector2::Zero(); // as Input::pointer
     MapRange mapRange_;
     std::uint32_t contactsFound_ = 0;
     Tools tools_;

@@ -61,13 +61,19 @@ bool Show::isStrainDue(std::uint32_t steps) {
 void Show::recordProbe(const Presenter::Frame& frame) {
     InFlight& flight = inFlight_[frame.slot];
     const auto isAsked = [](const InFlight& other) {
-        return other.isProbed || other.question || other.isMeasured;
+        return other.isProbed || other.question || other.isMeasured || other.isInspected;
     };
     if (std::ranges::any_of(inFlight_, isAsked)) return;
     flight.isProbed = std::exchange(wantsProbe_, false);
     flight.question = tools_.question();
     flight.isMeasured = isStrainDue(flight.steps);
-    if (isAsked(flight)) probe_->record(frame.commands);
+    const Ray ray = rayThrough(controller_.camera, pointer_);
+    flight.isInspected = inspector_.isDue(ray);
+    if (!isAsked(flight)) return;
+    probe_->record(frame.commands);
+    if (!flight.isInspected) return;
+    probe_->recordVelocities(frame.commands);
+    inspector_.record(frame.commands, frame.slot, ray);
 }
 
 // Without memory for them there are no layers.
@@ -102,6 +108,7 @@ void Show::settle(std::uint32_t slot) {
         gauges_.stepTimed(phases);
     }
     settleProbe(flight);
+    if (flight.isInspected) inspector_.settle(slot, opening_.light.balls, *probe_, isCut_);
     settleMap(slot, flight);
     if (flight.hasContacts && inspection_) contactsFound_ = inspection_->contacts(slot);
     bool isUndone = false;
@@ -181,6 +188,7 @@ void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
     if (!stage_.makeRoom(step, queue)) return stop(app::tooCrowded(step));
     probe_.emplace(device_, stage_.simulation());
     inspection_.reset(); // as layers want it, of the other simulation
+    inspector_.restart();
     std::vector<Sweep> sweeps = undone.sweeps;
     for (const InFlight& later : inFlight_) // at most one has some
         sweeps.insert(sweeps.end(), later.sweeps.begin(), later.sweeps.end());
@@ -189,7 +197,7 @@ void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
         other.steps = 0;
         other.sweeps.clear();
         wantsProbe_ = std::exchange(other.isProbed, false) || wantsProbe_;
-        other.isMeasured = other.isRecorded = false;
+        other.isMeasured = other.isRecorded = other.isInspected = false;
         other.map = ColorMap::none;
         other.hasContacts = false;
         other.question.reset();

@@ -92,6 +92,9 @@ void Show::handle(Action action) {
         screen_.layers().map = next(screen_.layers().map);
         mapRange_ = {};
         break;
+    case Action::inspect:
+        inspector_.toggle();
+        break;
     case Action::record:
         toggleRecording();
         break;

@@ -19,7 +19,9 @@ vk::Buffer readback(const vk::Device& device, const std::string& name, const vk:
 StateProbe::StateProbe(const vk::Device& device, const sim::Simulation& simulation)
     : device_(device), particles_(simulation.program().particleCount),
       positions_{simulation.positions(), readback(device, "probe.positions", simulation.positions())} {
-    const vk::BufferView vertices = simulation.skinVertices();
+    const vk::BufferView velocities = simulation.velocities(), vertices = simulation.skinVertices();
+    if (velocities.size > 0)
+        velocities_.emplace(Copy{velocities, readback(device, "probe.velocities", velocities)});
     if (vertices.size > 0) vertices_.emplace(Copy{vertices, readback(device, "probe.vertices", vertices)});
 }
 
@@ -30,6 +32,13 @@ void StateProbe::record(VkCommandBuffer handle) const noexcept {
         commands.barrier();
         commands.copy(vertices_->from, vertices_->to.view());
     }
+    commands.hostBarrier();
+}
+
+void StateProbe::recordVelocities(VkCommandBuffer handle) const noexcept {
+    if (!velocities_) return;
+    vk::Commands commands(device_, handle);
+    commands.copy(velocities_->from, velocities_->to.view());
     commands.hostBarrier();
 }
 
@@ -44,6 +53,11 @@ Box StateProbe::bounds() const {
 
 std::span<const sim::layout::vec4> StateProbe::positions() const noexcept {
     return {reinterpret_cast<const sim::layout::vec4*>(positions_.to.mapped()), particles_};
+}
+
+std::span<const sim::layout::vec4> StateProbe::velocities() const noexcept {
+    if (!velocities_) return {};
+    return {reinterpret_cast<const sim::layout::vec4*>(velocities_->to.mapped()), particles_};
 }
 
 std::span<const sim::layout::SkinVertex> StateProbe::vertices() const noexcept {

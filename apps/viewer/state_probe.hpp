@@ -17,6 +17,8 @@ class StateProbe {
 public:
     StateProbe(const vk::Device& device, const sim::Simulation& simulation);
 
+    /// Velocities too, in the same commands as record(), where the simulation has some.
+    void recordVelocities(VkCommandBuffer commands) const noexcept;
     /// After recordSkin() of the simulation, if there are skins.
     void record(VkCommandBuffer commands) const noexcept;
 
@@ -25,6 +27,8 @@ public:
     Box bounds() const;
     /// Of every particle [m].
     std::span<const sim::layout::vec4> positions() const noexcept;
+    /// Of every particle [m/s]; empty where there are none.
+    std::span<const sim::layout::vec4> velocities() const noexcept;
     /// Of all skins, one behind the other; empty where there are none.
     std::span<const sim::layout::SkinVertex> vertices() const noexcept;
 
@@ -36,7 +40,7 @@ private:
     const vk::Device& device_;
     std::size_t particles_;
     Copy positions_;
-    std::optional<Copy> vertices_;
+    std::optional<Copy> velocities_, vertices_;
 };
 
 } // namespace sinew::viewer

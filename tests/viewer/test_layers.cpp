@@ -190,6 +190,26 @@ TEST(ContactMarks, AreWhereBallsLieOnTheFloorAndOnEachOther) {
     EXPECT_EQ(heap.inspection.contacts(0), 2u) << "one on the floor, one on that, one in the air";
 }
 
+TEST(ContactMarks, CountWhatOneParticleTouches) {
+    sim::Scene scene;
+    for (const float height : {0.1f, 0.3f, 0.5f})
+        sim::addParticles(scene, {.center = {0, height, 0}, .count = {1, 1, 1}, .radius = 0.1f});
+    scene.planes.push_back({});
+    scene.gravity = {0, 0, 0};
+    Inspected heap(scene, {});
+    heap.step(2);
+    const ContactMarks counter(test::device(), scene, heap.stage.settings(), heap.stage.simulation(), 3,
+                               ContactMarks::Room::none);
+    VkCommandBuffer commands = test::queue().begin();
+    for (std::uint32_t particle = 0; particle < 3; ++particle) {
+        counter.recordOf(commands, particle, particle);
+    }
+    test::queue().wait(test::queue().submit(commands));
+    EXPECT_EQ(counter.found(0), 2u) << "the floor and the one above";
+    EXPECT_EQ(counter.found(1), 2u) << "those below and above";
+    EXPECT_EQ(counter.found(2), 1u);
+}
+
 TEST(ContactMarks, AreWhereABallLiesOnATriangle) {
     sim::Scene scene;
     sim::addParticles(scene, {.center = {-0.4f, 0.1f, -0.4f}, .count = {1, 1, 1}, .radius = 0.1f});

@@ -190,6 +190,25 @@ TEST_F(PanelsTest, FitIntoSmallWindowsWithLargeTexts) {
     EXPECT_GT(panels.atlas().coverage.size(), texels) << "larger glyphs";
 }
 
+TEST_F(PanelsTest, SayWhatIsUnderThePointerWhereverThatIs) {
+    panels.choose(true);
+    facts.notice = "a message";
+    facts.isInspecting = true;
+    Found found{.body = "organ", .particle = 417, .speed = 0.25f, .links = 26, .contacts = 3};
+    found.strain = Strain{0.01, 0.2};
+    for (const auto& what : {std::optional<Found>(), std::optional<Found>(found)}) {
+        facts.found = what;
+        for (const VkExtent2D extent : {VkExtent2D{320, 200}, small, large})
+            for (const Vector2& at : {Vector2(0, 0), Vector2(1, 1), Vector2(0, 1), Vector2(0.5f, 0.5f)}) {
+                const Vector2 pointer(at.x() * static_cast<float>(extent.width),
+                                      at.y() * static_cast<float>(extent.height));
+                picture({.pointer = pointer}, extent);
+                picture({.pointer = pointer}, extent);
+                expectWithin(extent);
+            }
+    }
+}
+
 TEST(GlyphAtlas, CoversItsTexels) {
     const Panels panels(2);
     const GlyphAtlas& atlas = panels.atlas();

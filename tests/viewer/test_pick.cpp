@@ -1,5 +1,6 @@
 // What lies under the pointer, and what the hand makes of it.
 #include "viewer/grab_tool.hpp"
+#include "viewer/inspector.hpp"
 
 #include "sim/bodies.hpp"
 
@@ -97,6 +98,30 @@ TEST(Pick, MeetsBalls) {
 TEST(Pick, HoldsAnEighthOfABodyAround) {
     const Seen seen = blocks();
     EXPECT_NEAR(holdRadius(seen.scene, 62), 0.15f, 1e-5f) << "1.5 spacings, more than 0.4 sqrt(3) / 8";
+}
+
+TEST(Inspector, SaysWhatAStateSaysOfAParticle) {
+    Seen seen = blocks();
+    seen.scene.bodies[1].name = "behind";
+    const std::uint32_t first = seen.scene.bodies[1].firstParticle;
+    for (layout::vec4& place : seen.positions) place.x *= 1.1f; // stretched
+    std::vector<layout::vec4> velocities(seen.positions.size(), layout::vec4{3, 4, 0, 0});
+    const Found found = foundAt(seen.scene, first, seen.positions, velocities, false);
+    EXPECT_EQ(found.body, "behind");
+    EXPECT_FLOAT_EQ(found.speed.value(), 5);
+    ASSERT_TRUE(found.strain);
+    EXPECT_NEAR(found.strain->largest, 0.1, 1e-5) << "along x";
+    EXPECT_GT(found.strain->rms, 0.01);
+    EXPECT_LT(found.strain->rms, found.strain->largest);
+    EXPECT_FALSE(foundAt(seen.scene, first, seen.positions, {}, false).speed);
+    EXPECT_FALSE(foundAt(seen.scene, first, seen.positions, {}, true).strain) << "something is cut";
+    EXPECT_FALSE(found.isAsleep);
+    seen.positions[first].w = 0;
+    EXPECT_TRUE(foundAt(seen.scene, first, seen.positions, {}, false).isAsleep);
+    seen.scene.particles[first].inverseMass = 0;
+    const Found fixed = foundAt(seen.scene, first, seen.positions, {}, false);
+    EXPECT_TRUE(fixed.isFixed);
+    EXPECT_FALSE(fixed.isAsleep);
 }
 
 TEST(Ray, GoesThroughThePlaceThatThePictureShows) {

@@ -48,7 +48,7 @@ void markPairs(uint i, uint slot, vec3 x) {
         const uvec2 candidate = pairs[s * push.pairRow + slot];
         const vec3 d = x - placeOf(candidate.x);
         const float distance = length(d);
-        if (bySlot[candidate.x] <= i || distance > 1.02 * uintBitsToFloat(candidate.y)) continue; // one of the two says it
+        if ((bySlot[candidate.x] <= i && push.only == NO_PARTICLE) || distance > 1.02 * uintBitsToFloat(candidate.y)) continue; // one of the two says it
         mark(x - 0.5 * d, d / max(distance, 1e-20), 1.0);
     }
 }
@@ -66,8 +66,10 @@ void markFaces(uint slot, vec3 x) {
 }
 
 void main() {
-    const uint i = itemIndex(push.count);
-    if (i >= push.count) return;
+    const bool isOne = push.only != NO_PARTICLE;
+    const uint items = isOne ? 1u : push.count, item = itemIndex(items);
+    if (item >= items) return;
+    const uint i = isOne ? push.only : item;
     const MarkParticle own = particles[i];
     const vec3 x = positions[i].xyz;
     if (positions[i].w > 0.0)

@@ -78,6 +78,7 @@ struct MarkPush {
     uint firstWall;
     uint pairRow, faceRow; // of the lists of contacts; 0 = there are none
     uint room;             // marks
+    uint only;             // the particle whose contacts are wanted; NO_PARTICLE = all
 };
 
 #ifdef __cplusplus

@@ -1,0 +1,27 @@
+// What lies under the pointer, in numbers: plain data, for the panels.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace sinew::viewer {
+
+/// Of links, (length - rest length) / rest length: root of the mean square, and largest.
+struct Strain {
+    double rms = 0, largest = 0;
+};
+
+struct Found {
+    std::string body;
+    std::uint32_t particle = 0;      ///< the nearest one to what is seen
+    std::array<float, 3> position{}; ///< of it [m]
+    bool isFixed = false, isAsleep = false;
+    std::optional<float> speed;            ///< [m/s]; nothing where the simulation has no velocities
+    std::size_t links = 0;                 ///< of the uncut body
+    std::optional<Strain> strain;          ///< of those; nothing once something is cut
+    std::optional<std::uint32_t> contacts; ///< how many things it touches; nothing = not counted yet
+};
+
+} // namespace sinew::viewer
