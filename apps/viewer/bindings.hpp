@@ -35,6 +35,7 @@ enum class Action {
     inspect,
     screenshot,
     record,
+    saveInput,
     fullScreen,
     vsync,
     largerTexts,

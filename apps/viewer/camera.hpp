@@ -14,6 +14,7 @@ struct Camera {
     float elevation = 0.27f;          ///< of the eye above the target's level [rad]
     float fieldOfView = 0.7f;         ///< vertical [rad]
     float lowestEye = -std::numeric_limits<float>::infinity(); ///< the eye stays above this height [m]
+    bool operator==(const Camera&) const = default;
 };
 
 Vector3 eye(const Camera& camera);

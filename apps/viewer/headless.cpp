@@ -8,7 +8,9 @@
 #include "viewer/offscreen.hpp"
 #include "viewer/opening.hpp"
 #include "viewer/picture_writer.hpp"
+#include "viewer/replay.hpp"
 #include "viewer/stage.hpp"
+#include "viewer/tools.hpp"
 #include "viewer/video.hpp"
 #include "vk/loader.hpp"
 #include "vk/queue.hpp"
@@ -66,6 +68,9 @@ public:
             writer_.add(pictureFile(options_.folder, frame), std::move(picture), std::move(text));
     }
 
+    /// False for a replay that nobody looks at.
+    bool isAny() const { return video_ || !options_.folder.empty(); }
+
     void finish() {
         while (writer_.take(PictureWriter::Wait::yes)) {
         }
@@ -84,22 +89,28 @@ private:
 // Steps and draws; a frame is a step of the simulation, frame 0 the state before the first.
 class Recorder {
 public:
-    Recorder(const Options& options, const Opening& opening, const vk::Device& device)
-        : opening_(opening), device_(device), stage_(device, opening.loaded.scene, opening.loaded.settings),
+    Recorder(const Options& options, const Opening& opening, const vk::Device& device,
+             std::optional<InputFile> input)
+        : opening_(opening), device_(device), camera_(opening.camera),
+          stage_(device, opening.loaded.scene, opening.loaded.settings),
           offscreen_(device, options.size, opening.light), layers_(options.layers), queue_(device) {
         stage_.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
+        if (!input) return;
+        replay_.emplace(std::move(*input));
+        tools_.emplace(device, opening);
     }
 
     /// Submits a frame; with `isPictured`, waits for its picture.
     std::optional<Picture> advance(std::uint64_t frame, bool isPictured) {
         while (submissions_.size() >= sim::Simulation::framesInFlight) settleOldest();
+        if (frame > 0) playHistory();
         submit(frame);
         if (!isPictured) return std::nullopt;
         settle(); // first: a step that is done again would show in no picture
         VkCommandBuffer commands = queue_.begin();
         stage_.recordSkin(commands);
         const Overlay overlay = recordLayers(commands);
-        offscreen_.record(commands, opening_.camera, stage_.simulation(), overlay);
+        offscreen_.record(commands, camera_, stage_.simulation(), overlay);
         queue_.wait(queue_.submit(commands));
         return offscreen_.read();
     }
@@ -107,7 +118,19 @@ public:
     /// Waits for every frame and checks it. Throws app::Failure (diverged).
     void settle() {
         while (!submissions_.empty()) settleOldest();
-        if (stage_.makeSurfaceRoom(std::exchange(surfaceMissing_, 0), queue_)) inspection_.reset();
+        if (!stage_.makeSurfaceRoom(std::exchange(surfaceMissing_, 0), queue_)) return;
+        inspection_.reset();
+        if (tools_) tools_->restart({}, 0);
+    }
+
+    /// Of a replay, what came after its last step, and how it ended.
+    void finishReplay() {
+        if (!replay_) return;
+        const bool isWhole = playHistory() == Replay::Due::nothing;
+        settle();
+        std::printf("%s\n", hashText(stateHash(device_, stage_, queue_), stage_.steps(),
+                                     isWhole ? replay_->file().hash : std::nullopt)
+                                .c_str());
     }
 
     PictureText text(std::uint64_t frame) const { return pictureText(opening_, device_, frame); }
@@ -115,9 +138,10 @@ public:
 private:
     // The range of a map is that of its own picture, whichever others are taken.
     Overlay recordLayers(VkCommandBuffer& commands) {
-        if (layers_ == Layers{}) return {};
+        Overlay overlay = tools_ ? tools_->overlay() : Overlay{};
+        overlay.layers = layers_;
         offscreen_.prepare(layers_);
-        if (!layers_.needsBuffers()) return {.layers = layers_};
+        if (!layers_.needsBuffers()) return overlay;
         if (!inspection_) inspection_.emplace(device_, stage_, 1);
         inspection_->prepare(layers_);
         inspection_->record(commands, layers_, 0);
@@ -127,29 +151,63 @@ private:
             range = inspection_->reading(0).range;
             commands = queue_.begin();
         }
-        return {.layers = layers_, .buffers = inspection_->buffers(layers_, range)};
+        overlay.buffers = inspection_->buffers(layers_, range);
+        return overlay;
     }
 
     struct Submission {
         std::uint64_t frame, value;
+        StepHands hands;
+        sim::Vec3 gravity;
     };
+
+    // Up to the next step, or the end. What goes back to an earlier state has that of whole steps to save.
+    Replay::Due playHistory() {
+        if (!replay_) return Replay::Due::nothing;
+        Replay::Due due = Replay::Due::history;
+        while ((due = replay_->next(*tools_, camera_, stage_)) == Replay::Due::history) {
+            settle();
+            VkCommandBuffer commands = queue_.begin();
+            tools_->recordHistory(commands, stage_);
+            queue_.wait(queue_.submit(commands));
+        }
+        return due;
+    }
 
     void submit(std::uint64_t frame) {
         VkCommandBuffer commands = queue_.begin();
+        Submission next{.frame = frame, .value = 0, .hands = {}, .gravity = stage_.gravity()};
+        if (tools_ && frame > 0) next.hands = tools_->takeStep(commands, stage_);
         if (frame == 0)
             stage_.recordReset(commands);
         else
-            stage_.recordStep(commands);
-        submissions_.push_back({frame, queue_.submit(commands)});
+            record(commands, next);
+        next.value = queue_.submit(commands);
+        submissions_.push_back(next);
     }
 
-    // All steps from `first` on were undone.
-    void redoFrom(std::uint64_t first) {
-        const std::uint64_t last = stage_.steps();
-        if (!stage_.makeRoom(first, queue_)) throw app::Failure(app::diverged, app::tooCrowded(first));
-        submissions_.clear();
+    void record(VkCommandBuffer commands, const Submission& next) {
+        if (tools_)
+            recordStep(commands, stage_, next.hands);
+        else
+            stage_.recordStep(commands);
+    }
+
+    // All steps from `first` on were undone; hands do in them what they did.
+    void redoFrom(const Submission& first) {
+        std::deque<Submission> undone = std::exchange(submissions_, {});
+        undone.push_front(first);
+        if (!stage_.makeRoom(first.frame, queue_))
+            throw app::Failure(app::diverged, app::tooCrowded(first.frame));
         inspection_.reset(); // there is another simulation now
-        for (std::uint64_t frame = first; frame <= last; ++frame) submit(frame);
+        if (tools_) tools_->restart({}, 0);
+        for (Submission& again : undone) {
+            VkCommandBuffer commands = queue_.begin();
+            stage_.setGravity(again.gravity);
+            record(commands, again);
+            again.value = queue_.submit(commands);
+            submissions_.push_back(again);
+        }
     }
 
     void settleOldest() {
@@ -157,7 +215,7 @@ private:
         submissions_.pop_front();
         queue_.wait(oldest.value);
         if (oldest.frame == 0) return;
-        if (stage_.neededRoom(oldest.frame) > 0) return redoFrom(oldest.frame);
+        if (stage_.neededRoom(oldest.frame) > 0) return redoFrom(oldest);
         if (const std::optional<Divergence> divergence = stage_.check(oldest.frame))
             throw app::Failure(app::diverged, divergence->sentence());
         surfaceMissing_ = stage_.simulation().status(oldest.frame).cutSurfaceMissing;
@@ -165,20 +223,27 @@ private:
 
     const Opening& opening_;
     const vk::Device& device_;
+    Camera camera_;
     Stage stage_;
     Offscreen offscreen_;
     Layers layers_;
     std::optional<Inspection> inspection_;
-    vk::Queue queue_; // last: waits for what still uses the others
+    std::optional<Replay> replay_;
+    std::optional<Tools> tools_; // of the replay
+    vk::Queue queue_;            // last: waits for what still uses the others
     std::deque<Submission> submissions_;
     std::uint32_t surfaceMissing_ = 0; // Status::cutSurfaceMissing of the newest settled step
 };
 
 } // namespace
 
-int runHeadless(const Options& options, std::size_t& messages) {
+int runHeadless(const Options& asked, std::size_t& messages) {
+    std::optional<InputFile> input;
+    if (!asked.replay.empty()) input = loadInput(asked.replay);
+    const Options options = input ? withReplay(asked, *input) : asked;
     const float aspect = static_cast<float>(options.size.width) / static_cast<float>(options.size.height);
-    const Opening opening = open(options, aspect);
+    Opening opening = open(options, aspect);
+    if (input) prepareForReplay(opening.loaded.settings, *input);
     if (options.hasValidation) vk::enableQueueSubmitValidation();
     const vk::Loader loader;
     const vk::Device device =
@@ -188,16 +253,18 @@ int runHeadless(const Options& options, std::size_t& messages) {
     std::fflush(stdout);
 
     Outputs outputs(options, opening.loaded.scene.dt);
-    Recorder recorder(options, opening, device);
+    Recorder recorder(options, opening, device, std::move(input));
     try {
         app::Progress progress(options.frames, stderr);
         for (std::uint64_t frame = 0; frame <= options.frames && !app::isInterrupted(); ++frame) {
-            if (std::optional<Picture> picture = recorder.advance(frame, options.wantsPicture(frame)))
+            const bool isPictured = outputs.isAny() && options.wantsPicture(frame);
+            if (std::optional<Picture> picture = recorder.advance(frame, isPictured))
                 outputs.add(frame, std::move(*picture), recorder.text(frame));
             progress.update(frame);
         }
         recorder.settle();
         progress.finish();
+        recorder.finishReplay();
     } catch (const app::Failure& failure) {
         if (failure.code() == app::diverged) // what was drawn before is whole and stays
             outputs.finish();

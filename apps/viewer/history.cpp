@@ -54,6 +54,11 @@ std::vector<std::uint64_t> History::times() const {
     return times;
 }
 
+void History::recycle() {
+    for (States* states : {&before_, &after_})
+        for (; !states->empty(); states->pop_front()) spare_.push_back(std::move(states->front().buffer));
+}
+
 void History::clear() {
     before_.clear();
     after_.clear();

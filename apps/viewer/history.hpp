@@ -29,7 +29,9 @@ public:
     /// When the states are of, as Stage::played(): those to go back to from the oldest on, then those to go
     /// forwards to from the nearest on.
     std::vector<std::uint64_t> times() const;
-    /// Nothing of it may be in use on the device.
+    /// Forgets all; the buffers serve again.
+    void recycle();
+    /// Frees them, too. Nothing of it may be in use on the device.
     void clear();
 
 private:

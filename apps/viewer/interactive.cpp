@@ -2,6 +2,7 @@
 #include "viewer/interactive.hpp"
 
 #include "app/guard.hpp"
+#include "viewer/replay.hpp"
 #include "viewer/show.hpp"
 #include "vk/check.hpp"
 #include "vk/loader.hpp"
@@ -57,7 +58,7 @@ float aspectOf(VkExtent2D size) {
 Options recalled(Options options, const Preferences& preferences) {
     if (!options.hasSize && preferences.width > 0 && preferences.height > 0)
         options.size = {preferences.width, preferences.height};
-    if (options.scene.empty() && !preferences.scene.empty()) {
+    if (options.scene.empty() && options.replay.empty() && !preferences.scene.empty()) {
         const bool isFile = preferences.scene.front() == '/';
         (isFile ? options.scene : options.builtIn) = preferences.scene;
     }
@@ -95,7 +96,13 @@ int runInteractive(const Options& asked, std::size_t& messages) {
     const std::filesystem::path file = preferencesFile();
     const Preferences preferences = loadPreferences(file);
     Options options = recalled(asked, preferences);
-    auto opening = openFirst(asked, options);
+    std::optional<InputFile> input;
+    if (!options.replay.empty()) options = withReplay(options, *(input = loadInput(options.replay)));
+    auto opening = openFirst(input ? options : asked, options);
+    if (input) {
+        prepareForReplay(opening->loaded.settings, *input);
+        opening->input = std::move(input);
+    }
     if (options.hasValidation) vk::enableQueueSubmitValidation();
     Window window(options.size);
     const vk::Loader loader;

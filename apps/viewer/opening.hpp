@@ -2,6 +2,7 @@
 #pragma once
 
 #include "viewer/facts.hpp"
+#include "viewer/input_log.hpp"
 #include "viewer/options.hpp"
 #include "viewer/png.hpp"
 #include "viewer/stage_light.hpp"
@@ -20,6 +21,7 @@ struct Opening {
     Camera camera;
     StageLight light;
     std::optional<Again> again;
+    std::optional<InputFile> input; ///< to be played
 };
 
 /// Loads the scene, prints its warnings to stderr and looks at it: from where the file says, or with every

@@ -81,8 +81,8 @@ void addHeadlessOptions(CLI::App& app, Options& options) {
 void checkHeadless(Options& options, bool hasFrames) {
     std::ranges::sort(options.pictured);
     if (!options.isHeadless) return;
-    if (options.folder.empty() && options.video.empty())
-        refuse("--headless without --out DIR or --video FILE draws for nobody");
+    if (options.folder.empty() && options.video.empty() && options.replay.empty())
+        refuse("--headless without --out DIR, --video FILE or --replay FILE is for nobody");
     if (options.pictured.empty()) return;
     if (!options.video.empty()) refuse("--video takes even steps: use --every, not --picture-frames");
     const std::uint64_t last = options.pictured.back();
@@ -112,6 +112,8 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     app.add_option("--show", layers, "what is drawn beside skins or instead of them")
         ->delimiter(',')
         ->check(CLI::IsMember(layerNames()));
+    app.add_option("--replay", options.replay,
+                   "a log of input, as the window saves it: opens its scene and does the same again");
     addHeadlessOptions(app, options);
     try {
         app.parse(argc, argv);
@@ -123,6 +125,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     for (const std::string& layer : layers) addLayer(layer, options.layers);
     if (app.count("--size") > 0) options.size = parseSize(size);
     options.hasSize = app.count("--size") > 0;
+    options.hasFrames = app.count("--frames") + app.count("--picture-frames") > 0;
     checkHeadless(options, app.count("--frames") > 0);
     return options;
 }

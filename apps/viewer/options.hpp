@@ -24,8 +24,11 @@ struct Options {
     bool hasSize = false; ///< asked for: a window does not begin as it was left
     Layers layers;
 
+    std::filesystem::path replay; ///< a log of input; empty = none
+
     bool isHeadless = false;
     std::uint64_t frames = 240;          ///< steps to take without a window
+    bool hasFrames = false;              ///< asked for: else all of a replay
     std::filesystem::path folder;        ///< for frame_0000.png ...; empty = no pictures
     std::filesystem::path video;         ///< MP4; empty = none
     std::uint64_t every = 1;             ///< a picture of each so many frames, frame 0 included

@@ -33,12 +33,14 @@ void play(const Facts& facts, Wishes& wishes) {
     button(Action::drop, wishes, width);
     ImGui::SameLine();
     button(Action::pin, wishes, width, facts.pins > 0);
-    width = buttonWidth(3);
     button(Action::frame, wishes, width);
     ImGui::SameLine();
     button(Action::screenshot, wishes, width);
     ImGui::SameLine();
     button(Action::record, wishes, width, facts.isRecording, facts.isRecording ? "Stop" : nullptr);
+    ImGui::SameLine();
+    button(Action::saveInput, wishes, width);
+    width = buttonWidth(3);
     button(Action::vsync, wishes, width, facts.isVsync);
     ImGui::SameLine();
     button(Action::fullScreen, wishes, width);

@@ -12,6 +12,14 @@ struct Pick {
     Vector3 point = Vector3::Zero();  ///< where the ray meets what is seen [m]
     Vector3 offset = Vector3::Zero(); ///< of that point from the particle [m]
     float distance = 0;               ///< along the ray [m]
+    bool operator==(const Pick&) const = default;
+};
+
+/// What a tool asks of the state on show: what lies there.
+struct Question {
+    enum class Asker { hand, pin } asker = Asker::hand;
+    Ray ray;
+    bool operator==(const Question&) const = default;
 };
 
 /// Whether what is fixed may be the nearest particle.

@@ -51,6 +51,7 @@ Show::Show(Screen& screen, Library& library, const vk::Device& device, std::uniq
     stage_.setBlades({opening_.loaded.blades, opening_.loaded.scene.dt});
     controller_.playback.reset(); // fills the buffers
     if (opening_.again) goOn(*opening_.again);
+    if (opening_.input) replay_.emplace(*opening_.input);
 }
 
 // A scene that begins anew because something was turned is seen from where it was, and stays as it was
@@ -60,7 +61,7 @@ void Show::goOn(const Again& again) {
     sceneFacts_.fromFile = again.fromFile;
     knobs_.gravity = again.turned.gravity;
     knobs_.pace = again.turned.pace;
-    stage_.setGravity(knobs_.gravity);
+    tools_.pull(stage_, knobs_.gravity);
     controller_.playback.setPace(double{knobs_.pace});
 }
 
@@ -106,6 +107,7 @@ void Show::turn() {
     grant(wishes, input);
     handle(input);
     reportFiles(PictureWriter::Wait::no);
+    if (replayed_) compareReplay();
     isHidden_ = !prepareSwapchain();
     const auto now = Clock::now();
     const double elapsed = std::chrono::duration<double>(now - std::exchange(lastTurn_, now)).count();
@@ -133,7 +135,8 @@ void Show::turn() {
 
 // A film has a picture of every step.
 Plan Show::plan(double elapsed) {
-    Plan plan = controller_.playback.plan(elapsed, recording_ ? 1 : Playback::maxSteps);
+    const bool isOneByOne = recording_ || replay_;
+    Plan plan = controller_.playback.plan(elapsed, isOneByOne ? 1 : Playback::maxSteps);
     if (recording_ && !controller_.playback.isPaused() && !plan.isReset) plan.steps = 1;
     return plan;
 }

@@ -1,6 +1,6 @@
 // A scene playing in a window: input, steps in real time, one submission a frame. A paused picture is drawn
 // once and then left alone; on a software device that last one has full quality. The loop stands in show.cpp,
-// the rest beside it: show_input, show_flights, show_pictures.
+// the rest beside it: show_input, show_flights, show_pictures, show_replay.
 #pragma once
 
 #include "viewer/controller.hpp"
@@ -12,6 +12,7 @@
 #include "viewer/opening.hpp"
 #include "viewer/picture_writer.hpp"
 #include "viewer/recording.hpp"
+#include "viewer/replay.hpp"
 #include "viewer/screen.hpp"
 #include "viewer/stage.hpp"
 #include "viewer/state_probe.hpp"
@@ -74,6 +75,12 @@ private:
     float pictureAspect() const;
     std::unique_ptr<Opening> takeOpened();
     bool mayOpen();
+    std::string nameAt(std::uint64_t step) const;
+    void saveInput();
+    bool playInput(const Presenter::Frame& frame);
+    void endReplay();
+    void compareReplay();
+    bool isOfReplay(Action action);
     void toggleRecording();
     void stopRecording();
     void recordCamera(const Presenter::Frame& frame, const Overlay& overlay);
@@ -83,7 +90,7 @@ private:
     void draw(Plan plan, View& view);
     void drawPanels(const Presenter::Frame& frame, bool isFullQuality);
     Facts facts(bool isFullQuality) const;
-    void recordSteps(const Presenter::Frame& frame, const Plan& plan);
+    void recordSteps(const Presenter::Frame& frame, Plan& plan);
     void forgetFlights();
     void makeSurfaceRoom();
     void warnOfSurface();
@@ -115,6 +122,8 @@ private:
     MapRange mapRange_;
     std::uint32_t contactsFound_ = 0;
     Tools tools_;
+    std::optional<Replay> replay_;
+    std::optional<InputFile> replayed_; // that has just come to its end
     std::vector<vk::Timestamps> times_; // one a slot
     SceneFacts sceneFacts_;
     Gauges gauges_;

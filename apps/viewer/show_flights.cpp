@@ -16,12 +16,13 @@ constexpr double strainEvery = 0.25; // [s]: a copy of all positions
 
 } // namespace
 
-void Show::recordSteps(const Presenter::Frame& frame, const Plan& plan) {
+void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
     InFlight& flight = inFlight_[frame.slot];
     if (plan.isReset) {
         stage_.recordReset(frame.commands);
         gauges_.restart();
-        tools_.clear();
+        tools_.reset();
+        if (replay_) replay_->restart();
         forgetFlights();
         isDiverged_ = false;
     }
@@ -29,10 +30,14 @@ void Show::recordSteps(const Presenter::Frame& frame, const Plan& plan) {
         forgetFlights();
         isDiverged_ = false;
     }
+    if (replay_ && plan.steps > 0 && !playInput(frame)) plan.steps = 0;
     flight.firstStep = stage_.steps() + 1;
     flight.steps = plan.steps;
-    for (std::uint32_t step = 0; step < plan.steps; ++step)
-        tools_.recordStep(frame.commands, stage_, step == 0 ? &times_[frame.slot] : nullptr, flight.sweeps);
+    for (std::uint32_t step = 0; step < plan.steps; ++step) {
+        const StepHands hands = tools_.takeStep(frame.commands, stage_);
+        if (hands.sweep) flight.sweeps.push_back(*hands.sweep);
+        recordStep(frame.commands, stage_, hands, step == 0 ? &times_[frame.slot] : nullptr);
+    }
     stage_.recordSkin(frame.commands);
     recordProbe(frame);
 }
@@ -164,7 +169,8 @@ void Show::makeSurfaceRoom() {
     if (!stage_.makeSurfaceRoom(needed, queue)) return warnOfSurface();
     probe_.emplace(device_, stage_.simulation());
     inspection_.reset(); // as layers want it, of the other simulation
-    tools_.restart({});
+    inspector_.restart();
+    tools_.restart({}, 0);
     shown_ = Shown::nothing;
 }
 
@@ -185,14 +191,17 @@ void Show::stop(const std::string& why) {
 void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
     screen_.presenter().waitIdle();
     vk::Queue queue(device_);
+    const std::uint64_t newest = stage_.steps();
     if (!stage_.makeRoom(step, queue)) return stop(app::tooCrowded(step));
+    if (std::exchange(replay_, std::nullopt))
+        screen_.warn("the replay ends here: contacts need more room than when it was recorded");
     probe_.emplace(device_, stage_.simulation());
     inspection_.reset(); // as layers want it, of the other simulation
     inspector_.restart();
     std::vector<Sweep> sweeps = undone.sweeps;
     for (const InFlight& later : inFlight_) // at most one has some
         sweeps.insert(sweeps.end(), later.sweeps.begin(), later.sweeps.end());
-    tools_.restart(sweeps);
+    tools_.restart(sweeps, newest - stage_.steps());
     for (InFlight& other : inFlight_) {
         other.steps = 0;
         other.sweeps.clear();

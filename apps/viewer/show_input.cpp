@@ -17,7 +17,7 @@ void Show::grant(const Wishes& wishes, Input& input) {
 }
 
 void Show::turnKnobs(const Knobs& knobs) {
-    if (knobs.gravity != knobs_.gravity) stage_.setGravity(knobs.gravity);
+    if (knobs.gravity != knobs_.gravity) tools_.pull(stage_, knobs.gravity);
     controller_.playback.setPace(double{knobs.pace});
     knobs_.gravity = knobs.gravity;
     knobs_.pace = knobs.pace;
@@ -40,14 +40,14 @@ void Show::handle(const Input& input) {
     for (const Action action : input.actions) {
         if (action == Action::drop && screen_.panels().isHelpShown())
             screen_.panels().closeHelp();
-        else if (!controller_.act(action) && !tools_.act(action))
+        else if (!isOfReplay(action) && !controller_.act(action) && !tools_.act(action))
             handle(action);
     }
-    tools_.handle(input, controller_);
+    if (!replay_) tools_.handle(input, controller_);
     if (const std::string note = tools_.takeNote(); !note.empty()) screen_.tell(note);
     screen_.feed(input.panels);
     status_.setTool(tools_.name());
-    if (input.notches != 0) controller_.wheel(input.notches, input.pointer);
+    if (input.notches != 0 && !replay_) controller_.wheel(input.notches, input.pointer);
 }
 
 void Show::handle(Action action) {
@@ -94,6 +94,9 @@ void Show::handle(Action action) {
         break;
     case Action::inspect:
         inspector_.toggle();
+        break;
+    case Action::saveInput:
+        saveInput();
         break;
     case Action::record:
         toggleRecording();

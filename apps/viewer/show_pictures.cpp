@@ -10,16 +10,12 @@
 
 namespace sinew::viewer {
 
-namespace {
-
 // "organ-000120".
-std::string nameAt(const std::string& scene, std::uint64_t step) {
+std::string Show::nameAt(std::uint64_t step) const {
     char stem[40];
     std::snprintf(stem, sizeof stem, "-%06" PRIu64, step);
-    return scene + stem;
+    return opening_.loaded.scene.name + stem;
 }
-
-} // namespace
 
 void Show::recordScreenshot(const Presenter::Frame& frame, const Overlay& overlay) {
     InFlight& flight = inFlight_[frame.slot];
@@ -36,8 +32,7 @@ void Show::recordScreenshot(const Presenter::Frame& frame, const Overlay& overla
 }
 
 void Show::settleScreenshot(const InFlight& flight) {
-    const std::string name = nameAt(opening_.loaded.scene.name, flight.screenshotStep);
-    writer_.add(freeName(name, ".png"), flight.screenshot->read(),
+    writer_.add(freeName(nameAt(flight.screenshotStep), ".png"), flight.screenshot->read(),
                 pictureText(opening_, device_, flight.screenshotStep));
 }
 
@@ -46,7 +41,7 @@ void Show::toggleRecording() {
     const VkExtent2D extent = screen_.presenter().extent();
     screen_.presenter().waitIdle(); // frames may still use the cameras of a film that failed
     try {
-        recording_.emplace(nameAt(opening_.loaded.scene.name, stage_.steps()), extent.width, extent.height,
+        recording_.emplace(nameAt(stage_.steps()), extent.width, extent.height,
                            1 / double{stage_.scene().dt});
         for (auto& camera : cameras_) camera = std::make_unique<Offscreen>(device_, extent, opening_.light);
         std::printf("recording %s\n", recording_->target().c_str());

@@ -34,6 +34,8 @@ public:
 
     /// Downwards, from the next step on: along the scene's own, or -y where that is none [m/s^2].
     void setGravity(float gravity) noexcept;
+    void setGravity(const sim::Vec3& gravity) noexcept { gravity_ = gravity; }
+    const sim::Vec3& gravity() const noexcept { return gravity_; }
 
     /// For what goes back to earlier states.
     sim::Simulation& simulation() noexcept { return growing_.simulation(); }
@@ -64,6 +66,7 @@ public:
     const sim::Settings& settings() const noexcept { return settings_; }
     const sim::Simulation& simulation() const noexcept { return growing_.simulation(); }
     const app::ContactRoom& contactRoom() const noexcept { return growing_.contactRoom(); }
+    const app::SurfaceRoom& surfaceRoom() const noexcept { return growing_.surfaceRoom(); }
 
 private:
     sim::Scene scene_;

@@ -15,18 +15,33 @@ Tools::Tools(const vk::Device& device, const Opening& opening)
     : blade_(opening.light.bounds), history_(device), pinReach_(0.04f * opening.light.radius()),
       canCut_(std::ranges::any_of(opening.loaded.scene.grids, &sim::Grid::isCuttable)) {}
 
+void recordStep(VkCommandBuffer commands, Stage& stage, const StepHands& hands,
+                vk::Timestamps* timestamps) noexcept {
+    sim::Blade blade;
+    if (hands.sweep)
+        blade = {.from = hands.sweep->from, .to = hands.sweep->to, .isCarried = hands.sweep->isCarried};
+    stage.recordStep(commands, timestamps, hands.grabs, blade);
+}
+
 void Tools::handle(const Input& input, Controller& controller) {
+    look(controller.camera);
     for (const Input::Press& one : input.presses)
-        if (one.action == Action::grab) press(one, controller.camera);
+        if (one.action == Action::grab) press(controller.camera, one.isDown, one.pointer);
     for (const Input::Drag& drag : input.drags) {
         if (drag.action != Action::grab)
             controller.drag(drag.action, drag.heights);
         else if (const Vector2 turn = hand_.drag(drag.heights); !blade_.isOn() && !turn.isZero())
             controller.drag(Action::orbit, turn);
     }
-    hand_.move(controller.camera, input.pointer);
-    blade_.move(controller.camera, input.pointer);
-    if (std::exchange(wantsPin_, false)) pinAt(rayThrough(controller.camera, input.pointer));
+    look(controller.camera);
+    move(controller.camera, input.pointer);
+}
+
+void Tools::move(const Camera& camera, const Vector2& pointer) {
+    if (hand_.isHolding() || blade_.isOn() || wantsPin_) log_.point(pointer);
+    hand_.move(camera, pointer);
+    blade_.move(camera, pointer);
+    if (std::exchange(wantsPin_, false)) pinAt(rayThrough(camera, pointer));
 }
 
 // What is held goes from hand to pin.
@@ -54,6 +69,7 @@ std::optional<Question> Tools::question() const {
 
 void Tools::answer(const Question& question, const std::optional<Pick>& pick, float radius) {
     if (question != this->question()) return;
+    log_.answer({question.asker, pick, radius});
     if (question.asker == Question::Asker::hand) return hand_.answer(pick, radius);
     pinned_.reset();
     if (pick)
@@ -62,20 +78,27 @@ void Tools::answer(const Question& question, const std::optional<Pick>& pick, fl
         note_ = "there is nothing to pin under the pointer";
 }
 
-void Tools::press(const Input::Press& press, const Camera& camera) {
-    if (press.isDown && std::exchange(isPinArmed_, false)) {
-        wantsPin_ = true;
+void Tools::press(const Camera& camera, bool isDown, const Vector2& at) {
+    if (isDown && std::exchange(isPinArmed_, false)) {
+        act(Action::pin);
         return;
     }
+    log_.press(isDown, at);
     if (blade_.isOn()) {
-        if (press.isDown) return blade_.press(camera, press.pointer);
-        blade_.move(camera, press.pointer);
+        if (isDown) return blade_.press(camera, at);
+        blade_.move(camera, at);
         return blade_.release();
     }
-    if (press.isDown)
-        hand_.press(camera, press.pointer);
+    if (isDown)
+        hand_.press(camera, at);
     else
         hand_.release();
+}
+
+void Tools::pull(Stage& stage, float gravity) {
+    gravity_ = gravity;
+    log_.pull(gravity);
+    stage.setGravity(gravity);
 }
 
 bool Tools::act(Action action) {
@@ -86,19 +109,24 @@ bool Tools::act(Action action) {
             blade_.toggle();
         else
             say("note: no body of this scene can be cut: cuttable = true makes it so");
-        return true;
+        break;
     case Action::drop:
         drop();
-        return true;
+        break;
     case Action::pin:
-        return wantsPin_ = true;
+        wantsPin_ = true;
+        break;
     case Action::undo:
-        return wantsUndo_ = true;
+        wantsUndo_ = true;
+        break;
     case Action::redo:
-        return wantsRedo_ = true;
+        wantsRedo_ = true;
+        break;
     default:
         return false;
     }
+    log_.key(action);
+    return true;
 }
 
 void Tools::say(const std::string& note) {
@@ -118,15 +146,30 @@ void Tools::clear() {
     pinned_.reset();
 }
 
+void Tools::reset() {
+    clear();
+    history_.recycle();
+    wantsUndo_ = wantsRedo_ = false;
+    log_.restart();
+    if (blade_.isOn()) log_.key(Action::blade);
+    if (gravity_) log_.pull(*gravity_);
+}
+
+void Tools::forget() {
+    log_.forget();
+    history_.recycle();
+}
+
 bool Tools::recordHistory(VkCommandBuffer commands, Stage& stage) {
     const bool isUndo = std::exchange(wantsUndo_, false), isRedo = std::exchange(wantsRedo_, false);
     if (!isUndo && !isRedo) return false;
+    log_.goBack();
     clear();
     return isUndo ? history_.recordUndo(commands, stage) : history_.recordRedo(commands, stage);
 }
 
 // Without memory for a way back there is a cut all the same.
-void Tools::remember(VkCommandBuffer commands, Stage& stage) {
+void Tools::remember(VkCommandBuffer commands, const Stage& stage) {
     try {
         history_.recordBefore(commands, stage);
     } catch (const vk::Error& error) {
@@ -135,23 +178,20 @@ void Tools::remember(VkCommandBuffer commands, Stage& stage) {
     }
 }
 
-void Tools::recordStep(VkCommandBuffer commands, Stage& stage, vk::Timestamps* timestamps,
-                       std::vector<Sweep>& sweeps) {
+StepHands Tools::takeStep(VkCommandBuffer commands, const Stage& stage) {
+    log_.step();
     if (blade_.beginsStroke()) remember(commands, stage);
-    const std::optional<Sweep> sweep = blade_.next();
-    sim::Blade blade;
-    if (sweep) {
-        sweeps.push_back(*sweep);
-        blade = {.from = sweep->from, .to = sweep->to, .isCarried = sweep->isCarried};
-    }
-    grabs_[0] = hand_.isHolding() ? hand_.grabs()[0] : emptyHand();
-    std::ranges::copy(pins_.grabs(), grabs_.begin() + 1);
-    stage.recordStep(commands, timestamps, grabs_, blade);
+    StepHands hands{.sweep = blade_.next()};
+    hands.grabs[0] = hand_.isHolding() ? hand_.grabs()[0] : emptyHand();
+    std::ranges::copy(pins_.grabs(), hands.grabs.begin() + 1);
+    return hands;
 }
 
-void Tools::restart(std::span<const Sweep> undone) {
+void Tools::restart(std::span<const Sweep> undone, std::uint64_t steps) {
     if (history_.undos() + history_.redos() > 0)
         say("note: more room was made: earlier cuts can no longer be undone");
+    log_.takeBack(steps);
+    log_.forget();
     history_.clear(); // its states are of a simulation that is no more
     blade_.putBack(undone);
 }

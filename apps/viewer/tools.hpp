@@ -4,6 +4,7 @@
 #include "viewer/cut_tool.hpp"
 #include "viewer/grab_tool.hpp"
 #include "viewer/history.hpp"
+#include "viewer/input_log.hpp"
 #include "viewer/pins.hpp"
 #include "viewer/stage.hpp"
 #include "viewer/window.hpp"
@@ -15,12 +16,13 @@ namespace sinew::viewer {
 class Controller;
 struct Opening;
 
-/// What a tool asks of the state on show: what lies there.
-struct Question {
-    enum class Asker { hand, pin } asker = Asker::hand;
-    Ray ray;
-    bool operator==(const Question&) const = default;
+/// What hands do in one step.
+struct StepHands {
+    std::array<sim::Grab, sim::ranges::mostGrabs> grabs{}; ///< the pointer's, then pins
+    std::optional<Sweep> sweep;                            ///< of the blade
 };
+void recordStep(VkCommandBuffer commands, Stage& stage, const StepHands& hands,
+                vk::Timestamps* timestamps = nullptr) noexcept;
 
 /// Must not outlive its Device, which must not move.
 class Tools {
@@ -29,12 +31,22 @@ public:
 
     /// Presses and moves. Drags that no tool wants turn the camera.
     void handle(const Input& input, Controller& controller);
+    /// What handle() does of it, one by one. `at`, `pointer` as Input::pointer.
+    void look(const Camera& camera) { log_.look(camera); }
+    void press(const Camera& camera, bool isDown, const Vector2& at);
+    void move(const Camera& camera, const Vector2& pointer);
+    /// As Stage::setGravity.
+    void pull(Stage& stage, float gravity);
     /// False for an action that is none of theirs.
     bool act(Action action);
     /// The next press of the left button pins what is under it, as the button of a panel cannot.
     void armPin() { isPinArmed_ = true; }
     /// Lets go of everything, and takes out all pins: what was held or to be cut is where nobody expects it.
     void clear();
+    /// At a reset: as new, but for the blade, which stays in the hand, and for gravity.
+    void reset();
+    /// There is no way back to earlier states any more.
+    void forget();
 
     /// One at a time; it stays until it is answered, or is no question any more.
     std::optional<Question> question() const;
@@ -43,13 +55,18 @@ public:
 
     /// Whether something is to be recorded even where no step is.
     bool isWaiting() const { return question() || wantsPin_ || wantsUndo_ || wantsRedo_; }
+    bool wantsHistory() const { return wantsUndo_ || wantsRedo_; }
     /// The way back or forwards, where it was asked for; whether there was one.
     bool recordHistory(VkCommandBuffer commands, Stage& stage);
-    /// A step with what the tools do in it; what the blade cut is added to `sweeps`.
-    void recordStep(VkCommandBuffer commands, Stage& stage, vk::Timestamps* timestamps,
-                    std::vector<Sweep>& sweeps);
-    /// After the stage has another simulation. `undone`, in their order, are cut again.
-    void restart(std::span<const Sweep> undone);
+    /// What they do in the next step, which is then recorded into `commands`; a copy of the state before a
+    /// cut is recorded here.
+    StepHands takeStep(VkCommandBuffer commands, const Stage& stage);
+    /// After the stage has another simulation, and so many steps were undone. `undone`, in their order, are
+    /// cut again.
+    void restart(std::span<const Sweep> undone, std::uint64_t steps);
+
+    /// All since the reset.
+    const InputLog& log() const { return log_; }
 
     bool isHolding() const { return hand_.isHolding(); }
     bool isBladeOn() const { return blade_.isOn(); }
@@ -62,7 +79,6 @@ public:
     const char* name() const;
 
 private:
-    void press(const Input::Press& press, const Camera& camera);
     void pinAt(const Ray& ray);
     void pin(const Hand& hand, float radius);
     void drop();
@@ -73,11 +89,12 @@ private:
     CutTool blade_;
     History history_;
     std::string note_;
-    void remember(VkCommandBuffer commands, Stage& stage);
+    void remember(VkCommandBuffer commands, const Stage& stage);
 
-    float pinReach_;                                      // of the pointer around a pin [m]
-    std::optional<Ray> pinned_;                           // a question
-    std::array<sim::Grab, sim::ranges::mostGrabs> grabs_; // of the newest step
+    float pinReach_;               // of the pointer around a pin [m]
+    std::optional<Ray> pinned_;    // a question
+    std::optional<float> gravity_; // that was turned
+    InputLog log_;
     bool canCut_ = false, isForgetful_ = false, wantsPin_ = false, isPinArmed_ = false, wantsUndo_ = false,
          wantsRedo_ = false;
 };

@@ -1,6 +1,7 @@
 // All sums in double and in the scene's order, whatever the device did.
 #include "sinew/measure.hpp"
 
+#include "app/hash.hpp"
 #include "sim/colliders.hpp"
 #include "sinew/overlap.hpp"
 #include "sinew/skin_mesh.hpp"
@@ -137,13 +138,8 @@ double kineticEnergy(const State& state) {
 }
 
 std::uint64_t stateHash(const State& state) {
-    std::uint64_t hash = 0xcbf29ce484222325u;
-    for (const auto* list : {&state.positions, &state.velocities})
-        for (const std::byte byte : std::as_bytes(std::span(*list))) {
-            hash ^= static_cast<std::uint64_t>(byte);
-            hash *= 0x100000001b3u;
-        }
-    return hash;
+    const auto bytes = [](const auto& list) { return std::as_bytes(std::span(list)); };
+    return app::fnv1a(bytes(state.velocities), app::fnv1a(bytes(state.positions)));
 }
 
 } // namespace sinew::tools

@@ -1,0 +1,95 @@
+// One event after another.
+#include "viewer/replay.hpp"
+
+#include "app/guard.hpp"
+#include "app/hash.hpp"
+#include "viewer/stage.hpp"
+#include "viewer/state_probe.hpp"
+#include "viewer/tools.hpp"
+
+#include <algorithm>
+#include <cinttypes>
+#include <cstdio>
+
+namespace sinew::viewer {
+
+namespace {
+
+// To the tools as the window's input goes there.
+struct Player {
+    Tools& tools;
+    Camera& camera;
+    Stage& stage;
+
+    void operator()(const Camera& event) const {
+        camera = event;
+        tools.look(event);
+    }
+    void operator()(const Pointed& event) const { tools.move(camera, event.at); }
+    void operator()(const Pressed& event) const { tools.press(camera, event.isDown, event.at); }
+    void operator()(Action event) const { tools.act(event); }
+    void operator()(const Pulled& event) const { tools.pull(stage, event.gravity); }
+    void operator()(const Forgot&) const { tools.forget(); }
+    void operator()(const Answered& event) const {
+        if (event.pick && event.pick->particle >= stage.scene().particles.size())
+            throw app::Failure(app::badInput, "cannot play input: particle " +
+                                                  std::to_string(event.pick->particle) +
+                                                  ": the scene has no such one: open the scene it is of");
+        const std::optional<Question> question = tools.question();
+        if (question && question->asker == event.asker) tools.answer(*question, event.pick, event.radius);
+    }
+    void operator()(const Stepped&) const {}
+};
+
+} // namespace
+
+Replay::Due Replay::next(Tools& tools, Camera& camera, Stage& stage) {
+    for (; at_ < file_.events.size(); ++at_) {
+        const InputEvent& event = file_.events[at_];
+        if (const auto* stepped = std::get_if<Stepped>(&event)) {
+            if (tools.wantsHistory()) return Due::history;
+            if (taken_ < stepped->count) {
+                ++taken_;
+                return Due::step;
+            }
+            taken_ = 0;
+        }
+        std::visit(Player{tools, camera, stage}, event);
+    }
+    return tools.wantsHistory() ? Due::history : Due::nothing;
+}
+
+std::uint64_t stateHash(const vk::Device& device, const Stage& stage, vk::Queue& queue) {
+    const StateProbe probe(device, stage.simulation());
+    VkCommandBuffer commands = queue.begin();
+    probe.record(commands);
+    probe.recordVelocities(commands);
+    queue.wait(queue.submit(commands));
+    return app::fnv1a(std::as_bytes(probe.velocities()), app::fnv1a(std::as_bytes(probe.positions())));
+}
+
+Options withReplay(Options options, const InputFile& file) {
+    if (options.scene.empty() && !file.scene.empty())
+        (file.scene.front() == '/' ? options.scene : options.builtIn) = file.scene;
+    if (!options.overrides.solver && !file.solver.empty()) options.overrides.solver = file.solver;
+    if (!options.overrides.substeps && file.substeps > 0) options.overrides.substeps = file.substeps;
+    if (!options.hasFrames) options.frames = file.steps();
+    return options;
+}
+
+void prepareForReplay(sim::Settings& settings, const InputFile& file) {
+    settings.grabs = sim::ranges::mostGrabs;
+    settings.contactRoom = std::clamp(file.room, settings.contactRoom, sim::ranges::mostContactRoom);
+    settings.cutSurfaceRoom =
+        std::clamp(file.surface, settings.cutSurfaceRoom, sim::ranges::mostCutSurfaceRoom);
+}
+
+std::string hashText(std::uint64_t hash, std::uint64_t steps, const std::optional<std::uint64_t>& recorded) {
+    char text[80];
+    std::snprintf(text, sizeof text, "state hash %016" PRIx64 " after %" PRIu64 " steps", hash, steps);
+    return std::string(text) + (!recorded           ? ""
+                                : *recorded == hash ? ", as recorded"
+                                                    : ", not as recorded: another device or version?");
+}
+
+} // namespace sinew::viewer

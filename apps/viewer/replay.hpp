@@ -1,0 +1,51 @@
+// Plays a log of input: what hands did before each step goes to the tools again.
+#pragma once
+
+#include "viewer/input_log.hpp"
+#include "viewer/options.hpp"
+#include "vk/queue.hpp"
+
+namespace sinew::viewer {
+
+class Stage;
+class Tools;
+
+class Replay {
+public:
+    explicit Replay(InputFile file) : file_(std::move(file)) {}
+
+    enum class Due {
+        history, ///< something is to be undone or redone first: Tools::recordHistory
+        step,    ///< a step is to be recorded
+        nothing  ///< all is done
+    };
+    /// Does what is to be done until something is to be recorded; after that is, call it again. Throws
+    /// app::Failure (badInput) where the log is of another scene.
+    Due next(Tools& tools, Camera& camera, Stage& stage);
+
+    void restart() {
+        at_ = 0;
+        taken_ = 0;
+    }
+
+    const InputFile& file() const { return file_; }
+
+private:
+    InputFile file_;
+    std::size_t at_ = 0;      // of the events
+    std::uint32_t taken_ = 0; // steps of that one
+};
+
+/// FNV-1a (64 bits) of the bytes of positions, then velocities: the state_hash of a report. Waits for
+/// `queue`, in which all was submitted. Throws vk::Error.
+std::uint64_t stateHash(const vk::Device& device, const Stage& stage, vk::Queue& queue);
+
+/// The scene that the log is of, with what was asked for over it; what the command line says goes first.
+Options withReplay(Options options, const InputFile& file);
+/// Hands for the tools, and room for contacts as there was.
+void prepareForReplay(sim::Settings& settings, const InputFile& file);
+
+/// "state hash 0123456789abcdef after 240 steps, as recorded".
+std::string hashText(std::uint64_t hash, std::uint64_t steps, const std::optional<std::uint64_t>& recorded);
+
+} // namespace sinew::viewer

@@ -1,0 +1,89 @@
+// What hands did, saved and played again in the window.
+#include "viewer/show.hpp"
+
+#include "app/guard.hpp"
+#include "mesh/export.hpp"
+#include "viewer/preferences.hpp"
+#include "vk/queue.hpp"
+
+#include <cstdio>
+#include <ostream>
+#include <utility>
+
+namespace sinew::viewer {
+
+// Waits: nobody does this often.
+void Show::saveInput() {
+    settleAll();
+    if (isDiverged_) return screen_.tell("a state that is no more cannot be reached again");
+    const Options& options = library_.shown();
+    InputFile file{.scene = rememberedScene(options.scene, options.builtIn),
+                   .solver = options.overrides.solver.value_or(""),
+                   .substeps = options.overrides.substeps.value_or(0),
+                   .room = stage_.contactRoom().room,
+                   .surface = stage_.surfaceRoom().needed,
+                   .events = tools_.log().events()};
+    vk::Queue queue(device_);
+    file.hash = stateHash(device_, stage_, queue);
+    try {
+        const std::filesystem::path name = freeName(nameAt(stage_.steps()), ".input");
+        mesh::writeWhole(name, [&](std::ostream& stream) { stream << toText(file); });
+        std::printf("input: %s, %s\n", name.c_str(), hashText(*file.hash, stage_.steps(), {}).c_str());
+        std::fflush(stdout);
+        screen_.tell("input: " + name.string() + "; --replay plays it again");
+    } catch (const mesh::ExportError& error) {
+        screen_.warn(error.what());
+    }
+}
+
+// What was done before the next step; false where there is none any more.
+bool Show::playInput(const Presenter::Frame& frame) {
+    for (;;) {
+        const Replay::Due due = replay_->next(tools_, controller_.camera, stage_);
+        if (due == Replay::Due::step) return true;
+        if (due == Replay::Due::nothing) break;
+        if (tools_.recordHistory(frame.commands, stage_)) forgetFlights();
+    }
+    endReplay();
+    return false;
+}
+
+// Where it ended is there to be looked at.
+void Show::endReplay() {
+    replayed_ = replay_->file();
+    replay_.reset();
+    controller_.playback.pause();
+}
+
+// Once nothing of it is on its way any more.
+void Show::compareReplay() {
+    const InputFile file = *std::exchange(replayed_, std::nullopt);
+    settleAll();
+    vk::Queue queue(device_);
+    const std::string text = hashText(stateHash(device_, stage_, queue), stage_.steps(), file.hash);
+    std::printf("%s\n", text.c_str());
+    std::fflush(stdout);
+    screen_.tell("the replay is over: " + text);
+}
+
+// While it plays, hands are those of the log.
+bool Show::isOfReplay(Action action) {
+    if (!replay_) return false;
+    switch (action) {
+    case Action::drop:
+        replay_.reset();
+        tools_.clear();
+        screen_.tell("the replay was ended");
+        return true;
+    case Action::blade:
+    case Action::pin:
+    case Action::undo:
+    case Action::redo:
+        screen_.tell("a replay plays: " + std::string(keyOf(Action::drop)) + " ends it");
+        return true;
+    default:
+        return false;
+    }
+}
+
+} // namespace sinew::viewer

@@ -1,0 +1,232 @@
+// Logs of input: what is written is read back, and what hands did leads to the same bits when it is done
+// again.
+#include "viewer/replay.hpp"
+
+#include "app/guard.hpp"
+#include "support/device.hpp"
+#include "viewer/controller.hpp"
+#include "viewer/opening.hpp"
+#include "viewer/state_probe.hpp"
+#include "viewer/tools.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+#include <unistd.h>
+
+namespace sinew::viewer {
+namespace {
+
+constexpr const char* block = R"([solver]
+substeps = 4
+[[box]]
+name = "block"
+particles = [4, 4, 4]
+center = [0, 0.5, 0]
+spacing = 0.13
+young_modulus = 2e4
+cuttable = true
+[[plane]]
+[camera]
+eye = [0, 0.5, 2]
+target = [0, 0.4, 0]
+)";
+
+Opening openBlock() {
+    const std::filesystem::path file =
+        std::filesystem::temp_directory_path() / ("sinew-replay-" + std::to_string(::getpid()) + ".toml");
+    std::ofstream(file) << block;
+    Opening opening = open({.scene = file.string()}, 1.6f);
+    std::filesystem::remove(file);
+    prepareForReplay(opening.loaded.settings, {});
+    return opening;
+}
+
+// Steps, tools and their questions, with the order of the window's loop and without its timing.
+struct Scene {
+    Opening opening = openBlock();
+    Controller controller{opening.camera, opening.loaded.scene.dt};
+    Stage stage{test::device(), opening.loaded.scene, opening.loaded.settings};
+    Tools tools{test::device(), opening};
+    StateProbe probe{test::device(), stage.simulation()};
+
+    Scene() {
+        run([&](VkCommandBuffer commands) { stage.recordReset(commands); });
+    }
+    template <typename Record> void run(const Record& record) {
+        VkCommandBuffer commands = test::queue().begin();
+        record(commands);
+        test::queue().wait(test::queue().submit(commands));
+    }
+    void step(VkCommandBuffer commands) {
+        const StepHands hands = tools.takeStep(commands, stage);
+        recordStep(commands, stage, hands);
+    }
+    std::uint64_t hash() { return stateHash(test::device(), stage, test::queue()); }
+};
+
+// A scene that somebody plays with.
+struct Played : Scene {
+    void turn(const Input& input, int steps = 1) {
+        for (const Action action : input.actions) tools.act(action);
+        tools.handle(input, controller);
+        if (input.notches != 0) controller.wheel(input.notches, input.pointer);
+        if (asked && asked == tools.question()) { // of the turn before
+            const auto found =
+                pick(stage.scene(), opening.light.balls, asked->ray, probe.positions(), probe.vertices());
+            tools.answer(*asked, found, found ? holdRadius(stage.scene(), found->particle) : 0);
+        }
+        run([&](VkCommandBuffer commands) {
+            tools.recordHistory(commands, stage);
+            for (int i = 0; i < steps; ++i) step(commands);
+            stage.recordSkin(commands);
+            probe.record(commands);
+        });
+        asked = tools.question();
+    }
+    void pressAt(const Vector2& at, bool isDown) {
+        turn({.presses = {{Action::grab, isDown, at}}, .pointer = at});
+    }
+    void dragFrom(const Vector2& from, const Vector2& by, int turns) {
+        pressAt(from, true);
+        for (int i = 0; i <= turns; ++i)
+            turn({.pointer = from + static_cast<float>(i) / static_cast<float>(turns) * by});
+    }
+    InputFile file() { return {.scene = "/block.toml", .events = tools.log().events(), .hash = hash()}; }
+
+    std::optional<Question> asked;
+};
+
+// Grabs and throws the block, pins it, cuts it, takes the cut back and forth, with a camera that moves.
+void play(Played& played) {
+    played.turn({}, 5);
+    played.dragFrom({0, 0}, {0.2f, -0.3f}, 8);
+    played.turn({.notches = 1, .pointer = {0.2f, -0.3f}});
+    EXPECT_TRUE(played.tools.isHolding());
+    played.turn({.actions = {Action::pin}, .pointer = {0.2f, -0.2f}});
+    EXPECT_EQ(played.tools.pins(), 1u);
+    played.turn({.drags = {{Action::orbit, {0.05f, 0.02f}}}}, 6);
+    played.tools.pull(played.stage, 3);
+    played.turn({.actions = {Action::blade}});
+    played.dragFrom({0.1f, -0.45f}, {0.05f, 0.9f}, 5);
+    played.pressAt({0.15f, 0.45f}, false);
+    played.turn({}, 5);
+    EXPECT_GT(played.tools.history().undos(), 0u);
+    played.turn({.actions = {Action::undo}}, 0);
+    played.turn({}, 3);
+    played.turn({.actions = {Action::redo}}, 4);
+    played.turn({.actions = {Action::undo}}, 0);
+}
+
+Replay::Due replayAll(Scene& scene, Replay& replay) {
+    for (;;) {
+        const Replay::Due due = replay.next(scene.tools, scene.controller.camera, scene.stage);
+        if (due == Replay::Due::nothing) return due;
+        scene.run([&](VkCommandBuffer commands) {
+            if (due == Replay::Due::history)
+                scene.tools.recordHistory(commands, scene.stage);
+            else
+                scene.step(commands);
+        });
+    }
+}
+
+TEST(Replay, LeadsToTheSameBits) {
+    Played played;
+    play(played);
+    const InputFile file = played.file();
+    const InputFile read = parseInput(toText(file), "test");
+    EXPECT_EQ(read.events, file.events);
+    EXPECT_EQ(read.hash, file.hash);
+    EXPECT_EQ(read.scene, file.scene);
+    EXPECT_EQ(read.steps(), played.stage.steps());
+    Scene again;
+    Replay replay(read);
+    replayAll(again, replay);
+    EXPECT_EQ(again.stage.steps(), played.stage.steps());
+    EXPECT_EQ(again.controller.camera, played.controller.camera);
+    EXPECT_EQ(again.hash(), *file.hash);
+    EXPECT_EQ(again.tools.log().events(), file.events) << "a replay can be saved as what it was made of";
+}
+
+TEST(Replay, BeginsAtTheReset) {
+    Played played;
+    played.tools.pull(played.stage, 3);
+    played.turn({.actions = {Action::blade}});
+    played.dragFrom({0.1f, -0.45f}, {0, 0.9f}, 2);
+    played.tools.reset();
+    played.run([&](VkCommandBuffer commands) { played.stage.recordReset(commands); });
+    EXPECT_EQ(played.tools.history().undos(), 0u) << "of another time";
+    played.dragFrom({0.1f, -0.45f}, {0, 0.9f}, 3); // the blade is still in the hand, gravity still low
+    Scene again;
+    Replay replay(parseInput(toText(played.file()), "test"));
+    replayAll(again, replay);
+    EXPECT_EQ(again.hash(), played.hash());
+}
+
+TEST(Replay, OfAnotherSceneIsRefused) {
+    Scene scene;
+    Replay replay(parseInput("sinew input 1\npress 0 0\nhand 100000 0 0 0 0 0 0 0.1\nsteps 1\n", "test"));
+    try {
+        replay.next(scene.tools, scene.controller.camera, scene.stage);
+        FAIL() << "accepted";
+    } catch (const app::Failure& failure) {
+        EXPECT_EQ(failure.code(), app::badInput);
+        EXPECT_NE(std::string(failure.what()).find("100000"), std::string::npos);
+    }
+}
+
+TEST(InputLog, TakesStepsBackAndKeepsWhatHandsDid) {
+    InputLog log;
+    log.step();
+    log.step();
+    log.press(true, {0, 0});
+    log.step();
+    log.takeBack(2);
+    log.step();
+    const std::vector<InputEvent> expected{Stepped{1}, Pressed{true, {0, 0}}, Stepped{1}};
+    EXPECT_EQ(log.events(), expected);
+}
+
+TEST(InputFile, BringsEveryBitBack) {
+    const float odd = 0.1f + std::numeric_limits<float>::epsilon();
+    const Camera camera{.target = {odd, -odd, 1e-30f}};
+    const InputFile file{.scene = "/a b/c.toml",
+                         .solver = "jacobi",
+                         .substeps = 7,
+                         .room = 64,
+                         .surface = 5000,
+                         .events = {camera, Pointed{{odd, 3e8f}}, Action::undo, Answered{},
+                                    Answered{Question::Asker::pin, Pick{3, {odd, 0, 0}, {0, odd, 0}}, odd},
+                                    Pulled{odd}, Forgot{}, Stepped{3}},
+                         .hash = 0xfedcba9876543210u};
+    const InputFile read = parseInput(toText(file), "test");
+    EXPECT_EQ(read.events, file.events);
+    EXPECT_EQ(toText(read), toText(file));
+}
+
+std::string complaintAbout(const std::string& text) {
+    try {
+        parseInput(text, "a.input");
+    } catch (const app::Failure& failure) {
+        EXPECT_EQ(failure.code(), app::badInput);
+        return failure.what();
+    }
+    return "accepted";
+}
+
+TEST(InputFile, IsRefusedWithItsLine) {
+    EXPECT_EQ(complaintAbout("sinew input 1\n# by hand\n\nsteps 3\n"), "accepted");
+    EXPECT_NE(complaintAbout("").find("a.input: it does not begin"), std::string::npos);
+    for (const char* line :
+         {"steps", "steps -1", "steps 1 2", "steps 99999999999", "pointer 0 nan", "pointer 0", "key F77",
+          "key", "press 0 x", "hand 3 0 0", "hand -1 0 0 0 0 0 0 0", "camera 0 0 0 -1 0 0 0.7 0", "state xyz",
+          "wave", "gravity inf"})
+        EXPECT_NE(complaintAbout(std::string("sinew input 1\n\n") + line + "\n").find("a.input:3: "),
+                  std::string::npos)
+            << line;
+}
+
+} // namespace
+} // namespace sinew::viewer
