@@ -3,6 +3,8 @@
 
 #include "viewer/stage.hpp"
 
+#include <algorithm>
+
 namespace sinew::viewer {
 
 Inspection::Inspection(const vk::Device& device, const Stage& stage, std::uint32_t slots)
@@ -37,7 +39,13 @@ LayerBuffers Inspection::buffers(const Layers& layers, float range) const noexce
 
 void MapRange::read(const MapReading& reading) {
     newest_ = reading;
-    if (reading.range > range_ || 4 * reading.range < range_) range_ = reading.range;
+    const bool isBelow = reading.range < range_;
+    below_ = isBelow ? std::max(below_, reading.range) : 0;
+    count_ = isBelow ? count_ + 1 : 0;
+    if (isBelow && count_ < patience) return;
+    range_ = isBelow ? below_ : reading.range;
+    below_ = 0;
+    count_ = 0;
 }
 
 } // namespace sinew::viewer

@@ -75,17 +75,27 @@ TEST(MapReading, LeavesOnePercentBeyondItsRange) {
     EXPECT_FLOAT_EQ(reading.largest, largest);
 }
 
-TEST(MapRange, FollowsLargeChangesAlone) {
+// Reads the same so many times.
+float readTimes(MapRange& range, float reading, int times) {
+    for (int i = 0; i < times; ++i) range.read({.range = reading});
+    return range.range();
+}
+
+TEST(MapRange, RisesAtOnceAndFallsWithinADozenPictures) {
     MapRange range;
-    range.read({.range = 0.1f});
-    range.read({.range = 0.05f});
-    EXPECT_FLOAT_EQ(range.range(), 0.1f);
-    range.read({.range = 0.02f});
-    EXPECT_FLOAT_EQ(range.range(), 0.02f);
-    range.read({.range = 0.05f});
-    EXPECT_FLOAT_EQ(range.range(), 0.05f);
+    EXPECT_FLOAT_EQ(readTimes(range, 0.02f, 1), 0.02f);
+    EXPECT_FLOAT_EQ(readTimes(range, 1, 1), 1) << "a blow";
+    EXPECT_FLOAT_EQ(readTimes(range, 0.05f, 11), 1);
+    EXPECT_FLOAT_EQ(readTimes(range, 0.02f, 1), 0.05f) << "the largest of those after it";
+    EXPECT_FLOAT_EQ(readTimes(range, 0.02f, 12), 0.02f);
     range.read({});
     EXPECT_EQ(range.range(), 0);
+}
+
+TEST(MapRange, DoesNotFlickerBetweenTwo) {
+    MapRange range;
+    range.read({.range = 0.1f});
+    for (int i = 0; i < 50; ++i) EXPECT_FLOAT_EQ(readTimes(range, i % 2 == 0 ? 0.05f : 0.1f, 1), 0.1f);
 }
 
 sim::Scene cuttableBlock() {
