@@ -1,4 +1,5 @@
-// One kernel over all particles; walls are written by the host, since their poses are there.
+// A kernel over all particles and one over all edges; walls are written by the host, since their poses are
+// there.
 #include "viewer/contact_marks.hpp"
 
 #include "layout.h"
@@ -61,6 +62,8 @@ ContactMarks::ContactMarks(const vk::Device& device, const sim::Scene& scene, co
                                      .pairRow = simulation.program().contacts.pairRow,
                                      .faceRow = simulation.program().contacts.faceRow,
                                      .room = room == Room::many ? mostMarks : 1,
+                                     .edges = simulation.program().contacts.edgeCount,
+                                     .edgeRow = simulation.program().contacts.edgeRow,
                                      .only = NO_PARTICLE},
       mesh_(device, shape),
       particles_(filledBuffer(device, "marks.particles",
@@ -83,7 +86,8 @@ ContactMarks::ContactMarks(const vk::Device& device, const sim::Scene& scene, co
                       .count = slots,
                       .stride = sizeof(layout::MarkDraw),
                       .kind = vk::MemoryKind::readback}),
-      kernel_(device, shaders::markContacts, {}), sets_(bindingSets()) {}
+      kernel_(device, shaders::markContacts, {}), ofEdges_(device, shaders::markEdges, {}),
+      sets_(bindingSets()) {}
 
 // What a scene has no lists of is never read.
 vk::BindingSets ContactMarks::bindingSets() const {
@@ -95,12 +99,24 @@ vk::BindingSets ContactMarks::bindingSets() const {
         view.stride = stride;
         return view;
     };
-    const std::array<vk::BindingRequest, 1> requests{vk::BindingRequest{
-        &kernel_,
-        {simulation_.positions(), particles_.view(), bySlot_.view(), walls_.view(), viewOf(lists.pairs, 8),
-         viewOf(lists.pairCounts, 4), viewOf(lists.faces, 16), viewOf(lists.facePairs, 8),
-         viewOf(lists.faceCounts, 4), marks_.view(), draw_.view()}}};
+    std::vector<vk::BindingRequest> requests{
+        {&kernel_,
+         {simulation_.positions(), particles_.view(), bySlot_.view(), walls_.view(), viewOf(lists.pairs, 8),
+          viewOf(lists.pairCounts, 4), viewOf(lists.faces, 16), viewOf(lists.facePairs, 8),
+          viewOf(lists.faceCounts, 4), marks_.view(), draw_.view()}}};
+    if (push_.edges > 0)
+        requests.push_back({&ofEdges_,
+                            {simulation_.positions(), bySlot_.view(), simulation_.view(lists.edges),
+                             simulation_.view(lists.edgePairs), simulation_.view(lists.edgeCounts),
+                             marks_.view(), draw_.view()}});
     return {device_, requests};
+}
+
+void ContactMarks::dispatch(vk::Commands& commands, const vk::Kernel& kernel, std::size_t set,
+                            const layout::MarkPush& push, std::uint32_t items) const noexcept {
+    commands.bind(kernel, sets_[set]);
+    commands.push(kernel, &push, sizeof push);
+    commands.dispatch((items + GROUP_ITEMS - 1) / GROUP_ITEMS);
 }
 
 void ContactMarks::writeWalls(std::uint32_t slot) const noexcept {
@@ -135,10 +151,12 @@ void ContactMarks::record(VkCommandBuffer handle, std::uint32_t slot, layout::Ma
     commands.beginStep();
     commands.update(draw_.view(), &empty, sizeof empty);
     commands.barrier();
-    commands.bind(kernel_, sets_[0]);
-    commands.push(kernel_, &push, sizeof push);
-    commands.dispatch((items + GROUP_ITEMS - 1) / GROUP_ITEMS);
+    dispatch(commands, kernel_, 0, push, items);
     commands.barrier();
+    if (push.edges > 0) {
+        dispatch(commands, ofEdges_, 1, push, push.edges);
+        commands.barrier();
+    }
     commands.copy(draw_.view(), read);
     commands.endStep();
     commands.hostBarrier();

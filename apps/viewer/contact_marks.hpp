@@ -1,5 +1,5 @@
 // Where bodies touch, as marks to be drawn: found on the device in the state that is shown, from the solver's
-// own lists of what may touch. Contacts between edges have none.
+// own lists of what may touch.
 #pragma once
 
 #include "sim/simulation.hpp"
@@ -31,6 +31,8 @@ public:
 
 private:
     vk::BindingSets bindingSets() const;
+    void dispatch(vk::Commands& commands, const vk::Kernel& kernel, std::size_t set,
+                  const layout::MarkPush& push, std::uint32_t items) const noexcept;
     void record(VkCommandBuffer commands, std::uint32_t slot, layout::MarkPush push,
                 std::uint32_t items) const noexcept;
     void writeWalls(std::uint32_t slot) const noexcept;
@@ -42,7 +44,7 @@ private:
     HandMesh mesh_;
     vk::Buffer particles_, bySlot_, walls_, nothing_;
     vk::Buffer marks_, draw_, draws_;
-    vk::Kernel kernel_;
+    vk::Kernel kernel_, ofEdges_;
     vk::BindingSets sets_;
 };
 

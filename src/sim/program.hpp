@@ -141,15 +141,18 @@ struct CutSurfaceBuffers {
     BufferId moved;    ///< of each: where it is at rest, if w is VERTEX_MOVED
 };
 
-/// What may touch: lists by slot of layout::ContactCandidate (collision/contact_lists.hpp, face_lists.hpp),
-/// how many each has, and elements from one candidate of a slot to the next. Invalid, 0, where a scene has
-/// none.
+/// What may touch: lists by slot of layout::ContactCandidate (collision/contact_lists.hpp, face_lists.hpp,
+/// edge_lists.hpp), how many each has, and elements from one candidate of a slot to the next. Invalid, 0,
+/// where a scene has none.
 struct ContactBuffers {
     BufferId pairs, pairCounts; ///< particles near a particle
     std::uint32_t pairRow = 0;
     BufferId faces;                 ///< layout::ContactFace, between slots
     BufferId facePairs, faceCounts; ///< faces near a particle
     std::uint32_t faceRow = 0;
+    BufferId edges;                 ///< layout::ContactEdge, between slots
+    BufferId edgePairs, edgeCounts; ///< edges near an edge
+    std::uint32_t edgeRow = 0, edgeCount = 0;
 };
 
 /// What the vertices hang on that the skin of a sheet has along cuts (surface/sheet_pieces.hpp).
@@ -180,7 +183,7 @@ struct StepProgram {
     CuttingBuffers cutting;
     CutSurfaceBuffers cutSurface;
     std::vector<PieceVertices> pieceSkins; ///< by sheet that may be cut and has a skin
-    std::vector<BufferId> sheetStates; ///< one layout::SheetState each: of skins that fall into pieces
+    std::vector<BufferId> sheetStates;     ///< one layout::SheetState each: of skins that fall into pieces
     BufferId pieceDraws; ///< by skin: layout::DrawArguments of what sheets fall into; invalid without them
     std::uint32_t pieceVertices = 0; ///< room for the vertices of those, behind those of all skins
     std::uint32_t particleCount = 0, constraintCount = 0;

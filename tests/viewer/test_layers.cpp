@@ -200,6 +200,29 @@ TEST(ContactMarks, AreWhereBallsLieOnTheFloorAndOnEachOther) {
     EXPECT_EQ(heap.inspection.contacts(0), 2u) << "one on the floor, one on that, one in the air";
 }
 
+// Two triangles with an edge of each across that of the other, as far apart as both are thick.
+TEST(ContactMarks, AreWhereTwoEdgesCross) {
+    constexpr float thickness = 0.01f;
+    sim::Scene scene;
+    scene.gravity = {0, 0, 0};
+    for (const sim::Vec3& x :
+         {sim::Vec3{-0.9f, 0, 0.02f}, sim::Vec3{1.1f, 0, -0.03f}, sim::Vec3{0, -2, 0.1f},
+          sim::Vec3{0.1f, 0.0201f, -1}, sim::Vec3{-0.05f, 0.0201f, 0.8f}, sim::Vec3{0, 2, 0}})
+        scene.particles.push_back({.position = x, .radius = thickness});
+    scene.faces = {{{0, 1, 2}, thickness}, {{3, 4, 5}, thickness}};
+    Inspected crossed(scene, {.hasContacts = true});
+    crossed.step(1);
+    EXPECT_EQ(crossed.inspection.contacts(0), 1u);
+    const ContactMarks counter(test::device(), scene, crossed.stage.settings(), crossed.stage.simulation(), 2,
+                               ContactMarks::Room::none);
+    VkCommandBuffer commands = test::queue().begin();
+    counter.recordOf(commands, 0, 4);
+    counter.recordOf(commands, 1, 5);
+    test::queue().wait(test::queue().submit(commands));
+    EXPECT_EQ(counter.found(0), 1u) << "an end of the edge";
+    EXPECT_EQ(counter.found(1), 0u) << "the other corner";
+}
+
 TEST(ContactMarks, CountWhatOneParticleTouches) {
     sim::Scene scene;
     for (const float height : {0.1f, 0.3f, 0.5f})

@@ -19,17 +19,7 @@ layout(std430, binding = 8) readonly buffer FaceCounts { uint faceCounts[]; };
 layout(std430, binding = 9) writeonly buffer Marks { ContactMark marks[]; };
 layout(std430, binding = 10) buffer Draw { MarkDraw draw; };
 layout(push_constant) uniform Push { MarkPush push; };
-
-void mark(vec3 point, vec3 normal, float kind) {
-    const uint place = atomicAdd(draw.found, 1u);
-    if (place >= push.room) return;
-    marks[place] = ContactMark(vec4(point, 1.0), vec4(normal, kind));
-    atomicMax(draw.instanceCount, place + 1u);
-}
-
-vec3 placeOf(uint slot) {
-    return positions[min(bySlot[slot], push.count - 1u)].xyz;
-}
+#include "viewer/marks.glsl"
 
 void markWall(MarkWall wall, vec3 x, float offset, float nearness) {
     vec3 n = wall.core.xyz;

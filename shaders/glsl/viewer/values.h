@@ -47,7 +47,7 @@ struct ValuesPush {
 // Where something touches something: a mark.
 struct ContactMark {
     vec4 point;  // [m]
-    vec4 normal; // towards the particle that is pushed; w: of a wall 0, of two particles 1, of a particle and a face 2
+    vec4 normal; // towards the particle that is pushed; w: of a wall 0, of two particles 1, of a face 2
 };
 
 // What marks need to know of a particle.
@@ -78,6 +78,7 @@ struct MarkPush {
     uint firstWall;
     uint pairRow, faceRow; // of the lists of contacts; 0 = there are none
     uint room;             // marks
+    uint edges, edgeRow;   // of faces, that may touch each other; 0 = there are none
     uint only;             // the particle whose contacts are wanted; NO_PARTICLE = all
 };
 

@@ -121,6 +121,12 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     const layout::FaceFindPush& find = contacts.lists.push;
     contacts.push = {
         find.points, find.row, find.faceRow, contacts.surfaces.count, scene.contacts.recoverySpeed, 0};
+    ContactBuffers& shown = program.program().contacts;
+    shown.edges = contacts.lists.edges;
+    shown.edgePairs = contacts.lists.contacts;
+    shown.edgeCounts = contacts.lists.counts;
+    shown.edgeRow = contacts.push.row;
+    shown.edgeCount = contacts.push.count;
     const std::size_t elements = std::size_t{find.row} * find.capacity, count = find.points;
     contacts.memory = side_memory::add(program, "edges", contacts.lists.contacts, contacts.lists.counts,
                                        contacts.lists.grid, contacts.push, elements);

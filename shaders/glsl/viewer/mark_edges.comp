@@ -1,0 +1,38 @@
+#version 460
+// Marks where edges of faces touch each other in the state that is shown: of the solver's lists of what may touch, the pairs whose
+// insides are that near.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "segments.glsl"
+#include "viewer/values.h"
+
+layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
+layout(std430, binding = 1) readonly buffer BySlot { uint bySlot[]; }; // particle, or NO_PARTICLE
+layout(std430, binding = 2) readonly buffer Edges { ContactEdge edges[]; };
+layout(std430, binding = 3) readonly buffer Candidates { uvec2 candidates[]; }; // ContactCandidate
+layout(std430, binding = 4) readonly buffer Counts { uint counts[]; };
+layout(std430, binding = 5) writeonly buffer Marks { ContactMark marks[]; };
+layout(std430, binding = 6) buffer Draw { MarkDraw draw; };
+layout(push_constant) uniform Push { MarkPush push; };
+#include "viewer/marks.glsl"
+
+const float leastSine = 1e-3; // squared, as touch_edges.comp has it
+
+bool isWanted(ContactEdge edge) {
+    return push.only == NO_PARTICLE || bySlot[edge.a] == push.only || bySlot[edge.b] == push.only;
+}
+
+void main() {
+    const uint e = itemIndex(push.edges);
+    if (e >= push.edges || counts[e] == 0u || !isWanted(edges[e])) return;
+    const vec3 a = placeOf(edges[e].a), ab = placeOf(edges[e].b) - a;
+    for (uint s = 0u; s < counts[e]; ++s) {
+        const uvec2 candidate = candidates[s * push.edgeRow + e];
+        if (candidate.x <= e && push.only == NO_PARTICLE) continue; // one of the two says it
+        const vec3 c = placeOf(edges[candidate.x].a), cd = placeOf(edges[candidate.x].b) - c;
+        const Crossing crossing = crossingOf(a - c, ab, cd, leastSine);
+        if (!isInside(crossing, 0.0) || abs(crossing.height) > 1.02 * uintBitsToFloat(candidate.y)) continue;
+        const vec3 n = crossing.height < 0.0 ? -crossing.n : crossing.n;
+        mark(a + crossing.s * ab - 0.5 * abs(crossing.height) * n, n, 2.0);
+    }
+}
