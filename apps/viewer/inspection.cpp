@@ -26,7 +26,7 @@ void Inspection::record(VkCommandBuffer commands, const Layers& layers, std::uin
 }
 
 LayerBuffers Inspection::buffers(const Layers& layers, float range) const noexcept {
-    LayerBuffers buffers{.range = range};
+    LayerBuffers buffers{.range = layers.map == ColorMap::sleep ? 1 : range};
     if (layers.map != ColorMap::none) {
         buffers.particles = values_->particles();
         buffers.skins = values_->skins();

@@ -17,6 +17,7 @@ constexpr std::array names{Name{"glass", [](Layers& layers) { layers.skin = Skin
                            Name{"hidden", [](Layers& layers) { layers.skin = SkinLook::hidden; }},
                            Name{"strain", [](Layers& layers) { layers.map = ColorMap::strain; }},
                            Name{"speed", [](Layers& layers) { layers.map = ColorMap::speed; }},
+                           Name{"sleep", [](Layers& layers) { layers.map = ColorMap::sleep; }},
                            Name{"wires", [](Layers& layers) { layers.hasWires = true; }},
                            Name{"particles", [](Layers& layers) { layers.hasBalls = true; }},
                            Name{"contacts", [](Layers& layers) { layers.hasContacts = true; }}};
@@ -39,7 +40,7 @@ SkinLook next(SkinLook look) {
 }
 
 ColorMap next(ColorMap map) {
-    return static_cast<ColorMap>((static_cast<int>(map) + 1) % 3);
+    return static_cast<ColorMap>((static_cast<int>(map) + 1) % 4);
 }
 
 std::vector<std::string> layerNames() {

@@ -20,7 +20,8 @@ enum class SkinLook { solid, glass, hidden };
 enum class ColorMap {
     none,
     strain, ///< of its live links, (length - rest) / rest: root of the mean square
-    speed   ///< [m/s]
+    speed,  ///< [m/s]
+    sleep   ///< 1 = awake, 0 = asleep
 };
 
 struct Layers {
@@ -36,10 +37,11 @@ struct Layers {
 
 /// The one after it, round and round: solid, glass, hidden.
 SkinLook next(SkinLook look);
-/// none, strain, speed.
+/// none, strain, speed, sleep.
 ColorMap next(ColorMap map);
 
-/// How the command line calls layers: "glass", "hidden", "strain", "speed", "wires", "particles", "contacts".
+/// How the command line calls layers: "glass", "hidden", "strain", "speed", "sleep", "wires", "particles",
+/// "contacts".
 std::vector<std::string> layerNames();
 /// One of them on top of others; false for a name that is none.
 bool addLayer(const std::string& name, Layers& layers);

@@ -10,7 +10,7 @@ namespace sinew::viewer::parts {
 namespace {
 
 constexpr std::array skinNames{"Skin", "Glass", "No skin"};
-constexpr std::array mapNames{"Colors", "Strain", "Speed"};
+constexpr std::array mapNames{"Colors", "Strain", "Speed", "Sleep"};
 
 // "2 %", "0.5 m/s".
 std::string valueText(ColorMap map, float value) {
@@ -43,8 +43,26 @@ void colorBar() {
     ImGui::Dummy({width, height});
 }
 
-void legend(const Facts& facts) {
+// Two colors, and how many there are of each.
+void sleepLegend(const Facts& facts, std::size_t particles) {
+    const auto colors = mapColors();
+    const float side = ImGui::GetTextLineHeight();
+    const auto swatch = [&](const std::array<float, 3>& color, const char* name) {
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + side, at.y + side}, shown(color));
+        ImGui::Dummy({side, side});
+        ImGui::SameLine();
+        ImGui::TextUnformatted(name);
+    };
+    swatch(colors.back(), "awake");
+    ImGui::SameLine();
+    swatch(colors.front(), "asleep");
+    row("asleep", grouped(facts.sleeping) + " of " + grouped(particles));
+}
+
+void legend(const Facts& facts, std::size_t particles) {
     const ColorMap map = facts.layers.map;
+    if (map == ColorMap::sleep) return sleepLegend(facts, particles);
     if (facts.mapRange <= 0) return wrapped("nothing here has a value", quiet());
     colorBar();
     const std::string middle = valueText(map, facts.mapRange / 2), end = valueText(map, facts.mapRange);
@@ -67,7 +85,7 @@ void legend(const Facts& facts) {
 
 } // namespace
 
-void look(const Facts& facts, Wishes& wishes) {
+void look(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
     const Layers& layers = facts.layers;
     const float width = buttonWidth(3);
     button(Action::skinLook, wishes, width, layers.skin != SkinLook::solid,
@@ -83,7 +101,7 @@ void look(const Facts& facts, Wishes& wishes) {
     ImGui::SameLine();
     button(Action::inspect, wishes, width, facts.isInspecting);
     if (layers.hasContacts) row("contacts", grouped(facts.contactsFound));
-    if (layers.map != ColorMap::none) legend(facts);
+    if (layers.map != ColorMap::none) legend(facts, scene.particles);
 }
 
 } // namespace sinew::viewer::parts

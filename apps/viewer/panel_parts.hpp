@@ -44,7 +44,7 @@ void button(Action action, Wishes& wishes, float width, bool isOn = false, const
 
 void device(const SceneFacts& scene, const Facts& facts);
 void play(const Facts& facts, Wishes& wishes);
-void look(const Facts& facts, Wishes& wishes);
+void look(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
 void speed(const Facts& facts);
 void counts(const SceneFacts& scene, const Facts& facts);
 void cuts(const SceneFacts& scene, const Facts& facts, Wishes& wishes);

@@ -230,7 +230,7 @@ void Panels::buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D e
     parts::device(scene, facts);
     parts::scenes(scene, facts, wishes);
     parts::play(facts, wishes);
-    parts::look(facts, wishes);
+    parts::look(scene, facts, wishes);
     parts::speed(facts);
     parts::counts(scene, facts);
     if (scene.canCut) parts::cuts(scene, facts, wishes);

@@ -19,7 +19,7 @@ namespace sinew::viewer {
 namespace {
 
 // Cuts and sheets have theirs after these.
-enum SetIndex : std::size_t { strainSet, speedSet, skinSet, firstOther };
+enum SetIndex : std::size_t { strainSet, speedSet, sleepSet, skinSet, firstOther };
 
 // The bit of a link that leads so many steps along x, y and z; none where that is no neighbour.
 std::optional<std::uint32_t> bitOf(const std::array<int, 3>& step) {
@@ -161,10 +161,11 @@ struct ValueMaps::Tables {
     std::vector<std::uint32_t> particlesBySlot;
     LinkTable links;
     std::vector<layout::ValueHolders> holders;
+    std::vector<float> inverseMasses;
 
     Tables(const sim::Scene& scene, const sim::StateLayout& state)
         : particlesBySlot(viewer::particlesBySlot(state)), links(linkTable(scene, state.slot)),
-          holders(skinHolders(scene)) {}
+          holders(skinHolders(scene)), inverseMasses(sim::inverseMasses(scene)) {}
 };
 
 namespace {
@@ -192,6 +193,7 @@ ValueMaps::ValueMaps(const vk::Device& device, const Tables& tables, const sim::
       links_(tableOf(device, "values.links", tables.links.links)),
       holders_(tableOf(device, "values.holders", tables.holders)),
       particleOfSlot_(tableOf(device, "values.particle_of_slot", tables.particlesBySlot)),
+      inverseMasses_(tableOf(device, "values.inverse_masses", tables.inverseMasses)),
       noLinks_(tableOf(device, "values.no_links", std::vector<std::uint32_t>{})),
       values_(valuesFor(device, "values.particles", particleCount_)),
       skinValues_(valuesFor(device, "values.skins", elements(simulation.skinVertices()))),
@@ -202,9 +204,9 @@ ValueMaps::ValueMaps(const vk::Device& device, const Tables& tables, const sim::
                         .stride = sizeof(layout::ValueSpread),
                         .kind = vk::MemoryKind::readback}),
       strain_(device, shaders::strainValues, {}), speed_(device, shaders::speedValues, {}),
-      skin_(device, shaders::skinValues, {}), cut_(device, shaders::cutValues, {}),
-      sheet_(device, shaders::sheetValues, {}), sheets_(sheetsOf<Sheet>(simulation)),
-      sets_(bindingSets(simulation)) {}
+      sleep_(device, shaders::sleepValues, {}), skin_(device, shaders::skinValues, {}),
+      cut_(device, shaders::cutValues, {}), sheet_(device, shaders::sheetValues, {}),
+      sheets_(sheetsOf<Sheet>(simulation)), sets_(bindingSets(simulation)) {}
 
 vk::BindingSets ValueMaps::bindingSets(const sim::Simulation& simulation) const {
     const vk::BufferView alive = simulation.view(simulation.program().cutting.links);
@@ -212,7 +214,8 @@ vk::BindingSets ValueMaps::bindingSets(const sim::Simulation& simulation) const 
     std::vector<vk::BindingRequest> requests{
         {&strain_,
          {places, linksOf_.view(), links_.view(), alive.size > 0 ? alive : noLinks_.view(), values, spread}},
-        {&speed_, {hasSpeeds_ ? simulation.velocities() : places, values, spread}}};
+        {&speed_, {hasSpeeds_ ? simulation.velocities() : places, values, spread}},
+        {&sleep_, {places, inverseMasses_.view(), values, spread}}};
     if (heldVertices_ > 0) requests.push_back({&skin_, {values, holders_.view(), skinValues_.view()}});
     if (cutVertices_ > 0)
         requests.push_back({&cut_,
@@ -244,6 +247,7 @@ void ValueMaps::record(VkCommandBuffer handle, ColorMap map, std::uint32_t slot)
     commands.barrier();
     if (map == ColorMap::strain) dispatch(commands, strain_, strainSet, particleCount_);
     if (map == ColorMap::speed && hasSpeeds_) dispatch(commands, speed_, speedSet, particleCount_);
+    if (map == ColorMap::sleep) dispatch(commands, sleep_, sleepSet, particleCount_);
     commands.barrier();
     vk::BufferView read = spreads_.view();
     read.offset += VkDeviceSize{slot} * read.stride;

@@ -62,10 +62,10 @@ private:
     };
     std::uint32_t particleCount_, heldVertices_, cutVertices_;
     bool hasSpeeds_;
-    vk::Buffer linksOf_, links_, holders_, particleOfSlot_;
+    vk::Buffer linksOf_, links_, holders_, particleOfSlot_, inverseMasses_;
     vk::Buffer noLinks_; // stands for live links where nothing can be cut
     vk::Buffer values_, skinValues_, cutValues_, spread_, spreads_;
-    vk::Kernel strain_, speed_, skin_, cut_, sheet_;
+    vk::Kernel strain_, speed_, sleep_, skin_, cut_, sheet_;
     std::vector<Sheet> sheets_;
     vk::BindingSets sets_;
 };

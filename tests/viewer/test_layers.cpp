@@ -26,7 +26,7 @@ TEST(Layers, AreAllReachedByTheirNames) {
 
 TEST(Layers, GoRoundThroughAllLooksAndMaps) {
     EXPECT_EQ(next(next(next(SkinLook::solid))), SkinLook::solid);
-    EXPECT_EQ(next(next(next(ColorMap::none))), ColorMap::none);
+    EXPECT_EQ(next(next(next(next(ColorMap::none)))), ColorMap::none);
     EXPECT_NE(next(SkinLook::solid), SkinLook::solid);
     EXPECT_EQ(next(ColorMap::none), ColorMap::strain);
 }
@@ -186,6 +186,24 @@ TEST(SpeedMap, SaysHowFastParticlesAre) {
     flying.step(3);
     EXPECT_NEAR(flying.inspection.reading(0).largest, 4, 1e-3f);
     EXPECT_FLOAT_EQ(flying.inspection.reading(0).range, 5);
+}
+
+TEST(SleepMap, KnowsWhoSleepsAndWhoNeverMoves) {
+    sim::Scene scene;
+    sim::addParticles(scene, {.center = {0, 0.1f, 0}, .count = {1, 1, 1}, .radius = 0.1f});
+    sim::addParticles(scene, {.center = {2, 50, 0}, .count = {1, 1, 1}, .radius = 0.1f});
+    sim::addParticles(scene, {.center = {4, 0.1f, 0}, .count = {1, 1, 1}, .radius = 0.1f});
+    scene.particles[2].inverseMass = 0;
+    scene.planes.push_back({});
+    Inspected resting(scene, {.map = ColorMap::sleep}, {.substeps = 8, .sleeps = true});
+    const vk::BufferView values = resting.inspection.buffers(resting.layers, 0).particles;
+    std::array<float, 3> read{};
+    for (int i = 0; i < 90; ++i) resting.step(1);
+    test::queue().download(values, read.data(), sizeof read);
+    EXPECT_EQ(read[0], 0) << "asleep";
+    EXPECT_EQ(read[1], 1) << "falls";
+    EXPECT_LT(read[2], 0) << "fixed";
+    EXPECT_EQ(resting.inspection.buffers(resting.layers, 0.1f).range, 1) << "from asleep to awake";
 }
 
 TEST(ContactMarks, AreWhereBallsLieOnTheFloorAndOnEachOther) {

@@ -1,0 +1,21 @@
+#version 460
+// Who sleeps: 1 = awake, 0 = asleep, none = never moves. Public positions have no inverse mass while a particle sleeps.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "viewer/values.h"
+
+layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
+layout(std430, binding = 1) readonly buffer Masses { float inverseMasses[]; };
+layout(std430, binding = 2) writeonly buffer Values { float values[]; };
+layout(std430, binding = 3) buffer Spread { ValueSpread spread; };
+layout(push_constant) uniform Push { ValuesPush push; };
+#include "viewer/spread.glsl"
+
+void main() {
+    const uint i = itemIndex(push.count);
+    if (i >= push.count) return;
+    const bool isFixed = inverseMasses[i] == 0.0;
+    const float value = positions[i].w > 0.0 ? 1.0 : 0.0;
+    values[i] = isFixed ? NO_VALUE : value;
+    if (!isFixed) count(value);
+}
