@@ -32,6 +32,11 @@ cmp every/frame_0010.png listed/frame_0010.png || fail "a picture depends on whi
 cmp every/frame_0030.png listed/frame_0030.png || fail "a picture depends on which others are taken"
 cmp -s every/frame_0000.png every/frame_0030.png && fail "nothing has moved"
 
+# Layers are in pictures, too.
+expect 0 "$scene" --headless --picture-frames 30 --size 320x200 --out shown --show strain,wires,particles,contacts --validation
+grep -q validation err && fail "validation messages"
+cmp -s every/frame_0030.png shown/frame_0030.png && fail "--show shows nothing"
+
 # A step without room for its contacts is done again, and no picture shows the state before.
 balls='name = "balls"
 [solver]
@@ -68,6 +73,10 @@ expect 3 "$folder" --headless --out x
 expect 4 "$scene" --headless --out x --device "no such device"
 expect 2 "$scene" --headless --size 20x --out x
 expect 2 --surprise
+expect 2 "$scene" --headless --out x --show x-rays
+expect 3 --headless --replay missing.input
+echo "no log" >no.input
+expect 3 --headless --replay no.input
 [[ ! -e x ]] || [[ -z $(ls x) ]] || fail "a failed run left pictures"
 
 "$viewer" "$scene" --headless --frames 1000000 --every 5 --size 64x64 --out interrupted >out 2>err &

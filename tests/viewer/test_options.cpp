@@ -67,6 +67,22 @@ TEST(Options, RefuseWhatMakesNoSense) {
     EXPECT_NE(complaint({"a.toml", "b.toml"}), "accepted");
 }
 
+TEST(Options, ShowTakesLayersByTheirNames) {
+    const Layers layers = parse({"--show", "glass,strain,wires"}).layers;
+    EXPECT_EQ(layers.skin, SkinLook::glass);
+    EXPECT_EQ(layers.map, ColorMap::strain);
+    EXPECT_TRUE(layers.hasWires);
+    EXPECT_FALSE(layers.hasBalls);
+    EXPECT_EQ(parse({}).layers, Layers{});
+    for (const char* names : {"x-rays", "strain;wires", ""})
+        EXPECT_NE(complaint({"--show", names}).find("--show"), std::string::npos) << names;
+}
+
+TEST(Options, AReplaySaysHowManyStepsThereAre) {
+    EXPECT_FALSE(parse({"--headless", "--replay", "a.input"}).hasFrames);
+    EXPECT_TRUE(parse({"--headless", "--replay", "a.input", "--frames", "3"}).hasFrames);
+}
+
 TEST(Options, SizesAreTwoSensibleNumbers) {
     EXPECT_EQ(parse({"--size", "640x400"}).size.height, 400u);
     for (const char* size : {"", "640", "640x", "x400", "640x400x3", "640 x 400", "-640x400", "8x8",
