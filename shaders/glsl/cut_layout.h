@@ -5,7 +5,7 @@ struct BladeHead {
     vec4 rayFrom;    // w = radius of the ray, 0 = there is none [m]
     vec4 rayTo;
     uint quads;      // of the strip; its points are from 0, to 0, from 1, to 1, ...
-    uint isCarried;  // the strip begins where the last ended and has moved with the material
+    uint isCarried;  // the strip begins where the last ended, wherever the material has gone
     uint unused0, unused1;
 };
 

@@ -43,7 +43,7 @@ vec3 placeNow(uint v) {
 
 void main() {
     const uint item = itemIndex(push.count);
-    if (item >= push.count || !isFinished(status)) return;
+    if (item >= push.count || blade.quads == 0u || !isFinished(status)) return; // strokes go on over steps without a blade
     const uint i = push.first + item;
     const SkinPrism prism = prisms[i];
     const bool isNear = isNearBlade(prism.anchors[0]);

@@ -56,14 +56,14 @@ vec4 behindBlade(HungVertex self) {
 
 void main() {
     const uint item = itemIndex(push.count);
-    if (item >= push.count || !isFinished(status)) return;
+    if (item >= push.count || blade.quads == 0u || !isFinished(status)) return; // strokes go on over steps without a blade
     const uint v = push.first + item;
     const HungVertex self = hung[v];
     vec4 to = moved[v];
     const bool isNear = isNearBlade(self.anchor);
     if (to.w == VERTEX_MOVED || !isNear && to.w == 0.0) return;
     if (blade.isCarried == 0u) to = vec4(0.0);
-    if (isNear && (rims[v] == 0u || blade.isCarried != 0u)) {
+    if (isNear && (rims[v] == 0u || blade.isCarried != 0u)) { // beside an older cut what a stroke begins with leaves the rim where it is
         const vec4 behind = behindBlade(self);
         if (behind.w > 0.0) to = to.w == 0.0 ? behind : vec4(0.0); // else it came back
     }

@@ -28,7 +28,8 @@ void main() {
     const vec3 pull = pulledRest[i].xyz - rest[i].xyz;
     vec3 x = places[i].xyz;
     if (pull != vec3(0.0)) {
-        if (blade.isCarried == 0u || pulls[i].w == 0.0) pulls[i] = vec4(gradientAt(i) * pull, 1.0);
+        const bool isNew = blade.isCarried == 0u && (blade.quads > 0u || blade.rayFrom.w > 0.0);
+        if (isNew || pulls[i].w == 0.0) pulls[i] = vec4(gradientAt(i) * pull, 1.0);
         x += pulls[i].xyz;
     }
     pulledPlaces[i] = vec4(x, 1.0);

@@ -11,6 +11,7 @@ layout(std430, binding = 3) buffer State { SurfaceState state; };
 layout(std430, binding = 4) readonly buffer Groups { uint groups[]; }; // of every run of slots
 layout(std430, binding = 5) buffer Counts { CutCounts counts; };
 layout(std430, binding = 6) writeonly buffer Listed { uint listed[]; };
+layout(std140, binding = 7) uniform Blade { BladeHead blade; };
 layout(push_constant) uniform Push { SurfacePush push; };
 
 shared uvec4 ofLane[GROUP_SIZE];
@@ -38,7 +39,8 @@ void main() {
     const uint needed = max(total.y + total.z, total.x + 3u * total.z);
     const uint fits = needed <= push.room ? 1u : 0u;
     total *= fits;
-    const bool isWritten = counts.linksOfStep > 0u || state.missing > 0u; // there may be room by now for what there was none
+    // there may be room by now for what there was none; and rims move in other steps than links die in
+    const bool isWritten = counts.linksOfStep > 0u || state.missing > 0u || blade.quads > 0u;
     state = SurfaceState(total.x, total.y, total.z, fits == 0u ? needed : 0u);
     counts.missing = fits == 0u ? needed : 0u;
     draws[0] = DrawArguments(3u * total.y, 1u, 0u, 0, 0u);

@@ -118,7 +118,7 @@ void addClosing(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& 
                          run.push);
     addWholeCells(program, cut); // those that an undone step has given back
     addFindingPieces(program, cut, particles);
-    if (cut.surface) surface::addCutSurfacePasses(program, *cut.surface);
+    if (cut.surface) surface::addCutSurfacePasses(program, *cut.surface, cut.blade);
     if (cut.sheets) surface::addSheetPasses(program, *cut.sheets, !cut.surface);
 }
 

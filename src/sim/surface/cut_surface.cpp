@@ -125,7 +125,7 @@ std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& 
     return surface;
 }
 
-void addCutSurfacePasses(ProgramBuilder& program, const CutSurface& surface) {
+void addCutSurfacePasses(ProgramBuilder& program, const CutSurface& surface, BufferId blade) {
     const CuttingBuffers& cutting = program.program().cutting;
     const CutSurfaceBuffers& drawn = program.program().cutSurface;
     const BufferId complex = surface.complex, partitions = surface.partitions, owned = surface.owned;
@@ -140,7 +140,7 @@ void addCutSurfacePasses(ProgramBuilder& program, const CutSurface& surface) {
     program.dispatch(k::sumSurface, chunks.count, {surface.counts, surface.sums}, chunks);
     program.dispatch(k::scanSurface, GROUP_ITEMS,
                      {surface.sums, surface.arguments, drawn.draws, drawn.state, surface.source.groups,
-                      cutting.counts, surface.listed},
+                      cutting.counts, surface.listed, blade},
                      surface.push);
     program.dispatch(k::startSurface, chunks.count,
                      {surface.counts, surface.sums, owned, surface.starts, surface.listed}, chunks);

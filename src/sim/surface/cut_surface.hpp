@@ -70,6 +70,6 @@ void addSkinHits(ProgramBuilder& program, const CutSurface& surface, BufferId bl
                  BufferId placesBefore, BufferId blade, BufferId points);
 
 /// When a step came to its end.
-void addCutSurfacePasses(ProgramBuilder& program, const CutSurface& surface);
+void addCutSurfacePasses(ProgramBuilder& program, const CutSurface& surface, BufferId blade);
 
 } // namespace sinew::sim::surface

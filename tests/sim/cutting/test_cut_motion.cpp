@@ -80,8 +80,7 @@ TEST(Stroke, Of30StepsThroughAMovingBodyLeavesTwoPieces) {
     }
 }
 
-// The blade stands still in the world and the body falls onto it: `from` and `to` are the same, carried edges
-// make the sweep.
+// The blade stands still in the world and the body falls onto it: `from` and `to` are the same.
 TEST(Stroke, OfABladeThatABodyMovesOntoCutsIt) {
     const double way = 0.2 * double{spacing};
     CutBody body(movingCube(Vector3d(-way * 60, 0, 0)));
