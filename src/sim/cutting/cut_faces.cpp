@@ -74,8 +74,11 @@ void addTwice(ProgramBuilder& program, const std::function<void()>& addPass) {
 
 void makeTopology(ProgramBuilder& program, BufferId seen, std::initializer_list<BufferId> buffers) {
     CuttingBuffers& cutting = program.program().cutting;
-    if (std::ranges::find(cutting.contactsSeen, seen) != cutting.contactsSeen.end()) return; // of another run
-    cutting.contactsSeen.push_back(seen);
+    const auto has = [](const std::vector<BufferId>& list, BufferId buffer) {
+        return std::ranges::find(list, buffer) != list.end();
+    };
+    if (has(cutting.topology, *buffers.begin())) return;                        // by another run
+    if (!has(cutting.contactsSeen, seen)) cutting.contactsSeen.push_back(seen); // else crumbs leave it too
     for (const BufferId buffer : buffers) {
         cutting.topology.push_back(buffer);
         program.carry(buffer, buffer);
