@@ -21,6 +21,7 @@ void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
     if (plan.isReset) {
         stage_.recordReset(frame.commands);
         gauges_.restart();
+        if (replay_) tools_.putAway(stage_);
         tools_.reset();
         if (replay_) replay_->restart();
         forgetFlights();

@@ -8,12 +8,12 @@ namespace sinew::viewer {
 // A button has the pointer over the panel: what is to be pinned is pointed at next.
 void Show::grant(const Wishes& wishes, Input& input) {
     for (const Action action : wishes.actions)
-        if (action == Action::pin)
+        if (action == Action::pin && !replay_)
             tools_.armPin();
         else
             input.actions.push_back(action);
     if (wishes.scene && mayOpen()) library_.open(*wishes.scene, pictureAspect());
-    if (wishes.knobs) turnKnobs(*wishes.knobs);
+    if (wishes.knobs && !replay_) turnKnobs(*wishes.knobs); // a replay has the hands
 }
 
 void Show::turnKnobs(const Knobs& knobs) {

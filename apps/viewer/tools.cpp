@@ -155,6 +155,12 @@ void Tools::reset() {
     if (gravity_) log_.pull(*gravity_);
 }
 
+void Tools::putAway(Stage& stage) {
+    if (blade_.isOn()) blade_.toggle();
+    gravity_.reset();
+    stage.setGravity(stage.scene().gravity);
+}
+
 void Tools::forget() {
     log_.forget();
     history_.recycle();
@@ -163,6 +169,7 @@ void Tools::forget() {
 bool Tools::recordHistory(VkCommandBuffer commands, Stage& stage) {
     const bool isUndo = std::exchange(wantsUndo_, false), isRedo = std::exchange(wantsRedo_, false);
     if (!isUndo && !isRedo) return false;
+    if ((isUndo ? history_.undos() : history_.redos()) == 0) return false; // hands and pins stay
     log_.goBack();
     clear();
     return isUndo ? history_.recordUndo(commands, stage) : history_.recordRedo(commands, stage);

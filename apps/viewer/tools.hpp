@@ -58,6 +58,8 @@ public:
     bool wantsHistory() const { return wantsUndo_ || wantsRedo_; }
     /// The way back or forwards, where it was asked for; whether there was one.
     bool recordHistory(VkCommandBuffer commands, Stage& stage);
+    /// For a replay that begins again: the blade put away, gravity as the scene has it.
+    void putAway(Stage& stage);
     /// What they do in the next step, which is then recorded into `commands`; a copy of the state before a
     /// cut is recorded here.
     StepHands takeStep(VkCommandBuffer commands, const Stage& stage);
