@@ -1,10 +1,11 @@
 // Crumbs (Scene::crumbs): pieces of bodies of voxels that have so few particles that they are removed. They
-// stay where they are in the solver's state, with mass and momentum, but nothing touches them, draws them or
+// stay in the solver's state, with mass and momentum, but no particle, face or edge touches them and nothing
 // counts them: the piece of their particles is NO_PARTICLE, from the step on whose cut has made them. What
 // says so belongs to the topology, so that an undo brings them back.
 //
-//   publish  remove_crumbs, forget_crumbs after pieces were found anew; leave_contacts for every grid of
-//   contacts skin     hide_crumbs, hide_crumb_surface: their vertices shrink to a point
+//   publish   remove_crumbs, forget_crumbs   after pieces were found anew
+//             leave_contacts                 for every grid of contacts
+//   skin      hide_crumbs, hide_crumb_surface   their vertices shrink to a point
 #pragma once
 
 #include "sim/cutting/cut_plan.hpp"
