@@ -22,24 +22,8 @@ layout(std430, binding = 10) readonly buffer Hung { HungVertex hung[]; };
 layout(std430, binding = 11) readonly buffer Status { StatusWords status; };
 layout(std430, binding = 12) readonly buffer Partitions { uint partitions[]; }; // before this step
 
-#define PLACE(i) pulledPlaces[i].xyz
-#include "blade_sweep.glsl"
 #include "blade_skin.glsl"
 #include "skin_prisms.glsl"
-#define ALIVE(i) savedLinks[i]
-#define AT(i) places[i].xyz
-#define REST(i) rest[i].xyz
-#define TURN(i) gradientAt(i)
-#include "gradient.glsl"
-#include "skin_place.glsl"
-
-// Cells that were whole hang together.
-vec3 placeNow(uint v) {
-    const HungVertex vertex = hung[v];
-    uint held = 255u;
-    if (partitions[vertex.cell] != 0u) held = heldWith(vertex.cell, vertex.corner);
-    return placeOf(vertex, held);
-}
 
 void main() {
     const uint item = itemIndex(push.count);
@@ -50,7 +34,7 @@ void main() {
     uint hits = skinHits[i];
     if (!isNear && (hits == 0u || blade.isCarried != 0u)) return;
     vec3 x[3];
-    [[dont_unroll]] for (uint n = 0u; n < 3u && isNear; ++n) x[n] = placeNow(prism.vertices[n]);
+    [[dont_unroll]] for (uint n = 0u; n < 3u && isNear; ++n) x[n] = placeNow(hung[prism.vertices[n]]);
     [[dont_unroll]] for (uint n = 0u; n < 3u; ++n) {
         if (linkOf(prism, n) == 0u || i > prism.beyond[n] >> 2) continue;
         const bool isWhole = areLinked(savedLinks[lowEnd(prism, n)], linkOf(prism, n));

@@ -22,30 +22,21 @@ layout(std430, binding = 10) buffer Rims { uint rims[]; };
 layout(std430, binding = 11) readonly buffer Status { StatusWords status; };
 layout(std430, binding = 12) readonly buffer Partitions { uint partitions[]; }; // before this step
 
-#define PLACE(i) pulledPlaces[i].xyz
-#include "blade_sweep.glsl"
 #include "blade_skin.glsl"
-#define ALIVE(i) savedLinks[i]
-#define AT(i) places[i].xyz
-#define REST(i) rest[i].xyz
-#define TURN(i) gradientAt(i)
-#include "gradient.glsl"
-#include "skin_place.glsl"
 
 const float mostWay = 1.5;      // [cells]
+const float leastVolume = 1e-3; // of its own at rest: flatter material does not say where it was
 const float leastTangent = 0.2; // of the normal of a blade along the skin, squared: flatter ones shave
 
 // Where the blade that meets the way to its particle lets the vertex be, at rest; w = 0 where it does not.
 vec4 behindBlade(HungVertex self) {
     const uint i = self.anchor;
-    uint held = 255u; // of a cell that was whole
-    if (partitions[self.cell] != 0u) held = heldWith(self.cell, self.corner);
-    const vec3 x = placeOf(self, held);
+    const vec3 x = placeNow(self);
     const Meeting meeting = stripMeeting(waysOf(i, i, x, PLACE(i)));
     const float size = length(meeting.normal);
-    if (meeting.at > 1.0 || !(size > 0.0)) return vec4(0.0);
-    const vec3 n = meeting.normal / size;
     const mat3 turn = gradientAt(i);
+    if (meeting.at > 1.0 || !(size > 0.0) || !(abs(determinant(turn)) > leastVolume)) return vec4(0.0);
+    const vec3 n = meeting.normal / size;
     const vec3 skin = normalize(cofactor(turn) * self.normal.xyz);
     vec3 way = n - dot(n, skin) * skin;
     if (dot(way, way) < leastTangent) way = n;
