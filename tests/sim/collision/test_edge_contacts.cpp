@@ -2,7 +2,7 @@
 #include "layout.h"
 #include "sim/collision/face_scenes.hpp"
 #include "sim/compile.hpp"
-#include "sim/runner.hpp"
+#include "sim/growing_run.hpp"
 #include "sim/scenes.hpp"
 #include "sim/simulation.hpp"
 #include "support/device.hpp"
@@ -254,29 +254,13 @@ TEST(EdgeContacts, ThatHaveNoRoomAreSaidAndRepeatedToTheSameBits) {
     const Scene scene = test::crossedSheets(0.1f);
     constexpr int steps = 25;
     const std::uint64_t hash = test::hashOfRun(scene, {.substeps = 8, .contactRoom = 96}, steps);
-    Settings settings{.substeps = 8, .contactRoom = 1};
-    auto runner = std::make_unique<test::Runner>(scene, settings);
-    int growths = 0, touching = 0;
-    for (int step = 0; step < steps;) {
-        const std::uint64_t before = runner->stateHash();
-        const Status status = runner->run(1);
-        if (status.contactRoom == 0) {
-            touching += edgesTouching(*runner) > 0 ? 1 : 0;
-            ++step;
-            continue;
-        }
-        ASSERT_GT(status.contactRoom, settings.contactRoom);
-        EXPECT_EQ(runner->stateHash(), before) << "undone";
-        settings.contactRoom = status.contactRoom;
-        auto larger = std::make_unique<test::Runner>(scene, settings);
-        larger->takeOver(*runner);
-        EXPECT_EQ(larger->stateHash(), before);
-        runner = std::move(larger);
-        ++growths;
-    }
-    EXPECT_GE(growths, 1);
-    EXPECT_GE(touching, 3) << "steps";
-    EXPECT_EQ(runner->stateHash(), hash);
+    int touching = 0; // steps
+    const auto run = test::runGrowing(scene, {.substeps = 8}, steps, [&](test::Runner& runner) {
+        touching += edgesTouching(runner) > 0 ? 1 : 0;
+    });
+    EXPECT_GE(run.growths, 1);
+    EXPECT_GE(touching, 3);
+    EXPECT_EQ(run.hash, hash);
 }
 
 TEST(EdgeContacts, AreAbsentWhereNoTwoEdgesCanMeet) {

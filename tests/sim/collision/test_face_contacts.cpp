@@ -3,7 +3,7 @@
 #include "sim/bodies.hpp"
 #include "sim/collision/face_scenes.hpp"
 #include "sim/compile.hpp"
-#include "sim/runner.hpp"
+#include "sim/growing_run.hpp"
 #include "sim/scenes.hpp"
 #include "sim/simulation.hpp"
 #include "sim/validate.hpp"
@@ -511,27 +511,9 @@ TEST(FaceContacts, ThatHaveNoRoomAreSaidAndRepeatedToTheSameBits) {
     const Scene scene = test::clothOnBall();
     constexpr int steps = 24;
     const std::uint64_t hash = hashOf(scene, {.substeps = 8, .contactRoom = 128}, steps);
-    Settings settings{.substeps = 8, .contactRoom = 1};
-    auto runner = std::make_unique<test::Runner>(scene, settings);
-    int growths = 0;
-    for (int step = 0; step < steps;) {
-        const std::uint64_t before = runner->stateHash();
-        const Status status = runner->run(1);
-        if (status.contactRoom == 0) {
-            ++step;
-            continue;
-        }
-        ASSERT_GT(status.contactRoom, settings.contactRoom);
-        EXPECT_EQ(runner->stateHash(), before) << "undone";
-        settings.contactRoom = status.contactRoom;
-        auto larger = std::make_unique<test::Runner>(scene, settings);
-        larger->takeOver(*runner);
-        EXPECT_EQ(larger->stateHash(), before);
-        runner = std::move(larger);
-        ++growths;
-    }
-    EXPECT_GE(growths, 1);
-    EXPECT_EQ(runner->stateHash(), hash);
+    const auto run = test::runGrowing(scene, {.substeps = 8}, steps);
+    EXPECT_GE(run.growths, 1);
+    EXPECT_EQ(run.hash, hash);
 }
 
 TEST(FaceContacts, AreRefusedBySolversWithoutAFormForThem) {

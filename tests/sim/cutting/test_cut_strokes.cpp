@@ -125,6 +125,7 @@ struct Case {
     std::vector<int> steps;
     bool hangs = false;     // so far down that another part of it is below the blade
     bool hasCrumbs = false; // a mesh: in one step too
+    double most = 1.5;      // links dead, of those of one step
 };
 
 } // namespace
@@ -136,7 +137,7 @@ TEST(SlowStroke, PartsABodyAsOneStepDoes) {
         {"beam", beam(), {0.22}, {1, 30}, true},
         {"beam along a layer", beam(), {0.2}, {1, 30}, true},
         {"beam, slanted", beam(), {0.2, 0.2}, {1, 15, 60}},
-        {"bridge", beam(0.64), {0.22}, {1, 30, 120}},
+        {"bridge", beam(0.64), {0.22}, {1, 30, 120}, false, false, 1},
         {"bridge along a layer", beam(0.64), {0.2}, {1, 30, 120}},
         {"sphere", meshBody("sphere", 10, -0.08), {0.01}, {1, 15, 60}},
         {"sphere, slanted", meshBody("sphere", 10, -0.08), {0.01, 0.2}, {1, 30, 60}},
@@ -153,7 +154,7 @@ TEST(SlowStroke, PartsABodyAsOneStepDoes) {
                         each.name, steps, outcome.dead, outcome.sizes[0], outcome.sizes[1],
                         outcome.sizes.size() - 2, crumbs);
             EXPECT_LE(crumbs, each.hasCrumbs ? once.particles() / 100 : 0);
-            EXPECT_LE(outcome.dead, once.dead * 3 / 2) << "a way of its own";
+            EXPECT_LE(static_cast<double>(outcome.dead), each.most * static_cast<double>(once.dead));
             EXPECT_EQ(outcome.openEdges, 0u);
             EXPECT_GT(outcome.sizes[1], each.hangs ? 20 : once.sizes[1] * 9 / 10) << "where the blade was";
         }
