@@ -45,10 +45,22 @@ bool isInBox(Searched face, vec3 x, float reach) {
     return dot(d, d) < reach * reach;
 }
 
+// Whether a fast point stays away from the ball around a face on all of its way in this substep: else a fine body would be listed
+// whole with it. What it makes in the next one is within the margin, or lists are made again.
+bool isBesideWay(Searched face, uint i, vec3 x) {
+    const vec3 way = step.h * velocities[i].xyz, d = 0.5 * (face.low + face.high) - x;
+    const float size = 0.5 * length(face.high - face.low), length2 = dot(way, way);
+    if (length2 < size * size) return false;
+    const vec3 apart = d + clamp(-dot(d, way) / length2, 0.0, 1.0) * way;
+    const float reach = 1.001 * (size + face.reach + radii[i]);
+    return dot(apart, apart) > reach * reach;
+}
+
 bool isNear(Searched face, uint i, vec3 x, float reach) {
     const uint f = face.index;
     if (i == face.face.a || i == face.face.b || i == face.face.c) return false;
     if (f >= push.moving && inverseMass[i] == 0.0) return false; // neither ever moves
+    if (isBesideWay(face, i, x)) return false;
     const vec3 d = nearestOf(x - face.a, face.triangle).d;
     return dot(d, d) < reach * reach && !isExcluded(f, i);
 }

@@ -159,8 +159,25 @@ double toTriangle(const Vector3d& p, const std::array<Vector3d, 3>& x) {
     return std::min({toSegment(p, x[0], x[1]), toSegment(p, x[1], x[2]), toSegment(p, x[2], x[0])});
 }
 
+// The least on a straight way that ends at p: a distance from something convex has one minimum along it.
+double alongWay(const Vector3d& p, const Vector3d& way, const std::array<Vector3d, 3>& x) {
+    double low = 0, high = 1;
+    for (int n = 0; n < 80; ++n) {
+        const double third = (high - low) / 3;
+        const bool isHigh = toTriangle(p - (low + third) * way, x) > toTriangle(p - (high - third) * way, x);
+        (isHigh ? low : high) += isHigh ? third : -third;
+    }
+    return toTriangle(p - low * way, x);
+}
+
+// A box's half diagonal: points that go less far are listed by how far they are alone.
+double halfBox(const std::array<Vector3d, 3>& x) {
+    return 0.5 * (x[0].cwiseMax(x[1]).cwiseMax(x[2]) - x[0].cwiseMin(x[1]).cwiseMin(x[2])).norm();
+}
+
 // What lists may differ by: pairs whose distance is the reach, to float's rounding of the face's size;
-// slivers are as thick as their height, a thousandth of their length.
+// slivers are as thick as their height, a thousandth of their length. A fast point is near what its way is
+// near to.
 struct Expected {
     Neighbours sure = Neighbours(count), possible = Neighbours(count);
 };
@@ -184,7 +201,11 @@ Expected bruteForce(const Cloud& cloud, const State& state, double margin) {
                                  double{substep} * at(state.v[i]).norm();
             const double d = toTriangle(at(state.x[i]), x);
             if (d < reach * (1 + 1e-5) + slack) expected.possible[i].push_back(f);
-            if (d < reach * (1 - 1e-5) - 1e-5 * size) expected.sure[i].push_back(f);
+            if (d >= reach * (1 - 1e-5) - 1e-5 * size) continue;
+            const Vector3d ofPoint = double{substep} * at(state.v[i]);
+            const double touching = (reach - ofPoint.norm()) * (1 - 1e-5) - 1e-5 * size;
+            const bool isSlow = ofPoint.norm() < (1 - 1e-5) * halfBox(x);
+            if (isSlow || alongWay(at(state.x[i]), ofPoint, x) < touching) expected.sure[i].push_back(f);
         }
     }
     return expected;
