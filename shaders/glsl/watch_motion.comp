@@ -28,9 +28,8 @@ layout(std140, binding = 6) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { GridPush push; };
 
 void watchFast(uint i, float way) {
-    const float radius = radii[i];
-    if (radius >= 0.0) atomicMax(bounds.sweeping, 1u);
-    if (!isHurrying(radius, way, push.quiet, push.most)) return;
+    atomicMax(bounds.sweeping, 1u);
+    if (!isHurrying(radii[i], way, push.quiet, push.most)) return;
     const uint place = atomicAdd(bounds.hurrying, 1u);
     if (place < MOST_FAST) fast[place] = i;
 }
@@ -39,6 +38,7 @@ void main() {
     const uint i = itemIndex(push.count);
     const vec3 way = step.h * VELOCITY(i).xyz, end = POSITION(i).xyz - DETECTED(i).xyz, start = end - way;
     const float farthest = max(dot(end, end), dot(start, start));
+    if (radii[i] < 0.0) return; // in no list, such as crumbs that fall for ever
     if (!(farthest <= push.slack * push.slack)) // what is no number has gone far
         atomicMax(bounds.moved, floatBitsToUint(min(sqrt(farthest), 1e30)));
     if (dot(way, way) > push.quiet * push.quiet) watchFast(i, length(way));
