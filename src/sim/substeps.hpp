@@ -32,7 +32,7 @@ enum class SubstepReason : std::uint8_t {
     stiffness, ///< no elastic link softer than the tolerance allows
     weight,    ///< no rigid link stretched by more than tolerance x length under the weight hanging on it
     damping,   ///< `split`: dampingTime in full
-    contacts,  ///< what rests on contacts between particles presses them in by no more than 1 % of a radius
+    contacts,  ///< what rests on particles or faces presses them in by no more than 1 % of a radius
     fewest,    ///< nothing asked for more than ranges::fewestChosen
     most,      ///< more than ranges::mostChosen were wanted
 };
@@ -54,9 +54,8 @@ struct SubstepChoice {
 ///   shared by the links that end on a particle that never moves (bodies that hang on nothing ask for
 ///   nothing),
 /// - `split` is stable with the whole of dampingTime,
-/// - what may rest on contacts between particles presses them in by at most 1 % of a radius
-/// (collision/loads.hpp),
-///   and there are ranges::fewestTouching where particles may touch,
+/// - what may rest on particles or faces presses them in by at most 1 % of a radius (collision/loads.hpp),
+///   and there are ranges::fewestTouching where particles may touch each other or faces,
 /// but from fewestChosen to mostChosen; 1 where a scene has nothing but free particles. Longer or shorter
 /// steps keep the number.
 SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings);
