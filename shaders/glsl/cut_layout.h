@@ -199,6 +199,14 @@ struct CutFace {
     uint isLarge; // of the list of large ones
 };
 
+// A contact face on the outside of a voxel body, its corners from the lowest over a middle one to the highest.
+struct CutSolidFace {
+    uint low, middle; // slots
+    uint bits;        // of the links low - middle, << 8 low - high, << 16 middle - high
+    uint place, face;
+    uint isLarge;
+};
+
 // A contact edge that is a link of a sheet.
 struct CutEdge {
     uint slot, way; // of its lower end; slots to the other

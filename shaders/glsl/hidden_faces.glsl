@@ -1,4 +1,4 @@
-// Which of the faces that never move and that a point touches push it. Inner edges of a flat surface must not: a point over one
+// Which of the faces that never move or are solid, and that a point touches, push it. Inner edges of a flat surface must not: a point over one
 // face is near an edge of the next one too. Needs faces, contacts, directions and push.
 bool isCorner(uint i, ContactFace face) { return i == face.a || i == face.b || i == face.c; }
 
@@ -23,17 +23,17 @@ bool has(ContactFace other, ContactFace face, uint corners) {
 // A face of which an edge or a corner is nearest says nothing that a face beside it does not, which has that edge or corner
 // too, and something nearer, or the same: then the first of them. Pushed from inner edges of a flat surface as well, what hits
 // it would be pushed aslant, too softly, and be thrown as it comes out. So such a contact does not push: its depth is below
-// 0. What it remembers goes on, for the nearest place may change from one face to the other. Only among faces that never move:
+// 0. What it remembers goes on, for the nearest place may change from one face to the other. Not among those of sheets that move:
 // where cloth lies on cloth, to push its neighbours as well spreads what a point presses with, and folds rest sooner for it.
 void hide(uint i, uint n) {
     for (uint s = 0u; s < n; ++s) {
         const uint element = s * push.row + i, corners = cornersIn(directions[element].w);
-        if (!(directions[element].w > 0.0) || corners == 7u || contacts[element].x < push.moving) continue;
+        if (!(directions[element].w > 0.0) || corners == 7u || contacts[element].x < push.sheets) continue;
         const ContactFace face = faces[contacts[element].x];
         bool isHidden = false;
         for (uint t = 0u; t < n && !isHidden; ++t) {
             const uint beside = t * push.row + i;
-            if (t == s || directions[beside].w == 0.0 || contacts[beside].x < push.moving) continue;
+            if (t == s || directions[beside].w == 0.0 || contacts[beside].x < push.sheets) continue;
             const ContactFace other = faces[contacts[beside].x];
             isHidden = has(other, face, corners) && (t < s || !has(face, other, cornersIn(directions[beside].w)));
         }

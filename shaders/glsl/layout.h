@@ -403,6 +403,7 @@ struct FacePush {
     uint surfaces; // pair (a, b) of them is element a * surfaces + b of a table
     float recoverySpeed; // of what overlapped when the scene was loaded [m/s]
     uint moving; // faces before that one have a corner that moves; of edges nothing
+    uint sheets; // of those, faces before that one have two sides, the others are the surface of something solid
 };
 
 struct SubstepPush {

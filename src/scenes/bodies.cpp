@@ -280,7 +280,7 @@ void addChain(LoadedScene& loaded, const Section& section) {
     sim::addChain(loaded.scene, chain);
 }
 
-void addBox(LoadedScene& loaded, const Section& box) {
+void addBox(LoadedScene& loaded, const Section& box, FaceChoices& faces) {
     box.requireOneOf("center", "origin");
     const auto particles = box.counts<3>("particles"), copies = box.counts<3>("copies");
     const std::uint64_t each = product(particles), count = product(copies);
@@ -296,7 +296,7 @@ void addBox(LoadedScene& loaded, const Section& box) {
                                .radius = radiusOf(box),
                                .isCuttable = box.flag("cuttable")};
     const BoxRows rows = rowsOf(box, lattice, copies, loaded.origin);
-    const std::size_t first = loaded.scene.particles.size();
+    const std::size_t first = loaded.scene.particles.size(), firstGrid = loaded.scene.grids.size();
     for (std::uint64_t i = 0; i < count; ++i) {
         sim::Lattice one = lattice;
         one.origin = rows.origin(i, copies);
@@ -304,6 +304,7 @@ void addBox(LoadedScene& loaded, const Section& box) {
         addOneBox(loaded, box, one);
     }
     addSurface(loaded, box, first);
+    faces.add(loaded, box, firstGrid);
 }
 
 void addParticles(LoadedScene& loaded, const Section& section) {

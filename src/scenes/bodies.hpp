@@ -1,7 +1,7 @@
 // Checked tables of a scene file become particles, links, planes and skins.
 #pragma once
 
-#include "scenes/section.hpp"
+#include "scenes/faces.hpp"
 
 namespace sinew::scenes {
 
@@ -18,9 +18,10 @@ struct Source {
 
 void addCloth(LoadedScene& loaded, const Section& cloth);
 void addChain(LoadedScene& loaded, const Section& chain);
-void addBox(LoadedScene& loaded, const Section& box);
+void addBox(LoadedScene& loaded, const Section& box, FaceChoices& faces);
 /// `voxel` overrides the file's voxel size [m].
-void addMesh(LoadedScene& loaded, const Section& mesh, const Source& source, std::optional<float> voxel);
+void addMesh(LoadedScene& loaded, const Section& mesh, const Source& source, std::optional<float> voxel,
+             FaceChoices& faces);
 void addParticles(LoadedScene& loaded, const Section& particles);
 /// What never moves: after the bodies that do.
 void addMeshCollider(LoadedScene& loaded, const Section& section, const Source& source);

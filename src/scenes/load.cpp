@@ -82,11 +82,13 @@ void apply(const Overrides& overrides, LoadedScene& loaded) {
 void readBodies(LoadedScene& loaded, const Section& top, const Source& source, std::optional<float> voxel) {
     for (const Section& cloth : top.list("cloth")) addCloth(loaded, cloth);
     for (const Section& chain : top.list("chain")) addChain(loaded, chain);
-    for (const Section& box : top.list("box")) addBox(loaded, box);
-    for (const Section& mesh : top.list("mesh")) addMesh(loaded, mesh, source, voxel);
+    FaceChoices faces;
+    for (const Section& box : top.list("box")) addBox(loaded, box, faces);
+    for (const Section& mesh : top.list("mesh")) addMesh(loaded, mesh, source, voxel, faces);
     for (const Section& particles : top.list("particles")) addParticles(loaded, particles);
     if (loaded.scene.bodies.empty())
         fail(source.file, "has no body", "add [[cloth]], [[chain]], [[box]], [[mesh]] or [[particles]]");
+    faces.settle(loaded);
     for (const Section& mesh : top.list("mesh_collider")) addMeshCollider(loaded, mesh, source);
     for (const Section& plane : top.list("plane")) addPlane(loaded, plane);
     for (const Section& collider : top.list("collider")) addCollider(loaded, collider);

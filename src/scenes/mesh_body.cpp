@@ -120,7 +120,8 @@ void warn(const MeshSummary& summary, std::vector<std::string>& warnings) {
 
 } // namespace
 
-void addMesh(LoadedScene& loaded, const Section& section, const Source& source, std::optional<float> voxel) {
+void addMesh(LoadedScene& loaded, const Section& section, const Source& source, std::optional<float> voxel,
+             FaceChoices& faces) {
     section.requireOneOf("file", "generate");
     if (section.has("voxel") && section.has("resolution"))
         section.fail("resolution", "is given beside voxel", "give one of them");
@@ -151,7 +152,7 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
     body.voxels.maxCells = mostParticles - loaded.scene.particles.size();
     if (section.has("particles") && !voxel)
         body.mostParticles = std::min<std::size_t>(section.count("particles"), body.voxels.maxCells);
-    const std::size_t first = loaded.scene.particles.size();
+    const std::size_t first = loaded.scene.particles.size(), firstGrid = loaded.scene.grids.size();
     try {
         summary.voxels = mesh::addMesh(loaded.scene, found.mesh, body);
     } catch (const std::length_error& error) {
@@ -164,6 +165,7 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
                      std::string("cannot be had: ") + error.what(), "move the body nearer to the origin");
     }
     addSurface(loaded, section, first);
+    faces.add(loaded, section, firstGrid);
     if (body.isCuttable && loaded.scene.skins.back().anchors.empty())
         loaded.warnings.push_back(
             "mesh " + summary.file +

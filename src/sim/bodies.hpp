@@ -154,6 +154,15 @@ LatticeCorners addLattice(Scene& scene, const Lattice& lattice);
 /// Skins the boundary faces of a lattice (for bodies without a mesh of their own), creased at its edges.
 void addLatticeSkin(Scene& scene, const Lattice& lattice, const LatticeCorners& corners, Vec3 color);
 
+/// Appends the outer faces of a voxel body that `grid` is of as triangles between its particles, solid and as
+/// thick as these are wide: what is too small for the voxels then stays outside. They go where a blade parts
+/// their corners; what it lays open is touched by particles alone.
+void addSurfaceFaces(Scene& scene, const Grid& grid);
+
+/// Which of the scene's grids are of voxel bodies between whose particles something could pass that moves and
+/// touches others, were their surface stretched by a fifth: those that need addSurfaceFaces.
+std::vector<std::uint32_t> gridsWithHoles(const Scene& scene);
+
 /// Particles that nothing links and that touch each other: in rows, or at random places of a cuboid. They
 /// keep their radius from colliders too.
 struct LooseParticles {

@@ -60,6 +60,10 @@ struct Surface {
 struct Face {
     std::array<std::uint32_t, 3> particles{};
     float thickness = 0; ///< from its middle [m]
+    /// Part of the surface of something solid (addSurfaceFaces), in front of which its corners follow each
+    /// other counter-clockwise: touches what is in front, lets out what comes from behind, and its corners
+    /// touch others as before, beside it. Its edges touch nothing.
+    bool isSolid = false;
 };
 
 /// How particles touch each other and faces.

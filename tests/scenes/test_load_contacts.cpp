@@ -371,3 +371,22 @@ TEST_F(LoadContacts, ReadsEveryShippedSceneOfContacts) {
         EXPECT_EQ(scenes::loadBuiltIn(name).scene.particles.size(), particles) << name;
     }
 }
+
+// Where something smaller than the holes between its particles collides, or the file asks for them.
+TEST_F(LoadContacts, GivesVoxelBodiesFacesWhereTheyNeedThem) {
+    const std::string touching = box + "collides = true\n", small = "[[particles]]\nradius = 0.02\n",
+                      mesh = "[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\nvoxel = 0.25\ncollides = true\n";
+    const auto faces = [&](const std::string& text) { return load(text).scene.faces.size(); };
+    const std::size_t all = 2 * 2 * (2 * 3 + 3 * 4 + 4 * 2);
+    EXPECT_EQ(faces(touching), 0u);
+    EXPECT_EQ(faces(touching + "faces = true\n"), all);
+    EXPECT_EQ(faces(touching + small), all);
+    EXPECT_EQ(faces(touching + "faces = false\n" + small), 0u);
+    EXPECT_EQ(faces(touching + balls), 0u) << "too wide to pass";
+    EXPECT_EQ(faces(box + small), 0u) << "touches nothing";
+    EXPECT_EQ(faces(touching + "copies = [2, 1, 1]\nfaces = true\n"), 2 * all);
+    EXPECT_EQ(faces(mesh), 0u);
+    EXPECT_GT(faces(mesh + balls), 0u) << "coarser voxels";
+    expectError(box + "faces = true\n",
+                "scene.toml:5: box[0].faces is given, but the body touches nothing: write collides = true");
+}

@@ -119,8 +119,13 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
                       .before = faces.before,
                       .moved = particles};
     const layout::FaceFindPush& find = contacts.lists.push;
-    contacts.push = {
-        find.points, find.row, find.faceRow, contacts.surfaces.count, scene.contacts.recoverySpeed, 0};
+    contacts.push = {.count = find.points,
+                     .row = find.row,
+                     .faceRow = find.faceRow,
+                     .surfaces = contacts.surfaces.count,
+                     .recoverySpeed = scene.contacts.recoverySpeed,
+                     .moving = 0,
+                     .sheets = 0};
     ContactBuffers& shown = program.program().contacts;
     shown.edges = contacts.lists.edges;
     shown.edgePairs = contacts.lists.contacts;

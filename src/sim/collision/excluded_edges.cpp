@@ -31,7 +31,7 @@ struct Side {
 std::vector<Side> sidesOf(const Scene& scene) {
     std::vector<Side> sides;
     for (std::uint32_t f = 0; f < scene.faces.size(); ++f)
-        for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t k = 0; k < 3 && !scene.faces[f].isSolid; ++k) {
             const std::uint32_t a = scene.faces[f].particles[k], b = scene.faces[f].particles[(k + 1) % 3];
             sides.push_back({{std::min(a, b), std::max(a, b)}, f});
         }

@@ -23,6 +23,15 @@ double distance(const Vector& p, const std::array<Vector, 3>& x) {
         {squaredToSegment(p, x[0], x[1]), squaredToSegment(p, x[1], x[2]), squaredToSegment(p, x[2], x[0])}));
 }
 
+// Whether a point is that near to the box around three others.
+bool isInBox(const Vector& p, const std::array<Vector, 3>& x, double reach) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto [low, high] = std::minmax({x[0][axis], x[1][axis], x[2][axis]});
+        if (p[axis] < low - reach || p[axis] > high + reach) return false;
+    }
+    return true;
+}
+
 using Cell = std::array<std::int64_t, 3>;
 
 // The points of one linked body, in cells as wide as a face reaches.
@@ -54,7 +63,8 @@ public:
             for (const std::uint32_t i : found->second) {
                 if (std::ranges::find(corners, i) != corners.end()) continue;
                 const double reach = nearness * (double{radii_[i]} + double{face.thickness});
-                if (distance(toVector(scene_.particles[i].position), x) < reach) near.push_back(i);
+                const Vector p = toVector(scene_.particles[i].position);
+                if (isInBox(p, x, reach) && distance(p, x) < reach) near.push_back(i);
             }
         }
     }

@@ -25,11 +25,12 @@ float median(std::vector<float> values) {
     return *middle;
 }
 
-// Faces between particles, those with a corner that moves first.
+// Faces between particles: sheets with a corner that moves, what is solid and has one, and those that never
+// move.
 struct Faces {
     std::vector<layout::ContactFace> faces;
     std::vector<float> extents;
-    std::uint32_t moving = 0;
+    std::uint32_t sheets = 0, moving = 0;
 };
 
 float extentOf(const Scene& scene, const Face& face) {
@@ -43,16 +44,24 @@ float extentOf(const Scene& scene, const Face& face) {
 }
 
 Faces facesOf(const Scene& scene, const std::vector<float>& inverseMass) {
+    enum class Kind : std::uint8_t { sheet, solid, still };
+    const auto kindOf = [&](const Face& face) {
+        if (!moves(face, inverseMass)) return Kind::still;
+        return face.isSolid ? Kind::solid : Kind::sheet;
+    };
     Faces faces;
-    for (const bool moving : {true, false}) {
+    const auto add = [&](Kind kind) {
         for (const Face& face : scene.faces) {
-            if (moves(face, inverseMass) != moving) continue;
+            if (kindOf(face) != kind) continue;
             const auto [a, b, c] = face.particles;
             faces.faces.push_back({a, b, c, face.thickness});
             faces.extents.push_back(extentOf(scene, face));
         }
-        if (moving) faces.moving = static_cast<std::uint32_t>(faces.faces.size());
-    }
+        return static_cast<std::uint32_t>(faces.faces.size());
+    };
+    faces.sheets = add(Kind::sheet);
+    faces.moving = add(Kind::solid);
+    add(Kind::still);
     return faces;
 }
 
@@ -172,7 +181,7 @@ std::vector<float> looseRadii(const Scene& scene) {
     for (const Particle& particle : scene.particles) radii.push_back(particle.radius);
     for (const Face& face : scene.faces)
         for (const std::uint32_t i : face.particles)
-            if (scene.particles[i].radius <= face.thickness) radii[i] = 0;
+            if (!face.isSolid && scene.particles[i].radius <= face.thickness) radii[i] = 0;
     return radii;
 }
 
@@ -186,9 +195,13 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
                       .moved = particles};
     const layout::FaceFindPush& find = contacts.lists.push;
     contacts.surfaces = surfaces::addTable(program, scene, layout, "faces.surface");
-    contacts.push = {
-        find.points, find.row, find.faceRow, contacts.surfaces.count, scene.contacts.recoverySpeed,
-        find.moving};
+    contacts.push = {.count = find.points,
+                     .row = find.row,
+                     .faceRow = find.faceRow,
+                     .surfaces = contacts.surfaces.count,
+                     .recoverySpeed = scene.contacts.recoverySpeed,
+                     .moving = find.moving,
+                     .sheets = faces.sheets};
     ContactBuffers& shown = program.program().contacts;
     shown.faces = contacts.lists.faces;
     shown.facePairs = contacts.lists.contacts;

@@ -1,8 +1,9 @@
-// Which faces and edges are halves of cells of a sheet and their sides follows from the slots of their
-// corners.
+// Which faces and edges are halves of cells of a sheet and their sides, or halves of squares of a lattice,
+// follows from the slots of their corners.
 #include "sim/cutting/cut_faces.hpp"
 
 #include "kernels.hpp"
+#include "sim/lattice/link_masks.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -26,26 +27,56 @@ bool isIn(const CutRun& run, std::uint32_t slot) {
     return slot >= run.first && slot - run.first < run.count;
 }
 
-// Of the halves of the cell above a slot; none between others.
-std::optional<layout::SheetTriangle> halfOf(const CutRun& run, const layout::ContactFace& face) {
+// Half of the cell above a slot; none between others.
+std::optional<layout::CutFace> halfOf(const CutRun& run, const layout::ContactFace& face) {
     std::array<std::uint32_t, 3> slots{face.a, face.b, face.c};
     std::ranges::sort(slots);
     if (!isIn(run, slots[0]) || !isIn(run, slots[2])) return std::nullopt;
     const std::uint32_t middle = slots[1] - slots[0];
     if (slots[2] - slots[0] != run.sliceStride + 1 || (middle != 1 && middle != run.sliceStride))
         return std::nullopt;
-    return layout::SheetTriangle{slots[0], middle == 1 ? 1u : 0u};
+    return layout::CutFace{slots[0], middle == 1 ? 1u : 0u, 0, 0, 0};
 }
 
-// Faces of one run, with where they stand in the list that they are searched by.
-std::vector<layout::CutFace> facesOf(const CutRun& run, std::span<const layout::ContactFace> faces,
-                                     std::span<const std::uint32_t> searched, bool isLarge) {
-    std::vector<layout::CutFace> result;
-    for (std::uint32_t place = 0; place < searched.size(); ++place) {
-        const std::uint32_t face = searched[place];
-        if (face >= faces.size()) continue; // padding
-        const auto half = halfOf(run, faces[face]);
-        if (half) result.push_back({half->slot, half->kind, place, face, isLarge ? 1u : 0u});
+// The bit of the link that leads so many slots further in a lattice.
+std::optional<std::uint32_t> bitTo(const CutRun& run, std::uint32_t slots) {
+    for (std::uint32_t bit = lattice::firstOwned; bit < lattice::directionCount; ++bit) {
+        const auto [x, y, z] = lattice::directionOf(bit);
+        const std::int64_t way = x + y * std::int64_t{run.rowStride} + z * std::int64_t{run.sliceStride};
+        if (way == slots) return bit;
+    }
+    return std::nullopt;
+}
+
+// Between nodes of a lattice; none between others.
+std::optional<layout::CutSolidFace> solidOf(const CutRun& run, const layout::ContactFace& face) {
+    std::array<std::uint32_t, 3> slots{face.a, face.b, face.c};
+    std::ranges::sort(slots);
+    if (!isIn(run, slots[0]) || !isIn(run, slots[2])) return std::nullopt;
+    const auto first = bitTo(run, slots[1] - slots[0]), across = bitTo(run, slots[2] - slots[0]),
+               last = bitTo(run, slots[2] - slots[1]);
+    if (!first || !across || !last) return std::nullopt;
+    return layout::CutSolidFace{slots[0], slots[1], *first | *across << 8 | *last << 16, 0, 0, 0};
+}
+
+// Faces of one run, as `partOf` has them, with where they stand in the lists that they are searched by.
+template <typename Part, typename PartOf>
+std::vector<Part> facesOf(ProgramBuilder& program, const collision::face_lists::Lists& lists,
+                          const PartOf& partOf) {
+    const auto all = initialOf<layout::ContactFace>(program, lists.faces);
+    std::vector<Part> result;
+    for (const bool isLarge : {false, true}) {
+        const auto searched = initialOf<std::uint32_t>(program, isLarge ? lists.large : lists.searched);
+        for (std::uint32_t place = 0; place < searched.size(); ++place) {
+            const std::uint32_t face = searched[place];
+            if (face >= all.size()) continue; // padding
+            std::optional<Part> part = partOf(all[face]);
+            if (!part) continue;
+            part->place = place;
+            part->face = face;
+            part->isLarge = isLarge ? 1 : 0;
+            result.push_back(*part);
+        }
     }
     return result;
 }
@@ -87,26 +118,33 @@ void makeTopology(ProgramBuilder& program, BufferId seen, std::initializer_list<
 
 } // namespace
 
+namespace {
+
+// Of the faces of one run, which `code` looks after.
+template <typename Part, typename PartOf>
+void addFilter(ProgramBuilder& program, const collision::face_lists::Lists& lists, const CutRun& run,
+               const vk::ShaderCode& code, const PartOf& partOf) {
+    const auto faces = facesOf<Part>(program, lists, [&](const auto& face) { return partOf(run, face); });
+    if (faces.empty()) return;
+    makeTopology(program, lists.grid.detected, {lists.searched, lists.large});
+    const CuttingBuffers& cutting = program.program().cutting;
+    std::vector<BufferId> buffers{cutting.links,  cutting.savedLinks, program.upload("cut.faces", faces),
+                                  lists.searched, lists.large,        lists.grid.bounds};
+    if (run.rowStride > 0) buffers.push_back(lists.radii);
+    const layout::CutFacesPush push{static_cast<std::uint32_t>(faces.size()), run.sliceStride};
+    addTwice(program,
+             [&program, &code, buffers, push] { program.dispatch(code, push.count, buffers, push); });
+}
+
+} // namespace
+
 void addFaceFilter(ProgramBuilder& program, const collision::face_contacts::Contacts& contacts) {
-    const CuttingBuffers cutting = program.program().cutting;
-    const auto& lists = contacts.lists;
-    for (const CutRun& run : cutting.runs) {
-        if (run.rowStride > 0) continue; // no sheet
-        const auto all = initialOf<layout::ContactFace>(program, lists.faces);
-        auto faces = facesOf(run, all, initialOf<std::uint32_t>(program, lists.searched), false);
-        const auto large = facesOf(run, all, initialOf<std::uint32_t>(program, lists.large), true);
-        faces.insert(faces.end(), large.begin(), large.end());
-        if (faces.empty()) continue;
-        makeTopology(program, lists.grid.detected, {lists.searched, lists.large});
-        const BufferId uploaded = program.upload("cut.faces", faces);
-        const layout::CutFacesPush push{static_cast<std::uint32_t>(faces.size()), run.sliceStride};
-        addTwice(program, [&program, cutting, lists, uploaded, push] {
-            program.dispatch(
-                k::partFaces, push.count,
-                {cutting.links, cutting.savedLinks, uploaded, lists.searched, lists.large, lists.grid.bounds},
-                push);
-        });
-    }
+    const std::vector<CutRun> runs = program.program().cutting.runs;
+    for (const CutRun& run : runs)
+        if (run.rowStride > 0)
+            addFilter<layout::CutSolidFace>(program, contacts.lists, run, k::partSolidFaces, solidOf);
+        else
+            addFilter<layout::CutFace>(program, contacts.lists, run, k::partFaces, halfOf);
 }
 
 void addEdgeFilter(ProgramBuilder& program, const collision::edge_contacts::Contacts& contacts) {

@@ -56,7 +56,7 @@ void addWhatTouches(Hash& hash, const sim::Scene& scene) {
                        c.restitution, c.pose, c.pathEnd);
         for (const sim::Keyframe& k : c.path) hash.addValues(k.time, k.pose);
     }
-    for (const sim::Face& f : scene.faces) hash.addValues(f.particles, f.thickness);
+    for (const sim::Face& f : scene.faces) hash.addValues(f.particles, f.thickness, f.isSolid);
     const sim::ContactSettings& contacts = scene.contacts;
     hash.addValues(contacts.friction, contacts.restitution, contacts.recoverySpeed);
     for (const sim::Surface& s : contacts.surfaces) hash.addValues(s.friction, s.restitution);
