@@ -226,9 +226,10 @@ struct CutTie {
     uint bits;          // of the first, and << 8 of the second
 };
 
-// Tearing of sheets. Of the cell above a slot: the greatest stretch - 1, below 0 for no cell, and its direction in the grid.
+// Tearing. Of the cell above a slot: the greatest stretch - 1, below 0 for no cell, and its direction in the grid; y is 0 in sheets.
 struct CellStrain {
-    float strain, x, z;
+    float strain, x, y, z;
+    uint isReached; // by a cut, and beyond the limit; of bodies of voxels
 };
 
 struct TearCount {
@@ -237,7 +238,7 @@ struct TearCount {
 
 struct TearPush {
     uint first, count; // slots
-    uint sliceStride;
+    uint rowStride, sliceStride; // from a node to the next in y, 0 in sheets; in z
     float spacing; // [m]
     float limit;   // of the strain
     uint most;     // cells that tear in a step

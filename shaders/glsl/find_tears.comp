@@ -15,11 +15,13 @@ void main() {
     if (item >= push.count) return;
     const uint cell = push.first + item;
     if (!(strains[cell].strain > push.limit)) return;
+    const int rows = push.rowStride > 0u ? 1 : 0; // sheets have one
     for (int z = -1; z <= 1; ++z)
-        for (int x = -1; x <= 1; ++x) {
-            const int other = int(item) + x + z * int(push.sliceStride);
-            if ((x | z) == 0 || other < 0 || other >= int(push.count)) continue;
-            if (isBefore(push.first + uint(other), cell)) return;
-        }
+        for (int y = -rows; y <= rows; ++y)
+            for (int x = -1; x <= 1; ++x) {
+                const int other = int(item) + x + y * int(push.rowStride) + z * int(push.sliceStride);
+                if ((x | y | z) == 0 || other < 0 || other >= int(push.count)) continue;
+                if (isBefore(push.first + uint(other), cell)) return;
+            }
     found[atomicAdd(tears.count, 1u)] = cell;
 }

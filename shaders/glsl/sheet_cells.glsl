@@ -1,7 +1,9 @@
 // Part of the kernels that tear sheets: the links of the cell above a slot. Corner k of a cell: bit 0 in x, bit 1 in z.
 #include "link_masks.glsl"
 
-const uint cellLinks = 6u;
+#define CORNERS 4
+#define Way vec2
+const uint cellLinks = 6u, edgeLinks = 4u; // edges first
 
 // Between which corners: edges along x, along z, diagonals.
 ivec2 endsOf(uint l) { return l == 0u ? ivec2(0, 1) : l == 1u ? ivec2(2, 3) : l == 2u ? ivec2(0, 2) : l == 3u ? ivec2(1, 3) : l == 4u ? ivec2(0, 3) : ivec2(1, 2); }

@@ -31,7 +31,7 @@ CellStrain strainOf(uint cell) {
     const float a = dot(fx, fx), b = dot(fx, fz), c = dot(fz, fz), half_ = 0.5 * (a - c), radius = sqrt(half_ * half_ + b * b);
     const bool isAlike = radius < 1e-5 * (a + c); // in all directions: then none of the grid's is the one
     const float angle = isAlike ? radians(180.0) * float(mixed(cell)) / 4294967296.0 : 0.5 * atan(b, half_);
-    return CellStrain(sqrt(0.5 * (a + c) + radius) - 1.0, cos(angle), sin(angle));
+    return CellStrain(sqrt(0.5 * (a + c) + radius) - 1.0, cos(angle), 0.0, sin(angle), 0u);
 }
 
 void main() {
@@ -39,5 +39,5 @@ void main() {
     if (item >= push.count) return;
     const uint cell = push.first + item;
     const bool isFilled = (cells[cell] >> 20 & 15u) != 0u; // towards x and z; those of sheets lie below their nodes in y
-    strains[cell] = isFilled && isWhole(cell) ? strainOf(cell) : CellStrain(-1.0, 1.0, 0.0);
+    strains[cell] = isFilled && isWhole(cell) ? strainOf(cell) : CellStrain(-1.0, 1.0, 0.0, 0.0, 0u);
 }

@@ -1,7 +1,7 @@
 #version 460
 // Tearing, last pass: through each of the most stretched cells goes a straight cut across the direction in which it is stretched most,
 // from where one has already reached the cell's rim, else through its middle. Links that the cut crosses die, as
-// under a blade.
+// under a blade. VOXELS: of bodies of voxels; else of sheets.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -12,7 +12,13 @@ layout(std430, binding = 3) readonly buffer Strains { CellStrain strains[]; };
 layout(std430, binding = 4) readonly buffer Found { uint found[]; };
 layout(std430, binding = 5) readonly buffer Tears { TearCount tears; };
 layout(push_constant) uniform Push { TearPush push; };
+#ifdef VOXELS
+#include "voxel_cells.glsl"
+#define DIRECTION(strain) vec3(strain.x, strain.y, strain.z)
+#else
 #include "sheet_cells.glsl"
+#define DIRECTION(strain) vec2(strain.x, strain.z)
+#endif
 #include "tears.glsl"
 #include "hits.glsl"
 #include "hit_at.glsl"
@@ -21,11 +27,13 @@ uint wordOf(int slot) { return uint(clamp(slot - int(push.first), 0, int(push.co
 
 // As cut_links does.
 void markAround(uint i) {
-    for (int z = -1; z <= 1; ++z) {
-        const int row = int(i) + z * int(push.sliceStride);
-        dirty[wordOf(row - 1)] = 1u;
-        dirty[wordOf(row + 1)] = 1u;
-    }
+    const int rows = push.rowStride > 0u ? 1 : 0;
+    for (int z = -1; z <= 1; ++z)
+        for (int y = -rows; y <= rows; ++y) {
+            const int row = int(i) + y * int(push.rowStride) + z * int(push.sliceStride);
+            dirty[wordOf(row - 1)] = 1u;
+            dirty[wordOf(row + 1)] = 1u;
+        }
 }
 
 // Whether fewer than may tear in a step come before it.
@@ -35,26 +43,27 @@ bool isAmongFirst(uint cell) {
     return before < push.most;
 }
 
-// Of corners, along the direction of the greatest stretch from the cut through `at` [cells].
-vec4 heightsFrom(vec2 at, vec2 along) {
-    vec4 heights;
-    for (int k = 0; k < 4; ++k) heights[k] = dot(along, vec2(nodeOf(k)) - at) + 1e-4;
-    return heights;
+// Of a corner, along the direction of the greatest stretch from the cut through `at` [cells].
+float heightOf(int corner, Way at, Way along) { return dot(along, Way(nodeOf(corner)) - at) + 1e-4; }
+
+bool isOnOneSide(Way at, Way along) {
+    int above = 0;
+    for (int k = 0; k < CORNERS; ++k) above += heightOf(k, at, along) >= 0.0 ? 1 : 0;
+    return above == 0 || above == CORNERS;
 }
 
-bool isOnOneSide(vec4 heights) { return all(lessThan(heights, vec4(0.0))) || all(greaterThanEqual(heights, vec4(0.0))); }
-
-// Where cuts have reached the rim; the middle where none has.
-vec2 startOf(uint cell) {
-    vec2 sum = vec2(0.0);
+// Where cuts have reached the rim; the middle where none has, or where the cut would miss the cell.
+Way startOf(uint cell, Way along) {
+    Way sum = Way(0.0);
     float cuts = 0.0;
-    for (uint l = 0u; l < 4u; ++l) {
+    for (uint l = 0u; l < edgeLinks; ++l) {
         if (isAliveIn(cell, l)) continue;
         const ivec2 ends = endsOf(l);
-        sum += mix(vec2(nodeOf(ends.x)), vec2(nodeOf(ends.y)), hitAt(slotOf(cell, ends.x), bitOfLink(l)));
+        sum += mix(Way(nodeOf(ends.x)), Way(nodeOf(ends.y)), hitAt(slotOf(cell, ends.x), bitOfLink(l)));
         ++cuts;
     }
-    return cuts > 0.0 ? sum / cuts : vec2(0.5);
+    const Way start = cuts > 0.0 ? sum / cuts : Way(0.5);
+    return isOnOneSide(start, along) ? Way(0.5) : start;
 }
 
 void main() {
@@ -62,17 +71,16 @@ void main() {
     if (item >= min(tears.count, push.count)) return;
     const uint cell = found[item];
     if (!isAmongFirst(cell)) return;
-    const vec2 along = vec2(strains[cell].x, strains[cell].z);
-    vec4 heights = heightsFrom(startOf(cell), along);
-    if (isOnOneSide(heights)) heights = heightsFrom(vec2(0.5), along);
+    const Way along = DIRECTION(strains[cell]), start = startOf(cell, along);
     for (uint l = 0u; l < cellLinks; ++l) {
         const ivec2 ends = endsOf(l);
-        if ((heights[ends.x] >= 0.0) == (heights[ends.y] >= 0.0) || !isAliveIn(cell, l)) continue;
+        const float from = heightOf(ends.x, start, along), to = heightOf(ends.y, start, along);
+        if ((from >= 0.0) == (to >= 0.0) || !isAliveIn(cell, l)) continue;
         const uint owner = slotOf(cell, ends.x), other = slotOf(cell, ends.y);
         const int bit = bitOfLink(l);
         atomicAnd(links[owner], ~(1u << bit));
         atomicAnd(links[other], ~(1u << 25 - bit));
-        storeHit(owner, bit, heights[ends.x] / (heights[ends.x] - heights[ends.y]));
+        storeHit(owner, bit, from / (from - to));
         markAround(owner);
     }
 }

@@ -93,7 +93,9 @@ sim::Lattice makeLattice(const VoxelGrid& grid, const MeshBody& body, double vol
                          .recovery = body.recovery,
                          .density = body.density,
                          .radius = body.touchesParticles ? grid.spacing / 2 : 0,
-                         .isCuttable = body.isCuttable};
+                         .isCuttable = body.isCuttable,
+                         .tearStrain = body.tearStrain,
+                         .tearsPerStep = body.tearsPerStep};
     // A hull cell may hold the surface and none of the 64 samples: it exists all the same, the skin hangs on
     // it.
     for (std::size_t i = 0; i < grid.voxels.size(); ++i)

@@ -17,6 +17,8 @@ struct MeshBody {
     /// sim::Grid::isCuttable. The skin of a closed mesh is split along the cells, into three to seven times
     /// as many triangles, and has sim::Skin::anchors: it is clipped along cuts.
     bool isCuttable = false;
+    float tearStrain = 0;            ///< sim::Grid::tearStrain
+    std::uint32_t tearsPerStep = 16; ///< sim::Grid::tearsPerStep
     Vec3 color{0.78f, 0.36f, 0.32f};
 };
 

@@ -220,6 +220,12 @@ bool tooNear(const sim::LooseParticles& particles) {
 
 } // namespace
 
+float tearStrainOf(const Section& body) {
+    if (body.number("tear") > 0 && !body.flag("cuttable"))
+        body.fail("tear", "is given, but the body may not be cut", "add cuttable = true");
+    return body.number("tear");
+}
+
 void addCloth(LoadedScene& loaded, const Section& cloth) {
     requireUnit(cloth, "right");
     requireUnit(cloth, "down");
@@ -231,8 +237,6 @@ void addCloth(LoadedScene& loaded, const Section& cloth) {
     for (const char* key : {"collides", "radius"})
         if (cloth.has("thickness") && cloth.has(key))
             cloth.fail("thickness", std::string("stands beside ") + key, "leave one of them out");
-    if (cloth.number("tear") > 0 && !cloth.flag("cuttable"))
-        cloth.fail("tear", "is given, but the cloth may not be cut", "add cuttable = true");
     sim::ClothSheet sheet{.name = cloth.text("name"),
                           .origin = localPoint(cloth, "origin", loaded.origin),
                           .right = cloth.vector("right"),
@@ -250,7 +254,7 @@ void addCloth(LoadedScene& loaded, const Section& cloth) {
                           .radius = radiusOf(cloth),
                           .pinned = {},
                           .isCuttable = cloth.flag("cuttable"),
-                          .tearStrain = cloth.number("tear"),
+                          .tearStrain = tearStrainOf(cloth),
                           .tearsPerStep = cloth.count("tears_per_step"),
                           .color = cloth.vector("color")};
     checkRoom(loaded, std::uint64_t{sheet.size[0]} * sheet.size[1], cloth, "size");
@@ -294,7 +298,9 @@ void addBox(LoadedScene& loaded, const Section& box, FaceChoices& faces) {
                                .recovery = box.number("recovery"),
                                .density = box.number("density"),
                                .radius = radiusOf(box),
-                               .isCuttable = box.flag("cuttable")};
+                               .isCuttable = box.flag("cuttable"),
+                               .tearStrain = tearStrainOf(box),
+                               .tearsPerStep = box.count("tears_per_step")};
     const BoxRows rows = rowsOf(box, lattice, copies, loaded.origin);
     const std::size_t first = loaded.scene.particles.size(), firstGrid = loaded.scene.grids.size();
     for (std::uint64_t i = 0; i < count; ++i) {

@@ -16,6 +16,9 @@ struct Source {
     std::optional<std::filesystem::path> meshArgument; ///< the mesh of the command line
 };
 
+/// As sim::Grid has it; 0 = never tears.
+float tearStrainOf(const Section& body);
+
 void addCloth(LoadedScene& loaded, const Section& cloth);
 void addChain(LoadedScene& loaded, const Section& chain);
 void addBox(LoadedScene& loaded, const Section& box, FaceChoices& faces);

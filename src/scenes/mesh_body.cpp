@@ -145,6 +145,8 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
                         .density = section.number("density"),
                         .touchesParticles = section.flag("collides"),
                         .isCuttable = section.flag("cuttable"),
+                        .tearStrain = tearStrainOf(section),
+                        .tearsPerStep = section.count("tears_per_step"),
                         .color = section.vector("color")};
     body.voxels.resolution = section.count("resolution");
     if (section.has("voxel")) body.voxels.spacing = section.number("voxel");

@@ -129,6 +129,8 @@ struct Lattice {
     float radius = 0;              ///< of a particle that others touch [m], at most half of the spacing
     bool hasBodyDiagonals = false; ///< 26 neighbours instead of 18
     bool isCuttable = false;       ///< Grid::isCuttable
+    float tearStrain = 0;          ///< Grid::tearStrain
+    std::uint32_t tearsPerStep = 16; ///< Grid::tearsPerStep
     float restVolume = 0;          ///< of the body [m^3]; 0 = sum of fill x cell volume
 };
 

@@ -421,8 +421,8 @@ void checkGrids(const Scene& scene, Complaints& complaints) {
             complaints.add(nameOf(scene, g), "is a sheet, whose cells have no volume");
         complaints.check(double{grid.tearStrain}, ranges::tearStrain, name(".tearStrain"));
         complaints.check(static_cast<double>(grid.tearsPerStep), ranges::tearsPerStep, name(".tearsPerStep"));
-        if (grid.tearStrain > 0 && !(lattice::isSheet(grid) && grid.isCuttable))
-            complaints.add(nameOf(scene, g), "tears (tearStrain), which only a sheet with isCuttable can");
+        if (grid.tearStrain > 0 && !grid.isCuttable)
+            complaints.add(nameOf(scene, g), "tears (tearStrain), which only a body with isCuttable can");
     }
     checkOverlap(scene, complaints);
 }

@@ -34,19 +34,29 @@ TEST_F(LoadBlades, MakesBodiesCuttable) {
               std::string::npos);
 }
 
-TEST_F(LoadBlades, MakesClothTear) {
+TEST_F(LoadBlades, MakesBodiesTear) {
     const auto grid = [&](const std::string& keys) { return load(test::smallCloth + keys).scene.grids[0]; };
     EXPECT_EQ(grid("cuttable = true\n").tearStrain, 0);
     EXPECT_EQ(grid("cuttable = true\ntear = 0.2\n").tearStrain, 0.2f);
     EXPECT_EQ(grid("cuttable = true\ntear = 0.2\n").tearsPerStep, 16u);
     EXPECT_EQ(grid("cuttable = true\ntear = 0.2\ntears_per_step = 3\n").tearsPerStep, 3u);
     const auto error = [&](const std::string& keys) { return errorOfText(test::smallCloth + keys); };
-    EXPECT_NE(error("tear = 0.2\n").find("tear is given, but the cloth may not be cut: add cuttable = true"),
+    EXPECT_NE(error("tear = 0.2\n").find("tear is given, but the body may not be cut: add cuttable = true"),
               std::string::npos);
     EXPECT_NE(error("cuttable = true\ntear = -1\n").find("cloth[0].tear is -1: must be from 0 to 100"),
               std::string::npos);
     EXPECT_NE(error("cuttable = true\ntear = 1\ntears_per_step = 0\n").find("must be from 1 to 65535"),
               std::string::npos);
+    for (const std::string& body :
+         {std::string("[[box]]\nparticles = [3, 3, 3]\nspacing = 0.1\norigin = [0, 0, 0]\n"),
+          std::string("[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\nvoxel = 0.25\n")}) {
+        const sim::Grid torn =
+            load(body + "cuttable = true\ntear = 0.3\ntears_per_step = 5\n").scene.grids[0];
+        EXPECT_EQ(torn.tearStrain, 0.3f);
+        EXPECT_EQ(torn.tearsPerStep, 5u);
+        EXPECT_NE(errorOfText(body + "tear = 0.3\n").find("tear is given, but the body may not be cut"),
+                  std::string::npos);
+    }
     EXPECT_EQ(error("cuttable = true\nskip_stiffness = 5\nbending_stiffness = 1e-4\n"), "");
 }
 

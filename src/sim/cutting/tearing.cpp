@@ -12,8 +12,9 @@ std::shared_ptr<Tearing> addTearing(ProgramBuilder& program, const Cut& cut, std
     tearing->strains = program.scratch<layout::CellStrain>("tears.strains", slots);
     for (const Run& run : cut.runs) {
         if (run.tearStrain == 0) continue;
-        tearing->sheets.push_back({.push = {.first = run.push.first,
+        tearing->bodies.push_back({.push = {.first = run.push.first,
                                             .count = run.push.count,
+                                            .rowStride = run.push.rowStride,
                                             .sliceStride = run.push.sliceStride,
                                             .spacing = run.push.spacing,
                                             .limit = run.tearStrain,
@@ -27,16 +28,15 @@ std::shared_ptr<Tearing> addTearing(ProgramBuilder& program, const Cut& cut, std
 
 void addTearingPasses(ProgramBuilder& program, const Tearing& tearing, const Cut& cut) {
     const CuttingBuffers& buffers = cut.buffers;
-    for (const TearingSheet& sheet : tearing.sheets) {
-        program.fill(sheet.count, 0);
-        program.dispatch(k::strainCells, sheet.push.count,
-                         {buffers.links, cut.cells, buffers.places, tearing.strains}, sheet.push);
-        program.dispatch(k::findTears, sheet.push.count, {tearing.strains, sheet.found, sheet.count},
-                         sheet.push);
-        program.dispatch(
-            k::tearCells, sheet.push.count,
-            {buffers.links, buffers.hits, buffers.dirty, tearing.strains, sheet.found, sheet.count},
-            sheet.push);
+    for (const TearingBody& body : tearing.bodies) {
+        const bool isSheet = body.push.rowStride == 0;
+        program.fill(body.count, 0);
+        program.dispatch(isSheet ? k::strainCells : k::strainVoxels, body.push.count,
+                         {buffers.links, cut.cells, buffers.places, tearing.strains}, body.push);
+        program.dispatch(k::findTears, body.push.count, {tearing.strains, body.found, body.count}, body.push);
+        program.dispatch(isSheet ? k::tearCells : k::tearVoxels, body.push.count,
+                         {buffers.links, buffers.hits, buffers.dirty, tearing.strains, body.found, body.count},
+                         body.push);
     }
 }
 

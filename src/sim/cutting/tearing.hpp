@@ -1,10 +1,10 @@
-// Sheets that tear (Grid::tearStrain). What counts is how far a cell is stretched in the direction in which
+// Bodies that tear (Grid::tearStrain). What counts is how far a cell is stretched in the direction in which
 // it is stretched most, and what tears it is a straight cut across that direction: neither depends on how the
 // grid lies in the material, as the strain of single links would. A cut that has reached the rim of a cell
 // goes on from there, so tears grow at their ends, where they are stretched most.
 //
-// In every step of such a scene, after the blade: strain_cells, find_tears (cells beyond the limit that are
-// stretched more than all around them), tear_cells (the first so many of those in order of strain). From
+// In every step of such a scene, after the blade: strain_cells (strain_voxels), find_tears (cells beyond the limit that are
+// stretched more than all around them), tear_cells (tear_voxels; the first so many of those in order of strain). From
 // there on a tear is a cut.
 #pragma once
 
@@ -13,13 +13,13 @@
 namespace sinew::sim::cutting {
 
 /// Of one run of slots.
-struct TearingSheet {
+struct TearingBody {
     layout::TearPush push{};
     BufferId found, count;
 };
 
 struct Tearing {
-    std::vector<TearingSheet> sheets;
+    std::vector<TearingBody> bodies;
     BufferId strains; ///< by slot
 };
 
