@@ -5,6 +5,7 @@
 #include "viewer/bindings.hpp"
 #include "viewer/found.hpp"
 #include "viewer/layers.hpp"
+#include "vk/device.hpp"
 
 #include <algorithm>
 #include <array>
@@ -77,6 +78,7 @@ struct Knobs {
 /// What stays as it is while a scene is shown.
 struct SceneFacts {
     std::string name, device, driver;
+    std::uint32_t deviceIndex = 0; ///< among all
     bool isSoftware = false;
     std::size_t particles = 0, constraints = 0;
     std::string substepsWhy; ///< "64 substeps: so that no link is more than 5 % softer than asked"
@@ -111,6 +113,7 @@ struct Facts {
     std::vector<std::string> scenes;
     std::size_t scene = static_cast<std::size_t>(-1); ///< of `scenes`; none of them = -1
     bool isOpening = false;
+    std::vector<vk::DeviceDescription> devices; ///< that there are; empty until they were looked for
     Knobs knobs;
     Layers layers;
     MapReading map;                  ///< of the map that is on, if one is
@@ -126,8 +129,9 @@ struct Facts {
 struct Wishes {
     std::vector<Action> actions;
     std::optional<std::size_t> scene; ///< of Facts::scenes
+    std::optional<std::size_t> device; ///< of Facts::devices
     std::optional<Knobs> knobs;
-    bool isEmpty() const { return actions.empty() && !scene && !knobs; }
+    bool isEmpty() const { return actions.empty() && !scene && !device && !knobs; }
 };
 
 } // namespace sinew::viewer

@@ -73,6 +73,7 @@ SceneFacts sceneFacts(const Opening& opening, const Stage& stage, const vk::Devi
     SceneFacts facts{.name = scene.name,
                      .device = device.description().name,
                      .driver = device.description().driver,
+                     .deviceIndex = device.description().index,
                      .isSoftware = isSoftware(device),
                      .particles = scene.particles.size(),
                      .constraints = stage.simulation().program().constraintCount,

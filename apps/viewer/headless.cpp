@@ -237,7 +237,7 @@ private:
 
 } // namespace
 
-int runHeadless(const Options& asked, std::size_t& messages) {
+int runHeadless(const Options& asked, std::atomic<std::size_t>& messages) {
     std::optional<InputFile> input;
     if (!asked.replay.empty()) input = loadInput(asked.replay);
     const Options options = input ? withReplay(asked, *input) : asked;

@@ -2,9 +2,10 @@
 #include "viewer/interactive.hpp"
 
 #include "app/guard.hpp"
+#include "viewer/devices.hpp"
+#include "viewer/prepared_show.hpp"
 #include "viewer/replay.hpp"
 #include "viewer/show.hpp"
-#include "vk/check.hpp"
 #include "vk/loader.hpp"
 
 #include <cstdio>
@@ -14,15 +15,6 @@ namespace sinew::viewer {
 
 namespace {
 
-vk::Device createDevice(const vk::Loader& loader, const Window& window, const Options& options,
-                        std::size_t& messages) {
-    vk::DeviceRequest request = deviceRequest(options, messages);
-    request.instanceExtensions = window.surfaceExtensions();
-    request.deviceExtensions = {VK_KHR_SWAPCHAIN_EXTENSION_NAME};
-    request.canUseFamily = Window::canPresent;
-    return vk::Device::create(loader.getInstanceProcAddr(), request);
-}
-
 // As on the command line, and in the window: what is known of a scene before it plays.
 void announce(const Opening& opening, const vk::Device& device, Screen& screen) {
     std::printf("%s\n", headline(opening, device).c_str());
@@ -30,24 +22,24 @@ void announce(const Opening& opening, const vk::Device& device, Screen& screen) 
     if (!opening.loaded.warnings.empty()) screen.tell(opening.loaded.warnings.front());
 }
 
-// A scene that cannot be shown leaves the one before it on show.
-std::unique_ptr<Show> change(std::unique_ptr<Show> show, std::unique_ptr<Opening> next, Screen& screen,
-                             Library& library, const vk::Device& device) {
+// On show next. Its device is another one, so that whatever is wrong with it leaves what is on show as it is.
+void change(std::unique_ptr<vk::Device>& device, std::unique_ptr<Show>& show,
+            std::unique_ptr<Opening> opening, Screen& screen, Library& library, const Devices& devices) {
+    std::unique_ptr<vk::Device> nextDevice = std::move(opening->device);
+    std::unique_ptr<Opening> next = std::move(opening);
     const std::string name = next->loaded.scene.name;
-    const auto refuse = [&](const std::exception& error) {
+    try {
+        announce(*next, *nextDevice, screen);
+        std::unique_ptr<Place> place = std::move(next->place);
+        auto nextShow = std::make_unique<Show>(screen, library, devices, *nextDevice, std::move(next));
+        place = screen.moveTo(std::move(place)); // on the device that goes now
+        place.reset();
+        show = std::move(nextShow);
+        device = std::move(nextDevice);
+    } catch (const std::exception& error) {
         library.putBack();
         screen.warn("cannot show " + name + ": " + error.what());
-    };
-    try {
-        announce(*next, device, screen);
-        return std::make_unique<Show>(screen, library, device, std::move(next));
-    } catch (const vk::Error& error) {
-        if (error.failure() != vk::Failure::outOfMemory) throw;
-        refuse(error);
-    } catch (const std::exception& error) {
-        refuse(error);
     }
-    return show;
 }
 
 float aspectOf(VkExtent2D size) {
@@ -90,9 +82,34 @@ Preferences leftBy(const Screen& screen, const Library& library, const Options& 
     return left;
 }
 
+// Until the window is closed. What is declared later is gone earlier.
+Preferences play(std::unique_ptr<Opening> opening, const Options& options, const Preferences& preferences,
+                 std::atomic<std::size_t>& messages) {
+    Window window(options.size);
+    const Devices devices(window, options, messages);
+    std::unique_ptr<vk::Device> device = devices.open(options.device);
+    std::unique_ptr<Opening> first = std::move(opening);
+    prepare(*first, *device, window);
+    Screen screen(window, std::move(first->place), preferences);
+    screen.layers() = options.layers;
+    announce(*first, *device, screen);
+    if (isSoftware(*device))
+        std::printf("software device: small shadow maps and no multisampling while things move, all of it "
+                    "when paused\n");
+    std::printf("H shows help, Ctrl + Q quits\n");
+    std::fflush(stdout);
+    Library library(options, [&](Opening& next, const Options& wanted) {
+        next.device = devices.open(wanted.device);
+        prepare(next, *next.device, window);
+    });
+    auto show = std::make_unique<Show>(screen, library, devices, *device, std::move(first));
+    while (auto next = show->run()) change(device, show, std::move(next), screen, library, devices);
+    return leftBy(screen, library, options, preferences);
+}
+
 } // namespace
 
-int runInteractive(const Options& asked, std::size_t& messages) {
+int runInteractive(const Options& asked, std::atomic<std::size_t>& messages) {
     const std::filesystem::path file = preferencesFile();
     const Preferences preferences = loadPreferences(file);
     Options options = recalled(asked, preferences);
@@ -104,21 +121,7 @@ int runInteractive(const Options& asked, std::size_t& messages) {
         opening->input = std::move(input);
     }
     if (options.hasValidation) vk::enableQueueSubmitValidation();
-    Window window(options.size);
-    const vk::Loader loader;
-    const vk::Device device = createDevice(loader, window, options, messages);
-    Screen screen(window, device, preferences);
-    screen.layers() = options.layers;
-    announce(*opening, device, screen);
-    if (isSoftware(device))
-        std::printf("software device: small shadow maps and no multisampling while things move, all of it "
-                    "when paused\n");
-    std::printf("H shows help, Ctrl + Q quits\n");
-    std::fflush(stdout);
-    Library library(options);
-    auto show = std::make_unique<Show>(screen, library, device, std::move(opening));
-    while (auto next = show->run()) show = change(std::move(show), std::move(next), screen, library, device);
-    const Preferences left = leftBy(screen, library, options, preferences);
+    const Preferences left = play(std::move(opening), options, preferences, messages);
     if (left != preferences) savePreferences(file, left);
     return app::isInterrupted() ? app::interrupted : app::done;
 }

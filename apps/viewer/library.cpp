@@ -29,7 +29,8 @@ std::vector<fs::path> sceneFiles(const fs::path& folder) {
 
 } // namespace
 
-Library::Library(Options options) : options_(std::move(options)), current_(none) {
+Library::Library(Options options, Prepare prepare)
+    : options_(std::move(options)), prepare_(std::move(prepare)), current_(none) {
     const fs::path opened = options_.scene;
     if (opened.extension() == ".toml")
         for (const fs::path& file : sceneFiles(opened.parent_path())) {
@@ -80,12 +81,20 @@ void Library::reopen(const scenes::Overrides& overrides, const Again& again, flo
     begin(std::move(request), aspect);
 }
 
+void Library::reopenOn(const std::string& device, const Again& again, float aspect) {
+    Request request = *shown_;
+    request.options.device = device;
+    request.again = again;
+    begin(std::move(request), aspect);
+}
+
 void Library::begin(Request request, float aspect) {
     if (isOpening()) return;
     asked_ = std::move(request);
-    opening_ = std::async(std::launch::async, [asked = *asked_, aspect] {
+    opening_ = std::async(std::launch::async, [asked = *asked_, aspect, this] {
         auto opening = std::make_unique<Opening>(viewer::open(asked.options, aspect));
         opening->again = asked.again;
+        if (prepare_) prepare_(*opening, asked.options);
         return opening;
     });
 }
@@ -96,12 +105,14 @@ std::unique_ptr<Opening> Library::take() {
     std::unique_ptr<Opening> opened = opening_.get();
     before_ = std::exchange(shown_, std::move(asked_));
     current_ = shown_->name;
+    options_.device = shown_->options.device;
     return opened;
 }
 
 void Library::putBack() {
     shown_ = before_;
     current_ = shown_->name;
+    options_.device = shown_->options.device;
 }
 
 } // namespace sinew::viewer

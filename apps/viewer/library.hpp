@@ -4,6 +4,7 @@
 
 #include "viewer/opening.hpp"
 
+#include <functional>
 #include <future>
 #include <memory>
 
@@ -12,9 +13,12 @@ namespace sinew::viewer {
 /// One thread uses it; it loads in another, and its destructor waits for that.
 class Library {
 public:
+    /// What else there is to do for a scene that was loaded, in the thread that loads; throws what it likes.
+    using Prepare = std::function<void(Opening&, const Options&)>;
+
     /// `options` as the program was started with. Offered are the scene files beside the one opened, or those
     /// built in.
-    explicit Library(Options options);
+    explicit Library(Options options, Prepare prepare = {});
 
     /// What the first scene is opened with.
     const Options& options() const { return options_; }
@@ -34,9 +38,12 @@ public:
     /// was asked for as before.
     void reopen(const scenes::Overrides& overrides, const Again& again, float aspect);
 
+    /// The scene on show once more, and from then on all of them, on another device.
+    void reopenOn(const std::string& device, const Again& again, float aspect);
+
     bool isOpening() const { return opening_.valid(); }
     /// What was asked for, once it is there; until then nothing. Throws app::Failure and what scenes::load
-    /// throws: the scene on show is then still the current one.
+    /// and Prepare throw: the scene on show is then still the current one.
     std::unique_ptr<Opening> take();
     /// After take(), where what it gave could not be shown: what was on show before is the current one again.
     void putBack();
@@ -50,6 +57,7 @@ private:
     void begin(Request request, float aspect);
 
     Options options_;
+    Prepare prepare_;
     std::vector<std::string> names_, files_; // no files: built in
     std::size_t current_;
     std::optional<Request> shown_, before_, asked_;

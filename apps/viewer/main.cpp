@@ -11,7 +11,7 @@ int view(int argc, char** argv) {
     const std::optional<viewer::Options> options = viewer::parseOptions(argc, argv);
     if (!options) return app::done;
     app::catchSignals();
-    std::size_t messages = 0;
+    std::atomic<std::size_t> messages = 0;
     const int code = options->isHeadless ? viewer::runHeadless(*options, messages)
                                          : viewer::runInteractive(*options, messages);
     if (messages > 0)

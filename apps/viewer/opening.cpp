@@ -2,6 +2,7 @@
 #include "viewer/opening.hpp"
 
 #include "sim/compile.hpp"
+#include "viewer/prepared_show.hpp"
 
 #include <cstdio>
 
@@ -35,6 +36,10 @@ std::string grouped(std::size_t number) {
 
 } // namespace
 
+Opening::Opening() = default;
+Opening::Opening(Opening&&) noexcept = default;
+Opening::~Opening() = default;
+
 Opening open(const Options& options, float aspect) {
     Opening opening;
     opening.loaded = options.scene.empty() ? scenes::loadBuiltIn(options.builtIn, options.overrides)
@@ -47,7 +52,7 @@ Opening open(const Options& options, float aspect) {
     return opening;
 }
 
-vk::DeviceRequest deviceRequest(const Options& options, std::size_t& messages) {
+vk::DeviceRequest deviceRequest(const Options& options, std::atomic<std::size_t>& messages) {
     return {.device = options.device,
             .hasValidation = options.hasValidation,
             .onValidationMessage = [&messages](const std::string& message) {

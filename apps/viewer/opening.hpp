@@ -8,7 +8,13 @@
 #include "viewer/stage_light.hpp"
 #include "vk/device.hpp"
 
+#include <atomic>
+#include <memory>
+
 namespace sinew::viewer {
+
+struct Place;
+struct PreparedShow;
 
 /// What is kept of a scene that is opened once more because something was turned.
 struct Again {
@@ -17,11 +23,19 @@ struct Again {
 };
 
 struct Opening {
+    Opening();
+    Opening(Opening&&) noexcept;
+    ~Opening();
+
     scenes::LoadedScene loaded;
     Camera camera;
     StageLight light;
     std::optional<Again> again;
     std::optional<InputFile> input; ///< to be played
+
+    std::unique_ptr<vk::Device> device; ///< for a window; the next two are on it
+    std::unique_ptr<Place> place;
+    std::unique_ptr<PreparedShow> prepared;
 };
 
 /// Loads the scene, prints its warnings to stderr and looks at it: from where the file says, or with every
@@ -29,8 +43,8 @@ struct Opening {
 Opening open(const Options& options, float aspect);
 
 /// Asks for a device that draws, and for validation where the options do; each message goes to stderr and is
-/// counted in `messages`, which must outlive the device.
-vk::DeviceRequest deviceRequest(const Options& options, std::size_t& messages);
+/// counted in `messages`, which must outlive the device and is counted up in any thread.
+vk::DeviceRequest deviceRequest(const Options& options, std::atomic<std::size_t>& messages);
 
 /// "organ: 4,211 particles, solver split with 32 substeps, on llvmpipe (software)".
 std::string headline(const Opening& opening, const vk::Device& device);

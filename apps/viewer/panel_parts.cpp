@@ -107,16 +107,6 @@ void wrapped(const std::string& text, const ImVec4& color) {
     ImGui::PopStyleColor();
 }
 
-void device(const SceneFacts& scene, const Facts& facts) {
-    if (scene.isSoftware) {
-        ImGui::TextColored(warning(), "SOFTWARE DEVICE");
-        ImGui::SameLine();
-        ImGui::TextColored(quiet(), "%s", facts.isFullQuality ? "no GPU" : "no GPU, plain shadows");
-    }
-    wrapped(scene.device, ImGui::GetStyleColorVec4(ImGuiCol_Text));
-    wrapped(scene.driver, quiet());
-}
-
 void help(float scale) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |

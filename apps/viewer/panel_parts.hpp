@@ -42,7 +42,7 @@ float buttonWidth(std::size_t inARow);
 /// bindings unless `name` says otherwise. `isOn` buttons are lit.
 void button(Action action, Wishes& wishes, float width, bool isOn = false, const char* name = nullptr);
 
-void device(const SceneFacts& scene, const Facts& facts);
+void device(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
 void play(const Facts& facts, Wishes& wishes);
 void look(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
 void speed(const Facts& facts);

@@ -227,7 +227,7 @@ void Panels::buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D e
     ImGui::SetNextWindowSizeConstraints(
         {width, 0}, {width, std::max(static_cast<float>(extent.height) - 2 * edge, 40.0f)});
     ImGui::Begin("side", nullptr, fixed);
-    parts::device(scene, facts);
+    parts::device(scene, facts, wishes);
     parts::scenes(scene, facts, wishes);
     parts::play(facts, wishes);
     parts::look(scene, facts, wishes);

@@ -182,6 +182,13 @@ bool Presenter::resize(VkExtent2D pixels, bool isVsync) {
     return true;
 }
 
+void Presenter::retire() noexcept {
+    device_.functions().vkQueueWaitIdle(queue_); // of a lost device it returns at once
+    destroyViews();
+    functions_.vkDestroySwapchainKHR(device_.handle(), std::exchange(swapchain_, VK_NULL_HANDLE), nullptr);
+    isOutdated_ = true;
+}
+
 void Presenter::createViews() {
     const auto images = list<VkImage>(
         [&](std::uint32_t* count, VkImage* out) {

@@ -40,6 +40,8 @@ public:
     /// Makes the swapchain for a window of `pixels`. False where the surface has no size now: try again
     /// later. Waits for the queue; views of the old images are gone afterwards.
     bool resize(VkExtent2D pixels, bool isVsync);
+    /// Gives the window to another presenter: it has no swapchain until resize(). Waits for the queue.
+    void retire() noexcept;
     bool isOutdated() const noexcept { return isOutdated_; } ///< resize() is due
     VkExtent2D extent() const noexcept { return extent_; }
     std::span<const VkImageView> views() const noexcept { return views_; }

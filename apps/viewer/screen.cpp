@@ -28,12 +28,11 @@ void merge(PanelInput& all, const PanelInput& next) {
 
 } // namespace
 
-Screen::Screen(Window& window, const vk::Device& device, const Preferences& preferences)
-    : window_(window), presenter_(device, window), panels_(window.scale() * preferences.scale),
-      painter_(device, presenter_.format(), VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, Presenter::framesInFlight),
+Screen::Screen(Window& window, std::unique_ptr<Place> place, const Preferences& preferences)
+    : window_(window), place_(std::move(place)), panels_(window.scale() * preferences.scale),
       ownScale_(preferences.scale), windowScale_(window.scale()), isVsync_(preferences.isVsync) {
     panels_.choose(preferences.arePanelsShown);
-    painter_.setAtlas(panels_.atlas());
+    place_->painter.setAtlas(panels_.atlas());
     window_.setCover({[this](const Vector2& pixels) { return panels_.covers(pixels); },
                       [this] { return panels_.takesKeys(); }});
 }
@@ -41,21 +40,38 @@ Screen::Screen(Window& window, const vk::Device& device, const Preferences& pref
 Screen::~Screen() {
     window_.setCover({});
     try {
-        presenter_.waitIdle();   // the painter's buffers may be in use
+        place_->presenter.waitIdle();   // the painter's buffers may be in use
     } catch (const vk::Error&) { // of a lost device there is nothing to wait for
     }
+}
+
+std::unique_ptr<Place> Screen::moveTo(std::unique_ptr<Place> place) {
+    const auto change = [&] {
+        place_->presenter.retire(); // a window has one swapchain at a time
+        std::swap(place_, place);
+        pixels_ = {};
+    };
+    change();
+    try {
+        place_->painter.setAtlas(panels_.atlas());
+        prepare([] {});
+    } catch (...) {
+        change();
+        throw;
+    }
+    return place;
 }
 
 bool Screen::prepare(const std::function<void()>& beforehand) {
     if (window_.scale() != windowScale_) rescale(); // it may have gone to another display
     const VkExtent2D pixels = window_.pixels();
     const bool isSame = pixels.width == pixels_.width && pixels.height == pixels_.height;
-    if (pixels.width > 0 && isSame && !presenter_.isOutdated()) return true;
+    if (pixels.width > 0 && isSame && !place_->presenter.isOutdated()) return true;
     pixels_ = pixels;
-    if (pixels.width > 0) presenter_.waitIdle();
+    if (pixels.width > 0) place_->presenter.waitIdle();
     beforehand();
-    if (pixels.width == 0 || !presenter_.resize(pixels, isVsync_)) return false;
-    painter_.setPictures(presenter_.extent(), presenter_.views());
+    if (pixels.width == 0 || !place_->presenter.resize(pixels, isVsync_)) return false;
+    place_->painter.setPictures(place_->presenter.extent(), place_->presenter.views());
     return true;
 }
 
@@ -90,9 +106,9 @@ void Screen::changeScale(int steps) {
 
 void Screen::rescale() {
     windowScale_ = window_.scale();
-    presenter_.waitIdle(); // the atlas may be in use
+    place_->presenter.waitIdle(); // the atlas may be in use
     panels_.rescale(windowScale_ * ownScale_);
-    painter_.setAtlas(panels_.atlas());
+    place_->painter.setAtlas(panels_.atlas());
     isNoticeNew_ = true; // what is shown is laid out anew
 }
 
@@ -111,8 +127,8 @@ Wishes Screen::drawPanels(const Presenter::Frame& frame, const SceneFacts& scene
     input_.pointer = input.pointer;
     input_.isDown = input.isDown;
     input_.modifiers = input.modifiers;
-    Wishes wishes = panels_.build(scene, facts, input, presenter_.extent(), seconds);
-    painter_.record(frame.commands, frame.slot, frame.image, panels_.drawn());
+    Wishes wishes = panels_.build(scene, facts, input, place_->presenter.extent(), seconds);
+    place_->painter.record(frame.commands, frame.slot, frame.image, panels_.drawn());
     return wishes;
 }
 

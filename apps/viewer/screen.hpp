@@ -1,27 +1,32 @@
-// The window as scenes find it and leave it to each other: swapchain, panels, and what was chosen for all
-// scenes.
+// The window as scenes find it and leave it to each other: panels, messages, and what was chosen for all
+// scenes. Each scene brings its own place to draw in.
 #pragma once
 
 #include "viewer/panels.hpp"
 #include "viewer/preferences.hpp"
-#include "viewer/presenter.hpp"
+#include "viewer/prepared_show.hpp"
 
 #include <chrono>
 
 namespace sinew::viewer {
 
-/// Main thread only. Window and device must outlive it; the device must not move.
+/// Main thread only. The window and the device of the place must outlive it.
 class Screen {
 public:
     /// Throws vk::Error.
-    Screen(Window& window, const vk::Device& device, const Preferences& preferences = {});
+    Screen(Window& window, std::unique_ptr<Place> place, const Preferences& preferences = {});
     ~Screen(); ///< the window gets its events back
     Screen(const Screen&) = delete;
     Screen& operator=(const Screen&) = delete;
 
     Window& window() { return window_; }
-    Presenter& presenter() { return presenter_; }
+    Presenter& presenter() { return place_->presenter; }
     Panels& panels() { return panels_; }
+
+    /// Draws in another place from now on and returns the one before, which has no swapchain any more.
+    /// Throws vk::Error where the other one does not get the window; then all is as before, but for the
+    /// swapchain, which is due.
+    std::unique_ptr<Place> moveTo(std::unique_ptr<Place> place);
 
     /// Makes a swapchain where one is due. `beforehand` is called when the old views are about to go, and
     /// nothing is in flight. False while the window has no size.
@@ -61,9 +66,8 @@ private:
     };
 
     Window& window_;
-    Presenter presenter_;
+    std::unique_ptr<Place> place_;
     Panels panels_;
-    PanelPainter painter_;
     PanelInput input_;
     Notice notice_;
     Layers layers_;

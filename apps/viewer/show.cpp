@@ -2,8 +2,6 @@
 #include "viewer/show.hpp"
 
 #include "app/guard.hpp"
-#include "sim/gpu_tune.hpp"
-#include "sim/ranges.hpp"
 #include "vk/check.hpp"
 #include "vk/queue.hpp"
 
@@ -21,34 +19,19 @@ constexpr double stillAfter = 0.25;           // [s] without a change before a p
 static_assert(Presenter::framesInFlight * Playback::maxSteps <= sim::Simulation::framesInFlight);
 static_assert(Presenter::framesInFlight <= Renderer::slots);
 
-// With hands for the pointer and its pins: those that hold nothing cost nothing.
-sim::Settings fastest(const vk::Device& device, const scenes::LoadedScene& loaded) {
-    vk::Queue queue(device);
-    sim::Settings settings = loaded.settings;
-    settings.grabs = sim::ranges::mostGrabs;
-    return sim::tuned(device, queue, loaded.scene, settings);
-}
-
 } // namespace
 
-Show::View::View(const vk::Device& device, VkFormat format, const Quality& quality, const StageLight& light)
-    : renderer(device, {.color = format, .finalLayout = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR}, quality, light) {}
-
-Show::Show(Screen& screen, Library& library, const vk::Device& device, std::unique_ptr<Opening> opening)
-    : screen_(screen), library_(library), device_(device), ownOpening_(std::move(opening)),
-      opening_(*ownOpening_), controller_(opening_.camera, opening_.loaded.scene.dt),
-      stage_(device, opening_.loaded.scene, fastest(device, opening_.loaded)),
+Show::Show(Screen& screen, Library& library, const Devices& devices, const vk::Device& device,
+           std::unique_ptr<Opening> opening)
+    : screen_(screen), library_(library), devices_(devices), device_(device), ownOpening_(std::move(opening)),
+      opening_(*ownOpening_), prepared_(*opening_.prepared),
+      controller_(opening_.camera, opening_.loaded.scene.dt), stage_(prepared_.stage),
       probe_(std::in_place, device, stage_.simulation()),
       inspector_(device, stage_, Presenter::framesInFlight), tools_(device, opening_),
-      sceneFacts_(sceneFacts(opening_, stage_, device)), gauges_(stage_, opening_.loaded.scene.dt),
-      knobs_(sceneFacts_.fromFile),
-      moving_(device, screen.presenter().format(), isSoftware(device) ? reducedQuality() : Quality{},
-              opening_.light),
+      sceneFacts_(prepared_.facts), gauges_(stage_, opening_.loaded.scene.dt), knobs_(sceneFacts_.fromFile),
       status_(opening_.loaded.scene, device) {
-    if (isSoftware(device)) still_.emplace(device, screen.presenter().format(), Quality{}, opening_.light);
     const auto spans = static_cast<std::uint32_t>(stage_.simulation().phases().size());
     for (std::uint32_t slot = 0; slot < Presenter::framesInFlight; ++slot) times_.emplace_back(device, spans);
-    stage_.setBlades({opening_.loaded.blades, opening_.loaded.scene.dt});
     controller_.playback.reset(); // fills the buffers
     if (opening_.again) goOn(*opening_.again);
     if (opening_.input) replay_.emplace(*opening_.input);
@@ -126,7 +109,7 @@ void Show::turn() {
         panelsDue_ -= std::min(panelsDue_, 1u);
         shown_ = isLast ? Shown::still : Shown::moving;
         gauges_.frame(elapsed, plan.steps);
-        draw(plan, isLast && still_ ? *still_ : moving_);
+        draw(plan, isLast && prepared_.still ? *prepared_.still : prepared_.moving);
         if (isLast) settleAll();
     }
     if (const auto title = status_.title(controller_.playback.isPaused(), isDiverged_))
@@ -145,8 +128,8 @@ Plan Show::plan(double elapsed) {
 bool Show::prepareSwapchain() {
     return screen_.prepare([this] {
         shown_ = Shown::nothing;
-        moving_.canvas.reset();
-        if (still_) still_->canvas.reset();
+        prepared_.moving.canvas.reset();
+        if (prepared_.still) prepared_.still->canvas.reset();
     });
 }
 
@@ -169,7 +152,7 @@ void Show::draw(Plan plan, View& view) {
     view.renderer.record(frame->commands, frame->slot, *view.canvas, frame->image, controller_.camera,
                          stage_.simulation(), overlay);
     if (std::exchange(wantsScreenshot_, false)) recordScreenshot(*frame, overlay);
-    drawPanels(*frame, &view != &moving_ || !still_);
+    drawPanels(*frame, &view != &prepared_.moving || !prepared_.still);
     screen_.presenter().end(*frame);
     status_.frameDrawn();
 }
@@ -196,6 +179,7 @@ Facts Show::facts(bool isFullQuality) const {
     facts.scenes = library_.names();
     facts.scene = library_.current();
     facts.isOpening = library_.isOpening();
+    facts.devices = devices_.list();
     facts.layers = screen_.layers();
     facts.map = mapRange_.newest();
     facts.mapRange = mapRange_.range();

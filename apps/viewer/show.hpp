@@ -4,6 +4,7 @@
 #pragma once
 
 #include "viewer/controller.hpp"
+#include "viewer/devices.hpp"
 #include "viewer/gauges.hpp"
 #include "viewer/inspection.hpp"
 #include "viewer/inspector.hpp"
@@ -11,6 +12,7 @@
 #include "viewer/offscreen.hpp"
 #include "viewer/opening.hpp"
 #include "viewer/picture_writer.hpp"
+#include "viewer/prepared_show.hpp"
 #include "viewer/recording.hpp"
 #include "viewer/replay.hpp"
 #include "viewer/screen.hpp"
@@ -25,12 +27,14 @@
 
 namespace sinew::viewer {
 
-/// Main thread only. Screen, library and device must outlive it; the device must not move.
+/// Main thread only. Screen, library, devices and the device that `opening` was prepared on must outlive it;
+/// the screen must be in that device's place before run().
 class Show {
 public:
-    /// Throws std::invalid_argument and vk::Error, as sim::Simulation.
-    Show(Screen& screen, Library& library, const vk::Device& device, std::unique_ptr<Opening> opening);
-    ~Show(); ///< waits for the queue
+    /// Throws vk::Error.
+    Show(Screen& screen, Library& library, const Devices& devices, const vk::Device& device,
+         std::unique_ptr<Opening> opening);
+    ~Show(); ///< waits for the screen's queue
     Show(const Show&) = delete;
     Show& operator=(const Show&) = delete;
 
@@ -40,13 +44,6 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;
-
-    // Drawing of one quality into the swapchain's images; the canvas is made when it is first needed.
-    struct View {
-        View(const vk::Device& device, VkFormat format, const Quality& quality, const StageLight& light);
-        Renderer renderer;
-        std::optional<Canvas> canvas;
-    };
 
     // What was recorded into a frame in flight and is looked at when it has finished.
     struct InFlight {
@@ -71,6 +68,7 @@ private:
     void handle(const Input& input);
     void grant(const Wishes& wishes, Input& input);
     void turnKnobs(const Knobs& knobs);
+    void changeDevice(std::size_t index);
     void goOn(const Again& again);
     float pictureAspect() const;
     std::unique_ptr<Opening> takeOpened();
@@ -110,11 +108,13 @@ private:
 
     Screen& screen_;
     Library& library_;
+    const Devices& devices_;
     const vk::Device& device_;
     std::unique_ptr<const Opening> ownOpening_;
     const Opening& opening_;
+    PreparedShow& prepared_;
     Controller controller_;
-    Stage stage_;
+    Stage& stage_;
     std::optional<StateProbe> probe_;      // of the stage's simulation
     std::optional<Inspection> inspection_; // likewise, where a layer wants it
     Inspector inspector_;
@@ -125,14 +125,12 @@ private:
     std::optional<Replay> replay_;
     std::optional<InputFile> replayed_; // that has just come to its end
     std::vector<vk::Timestamps> times_; // one a slot
-    SceneFacts sceneFacts_;
+    SceneFacts& sceneFacts_;
     Gauges gauges_;
     Wishes wishes_; // of the newest picture
     Knobs knobs_;
     std::optional<Recording> recording_;
     std::array<std::unique_ptr<Offscreen>, Presenter::framesInFlight> cameras_; // of the recording
-    View moving_;
-    std::optional<View> still_; // where `moving_` has less than full quality
     std::array<InFlight, Presenter::framesInFlight> inFlight_;
     PictureWriter writer_{1};
     StatusLine status_;

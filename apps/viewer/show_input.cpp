@@ -13,6 +13,7 @@ void Show::grant(const Wishes& wishes, Input& input) {
         else
             input.actions.push_back(action);
     if (wishes.scene && mayOpen()) library_.open(*wishes.scene, pictureAspect());
+    if (wishes.device && mayOpen()) changeDevice(*wishes.device);
     if (wishes.knobs && !replay_) turnKnobs(*wishes.knobs); // a replay has the hands
 }
 
@@ -27,6 +28,11 @@ void Show::turnKnobs(const Knobs& knobs) {
     overrides.solver = sceneFacts_.solvers[static_cast<std::size_t>(knobs.solver)];
     overrides.substeps = static_cast<std::uint32_t>(knobs.substeps);
     library_.reopen(overrides, {controller_.camera, knobs, sceneFacts_.fromFile}, pictureAspect());
+}
+
+void Show::changeDevice(std::size_t index) {
+    library_.reopenOn(requestFor(devices_.list(), index), {controller_.camera, knobs_, sceneFacts_.fromFile},
+                      pictureAspect());
 }
 
 // One at a time.

@@ -127,5 +127,40 @@ TEST(Recording, NeverWritesOverWhatIsThereAndLeavesNothingEmpty) {
     fs::remove_all(folder);
 }
 
+TEST_F(LibraryTest, StaysOnTheDeviceThatWasChosen) {
+    std::vector<std::string> devices; // that scenes were prepared on
+    Library library(Options{.scene = (folder / "b.toml").string()},
+                    [&](Opening&, const Options& options) { devices.push_back(options.device); });
+    library.openNext(-1, 1.5f);
+    ASSERT_TRUE(await(library));
+    library.reopenOn("other", {}, 1.5f);
+    const auto again = await(library);
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->loaded.scene.name, "a");
+    EXPECT_TRUE(again->again);
+    library.openNext(1, 1.5f);
+    ASSERT_TRUE(await(library));
+    EXPECT_EQ(devices, (std::vector<std::string>{"", "other", "other"}));
+    library.reopenOn("third", {}, 1.5f);
+    ASSERT_TRUE(await(library));
+    library.putBack(); // it could not be shown
+    EXPECT_EQ(library.shown().device, "other");
+    library.openNext(-1, 1.5f);
+    ASSERT_TRUE(await(library));
+    EXPECT_EQ(devices.back(), "other");
+}
+
+TEST_F(LibraryTest, KeepsTheSceneOnShowWhereTheNextCannotBePrepared) {
+    Library library(Options{.scene = (folder / "b.toml").string()}, [](Opening&, const Options& options) {
+        if (options.device == "bad") throw std::runtime_error("no such device");
+    });
+    library.reopenOn("bad", {}, 1.5f);
+    EXPECT_THROW(await(library), std::runtime_error);
+    EXPECT_EQ(library.current(), 1u);
+    EXPECT_EQ(library.shown().device, "");
+    library.openNext(-1, 1.5f);
+    EXPECT_TRUE(await(library)) << "on the device as before";
+}
+
 } // namespace
 } // namespace sinew::viewer

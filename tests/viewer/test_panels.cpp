@@ -47,6 +47,7 @@ protected:
         input.isDown[0] = input.wasPressed[0] = false;
         const Wishes after = picture(input, extent);
         wishes.actions.insert(wishes.actions.end(), after.actions.begin(), after.actions.end());
+        if (after.device) wishes.device = after.device;
         return wishes;
     }
     Wishes picture(const PanelInput& input = {}, VkExtent2D extent = large) {
@@ -86,6 +87,38 @@ TEST_F(PanelsTest, OfferToUndoOnlyWhatWasDone) {
             for (const Action action : click({x, y}).actions) clicked.insert(action);
     EXPECT_FALSE(clicked.contains(Action::undo));
     EXPECT_FALSE(clicked.contains(Action::redo));
+}
+
+// What a list is in while it is open.
+const ImGuiWindow* openList() {
+    for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
+        if (window->Active && !window->Hidden && (window->Flags & ImGuiWindowFlags_Popup) != 0) return window;
+    return nullptr;
+}
+
+TEST_F(PanelsTest, OfferOtherDevicesButNoneThatCannotBeUsed) {
+    const auto device = [](std::uint32_t index, const char* name, const char* type) {
+        return vk::DeviceDescription{.index = index, .name = name, .driver = "some driver", .type = type};
+    };
+    facts.devices = {device(0, "llvmpipe", "software"), device(1, "other", "discrete GPU"),
+                     device(2, "third", "integrated GPU")};
+    facts.devices[2].missing = {"it cannot draw to this window"};
+    settle();
+    std::set<std::size_t> wished;
+    for (float y = 30; y < 110; y += 8) { // the list is somewhere near the top
+        click({1200, y});
+        settle();
+        if (openList() == nullptr) continue;
+        const ImVec2 corner = openList()->Pos, size = openList()->Size;
+        for (float down = 2; down < size.y; down += 9) {
+            if (openList() == nullptr) click({1200, y});
+            settle();
+            const Vector2 at{corner.x + 30, corner.y + down};
+            if (const Wishes wishes = click(at); wishes.device) wished.insert(*wishes.device);
+        }
+        break;
+    }
+    EXPECT_EQ(wished, (std::set<std::size_t>{1})) << "the current one and one that lacks something are no choice";
 }
 
 TEST_F(PanelsTest, CoverTheirSideAndNothingOfTheMiddle) {

@@ -4,78 +4,15 @@
 set -euo pipefail
 viewer=$1 scene=$2 folder=$3
 
-for program in Xvfb xdotool import convert; do
-    command -v "$program" >/dev/null || { echo "SKIPPED: $program is not installed (packages xvfb xdotool imagemagick)"; exit 77; }
-done
-rm -rf "$folder"
-mkdir -p "$folder"
-cd "$folder"
+here=$(cd "$(dirname "$0")" && pwd)
+extent=640x400
+. "$here/window.sh"
 
-processes=()
-finish() {
-    for process in "${processes[@]}"; do kill "$process" 2>/dev/null || true; done
-    wait
-}
-trap finish EXIT
-fail() {
-    echo "FAILED: $1"
-    cat viewer.out viewer.err
-    exit 1
-}
-
-exec 3<>"$folder/display"
-Xvfb -displayfd 3 -screen 0 1000x700x24 -nolisten tcp >/dev/null 2>&1 &
-processes+=($!)
-for _ in {1..100}; do [[ -s display ]] && break; sleep 0.1; done
-[[ -s display ]] || fail "Xvfb did not start"
-export XDG_CONFIG_HOME=$folder/config
-export DISPLAY=:$(tr -d '[:space:]' <display)
-
-start() {
-    "$viewer" ${scene:+"$scene"} --validation --size 640x400 "$@" >viewer.out 2>viewer.err &
-    running=$!
-    processes+=("$running")
-    for _ in {1..200}; do
-        window=$(xdotool search --name '^Sinew' 2>/dev/null | head -n 1) && [[ -n $window ]] && break
-        kill -0 "$running" 2>/dev/null || fail "the viewer ended at once"
-        sleep 0.1
-    done
-    awaitTitle fps
-}
-title() { xdotool getwindowname "$window"; }
-awaitTitle() { # PATTERN
-    for _ in {1..300}; do
-        [[ $(title) =~ $1 ]] && return
-        kill -0 "$running" 2>/dev/null || fail "the viewer ended while waiting for the title $1"
-        sleep 0.1
-    done
-    fail "the title never showed $1: $(title)"
-}
-keys() { xdotool key --window "$window" "$@"; }
 drag() { # BUTTON DX DY
     xdotool mousemove 300 200 mousedown "$1"
     for _ in {1..5}; do xdotool mousemove_relative -- "$2" "$3"; sleep 0.05; done
     xdotool mouseup "$1"
 }
-shoot() { import -silent -window root -crop 640x400+0+0 +repage "$1"; } # as large as the window, which stands in the corner
-awaitStill() { # FILE: a picture that stays; a paused software device draws its last one in full quality
-    shoot "$1"
-    for _ in {1..100}; do
-        sleep 0.5
-        shoot next.png
-        compare -metric AE "$1" next.png null: >/dev/null 2>&1 && return
-        mv next.png "$1"
-    done
-    fail "the paused picture never stood still"
-}
-same() { compare -metric AE "$1" "$2" null: >/dev/null 2>&1; }
-awaitEnd() { # CODE
-    local code=0
-    wait "$running" || code=$?
-    [[ $code == "$1" ]] || fail "exit code $code, expected $1"
-    [[ ! -s viewer.err ]] || fail "something was said on stderr"
-}
-
 echo "window: orbit, pan, zoom, pause"
 start
 xdotool windowmove "$window" 0 0

@@ -1,0 +1,48 @@
+// Every device is made with an instance of its own, so that no thread shares one with another.
+#include "viewer/devices.hpp"
+
+#include "viewer/opening.hpp"
+#include "vk/check.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace sinew::viewer {
+
+std::string requestFor(std::span<const vk::DeviceDescription> devices, std::size_t index) {
+    const std::string& name = devices[index].name;
+    const auto isCalledSo = [&](const vk::DeviceDescription& other) {
+        return other.name.find(name) != std::string::npos; // as vk::DeviceRequest::device is understood
+    };
+    return std::ranges::count_if(devices, isCalledSo) == 1 ? name : std::to_string(devices[index].index);
+}
+
+Devices::Devices(const Window& window, const Options& options, std::atomic<std::size_t>& messages)
+    : request_(deviceRequest(options, messages)) {
+    request_.instanceExtensions = window.surfaceExtensions();
+    request_.deviceExtensions = {VK_KHR_SWAPCHAIN_EXTENSION_NAME};
+    request_.canUseFamily = Window::canPresent;
+    vk::DeviceRequest search = request_;
+    search.hasValidation = false; // the layer has nothing to say of a list
+    search_ = std::async(std::launch::async, [this, search] {
+        try {
+            return vk::listDevices(loader_.getInstanceProcAddr(), search);
+        } catch (const vk::Error&) { // whoever opens one is told
+            return std::vector<vk::DeviceDescription>{};
+        }
+    });
+}
+
+std::unique_ptr<vk::Device> Devices::open(const std::string& wanted) const {
+    vk::DeviceRequest request = request_;
+    request.device = wanted;
+    return std::make_unique<vk::Device>(vk::Device::create(loader_.getInstanceProcAddr(), request));
+}
+
+const std::vector<vk::DeviceDescription>& Devices::list() const {
+    if (search_.valid() && search_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+        found_ = search_.get();
+    return found_;
+}
+
+} // namespace sinew::viewer

@@ -1,0 +1,45 @@
+// All of a show that takes its time to make, on a device of its own: made in the thread that opens the scene
+// while another one is on show, so that nothing waits for it and the two share nothing.
+#pragma once
+
+#include "viewer/canvas.hpp"
+#include "viewer/facts.hpp"
+#include "viewer/opening.hpp"
+#include "viewer/panel_painter.hpp"
+#include "viewer/presenter.hpp"
+#include "viewer/renderer.hpp"
+#include "viewer/stage.hpp"
+
+#include <optional>
+
+namespace sinew::viewer {
+
+/// How a device reaches the window: without a swapchain until Screen makes one. Must not outlive its Device.
+struct Place {
+    Place(const vk::Device& device, const Window& window);
+    Presenter presenter;
+    PanelPainter painter;
+};
+
+/// Drawing of one quality into the swapchain's images; the canvas is made when it is first needed.
+struct View {
+    View(const vk::Device& device, VkFormat format, const Quality& quality, const StageLight& light);
+    Renderer renderer;
+    std::optional<Canvas> canvas;
+};
+
+/// Must not outlive opening and device, which must not move.
+struct PreparedShow {
+    /// Throws std::invalid_argument and vk::Error, as sim::Simulation. `format` of the window's pictures.
+    PreparedShow(const vk::Device& device, const Opening& opening, VkFormat format);
+
+    Stage stage; ///< not reset yet
+    SceneFacts facts;
+    View moving;
+    std::optional<View> still; ///< where `moving` has less than full quality
+};
+
+/// Gives an opening its place and its show. Any thread. Throws as they do.
+void prepare(Opening& opening, const vk::Device& device, const Window& window);
+
+} // namespace sinew::viewer
