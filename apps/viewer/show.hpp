@@ -94,6 +94,7 @@ private:
     void warnOfSurface();
     bool isStrainDue(std::uint32_t steps);
     void recordProbe(const Presenter::Frame& frame);
+    void inspect(const Presenter::Frame& frame, const Ray& ray);
     Overlay recordLayers(const Presenter::Frame& frame);
     void recordScreenshot(const Presenter::Frame& frame, const Overlay& overlay);
     void settleScreenshot(const InFlight& flight);

@@ -77,9 +77,20 @@ void Show::recordProbe(const Presenter::Frame& frame) {
     flight.isInspected = inspector_.isDue(ray);
     if (!isAsked(flight)) return;
     probe_->record(frame.commands);
-    if (!flight.isInspected) return;
+    if (flight.isInspected) inspect(frame, ray);
+}
+
+// Without memory for it nothing is inspected.
+void Show::inspect(const Presenter::Frame& frame, const Ray& ray) {
     probe_->recordVelocities(frame.commands);
-    inspector_.record(frame.commands, frame.slot, ray);
+    try {
+        inspector_.record(frame.commands, frame.slot, ray);
+    } catch (const vk::Error& error) {
+        if (error.failure() != vk::Failure::outOfMemory) throw;
+        inFlight_[frame.slot].isInspected = false;
+        inspector_.toggle();
+        screen_.warn(error.what());
+    }
 }
 
 // Without memory for them there are no layers.
