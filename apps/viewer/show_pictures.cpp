@@ -31,7 +31,9 @@ void Show::recordScreenshot(const Presenter::Frame& frame, const Overlay& overla
     flight.screenshot->record(frame.commands, controller_.camera, stage_.simulation(), overlay);
 }
 
+// The one before must be there: its name is taken only then.
 void Show::settleScreenshot(const InFlight& flight) {
+    reportFiles(PictureWriter::Wait::yes);
     writer_.add(freeName(nameAt(flight.screenshotStep), ".png"), flight.screenshot->read(),
                 pictureText(opening_, device_, flight.screenshotStep));
 }

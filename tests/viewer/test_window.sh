@@ -43,6 +43,14 @@ awaitStill reset.png
 same stepped.png reset.png && fail "R changed nothing"
 keys F12
 for _ in {1..100}; do grep -q '^picture: ' viewer.out && break; sleep 0.1; done
+for _ in {1..4}; do keys F12; sleep 0.1; done # of one step, some while others are being written
+for _ in {1..100}; do
+    sleep 0.3
+    pictures=$(find . -name 'block-000000*.png' | wc -l)
+    ((pictures > 1 && pictures == $(grep -c '^picture: ' viewer.out))) && break
+done
+[[ $(sort -u <<<"$(grep '^picture: ' viewer.out)" | wc -l) == "$pictures" ]] || fail "two pictures have one name: $(cat viewer.out)"
+((pictures > 1)) || fail "there is no second picture of a step"
 [[ $(identify -format '%wx%h' block-000000.png) == 640x400 ]] || fail "F12 wrote no picture of the window's size"
 dark() { # FILE CROP: whether a panel covers that part, which is light or red without
     [[ $(convert "$1" -crop "$2" +repage -colorspace sRGB -format '%[fx:mean < 0.33 ? 1 : 0]' info:) == 1 ]]
