@@ -103,7 +103,7 @@ public:
     /// Submits a frame; with `isPictured`, waits for its picture.
     std::optional<Picture> advance(std::uint64_t frame, bool isPictured) {
         while (submissions_.size() >= sim::Simulation::framesInFlight) settleOldest();
-        if (frame > 0) playHistory();
+        if (frame > 0 && replay_ && playHistory() == Replay::Due::nothing) compareReplay();
         submit(frame);
         if (!isPictured) return std::nullopt;
         settle(); // first: a step that is done again would show in no picture
@@ -123,14 +123,13 @@ public:
         if (tools_) tools_->restart({}, 0);
     }
 
-    /// Of a replay, what came after its last step, and how it ended.
+    /// Of a replay, what came after its last step, and the state in which it was left.
     void finishReplay() {
         if (!replay_) return;
         const bool isWhole = playHistory() == Replay::Due::nothing;
+        if (isWhole && !isCompared_) return compareReplay();
         settle();
-        std::printf("%s\n", hashText(stateHash(device_, stage_, queue_), stage_.steps(),
-                                     isWhole ? replay_->file().hash : std::nullopt)
-                                .c_str());
+        std::printf("%s\n", hashText(stateHash(device_, stage_, queue_), stage_.steps()).c_str());
     }
 
     PictureText text(std::uint64_t frame) const { return pictureText(opening_, device_, frame); }
@@ -160,6 +159,14 @@ private:
         StepHands hands;
         sim::Vec3 gravity;
     };
+
+    // Where it ends, whether or not more steps follow.
+    void compareReplay() {
+        if (std::exchange(isCompared_, true)) return;
+        settle();
+        std::printf("%s\n",
+                    hashText(stateHash(device_, stage_, queue_), stage_.steps(), replay_->file()).c_str());
+    }
 
     // Up to the next step, or the end. What goes back to an earlier state has that of whole steps to save.
     Replay::Due playHistory() {
@@ -229,6 +236,7 @@ private:
     Layers layers_;
     std::optional<Inspection> inspection_;
     std::optional<Replay> replay_;
+    bool isCompared_ = false;    // with what was recorded
     std::optional<Tools> tools_; // of the replay
     vk::Queue queue_;            // last: waits for what still uses the others
     std::deque<Submission> submissions_;

@@ -84,12 +84,18 @@ void prepareForReplay(sim::Settings& settings, const InputFile& file) {
         std::clamp(file.surface, settings.cutSurfaceRoom, sim::ranges::mostCutSurfaceRoom);
 }
 
-std::string hashText(std::uint64_t hash, std::uint64_t steps, const std::optional<std::uint64_t>& recorded) {
+std::string hashText(std::uint64_t hash, std::uint64_t steps) {
     char text[80];
     std::snprintf(text, sizeof text, "state hash %016" PRIx64 " after %" PRIu64 " steps", hash, steps);
-    return std::string(text) + (!recorded           ? ""
-                                : *recorded == hash ? ", as recorded"
-                                                    : ", not as recorded: another device or version?");
+    return text;
+}
+
+std::string hashText(std::uint64_t hash, std::uint64_t steps, const InputFile& recorded) {
+    const std::string text = hashText(hash, steps);
+    if (!recorded.hash) return text;
+    if (steps != recorded.steps()) return text + ", recorded was " + std::to_string(recorded.steps());
+    return text +
+           (*recorded.hash == hash ? ", as recorded" : ", not as recorded: another device or version?");
 }
 
 } // namespace sinew::viewer

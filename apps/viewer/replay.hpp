@@ -45,7 +45,10 @@ Options withReplay(Options options, const InputFile& file);
 /// Hands for the tools, and room for contacts as there was.
 void prepareForReplay(sim::Settings& settings, const InputFile& file);
 
-/// "state hash 0123456789abcdef after 240 steps, as recorded".
-std::string hashText(std::uint64_t hash, std::uint64_t steps, const std::optional<std::uint64_t>& recorded);
+/// "state hash 0123456789abcdef after 240 steps".
+std::string hashText(std::uint64_t hash, std::uint64_t steps);
+/// The same with ", as recorded" or ", not as recorded: ..."; of another number of steps than were recorded
+/// nothing is known, and it says so.
+std::string hashText(std::uint64_t hash, std::uint64_t steps, const InputFile& recorded);
 
 } // namespace sinew::viewer

@@ -28,7 +28,7 @@ void Show::saveInput() {
     try {
         const std::filesystem::path name = freeName(nameAt(stage_.steps()), ".input");
         mesh::writeWhole(name, [&](std::ostream& stream) { stream << toText(file); });
-        std::printf("input: %s, %s\n", name.c_str(), hashText(*file.hash, stage_.steps(), {}).c_str());
+        std::printf("input: %s, %s\n", name.c_str(), hashText(*file.hash, stage_.steps()).c_str());
         std::fflush(stdout);
         screen_.tell("input: " + name.string() + "; --replay plays it again");
     } catch (const mesh::ExportError& error) {
@@ -60,7 +60,7 @@ void Show::compareReplay() {
     const InputFile file = *std::exchange(replayed_, std::nullopt);
     settleAll();
     vk::Queue queue(device_);
-    const std::string text = hashText(stateHash(device_, stage_, queue), stage_.steps(), file.hash);
+    const std::string text = hashText(stateHash(device_, stage_, queue), stage_.steps(), file);
     std::printf("%s\n", text.c_str());
     std::fflush(stdout);
     screen_.tell("the replay is over: " + text);

@@ -228,5 +228,15 @@ TEST(InputFile, IsRefusedWithItsLine) {
             << line;
 }
 
+TEST(Replay, IsComparedWithTheStateAfterAsManySteps) {
+    const InputFile recorded{.events = {Stepped{30}, Stepped{10}}, .hash = 0xabc};
+    EXPECT_EQ(hashText(0xabc, 40), "state hash 0000000000000abc after 40 steps");
+    EXPECT_EQ(hashText(0xabc, 40, recorded), "state hash 0000000000000abc after 40 steps, as recorded");
+    EXPECT_NE(hashText(0xabd, 40, recorded).find(", not as recorded"), std::string::npos);
+    EXPECT_EQ(hashText(0xabd, 50, recorded), "state hash 0000000000000abd after 50 steps, recorded was 40")
+        << "of another state nothing is known";
+    EXPECT_EQ(hashText(0xabd, 50, {}), "state hash 0000000000000abd after 50 steps") << "an old log has none";
+}
+
 } // namespace
 } // namespace sinew::viewer

@@ -187,6 +187,10 @@ hash=$(sed -n 's/^input: .*\(state hash .* steps\)$/\1/p' viewer.out)
 [[ -n $hash ]] || fail "F8 saved no input"
 "$viewer" --headless --replay block-*.input >replay.out 2>replay.err || fail "the replay failed: $(cat replay.err)"
 grep -q "^$hash, as recorded$" replay.out || fail "the replay came to $(cat replay.out), not to $hash"
+more=$(($(sed 's/.* after \([0-9]*\) steps/\1/' <<<"$hash") + 7))
+"$viewer" --headless --replay block-*.input --frames $more >replay.out 2>replay.err || fail "the replay failed: $(cat replay.err)"
+grep -q "^$hash, as recorded$" replay.out || fail "with more steps the replay came to $(cat replay.out), not to $hash"
+grep -q " after $more steps$" replay.out || fail "nothing is said of the steps after the replay: $(cat replay.out)"
 
 echo "window: sizes, hiding, full screen"
 keys space
