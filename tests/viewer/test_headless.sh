@@ -85,5 +85,25 @@ kill -INT $!
 code=0
 wait $! || code=$?
 [[ $code == 130 ]] || fail "interrupted: exit code $code, expected 130"
+# Stands in for ffmpeg: its last argument is the file.
+mkdir bin
+printf '#!/bin/sh\nfor last; do :; done\nexec cat >"${last#file:}"\n' >bin/ffmpeg
+chmod +x bin/ffmpeg
+for signal in INT TERM; do
+    PATH=$folder/bin:$PATH "$viewer" "$scene" --headless --frames 1000000 --size 64x64 --video film.mp4 >out 2>err &
+    for _ in {1..200}; do [[ -n $(find . -name 'film.mp4*.part' -size +16k) ]] && break; sleep 0.1; done
+    [[ ! -e film.mp4 ]] || fail "a film that is not finished has its name already"
+    kill -$signal $!
+    code=0
+    wait $! || code=$?
+    [[ $code == 130 ]] || fail "interrupted while filming: exit code $code, expected 130"
+    bytes=$(stat -c %s film.mp4) || fail "the film is lost"
+    ((bytes > 0 && bytes % (64 * 64 * 4) == 0)) || fail "the film has $bytes bytes, which are no whole pictures"
+    rm film.mp4
+done
+printf '#!/bin/sh\nhead -c 100000 >/dev/null\nexit 1\n' >bin/ffmpeg
+code=0
+PATH=$folder/bin:$PATH "$viewer" "$scene" --headless --frames 1000000 --size 64x64 --video film.mp4 >out 2>err || code=$?
+[[ $code == 6 && ! -e film.mp4 ]] || fail "a film that failed: exit code $code, $(find . -name 'film*')"
 [[ -z $(find . -name '*.tmp*' -o -name '*.part*' -o -name '.*.png*') ]] || fail "partial files: $(find .)"
 echo "passed"

@@ -242,12 +242,22 @@ wait "$running" || code=$?
 [[ $code == 0 ]] || fail "exit code $code, expected 0"
 
 echo "window: without a scene the last one, interrupted"
+mkdir bin # stands in for ffmpeg: its last argument is the file
+printf '#!/bin/sh\nfor last; do :; done\nexec cat >"${last#file:}"\n' >bin/ffmpeg
+chmod +x bin/ffmpeg
+PATH=$folder/bin:$PATH
 grep -q '^scene = .*/scenes/other.toml$' config/sinew/viewer.conf || fail "the last scene is not remembered"
 scene=
 start
 [[ $(title) == *other* ]] || fail "the last scene is not opened again"
+keys F9
+for _ in {1..200}; do [[ -n $(find . -name '*.mp4*.part' -size +1000k) ]] && break; sleep 0.1; done
 kill -INT "$running"
 awaitEnd 130
+film=$(sed -n 's/^recording //p' viewer.out)
+bytes=$(stat -c %s "$film") || fail "interrupted, the film is lost"
+((bytes > 0 && bytes % (640 * 400 * 4) == 0)) || fail "interrupted, the film has $bytes bytes, which are no whole pictures"
+[[ -z $(find . -name '*.part') ]] || fail "interrupted, there is a part of a film: $(find . -name '*.part')"
 
 echo "window: no display"
 code=0
