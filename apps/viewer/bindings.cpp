@@ -46,6 +46,11 @@ constexpr std::array table{
     Binding{{key, GLFW_KEY_1}, skinLook, "1", "skin: solid, translucent, hidden", "Skin"},
     Binding{{key, GLFW_KEY_2}, wires, "2", "wireframe: edges of the triangles that are drawn", "Wires"},
     Binding{{key, GLFW_KEY_3}, balls, "3", "a ball for every particle", "Particles"},
+    Binding{{key, GLFW_KEY_4},
+            links,
+            "4",
+            "links; those that the solver corrects together in one color",
+            "Links"},
     Binding{{key, GLFW_KEY_5}, contacts, "5", "where bodies touch, and along which normals", "Contacts"},
     Binding{
         {key, GLFW_KEY_M}, colorMap, "M", "colors: of the bodies, by strain, by speed, by sleep", "Colors"},

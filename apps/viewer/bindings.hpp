@@ -30,6 +30,7 @@ enum class Action {
     skinLook,
     wires,
     balls,
+    links,
     contacts,
     colorMap,
     inspect,

@@ -119,6 +119,7 @@ struct Facts {
     MapReading map;                  ///< of the map that is on, if one is
     float mapRange = 0;              ///< which value has the last color; 0 = not known yet
     std::uint32_t contactsFound = 0; ///< where they are shown
+    LinkFacts links;                 ///< likewise
     bool isInspecting = false;
     std::optional<Found> found; ///< while inspecting
     std::string notice;         ///< the newest message; empty = none
@@ -128,7 +129,7 @@ struct Facts {
 /// What hands asked for since the last picture.
 struct Wishes {
     std::vector<Action> actions;
-    std::optional<std::size_t> scene; ///< of Facts::scenes
+    std::optional<std::size_t> scene;  ///< of Facts::scenes
     std::optional<std::size_t> device; ///< of Facts::devices
     std::optional<Knobs> knobs;
     bool isEmpty() const { return actions.empty() && !scene && !device && !knobs; }

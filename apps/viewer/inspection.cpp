@@ -15,6 +15,9 @@ void Inspection::prepare(const Layers& layers) {
         values_.emplace(device_, stage_.scene(), stage_.settings(), stage_.simulation(), slots_);
     if (layers.hasBalls && !balls_)
         balls_ = std::make_unique<const Balls>(device_, allBallsOf(stage_.scene()));
+    if (layers.hasLinks && !links_)
+        links_ = std::make_unique<const LinkLines>(device_, stage_.scene(), stage_.settings(),
+                                                   stage_.simulation());
     if (layers.hasContacts && !contacts_)
         contacts_ = std::make_unique<const ContactMarks>(device_, stage_.scene(), stage_.settings(),
                                                          stage_.simulation(), slots_);
@@ -22,6 +25,7 @@ void Inspection::prepare(const Layers& layers) {
 
 void Inspection::record(VkCommandBuffer commands, const Layers& layers, std::uint32_t slot) const noexcept {
     if (layers.map != ColorMap::none) values_->record(commands, layers.map, slot);
+    if (layers.hasLinks) links_->record(commands);
     if (layers.hasContacts) contacts_->record(commands, slot);
 }
 
@@ -33,6 +37,7 @@ LayerBuffers Inspection::buffers(const Layers& layers, float range) const noexce
         buffers.cuts = values_->cuts();
     }
     if (layers.hasBalls) buffers.balls = balls_.get();
+    if (layers.hasLinks) buffers.links = links_.get();
     if (layers.hasContacts) buffers.contacts = contacts_.get();
     return buffers;
 }

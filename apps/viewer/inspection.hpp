@@ -4,6 +4,7 @@
 
 #include "viewer/balls.hpp"
 #include "viewer/contact_marks.hpp"
+#include "viewer/link_lines.hpp"
 #include "viewer/value_maps.hpp"
 
 #include <memory>
@@ -32,6 +33,9 @@ public:
     /// How many places where bodies touch were found, likewise.
     std::uint32_t contacts(std::uint32_t slot) const noexcept { return contacts_->found(slot); }
 
+    /// Of prepared layers with links.
+    LinkFacts links() const { return links_->facts(); }
+
     /// For a picture with prepared `layers`, a map's colors up to `range`.
     LayerBuffers buffers(const Layers& layers, float range) const noexcept;
 
@@ -41,6 +45,7 @@ private:
     std::uint32_t slots_;
     std::optional<ValueMaps> values_;
     std::unique_ptr<const Balls> balls_; // pictures refer to it
+    std::unique_ptr<const LinkLines> links_;
     std::unique_ptr<const ContactMarks> contacts_;
 };
 

@@ -20,6 +20,7 @@ constexpr std::array names{Name{"glass", [](Layers& layers) { layers.skin = Skin
                            Name{"sleep", [](Layers& layers) { layers.map = ColorMap::sleep; }},
                            Name{"wires", [](Layers& layers) { layers.hasWires = true; }},
                            Name{"particles", [](Layers& layers) { layers.hasBalls = true; }},
+                           Name{"links", [](Layers& layers) { layers.hasLinks = true; }},
                            Name{"contacts", [](Layers& layers) { layers.hasContacts = true; }}};
 
 // Linear sRGB of a color in OKLab: lightness 0 to 1, and two that are 0 for grey.
@@ -64,6 +65,16 @@ std::array<std::array<float, 3>, mapColorCount> mapColors() {
         colors[i] = fromLab(dark + (light - dark) * t, chroma * std::cos(hue), chroma * std::sin(hue));
     }
     return colors;
+}
+
+std::array<float, 3> classColor(std::size_t index) {
+    constexpr double goldenAngle = 2.39996, first = 0.6; // [rad]
+    constexpr std::array lightness{0.45, 0.72, 0.58};
+    const double hue = first + goldenAngle * static_cast<double>(index), chroma = 0.14;
+    std::array<float, 3> color =
+        fromLab(lightness[index % lightness.size()], chroma * std::cos(hue), chroma * std::sin(hue));
+    for (float& part : color) part = std::clamp(part, 0.0f, 1.0f);
+    return color;
 }
 
 } // namespace sinew::viewer

@@ -13,6 +13,7 @@ namespace sinew::viewer {
 
 class Balls;
 class ContactMarks;
+class LinkLines;
 
 enum class SkinLook { solid, glass, hidden };
 
@@ -29,10 +30,11 @@ struct Layers {
     ColorMap map = ColorMap::none;
     bool hasWires = false; ///< edges of all triangles of skins
     bool hasBalls = false; ///< particles of bodies with a skin, too
+    bool hasLinks = false; ///< in the colors of their classes
     bool hasContacts = false;
     bool operator==(const Layers&) const = default;
     /// Whether something of it comes from buffers that are made for it (Inspection).
-    bool needsBuffers() const { return map != ColorMap::none || hasBalls || hasContacts; }
+    bool needsBuffers() const { return map != ColorMap::none || hasBalls || hasLinks || hasContacts; }
 };
 
 /// The one after it, round and round: solid, glass, hidden.
@@ -41,7 +43,7 @@ SkinLook next(SkinLook look);
 ColorMap next(ColorMap map);
 
 /// How the command line calls layers: "glass", "hidden", "strain", "speed", "sleep", "wires", "particles",
-/// "contacts".
+/// "links", "contacts".
 std::vector<std::string> layerNames();
 /// One of them on top of others; false for a name that is none.
 bool addLayer(const std::string& name, Layers& layers);
@@ -51,6 +53,16 @@ bool addLayer(const std::string& name, Layers& layers);
 /// at one chroma.
 constexpr std::size_t mapColorCount = 17;
 std::array<std::array<float, 3>, mapColorCount> mapColors();
+
+/// Linear RGB of a class, in the order in which classes are solved: neighbours in it stay apart.
+std::array<float, 3> classColor(std::size_t index);
+
+/// Links by how the solver corrects them.
+struct LinkFacts {
+    std::vector<std::uint32_t> classes; ///< how many links each has
+    std::size_t fixed = 0;              ///< links between particles that never move, of no class
+    std::string note;                   ///< what the solver does with them
+};
 
 /// How the values of a map spread over the particles.
 struct MapReading {
@@ -66,6 +78,7 @@ struct LayerBuffers {
     vk::BufferView cuts;      ///< likewise a vertex of the surface of cuts
     float range = 0;          ///< of the map's colors
     const Balls* balls = nullptr;
+    const LinkLines* links = nullptr;
     const ContactMarks* contacts = nullptr;
 };
 

@@ -83,17 +83,42 @@ void legend(const Facts& facts, std::size_t particles) {
     row(limit.c_str(), beyond + valueText(map, facts.map.largest));
 }
 
+// A square a class, in the order in which they are solved; their numbers in a tip.
+void linkLegend(const LinkFacts& links) {
+    const float side = 0.8f * ImGui::GetTextLineHeight(), between = 0.5f * ImGui::GetStyle().ItemSpacing.x;
+    if (links.classes.size() > 1) {
+        const ImVec2 from = ImGui::GetCursorScreenPos();
+        const auto inARow =
+            std::max(static_cast<std::size_t>(contentWidth() / (side + between)), std::size_t{1});
+        for (std::size_t i = 0; i < links.classes.size(); ++i) {
+            const ImVec2 at{from.x + static_cast<float>(i % inARow) * (side + between),
+                            from.y + static_cast<float>(i / inARow) * (side + between)};
+            const ImVec2 end{at.x + side, at.y + side};
+            ImGui::GetWindowDrawList()->AddRectFilled(at, end, shown(classColor(i)));
+            if (ImGui::IsMouseHoveringRect(at, end))
+                ImGui::SetTooltip("class %zu: %s links", i + 1, grouped(links.classes[i]).c_str());
+        }
+        const auto rows = static_cast<float>((links.classes.size() + inARow - 1) / inARow);
+        ImGui::Dummy({contentWidth(), rows * (side + between)});
+    }
+    wrapped(links.note, quiet());
+    if (links.fixed > 0) row("links that nobody corrects", grouped(links.fixed));
+}
+
 } // namespace
 
 void look(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
     const Layers& layers = facts.layers;
-    const float width = buttonWidth(3);
+    float width = buttonWidth(3);
     button(Action::skinLook, wishes, width, layers.skin != SkinLook::solid,
            skinNames[static_cast<std::size_t>(layers.skin)]);
     ImGui::SameLine();
     button(Action::wires, wishes, width, layers.hasWires);
     ImGui::SameLine();
     button(Action::balls, wishes, width, layers.hasBalls);
+    width = buttonWidth(4);
+    button(Action::links, wishes, width, layers.hasLinks);
+    ImGui::SameLine();
     button(Action::contacts, wishes, width, layers.hasContacts);
     ImGui::SameLine();
     button(Action::colorMap, wishes, width, layers.map != ColorMap::none,
@@ -101,6 +126,7 @@ void look(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
     ImGui::SameLine();
     button(Action::inspect, wishes, width, facts.isInspecting);
     if (layers.hasContacts) row("contacts", grouped(facts.contactsFound));
+    if (layers.hasLinks) linkLegend(facts.links);
     if (layers.map != ColorMap::none) legend(facts, scene.particles);
 }
 

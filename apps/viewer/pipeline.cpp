@@ -111,7 +111,8 @@ constexpr std::array vertexForms{VertexForm{},
                                  VertexForm{skinValueBindings, skinValueAttributes},
                                  VertexForm{ballValueBindings, ballValueAttributes},
                                  VertexForm{cutValueBindings, cutValueAttributes},
-                                 VertexForm{markBindings, markAttributes}};
+                                 VertexForm{markBindings, markAttributes},
+                                 VertexForm{{ballBindings.data(), 1}, {ballAttributes.data(), 1}}};
 
 VkPipelineVertexInputStateCreateInfo vertexInput(PipelineRequest::Input input) {
     const VertexForm& form = vertexForms[static_cast<std::size_t>(input)];

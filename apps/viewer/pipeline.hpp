@@ -23,7 +23,8 @@ struct PipelineRequest {
     /// Of SkinVertex, binding 0; or corners of a ball, and its place and radius an instance, bindings 0 to 2;
     /// of a hand those without a radius. Of a cut SkinVertex and CutVertex, bindings 0 and 1. Of panels
     /// PanelVertex. With a value (float) at location 3: skins at binding 1, balls an instance at 3, cuts
-    /// at 2. Of a mark corners as of a hand, and ContactMark an instance, bindings 0 and 1.
+    /// at 2. Of a mark corners as of a hand, and ContactMark an instance, bindings 0 and 1. Of
+    /// particles positions.
     enum class Input {
         none,
         positions,
@@ -35,7 +36,8 @@ struct PipelineRequest {
         skinValues,
         ballValues,
         cutValues,
-        marks
+        marks,
+        particles
     } input = Input::none;
     enum class Depth { none, test, testAndWrite } depth = Depth::none;
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;

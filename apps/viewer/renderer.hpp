@@ -65,6 +65,7 @@ private:
     void prepareValues();
     void prepareWires();
     void prepareContacts();
+    void prepareLinks();
     PipelineRequest litRequest(const std::string& name) const;
     void createMapPipelines();
     void createPipelines();
@@ -74,6 +75,8 @@ private:
                     const Overlay& overlay) const noexcept;
     void recordLayers(VkCommandBuffer commands, const sim::Simulation& simulation,
                       const Overlay& overlay) const noexcept;
+    void drawLinks(VkCommandBuffer commands, const sim::Simulation& simulation,
+                   const LinkLines& links) const noexcept;
     void drawValues(VkCommandBuffer commands, const sim::Simulation& simulation,
                     const Overlay& overlay) const noexcept;
     void recordPicture(VkCommandBuffer commands, const Canvas& canvas, std::size_t picture,
@@ -132,6 +135,7 @@ private:
         ballValuesPipeline,
         wiresPipeline,
         contactPipeline,
+        linkPipeline,
         pipelineCount
     };
     std::array<std::optional<Pipeline>, pipelineCount> pipelines_; // of layers where they were prepared

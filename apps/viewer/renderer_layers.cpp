@@ -2,6 +2,7 @@
 #include "viewer/renderer.hpp"
 
 #include "viewer/contact_marks.hpp"
+#include "viewer/link_lines.hpp"
 #include "viewer_shaders.hpp"
 
 namespace sinew::viewer {
@@ -24,6 +25,7 @@ void Renderer::prepare(const Layers& layers) {
     if (layers.skin == SkinLook::glass && !has(skinGlassPipeline)) prepareGlass();
     if (layers.map != ColorMap::none && !has(skinValuesPipeline)) prepareValues();
     if (layers.hasWires && !has(wiresPipeline) && drawsEdges(device_)) prepareWires();
+    if (layers.hasLinks && !has(linkPipeline)) prepareLinks();
     if (layers.hasContacts && !has(contactPipeline)) prepareContacts();
 }
 
@@ -71,6 +73,15 @@ void Renderer::prepareWires() {
     addPipeline(wiresPipeline, request);
 }
 
+void Renderer::prepareLinks() {
+    PipelineRequest request = litRequest("links");
+    request.vertex = &shaders::wiresVert;
+    request.fragment = &shaders::linkFrag;
+    request.input = PipelineRequest::Input::particles;
+    request.topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
+    addPipeline(linkPipeline, request);
+}
+
 // What touches is hidden by what touches it, so marks are seen through everything.
 void Renderer::prepareContacts() {
     PipelineRequest request = litRequest("contacts");
@@ -92,6 +103,16 @@ void Renderer::drawValues(VkCommandBuffer commands, const sim::Simulation& simul
     if (buffers.cuts.size > 0) drawCuts(commands, cutValuesPipeline, cutValuesPipeline, simulation, buffers);
 }
 
+void Renderer::drawLinks(VkCommandBuffer commands, const sim::Simulation& simulation,
+                         const LinkLines& links) const noexcept {
+    bind(commands, linkPipeline);
+    bindMesh(commands, simulation.positions(), links.indices());
+    for (const LinkLines::Range& range : links.ranges()) {
+        push(commands, {{range.color[0], range.color[1], range.color[2], 0}, {}, {}});
+        device_.functions().vkCmdDrawIndexed(commands, range.indexCount, 1, range.firstIndex, 0, 0);
+    }
+}
+
 // Over all that hides what is behind it.
 void Renderer::recordLayers(VkCommandBuffer commands, const sim::Simulation& simulation,
                             const Overlay& overlay) const noexcept {
@@ -103,6 +124,8 @@ void Renderer::recordLayers(VkCommandBuffer commands, const sim::Simulation& sim
         drawSkins(commands, wiresPipeline, simulation);
         drawCuts(commands, wiresPipeline, wiresPipeline, simulation);
     }
+    if (overlay.buffers.links != nullptr && has(linkPipeline))
+        drawLinks(commands, simulation, *overlay.buffers.links);
     if (overlay.buffers.contacts != nullptr && has(contactPipeline)) {
         const ContactMarks& contacts = *overlay.buffers.contacts;
         bind(commands, contactPipeline);

@@ -184,6 +184,7 @@ Facts Show::facts(bool isFullQuality) const {
     facts.map = mapRange_.newest();
     facts.mapRange = mapRange_.range();
     facts.contactsFound = contactsFound_;
+    if (screen_.layers().hasLinks && inspection_) facts.links = inspection_->links();
     facts.isInspecting = inspector_.isOn();
     facts.found = inspector_.found();
     facts.isRecording = recording_.has_value();

@@ -91,6 +91,9 @@ void Show::handle(Action action) {
     case Action::balls:
         screen_.layers().hasBalls = !screen_.layers().hasBalls;
         break;
+    case Action::links:
+        screen_.layers().hasLinks = !screen_.layers().hasLinks;
+        break;
     case Action::contacts:
         screen_.layers().hasContacts = !screen_.layers().hasContacts;
         break;

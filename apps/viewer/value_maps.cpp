@@ -34,23 +34,6 @@ std::array<int, 3> nodeOf(const sim::Grid& grid, std::uint32_t particle) {
             static_cast<int>(node / grid.nodes[0] / grid.nodes[1])};
 }
 
-struct Link {
-    std::uint32_t bitOfA = 0, bitOfB = 0; // as layout::ValueLink
-    bool isCounted = true;
-};
-
-// A link that leads farther than to a neighbour, of a body that may be cut, has no bit of its own.
-Link linkOf(const sim::Grid* grid, const sim::DistanceConstraint& constraint) {
-    Link link{.isCounted = constraint.restLength > 0};
-    if (grid == nullptr || !grid->isCuttable) return link;
-    const std::array<int, 3> a = nodeOf(*grid, constraint.a), b = nodeOf(*grid, constraint.b);
-    const auto bit = bitOf({b[0] - a[0], b[1] - a[1], b[2] - a[2]});
-    if (!bit) return {.isCounted = false};
-    link.bitOfA = 1u << *bit;
-    link.bitOfB = 1u << (sim::lattice::directionCount - 1 - *bit);
-    return link;
-}
-
 const sim::Grid* gridOf(const sim::Scene& scene, std::size_t distance) {
     const auto holds = [&](const sim::Grid& grid) {
         return distance - grid.firstDistance < grid.distanceCount;
@@ -81,6 +64,20 @@ std::uint32_t elements(const vk::BufferView& view) {
 
 } // namespace
 
+// A link that leads farther than to a neighbour, of a body that may be cut, has no bit of its own.
+LinkBits linkBits(const sim::Scene& scene, std::size_t distance) {
+    const sim::DistanceConstraint& link = scene.distances[distance];
+    const sim::Grid* grid = gridOf(scene, distance);
+    LinkBits bits{.isCounted = link.restLength > 0};
+    if (grid == nullptr || !grid->isCuttable) return bits;
+    const std::array<int, 3> a = nodeOf(*grid, link.a), b = nodeOf(*grid, link.b);
+    const auto bit = bitOf({b[0] - a[0], b[1] - a[1], b[2] - a[2]});
+    if (!bit) return {.isCounted = false};
+    bits.ofA = 1u << *bit;
+    bits.ofB = 1u << (sim::lattice::directionCount - 1 - *bit);
+    return bits;
+}
+
 std::vector<std::uint32_t> particlesBySlot(const sim::StateLayout& state) {
     std::vector<std::uint32_t> particles(state.count, NO_PARTICLE);
     for (std::size_t i = 0; i < state.slot.size(); ++i)
@@ -91,10 +88,10 @@ std::vector<std::uint32_t> particlesBySlot(const sim::StateLayout& state) {
 LinkTable linkTable(const sim::Scene& scene, std::span<const std::uint32_t> slots) {
     LinkTable table;
     table.linksOf.resize(scene.particles.size());
-    std::vector<Link> links;
+    std::vector<LinkBits> links;
     for (std::size_t d = 0; d < scene.distances.size(); ++d) {
         const sim::DistanceConstraint& constraint = scene.distances[d];
-        links.push_back(linkOf(gridOf(scene, d), constraint));
+        links.push_back(linkBits(scene, d));
         if (!links.back().isCounted) continue;
         ++table.linksOf[constraint.a].count;
         ++table.linksOf[constraint.b].count;
@@ -113,8 +110,8 @@ LinkTable linkTable(const sim::Scene& scene, std::span<const std::uint32_t> slot
     for (std::size_t d = 0; d < links.size(); ++d) {
         if (!links[d].isCounted) continue;
         const sim::DistanceConstraint& constraint = scene.distances[d];
-        add(constraint.a, {constraint.b, constraint.restLength, links[d].bitOfA});
-        add(constraint.b, {constraint.a, constraint.restLength, links[d].bitOfB});
+        add(constraint.a, {constraint.b, constraint.restLength, links[d].ofA});
+        add(constraint.b, {constraint.a, constraint.restLength, links[d].ofB});
     }
     return table;
 }

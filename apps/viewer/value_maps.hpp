@@ -17,6 +17,14 @@ namespace sinew::viewer {
 /// Which particle a slot of the solver's state holds, or NO_PARTICLE.
 std::vector<std::uint32_t> particlesBySlot(const sim::StateLayout& state);
 
+/// The bits of a link in the words of live links of its ends; 0 where nothing can cut it.
+struct LinkBits {
+    std::uint32_t ofA = 0, ofB = 0;
+    bool isCounted = true; ///< whether its strain says something of it alone
+};
+/// Of Scene::distances.
+LinkBits linkBits(const sim::Scene& scene, std::size_t distance);
+
 /// The links of every particle, by which a kernel finds their strain. `slots`: of the particles in the
 /// solver's state.
 struct LinkTable {

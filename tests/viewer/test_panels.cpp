@@ -118,7 +118,8 @@ TEST_F(PanelsTest, OfferOtherDevicesButNoneThatCannotBeUsed) {
         }
         break;
     }
-    EXPECT_EQ(wished, (std::set<std::size_t>{1})) << "the current one and one that lacks something are no choice";
+    EXPECT_EQ(wished, (std::set<std::size_t>{1}))
+        << "the current one and one that lacks something are no choice";
 }
 
 TEST_F(PanelsTest, CoverTheirSideAndNothingOfTheMiddle) {

@@ -23,6 +23,13 @@ struct ValueLink {
     uint bit;         // of the word; 0 = cannot be cut
 };
 
+// A link that is drawn as a line.
+struct LineLink {
+    uint a, b; // particles
+    uint slot; // of the word of live links of a
+    uint bit;  // of that word; 0 = cannot be cut
+};
+
 // Of which particles a vertex of a skin has its value; shares sum up to 1.
 struct ValueHolders {
     vec4 low, high; // shares

@@ -1,5 +1,5 @@
 #version 460
-// Vertices of skins and of cuts, a little nearer than the triangles that they are edges of.
+// Vertices of skins and of cuts, or particles, a little nearer than what they are edges of.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/frame.glsl"
 
