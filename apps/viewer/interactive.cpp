@@ -90,7 +90,7 @@ Preferences play(std::unique_ptr<Opening> opening, const Options& options, const
     std::unique_ptr<vk::Device> device = devices.open(options.device);
     std::unique_ptr<Opening> first = std::move(opening);
     prepare(*first, *device, window);
-    Screen screen(window, std::move(first->place), preferences);
+    Screen screen(window, std::move(first->place), {options.isTimed, options.start}, preferences);
     screen.layers() = options.layers;
     announce(*first, *device, screen);
     if (isSoftware(*device))

@@ -6,6 +6,7 @@
 
 #include <vulkan/vulkan_core.h>
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -23,6 +24,8 @@ struct Options {
     VkExtent2D size{1280, 720};
     bool hasSize = false; ///< asked for: a window does not begin as it was left
     Layers layers;
+    bool isTimed = false;                                                           ///< Timing
+    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now(); ///< of the program
 
     std::filesystem::path replay; ///< a log of input; empty = none
 

@@ -4,6 +4,7 @@
 #include "sim/gpu_tune.hpp"
 #include "sim/ranges.hpp"
 #include "viewer/gauges.hpp"
+#include "viewer/image.hpp"
 #include "vk/queue.hpp"
 
 namespace sinew::viewer {
@@ -16,6 +17,33 @@ sim::Settings fastest(const vk::Device& device, const scenes::LoadedScene& loade
     sim::Settings settings = loaded.settings;
     settings.grabs = sim::ranges::mostGrabs;
     return sim::tuned(device, queue, loaded.scene, settings);
+}
+
+// A picture that nobody sees.
+void draw(const vk::Device& device, vk::Queue& queue, View& view, VkFormat format, const Camera& camera,
+          const sim::Simulation& simulation) {
+    const Image image(device, {.name = "unseen picture",
+                               .extent = {64, 64},
+                               .format = format,
+                               .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT});
+    const Canvas canvas = view.renderer.makeCanvas(image.extent(), std::array{image.view()});
+    const VkCommandBuffer commands = queue.begin();
+    view.renderer.record(commands, 0, canvas, 0, camera, simulation);
+    queue.wait(queue.submit(commands));
+}
+
+// Drivers of software devices compile what is used for the first time: here that keeps nobody waiting.
+// (Others compile pipelines when they are made, and might mind the layout that a picture for no window is
+// left in.)
+void warmUp(const vk::Device& device, PreparedShow& show, VkFormat format, const Camera& camera) {
+    vk::Queue queue(device);
+    const VkCommandBuffer commands = queue.begin();
+    show.stage.recordReset(commands);
+    show.stage.recordStep(commands);
+    show.stage.recordSkin(commands);
+    queue.wait(queue.submit(commands));
+    draw(device, queue, show.moving, format, camera, show.stage.simulation());
+    if (show.still) draw(device, queue, *show.still, format, camera, show.stage.simulation());
 }
 
 } // namespace
@@ -32,7 +60,9 @@ PreparedShow::PreparedShow(const vk::Device& device, const Opening& opening, VkF
       facts(sceneFacts(opening, stage, device)),
       moving(device, format, isSoftware(device) ? reducedQuality() : Quality{}, opening.light) {
     stage.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
-    if (isSoftware(device)) still.emplace(device, format, Quality{}, opening.light);
+    if (!isSoftware(device)) return;
+    still.emplace(device, format, Quality{}, opening.light);
+    warmUp(device, *this, format, opening.camera);
 }
 
 void prepare(Opening& opening, const vk::Device& device, const Window& window) {

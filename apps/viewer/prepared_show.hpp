@@ -33,7 +33,7 @@ struct PreparedShow {
     /// Throws std::invalid_argument and vk::Error, as sim::Simulation. `format` of the window's pictures.
     PreparedShow(const vk::Device& device, const Opening& opening, VkFormat format);
 
-    Stage stage; ///< not reset yet
+    Stage stage; ///< to be reset before its first step
     SceneFacts facts;
     View moving;
     std::optional<View> still; ///< where `moving` has less than full quality

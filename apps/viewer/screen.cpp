@@ -28,8 +28,9 @@ void merge(PanelInput& all, const PanelInput& next) {
 
 } // namespace
 
-Screen::Screen(Window& window, std::unique_ptr<Place> place, const Preferences& preferences)
-    : window_(window), place_(std::move(place)), panels_(window.scale() * preferences.scale),
+Screen::Screen(Window& window, std::unique_ptr<Place> place, const Timing& timing,
+               const Preferences& preferences)
+    : window_(window), place_(std::move(place)), timing_(timing), panels_(window.scale() * preferences.scale),
       ownScale_(preferences.scale), windowScale_(window.scale()), isVsync_(preferences.isVsync) {
     panels_.choose(preferences.arePanelsShown);
     place_->painter.setAtlas(panels_.atlas());
@@ -40,8 +41,8 @@ Screen::Screen(Window& window, std::unique_ptr<Place> place, const Preferences& 
 Screen::~Screen() {
     window_.setCover({});
     try {
-        place_->presenter.waitIdle();   // the painter's buffers may be in use
-    } catch (const vk::Error&) { // of a lost device there is nothing to wait for
+        place_->presenter.waitIdle(); // the painter's buffers may be in use
+    } catch (const vk::Error&) {      // of a lost device there is nothing to wait for
     }
 }
 

@@ -5,6 +5,7 @@
 #include "viewer/panels.hpp"
 #include "viewer/preferences.hpp"
 #include "viewer/prepared_show.hpp"
+#include "viewer/timing.hpp"
 
 #include <chrono>
 
@@ -14,7 +15,8 @@ namespace sinew::viewer {
 class Screen {
 public:
     /// Throws vk::Error.
-    Screen(Window& window, std::unique_ptr<Place> place, const Preferences& preferences = {});
+    Screen(Window& window, std::unique_ptr<Place> place, const Timing& timing,
+           const Preferences& preferences = {});
     ~Screen(); ///< the window gets its events back
     Screen(const Screen&) = delete;
     Screen& operator=(const Screen&) = delete;
@@ -22,6 +24,7 @@ public:
     Window& window() { return window_; }
     Presenter& presenter() { return place_->presenter; }
     Panels& panels() { return panels_; }
+    Timing& timing() { return timing_; }
 
     /// Draws in another place from now on and returns the one before, which has no swapchain any more.
     /// Throws vk::Error where the other one does not get the window; then all is as before, but for the
@@ -67,6 +70,7 @@ private:
 
     Window& window_;
     std::unique_ptr<Place> place_;
+    Timing timing_;
     Panels panels_;
     PanelInput input_;
     Notice notice_;

@@ -84,8 +84,10 @@ float Show::pictureAspect() const {
 }
 
 void Show::turn() {
+    screen_.timing().beforeInput();
     Input input =
         screen_.window().poll(isHidden_ || (shown_ == Shown::still && panelsDue_ == 0) ? idleWait : 0);
+    screen_.timing().afterInput();
     const Wishes wishes = std::exchange(wishes_, {});
     grant(wishes, input);
     handle(input);
@@ -154,6 +156,10 @@ void Show::draw(Plan plan, View& view) {
     if (std::exchange(wantsScreenshot_, false)) recordScreenshot(*frame, overlay);
     drawPanels(*frame, &view != &prepared_.moving || !prepared_.still);
     screen_.presenter().end(*frame);
+    if (screen_.timing().awaitsPicture()) {
+        screen_.presenter().waitIdle();
+        screen_.timing().firstPicture();
+    }
     status_.frameDrawn();
 }
 
