@@ -1,6 +1,7 @@
 # Sourced by tests that play in a window: an X server of their own, the viewer in it, what they ask of its title and its picture.
-# Needs `viewer`, `folder`, and `extent` of the window; `scene` may be empty. Goes to the folder.
+# Needs `viewer`, `folder`, and `extent` of the window; `scene` may be empty, `options` go before others. Goes to the folder.
 screen=${screen:-1000x700}
+[[ -v options ]] || options=(--validation)
 for program in Xvfb xdotool import convert; do
     command -v "$program" >/dev/null || { echo "SKIPPED: $program is not installed (packages xvfb xdotool imagemagick)"; exit 77; }
 done
@@ -29,10 +30,10 @@ export XDG_CONFIG_HOME=$folder/config
 export DISPLAY=:$(tr -d '[:space:]' <display)
 
 start() {
-    "$viewer" ${scene:+"$scene"} --validation --size "$extent" "$@" >viewer.out 2>viewer.err &
+    "$viewer" ${scene:+"$scene"} "${options[@]}" --size "$extent" "$@" >viewer.out 2>viewer.err &
     running=$!
     processes+=("$running")
-    for _ in {1..200}; do
+    for _ in {1..600}; do
         window=$(xdotool search --name '^Sinew' 2>/dev/null | head -n 1) && [[ -n $window ]] && break
         kill -0 "$running" 2>/dev/null || fail "the viewer ended at once"
         sleep 0.1
@@ -41,7 +42,7 @@ start() {
 }
 title() { xdotool getwindowname "$window"; }
 awaitTitle() { # PATTERN
-    for _ in {1..300}; do
+    for _ in {1..1200}; do
         [[ $(title) =~ $1 ]] && return
         kill -0 "$running" 2>/dev/null || fail "the viewer ended while waiting for the title $1"
         sleep 0.1
