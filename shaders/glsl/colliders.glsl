@@ -7,6 +7,7 @@
 
 layout(constant_id = 2) const uint colliderCount = 1;
 layout(constant_id = 3) const bool isMoving = false; // any of them
+layout(constant_id = 4) const uint pokeCount = 0;    // the first ones, which may be absent
 
 // How fast one that is inside is moved out [m/s]; it is given no speed by that.
 const float leavingSpeed = 1.0;
@@ -74,7 +75,9 @@ bool projectOut(Collider collider, float contactOffset, ColliderPose before, Col
     const vec3 core = max(collider.core.xyz + min(grown, 0.0), vec3(0.0));
     const vec3 s1 = toLocal(after, movement.x);
     vec3 d = rotated(vec4(-before.rotation.xyz, before.rotation.w), movement.way);
-    if (isMoving) d += s1 - toLocal(before, movement.x);
+    // what stands still in this substep is to the last bit as where nothing moves
+    const bool moves = isMoving && (before.position.xyz != after.position.xyz || before.rotation != after.rotation);
+    if (moves) d += s1 - toLocal(before, movement.x);
     const Surface start = surfaceAt(core, radius, s1 - d);
     const float noise = 1e-6 * (largest(movement.x) + largest(s1));
     const Surface contact = contactOf(core, radius, s1, d, start, noise);
@@ -92,7 +95,7 @@ bool projectOut(Collider collider, float contactOffset, ColliderPose before, Col
     movement.v += correction / h;
     movement.pushed += pushed;
     surfaceVelocity = vec3(0.0);
-    if (isMoving) surfaceVelocity = (movement.x - toWorld(before, toLocal(after, movement.x))) / h;
+    if (moves) surfaceVelocity = (movement.x - toWorld(before, toLocal(after, movement.x))) / h;
     return true;
 }
 

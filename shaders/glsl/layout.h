@@ -202,11 +202,13 @@ struct Collider {
     float friction;       // of what slides
     float staticFriction; // of what does not, at least as much
     float restitution;
-    float unused0;
+    uint isAbsent;        // 1 = a poke that is not there
 };
 
 struct ColliderPose {
-    vec4 position; // of the middle [m]
+    // Of the middle [m]. w: of the way of a poke, where from: how far it reached before the step [m]; where to: how often it
+    // came, left or took another shape, below 0 while it is not there.
+    vec4 position;
     vec4 rotation; // unit quaternion x, y, z, w from the collider's frame to the world
 };
 
@@ -465,6 +467,11 @@ struct ColliderPush {
     uint before, after; // first pose of the colliders when the substep begins, and when it ends
     float lateKick;     // part of h g that is in v and has not moved x
 };
+
+// Indices into the arguments of passes that only pokes need.
+#define POKES_PLACED 0
+#define POKES_TOUCHING 1 // once a substep
+#define POKE_ARGUMENTS 2
 
 struct PlacePush {
     uint count; // colliders x (substeps + 1)

@@ -26,13 +26,16 @@ float wayTo(vec3 x, vec3 a, vec3 b) {
     return length(x - a - t * d);
 }
 
-// A little farther than touching: what rests on a collider touches it to rounding.
+// A little farther than touching: what rests on a collider touches it to rounding. A poke that comes has made no way, one
+// that has shrunk reaches as far as before.
 bool isNearMoving(vec3 x, float offset) {
     bool isNear = false;
     for (uint c = 0u; c < push.colliders; ++c) {
         const ColliderPose from = seenPoses[c], to = ways[2u * c + 1u];
-        const float reach = 1.05 * (length(colliders[c].core.xyz) + colliders[c].core.w + max(offset, 0.0));
-        isNear = isNear || from != to && wayTo(x, from.position.xyz, to.position.xyz) <= reach;
+        const bool comes = from.position.w <= 0.0 && to.position.w > 0.0;
+        const float around = max(length(colliders[c].core.xyz) + colliders[c].core.w, ways[2u * c].position.w);
+        const float reach = 1.05 * (around + max(offset, 0.0));
+        isNear = isNear || from != to && wayTo(x, comes ? to.position.xyz : from.position.xyz, to.position.xyz) <= reach;
     }
     return isNear;
 }

@@ -14,7 +14,9 @@ void main() {
     const uint c = item % push.colliders;
     const float fraction = float(item / push.colliders) / float(push.substeps);
     const ColliderPose from = ways[2u * c], to = ways[2u * c + 1u];
-    // what stands still must do so to the last bit, which a mix of two equal numbers does not
-    const ColliderPose at = from == to ? from : ColliderPose(mix(from.position, to.position, fraction), mix(from.rotation, to.rotation, fraction));
-    poses[item] = ColliderPose(at.position, normalize(at.rotation));
+    // What stands still must do so to the last bit, as where nothing moves, which a mix of two equal numbers does not.
+    if (from.position.xyz == to.position.xyz && from.rotation == to.rotation)
+        poses[item] = from;
+    else
+        poses[item] = ColliderPose(mix(from.position, to.position, fraction), normalize(mix(from.rotation, to.rotation, fraction)));
 }

@@ -47,6 +47,7 @@ void main() {
     for (uint c = 0u; c < colliderCount; ++c) {
         vec3 n, surfaceVelocity;
         const Collider collider = colliders[c];
+        if (c < pokeCount && collider.isAbsent != 0u) continue;
         const ColliderPose from = poses[push.before + c], to = poses[push.after + c]; // the same where nothing moves
         if (!projectOut(collider, contactOffsets[i], from, to, h, movement, n, surfaceVelocity)) continue;
         isTouching = true;

@@ -1,6 +1,8 @@
 // Keyframes in double: positions evenly, rotations as slerp [Shoemake 1985].
 #include "sim/colliders.hpp"
 
+#include "sim/simulation.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,11 +10,6 @@
 namespace sinew::sim {
 
 namespace {
-
-double dot(const Quaternion& a, const Quaternion& b) {
-    return double{a.x} * double{b.x} + double{a.y} * double{b.y} + double{a.z} * double{b.z} +
-           double{a.w} * double{b.w};
-}
 
 float weighted(double p, float a, double q, float b) {
     return static_cast<float>(p * double{a} + q * double{b});
@@ -27,13 +24,6 @@ Quaternion between(const Quaternion& a, const Quaternion& b, double part) noexce
                  q = sign * (isNear ? part : std::sin(part * angle) / sine);
     return {weighted(p, a.x, q, b.x), weighted(p, a.y, q, b.y), weighted(p, a.z, q, b.z),
             weighted(p, a.w, q, b.w)};
-}
-
-Pose between(const Pose& a, const Pose& b, double part) noexcept {
-    const Vec3 &from = a.position, &to = b.position;
-    return {{weighted(1 - part, from.x, part, to.x), weighted(1 - part, from.y, part, to.y),
-             weighted(1 - part, from.z, part, to.z)},
-            between(a.rotation, b.rotation, part)};
 }
 
 using Point = std::array<double, 3>;
@@ -83,6 +73,18 @@ Point coreOf(const Collider& collider) {
 
 } // namespace
 
+double dot(const Quaternion& a, const Quaternion& b) noexcept {
+    return double{a.x} * double{b.x} + double{a.y} * double{b.y} + double{a.z} * double{b.z} +
+           double{a.w} * double{b.w};
+}
+
+Pose between(const Pose& a, const Pose& b, double part) noexcept {
+    const Vec3 &from = a.position, &to = b.position;
+    return {{weighted(1 - part, from.x, part, to.x), weighted(1 - part, from.y, part, to.y),
+             weighted(1 - part, from.z, part, to.z)},
+            between(a.rotation, b.rotation, part)};
+}
+
 bool isMoving(const Collider& collider) {
     return collider.path.size() > 1;
 }
@@ -97,6 +99,17 @@ Pose poseAt(const Collider& collider, double time) noexcept {
 
 Pose poseAt(const DrivenBody& body, double time) noexcept {
     return body.path.empty() ? Pose{} : poseOn(body.path, body.pathEnd, time);
+}
+
+Collider colliderOf(const Poke& poke) noexcept {
+    Collider collider{.shape = poke.shape,
+                      .radius = poke.radius,
+                      .halfLength = poke.halfLength,
+                      .halfExtents = poke.halfExtents,
+                      .friction = poke.friction,
+                      .staticFriction = poke.staticFriction};
+    collider.pose = poke.pose;
+    return collider;
 }
 
 Vec3 toLocal(const Pose& pose, const Vec3& point) noexcept {

@@ -6,6 +6,8 @@
 
 namespace sinew::sim {
 
+struct Poke;
+
 /// Whether its path leads anywhere.
 bool isMoving(const Collider& collider);
 bool isMoving(const DrivenBody& body);
@@ -13,6 +15,14 @@ bool isMoving(const DrivenBody& body);
 /// Where it is at `time` [s] since the simulation began. Never throws or allocates.
 Pose poseAt(const Collider& collider, double time) noexcept;
 Pose poseAt(const DrivenBody& body, double time) noexcept;
+
+/// The collider that it is like.
+Collider colliderOf(const Poke& poke) noexcept;
+
+/// Of two rotations: the cosine of half the turn between them, of either sign.
+double dot(const Quaternion& a, const Quaternion& b) noexcept;
+/// Evenly from `a` to `b`, `part` of the way from 0 to 1; turns the shorter way. Likewise.
+Pose between(const Pose& a, const Pose& b, double part) noexcept;
 
 /// `point` in the frame of `pose`, and back.
 Vec3 toLocal(const Pose& pose, const Vec3& point) noexcept;

@@ -50,8 +50,17 @@ enum class PassKind : std::uint8_t {
 };
 
 /// What update passes can write.
-enum class HostData : std::uint32_t { parameters, anchors, colliders, grabs, blade, bladePoints };
-constexpr std::size_t hostDataCount = 6;
+enum class HostData : std::uint32_t {
+    parameters,
+    anchors,
+    colliders,
+    pokes,
+    pokeArguments,
+    grabs,
+    blade,
+    bladePoints
+};
+constexpr std::size_t hostDataCount = 8;
 
 /// One entry of the list.
 struct Pass {
@@ -161,6 +170,11 @@ struct PieceVertices {
     std::uint32_t first = 0; ///< of skinVertices
 };
 
+/// Work groups of passes that only pokes need, while one is there.
+struct PokeGroups {
+    std::uint32_t placed = 0, touching = 0; ///< once a step, once a substep
+};
+
 /// Where bodies may sleep (sleep.hpp); invalid where none may.
 struct SleepBuffers {
     BufferId arguments; ///< of dispatches that run only while somebody is awake
@@ -180,6 +194,7 @@ struct StepProgram {
     BufferId skinVertices, skinIndices;                 ///< invalid without skins
     ContactBuffers contacts;
     SleepBuffers sleep;
+    PokeGroups pokes;
     CuttingBuffers cutting;
     CutSurfaceBuffers cutSurface;
     std::vector<PieceVertices> pieceSkins; ///< by sheet that may be cut and has a skin
@@ -285,6 +300,11 @@ public:
     void updateParameters(BufferId parameters) { update(parameters, HostData::parameters); }
     void updateAnchors(BufferId anchors) { update(anchors, HostData::anchors); }
     void updateColliders(BufferId ways) { update(ways, HostData::colliders); }
+    /// `shapes` of pokes come first among those of colliders.
+    void updatePokes(BufferId shapes, BufferId arguments) {
+        update(shapes, HostData::pokes);
+        update(arguments, HostData::pokeArguments);
+    }
     void updateGrabs(BufferId hands) { update(hands, HostData::grabs); }
     void updateBlade(BufferId blade, BufferId points) {
         update(blade, HostData::blade);

@@ -307,6 +307,7 @@ struct Settings {
     /// until somebody touches them, what holds them moves, or Step::wakes. `split` only.
     bool sleeps = false;
     std::uint32_t grabs = 0; ///< hands that may hold something at a time (Step::grabs), 0..8; 0 = no passes
+    std::uint32_t pokes = 0; ///< rigid things that the host may move at a time (Step::pokes), 0..8; 0 = none
     Forms forms;
     /// False saves 16 bytes a particle: there is no buffer of public velocities, and a step that is undone
     /// leaves what it holds at rest.

@@ -103,10 +103,11 @@ struct Simulation::State {
     bool hasContacts; // between particles: gathers of `split` then store x, not x + theta h v
     std::array<float, framesInFlight> lostTime{}; // of the newest steps [s]
     float previousH = 0; // 0 before the first step: the half-kick that starts the leapfrog
-    // A step that came to its end: its h, and where it left the colliders.
+    // A step that came to its end: its h, and where it left colliders and pokes.
     struct Settled {
         float h = 0;
         double time = 0;
+        collision::PokeStates pokes{};
     };
     // Steps of which the host has not yet looked whether they came to their end, and the last that has.
     struct Unsettled {
@@ -128,7 +129,8 @@ struct Simulation::State {
                                                       .stride = sizeof(layout::StatusWords),
                                                       .kind = vk::MemoryKind::readback}),
           skins(rangesOf(scene.skins)), anchors(scene.attachments),
-          hands(settings.grabs, scene.particles.size()), colliders(scene.colliders, scene.driven),
+          hands(settings.grabs, scene.particles.size()),
+          colliders(scene.colliders, scene.driven, settings.pokes),
           budget(scene.dampingTime > 0 ? splitBudget(scene, settings) : SplitBudget{}),
           theta(settings.solver == Solver::split ? settings.theta : 0), omega(settings.omega),
           damping(scene.damping), substeps(settings.substeps),
@@ -180,6 +182,16 @@ struct Simulation::State {
         if (!step.isRecorded) return end;
         const layout::StatusWords words = statusWords(frame);
         return words.nonFinite == 0 && words.candidates == 0 ? step.end : end;
+    }
+
+    // Of the passes that only pokes need.
+    std::array<layout::DispatchArguments, POKE_ARGUMENTS> pokeArguments() const {
+        const std::uint32_t one = colliders.pokes().areAny() ? 1 : 0;
+        const auto arguments = [one](std::uint32_t groups) {
+            return layout::DispatchArguments{one * groups, 1, 1, 0};
+        };
+        static_assert(POKES_PLACED == 0 && POKES_TOUCHING == 1);
+        return {arguments(program.pokes.placed), arguments(program.pokes.touching)};
     }
 
     static vk::BufferView slotOf(const vk::Buffer& ring, std::uint64_t frame) {
@@ -258,8 +270,11 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     state_->nextFrame = step.frame + 1;
     state_->anchors.advance(step.anchors, dt);
     state_->hands.advance(step.grabs, dt);
-    state_->colliders.advance(dt);
-    state_->unsettled[step.frame % framesInFlight] = {true, {parameters.h, state_->colliders.time()}};
+    state_->colliders.advance(dt, step.pokes);
+    const collision::ColliderPaths& colliders = state_->colliders;
+    const auto pokeArguments = state_->pokeArguments();
+    state_->unsettled[step.frame % framesInFlight] = {
+        true, {parameters.h, colliders.time(), colliders.pokes().states()}};
     const bool isBlade = state_->countsRing && state_->blade.read(step);
     const bool hasBlade = isBlade || state_->program.cutting.tears;
     state_->hasBlade[step.frame % framesInFlight] = hasBlade;
@@ -268,7 +283,8 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     commands.beginStep();
     state_->executor.step(commands,
                           {std::as_bytes(std::span(&parameters, 1)), std::as_bytes(state_->anchors.values()),
-                           std::as_bytes(state_->colliders.ways()), std::as_bytes(state_->hands.values()),
+                           std::as_bytes(colliders.ways()), std::as_bytes(colliders.pokes().shapes()),
+                           std::as_bytes(std::span(pokeArguments)), std::as_bytes(state_->hands.values()),
                            state_->blade.head(), state_->blade.points()},
                           timestamps, hasBlade);
     commands.barrier();
@@ -302,7 +318,7 @@ void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from) 
     state_->previousH = end.h;
     state_->anchors = from.state_->anchors;
     state_->hands = from.state_->hands;
-    state_->colliders.moveTo(end.time);
+    state_->colliders.moveTo(end.time, end.pokes);
 }
 
 std::uint64_t Simulation::stateSize() const noexcept {
@@ -316,7 +332,12 @@ SavedState Simulation::recordSaveState(VkCommandBuffer buffer, const vk::BufferV
     commands.beginStep();
     state_->copy(commands, state_->written, to, State::Way::out);
     commands.endStep();
-    return {state_->previousH, state_->colliders.time(), state_->anchors.places(), state_->hasNewTopology};
+    const auto pokes = this->pokes();
+    return {state_->previousH,
+            state_->colliders.time(),
+            state_->anchors.places(),
+            {pokes.begin(), pokes.end()},
+            state_->hasNewTopology};
 }
 
 void Simulation::recordLoadState(VkCommandBuffer buffer, const vk::BufferView& from,
@@ -326,12 +347,14 @@ void Simulation::recordLoadState(VkCommandBuffer buffer, const vk::BufferView& f
     state_->copy(commands, state_->written, from, State::Way::back);
     commands.endStep();
     state_->previousH = saved.h;
-    state_->settledEnd = {saved.h, saved.colliderTime};
+    collision::PokeStates pokes{};
+    std::copy_n(saved.pokes.begin(), std::min(saved.pokes.size(), pokes.size()), pokes.begin());
+    state_->settledEnd = {saved.h, saved.colliderTime, pokes};
     state_->unsettled = {};
     state_->anchors.moveTo(saved.anchors);
     state_->hasNewTopology = saved.hasNewTopology;
     state_->hands.reset();
-    state_->colliders.moveTo(saved.colliderTime);
+    state_->colliders.moveTo(saved.colliderTime, pokes);
 }
 
 std::uint64_t Simulation::topologySize() const noexcept {
@@ -394,6 +417,10 @@ vk::BufferView Simulation::pieceDraws() const noexcept {
 }
 std::span<const Pose> Simulation::colliderPoses() const noexcept {
     return state_->colliders.poses();
+}
+std::span<const PokeState> Simulation::pokes() const noexcept {
+    const collision::Pokes& pokes = state_->colliders.pokes();
+    return std::span(pokes.states()).first(pokes.count());
 }
 vk::BufferView Simulation::view(BufferId buffer) const noexcept {
     return state_->executor.view(buffer);

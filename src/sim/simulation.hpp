@@ -30,6 +30,29 @@ struct Grab {
     float maxSpeed = 10;         ///< of the held point on its way to the target [m/s]
 };
 
+/// A rigid thing that the host moves through the scene. Particles stay out of it as of a Collider, whatever
+/// else they touch: it pushes and carries them, and what is fast does not pass through. It moves and turns
+/// evenly during a step. In the first step that has it, it stands where it shall be: what is inside, or comes
+/// to be by another shape, leaves by the nearest side at 1 m/s and keeps no speed of that. What it leads
+/// through a plane is put back by that, and a particle between it and a collider is in front of the collider.
+struct Poke {
+    ColliderShape shape = ColliderShape::sphere;
+    float radius = 0; ///< [m]; sizes as those of a Collider
+    float halfLength = 0;
+    Vec3 halfExtents{};
+    float friction = 0.3f;    ///< Coulomb coefficient of what slides, >= 0
+    float staticFriction = 0; ///< of what does not slide yet; less than `friction` is as much
+    Pose pose;                ///< where it shall be at the end of the step; the rotation has unit length
+    float maxSpeed = 10;      ///< of any of its points on the way there [m/s]
+};
+
+/// Where a poke has come to.
+struct PokeState {
+    Poke poke; ///< as it was when it was last there, its pose that at the end of that step
+    bool isThere = false;
+    std::uint32_t changes = 0; ///< how often it came, left, or took another shape
+};
+
 /// The surface that the edge of a blade sweeps in a step: quads between two poly-lines, each of two triangles
 /// that share the edge from a point of `from` to the next of `to`. It cuts the links of bodies that may be
 /// cut (Grid::isCuttable) where these are as the step begins, and it may end inside of a body. Both [m],
@@ -62,8 +85,11 @@ struct Step {
     /// numbers are not finite, lets go. A hand that held another particle, or nothing, takes hold. Read by
     /// record() only.
     std::span<const Grab> grabs;
+    /// Poke 0, 1, ..., at most Settings::pokes; one that is not listed, or whose numbers are not finite or no
+    /// sizes, is not there and touches nothing. Read by record() only.
+    std::span<const Poke> pokes;
     /// Wakes all that sleeps (Settings::sleeps). Not needed for what a step itself says: another gravity or
-    /// dt wakes all, an anchor or a collider that moves wakes what it holds or comes near.
+    /// dt wakes all, an anchor, a collider or a poke that moves wakes what it holds or comes near.
     bool wakes = false;
     Blade blade; ///< read by record() only; repeat it where the step was undone
     RayCut ray;
@@ -103,9 +129,10 @@ struct SkinRange {
 
 /// What the host has of a state between steps, beside what recordSaveState() copies.
 struct SavedState {
-    float h = 0;                 ///< substep of the step before [s]; 0 = none was taken
-    double colliderTime = 0;     ///< how far colliders have gone along their paths [s]
-    std::vector<Vec3> anchors;   ///< of the scene's attachments [m]
+    float h = 0;               ///< substep of the step before [s]; 0 = none was taken
+    double colliderTime = 0;   ///< how far colliders have gone along their paths [s]
+    std::vector<Vec3> anchors; ///< of the scene's attachments [m]
+    std::vector<PokeState> pokes;
     bool hasNewTopology = false; ///< recordLoadTopology() since the last step
 };
 
@@ -151,8 +178,8 @@ public:
     /// and settings but for contactRoom and cutSurfaceRoom, at most as much as here: the next step goes on
     /// where `from` stands.
     /// `from` must live until the commands have finished. Instead of recordReset(), which it contains. All
-    /// steps of `from` must have finished. Colliders on a path are where they were at the end of the last
-    /// step that was not undone.
+    /// steps of `from` must have finished. Colliders on a path, and pokes, are where they were at the end of
+    /// the last step that was not undone.
     void recordTakeOver(VkCommandBuffer commands, const Simulation& from) noexcept;
 
     /// Size of a copy of the whole state between steps [B].
@@ -199,6 +226,8 @@ public:
     /// Where the scene's colliders are at the end of the newest recorded step, one each in their order. Valid
     /// until the next one is recorded.
     std::span<const Pose> colliderPoses() const noexcept;
+    /// Likewise the pokes, Settings::pokes of them.
+    std::span<const PokeState> pokes() const noexcept;
 
     /// Of a step that has finished on the device and is one of the last `framesInFlight` recorded.
     Status status(std::uint64_t frame) const noexcept;

@@ -68,10 +68,13 @@ void checkSweeps(const Settings& settings, Complaints& complaints) {
                                        number(ranges::mostSweeps));
 }
 
-void checkGrabs(const Settings& settings, Complaints& complaints) {
+void checkHands(const Settings& settings, Complaints& complaints) {
     if (settings.grabs > ranges::mostGrabs)
         complaints.add("settings.grabs",
                        "is " + number(settings.grabs) + ", must be at most " + number(ranges::mostGrabs));
+    if (settings.pokes > ranges::mostPokes)
+        complaints.add("settings.pokes",
+                       "is " + number(settings.pokes) + ", must be at most " + number(ranges::mostPokes));
 }
 
 void checkSleep(const Settings& settings, Complaints& complaints) {
@@ -92,7 +95,7 @@ void checkSettings(const Settings& settings, Complaints& complaints) {
         complaints.add("settings.omega", "is " + number(settings.omega) +
                                              ", but split is stable only below 4 / (1 + 2 theta) = " +
                                              number(static_cast<float>(bound)));
-    checkGrabs(settings, complaints);
+    checkHands(settings, complaints);
     checkSleep(settings, complaints);
     if (complaints.isEmpty()) checkSweeps(settings, complaints);
 }

@@ -6,27 +6,31 @@
 
 namespace sinew::sim::collision {
 
-namespace {
-
-double dot(const Quaternion& a, const Quaternion& b) {
-    return double{a.x} * double{b.x} + double{a.y} * double{b.y} + double{a.z} * double{b.z} +
-           double{a.w} * double{b.w};
-}
-
-layout::ColliderPose onDevice(const Pose& pose, float sign) {
+layout::ColliderPose onDevice(const Pose& pose, float sign) noexcept {
     const Vec3& x = pose.position;
     const Quaternion& q = pose.rotation;
     return {{x.x, x.y, x.z, 0}, {sign * q.x, sign * q.y, sign * q.z, sign * q.w}};
 }
 
-} // namespace
+layout::Collider shapeOf(const Collider& collider) noexcept {
+    layout::Collider shape{.core = {0, 0, 0, collider.radius + collider.margin},
+                           .friction = collider.friction,
+                           .staticFriction = std::max(collider.friction, collider.staticFriction),
+                           .restitution = collider.restitution,
+                           .isAbsent = 0};
+    const Vec3& extents = collider.halfExtents;
+    if (collider.shape == ColliderShape::capsule) shape.core.y = collider.halfLength;
+    if (collider.shape == ColliderShape::box) shape.core = {extents.x, extents.y, extents.z, collider.margin};
+    return shape;
+}
 
-ColliderPaths::ColliderPaths(std::vector<Collider> colliders, std::vector<DrivenBody> driven)
-    : colliders_(std::move(colliders)), driven_(std::move(driven)),
+ColliderPaths::ColliderPaths(std::vector<Collider> colliders, std::vector<DrivenBody> driven,
+                             std::uint32_t pokes)
+    : colliders_(std::move(colliders)), driven_(std::move(driven)), pokes_(pokes),
       poses_(colliders_.size() + driven_.size()) {
     const auto moves = [](const auto& item) { return isMoving(item); };
-    if (std::ranges::any_of(colliders_, moves) || std::ranges::any_of(driven_, moves))
-        ways_.resize(2 * poses_.size());
+    if (pokes > 0 || std::ranges::any_of(colliders_, moves) || std::ranges::any_of(driven_, moves))
+        ways_.resize(2 * (pokes + poses_.size()));
     moveTo(0);
 }
 
@@ -34,26 +38,34 @@ void ColliderPaths::place() noexcept {
     for (std::size_t c = 0; c < colliders_.size(); ++c) poses_[c] = poseAt(colliders_[c], time_);
     for (std::size_t d = 0; d < driven_.size(); ++d)
         poses_[colliders_.size() + d] = poseAt(driven_[d], time_);
+    std::ranges::copy(pokes_.ways(), ways_.begin());
 }
 
-void ColliderPaths::moveTo(double time) noexcept {
+void ColliderPaths::moveTo(double time, const PokeStates& pokes) noexcept {
     time_ = time;
+    pokes_.moveTo(pokes);
     place();
-    for (std::size_t p = 0; 2 * p < ways_.size(); ++p)
-        ways_[2 * p] = ways_[2 * p + 1] = onDevice(poses_[p], 1);
+    if (ways_.empty()) return;
+    layout::ColliderPose* way = ways_.data() + pokes_.ways().size();
+    for (const Pose& pose : poses_) {
+        *way++ = onDevice(pose, 1);
+        *way++ = onDevice(pose, 1);
+    }
 }
 
-void ColliderPaths::advance(float dt) noexcept {
+void ColliderPaths::advance(float dt, std::span<const Poke> pokes) noexcept {
     time_ += double{dt};
     if (ways_.empty()) return;
+    pokes_.advance(pokes, dt);
     place();
-    for (std::size_t p = 0; p < poses_.size(); ++p) {
-        layout::ColliderPose &from = ways_[2 * p], &to = ways_[2 * p + 1];
+    layout::ColliderPose* way = ways_.data() + pokes_.ways().size();
+    for (const Pose& pose : poses_) {
+        layout::ColliderPose &from = way[0], &to = way[1];
         from = to;
         // q and -q are one rotation: the device mixes numbers
         const layout::vec4& q = from.rotation;
-        const float sign = dot({q.x, q.y, q.z, q.w}, poses_[p].rotation) < 0 ? -1.0f : 1.0f;
-        to = onDevice(poses_[p], sign);
+        to = onDevice(pose, dot({q.x, q.y, q.z, q.w}, pose.rotation) < 0 ? -1.0f : 1.0f);
+        way += 2;
     }
 }
 

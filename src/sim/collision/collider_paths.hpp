@@ -1,36 +1,45 @@
-// Where colliders and driven bodies are in the steps of a simulation, on the host: what the device reads for
-// a step.
+// Where pokes, colliders and driven bodies are in the steps of a simulation, on the host: what the device
+// reads for a step.
 #pragma once
 
 #include "layout.h"
 #include "sim/colliders.hpp"
+#include "sim/collision/pokes.hpp"
 
 #include <span>
 
 namespace sinew::sim::collision {
 
-/// The time of a simulation, and at the ends of its newest step its colliders and, after them, driven bodies.
+layout::ColliderPose onDevice(const Pose& pose, float sign) noexcept;
+layout::Collider shapeOf(const Collider& collider) noexcept;
+
+/// The time of a simulation, and at the ends of its newest step its pokes, colliders and driven bodies, in
+/// that order.
 class ColliderPaths {
 public:
-    explicit ColliderPaths(std::vector<Collider> colliders, std::vector<DrivenBody> driven = {});
+    explicit ColliderPaths(std::vector<Collider> colliders, std::vector<DrivenBody> driven = {},
+                           std::uint32_t pokes = 0);
 
     double time() const noexcept { return time_; } ///< [s]
     /// Where the colliders are at that time.
     std::span<const Pose> poses() const noexcept { return std::span(poses_).first(colliders_.size()); }
     /// Likewise, and the driven bodies.
     std::span<const Pose> allPoses() const noexcept { return poses_; }
-    /// From and to of all; empty where none moves.
+    const Pokes& pokes() const noexcept { return pokes_; }
+    /// From and to of all, pokes first; empty where none moves.
     std::span<const layout::ColliderPose> ways() const noexcept { return ways_; }
 
-    void moveTo(double time) noexcept; ///< at once, as when a simulation begins
-    void advance(float dt) noexcept;   ///< by a step [s]
+    /// At once, as when a simulation begins.
+    void moveTo(double time, const PokeStates& pokes = {}) noexcept;
+    void advance(float dt, std::span<const Poke> pokes = {}) noexcept; ///< by a step [s]
 
 private:
     void place() noexcept;
 
     std::vector<Collider> colliders_;
     std::vector<DrivenBody> driven_;
-    std::vector<Pose> poses_;
+    Pokes pokes_;
+    std::vector<Pose> poses_; // of colliders, of driven bodies
     std::vector<layout::ColliderPose> ways_;
     double time_ = 0;
 };

@@ -5,46 +5,50 @@
 #include "sim/collision/collider_paths.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace sinew::sim::collision::colliders {
 
 namespace {
 
-constexpr std::uint32_t colliderCountId = 2, isMovingId = 3; // constant_id in colliders.glsl
+constexpr std::uint32_t colliderCountId = 2, isMovingId = 3, pokeCountId = 4; // constant_id in colliders.glsl
 
-layout::Collider shapeOf(const Collider& collider) {
-    layout::Collider shape{.core = {0, 0, 0, collider.radius + collider.margin},
-                           .friction = collider.friction,
-                           .staticFriction = std::max(collider.friction, collider.staticFriction),
-                           .restitution = collider.restitution,
-                           .unused0 = 0};
-    const Vec3& extents = collider.halfExtents;
-    if (collider.shape == ColliderShape::capsule) shape.core.y = collider.halfLength;
-    if (collider.shape == ColliderShape::box) shape.core = {extents.x, extents.y, extents.z, collider.margin};
-    return shape;
+std::uint32_t groupsOf(std::uint32_t items) {
+    return (items - 1) / GROUP_ITEMS + 1;
+}
+
+// A pass that only pokes need, if nothing else `needsIt`: `element` of what the host says while none is
+// there.
+template <typename Push>
+void dispatch(ProgramBuilder& program, const Colliders& colliders, bool needsIt, IndirectItems items,
+              const vk::ShaderCode& code, std::span<const BufferId> buffers, const Push& push,
+              const ProgramBuilder::Constants& constants = {}) {
+    items.arguments = colliders.pokeArguments;
+    if (needsIt)
+        program.dispatch(code, items.most, buffers, push, constants);
+    else
+        program.dispatchIndirect(code, items, buffers, push, constants);
 }
 
 // After every substep, and at the beginning; where nothing moves, once and for all.
-BufferId addPoses(ProgramBuilder& program, const Scene& scene, std::uint32_t substeps, bool areMoving,
-                  BufferId& ways) {
-    const ColliderPaths paths(scene.colliders, scene.driven);
-    std::vector<layout::ColliderPose> poses;
-    for (const Pose& pose : paths.allPoses()) {
-        const Vec3& x = pose.position;
-        const Quaternion& q = pose.rotation;
-        poses.push_back({{x.x, x.y, x.z, 0}, {q.x, q.y, q.z, q.w}});
+void addPoses(ProgramBuilder& program, const Scene& scene, std::uint32_t substeps, Colliders& colliders) {
+    if (!colliders.areMoving) {
+        std::vector<layout::ColliderPose> poses;
+        const ColliderPaths paths(scene.colliders, scene.driven);
+        for (const Pose& pose : paths.allPoses()) poses.push_back(onDevice(pose, 1));
+        colliders.poses = program.upload("colliders.poses", poses);
+        return;
     }
-    if (!areMoving) return program.upload("colliders.poses", poses);
-    const auto count = static_cast<std::uint32_t>(poses.size());
-    ways = program.scratch<layout::ColliderPose>("colliders.ways", 2 * count);
-    const BufferId placed =
+    const std::uint32_t count = colliders.placed, items = count * (substeps + 1);
+    colliders.ways = program.scratch<layout::ColliderPose>("colliders.ways", 2 * count);
+    colliders.poses =
         program.scratch<layout::ColliderPose>("colliders.poses", std::uint64_t{count} * (substeps + 1));
-    program.updateColliders(ways);
-    const std::uint32_t items = count * (substeps + 1);
-    program.dispatch(kernels::placeColliders, items, {ways, placed},
-                     layout::PlacePush{items, count, substeps});
-    return placed;
+    program.updateColliders(colliders.ways);
+    const std::array buffers{colliders.ways, colliders.poses};
+    dispatch(program, colliders, count > colliders.pokes, {{}, POKES_PLACED, items}, kernels::placeColliders,
+             buffers, layout::PlacePush{items, count, substeps});
+    program.program().pokes.placed = groupsOf(items);
 }
 
 // A ball around all of a driven body that anybody may touch, for who asks what is near it (sleep).
@@ -64,15 +68,30 @@ layout::Collider ballAround(const DrivenBody& body, const Scene& scene) {
 }
 
 void addShapes(ProgramBuilder& program, const Scene& scene, const StateLayout& layout, Colliders& colliders) {
-    std::vector<layout::Collider> shapes;
+    std::vector<layout::Collider> shapes(colliders.pokes);
     for (const Collider& collider : scene.colliders) shapes.push_back(shapeOf(collider));
     for (const DrivenBody& body : scene.driven) shapes.push_back(ballAround(body, scene));
     colliders.shapes = program.upload("colliders", shapes);
+    if (colliders.pokes > 0) {
+        colliders.pokeArguments =
+            program.scratch<layout::DispatchArguments>("pokes.arguments", POKE_ARGUMENTS);
+        program.updatePokes(colliders.shapes, colliders.pokeArguments);
+        program.program().pokes.touching = groupsOf(colliders.particles);
+    }
     if (colliders.count == 0) return;
     std::vector<float> offsets(layout.count, 0);
     for (std::size_t i = 0; i < scene.particles.size(); ++i)
         offsets[layout.slot[i]] = scene.particles[i].contactOffset;
     colliders.contactOffsets = program.upload("colliders.contact_offsets", offsets);
+}
+
+// Over all particles.
+template <typename Push>
+void dispatchTouching(ProgramBuilder& program, const Colliders& colliders, const vk::ShaderCode& code,
+                      std::span<const BufferId> buffers, const Push& push,
+                      const ProgramBuilder::Constants& constants = {}) {
+    dispatch(program, colliders, colliders.count > colliders.pokes, {{}, POKES_TOUCHING, colliders.particles},
+             code, buffers, push, constants);
 }
 
 layout::ColliderPush pushOf(const Colliders& colliders, std::uint32_t substep, Kick kick) {
@@ -81,20 +100,24 @@ layout::ColliderPush pushOf(const Colliders& colliders, std::uint32_t substep, K
 }
 
 ProgramBuilder::Constants constantsOf(const Colliders& colliders) {
-    return {{colliderCountId, colliders.count}, {isMovingId, colliders.areMoving}};
+    return {{colliderCountId, colliders.count},
+            {isMovingId, colliders.areMoving},
+            {pokeCountId, colliders.pokes}};
 }
 
 } // namespace
 
-Colliders add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout,
-              std::uint32_t substeps) {
-    if (scene.colliders.empty() && scene.driven.empty()) return {};
+Colliders add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
+              const StateLayout& layout) {
+    const auto count = static_cast<std::uint32_t>(scene.colliders.size()) + settings.pokes;
+    if (count == 0 && scene.driven.empty()) return {};
     const auto moves = [](const auto& item) { return isMoving(item); };
     const auto rebounds = [](const auto& item) { return item.restitution > 0; };
-    Colliders colliders{.count = static_cast<std::uint32_t>(scene.colliders.size()),
+    Colliders colliders{.count = count,
+                        .pokes = settings.pokes,
                         .particles = static_cast<std::uint32_t>(layout.count),
-                        .placed = static_cast<std::uint32_t>(scene.colliders.size() + scene.driven.size()),
-                        .areMoving = std::ranges::any_of(scene.colliders, moves) ||
+                        .placed = count + static_cast<std::uint32_t>(scene.driven.size()),
+                        .areMoving = settings.pokes > 0 || std::ranges::any_of(scene.colliders, moves) ||
                                      std::ranges::any_of(scene.driven, moves)};
     colliders.hasRebound =
         colliders.count > 0 &&
@@ -102,7 +125,7 @@ Colliders add(ProgramBuilder& program, const Scene& scene, const StateLayout& la
          rebounds(scene.contacts) ||
          std::ranges::any_of(scene.contacts.surfaces, rebounds)); // the way is then not h v
     addShapes(program, scene, layout, colliders);
-    colliders.poses = addPoses(program, scene, substeps, colliders.areMoving, colliders.ways);
+    addPoses(program, scene, settings.substeps, colliders);
     return colliders;
 }
 
@@ -115,8 +138,8 @@ void addMemory(ProgramBuilder& program, Colliders& colliders) {
 void addOpening(ProgramBuilder& program, const ParticleBuffers& particles, const Colliders& colliders,
                 bool isFirst) {
     if (!colliders.hasRebound) return;
-    program.dispatch(kernels::openColliders, colliders.particles,
-                     {particles.positions, particles.velocities, colliders.before, particles.step},
+    const std::array buffers{particles.positions, particles.velocities, colliders.before, particles.step};
+    dispatchTouching(program, colliders, kernels::openColliders, buffers,
                      layout::SubstepPush{colliders.particles, isFirst});
 }
 
@@ -126,16 +149,18 @@ void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Co
     std::vector<BufferId> buffers{colliders.shapes,    colliders.poses,      colliders.contactOffsets,
                                   particles.positions, particles.velocities, particles.step};
     if (colliders.hasRebound) buffers.push_back(colliders.before);
-    program.dispatch(colliders.hasRebound ? kernels::solveCollidersRebound : kernels::solveColliders,
-                     colliders.particles, buffers, pushOf(colliders, substep, kick), constantsOf(colliders));
+    dispatchTouching(program, colliders,
+                     colliders.hasRebound ? kernels::solveCollidersRebound : kernels::solveColliders, buffers,
+                     pushOf(colliders, substep, kick), constantsOf(colliders));
 }
 
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
                  const Colliders& colliders, std::uint32_t substep) {
     if (colliders.count == 0) return;
-    program.dispatch(kernels::solveCollidersOpen, colliders.particles,
-                     {colliders.shapes, colliders.poses, colliders.contactOffsets, particles.positions,
-                      particles.velocities, particles.step, corrections},
+    const std::array buffers{colliders.shapes,    colliders.poses,      colliders.contactOffsets,
+                             particles.positions, particles.velocities, particles.step,
+                             corrections};
+    dispatchTouching(program, colliders, kernels::solveCollidersOpen, buffers,
                      pushOf(colliders, substep, Kick::half), constantsOf(colliders));
 }
 

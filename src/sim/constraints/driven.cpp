@@ -29,7 +29,7 @@ std::vector<bool> areDriven(const Scene& scene) {
 Driven add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout,
            const collision::colliders::Colliders& placed) {
     std::vector<layout::DrivenParticle> particles;
-    const auto first = static_cast<std::uint32_t>(scene.colliders.size());
+    const std::uint32_t first = placed.count;
     forDriven(scene, [&](std::uint32_t body, const Pose& pose, std::uint32_t particle) {
         const Vec3 local = toLocal(pose, scene.particles[particle].position);
         particles.push_back({{local.x, local.y, local.z, 0}, layout.slot[particle], first + body, 0, 0});

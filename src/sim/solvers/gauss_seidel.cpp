@@ -90,7 +90,7 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
                                                                                particles.layout.count)};
     const auto attachments = constraints::attachment::add(program, scene, particles.layout);
     const auto tethers = constraints::tether::add(program, scene, particles.layout);
-    const auto colliders = collision::colliders::add(program, scene, particles.layout, settings.substeps);
+    const auto colliders = collision::colliders::add(program, scene, settings, particles.layout);
     const bool isDamped = scene.dampingTime > 0 && !work.edges.colors.empty();
     const bool isWarm = work.edges.degree > 0, usesTexels = settings.forms.usesTexels;
     const Form& open = !isWarm ? openCold : usesTexels ? openWarm : openWarmLoads;

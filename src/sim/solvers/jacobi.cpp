@@ -58,7 +58,7 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
     const collision::planes::Contacts contacts = collision::planes::addContacts(program, scene);
     const auto attachments = constraints::attachment::add(program, scene, particles.layout);
     const auto tethers = constraints::tether::add(program, scene, particles.layout);
-    auto colliders = collision::colliders::add(program, scene, particles.layout, settings.substeps);
+    auto colliders = collision::colliders::add(program, scene, settings, particles.layout);
     collision::colliders::addMemory(program, colliders);
     const std::uint32_t iterations = corrections.slotCount > 0 ? settings.iterations : 1;
     for (std::uint32_t substep = 0; substep < settings.substeps; ++substep) {

@@ -270,8 +270,7 @@ void addLinks(const std::vector<Gather>& gathers, const ParticleBuffers& current
 
 // What is not a plane.
 collision::colliders::Colliders addRigid(const Common& common) {
-    auto rigid =
-        collision::colliders::add(common.program, common.scene, common.layout, common.settings.substeps);
+    auto rigid = collision::colliders::add(common.program, common.scene, common.settings, common.layout);
     collision::colliders::addMemory(common.program, rigid);
     return rigid;
 }
