@@ -21,6 +21,7 @@ constexpr std::array table{
     Binding{{drag, GLFW_MOUSE_BUTTON_MIDDLE}, pan, "middle drag", "pan"},
     Binding{{drag, GLFW_MOUSE_BUTTON_RIGHT, GLFW_MOD_SHIFT}, pan, "Shift + right drag", "pan"},
     Binding{{wheel}, zoom, "wheel", "zoom to the pointer"},
+    Binding{{wheel, 0, GLFW_MOD_SHIFT}, pokeSize, "Shift + wheel", "size of the sphere that pokes"},
     Binding{{key, GLFW_KEY_F}, frame, "F", "frame everything", "Frame"},
     Binding{{key, GLFW_KEY_HOME}, frame, "Home", "frame everything"},
     Binding{{key, GLFW_KEY_SPACE}, pause, "Space", "pause or go on", "Pause"},
@@ -29,7 +30,8 @@ constexpr std::array table{
     Binding{{key, GLFW_KEY_R}, reset, "R", "reset the scene", "Reset"},
     Binding{
         {key, GLFW_KEY_C}, blade, "C", "blade: left drag cuts, from the front through to the back", "Blade"},
-    Binding{{key, GLFW_KEY_ESCAPE}, drop, "Esc", "drop the blade, let go", "Let go"},
+    Binding{{key, GLFW_KEY_O}, poke, "O", "poke: left drag pushes with a sphere", "Poke"},
+    Binding{{key, GLFW_KEY_ESCAPE}, drop, "Esc", "drop the blade, lift the sphere, let go", "Let go"},
     Binding{{key, GLFW_KEY_N},
             pin,
             "N",
@@ -144,9 +146,14 @@ std::string hintText(Hands hands, bool canCut) {
         add("left drag cuts through");
         add("puts the blade away", {blade});
         add("goes back to before a cut", {undo});
+    } else if (hands == Hands::poke) {
+        add("left drag pushes");
+        add("changes its size", {pokeSize});
+        add("puts the sphere away", {Action::poke});
     } else {
         add("left drag grabs");
         if (canCut) add("cuts", {blade});
+        add("pokes", {Action::poke});
         add("orbits", {orbit});
         add("pauses", {pause});
         add("resets", {reset});

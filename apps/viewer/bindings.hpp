@@ -15,11 +15,13 @@ enum class Action {
     orbit,
     pan,
     zoom,
+    pokeSize,
     frame,
     pause,
     step,
     reset,
     blade,
+    poke,
     drop,
     pin,
     undo,
@@ -77,8 +79,9 @@ std::string helpText();
 
 /// How the first key of an action is shown: "Space".
 std::string_view keyOf(Action action);
-/// What can be done now, in a line: with the blade in hand, while a body is held, or with empty hands.
-enum class Hands { empty, holding, blade };
+/// What can be done now, in a line: with the blade or the sphere in hand, while a body is held, or with empty
+/// hands.
+enum class Hands { empty, holding, blade, poke };
 std::string hintText(Hands hands, bool canCut);
 /// Where there is no room for it: how to get help.
 std::string shortHintText();

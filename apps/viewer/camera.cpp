@@ -71,6 +71,12 @@ Ray rayThrough(const Camera& camera, const Vector2& pointer) {
     return {eye(camera), direction.normalized()};
 }
 
+std::optional<Vector3> meet(const Ray& ray, const Vector3& point, const Vector3& normal) {
+    const float facing = ray.direction.dot(normal);
+    if (facing < 0.05f) return std::nullopt;
+    return ray.origin + (point - ray.origin).dot(normal) / facing * ray.direction;
+}
+
 Camera orbited(Camera camera, const Vector2& drag) {
     camera.azimuth -= turnPerHeight * drag.x();
     camera.elevation += turnPerHeight * drag.y();

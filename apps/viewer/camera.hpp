@@ -4,6 +4,7 @@
 #include "viewer/geometry.hpp"
 
 #include <limits>
+#include <optional>
 
 namespace sinew::viewer {
 
@@ -34,6 +35,10 @@ struct Ray {
 
 /// From the eye through `pointer` (x right, y down, from the picture's middle, in picture heights).
 Ray rayThrough(const Camera& camera, const Vector2& pointer);
+
+/// Where it meets a plane with this unit normal, which points away from the eye; nothing at the plane's
+/// horizon and behind it.
+std::optional<Vector3> meet(const Ray& ray, const Vector3& point, const Vector3& normal);
 
 /// Turns around the target by a drag of (x to the right, y down) picture heights.
 Camera orbited(Camera camera, const Vector2& drag);

@@ -93,8 +93,8 @@ struct SceneFacts {
 
 /// What changes.
 struct Facts {
-    bool isPaused = false, isDiverged = false, isVsync = true, isBladeOn = false, isHolding = false,
-         isRecording = false;
+    bool isPaused = false, isDiverged = false, isVsync = true, isBladeOn = false, isPokeOn = false,
+         isHolding = false, isRecording = false;
     bool isFullQuality = true; ///< shadows and antialiasing; a software device has them when paused
     std::size_t pins = 0;      ///< that hold something where it is
     double framesPerSecond = 0;

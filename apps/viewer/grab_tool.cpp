@@ -32,11 +32,8 @@ void GrabTool::answer(const std::optional<Pick>& pick, float radius) {
 
 void GrabTool::move(const Camera& camera, const Vector2& pointer) {
     if (grabs_.empty()) return;
-    const Ray ray = rayThrough(camera, pointer);
-    const float facing = ray.direction.dot(planeNormal_);
-    if (facing < 0.05f) return; // at the horizon of the plane, and behind
-    const Vector3 at = ray.origin + (planePoint_ - ray.origin).dot(planeNormal_) / facing * ray.direction;
-    grabs_[0].target = {at.x(), at.y(), at.z()};
+    const std::optional<Vector3> at = meet(rayThrough(camera, pointer), planePoint_, planeNormal_);
+    if (at) grabs_[0].target = {at->x(), at->y(), at->z()};
 }
 
 Vector2 GrabTool::drag(const Vector2& heights) {

@@ -64,7 +64,7 @@ std::string text(Action action) {
     return "key " + std::string(keyOf(action)) + "\n";
 }
 
-constexpr std::array<std::string_view, 2> askers{"hand", "pin"};
+constexpr std::array<std::string_view, 3> askers{"hand", "pin", "poke"};
 
 std::string text(const Answered& answered) {
     const std::string asker(askers[static_cast<std::size_t>(answered.asker)]);
@@ -75,6 +75,10 @@ std::string text(const Answered& answered) {
 
 std::string text(const Pulled& pulled) {
     return Line("gravity").add(pulled.gravity).end();
+}
+
+std::string text(const Sized& sized) {
+    return Line("radius").add(sized.radius).end();
 }
 
 std::string text(const Forgot&) {
@@ -188,6 +192,9 @@ const std::array readers{
                       Words& words) { to.events.emplace_back(readAnswer(words, Question::Asker::hand)); }},
     Reader{"pin", [](InputFile& to,
                      Words& words) { to.events.emplace_back(readAnswer(words, Question::Asker::pin)); }},
+    Reader{"poke", [](InputFile& to,
+                      Words& words) { to.events.emplace_back(readAnswer(words, Question::Asker::poke)); }},
+    Reader{"radius", [](InputFile& to, Words& words) { to.events.emplace_back(Sized{words.finite()}); }},
     Reader{"gravity", [](InputFile& to, Words& words) { to.events.emplace_back(Pulled{words.finite()}); }},
     Reader{"forget", [](InputFile& to, Words&) { to.events.emplace_back(Forgot{}); }},
     Reader{"steps", [](InputFile& to,

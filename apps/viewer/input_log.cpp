@@ -11,6 +11,7 @@ void InputLog::restart() {
     camera_.reset();
     pointed_.reset();
     gravity_.reset();
+    radius_.reset();
 }
 
 void InputLog::look(const Camera& camera) {
@@ -47,6 +48,12 @@ void InputLog::pull(float gravity) {
     if (gravity_ == gravity) return;
     gravity_ = gravity;
     events_.emplace_back(Pulled{gravity});
+}
+
+void InputLog::size(float radius) {
+    if (radius_ == radius) return;
+    radius_ = radius;
+    events_.emplace_back(Sized{radius});
 }
 
 void InputLog::forget() {

@@ -17,7 +17,7 @@ struct Pointed {
     Vector2 at = Vector2::Zero();
     bool operator==(const Pointed&) const = default;
 };
-/// The button that grabs or cuts went down or up.
+/// The button that grabs, cuts or pokes went down or up.
 struct Pressed {
     bool isDown = false;
     Vector2 at = Vector2::Zero();
@@ -35,6 +35,11 @@ struct Pulled {
     float gravity = 0;
     bool operator==(const Pulled&) const = default;
 };
+/// The sphere that pokes has this radius from here on [m].
+struct Sized {
+    float radius = 0;
+    bool operator==(const Sized&) const = default;
+};
 /// States to go back to were lost.
 struct Forgot {
     bool operator==(const Forgot&) const = default;
@@ -44,7 +49,7 @@ struct Stepped {
     std::uint32_t count = 0;
     bool operator==(const Stepped&) const = default;
 };
-using InputEvent = std::variant<Camera, Pointed, Pressed, Action, Answered, Pulled, Forgot, Stepped>;
+using InputEvent = std::variant<Camera, Pointed, Pressed, Action, Answered, Pulled, Sized, Forgot, Stepped>;
 
 /// Collects them; what changes nothing is left out.
 class InputLog {
@@ -58,6 +63,7 @@ public:
     void key(Action action);
     void answer(Answered answer);
     void pull(float gravity);
+    void size(float radius);
     void forget();
     /// A step was recorded.
     void step();
@@ -72,7 +78,7 @@ private:
     std::vector<InputEvent> events_;
     std::optional<Camera> camera_;
     std::optional<Pointed> pointed_; // nothing: the next one counts, wherever it is
-    std::optional<float> gravity_;
+    std::optional<float> gravity_, radius_;
 };
 
 /// A log and what it is of.

@@ -19,20 +19,21 @@ std::string timeText(const Facts& facts) {
 
 void play(const Facts& facts, Wishes& wishes) {
     row("time", timeText(facts));
-    float width = buttonWidth(3);
+    float width = buttonWidth(4);
     button(Action::pause, wishes, width, facts.isPaused, facts.isPaused ? "Go on" : "Pause");
     ImGui::SameLine();
     button(Action::step, wishes, width);
     ImGui::SameLine();
     button(Action::reset, wishes, width);
-    width = buttonWidth(4);
-    button(Action::slowMotion, wishes, width, facts.knobs.pace < 1);
     ImGui::SameLine();
+    button(Action::slowMotion, wishes, width, facts.knobs.pace < 1);
     button(Action::blade, wishes, width, facts.isBladeOn);
     ImGui::SameLine();
-    button(Action::drop, wishes, width);
+    button(Action::poke, wishes, width, facts.isPokeOn);
     ImGui::SameLine();
     button(Action::pin, wishes, width, facts.pins > 0);
+    ImGui::SameLine();
+    button(Action::drop, wishes, width);
     button(Action::frame, wishes, width);
     ImGui::SameLine();
     button(Action::screenshot, wishes, width);

@@ -240,7 +240,10 @@ void Panels::buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D e
 }
 
 void Panels::buildHint(const SceneFacts& scene, const Facts& facts, VkExtent2D extent) {
-    const Hands hands = facts.isHolding ? Hands::holding : facts.isBladeOn ? Hands::blade : Hands::empty;
+    const Hands hands = facts.isHolding   ? Hands::holding
+                        : facts.isBladeOn ? Hands::blade
+                        : facts.isPokeOn  ? Hands::poke
+                                          : Hands::empty;
     const float edge = gap * scale_, pad = 10 * scale_;
     const float room =
         static_cast<float>(extent.width) - 2 * edge - (isShown(extent) ? sideWidth * scale_ + edge : 0);

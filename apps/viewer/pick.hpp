@@ -17,7 +17,7 @@ struct Pick {
 
 /// What a tool asks of the state on show: what lies there.
 struct Question {
-    enum class Asker { hand, pin } asker = Asker::hand;
+    enum class Asker { hand, pin, poke } asker = Asker::hand;
     Ray ray;
     bool operator==(const Question&) const = default;
 };

@@ -16,6 +16,7 @@ sim::Settings fastest(const vk::Device& device, const scenes::LoadedScene& loade
     vk::Queue queue(device);
     sim::Settings settings = loaded.settings;
     settings.grabs = sim::ranges::mostGrabs;
+    settings.pokes = 1;
     return sim::tuned(device, queue, loaded.scene, settings);
 }
 

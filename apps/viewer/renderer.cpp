@@ -48,8 +48,9 @@ bool isSoftware(const vk::Device& device) {
 
 Renderer::Renderer(const vk::Device& device, const Target& target, const Quality& quality,
                    const StageLight& light)
-    : device_(device), light_(light),
-      colliders_(device, light.colliders), format_{target.color, canvasDepthFormat(device), quality.samples},
+    : device_(device), light_(light), colliders_(device, light.colliders),
+      poke_(device, {{.radius = 1, .color = handColor}}), format_{target.color, canvasDepthFormat(device),
+                                                                  quality.samples},
       maps_(device, quality.shadowSize, quality.floorSize),
       pass_(RenderPass::picture(device, {.color = format_.color,
                                          .depth = format_.depth,
@@ -183,6 +184,7 @@ void Renderer::recordMaps(VkCommandBuffer commands, const sim::Simulation& simul
         if (hasSkins) drawSkins(commands, ofSkins, simulation);
         if (hasSkins) drawCuts(commands, ofSkins, ofSkins, simulation);
         drawColliders(commands, ofSkins, simulation);
+        drawPokes(commands, ofSkins, simulation);
         drawBalls(commands, ofBalls, simulation, overlay);
     };
     const vk::DeviceFunctions& functions = device_.functions();
@@ -213,6 +215,7 @@ void Renderer::recordPicture(VkCommandBuffer commands, const Canvas& canvas, std
     const std::array clear{VkClearValue{.color = {{0, 0, 0, 1}}}, VkClearValue{.depthStencil = {1, 0}}};
     begin(commands, pass_, canvas.framebuffer(picture), canvas.extent(), clear);
     drawColliders(commands, skinPipeline, simulation);
+    drawPokes(commands, skinPipeline, simulation);
     if (overlay.layers.map != ColorMap::none) {
         drawValues(commands, simulation, overlay);
     } else {
@@ -263,13 +266,14 @@ void Renderer::bindMesh(VkCommandBuffer commands, const vk::BufferView& vertices
     functions.vkCmdBindIndexBuffer(commands, indices.buffer, indices.offset, VK_INDEX_TYPE_UINT32);
 }
 
-void Renderer::push(VkCommandBuffer commands, const sim::Vec3& color, float gloss,
-                    const sim::Pose& pose) const noexcept {
+void Renderer::push(VkCommandBuffer commands, const sim::Vec3& color, float gloss, const sim::Pose& pose,
+                    float scale) const noexcept {
     const sim::Vec3& x = pose.position;
     const sim::Quaternion& q = pose.rotation;
     push(commands, {{color.x, color.y, color.z, gloss},
                     {x.x, x.y, x.z, light_.showsSleep ? 1.0f : 0.0f},
-                    {q.x, q.y, q.z, q.w}});
+                    {q.x, q.y, q.z, q.w},
+                    {scale, 0, 0, 0}});
 }
 
 void Renderer::push(VkCommandBuffer commands, const layout::SkinPush& values) const noexcept {
@@ -289,6 +293,20 @@ void Renderer::drawColliders(VkCommandBuffer commands, std::size_t pipeline,
         push(commands, ranges[i].color, colliderGloss, poses[i]);
         device_.functions().vkCmdDrawIndexed(commands, ranges[i].indexCount, 1, ranges[i].firstIndex,
                                              ranges[i].firstVertex, 0);
+    }
+}
+
+// Where the simulation has them, which may be behind the pointer.
+void Renderer::drawPokes(VkCommandBuffer commands, std::size_t pipeline,
+                         const sim::Simulation& simulation) const noexcept {
+    const ColliderMeshes::Range& sphere = poke_.ranges().front();
+    for (const sim::PokeState& state : simulation.pokes()) {
+        if (!state.isThere || state.poke.shape != sim::ColliderShape::sphere) continue;
+        bind(commands, pipeline);
+        bindMesh(commands, poke_.vertices(), poke_.indices());
+        push(commands, sphere.color, colliderGloss, state.poke.pose, state.poke.radius);
+        device_.functions().vkCmdDrawIndexed(commands, sphere.indexCount, 1, sphere.firstIndex,
+                                             sphere.firstVertex, 0);
     }
 }
 

@@ -89,6 +89,8 @@ private:
                    const LayerBuffers& buffers = {}) const noexcept;
     void drawColliders(VkCommandBuffer commands, std::size_t pipeline,
                        const sim::Simulation& simulation) const noexcept;
+    void drawPokes(VkCommandBuffer commands, std::size_t pipeline,
+                   const sim::Simulation& simulation) const noexcept;
     void drawBalls(VkCommandBuffer commands, std::size_t pipeline, const sim::Simulation& simulation,
                    const Overlay& overlay) const noexcept;
     void drawCuts(VkCommandBuffer commands, std::size_t ofInside, std::size_t ofClipped,
@@ -100,12 +102,12 @@ private:
     void bindMesh(VkCommandBuffer commands, const vk::BufferView& vertices,
                   const vk::BufferView& indices) const noexcept;
     void push(VkCommandBuffer commands, const layout::SkinPush& values) const noexcept;
-    void push(VkCommandBuffer commands, const sim::Vec3& color, float gloss,
-              const sim::Pose& pose) const noexcept;
+    void push(VkCommandBuffer commands, const sim::Vec3& color, float gloss, const sim::Pose& pose,
+              float scale = 1) const noexcept;
 
     const vk::Device& device_;
     StageLight light_;
-    ColliderMeshes colliders_;
+    ColliderMeshes colliders_, poke_; // the second a sphere of radius 1
     CanvasFormat format_;
     LightMaps maps_;
     RenderPass pass_;

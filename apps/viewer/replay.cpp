@@ -29,6 +29,7 @@ struct Player {
     void operator()(const Pressed& event) const { tools.press(camera, event.isDown, event.at); }
     void operator()(Action event) const { tools.act(event); }
     void operator()(const Pulled& event) const { tools.pull(stage, event.gravity); }
+    void operator()(const Sized& event) const { tools.resize(event.radius); }
     void operator()(const Forgot&) const { tools.forget(); }
     void operator()(const Answered& event) const {
         if (event.pick && event.pick->particle >= stage.scene().particles.size())
@@ -79,6 +80,7 @@ Options withReplay(Options options, const InputFile& file) {
 
 void prepareForReplay(sim::Settings& settings, const InputFile& file) {
     settings.grabs = sim::ranges::mostGrabs;
+    settings.pokes = 1;
     settings.contactRoom = std::clamp(file.room, settings.contactRoom, sim::ranges::mostContactRoom);
     settings.cutSurfaceRoom =
         std::clamp(file.surface, settings.cutSurfaceRoom, sim::ranges::mostCutSurfaceRoom);

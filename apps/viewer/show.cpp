@@ -175,6 +175,7 @@ Facts Show::facts(bool isFullQuality) const {
     facts.isFullQuality = isFullQuality;
     facts.isHolding = tools_.isHolding();
     facts.isBladeOn = tools_.isBladeOn();
+    facts.isPokeOn = tools_.isPokeOn();
     facts.pins = tools_.pins();
     for (const std::uint64_t steps : tools_.history().times()) {
         char time[40];

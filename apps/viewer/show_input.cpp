@@ -53,7 +53,8 @@ void Show::handle(const Input& input) {
     if (const std::string note = tools_.takeNote(); !note.empty()) screen_.tell(note);
     screen_.feed(input.panels);
     status_.setTool(tools_.name());
-    if (input.notches != 0 && !replay_) controller_.wheel(input.notches, input.pointer);
+    const float notches = input.notches + (tools_.isPokeOn() ? 0 : input.growth);
+    if (notches != 0 && !replay_) controller_.wheel(notches, input.pointer);
 }
 
 void Show::handle(Action action) {

@@ -76,6 +76,7 @@ bool Show::isOfReplay(Action action) {
         screen_.tell("the replay was ended");
         return true;
     case Action::blade:
+    case Action::poke:
     case Action::pin:
     case Action::undo:
     case Action::redo:

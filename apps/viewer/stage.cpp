@@ -28,10 +28,11 @@ void Stage::recordReset(VkCommandBuffer commands) noexcept {
 }
 
 void Stage::recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps, std::span<const sim::Grab> grabs,
-                       const sim::Blade& blade) noexcept {
+                       const sim::Blade& blade, std::span<const sim::Poke> pokes) noexcept {
     const sim::Blade scripted = blades_.at(played_++);
     sim::Step step{.dt = scene_.dt, .gravity = gravity_, .frame = ++steps_};
     step.grabs = grabs;
+    step.pokes = pokes;
     step.blade = scripted.from.empty() ? blade : scripted;
     growing_.simulation().record(commands, step, timestamps);
 }

@@ -26,7 +26,8 @@ public:
     /// As those of sim::Simulation. A new stage must be reset once before its first step.
     void recordReset(VkCommandBuffer commands) noexcept;
     void recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps = nullptr,
-                    std::span<const sim::Grab> grabs = {}, const sim::Blade& blade = {}) noexcept;
+                    std::span<const sim::Grab> grabs = {}, const sim::Blade& blade = {},
+                    std::span<const sim::Poke> pokes = {}) noexcept;
     void recordSkin(VkCommandBuffer commands) noexcept { growing_.simulation().recordSkin(commands); }
 
     /// Blades that cut by themselves, from the reset on; in their steps no other one does.

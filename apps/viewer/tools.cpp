@@ -1,4 +1,4 @@
-// One pointer, two tools: the left button belongs to the one that is out.
+// One pointer, three tools: the left button belongs to the one that is out.
 #include "viewer/tools.hpp"
 
 #include "viewer/controller.hpp"
@@ -12,7 +12,8 @@
 namespace sinew::viewer {
 
 Tools::Tools(const vk::Device& device, const Opening& opening)
-    : blade_(opening.light.bounds), history_(device), pinReach_(0.04f * opening.light.radius()),
+    : blade_(opening.light.bounds), poke_(opening.light.radius(), opening.loaded.scene.planes),
+      history_(device), pinReach_(0.04f * opening.light.radius()),
       canCut_(std::ranges::any_of(opening.loaded.scene.grids, &sim::Grid::isCuttable)) {}
 
 void recordStep(VkCommandBuffer commands, Stage& stage, const StepHands& hands,
@@ -20,7 +21,9 @@ void recordStep(VkCommandBuffer commands, Stage& stage, const StepHands& hands,
     sim::Blade blade;
     if (hands.sweep)
         blade = {.from = hands.sweep->from, .to = hands.sweep->to, .isCarried = hands.sweep->isCarried};
-    stage.recordStep(commands, timestamps, hands.grabs, blade);
+    const std::span<const sim::Poke> pokes =
+        hands.poke ? std::span(&*hands.poke, 1) : std::span<const sim::Poke>();
+    stage.recordStep(commands, timestamps, hands.grabs, blade, pokes);
 }
 
 void Tools::handle(const Input& input, Controller& controller) {
@@ -30,17 +33,23 @@ void Tools::handle(const Input& input, Controller& controller) {
     for (const Input::Drag& drag : input.drags) {
         if (drag.action != Action::grab)
             controller.drag(drag.action, drag.heights);
-        else if (const Vector2 turn = hand_.drag(drag.heights); !blade_.isOn() && !turn.isZero())
+        else if (const Vector2 turn = hand_.drag(drag.heights);
+                 !blade_.isOn() && !poke_.isOn() && !turn.isZero())
             controller.drag(Action::orbit, turn);
     }
     look(controller.camera);
+    if (input.growth != 0 && poke_.isOn()) {
+        poke_.grow(input.growth);
+        log_.size(poke_.radius());
+    }
     move(controller.camera, input.pointer);
 }
 
 void Tools::move(const Camera& camera, const Vector2& pointer) {
-    if (hand_.isHolding() || blade_.isOn() || wantsPin_) log_.point(pointer);
+    if (hand_.isHolding() || blade_.isOn() || poke_.isDown() || wantsPin_) log_.point(pointer);
     hand_.move(camera, pointer);
     blade_.move(camera, pointer);
+    poke_.move(camera, pointer);
     if (std::exchange(wantsPin_, false)) pinAt(rayThrough(camera, pointer));
 }
 
@@ -58,11 +67,16 @@ void Tools::pin(const Hand& hand, float radius) {
 }
 
 const char* Tools::name() const {
-    return hand_.isHolding() ? " - holding" : isPinArmed_ ? " - pin" : blade_.isOn() ? " - blade" : "";
+    return hand_.isHolding() ? " - holding"
+           : isPinArmed_     ? " - pin"
+           : blade_.isOn()   ? " - blade"
+           : poke_.isOn()    ? " - poke"
+                             : "";
 }
 
 std::optional<Question> Tools::question() const {
     if (hand_.question()) return Question{Question::Asker::hand, *hand_.question()};
+    if (poke_.question()) return Question{Question::Asker::poke, *poke_.question()};
     if (pinned_) return Question{Question::Asker::pin, *pinned_};
     return std::nullopt;
 }
@@ -71,6 +85,7 @@ void Tools::answer(const Question& question, const std::optional<Pick>& pick, fl
     if (question != this->question()) return;
     log_.answer({question.asker, pick, radius});
     if (question.asker == Question::Asker::hand) return hand_.answer(pick, radius);
+    if (question.asker == Question::Asker::poke) return poke_.answer(pick);
     pinned_.reset();
     if (pick)
         pin({pick->particle, pick->offset, pick->point}, radius);
@@ -89,6 +104,7 @@ void Tools::press(const Camera& camera, bool isDown, const Vector2& at) {
         blade_.move(camera, at);
         return blade_.release();
     }
+    if (poke_.isOn()) return isDown ? poke_.press(camera, at) : poke_.release();
     if (isDown)
         hand_.press(camera, at);
     else
@@ -101,14 +117,33 @@ void Tools::pull(Stage& stage, float gravity) {
     stage.setGravity(gravity);
 }
 
+void Tools::resize(float radius) {
+    poke_.setRadius(radius);
+    log_.size(poke_.radius());
+}
+
+// One tool is out at a time.
+void Tools::takeBlade() {
+    if (!canCut_) return say("note: no body of this scene can be cut: cuttable = true makes it so");
+    if (poke_.isOn()) poke_.toggle();
+    blade_.toggle();
+}
+
+void Tools::takePoke() {
+    if (blade_.isOn()) blade_.toggle();
+    poke_.toggle();
+    if (poke_.isOn()) log_.size(poke_.radius());
+}
+
 bool Tools::act(Action action) {
     switch (action) {
     case Action::blade:
         hand_.release();
-        if (canCut_)
-            blade_.toggle();
-        else
-            say("note: no body of this scene can be cut: cuttable = true makes it so");
+        takeBlade();
+        break;
+    case Action::poke:
+        hand_.release();
+        takePoke();
         break;
     case Action::drop:
         drop();
@@ -138,6 +173,7 @@ void Tools::drop() {
     isPinArmed_ = false;
     hand_.release();
     blade_.drop();
+    poke_.release();
 }
 
 void Tools::clear() {
@@ -152,11 +188,16 @@ void Tools::reset() {
     wantsUndo_ = wantsRedo_ = false;
     log_.restart();
     if (blade_.isOn()) log_.key(Action::blade);
+    if (poke_.isOn()) {
+        log_.size(poke_.radius());
+        log_.key(Action::poke);
+    }
     if (gravity_) log_.pull(*gravity_);
 }
 
 void Tools::putAway(Stage& stage) {
     if (blade_.isOn()) blade_.toggle();
+    poke_.putAway();
     gravity_.reset();
     stage.setGravity(stage.scene().gravity);
 }
@@ -188,7 +229,7 @@ void Tools::remember(VkCommandBuffer commands, const Stage& stage) {
 StepHands Tools::takeStep(VkCommandBuffer commands, const Stage& stage) {
     log_.step();
     if (blade_.beginsStroke()) remember(commands, stage);
-    StepHands hands{.sweep = blade_.next()};
+    StepHands hands{.sweep = blade_.next(), .poke = poke_.poke()};
     hands.grabs[0] = hand_.isHolding() ? hand_.grabs()[0] : emptyHand();
     std::ranges::copy(pins_.grabs(), hands.grabs.begin() + 1);
     return hands;

@@ -1,4 +1,5 @@
-// What the pointer holds, the hand or the blade, what it has pinned, and what of their work can be undone.
+// What the pointer holds, the hand, the blade or the sphere, what it has pinned, and what of their work can
+// be undone.
 #pragma once
 
 #include "viewer/cut_tool.hpp"
@@ -6,6 +7,7 @@
 #include "viewer/history.hpp"
 #include "viewer/input_log.hpp"
 #include "viewer/pins.hpp"
+#include "viewer/poke_tool.hpp"
 #include "viewer/stage.hpp"
 #include "viewer/window.hpp"
 
@@ -20,6 +22,7 @@ struct Opening;
 struct StepHands {
     std::array<sim::Grab, sim::ranges::mostGrabs> grabs{}; ///< the pointer's, then pins
     std::optional<Sweep> sweep;                            ///< of the blade
+    std::optional<sim::Poke> poke;
 };
 void recordStep(VkCommandBuffer commands, Stage& stage, const StepHands& hands,
                 vk::Timestamps* timestamps = nullptr) noexcept;
@@ -37,13 +40,16 @@ public:
     void move(const Camera& camera, const Vector2& pointer);
     /// As Stage::setGravity.
     void pull(Stage& stage, float gravity);
+    /// Of the sphere that pokes [m].
+    void resize(float radius);
     /// False for an action that is none of theirs.
     bool act(Action action);
     /// The next press of the left button pins what is under it, as the button of a panel cannot.
     void armPin() { isPinArmed_ = true; }
     /// Lets go of everything, and takes out all pins: what was held or to be cut is where nobody expects it.
     void clear();
-    /// At a reset: as new, but for the blade, which stays in the hand, and for gravity.
+    /// At a reset: as new, but for what stays in the hand, the blade or the sphere as large as it is, and for
+    /// gravity.
     void reset();
     /// There is no way back to earlier states any more.
     void forget();
@@ -58,7 +64,7 @@ public:
     bool wantsHistory() const { return wantsUndo_ || wantsRedo_; }
     /// The way back or forwards, where it was asked for; whether there was one.
     bool recordHistory(VkCommandBuffer commands, Stage& stage);
-    /// For a replay that begins again: the blade put away, gravity as the scene has it.
+    /// For a replay that begins again: all put away, gravity as the scene has it.
     void putAway(Stage& stage);
     /// What they do in the next step, which is then recorded into `commands`; a copy of the state before a
     /// cut is recorded here.
@@ -72,6 +78,7 @@ public:
 
     bool isHolding() const { return hand_.isHolding(); }
     bool isBladeOn() const { return blade_.isOn(); }
+    bool isPokeOn() const { return poke_.isOn(); }
     const History& history() const { return history_; }
     std::size_t pins() const { return pins_.count(); }
     Overlay overlay() const { return {hand_.hand(), pins_.shown(), blade_.path()}; }
@@ -81,6 +88,8 @@ public:
     const char* name() const;
 
 private:
+    void takeBlade();
+    void takePoke();
     void pinAt(const Ray& ray);
     void pin(const Hand& hand, float radius);
     void drop();
@@ -89,6 +98,7 @@ private:
     GrabTool hand_;
     Pins pins_;
     CutTool blade_;
+    PokeTool poke_;
     History history_;
     std::string note_;
     void remember(VkCommandBuffer commands, const Stage& stage);

@@ -66,6 +66,14 @@ struct Window::State {
         return static_cast<float>(high) / windowHeight() * cursor;
     }
 
+    // GLFW says them of keys and buttons alone.
+    int modifiers() const {
+        const auto isDown = [this](int left, int right) {
+            return glfwGetKey(window, left) == GLFW_PRESS || glfwGetKey(window, right) == GLFW_PRESS;
+        };
+        return isDown(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT) ? GLFW_MOD_SHIFT : 0;
+    }
+
     bool isCovered() const { return cover.holds(pixels()); }
 
     void onKey(int key, int scancode, int event, int modifiers) {
@@ -122,9 +130,11 @@ struct Window::State {
         if (isCovered()) {
             input.panels.notches += static_cast<float>(notches);
             input.panels.isTouched = true;
-        } else if (actionFor({Trigger::Kind::wheel}) == Action::zoom) {
-            input.notches += static_cast<float>(notches);
+            return;
         }
+        const auto action = actionFor({Trigger::Kind::wheel, 0, modifiers()});
+        float& turned = action == Action::pokeSize ? input.growth : input.notches;
+        turned += static_cast<float>(notches);
     }
 
     void listen() {

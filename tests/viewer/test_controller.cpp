@@ -5,7 +5,9 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <set>
+#include <string>
 
 namespace sinew::viewer {
 namespace {
@@ -33,12 +35,45 @@ TEST(Bindings, AreAllInTheHelpText) {
     }
 }
 
+// Of the table in the README: what stands between `;`, `,` and "or" in the first column.
+std::set<std::string> triggersInReadme() {
+    std::set<std::string> found;
+    std::ifstream file(SINEW_README);
+    std::string line;
+    while (std::getline(file, line) && line != "| input | does |") {
+    }
+    std::getline(file, line); // the rule below it
+    while (std::getline(file, line) && line.starts_with("| ")) {
+        std::string cell = line.substr(2, line.find(" |") - 2);
+        for (const std::string_view apart : {" or ", ", "})
+            for (std::size_t at = cell.find(apart); at != std::string::npos; at = cell.find(apart))
+                cell.replace(at, apart.size(), "; ");
+        std::erase(cell, '`');
+        for (std::size_t at = 0; at != std::string::npos;) {
+            const std::size_t end = cell.find("; ", at);
+            found.insert(cell.substr(at, end == std::string::npos ? end : end - at));
+            at = end == std::string::npos ? end : end + 2;
+        }
+    }
+    return found;
+}
+
+TEST(Bindings, AreThoseOfTheReadme) {
+    std::set<std::string> shown;
+    for (const Binding& binding : bindings())
+        if (!binding.shown.empty()) shown.emplace(binding.shown);
+    EXPECT_EQ(triggersInReadme(), shown);
+}
+
 TEST(Bindings, HintAtWhatHandsCanDoNow) {
     const std::string empty = hintText(Hands::empty, true), blade = hintText(Hands::blade, true);
     EXPECT_NE(empty.find("C cuts"), std::string::npos);
     EXPECT_EQ(hintText(Hands::empty, false).find("cuts"), std::string::npos);
     EXPECT_NE(blade.find("Ctrl + Z"), std::string::npos);
-    for (const std::string& hint : {empty, blade, hintText(Hands::holding, true)})
+    const std::string poke = hintText(Hands::poke, true);
+    EXPECT_NE(empty.find("O pokes"), std::string::npos);
+    EXPECT_NE(poke.find("Shift + wheel"), std::string::npos);
+    for (const std::string& hint : {empty, blade, poke, hintText(Hands::holding, true)})
         EXPECT_NE(hint.find("H help"), std::string::npos) << hint;
 }
 

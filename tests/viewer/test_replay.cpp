@@ -93,6 +93,7 @@ struct Played : Scene {
         for (int i = 0; i <= turns; ++i)
             turn({.pointer = from + static_cast<float>(i) / static_cast<float>(turns) * by});
     }
+    bool isPoking() const { return stage.simulation().pokes()[0].isThere; }
     InputFile file() { return {.scene = "/block.toml", .events = tools.log().events(), .hash = hash()}; }
 
     std::optional<Question> asked;
@@ -119,6 +120,26 @@ void play(Played& played) {
     played.turn({.actions = {Action::undo}}, 0);
 }
 
+// Pushes the block with a sphere that grows, from beside it and then on it, and lifts the sphere each time.
+void poke(Played& played) {
+    played.turn({}, 20);
+    played.turn({.actions = {Action::blade}});
+    played.turn({.actions = {Action::poke}});
+    EXPECT_TRUE(played.tools.isPokeOn() && !played.tools.isBladeOn()) << "one tool at a time";
+    played.dragFrom({-0.35f, -0.1f}, {0.4f, 0}, 12);
+    EXPECT_TRUE(played.isPoking());
+    played.turn({.growth = 2, .pointer = {0.05f, -0.1f}}, 2);
+    played.pressAt({0.05f, -0.1f}, false);
+    EXPECT_FALSE(played.isPoking());
+    played.turn({}, 3);
+    played.dragFrom({0.05f, 0.1f}, {-0.1f, -0.1f}, 5);
+    played.turn({.actions = {Action::drop}, .pointer = {-0.05f, 0}}, 2);
+    EXPECT_FALSE(played.isPoking()) << "Esc lifts it";
+    EXPECT_TRUE(played.tools.isPokeOn());
+    played.turn({.actions = {Action::blade}}, 2);
+    EXPECT_FALSE(played.tools.isPokeOn());
+}
+
 Replay::Due replayAll(Scene& scene, Replay& replay) {
     for (;;) {
         const Replay::Due due = replay.next(scene.tools, scene.controller.camera, scene.stage);
@@ -132,9 +153,9 @@ Replay::Due replayAll(Scene& scene, Replay& replay) {
     }
 }
 
-TEST(Replay, LeadsToTheSameBits) {
+void expectTheSameBitsOf(void (*hands)(Played&)) {
     Played played;
-    play(played);
+    hands(played);
     const InputFile file = played.file();
     const InputFile read = parseInput(toText(file), "test");
     EXPECT_EQ(read.events, file.events);
@@ -148,6 +169,31 @@ TEST(Replay, LeadsToTheSameBits) {
     EXPECT_EQ(again.controller.camera, played.controller.camera);
     EXPECT_EQ(again.hash(), *file.hash);
     EXPECT_EQ(again.tools.log().events(), file.events) << "a replay can be saved as what it was made of";
+}
+
+TEST(Replay, LeadsToTheSameBits) {
+    expectTheSameBitsOf(play);
+}
+
+TEST(Replay, PushesWithTheSameSphere) {
+    expectTheSameBitsOf(poke);
+}
+
+// With the sphere in the hand, larger than at first.
+TEST(Replay, OfASphereBeginsAtTheReset) {
+    Played played;
+    played.turn({.actions = {Action::poke}});
+    played.turn({.growth = 4});
+    played.tools.reset();
+    played.run([&](VkCommandBuffer commands) { played.stage.recordReset(commands); });
+    played.turn({}, 20);
+    const std::uint64_t untouched = played.hash();
+    played.dragFrom({-0.35f, -0.1f}, {0.4f, 0}, 8);
+    EXPECT_NE(played.hash(), untouched);
+    Scene again;
+    Replay replay(parseInput(toText(played.file()), "test"));
+    replayAll(again, replay);
+    EXPECT_EQ(again.hash(), played.hash());
 }
 
 TEST(Replay, BeginsAtTheReset) {

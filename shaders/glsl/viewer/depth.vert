@@ -8,6 +8,6 @@ layout(push_constant) uniform Push { SkinPush push; };
 layout(location = 0) in vec4 position;
 
 void main() {
-    const vec3 worldPosition = rotated(push.rotation, position.xyz) + push.position.xyz;
+    const vec3 worldPosition = rotated(push.rotation, push.scale.x * position.xyz) + push.position.xyz;
     gl_Position = (isPlan ? frame.planFromWorld : frame.shadowFromWorld) * vec4(worldPosition, 1.0);
 }

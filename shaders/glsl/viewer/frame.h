@@ -37,6 +37,7 @@ struct SkinPush {
     vec4 color; // linear RGB, of a map x: the value that has its last color; w: gloss, 1 = moist tissue
     vec4 position; // where the vertices' frame is: 0 for skins [m]; w: 1 = what sleeps is paler
     vec4 rotation; // unit quaternion x, y, z, w
+    vec4 scale;    // x: of the vertices in their frame
 };
 
 #ifdef __cplusplus

@@ -16,7 +16,7 @@ layout(location = 2) out float asleep;
 #endif
 
 void main() {
-    worldPosition = rotated(push.rotation, position.xyz) + push.position.xyz;
+    worldPosition = rotated(push.rotation, push.scale.x * position.xyz) + push.position.xyz;
     worldNormal = rotated(push.rotation, normal.xyz);
 #ifdef VALUES
     value = valueIn;
