@@ -5,19 +5,24 @@
 //   ALIVE(i), AT(i), REST(i)   as for gradient.glsl
 //   TURN(i)                    the gradient there
 
-// Corners of a cell that hang together with one of them.
+// Corners of a cell that a corner is still linked with. What is only joined to it around the end of a cut, by others of the cell, lies
+// across: a vertex between the two would hang in the gap. Where a body has no such link, any that are linked with it stand in.
 uint heldWith(uint cell, uint corner) {
-    uint words[8];
-    [[dont_unroll]] for (uint k = 0u; k < 8u; ++k) words[k] = ALIVE(slotOf(cell, k));
-    uint held = 1u << corner;
-    for (uint before = 0u; before != held;) {
-        before = held;
-        [[dont_unroll]] for (uint a = 0u; a < 7u; ++a)
-            [[dont_unroll]] for (uint b = a + 1u; b < 8u; ++b) {
-                const ivec3 d = cornerOf(int(b)) - cornerOf(int(a));
-                const uint ends = 1u << a | 1u << b;
-                if ((held & ends) != 0u && isAlive(words[a], d.x, d.y, d.z)) held |= ends;
-            }
+    const uint word = ALIVE(slotOf(cell, corner));
+    uint held = 1u << corner, unknown = 0u;
+    [[dont_unroll]] for (uint k = 0u; k < 8u; ++k) {
+        if (k == corner) continue;
+        const ivec3 d = cornerOf(int(k)) - cornerOf(int(corner));
+        if (isAlive(word, d.x, d.y, d.z)) held |= 1u << k;
+        else if (!isAlive(push.stiffLinks, d.x, d.y, d.z)) unknown |= 1u << k;
+    }
+    for (uint direct = unknown != 0u ? held : 0u; direct != 0u; direct &= direct - 1u) {
+        const int c = findLSB(direct);
+        const uint links = ALIVE(slotOf(cell, uint(c)));
+        [[dont_unroll]] for (uint k = 0u; k < 8u; ++k) {
+            const ivec3 d = cornerOf(int(k)) - cornerOf(c);
+            if ((unknown >> k & 1u) != 0u && isAlive(links, d.x, d.y, d.z)) held |= 1u << k;
+        }
     }
     return held;
 }

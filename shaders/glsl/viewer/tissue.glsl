@@ -29,7 +29,8 @@ vec2 floorBelow(vec3 position, vec3 n, float phase) {
 // The color of the pixel that sees a place. `moist`: 1 = wet tissue.
 vec4 shade(vec3 worldPosition, vec3 worldNormal, vec3 albedo, float moist) {
     const vec3 v = normalize(frame.eye.xyz - worldPosition);
-    const vec3 n = normalize(worldNormal) * (gl_FrontFacing ? 1.0 : -1.0);
+    // a triangle that lies turned over in a smooth surface, as slivers beside a cut may, is lit like what is around it
+    const vec3 n = normalize(worldNormal) * (gl_FrontFacing || dot(worldNormal, v) > 0.0 ? 1.0 : -1.0);
     const vec3 l = frame.toLight.xyz;
     const vec3 halfway = normalize(l + v);
     const float nv = max(dot(n, v), 0.02), facing = dot(n, l), nl = max(facing, 0.0);
