@@ -4,6 +4,7 @@
 #include "sim/lattice/batches.hpp"
 #include "sim/surface/lattice_faces.hpp"
 #include "sim/surface/skin_complex.hpp"
+#include "sim/surface/unfold_anchors.hpp"
 
 #include <algorithm>
 
@@ -64,7 +65,8 @@ private:
         bodies_.prisms.insert(bodies_.prisms.end(), complex->prisms.begin(), complex->prisms.end());
         bodies_.vertices.insert(bodies_.vertices.end(), complex->vertices.begin(), complex->vertices.end());
         std::ranges::copy(complex->words, bodies_.complex.begin() + box.origin);
-        const auto pulled = pullAnchors(scene_, grid, box, *complex);
+        Pulled pulled = pullAnchors(scene_, grid, box, *complex);
+        unfoldAnchors(scene_, grid, box, *complex, pulled);
         pulled_.insert(pulled_.end(), pulled.begin(), pulled.end());
         addBody(grid, place.index);
         addRange(box, firstPrism, prisms, firstHung, static_cast<std::uint32_t>(complex->vertices.size()));

@@ -122,8 +122,9 @@ TEST(CutSkin, OfAPlaneIsClosedAndHasItsArea) {
                           {sphere, "generic", {0.2, 0.1, 0.3}, {0.3, -0.4, 1}, 0.01},
                           {sphere, "x = y", {0, 0, 0}, {1, -1, 0}, 0.01},
                           {sphere, "x + y + z = 0", {0, 0, 0}, {1, 1, 1}, 0.01},
-                          {knot, "generic", {0.2, 0.1, 0.3}, {0.3, -0.4, 1}, 0.06},
-                          {organ, "generic", {0.2, 0.1, 0.3}, {1, 0.3, -0.4}, 0.05}};
+                          {knot, "generic", {0.2, 0.1, 0.3}, {0.3, -0.4, 1}, 0.05},
+                          {knot, "along it", {0.1, 0.2, -0.4}, {1, 0.2, 0.3}, 0.05},
+                          {organ, "generic", {0.2, 0.1, 0.3}, {1, 0.3, -0.4}, 0.02}};
     for (const Case& each : cases) {
         CutBody body(sceneOf(each.shape));
         const double spacing = body.spacing();
