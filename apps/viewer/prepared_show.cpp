@@ -11,7 +11,7 @@ namespace sinew::viewer {
 
 namespace {
 
-// With hands for the pointer and its pins: those that hold nothing cost nothing.
+// With hands for the pointer and its pins, and a sphere: what holds and pushes nothing costs nothing.
 sim::Settings fastest(const vk::Device& device, const scenes::LoadedScene& loaded) {
     vk::Queue queue(device);
     sim::Settings settings = loaded.settings;
