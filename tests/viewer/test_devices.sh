@@ -14,37 +14,37 @@ export VK_ICD_FILENAMES=$driver:$folder/other.json
 
 headlines() { grep -c ' on .* (software)$' viewer.out || true; }
 listFrom() { xdotool mousemove 700 44 click 1; } # the list of devices, at the top of the panel
-choose() { # ENTRY: 0 is the first
-    listFrom
-    sleep 1
-    shoot list.png
-    xdotool mousemove 700 $((80 + 38 * $1)) click 1
+choose() { # ENTRY COMMAND: again until the command is true, since on a busy machine a click may come before the list
+    local place=$((80 + 38 * $1))
+    shift
+    for _ in {1..12}; do
+        listFrom
+        sleep 2
+        shoot list.png
+        xdotool mousemove 700 $place click 1
+        for _ in {1..60}; do "$@" && return; sleep 0.1; done
+    done
+    fail "the choice never came to anything: $*"
 }
-awaitHeadlines() { # COUNT
-    for _ in {1..300}; do (($(headlines) >= $1)) && return; sleep 0.1; done
-    fail "there are $(headlines) scenes, not $1"
-}
+hasHeadlines() { (($(headlines) >= $1)); }
 
 echo "devices: both are listed, the scene goes to the other one and back"
 start --device 0
 xdotool windowmove "$window" 0 0
 sleep 2
-choose 1
-awaitHeadlines 2
+choose 1 hasHeadlines 2
 awaitTitle fps
 [[ ! -s viewer.err ]] || fail "something was said on stderr"
-choose 0
-awaitHeadlines 3
+choose 0 hasHeadlines 3
 awaitTitle fps
 
 echo "devices: one that has gone is refused in the window"
 export VK_ICD_FILENAMES=$driver
 rm other.json
-choose 1
-for _ in {1..200}; do [[ -s viewer.err ]] && break; sleep 0.1; done
+choose 1 test -s viewer.err
 shoot refused.png
 grep -q '^warning: no usable Vulkan device is called "1"' viewer.err || fail "nothing was said of a device that has gone"
-[[ $(wc -l <viewer.err) == 1 ]] || fail "more was said on stderr"
+! grep -qv '^warning: no usable Vulkan device' viewer.err || fail "more was said on stderr"
 (($(headlines) == 3)) || fail "another scene was opened"
 : >viewer.err
 awaitTitle fps
