@@ -125,13 +125,13 @@ struct Lattice {
     /// but no substeps, and does nothing to a cell of more than half of its volume; a smaller threshold
     /// leaves crumpled bodies at rest there.
     float recovery = 0;
-    float density = 1000;          ///< [kg/m^3]
-    float radius = 0;              ///< of a particle that others touch [m], at most half of the spacing
-    bool hasBodyDiagonals = false; ///< 26 neighbours instead of 18
-    bool isCuttable = false;       ///< Grid::isCuttable
-    float tearStrain = 0;          ///< Grid::tearStrain
+    float density = 1000;            ///< [kg/m^3]
+    float radius = 0;                ///< of a particle that others touch [m], at most half of the spacing
+    bool hasBodyDiagonals = false;   ///< 26 neighbours instead of 18
+    bool isCuttable = false;         ///< Grid::isCuttable
+    float tearStrain = 0;            ///< Grid::tearStrain
     std::uint32_t tearsPerStep = 16; ///< Grid::tearsPerStep
-    float restVolume = 0;          ///< of the body [m^3]; 0 = sum of fill x cell volume
+    float restVolume = 0;            ///< of the body [m^3]; 0 = sum of fill x cell volume
 };
 
 /// What addLattice made: the particle on each grid corner, or noParticle. Corner (i, j, k) is at

@@ -374,8 +374,10 @@ TEST_F(LoadContacts, ReadsEveryShippedSceneOfContacts) {
 
 // Where something smaller than the holes between its particles collides, or the file asks for them.
 TEST_F(LoadContacts, GivesVoxelBodiesFacesWhereTheyNeedThem) {
-    const std::string touching = box + "collides = true\n", small = "[[particles]]\nradius = 0.02\n",
-                      mesh = "[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\nvoxel = 0.25\ncollides = true\n";
+    const std::string
+        touching = box + "collides = true\n",
+        small = "[[particles]]\nradius = 0.02\n",
+        mesh = "[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\nvoxel = 0.25\ncollides = true\n";
     const auto faces = [&](const std::string& text) { return load(text).scene.faces.size(); };
     const std::size_t all = 2 * 2 * (2 * 3 + 3 * 4 + 4 * 2);
     EXPECT_EQ(faces(touching), 0u);

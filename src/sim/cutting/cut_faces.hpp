@@ -1,7 +1,7 @@
 // Contacts of faces and of their edges on a body that a cut has parted: a face between corners that no
 // longer hang together touches nothing, as its triangle is drawn no more, and neither does an edge of which
-// the link is dead, nor a face of a crumb. Their particles still touch the faces of others. Lists of contacts are made again in the
-// same step.
+// the link is dead, nor a face of a crumb. Their particles still touch the faces of others. Lists of contacts
+// are made again in the same step.
 #pragma once
 
 #include "sim/collision/edge_contacts.hpp"

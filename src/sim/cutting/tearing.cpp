@@ -34,9 +34,9 @@ void addTearingPasses(ProgramBuilder& program, const Tearing& tearing, const Cut
         program.dispatch(isSheet ? k::strainCells : k::strainVoxels, body.push.count,
                          {buffers.links, cut.cells, buffers.places, tearing.strains}, body.push);
         program.dispatch(k::findTears, body.push.count, {tearing.strains, body.found, body.count}, body.push);
-        program.dispatch(isSheet ? k::tearCells : k::tearVoxels, body.push.count,
-                         {buffers.links, buffers.hits, buffers.dirty, tearing.strains, body.found, body.count},
-                         body.push);
+        program.dispatch(
+            isSheet ? k::tearCells : k::tearVoxels, body.push.count,
+            {buffers.links, buffers.hits, buffers.dirty, tearing.strains, body.found, body.count}, body.push);
     }
 }
 

@@ -3,9 +3,9 @@
 // grid lies in the material, as the strain of single links would. A cut that has reached the rim of a cell
 // goes on from there, so tears grow at their ends, where they are stretched most.
 //
-// In every step of such a scene, after the blade: strain_cells (strain_voxels), find_tears (cells beyond the limit that are
-// stretched more than all around them), tear_cells (tear_voxels; the first so many of those in order of strain). From
-// there on a tear is a cut.
+// In every step of such a scene, after the blade: strain_cells (strain_voxels), find_tears (cells beyond the
+// limit that are stretched more than all around them), tear_cells (tear_voxels; the first so many of those in
+// order of strain). From there on a tear is a cut.
 #pragma once
 
 #include "sim/cutting/cut_plan.hpp"
