@@ -1,5 +1,5 @@
-// Which of the faces that never move or are solid, and that a point touches, push it. Inner edges of a flat surface must not: a point over one
-// face is near an edge of the next one too. Needs faces, contacts, directions and push.
+// Which of the faces that a point touches push it, of those that never move or are solid. Inner edges of a flat surface must not: a
+// point over one face is near an edge of the next one too. Needs faces, contacts, directions and push.
 bool isCorner(uint i, ContactFace face) { return i == face.a || i == face.b || i == face.c; }
 
 // Corners of a face between which its nearest place lies, bit k for corner k: all three, or those of an edge or a corner that

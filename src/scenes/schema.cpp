@@ -139,7 +139,7 @@ constexpr Key keys[] = {
     {"box", "pitch", Kind::vector, "m", coordinate, "", "from a box to the next along x, y and z; the side and two spacings where it is missing"},
     {"box", "cuttable", Kind::flag, "", {}, "false", "whether a blade may cut the body"},
     {"box", "tear", Kind::number, "", ranges::tearStrain, "0", "strain beyond which what is cuttable tears, in whichever direction it is stretched; 0 = never"},
-    {"box", "tears_per_step", Kind::count, "cells", ranges::tearsPerStep, "16", "most that tear in a step, those stretched most"},
+    {"box", "tears_per_step", Kind::count, "cells", ranges::tearsPerStep, "16", "most that tear in a step, those that a cut has reached first, then those stretched most"},
     {"box", "color", Kind::vector, "", ranges::color, "[0.78, 0.36, 0.32]", "linear red, green and blue"},
 
     {"mesh", "name", Kind::text, "", {}, "", "name of the body in reports and files; that of the mesh file or shape where it is missing"},
@@ -163,7 +163,7 @@ constexpr Key keys[] = {
     {"mesh", "restitution", Kind::number, "", ranges::restitution, "", "0 = no rebound, 1 = elastic; a pair has the larger of both; that of [contacts] where it is missing"},
     {"mesh", "cuttable", Kind::flag, "", {}, "false", "whether a blade may cut the body"},
     {"mesh", "tear", Kind::number, "", ranges::tearStrain, "0", "strain beyond which what is cuttable tears, in whichever direction it is stretched; 0 = never"},
-    {"mesh", "tears_per_step", Kind::count, "cells", ranges::tearsPerStep, "16", "most that tear in a step, those stretched most"},
+    {"mesh", "tears_per_step", Kind::count, "cells", ranges::tearsPerStep, "16", "most that tear in a step, those that a cut has reached first, then those stretched most"},
     {"mesh", "color", Kind::vector, "", ranges::color, "[0.78, 0.36, 0.32]", "linear red, green and blue"},
 
     {"particles", "name", Kind::text, "", {}, "\"particles\"", "name of the body in reports and files"},

@@ -193,8 +193,8 @@ struct Grid {
     /// Whether a blade may cut its links (Step::blade): keeps which of them are alive, for `split` alone.
     bool isCuttable = false;
     /// A body that may be cut also tears where it is stretched farther than that, in whichever direction: by
-    /// a cut through a cell, across the direction. Of all cells stretched so far at most `tearsPerStep` in a
-    /// step, those stretched most. 0.2 = to 1.2 times its length; 0 = never.
+    /// a cut through a cell, across it. Of all cells stretched so far at most `tearsPerStep` in a step: of
+    /// voxels those that a cut has reached, then those stretched most. 0.2 = to 1.2 times; 0 = never.
     float tearStrain = 0;
     std::uint32_t tearsPerStep = 16;
 };

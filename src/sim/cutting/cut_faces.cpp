@@ -116,10 +116,6 @@ void makeTopology(ProgramBuilder& program, BufferId seen, std::initializer_list<
     }
 }
 
-} // namespace
-
-namespace {
-
 // Of the faces of one run, which `code` looks after.
 template <typename Part, typename PartOf>
 void addFilter(ProgramBuilder& program, const collision::face_lists::Lists& lists, const CutRun& run,

@@ -4,8 +4,8 @@
 // goes on from there, so tears grow at their ends, where they are stretched most.
 //
 // In every step of such a scene, after the blade: strain_cells (strain_voxels), find_tears (cells beyond the
-// limit that are stretched more than all around them), tear_cells (tear_voxels; the first so many of those in
-// order of strain). From there on a tear is a cut.
+// limit that are stretched more than all around them, or in bodies of voxels reached by a cut), tear_cells
+// (tear_voxels; the first so many of those in order of strain). From there on a tear is a cut.
 #pragma once
 
 #include "sim/cutting/cut_plan.hpp"

@@ -333,18 +333,25 @@ TEST(SolidFaces, EndInTheSameBitsForAnyOrderAndMarginAndAfterASavedState) {
     EXPECT_EQ(runner.stateHash(), hashes[0]);
 }
 
+// A cube with a ball on it sleeps until another ball has come down on it.
 TEST(SolidFaces, PutToSleepAndWakeWhatTouchesThem) {
     Scene scene = cube(cubeLattice());
-    scene.damping = 4;
+    scene.damping = 4; // what falls comes to 2.45 m/s
     scene.contacts.friction = 0.6f;
     scene.planes = {{.normal = {0, 1, 0}, .offset = 0, .friction = 0.6f}};
     const std::uint32_t ball = addBall(scene, {0.112f, static_cast<float>(side + reach), 0.12f});
+    const std::uint32_t late = addBall(scene, {0.213f, static_cast<float>(side) + 9, 0.19f});
     test::Runner runner(scene, {.substeps = 16, .sleeps = true});
-    Status status;
-    for (int step = 0; step < 240; ++step) status = runner.run(1);
-    EXPECT_EQ(status.sleeping, scene.particles.size());
+    const auto others = static_cast<std::uint32_t>(scene.particles.size() - 1);
+    EXPECT_EQ(runner.run(200).sleeping, others);
     const auto asleep = runner.positions();
-    EXPECT_EQ((runner.run(10), runner.positions()[ball]), asleep[ball]);
+    runner.run(4);
+    EXPECT_EQ(runner.positions()[ball], asleep[ball]);
+    EXPECT_GT(asleep[late].y(), side + 0.1) << "still on its way";
+    std::uint32_t least = others;
+    for (int step = 0; step < 60; ++step) least = std::min(least, runner.run(1).sleeping);
+    EXPECT_EQ(least, 0u) << "the cube and what lies on it";
+    EXPECT_NEAR(runner.positions()[late].y(), side + reach, 0.01);
 }
 
 // Both halves of a cut cube part: a ball falls between them where it lay on their faces before.
@@ -371,20 +378,21 @@ TEST(SolidFaces, AreGoneWhereABladeHasPartedThem) {
     }
 }
 
-// The faces of a corner that was removed leave with it, and are back after an undo.
+// The faces of a corner that was removed leave with it, and are back after an undo: also those whose links
+// are all alive.
 TEST(SolidFaces, OfCrumbsLeaveWithThem) {
     for (const bool isUndone : {false, true}) {
         Lattice lattice = cubeLattice();
         lattice.isCuttable = true;
         Scene scene = cube(lattice);
         scene.gravity = {};
-        scene.crumbs = 10;
+        scene.crumbs = 11; // the corner has ten
         const Vec3 start{-0.1f, -0.1f, -0.1f};
         const std::uint32_t ball = addBall(scene, start, {1, 1, 1}, 1e-6f);
         CutBody body(scene, {.substeps = 16, .contactRoom = 64});
         const vk::Buffer whole = body.runner().saveTopology();
         const Vector3d diagonal = Vector3d::Ones().normalized();
-        body.cut(sweepOf({Vector3d::Constant(0.45 * double{spacing}), diagonal}, 1));
+        body.cut(sweepOf({Vector3d::Constant(0.783 * double{spacing}), diagonal}, 1));
         if (isUndone) body.runner().loadTopology(whole);
         double farthest = -1;
         for (int step = 0; step < 12; ++step) {
@@ -392,7 +400,7 @@ TEST(SolidFaces, OfCrumbsLeaveWithThem) {
             farthest = std::max(farthest, body.runner().positions()[ball].dot(diagonal));
         }
         const double tip = -reach, // in front of the corner at (0, 0, 0)
-            cutOff = 0.45 * double{spacing} * std::sqrt(3.0);
+            cutOff = 0.783 * double{spacing} * std::sqrt(3.0);
         std::printf("%s: the ball came to %.4f along the diagonal\n", isUndone ? "undone" : "removed",
                     farthest);
         if (isUndone)
