@@ -201,7 +201,7 @@ TEST(CutSheet, ThatIsListedComesBackWithAnUndoneStepAndWithTheTopology) {
     EXPECT_EQ(listOf<std::uint32_t>(body, bends), cutBends);
 }
 
-TEST(CutSheet, IsRefusedForOtherSolversAndTearingForWhatIsNoSheet) {
+TEST(CutSheet, IsRefusedForOtherSolversAndTearingForWhatMayNotBeCut) {
     const auto complaint = [](const Scene& scene, const Settings& settings = {}) {
         const auto complaints = validate(scene, settings);
         return complaints.empty() ? std::string("none") : complaints.front();
