@@ -180,41 +180,6 @@ awaitTitle 'pieces'
 keys space
 awaitTitle paused
 
-echo "window: a sphere pokes the block, and moves it"
-keys space
-awaitTitle fps
-keys o
-awaitTitle poke
-keys f
-sleep 1
-shoot unpoked.png
-read -r now height < <(rows unpoked.png)
-xdotool mousemove 180 $((now + height / 2)) mousedown 1
-sleep 0.5
-for _ in {1..16}; do xdotool mousemove_relative -- 10 0; sleep 0.1; done
-orange() { # FILE: pixels of the sphere, yellower than the block and the ground
-    convert "$1" -colorspace sRGB -color-matrix "-0.7 1 0 0.6 0 -1 0 0 0" -channel R -threshold 0 -channel G -threshold 0 \
-        +channel -separate -delete 2 -compose multiply -composite -format '%[fx:round(mean*w*h)]' info:
-}
-for _ in {1..30}; do
-    shoot poking.png
-    (($(orange poking.png) > 100)) && break
-    sleep 0.3
-done
-(($(orange poking.png) > 100)) || fail "the sphere is not seen: $(orange poking.png) pixels of it"
-xdotool mouseup 1
-for _ in {1..30}; do
-    shoot poked.png
-    (($(orange poked.png) < 30)) && break
-    sleep 0.3
-done
-(($(orange poked.png) < 30)) || fail "the sphere was not lifted: $(orange poked.png) pixels of it"
-keys o
-for _ in {1..100}; do [[ $(title) != *poke* ]] && break; sleep 0.1; done
-[[ $(title) != *poke* ]] || fail "O does not put the sphere away"
-keys space
-awaitTitle paused
-
 echo "window: what hands did leads to the same state without a window"
 keys F8
 for _ in {1..100}; do grep -q '^input: ' viewer.out && break; sleep 0.1; done
