@@ -19,6 +19,8 @@ PURE_VK = {"vk/spirv.hpp"}  # includes no Vulkan header
 MESH_MAY_USE_SIM = {"sim/scene.hpp", "sim/bodies.hpp"}
 MESH_ON_DEVICE = "src/mesh/gpu/"  # the only part of mesh that sees Vulkan
 GPU_MAY_USE_SIM = MESH_MAY_USE_SIM | {"sim/program.hpp"}  # passes and their barriers
+# The rooms of the viewer, the same way; what stands beside them may include all.
+VIEWER_ROOMS = ["draw", "hands", "panels", "window", "pictures"]
 LIMITS = {".cpp": 600, ".hpp": 600, ".h": 600, ".comp": 150, ".glsl": 150, ".vert": 150, ".frag": 150}
 INCLUDE = re.compile(r'^\s*#\s*include\s+[<"]([^>"]+)[>"]', re.M)
 STAGES = re.compile(r"vkCmdPipelineBarrier|VK_PIPELINE_STAGE_|VK_ACCESS_")
@@ -29,6 +31,14 @@ def complaints(path, text):
     lines = text.count("\n")
     if lines > LIMITS[path.suffix]:
         yield f"{name}: {lines} lines, at most {LIMITS[path.suffix]}"
+    if name.startswith("apps/viewer/") and name.split("/")[2] in VIEWER_ROOMS:
+        room = VIEWER_ROOMS.index(name.split("/")[2])
+        for include in INCLUDE.findall(text):
+            parts = include.split("/")
+            if include.endswith(".h"):  # shared with the kernels
+                continue
+            if parts[0] == "viewer" and (parts[1] not in VIEWER_ROOMS or VIEWER_ROOMS.index(parts[1]) > room):
+                yield f"{name}: {VIEWER_ROOMS[room]} must not include {include}"
     if not name.startswith("src/"):
         return
     layer = name.split("/")[1]

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "viewer/options.hpp"
-#include "viewer/window.hpp"
+#include "viewer/window/window.hpp"
 #include "vk/loader.hpp"
 
 #include <atomic>

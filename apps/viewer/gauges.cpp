@@ -2,7 +2,7 @@
 #include "viewer/gauges.hpp"
 
 #include "sim/compile.hpp"
-#include "viewer/renderer.hpp"
+#include "viewer/draw/renderer.hpp"
 
 #include <algorithm>
 #include <cmath>

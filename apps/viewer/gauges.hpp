@@ -2,9 +2,9 @@
 #pragma once
 
 #include "layout.h"
-#include "viewer/facts.hpp"
+#include "viewer/draw/stage.hpp"
 #include "viewer/opening.hpp"
-#include "viewer/stage.hpp"
+#include "viewer/panels/facts.hpp"
 
 namespace sinew::viewer {
 

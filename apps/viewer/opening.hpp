@@ -1,11 +1,11 @@
 // What a window and a headless run begin with: the scene, the first view of it, its light.
 #pragma once
 
-#include "viewer/facts.hpp"
-#include "viewer/input_log.hpp"
+#include "viewer/draw/png.hpp"
+#include "viewer/draw/stage_light.hpp"
+#include "viewer/hands/input_log.hpp"
 #include "viewer/options.hpp"
-#include "viewer/png.hpp"
-#include "viewer/stage_light.hpp"
+#include "viewer/panels/facts.hpp"
 #include "vk/device.hpp"
 
 #include <atomic>

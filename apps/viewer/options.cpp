@@ -4,7 +4,7 @@
 #include "app/guard.hpp"
 #include "sim/compile.hpp"
 #include "sim/ranges.hpp"
-#include "viewer/bindings.hpp"
+#include "viewer/hands/bindings.hpp"
 
 #include <CLI/CLI.hpp>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scenes/load.hpp"
-#include "viewer/layers.hpp"
+#include "viewer/draw/layers.hpp"
 
 #include <vulkan/vulkan_core.h>
 

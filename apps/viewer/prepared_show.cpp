@@ -3,8 +3,8 @@
 
 #include "sim/gpu_tune.hpp"
 #include "sim/ranges.hpp"
+#include "viewer/draw/image.hpp"
 #include "viewer/gauges.hpp"
-#include "viewer/image.hpp"
 #include "vk/queue.hpp"
 
 namespace sinew::viewer {

@@ -2,13 +2,13 @@
 // while another one is on show, so that nothing waits for it and the two share nothing.
 #pragma once
 
-#include "viewer/canvas.hpp"
-#include "viewer/facts.hpp"
+#include "viewer/draw/canvas.hpp"
+#include "viewer/draw/renderer.hpp"
+#include "viewer/draw/stage.hpp"
 #include "viewer/opening.hpp"
-#include "viewer/panel_painter.hpp"
-#include "viewer/presenter.hpp"
-#include "viewer/renderer.hpp"
-#include "viewer/stage.hpp"
+#include "viewer/panels/facts.hpp"
+#include "viewer/panels/panel_painter.hpp"
+#include "viewer/window/presenter.hpp"
 
 #include <optional>
 

@@ -3,8 +3,8 @@
 
 #include "app/guard.hpp"
 #include "app/hash.hpp"
-#include "viewer/stage.hpp"
-#include "viewer/state_probe.hpp"
+#include "viewer/draw/stage.hpp"
+#include "viewer/hands/state_probe.hpp"
 #include "viewer/tools.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Plays a log of input: what hands did before each step goes to the tools again.
 #pragma once
 
-#include "viewer/input_log.hpp"
+#include "viewer/hands/input_log.hpp"
 #include "viewer/options.hpp"
 #include "vk/queue.hpp"
 

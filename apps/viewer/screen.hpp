@@ -2,10 +2,10 @@
 // scenes. Each scene brings its own place to draw in.
 #pragma once
 
-#include "viewer/panels.hpp"
-#include "viewer/preferences.hpp"
+#include "viewer/panels/panels.hpp"
 #include "viewer/prepared_show.hpp"
-#include "viewer/timing.hpp"
+#include "viewer/window/preferences.hpp"
+#include "viewer/window/timing.hpp"
 
 #include <chrono>
 

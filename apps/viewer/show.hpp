@@ -3,23 +3,23 @@
 // the rest beside it: show_input, show_flights, show_pictures, show_replay.
 #pragma once
 
-#include "viewer/controller.hpp"
 #include "viewer/devices.hpp"
+#include "viewer/draw/offscreen.hpp"
+#include "viewer/draw/stage.hpp"
 #include "viewer/gauges.hpp"
-#include "viewer/inspection.hpp"
-#include "viewer/inspector.hpp"
+#include "viewer/hands/controller.hpp"
+#include "viewer/hands/inspection.hpp"
+#include "viewer/hands/inspector.hpp"
+#include "viewer/hands/state_probe.hpp"
 #include "viewer/library.hpp"
-#include "viewer/offscreen.hpp"
 #include "viewer/opening.hpp"
-#include "viewer/picture_writer.hpp"
+#include "viewer/pictures/picture_writer.hpp"
+#include "viewer/pictures/recording.hpp"
 #include "viewer/prepared_show.hpp"
-#include "viewer/recording.hpp"
 #include "viewer/replay.hpp"
 #include "viewer/screen.hpp"
-#include "viewer/stage.hpp"
-#include "viewer/state_probe.hpp"
-#include "viewer/status_line.hpp"
 #include "viewer/tools.hpp"
+#include "viewer/window/status_line.hpp"
 #include "vk/timestamps.hpp"
 
 #include <chrono>

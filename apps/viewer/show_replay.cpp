@@ -3,7 +3,7 @@
 
 #include "app/guard.hpp"
 #include "mesh/export.hpp"
-#include "viewer/preferences.hpp"
+#include "viewer/window/preferences.hpp"
 #include "vk/queue.hpp"
 
 #include <cstdio>

@@ -1,7 +1,7 @@
 // One pointer, three tools: the left button belongs to the one that is out.
 #include "viewer/tools.hpp"
 
-#include "viewer/controller.hpp"
+#include "viewer/hands/controller.hpp"
 #include "viewer/opening.hpp"
 #include "vk/check.hpp"
 

@@ -2,14 +2,14 @@
 // be undone.
 #pragma once
 
-#include "viewer/cut_tool.hpp"
-#include "viewer/grab_tool.hpp"
-#include "viewer/history.hpp"
-#include "viewer/input_log.hpp"
-#include "viewer/pins.hpp"
-#include "viewer/poke_tool.hpp"
-#include "viewer/stage.hpp"
-#include "viewer/window.hpp"
+#include "viewer/draw/stage.hpp"
+#include "viewer/hands/cut_tool.hpp"
+#include "viewer/hands/grab_tool.hpp"
+#include "viewer/hands/history.hpp"
+#include "viewer/hands/input_log.hpp"
+#include "viewer/hands/pins.hpp"
+#include "viewer/hands/poke_tool.hpp"
+#include "viewer/window/window.hpp"
 
 #include <utility>
 

@@ -1,8 +1,8 @@
 // What shows bodies without a skin. No device is needed.
-#include "viewer/balls.hpp"
+#include "viewer/draw/balls.hpp"
 
 #include "sim/bodies.hpp"
-#include "viewer/geometry.hpp"
+#include "viewer/draw/geometry.hpp"
 
 #include <gtest/gtest.h>
 

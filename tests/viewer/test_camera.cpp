@@ -1,5 +1,5 @@
 // The camera's motions, checked through the matrix that the shaders use.
-#include "viewer/camera.hpp"
+#include "viewer/draw/camera.hpp"
 
 #include <gtest/gtest.h>
 

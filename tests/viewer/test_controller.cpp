@@ -1,5 +1,5 @@
 // The table of bindings and what actions do, without a window.
-#include "viewer/controller.hpp"
+#include "viewer/hands/controller.hpp"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>

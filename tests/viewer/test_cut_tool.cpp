@@ -1,5 +1,5 @@
 // Strokes of the pointer as sweeps of a blade, without a device.
-#include "viewer/cut_tool.hpp"
+#include "viewer/hands/cut_tool.hpp"
 
 #include <gtest/gtest.h>
 

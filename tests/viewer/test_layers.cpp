@@ -1,7 +1,7 @@
 // Layers: their names and colors, the tables behind color maps, and what the device makes of them, under
 // validation.
-#include "viewer/inspection.hpp"
-#include "viewer/stage.hpp"
+#include "viewer/draw/stage.hpp"
+#include "viewer/hands/inspection.hpp"
 
 #include "sim/bodies.hpp"
 #include "support/device.hpp"

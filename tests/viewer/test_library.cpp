@@ -2,7 +2,7 @@
 #include "viewer/library.hpp"
 
 #include "mesh/import.hpp"
-#include "viewer/recording.hpp"
+#include "viewer/pictures/recording.hpp"
 
 #include <gtest/gtest.h>
 

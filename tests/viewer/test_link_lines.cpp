@@ -1,8 +1,8 @@
 // Links in the colors of their classes: which ones the solver corrects together, and what the device draws of
 // them, under validation.
-#include "viewer/inspection.hpp"
-#include "viewer/offscreen.hpp"
-#include "viewer/stage.hpp"
+#include "viewer/draw/offscreen.hpp"
+#include "viewer/draw/stage.hpp"
+#include "viewer/hands/inspection.hpp"
 
 #include "sim/bodies.hpp"
 #include "sim/compile.hpp"

@@ -1,7 +1,7 @@
 // Panels over a picture, drawn under core, synchronisation and queue-submit validation.
-#include "viewer/offscreen.hpp"
-#include "viewer/panels.hpp"
-#include "viewer/stage.hpp"
+#include "viewer/draw/offscreen.hpp"
+#include "viewer/draw/stage.hpp"
+#include "viewer/panels/panels.hpp"
 
 #include "sim/bodies.hpp"
 #include "support/device.hpp"

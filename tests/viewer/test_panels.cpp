@@ -1,5 +1,5 @@
 // The panels without a device: what a pointer does in them, and what belongs to them.
-#include "viewer/panels.hpp"
+#include "viewer/panels/panels.hpp"
 
 #include <gtest/gtest.h>
 #include <imgui.h>

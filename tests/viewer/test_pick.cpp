@@ -1,6 +1,6 @@
 // What lies under the pointer, and what the hand makes of it.
-#include "viewer/grab_tool.hpp"
-#include "viewer/inspector.hpp"
+#include "viewer/hands/grab_tool.hpp"
+#include "viewer/hands/inspector.hpp"
 
 #include "sim/bodies.hpp"
 

@@ -1,10 +1,10 @@
 // Pictures of small scenes, drawn under core, synchronisation and queue-submit validation (support/device.hpp
 // makes every message a failure).
-#include "viewer/collider_meshes.hpp"
-#include "viewer/inspection.hpp"
-#include "viewer/offscreen.hpp"
-#include "viewer/stage.hpp"
-#include "viewer/state_probe.hpp"
+#include "viewer/draw/collider_meshes.hpp"
+#include "viewer/draw/offscreen.hpp"
+#include "viewer/draw/stage.hpp"
+#include "viewer/hands/inspection.hpp"
+#include "viewer/hands/state_probe.hpp"
 
 #include "sim/bodies.hpp"
 #include "sim/colliders.hpp"

@@ -1,7 +1,7 @@
 // Pins: what they hold stays where it is while the rest falls, and what is taken out falls after it.
-#include "viewer/pins.hpp"
-#include "viewer/stage.hpp"
-#include "viewer/state_probe.hpp"
+#include "viewer/draw/stage.hpp"
+#include "viewer/hands/pins.hpp"
+#include "viewer/hands/state_probe.hpp"
 
 #include "sim/bodies.hpp"
 #include "support/device.hpp"

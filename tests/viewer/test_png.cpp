@@ -1,6 +1,6 @@
 // PNG files come back as they went out, with their text; a video needs ffmpeg and leaves nothing half done.
-#include "viewer/picture_writer.hpp"
-#include "viewer/video.hpp"
+#include "viewer/pictures/picture_writer.hpp"
+#include "viewer/pictures/video.hpp"
 
 #include "app/guard.hpp"
 #include "mesh/export.hpp"

@@ -1,9 +1,9 @@
 // The sphere of the pointer: where it goes, without a device; that it pushes what is under it and is drawn
 // there.
-#include "viewer/offscreen.hpp"
-#include "viewer/poke_tool.hpp"
-#include "viewer/stage.hpp"
-#include "viewer/state_probe.hpp"
+#include "viewer/draw/offscreen.hpp"
+#include "viewer/draw/stage.hpp"
+#include "viewer/hands/poke_tool.hpp"
+#include "viewer/hands/state_probe.hpp"
 
 #include "sim/bodies.hpp"
 #include "support/device.hpp"

@@ -1,5 +1,5 @@
 // Settings kept from run to run: what is written is read back, and what nobody understands harms nobody.
-#include "viewer/preferences.hpp"
+#include "viewer/window/preferences.hpp"
 
 #include <gtest/gtest.h>
 

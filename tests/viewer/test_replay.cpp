@@ -4,9 +4,9 @@
 
 #include "app/guard.hpp"
 #include "support/device.hpp"
-#include "viewer/controller.hpp"
+#include "viewer/hands/controller.hpp"
+#include "viewer/hands/state_probe.hpp"
 #include "viewer/opening.hpp"
-#include "viewer/state_probe.hpp"
 #include "viewer/tools.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Bounds of the stage, and that the light's maps cover what they must.
-#include "viewer/stage_light.hpp"
+#include "viewer/draw/stage_light.hpp"
 
 #include "sim/bodies.hpp"
 

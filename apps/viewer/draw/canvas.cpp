@@ -1,0 +1,28 @@
+// Images in the order that RenderPass::picture lists its attachments.
+#include "viewer/draw/canvas.hpp"
+
+namespace sinew::viewer {
+
+Canvas::Canvas(const vk::Device& device, const RenderPass& pass, const CanvasFormat& format,
+               VkExtent2D extent, std::span<const VkImageView> pictures)
+    : extent_(extent) {
+    images_.emplace_back(device, ImageRequest{.name = "canvas.depth",
+                                              .extent = extent,
+                                              .format = format.depth,
+                                              .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+                                              .samples = format.samples});
+    const bool isResolved = format.samples != VK_SAMPLE_COUNT_1_BIT;
+    if (isResolved)
+        images_.emplace_back(device, ImageRequest{.name = "canvas.color",
+                                                  .extent = extent,
+                                                  .format = format.color,
+                                                  .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
+                                                  .samples = format.samples});
+    for (const VkImageView picture : pictures) {
+        std::vector<VkImageView> views{isResolved ? images_[1].view() : picture, images_[0].view()};
+        if (isResolved) views.push_back(picture);
+        framebuffers_.emplace_back(device, pass.handle(), views, extent, "canvas.framebuffer");
+    }
+}
+
+} // namespace sinew::viewer

@@ -1,0 +1,172 @@
+// A kernel over all particles and one over all edges; walls are written by the host, since their poses are
+// there.
+#include "viewer/draw/contact_marks.hpp"
+
+#include "layout.h"
+#include "sim/compile.hpp"
+#include "viewer/draw/balls.hpp"
+#include "viewer/draw/mesh_buffer.hpp"
+#include "viewer/draw/value_maps.hpp"
+#include "viewer_shaders.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace sinew::viewer {
+
+namespace {
+
+constexpr std::uint32_t mostMarks = 1 << 15;
+constexpr float nearness = 0.02f; // in radii
+constexpr HandMesh::Shape shape{.sides = 5, .cuts = 0};
+
+std::vector<layout::MarkParticle> markParticles(const sim::Scene& scene, const sim::StateLayout& state) {
+    const BallList balls = allBallsOf(scene);
+    std::vector<layout::MarkParticle> particles;
+    for (std::size_t i = 0; i < scene.particles.size(); ++i)
+        particles.push_back({state.slot[i], scene.particles[i].contactOffset,
+                             balls.radii.empty() ? 0 : nearness * balls.radii[i]});
+    return particles;
+}
+
+std::uint32_t wallCount(const sim::Scene& scene) {
+    return static_cast<std::uint32_t>(scene.planes.size() + scene.colliders.size());
+}
+
+layout::MarkWall wallOf(const sim::Plane& plane) {
+    return {.core = {plane.normal.x, plane.normal.y, plane.normal.z, plane.offset},
+            .position = {0, 0, 0, 1},
+            .rotation = {0, 0, 0, 1}};
+}
+
+layout::MarkWall wallOf(const sim::Collider& collider, const sim::Pose& pose) {
+    const sim::Vec3 &x = pose.position, &e = collider.halfExtents;
+    const sim::Quaternion& q = pose.rotation;
+    layout::MarkWall wall{.core = {}, .position = {x.x, x.y, x.z, 0}, .rotation = {q.x, q.y, q.z, q.w}};
+    if (collider.shape == sim::ColliderShape::box)
+        wall.core = {e.x, e.y, e.z, collider.margin};
+    else
+        wall.core = {0, collider.shape == sim::ColliderShape::capsule ? collider.halfLength : 0, 0,
+                     collider.radius + collider.margin};
+    return wall;
+}
+
+} // namespace
+
+ContactMarks::ContactMarks(const vk::Device& device, const sim::Scene& scene, const sim::Settings& settings,
+                           const sim::Simulation& simulation, std::uint32_t slots, Room room)
+    : device_(device), scene_(scene),
+      simulation_(simulation), push_{.count = static_cast<std::uint32_t>(scene.particles.size()),
+                                     .walls = wallCount(scene),
+                                     .firstWall = 0,
+                                     .pairRow = simulation.program().contacts.pairRow,
+                                     .faceRow = simulation.program().contacts.faceRow,
+                                     .room = room == Room::many ? mostMarks : 1,
+                                     .edges = simulation.program().contacts.edgeCount,
+                                     .edgeRow = simulation.program().contacts.edgeRow,
+                                     .only = NO_PARTICLE},
+      mesh_(device, shape),
+      particles_(filledBuffer(device, "marks.particles",
+                              markParticles(scene, sim::stateLayout(scene, settings)), 0)),
+      bySlot_(filledBuffer(device, "marks.by_slot", particlesBySlot(sim::stateLayout(scene, settings)), 0)),
+      walls_(device, {.name = "marks.walls",
+                      .count = VkDeviceSize{slots} * wallCount(scene),
+                      .stride = sizeof(layout::MarkWall),
+                      .kind = vk::MemoryKind::upload}),
+      nothing_(device, {.name = "marks.nothing", .count = 4, .stride = 4}),
+      marks_(device, {.name = "marks",
+                      .count = push_.room,
+                      .stride = sizeof(layout::ContactMark),
+                      .usage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT}),
+      draw_(device, {.name = "marks.draw",
+                     .count = 1,
+                     .stride = sizeof(layout::MarkDraw),
+                     .usage = VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT}),
+      draws_(device, {.name = "marks.draws",
+                      .count = slots,
+                      .stride = sizeof(layout::MarkDraw),
+                      .kind = vk::MemoryKind::readback}),
+      kernel_(device, shaders::markContacts, {}), ofEdges_(device, shaders::markEdges, {}),
+      sets_(bindingSets()) {}
+
+// What a scene has no lists of is never read.
+vk::BindingSets ContactMarks::bindingSets() const {
+    const sim::ContactBuffers& lists = simulation_.program().contacts;
+    const auto viewOf = [&](sim::BufferId id, std::uint32_t stride) {
+        vk::BufferView view = simulation_.view(id);
+        if (view.size > 0) return view;
+        view = nothing_.view();
+        view.stride = stride;
+        return view;
+    };
+    std::vector<vk::BindingRequest> requests{
+        {&kernel_,
+         {simulation_.positions(), particles_.view(), bySlot_.view(), walls_.view(), viewOf(lists.pairs, 8),
+          viewOf(lists.pairCounts, 4), viewOf(lists.faces, 16), viewOf(lists.facePairs, 8),
+          viewOf(lists.faceCounts, 4), marks_.view(), draw_.view()}}};
+    if (push_.edges > 0)
+        requests.push_back({&ofEdges_,
+                            {simulation_.positions(), bySlot_.view(), simulation_.view(lists.edges),
+                             simulation_.view(lists.edgePairs), simulation_.view(lists.edgeCounts),
+                             marks_.view(), draw_.view()}});
+    return {device_, requests};
+}
+
+void ContactMarks::dispatch(vk::Commands& commands, const vk::Kernel& kernel, std::size_t set,
+                            const layout::MarkPush& push, std::uint32_t items) const noexcept {
+    commands.bind(kernel, sets_[set]);
+    commands.push(kernel, &push, sizeof push);
+    commands.dispatch((items + GROUP_ITEMS - 1) / GROUP_ITEMS);
+}
+
+void ContactMarks::writeWalls(std::uint32_t slot) const noexcept {
+    auto* wall = reinterpret_cast<layout::MarkWall*>(walls_.mapped()) + std::size_t{slot} * push_.walls;
+    for (const sim::Plane& plane : scene_.planes) *wall++ = wallOf(plane);
+    const std::span<const sim::Pose> poses = simulation_.colliderPoses();
+    for (std::size_t c = 0; c < scene_.colliders.size(); ++c)
+        *wall++ = wallOf(scene_.colliders[c], c < poses.size() ? poses[c] : scene_.colliders[c].pose);
+}
+
+void ContactMarks::record(VkCommandBuffer commands, std::uint32_t slot) const noexcept {
+    record(commands, slot, push_, push_.count);
+}
+
+void ContactMarks::recordOf(VkCommandBuffer commands, std::uint32_t slot,
+                            std::uint32_t particle) const noexcept {
+    layout::MarkPush push = push_;
+    push.only = particle;
+    record(commands, slot, push, 1);
+}
+
+void ContactMarks::record(VkCommandBuffer handle, std::uint32_t slot, layout::MarkPush push,
+                          std::uint32_t items) const noexcept {
+    writeWalls(slot);
+    push.firstWall = slot * push.walls;
+    const layout::MarkDraw empty{mesh_.indexCount(), 0, 0, 0, 0, 0, 0, 0};
+    vk::BufferView read = draws_.view();
+    read.offset += VkDeviceSize{slot} * read.stride;
+    read.size = read.stride;
+    vk::Commands commands(device_, handle);
+    commands.beginLabel("contacts");
+    commands.beginStep();
+    commands.update(draw_.view(), &empty, sizeof empty);
+    commands.barrier();
+    dispatch(commands, kernel_, 0, push, items);
+    commands.barrier();
+    if (push.edges > 0) {
+        dispatch(commands, ofEdges_, 1, push, push.edges);
+        commands.barrier();
+    }
+    commands.copy(draw_.view(), read);
+    commands.endStep();
+    commands.hostBarrier();
+    commands.endLabel();
+}
+
+std::uint32_t ContactMarks::found(std::uint32_t slot) const noexcept {
+    layout::MarkDraw draw;
+    std::memcpy(&draw, draws_.mapped() + slot * sizeof draw, sizeof draw);
+    return draw.found;
+}
+
+} // namespace sinew::viewer

@@ -1,0 +1,67 @@
+// A tube of twelve sides and a ball in one list.
+#include "viewer/draw/hand_mesh.hpp"
+
+#include "viewer/draw/balls.hpp"
+#include "viewer/draw/mesh_buffer.hpp"
+
+#include <cmath>
+
+namespace sinew::viewer {
+
+namespace {
+
+using Corner = std::array<float, 4>; // rope: across, across, along, 0; ball: corner, 1
+
+struct Mesh {
+    std::vector<Corner> corners;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+Mesh makeMesh(const HandMesh::Shape& shape) {
+    const std::uint32_t sides = shape.sides;
+    const BallMesh ball = makeBall(shape.cuts);
+    Mesh mesh{ball.corners, ball.triangles};
+    for (Corner& corner : mesh.corners) corner[3] = 1;
+    const auto first = static_cast<std::uint32_t>(mesh.corners.size());
+    for (std::uint32_t side = 0; side < sides; ++side) {
+        const float angle = 6.2831853f * static_cast<float>(side) / static_cast<float>(sides);
+        for (const float along : {0.0f, 1.0f})
+            mesh.corners.push_back({std::cos(angle), std::sin(angle), along, 0});
+        const std::uint32_t a = first + 2 * side, b = first + 2 * ((side + 1) % sides);
+        mesh.triangles.push_back({a, b, b + 1});
+        mesh.triangles.push_back({a, b + 1, a + 1});
+    }
+    return mesh;
+}
+
+} // namespace
+
+HandMesh::HandMesh(const vk::Device& device, const Shape& shape)
+    : device_(device), vertices_(filledBuffer(device, "hand.vertices", makeMesh(shape).corners,
+                                              VK_BUFFER_USAGE_VERTEX_BUFFER_BIT)),
+      indices_(
+          filledBuffer(device, "hand.indices", makeMesh(shape).triangles, VK_BUFFER_USAGE_INDEX_BUFFER_BIT)),
+      indexCount_(static_cast<std::uint32_t>(3 * indices_.count())) {}
+
+void HandMesh::draw(VkCommandBuffer commands, const vk::BufferView& points,
+                    std::uint32_t first) const noexcept {
+    bind(commands, points);
+    device_.functions().vkCmdDrawIndexed(commands, indexCount_, 1, 0, 0, first);
+}
+
+void HandMesh::drawIndirect(VkCommandBuffer commands, const vk::BufferView& points,
+                            const vk::BufferView& draw) const noexcept {
+    bind(commands, points);
+    device_.functions().vkCmdDrawIndexedIndirect(commands, draw.buffer, draw.offset, 1, draw.stride);
+}
+
+void HandMesh::bind(VkCommandBuffer commands, const vk::BufferView& points) const noexcept {
+    const vk::BufferView vertices = vertices_.view(), indices = indices_.view();
+    const std::array buffers{vertices.buffer, points.buffer};
+    const std::array offsets{vertices.offset, points.offset};
+    const vk::DeviceFunctions& functions = device_.functions();
+    functions.vkCmdBindVertexBuffers(commands, 0, buffers.size(), buffers.data(), offsets.data());
+    functions.vkCmdBindIndexBuffer(commands, indices.buffer, indices.offset, VK_INDEX_TYPE_UINT32);
+}
+
+} // namespace sinew::viewer

@@ -1,0 +1,126 @@
+// Classes are the solver's own: the coloring is a pure function of the scene.
+#include "viewer/draw/link_lines.hpp"
+
+#include "layout.h"
+#include "sim/coloring.hpp"
+#include "sim/compile.hpp"
+#include "viewer/draw/mesh_buffer.hpp"
+#include "viewer/draw/value_maps.hpp"
+#include "viewer_shaders.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace sinew::viewer {
+
+namespace {
+
+constexpr std::array<float, 3> still{0.22f, 0.22f, 0.22f};  // of links that nobody corrects
+constexpr std::array<float, 3> atOnce{0.03f, 0.05f, 0.10f}; // where there are no classes
+
+std::string noteOf(sim::Solver solver, std::size_t classes) {
+    if (solver == sim::Solver::gaussSeidel)
+        return std::to_string(classes) +
+               " classes, one after another; no two links of one share a particle that "
+               "moves";
+    if (solver == sim::Solver::split)
+        return "split has no classes: every particle adds up all of its links at once, from where the others "
+               "were before";
+    return "jacobi has no classes: all links are corrected at once, and each particle takes the mean";
+}
+
+// Class by class, then the rest; `slots` of the particles in the solver's state.
+std::vector<layout::LineLink> lineLinks(const sim::Scene& scene, const LinkClasses& classes,
+                                        std::span<const std::uint32_t> slots) {
+    std::vector<std::uint32_t> order = classes.order;
+    std::vector<bool> isListed(scene.distances.size());
+    for (const std::uint32_t d : order) isListed[d] = true;
+    for (std::uint32_t d = 0; d < scene.distances.size(); ++d)
+        if (!isListed[d]) order.push_back(d);
+    std::vector<layout::LineLink> links;
+    links.reserve(order.size());
+    for (const std::uint32_t d : order) {
+        const sim::DistanceConstraint& link = scene.distances[d];
+        links.push_back({link.a, link.b, slots[link.a], linkBits(scene, d).ofA});
+    }
+    if (links.empty()) links.emplace_back(); // no buffer is empty
+    return links;
+}
+
+std::vector<LinkLines::Range> rangesOf(const LinkClasses& classes, std::uint32_t links) {
+    std::vector<LinkLines::Range> ranges;
+    std::uint32_t first = 0;
+    for (const std::uint32_t end : classes.ends) {
+        ranges.push_back(
+            {2 * first, 2 * (end - first), classes.count() > 1 ? classColor(ranges.size()) : atOnce});
+        first = end;
+    }
+    if (first < links) ranges.push_back({2 * first, 2 * (links - first), still});
+    return ranges;
+}
+
+} // namespace
+
+LinkClasses linkClasses(const sim::Scene& scene, sim::Solver solver) {
+    const std::vector<float> inverseMasses = sim::inverseMasses(scene);
+    LinkClasses classes;
+    if (solver == sim::Solver::gaussSeidel) {
+        sim::Coloring coloring = sim::colorByParticles(scene, inverseMasses);
+        classes.order = std::move(coloring.order);
+        classes.ends = std::move(coloring.ends);
+    } else {
+        for (std::uint32_t d = 0; d < scene.distances.size(); ++d)
+            if (inverseMasses[scene.distances[d].a] > 0 || inverseMasses[scene.distances[d].b] > 0)
+                classes.order.push_back(d);
+        if (!classes.order.empty()) classes.ends = {static_cast<std::uint32_t>(classes.order.size())};
+    }
+    classes.note = noteOf(solver, classes.count());
+    return classes;
+}
+
+LinkLines::LinkLines(const vk::Device& device, const sim::Scene& scene, const sim::Settings& settings,
+                     const sim::Simulation& simulation)
+    : LinkLines(device, scene, simulation, linkClasses(scene, settings.solver),
+                sim::stateLayout(scene, settings).slot) {}
+
+LinkLines::LinkLines(const vk::Device& device, const sim::Scene& scene, const sim::Simulation& simulation,
+                     LinkClasses classes, std::span<const std::uint32_t> slots)
+    : device_(device), classes_(std::move(classes)),
+      count_(static_cast<std::uint32_t>(scene.distances.size())),
+      links_(filledBuffer(device, "lines.links", lineLinks(scene, classes_, slots), 0)),
+      indices_(device, {.name = "lines.indices",
+                        .count = 2 * std::max(VkDeviceSize{count_}, VkDeviceSize{1}),
+                        .stride = sizeof(std::uint32_t),
+                        .usage = VK_BUFFER_USAGE_INDEX_BUFFER_BIT}),
+      noWords_(device, {.name = "lines.no_words", .count = 1, .stride = sizeof(std::uint32_t)}),
+      live_(device, shaders::liveLinks, {}), sets_(bindingSets(simulation)),
+      ranges_(rangesOf(classes_, count_)) {}
+
+vk::BindingSets LinkLines::bindingSets(const sim::Simulation& simulation) const {
+    const vk::BufferView alive = simulation.view(simulation.program().cutting.links);
+    const std::array requests{vk::BindingRequest{
+        &live_, {links_.view(), alive.size > 0 ? alive : noWords_.view(), indices_.view()}}};
+    return {device_, requests};
+}
+
+LinkFacts LinkLines::facts() const {
+    LinkFacts facts{.fixed = count_ - classes_.order.size(), .note = classes_.note};
+    std::uint32_t first = 0;
+    for (const std::uint32_t end : classes_.ends) facts.classes.push_back(end - std::exchange(first, end));
+    return facts;
+}
+
+void LinkLines::record(VkCommandBuffer handle) const noexcept {
+    if (count_ == 0) return;
+    const layout::ValuesPush push{count_, 0};
+    vk::Commands commands(device_, handle);
+    commands.beginLabel("links");
+    commands.beginStep();
+    commands.bind(live_, sets_[0]);
+    commands.push(live_, &push, sizeof push);
+    commands.dispatch((count_ + GROUP_ITEMS - 1) / GROUP_ITEMS);
+    commands.endStep();
+    commands.endLabel();
+}
+
+} // namespace sinew::viewer

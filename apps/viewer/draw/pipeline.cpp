@@ -1,0 +1,222 @@
+// Fills in the long Vulkan structs of a graphics pipeline.
+#include "viewer/draw/pipeline.hpp"
+
+#include "layout.h"
+#include "viewer/values.h"
+#include "vk/check.hpp"
+
+#include <array>
+#include <utility>
+
+namespace sinew::viewer {
+
+namespace {
+
+// A shader module that lives as long as pipeline creation.
+class Module {
+public:
+    Module(const vk::Device& device, const vk::ShaderCode& code) : device_(device) {
+        const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                            .codeSize = code.words.size_bytes(),
+                                            .pCode = code.words.data()};
+        vk::check(device.functions().vkCreateShaderModule(device.handle(), &info, nullptr, &module_),
+                  "vkCreateShaderModule", code.name);
+    }
+    ~Module() { device_.functions().vkDestroyShaderModule(device_.handle(), module_, nullptr); }
+    Module(const Module&) = delete;
+    Module& operator=(const Module&) = delete;
+
+    VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits stage,
+                                          const VkSpecializationInfo& constants) const {
+        return {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                .stage = stage,
+                .module = module_,
+                .pName = "main",
+                .pSpecializationInfo = &constants};
+    }
+
+private:
+    const vk::Device& device_;
+    VkShaderModule module_ = VK_NULL_HANDLE;
+};
+
+constexpr VkVertexInputBindingDescription skinBinding{0, sizeof(sim::layout::SkinVertex),
+                                                      VK_VERTEX_INPUT_RATE_VERTEX};
+constexpr std::array skinAttributes{
+    VkVertexInputAttributeDescription{0, 0, VK_FORMAT_R32G32B32A32_SFLOAT,
+                                      offsetof(sim::layout::SkinVertex, position)},
+    VkVertexInputAttributeDescription{1, 0, VK_FORMAT_R32G32B32A32_SFLOAT,
+                                      offsetof(sim::layout::SkinVertex, normal)}};
+
+constexpr std::array ballBindings{
+    VkVertexInputBindingDescription{0, sizeof(sim::layout::vec4), VK_VERTEX_INPUT_RATE_VERTEX},
+    VkVertexInputBindingDescription{1, sizeof(sim::layout::vec4), VK_VERTEX_INPUT_RATE_INSTANCE},
+    VkVertexInputBindingDescription{2, sizeof(float), VK_VERTEX_INPUT_RATE_INSTANCE}};
+constexpr std::array ballAttributes{VkVertexInputAttributeDescription{0, 0, VK_FORMAT_R32G32B32A32_SFLOAT, 0},
+                                    VkVertexInputAttributeDescription{1, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 0},
+                                    VkVertexInputAttributeDescription{2, 2, VK_FORMAT_R32_SFLOAT, 0}};
+
+constexpr std::array cutBindings{
+    skinBinding,
+    VkVertexInputBindingDescription{1, sizeof(sim::layout::CutVertex), VK_VERTEX_INPUT_RATE_VERTEX}};
+constexpr std::array cutAttributes{skinAttributes[0], skinAttributes[1],
+                                   VkVertexInputAttributeDescription{2, 1, VK_FORMAT_R32G32B32A32_SFLOAT,
+                                                                     offsetof(sim::layout::CutVertex, rest)}};
+
+// The same with a value each.
+constexpr VkVertexInputBindingDescription valueBinding(std::uint32_t binding, VkVertexInputRate rate) {
+    return {binding, sizeof(float), rate};
+}
+constexpr VkVertexInputAttributeDescription valueAttribute(std::uint32_t binding) {
+    return {3, binding, VK_FORMAT_R32_SFLOAT, 0};
+}
+constexpr std::array skinValueBindings{skinBinding, valueBinding(1, VK_VERTEX_INPUT_RATE_VERTEX)};
+constexpr std::array skinValueAttributes{skinAttributes[0], skinAttributes[1], valueAttribute(1)};
+constexpr std::array ballValueBindings{ballBindings[0], ballBindings[1], ballBindings[2],
+                                       valueBinding(3, VK_VERTEX_INPUT_RATE_INSTANCE)};
+constexpr std::array ballValueAttributes{ballAttributes[0], ballAttributes[1], ballAttributes[2],
+                                         valueAttribute(3)};
+constexpr std::array cutValueBindings{cutBindings[0], cutBindings[1],
+                                      valueBinding(2, VK_VERTEX_INPUT_RATE_VERTEX)};
+constexpr std::array cutValueAttributes{cutAttributes[0], cutAttributes[1], valueAttribute(2)};
+
+constexpr std::array markBindings{
+    ballBindings[0],
+    VkVertexInputBindingDescription{1, sizeof(layout::ContactMark), VK_VERTEX_INPUT_RATE_INSTANCE}};
+constexpr std::array markAttributes{ballAttributes[0],
+                                    VkVertexInputAttributeDescription{1, 1, VK_FORMAT_R32G32B32A32_SFLOAT,
+                                                                      offsetof(layout::ContactMark, point)},
+                                    VkVertexInputAttributeDescription{2, 1, VK_FORMAT_R32G32B32A32_SFLOAT,
+                                                                      offsetof(layout::ContactMark, normal)}};
+
+constexpr std::array panelBindings{
+    VkVertexInputBindingDescription{0, sizeof(PanelVertex), VK_VERTEX_INPUT_RATE_VERTEX}};
+constexpr std::array panelAttributes{
+    VkVertexInputAttributeDescription{0, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(PanelVertex, place)},
+    VkVertexInputAttributeDescription{1, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(PanelVertex, atlas)},
+    VkVertexInputAttributeDescription{2, 0, VK_FORMAT_R8G8B8A8_UNORM, offsetof(PanelVertex, color)}};
+
+// What a vertex consists of, in the order of PipelineRequest::Input.
+struct VertexForm {
+    std::span<const VkVertexInputBindingDescription> bindings;
+    std::span<const VkVertexInputAttributeDescription> attributes;
+};
+constexpr std::array vertexForms{VertexForm{},
+                                 VertexForm{{&skinBinding, 1}, {skinAttributes.data(), 1}},
+                                 VertexForm{{&skinBinding, 1}, skinAttributes},
+                                 VertexForm{ballBindings, ballAttributes},
+                                 VertexForm{{ballBindings.data(), 2}, {ballAttributes.data(), 2}},
+                                 VertexForm{cutBindings, cutAttributes},
+                                 VertexForm{panelBindings, panelAttributes},
+                                 VertexForm{skinValueBindings, skinValueAttributes},
+                                 VertexForm{ballValueBindings, ballValueAttributes},
+                                 VertexForm{cutValueBindings, cutValueAttributes},
+                                 VertexForm{markBindings, markAttributes},
+                                 VertexForm{{ballBindings.data(), 1}, {ballAttributes.data(), 1}}};
+
+VkPipelineVertexInputStateCreateInfo vertexInput(PipelineRequest::Input input) {
+    const VertexForm& form = vertexForms[static_cast<std::size_t>(input)];
+    return {.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
+            .vertexBindingDescriptionCount = static_cast<std::uint32_t>(form.bindings.size()),
+            .pVertexBindingDescriptions = form.bindings.data(),
+            .vertexAttributeDescriptionCount = static_cast<std::uint32_t>(form.attributes.size()),
+            .pVertexAttributeDescriptions = form.attributes.data()};
+}
+
+VkPipelineDepthStencilStateCreateInfo depthState(PipelineRequest::Depth depth) {
+    return {.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
+            .depthTestEnable = depth != PipelineRequest::Depth::none,
+            .depthWriteEnable = depth == PipelineRequest::Depth::testAndWrite,
+            .depthCompareOp = VK_COMPARE_OP_LESS_OR_EQUAL};
+}
+
+constexpr std::array dynamicStates{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+constexpr VkPipelineDynamicStateCreateInfo dynamicState{
+    .sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
+    .dynamicStateCount = dynamicStates.size(),
+    .pDynamicStates = dynamicStates.data()};
+constexpr VkPipelineViewportStateCreateInfo viewportState{
+    .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, .viewportCount = 1, .scissorCount = 1};
+VkPipelineRasterizationStateCreateInfo rasterState(bool hasEdgesAlone) {
+    return {.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
+            .polygonMode = hasEdgesAlone ? VK_POLYGON_MODE_LINE : VK_POLYGON_MODE_FILL,
+            .cullMode = VK_CULL_MODE_NONE,
+            .frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE,
+            .lineWidth = 1};
+}
+constexpr VkColorComponentFlags allComponents =
+    VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+constexpr VkPipelineColorBlendAttachmentState opaque{.colorWriteMask = allComponents};
+constexpr VkPipelineColorBlendAttachmentState blended{.blendEnable = VK_TRUE,
+                                                      .srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA,
+                                                      .dstColorBlendFactor =
+                                                          VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+                                                      .srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO,
+                                                      .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
+                                                      .colorWriteMask = allComponents};
+
+VkPipeline create(const vk::Device& device, const PipelineRequest& request,
+                  std::span<const VkPipelineShaderStageCreateInfo> stages) {
+    const VkPipelineVertexInputStateCreateInfo input = vertexInput(request.input);
+    const VkPipelineDepthStencilStateCreateInfo depth = depthState(request.depth);
+    const VkPipelineRasterizationStateCreateInfo raster = rasterState(request.hasEdgesAlone);
+    const VkPipelineInputAssemblyStateCreateInfo assembly{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO, .topology = request.topology};
+    const VkPipelineMultisampleStateCreateInfo multisample{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
+        .rasterizationSamples = request.samples};
+    const VkPipelineColorBlendStateCreateInfo blend{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
+        .attachmentCount = request.fragment ? 1u : 0u,
+        .pAttachments = request.isBlended ? &blended : &opaque};
+    const VkGraphicsPipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
+                                            .stageCount = static_cast<std::uint32_t>(stages.size()),
+                                            .pStages = stages.data(),
+                                            .pVertexInputState = &input,
+                                            .pInputAssemblyState = &assembly,
+                                            .pViewportState = &viewportState,
+                                            .pRasterizationState = &raster,
+                                            .pMultisampleState = &multisample,
+                                            .pDepthStencilState = &depth,
+                                            .pColorBlendState = &blend,
+                                            .pDynamicState = &dynamicState,
+                                            .layout = request.layout,
+                                            .renderPass = request.pass};
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    vk::check(device.functions().vkCreateGraphicsPipelines(device.handle(), device.pipelineCache(), 1, &info,
+                                                           nullptr, &pipeline),
+              "vkCreateGraphicsPipelines", request.name);
+    return pipeline;
+}
+
+} // namespace
+
+Pipeline::Pipeline(const vk::Device& device, const PipelineRequest& request) : device_(&device) {
+    std::vector<VkSpecializationMapEntry> entries;
+    std::vector<std::uint32_t> values;
+    for (const vk::SpecialisationConstant& constant : request.constants) {
+        entries.push_back({constant.id, static_cast<std::uint32_t>(values.size() * sizeof(std::uint32_t)),
+                           sizeof(std::uint32_t)});
+        values.push_back(constant.value);
+    }
+    const VkSpecializationInfo constants{static_cast<std::uint32_t>(entries.size()), entries.data(),
+                                         values.size() * sizeof(std::uint32_t), values.data()};
+    const Module vertex(device, *request.vertex);
+    std::vector stages{vertex.stage(VK_SHADER_STAGE_VERTEX_BIT, constants)};
+    std::optional<Module> fragment;
+    if (request.fragment) {
+        fragment.emplace(device, *request.fragment);
+        stages.push_back(fragment->stage(VK_SHADER_STAGE_FRAGMENT_BIT, constants));
+    }
+    pipeline_ = create(device, request, stages);
+    device.name(VK_OBJECT_TYPE_PIPELINE, vk::handleValue(pipeline_), request.name);
+}
+
+Pipeline::Pipeline(Pipeline&& other) noexcept
+    : device_(other.device_), pipeline_(std::exchange(other.pipeline_, VK_NULL_HANDLE)) {}
+
+Pipeline::~Pipeline() {
+    device_->functions().vkDestroyPipeline(device_->handle(), pipeline_, nullptr);
+}
+
+} // namespace sinew::viewer

@@ -1,0 +1,146 @@
+// Draws the skins and the colliders of a simulation, and balls for what has no skin, lit and shadowed, on a
+// floor under a sky. The same code for a window and for files.
+#pragma once
+
+#include "sim/simulation.hpp"
+#include "viewer/draw/balls.hpp"
+#include "viewer/draw/canvas.hpp"
+#include "viewer/draw/collider_meshes.hpp"
+#include "viewer/draw/hand_mesh.hpp"
+#include "viewer/draw/picture_sets.hpp"
+#include "viewer/draw/pipeline.hpp"
+#include "viewer/draw/stage_light.hpp"
+
+namespace sinew::viewer {
+
+struct Quality {
+    std::uint32_t shadowSize = 2048;                       ///< pixels a side
+    std::uint32_t floorSize = 512;                         ///< of the map of the floor's light, pixels a side
+    std::uint32_t shadowTaps = 32, skyTaps = 96;           ///< per pixel
+    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_4_BIT; ///< 1 and 4 work on every device
+};
+
+/// For a window on a software device: smaller maps, fewer taps.
+Quality reducedQuality();
+
+/// Whether a device of our own making draws the edges of triangles.
+bool drawsEdges(const vk::Device& device);
+
+/// True for a device that draws on the CPU.
+bool isSoftware(const vk::Device& device);
+
+/// Owns passes, pipelines and maps, not what they draw into. Must not outlive its Device, which must not
+/// move.
+class Renderer {
+public:
+    static constexpr std::uint32_t slots = 2; ///< pictures recorded but not finished, at most
+
+    struct Target {
+        VkFormat color = VK_FORMAT_R8G8B8A8_SRGB;
+        VkImageLayout finalLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+    };
+    /// A target format without sRGB encoding gets it from the shaders. `light` is of the scene that will be
+    /// drawn.
+    Renderer(const vk::Device& device, const Target& target, const Quality& quality, const StageLight& light);
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
+    /// Makes what overlays with these layers are drawn with, and is not there yet. Throws vk::Error.
+    void prepare(const Layers& layers);
+
+    Canvas makeCanvas(VkExtent2D extent, std::span<const VkImageView> pictures) const;
+
+    /// Records one picture. `commands` must be recording, outside a render pass, after recordSkin() of
+    /// `simulation` in the same queue. `slot` < slots; its previous picture must be finished. Leaves the
+    /// picture in the final layout. The layers of `overlay` must be prepared; what the device cannot draw of
+    /// them is left out.
+    void record(VkCommandBuffer commands, std::uint32_t slot, const Canvas& canvas, std::size_t picture,
+                const Camera& camera, const sim::Simulation& simulation,
+                const Overlay& overlay = {}) const noexcept;
+
+private:
+    void addPipeline(std::size_t index, PipelineRequest request);
+    bool has(std::size_t pipeline) const noexcept { return pipelines_[pipeline].has_value(); }
+    void prepareGlass();
+    void prepareValues();
+    void prepareWires();
+    void prepareContacts();
+    void prepareLinks();
+    PipelineRequest litRequest(const std::string& name) const;
+    void createMapPipelines();
+    void createPipelines();
+    void createCutPipelines();
+    void createBallPipelines();
+    void recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation,
+                    const Overlay& overlay) const noexcept;
+    void recordLayers(VkCommandBuffer commands, const sim::Simulation& simulation,
+                      const Overlay& overlay) const noexcept;
+    void drawLinks(VkCommandBuffer commands, const sim::Simulation& simulation,
+                   const LinkLines& links) const noexcept;
+    void drawValues(VkCommandBuffer commands, const sim::Simulation& simulation,
+                    const Overlay& overlay) const noexcept;
+    void recordPicture(VkCommandBuffer commands, const Canvas& canvas, std::size_t picture,
+                       const sim::Simulation& simulation, const Overlay& overlay,
+                       std::uint32_t slot) const noexcept;
+    void begin(VkCommandBuffer commands, const RenderPass& pass, VkFramebuffer framebuffer, VkExtent2D extent,
+               std::span<const VkClearValue> clear) const noexcept;
+    void bind(VkCommandBuffer commands, std::size_t pipeline) const noexcept;
+    void drawSkins(VkCommandBuffer commands, std::size_t pipeline, const sim::Simulation& simulation,
+                   const LayerBuffers& buffers = {}) const noexcept;
+    void drawColliders(VkCommandBuffer commands, std::size_t pipeline,
+                       const sim::Simulation& simulation) const noexcept;
+    void drawPokes(VkCommandBuffer commands, std::size_t pipeline,
+                   const sim::Simulation& simulation) const noexcept;
+    void drawBalls(VkCommandBuffer commands, std::size_t pipeline, const sim::Simulation& simulation,
+                   const Overlay& overlay) const noexcept;
+    void drawCuts(VkCommandBuffer commands, std::size_t ofInside, std::size_t ofClipped,
+                  const sim::Simulation& simulation, const LayerBuffers& buffers = {}) const noexcept;
+    void drawStroke(VkCommandBuffer commands, std::span<const Vector3> stroke,
+                    std::uint32_t slot) const noexcept;
+    void drawHand(VkCommandBuffer commands, const sim::Simulation& simulation, const Hand& hand,
+                  const sim::Vec3& color, float ball) const noexcept;
+    void bindMesh(VkCommandBuffer commands, const vk::BufferView& vertices,
+                  const vk::BufferView& indices) const noexcept;
+    void push(VkCommandBuffer commands, const layout::SkinPush& values) const noexcept;
+    void push(VkCommandBuffer commands, const sim::Vec3& color, float gloss, const sim::Pose& pose,
+              float scale = 1) const noexcept;
+
+    const vk::Device& device_;
+    StageLight light_;
+    ColliderMeshes colliders_, poke_; // the second a sphere of radius 1
+    CanvasFormat format_;
+    LightMaps maps_;
+    RenderPass pass_;
+    PictureSets sets_;
+    Balls balls_;
+    HandMesh hand_;
+    vk::Buffer strokes_;                             // vec4, mostStrokePoints a slot
+    std::array<vk::SpecialisationConstant, 3> look_; // of what is lit
+    enum PipelineIndex : std::size_t {
+        shadowPipeline,
+        planPipeline,
+        floorPipeline,
+        skinPipeline,
+        groundPipeline,
+        skyPipeline,
+        handPipeline,
+        insidePipeline,
+        clippedPipeline,
+        ballShadowPipeline,
+        ballPlanPipeline,
+        ballPipeline,
+        skinGlassPipeline,
+        insideGlassPipeline,
+        clippedGlassPipeline,
+        skinValuesPipeline,
+        cutValuesPipeline,
+        ballValuesPipeline,
+        wiresPipeline,
+        contactPipeline,
+        linkPipeline,
+        pipelineCount
+    };
+    std::array<std::optional<Pipeline>, pipelineCount> pipelines_; // of layers where they were prepared
+};
+
+} // namespace sinew::viewer

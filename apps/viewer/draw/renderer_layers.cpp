@@ -1,0 +1,137 @@
+// Layers over the bodies or in their stead: pipelines that are made when they are first wanted, and draws.
+#include "viewer/draw/renderer.hpp"
+
+#include "viewer/draw/contact_marks.hpp"
+#include "viewer/draw/link_lines.hpp"
+#include "viewer_shaders.hpp"
+
+namespace sinew::viewer {
+
+namespace {
+
+constexpr float markSize = 0.004f; // of the ball of a mark, in radii of the stage
+
+} // namespace
+
+// What the device can do, vk::Device::create has asked for.
+bool drawsEdges(const vk::Device& device) {
+    VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+    device.instanceFunctions().vkGetPhysicalDeviceFeatures2(device.physical(), &features);
+    return features.features.fillModeNonSolid == VK_TRUE;
+}
+
+void Renderer::prepare(const Layers& layers) {
+    if (layers.hasBalls && !has(ballPipeline)) createBallPipelines();
+    if (layers.skin == SkinLook::glass && !has(skinGlassPipeline)) prepareGlass();
+    if (layers.map != ColorMap::none && !has(skinValuesPipeline)) prepareValues();
+    if (layers.hasWires && !has(wiresPipeline) && drawsEdges(device_)) prepareWires();
+    if (layers.hasLinks && !has(linkPipeline)) prepareLinks();
+    if (layers.hasContacts && !has(contactPipeline)) prepareContacts();
+}
+
+void Renderer::prepareGlass() {
+    PipelineRequest request = litRequest("skin_glass");
+    request.depth = PipelineRequest::Depth::test;
+    request.isBlended = true;
+    request.vertex = &shaders::skinVert;
+    request.fragment = &shaders::skinGlassFrag;
+    request.input = PipelineRequest::Input::positionsAndNormals;
+    addPipeline(skinGlassPipeline, request);
+    request.vertex = &shaders::cutVert;
+    request.fragment = &shaders::insideGlassFrag;
+    request.input = PipelineRequest::Input::cuts;
+    request.name = "picture.inside_glass";
+    addPipeline(insideGlassPipeline, request);
+    request.fragment = &shaders::clippedGlassFrag;
+    request.name = "picture.clipped_glass";
+    addPipeline(clippedGlassPipeline, request);
+}
+
+void Renderer::prepareValues() {
+    PipelineRequest request = litRequest("skin_values");
+    request.vertex = &shaders::skinValuesVert;
+    request.fragment = &shaders::valuesFrag;
+    request.input = PipelineRequest::Input::skinValues;
+    addPipeline(skinValuesPipeline, request);
+    request.name = "picture.cut_values";
+    request.vertex = &shaders::cutValuesVert;
+    request.input = PipelineRequest::Input::cutValues;
+    addPipeline(cutValuesPipeline, request);
+    request.name = "picture.ball_values";
+    request.vertex = &shaders::ballValuesVert;
+    request.input = PipelineRequest::Input::ballValues;
+    addPipeline(ballValuesPipeline, request);
+}
+
+void Renderer::prepareWires() {
+    PipelineRequest request = litRequest("wires");
+    request.depth = PipelineRequest::Depth::test;
+    request.isBlended = request.hasEdgesAlone = true;
+    request.vertex = &shaders::wiresVert;
+    request.fragment = &shaders::wiresFrag;
+    request.input = PipelineRequest::Input::positions;
+    addPipeline(wiresPipeline, request);
+}
+
+void Renderer::prepareLinks() {
+    PipelineRequest request = litRequest("links");
+    request.vertex = &shaders::wiresVert;
+    request.fragment = &shaders::linkFrag;
+    request.input = PipelineRequest::Input::particles;
+    request.topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
+    addPipeline(linkPipeline, request);
+}
+
+// What touches is hidden by what touches it, so marks are seen through everything.
+void Renderer::prepareContacts() {
+    PipelineRequest request = litRequest("contacts");
+    request.depth = PipelineRequest::Depth::none;
+    request.vertex = &shaders::markVert;
+    request.fragment = &shaders::markFrag;
+    request.input = PipelineRequest::Input::marks;
+    addPipeline(contactPipeline, request);
+}
+
+// In the colors of a map: skins where they are solid, and all balls.
+void Renderer::drawValues(VkCommandBuffer commands, const sim::Simulation& simulation,
+                          const Overlay& overlay) const noexcept {
+    const LayerBuffers& buffers = overlay.buffers;
+    if (!has(skinValuesPipeline)) return;
+    if (buffers.particles.size > 0) drawBalls(commands, ballValuesPipeline, simulation, overlay);
+    if (overlay.layers.skin != SkinLook::solid) return;
+    if (buffers.skins.size > 0) drawSkins(commands, skinValuesPipeline, simulation, buffers);
+    if (buffers.cuts.size > 0) drawCuts(commands, cutValuesPipeline, cutValuesPipeline, simulation, buffers);
+}
+
+void Renderer::drawLinks(VkCommandBuffer commands, const sim::Simulation& simulation,
+                         const LinkLines& links) const noexcept {
+    bind(commands, linkPipeline);
+    bindMesh(commands, simulation.positions(), links.indices());
+    for (const LinkLines::Range& range : links.ranges()) {
+        push(commands, {{range.color[0], range.color[1], range.color[2], 0}, {}, {}});
+        device_.functions().vkCmdDrawIndexed(commands, range.indexCount, 1, range.firstIndex, 0, 0);
+    }
+}
+
+// Over all that hides what is behind it.
+void Renderer::recordLayers(VkCommandBuffer commands, const sim::Simulation& simulation,
+                            const Overlay& overlay) const noexcept {
+    if (overlay.layers.skin == SkinLook::glass && has(skinGlassPipeline)) {
+        drawSkins(commands, skinGlassPipeline, simulation);
+        drawCuts(commands, insideGlassPipeline, clippedGlassPipeline, simulation);
+    }
+    if (overlay.layers.hasWires && has(wiresPipeline)) {
+        drawSkins(commands, wiresPipeline, simulation);
+        drawCuts(commands, wiresPipeline, wiresPipeline, simulation);
+    }
+    if (overlay.buffers.links != nullptr && has(linkPipeline))
+        drawLinks(commands, simulation, *overlay.buffers.links);
+    if (overlay.buffers.contacts != nullptr && has(contactPipeline)) {
+        const ContactMarks& contacts = *overlay.buffers.contacts;
+        bind(commands, contactPipeline);
+        push(commands, {{}, {0, 0, 0, markSize * light_.radius()}, {}});
+        contacts.mesh().drawIndirect(commands, contacts.marks(), contacts.draw());
+    }
+}
+
+} // namespace sinew::viewer

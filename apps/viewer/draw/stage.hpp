@@ -1,0 +1,81 @@
+// The scene on show: its simulation, how many steps it has taken, and whether it still makes sense.
+#pragma once
+
+#include "app/growing_simulation.hpp"
+#include "scenes/blades.hpp"
+#include "viewer/draw/camera.hpp"
+
+namespace sinew::viewer {
+
+/// Where a simulation broke.
+struct Divergence {
+    std::uint64_t step = 0;
+    std::uint32_t particles = 0;     ///< with a non-finite state
+    std::uint32_t firstParticle = 0; ///< smallest index among them
+    std::string body;                ///< that it belongs to
+    /// "the simulation diverged: step 12, body "organ", particle 417: 3 particles are not finite ...: use
+    /// more ..."
+    std::string sentence() const;
+};
+
+/// Must not outlive its Device, which must not move.
+class Stage {
+public:
+    Stage(const vk::Device& device, sim::Scene scene, const sim::Settings& settings);
+
+    /// As those of sim::Simulation. A new stage must be reset once before its first step.
+    void recordReset(VkCommandBuffer commands) noexcept;
+    void recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps = nullptr,
+                    std::span<const sim::Grab> grabs = {}, const sim::Blade& blade = {},
+                    std::span<const sim::Poke> pokes = {}) noexcept;
+    void recordSkin(VkCommandBuffer commands) noexcept { growing_.simulation().recordSkin(commands); }
+
+    /// Blades that cut by themselves, from the reset on; in their steps no other one does.
+    void setBlades(scenes::ScriptedBlades blades) { blades_ = std::move(blades); }
+
+    /// Downwards, from the next step on: along the scene's own, or -y where that is none [m/s^2].
+    void setGravity(float gravity) noexcept;
+    void setGravity(const sim::Vec3& gravity) noexcept { gravity_ = gravity; }
+    const sim::Vec3& gravity() const noexcept { return gravity_; }
+
+    /// For what goes back to earlier states.
+    sim::Simulation& simulation() noexcept { return growing_.simulation(); }
+
+    /// Steps of the time that blades cut by themselves in: steps() where no earlier state was gone back to.
+    std::uint64_t played() const noexcept { return played_; }
+    void setPlayed(std::uint64_t steps) noexcept { played_ = steps; }
+
+    /// Taken since the reset.
+    std::uint64_t steps() const noexcept { return steps_; }
+
+    /// What a finished step found: nothing where all is well, or where a step after a reset has taken its
+    /// place. It must be one of the last Simulation::framesInFlight recorded.
+    std::optional<Divergence> check(std::uint64_t step) const;
+
+    /// Status::contactRoom of such a step: more than 0 where it was undone, and all after it.
+    std::uint32_t neededRoom(std::uint64_t step) const;
+    /// Goes back before that step with room for it, in another simulation(). Waits for `queue`, in which all
+    /// was submitted. False where there can be no such room. Throws vk::Error.
+    bool makeRoom(std::uint64_t step, vk::Queue& queue);
+
+    /// After steps of which Status::cutSurfaceMissing was `needed` at most, all of them finished: goes on
+    /// after the newest with room for it, in another simulation(). False where there is none to be had, or
+    /// nothing to do. Waits for `queue`.
+    bool makeSurfaceRoom(std::uint32_t needed, vk::Queue& queue);
+
+    const sim::Scene& scene() const noexcept { return scene_; }
+    const sim::Settings& settings() const noexcept { return settings_; }
+    const sim::Simulation& simulation() const noexcept { return growing_.simulation(); }
+    const app::ContactRoom& contactRoom() const noexcept { return growing_.contactRoom(); }
+    const app::SurfaceRoom& surfaceRoom() const noexcept { return growing_.surfaceRoom(); }
+
+private:
+    sim::Scene scene_;
+    sim::Settings settings_;
+    app::GrowingSimulation growing_;
+    scenes::ScriptedBlades blades_;
+    sim::Vec3 gravity_, down_{0, -1, 0};
+    std::uint64_t steps_ = 0, played_ = 0;
+};
+
+} // namespace sinew::viewer

@@ -1,0 +1,277 @@
+// Tables on the host, once; kernels for every picture.
+#include "viewer/draw/value_maps.hpp"
+
+#include "layout.h"
+#include "sim/compile.hpp"
+#include "sim/lattice/link_masks.hpp"
+#include "viewer/draw/mesh_buffer.hpp"
+#include "viewer_shaders.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <utility>
+
+namespace sinew::viewer {
+
+namespace {
+
+// Cuts and sheets have theirs after these.
+enum SetIndex : std::size_t { strainSet, speedSet, sleepSet, skinSet, firstOther };
+
+// The bit of a link that leads so many steps along x, y and z; none where that is no neighbour.
+std::optional<std::uint32_t> bitOf(const std::array<int, 3>& step) {
+    for (std::uint32_t bit = 0; bit < sim::lattice::directionCount; ++bit)
+        if (sim::lattice::directionOf(bit) == step) return bit;
+    return std::nullopt;
+}
+
+std::array<int, 3> nodeOf(const sim::Grid& grid, std::uint32_t particle) {
+    const std::uint32_t node = grid.node[particle - grid.firstParticle];
+    return {static_cast<int>(node % grid.nodes[0]), static_cast<int>(node / grid.nodes[0] % grid.nodes[1]),
+            static_cast<int>(node / grid.nodes[0] / grid.nodes[1])};
+}
+
+const sim::Grid* gridOf(const sim::Scene& scene, std::size_t distance) {
+    const auto holds = [&](const sim::Grid& grid) {
+        return distance - grid.firstDistance < grid.distanceCount;
+    };
+    const auto grid = std::ranges::find_if(scene.grids, holds);
+    return grid == scene.grids.end() ? nullptr : &*grid;
+}
+
+template <typename T> std::vector<T> atLeastOne(std::vector<T> elements) {
+    if (elements.empty()) elements.emplace_back();
+    return elements;
+}
+
+template <typename T>
+vk::Buffer tableOf(const vk::Device& device, const std::string& name, std::vector<T> elements) {
+    return filledBuffer(device, name, atLeastOne(std::move(elements)), 0);
+}
+
+vk::Buffer valuesFor(const vk::Device& device, const std::string& name, VkDeviceSize count) {
+    return vk::Buffer(
+        device,
+        {.name = name, .count = count, .stride = sizeof(float), .usage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT});
+}
+
+std::uint32_t elements(const vk::BufferView& view) {
+    return view.stride == 0 ? 0 : static_cast<std::uint32_t>(view.size / view.stride);
+}
+
+} // namespace
+
+// A link that leads farther than to a neighbour, of a body that may be cut, has no bit of its own.
+LinkBits linkBits(const sim::Scene& scene, std::size_t distance) {
+    const sim::DistanceConstraint& link = scene.distances[distance];
+    const sim::Grid* grid = gridOf(scene, distance);
+    LinkBits bits{.isCounted = link.restLength > 0};
+    if (grid == nullptr || !grid->isCuttable) return bits;
+    const std::array<int, 3> a = nodeOf(*grid, link.a), b = nodeOf(*grid, link.b);
+    const auto bit = bitOf({b[0] - a[0], b[1] - a[1], b[2] - a[2]});
+    if (!bit) return {.isCounted = false};
+    bits.ofA = 1u << *bit;
+    bits.ofB = 1u << (sim::lattice::directionCount - 1 - *bit);
+    return bits;
+}
+
+std::vector<std::uint32_t> particlesBySlot(const sim::StateLayout& state) {
+    std::vector<std::uint32_t> particles(state.count, NO_PARTICLE);
+    for (std::size_t i = 0; i < state.slot.size(); ++i)
+        particles[state.slot[i]] = static_cast<std::uint32_t>(i);
+    return particles;
+}
+
+LinkTable linkTable(const sim::Scene& scene, std::span<const std::uint32_t> slots) {
+    LinkTable table;
+    table.linksOf.resize(scene.particles.size());
+    std::vector<LinkBits> links;
+    for (std::size_t d = 0; d < scene.distances.size(); ++d) {
+        const sim::DistanceConstraint& constraint = scene.distances[d];
+        links.push_back(linkBits(scene, d));
+        if (!links.back().isCounted) continue;
+        ++table.linksOf[constraint.a].count;
+        ++table.linksOf[constraint.b].count;
+    }
+    std::uint32_t first = 0;
+    for (std::size_t i = 0; i < table.linksOf.size(); ++i) {
+        table.linksOf[i].first = first;
+        first += std::exchange(table.linksOf[i].count, 0);
+    }
+    table.links.resize(first);
+    const auto add = [&](std::uint32_t particle, const layout::ValueLink& link) {
+        layout::ValueLinks& own = table.linksOf[particle];
+        table.links[own.first + own.count++] = link;
+        if (link.bit != 0) own.slot = slots[particle];
+    };
+    for (std::size_t d = 0; d < links.size(); ++d) {
+        if (!links[d].isCounted) continue;
+        const sim::DistanceConstraint& constraint = scene.distances[d];
+        add(constraint.a, {constraint.b, constraint.restLength, links[d].ofA});
+        add(constraint.b, {constraint.a, constraint.restLength, links[d].ofB});
+    }
+    return table;
+}
+
+std::vector<layout::ValueHolders> skinHolders(const sim::Scene& scene) {
+    std::vector<layout::ValueHolders> all;
+    for (const sim::Skin& skin : scene.skins) {
+        for (const std::uint32_t particle : skin.particles)
+            all.push_back({.low = {1, 0, 0, 0},
+                           .high = {},
+                           .particles = {particle, particle, particle, particle, particle, particle, particle,
+                                         particle}});
+        for (const sim::CellEmbedding& cell : skin.cells) {
+            std::array<float, 8> shares{};
+            layout::ValueHolders held{};
+            for (std::size_t k = 0; k < 8; ++k) {
+                const sim::Vec3& t = cell.weights;
+                shares[k] = ((k & 1) != 0 ? t.x : 1 - t.x) * ((k & 2) != 0 ? t.y : 1 - t.y) *
+                            ((k & 4) != 0 ? t.z : 1 - t.z);
+                held.particles[k] = cell.particles[k];
+            }
+            held.low = {shares[0], shares[1], shares[2], shares[3]};
+            held.high = {shares[4], shares[5], shares[6], shares[7]};
+            all.push_back(held);
+        }
+    }
+    return all;
+}
+
+MapReading readingOf(const layout::ValueSpread& spread) {
+    std::uint64_t all = 0, beyond = 0;
+    for (const std::uint32_t count : spread.counts) all += count;
+    if (all == 0) return {};
+    std::size_t bin = VALUE_BINS - 1;
+    while (bin > 0 && 100 * (beyond + spread.counts[bin]) <= all) beyond += spread.counts[bin--];
+    constexpr std::array<double, 3> digits{1, 2, 5};
+    const double range = digits[bin % 3] * std::pow(10.0, static_cast<double>(bin / 3) - 7);
+    return {.range = static_cast<float>(range),
+            .largest = std::bit_cast<float>(spread.largest),
+            .beyond = static_cast<float>(static_cast<double>(beyond) / static_cast<double>(all))};
+}
+
+struct ValueMaps::Tables {
+    std::vector<std::uint32_t> particlesBySlot;
+    LinkTable links;
+    std::vector<layout::ValueHolders> holders;
+    std::vector<float> inverseMasses;
+
+    Tables(const sim::Scene& scene, const sim::StateLayout& state)
+        : particlesBySlot(viewer::particlesBySlot(state)), links(linkTable(scene, state.slot)),
+          holders(skinHolders(scene)), inverseMasses(sim::inverseMasses(scene)) {}
+};
+
+namespace {
+
+// The skins of sheets that may be cut.
+template <typename Sheet> std::vector<Sheet> sheetsOf(const sim::Simulation& simulation) {
+    std::vector<Sheet> sheets;
+    for (const sim::PieceVertices& pieces : simulation.program().pieceSkins)
+        sheets.push_back({pieces.first, elements(simulation.view(pieces.vertices))});
+    return sheets;
+}
+
+} // namespace
+
+ValueMaps::ValueMaps(const vk::Device& device, const sim::Scene& scene, const sim::Settings& settings,
+                     const sim::Simulation& simulation, std::uint32_t slots)
+    : ValueMaps(device, Tables(scene, sim::stateLayout(scene, settings)), simulation, slots) {}
+
+ValueMaps::ValueMaps(const vk::Device& device, const Tables& tables, const sim::Simulation& simulation,
+                     std::uint32_t slots)
+    : device_(device), particleCount_(simulation.program().particleCount),
+      heldVertices_(static_cast<std::uint32_t>(tables.holders.size())),
+      cutVertices_(elements(simulation.cutSurface().rest)), hasSpeeds_(simulation.velocities().size > 0),
+      linksOf_(tableOf(device, "values.links_of", tables.links.linksOf)),
+      links_(tableOf(device, "values.links", tables.links.links)),
+      holders_(tableOf(device, "values.holders", tables.holders)),
+      particleOfSlot_(tableOf(device, "values.particle_of_slot", tables.particlesBySlot)),
+      inverseMasses_(tableOf(device, "values.inverse_masses", tables.inverseMasses)),
+      noLinks_(tableOf(device, "values.no_links", std::vector<std::uint32_t>{})),
+      values_(valuesFor(device, "values.particles", particleCount_)),
+      skinValues_(valuesFor(device, "values.skins", elements(simulation.skinVertices()))),
+      cutValues_(valuesFor(device, "values.cuts", cutVertices_)),
+      spread_(device, {.name = "values.spread", .count = 1, .stride = sizeof(layout::ValueSpread)}),
+      spreads_(device, {.name = "values.spreads",
+                        .count = slots,
+                        .stride = sizeof(layout::ValueSpread),
+                        .kind = vk::MemoryKind::readback}),
+      strain_(device, shaders::strainValues, {}), speed_(device, shaders::speedValues, {}),
+      sleep_(device, shaders::sleepValues, {}), skin_(device, shaders::skinValues, {}),
+      cut_(device, shaders::cutValues, {}), sheet_(device, shaders::sheetValues, {}),
+      sheets_(sheetsOf<Sheet>(simulation)), sets_(bindingSets(simulation)) {}
+
+vk::BindingSets ValueMaps::bindingSets(const sim::Simulation& simulation) const {
+    const vk::BufferView alive = simulation.view(simulation.program().cutting.links);
+    const vk::BufferView places = simulation.positions(), values = values_.view(), spread = spread_.view();
+    std::vector<vk::BindingRequest> requests{
+        {&strain_,
+         {places, linksOf_.view(), links_.view(), alive.size > 0 ? alive : noLinks_.view(), values, spread}},
+        {&speed_, {hasSpeeds_ ? simulation.velocities() : places, values, spread}},
+        {&sleep_, {places, inverseMasses_.view(), values, spread}}};
+    if (heldVertices_ > 0) requests.push_back({&skin_, {values, holders_.view(), skinValues_.view()}});
+    if (cutVertices_ > 0)
+        requests.push_back({&cut_,
+                            {values, skinValues_.view(), simulation.cutSurface().rest, particleOfSlot_.view(),
+                             cutValues_.view()}});
+    for (const sim::PieceVertices& pieces : simulation.program().pieceSkins)
+        requests.push_back(
+            {&sheet_,
+             {values, simulation.view(pieces.vertices), particleOfSlot_.view(), skinValues_.view()}});
+    return {device_, requests};
+}
+
+void ValueMaps::dispatch(vk::Commands& commands, const vk::Kernel& kernel, std::size_t set,
+                         std::uint32_t items, std::uint32_t first) const noexcept {
+    const layout::ValuesPush push{items, first};
+    commands.bind(kernel, sets_[set]);
+    commands.push(kernel, &push, sizeof push);
+    commands.dispatch((items + GROUP_ITEMS - 1) / GROUP_ITEMS);
+}
+
+void ValueMaps::record(VkCommandBuffer handle, ColorMap map, std::uint32_t slot) const noexcept {
+    constexpr auto none = std::bit_cast<std::uint32_t>(static_cast<float>(NO_VALUE));
+    vk::Commands commands(device_, handle);
+    commands.beginLabel("color map");
+    commands.beginStep();
+    commands.fill(spread_.view(), 0);
+    commands.fill(skinValues_.view(), none); // vertices that nobody is known to hold
+    if (map == ColorMap::speed && !hasSpeeds_) commands.fill(values_.view(), none);
+    commands.barrier();
+    if (map == ColorMap::strain) dispatch(commands, strain_, strainSet, particleCount_);
+    if (map == ColorMap::speed && hasSpeeds_) dispatch(commands, speed_, speedSet, particleCount_);
+    if (map == ColorMap::sleep) dispatch(commands, sleep_, sleepSet, particleCount_);
+    commands.barrier();
+    vk::BufferView read = spreads_.view();
+    read.offset += VkDeviceSize{slot} * read.stride;
+    read.size = read.stride;
+    commands.copy(spread_.view(), read);
+    if (heldVertices_ > 0) dispatch(commands, skin_, skinSet, heldVertices_);
+    std::size_t set = firstOther + (cutVertices_ > 0 ? 1 : 0);
+    for (const Sheet& sheet : sheets_) dispatch(commands, sheet_, set++, sheet.count, sheet.first);
+    commands.barrier();
+    if (cutVertices_ > 0) dispatch(commands, cut_, firstOther, cutVertices_);
+    commands.endStep();
+    commands.hostBarrier();
+    commands.endLabel();
+}
+
+MapReading ValueMaps::reading(std::uint32_t slot) const noexcept {
+    layout::ValueSpread spread;
+    std::memcpy(&spread, spreads_.mapped() + slot * sizeof spread, sizeof spread);
+    return readingOf(spread);
+}
+
+vk::BufferView ValueMaps::skins() const noexcept {
+    return heldVertices_ > 0 ? skinValues_.view() : vk::BufferView{};
+}
+
+vk::BufferView ValueMaps::cuts() const noexcept {
+    return cutVertices_ > 0 ? cutValues_.view() : vk::BufferView{};
+}
+
+} // namespace sinew::viewer

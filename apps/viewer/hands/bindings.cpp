@@ -1,0 +1,170 @@
+// The table of bindings.
+#include "viewer/hands/bindings.hpp"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <array>
+
+namespace sinew::viewer {
+
+namespace {
+
+using enum Action;
+constexpr auto key = Trigger::Kind::key, drag = Trigger::Kind::drag, wheel = Trigger::Kind::wheel;
+
+// Bindings of one action stand together; the first one's help is the one that is shown.
+constexpr std::array table{
+    Binding{{drag, GLFW_MOUSE_BUTTON_LEFT}, grab, "left drag", "on a body: grab and pull; beside: orbit"},
+    Binding{{drag, GLFW_MOUSE_BUTTON_RIGHT}, orbit, "right drag", "orbit"},
+    Binding{{drag, GLFW_MOUSE_BUTTON_MIDDLE}, pan, "middle drag", "pan"},
+    Binding{{drag, GLFW_MOUSE_BUTTON_RIGHT, GLFW_MOD_SHIFT}, pan, "Shift + right drag", "pan"},
+    Binding{{wheel}, zoom, "wheel", "zoom to the pointer"},
+    Binding{{wheel, 0, GLFW_MOD_SHIFT}, pokeSize, "Shift + wheel", "size of the sphere that pokes"},
+    Binding{{key, GLFW_KEY_F}, frame, "F", "frame everything", "Frame"},
+    Binding{{key, GLFW_KEY_HOME}, frame, "Home", "frame everything"},
+    Binding{{key, GLFW_KEY_SPACE}, pause, "Space", "pause or go on", "Pause"},
+    Binding{{key, GLFW_KEY_P}, pause, "P", "pause or go on"},
+    Binding{{key, GLFW_KEY_PERIOD}, step, ".", "pause and take one step", "Step"},
+    Binding{{key, GLFW_KEY_R}, reset, "R", "reset the scene", "Reset"},
+    Binding{
+        {key, GLFW_KEY_C}, blade, "C", "blade: left drag cuts, from the front through to the back", "Blade"},
+    Binding{{key, GLFW_KEY_O}, poke, "O", "poke: left drag pushes with a sphere", "Poke"},
+    Binding{{key, GLFW_KEY_ESCAPE}, drop, "Esc", "drop the blade, lift the sphere, let go", "Let go"},
+    Binding{{key, GLFW_KEY_N},
+            pin,
+            "N",
+            "pin what is under the pointer, or held, where it is; on a pin: take it out",
+            "Pin"},
+    Binding{{key, GLFW_KEY_Z, GLFW_MOD_CONTROL}, undo, "Ctrl + Z", "undo a cut: back to before it", "Undo"},
+    Binding{
+        {key, GLFW_KEY_Z, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT}, redo, "Shift + Ctrl + Z", "redo it", "Redo"},
+    Binding{{key, GLFW_KEY_S},
+            slowMotion,
+            "S",
+            "slow motion: a half, a quarter, an eighth, full speed",
+            "Slower"},
+    Binding{{key, GLFW_KEY_1}, skinLook, "1", "skin: solid, translucent, hidden", "Skin"},
+    Binding{{key, GLFW_KEY_2}, wires, "2", "wireframe: edges of the triangles that are drawn", "Wires"},
+    Binding{{key, GLFW_KEY_3}, balls, "3", "a ball for every particle", "Particles"},
+    Binding{{key, GLFW_KEY_4},
+            links,
+            "4",
+            "links; those that the solver corrects together in one color",
+            "Links"},
+    Binding{{key, GLFW_KEY_5}, contacts, "5", "where bodies touch, and along which normals", "Contacts"},
+    Binding{
+        {key, GLFW_KEY_M}, colorMap, "M", "colors: of the bodies, by strain, by speed, by sleep", "Colors"},
+    Binding{{key, GLFW_KEY_I},
+            inspect,
+            "I",
+            "what is under the pointer: body, particle, speed, strain, contacts",
+            "Inspect"},
+    Binding{{key, GLFW_KEY_PAGE_UP}, previousScene, "Page Up", "open the scene before this one", "Previous"},
+    Binding{{key, GLFW_KEY_PAGE_DOWN}, nextScene, "Page Down", "open the next scene", "Next"},
+    Binding{{key, GLFW_KEY_F9},
+            record,
+            "F9",
+            "record a video (or pictures, without ffmpeg) in the current folder; again: stop",
+            "Record"},
+    Binding{{key, GLFW_KEY_F12}, screenshot, "F12", "save a picture (PNG) in the current folder", "Picture"},
+    Binding{{key, GLFW_KEY_F8},
+            saveInput,
+            "F8",
+            "save what hands did since the reset in the current folder; --replay plays it again",
+            "Input"},
+    Binding{{key, GLFW_KEY_F11}, fullScreen, "F11", "full screen", "Full screen"},
+    Binding{{key, GLFW_KEY_V}, vsync, "V", "wait for the screen (vsync) or not", "Vsync"},
+    Binding{{key, GLFW_KEY_EQUAL, GLFW_MOD_CONTROL}, largerTexts, "Ctrl + plus", "larger texts", "Larger"},
+    Binding{{key, GLFW_KEY_EQUAL, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT}, largerTexts, "", "larger texts"},
+    Binding{{key, '+', GLFW_MOD_CONTROL}, largerTexts, "", "larger texts"}, // where it is a key of its own
+    Binding{
+        {key, GLFW_KEY_MINUS, GLFW_MOD_CONTROL}, smallerTexts, "Ctrl + minus", "smaller texts", "Smaller"},
+    Binding{{key, GLFW_KEY_TAB}, panels, "Tab", "show or hide the panels", "Hide"},
+    Binding{{key, GLFW_KEY_H}, help, "H", "show or hide this help", "Help"},
+    Binding{{key, GLFW_KEY_F1}, help, "F1", "show or hide this help"},
+    Binding{{key, GLFW_KEY_Q, GLFW_MOD_CONTROL}, quit, "Ctrl + Q", "quit", "Quit"},
+};
+
+} // namespace
+
+std::span<const Binding> bindings() {
+    return table;
+}
+
+std::optional<Action> actionFor(const Trigger& trigger) {
+    Trigger known = trigger;
+    known.modifiers &= GLFW_MOD_SHIFT | GLFW_MOD_CONTROL;
+    const auto* found = std::ranges::find(table, known, &Binding::trigger);
+    return found == table.end() ? std::nullopt : std::optional(found->action);
+}
+
+std::vector<HelpLine> helpLines() {
+    std::vector<HelpLine> lines;
+    for (const auto* line = table.begin(); line != table.end();) {
+        std::string triggers(line->shown);
+        const auto* next = line + 1;
+        for (; next != table.end() && next->action == line->action; ++next)
+            if (!next->shown.empty()) triggers.append(", ").append(next->shown);
+        lines.push_back({std::move(triggers), line->help});
+        line = next;
+    }
+    return lines;
+}
+
+std::string helpText() {
+    std::string text;
+    for (HelpLine& line : helpLines()) {
+        line.triggers.resize(std::max<std::size_t>(line.triggers.size() + 2, 34), ' ');
+        text.append("  ").append(line.triggers).append(line.help).append("\n");
+    }
+    return text;
+}
+
+std::string_view keyOf(Action action) {
+    const auto* found = std::ranges::find(table, action, &Binding::action);
+    return found == table.end() ? std::string_view() : found->shown;
+}
+
+std::string hintText(Hands hands, bool canCut) {
+    constexpr std::string_view apart = "   \u00b7   ";
+    std::string text;
+    const auto add = [&](std::string_view words, std::initializer_list<Action> keys = {}) {
+        if (!text.empty()) text.append(apart);
+        const char* between = "";
+        for (const Action action : keys) {
+            text.append(between).append(keyOf(action));
+            between = " or ";
+        }
+        text.append(keys.size() > 0 ? " " : "").append(words);
+    };
+    if (hands == Hands::holding) {
+        add("pull; let go of the button to drop");
+        add("pins it there", {pin});
+    } else if (hands == Hands::blade) {
+        add("left drag cuts through");
+        add("puts the blade away", {blade});
+        add("goes back to before a cut", {undo});
+    } else if (hands == Hands::poke) {
+        add("left drag pushes");
+        add("changes its size", {pokeSize});
+        add("puts the sphere away", {Action::poke});
+    } else {
+        add("left drag grabs");
+        if (canCut) add("cuts", {blade});
+        add("pokes", {Action::poke});
+        add("orbits", {orbit});
+        add("pauses", {pause});
+        add("resets", {reset});
+    }
+    add("panels", {Action::panels});
+    add("help", {help});
+    return text;
+}
+
+std::string shortHintText() {
+    return std::string(keyOf(help)) + " help";
+}
+
+} // namespace sinew::viewer

@@ -1,0 +1,62 @@
+// The state behind the bindings.
+#include "viewer/hands/controller.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace sinew::viewer {
+
+Plan Playback::plan(double elapsed, std::uint32_t mostSteps) {
+    Plan plan{.isReset = std::exchange(wantsReset_, false)};
+    if (isPaused_ || plan.isReset) {
+        owed_ = 0;
+        plan.steps = isPaused_ ? std::min(singleSteps_, mostSteps) : 0;
+        singleSteps_ -= plan.steps;
+        return plan;
+    }
+    owed_ += pace_ * elapsed;
+    const double due = std::floor(owed_ / dt_);
+    plan.steps = static_cast<std::uint32_t>(std::min(due, static_cast<double>(mostSteps)));
+    owed_ = std::min(owed_ - plan.steps * dt_, dt_);
+    return plan;
+}
+
+void Playback::toggle() {
+    isPaused_ = !isPaused_;
+    singleSteps_ = 0;
+}
+
+void Playback::step() {
+    isPaused_ = true;
+    ++singleSteps_;
+}
+
+bool Controller::act(Action action) {
+    switch (action) {
+    case Action::pause:
+        playback.toggle();
+        return true;
+    case Action::step:
+        playback.step();
+        return true;
+    case Action::slowMotion:
+        playback.slowDown();
+        return true;
+    case Action::reset:
+        playback.reset();
+        return true;
+    default:
+        return false;
+    }
+}
+
+void Controller::drag(Action action, const Vector2& heights) {
+    camera = action == Action::pan ? panned(camera, heights) : orbited(camera, heights);
+}
+
+void Controller::wheel(float notches, const Vector2& pointer) {
+    camera = zoomed(camera, std::pow(0.88f, notches), pointer);
+}
+
+} // namespace sinew::viewer

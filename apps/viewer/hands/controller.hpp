@@ -1,0 +1,62 @@
+// What actions do to the camera and to time, without a window.
+#pragma once
+
+#include "viewer/draw/camera.hpp"
+#include "viewer/hands/bindings.hpp"
+
+#include <cstdint>
+
+namespace sinew::viewer {
+
+/// What to do before the next picture.
+struct Plan {
+    bool isReset = false;
+    std::uint32_t steps = 0;
+};
+
+/// Turns real time into steps of `dt` [s]. Time the machine cannot keep up with is dropped, not made up for.
+class Playback {
+public:
+    static constexpr std::uint32_t maxSteps = 2; ///< before one picture
+
+    explicit Playback(double dt) : dt_(dt) {}
+
+    /// `elapsed` is the time since the last call [s].
+    Plan plan(double elapsed, std::uint32_t mostSteps = maxSteps);
+
+    /// Seconds of the scene in a second of the clock, from now on.
+    void setPace(double pace) { pace_ = pace; }
+    double pace() const { return pace_; }
+    /// A half, a quarter, an eighth, and then full pace again.
+    void slowDown() { pace_ = pace_ > 0.2 ? pace_ / 2 : 1; }
+
+    void pause() { isPaused_ = true; }
+    void toggle();
+    void step();
+    void reset() { wantsReset_ = true; }
+    bool isPaused() const { return isPaused_; }
+
+private:
+    double dt_, owed_ = 0, pace_ = 1; // [s]; pace: 1 = real time
+    std::uint32_t singleSteps_ = 0;
+    bool isPaused_ = false, wantsReset_ = false;
+};
+
+class Controller {
+public:
+    Controller(const Camera& start, double dt) : camera(start), playback(dt) {}
+
+    /// Does what concerns time; false for an action that belongs to the window or the camera's drags.
+    bool act(Action action);
+
+    /// An orbit or a pan by (x, y) picture heights, y down.
+    void drag(Action action, const Vector2& heights);
+
+    /// Wheel notches towards the viewer are negative. `pointer` as zoomed() takes it.
+    void wheel(float notches, const Vector2& pointer);
+
+    Camera camera;
+    Playback playback;
+};
+
+} // namespace sinew::viewer

@@ -1,0 +1,262 @@
+// Logs of input as text: what it is of, then a line an event.
+#include "viewer/hands/input_log.hpp"
+
+#include "app/guard.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace sinew::viewer {
+
+namespace {
+
+constexpr std::string_view title = "sinew input 1";
+
+// A line in the making: words with blanks between them.
+class Line {
+public:
+    explicit Line(std::string_view name) : text_(name) {}
+    template <typename Number> Line& add(Number number, int base = 0) {
+        std::array<char, 48> digits{};
+        char* const end = digits.data() + digits.size();
+        if constexpr (std::is_floating_point_v<Number>)
+            text_.append(" ").append(digits.data(), std::to_chars(digits.data(), end, number).ptr);
+        else
+            text_.append(" ").append(digits.data(),
+                                     std::to_chars(digits.data(), end, number, base == 0 ? 10 : base).ptr);
+        return *this;
+    }
+    template <typename Vector> Line& addAll(const Vector& vector) {
+        for (const float number : vector) add(number);
+        return *this;
+    }
+    std::string end() { return std::move(text_) + "\n"; }
+
+private:
+    std::string text_;
+};
+
+std::string text(const Camera& camera) {
+    return Line("camera")
+        .addAll(camera.target)
+        .add(camera.distance)
+        .add(camera.azimuth)
+        .add(camera.elevation)
+        .add(camera.fieldOfView)
+        .add(camera.lowestEye)
+        .end();
+}
+
+std::string text(const Pointed& pointed) {
+    return Line("pointer").addAll(pointed.at).end();
+}
+
+std::string text(const Pressed& pressed) {
+    return Line(pressed.isDown ? "press" : "release").addAll(pressed.at).end();
+}
+
+std::string text(Action action) {
+    return "key " + std::string(keyOf(action)) + "\n";
+}
+
+constexpr std::array<std::string_view, 3> askers{"hand", "pin", "poke"};
+
+std::string text(const Answered& answered) {
+    const std::string asker(askers[static_cast<std::size_t>(answered.asker)]);
+    if (!answered.pick) return asker + " nothing\n";
+    const Pick& pick = *answered.pick;
+    return Line(asker).add(pick.particle).addAll(pick.point).addAll(pick.offset).add(answered.radius).end();
+}
+
+std::string text(const Pulled& pulled) {
+    return Line("gravity").add(pulled.gravity).end();
+}
+
+std::string text(const Sized& sized) {
+    return Line("radius").add(sized.radius).end();
+}
+
+std::string text(const Forgot&) {
+    return "forget\n";
+}
+
+std::string text(const Stepped& stepped) {
+    return Line("steps").add(stepped.count).end();
+}
+
+// The rest of a line, word by word.
+class Words {
+public:
+    explicit Words(const std::string& line) : words_(line) {}
+    std::string word() {
+        std::string next;
+        if (!(words_ >> next)) throw std::runtime_error("something is missing at the end of the line");
+        return next;
+    }
+    template <typename Number> Number number(int base = 10) {
+        const std::string text = word();
+        Number value{};
+        const char* const end = text.data() + text.size();
+        std::from_chars_result read{};
+        if constexpr (std::is_floating_point_v<Number>)
+            read = std::from_chars(text.data(), end, value);
+        else
+            read = std::from_chars(text.data(), end, value, base);
+        if (read.ec != std::errc() || read.ptr != end) throw std::runtime_error("no number: " + text);
+        return value;
+    }
+    float finite() {
+        const auto value = number<float>();
+        if (!std::isfinite(value)) throw std::runtime_error("not a finite number");
+        return value;
+    }
+    Vector2 pair() {
+        const float x = finite();
+        return {x, finite()};
+    }
+    Vector3 triple() {
+        const float x = finite(), y = finite();
+        return {x, y, finite()};
+    }
+    std::string rest() {
+        std::string all;
+        std::getline(words_ >> std::ws, all);
+        if (all.empty()) throw std::runtime_error("something is missing at the end of the line");
+        return all;
+    }
+    void end() {
+        std::string more;
+        if (words_ >> more) throw std::runtime_error("too much on the line: " + more);
+    }
+
+private:
+    std::istringstream words_;
+};
+
+Camera readCamera(Words& words) {
+    Camera camera{.target = words.triple()};
+    camera.distance = words.finite();
+    camera.azimuth = words.finite();
+    camera.elevation = words.finite();
+    camera.fieldOfView = words.finite();
+    camera.lowestEye = words.number<float>();
+    if (!(camera.distance > 0) || !(camera.fieldOfView > 0) || std::isnan(camera.lowestEye))
+        throw std::runtime_error("no camera has these numbers");
+    return camera;
+}
+
+Action readKey(Words& words) {
+    const std::string shown = words.rest();
+    const auto known = std::ranges::find(bindings(), shown, &Binding::shown);
+    if (known == bindings().end()) throw std::runtime_error("no key does anything that is called " + shown);
+    return known->action;
+}
+
+Answered readAnswer(Words& words, Question::Asker asker) {
+    const std::string first = words.word();
+    if (first == "nothing") return {.asker = asker};
+    Pick pick{.particle = Words(first).number<std::uint32_t>()};
+    pick.point = words.triple();
+    pick.offset = words.triple();
+    return {asker, pick, words.finite()};
+}
+
+struct Reader {
+    std::string_view name;
+    void (*read)(InputFile&, Words&);
+};
+
+const std::array readers{
+    Reader{"scene", [](InputFile& to, Words& words) { to.scene = words.rest(); }},
+    Reader{"solver", [](InputFile& to, Words& words) { to.solver = words.word(); }},
+    Reader{"substeps", [](InputFile& to, Words& words) { to.substeps = words.number<std::uint32_t>(); }},
+    Reader{"room", [](InputFile& to, Words& words) { to.room = words.number<std::uint32_t>(); }},
+    Reader{"surface", [](InputFile& to, Words& words) { to.surface = words.number<std::uint32_t>(); }},
+    Reader{"camera", [](InputFile& to, Words& words) { to.events.emplace_back(readCamera(words)); }},
+    Reader{"pointer", [](InputFile& to, Words& words) { to.events.emplace_back(Pointed{words.pair()}); }},
+    Reader{"press",
+           [](InputFile& to, Words& words) {
+               to.events.emplace_back(Pressed{true, words.pair()});
+           }},
+    Reader{"release",
+           [](InputFile& to, Words& words) {
+               to.events.emplace_back(Pressed{false, words.pair()});
+           }},
+    Reader{"key", [](InputFile& to, Words& words) { to.events.emplace_back(readKey(words)); }},
+    Reader{"hand", [](InputFile& to,
+                      Words& words) { to.events.emplace_back(readAnswer(words, Question::Asker::hand)); }},
+    Reader{"pin", [](InputFile& to,
+                     Words& words) { to.events.emplace_back(readAnswer(words, Question::Asker::pin)); }},
+    Reader{"poke", [](InputFile& to,
+                      Words& words) { to.events.emplace_back(readAnswer(words, Question::Asker::poke)); }},
+    Reader{"radius", [](InputFile& to, Words& words) { to.events.emplace_back(Sized{words.finite()}); }},
+    Reader{"gravity", [](InputFile& to, Words& words) { to.events.emplace_back(Pulled{words.finite()}); }},
+    Reader{"forget", [](InputFile& to, Words&) { to.events.emplace_back(Forgot{}); }},
+    Reader{"steps", [](InputFile& to,
+                       Words& words) { to.events.emplace_back(Stepped{words.number<std::uint32_t>()}); }},
+    Reader{"state", [](InputFile& to, Words& words) { to.hash = words.number<std::uint64_t>(16); }}};
+
+void readLine(const std::string& line, InputFile& file) {
+    if (line.empty() || line.front() == '#') return;
+    Words words(line);
+    const std::string name = words.word();
+    const auto* reader = std::ranges::find(readers, name, &Reader::name);
+    if (reader == readers.end()) throw std::runtime_error("nothing is called " + name);
+    reader->read(file, words);
+    words.end();
+}
+
+[[noreturn]] void refuse(const std::string& where, const std::string& why) {
+    throw app::Failure(app::badInput, "cannot read input: " + where + ": " + why + ": save it with " +
+                                          std::string(keyOf(Action::saveInput)) + " in the window");
+}
+
+} // namespace
+
+std::string toText(const InputFile& file) {
+    std::string all = std::string(title) + "\n";
+    if (!file.scene.empty()) all += "scene " + file.scene + "\n";
+    if (!file.solver.empty()) all += "solver " + file.solver + "\n";
+    if (file.substeps > 0) all += Line("substeps").add(file.substeps).end();
+    if (file.room > 0) all += Line("room").add(file.room).end();
+    if (file.surface > 0) all += Line("surface").add(file.surface).end();
+    for (const InputEvent& event : file.events)
+        all += std::visit([](const auto& one) { return text(one); }, event);
+    if (file.hash) all += Line("state").add(*file.hash, 16).end();
+    return all;
+}
+
+InputFile parseInput(const std::string& text, const std::string& name) {
+    InputFile file;
+    std::istringstream lines(text);
+    std::string line;
+    if (!std::getline(lines, line) || line != title)
+        refuse(name, "it does not begin with " + std::string(title));
+    for (std::size_t number = 2; std::getline(lines, line); ++number) {
+        try {
+            readLine(line, file);
+        } catch (const std::runtime_error& error) {
+            refuse(name + ":" + std::to_string(number), error.what());
+        }
+    }
+    return file;
+}
+
+InputFile loadInput(const std::filesystem::path& file) {
+    std::error_code error;
+    std::ostringstream text;
+    if (std::filesystem::is_regular_file(file, error))
+        text << std::ifstream(file, std::ios::binary).rdbuf();
+    else if (std::filesystem::exists(file, error))
+        refuse(file.string(), "it is no file");
+    else
+        refuse(file.string(), "there is no such file");
+    return parseInput(text.str(), file.string());
+}
+
+} // namespace sinew::viewer

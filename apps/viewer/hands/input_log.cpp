@@ -1,0 +1,93 @@
+// Events as they come, one after another.
+#include "viewer/hands/input_log.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace sinew::viewer {
+
+void InputLog::restart() {
+    events_.clear();
+    camera_.reset();
+    pointed_.reset();
+    gravity_.reset();
+    radius_.reset();
+}
+
+void InputLog::look(const Camera& camera) {
+    if (camera_ == camera) return;
+    camera_ = camera;
+    pointed_.reset(); // points elsewhere now
+    events_.emplace_back(camera);
+}
+
+void InputLog::point(const Vector2& pointer) {
+    if (pointed_ == Pointed{pointer}) return;
+    pointed_ = Pointed{pointer};
+    events_.emplace_back(*pointed_);
+}
+
+void InputLog::press(bool isDown, const Vector2& pointer) {
+    events_.emplace_back(Pressed{isDown, pointer});
+    pointed_.reset();
+}
+
+void InputLog::key(Action action) {
+    events_.emplace_back(action);
+    pointed_.reset();
+}
+
+// How far away it was is of no use to anybody.
+void InputLog::answer(Answered answer) {
+    if (answer.pick) answer.pick->distance = 0;
+    events_.emplace_back(std::move(answer));
+    pointed_.reset();
+}
+
+void InputLog::pull(float gravity) {
+    if (gravity_ == gravity) return;
+    gravity_ = gravity;
+    events_.emplace_back(Pulled{gravity});
+}
+
+void InputLog::size(float radius) {
+    if (radius_ == radius) return;
+    radius_ = radius;
+    events_.emplace_back(Sized{radius});
+}
+
+void InputLog::forget() {
+    events_.emplace_back(Forgot{});
+}
+
+void InputLog::step() {
+    auto* last = events_.empty() ? nullptr : std::get_if<Stepped>(&events_.back());
+    if (last == nullptr) last = &std::get<Stepped>(events_.emplace_back(Stepped{}));
+    ++last->count;
+}
+
+// A line of its own even after steps: it came after them.
+void InputLog::goBack() {
+    events_.emplace_back(Stepped{});
+    pointed_.reset();
+}
+
+// Their lines stay: what was undone between them is as it was.
+void InputLog::takeBack(std::uint64_t steps) {
+    for (auto event = events_.rbegin(); event != events_.rend() && steps > 0; ++event)
+        if (auto* stepped = std::get_if<Stepped>(&*event)) {
+            const auto taken = static_cast<std::uint32_t>(std::min<std::uint64_t>(steps, stepped->count));
+            stepped->count -= taken;
+            steps -= taken;
+        }
+    pointed_.reset();
+}
+
+std::uint64_t InputFile::steps() const {
+    std::uint64_t all = 0;
+    for (const InputEvent& event : events)
+        if (const auto* stepped = std::get_if<Stepped>(&event)) all += stepped->count;
+    return all;
+}
+
+} // namespace sinew::viewer

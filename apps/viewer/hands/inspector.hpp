@@ -1,0 +1,60 @@
+// Says what lies under the pointer, while that is asked for: a few times a second, from copies that frames
+// bring along; nothing waits.
+#pragma once
+
+#include "viewer/draw/contact_marks.hpp"
+#include "viewer/hands/found.hpp"
+#include "viewer/hands/pick.hpp"
+
+#include <chrono>
+#include <vector>
+
+namespace sinew::viewer {
+
+class Stage;
+class StateProbe;
+
+/// What a state says of a particle. `positions` and `velocities` of every particle, or no velocities.
+Found foundAt(const sim::Scene& scene, std::uint32_t particle, std::span<const sim::layout::vec4> positions,
+              std::span<const sim::layout::vec4> velocities, bool isCut);
+
+/// Must not outlive its Device, which must not move, nor the stage.
+class Inspector {
+public:
+    /// `slots` frames may be under way at a time.
+    Inspector(const vk::Device& device, const Stage& stage, std::uint32_t slots);
+
+    void toggle();
+    bool isOn() const { return isOn_; }
+    /// After the stage has another simulation.
+    void restart();
+
+    /// Whether a copy of the state is wanted to look where `ray` leads; says so at most ten times a second
+    /// while nothing else changes.
+    bool isDue(const Ray& ray) const;
+    /// Of the state that is copied into the frame of `slot`, for `ray`. Throws vk::Error.
+    void record(VkCommandBuffer commands, std::uint32_t slot, const Ray& ray);
+    /// When that frame has finished.
+    void settle(std::uint32_t slot, const BallList& balls, const StateProbe& probe, bool isCut);
+
+    /// Nothing where it is off or where nothing is.
+    const std::optional<Found>& found() const { return found_; }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    struct Asked {
+        std::optional<Ray> ray;
+        std::optional<std::uint32_t> counted; // the particle whose contacts are counted
+    };
+
+    const vk::Device& device_;
+    const Stage& stage_;
+    std::vector<Asked> asked_; // a slot
+    std::unique_ptr<const ContactMarks> contacts_;
+    std::optional<Ray> last_;
+    std::optional<Found> found_;
+    Clock::time_point lastTime_{};
+    bool isOn_ = false;
+};
+
+} // namespace sinew::viewer

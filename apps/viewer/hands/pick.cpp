@@ -1,0 +1,121 @@
+// Every triangle and every ball in turn: a click is rare, and a hundred thousand triangles take a millisecond
+// or two.
+#include "viewer/hands/pick.hpp"
+
+#include "sim/compile.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sinew::viewer {
+
+namespace {
+
+constexpr float none = std::numeric_limits<float>::infinity();
+
+Vector3 placeOf(const sim::layout::vec4& v) {
+    return {v.x, v.y, v.z};
+}
+
+// Along the ray, from in front or behind (Moller and Trumbore 1997); `none` where it misses.
+float meetsTriangle(const Ray& ray, const Vector3& a, const Vector3& b, const Vector3& c) {
+    const Vector3 ab = b - a, ac = c - a, p = ray.direction.cross(ac);
+    const float volume = ab.dot(p);
+    if (volume == 0) return none;
+    const Vector3 from = ray.origin - a, q = from.cross(ab);
+    const float u = from.dot(p) / volume, v = ray.direction.dot(q) / volume, t = ac.dot(q) / volume;
+    return u >= 0 && v >= 0 && u + v <= 1 && t > 0 ? t : none;
+}
+
+float meetsBall(const Ray& ray, const Vector3& center, float radius) {
+    const Vector3 from = ray.origin - center;
+    const float along = -from.dot(ray.direction);
+    const float apart = (from + along * ray.direction).squaredNorm();
+    if (!(apart <= radius * radius)) return none;
+    const float t = along - std::sqrt(radius * radius - apart);
+    return t > 0 ? t : none;
+}
+
+// Of a skin's triangle, all particles that hold its corners.
+void addHolders(const sim::Skin& skin, const std::array<std::uint32_t, 3>& triangle,
+                std::vector<std::uint32_t>& holders) {
+    for (const std::uint32_t corner : triangle)
+        if (skin.cells.empty())
+            holders.push_back(skin.particles[corner]);
+        else
+            holders.insert(holders.end(), skin.cells[corner].particles.begin(),
+                           skin.cells[corner].particles.end());
+}
+
+struct Nearest {
+    float distance = none;
+    std::vector<std::uint32_t> holders;
+};
+
+void lookAtSkins(const sim::Scene& scene, const Ray& ray, std::span<const sim::layout::SkinVertex> vertices,
+                 Nearest& nearest) {
+    std::size_t first = 0;
+    for (const sim::Skin& skin : scene.skins) {
+        for (const auto& triangle : skin.triangles) {
+            const auto corner = [&](std::size_t i) {
+                return placeOf(vertices[first + triangle[i]].position);
+            };
+            const float distance = meetsTriangle(ray, corner(0), corner(1), corner(2));
+            if (distance >= nearest.distance) continue;
+            nearest.distance = distance;
+            nearest.holders.clear();
+            addHolders(skin, triangle, nearest.holders);
+        }
+        first += skin.vertexCount();
+    }
+}
+
+void lookAtBalls(const BallList& balls, const Ray& ray, std::span<const sim::layout::vec4> positions,
+                 Nearest& nearest) {
+    for (const BallRange& range : balls.ranges)
+        for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
+            const float distance = meetsBall(ray, placeOf(positions[i]), balls.radii[i]);
+            if (distance < nearest.distance) nearest = {distance, {i}};
+        }
+}
+
+} // namespace
+
+std::optional<Pick> pick(const sim::Scene& scene, const BallList& balls, const Ray& ray,
+                         std::span<const sim::layout::vec4> positions,
+                         std::span<const sim::layout::SkinVertex> vertices, Among among) {
+    Nearest nearest;
+    if (!vertices.empty()) lookAtSkins(scene, ray, vertices, nearest);
+    lookAtBalls(balls, ray, positions, nearest);
+    if (nearest.distance == none) return std::nullopt;
+    const Vector3 point = ray.origin + nearest.distance * ray.direction;
+    if (among == Among::moving) {
+        const std::vector<float> inverseMass = sim::inverseMasses(scene);
+        std::erase_if(nearest.holders, [&](std::uint32_t i) { return inverseMass[i] == 0; });
+    }
+    if (nearest.holders.empty()) return std::nullopt;
+    const auto apart = [&](std::uint32_t i) { return (placeOf(positions[i]) - point).squaredNorm(); };
+    const std::uint32_t particle =
+        *std::ranges::min_element(nearest.holders, {}, [&](std::uint32_t i) { return apart(i); });
+    return Pick{particle, point, point - placeOf(positions[particle]), nearest.distance};
+}
+
+float holdRadius(const sim::Scene& scene, std::uint32_t particle) {
+    float next = none;
+    for (const sim::DistanceConstraint& link : scene.distances)
+        if ((link.a == particle || link.b == particle) && link.restLength > 0)
+            next = std::min(next, link.restLength);
+    if (next == none) return 0; // it alone
+    Box box;
+    for (const sim::Body& body : scene.bodies)
+        if (particle - body.firstParticle < body.particleCount)
+            for (std::uint32_t i = body.firstParticle; i < body.firstParticle + body.particleCount; ++i) {
+                const sim::Vec3& x = scene.particles[i].position;
+                box.extend(Vector3(x.x, x.y, x.z));
+            }
+    const float size = box.isEmpty() ? 0 : box.diagonal().norm();
+    return std::max(size / 8, 1.5f * next);
+}
+
+} // namespace sinew::viewer

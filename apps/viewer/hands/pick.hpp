@@ -1,0 +1,37 @@
+// Which particle lies under the pointer: the nearest one to where a ray meets a skin, or a ball.
+#pragma once
+
+#include "layout.h"
+#include "viewer/draw/balls.hpp"
+#include "viewer/draw/camera.hpp"
+
+namespace sinew::viewer {
+
+struct Pick {
+    std::uint32_t particle = 0;       ///< the nearest to the point
+    Vector3 point = Vector3::Zero();  ///< where the ray meets what is seen [m]
+    Vector3 offset = Vector3::Zero(); ///< of that point from the particle [m]
+    float distance = 0;               ///< along the ray [m]
+    bool operator==(const Pick&) const = default;
+};
+
+/// What a tool asks of the state on show: what lies there.
+struct Question {
+    enum class Asker { hand, pin, poke } asker = Asker::hand;
+    Ray ray;
+    bool operator==(const Question&) const = default;
+};
+
+/// Whether what is fixed may be the nearest particle.
+enum class Among { moving, all };
+
+/// A state as StateProbe reads it. Nothing where the ray meets no body, or only what is not asked for.
+std::optional<Pick> pick(const sim::Scene& scene, const BallList& balls, const Ray& ray,
+                         std::span<const sim::layout::vec4> positions,
+                         std::span<const sim::layout::SkinVertex> vertices, Among among = Among::moving);
+
+/// How far around a picked particle a hand takes hold [m]: an eighth of the size of its body at the start,
+/// but more than its next neighbours are away.
+float holdRadius(const sim::Scene& scene, std::uint32_t particle);
+
+} // namespace sinew::viewer

@@ -1,0 +1,68 @@
+// Copies in mapped memory.
+#include "viewer/hands/state_probe.hpp"
+
+#include "sim/program.hpp"
+#include "vk/commands.hpp"
+
+namespace sinew::viewer {
+
+namespace {
+
+vk::Buffer readback(const vk::Device& device, const std::string& name, const vk::BufferView& of) {
+    return vk::Buffer(
+        device,
+        {.name = name, .count = of.size / of.stride, .stride = of.stride, .kind = vk::MemoryKind::readback});
+}
+
+} // namespace
+
+StateProbe::StateProbe(const vk::Device& device, const sim::Simulation& simulation)
+    : device_(device), particles_(simulation.program().particleCount),
+      positions_{simulation.positions(), readback(device, "probe.positions", simulation.positions())} {
+    const vk::BufferView velocities = simulation.velocities(), vertices = simulation.skinVertices();
+    if (velocities.size > 0)
+        velocities_.emplace(Copy{velocities, readback(device, "probe.velocities", velocities)});
+    if (vertices.size > 0) vertices_.emplace(Copy{vertices, readback(device, "probe.vertices", vertices)});
+}
+
+void StateProbe::record(VkCommandBuffer handle) const noexcept {
+    vk::Commands commands(device_, handle);
+    commands.copy(positions_.from, positions_.to.view());
+    if (vertices_) {
+        commands.barrier();
+        commands.copy(vertices_->from, vertices_->to.view());
+    }
+    commands.hostBarrier();
+}
+
+void StateProbe::recordVelocities(VkCommandBuffer handle) const noexcept {
+    if (!velocities_) return;
+    vk::Commands commands(device_, handle);
+    commands.copy(velocities_->from, velocities_->to.view());
+    commands.hostBarrier();
+}
+
+Box StateProbe::bounds() const {
+    Box box;
+    for (const sim::layout::vec4& place : positions()) {
+        const Vector3 position(place.x, place.y, place.z);
+        if (position.allFinite()) box.extend(position);
+    }
+    return box;
+}
+
+std::span<const sim::layout::vec4> StateProbe::positions() const noexcept {
+    return {reinterpret_cast<const sim::layout::vec4*>(positions_.to.mapped()), particles_};
+}
+
+std::span<const sim::layout::vec4> StateProbe::velocities() const noexcept {
+    if (!velocities_) return {};
+    return {reinterpret_cast<const sim::layout::vec4*>(velocities_->to.mapped()), particles_};
+}
+
+std::span<const sim::layout::SkinVertex> StateProbe::vertices() const noexcept {
+    if (!vertices_) return {};
+    return {reinterpret_cast<const sim::layout::SkinVertex*>(vertices_->to.mapped()), vertices_->to.count()};
+}
+
+} // namespace sinew::viewer

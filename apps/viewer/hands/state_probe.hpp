@@ -1,0 +1,46 @@
+// Where particles and skins are now, asked of the device without waiting: recorded into a frame, read when
+// it has finished.
+#pragma once
+
+#include "layout.h"
+#include "sim/simulation.hpp"
+#include "viewer/draw/geometry.hpp"
+#include "vk/buffer.hpp"
+
+#include <optional>
+#include <span>
+
+namespace sinew::viewer {
+
+/// Must not outlive its Device, which must not move, nor the simulation.
+class StateProbe {
+public:
+    StateProbe(const vk::Device& device, const sim::Simulation& simulation);
+
+    /// Velocities too, in the same commands as record(), where the simulation has some.
+    void recordVelocities(VkCommandBuffer commands) const noexcept;
+    /// After recordSkin() of the simulation, if there are skins.
+    void record(VkCommandBuffer commands) const noexcept;
+
+    /// The box around all finite positions [m]; empty where there is none. Of this and what follows, the
+    /// recorded frame must have finished.
+    Box bounds() const;
+    /// Of every particle [m].
+    std::span<const sim::layout::vec4> positions() const noexcept;
+    /// Of every particle [m/s]; empty where there are none.
+    std::span<const sim::layout::vec4> velocities() const noexcept;
+    /// Of all skins, one behind the other; empty where there are none.
+    std::span<const sim::layout::SkinVertex> vertices() const noexcept;
+
+private:
+    struct Copy {
+        vk::BufferView from;
+        vk::Buffer to;
+    };
+    const vk::Device& device_;
+    std::size_t particles_;
+    Copy positions_;
+    std::optional<Copy> velocities_, vertices_;
+};
+
+} // namespace sinew::viewer

@@ -1,0 +1,133 @@
+// What is drawn of the bodies, and the legend of its colors.
+#include "viewer/panels/panel_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace sinew::viewer::parts {
+
+namespace {
+
+constexpr std::array skinNames{"Skin", "Glass", "No skin"};
+constexpr std::array mapNames{"Colors", "Strain", "Speed", "Sleep"};
+
+// "2 %", "0.5 m/s".
+std::string valueText(ColorMap map, float value) {
+    char text[32];
+    std::snprintf(text, sizeof text, map == ColorMap::strain ? "%.3g %%" : "%.3g m/s",
+                  map == ColorMap::strain ? 100 * double{value} : double{value});
+    return text;
+}
+
+// As the screen shows it.
+ImU32 shown(const std::array<float, 3>& linear) {
+    const auto encoded = [](float x) {
+        return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
+    };
+    return ImGui::ColorConvertFloat4ToU32({encoded(linear[0]), encoded(linear[1]), encoded(linear[2]), 1});
+}
+
+void colorBar() {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float height = 0.7f * ImGui::GetTextLineHeight(), width = contentWidth();
+    const auto colors = mapColors();
+    for (std::size_t i = 0; i + 1 < mapColorCount; ++i) {
+        const auto place = [&](std::size_t color) {
+            return at.x + width * static_cast<float>(color) / static_cast<float>(mapColorCount - 1);
+        };
+        const ImU32 low = shown(colors[i]), high = shown(colors[i + 1]);
+        ImGui::GetWindowDrawList()->AddRectFilledMultiColor({place(i), at.y}, {place(i + 1), at.y + height},
+                                                            low, high, high, low);
+    }
+    ImGui::Dummy({width, height});
+}
+
+// Two colors, and how many there are of each.
+void sleepLegend(const Facts& facts, std::size_t particles) {
+    const auto colors = mapColors();
+    const float side = ImGui::GetTextLineHeight();
+    const auto swatch = [&](const std::array<float, 3>& color, const char* name) {
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + side, at.y + side}, shown(color));
+        ImGui::Dummy({side, side});
+        ImGui::SameLine();
+        ImGui::TextUnformatted(name);
+    };
+    swatch(colors.back(), "awake");
+    ImGui::SameLine();
+    swatch(colors.front(), "asleep");
+    row("asleep", grouped(facts.sleeping) + " of " + grouped(particles));
+}
+
+void legend(const Facts& facts, std::size_t particles) {
+    const ColorMap map = facts.layers.map;
+    if (map == ColorMap::sleep) return sleepLegend(facts, particles);
+    if (facts.mapRange <= 0) return wrapped("nothing here has a value", quiet());
+    colorBar();
+    const std::string middle = valueText(map, facts.mapRange / 2), end = valueText(map, facts.mapRange);
+    const float left = ImGui::GetWindowContentRegionMin().x;
+    const auto textAt = [&](const std::string& text, float share) {
+        ImGui::SetCursorPosX(left + share * (contentWidth() - ImGui::CalcTextSize(text.c_str()).x));
+        ImGui::TextColored(quiet(), "%s", text.c_str());
+    };
+    textAt("0", 0);
+    ImGui::SameLine();
+    textAt(middle, 0.5f);
+    ImGui::SameLine();
+    textAt(end, 1);
+    char beyond[48];
+    std::snprintf(beyond, sizeof beyond, "%.2g %%, up to ", 100 * double{facts.map.beyond});
+    const std::string limit = std::string(map == ColorMap::strain ? "strain beyond " : "faster than ") +
+                              valueText(map, facts.map.range); // of this state, whatever the colors reach to
+    row(limit.c_str(), beyond + valueText(map, facts.map.largest));
+}
+
+// A square a class, in the order in which they are solved; their numbers in a tip.
+void linkLegend(const LinkFacts& links) {
+    const float side = 0.8f * ImGui::GetTextLineHeight(), between = 0.5f * ImGui::GetStyle().ItemSpacing.x;
+    if (links.classes.size() > 1) {
+        const ImVec2 from = ImGui::GetCursorScreenPos();
+        const auto inARow =
+            std::max(static_cast<std::size_t>(contentWidth() / (side + between)), std::size_t{1});
+        for (std::size_t i = 0; i < links.classes.size(); ++i) {
+            const ImVec2 at{from.x + static_cast<float>(i % inARow) * (side + between),
+                            from.y + static_cast<float>(i / inARow) * (side + between)};
+            const ImVec2 end{at.x + side, at.y + side};
+            ImGui::GetWindowDrawList()->AddRectFilled(at, end, shown(classColor(i)));
+            if (ImGui::IsMouseHoveringRect(at, end))
+                ImGui::SetTooltip("class %zu: %s links", i + 1, grouped(links.classes[i]).c_str());
+        }
+        const auto rows = static_cast<float>((links.classes.size() + inARow - 1) / inARow);
+        ImGui::Dummy({contentWidth(), rows * (side + between)});
+    }
+    wrapped(links.note, quiet());
+    if (links.fixed > 0) row("links that nobody corrects", grouped(links.fixed));
+}
+
+} // namespace
+
+void look(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
+    const Layers& layers = facts.layers;
+    float width = buttonWidth(3);
+    button(Action::skinLook, wishes, width, layers.skin != SkinLook::solid,
+           skinNames[static_cast<std::size_t>(layers.skin)]);
+    ImGui::SameLine();
+    button(Action::wires, wishes, width, layers.hasWires);
+    ImGui::SameLine();
+    button(Action::balls, wishes, width, layers.hasBalls);
+    width = buttonWidth(4);
+    button(Action::links, wishes, width, layers.hasLinks);
+    ImGui::SameLine();
+    button(Action::contacts, wishes, width, layers.hasContacts);
+    ImGui::SameLine();
+    button(Action::colorMap, wishes, width, layers.map != ColorMap::none,
+           mapNames[static_cast<std::size_t>(layers.map)]);
+    ImGui::SameLine();
+    button(Action::inspect, wishes, width, facts.isInspecting);
+    if (layers.hasContacts) row("contacts", grouped(facts.contactsFound));
+    if (layers.hasLinks) linkLegend(facts.links);
+    if (layers.map != ColorMap::none) legend(facts, scene.particles);
+}
+
+} // namespace sinew::viewer::parts

@@ -1,0 +1,163 @@
+// Triangles of all panels go into two buffers a slot, which grow and never shrink.
+#include "viewer/panels/panel_painter.hpp"
+
+#include "viewer/panel.h"
+#include "viewer_shaders.hpp"
+#include "vk/check.hpp"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+namespace sinew::viewer {
+
+namespace {
+
+static_assert(sizeof(ImDrawVert) == sizeof(PanelVertex));
+static_assert(sizeof(ImDrawIdx) == 2);
+
+constexpr VkDescriptorSetLayoutBinding atlasBinding{.binding = 0,
+                                                    .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                                    .descriptorCount = 1,
+                                                    .stageFlags = VK_SHADER_STAGE_FRAGMENT_BIT};
+
+// Whether the picture encodes what is written, as sRGB (panel.frag).
+std::array<vk::SpecialisationConstant, 1> srgbConstant(VkFormat format) {
+    const bool encodes = format == VK_FORMAT_B8G8R8A8_SRGB || format == VK_FORMAT_R8G8B8A8_SRGB;
+    return {vk::SpecialisationConstant{0, encodes ? 1u : 0u}};
+}
+
+// At least `bytes` long; a new one has room for half as much again.
+void grow(std::optional<vk::Buffer>& buffer, const vk::Device& device, const char* name, std::size_t bytes,
+          VkBufferUsageFlags usage) {
+    if (buffer && buffer->count() * 4 >= bytes) return;
+    buffer.emplace(device, vk::BufferRequest{.name = name,
+                                             .count = (bytes + bytes / 2) / 4 + 1,
+                                             .stride = 4,
+                                             .kind = vk::MemoryKind::upload,
+                                             .usage = usage});
+}
+
+} // namespace
+
+PanelPainter::PanelPainter(const vk::Device& device, VkFormat format, VkImageLayout finalLayout,
+                           std::uint32_t slots)
+    : device_(device), pass_(RenderPass::over(device, format, finalLayout)),
+      set_(device, "panels", std::span(&atlasBinding, 1), sizeof(layout::PanelPush), 1),
+      pipeline_(device, {.name = "panels",
+                         .vertex = &shaders::panelVert,
+                         .fragment = &shaders::panelFrag,
+                         .layout = set_.handle(),
+                         .pass = pass_.handle(),
+                         .input = PipelineRequest::Input::panels,
+                         .isBlended = true,
+                         .constants = srgbConstant(format)}),
+      slots_(slots) {}
+
+void PanelPainter::setAtlas(const GlyphAtlas& atlas) {
+    atlasSize_ = {atlas.width, atlas.height};
+    full_ = atlas.full;
+    atlas_.emplace(device_, vk::BufferRequest{.name = "panels.atlas",
+                                              .count = atlas.coverage.size() / 4,
+                                              .stride = 4,
+                                              .kind = vk::MemoryKind::upload});
+    std::memcpy(atlas_->mapped(), atlas.coverage.data(), atlas.coverage.size() / 4 * 4);
+    const vk::BufferView view = atlas_->view();
+    const VkDescriptorBufferInfo buffer{view.buffer, view.offset, view.size};
+    const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                     .dstSet = set_.set(0),
+                                     .descriptorCount = 1,
+                                     .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                     .pBufferInfo = &buffer};
+    device_.functions().vkUpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
+}
+
+void PanelPainter::setPictures(VkExtent2D extent, std::span<const VkImageView> pictures) {
+    framebuffers_.clear();
+    extent_ = extent;
+    for (const VkImageView picture : pictures)
+        framebuffers_.emplace_back(device_, pass_.handle(), std::array{picture}, extent,
+                                   "panels.framebuffer");
+}
+
+void PanelPainter::upload(Slot& slot, const ImDrawData& drawn) {
+    grow(slot.vertices, device_, "panels.vertices",
+         static_cast<std::size_t>(drawn.TotalVtxCount) * sizeof(ImDrawVert),
+         VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    grow(slot.indices, device_, "panels.indices",
+         static_cast<std::size_t>(drawn.TotalIdxCount) * sizeof(ImDrawIdx), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+    std::byte *vertices = slot.vertices->mapped(), *indices = slot.indices->mapped();
+    for (int i = 0; i < drawn.CmdListsCount; ++i) {
+        const ImDrawList& list = *drawn.CmdLists[i];
+        std::memcpy(vertices, list.VtxBuffer.Data, static_cast<std::size_t>(list.VtxBuffer.size_in_bytes()));
+        std::memcpy(indices, list.IdxBuffer.Data, static_cast<std::size_t>(list.IdxBuffer.size_in_bytes()));
+        vertices += list.VtxBuffer.size_in_bytes();
+        indices += list.IdxBuffer.size_in_bytes();
+    }
+}
+
+void PanelPainter::begin(VkCommandBuffer commands, std::size_t picture) const noexcept {
+    const VkRenderPassBeginInfo info{.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
+                                     .renderPass = pass_.handle(),
+                                     .framebuffer = framebuffers_[picture].handle(),
+                                     .renderArea = {{0, 0}, extent_}};
+    const VkViewport viewport{0, 0, static_cast<float>(extent_.width), static_cast<float>(extent_.height),
+                              0, 1};
+    device_.functions().vkCmdBeginRenderPass(commands, &info, VK_SUBPASS_CONTENTS_INLINE);
+    device_.functions().vkCmdSetViewport(commands, 0, 1, &viewport);
+}
+
+void PanelPainter::bind(VkCommandBuffer commands, const Slot& slot) const noexcept {
+    const vk::DeviceFunctions& functions = device_.functions();
+    const vk::BufferView vertices = slot.vertices->view(), indices = slot.indices->view();
+    const layout::PanelPush push{
+        .scale = {2 / static_cast<float>(extent_.width), 2 / static_cast<float>(extent_.height)},
+        .atlas = {static_cast<float>(atlasSize_.width), static_cast<float>(atlasSize_.height)},
+        .full = {full_.x(), full_.y()}};
+    functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.handle());
+    set_.bind(commands, 0);
+    functions.vkCmdBindVertexBuffers(commands, 0, 1, &vertices.buffer, &vertices.offset);
+    functions.vkCmdBindIndexBuffer(commands, indices.buffer, indices.offset, VK_INDEX_TYPE_UINT16);
+    functions.vkCmdPushConstants(commands, set_.handle(), drawingStages, 0, sizeof(push), &push);
+}
+
+void PanelPainter::drawList(VkCommandBuffer commands, const ImDrawList& list, std::uint32_t firstVertex,
+                            std::uint32_t firstIndex) const noexcept {
+    for (const ImDrawCmd& command : list.CmdBuffer) {
+        const auto within = [](float value, std::uint32_t most) {
+            return std::clamp(static_cast<std::int32_t>(std::floor(value)), 0,
+                              static_cast<std::int32_t>(most));
+        };
+        const VkOffset2D from{within(command.ClipRect.x, extent_.width),
+                              within(command.ClipRect.y, extent_.height)};
+        const std::int32_t right = within(command.ClipRect.z, extent_.width);
+        const std::int32_t bottom = within(command.ClipRect.w, extent_.height);
+        if (right <= from.x || bottom <= from.y) continue;
+        const VkRect2D scissor{
+            from, {static_cast<std::uint32_t>(right - from.x), static_cast<std::uint32_t>(bottom - from.y)}};
+        device_.functions().vkCmdSetScissor(commands, 0, 1, &scissor);
+        device_.functions().vkCmdDrawIndexed(commands, command.ElemCount, 1, firstIndex + command.IdxOffset,
+                                             static_cast<std::int32_t>(firstVertex + command.VtxOffset), 0);
+    }
+}
+
+void PanelPainter::record(VkCommandBuffer commands, std::uint32_t slot, std::size_t picture,
+                          const ImDrawData& drawn) {
+    if (drawn.TotalVtxCount == 0 || !atlas_) return;
+    upload(slots_[slot], drawn);
+    begin(commands, picture);
+    bind(commands, slots_[slot]);
+    std::uint32_t vertex = 0, index = 0;
+    for (int i = 0; i < drawn.CmdListsCount; ++i) {
+        const ImDrawList& list = *drawn.CmdLists[i];
+        drawList(commands, list, vertex, index);
+        vertex += static_cast<std::uint32_t>(list.VtxBuffer.Size);
+        index += static_cast<std::uint32_t>(list.IdxBuffer.Size);
+    }
+    device_.functions().vkCmdEndRenderPass(commands);
+}
+
+} // namespace sinew::viewer

@@ -1,0 +1,67 @@
+// Draws what Dear ImGui made of the panels over a finished picture, with the viewer's own pipelines: ImGui's
+// Vulkan backend would link the loader, which this program opens at run time, and mixes colors without regard
+// to sRGB.
+#pragma once
+
+#include "viewer/draw/geometry.hpp"
+#include "viewer/draw/pipeline.hpp"
+#include "viewer/draw/render_pass.hpp"
+#include "viewer/draw/set_layout.hpp"
+#include "vk/buffer.hpp"
+
+#include <optional>
+#include <vector>
+
+struct ImDrawData;
+struct ImDrawList;
+
+namespace sinew::viewer {
+
+/// One byte a texel: how much of it a glyph covers. Rows from the top.
+struct GlyphAtlas {
+    std::uint32_t width = 0, height = 0; ///< [texels]; width is a multiple of 4
+    Vector2 full = Vector2::Zero();      ///< a place that is covered whole: what is no glyph has it [texels]
+    std::vector<std::uint8_t> coverage;
+};
+
+/// Must not outlive its Device, which must not move.
+class PanelPainter {
+public:
+    /// Format and layout of the pictures as RenderPass::over(); `slots` of them may be recorded but not
+    /// finished. Throws vk::Error.
+    PanelPainter(const vk::Device& device, VkFormat format, VkImageLayout finalLayout, std::uint32_t slots);
+
+    /// Glyphs from now on. Nothing that was recorded may be unfinished.
+    void setAtlas(const GlyphAtlas& atlas);
+
+    /// Framebuffers for pictures of a size. The views belong to the caller and must outlive them; what was
+    /// drawn into the old ones must be finished.
+    void setPictures(VkExtent2D extent, std::span<const VkImageView> pictures);
+
+    /// Draws over a picture in its final layout and leaves it there. `commands` must be recording,
+    /// outside a render pass; the slot's previous picture must be finished. Throws vk::Error where there is
+    /// no memory for more triangles than ever before.
+    void record(VkCommandBuffer commands, std::uint32_t slot, std::size_t picture, const ImDrawData& drawn);
+
+private:
+    struct Slot {
+        std::optional<vk::Buffer> vertices, indices;
+    };
+    void upload(Slot& slot, const ImDrawData& drawn);
+    void begin(VkCommandBuffer commands, std::size_t picture) const noexcept;
+    void bind(VkCommandBuffer commands, const Slot& slot) const noexcept;
+    void drawList(VkCommandBuffer commands, const ImDrawList& list, std::uint32_t firstVertex,
+                  std::uint32_t firstIndex) const noexcept;
+
+    const vk::Device& device_;
+    RenderPass pass_;
+    SetLayout set_;
+    Pipeline pipeline_;
+    std::optional<vk::Buffer> atlas_;
+    VkExtent2D atlasSize_{}, extent_{};
+    Vector2 full_ = Vector2::Zero();
+    std::vector<Slot> slots_;
+    std::vector<Framebuffer> framebuffers_;
+};
+
+} // namespace sinew::viewer

@@ -1,0 +1,63 @@
+// Buttons for everything that a key does.
+#include "viewer/panels/panel_parts.hpp"
+
+#include <cstdio>
+
+namespace sinew::viewer::parts {
+
+namespace {
+
+// "12.34 s, step 740".
+std::string timeText(const Facts& facts) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.2f s, step %llu", facts.time,
+                  static_cast<unsigned long long>(facts.steps));
+    return text;
+}
+
+} // namespace
+
+void play(const Facts& facts, Wishes& wishes) {
+    row("time", timeText(facts));
+    float width = buttonWidth(4);
+    button(Action::pause, wishes, width, facts.isPaused, facts.isPaused ? "Go on" : "Pause");
+    ImGui::SameLine();
+    button(Action::step, wishes, width);
+    ImGui::SameLine();
+    button(Action::reset, wishes, width);
+    ImGui::SameLine();
+    button(Action::slowMotion, wishes, width, facts.knobs.pace < 1);
+    button(Action::blade, wishes, width, facts.isBladeOn);
+    ImGui::SameLine();
+    button(Action::poke, wishes, width, facts.isPokeOn);
+    ImGui::SameLine();
+    button(Action::pin, wishes, width, facts.pins > 0);
+    ImGui::SameLine();
+    button(Action::drop, wishes, width);
+    button(Action::frame, wishes, width);
+    ImGui::SameLine();
+    button(Action::screenshot, wishes, width);
+    ImGui::SameLine();
+    button(Action::record, wishes, width, facts.isRecording, facts.isRecording ? "Stop" : nullptr);
+    ImGui::SameLine();
+    button(Action::saveInput, wishes, width);
+    width = buttonWidth(3);
+    button(Action::vsync, wishes, width, facts.isVsync);
+    ImGui::SameLine();
+    button(Action::fullScreen, wishes, width);
+    ImGui::SameLine();
+    button(Action::help, wishes, width);
+    width = buttonWidth(4);
+    button(Action::largerTexts, wishes, width);
+    ImGui::SameLine();
+    button(Action::smallerTexts, wishes, width);
+    ImGui::SameLine();
+    button(Action::panels, wishes, width);
+    ImGui::SameLine();
+    button(Action::quit, wishes, width);
+    if (facts.isDiverged)
+        wrapped("Diverged: the last finite state was kept. " + std::string(keyOf(Action::reset)) + " resets.",
+                bad());
+}
+
+} // namespace sinew::viewer::parts

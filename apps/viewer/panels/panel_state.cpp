@@ -1,0 +1,67 @@
+// What the step consists of and what it has found: counts, cuts, the list of passes.
+#include "viewer/panels/panel_parts.hpp"
+
+namespace sinew::viewer::parts {
+
+void counts(const SceneFacts& scene, const Facts& facts) {
+    heading("state");
+    pair("particles", grouped(scene.particles), "links", grouped(scene.constraints),
+         ImGui::GetStyleColorVec4(ImGuiCol_Text));
+    if (facts.sleeping > 0) row("asleep", grouped(facts.sleeping));
+    if (facts.contactRoom > 0) {
+        const std::string room = grouped(facts.contactRoom) + " a particle";
+        row("contacts: room", room);
+        if (facts.timesGrown > 0)
+            row("contacts: grown",
+                std::to_string(facts.timesGrown) + " x, needed " + grouped(facts.contactsNeeded));
+        if (facts.isContactRoomShort)
+            row("contacts: OVERFLOW", grouped(facts.contactsNeeded) + " needed", bad());
+    }
+    if (facts.slowed > 0) row("slowed down", grouped(facts.slowed), bad());
+    ImGui::Dummy({0, 2});
+    wrapped(scene.substepsWhy, quiet());
+    if (!scene.stiffness.empty()) wrapped(scene.stiffness, quiet());
+}
+
+void cuts(const SceneFacts&, const Facts& facts, Wishes& wishes) {
+    heading("cuts");
+    pair("links cut", grouped(facts.linksCut), "pieces", grouped(facts.pieces),
+         ImGui::GetStyleColorVec4(ImGuiCol_Text));
+    const float width = buttonWidth(2);
+    ImGui::BeginDisabled(facts.undos == 0);
+    button(Action::undo, wishes, width);
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    ImGui::BeginDisabled(facts.undos == facts.cuts.size());
+    button(Action::redo, wishes, width);
+    ImGui::EndDisabled();
+    for (std::size_t i = 0; i < facts.cuts.size(); ++i) {
+        const bool isUndone = i >= facts.undos;
+        row(isUndone ? "undone" : "cut", facts.cuts[i],
+            isUndone ? quiet() : ImGui::GetStyleColorVec4(ImGuiCol_Text));
+    }
+}
+
+void program(const SceneFacts& scene) {
+    ImGui::Dummy({0, ImGui::GetStyle().ItemSpacing.y});
+    const std::string name = "step program: " + grouped(scene.dispatches) + " dispatches###program";
+    ImGui::PushStyleColor(ImGuiCol_Text, quiet());
+    const bool isOpen = ImGui::CollapsingHeader(name.c_str());
+    ImGui::PopStyleColor();
+    if (!isOpen) return;
+    row("barriers", grouped(scene.barriers));
+    std::string phase;
+    for (const PassLine& pass : scene.passes) {
+        if (pass.phase != phase) ImGui::TextColored(accent(), "%s", (phase = pass.phase).c_str());
+        const std::string label = pass.label + (pass.isOfCut ? " (with a blade)" : "");
+        row(label.c_str(), (pass.times > 1 ? std::to_string(pass.times) + " x " : "") +
+                               (pass.items > 0 ? grouped(pass.items) : "copy"));
+    }
+    if (scene.skipped.empty()) return;
+    ImGui::TextColored(accent(), "skipped, as the scene has none");
+    std::string all;
+    for (const std::string& feature : scene.skipped) all += (all.empty() ? "" : ", ") + feature;
+    wrapped(all, quiet());
+}
+
+} // namespace sinew::viewer::parts

@@ -1,0 +1,71 @@
+// The panels of the window, by Dear ImGui: layout and style, what the pointer does in them, which parts there
+// are. Makes triangles and wishes out of facts; touches no device and no window. What a part shows stands in
+// panel_*.cpp.
+#pragma once
+
+#include "viewer/panels/facts.hpp"
+#include "viewer/panels/panel_input.hpp"
+#include "viewer/panels/panel_painter.hpp"
+
+#include <memory>
+
+struct ImGuiContext;
+
+namespace sinew::viewer {
+
+/// One at a time (Dear ImGui's context is global); one thread.
+class Panels {
+public:
+    /// `scale` of one = 96 pixels an inch.
+    explicit Panels(float scale);
+    ~Panels();
+    Panels(const Panels&) = delete;
+    Panels& operator=(const Panels&) = delete;
+
+    const GlyphAtlas& atlas() const { return atlas_; }
+
+    /// Lays out everything for a picture of `extent`, `seconds` after the last one.
+    Wishes build(const SceneFacts& scene, const Facts& facts, const PanelInput& input, VkExtent2D extent,
+                 double seconds);
+    /// What the last build() made; valid until the next.
+    const ImDrawData& drawn() const;
+
+    /// Whether a place (pixels) belongs to a panel of the last build(): what is pressed there is not the
+    /// scene's.
+    bool covers(const Vector2& pixels) const;
+    /// Whether keys are being typed into a panel.
+    bool takesKeys() const;
+
+    /// As the constructor does. The atlas is another one then.
+    void rescale(float scale);
+
+    /// What somebody has said about whether panels are shown; nothing = nobody has.
+    const std::optional<bool>& choice() const { return isShown_; }
+    void choose(std::optional<bool> isShown) { isShown_ = isShown; }
+    void toggle() { isShown_ = !isShown(lastExtent_); }
+    void toggleHelp() { isHelpShown_ = !isHelpShown_; }
+    void closeHelp() { isHelpShown_ = false; }
+    bool isHelpShown() const { return isHelpShown_; }
+    /// Before anybody has said otherwise, in windows that leave room beside them.
+    bool isShown(VkExtent2D extent) const;
+
+private:
+    void feed(const PanelInput& input, VkExtent2D extent, double seconds);
+    void buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D extent, Wishes& wishes);
+    void buildHint(const SceneFacts& scene, const Facts& facts, VkExtent2D extent);
+    void buildNotice(const Facts& facts, VkExtent2D extent);
+    void remember();
+
+    struct Rectangle {
+        Vector2 from, to;
+    };
+    ImGuiContext* context_;
+    GlyphAtlas atlas_;
+    float scale_;
+    std::optional<bool> isShown_;
+    bool isHelpShown_ = false;
+    VkExtent2D lastExtent_{};
+    std::vector<Rectangle> covered_;
+};
+
+} // namespace sinew::viewer

@@ -1,0 +1,58 @@
+// A video or a folder.
+#include "viewer/pictures/recording.hpp"
+
+#include "app/guard.hpp"
+
+#include <cstdio>
+
+namespace sinew::viewer {
+
+namespace fs = std::filesystem;
+
+fs::path freeName(std::string name, const std::string& extension) {
+    for (char& c : name)
+        if (c == '/' || c == '\\' || static_cast<unsigned char>(c) < 32) c = '_';
+    fs::path file = name + extension;
+    std::error_code error; // what cannot be looked at will not be written either, and then says why
+    for (int copy = 2; fs::exists(file, error); ++copy) file = name + "-" + std::to_string(copy) + extension;
+    return file;
+}
+
+Recording::Recording(const std::string& scene, std::uint32_t width, std::uint32_t height,
+                     double picturesPerSecond) {
+    if (hasFfmpeg()) {
+        target_ = freeName(scene, ".mp4");
+        video_ = std::make_unique<Video>(target_, width, height, picturesPerSecond);
+        return;
+    }
+    target_ = freeName(scene, "");
+    std::error_code error;
+    fs::create_directory(target_, error);
+    if (error)
+        throw app::Failure(app::outputFailed, "cannot record: " + target_.string() + ": " + error.message() +
+                                                  ": start in another folder");
+}
+
+void Recording::add(Picture picture, PictureText text) {
+    if (video_) {
+        video_->add(picture);
+    } else {
+        char name[40];
+        std::snprintf(name, sizeof name, "frame_%04zu.png", count_);
+        writer_.add(target_ / name, std::move(picture), std::move(text));
+    }
+    ++count_;
+}
+
+void Recording::finish() {
+    std::error_code ignored;
+    if (count_ == 0) {
+        if (!video_) fs::remove(target_, ignored); // an empty folder
+        return video_.reset();
+    }
+    if (video_) return video_->finish();
+    while (writer_.take(PictureWriter::Wait::yes)) {
+    }
+}
+
+} // namespace sinew::viewer

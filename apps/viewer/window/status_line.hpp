@@ -1,0 +1,37 @@
+// The window's title: what is shown, where it runs and how fast.
+#pragma once
+
+#include "viewer/draw/stage.hpp"
+
+#include <chrono>
+
+namespace sinew::viewer {
+
+class StatusLine {
+public:
+    StatusLine(const sim::Scene& scene, const vk::Device& device);
+
+    void frameDrawn() { ++frames_; }
+    /// GPU time of one step [ms].
+    void stepTimed(double milliseconds);
+
+    /// Particles that sleep and pieces of bodies that were cut, and what is in the hand: " - holding".
+    void setCounts(std::uint32_t sleeping, std::uint32_t pieces);
+    void setTool(const char* tool) { tool_ = tool; }
+
+    /// A new title, twice a second or when what it says about playing has changed.
+    std::optional<std::string> title(bool isPaused, bool isDiverged);
+
+private:
+    using Clock = std::chrono::steady_clock;
+    std::string head_;
+    Clock::time_point since_ = Clock::now();
+    std::uint64_t frames_ = 0;
+    double framesPerSecond_ = 0, stepMs_ = 0; ///< stepMs_: smoothed; 0 = not measured
+    std::uint32_t sleeping_ = 0, pieces_ = 0;
+    bool isFresh_ = false; // the number of pieces
+    std::string tool_, lastTool_;
+    bool wasPaused_ = false, wasDiverged_ = false, isFirst_ = true;
+};
+
+} // namespace sinew::viewer

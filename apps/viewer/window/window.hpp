@@ -1,0 +1,77 @@
+// The window and what hands do in it, by GLFW. Knows no Vulkan device beyond making a surface for one.
+#pragma once
+
+#include "viewer/hands/bindings.hpp"
+#include "viewer/panels/panel_input.hpp"
+#include "vk/device.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+struct GLFWwindow;
+
+namespace sinew::viewer {
+
+/// Since the last poll, as actions: GLFW's keys and buttons have been looked up in the table of bindings.
+struct Input {
+    struct Drag {
+        Action action;
+        Vector2 heights; ///< x right, y down, in window heights
+    };
+    /// A button that drags went down or up.
+    struct Press {
+        Action action;
+        bool isDown;
+        Vector2 pointer; ///< as below
+    };
+    std::vector<Action> actions;
+    std::vector<Press> presses;
+    std::vector<Drag> drags;
+    std::vector<std::string> files;    ///< dropped on the window
+    float notches = 0;                 ///< of the wheel, forwards positive
+    float growth = 0;                  ///< likewise of the wheel that changes the size of the sphere
+    Vector2 pointer = Vector2::Zero(); ///< from the middle, x right, y down, in window heights
+    bool needsRedraw = false;          ///< resized or uncovered
+    PanelInput panels;                 ///< what is not in the others
+    bool isEmpty() const {
+        return actions.empty() && presses.empty() && drags.empty() && files.empty() && notches == 0 &&
+               growth == 0 && !needsRedraw;
+    }
+};
+
+/// One at a time; main thread only.
+class Window {
+public:
+    /// Throws app::Failure (noDevice) where there is no display.
+    explicit Window(VkExtent2D size);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    /// Instance extensions a device needs to draw here. Throws app::Failure (noDevice) where there are none.
+    std::vector<std::string> surfaceExtensions() const;
+    static bool canPresent(VkInstance instance, VkPhysicalDevice device, std::uint32_t family);
+    /// The caller destroys it. Throws vk::Error.
+    VkSurfaceKHR createSurface(VkInstance instance) const;
+
+    /// From now on `cover` is asked first. What it refers to must outlive the last poll().
+    void setCover(Cover cover);
+
+    /// Handles waiting events; waits for the first one at most `seconds`.
+    Input poll(double seconds);
+
+    float scale() const;       ///< of texts, as the display wants them; 1 = 96 pixels an inch
+    VkExtent2D pixels() const; ///< 0 x 0 while minimised
+    VkExtent2D size() const;   ///< for another one of this size; in full screen, as it was before
+    bool isClosing() const;
+    void close();
+    void setTitle(const std::string& title);
+    void toggleFullScreen();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace sinew::viewer
