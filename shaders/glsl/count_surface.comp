@@ -9,11 +9,13 @@
 #include "cut_points.glsl"
 
 layout(std430, binding = 0) readonly buffer Complex { uint complex[]; };
-layout(std430, binding = 1) readonly buffer Dirty { uint dirty[]; };
+layout(std430, binding = 1) readonly buffer ListedCounts { uint listedCounts[]; };
 layout(std430, binding = 2) readonly buffer Partitions { uint partitions[]; };
 layout(std430, binding = 3) readonly buffer Owned { uvec4 owned[]; };
 layout(std430, binding = 4) writeonly buffer Counts { SurfaceCounts counts[]; };
 layout(std430, binding = 5) readonly buffer Links { uint links[]; };
+layout(std430, binding = 6) readonly buffer Listed { uint listed[]; };
+#include "listed_slot.glsl"
 
 uint triangles = 0u;
 void triangle(uvec2 a, uvec2 b, uvec2 c) { ++triangles; }
@@ -21,13 +23,6 @@ bool hasPoint(uvec2 point) { return hasBit(owned[point.x], point.y & ~1u); }
 void setNormal(uint axis, bool isHigh) {}
 #include "cut_inside.glsl"
 #include "cut_outside.glsl"
-
-// Points on edges of a cell are owned a step away.
-bool isDirty(uint cell) {
-    uint all = 0u;
-    [[dont_unroll]] for (uint k = 0u; k < 8u; ++k) all |= dirty[slotOf(cell, k) >> 5];
-    return all != 0u;
-}
 
 // Triangles of a cell, and on its low faces, have corners that its corners own.
 bool hasPoints(uint cell) {
@@ -40,10 +35,8 @@ bool hasPoints(uint cell) {
 }
 
 void main() {
-    const uint item = itemIndex(push.count);
-    if (item >= push.count) return;
-    const uint i = push.first + item;
-    if (!isDirty(i)) return;
+    const uint i = listedSlot();
+    if (i == NO_SLOT) return;
     if (!hasPoints(i)) {
         counts[i] = SurfaceCounts(0u, 0u);
         return;

@@ -45,6 +45,7 @@ struct CutPush {
     uint stiffLinks;             // bits of the links that have stiffness
     float spacing;               // [m]
     uint contactRow;             // elements of a list of contacts from one candidate to the next
+    uint run;                    // which one it is: its lists
 };
 
 // Slots that one invocation counts particles in.

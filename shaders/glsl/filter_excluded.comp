@@ -8,10 +8,12 @@
 
 layout(std430, binding = 0) readonly buffer Links { uint links[]; };
 layout(std430, binding = 1) readonly buffer SavedLinks { uint savedLinks[]; };
-layout(std430, binding = 2) readonly buffer Dirty { uint dirty[]; };
+layout(std430, binding = 2) readonly buffer Counts { uint listedCounts[]; };
 layout(std430, binding = 3) readonly buffer AllExcluded { uint allExcluded[]; }; // of the uncut body
 layout(std430, binding = 4) buffer Excluded { uint excluded[]; };
 layout(std430, binding = 5) buffer Bounds { GridBounds bounds; };
+layout(std430, binding = 6) readonly buffer Listed { uint listed[]; };
+#include "listed_slot.glsl"
 
 bool staysExcluded(uint i, uint partner) {
     const int bit = bitTo(int(partner) - int(i), push.rowStride, push.sliceStride);
@@ -19,10 +21,8 @@ bool staysExcluded(uint i, uint partner) {
 }
 
 void main() {
-    const uint item = itemIndex(push.count);
-    if (item >= push.count) return;
-    const uint i = push.first + item;
-    if (dirty[i >> 5] == 0u) return;
+    const uint i = listedSlot();
+    if (i == NO_SLOT) return;
     if (links[i] != savedLinks[i] && bounds.moved == 0u) atomicMax(bounds.moved, 1u);
     const uint end = allExcluded[i + 1u];
     uint next = allExcluded[i], last = i; // nobody is listed with itself

@@ -8,7 +8,9 @@
 layout(std430, binding = 0) readonly buffer Links { uint links[]; };
 layout(std430, binding = 1) readonly buffer Cells { uint cells[]; };
 layout(std430, binding = 2) writeonly buffer WholeCells { uint wholeCells[]; };
-layout(std430, binding = 3) readonly buffer Dirty { uint dirty[]; };
+layout(std430, binding = 3) readonly buffer Counts { uint listedCounts[]; };
+layout(std430, binding = 4) readonly buffer Listed { uint listed[]; };
+#include "listed_slot.glsl"
 
 bool isWhole(uint lowest) {
     for (int c = 0; c < 7; ++c) {
@@ -20,10 +22,8 @@ bool isWhole(uint lowest) {
 }
 
 void main() {
-    const uint item = itemIndex(push.count);
-    if (item >= push.count) return;
-    const uint i = push.first + item;
-    if (dirty[i >> 5] == 0u) return;
+    const uint i = listedSlot();
+    if (i == NO_SLOT) return;
     uint around = cells[i];
     for (int k = 0; k < 8; ++k)
         if (bitfieldExtract(around, 4 * k, 4) != 0u && !isWhole(uint(int(i) + offsetOf(cornerOf(k) - 1))))

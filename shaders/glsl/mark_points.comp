@@ -11,9 +11,11 @@
 
 layout(std430, binding = 0) readonly buffer Links { uint links[]; };
 layout(std430, binding = 1) readonly buffer Complex { uint complex[]; };
-layout(std430, binding = 2) readonly buffer Dirty { uint dirty[]; };
+layout(std430, binding = 2) readonly buffer ListedCounts { uint listedCounts[]; };
 layout(std430, binding = 3) readonly buffer Partitions { uint partitions[]; };
 layout(std430, binding = 4) writeonly buffer Owned { uvec4 owned[]; };
+layout(std430, binding = 5) readonly buffer Listed { uint listed[]; };
+#include "listed_slot.glsl"
 
 #include "seen_faces.glsl"
 
@@ -75,10 +77,8 @@ bool isSplitAround(uint i) {
 }
 
 void main() {
-    const uint item = itemIndex(push.count);
-    if (item >= push.count) return;
-    const uint i = push.first + item;
-    if (dirty[i >> 5] == 0u) return;
+    const uint i = listedSlot();
+    if (i == NO_SLOT) return;
     uvec4 own = uvec4(0u);
     if (!isSplitAround(i)) {
         owned[i] = own;

@@ -15,13 +15,14 @@ layout(std430, binding = 5) writeonly buffer Counts { SurfaceCounts counts[]; };
 layout(std430, binding = 6) writeonly buffer Rims { uint rims[]; };    // of vertices that hang: 1 = a triangle around is in pieces
 layout(push_constant) uniform Push { PrismPush push; };
 
+#include "dirty.glsl"
 #include "skin_prisms.glsl"
 
 void main() {
     const uint i = itemIndex(push.count);
     if (i >= push.count) return;
     const SkinPrism prism = prisms[i];
-    if ((dirty[prism.anchors[0] >> 5] | dirty[prism.anchors[1] >> 5] | dirty[prism.anchors[2] >> 5]) == 0u) return;
+    if (!isDirty(prism.anchors[0]) && !isDirty(prism.anchors[1]) && !isDirty(prism.anchors[2])) return;
     const uvec3 pattern = patternOf(prism);
     const uint ways = 1u + (pattern.y == 1u ? 1u : 0u) + (pattern.z == 2u ? 1u : 0u);
     uint points = 0u, used = 0u;

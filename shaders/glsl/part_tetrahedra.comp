@@ -8,9 +8,11 @@
 
 layout(std430, binding = 0) readonly buffer Links { uint links[]; };
 layout(std430, binding = 1) readonly buffer Complex { uint complex[]; };
-layout(std430, binding = 2) readonly buffer Dirty { uint dirty[]; };
+layout(std430, binding = 2) readonly buffer ListedCounts { uint listedCounts[]; };
 layout(std430, binding = 3) writeonly buffer Partitions { uint partitions[]; }; // of the cell above a slot, 5 bits each
 layout(std430, binding = 4) writeonly buffer Near { uint near[]; };             // 1 = a point may hang on the particle
+layout(std430, binding = 5) readonly buffer Listed { uint listed[]; };
+#include "listed_slot.glsl"
 
 bool isLinked(uint words[8], uint low, uint high) {
     const ivec3 d = cornerOf(int(low ^ high));
@@ -41,10 +43,8 @@ bool isWhole(uint words[8]) {
 }
 
 void main() {
-    const uint item = itemIndex(push.count);
-    if (item >= push.count) return;
-    const uint i = push.first + item;
-    if (dirty[i >> 5] == 0u || !isCell(complex[i])) return;
+    const uint i = listedSlot();
+    if (i == NO_SLOT || !isCell(complex[i])) return;
     uint words[8];
     [[unroll]] for (uint k = 0u; k < 8u; ++k) words[k] = links[slotOf(i, k)];
     uint all = 0u;

@@ -7,6 +7,7 @@ layout(std430, binding = 0) buffer Work { CutWork work; };
 layout(std430, binding = 1) buffer Counts { CutCounts counts; };
 layout(std430, binding = 2) readonly buffer Groups { uint groups[]; }; // of every argument
 layout(std430, binding = 3) writeonly buffer Arguments { DispatchArguments arguments[]; };
+layout(std430, binding = 4) readonly buffer Listed { uint listedCounts[]; }; // by run: slots near what was cut
 layout(push_constant) uniform Push { PiecesPush push; };
 
 void main() {
@@ -18,6 +19,7 @@ void main() {
         if (!isFirst) continue;
         arguments[push.runs + r] = DispatchArguments(whole * groups[push.runs + r], 1u, 1u, 0u);
         arguments[2u * push.runs + r] = DispatchArguments(whole * groups[r], 1u, 1u, 0u);
+        arguments[3u * push.runs + r] = DispatchArguments(whole * ((listedCounts[r] + GROUP_SIZE - 1u) / GROUP_SIZE), 1u, 1u, 0u);
     }
     work.changed = 0u;
     if (!isFirst) return;

@@ -9,6 +9,10 @@
 
 layout(std430, binding = 0) buffer Links { uint links[]; };
 layout(std430, binding = 1) readonly buffer Dirty { uint dirty[]; };
+layout(std430, binding = 2) readonly buffer Counts { uint listedCounts[]; };
+layout(std430, binding = 3) readonly buffer Listed { uint listed[]; };
+#include "dirty.glsl"
+#include "listed_slot.glsl"
 
 const int across[3] = int[3](14, 18, 20); // the links across squares that are no edges: (-1,1,0) (0,-1,1) (-1,0,1)
 
@@ -59,10 +63,8 @@ bool areJoined(uint i, int bit) {
 }
 
 void main() {
-    const uint item = itemIndex(push.count);
-    if (item >= push.count) return;
-    const uint i = push.first + item;
-    if (dirty[i >> 5] == 0u) return;
+    const uint i = listedSlot();
+    if (i == NO_SLOT || !isDirty(i)) return;
     const uint owned = links[i] & OWNED_MASK;
     uint cut = partedAcross(i, owned), others = owned;
     [[unroll]] for (int bit = FIRST_OWNED; bit < FIRST_OWNED + OWNED_LINKS; ++bit) {

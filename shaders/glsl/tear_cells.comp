@@ -7,7 +7,7 @@
 
 layout(std430, binding = 0) buffer Links { uint links[]; };
 layout(std430, binding = 1) buffer Hits { LinkHits hits[]; };
-layout(std430, binding = 2) writeonly buffer Dirty { uint dirty[]; };
+layout(std430, binding = 2) buffer Dirty { uint dirty[]; };
 layout(std430, binding = 3) readonly buffer Strains { CellStrain strains[]; };
 layout(std430, binding = 4) readonly buffer Found { uint found[]; };
 layout(std430, binding = 5) readonly buffer Tears { TearCount tears; };
@@ -23,23 +23,23 @@ layout(push_constant) uniform Push { TearPush push; };
 #include "hits.glsl"
 #include "hit_at.glsl"
 
-uint wordOf(int slot) { return uint(clamp(slot - int(push.first), 0, int(push.count) - 1) + int(push.first)) >> 5; }
+#define MARKS_DIRTY
+#include "dirty.glsl"
 
-// As cut_links does.
-void markAround(uint i) {
-    const int rows = push.rowStride > 0u ? 1 : 0;
+// Whether two cells have a node in common.
+bool areNeighbors(uint one, uint other) {
+    const int way = int(other) - int(one);
+    bool are = false;
     for (int z = -1; z <= 1; ++z)
-        for (int y = -rows; y <= rows; ++y) {
-            const int row = int(i) + y * int(push.rowStride) + z * int(push.sliceStride);
-            dirty[wordOf(row - 1)] = 1u;
-            dirty[wordOf(row + 1)] = 1u;
-        }
+        for (int y = -1; y <= 1; ++y) are = are || abs(way - y * int(push.rowStride) - z * int(push.sliceStride)) <= 1;
+    return are;
 }
 
-// Whether fewer than may tear in a step come before it.
-bool isAmongFirst(uint cell) {
+// Whether fewer than may tear in a step come before it, and none of its neighbors does: those would write what it reads.
+bool isFirst(uint cell) {
     uint before = 0u;
-    for (uint other = 0u; other < tears.count && before < push.most; ++other) before += isBefore(found[other], cell) ? 1u : 0u;
+    for (uint other = 0u; other < tears.count && before < push.most; ++other)
+        if (isBefore(found[other], cell)) before += areNeighbors(found[other], cell) ? push.most : 1u;
     return before < push.most;
 }
 
@@ -70,7 +70,7 @@ void main() {
     const uint item = itemIndex(push.count);
     if (item >= min(tears.count, push.count)) return;
     const uint cell = found[item];
-    if (!isAmongFirst(cell)) return;
+    if (!isFirst(cell)) return;
     const Way along = DIRECTION(strains[cell]), start = startOf(cell, along);
     for (uint l = 0u; l < cellLinks; ++l) {
         const ivec2 ends = endsOf(l);
@@ -80,7 +80,9 @@ void main() {
         const int bit = bitOfLink(l);
         atomicAnd(links[owner], ~(1u << bit));
         atomicAnd(links[other], ~(1u << 25 - bit));
-        storeHit(owner, bit, from / (from - to));
+        LinkHits hit = hits[owner];
+        setHit(hit, bit, from / (from - to));
+        hits[owner] = hit;
         markAround(owner);
     }
 }

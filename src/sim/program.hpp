@@ -124,8 +124,11 @@ struct CuttingBuffers {
     BufferId
         wholeCells; ///< by slot: fillAround without the cells that lost an edge; where cells have volumes
     BufferId hits;  ///< by slot: layout::LinkHits of the links that the node owns
-    BufferId savedLinks;      ///< likewise before the step
-    BufferId dirty;           ///< by 32 slots: not 0 where the last blade cut within a node's reach
+    BufferId savedLinks; ///< likewise before the step
+    BufferId dirty;      ///< a bit for each slot: whether the last blade cut within a node's reach
+    /// Slots of cells with such a corner, by run from its first slot on; how many, and how many groups of the
+    /// passes over them, by run.
+    BufferId listed, listedCounts, listedArguments;
     bool tears = false;       ///< whether something may be cut in a step without a blade
     std::vector<CutRun> runs; ///< what passes over slots that may be cut are dispatched for
     BufferId places;          ///< by slot: where particles were when the step began [m]

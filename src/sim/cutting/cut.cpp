@@ -20,8 +20,10 @@ void addWholeCells(ProgramBuilder& program, const Cut& cut) {
     const CuttingBuffers& buffers = cut.buffers;
     for (const Run& run : cut.runs)
         if (run.hasVolumes)
-            program.dispatch(k::findWholeCells, run.push.count,
-                             {buffers.links, cut.cells, buffers.wholeCells, buffers.dirty}, run.push);
+            program.dispatchIndirect(
+                k::findWholeCells, {buffers.listedArguments, run.push.run, run.push.count},
+                {buffers.links, cut.cells, buffers.wholeCells, buffers.listedCounts, buffers.listed},
+                run.push);
 }
 
 // What was cut wakes as the step begins.
@@ -35,11 +37,43 @@ void addWaking(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& p
                          run.push);
 }
 
+void planLists(ProgramBuilder& program, const Cut& cut, BufferId counts, BufferId arguments) {
+    const layout::CountPush runs{static_cast<std::uint32_t>(cut.runs.size())};
+    program.dispatch(k::planListed, runs.count, {counts, arguments}, runs);
+}
+
+// What the blade meets: near nodes first, and what is costly for these alone.
+void addBlade(ProgramBuilder& program, const Cut& cut) {
+    const CuttingBuffers& buffers = cut.buffers;
+    program.fill(buffers.dirty, 0);
+    program.fill(cut.nearCounts, 0);
+    for (const Run& run : cut.runs)
+        program.dispatch(cut.usesTexels ? k::findNearLinks : k::findNearLinksLoads, run.push.count,
+                         {cut.bladePlaces, buffers.links, cut.blade, cut.work, cut.nearCounts, cut.nears},
+                         run.push);
+    planLists(program, cut, cut.nearCounts, cut.nearArguments);
+    for (const Run& run : cut.runs)
+        program.dispatchIndirect(cut.usesTexels ? k::cutLinks : k::cutLinksLoads,
+                                 {cut.nearArguments, run.push.run, run.push.count},
+                                 {cut.bladePlaces, cut.placesBefore, buffers.links, buffers.hits,
+                                  buffers.dirty, cut.blade, cut.points, cut.work, cut.nearCounts, cut.nears},
+                                 run.push);
+}
+
+// Where links have died: the passes that follow go there alone.
+void addListing(ProgramBuilder& program, const Cut& cut) {
+    const CuttingBuffers& buffers = cut.buffers;
+    program.fill(buffers.listedCounts, 0);
+    for (const Run& run : cut.runs)
+        program.dispatch(k::listDirty, wordsOf(run), {buffers.dirty, buffers.listedCounts, buffers.listed},
+                         run.push);
+    planLists(program, cut, buffers.listedCounts, buffers.listedArguments);
+}
+
 void addOpening(ProgramBuilder& program, Cut& cut, const ParticleBuffers& particles) {
     const CuttingBuffers& buffers = cut.buffers;
     program.updateBlade(cut.blade, cut.points);
     program.fill(cut.work, 0);
-    program.fill(buffers.dirty, 0);
     for (const Run& run : cut.runs)
         program.dispatch(k::openCut, run.push.count,
                          {particles.positions, particles.velocities, particles.step, buffers.links,
@@ -47,20 +81,20 @@ void addOpening(ProgramBuilder& program, Cut& cut, const ParticleBuffers& partic
                          run.push);
     if (cut.surface)
         cut.bladePlaces = surface::addPulling(program, *cut.surface, cut.placesBefore, cut.work, cut.blade);
-    for (const Run& run : cut.runs)
-        program.dispatch(cut.usesTexels ? k::cutLinks : k::cutLinksLoads, run.push.count,
-                         {cut.bladePlaces, cut.placesBefore, buffers.links, buffers.hits, buffers.dirty,
-                          cut.blade, cut.points, cut.work, buffers.savedLinks},
-                         run.push);
+    addBlade(program, cut);
     if (cut.tearing) addTearingPasses(program, *cut.tearing, cut);
+    addListing(program, cut);
     for (const Run& run : cut.runs)
-        program.dispatch(k::settleLinks, run.push.count, {buffers.links, buffers.dirty}, run.push);
+        program.dispatchIndirect(k::settleLinks, {buffers.listedArguments, run.push.run, run.push.count},
+                                 {buffers.links, buffers.dirty, buffers.listedCounts, buffers.listed},
+                                 run.push);
     addWholeCells(program, cut);
     addWaking(program, cut, particles);
 }
 
 void addPlan(ProgramBuilder& program, const Cut& cut, bool isFirst) {
-    program.dispatch(k::planPieces, 1, {cut.work, cut.buffers.counts, cut.groups, cut.arguments},
+    program.dispatch(k::planPieces, 1,
+                     {cut.work, cut.buffers.counts, cut.groups, cut.arguments, cut.buffers.listedCounts},
                      layout::PiecesPush{isFirst, static_cast<std::uint32_t>(cut.runs.size())});
 }
 

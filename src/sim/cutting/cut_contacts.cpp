@@ -19,17 +19,22 @@ layout::CutPush pushOf(const CutRun& run, const Contacts& contacts) {
             .sliceStride = run.sliceStride,
             .stiffLinks = 0,
             .spacing = 0,
-            .contactRow = contacts.lists.push.row};
+            .contactRow = contacts.lists.push.row,
+            .run = 0};
 }
 
 void addFilter(ProgramBuilder& program, const Contacts& contacts) {
     const CuttingBuffers cutting = program.program().cutting;
     program.beginCut();
-    for (const CutRun& run : cutting.runs)
-        program.dispatch(k::filterExcluded, run.count,
-                         {cutting.links, cutting.savedLinks, cutting.dirty, contacts.allExcluded,
-                          contacts.lists.excluded, contacts.lists.grid.bounds},
-                         pushOf(run, contacts));
+    for (std::uint32_t r = 0; r < cutting.runs.size(); ++r) {
+        layout::CutPush push = pushOf(cutting.runs[r], contacts);
+        push.run = r;
+        program.dispatchIndirect(k::filterExcluded, {cutting.listedArguments, r, push.count},
+                                 {cutting.links, cutting.savedLinks, cutting.listedCounts,
+                                  contacts.allExcluded, contacts.lists.excluded, contacts.lists.grid.bounds,
+                                  cutting.listed},
+                                 push);
+    }
     program.endCut();
 }
 

@@ -62,7 +62,8 @@ Run runOf(const Grid& grid, const lattice::Box& box) {
                      .sliceStride = box.sliceStride,
                      .stiffLinks = lattice::stiffLinks(grid),
                      .spacing = grid.restLength[0],
-                     .contactRow = 0},
+                     .contactRow = 0,
+                     .run = 0},
             .hasVolumes = hasCellVolumes(grid),
             .tearStrain = grid.tearStrain,
             .tearsPerStep = grid.tearsPerStep};
@@ -73,6 +74,11 @@ bool isAlike(const Run& a, const Run& b) {
            a.push.stiffLinks == b.push.stiffLinks && a.push.spacing == b.push.spacing &&
            a.hasVolumes == b.hasVolumes && a.tearStrain == 0 &&
            b.tearStrain == 0; // tears are counted by body
+}
+
+void addRun(std::vector<Run>& runs, Run run) {
+    run.push.run = static_cast<std::uint32_t>(runs.size());
+    runs.push_back(run);
 }
 
 // Each link once, from the node that owns it.
@@ -105,7 +111,7 @@ Initial readGrids(const Scene& scene, const Placed& placed, const StateLayout& l
         if (isRowOpen && isBoxed && isAlike(runs.back(), run))
             runs.back().push.count = run.push.first + run.push.count - runs.back().push.first;
         else
-            runs.push_back(run);
+            addRun(runs, run);
         isRowOpen = isBoxed;
         lattice::writeLinks(grid, boxes[g], initial.links);
         joinLinks(run, initial);
@@ -133,7 +139,7 @@ void addPieces(ProgramBuilder& program, Cut& cut, Initial& initial, std::size_t 
     cut.labels = program.upload("pieces.labels", pieces.labels);
     cut.particles = program.upload("pieces.particles", initial.particles);
     cut.groups = program.upload("pieces.groups", groups);
-    cut.arguments = program.scratch<layout::DispatchArguments>("pieces.arguments", 3 * std::uint64_t{runs});
+    cut.arguments = program.scratch<layout::DispatchArguments>("pieces.arguments", 4 * std::uint64_t{runs});
     cut.buffers.pieces = program.upload("pieces", pieces.ofParticles);
     cut.buffers.pieceSizes = program.upload("pieces.sizes", pieces.sizes);
     cut.buffers.counts = program.upload(
@@ -141,12 +147,24 @@ void addPieces(ProgramBuilder& program, Cut& cut, Initial& initial, std::size_t 
         std::vector{layout::CutCounts{.links = 0, .linksOfStep = 0, .pieces = pieces.count, .missing = 0}});
 }
 
+void addLists(ProgramBuilder& program, Cut& cut, std::size_t slots) {
+    const std::size_t runs = cut.runs.size();
+    cut.nears = program.scratch<std::array<std::uint32_t, 2>>("cut.near_nodes", slots);
+    cut.nearCounts = program.scratch<std::uint32_t>("cut.near_counts", runs);
+    cut.nearArguments = program.scratch<layout::DispatchArguments>("cut.near_arguments", runs);
+    CuttingBuffers& buffers = cut.buffers;
+    buffers.dirty = program.scratch<std::uint32_t>("cut.dirty", slots / 32 + 1);
+    buffers.listed = program.scratch<std::uint32_t>("cut.listed", slots);
+    buffers.listedCounts = program.scratch<std::uint32_t>("cut.listed_counts", runs);
+    buffers.listedArguments = program.scratch<layout::DispatchArguments>("cut.listed_arguments", runs);
+}
+
 void addSurface(ProgramBuilder& program, const Scene& scene, const surface::CutBodies& bodies, Cut& cut) {
     surface::CutSource source{.runs = {},
                               .particles = cut.particles,
                               .groups = cut.groups,
                               .arguments = cut.arguments,
-                              .firstArgument = 2 * static_cast<std::uint32_t>(cut.runs.size())};
+                              .firstArgument = 3 * static_cast<std::uint32_t>(cut.runs.size())};
     for (const Run& run : cut.runs) source.runs.push_back(run.push);
     cut.surface = surface::addCutSurface(program, scene, bodies, source);
 }
@@ -176,7 +194,7 @@ Cut addBuffers(ProgramBuilder& program, const Scene& scene, const Settings& sett
     if (hasVolumes || hasTears) cut.cells = program.upload("cut.cells", initial.cells);
     if (hasVolumes) cut.buffers.wholeCells = program.upload("cut.whole_cells", initial.cells);
     cut.buffers.hits = program.scratch<layout::LinkHits>("cut.hits", layout.count);
-    cut.buffers.dirty = program.scratch<std::uint32_t>("cut.dirty", layout.count / 32 + 1);
+    addLists(program, cut, layout.count);
     cut.buffers.savedLinks = program.scratch<std::uint32_t>("cut.saved_links", layout.count);
     cut.buffers.places = program.scratch<layout::vec4>("cut.places", layout.count);
     cut.placesBefore = program.scratch<layout::vec4>("cut.places_before", layout.count);

@@ -25,6 +25,7 @@ struct Cut {
     std::vector<Run> runs;
     CuttingBuffers buffers;
     BufferId cells, placesBefore, blade, points, work;
+    BufferId nears, nearCounts, nearArguments; // nodes near the blade, as CuttingBuffers::listed
     BufferId bladePlaces; // by slot: where particles are for the blade, buffers.places but for some
     BufferId labels, particles, arguments, groups; // of pieces
     BufferId uncutBodies, weights;                 // likewise, where hands may hold some
@@ -38,6 +39,11 @@ struct Cut {
 /// Items of a run's kernels that take a chunk of slots each.
 inline std::uint32_t chunksOf(const Run& run) {
     return (run.push.count - 1) / PIECE_CHUNK + 1;
+}
+
+/// Words with a bit for each of its slots.
+inline std::uint32_t wordsOf(const Run& run) {
+    return (run.push.first + run.push.count - 1) / 32 - run.push.first / 32 + 1;
 }
 
 /// No runs where no body of `scene` may be cut.

@@ -51,7 +51,7 @@ void addListed(ProgramBuilder& program, const CutSurface& surface, const vk::Sha
                                  run);
 }
 
-// Dispatches over the slots of every run, where something was cut.
+// Dispatches over the slots of every run near what was cut.
 void addRuns(ProgramBuilder& program, const CutSurface& surface, const vk::ShaderCode& code,
              std::initializer_list<BufferId> buffers) {
     const CutSource& source = surface.source;
@@ -130,10 +130,12 @@ void addCutSurfacePasses(ProgramBuilder& program, const CutSurface& surface, Buf
     const CutSurfaceBuffers& drawn = program.program().cutSurface;
     const BufferId complex = surface.complex, partitions = surface.partitions, owned = surface.owned;
     addRuns(program, surface, k::partTetrahedra,
-            {cutting.links, complex, cutting.dirty, partitions, surface.near});
-    addRuns(program, surface, k::markPoints, {cutting.links, complex, cutting.dirty, partitions, owned});
-    addRuns(program, surface, k::countSurface,
-            {complex, cutting.dirty, partitions, owned, surface.counts, cutting.links});
+            {cutting.links, complex, cutting.listedCounts, partitions, surface.near, cutting.listed});
+    addRuns(program, surface, k::markPoints,
+            {cutting.links, complex, cutting.listedCounts, partitions, owned, cutting.listed});
+    addRuns(
+        program, surface, k::countSurface,
+        {complex, cutting.listedCounts, partitions, owned, surface.counts, cutting.links, cutting.listed});
     addPrismParting(program, surface);
     program.beginSurface();
     const layout::CountPush chunks{surface.push.chunks};

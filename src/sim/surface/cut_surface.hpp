@@ -29,7 +29,7 @@ struct CutSource {
     std::vector<layout::CutPush> runs;
     BufferId particles; ///< by slot: NO_PARTICLE where there is none
     BufferId groups;    ///< of runs
-    BufferId arguments; ///< by run from `first` on: all slots where something was cut, else none
+    BufferId arguments; ///< by run from `first` on: the slots near what was cut, if anything was
     std::uint32_t firstArgument = 0;
 };
 
