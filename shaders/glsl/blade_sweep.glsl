@@ -2,8 +2,7 @@
 // link that has gone from where it was when they were there. Whoever includes this has the buffers of cut_links, and PLACE(i), where a
 // slot's particle is.
 
-// Where the particle of a slot was when the edge was where it now begins.
-vec3 placeBefore(uint i) { return blade.isCarried != 0u && before[i].w > 0.0 ? before[i].xyz : PLACE(i); }
+#include "near_blade.glsl"
 
 // How far along a way, and what the blade's surface is normal to there, as who went that way has seen it. [not of unit length]
 struct Meeting {

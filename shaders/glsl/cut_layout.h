@@ -142,9 +142,17 @@ struct HungVertex {
 };
 
 struct PrismPush {
-    uint first; // items of the surface before prisms: slots
-    uint count; // prisms, or vertices that hang
+    uint first;  // items of the surface before prisms: slots
+    uint count;  // prisms, or vertices that hang
+    uint prisms; // for part_prisms: the first of a body
+    uint run;    // likewise: its lists
 };
+
+// Lists of a body whose skin is clipped: prisms near the blade, prisms near links that died, vertices near the blade.
+#define SKIN_NEAR 0u
+#define SKIN_PARTED 1u
+#define SKIN_VERTICES 2u
+#define SKIN_LISTS 3u
 
 // Of such a vertex that is on the wrong side of a blade, as w of where that lets it be at rest: it moves there once its anchor
 // has lost a link; it has.

@@ -15,26 +15,21 @@ layout(std430, binding = 3) buffer SkinHits { uint skinHits[]; }; // of each pri
 layout(std140, binding = 4) uniform Blade { BladeHead blade; };
 layout(std430, binding = 5) readonly buffer Points { vec4 points[]; };
 layout(std430, binding = 6) readonly buffer SavedLinks { uint savedLinks[]; };
-layout(std430, binding = 7) readonly buffer Places { vec4 places[]; };
-layout(std430, binding = 8) readonly buffer Rest { vec4 rest[]; };
-layout(std430, binding = 9) readonly buffer Prisms { SkinPrism prisms[]; };
-layout(std430, binding = 10) readonly buffer Hung { HungVertex hung[]; };
-layout(std430, binding = 11) readonly buffer Status { StatusWords status; };
-layout(std430, binding = 12) readonly buffer Partitions { uint partitions[]; }; // before this step
+layout(std430, binding = 7) readonly buffer Prisms { SkinPrism prisms[]; };
+layout(std430, binding = 8) readonly buffer Counts { uint counts[]; };
+layout(std430, binding = 9) readonly buffer Nears { uint nears[]; };   // prisms (list_prisms)
+layout(std430, binding = 10) readonly buffer Placed { vec4 placed[]; }; // vertices (place_vertices)
 
 #include "blade_skin.glsl"
 #include "skin_prisms.glsl"
 
 void main() {
-    const uint item = itemIndex(push.count);
-    if (item >= push.count || blade.quads == 0u || !isFinished(status)) return; // strokes go on over steps without a blade
-    const uint i = push.first + item;
+    const uint count = counts[SKIN_LISTS * push.run + SKIN_NEAR], item = itemIndex(count);
+    if (item >= count) return;
+    const uint i = nears[push.first + item];
     const SkinPrism prism = prisms[i];
     const bool isNear = isNearBlade(prism.anchors[0]);
     uint hits = skinHits[i];
-    if (!isNear && (hits == 0u || blade.isCarried != 0u)) return;
-    vec3 x[3];
-    [[dont_unroll]] for (uint n = 0u; n < 3u && isNear; ++n) x[n] = placeNow(hung[prism.vertices[n]]);
     [[dont_unroll]] for (uint n = 0u; n < 3u; ++n) {
         if (linkOf(prism, n) == 0u || i > prism.beyond[n] >> 2) continue;
         const bool isWhole = areLinked(savedLinks[lowEnd(prism, n)], linkOf(prism, n));
@@ -42,7 +37,8 @@ void main() {
         uint hit = bitfieldExtract(hits, int(8u * n), 8);
         if (isWhole && blade.isCarried == 0u) hit = 0u;
         if (isNear && (isWhole || hit == 0u)) {
-            const float at = hitOf(waysOf(prism.anchors[n], prism.anchors[next], x[n], x[next]));
+            const float at = hitOf(waysOf(prism.anchors[n], prism.anchors[next], placed[prism.vertices[n]].xyz,
+                                         placed[prism.vertices[next]].xyz));
             if (at <= 1.0) hit = uint(round(255.0 * clamp(at, 0.02, 0.98)));
         }
         hits = bitfieldInsert(hits, hit, int(8u * n), 8);

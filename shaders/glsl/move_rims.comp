@@ -20,8 +20,11 @@ layout(std430, binding = 8) readonly buffer Rest { vec4 rest[]; };
 layout(std430, binding = 9) readonly buffer Hung { HungVertex hung[]; };
 layout(std430, binding = 10) buffer Rims { uint rims[]; };
 layout(std430, binding = 11) readonly buffer Status { StatusWords status; };
-layout(std430, binding = 12) readonly buffer Partitions { uint partitions[]; }; // before this step
+layout(std430, binding = 12) readonly buffer Counts { uint counts[]; };
+layout(std430, binding = 13) readonly buffer Listed { uint listed[]; }; // vertices (list_vertices)
+layout(std430, binding = 14) readonly buffer Placed { vec4 placed[]; }; // likewise (place_vertices)
 
+#include "before_cut.glsl"
 #include "blade_skin.glsl"
 
 const float mostWay = 1.5;      // [cells]
@@ -29,9 +32,8 @@ const float leastVolume = 1e-3; // of its own at rest: flatter material does not
 const float leastTangent = 0.2; // of the normal of a blade along the skin, squared: flatter ones shave
 
 // Where the blade that meets the way to its particle lets the vertex be, at rest; w = 0 where it does not.
-vec4 behindBlade(HungVertex self) {
+vec4 behindBlade(HungVertex self, vec3 x) {
     const uint i = self.anchor;
-    const vec3 x = placeNow(self);
     const Meeting meeting = stripMeeting(waysOf(i, i, x, PLACE(i)));
     const float size = length(meeting.normal);
     const mat3 turn = gradientAt(i);
@@ -46,16 +48,16 @@ vec4 behindBlade(HungVertex self) {
 }
 
 void main() {
-    const uint item = itemIndex(push.count);
-    if (item >= push.count || blade.quads == 0u || !isFinished(status)) return; // strokes go on over steps without a blade
-    const uint v = push.first + item;
+    const uint count = counts[SKIN_LISTS * push.run + SKIN_VERTICES], item = itemIndex(count);
+    if (item >= count || blade.quads == 0u || !isFinished(status)) return; // strokes go on over steps without a blade
+    const uint v = listed[push.first + item];
     const HungVertex self = hung[v];
     vec4 to = moved[v];
     const bool isNear = isNearBlade(self.anchor);
     if (to.w == VERTEX_MOVED || !isNear && to.w == 0.0) return;
     if (blade.isCarried == 0u) to = vec4(0.0);
     if (isNear && (rims[v] == 0u || blade.isCarried != 0u)) { // beside an older cut what a stroke begins with leaves the rim where it is
-        const vec4 behind = behindBlade(self);
+        const vec4 behind = behindBlade(self, placed[v].xyz);
         if (behind.w > 0.0) to = to.w == 0.0 ? behind : vec4(0.0); // else it came back
     }
     if (to.w > 0.0 && bitCount(links[self.anchor]) < int(self.weights.w)) {

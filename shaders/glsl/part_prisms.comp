@@ -7,22 +7,22 @@
 #include "link_masks.glsl"
 
 layout(std430, binding = 0) readonly buffer Links { uint links[]; };
-layout(std430, binding = 1) readonly buffer Dirty { uint dirty[]; };
+layout(std430, binding = 1) readonly buffer ListCounts { uint listCounts[]; };
 layout(std430, binding = 2) readonly buffer Prisms { SkinPrism prisms[]; };
 layout(std430, binding = 3) writeonly buffer Near { uint near[]; };    // 1 = a point may hang on the particle
 layout(std430, binding = 4) writeonly buffer Owned { uvec4 owned[]; };
 layout(std430, binding = 5) writeonly buffer Counts { SurfaceCounts counts[]; };
 layout(std430, binding = 6) writeonly buffer Rims { uint rims[]; };    // of vertices that hang: 1 = a triangle around is in pieces
+layout(std430, binding = 7) readonly buffer Parted { uint parted[]; };  // prisms near what was cut (list_prisms)
 layout(push_constant) uniform Push { PrismPush push; };
 
-#include "dirty.glsl"
 #include "skin_prisms.glsl"
 
 void main() {
-    const uint i = itemIndex(push.count);
-    if (i >= push.count) return;
+    const uint count = listCounts[SKIN_LISTS * push.run + SKIN_PARTED], item = itemIndex(count);
+    if (item >= count) return;
+    const uint i = parted[push.prisms + item];
     const SkinPrism prism = prisms[i];
-    if (!isDirty(prism.anchors[0]) && !isDirty(prism.anchors[1]) && !isDirty(prism.anchors[2])) return;
     const uvec3 pattern = patternOf(prism);
     const uint ways = 1u + (pattern.y == 1u ? 1u : 0u) + (pattern.z == 2u ? 1u : 0u);
     uint points = 0u, used = 0u;

@@ -93,6 +93,7 @@ private:
         range.prisms.count = prisms;
         range.vertices.first = firstHung;
         range.vertices.count = vertices;
+        range.prisms.run = range.vertices.run = static_cast<std::uint32_t>(bodies_.ranges.size());
         bodies_.ranges.push_back(range);
     }
 

@@ -38,11 +38,15 @@ struct HungSurface {
     std::vector<HungRange> ranges;
     std::uint32_t prismCount = 0, vertexCount = 0;
     BufferId prisms, vertices;
-    BufferId hits;         ///< by prism: where its edges were cut
-    BufferId rims;         ///< by vertex: whether a triangle around is drawn in pieces
-    BufferId moved;        ///< by vertex: where it has moved to beside a cut [m]
-    BufferId pulls;        ///< by slot: from a particle to its pulled place [m]
-    BufferId pulledPlaces; ///< by slot, where particles are for a blade [m]; invalid = at their places
+    BufferId hits;  ///< by prism: where its edges were cut
+    BufferId rims;  ///< by vertex: whether a triangle around is drawn in pieces
+    BufferId moved; ///< by vertex: where it has moved to beside a cut [m]
+    BufferId nears, parted, listed,
+        marks;                  ///< lists of prisms and of vertices (SKIN_LISTS), and who is asked for
+    BufferId placed;            ///< by vertex, of those that are listed: where the step begins with it [m]
+    BufferId counts, arguments; ///< SKIN_LISTS of each range
+    BufferId pulls;             ///< by slot: from a particle to its pulled place [m]
+    BufferId pulledPlaces;      ///< by slot, where particles are for a blade [m]; invalid = at their places
 };
 
 struct CutSurface {

@@ -10,7 +10,11 @@ namespace {
 namespace k = kernels;
 
 layout::PrismPush pushOf(const CutSurface& surface, std::uint32_t count) {
-    return {.first = surface.slots, .count = count};
+    return {.first = surface.slots, .count = count, .prisms = 0, .run = 0};
+}
+
+IndirectItems listOf(const HungSurface& hung, const layout::CutPush& range, std::uint32_t list) {
+    return {hung.arguments, SKIN_LISTS * range.run + list, range.count};
 }
 
 // Items of the surface that have any of it.
@@ -18,6 +22,27 @@ void addListed(ProgramBuilder& program, const CutSurface& surface, const vk::Sha
                std::initializer_list<BufferId> buffers) {
     program.dispatchIndirect(code, {surface.arguments, surface.push.runs + 1, surface.items}, buffers,
                              pushOf(surface, surface.hung.prismCount));
+}
+
+// Who the blade may meet, and where links have died: the passes that follow go there alone.
+void addLists(ProgramBuilder& program, const CutSurface& surface, BufferId bladePlaces, BufferId placesBefore,
+              BufferId blade) {
+    const CuttingBuffers& cutting = program.program().cutting;
+    const BufferId status = program.program().status;
+    const HungSurface& hung = surface.hung;
+    program.fill(hung.counts, 0);
+    for (const HungRange& range : hung.ranges)
+        program.dispatch(k::listPrisms, range.prisms.count,
+                         {bladePlaces, placesBefore, blade, status, hung.prisms, hung.hits, cutting.dirty,
+                          hung.counts, hung.nears, hung.parted, hung.marks},
+                         range.prisms);
+    for (const HungRange& range : hung.ranges)
+        program.dispatch(k::listVertices, range.vertices.count,
+                         {bladePlaces, placesBefore, blade, status, hung.vertices, hung.moved, hung.marks,
+                          hung.counts, hung.listed},
+                         range.vertices);
+    const layout::CountPush lists{static_cast<std::uint32_t>(SKIN_LISTS * hung.ranges.size())};
+    program.dispatch(k::planListed, lists.count, {hung.counts, hung.arguments}, lists);
 }
 
 } // namespace
@@ -33,6 +58,14 @@ void addHungBuffers(ProgramBuilder& program, CutSurface& surface, const CutBodie
     hung.hits = program.scratch<std::uint32_t>("surface.skin_hits", hung.prismCount);
     hung.rims = program.scratch<std::uint32_t>("surface.rims", hung.vertexCount);
     hung.moved = program.scratch<layout::vec4>("surface.moved", hung.vertexCount);
+    hung.nears = program.scratch<std::uint32_t>("surface.near_prisms", hung.prismCount);
+    hung.parted = program.scratch<std::uint32_t>("surface.parted_prisms", hung.prismCount);
+    hung.listed = program.scratch<std::uint32_t>("surface.near_vertices", hung.vertexCount);
+    hung.marks = program.scratch<std::uint32_t>("surface.vertex_marks", hung.vertexCount);
+    hung.placed = program.scratch<layout::vec4>("surface.placed", hung.vertexCount);
+    const std::size_t lists = SKIN_LISTS * hung.ranges.size();
+    hung.counts = program.scratch<std::uint32_t>("surface.skin_counts", lists);
+    hung.arguments = program.scratch<layout::DispatchArguments>("surface.skin_arguments", lists);
     program.program().cutSurface.hung = hung.vertices;
     program.program().cutSurface.moved = hung.moved;
     if (!bodies.pulled.empty()) {
@@ -64,28 +97,37 @@ void addSkinHits(ProgramBuilder& program, const CutSurface& surface, BufferId bl
                  BufferId placesBefore, BufferId blade, BufferId points) {
     const CuttingBuffers& cutting = program.program().cutting;
     const HungSurface& hung = surface.hung;
+    if (hung.prismCount == 0) return;
+    addLists(program, surface, bladePlaces, placesBefore, blade);
     for (const HungRange& range : hung.ranges)
-        program.dispatch(k::cutSkin, range.prisms.count,
-                         {bladePlaces, placesBefore, cutting.links, hung.hits, blade, points,
-                          cutting.savedLinks, cutting.places, surface.rest, hung.prisms, hung.vertices,
-                          program.program().status, surface.partitions},
-                         range.prisms);
+        program.dispatchIndirect(k::placeVertices, listOf(hung, range.vertices, SKIN_VERTICES),
+                                 {cutting.savedLinks, cutting.places, surface.rest, hung.vertices,
+                                  surface.partitions, hung.counts, hung.listed, hung.placed},
+                                 range.vertices);
     for (const HungRange& range : hung.ranges)
-        program.dispatch(k::moveRims, range.vertices.count,
-                         {bladePlaces, placesBefore, cutting.links, hung.moved, blade, points,
-                          cutting.savedLinks, cutting.places, surface.rest, hung.vertices, hung.rims,
-                          program.program().status, surface.partitions},
-                         range.vertices);
+        program.dispatchIndirect(k::cutSkin, listOf(hung, range.prisms, SKIN_NEAR),
+                                 {bladePlaces, placesBefore, cutting.links, hung.hits, blade, points,
+                                  cutting.savedLinks, hung.prisms, hung.counts, hung.nears, hung.placed},
+                                 range.prisms);
+    for (const HungRange& range : hung.ranges)
+        program.dispatchIndirect(k::moveRims, listOf(hung, range.vertices, SKIN_VERTICES),
+                                 {bladePlaces, placesBefore, cutting.links, hung.moved, blade, points,
+                                  cutting.savedLinks, cutting.places, surface.rest, hung.vertices, hung.rims,
+                                  program.program().status, hung.counts, hung.listed, hung.placed},
+                                 range.vertices);
 }
 
 void addPrismParting(ProgramBuilder& program, const CutSurface& surface) {
-    const CuttingBuffers& cutting = program.program().cutting;
     const HungSurface& hung = surface.hung;
-    if (hung.prismCount == 0) return;
-    program.dispatch(
-        k::partPrisms, hung.prismCount,
-        {cutting.links, cutting.dirty, hung.prisms, surface.near, surface.owned, surface.counts, hung.rims},
-        pushOf(surface, hung.prismCount));
+    for (const HungRange& range : hung.ranges) {
+        layout::PrismPush push = pushOf(surface, hung.prismCount);
+        push.prisms = range.prisms.first;
+        push.run = range.prisms.run;
+        program.dispatchIndirect(k::partPrisms, listOf(hung, range.prisms, SKIN_PARTED),
+                                 {program.program().cutting.links, hung.counts, hung.prisms, surface.near,
+                                  surface.owned, surface.counts, hung.rims, hung.parted},
+                                 push);
+    }
 }
 
 void addRimPoints(ProgramBuilder& program, const CutSurface& surface) {
