@@ -36,8 +36,9 @@ vec4 behindBlade(HungVertex self, vec3 x) {
     const uint i = self.anchor;
     const Meeting meeting = stripMeeting(waysOf(i, i, x, PLACE(i)));
     const float size = length(meeting.normal);
+    if (meeting.at > 1.0 || !(size > 0.0)) return vec4(0.0);
     const mat3 turn = gradientAt(i);
-    if (meeting.at > 1.0 || !(size > 0.0) || !(abs(determinant(turn)) > leastVolume)) return vec4(0.0);
+    if (!(abs(determinant(turn)) > leastVolume)) return vec4(0.0);
     const vec3 n = meeting.normal / size;
     const vec3 skin = normalize(cofactor(turn) * self.normal.xyz);
     vec3 way = n - dot(n, skin) * skin;
