@@ -107,7 +107,8 @@ private:
         return static_cast<std::uint32_t>(mesh_.positions.size() - 1);
     }
 
-    /// Of the two halves the second is a new triangle.
+    /// Of the two halves the second is a new triangle. What it has of an edge that was split before is not
+    /// listed: two triangles share it.
     void divide(std::uint32_t t, const Edge& edge, std::uint32_t middle) {
         std::size_t n = 0;
         while (edgeOf(mesh_.triangles[t], n) != edge) ++n;
@@ -116,7 +117,8 @@ private:
         const auto added = static_cast<std::uint32_t>(mesh_.triangles.size());
         mesh_.triangles[t] = {a, middle, c};
         mesh_.triangles.push_back({middle, b, c});
-        std::ranges::replace(around_.at({std::min(b, c), std::max(b, c)}), t, added);
+        const auto opposite = around_.find({std::min(b, c), std::max(b, c)});
+        if (opposite != around_.end()) std::ranges::replace(opposite->second, t, added);
     }
 
     TriangleMesh& mesh_;

@@ -163,6 +163,29 @@ TEST(SplitCrowdedEdges, GivesEachPairOfTrianglesAMiddleOfItsOwn) {
     }
 }
 
+// A pyramid with three corners and others at one, two and all three edges of its base.
+TEST(SplitCrowdedEdges, OfOneTriangleAreSplitOneAfterAnother) {
+    for (std::uint32_t crowded = 1; crowded <= 3; ++crowded) {
+        TriangleMesh mesh{.name = "",
+                          .positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3f, 0.3f, 1}},
+                          .triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+        for (std::uint32_t a = 0; a < crowded; ++a) { // outside and below
+            const std::uint32_t b = (a + 1) % 3, c = 4 + 2 * a, d = c + 1;
+            const Vec3 &x = mesh.positions[a], &y = mesh.positions[b];
+            const Vec3 away{x.x + y.x - 0.6f, x.y + y.y - 0.6f, -0.5f};
+            mesh.positions.push_back({0.5f * (x.x + y.x) + away.x, 0.5f * (x.y + y.y) + away.y, away.z});
+            mesh.positions.push_back({mesh.positions[c].x, mesh.positions[c].y, -1});
+            mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {b, a, d}, {b, d, c}, {a, c, d}});
+        }
+        const MeshReport before = inspect(mesh);
+        ASSERT_EQ(before.defects.nonManifoldEdges, crowded);
+        EXPECT_EQ(splitCrowdedEdges(mesh), crowded);
+        for (const auto& [edge, sides] : edgesOf(mesh)) EXPECT_EQ(sides, (std::array{1, 1}));
+        EXPECT_NEAR(inspect(mesh).volume, before.volume, 1e-6);
+        EXPECT_EQ(mesh.triangles.size(), 4 + 8 * crowded);
+    }
+}
+
 TEST(SplitCrowdedEdges, KeepsBoxesApart) {
     TriangleMesh mesh = boxesAroundAnEdge({{1, 1}, {-1, -1}});
     const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
