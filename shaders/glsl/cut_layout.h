@@ -94,12 +94,13 @@ struct DrawArguments {
 struct CutVertex {
     vec4 rest;       // [m], where the body was when the scene was loaded; w = index of its skin
     vec4 shares;     // 0 for no corner
-    uint corners[4]; // slots
+    uint corners[4]; // slots; on an edge of a skin that hangs two, and then the ends of the edge (HungVertex) that go with them
     int normal[3];   // at rest, outward from its piece; of any length
     uint point;      // the point that it is at, or SURFACE_PARTICLE and a particle, or SURFACE_SKIN and a vertex of all skins
 };
 #define SURFACE_PARTICLE 0x80000000u
 #define SURFACE_SKIN 0x40000000u // it is where that vertex is, and hangs on nothing
+#define SURFACE_RIM 0x20000000u  // beside a point: it lies on an edge or in a triangle of a skin that hangs
 #define SURFACE_NORMAL 1048576.0 // unit of a normal; that of a triangle in squares of the spacing
 
 // Best linear motion of what is around a particle: columns of dx / dX.

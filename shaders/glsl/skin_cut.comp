@@ -11,7 +11,33 @@ layout(std430, binding = 4) readonly buffer Positions { vec4 positions[]; }; // 
 layout(std430, binding = 5) readonly buffer Gradients { Gradient gradients[]; };
 layout(std430, binding = 6) writeonly buffer Vertices { SkinVertex vertices[]; };
 layout(std430, binding = 7) readonly buffer SkinVertices { SkinVertex skinVertices[]; };
+#ifdef HUNG
+layout(std430, binding = 8) readonly buffer Hung { HungVertex hung[]; };
+layout(std430, binding = 9) readonly buffer Moved { vec4 moved[]; };
+layout(std430, binding = 10) readonly buffer Near { uint near[]; };
+layout(std430, binding = 11) readonly buffer Links { uint links[]; };
+layout(std430, binding = 12) readonly buffer Strides { uvec2 strides[]; }; // by skin: slots from a node to the next in y, in z
+#endif
 layout(push_constant) uniform Push { CountPush push; };
+
+mat3 matrixOf(Gradient g) { return mat3(g.x.xyz, g.y.xyz, g.z.xyz); }
+
+#ifdef HUNG
+#include "link_masks.glsl"
+#include "skin_rest.glsl"
+#include "rim_place.glsl"
+#endif
+
+// Where what corner c has of a vertex is, and how it has turned.
+vec3 placeAt(CutVertex vertex, int c, out mat3 turn) {
+#ifdef HUNG
+    if ((vertex.point & SURFACE_RIM) != 0u)
+        return rimPlace(vertex.rest.xyz, vertex.corners[c], vertex.corners[2 + c], vertex.corners[3 - c], uint(vertex.rest.w), turn);
+#endif
+    const uint corner = vertex.corners[c];
+    turn = matrixOf(gradients[corner]);
+    return positions[particles[corner]].xyz + turn * (vertex.rest.xyz - rest[corner].xyz);
+}
 
 void main() {
     const uint count = min(push.count, state.points + 3u * state.outside), i = itemIndex(count);
@@ -25,13 +51,11 @@ void main() {
     vec3 x = vec3(0.0), turned = vec3(0.0);
     float moving = 0.0;
     for (int c = 0; c < 4; ++c) {
-        const uint corner = vertex.corners[c];
-        const Gradient g = gradients[corner];
-        const mat3 f = mat3(g.x.xyz, g.y.xyz, g.z.xyz), cofactor = mat3(cross(f[1], f[2]), cross(f[2], f[0]), cross(f[0], f[1]));
-        const vec4 place = positions[particles[corner]];
-        x += vertex.shares[c] * (place.xyz + f * (vertex.rest.xyz - rest[corner].xyz));
-        moving += vertex.shares[c] * place.w;
-        turned += vertex.shares[c] * (cofactor * normal);
+        if (vertex.shares[c] == 0.0) continue;
+        mat3 f;
+        x += vertex.shares[c] * placeAt(vertex, c, f);
+        moving += vertex.shares[c] * positions[particles[vertex.corners[c]]].w;
+        turned += vertex.shares[c] * (mat3(cross(f[1], f[2]), cross(f[2], f[0]), cross(f[0], f[1])) * normal);
     }
     const float size = length(turned);
     vertices[i] = SkinVertex(vec4(x, moving > 0.0 ? 1.0 : 0.0), vec4(size > 0.0 ? turned / size : vec3(0.0, 1.0, 0.0), 0.0));

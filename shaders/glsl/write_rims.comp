@@ -35,8 +35,9 @@ vec4 edgePlace(SkinPrism prism, uint self, uint n) {
     return vec4(mix(from.xyz, to.xyz, shareOf(prism, self, n)), from.w);
 }
 
-void write(uint at, vec4 place, uint a, uint b, float share) {
-    vertices[at] = CutVertex(place, vec4(1.0 - share, share, 0.0, 0.0), uint[4](a, b, a, a), int[3](0, 0, 0), at);
+void write(uint at, vec4 place, SkinPrism prism, uint a, uint b, float share) {
+    const uint corners[4] = uint[4](prism.anchors[a], prism.anchors[b], prism.vertices[a], prism.vertices[b]);
+    vertices[at] = CutVertex(place, vec4(1.0 - share, share, 0.0, 0.0), corners, int[3](0, 0, 0), SURFACE_RIM | at);
 }
 
 void main() {
@@ -48,13 +49,13 @@ void main() {
     [[dont_unroll]] for (uint n = 0u; n < 3u; ++n) {
         if ((points >> 2u * n & 1u) == 0u) continue;
         const vec4 place = edgePlace(prism, self, n);
-        const uint a = prism.anchors[n], b = prism.anchors[(n + 1u) % 3u];
+        const uint next = (n + 1u) % 3u;
         const bool isOne = (points >> 6u + n & 1u) != 0u;
-        write(skinPoint(prism, self, n, true), place, a, b, isOne ? shareOf(prism, self, n) : 0.0);
-        if (!isOne) write(skinPoint(prism, self, n, false), place, b, a, 0.0);
+        write(skinPoint(prism, self, n, true), place, prism, n, next, isOne ? shareOf(prism, self, n) : 0.0);
+        if (!isOne) write(skinPoint(prism, self, n, false), place, prism, next, n, 0.0);
     }
     if ((points >> firstCenter & 1u) == 0u) return;
     const vec4 center = (edgePlace(prism, self, 0u) + edgePlace(prism, self, 1u) + edgePlace(prism, self, 2u)) / 3.0;
     [[dont_unroll]] for (uint n = 0u; n < 3u; ++n)
-        write(skinCenter(self, n), vec4(center.xyz, hung[prism.vertices[n]].rest.w), prism.anchors[n], prism.anchors[n], 0.0);
+        write(skinCenter(self, n), vec4(center.xyz, hung[prism.vertices[n]].rest.w), prism, n, n, 0.0);
 }

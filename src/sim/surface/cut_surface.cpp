@@ -75,10 +75,20 @@ void addDrawing(ProgramBuilder& program, const CutSurface& surface) {
     const CutSurfaceBuffers drawn = built.cutSurface;
     if (surface.hung.prismCount == 0) addGradients(program, surface);
     addRimNormals(program, surface);
-    program.dispatchIndirect(k::skinCut, {surface.arguments, surface.push.runs, surface.push.room},
-                             {drawn.state, drawn.rest, surface.rest, surface.source.particles,
-                              built.positions, surface.gradients, drawn.vertices, built.skinVertices},
-                             layout::CountPush{surface.push.room});
+    const IndirectItems vertices{surface.arguments, surface.push.runs, surface.push.room};
+    const layout::CountPush room{surface.push.room};
+    if (surface.hung.prismCount > 0)
+        program.dispatchIndirect(k::skinCutHung, vertices,
+                                 {drawn.state, drawn.rest, surface.rest, surface.source.particles,
+                                  built.positions, surface.gradients, drawn.vertices, built.skinVertices,
+                                  surface.hung.vertices, surface.hung.moved, surface.near,
+                                  built.cutting.links, surface.hung.strides},
+                                 room);
+    else
+        program.dispatchIndirect(k::skinCut, vertices,
+                                 {drawn.state, drawn.rest, surface.rest, surface.source.particles,
+                                  built.positions, surface.gradients, drawn.vertices, built.skinVertices},
+                                 room);
 }
 
 } // namespace

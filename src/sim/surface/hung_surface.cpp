@@ -3,6 +3,8 @@
 
 #include "kernels.hpp"
 
+#include <algorithm>
+
 namespace sinew::sim::surface {
 
 namespace {
@@ -45,6 +47,17 @@ void addLists(ProgramBuilder& program, const CutSurface& surface, BufferId blade
     program.dispatch(k::planListed, lists.count, {hung.counts, hung.arguments}, lists);
 }
 
+// By skin.
+std::vector<std::array<std::uint32_t, 2>> stridesOf(const CutBodies& bodies) {
+    std::vector<std::array<std::uint32_t, 2>> strides;
+    for (const HungRange& range : bodies.ranges) {
+        const auto skin = static_cast<std::size_t>(bodies.vertices[range.vertices.first].rest.w);
+        strides.resize(std::max(strides.size(), skin + 1));
+        strides[skin] = {range.vertices.rowStride, range.vertices.sliceStride};
+    }
+    return strides;
+}
+
 } // namespace
 
 void addHungBuffers(ProgramBuilder& program, CutSurface& surface, const CutBodies& bodies) {
@@ -66,6 +79,7 @@ void addHungBuffers(ProgramBuilder& program, CutSurface& surface, const CutBodie
     const std::size_t lists = SKIN_LISTS * hung.ranges.size();
     hung.counts = program.scratch<std::uint32_t>("surface.skin_counts", lists);
     hung.arguments = program.scratch<layout::DispatchArguments>("surface.skin_arguments", lists);
+    hung.strides = program.upload("surface.strides", stridesOf(bodies));
     program.program().cutSurface.hung = hung.vertices;
     program.program().cutSurface.moved = hung.moved;
     if (!bodies.pulled.empty()) {
