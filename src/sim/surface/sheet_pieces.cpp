@@ -31,11 +31,13 @@ std::optional<std::uint32_t> kindOf(const Nodes& nodes, std::uint32_t x, std::ui
     return static_cast<std::uint32_t>(found - kinds.begin());
 }
 
-// Triangles: all that a few dozen cuts from end to end make, or every triangle shattered, if that is less.
-std::uint32_t roomFor(std::size_t triangles) {
+// Triangles: all that a few dozen cuts from end to end make, or `least`, but no more than every triangle of
+// the sheet shattered makes: what another sheet needs is no room of this one.
+std::uint32_t roomFor(std::size_t triangles, std::uint32_t least) {
     constexpr double ofTriangle = 6, few = 4096, ofRow = 200;
     const auto all = static_cast<double>(triangles);
-    return static_cast<std::uint32_t>(std::min(ofTriangle * all, few + ofRow * std::sqrt(all)));
+    const double wanted = std::max(few + ofRow * std::sqrt(all), static_cast<double>(least));
+    return static_cast<std::uint32_t>(std::min(ofTriangle * all, wanted));
 }
 
 // From a node of a sheet to the next along an axis, where the scene has them.
@@ -82,7 +84,7 @@ void addSkin(ProgramBuilder& program, SheetPieces& pieces, const Skin& skin, She
              const std::vector<layout::SheetTriangle>& triangles, Room& room) {
     sheet.push.triangles = static_cast<std::uint32_t>(triangles.size());
     sheet.push.firstPiece = room.index;
-    sheet.push.room = std::max(roomFor(triangles.size()), pieces.leastRoom);
+    sheet.push.room = roomFor(triangles.size(), pieces.leastRoom);
     sheet.push.firstVertex = room.vertex;
     sheet.push.vertexRoom =
         (7 * sheet.push.room + 2) / 3; // of a triangle in three pieces 7, the most for one

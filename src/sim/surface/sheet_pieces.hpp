@@ -32,7 +32,7 @@ struct SheetPieces {
     std::vector<SheetSkin> skins;
     BufferId particles; ///< by slot
     BufferId allIndices, arguments;
-    std::uint32_t leastRoom = 0; ///< of each skin, in triangles
+    std::uint32_t leastRoom = 0; ///< of each skin that can have as many, in triangles
 };
 
 /// Buffers, and the skins' indices, which cuts change; none where no sheet that may be cut has such a skin.

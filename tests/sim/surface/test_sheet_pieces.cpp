@@ -311,6 +311,23 @@ TEST(SheetPieces, ForWhichThereIsNoRoomAreSaidAndNoneIsDrawn) {
     EXPECT_EQ(pieces.upper.size() + pieces.lower.size(), 6 * whole) << "each in three, of two triangles";
 }
 
+TEST(SheetPieces, HaveTheRoomThatTheirOwnSheetCanNeed) {
+    Scene scene = sheet({40, 40});
+    addCloth(scene, {.origin = {0, 0.4f, 0}, .size = {5, 4}, .spacing = spacing, .isCuttable = true});
+    const auto roomOf = [&](std::uint32_t room) { // triangles, by sheet
+        const StepProgram program = compile(scene, {.substeps = 2, .cutSurfaceRoom = room});
+        std::vector<std::uint64_t> rooms;
+        for (const PieceVertices& pieces : program.pieceSkins)
+            rooms.push_back(program.buffers.at(pieces.vertices.index).count * 3 / 7);
+        return rooms;
+    };
+    const std::uint64_t large = scene.skins[0].triangles.size(), small = scene.skins[1].triangles.size();
+    EXPECT_LT(roomOf(0).at(0), 6 * large);
+    EXPECT_EQ(roomOf(0).at(1), 6 * small) << "each in three, of two triangles";
+    EXPECT_EQ(roomOf(30'000), (std::vector<std::uint64_t>{30'000, 6 * small}));
+    EXPECT_EQ(roomOf(1'000'000), (std::vector<std::uint64_t>{6 * large, 6 * small}));
+}
+
 TEST(SheetPieces, AreInNoOtherScene) {
     Scene plain = sheet();
     plain.grids[0].isCuttable = false;
