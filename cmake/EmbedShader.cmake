@@ -7,9 +7,9 @@ file(WRITE ${OUTPUT}
 
 namespace ${NAMESPACE} {
 namespace vk = ::sinew::vk;
-static const std::uint32_t words[] = {
+static const std::uint32_t ${IDENTIFIER}Words[] = {
     ${words}};
 extern const vk::ShaderCode ${IDENTIFIER};
-const vk::ShaderCode ${IDENTIFIER}{\"${NAME}\", words};
+const vk::ShaderCode ${IDENTIFIER}{\"${NAME}\", ${IDENTIFIER}Words};
 } // namespace ${NAMESPACE}
 ")

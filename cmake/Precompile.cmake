@@ -21,3 +21,15 @@ function(sinew_precompile_as target other)
         target_compile_options(${target} PRIVATE ${SINEW_PRECOMPILED_OPTIONS})
     endif()
 endfunction()
+
+# Files that use the same templates of libraries, compiled as one: what each would instantiate and optimise for itself (JSON
+# above all) is done once. An edit then costs its group. Off, every file stands alone.
+option(SINEW_TOGETHER "Compile groups of files together" ${SINEW_PRECOMPILE})
+
+# sinew_compile_together(<target> <group> <files, of which no two define one name for themselves>...)
+function(sinew_compile_together target group)
+    if(SINEW_TOGETHER)
+        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+        set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${group})
+    endif()
+endfunction()
