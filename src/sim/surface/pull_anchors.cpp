@@ -1,4 +1,5 @@
 // The nearest point of the skin is in one of the eight cells around a particle: its own vertices are.
+#include "sim/surface/point.hpp"
 #include "sim/surface/skin_complex.hpp"
 
 #include <algorithm>
@@ -9,23 +10,11 @@ namespace sinew::sim::surface {
 
 namespace {
 
-struct Point {
-    double x = 0, y = 0, z = 0;
-};
-Point operator-(const Point& a, const Point& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
 Point along(const Point& a, double t, const Point& way) {
     return {a.x + t * way.x, a.y + t * way.y, a.z + t * way.z};
 }
 double dot(const Point& a, const Point& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-Point pointOf(const layout::vec4& v) {
-    return {double{v.x}, double{v.y}, double{v.z}};
-}
-Point pointOf(const Vec3& v) {
-    return {double{v.x}, double{v.y}, double{v.z}};
 }
 
 // Ericson 2005, 5.1.5.
@@ -79,7 +68,7 @@ public:
         if (!(distance > 1e-4 * spacing) || distance > 2 * spacing) return std::nullopt;
         constexpr double below = 0.04; // cells
         const Point pulled = along(best, below * spacing / distance, best - x);
-        return Vec3{static_cast<float>(pulled.x), static_cast<float>(pulled.y), static_cast<float>(pulled.z)};
+        return toVec3(pulled);
     }
 
 private:

@@ -4,6 +4,7 @@
 #include "sim/surface/unfold_anchors.hpp"
 
 #include "sim/surface/kuhn.hpp"
+#include "sim/surface/point.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -13,19 +14,6 @@
 namespace sinew::sim::surface {
 
 namespace {
-
-struct Point {
-    double x = 0, y = 0, z = 0;
-};
-Point operator-(const Point& a, const Point& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-Point pointOf(const layout::vec4& v) {
-    return {double{v.x}, double{v.y}, double{v.z}};
-}
-Point pointOf(const Vec3& v) {
-    return {double{v.x}, double{v.y}, double{v.z}};
-}
 
 // Six times the volume of a tetrahedron.
 double volumeOf(const Point& origin, const Point& p, const Point& q, const Point& r) {
@@ -67,10 +55,7 @@ public:
             for (std::uint32_t p = 0; p < pulled_.size(); ++p) isMoved = improve(p) || isMoved;
             if (!isMoved) break;
         }
-        for (auto& [slot, x] : pulled_) {
-            const Point& to = placeOf(slot);
-            x = {static_cast<float>(to.x), static_cast<float>(to.y), static_cast<float>(to.z)};
-        }
+        for (auto& [slot, x] : pulled_) x = toVec3(placeOf(slot));
     }
 
 private:
