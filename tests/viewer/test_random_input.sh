@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # test_random_input.sh VIEWER EXAMPLES FOLDER [SECONDS]: hands that know nothing play in the window under validation: clicks, drags,
-# keys, the wheel, sizes. Twenty seconds, ten minutes with SINEW_FULL=1; SINEW_SEED is where the dice begin. Nothing may crash, hang or
-# be complained about. FOLDER keeps what was done, a line an event.
+# keys, the wheel, sizes. Twenty seconds and what it then takes to end, ten minutes with SINEW_FULL=1; SINEW_SEED is where the dice
+# begin. Nothing may crash, hang or be complained about. FOLDER keeps what was done, a line an event.
 set -euo pipefail
 viewer=$1 examples=$2 folder=$3
 seconds=${4:-$([[ -n ${SINEW_FULL:-} ]] && echo 600 || echo 20)}
@@ -16,7 +16,7 @@ printf '#!/bin/sh\nfor last; do :; done\n: >"${last#file:}"\nexec cat >/dev/null
 chmod +x bin/ffmpeg
 PATH=$folder/bin:$PATH
 cp "$here/block.toml" played
-cp "$examples"/{cloth,chain,clutter}.toml played 2>/dev/null || true
+cp "$examples"/{cloth,chain,clutter}.toml played
 cat >played/colored.toml <<'END'
 [solver]
 name = "gauss_seidel"
@@ -67,7 +67,11 @@ throw() { # the dice for one event
     elif ((kind < 62)); then
         place; roll 2; local button=$((rolled + 4))
         roll 6
-        event+=(click --repeat $((rolled + 1)) --delay 10 "$button")
+        local notches=$((rolled + 1))
+        roll 3 # with Shift it sizes the sphere that pokes
+        ((rolled > 0)) || event+=(keydown shift)
+        event+=(click --repeat "$notches" --delay 10 "$button")
+        ((rolled > 0)) || event+=(keyup shift)
     elif ((kind < 93)); then
         roll ${#keyNames[@]}
         event+=(key "${keyNames[rolled]}")
@@ -103,13 +107,14 @@ begin() {
 
 echo "random input: $seconds s, seed $seed"
 RANDOM=$seed
-scene=played/block.toml scenes=0 warnings=0 runs=0 events=0
+scene=played/block.toml scenes=0 warnings=0 runs=0 events=0 sent=0
 begin
+keys Prior # another scene, whatever the dice say
 until=$((SECONDS + seconds))
 while ((SECONDS < until)); do
     throw
     echo "${event[*]}" >>events
-    xdotool "${event[@]}" >/dev/null 2>&1 || isUp || true
+    if xdotool "${event[@]}" >/dev/null 2>&1; then sent=$((sent + 1)); fi # not to a window that has just gone
     events=$((events + 1))
     roll 4
     sleep "0.0$rolled"
@@ -133,5 +138,7 @@ for _ in {1..900}; do # it may have much to catch up with
 done
 isUp && fail "Ctrl + Q does not end it: it hangs"
 checkEnd
-echo "$events events, $runs runs, $scenes scenes, $warnings warnings"
+echo "$events events, $sent sent, $runs runs, $scenes scenes, $warnings warnings"
+((sent >= 20 && 2 * sent > events)) || fail "of $events events only $sent were sent"
+((scenes > 1)) || fail "no other scene was seen than the first"
 echo "passed"
