@@ -2,13 +2,12 @@
 #include "sim/collision/collider_paths.hpp"
 #include "sim/collision/collider_shapes.hpp"
 #include "sim/compile.hpp"
-#include "sim/runner.hpp"
+#include "sim/growing_run.hpp"
 #include "sim/scenes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 #include <numbers>
 
 using namespace sinew;
@@ -224,23 +223,9 @@ TEST(MovingColliders, AreTakenOverWhereTheLastWholeStepLeftThem) {
     const Scene scene = crowd();
     constexpr int steps = 50;
     const std::uint64_t hash = test::hashOfRun(scene, {.substeps = 8, .contactRoom = 64}, steps);
-    Settings settings{.substeps = 8, .contactRoom = 1};
-    auto runner = std::make_unique<test::Runner>(scene, settings);
-    int growths = 0;
-    for (int step = 0; step < steps;) {
-        const Status status = runner->run(1);
-        if (status.contactRoom == 0) {
-            ++step;
-            continue;
-        }
-        settings.contactRoom = status.contactRoom;
-        auto larger = std::make_unique<test::Runner>(scene, settings);
-        larger->takeOver(*runner);
-        runner = std::move(larger);
-        ASSERT_LE(++growths, 20);
-    }
-    EXPECT_GE(growths, 1);
-    EXPECT_EQ(runner->stateHash(), hash);
+    const auto run = test::runGrowing(scene, {.substeps = 8}, steps);
+    EXPECT_GE(run.growths, 1);
+    EXPECT_EQ(run.hash, hash);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Moving, testing::Values(Solver::jacobi, Solver::split, Solver::gaussSeidel),
