@@ -7,6 +7,7 @@
 #include "viewer/draw/offscreen.hpp"
 #include "viewer/draw/stage.hpp"
 #include "viewer/hands/inspection.hpp"
+#include "viewer/headless_times.hpp"
 #include "viewer/opening.hpp"
 #include "viewer/pictures/picture_writer.hpp"
 #include "viewer/pictures/video.hpp"
@@ -95,6 +96,7 @@ public:
           stage_(device, opening.loaded.scene, opening.loaded.settings),
           offscreen_(device, options.size, opening.light), layers_(options.layers), queue_(device) {
         stage_.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
+        if (options.isTimed) times_.emplace(device, stage_);
         if (!input) return;
         replay_.emplace(std::move(*input));
         tools_.emplace(device, opening);
@@ -110,8 +112,11 @@ public:
         VkCommandBuffer commands = queue_.begin();
         stage_.recordSkin(commands);
         const Overlay overlay = recordLayers(commands);
+        if (times_) times_->beginDrawing(commands);
         offscreen_.record(commands, camera_, stage_.simulation(), overlay);
+        if (times_) times_->endDrawing(commands);
         queue_.wait(queue_.submit(commands));
+        if (times_) times_->pictureFinished();
         return offscreen_.read();
     }
 
@@ -130,6 +135,11 @@ public:
         if (isWhole && !isCompared_) return compareReplay();
         settle();
         std::printf("%s\n", hashText(stateHash(device_, stage_, queue_), stage_.steps()).c_str());
+    }
+
+    /// Where they were asked for; waits for nothing.
+    void printTimes() const {
+        if (times_) std::fputs(times_->table().c_str(), stdout);
     }
 
     PictureText text(std::uint64_t frame) const { return pictureText(opening_, device_, frame); }
@@ -190,14 +200,16 @@ private:
         else
             record(commands, next);
         next.value = queue_.submit(commands);
+        if (times_ && frame > 0) times_->submitted();
         submissions_.push_back(next);
     }
 
     void record(VkCommandBuffer commands, const Submission& next) {
+        vk::Timestamps* timestamps = times_ ? times_->ofStep(next.frame) : nullptr;
         if (tools_)
-            recordStep(commands, stage_, next.hands);
+            recordStep(commands, stage_, next.hands, timestamps);
         else
-            stage_.recordStep(commands);
+            stage_.recordStep(commands, timestamps);
     }
 
     // All steps from `first` on were undone; hands do in them what they did.
@@ -222,6 +234,7 @@ private:
         submissions_.pop_front();
         queue_.wait(oldest.value);
         if (oldest.frame == 0) return;
+        if (times_) times_->stepFinished(oldest.frame);
         if (stage_.neededRoom(oldest.frame) > 0) return redoFrom(oldest);
         if (const std::optional<Divergence> divergence = stage_.check(oldest.frame))
             throw app::Failure(app::diverged, divergence->sentence());
@@ -238,7 +251,8 @@ private:
     std::optional<Replay> replay_;
     bool isCompared_ = false;    // with what was recorded
     std::optional<Tools> tools_; // of the replay
-    vk::Queue queue_;            // last: waits for what still uses the others
+    std::optional<HeadlessTimes> times_;
+    vk::Queue queue_; // last: waits for what still uses the others
     std::deque<Submission> submissions_;
     std::uint32_t surfaceMissing_ = 0; // Status::cutSurfaceMissing of the newest settled step
 };
@@ -273,6 +287,7 @@ int runHeadless(const Options& asked, std::atomic<std::size_t>& messages) {
         recorder.settle();
         progress.finish();
         recorder.finishReplay();
+        recorder.printTimes();
     } catch (const app::Failure& failure) {
         if (failure.code() == app::diverged) // what was drawn before is whole and stays
             outputs.finish();

@@ -104,6 +104,7 @@ Preferences play(std::unique_ptr<Opening> opening, const Options& options, const
     });
     auto show = std::make_unique<Show>(screen, library, devices, *device, std::move(first));
     while (auto next = show->run()) change(device, show, std::move(next), screen, library, devices);
+    if (options.isTimed) screen.timing().printTable();
     return leftBy(screen, library, options, preferences);
 }
 

@@ -114,8 +114,10 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         ->check(CLI::IsMember(layerNames()));
     app.add_option("--replay", options.replay,
                    "a log of input, as the window saves it: opens its scene and does the same again");
-    app.add_flag("--timing", options.isTimed,
-                 "say how long the first picture took, and whenever hands had to wait for more than 0.1 s");
+    app.add_flag(
+        "--timing", options.isTimed,
+        "say how long the first picture took, whenever hands had to wait for more than 0.1 s, and at the "
+        "end how long pictures took");
     addHeadlessOptions(app, options);
     try {
         app.parse(argc, argv);

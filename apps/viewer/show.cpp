@@ -18,6 +18,7 @@ constexpr double stillAfter = 0.25;           // [s] without a change before a p
 
 static_assert(Presenter::framesInFlight * Playback::maxSteps <= sim::Simulation::framesInFlight);
 static_assert(Presenter::framesInFlight <= Renderer::slots);
+static_assert(Presenter::framesInFlight <= Timing::slots);
 
 } // namespace
 
@@ -31,7 +32,10 @@ Show::Show(Screen& screen, Library& library, const Devices& devices, const vk::D
       sceneFacts_(prepared_.facts), gauges_(stage_, opening_.loaded.scene.dt), knobs_(sceneFacts_.fromFile),
       status_(opening_.loaded.scene, device) {
     const auto spans = static_cast<std::uint32_t>(stage_.simulation().phases().size());
-    for (std::uint32_t slot = 0; slot < Presenter::framesInFlight; ++slot) times_.emplace_back(device, spans);
+    for (std::uint32_t slot = 0; slot < Presenter::framesInFlight; ++slot) {
+        times_.emplace_back(device, spans);
+        drawingTimes_.emplace_back(device, 2);
+    }
     controller_.playback.reset(); // fills the buffers
     if (opening_.again) goOn(*opening_.again);
     if (opening_.input) replay_.emplace(*opening_.input);
@@ -84,10 +88,11 @@ float Show::pictureAspect() const {
 }
 
 void Show::turn() {
-    screen_.timing().beforeInput();
-    Input input =
-        screen_.window().poll(isHidden_ || (shown_ == Shown::still && panelsDue_ == 0) ? idleWait : 0);
-    screen_.timing().afterInput();
+    const bool isIdle = isHidden_ || (shown_ == Shown::still && panelsDue_ == 0);
+    screen_.presenter().waitForSlot(); // the next picture has what came until it can be drawn
+    screen_.timing().beforeInput(isIdle);
+    Input input = screen_.window().poll(isIdle ? idleWait : 0);
+    screen_.timing().afterInput(!input.isEmpty() || input.panels.isTouched, picturesOnTheirWay());
     const Wishes wishes = std::exchange(wishes_, {});
     grant(wishes, input);
     handle(input);
@@ -126,6 +131,17 @@ Plan Show::plan(double elapsed) {
     return plan;
 }
 
+// Says which have come meanwhile.
+std::size_t Show::picturesOnTheirWay() {
+    std::size_t count = 0;
+    for (std::size_t slot = 0; slot < Presenter::framesInFlight; ++slot)
+        if (screen_.presenter().isFinished(slot))
+            screen_.timing().pictureFinished(slot);
+        else
+            ++count;
+    return count;
+}
+
 // False while the window has no size.
 bool Show::prepareSwapchain() {
     return screen_.prepare([this] {
@@ -148,19 +164,41 @@ void Show::draw(Plan plan, View& view) {
     recordSteps(*frame, plan);
     const Overlay overlay = recordLayers(*frame);
     if (recording_ && plan.steps > 0) recordCamera(*frame, overlay);
-    if (!view.canvas)
-        view.canvas = view.renderer.makeCanvas(screen_.presenter().extent(), screen_.presenter().views());
-    view.renderer.prepare(overlay.layers);
-    view.renderer.record(frame->commands, frame->slot, *view.canvas, frame->image, controller_.camera,
-                         stage_.simulation(), overlay);
-    if (std::exchange(wantsScreenshot_, false)) recordScreenshot(*frame, overlay);
-    drawPanels(*frame, &view != &prepared_.moving || !prepared_.still);
+    const bool isCutting = !inFlight_[frame->slot].sweeps.empty();
+    drawPicture(*frame, overlay, view);
     screen_.presenter().end(*frame);
+    screen_.timing().pictureSubmitted(frame->slot, isOfCut(isCutting));
+    picturesOnTheirWay(); // some are there when they have been presented
     if (screen_.timing().awaitsPicture()) {
         screen_.presenter().waitIdle();
         screen_.timing().firstPicture();
     }
     status_.frameDrawn();
+}
+
+// Timed where somebody wants to know: each look at the clock costs a software device a flush.
+void Show::drawPicture(const Presenter::Frame& frame, const Overlay& overlay, View& view) {
+    if (!view.canvas)
+        view.canvas = view.renderer.makeCanvas(screen_.presenter().extent(), screen_.presenter().views());
+    view.renderer.prepare(overlay.layers);
+    const bool isTimed = inFlight_[frame.slot].isTimed = screen_.timing().isOn();
+    vk::Commands commands(device_, frame.commands);
+    vk::Timestamps& times = drawingTimes_[frame.slot];
+    if (isTimed) times.reset(commands);
+    if (isTimed) times.begin(commands, 0);
+    view.renderer.record(frame.commands, frame.slot, *view.canvas, frame.image, controller_.camera,
+                         stage_.simulation(), overlay);
+    if (isTimed) times.end(commands, 0);
+    if (std::exchange(wantsScreenshot_, false)) recordScreenshot(frame, overlay);
+    if (isTimed) times.begin(commands, 1);
+    drawPanels(frame, &view != &prepared_.moving || !prepared_.still);
+    if (isTimed) times.end(commands, 1);
+}
+
+// Also those that wait for a picture in which something was cut.
+bool Show::isOfCut(bool isCutting) {
+    if (isCutting) cutFrames_ = Presenter::framesInFlight + 1;
+    return cutFrames_ > 0 && cutFrames_-- > 0;
 }
 
 void Show::drawPanels(const Presenter::Frame& frame, bool isFullQuality) {

@@ -50,6 +50,7 @@ private:
         std::uint64_t firstStep = 0;
         std::uint32_t steps = 0;
         std::vector<Sweep> sweeps;        // of its first steps
+        bool isTimed = false;             // by drawingTimes_
         bool isProbed = false;            // for the bounds
         bool isMeasured = false;          // for the strain
         bool isRecorded = false;          // by cameras_
@@ -86,7 +87,11 @@ private:
     void handle(Action action);
     bool prepareSwapchain();
     void draw(Plan plan, View& view);
+    void drawPicture(const Presenter::Frame& frame, const Overlay& overlay, View& view);
     void drawPanels(const Presenter::Frame& frame, bool isFullQuality);
+    bool isOfCut(bool isCutting);
+    std::size_t picturesOnTheirWay();
+    void settleTimes(std::uint32_t slot, const InFlight& flight);
     Facts facts(bool isFullQuality) const;
     void recordSteps(const Presenter::Frame& frame, Plan& plan);
     void forgetFlights();
@@ -124,8 +129,9 @@ private:
     std::uint32_t contactsFound_ = 0;
     Tools tools_;
     std::optional<Replay> replay_;
-    std::optional<InputFile> replayed_; // that has just come to its end
-    std::vector<vk::Timestamps> times_; // one a slot
+    std::optional<InputFile> replayed_;        // that has just come to its end
+    std::vector<vk::Timestamps> times_;        // of a step, one a slot
+    std::vector<vk::Timestamps> drawingTimes_; // of picture and panels, likewise
     SceneFacts& sceneFacts_;
     Gauges gauges_;
     Wishes wishes_; // of the newest picture
@@ -139,6 +145,7 @@ private:
     Shown shown_ = Shown::nothing;
     std::uint32_t surfaceMissing_ = 0; // Status::cutSurfaceMissing of the newest settled step
     std::uint32_t panelsDue_ = 0;      // pictures until the panels look as they should
+    std::uint32_t cutFrames_ = 0;      // pictures that may still wait for a cut
     bool isHidden_ = false, isDiverged_ = false, isSurfaceMissing_ = false, isCut_ = false,
          wantsScreenshot_ = false, wantsProbe_ = false;
 };

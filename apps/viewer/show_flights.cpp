@@ -119,11 +119,7 @@ Overlay Show::recordLayers(const Presenter::Frame& frame) {
 // Takes what a finished frame has brought.
 void Show::settle(std::uint32_t slot) {
     InFlight flight = std::exchange(inFlight_[slot], {});
-    if (flight.steps > 0) {
-        const std::vector<double> phases = times_[slot].milliseconds();
-        if (!phases.empty()) status_.stepTimed(std::accumulate(phases.begin(), phases.end(), 0.0));
-        gauges_.stepTimed(phases);
-    }
+    settleTimes(slot, flight);
     settleProbe(flight);
     if (flight.isInspected) inspector_.settle(slot, opening_.light.balls, *probe_, isCut_);
     settleMap(slot, flight);
@@ -145,6 +141,23 @@ void Show::settle(std::uint32_t slot) {
     }
     if (flight.isRecorded && !isUndone) settleCamera(slot, flight);
     if (flight.screenshot) settleScreenshot(flight);
+}
+
+void Show::settleTimes(std::uint32_t slot, const InFlight& flight) {
+    screen_.timing().pictureFinished(slot);
+    FrameTimes& times = screen_.timing().times();
+    if (flight.steps > 0) {
+        const std::vector<double> phases = times_[slot].milliseconds();
+        const double step = std::accumulate(phases.begin(), phases.end(), 0.0);
+        if (!phases.empty()) status_.stepTimed(step);
+        if (!phases.empty()) times.add(FrameTimes::Kind::step, step);
+        gauges_.stepTimed(phases);
+    }
+    if (!flight.isTimed) return;
+    const std::vector<double> drawing = drawingTimes_[slot].milliseconds();
+    if (drawing.size() < 2) return; // the device has no clock for it
+    times.add(FrameTimes::Kind::drawing, drawing[0]);
+    times.add(FrameTimes::Kind::panels, drawing[1]);
 }
 
 void Show::settleProbe(InFlight& flight) {
@@ -178,6 +191,7 @@ void Show::makeSurfaceRoom() {
     const std::uint32_t needed = std::exchange(surfaceMissing_, 0);
     if (needed == 0) return; // somebody has gone back to before
     vk::Queue queue(device_);
+    cutFrames_ = std::max(cutFrames_, 1u); // this picture waits for it
     if (!stage_.makeSurfaceRoom(needed, queue)) return warnOfSurface();
     probe_.emplace(device_, stage_.simulation());
     inspection_.reset(); // as layers want it, of the other simulation

@@ -108,6 +108,10 @@ void Show::handle(Action action) {
     case Action::saveInput:
         saveInput();
         break;
+    case Action::times:
+        screen_.tell(screen_.timing().times().summary());
+        screen_.timing().printTable();
+        break;
     case Action::record:
         toggleRecording();
         break;

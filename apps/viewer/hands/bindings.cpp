@@ -74,6 +74,7 @@ constexpr std::array table{
             "F8",
             "save what hands did since the reset in the current folder; --replay plays it again",
             "Input"},
+    Binding{{key, GLFW_KEY_F7}, times, "F7", "print how long pictures took since it was last asked", "Times"},
     Binding{{key, GLFW_KEY_F11}, fullScreen, "F11", "full screen", "Full screen"},
     Binding{{key, GLFW_KEY_V}, vsync, "V", "wait for the screen (vsync) or not", "Vsync"},
     Binding{{key, GLFW_KEY_EQUAL, GLFW_MOD_CONTROL}, largerTexts, "Ctrl + plus", "larger texts", "Larger"},

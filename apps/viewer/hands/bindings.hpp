@@ -39,6 +39,7 @@ enum class Action {
     screenshot,
     record,
     saveInput,
+    times,
     fullScreen,
     vsync,
     largerTexts,

@@ -41,7 +41,8 @@ void play(const Facts& facts, Wishes& wishes) {
     button(Action::record, wishes, width, facts.isRecording, facts.isRecording ? "Stop" : nullptr);
     ImGui::SameLine();
     button(Action::saveInput, wishes, width);
-    width = buttonWidth(3);
+    button(Action::times, wishes, width);
+    ImGui::SameLine();
     button(Action::vsync, wishes, width, facts.isVsync);
     ImGui::SameLine();
     button(Action::fullScreen, wishes, width);

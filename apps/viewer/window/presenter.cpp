@@ -216,6 +216,10 @@ void Presenter::waitForSlot() {
         "vkWaitForFences", "the window");
 }
 
+bool Presenter::isFinished(std::size_t slot) const {
+    return device_.functions().vkGetFenceStatus(device_.handle(), slots_[slot].finished) != VK_NOT_READY;
+}
+
 void Presenter::waitIdle() {
     vk::check(device_.functions().vkQueueWaitIdle(queue_), "vkQueueWaitIdle", "the window");
 }

@@ -50,6 +50,8 @@ public:
     std::uint32_t nextSlot() const noexcept { return slot_; }
     /// Waits until what was submitted in the next slot has finished.
     void waitForSlot();
+    /// Whether nothing that was submitted in that slot is on its way.
+    bool isFinished(std::size_t slot) const;
     /// After waitForSlot(): acquires an image and begins its commands. Empty where the swapchain became
     /// outdated.
     std::optional<Frame> begin();
