@@ -80,6 +80,7 @@ bool Show::isOfReplay(Action action) {
     case Action::pin:
     case Action::undo:
     case Action::redo:
+    case Action::stepBack:
         screen_.tell("a replay plays: " + std::string(keyOf(Action::drop)) + " ends it");
         return true;
     default:

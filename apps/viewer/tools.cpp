@@ -13,7 +13,8 @@ namespace sinew::viewer {
 
 Tools::Tools(const vk::Device& device, const Opening& opening)
     : blade_(opening.light.bounds), poke_(opening.light.radius(), opening.loaded.scene.planes),
-      history_(device), pinReach_(0.04f * opening.light.radius()),
+      history_(device, History::mostCuts), steps_(device, History::mostSteps),
+      pinReach_(0.04f * opening.light.radius()),
       canCut_(std::ranges::any_of(opening.loaded.scene.grids, &sim::Grid::isCuttable)) {}
 
 void recordStep(VkCommandBuffer commands, Stage& stage, const StepHands& hands,
@@ -157,6 +158,9 @@ bool Tools::act(Action action) {
     case Action::redo:
         wantsRedo_ = true;
         break;
+    case Action::stepBack:
+        ++stepsBack_;
+        break;
     default:
         return false;
     }
@@ -185,7 +189,9 @@ void Tools::clear() {
 void Tools::reset() {
     clear();
     history_.recycle();
+    steps_.recycle();
     wantsUndo_ = wantsRedo_ = false;
+    stepsBack_ = 0;
     log_.restart();
     if (blade_.isOn()) log_.key(Action::blade);
     if (poke_.isOn()) {
@@ -205,14 +211,32 @@ void Tools::putAway(Stage& stage) {
 void Tools::forget() {
     log_.forget();
     history_.recycle();
+    steps_.recycle();
+}
+
+// What hands hold stays behind, as after an undo. A cut that has not been yet cannot be undone.
+bool Tools::goBack(VkCommandBuffer commands, Stage& stage) {
+    const std::uint32_t wanted = std::exchange(stepsBack_, 0);
+    if (steps_.undos() == 0) {
+        note_ = "there is no earlier step to go back to";
+        return false;
+    }
+    log_.goBack();
+    clear();
+    for (std::uint32_t step = 0; step < wanted && steps_.recordBack(commands, stage); ++step) {
+    }
+    history_.forgetFrom(stage.played());
+    return true;
 }
 
 bool Tools::recordHistory(VkCommandBuffer commands, Stage& stage) {
+    if (stepsBack_ > 0) return goBack(commands, stage);
     const bool isUndo = std::exchange(wantsUndo_, false), isRedo = std::exchange(wantsRedo_, false);
     if (!isUndo && !isRedo) return false;
     if ((isUndo ? history_.undos() : history_.redos()) == 0) return false; // hands and pins stay
     log_.goBack();
     clear();
+    steps_.recycle(); // they lead elsewhere
     return isUndo ? history_.recordUndo(commands, stage) : history_.recordRedo(commands, stage);
 }
 
@@ -226,8 +250,20 @@ void Tools::remember(VkCommandBuffer commands, const Stage& stage) {
     }
 }
 
+// A state so large that few would have room is not copied in every step.
+void Tools::rememberStep(VkCommandBuffer commands, const Stage& stage) {
+    constexpr std::size_t worthIt = 8;
+    if (isForgetfulOfSteps_ || steps_.room(stage) < worthIt) return;
+    try {
+        steps_.recordBefore(commands, stage);
+    } catch (const vk::Error&) { // no memory: those that there are stay
+        isForgetfulOfSteps_ = true;
+    }
+}
+
 StepHands Tools::takeStep(VkCommandBuffer commands, const Stage& stage) {
     log_.step();
+    rememberStep(commands, stage);
     if (blade_.beginsStroke()) remember(commands, stage);
     StepHands hands{.sweep = blade_.next(), .poke = poke_.poke()};
     hands.grabs[0] = hand_.isHolding() ? hand_.grabs()[0] : emptyHand();
@@ -241,6 +277,7 @@ void Tools::restart(std::span<const Sweep> undone, std::uint64_t steps) {
     log_.takeBack(steps);
     log_.forget();
     history_.clear(); // its states are of a simulation that is no more
+    steps_.clear();
     blade_.putBack(undone);
 }
 

@@ -60,8 +60,8 @@ public:
     void answer(const Question& question, const std::optional<Pick>& pick, float radius);
 
     /// Whether something is to be recorded even where no step is.
-    bool isWaiting() const { return question() || wantsPin_ || wantsUndo_ || wantsRedo_; }
-    bool wantsHistory() const { return wantsUndo_ || wantsRedo_; }
+    bool isWaiting() const { return question() || wantsPin_ || wantsHistory(); }
+    bool wantsHistory() const { return wantsUndo_ || wantsRedo_ || stepsBack_ > 0; }
     /// The way back or forwards, where it was asked for; whether there was one.
     bool recordHistory(VkCommandBuffer commands, Stage& stage);
     /// For a replay that begins again: all put away, gravity as the scene has it.
@@ -80,6 +80,8 @@ public:
     bool isBladeOn() const { return blade_.isOn(); }
     bool isPokeOn() const { return poke_.isOn(); }
     const History& history() const { return history_; }
+    /// How many steps there is a way back of.
+    std::size_t stepsBack() const { return steps_.undos(); }
     std::size_t pins() const { return pins_.count(); }
     Overlay overlay() const { return {hand_.hand(), pins_.shown(), blade_.path()}; }
     /// What they said last, once: also a line on stderr.
@@ -99,16 +101,19 @@ private:
     Pins pins_;
     CutTool blade_;
     PokeTool poke_;
-    History history_;
+    History history_, steps_; // of cuts; of all steps
     std::string note_;
     void remember(VkCommandBuffer commands, const Stage& stage);
+    void rememberStep(VkCommandBuffer commands, const Stage& stage);
+    bool goBack(VkCommandBuffer commands, Stage& stage);
 
     float pinReach_;               // of the pointer around a pin [m]
     std::optional<Ray> pinned_;    // a question
     std::optional<float> gravity_; // that was turned
     InputLog log_;
-    bool canCut_ = false, isForgetful_ = false, wantsPin_ = false, isPinArmed_ = false, wantsUndo_ = false,
-         wantsRedo_ = false;
+    std::uint32_t stepsBack_ = 0; // that are wanted
+    bool canCut_ = false, isForgetful_ = false, isForgetfulOfSteps_ = false, wantsPin_ = false,
+         isPinArmed_ = false, wantsUndo_ = false, wantsRedo_ = false;
 };
 
 } // namespace sinew::viewer

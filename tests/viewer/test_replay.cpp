@@ -284,5 +284,79 @@ TEST(Replay, IsComparedWithTheStateAfterAsManySteps) {
     EXPECT_EQ(hashText(0xabd, 50, {}), "state hash 0000000000000abd after 50 steps") << "an old log has none";
 }
 
+// Of the state on the device, all that a step may read.
+struct Walk : Played {
+    std::uint64_t backAndHash(int steps) {
+        for (int i = 0; i < steps; ++i) EXPECT_TRUE(tools.act(Action::stepBack));
+        turn({}, 0);
+        return hash();
+    }
+};
+
+TEST(StepBack, LeadsToTheSameBitsBackAndForwards) {
+    Walk walk;
+    std::vector<std::uint64_t> hashes{walk.hash()};
+    for (int step = 0; step < 30; ++step) {
+        walk.turn({});
+        hashes.push_back(walk.hash());
+    }
+    ASSERT_NE(hashes[30], hashes[29]);
+    EXPECT_EQ(walk.backAndHash(1), hashes[29]);
+    EXPECT_EQ(walk.backAndHash(1), hashes[28]);
+    EXPECT_EQ(walk.backAndHash(7), hashes[21]);
+    EXPECT_EQ(walk.stage.played(), 21u);
+    for (std::size_t step = 22; step <= 30; ++step) {
+        walk.turn({});
+        EXPECT_EQ(walk.hash(), hashes[step]) << step;
+    }
+    EXPECT_EQ(walk.backAndHash(1000), hashes[0]);
+    EXPECT_EQ(walk.tools.stepsBack(), 0u);
+    EXPECT_EQ(walk.backAndHash(1), hashes[0]) << "there is nothing before";
+    EXPECT_FALSE(walk.tools.takeNote().empty());
+}
+
+TEST(StepBack, BringsBackWhatWasCutAndForgetsTheWayToIt) {
+    Walk walk;
+    walk.turn({}, 5);
+    const std::uint64_t before = walk.hash();
+    walk.tools.act(Action::blade);
+    walk.dragFrom({0, -0.4f}, {0, 0.8f}, 6);
+    walk.pressAt({0, 0.4f}, false);
+    ASSERT_EQ(walk.tools.history().undos(), 1u);
+    ASSERT_GT(walk.stage.simulation().status(walk.stage.steps()).linksCutInAll, 0u);
+    const auto steps = static_cast<int>(walk.stage.played()) - 5;
+    EXPECT_EQ(walk.backAndHash(steps), before);
+    EXPECT_EQ(walk.tools.history().undos(), 0u) << "there is no cut yet";
+    walk.tools.act(Action::blade);
+    walk.turn({});
+    EXPECT_EQ(walk.stage.simulation().status(walk.stage.steps()).linksCutInAll, 0u);
+}
+
+TEST(StepBack, KeepsTheNewestAsFarAsThereIsRoom) {
+    Walk walk;
+    for (std::size_t turn = 0; turn < History::mostSteps / 10 + 3; ++turn) walk.turn({}, 10);
+    EXPECT_EQ(walk.tools.stepsBack(), History::mostSteps);
+    const std::uint64_t played = walk.stage.played();
+    walk.backAndHash(100000);
+    EXPECT_EQ(walk.stage.played(), played - History::mostSteps);
+}
+
+// With a hand between, and once more than there are steps.
+void walk(Played& played) {
+    played.turn({}, 12);
+    for (int i = 0; i < 3; ++i) played.tools.act(Action::stepBack);
+    played.turn({}, 0);
+    played.dragFrom({0, 0}, {0.2f, -0.3f}, 4);
+    played.turn({.actions = {Action::stepBack}}, 2);
+    for (int i = 0; i < 100; ++i) played.tools.act(Action::stepBack);
+    played.turn({}, 0);
+    played.turn({.actions = {Action::stepBack}}, 0);
+    played.turn({}, 7);
+}
+
+TEST(StepBack, IsDoneAgainByAReplay) {
+    expectTheSameBitsOf(walk);
+}
+
 } // namespace
 } // namespace sinew::viewer

@@ -27,6 +27,7 @@ constexpr std::array table{
     Binding{{key, GLFW_KEY_SPACE}, pause, "Space", "pause or go on", "Pause"},
     Binding{{key, GLFW_KEY_P}, pause, "P", "pause or go on"},
     Binding{{key, GLFW_KEY_PERIOD}, step, ".", "pause and take one step", "Step"},
+    Binding{{key, GLFW_KEY_COMMA}, stepBack, ",", "pause and go one step back", "Back"},
     Binding{{key, GLFW_KEY_R}, reset, "R", "reset the scene", "Reset"},
     Binding{
         {key, GLFW_KEY_C}, blade, "C", "blade: left drag cuts, from the front through to the back", "Blade"},

@@ -19,6 +19,7 @@ enum class Action {
     frame,
     pause,
     step,
+    stepBack,
     reset,
     blade,
     poke,

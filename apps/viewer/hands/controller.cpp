@@ -40,6 +40,9 @@ bool Controller::act(Action action) {
     case Action::step:
         playback.step();
         return true;
+    case Action::stepBack:
+        playback.pause();
+        return false; // where to is for others to know
     case Action::slowMotion:
         playback.slowDown();
         return true;

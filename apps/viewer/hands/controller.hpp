@@ -30,7 +30,10 @@ public:
     /// A half, a quarter, an eighth, and then full pace again.
     void slowDown() { pace_ = pace_ > 0.2 ? pace_ / 2 : 1; }
 
-    void pause() { isPaused_ = true; }
+    void pause() {
+        isPaused_ = true;
+        singleSteps_ = 0;
+    }
     void toggle();
     void step();
     void reset() { wantsReset_ = true; }
@@ -46,7 +49,7 @@ class Controller {
 public:
     Controller(const Camera& start, double dt) : camera(start), playback(dt) {}
 
-    /// Does what concerns time; false for an action that belongs to the window or the camera's drags.
+    /// Does what concerns time; false for an action that belongs, or belongs as well, to somebody else.
     bool act(Action action);
 
     /// An orbit or a pan by (x, y) picture heights, y down.

@@ -17,9 +17,13 @@ History::State History::record(VkCommandBuffer commands, const Stage& stage) {
     return state;
 }
 
-void History::recordBefore(VkCommandBuffer commands, const Stage& stage) {
+std::size_t History::room(const Stage& stage) const {
     const std::uint64_t size = std::max<std::uint64_t>(stage.simulation().stateSize(), 1);
-    const auto most = std::clamp<std::size_t>(mostBytes / size, 1, mostStates);
+    return std::clamp<std::size_t>(mostBytes / size, 1, mostStates_);
+}
+
+void History::recordBefore(VkCommandBuffer commands, const Stage& stage) {
+    const std::size_t most = room(stage);
     const auto forget = [this](States& states) {
         spare_.push_back(std::move(states.front().buffer));
         states.pop_front();
@@ -32,11 +36,26 @@ void History::recordBefore(VkCommandBuffer commands, const Stage& stage) {
 bool History::recordSwap(VkCommandBuffer commands, Stage& stage, States& from, States& to) {
     if (from.empty()) return false;
     to.push_back(record(commands, stage));
+    load(commands, stage, from);
+    return true;
+}
+
+void History::load(VkCommandBuffer commands, Stage& stage, States& from) {
     stage.simulation().recordLoadState(commands, from.back().buffer.view(), from.back().host);
     stage.setPlayed(from.back().played);
     spare_.push_back(std::move(from.back().buffer));
     from.pop_back();
+}
+
+bool History::recordBack(VkCommandBuffer commands, Stage& stage) {
+    if (before_.empty()) return false;
+    load(commands, stage, before_);
     return true;
+}
+
+void History::forgetFrom(std::uint64_t played) {
+    for (; !before_.empty() && before_.back().played >= played; before_.pop_back())
+        spare_.push_back(std::move(before_.back().buffer));
 }
 
 bool History::recordUndo(VkCommandBuffer commands, Stage& stage) {

@@ -19,14 +19,17 @@ std::string timeText(const Facts& facts) {
 
 void play(const Facts& facts, Wishes& wishes) {
     row("time", timeText(facts));
-    float width = buttonWidth(4);
+    float width = buttonWidth(5);
     button(Action::pause, wishes, width, facts.isPaused, facts.isPaused ? "Go on" : "Pause");
+    ImGui::SameLine();
+    button(Action::stepBack, wishes, width);
     ImGui::SameLine();
     button(Action::step, wishes, width);
     ImGui::SameLine();
     button(Action::reset, wishes, width);
     ImGui::SameLine();
     button(Action::slowMotion, wishes, width, facts.knobs.pace < 1);
+    width = buttonWidth(4);
     button(Action::blade, wishes, width, facts.isBladeOn);
     ImGui::SameLine();
     button(Action::poke, wishes, width, facts.isPokeOn);
