@@ -21,7 +21,7 @@ table() { # WHAT
     keys F7
     for _ in {1..300}; do (($(said) > before)) && break; sleep 0.1; done
     echo "$1, $2"
-    tac viewer.out | sed '/^frame times/q' | tac
+    tac viewer.out | sed '/^frame times/q' | tac | grep -v '^hands waited'
 }
 anew() { # with tables of what follows alone
     keys r
@@ -38,7 +38,8 @@ play() { # PANELS
     sleep 5
     table "left alone" "$1"
     anew
-    drag 3 $((width / 2)) $((height / 2)) 4 1 100
+    drag 3 $((width / 2)) $((height / 2)) 4 1 50
+    drag 3 $((width / 2)) $((height / 2)) -4 -1 50 # what follows is seen from where it was
     table orbit "$1"
     anew
     drag 1 $((2 * width / 5)) $((height / 2)) 3 -2 100
