@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 namespace sinew::viewer {
 
@@ -40,6 +41,14 @@ VkExtent2D parseSize(const std::string& text) {
         !isSensible(size.height))
         refuse("--size " + text + " is no WIDTHxHEIGHT between 16x16 and 8192x8192");
     return size;
+}
+
+// X, Y, Z, OFFSET; the normal in any length.
+Section parseSection(const std::vector<float>& numbers) {
+    const Vector3 normal(numbers[0], numbers[1], numbers[2]);
+    if (!(normal.norm() > 0) || !std::isfinite(normal.norm()) || !std::isfinite(numbers[3]))
+        refuse("--section wants a normal that is not 0, and finite numbers");
+    return {normal.normalized(), numbers[3]};
 }
 
 CLI::Range within(const sim::Range& range) {
@@ -102,6 +111,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     Options options;
     std::string size;
     std::vector<std::string> layers;
+    std::vector<float> section;
     CLI::App app(description, "sinew-viewer");
     app.set_version_flag("--version", "sinew-viewer " SINEW_VERSION);
     app.footer("In the window:\n" + helpText() + "\n" + exitCodes);
@@ -112,6 +122,12 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     app.add_option("--show", layers, "what is drawn beside skins or instead of them")
         ->delimiter(',')
         ->check(CLI::IsMember(layerNames()));
+    app.add_option(
+           "--section", section,
+           "a plane through the scene: what lies before it is not drawn; X,Y,Z of its normal and how far "
+           "along that it lies [m]")
+        ->delimiter(',')
+        ->expected(4);
     app.add_option("--replay", options.replay,
                    "a log of input, as the window saves it: opens its scene and does the same again");
     app.add_flag(
@@ -127,6 +143,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         return std::nullopt;
     }
     for (const std::string& layer : layers) addLayer(layer, options.layers);
+    if (!section.empty()) options.layers.section = parseSection(section);
     if (app.count("--size") > 0) options.size = parseSize(size);
     options.hasSize = app.count("--size") > 0;
     options.hasFrames = app.count("--frames") + app.count("--picture-frames") > 0;

@@ -68,7 +68,8 @@ std::unique_ptr<Opening> Show::run() {
     settleAll();
     stopRecording();
     reportFiles(PictureWriter::Wait::yes);
-    shown_ = Shown::nothing; // should it go on
+    if (next && !next->again) screen_.layers().section.reset(); // it was of this scene
+    shown_ = Shown::nothing;                                    // should it go on
     return next;
 }
 
@@ -93,6 +94,7 @@ void Show::turn() {
     screen_.timing().beforeInput(isIdle);
     Input input = screen_.window().poll(isIdle ? idleWait : 0);
     screen_.timing().afterInput(!input.isEmpty() || input.panels.isTouched, picturesOnTheirWay());
+    const bool isPointed = input.pointer != std::exchange(pointer_, input.pointer) && inspector_.isOn();
     const Wishes wishes = std::exchange(wishes_, {});
     grant(wishes, input);
     handle(input);
@@ -104,11 +106,10 @@ void Show::turn() {
     if (isHidden_) return; // time stands still while nobody can look
     const Plan plan = this->plan(elapsed);
     const bool isChanged = !controller_.playback.isPaused() || plan.isReset || plan.steps > 0 ||
-                           !input.isEmpty() || wantsScreenshot_ || wantsProbe_ || tools_.isWaiting() ||
-                           shown_ == Shown::nothing;
+                           !input.isEmpty() || wantsScreenshot_ || wantsProbe_ || wantsLook_ ||
+                           tools_.isWaiting() || shown_ == Shown::nothing;
     if (isChanged) lastChange_ = now;
     // Panels change over a still scene without taking its quality away.
-    const bool isPointed = inspector_.isOn() && input.pointer != std::exchange(pointer_, input.pointer);
     if (input.panels.isTouched || isPointed || screen_.hasNewNotice()) panelsDue_ = picturesOfATouch;
     if (isChanged || shown_ != Shown::still || panelsDue_ > 0) {
         const bool isLast = !isChanged && (shown_ == Shown::still ||
@@ -180,7 +181,7 @@ void Show::draw(Plan plan, View& view) {
 void Show::drawPicture(const Presenter::Frame& frame, const Overlay& overlay, View& view) {
     if (!view.canvas)
         view.canvas = view.renderer.makeCanvas(screen_.presenter().extent(), screen_.presenter().views());
-    view.renderer.prepare(overlay.layers);
+    view.renderer.prepare(overlay.layers, *view.canvas);
     const bool isTimed = inFlight_[frame.slot].isTimed = screen_.timing().isOn();
     vk::Commands commands(device_, frame.commands);
     vk::Timestamps& times = drawingTimes_[frame.slot];
@@ -226,6 +227,10 @@ Facts Show::facts(bool isFullQuality) const {
     facts.isOpening = library_.isOpening();
     facts.devices = devices_.list();
     facts.layers = screen_.layers();
+    if (const auto& section = screen_.layers().section) {
+        const Reach reach = reachOf(*section, opening_.light.bounds);
+        facts.sectionReach = {reach.low, reach.high};
+    }
     facts.map = mapRange_.newest();
     facts.mapRange = mapRange_.range();
     facts.contactsFound = contactsFound_;

@@ -45,13 +45,20 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
+    // Where the camera is to look, once it is known what lies there.
+    struct Look {
+        enum class At { body, point } at;
+        Ray ray;
+    };
+
     // What was recorded into a frame in flight and is looked at when it has finished.
     struct InFlight {
         std::uint64_t firstStep = 0;
         std::uint32_t steps = 0;
-        std::vector<Sweep> sweeps;        // of its first steps
-        bool isTimed = false;             // by drawingTimes_
-        bool isProbed = false;            // for the bounds
+        std::vector<Sweep> sweeps; // of its first steps
+        bool isTimed = false;      // by drawingTimes_
+        bool isProbed = false;     // for the bounds
+        std::optional<Look> look;
         bool isMeasured = false;          // for the strain
         bool isRecorded = false;          // by cameras_
         ColorMap map = ColorMap::none;    // of inspection_
@@ -85,6 +92,10 @@ private:
     void recordCamera(const Presenter::Frame& frame, const Overlay& overlay);
     void settleCamera(std::uint32_t slot, const InFlight& flight);
     void handle(Action action);
+    void lookAt(Look::At at);
+    void settleLook(const Look& look);
+    void changeSection(Action action);
+    std::optional<Opened> opened() const;
     bool prepareSwapchain();
     void draw(Plan plan, View& view);
     void drawPicture(const Presenter::Frame& frame, const Overlay& overlay, View& view);
@@ -125,6 +136,8 @@ private:
     std::optional<Inspection> inspection_; // likewise, where a layer wants it
     Inspector inspector_;
     Vector2 pointer_ = Vector2::Zero(); // as Input::pointer
+    std::optional<Look> wantsLook_;
+    std::optional<Look::At> armed_; // by a button: the next press says where
     MapRange mapRange_;
     std::uint32_t contactsFound_ = 0;
     Tools tools_;

@@ -67,10 +67,11 @@ bool Show::isStrainDue(std::uint32_t steps) {
 void Show::recordProbe(const Presenter::Frame& frame) {
     InFlight& flight = inFlight_[frame.slot];
     const auto isAsked = [](const InFlight& other) {
-        return other.isProbed || other.question || other.isMeasured || other.isInspected;
+        return other.isProbed || other.look || other.question || other.isMeasured || other.isInspected;
     };
     if (std::ranges::any_of(inFlight_, isAsked)) return;
     flight.isProbed = std::exchange(wantsProbe_, false);
+    flight.look = std::exchange(wantsLook_, std::nullopt);
     flight.question = tools_.question();
     flight.isMeasured = isStrainDue(flight.steps);
     const Ray ray = rayThrough(controller_.camera, pointer_);
@@ -121,7 +122,7 @@ void Show::settle(std::uint32_t slot) {
     InFlight flight = std::exchange(inFlight_[slot], {});
     settleTimes(slot, flight);
     settleProbe(flight);
-    if (flight.isInspected) inspector_.settle(slot, opening_.light.balls, *probe_, isCut_);
+    if (flight.isInspected) inspector_.settle(slot, opening_.light.balls, *probe_, isCut_, opened());
     settleMap(slot, flight);
     if (flight.hasContacts && inspection_) contactsFound_ = inspection_->contacts(slot);
     bool isUndone = false;
@@ -163,17 +164,37 @@ void Show::settleTimes(std::uint32_t slot, const InFlight& flight) {
 void Show::settleProbe(InFlight& flight) {
     if (flight.question && flight.question == tools_.question()) {
         const sim::Scene& scene = stage_.scene();
-        const auto found =
-            pick(scene, opening_.light.balls, flight.question->ray, probe_->positions(), probe_->vertices());
+        const auto found = pick(scene, opening_.light.balls, flight.question->ray, probe_->positions(),
+                                probe_->vertices(), Among::moving, opened());
         tools_.answer(*flight.question, found, found ? holdRadius(scene, found->particle) : 0);
     }
     if (flight.isMeasured && !isCut_)
         gauges_.strainMeasured(measureStrain(stage_.scene(), probe_->positions()));
+    if (flight.look) settleLook(*flight.look);
     if (!flight.isProbed) return;
     if (const Box bounds = probe_->bounds(); !bounds.isEmpty()) {
         controller_.camera = framing(controller_.camera, bounds, pictureAspect());
         shown_ = Shown::nothing; // what is on screen was seen from elsewhere
     }
+}
+
+// Beside all bodies there is everything to be looked at, and nothing to turn around.
+void Show::settleLook(const Look& look) {
+    const sim::Scene& scene = stage_.scene();
+    const auto found = pick(scene, opening_.light.balls, look.ray, probe_->positions(), probe_->vertices(),
+                            Among::all, opened());
+    if (look.at == Look::At::point) {
+        if (found) controller_.camera = centered(controller_.camera, found->point);
+    } else {
+        const Box box = found ? probe_->bounds(bodyOf(scene, found->particle)) : probe_->bounds();
+        if (!box.isEmpty()) controller_.camera = framing(controller_.camera, box, pictureAspect());
+    }
+    shown_ = Shown::nothing;
+}
+
+std::optional<Opened> Show::opened() const {
+    if (!screen_.layers().section) return std::nullopt;
+    return Opened{*screen_.layers().section, opening_.light.isClosed};
 }
 
 // A picture whose colors have another range by now is drawn once more.
@@ -236,6 +257,7 @@ void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
         other.map = ColorMap::none;
         other.hasContacts = false;
         other.question.reset();
+        if (other.look) wantsLook_ = std::exchange(other.look, std::nullopt);
     }
 }
 

@@ -10,10 +10,16 @@ void Show::grant(const Wishes& wishes, Input& input) {
     for (const Action action : wishes.actions)
         if (action == Action::pin && !replay_)
             tools_.armPin();
+        else if (action == Action::frameBody || action == Action::center)
+            armed_ = action == Action::center ? Look::At::point : Look::At::body;
         else
             input.actions.push_back(action);
     if (wishes.scene && mayOpen()) library_.open(*wishes.scene, pictureAspect());
     if (wishes.device && mayOpen()) changeDevice(*wishes.device);
+    if (wishes.sectionOffset && screen_.layers().section) {
+        screen_.layers().section->offset = *wishes.sectionOffset;
+        input.needsRedraw = true;
+    }
     if (wishes.knobs && !replay_) turnKnobs(*wishes.knobs); // a replay has the hands
 }
 
@@ -41,7 +47,12 @@ bool Show::mayOpen() {
     return !library_.isOpening();
 }
 
-void Show::handle(const Input& input) {
+void Show::handle(const Input& asked) {
+    Input input = asked;
+    const auto isPress = [](const Input::Press& press) {
+        return press.isDown && press.action == Action::grab;
+    };
+    if (armed_ && std::erase_if(input.presses, isPress) > 0) lookAt(*std::exchange(armed_, std::nullopt));
     if (!input.files.empty() && mayOpen()) library_.openFile(input.files.front(), pictureAspect());
     for (const Action action : input.actions) {
         if (action == Action::drop && screen_.panels().isHelpShown())
@@ -53,6 +64,8 @@ void Show::handle(const Input& input) {
     if (const std::string note = tools_.takeNote(); !note.empty()) screen_.tell(note);
     screen_.feed(input.panels);
     status_.setTool(tools_.name());
+    if (std::optional<Section>& section = screen_.layers().section; section && input.slide != 0)
+        section = moved(*section, input.slide, opening_.light.bounds);
     const float notches = input.notches + (tools_.isPokeOn() ? 0 : input.growth);
     if (notches != 0 && !replay_) controller_.wheel(notches, input.pointer);
 }
@@ -61,6 +74,17 @@ void Show::handle(Action action) {
     switch (action) {
     case Action::frame:
         wantsProbe_ = true;
+        break;
+    case Action::frameBody:
+        lookAt(Look::At::body);
+        break;
+    case Action::center:
+        lookAt(Look::At::point);
+        break;
+    case Action::section:
+    case Action::turnSection:
+    case Action::faceSection:
+        changeSection(action);
         break;
     case Action::screenshot:
         wantsScreenshot_ = true;
@@ -127,6 +151,23 @@ void Show::handle(Action action) {
     default:
         break; // drags, the wheel, and what the controller has done
     }
+}
+
+// Where the pointer is.
+void Show::lookAt(Look::At at) {
+    wantsLook_ = Look{at, rayThrough(controller_.camera, pointer_)};
+}
+
+// What is turned while there is none begins with the first axis of all.
+void Show::changeSection(Action action) {
+    std::optional<Section>& section = screen_.layers().section;
+    const Camera& camera = controller_.camera;
+    if (action == Action::section)
+        section = section ? std::nullopt : std::optional(sectionAcross(camera));
+    else if (action == Action::faceSection)
+        section = sectionFacing(camera);
+    else
+        section = section ? turned(*section, camera.target) : sectionAcross(camera);
 }
 
 void Show::toggleWires() {

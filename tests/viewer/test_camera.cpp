@@ -129,5 +129,18 @@ TEST(Camera, FramingOfOnePointStaysFinite) {
     EXPECT_EQ(camera.target, Vector3(1, 2, 3));
 }
 
+TEST(Camera, TurnsAroundAPointFromWhereItIsAndLooksTheSameWay) {
+    Camera camera;
+    camera.target = {0.3f, 0.4f, -0.1f};
+    const Vector3 point(0.1f, 0.6f, 0.5f);
+    const Camera around = centered(camera, point);
+    EXPECT_EQ(around.target, point);
+    EXPECT_EQ(around.azimuth, camera.azimuth);
+    EXPECT_EQ(around.elevation, camera.elevation);
+    const auto depth = [&](const Camera& seen) { return -(viewMatrix(seen) * point.homogeneous()).z(); };
+    EXPECT_NEAR(depth(around), depth(camera), 1e-5f) << "as large as before";
+    EXPECT_EQ(centered(camera, 2 * eye(camera) - camera.target), camera) << "a point behind the eye";
+}
+
 } // namespace
 } // namespace sinew::viewer

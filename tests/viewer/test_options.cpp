@@ -90,5 +90,15 @@ TEST(Options, SizesAreTwoSensibleNumbers) {
         EXPECT_NE(complaint({"--size", size}).find("--size"), std::string::npos) << size;
 }
 
+TEST(Options, TakeASectionAsItsNormalAndHowFarAlongItLies) {
+    EXPECT_FALSE(parse({}).layers.section);
+    const Options options = parse({"--section", "-3,0,4,-0.25"});
+    ASSERT_TRUE(options.layers.section);
+    EXPECT_EQ(options.layers.section->normal, Vector3(-0.6f, 0, 0.8f)) << "of unit length";
+    EXPECT_EQ(options.layers.section->offset, -0.25f);
+    for (const char* wrong : {"0,0,0,1", "0,0,1", "0,0,1,nan", "up", "0,0,1,0,0"})
+        EXPECT_NE(complaint({"--section", wrong}), "accepted") << wrong;
+}
+
 } // namespace
 } // namespace sinew::viewer

@@ -32,7 +32,7 @@ colors=$(convert orbited.png -format %k info:)
 ((colors > 500)) || fail "the picture has only $colors colours"
 
 echo "window: frame, step, reset, screenshot, vsync, help, panels"
-keys f
+keys Home
 awaitStill framed.png
 same moved.png framed.png && fail "F changed nothing"
 for _ in {1..20}; do keys period; done
@@ -77,6 +77,32 @@ keys Tab
 awaitStill hidden.png
 dark hidden.png $side && fail "Tab does not hide the panels"
 
+echo "window: section, what the pointer is on framed, what the camera turns around"
+awaitOther() { # BEFORE FILE WHY: pipelines may have to be made first
+    for _ in {1..200}; do
+        shoot "$2"
+        same "$1" "$2" || break
+        sleep 0.2
+    done
+    awaitStill "$2"
+    same "$1" "$2" && fail "$3"
+    return 0
+}
+xdotool mousemove 300 200
+keys l
+awaitOther hidden.png opened.png "L opens nothing"
+xdotool keydown alt click 5 click 5 keyup alt
+awaitOther opened.png slid.png "Alt and the wheel do not move the plane"
+keys shift+l
+awaitOther slid.png turned.png "Shift + L does not turn the plane"
+keys l
+awaitOther turned.png closed.png "L does not close what it has opened"
+same hidden.png closed.png || fail "the section leaves something behind"
+xdotool click --repeat 2 --delay 50 1
+awaitOther closed.png centered.png "a double click changes nothing"
+keys f
+awaitOther centered.png body.png "F changes nothing"
+
 echo "window: a hand grabs the body, lifts it and lets go"
 # Where red is more than FACTOR times green, and more than LEAST. -fx says the same, and takes a second of processor time.
 red() { # FILE FACTOR LEAST OPERATORS...
@@ -100,7 +126,7 @@ keys r
 keys space
 awaitTitle fps
 awaitRest # on the floor
-keys f
+keys Home
 sleep 1
 for _ in {1..5}; do xdotool mousemove 320 200 click 5; sleep 0.2; done
 keys space

@@ -100,6 +100,14 @@ Camera zoomed(Camera camera, float factor, const Vector2& pointer) {
     return settled(camera);
 }
 
+Camera centered(Camera camera, const Vector3& point) {
+    const float depth = (eye(camera) - point).dot(fromTarget(camera));
+    if (!(depth > 0)) return camera;
+    camera.target = point;
+    camera.distance = depth;
+    return settled(camera);
+}
+
 Camera framing(Camera camera, const Box& box, float aspect) {
     constexpr float margin = 1.12f;
     const float tanY = std::tan(camera.fieldOfView / 2) / margin, tanX = tanY * aspect;

@@ -50,6 +50,10 @@ Camera panned(Camera camera, const Vector2& drag);
 /// from the picture's middle, in picture heights) stays there.
 Camera zoomed(Camera camera, float factor, const Vector2& pointer);
 
+/// Turns around `point` from now on, which comes to the picture's middle from as far away as it is. Only
+/// where it is before the eye.
+Camera centered(Camera camera, const Vector3& point);
+
 /// The same direction of view, with all of `box` in the picture and little around it.
 Camera framing(Camera camera, const Box& box, float aspect);
 

@@ -25,4 +25,16 @@ Canvas::Canvas(const vk::Device& device, const RenderPass& pass, const CanvasFor
     }
 }
 
+void Canvas::addCounts(const vk::Device& device, const RenderPass& pass, VkSampleCountFlagBits samples) {
+    if (hasCounts()) return;
+    Image image(device, {.name = "canvas.counts",
+                         .extent = extent_,
+                         .format = countsFormat,
+                         .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                         .samples = samples});
+    countsFramebuffer_.emplace_back(device, pass.handle(), std::array{image.view()}, extent_,
+                                    "canvas.counts");
+    counts_.push_back(std::move(image));
+}
+
 } // namespace sinew::viewer

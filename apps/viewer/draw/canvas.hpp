@@ -11,11 +11,20 @@ struct CanvasFormat {
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_4_BIT;
 };
 
+constexpr VkFormat countsFormat = VK_FORMAT_R16G16B16A16_SFLOAT; // every device adds up in it
+
 /// Movable. Must not outlive its Device; the picture views belong to the caller and must outlive it.
 class Canvas {
 public:
     Canvas(const vk::Device& device, const RenderPass& pass, const CanvasFormat& format, VkExtent2D extent,
            std::span<const VkImageView> pictures);
+
+    /// Adds the image in which a section counts surfaces, as RenderPass::colorMap, if it is not there yet.
+    /// Throws vk::Error.
+    void addCounts(const vk::Device& device, const RenderPass& pass, VkSampleCountFlagBits samples);
+    bool hasCounts() const noexcept { return !counts_.empty(); }
+    VkImageView counts() const noexcept { return counts_[0].view(); } ///< where it hasCounts()
+    VkFramebuffer countsFramebuffer() const noexcept { return countsFramebuffer_[0].handle(); } ///< likewise
 
     VkExtent2D extent() const noexcept { return extent_; }
     float aspect() const noexcept {
@@ -27,6 +36,8 @@ private:
     VkExtent2D extent_;
     std::vector<Image> images_; ///< depth, then colour where there is more than one sample
     std::vector<Framebuffer> framebuffers_;
+    std::vector<Image> counts_; ///< one or none, as the next
+    std::vector<Framebuffer> countsFramebuffer_;
 };
 
 } // namespace sinew::viewer

@@ -1,6 +1,7 @@
 // What is drawn of bodies beside their lit skins, or instead of them: chosen by hands or on the command line.
 #pragma once
 
+#include "viewer/draw/section.hpp"
 #include "vk/buffer.hpp"
 
 #include <array>
@@ -32,6 +33,7 @@ struct Layers {
     bool hasBalls = false; ///< particles of bodies with a skin, too
     bool hasLinks = false; ///< in the colors of their classes
     bool hasContacts = false;
+    std::optional<Section> section; ///< opens bodies
     bool operator==(const Layers&) const = default;
     /// Whether something of it comes from buffers that are made for it (Inspection).
     bool needsBuffers() const { return map != ColorMap::none || hasBalls || hasLinks || hasContacts; }

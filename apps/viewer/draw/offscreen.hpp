@@ -13,7 +13,7 @@ public:
               const Quality& quality = {});
 
     /// As Renderer::prepare.
-    void prepare(const Layers& layers) { renderer_.prepare(layers); }
+    void prepare(const Layers& layers) { renderer_.prepare(layers, canvas_); }
 
     /// Records picture and copy. As Renderer::record; the previous picture must be finished.
     void record(VkCommandBuffer commands, const Camera& camera, const sim::Simulation& simulation,

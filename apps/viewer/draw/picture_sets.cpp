@@ -8,7 +8,9 @@ namespace sinew::viewer {
 
 namespace {
 
-constexpr std::uint32_t bindingCount = 5; // frame.glsl, light.glsl, floor.frag
+constexpr std::uint32_t mapCount = 4;                 // light.glsl, floor.frag
+constexpr std::uint32_t countsBinding = 1 + mapCount; // section_cap.frag; frame.glsl has the first
+constexpr std::uint32_t bindingCount = countsBinding + 1;
 
 std::vector<vk::Buffer> makeParams(const vk::Device& device, std::uint32_t slots) {
     std::vector<vk::Buffer> params;
@@ -44,13 +46,13 @@ void PictureSets::writeSet(std::uint32_t slot, const LightMaps& maps) const {
     constexpr VkImageLayout readable = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     const VkDescriptorBufferInfo params{params_[slot].view().buffer, params_[slot].view().offset,
                                         sizeof(layout::FrameParams)};
-    const std::array<VkDescriptorImageInfo, bindingCount - 1> images{
+    const std::array<VkDescriptorImageInfo, mapCount> images{
         VkDescriptorImageInfo{maps.comparing(), maps.shadow.image.view(), readable},
         VkDescriptorImageInfo{maps.nearest(), maps.shadow.image.view(), readable},
         VkDescriptorImageInfo{maps.nearest(), maps.plan.image.view(), readable},
         VkDescriptorImageInfo{maps.smooth(), maps.floor.image.view(), readable}};
-    std::array<VkWriteDescriptorSet, bindingCount> writes{};
-    for (std::uint32_t binding = 0; binding < bindingCount; ++binding)
+    std::array<VkWriteDescriptorSet, 1 + mapCount> writes{};
+    for (std::uint32_t binding = 0; binding < writes.size(); ++binding)
         writes[binding] = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                            .dstSet = sets_.set(slot),
                            .dstBinding = binding,
@@ -59,7 +61,18 @@ void PictureSets::writeSet(std::uint32_t slot, const LightMaps& maps) const {
                                                           : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                            .pImageInfo = binding == 0 ? nullptr : &images[binding - 1],
                            .pBufferInfo = binding == 0 ? &params : nullptr};
-    device_.functions().vkUpdateDescriptorSets(device_.handle(), bindingCount, writes.data(), 0, nullptr);
+    device_.functions().vkUpdateDescriptorSets(device_.handle(), writes.size(), writes.data(), 0, nullptr);
+}
+
+void PictureSets::writeCounts(std::uint32_t slot, VkImageView counts, VkSampler sampler) const noexcept {
+    const VkDescriptorImageInfo image{sampler, counts, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                     .dstSet = sets_.set(slot),
+                                     .dstBinding = countsBinding,
+                                     .descriptorCount = 1,
+                                     .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                     .pImageInfo = &image};
+    device_.functions().vkUpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
 }
 
 void PictureSets::write(std::uint32_t slot, const layout::FrameParams& params) const noexcept {

@@ -19,6 +19,8 @@ public:
 
     /// The picture that last used the slot must be finished.
     void write(std::uint32_t slot, const layout::FrameParams& params) const noexcept;
+    /// What a section has counted, where pipelines read it. Likewise.
+    void writeCounts(std::uint32_t slot, VkImageView counts, VkSampler sampler) const noexcept;
     void bind(VkCommandBuffer commands, std::uint32_t slot) const noexcept { sets_.bind(commands, slot); }
 
 private:

@@ -155,6 +155,14 @@ constexpr VkPipelineColorBlendAttachmentState blended{.blendEnable = VK_TRUE,
                                                       .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
                                                       .colorWriteMask = allComponents};
 
+constexpr VkPipelineColorBlendAttachmentState summed{.blendEnable = VK_TRUE,
+                                                     .srcColorBlendFactor = VK_BLEND_FACTOR_ONE,
+                                                     .dstColorBlendFactor = VK_BLEND_FACTOR_ONE,
+                                                     .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
+                                                     .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
+                                                     .colorWriteMask = allComponents};
+constexpr std::array blends{&opaque, &blended, &summed}; // in the order of PipelineRequest::Blend
+
 VkPipeline create(const vk::Device& device, const PipelineRequest& request,
                   std::span<const VkPipelineShaderStageCreateInfo> stages) {
     const VkPipelineVertexInputStateCreateInfo input = vertexInput(request.input);
@@ -167,8 +175,8 @@ VkPipeline create(const vk::Device& device, const PipelineRequest& request,
         .rasterizationSamples = request.samples};
     const VkPipelineColorBlendStateCreateInfo blend{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
-        .attachmentCount = request.fragment ? 1u : 0u,
-        .pAttachments = request.isBlended ? &blended : &opaque};
+        .attachmentCount = request.fragment && !request.isDepthOnly ? 1u : 0u,
+        .pAttachments = blends[static_cast<std::size_t>(request.blend)]};
     const VkGraphicsPipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
                                             .stageCount = static_cast<std::uint32_t>(stages.size()),
                                             .pStages = stages.data(),

@@ -17,6 +17,7 @@ struct PipelineRequest {
     std::string name;
     const vk::ShaderCode* vertex = nullptr;
     const vk::ShaderCode* fragment = nullptr; ///< null: depth only
+    bool isDepthOnly = false;                 ///< though there is one
     VkPipelineLayout layout = VK_NULL_HANDLE;
     VkRenderPass pass = VK_NULL_HANDLE;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
@@ -41,8 +42,8 @@ struct PipelineRequest {
     } input = Input::none;
     enum class Depth { none, test, testAndWrite } depth = Depth::none;
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-    bool hasEdgesAlone = false;                            ///< of triangles; only where drawsEdges()
-    bool isBlended = false;                                ///< over what is there, by alpha
+    bool hasEdgesAlone = false;                               ///< of triangles; only where drawsEdges()
+    enum class Blend { none, over, sum } blend = Blend::none; ///< over what is there by alpha, or added to it
     std::span<const vk::SpecialisationConstant> constants; ///< of both stages; ids a shader lacks are ignored
 };
 

@@ -98,9 +98,9 @@ RenderPass RenderPass::depthMap(const vk::Device& device, VkFormat depth, const 
     return RenderPass(device, passInfo(attachments, subpass, dependencies), name);
 }
 
-RenderPass RenderPass::colorMap(const vk::Device& device, VkFormat color, const std::string& name) {
-    const std::array attachments{
-        attachment(color, VK_SAMPLE_COUNT_1_BIT, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL)};
+RenderPass RenderPass::colorMap(const vk::Device& device, VkFormat color, const std::string& name,
+                                VkSampleCountFlagBits samples) {
+    const std::array attachments{attachment(color, samples, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL)};
     const VkSubpassDescription subpass{.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
                                        .colorAttachmentCount = 1,
                                        .pColorAttachments = &colorReference};

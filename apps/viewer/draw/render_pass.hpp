@@ -14,7 +14,8 @@ public:
     static RenderPass depthMap(const vk::Device& device, VkFormat depth, const std::string& name);
 
     /// Clears a colour image, draws into it, and leaves it readable in fragment shaders.
-    static RenderPass colorMap(const vk::Device& device, VkFormat color, const std::string& name);
+    static RenderPass colorMap(const vk::Device& device, VkFormat color, const std::string& name,
+                               VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT);
 
     struct Picture {
         VkFormat color = VK_FORMAT_UNDEFINED, depth = VK_FORMAT_UNDEFINED;

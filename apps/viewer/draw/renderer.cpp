@@ -72,6 +72,7 @@ Renderer::Renderer(const vk::Device& device, const Target& target, const Quality
 void Renderer::addPipeline(std::size_t index, PipelineRequest request) {
     request.layout = sets_.layout();
     pipelines_[index].emplace(device_, request);
+    if (index < pipelineCount) requests_[index] = request;
 }
 
 PipelineRequest Renderer::litRequest(const std::string& name) const {
@@ -163,12 +164,20 @@ Canvas Renderer::makeCanvas(VkExtent2D extent, std::span<const VkImageView> pict
 void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, const Canvas& canvas, std::size_t picture,
                       const Camera& camera, const sim::Simulation& simulation,
                       const Overlay& overlay) const noexcept {
-    sets_.write(slot, frameParams(light_, camera, canvas.aspect()));
+    sets_.write(slot, frameParams(light_, camera, canvas.aspect(), overlay.layers.section));
+    const bool isOpened = overlay.layers.section && canvas.hasCounts() && has(capPipeline);
+    // Else something that is there: drivers look at a set as a whole.
+    sets_.writeCounts(slot, isOpened ? canvas.counts() : maps_.floor.image.view(), maps_.nearest());
     sets_.bind(commands, slot);
     vk::Commands labels(device_, commands);
     labels.beginLabel("light maps");
     recordMaps(commands, simulation, overlay);
     labels.endLabel();
+    if (isOpened) {
+        labels.beginLabel("section");
+        recordCounts(commands, canvas, simulation, overlay);
+        labels.endLabel();
+    }
     labels.beginLabel("picture");
     recordPicture(commands, canvas, picture, simulation, overlay, slot);
     labels.endLabel();
@@ -181,11 +190,12 @@ void Renderer::recordMaps(VkCommandBuffer commands, const sim::Simulation& simul
     const bool hasSkins =
         layers.skin == SkinLook::solid || (layers.skin == SkinLook::glass && !layers.hasBalls);
     const auto draw = [&](std::size_t ofSkins, std::size_t ofBalls) {
-        if (hasSkins) drawSkins(commands, ofSkins, simulation);
-        if (hasSkins) drawCuts(commands, ofSkins, ofSkins, simulation);
+        const std::size_t ofOpened = opened(ofSkins, layers);
+        if (hasSkins) drawSkins(commands, ofOpened, simulation);
+        if (hasSkins) drawCuts(commands, ofOpened, ofOpened, simulation);
         drawColliders(commands, ofSkins, simulation);
         drawPokes(commands, ofSkins, simulation);
-        drawBalls(commands, ofBalls, simulation, overlay);
+        drawBalls(commands, opened(ofBalls, layers), simulation, overlay);
     };
     const vk::DeviceFunctions& functions = device_.functions();
     const std::array far{VkClearValue{.depthStencil = {1, 0}}};
@@ -216,15 +226,17 @@ void Renderer::recordPicture(VkCommandBuffer commands, const Canvas& canvas, std
     begin(commands, pass_, canvas.framebuffer(picture), canvas.extent(), clear);
     drawColliders(commands, skinPipeline, simulation);
     drawPokes(commands, skinPipeline, simulation);
-    if (overlay.layers.map != ColorMap::none) {
+    const Layers& layers = overlay.layers;
+    if (layers.map != ColorMap::none) {
         drawValues(commands, simulation, overlay);
     } else {
-        drawBalls(commands, ballPipeline, simulation, overlay);
-        if (overlay.layers.skin == SkinLook::solid) {
-            drawSkins(commands, skinPipeline, simulation);
-            drawCuts(commands, insidePipeline, clippedPipeline, simulation);
+        drawBalls(commands, opened(ballPipeline, layers), simulation, overlay);
+        if (layers.skin == SkinLook::solid) {
+            drawSkins(commands, opened(skinPipeline, layers), simulation);
+            drawCuts(commands, opened(insidePipeline, layers), opened(clippedPipeline, layers), simulation);
         }
     }
+    drawCap(commands, canvas, layers);
     if (overlay.hand) drawHand(commands, simulation, *overlay.hand, handColor, 1);
     for (const Hand& pin : overlay.pins) drawHand(commands, simulation, pin, pinColor, -1);
     drawStroke(commands, overlay.stroke, slot);
@@ -320,6 +332,7 @@ void Renderer::drawSkins(VkCommandBuffer commands, std::size_t pipeline, const s
     if (values.size > 0) functions.vkCmdBindVertexBuffers(commands, 1, 1, &values.buffer, &values.offset);
     const vk::BufferView pieces = simulation.pieceDraws();
     for (std::size_t i = 0; i < simulation.skins().size(); ++i) {
+        if (pipeline == skinCountPipeline && !light_.isClosed[i]) continue; // it encloses nothing
         const sim::SkinRange& skin = simulation.skins()[i];
         push(commands, values.size > 0 ? sim::Vec3{buffers.range} : skin.color, light_.gloss[i], {});
         functions.vkCmdDrawIndexed(commands, skin.indexCount, 1, skin.firstIndex, 0, 0);
@@ -334,7 +347,7 @@ void Renderer::drawBalls(VkCommandBuffer commands, std::size_t pipeline, const s
     const bool isAll = overlay.layers.hasBalls && overlay.buffers.balls != nullptr;
     const Balls& balls = isAll ? *overlay.buffers.balls : balls_;
     if (balls.ranges().empty() || !has(pipeline)) return;
-    const bool isMap = pipeline == ballValuesPipeline;
+    const bool isMap = pipeline % pipelineCount == ballValuesPipeline || pipeline == ballValuesCountPipeline;
     bind(commands, pipeline);
     balls.bind(commands, simulation.positions(), isMap ? overlay.buffers.particles : vk::BufferView{});
     for (const BallRange& range : balls.ranges()) {

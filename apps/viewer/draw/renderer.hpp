@@ -46,7 +46,7 @@ public:
     Renderer& operator=(const Renderer&) = delete;
 
     /// Makes what overlays with these layers are drawn with, and is not there yet. Throws vk::Error.
-    void prepare(const Layers& layers);
+    void prepare(const Layers& layers, Canvas& canvas);
 
     Canvas makeCanvas(VkExtent2D extent, std::span<const VkImageView> pictures) const;
 
@@ -60,12 +60,18 @@ public:
 
 private:
     void addPipeline(std::size_t index, PipelineRequest request);
+    /// The form of a pipeline that leaves away what a section does, where there is one.
+    std::size_t opened(std::size_t pipeline, const Layers& layers) const noexcept {
+        return layers.section && has(pipeline + pipelineCount) ? pipeline + pipelineCount : pipeline;
+    }
     bool has(std::size_t pipeline) const noexcept { return pipelines_[pipeline].has_value(); }
     void prepareGlass();
     void prepareValues();
     void prepareWires();
     void prepareContacts();
     void prepareLinks();
+    void prepareSection(Canvas& canvas);
+    void prepareCounts();
     PipelineRequest litRequest(const std::string& name) const;
     void createMapPipelines();
     void createPipelines();
@@ -73,10 +79,13 @@ private:
     void createBallPipelines();
     void recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation,
                     const Overlay& overlay) const noexcept;
+    void recordCounts(VkCommandBuffer commands, const Canvas& canvas, const sim::Simulation& simulation,
+                      const Overlay& overlay) const noexcept;
+    void drawCap(VkCommandBuffer commands, const Canvas& canvas, const Layers& layers) const noexcept;
     void recordLayers(VkCommandBuffer commands, const sim::Simulation& simulation,
                       const Overlay& overlay) const noexcept;
     void drawLinks(VkCommandBuffer commands, const sim::Simulation& simulation,
-                   const LinkLines& links) const noexcept;
+                   const Overlay& overlay) const noexcept;
     void drawValues(VkCommandBuffer commands, const sim::Simulation& simulation,
                     const Overlay& overlay) const noexcept;
     void recordPicture(VkCommandBuffer commands, const Canvas& canvas, std::size_t picture,
@@ -138,9 +147,17 @@ private:
         wiresPipeline,
         contactPipeline,
         linkPipeline,
+        skinCountPipeline,
+        cutCountPipeline,
+        ballCountPipeline,
+        ballValuesCountPipeline,
+        capPipeline,
         pipelineCount
     };
-    std::array<std::optional<Pipeline>, pipelineCount> pipelines_; // of layers where they were prepared
+    std::array<PipelineRequest, pipelineCount> requests_; // of those that there are
+    // Of layers where they were prepared; behind them, in the same order, what a section makes of them.
+    std::array<std::optional<Pipeline>, 2 * pipelineCount> pipelines_;
+    std::optional<RenderPass> countsPass_; // of a section
 };
 
 } // namespace sinew::viewer

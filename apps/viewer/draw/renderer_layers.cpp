@@ -20,19 +20,20 @@ bool drawsEdges(const vk::Device& device) {
     return features.features.fillModeNonSolid == VK_TRUE;
 }
 
-void Renderer::prepare(const Layers& layers) {
+void Renderer::prepare(const Layers& layers, Canvas& canvas) {
     if (layers.hasBalls && !has(ballPipeline)) createBallPipelines();
     if (layers.skin == SkinLook::glass && !has(skinGlassPipeline)) prepareGlass();
     if (layers.map != ColorMap::none && !has(skinValuesPipeline)) prepareValues();
     if (layers.hasWires && !has(wiresPipeline) && drawsEdges(device_)) prepareWires();
     if (layers.hasLinks && !has(linkPipeline)) prepareLinks();
     if (layers.hasContacts && !has(contactPipeline)) prepareContacts();
+    if (layers.section) prepareSection(canvas); // last: of those that there are by now
 }
 
 void Renderer::prepareGlass() {
     PipelineRequest request = litRequest("skin_glass");
     request.depth = PipelineRequest::Depth::test;
-    request.isBlended = true;
+    request.blend = PipelineRequest::Blend::over;
     request.vertex = &shaders::skinVert;
     request.fragment = &shaders::skinGlassFrag;
     request.input = PipelineRequest::Input::positionsAndNormals;
@@ -66,7 +67,8 @@ void Renderer::prepareValues() {
 void Renderer::prepareWires() {
     PipelineRequest request = litRequest("wires");
     request.depth = PipelineRequest::Depth::test;
-    request.isBlended = request.hasEdgesAlone = true;
+    request.blend = PipelineRequest::Blend::over;
+    request.hasEdgesAlone = true;
     request.vertex = &shaders::wiresVert;
     request.fragment = &shaders::wiresFrag;
     request.input = PipelineRequest::Input::positions;
@@ -96,16 +98,20 @@ void Renderer::prepareContacts() {
 void Renderer::drawValues(VkCommandBuffer commands, const sim::Simulation& simulation,
                           const Overlay& overlay) const noexcept {
     const LayerBuffers& buffers = overlay.buffers;
+    const Layers& layers = overlay.layers;
     if (!has(skinValuesPipeline)) return;
-    if (buffers.particles.size > 0) drawBalls(commands, ballValuesPipeline, simulation, overlay);
-    if (overlay.layers.skin != SkinLook::solid) return;
-    if (buffers.skins.size > 0) drawSkins(commands, skinValuesPipeline, simulation, buffers);
-    if (buffers.cuts.size > 0) drawCuts(commands, cutValuesPipeline, cutValuesPipeline, simulation, buffers);
+    if (buffers.particles.size > 0)
+        drawBalls(commands, opened(ballValuesPipeline, layers), simulation, overlay);
+    if (layers.skin != SkinLook::solid) return;
+    if (buffers.skins.size > 0) drawSkins(commands, opened(skinValuesPipeline, layers), simulation, buffers);
+    const std::size_t ofCuts = opened(cutValuesPipeline, layers);
+    if (buffers.cuts.size > 0) drawCuts(commands, ofCuts, ofCuts, simulation, buffers);
 }
 
 void Renderer::drawLinks(VkCommandBuffer commands, const sim::Simulation& simulation,
-                         const LinkLines& links) const noexcept {
-    bind(commands, linkPipeline);
+                         const Overlay& overlay) const noexcept {
+    const LinkLines& links = *overlay.buffers.links;
+    bind(commands, opened(linkPipeline, overlay.layers));
     bindMesh(commands, simulation.positions(), links.indices());
     for (const LinkLines::Range& range : links.ranges()) {
         push(commands, {{range.color[0], range.color[1], range.color[2], 0}, {}, {}});
@@ -116,19 +122,21 @@ void Renderer::drawLinks(VkCommandBuffer commands, const sim::Simulation& simula
 // Over all that hides what is behind it.
 void Renderer::recordLayers(VkCommandBuffer commands, const sim::Simulation& simulation,
                             const Overlay& overlay) const noexcept {
-    if (overlay.layers.skin == SkinLook::glass && has(skinGlassPipeline)) {
-        drawSkins(commands, skinGlassPipeline, simulation);
-        drawCuts(commands, insideGlassPipeline, clippedGlassPipeline, simulation);
+    const Layers& layers = overlay.layers;
+    if (layers.skin == SkinLook::glass && has(skinGlassPipeline)) {
+        drawSkins(commands, opened(skinGlassPipeline, layers), simulation);
+        drawCuts(commands, opened(insideGlassPipeline, layers), opened(clippedGlassPipeline, layers),
+                 simulation);
     }
-    if (overlay.layers.hasWires && has(wiresPipeline)) {
-        drawSkins(commands, wiresPipeline, simulation);
-        drawCuts(commands, wiresPipeline, wiresPipeline, simulation);
+    if (layers.hasWires && has(wiresPipeline)) {
+        const std::size_t wires = opened(wiresPipeline, layers);
+        drawSkins(commands, wires, simulation);
+        drawCuts(commands, wires, wires, simulation);
     }
-    if (overlay.buffers.links != nullptr && has(linkPipeline))
-        drawLinks(commands, simulation, *overlay.buffers.links);
+    if (overlay.buffers.links != nullptr && has(linkPipeline)) drawLinks(commands, simulation, overlay);
     if (overlay.buffers.contacts != nullptr && has(contactPipeline)) {
         const ContactMarks& contacts = *overlay.buffers.contacts;
-        bind(commands, contactPipeline);
+        bind(commands, opened(contactPipeline, layers));
         push(commands, {{}, {0, 0, 0, markSize * light_.radius()}, {}});
         contacts.mesh().drawIndirect(commands, contacts.marks(), contacts.draw());
     }

@@ -71,6 +71,7 @@ StageLight lightFor(const sim::Scene& scene, const Camera& camera) {
         light.gloss.push_back(glossOf(scene, skin));
         light.skins.push_back(skin.color);
     }
+    light.isClosed = closedSkins(scene);
     light.balls = ballsOf(scene);
     light.colliders = scene.colliders;
     light.toLight = {level * std::sin(azimuth), std::sin(keyElevation), level * std::cos(azimuth)};
@@ -83,7 +84,8 @@ float gridSpacing(float size) {
     return decade * (wanted < 2 * decade ? 1.0f : wanted < 5 * decade ? 2.0f : 5.0f);
 }
 
-layout::FrameParams frameParams(const StageLight& light, const Camera& camera, float aspect) {
+layout::FrameParams frameParams(const StageLight& light, const Camera& camera, float aspect,
+                                const std::optional<Section>& section) {
     const Vector3 center = light.bounds.center(), at = eye(camera);
     const float radius = light.radius(), haze = hazeRadii * radius;
     const float ground = light.ground.value_or(light.bounds.min().y());
@@ -111,7 +113,9 @@ layout::FrameParams frameParams(const StageLight& light, const Camera& camera, f
                                .shadow = {width, seen.sizes().z(), 0, 0},
                                .skins = {},
                                .floor = floor,
-                               .mapColors = {}};
+                               .mapColors = {},
+                               .section =
+                                   section ? packed(section->normal, section->offset) : layout::vec4{}};
     for (std::size_t i = 0; i < std::min<std::size_t>(light.skins.size(), SKIN_COLORS); ++i) {
         const sim::Vec3& color = light.skins[i];
         params.skins[i] = {color.x, color.y, color.z, light.gloss[i]};

@@ -4,6 +4,7 @@
 
 #include "viewer/draw/balls.hpp"
 #include "viewer/draw/camera.hpp"
+#include "viewer/draw/section.hpp"
 #include "viewer/frame.h"
 
 namespace sinew::viewer {
@@ -14,6 +15,7 @@ struct StageLight {
     Vector3 toLight = Vector3::UnitY();   ///< unit direction to the key light
     std::vector<float> gloss;             ///< of each skin: 1 moist tissue, less for cloth
     std::vector<sim::Vec3> skins;         ///< their colors, linear RGB
+    std::vector<bool> isClosed;           ///< likewise: whether it encloses something (closedSkins)
     BallList balls;                       ///< what is drawn of bodies that have none
     bool showsSleep = false;              ///< bodies that sleep are paler
     std::vector<sim::Collider> colliders; ///< drawn where the simulation has them
@@ -25,7 +27,8 @@ struct StageLight {
 StageLight lightFor(const sim::Scene& scene, const Camera& camera);
 
 /// The numbers of one picture.
-layout::FrameParams frameParams(const StageLight& light, const Camera& camera, float aspect);
+layout::FrameParams frameParams(const StageLight& light, const Camera& camera, float aspect,
+                                const std::optional<Section>& section = {});
 
 /// Distance between the fine lines of the ground's grid: 1, 2 or 5 times a power of ten near a fifth of
 /// `size` [m].

@@ -12,7 +12,8 @@ namespace sinew::viewer {
 namespace {
 
 using enum Action;
-constexpr auto key = Trigger::Kind::key, drag = Trigger::Kind::drag, wheel = Trigger::Kind::wheel;
+constexpr auto key = Trigger::Kind::key, drag = Trigger::Kind::drag, wheel = Trigger::Kind::wheel,
+               doubleClick = Trigger::Kind::doubleClick;
 
 // Bindings of one action stand together; the first one's help is the one that is shown.
 constexpr std::array table{
@@ -22,8 +23,14 @@ constexpr std::array table{
     Binding{{drag, GLFW_MOUSE_BUTTON_RIGHT, GLFW_MOD_SHIFT}, pan, "Shift + right drag", "pan"},
     Binding{{wheel}, zoom, "wheel", "zoom to the pointer"},
     Binding{{wheel, 0, GLFW_MOD_SHIFT}, pokeSize, "Shift + wheel", "size of the sphere that pokes"},
-    Binding{{key, GLFW_KEY_F}, frame, "F", "frame everything", "Frame"},
-    Binding{{key, GLFW_KEY_HOME}, frame, "Home", "frame everything"},
+    Binding{{wheel, 0, GLFW_MOD_ALT}, moveSection, "Alt + wheel", "move the section plane"},
+    Binding{{doubleClick, GLFW_MOUSE_BUTTON_LEFT},
+            center,
+            "double click",
+            "on a body: the camera turns around that point",
+            "Center"},
+    Binding{{key, GLFW_KEY_F}, frameBody, "F", "frame the body under the pointer", "Body"},
+    Binding{{key, GLFW_KEY_HOME}, frame, "Home", "frame everything", "Frame"},
     Binding{{key, GLFW_KEY_SPACE}, pause, "Space", "pause or go on", "Pause"},
     Binding{{key, GLFW_KEY_P}, pause, "P", "pause or go on"},
     Binding{{key, GLFW_KEY_PERIOD}, step, ".", "pause and take one step", "Step"},
@@ -62,6 +69,21 @@ constexpr std::array table{
             "I",
             "what is under the pointer: body, particle, speed, strain, contacts",
             "Inspect"},
+    Binding{{key, GLFW_KEY_L},
+            section,
+            "L",
+            "section: a plane cuts away what is before it, and bodies show their inside",
+            "Section"},
+    Binding{{key, GLFW_KEY_L, GLFW_MOD_SHIFT},
+            turnSection,
+            "Shift + L",
+            "turn the section plane to the next axis",
+            "Turn"},
+    Binding{{key, GLFW_KEY_L, GLFW_MOD_CONTROL},
+            faceSection,
+            "Ctrl + L",
+            "turn the section plane towards the eye",
+            "Face"},
     Binding{{key, GLFW_KEY_PAGE_UP}, previousScene, "Page Up", "open the scene before this one", "Previous"},
     Binding{{key, GLFW_KEY_PAGE_DOWN}, nextScene, "Page Down", "open the next scene", "Next"},
     Binding{{key, GLFW_KEY_F9},
@@ -97,7 +119,8 @@ std::span<const Binding> bindings() {
 
 std::optional<Action> actionFor(const Trigger& trigger) {
     Trigger known = trigger;
-    known.modifiers &= GLFW_MOD_SHIFT | GLFW_MOD_CONTROL;
+    const int ofWheel = trigger.kind == Trigger::Kind::wheel ? GLFW_MOD_ALT : 0;
+    known.modifiers &= GLFW_MOD_SHIFT | GLFW_MOD_CONTROL | ofWheel;
     const auto* found = std::ranges::find(table, known, &Binding::trigger);
     return found == table.end() ? std::nullopt : std::optional(found->action);
 }

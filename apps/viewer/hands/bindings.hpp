@@ -16,6 +16,9 @@ enum class Action {
     pan,
     zoom,
     pokeSize,
+    moveSection,
+    center,
+    frameBody,
     frame,
     pause,
     step,
@@ -37,6 +40,9 @@ enum class Action {
     contacts,
     colorMap,
     inspect,
+    section,
+    turnSection,
+    faceSection,
     screenshot,
     record,
     saveInput,
@@ -52,9 +58,9 @@ enum class Action {
 
 /// What a hand does. `code` and `modifiers` are GLFW's: a key, a mouse button, or nothing for the wheel.
 struct Trigger {
-    enum class Kind { key, drag, wheel } kind = Kind::key;
+    enum class Kind { key, drag, doubleClick, wheel } kind = Kind::key;
     int code = 0;
-    int modifiers = 0; ///< of Shift and Ctrl; others are ignored
+    int modifiers = 0; ///< of Shift and Ctrl, of the wheel Alt too; others are ignored
     bool operator==(const Trigger&) const = default;
 };
 

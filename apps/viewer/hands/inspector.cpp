@@ -93,11 +93,12 @@ void Inspector::record(VkCommandBuffer commands, std::uint32_t slot, const Ray& 
     asked_[slot].counted = found_->particle;
 }
 
-void Inspector::settle(std::uint32_t slot, const BallList& balls, const StateProbe& probe, bool isCut) {
+void Inspector::settle(std::uint32_t slot, const BallList& balls, const StateProbe& probe, bool isCut,
+                       const std::optional<Opened>& opened) {
     const Asked asked = std::exchange(asked_[slot], {});
     if (!asked.ray || !isOn_) return;
     const sim::Scene& scene = stage_.scene();
-    const auto met = pick(scene, balls, *asked.ray, probe.positions(), probe.vertices(), Among::all);
+    const auto met = pick(scene, balls, *asked.ray, probe.positions(), probe.vertices(), Among::all, opened);
     found_.reset();
     if (!met) return;
     found_ = foundAt(scene, met->particle, probe.positions(), probe.velocities(), isCut);

@@ -35,7 +35,8 @@ public:
     /// Of the state that is copied into the frame of `slot`, for `ray`. Throws vk::Error.
     void record(VkCommandBuffer commands, std::uint32_t slot, const Ray& ray);
     /// When that frame has finished.
-    void settle(std::uint32_t slot, const BallList& balls, const StateProbe& probe, bool isCut);
+    void settle(std::uint32_t slot, const BallList& balls, const StateProbe& probe, bool isCut,
+                const std::optional<Opened>& opened = {});
 
     /// Nothing where it is off or where nothing is.
     const std::optional<Found>& found() const { return found_; }

@@ -4,6 +4,7 @@
 #include "layout.h"
 #include "viewer/draw/balls.hpp"
 #include "viewer/draw/camera.hpp"
+#include "viewer/draw/section.hpp"
 
 namespace sinew::viewer {
 
@@ -25,10 +26,21 @@ struct Question {
 /// Whether what is fixed may be the nearest particle.
 enum class Among { moving, all };
 
-/// A state as StateProbe reads it. Nothing where the ray meets no body, or only what is not asked for.
+/// What a section leaves of a picture; `isClosed` as StageLight::isClosed.
+struct Opened {
+    Section section;
+    const std::vector<bool>& isClosed;
+};
+
+/// A state as StateProbe reads it. Nothing where the ray meets no body, or only what is not asked for. What
+/// is cut away is not met; the inside of a body that it has laid open is.
 std::optional<Pick> pick(const sim::Scene& scene, const BallList& balls, const Ray& ray,
                          std::span<const sim::layout::vec4> positions,
-                         std::span<const sim::layout::SkinVertex> vertices, Among among = Among::moving);
+                         std::span<const sim::layout::SkinVertex> vertices, Among among = Among::moving,
+                         const std::optional<Opened>& opened = {});
+
+/// Which one a particle is of; one of no particles where none holds it.
+sim::Body bodyOf(const sim::Scene& scene, std::uint32_t particle);
 
 /// How far around a picked particle a hand takes hold [m]: an eighth of the size of its body at the start,
 /// but more than its next neighbours are away.

@@ -43,8 +43,12 @@ void StateProbe::recordVelocities(VkCommandBuffer handle) const noexcept {
 }
 
 Box StateProbe::bounds() const {
+    return bounds({.firstParticle = 0, .particleCount = static_cast<std::uint32_t>(particles_)});
+}
+
+Box StateProbe::bounds(const sim::Body& body) const {
     Box box;
-    for (const sim::layout::vec4& place : positions()) {
+    for (const sim::layout::vec4& place : positions().subspan(body.firstParticle, body.particleCount)) {
         const Vector3 position(place.x, place.y, place.z);
         if (position.allFinite()) box.extend(position);
     }

@@ -25,6 +25,8 @@ public:
     /// The box around all finite positions [m]; empty where there is none. Of this and what follows, the
     /// recorded frame must have finished.
     Box bounds() const;
+    /// The same of one body.
+    Box bounds(const sim::Body& body) const;
     /// Of every particle [m].
     std::span<const sim::layout::vec4> positions() const noexcept;
     /// Of every particle [m/s]; empty where there are none.

@@ -116,10 +116,11 @@ struct Facts {
     std::vector<vk::DeviceDescription> devices; ///< that there are; empty until they were looked for
     Knobs knobs;
     Layers layers;
-    MapReading map;                  ///< of the map that is on, if one is
-    float mapRange = 0;              ///< which value has the last color; 0 = not known yet
-    std::uint32_t contactsFound = 0; ///< where they are shown
-    LinkFacts links;                 ///< likewise
+    std::array<float, 2> sectionReach{}; ///< lowest and highest offset of its plane, where there is one [m]
+    MapReading map;                      ///< of the map that is on, if one is
+    float mapRange = 0;                  ///< which value has the last color; 0 = not known yet
+    std::uint32_t contactsFound = 0;     ///< where they are shown
+    LinkFacts links;                     ///< likewise
     bool isInspecting = false;
     std::optional<Found> found; ///< while inspecting
     std::string notice;         ///< the newest message; empty = none
@@ -132,7 +133,8 @@ struct Wishes {
     std::optional<std::size_t> scene;  ///< of Facts::scenes
     std::optional<std::size_t> device; ///< of Facts::devices
     std::optional<Knobs> knobs;
-    bool isEmpty() const { return actions.empty() && !scene && !device && !knobs; }
+    std::optional<float> sectionOffset; ///< [m]
+    bool isEmpty() const { return actions.empty() && !scene && !device && !knobs && !sectionOffset; }
 };
 
 } // namespace sinew::viewer

@@ -105,6 +105,23 @@ void linkLegend(const LinkFacts& links) {
     if (links.fixed > 0) row("links that nobody corrects", grouped(links.fixed));
 }
 
+// Its plane's buttons, and where it is.
+void section(const Facts& facts, Wishes& wishes) {
+    const std::optional<Section>& section = facts.layers.section;
+    const float width = buttonWidth(3);
+    button(Action::section, wishes, width, section.has_value());
+    ImGui::SameLine();
+    button(Action::turnSection, wishes, width);
+    ImGui::SameLine();
+    button(Action::faceSection, wishes, width);
+    if (!section) return;
+    float offset = section->offset;
+    const auto [low, high] = facts.sectionReach;
+    ImGui::SetNextItemWidth(contentWidth());
+    if (ImGui::SliderFloat("##section", &offset, low, high, "plane at %.3f m")) wishes.sectionOffset = offset;
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(keyOf(Action::moveSection)).c_str());
+}
+
 } // namespace
 
 void look(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
@@ -125,6 +142,7 @@ void look(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
            mapNames[static_cast<std::size_t>(layers.map)]);
     ImGui::SameLine();
     button(Action::inspect, wishes, width, facts.isInspecting);
+    section(facts, wishes);
     if (layers.hasContacts) row("contacts", grouped(facts.contactsFound));
     if (layers.hasLinks) linkLegend(facts.links);
     if (layers.map != ColorMap::none) legend(facts, scene.particles);

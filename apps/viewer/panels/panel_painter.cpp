@@ -53,7 +53,7 @@ PanelPainter::PanelPainter(const vk::Device& device, VkFormat format, VkImageLay
                          .layout = set_.handle(),
                          .pass = pass_.handle(),
                          .input = PipelineRequest::Input::panels,
-                         .isBlended = true,
+                         .blend = PipelineRequest::Blend::over,
                          .constants = srgbConstant(format)}),
       slots_(slots) {}
 

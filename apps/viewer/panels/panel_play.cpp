@@ -37,13 +37,18 @@ void play(const Facts& facts, Wishes& wishes) {
     button(Action::pin, wishes, width, facts.pins > 0);
     ImGui::SameLine();
     button(Action::drop, wishes, width);
+    width = buttonWidth(3);
     button(Action::frame, wishes, width);
     ImGui::SameLine();
+    button(Action::frameBody, wishes, width);
+    ImGui::SameLine();
+    button(Action::center, wishes, width);
     button(Action::screenshot, wishes, width);
     ImGui::SameLine();
     button(Action::record, wishes, width, facts.isRecording, facts.isRecording ? "Stop" : nullptr);
     ImGui::SameLine();
     button(Action::saveInput, wishes, width);
+    width = buttonWidth(4);
     button(Action::times, wishes, width);
     ImGui::SameLine();
     button(Action::vsync, wishes, width, facts.isVsync);
@@ -51,7 +56,6 @@ void play(const Facts& facts, Wishes& wishes) {
     button(Action::fullScreen, wishes, width);
     ImGui::SameLine();
     button(Action::help, wishes, width);
-    width = buttonWidth(4);
     button(Action::largerTexts, wishes, width);
     ImGui::SameLine();
     button(Action::smallerTexts, wishes, width);

@@ -16,6 +16,9 @@ namespace sinew::viewer {
 
 namespace {
 
+constexpr double mostBetweenClicks = 0.4; // [s]
+constexpr float farthestClick = 4;        // from the first [screen coordinates]
+
 [[noreturn]] void failWithoutDisplay() {
     const char* why = nullptr;
     glfwGetError(&why);
@@ -42,6 +45,10 @@ struct Window::State {
     bool wasCovered = false; // the pointer
     std::optional<Action> dragged;
     int dragButton = 0;
+    int clicked = -1;     // button of the last press, unless that was the second of two
+    double clickTime = 0; // [s]
+    std::uint64_t polls = 0, clickPoll = 0;
+    Vector2 clickPlace = Vector2::Zero();
     Vector2 cursor = Vector2::Zero();        // screen coordinates
     int x = 0, y = 0, width = 0, height = 0; // of the window before full screen
 
@@ -72,7 +79,8 @@ struct Window::State {
         const auto isDown = [this](int left, int right) {
             return glfwGetKey(window, left) == GLFW_PRESS || glfwGetKey(window, right) == GLFW_PRESS;
         };
-        return isDown(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT) ? GLFW_MOD_SHIFT : 0;
+        return (isDown(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT) ? GLFW_MOD_SHIFT : 0) |
+               (isDown(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT) ? GLFW_MOD_ALT : 0);
     }
 
     bool isCovered() const { return cover.holds(pixels()); }
@@ -108,6 +116,7 @@ struct Window::State {
     void onButton(int button, int event, int modifiers) {
         input.panels.modifiers = modifiers;
         if (isOfPanels(button, event)) return;
+        if (event == GLFW_PRESS) countClick(button, modifiers);
         if (event == GLFW_PRESS && !dragged) {
             dragged = actionFor({Trigger::Kind::drag, button, modifiers});
             dragButton = button;
@@ -118,10 +127,26 @@ struct Window::State {
         }
     }
 
+    // GLFW knows no double click, and no time at which events came: where pictures take long, presses that
+    // one look at events has brought, or two, are as good as at once.
+    void countClick(int button, int modifiers) {
+        const double now = glfwGetTime();
+        const bool isSoon = now - clickTime < mostBetweenClicks || polls - clickPoll <= 1;
+        const bool isSecond = button == clicked && isSoon && (cursor - clickPlace).norm() < farthestClick;
+        clicked = isSecond ? -1 : button;
+        clickTime = now;
+        clickPoll = polls;
+        clickPlace = cursor;
+        if (!isSecond) return;
+        if (const auto action = actionFor({Trigger::Kind::doubleClick, button, modifiers}))
+            input.actions.push_back(*action);
+    }
+
     void onMove(double toX, double toY) {
         const Vector2 to(static_cast<float>(toX), static_cast<float>(toY));
         if (dragged) input.drags.push_back({*dragged, (to - cursor) / windowHeight()});
         cursor = to;
+        if ((cursor - clickPlace).norm() >= farthestClick) clicked = -1; // a drag is no click
         const bool isOver = isCovered() || isDownInPanel != std::array<bool, 3>{};
         input.panels.isTouched = input.panels.isTouched || isOver || wasCovered;
         wasCovered = isOver;
@@ -134,7 +159,9 @@ struct Window::State {
             return;
         }
         const auto action = actionFor({Trigger::Kind::wheel, 0, modifiers()});
-        float& turned = action == Action::pokeSize ? input.growth : input.notches;
+        float& turned = action == Action::pokeSize      ? input.growth
+                        : action == Action::moveSection ? input.slide
+                                                        : input.notches;
         turned += static_cast<float>(notches);
     }
 
@@ -203,6 +230,7 @@ VkSurfaceKHR Window::createSurface(VkInstance instance) const {
 }
 
 Input Window::poll(double seconds) {
+    ++state_->polls;
     if (seconds > 0)
         glfwWaitEventsTimeout(seconds);
     else

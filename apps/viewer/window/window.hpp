@@ -31,12 +31,13 @@ struct Input {
     std::vector<std::string> files;    ///< dropped on the window
     float notches = 0;                 ///< of the wheel, forwards positive
     float growth = 0;                  ///< likewise of the wheel that changes the size of the sphere
+    float slide = 0;                   ///< likewise of the wheel that moves the section plane
     Vector2 pointer = Vector2::Zero(); ///< from the middle, x right, y down, in window heights
     bool needsRedraw = false;          ///< resized or uncovered
     PanelInput panels;                 ///< what is not in the others
     bool isEmpty() const {
         return actions.empty() && presses.empty() && drags.empty() && files.empty() && notches == 0 &&
-               growth == 0 && !needsRedraw;
+               growth == 0 && slide == 0 && !needsRedraw;
     }
 };
 

@@ -7,7 +7,14 @@ layout(constant_id = 3) const bool isPlan = false;
 layout(location = 0) in vec4 corner;
 layout(location = 1) in vec4 center;
 layout(location = 2) in float radius;
+#ifdef SECTION
+layout(location = 0) out vec3 worldPosition;
+#endif
 
 void main() {
-    gl_Position = (isPlan ? frame.planFromWorld : frame.shadowFromWorld) * vec4(center.xyz + radius * corner.xyz, 1.0);
+#ifndef SECTION
+    vec3 worldPosition;
+#endif
+    worldPosition = center.xyz + radius * corner.xyz;
+    gl_Position = (isPlan ? frame.planFromWorld : frame.shadowFromWorld) * vec4(worldPosition, 1.0);
 }

@@ -6,8 +6,14 @@
 layout(constant_id = 3) const bool isPlan = false;
 layout(push_constant) uniform Push { SkinPush push; };
 layout(location = 0) in vec4 position;
+#ifdef SECTION
+layout(location = 0) out vec3 worldPosition;
+#endif
 
 void main() {
-    const vec3 worldPosition = rotated(push.rotation, push.scale.x * position.xyz) + push.position.xyz;
+#ifndef SECTION
+    vec3 worldPosition;
+#endif
+    worldPosition = rotated(push.rotation, push.scale.x * position.xyz) + push.position.xyz;
     gl_Position = (isPlan ? frame.planFromWorld : frame.shadowFromWorld) * vec4(worldPosition, 1.0);
 }

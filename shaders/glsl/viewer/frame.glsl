@@ -23,3 +23,13 @@ float discRadius(uint i, uint n) {
 float pixelNoise(vec2 pixel) {
     return fract(52.9829189 * fract(dot(floor(pixel), vec2(0.06711056, 0.00583715))));
 }
+
+const vec3 unknownValue = vec3(0.32); // grey: nothing is known
+
+// Of a value of a map whose last color is that of `range`.
+vec3 mapColor(float value, float range) {
+    const float place = clamp(value / max(range, 1e-30), 0.0, 1.0) * float(MAP_COLORS - 1);
+    const int low = min(int(place), MAP_COLORS - 2);
+    const vec3 color = mix(frame.mapColors[low].rgb, frame.mapColors[low + 1].rgb, place - float(low));
+    return value < 0.0 || range <= 0.0 ? unknownValue : color;
+}

@@ -31,6 +31,7 @@ struct FrameParams {
     vec4 skins[SKIN_COLORS]; // linear RGB and gloss of the first skins, for the surface of cuts
     vec4 floor;  // x and z of the floor map's middle, its width, the plan map's height [m]
     vec4 mapColors[MAP_COLORS]; // linear RGB of values, from the lowest to the highest
+    vec4 section; // unit normal and offset [m]: what lies before the plane is cut away, in the forms of shaders that do so
 };
 
 struct SkinPush {

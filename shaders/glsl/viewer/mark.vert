@@ -9,6 +9,7 @@ layout(location = 1) in vec4 point;
 layout(location = 2) in vec4 normal;
 layout(location = 0) out vec3 worldNormal;
 layout(location = 1) out float kind;
+layout(location = 2) out vec3 worldPosition;
 
 void main() {
     const float size = push.position.w;
@@ -17,5 +18,6 @@ void main() {
     worldNormal = isBall ? corner.xyz : corner.x * across + corner.y * cross(normal.xyz, across);
     const vec3 onNeedle = 7.0 * corner.z * normal.xyz + 0.45 * (1.0 - corner.z) * worldNormal;
     kind = normal.w;
-    gl_Position = frame.clipFromWorld * vec4(point.xyz + size * (isBall ? corner.xyz : onNeedle), 1.0);
+    worldPosition = point.xyz + size * (isBall ? corner.xyz : onNeedle);
+    gl_Position = frame.clipFromWorld * vec4(worldPosition, 1.0);
 }

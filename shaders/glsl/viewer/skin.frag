@@ -2,6 +2,7 @@
 // The outside of bodies.
 #extension GL_GOOGLE_include_directive : require
 #include "viewer/tissue.glsl"
+#include "viewer/section.glsl"
 
 layout(push_constant) uniform Push { SkinPush push; };
 layout(location = 0) in vec3 worldPosition;
@@ -10,6 +11,7 @@ layout(location = 2) in float asleep; // 1 = paler
 layout(location = 0) out vec4 shown;
 
 void main() {
+    keepBehindSection(worldPosition);
     const vec3 albedo = mix(push.color.rgb, vec3(0.62, 0.66, 0.72), 0.55 * asleep);
     shown = shade(worldPosition, worldNormal, albedo, push.color.w);
 #ifdef GLASS

@@ -4,7 +4,9 @@
 #include "viewer/frame.glsl"
 
 layout(location = 0) in vec4 position;
+layout(location = 0) out vec3 worldPosition;
 
 void main() {
+    worldPosition = position.xyz;
     gl_Position = frame.clipFromWorld * vec4(mix(position.xyz, frame.eye.xyz, 0.001), 1.0);
 }

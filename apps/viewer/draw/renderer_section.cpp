@@ -1,0 +1,117 @@
+// Pictures with a section: bodies in forms of their pipelines that leave away what lies before the plane, and
+// a cap where the plane passes through them. Whether it does is counted, not guessed from what is seen behind
+// it: how often closed surfaces wind around a place of the plane is the number of backs less that of fronts
+// that a ray from there passes, in front of whatever else, for any number of bodies, for pieces that were cut
+// and for triangles that lie turned over.
+#include "viewer/draw/renderer.hpp"
+
+#include "viewer_shaders.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace sinew::viewer {
+
+namespace {
+
+constexpr float capGloss = 0.4f; // of balls
+
+// A shader and its form with a section.
+using Form = std::pair<const vk::ShaderCode*, const vk::ShaderCode*>;
+constexpr std::array forms{Form{&shaders::depthVert, &shaders::depthSectionVert},
+                           Form{&shaders::ballDepthVert, &shaders::ballDepthSectionVert},
+                           Form{&shaders::skinFrag, &shaders::skinSectionFrag},
+                           Form{&shaders::insideFrag, &shaders::insideSectionFrag},
+                           Form{&shaders::clippedFrag, &shaders::clippedSectionFrag},
+                           Form{&shaders::skinGlassFrag, &shaders::skinGlassSectionFrag},
+                           Form{&shaders::insideGlassFrag, &shaders::insideGlassSectionFrag},
+                           Form{&shaders::clippedGlassFrag, &shaders::clippedGlassSectionFrag},
+                           Form{&shaders::valuesFrag, &shaders::valuesSectionFrag},
+                           Form{&shaders::wiresFrag, &shaders::wiresSectionFrag},
+                           Form{&shaders::linkFrag, &shaders::linkSectionFrag},
+                           Form{&shaders::markFrag, &shaders::markSectionFrag}};
+
+const vk::ShaderCode* openedForm(const vk::ShaderCode* shader) {
+    const auto* found = std::ranges::find(forms, shader, &Form::first);
+    return found == forms.end() ? nullptr : found->second;
+}
+
+} // namespace
+
+void Renderer::prepareSection(Canvas& canvas) {
+    if (!countsPass_)
+        countsPass_.emplace(RenderPass::colorMap(device_, countsFormat, "section", format_.samples));
+    canvas.addCounts(device_, *countsPass_, format_.samples);
+    if (!has(capPipeline)) prepareCounts();
+    const std::uint32_t hasOneSample = format_.samples == VK_SAMPLE_COUNT_1_BIT ? 1 : 0;
+    for (std::size_t i = 0; i < pipelineCount; ++i) {
+        if (!has(i) || has(i + pipelineCount) || i == handPipeline) continue;
+        PipelineRequest request = requests_[i];
+        const bool isDepth = request.fragment == nullptr;
+        const vk::ShaderCode* form = openedForm(isDepth ? request.vertex : request.fragment);
+        if (form == nullptr) continue;
+        (isDepth ? request.vertex : request.fragment) = form;
+        if (isDepth) request.fragment = &shaders::sectionDepthFrag;
+        request.isDepthOnly = isDepth;
+        request.name += ".section";
+        std::vector<vk::SpecialisationConstant> constants(request.constants.begin(), request.constants.end());
+        constants.push_back({4, hasOneSample});
+        request.constants = constants;
+        addPipeline(i + pipelineCount, request);
+    }
+}
+
+void Renderer::prepareCounts() {
+    const bool hasOneSample = format_.samples == VK_SAMPLE_COUNT_1_BIT;
+    const std::array constants{vk::SpecialisationConstant{4, hasOneSample ? 1u : 0u}};
+    PipelineRequest request{.pass = countsPass_->handle(),
+                            .samples = format_.samples,
+                            .blend = PipelineRequest::Blend::sum,
+                            .constants = constants};
+    const auto add = [&](PipelineIndex index, const char* name, const vk::ShaderCode& vertex,
+                         const vk::ShaderCode& fragment, PipelineRequest::Input input) {
+        request.name = std::string("section.") + name;
+        request.vertex = &vertex;
+        request.fragment = &fragment;
+        request.input = input;
+        addPipeline(index, request);
+    };
+    using Input = PipelineRequest::Input;
+    add(skinCountPipeline, "skins", shaders::skinVert, shaders::skinCountFrag, Input::positionsAndNormals);
+    add(cutCountPipeline, "cuts", shaders::cutVert, shaders::cutCountFrag, Input::cuts);
+    add(ballCountPipeline, "balls", shaders::ballVert, shaders::ballCountFrag, Input::balls);
+    add(ballValuesCountPipeline, "ball_values", shaders::ballValuesVert, shaders::ballValuesCountFrag,
+        Input::ballValues);
+    request = litRequest("section_cap");
+    request.vertex = &shaders::screenVert;
+    request.fragment = hasOneSample ? &shaders::sectionCapSingleFrag : &shaders::sectionCapFrag;
+    addPipeline(capPipeline, request);
+}
+
+// Only what is drawn as a solid. Particles inside a solid skin are hidden by its cap.
+void Renderer::recordCounts(VkCommandBuffer commands, const Canvas& canvas, const sim::Simulation& simulation,
+                            const Overlay& overlay) const noexcept {
+    const Layers& layers = overlay.layers;
+    const bool isSolid = layers.skin == SkinLook::solid, isMap = layers.map != ColorMap::none;
+    constexpr std::array nothing{VkClearValue{.color = {{0, 0, 0, 0}}}};
+    begin(commands, *countsPass_, canvas.countsFramebuffer(), canvas.extent(), nothing);
+    if (isSolid) {
+        drawSkins(commands, skinCountPipeline, simulation);
+        drawCuts(commands, cutCountPipeline, cutCountPipeline, simulation);
+    }
+    if (!isSolid || !layers.hasBalls) {
+        if (!isMap) drawBalls(commands, ballCountPipeline, simulation, overlay);
+        if (isMap && overlay.buffers.particles.size > 0)
+            drawBalls(commands, ballValuesCountPipeline, simulation, overlay);
+    }
+    device_.functions().vkCmdEndRenderPass(commands);
+}
+
+void Renderer::drawCap(VkCommandBuffer commands, const Canvas& canvas, const Layers& layers) const noexcept {
+    if (!layers.section || !canvas.hasCounts() || !has(capPipeline)) return;
+    bind(commands, capPipeline);
+    push(commands, {layers.map != ColorMap::none ? 1.0f : 0.0f, 0, 0}, capGloss, {});
+    device_.functions().vkCmdDraw(commands, 3, 1, 0, 0);
+}
+
+} // namespace sinew::viewer

@@ -1,0 +1,33 @@
+// What bodies are made of: another material than their skin, wet and darker, with a solid texture of strands.
+const float insideMoist = 1.3;
+
+// A hash of whole numbers in [0, 1).
+float hashed(ivec3 cell) {
+    uvec3 v = uvec3(cell) * uvec3(1664525u, 22695477u, 1103515245u);
+    uint h = v.x ^ v.y ^ v.z;
+    h = (h ^ h >> 16) * 0x7feb352du;
+    h = (h ^ h >> 15) * 0x846ca68bu;
+    return float((h ^ h >> 16) >> 8) / 16777216.0;
+}
+
+float noise(vec3 x) {
+    const ivec3 cell = ivec3(floor(x));
+    const vec3 t = x - vec3(cell), s = t * t * (3.0 - 2.0 * t);
+    float sum = 0.0;
+    for (int k = 0; k < 8; ++k) {
+        const ivec3 corner = ivec3(k & 1, k >> 1 & 1, k >> 2);
+        const vec3 share = mix(1.0 - s, s, vec3(corner));
+        sum += share.x * share.y * share.z * hashed(cell + corner);
+    }
+    return sum;
+}
+
+// At a place in the body, under a skin of this color.
+vec3 insideAlbedo(vec3 inBody, vec3 skin) {
+    const vec3 x = inBody * (16.0 / frame.stage.w); // the stage is 32 wide
+    const float warp = noise(x) + 0.5 * noise(2.3 * x);
+    const float strand = noise(vec3(5.0, 1.1, 5.0) * x + 2.0 * warp);
+    const float fat = smoothstep(0.60, 0.72, noise(1.3 * x + 0.9 * warp + 31.0) + 0.25 * (noise(4.0 * x) - 0.5));
+    const vec3 flesh = mix(0.5 * skin, vec3(0.36, 0.035, 0.03), 0.6);
+    return mix(flesh * mix(0.55, 1.25, strand), vec3(0.74, 0.55, 0.30), 0.55 * fat);
+}

@@ -1,0 +1,27 @@
+// The plane that opens bodies: in the SECTION form of a shader what lies before it is not drawn, sample by sample.
+// Without that form there is nothing of it in a shader.
+#ifdef SECTION
+layout(constant_id = 4) const bool hasOneSample = false; // a pixel, else 4
+
+// Where they are, of a pixel's side, as Vulkan's standard has them.
+const vec2 sampleAt[4] = vec2[](vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125, 0.625), vec2(0.625, 0.875));
+
+// A bit for each sample of the triangle around `position` that lies behind the plane.
+int samplesBehind(vec3 position) {
+    const float before = dot(frame.section.xyz, position) - frame.section.w;
+    const vec2 slope = vec2(dFdx(before), dFdy(before));
+    int mask = 0;
+    for (int i = 0; i < 4; ++i) mask |= before + dot(slope, sampleAt[i] - 0.5) <= 0.0 ? 1 << i : 0;
+    return hasOneSample ? int(before <= 0.0) : mask;
+}
+#endif
+
+void keepBehindSection(vec3 position) {
+#if defined(SECTION) && defined(LINES) // beside them there is no slope to be trusted
+    if (dot(frame.section.xyz, position) > frame.section.w) discard;
+#elif defined(SECTION)
+    const int mask = samplesBehind(position);
+    if (mask == 0) discard;
+    gl_SampleMask[0] = mask;
+#endif
+}

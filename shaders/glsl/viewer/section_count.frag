@@ -1,0 +1,32 @@
+#version 460
+// How often closed surfaces wind around the place where a pixel's ray meets the section plane: of what the ray passes behind
+// it, each back adds one and each front takes one away. Sums of that with the surface's color, and of that alone: 1 a skin, a 64th a ball.
+#extension GL_GOOGLE_include_directive : require
+#include "viewer/frame.glsl"
+#include "viewer/section.glsl"
+
+layout(push_constant) uniform Push { SkinPush push; };
+layout(location = 0) in vec3 worldPosition;
+layout(location = 1) in vec3 worldNormal;
+#if defined(CUTS)
+layout(location = 2) in vec4 inBody;
+#elif defined(VALUES)
+layout(location = 2) in float value;
+#else
+layout(location = 2) in float asleep;
+#endif
+layout(location = 0) out vec4 sum;
+
+void main() {
+    keepBehindSection(worldPosition);
+#if defined(CUTS)
+    const vec4 surface = vec4(frame.skins[min(uint(inBody.w + 0.5), SKIN_COLORS - 1u)].rgb, 1.0);
+#elif defined(VALUES)
+    const vec4 surface = vec4(mapColor(value, push.color.x), 1.0 / 64.0);
+#elif defined(BALLS)
+    const vec4 surface = vec4(push.color.rgb, 1.0 / 64.0);
+#else
+    const vec4 surface = vec4(push.color.rgb, 1.0);
+#endif
+    sum = gl_FrontFacing ? -surface : surface;
+}

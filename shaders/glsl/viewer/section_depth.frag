@@ -1,0 +1,10 @@
+#version 460
+// Nothing but depth, of what the section plane leaves.
+#extension GL_GOOGLE_include_directive : require
+#include "viewer/frame.glsl"
+
+layout(location = 0) in vec3 worldPosition;
+
+void main() {
+    if (dot(frame.section.xyz, worldPosition) > frame.section.w) discard;
+}
