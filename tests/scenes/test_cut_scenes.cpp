@@ -5,6 +5,7 @@
 // the environment plays scenes as they are.
 #include "scenes/blades.hpp"
 #include "sim/cutting/stroke_check.hpp"
+#include "support/full.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,6 +17,7 @@
 
 using namespace sinew;
 namespace fs = std::filesystem;
+using test::isFull;
 using test::StrokeCheck;
 using test::StrokeResult;
 
@@ -25,10 +27,6 @@ constexpr std::uint32_t fewSubsteps = 8, roomForContacts = 160, roomForSurface =
 constexpr float coarseVoxel = 0.025f;                 // [m]
 constexpr std::uint64_t fewSteps = 2, someSteps = 90; // between strokes; of what tears
 constexpr std::size_t fewStrokes = 5;
-
-bool isFull() {
-    return std::getenv("SINEW_FULL") != nullptr;
-}
 
 std::vector<std::string> cutSceneNames() {
     std::vector<std::string> names;

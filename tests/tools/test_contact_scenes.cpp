@@ -4,6 +4,7 @@
 // as well.
 #include "sinew/study/plan.hpp"
 #include "sinew/study/truth.hpp"
+#include "support/full.hpp"
 #include "tools/program.hpp"
 
 #include <fstream>
@@ -125,16 +126,17 @@ TEST_P(ContactScenes, EndInTheSameBitsWhateverRunsThem) {
     std::printf("%s: %s after %u frames\n", GetParam().c_str(), first.c_str(), static_cast<unsigned>(frames));
     sim::Settings other = settings;
     other.isReversed = true;
-    EXPECT_EQ(hash(other), first) << "reversed";
-    other = settings;
+    if (test::isFull()) EXPECT_EQ(hash(other), first) << "reversed";
     other.contactMargin *= 0.4f;
-    EXPECT_EQ(hash(other), first) << "another margin";
-    for (const char* threads : {"1", "2"}) // which are second and third runs as well
+    EXPECT_EQ(hash(other), first) << "reversed, another margin";
+    for (const char* threads : {"1", "2"}) {                // which are second and third runs as well
+        if (threads[0] == '2' && !test::isFull()) continue; // the first run has as many as the machine
         EXPECT_EQ(report({argument(), "--frames", std::to_string(frames), "--substeps",
                           std::to_string(settings.substeps)},
                          {{"LP_NUM_THREADS", threads}})["state_hash"],
                   first)
             << "threads " << threads;
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, ContactScenes, testing::ValuesIn(contactSceneNames()),

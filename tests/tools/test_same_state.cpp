@@ -40,8 +40,7 @@ TEST_F(SameState, OverRunsThreadsAndReversedOrder) {
     for (const std::string& scene : {shippedScene("cloth"), shippedScene("cube"), landedCube(folder_)})
         for (const char* solver : {"split", "jacobi", "gauss_seidel"}) {
             const std::string first = hash(scene, solver);
-            EXPECT_EQ(hash(scene, solver), first) << scene << ", second run";
-            for (const char* threads : {"0", "1", "2"})
+            for (const char* threads : {"0", "1", "2"}) // one of them a second run of the same
                 EXPECT_EQ(hash(scene, solver, {}, {{"LP_NUM_THREADS", threads}}), first)
                     << scene << ", threads " << threads;
             EXPECT_EQ(hash(scene, solver, {"--reversed"}), first) << scene << ", reversed";

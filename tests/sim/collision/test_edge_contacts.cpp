@@ -238,15 +238,13 @@ TEST(EdgeContacts, EndInTheSameBitsForAnyMarginRoomOrderAndForm) {
     const Settings settings{.substeps = 8, .contactRoom = 96};
     const auto hash = [&](const Settings& asked) { return test::hashOfRun(scene, asked, steps); };
     const std::uint64_t expected = hash(settings);
-    Settings narrow = settings, roomy = settings, reversed = settings, loads = settings;
+    Settings narrow = settings, reversed = settings;
     narrow.contactMargin = 0.2f;
-    roomy.contactRoom = 128;
+    narrow.contactRoom = 128;
     reversed.isReversed = true;
-    loads.forms.usesTexels = false;
-    EXPECT_EQ(hash(narrow), expected) << "another margin";
-    EXPECT_EQ(hash(roomy), expected) << "more room";
-    EXPECT_EQ(hash(reversed), expected) << "reversed";
-    EXPECT_EQ(hash(loads), expected) << "without texels";
+    reversed.forms.usesTexels = false;
+    EXPECT_EQ(hash(narrow), expected) << "another margin, more room";
+    EXPECT_EQ(hash(reversed), expected) << "reversed, without texels";
 }
 
 // Hard case 29, as for contacts between particles, where edges touch in many steps.
