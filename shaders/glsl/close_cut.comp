@@ -10,7 +10,7 @@ layout(std430, binding = 2) readonly buffer Places { vec4 places[]; };
 layout(std430, binding = 3) writeonly buffer PlacesBefore { vec4 before[]; };
 layout(std430, binding = 4) readonly buffer Status { StatusWords status; };
 layout(std430, binding = 5) buffer Work { CutWork work; };
-layout(std140, binding = 6) uniform Blade { BladeHead blade; };
+layout(std430, binding = 6) readonly buffer Blade { BladeHead blade; };
 
 void main() {
     const uint item = itemIndex(push.count);

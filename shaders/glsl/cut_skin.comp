@@ -12,7 +12,7 @@ layout(std430, binding = 0) readonly buffer PulledPlaces { vec4 pulledPlaces[]; 
 layout(std430, binding = 1) readonly buffer PlacesBefore { vec4 before[]; };
 layout(std430, binding = 2) readonly buffer Links { uint links[]; };
 layout(std430, binding = 3) buffer SkinHits { uint skinHits[]; }; // of each prism: byte n for its edge n, in 1/255; 0 = none
-layout(std140, binding = 4) uniform Blade { BladeHead blade; };
+layout(std430, binding = 4) readonly buffer Blade { BladeHead blade; };
 layout(std430, binding = 5) readonly buffer Points { vec4 points[]; };
 layout(std430, binding = 6) readonly buffer SavedLinks { uint savedLinks[]; };
 layout(std430, binding = 7) readonly buffer Prisms { SkinPrism prisms[]; };

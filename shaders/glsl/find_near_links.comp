@@ -14,7 +14,7 @@ layout(std430, binding = 0) readonly buffer Places { vec4 places[]; };
 #define PLACE(i) places[i].xyz
 #endif
 layout(std430, binding = 1) readonly buffer Links { uint links[]; };
-layout(std140, binding = 2) uniform Blade { BladeHead blade; };
+layout(std430, binding = 2) readonly buffer Blade { BladeHead blade; };
 layout(std430, binding = 3) readonly buffer Work { CutWork work; };
 layout(std430, binding = 4) buffer Counts { uint counts[]; };      // of nodes, by run
 layout(std430, binding = 5) writeonly buffer Nears { uvec2 nears[]; }; // slot, links; of a run from its first slot on

@@ -6,7 +6,7 @@
 
 layout(std430, binding = 0) readonly buffer PulledPlaces { vec4 pulledPlaces[]; };
 layout(std430, binding = 1) readonly buffer PlacesBefore { vec4 before[]; };
-layout(std140, binding = 2) uniform Blade { BladeHead blade; };
+layout(std430, binding = 2) readonly buffer Blade { BladeHead blade; };
 layout(std430, binding = 3) readonly buffer Status { StatusWords status; };
 layout(std430, binding = 4) readonly buffer Prisms { SkinPrism prisms[]; };
 layout(std430, binding = 5) readonly buffer SkinHits { uint skinHits[]; };

@@ -13,7 +13,7 @@ layout(std430, binding = 3) readonly buffer Places { vec4 places[]; };
 layout(std430, binding = 4) writeonly buffer PulledPlaces { vec4 pulledPlaces[]; };
 layout(std430, binding = 5) readonly buffer PlacesBefore { vec4 before[]; }; // w = 0: no blade yet
 layout(std430, binding = 6) buffer Work { CutWork work; };
-layout(std140, binding = 7) uniform Blade { BladeHead blade; };
+layout(std430, binding = 7) readonly buffer Blade { BladeHead blade; };
 layout(std430, binding = 8) buffer Pulls { vec4 pulls[]; }; // of the stroke; w = 0: none yet
 
 #define ALIVE(i) links[i]

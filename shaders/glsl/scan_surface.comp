@@ -11,7 +11,7 @@ layout(std430, binding = 3) buffer State { SurfaceState state; };
 layout(std430, binding = 4) readonly buffer Groups { uint groups[]; }; // of every run of slots
 layout(std430, binding = 5) buffer Counts { CutCounts counts; };
 layout(std430, binding = 6) writeonly buffer Listed { uint listed[]; };
-layout(std140, binding = 7) uniform Blade { BladeHead blade; };
+layout(std430, binding = 7) readonly buffer Blade { BladeHead blade; };
 layout(push_constant) uniform Push { SurfacePush push; };
 
 shared uvec4 ofLane[GROUP_SIZE];
