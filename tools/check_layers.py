@@ -22,6 +22,9 @@ GPU_MAY_USE_SIM = MESH_MAY_USE_SIM | {"sim/program.hpp"}  # passes and their bar
 # The rooms of the viewer, the same way; what stands beside them may include all.
 VIEWER_ROOMS = ["draw", "hands", "panels", "window", "pictures"]
 LIMITS = {".cpp": 600, ".hpp": 600, ".h": 600, ".comp": 150, ".glsl": 150, ".vert": 150, ".frag": 150}
+# Lavapipe makes a shader anew when a word of a uniform buffer changes that a condition hangs on: what changes with every step is in storage buffers.
+UNIFORMS = {"Step", "Bounds", "Frame"}
+UNIFORM = re.compile(r"^layout\(std140[^)]*\)\s*uniform\s+(\w+)", re.M)
 INCLUDE = re.compile(r'^\s*#\s*include\s+[<"]([^>"]+)[>"]', re.M)
 STAGES = re.compile(r"vkCmdPipelineBarrier|VK_PIPELINE_STAGE_|VK_ACCESS_")
 
@@ -31,6 +34,10 @@ def complaints(path, text):
     lines = text.count("\n")
     if lines > LIMITS[path.suffix]:
         yield f"{name}: {lines} lines, at most {LIMITS[path.suffix]}"
+    if path.suffix in (".comp", ".glsl", ".vert", ".frag"):
+        for block in UNIFORM.findall(text):
+            if block not in UNIFORMS:
+                yield f"{name}: {block} belongs in a storage buffer"
     if name.startswith("apps/viewer/") and name.split("/")[2] in VIEWER_ROOMS:
         room = VIEWER_ROOMS.index(name.split("/")[2])
         for include in INCLUDE.findall(text):
