@@ -27,7 +27,7 @@ void draw(const vk::Device& device, vk::Queue& queue, View& view, VkFormat forma
                                .extent = {64, 64},
                                .format = format,
                                .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT});
-    const Canvas canvas = view.renderer.makeCanvas(image.extent(), std::array{image.view()});
+    Canvas canvas = view.renderer.makeCanvas(image.extent(), std::array{image.view()});
     const VkCommandBuffer commands = queue.begin();
     view.renderer.record(commands, 0, canvas, 0, camera, simulation);
     queue.wait(queue.submit(commands));

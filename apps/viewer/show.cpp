@@ -117,6 +117,7 @@ void Show::turn() {
         panelsDue_ -= std::min(panelsDue_, 1u);
         shown_ = isLast ? Shown::still : Shown::moving;
         gauges_.frame(elapsed, plan.steps);
+        if (plan.steps > 0) budget_.pictureTaken(elapsed, plan.steps);
         draw(plan, isLast && prepared_.still ? *prepared_.still : prepared_.moving);
         if (isLast) settleAll();
     }
@@ -127,7 +128,7 @@ void Show::turn() {
 // A film has a picture of every step.
 Plan Show::plan(double elapsed) {
     const bool isOneByOne = recording_ || replay_;
-    Plan plan = controller_.playback.plan(elapsed, isOneByOne ? 1 : Playback::maxSteps);
+    Plan plan = controller_.playback.plan(elapsed, isOneByOne ? 1 : budget_.steps(Playback::maxSteps));
     if (recording_ && !controller_.playback.isPaused() && !plan.isReset) plan.steps = 1;
     return plan;
 }
@@ -180,7 +181,8 @@ void Show::draw(Plan plan, View& view) {
 // Timed where somebody wants to know: each look at the clock costs a software device a flush.
 void Show::drawPicture(const Presenter::Frame& frame, const Overlay& overlay, View& view) {
     if (!view.canvas)
-        view.canvas = view.renderer.makeCanvas(screen_.presenter().extent(), screen_.presenter().views());
+        view.canvas.emplace(
+            view.renderer.makeCanvas(screen_.presenter().extent(), screen_.presenter().views()));
     view.renderer.prepare(overlay.layers, *view.canvas);
     const bool isTimed = inFlight_[frame.slot].isTimed = screen_.timing().isOn();
     vk::Commands commands(device_, frame.commands);

@@ -11,6 +11,7 @@
 #include "viewer/hands/inspection.hpp"
 #include "viewer/hands/inspector.hpp"
 #include "viewer/hands/state_probe.hpp"
+#include "viewer/hands/step_budget.hpp"
 #include "viewer/library.hpp"
 #include "viewer/opening.hpp"
 #include "viewer/pictures/picture_writer.hpp"
@@ -147,6 +148,7 @@ private:
     std::vector<vk::Timestamps> drawingTimes_; // of picture and panels, likewise
     SceneFacts& sceneFacts_;
     Gauges gauges_;
+    StepBudget budget_;
     Wishes wishes_; // of the newest picture
     Knobs knobs_;
     std::optional<Recording> recording_;

@@ -151,6 +151,7 @@ void Show::settleTimes(std::uint32_t slot, const InFlight& flight) {
         const std::vector<double> phases = times_[slot].milliseconds();
         const double step = std::accumulate(phases.begin(), phases.end(), 0.0);
         if (!phases.empty()) status_.stepTimed(step);
+        if (!phases.empty()) budget_.stepTimed(step / 1000);
         if (!phases.empty()) times.add(FrameTimes::Kind::step, step);
         gauges_.stepTimed(phases);
     }

@@ -1,5 +1,6 @@
 // The table of bindings and what actions do, without a window.
 #include "viewer/hands/controller.hpp"
+#include "viewer/hands/step_budget.hpp"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -179,6 +180,30 @@ TEST(Controller, WheelForwardsComesNearer) {
     EXPECT_LT(controller.camera.distance, Camera{}.distance);
     controller.wheel(-1, Vector2::Zero());
     EXPECT_NEAR(controller.camera.distance, Camera{}.distance, 1e-5f);
+}
+
+TEST(StepBudget, IsAsAskedUntilAStepHasBeenTimed) {
+    StepBudget budget;
+    EXPECT_EQ(budget.steps(2), 2u);
+    budget.pictureTaken(0.2, 2);
+    EXPECT_EQ(budget.steps(2), 2u);
+}
+
+TEST(StepBudget, TakesASecondStepOnlyWherePicturesStayWithinTheGoal) {
+    const auto steps = [](double step, double rest) {
+        StepBudget budget;
+        for (int picture = 0; picture < 20; ++picture) {
+            budget.stepTimed(step);
+            const std::uint32_t taken = budget.steps(2);
+            budget.pictureTaken(taken * step + rest, taken);
+        }
+        return budget.steps(2);
+    };
+    EXPECT_EQ(steps(0.002, 0.014), 2u);
+    EXPECT_EQ(steps(0.016, 0.017), 2u);
+    EXPECT_EQ(steps(0.020, 0.015), 1u);
+    EXPECT_EQ(steps(0.060, 0.080), 1u); // however slow, time goes on
+    EXPECT_EQ(steps(0.001, 0.300), 1u);
 }
 
 } // namespace

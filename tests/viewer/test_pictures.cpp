@@ -240,6 +240,62 @@ TEST(Picture, HasSmoothEdgesWithFourSamples) {
     EXPECT_GT(between(a), 2 * between(b) + 50);
 }
 
+int largestDifference(const Picture& a, const Picture& b) {
+    EXPECT_EQ(a.pixels.size(), b.pixels.size());
+    int largest = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        largest = std::max(largest, std::abs(int{a.pixels[i]} - int{b.pixels[i]}));
+    return largest;
+}
+
+// While the camera rests, goes elsewhere and rests there, over a floor and without one.
+TEST(Picture, IsTheSameWithABackdropThatIsKept) {
+    for (const VkSampleCountFlagBits samples : {VK_SAMPLE_COUNT_1_BIT, VK_SAMPLE_COUNT_4_BIT})
+        for (const bool hasGround : {true, false}) {
+            const sim::Scene scene = block(0.3f, hasGround);
+            Quality drawn = quick, kept = quick;
+            drawn.samples = kept.samples = samples;
+            kept.keepsBackdrop = true;
+            Shot every(scene, viewOf(scene), drawn), once(scene, viewOf(scene), kept);
+            std::vector<Picture> pictures;
+            for (int picture = 0; picture < 8; ++picture) {
+                if (picture == 4) every.camera = once.camera = orbited(every.camera, {0.1f, -0.05f});
+                pictures.push_back(once.take(2));
+                EXPECT_LE(largestDifference(every.take(2), pictures.back()), 2)
+                    << samples << " samples, picture " << picture << (hasGround ? "" : " without a ground");
+            }
+            EXPECT_GT(largestDifference(pictures[3], pictures[2]), 20) << "the body stands still";
+        }
+}
+
+TEST(Backdrop, IsMadeInTheSecondPictureFromAPlace) {
+    const auto pass = RenderPass::colorMap(test::device(), VK_FORMAT_R8G8B8A8_SRGB, "test");
+    Backdrop backdrop(test::device(), pass, VK_FORMAT_R8G8B8A8_SRGB, {16, 16}, std::array<VkImageView, 1>{});
+    layout::FrameParams here{}, there{};
+    there.eye.x = 1;
+    using Use = Backdrop::Use;
+    EXPECT_EQ(backdrop.next(here), Use::direct);
+    EXPECT_EQ(backdrop.next(here), Use::made);
+    EXPECT_EQ(backdrop.next(here), Use::kept);
+    here.section.w = 3; // of bodies alone
+    EXPECT_EQ(backdrop.next(here), Use::kept);
+    EXPECT_EQ(backdrop.next(there), Use::direct);
+    EXPECT_EQ(backdrop.next(here), Use::direct);
+    EXPECT_EQ(backdrop.next(here), Use::made);
+    EXPECT_EQ(backdrop.next(here), Use::kept);
+}
+
+// A skin that is drawn inside out is seen, behind nothing, as one that is not.
+TEST(Picture, ShowsBacksWhereNoFrontHidesThem) {
+    sim::Scene scene = block(0.3f, true), turned = scene;
+    for (auto& triangle : turned.skins.front().triangles) std::swap(triangle[1], triangle[2]);
+    Shot plain(scene, viewOf(scene)), inverted(turned, viewOf(scene));
+    const Vector3 top{0, 0.7f, 0};
+    const Color shown = colorAt(inverted.take(), inverted.camera, top);
+    EXPECT_GT(redness(shown), 60);
+    EXPECT_NEAR(redness(shown), redness(colorAt(plain.take(), plain.camera, top)), 40);
+}
+
 TEST(Picture, LightsBothSidesOfCloth) {
     const auto seen = [](float side) {
         sim::Scene scene;

@@ -18,11 +18,19 @@ Canvas::Canvas(const vk::Device& device, const RenderPass& pass, const CanvasFor
                                                   .format = format.color,
                                                   .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
                                                   .samples = format.samples});
-    for (const VkImageView picture : pictures) {
-        std::vector<VkImageView> views{isResolved ? images_[1].view() : picture, images_[0].view()};
-        if (isResolved) views.push_back(picture);
-        framebuffers_.emplace_back(device, pass.handle(), views, extent, "canvas.framebuffer");
-    }
+    for (const VkImageView picture : pictures)
+        framebuffers_.emplace_back(device, pass.handle(), views(picture), extent, "canvas.framebuffer");
+}
+
+std::vector<VkImageView> Canvas::views(VkImageView picture) const {
+    const bool isResolved = images_.size() > 1;
+    std::vector<VkImageView> views{isResolved ? images_[1].view() : picture, images_[0].view()};
+    if (isResolved) views.push_back(picture);
+    return views;
+}
+
+void Canvas::addBackdrop(const vk::Device& device, const RenderPass& pass, VkFormat color) {
+    backdrop_.emplace(device, pass, color, extent_, views(VK_NULL_HANDLE));
 }
 
 void Canvas::addCounts(const vk::Device& device, const RenderPass& pass, VkSampleCountFlagBits samples) {

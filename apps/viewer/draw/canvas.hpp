@@ -2,6 +2,7 @@
 // picture.
 #pragma once
 
+#include "viewer/draw/backdrop.hpp"
 #include "viewer/draw/render_pass.hpp"
 
 namespace sinew::viewer {
@@ -26,6 +27,13 @@ public:
     VkImageView counts() const noexcept { return counts_[0].view(); } ///< where it hasCounts()
     VkFramebuffer countsFramebuffer() const noexcept { return countsFramebuffer_[0].handle(); } ///< likewise
 
+    /// Adds an image for what stands behind all bodies; `pass` is compatible with that of the pictures and
+    /// leaves it to be read. Throws vk::Error.
+    void addBackdrop(const vk::Device& device, const RenderPass& pass, VkFormat color);
+    bool hasBackdrop() const noexcept { return backdrop_.has_value(); }
+    Backdrop& backdrop() noexcept { return *backdrop_; }             ///< where it hasBackdrop()
+    const Backdrop& backdrop() const noexcept { return *backdrop_; } ///< likewise
+
     VkExtent2D extent() const noexcept { return extent_; }
     float aspect() const noexcept {
         return static_cast<float>(extent_.width) / static_cast<float>(extent_.height);
@@ -33,11 +41,14 @@ public:
     VkFramebuffer framebuffer(std::size_t picture) const noexcept { return framebuffers_[picture].handle(); }
 
 private:
+    std::vector<VkImageView> views(VkImageView picture) const; // as RenderPass::picture wants them
+
     VkExtent2D extent_;
     std::vector<Image> images_; ///< depth, then colour where there is more than one sample
     std::vector<Framebuffer> framebuffers_;
     std::vector<Image> counts_; ///< one or none, as the next
     std::vector<Framebuffer> countsFramebuffer_;
+    std::optional<Backdrop> backdrop_;
 };
 
 } // namespace sinew::viewer

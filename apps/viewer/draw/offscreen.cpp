@@ -31,13 +31,13 @@ Offscreen::Offscreen(const vk::Device& device, VkExtent2D extent, const StageLig
       canvas_(renderer_.makeCanvas(extent, std::array{image_.view()})) {}
 
 void Offscreen::record(VkCommandBuffer commands, const Camera& camera, const sim::Simulation& simulation,
-                       const Overlay& overlay) const noexcept {
+                       const Overlay& overlay) noexcept {
     recordPicture(commands, camera, simulation, overlay);
     recordCopy(commands);
 }
 
 void Offscreen::recordPicture(VkCommandBuffer commands, const Camera& camera,
-                              const sim::Simulation& simulation, const Overlay& overlay) const noexcept {
+                              const sim::Simulation& simulation, const Overlay& overlay) noexcept {
     renderer_.record(commands, 0, canvas_, 0, camera, simulation, overlay);
 }
 

@@ -17,12 +17,12 @@ public:
 
     /// Records picture and copy. As Renderer::record; the previous picture must be finished.
     void record(VkCommandBuffer commands, const Camera& camera, const sim::Simulation& simulation,
-                const Overlay& overlay = {}) const noexcept;
+                const Overlay& overlay = {}) noexcept;
 
     /// The same in two, for what draws over the picture in between: it finds and leaves view() in
     /// TRANSFER_SRC_OPTIMAL layout.
     void recordPicture(VkCommandBuffer commands, const Camera& camera, const sim::Simulation& simulation,
-                       const Overlay& overlay = {}) const noexcept;
+                       const Overlay& overlay = {}) noexcept;
     void recordCopy(VkCommandBuffer commands) const noexcept;
     VkImageView view() const noexcept { return image_.view(); }
 

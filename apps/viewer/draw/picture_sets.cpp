@@ -8,9 +8,10 @@ namespace sinew::viewer {
 
 namespace {
 
-constexpr std::uint32_t mapCount = 4;                 // light.glsl, floor.frag
-constexpr std::uint32_t countsBinding = 1 + mapCount; // section_cap.frag; frame.glsl has the first
-constexpr std::uint32_t bindingCount = countsBinding + 1;
+constexpr std::uint32_t mapCount = 4;                        // light.glsl, floor.frag
+constexpr std::uint32_t countsBinding = 1 + mapCount;        // section_cap.frag; frame.glsl has the first
+constexpr std::uint32_t backdropBinding = countsBinding + 1; // backdrop.frag
+constexpr std::uint32_t bindingCount = backdropBinding + 1;
 
 std::vector<vk::Buffer> makeParams(const vk::Device& device, std::uint32_t slots) {
     std::vector<vk::Buffer> params;
@@ -65,10 +66,19 @@ void PictureSets::writeSet(std::uint32_t slot, const LightMaps& maps) const {
 }
 
 void PictureSets::writeCounts(std::uint32_t slot, VkImageView counts, VkSampler sampler) const noexcept {
-    const VkDescriptorImageInfo image{sampler, counts, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    writeImage(slot, countsBinding, counts, sampler);
+}
+
+void PictureSets::writeBackdrop(std::uint32_t slot, VkImageView backdrop, VkSampler sampler) const noexcept {
+    writeImage(slot, backdropBinding, backdrop, sampler);
+}
+
+void PictureSets::writeImage(std::uint32_t slot, std::uint32_t binding, VkImageView view,
+                             VkSampler sampler) const noexcept {
+    const VkDescriptorImageInfo image{sampler, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
     const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                                      .dstSet = sets_.set(slot),
-                                     .dstBinding = countsBinding,
+                                     .dstBinding = binding,
                                      .descriptorCount = 1,
                                      .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                      .pImageInfo = &image};

@@ -21,9 +21,13 @@ public:
     void write(std::uint32_t slot, const layout::FrameParams& params) const noexcept;
     /// What a section has counted, where pipelines read it. Likewise.
     void writeCounts(std::uint32_t slot, VkImageView counts, VkSampler sampler) const noexcept;
+    /// What stands behind all bodies, likewise.
+    void writeBackdrop(std::uint32_t slot, VkImageView backdrop, VkSampler sampler) const noexcept;
     void bind(VkCommandBuffer commands, std::uint32_t slot) const noexcept { sets_.bind(commands, slot); }
 
 private:
+    void writeImage(std::uint32_t slot, std::uint32_t binding, VkImageView view,
+                    VkSampler sampler) const noexcept;
     void writeSet(std::uint32_t slot, const LightMaps& maps) const;
 
     const vk::Device& device_;

@@ -137,10 +137,14 @@ constexpr VkPipelineDynamicStateCreateInfo dynamicState{
     .pDynamicStates = dynamicStates.data()};
 constexpr VkPipelineViewportStateCreateInfo viewportState{
     .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, .viewportCount = 1, .scissorCount = 1};
-VkPipelineRasterizationStateCreateInfo rasterState(bool hasEdgesAlone) {
+constexpr std::array<VkCullModeFlags, 3> culls{
+    VK_CULL_MODE_NONE, VK_CULL_MODE_BACK_BIT,
+    VK_CULL_MODE_FRONT_BIT}; // in the order of PipelineRequest::Faces
+
+VkPipelineRasterizationStateCreateInfo rasterState(const PipelineRequest& request) {
     return {.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
-            .polygonMode = hasEdgesAlone ? VK_POLYGON_MODE_LINE : VK_POLYGON_MODE_FILL,
-            .cullMode = VK_CULL_MODE_NONE,
+            .polygonMode = request.hasEdgesAlone ? VK_POLYGON_MODE_LINE : VK_POLYGON_MODE_FILL,
+            .cullMode = culls[static_cast<std::size_t>(request.faces)],
             .frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE,
             .lineWidth = 1};
 }
@@ -167,7 +171,7 @@ VkPipeline create(const vk::Device& device, const PipelineRequest& request,
                   std::span<const VkPipelineShaderStageCreateInfo> stages) {
     const VkPipelineVertexInputStateCreateInfo input = vertexInput(request.input);
     const VkPipelineDepthStencilStateCreateInfo depth = depthState(request.depth);
-    const VkPipelineRasterizationStateCreateInfo raster = rasterState(request.hasEdgesAlone);
+    const VkPipelineRasterizationStateCreateInfo raster = rasterState(request);
     const VkPipelineInputAssemblyStateCreateInfo assembly{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO, .topology = request.topology};
     const VkPipelineMultisampleStateCreateInfo multisample{

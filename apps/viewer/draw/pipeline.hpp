@@ -42,13 +42,17 @@ struct PipelineRequest {
     } input = Input::none;
     enum class Depth { none, test, testAndWrite } depth = Depth::none;
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    enum class Faces {
+        all,
+        fronts,
+        backs
+    } faces = Faces::all;                                     ///< fronts are counter-clockwise in the picture
     bool hasEdgesAlone = false;                               ///< of triangles; only where drawsEdges()
     enum class Blend { none, over, sum } blend = Blend::none; ///< over what is there by alpha, or added to it
     std::span<const vk::SpecialisationConstant> constants; ///< of both stages; ids a shader lacks are ignored
 };
 
-/// A VkPipeline with dynamic viewport and scissor that draws both sides of triangles. Movable. Must not
-/// outlive its Device.
+/// A VkPipeline with dynamic viewport and scissor. Movable. Must not outlive its Device.
 class Pipeline {
 public:
     Pipeline(const vk::Device& device, const PipelineRequest& request);

@@ -35,6 +35,13 @@ struct Reader {
     VkPipelineStageFlags stage;
     VkAccessFlags access;
 };
+// Of pictures that pipelines of one pass are used for: the same for all, or the passes would not be
+// compatible.
+constexpr Reader anyReader{colorStage | VK_PIPELINE_STAGE_TRANSFER_BIT |
+                               VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+                           VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT};
+constexpr Reader sampling{VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT};
+
 Reader readerOf(VkImageLayout layout) {
     return layout == VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL
                ? Reader{VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT}
@@ -63,7 +70,6 @@ std::array<VkSubpassDependency, 2> between(const Reader& reader, const Drawing& 
 
 constexpr Drawing colors{colorStage, colorAccess, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT};
 constexpr Drawing depths{depthStages, depthAccess, VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
-constexpr Reader sampling{VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT};
 
 VkRenderPassCreateInfo passInfo(std::span<const VkAttachmentDescription> attachments,
                                 const VkSubpassDescription& subpass,
@@ -127,11 +133,10 @@ RenderPass RenderPass::picture(const vk::Device& device, const Picture& picture)
                                        .pColorAttachments = &colorReference,
                                        .pResolveAttachments = isResolved ? &resolve : nullptr,
                                        .pDepthStencilAttachment = &depth};
-    const auto [copyStage, copyAccess] = readerOf(picture.finalLayout);
     const std::array dependencies{
         VkSubpassDependency{.srcSubpass = VK_SUBPASS_EXTERNAL,
                             .dstSubpass = 0,
-                            .srcStageMask = colorStage | depthStages | copyStage,
+                            .srcStageMask = colorStage | depthStages | anyReader.stage,
                             .dstStageMask = colorStage | depthStages,
                             .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT |
                                              VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
@@ -139,9 +144,9 @@ RenderPass RenderPass::picture(const vk::Device& device, const Picture& picture)
         VkSubpassDependency{.srcSubpass = 0,
                             .dstSubpass = VK_SUBPASS_EXTERNAL,
                             .srcStageMask = colorStage,
-                            .dstStageMask = copyStage,
+                            .dstStageMask = anyReader.stage,
                             .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
-                            .dstAccessMask = copyAccess}};
+                            .dstAccessMask = anyReader.access}};
     return RenderPass(device, passInfo(attachments, subpass, dependencies), "picture");
 }
 

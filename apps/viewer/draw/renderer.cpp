@@ -20,6 +20,8 @@ constexpr sim::Vec3 handColor{0.95f, 0.62f, 0.10f}, strokeColor{0.10f, 0.55f, 0.
 
 constexpr std::array plan{vk::SpecialisationConstant{3, 1}};
 
+constexpr std::array empty{VkClearValue{.color = {{0, 0, 0, 1}}}, VkClearValue{.depthStencil = {1, 0}}};
+
 bool isSrgb(VkFormat format) {
     return format == VK_FORMAT_R8G8B8A8_SRGB || format == VK_FORMAT_B8G8R8A8_SRGB;
 }
@@ -39,7 +41,12 @@ VkFormat canvasDepthFormat(const vk::Device& device) {
 } // namespace
 
 Quality reducedQuality() {
-    return {.shadowSize = 1024, .floorSize = 256, .shadowTaps = 12, .skyTaps = 20};
+    return {.shadowSize = 1024,
+            .floorSize = 160,
+            .shadowTaps = 8,
+            .skyTaps = 20,
+            .samples = VK_SAMPLE_COUNT_1_BIT,
+            .keepsBackdrop = true};
 }
 
 bool isSoftware(const vk::Device& device) {
@@ -67,6 +74,7 @@ Renderer::Renderer(const vk::Device& device, const Target& target, const Quality
     createPipelines();
     createCutPipelines();
     if (!balls_.ranges().empty()) createBallPipelines();
+    if (quality.keepsBackdrop) createBackdrop();
 }
 
 void Renderer::addPipeline(std::size_t index, PipelineRequest request) {
@@ -110,7 +118,11 @@ void Renderer::createPipelines() {
     request.vertex = &shaders::skinVert;
     request.fragment = &shaders::skinFrag;
     request.input = Input::positionsAndNormals;
+    request.faces = PipelineRequest::Faces::fronts;
     addPipeline(skinPipeline, request);
+    request.name = "picture.skin_backs";
+    request.faces = PipelineRequest::Faces::backs;
+    addPipeline(skinBacksPipeline, request);
     request = litRequest("hand");
     request.vertex = &shaders::handVert;
     request.fragment = &shaders::skinFrag;
@@ -126,6 +138,19 @@ void Renderer::createPipelines() {
     request.fragment = &shaders::skyFrag;
     request.depth = PipelineRequest::Depth::test;
     addPipeline(skyPipeline, request);
+}
+
+void Renderer::createBackdrop() {
+    backdropPass_.emplace(
+        RenderPass::picture(device_, {.color = format_.color,
+                                      .depth = format_.depth,
+                                      .samples = format_.samples,
+                                      .finalLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}));
+    PipelineRequest request = litRequest("backdrop");
+    request.vertex = &shaders::screenVert;
+    request.fragment = &shaders::backdropFrag;
+    request.depth = PipelineRequest::Depth::test;
+    addPipeline(backdropPipeline, request);
 }
 
 void Renderer::createCutPipelines() {
@@ -158,16 +183,21 @@ void Renderer::createBallPipelines() {
 }
 
 Canvas Renderer::makeCanvas(VkExtent2D extent, std::span<const VkImageView> pictures) const {
-    return Canvas(device_, pass_, format_, extent, pictures);
+    Canvas canvas(device_, pass_, format_, extent, pictures);
+    if (backdropPass_) canvas.addBackdrop(device_, *backdropPass_, format_.color);
+    return canvas;
 }
 
-void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, const Canvas& canvas, std::size_t picture,
+void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, Canvas& canvas, std::size_t picture,
                       const Camera& camera, const sim::Simulation& simulation,
                       const Overlay& overlay) const noexcept {
-    sets_.write(slot, frameParams(light_, camera, canvas.aspect(), overlay.layers.section));
+    const layout::FrameParams params = frameParams(light_, camera, canvas.aspect(), overlay.layers.section);
+    sets_.write(slot, params);
     const bool isOpened = overlay.layers.section && canvas.hasCounts() && has(capPipeline);
     // Else something that is there: drivers look at a set as a whole.
     sets_.writeCounts(slot, isOpened ? canvas.counts() : maps_.floor.image.view(), maps_.nearest());
+    const Sheet sheet{canvas, picture, slot};
+    const Backdrop::Use backdrop = prepareBackdrop(sheet, params);
     sets_.bind(commands, slot);
     vk::Commands labels(device_, commands);
     labels.beginLabel("light maps");
@@ -178,8 +208,13 @@ void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, const Canvas
         recordCounts(commands, canvas, simulation, overlay);
         labels.endLabel();
     }
+    if (backdrop == Backdrop::Use::made) {
+        labels.beginLabel("backdrop");
+        recordBackdrop(commands, canvas, params);
+        labels.endLabel();
+    }
     labels.beginLabel("picture");
-    recordPicture(commands, canvas, picture, simulation, overlay, slot);
+    recordPicture(commands, sheet, simulation, overlay, params, backdrop != Backdrop::Use::direct);
     labels.endLabel();
 }
 
@@ -218,36 +253,57 @@ void Renderer::recordMaps(VkCommandBuffer commands, const sim::Simulation& simul
     functions.vkCmdEndRenderPass(commands);
 }
 
-void Renderer::recordPicture(VkCommandBuffer commands, const Canvas& canvas, std::size_t picture,
-                             const sim::Simulation& simulation, const Overlay& overlay,
-                             std::uint32_t slot) const noexcept {
-    const vk::DeviceFunctions& functions = device_.functions();
-    const std::array clear{VkClearValue{.color = {{0, 0, 0, 1}}}, VkClearValue{.depthStencil = {1, 0}}};
-    begin(commands, pass_, canvas.framebuffer(picture), canvas.extent(), clear);
-    drawColliders(commands, skinPipeline, simulation);
-    drawPokes(commands, skinPipeline, simulation);
+Backdrop::Use Renderer::prepareBackdrop(const Sheet& sheet,
+                                        const layout::FrameParams& params) const noexcept {
+    Canvas& canvas = sheet.canvas;
+    const Backdrop::Use use = canvas.hasBackdrop() ? canvas.backdrop().next(params) : Backdrop::Use::direct;
+    const bool isRead = use != Backdrop::Use::direct;
+    sets_.writeBackdrop(sheet.slot, isRead ? canvas.backdrop().view() : maps_.floor.image.view(),
+                        maps_.nearest());
+    return use;
+}
+
+void Renderer::recordBackdrop(VkCommandBuffer commands, const Canvas& canvas,
+                              const layout::FrameParams& params) const noexcept {
+    begin(commands, *backdropPass_, canvas.backdrop().framebuffer(), canvas.extent(), empty);
+    if (light_.ground) drawGround(commands, params, false);
+    drawScreen(commands, skyPipeline);
+    device_.functions().vkCmdEndRenderPass(commands);
+}
+
+void Renderer::recordPicture(VkCommandBuffer commands, const Sheet& sheet, const sim::Simulation& simulation,
+                             const Overlay& overlay, const layout::FrameParams& params,
+                             bool hasBackdrop) const noexcept {
+    const Canvas& canvas = sheet.canvas;
+    begin(commands, pass_, canvas.framebuffer(sheet.picture), canvas.extent(), empty);
     const Layers& layers = overlay.layers;
+    drawThings(commands, simulation, layers, skinPipeline);
+    drawThings(commands, simulation, layers, skinBacksPipeline);
     if (layers.map != ColorMap::none) {
         drawValues(commands, simulation, overlay);
     } else {
         drawBalls(commands, opened(ballPipeline, layers), simulation, overlay);
-        if (layers.skin == SkinLook::solid) {
-            drawSkins(commands, opened(skinPipeline, layers), simulation);
+        if (layers.skin == SkinLook::solid)
             drawCuts(commands, opened(insidePipeline, layers), opened(clippedPipeline, layers), simulation);
-        }
     }
     drawCap(commands, canvas, layers);
     if (overlay.hand) drawHand(commands, simulation, *overlay.hand, handColor, 1);
     for (const Hand& pin : overlay.pins) drawHand(commands, simulation, pin, pinColor, -1);
-    drawStroke(commands, overlay.stroke, slot);
-    if (light_.ground) {
-        bind(commands, groundPipeline);
-        functions.vkCmdDraw(commands, 4, 1, 0, 0);
-    }
-    bind(commands, skyPipeline);
-    functions.vkCmdDraw(commands, 3, 1, 0, 0);
+    drawStroke(commands, overlay.stroke, sheet.slot);
+    if (light_.ground) drawGround(commands, params, hasBackdrop);
+    drawScreen(commands, hasBackdrop ? backdropPipeline : skyPipeline);
     recordLayers(commands, simulation, overlay);
-    functions.vkCmdEndRenderPass(commands);
+    device_.functions().vkCmdEndRenderPass(commands);
+}
+
+// What a mesh bounds, in one draw for fronts and one for backs: of what is solid the backs are hidden then,
+// and no light is reckoned for what the next triangle covers.
+void Renderer::drawThings(VkCommandBuffer commands, const sim::Simulation& simulation, const Layers& layers,
+                          std::size_t pipeline) const noexcept {
+    drawColliders(commands, pipeline, simulation);
+    drawPokes(commands, pipeline, simulation);
+    if (layers.map == ColorMap::none && layers.skin == SkinLook::solid)
+        drawSkins(commands, opened(pipeline, layers), simulation);
 }
 
 void Renderer::begin(VkCommandBuffer commands, const RenderPass& pass, VkFramebuffer framebuffer,
@@ -292,6 +348,21 @@ void Renderer::push(VkCommandBuffer commands, const layout::SkinPush& values) co
     device_.functions().vkCmdPushConstants(commands, sets_.layout(),
                                            VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
                                            sizeof(values), &values);
+}
+
+void Renderer::drawScreen(VkCommandBuffer commands, std::size_t pipeline) const noexcept {
+    bind(commands, pipeline);
+    device_.functions().vkCmdDraw(commands, 3, 1, 0, 0);
+}
+
+// Up to the haze, or as far as bodies darken it.
+void Renderer::drawGround(VkCommandBuffer commands, const layout::FrameParams& params,
+                          bool isLitAlone) const noexcept {
+    bind(commands, groundPipeline);
+    const layout::vec4 whole{params.stage.x, params.stage.z, 1.05f * params.ground.z, 0};
+    const layout::vec4 lit{params.floor.x, params.floor.y, 0.5f * params.floor.z, 0};
+    push(commands, {isLitAlone ? lit : whole, {}, {}, {}});
+    device_.functions().vkCmdDraw(commands, 4, 1, 0, 0);
 }
 
 void Renderer::drawColliders(VkCommandBuffer commands, std::size_t pipeline,

@@ -18,9 +18,10 @@ struct Quality {
     std::uint32_t floorSize = 512;                         ///< of the map of the floor's light, pixels a side
     std::uint32_t shadowTaps = 32, skyTaps = 96;           ///< per pixel
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_4_BIT; ///< 1 and 4 work on every device
+    bool keepsBackdrop = false; ///< sky and far floor, while the camera rests: where shading is dear
 };
 
-/// For a window on a software device: smaller maps, fewer taps.
+/// For moving pictures in a window on a software device: smaller maps, fewer taps, one sample.
 Quality reducedQuality();
 
 /// Whether a device of our own making draws the edges of triangles.
@@ -54,7 +55,7 @@ public:
     /// `simulation` in the same queue. `slot` < slots; its previous picture must be finished. Leaves the
     /// picture in the final layout. The layers of `overlay` must be prepared; what the device cannot draw of
     /// them is left out.
-    void record(VkCommandBuffer commands, std::uint32_t slot, const Canvas& canvas, std::size_t picture,
+    void record(VkCommandBuffer commands, std::uint32_t slot, Canvas& canvas, std::size_t picture,
                 const Camera& camera, const sim::Simulation& simulation,
                 const Overlay& overlay = {}) const noexcept;
 
@@ -75,6 +76,7 @@ private:
     PipelineRequest litRequest(const std::string& name) const;
     void createMapPipelines();
     void createPipelines();
+    void createBackdrop();
     void createCutPipelines();
     void createBallPipelines();
     void recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation,
@@ -88,14 +90,28 @@ private:
                    const Overlay& overlay) const noexcept;
     void drawValues(VkCommandBuffer commands, const sim::Simulation& simulation,
                     const Overlay& overlay) const noexcept;
-    void recordPicture(VkCommandBuffer commands, const Canvas& canvas, std::size_t picture,
-                       const sim::Simulation& simulation, const Overlay& overlay,
-                       std::uint32_t slot) const noexcept;
+    /// What is drawn into.
+    struct Sheet {
+        Canvas& canvas;
+        std::size_t picture;
+        std::uint32_t slot;
+    };
+    Backdrop::Use prepareBackdrop(const Sheet& sheet, const layout::FrameParams& params) const noexcept;
+    void recordBackdrop(VkCommandBuffer commands, const Canvas& canvas,
+                        const layout::FrameParams& params) const noexcept;
+    void recordPicture(VkCommandBuffer commands, const Sheet& sheet, const sim::Simulation& simulation,
+                       const Overlay& overlay, const layout::FrameParams& params,
+                       bool hasBackdrop) const noexcept;
+    void drawScreen(VkCommandBuffer commands, std::size_t pipeline) const noexcept;
+    void drawGround(VkCommandBuffer commands, const layout::FrameParams& params,
+                    bool isLitAlone) const noexcept;
     void begin(VkCommandBuffer commands, const RenderPass& pass, VkFramebuffer framebuffer, VkExtent2D extent,
                std::span<const VkClearValue> clear) const noexcept;
     void bind(VkCommandBuffer commands, std::size_t pipeline) const noexcept;
     void drawSkins(VkCommandBuffer commands, std::size_t pipeline, const sim::Simulation& simulation,
                    const LayerBuffers& buffers = {}) const noexcept;
+    void drawThings(VkCommandBuffer commands, const sim::Simulation& simulation, const Layers& layers,
+                    std::size_t pipeline) const noexcept;
     void drawColliders(VkCommandBuffer commands, std::size_t pipeline,
                        const sim::Simulation& simulation) const noexcept;
     void drawPokes(VkCommandBuffer commands, std::size_t pipeline,
@@ -130,8 +146,10 @@ private:
         planPipeline,
         floorPipeline,
         skinPipeline,
+        skinBacksPipeline,
         groundPipeline,
         skyPipeline,
+        backdropPipeline,
         handPipeline,
         insidePipeline,
         clippedPipeline,
@@ -157,7 +175,8 @@ private:
     std::array<PipelineRequest, pipelineCount> requests_; // of those that there are
     // Of layers where they were prepared; behind them, in the same order, what a section makes of them.
     std::array<std::optional<Pipeline>, 2 * pipelineCount> pipelines_;
-    std::optional<RenderPass> countsPass_; // of a section
+    std::optional<RenderPass> countsPass_;   // of a section
+    std::optional<RenderPass> backdropPass_; // where a backdrop is kept
 };
 
 } // namespace sinew::viewer

@@ -30,7 +30,7 @@ void main() {
     const vec3 floorColor = albedo * pool / pi * (keyLight * frame.toLight.y * light.x + skyLight * open);
 
     const vec3 ray = worldPosition - frame.eye.xyz;
-    const vec3 haze = skyColor(normalize(vec3(ray.x, 0.0, ray.z)));
-    const float faded = smoothstep(0.0, 1.0, length(fromStage) / frame.ground.z);
-    shown = finish(mix(floorColor, haze, 1.0 - pow(1.0 - faded, 3.0)), gl_FragCoord.xy);
+    const vec3 haze = skyHorizon + glowAround(normalize(vec3(ray.x, 0.0, ray.z)));
+    const float clear = 1.0 - smoothstep(0.0, 1.0, length(fromStage) / frame.ground.z);
+    shown = finish(mix(haze, floorColor, clear * clear * clear), gl_FragCoord.xy);
 }

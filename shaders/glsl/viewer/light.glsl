@@ -15,12 +15,17 @@ const vec3 skyHorizon = vec3(0.90, 0.965, 1.01);
 const vec3 floorAlbedo = vec3(0.73, 0.745, 0.77);
 const float lightRadius = 0.085; // tangent of the key light's angular radius: how fast a penumbra widens
 
+// Towards the lamp, level or nearly so.
+vec3 glowAround(vec3 direction) {
+    const float glow = max(dot(direction, normalize(vec3(frame.toLight.x, 0.25, frame.toLight.z))), 0.0);
+    return vec3(0.10, 0.085, 0.06) * (glow * glow) * (glow * glow);
+}
+
 vec3 skyColor(vec3 direction) {
     const float up = direction.y;
-    const vec3 dome = mix(skyHorizon, skyZenith, 1.0 - exp(-7.5 * max(up, 0.0)));
-    const float glow = max(dot(direction, normalize(vec3(frame.toLight.x, 0.25, frame.toLight.z))), 0.0);
-    const vec3 lower = skyHorizon * mix(1.0, 0.62, 1.0 - exp(4.0 * min(up, 0.0)));
-    return (up > 0.0 ? dome : lower) + vec3(0.10, 0.085, 0.06) * pow(glow, 4.0) * exp(-6.0 * abs(up));
+    const float near = exp(up > 0.0 ? -7.5 * up : 4.0 * up);
+    const vec3 away = up > 0.0 ? skyZenith : 0.62 * skyHorizon;
+    return mix(away, skyHorizon, near) + glowAround(direction) * exp(-6.0 * abs(up));
 }
 
 // Shares of the key light and of the sky at the floor below a place, see floor.frag.

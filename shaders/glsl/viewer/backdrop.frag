@@ -1,0 +1,9 @@
+#version 460
+// What was drawn where no body stands, kept from an earlier picture.
+layout(set = 0, binding = 6) uniform sampler2D kept;
+layout(location = 0) in vec2 clip;
+layout(location = 0) out vec4 shown;
+
+void main() {
+    shown = texelFetch(kept, ivec2(gl_FragCoord.xy), 0);
+}
