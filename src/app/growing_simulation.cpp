@@ -10,10 +10,13 @@ namespace sinew::app {
 
 namespace {
 
-constexpr std::uint32_t granule = 8; // so that a scene that fills up slowly does not grow step by step
+constexpr std::uint32_t granule = 8;
 
+// Half as much again: a scene that fills up would else grow every few steps, each time with all its pipelines
+// anew.
 std::uint32_t roomFor(std::uint32_t needed) {
-    return std::min((needed + granule - 1) / granule * granule, sim::ranges::mostContactRoom);
+    const std::uint32_t roomy = needed + needed / 2;
+    return std::min((roomy + granule - 1) / granule * granule, sim::ranges::mostContactRoom);
 }
 
 } // namespace
