@@ -60,7 +60,11 @@ public:
                 const Overlay& overlay = {}) const noexcept;
 
 private:
+    static constexpr sim::Vec3 handColor{0.95f, 0.62f, 0.10f}, pinColor{0.02f, 0.30f, 0.72f};
+
     void addPipeline(std::size_t index, PipelineRequest request);
+    void addLit(std::size_t index, PipelineRequest request);
+    void addDepths(std::size_t ofShadow, std::size_t ofPlan, const PipelineRequest& request);
     /// The form of a pipeline that leaves away what a section does, where there is one.
     std::size_t opened(std::size_t pipeline, const Layers& layers) const noexcept {
         return layers.section && has(pipeline + pipelineCount) ? pipeline + pipelineCount : pipeline;
@@ -73,7 +77,6 @@ private:
     void prepareLinks();
     void prepareSection(Canvas& canvas);
     void prepareCounts();
-    PipelineRequest litRequest(const std::string& name) const;
     void createMapPipelines();
     void createPipelines();
     void createBackdrop();

@@ -82,10 +82,10 @@ void Renderer::prepareCounts() {
     add(ballCountPipeline, "balls", shaders::ballVert, shaders::ballCountFrag, Input::balls);
     add(ballValuesCountPipeline, "ball_values", shaders::ballValuesVert, shaders::ballValuesCountFrag,
         Input::ballValues);
-    request = litRequest("section_cap");
-    request.vertex = &shaders::screenVert;
-    request.fragment = hasOneSample ? &shaders::sectionCapSingleFrag : &shaders::sectionCapFrag;
-    addPipeline(capPipeline, request);
+    addLit(capPipeline, {.name = "section_cap",
+                         .vertex = &shaders::screenVert,
+                         .fragment = hasOneSample ? &shaders::sectionCapSingleFrag : &shaders::sectionCapFrag,
+                         .depth = PipelineRequest::Depth::testAndWrite});
 }
 
 // Only what is drawn as a solid. Particles inside a solid skin are hidden by its cap.
