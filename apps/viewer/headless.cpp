@@ -128,11 +128,12 @@ public:
         if (tools_) tools_->restart({}, 0);
     }
 
-    /// Of a replay, what came after its last step, and the state in which it was left.
+    /// Of a replay, what came after its last step, and the state in which it was left; likewise of what went
+    /// on from a saved one.
     void finishReplay() {
-        if (!replay_) return;
+        if (!replay_ && !opening_.run) return;
         const bool isWhole = playHistory() == Replay::Due::nothing;
-        if (isWhole && !isCompared_) return compareReplay();
+        if (replay_ && isWhole && !isCompared_) return compareReplay();
         settle();
         std::printf("%s\n", hashText(stateHash(device_, stage_, queue_), stage_.steps()).c_str());
     }
@@ -192,12 +193,13 @@ private:
     }
 
     void submit(std::uint64_t frame) {
+        if (frame == 0 && opening_.run) stage_.load(device_, *opening_.run, queue_);
         VkCommandBuffer commands = queue_.begin();
         Submission next{.frame = frame, .value = 0, .hands = {}, .gravity = stage_.gravity()};
         if (tools_ && frame > 0) next.hands = tools_->takeStep(commands, stage_);
-        if (frame == 0)
+        if (frame == 0 && !opening_.run)
             stage_.recordReset(commands);
-        else
+        else if (frame > 0)
             record(commands, next);
         next.value = queue_.submit(commands);
         if (times_ && frame > 0) times_->submitted();

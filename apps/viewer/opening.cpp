@@ -2,6 +2,7 @@
 #include "viewer/opening.hpp"
 
 #include "sim/compile.hpp"
+#include "sim/ranges.hpp"
 #include "viewer/prepared_show.hpp"
 
 #include <cstdio>
@@ -27,6 +28,15 @@ Camera firstView(const scenes::LoadedScene& loaded, float aspect) {
     return camera;
 }
 
+// Of a saved state, which was there with this solver and so many substeps.
+Options withScene(Options options, const app::SavedRun& run) {
+    options.scene.clear();
+    (run.scene.starts_with('/') ? options.scene : options.builtIn) = run.scene;
+    if (!options.overrides.solver) options.overrides.solver = sim::solverName(run.settings.solver);
+    if (!options.overrides.substeps) options.overrides.substeps = run.settings.substeps;
+    return options;
+}
+
 // "12,345".
 std::string grouped(std::size_t number) {
     std::string digits = std::to_string(number);
@@ -40,16 +50,27 @@ Opening::Opening() = default;
 Opening::Opening(Opening&&) noexcept = default;
 Opening::~Opening() = default;
 
-Opening open(const Options& options, float aspect) {
+Opening open(const Options& asked, float aspect) {
     Opening opening;
+    if (app::isRunFile(asked.scene)) opening.run = app::readRun(asked.scene);
+    const Options options = opening.run ? withScene(asked, *opening.run) : asked;
     opening.loaded = options.scene.empty() ? scenes::loadBuiltIn(options.builtIn, options.overrides)
                                            : scenes::load(options.scene, options.overrides);
     for (const std::string& warning : opening.loaded.warnings)
         std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    if (opening.run) {
+        opening.loaded.settings = app::withRun(opening.loaded.settings, *opening.run);
+        addHands(opening.loaded.settings);
+    }
     opening.camera = firstView(opening.loaded, aspect);
     opening.light = lightFor(opening.loaded.scene, opening.camera);
     opening.light.showsSleep = opening.loaded.settings.sleeps;
     return opening;
+}
+
+void addHands(sim::Settings& settings) {
+    settings.grabs = sim::ranges::mostGrabs;
+    settings.pokes = 1;
 }
 
 vk::DeviceRequest deviceRequest(const Options& options, std::atomic<std::size_t>& messages) {

@@ -1,6 +1,7 @@
 // What a window and a headless run begin with: the scene, the first view of it, its light.
 #pragma once
 
+#include "app/state_file.hpp"
 #include "viewer/draw/png.hpp"
 #include "viewer/draw/stage_light.hpp"
 #include "viewer/hands/input_log.hpp"
@@ -31,16 +32,20 @@ struct Opening {
     Camera camera;
     StageLight light;
     std::optional<Again> again;
-    std::optional<InputFile> input; ///< to be played
+    std::optional<InputFile> input;   ///< to be played
+    std::optional<app::SavedRun> run; ///< to go on from
 
     std::unique_ptr<vk::Device> device; ///< for a window; the next two are on it
     std::unique_ptr<Place> place;
     std::unique_ptr<PreparedShow> prepared;
 };
 
-/// Loads the scene, prints its warnings to stderr and looks at it: from where the file says, or with every
-/// body in a picture `aspect` wide. Throws as scenes::load.
+/// Loads the scene, or that of a saved state, prints its warnings to stderr and looks at it: from where the
+/// file says, or with every body in a picture `aspect` wide. Throws as scenes::load and app::readRun.
 Opening open(const Options& options, float aspect);
+
+/// For the pointer and its pins, and a sphere: what holds and pushes nothing costs nothing.
+void addHands(sim::Settings& settings);
 
 /// Asks for a device that draws, and for validation where the options do; each message goes to stderr and is
 /// counted in `messages`, which must outlive the device and is counted up in any thread.

@@ -17,8 +17,8 @@ namespace sinew::viewer {
 namespace {
 
 constexpr const char* description =
-    R"(Shows soft bodies: opens a scene (TOML) or drops a mesh (OBJ, STL, PLY, glTF, GLB), simulates
-it on a Vulkan device and draws it, in a window or, with --headless, to pictures.)";
+    R"(Shows soft bodies: opens a scene (TOML) or a saved state, or drops a mesh (OBJ, STL, PLY, glTF,
+GLB), simulates it on a Vulkan device and draws it, in a window or, with --headless, to pictures.)";
 
 constexpr const char* exitCodes =
     R"(Exit codes: 0 done, 2 wrong usage, 3 bad scene or mesh, 4 no usable device or display, 5 device lost
@@ -56,8 +56,8 @@ CLI::Range within(const sim::Range& range) {
 }
 
 void addSceneOptions(CLI::App& app, Options& options) {
-    app.add_option("SCENE|MESH", options.scene,
-                   "scene file or mesh; without one the built-in scenes/organ.toml");
+    app.add_option("SCENE|MESH|STATE", options.scene,
+                   "scene file, mesh or saved state; without one the built-in scenes/organ.toml");
     app.add_option("--device", options.device, "index as `sinew devices` prints it, or part of a name");
     app.add_option("--solver", options.overrides.solver, "instead of the scene's")
         ->check(CLI::IsMember(sim::solverNames()));

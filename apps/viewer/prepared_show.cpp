@@ -2,7 +2,6 @@
 #include "viewer/prepared_show.hpp"
 
 #include "sim/gpu_tune.hpp"
-#include "sim/ranges.hpp"
 #include "viewer/draw/image.hpp"
 #include "viewer/gauges.hpp"
 #include "vk/queue.hpp"
@@ -11,13 +10,12 @@ namespace sinew::viewer {
 
 namespace {
 
-// With hands for the pointer and its pins, and a sphere: what holds and pushes nothing costs nothing.
-sim::Settings fastest(const vk::Device& device, const scenes::LoadedScene& loaded) {
+// A state that was saved has forms of its own.
+sim::Settings fastest(const vk::Device& device, const Opening& opening) {
     vk::Queue queue(device);
-    sim::Settings settings = loaded.settings;
-    settings.grabs = sim::ranges::mostGrabs;
-    settings.pokes = 1;
-    return sim::tuned(device, queue, loaded.scene, settings);
+    sim::Settings settings = opening.loaded.settings;
+    addHands(settings);
+    return opening.run ? settings : sim::tuned(device, queue, opening.loaded.scene, settings);
 }
 
 // A picture that nobody sees.
@@ -57,13 +55,17 @@ View::View(const vk::Device& device, VkFormat format, const Quality& quality, co
     : renderer(device, {.color = format, .finalLayout = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR}, quality, light) {}
 
 PreparedShow::PreparedShow(const vk::Device& device, const Opening& opening, VkFormat format)
-    : stage(device, opening.loaded.scene, fastest(device, opening.loaded)),
+    : stage(device, opening.loaded.scene, fastest(device, opening)),
       facts(sceneFacts(opening, stage, device)),
       moving(device, format, isSoftware(device) ? reducedQuality() : Quality{}, opening.light) {
     stage.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
-    if (!isSoftware(device)) return;
-    still.emplace(device, format, Quality{}, opening.light);
-    warmUp(device, *this, format, opening.camera);
+    if (isSoftware(device)) {
+        still.emplace(device, format, Quality{}, opening.light);
+        warmUp(device, *this, format, opening.camera);
+    }
+    if (!opening.run) return;
+    vk::Queue queue(device);
+    stage.load(device, *opening.run, queue);
 }
 
 void prepare(Opening& opening, const vk::Device& device, const Window& window) {

@@ -30,10 +30,11 @@ struct View {
 
 /// Must not outlive opening and device, which must not move.
 struct PreparedShow {
-    /// Throws std::invalid_argument and vk::Error, as sim::Simulation. `format` of the window's pictures.
+    /// Throws std::invalid_argument and vk::Error, as sim::Simulation, and as Stage::load. `format` of the
+    /// window's pictures.
     PreparedShow(const vk::Device& device, const Opening& opening, VkFormat format);
 
-    Stage stage; ///< to be reset before its first step
+    Stage stage; ///< to be reset before its first step, unless it goes on from a saved state
     SceneFacts facts;
     View moving;
     std::optional<View> still; ///< where `moving` has less than full quality

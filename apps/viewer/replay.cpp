@@ -5,6 +5,7 @@
 #include "app/hash.hpp"
 #include "viewer/draw/stage.hpp"
 #include "viewer/hands/state_probe.hpp"
+#include "viewer/opening.hpp"
 #include "viewer/tools.hpp"
 
 #include <algorithm>
@@ -79,8 +80,7 @@ Options withReplay(Options options, const InputFile& file) {
 }
 
 void prepareForReplay(sim::Settings& settings, const InputFile& file) {
-    settings.grabs = sim::ranges::mostGrabs;
-    settings.pokes = 1;
+    addHands(settings);
     settings.contactRoom = std::clamp(file.room, settings.contactRoom, sim::ranges::mostContactRoom);
     settings.cutSurfaceRoom =
         std::clamp(file.surface, settings.cutSurfaceRoom, sim::ranges::mostCutSurfaceRoom);

@@ -36,7 +36,7 @@ Show::Show(Screen& screen, Library& library, const Devices& devices, const vk::D
         times_.emplace_back(device, spans);
         drawingTimes_.emplace_back(device, 2);
     }
-    controller_.playback.reset(); // fills the buffers
+    if (!isFromState_) controller_.playback.reset(); // fills the buffers
     if (opening_.again) goOn(*opening_.again);
     if (opening_.input) replay_.emplace(*opening_.input);
 }

@@ -84,6 +84,8 @@ private:
     bool mayOpen();
     std::string nameAt(std::uint64_t step) const;
     void saveInput();
+    void saveState();
+    std::string sceneName() const;
     bool playInput(const Presenter::Frame& frame);
     void endReplay();
     void compareReplay();
@@ -158,9 +160,10 @@ private:
     StatusLine status_;
     Clock::time_point lastTurn_ = Clock::now(), lastChange_ = lastTurn_, lastStrain_ = lastTurn_;
     Shown shown_ = Shown::nothing;
-    std::uint32_t surfaceMissing_ = 0; // Status::cutSurfaceMissing of the newest settled step
-    std::uint32_t panelsDue_ = 0;      // pictures until the panels look as they should
-    std::uint32_t cutFrames_ = 0;      // pictures that may still wait for a cut
+    std::uint32_t surfaceMissing_ = 0;            // Status::cutSurfaceMissing of the newest settled step
+    std::uint32_t panelsDue_ = 0;                 // pictures until the panels look as they should
+    std::uint32_t cutFrames_ = 0;                 // pictures that may still wait for a cut
+    bool isFromState_ = opening_.run.has_value(); // until the reset
     bool isHidden_ = false, isDiverged_ = false, isSurfaceMissing_ = false, isCut_ = false,
          wantsScreenshot_ = false, wantsProbe_ = false;
 };

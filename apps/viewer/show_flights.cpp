@@ -24,6 +24,7 @@ void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
         if (replay_) tools_.putAway(stage_);
         tools_.reset();
         if (replay_) replay_->restart();
+        isFromState_ = false;
         forgetFlights();
         isDiverged_ = false;
     }

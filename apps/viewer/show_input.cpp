@@ -132,6 +132,9 @@ void Show::handle(Action action) {
     case Action::saveInput:
         saveInput();
         break;
+    case Action::saveState:
+        saveState();
+        break;
     case Action::times:
         screen_.tell(screen_.timing().times().summary());
         screen_.timing().printTable();

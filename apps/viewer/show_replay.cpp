@@ -1,9 +1,10 @@
-// What hands did, saved and played again in the window.
+// What hands did, saved and played again in the window; states that are saved.
 #include "viewer/show.hpp"
 
 #include "app/guard.hpp"
 #include "mesh/export.hpp"
 #include "viewer/window/preferences.hpp"
+#include "vk/check.hpp"
 #include "vk/queue.hpp"
 
 #include <cstdio>
@@ -16,8 +17,11 @@ namespace sinew::viewer {
 void Show::saveInput() {
     settleAll();
     if (isDiverged_) return screen_.tell("a state that is no more cannot be reached again");
+    if (isFromState_)
+        return screen_.tell("what hands did since a state was loaded is saved with the state alone: " +
+                            std::string(keyOf(Action::saveState)));
     const Options& options = library_.shown();
-    InputFile file{.scene = rememberedScene(options.scene, options.builtIn),
+    InputFile file{.scene = sceneName(),
                    .solver = options.overrides.solver.value_or(""),
                    .substeps = options.overrides.substeps.value_or(0),
                    .room = stage_.contactRoom().room,
@@ -32,6 +36,32 @@ void Show::saveInput() {
         std::fflush(stdout);
         screen_.tell("input: " + name.string() + "; --replay plays it again");
     } catch (const mesh::ExportError& error) {
+        screen_.warn(error.what());
+    }
+}
+
+std::string Show::sceneName() const {
+    const Options& options = library_.shown();
+    return opening_.run ? opening_.run->scene : rememberedScene(options.scene, options.builtIn);
+}
+
+// Likewise.
+void Show::saveState() {
+    settleAll();
+    if (isDiverged_) return screen_.tell("a state that is no more cannot be saved");
+    vk::Queue queue(device_);
+    try {
+        app::SavedRun run = stage_.save(device_, queue);
+        run.scene = sceneName();
+        const std::filesystem::path name = freeName(nameAt(stage_.played()), ".state");
+        app::writeRun(name, run);
+        std::printf("state: %s\n", name.c_str());
+        std::fflush(stdout);
+        screen_.tell("state: " + name.string() + "; dropped here or opened, it goes on");
+    } catch (const mesh::ExportError& error) {
+        screen_.warn(error.what());
+    } catch (const vk::Error& error) {
+        if (error.failure() != vk::Failure::outOfMemory) throw;
         screen_.warn(error.what());
     }
 }

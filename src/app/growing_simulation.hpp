@@ -32,6 +32,8 @@ public:
     /// Another one after grow(), with other buffers.
     sim::Simulation& simulation() noexcept { return *simulation_; }
     const sim::Simulation& simulation() const noexcept { return *simulation_; }
+    /// Those of simulation(), with the room that it has.
+    const sim::Settings& settings() const noexcept { return settings_; }
     const ContactRoom& contactRoom() const noexcept { return room_; }
 
     /// After a step whose Status::contactRoom is `needed`: waits for `queue`, in which every step was

@@ -188,9 +188,13 @@ public:
     /// returns the rest of it. `commands` as in recordReset().
     SavedState recordSaveState(VkCommandBuffer commands, const vk::BufferView& to) const;
     /// Records the copy back: what follows has the same bits as what followed the save, but hands take hold
-    /// anew and what a step says of frames goes on. Of this very simulation.
+    /// anew and what a step says of frames goes on. Of this very simulation, or of one with its stateKey().
     void recordLoadState(VkCommandBuffer commands, const vk::BufferView& from,
                          const SavedState& saved) noexcept;
+    /// What says whether a copy fits: the same for simulations of the same scene and settings, whichever
+    /// program made them, unless devices or versions differ in what a step consists of. Reads all that
+    /// buffers begin with.
+    std::uint64_t stateKey() const noexcept;
     /// Size of a copy of what cuts have done: links, pieces and counts; 0 where no body may be cut [B].
     std::uint64_t topologySize() const noexcept;
     /// Records the copy of it into `to`, or back from `from`, both of topologySize(): an undo of cuts.

@@ -218,6 +218,21 @@ more=$(($(sed 's/.* after \([0-9]*\) steps/\1/' <<<"$hash") + 7))
 grep -q "^$hash, as recorded$" replay.out || fail "with more steps the replay came to $(cat replay.out), not to $hash"
 grep -q " after $more steps$" replay.out || fail "nothing is said of the steps after the replay: $(cat replay.out)"
 
+echo "window: a state that is saved goes on in another run, cut as it was"
+keys ctrl+s
+for _ in {1..100}; do grep -q '^state: ' viewer.out && break; sleep 0.1; done
+grep -q '^state: block-[0-9]*\.state$' viewer.out || fail "Ctrl + S saved no state"
+for run in first second; do
+    "$viewer" block-*.state --headless --frames 9 --picture-frames 0 --size 640x400 --out "$run" >"$run.out" 2>"$run.err" ||
+        fail "the state does not go on: $(cat "$run.err")"
+    grep '^state hash' "$run.out" >"$run.hash" || fail "nothing is said of the state in the end: $(cat "$run.out")"
+done
+cmp -s first.hash second.hash || fail "two runs from a state differ: $(cat first.hash second.hash)"
+[[ -s first/frame_0000.png ]] || fail "there is no picture of what was saved"
+head -c 3000 block-*.state >short.state
+"$viewer" short.state --headless --frames 1 --out short >short.out 2>short.err && fail "half a state is taken for one"
+(($(grep -c '^error: cannot read a state: .*short.state: it is cut short' short.err) == 1)) || fail "half a state: $(cat short.err)"
+
 echo "window: sizes, hiding, full screen"
 keys space
 awaitTitle fps
@@ -235,6 +250,16 @@ keys F11
 awaitTitle fps
 keys ctrl+q
 awaitEnd 0
+uncut=$scene
+scene=$(echo block-*.state)
+start
+awaitTitle 'pieces'
+keys r
+for _ in {1..100}; do [[ $(title) != *pieces* ]] && break; sleep 0.1; done
+[[ $(title) != *pieces* ]] || fail "a reset does not lead from a state to the start of its scene"
+keys ctrl+q
+awaitEnd 0
+scene=$uncut
 
 echo "window: another scene, one that cannot be opened, a film"
 mkdir scenes

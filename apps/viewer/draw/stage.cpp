@@ -27,6 +27,18 @@ void Stage::recordReset(VkCommandBuffer commands) noexcept {
     steps_ = played_ = 0;
 }
 
+app::SavedRun Stage::save(const vk::Device& device, vk::Queue& queue) const {
+    app::SavedRun run = app::saveRun(device, growing_, queue);
+    run.played = played_;
+    return run;
+}
+
+void Stage::load(const vk::Device& device, const app::SavedRun& run, vk::Queue& queue) {
+    app::loadRun(device, growing_, run, queue);
+    steps_ = 0;
+    played_ = run.played;
+}
+
 void Stage::recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps, std::span<const sim::Grab> grabs,
                        const sim::Blade& blade, std::span<const sim::Poke> pokes) noexcept {
     const sim::Blade scripted = blades_.at(played_++);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/growing_simulation.hpp"
+#include "app/state_file.hpp"
 #include "scenes/blades.hpp"
 #include "viewer/draw/camera.hpp"
 
@@ -29,6 +30,10 @@ public:
                     std::span<const sim::Grab> grabs = {}, const sim::Blade& blade = {},
                     std::span<const sim::Poke> pokes = {}) noexcept;
     void recordSkin(VkCommandBuffer commands) noexcept { growing_.simulation().recordSkin(commands); }
+
+    /// As app::saveRun and loadRun; what is loaded has taken no step since then.
+    app::SavedRun save(const vk::Device& device, vk::Queue& queue) const;
+    void load(const vk::Device& device, const app::SavedRun& run, vk::Queue& queue);
 
     /// Blades that cut by themselves, from the reset on; in their steps no other one does.
     void setBlades(scenes::ScriptedBlades blades) { blades_ = std::move(blades); }

@@ -46,6 +46,7 @@ enum class Action {
     screenshot,
     record,
     saveInput,
+    saveState,
     times,
     fullScreen,
     vsync,

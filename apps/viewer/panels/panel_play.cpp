@@ -43,12 +43,14 @@ void play(const Facts& facts, Wishes& wishes) {
     button(Action::frameBody, wishes, width);
     ImGui::SameLine();
     button(Action::center, wishes, width);
+    width = buttonWidth(4);
     button(Action::screenshot, wishes, width);
     ImGui::SameLine();
     button(Action::record, wishes, width, facts.isRecording, facts.isRecording ? "Stop" : nullptr);
     ImGui::SameLine();
     button(Action::saveInput, wishes, width);
-    width = buttonWidth(4);
+    ImGui::SameLine();
+    button(Action::saveState, wishes, width);
     button(Action::times, wishes, width);
     ImGui::SameLine();
     button(Action::vsync, wishes, width, facts.isVsync);

@@ -1,0 +1,184 @@
+// A line of text, numbers as this machine has them, and a hash over both.
+#include "app/state_file.hpp"
+
+#include "app/guard.hpp"
+#include "app/hash.hpp"
+#include "mesh/export.hpp"
+#include "vk/commands.hpp"
+
+#include <bit>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <ostream>
+#include <type_traits>
+
+namespace sinew::app {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "state files are little endian");
+
+constexpr std::string_view title = "sinew state 1\n";
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
+    throw Failure(badInput, "cannot read a state: " + file.string() + ": " + why);
+}
+
+class Writer {
+public:
+    template <typename Value> void operator()(const Value& value) {
+        static_assert(std::is_trivially_copyable_v<Value>);
+        add(std::as_bytes(std::span(&value, 1)));
+    }
+    void operator()(const std::string& text) { list(text); }
+    template <typename Value> void operator()(const std::vector<Value>& values) { list(values); }
+    std::vector<std::byte> take() { return std::move(bytes_); }
+
+private:
+    template <typename List> void list(const List& values) {
+        (*this)(std::uint64_t{values.size()});
+        add(std::as_bytes(std::span(values)));
+    }
+    void add(std::span<const std::byte> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
+
+    std::vector<std::byte> bytes_;
+};
+
+class Reader {
+public:
+    explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+    template <typename Value> void operator()(Value& value) {
+        static_assert(std::is_trivially_copyable_v<Value>);
+        const auto from = take(sizeof(value));
+        if (isWhole_) std::memcpy(&value, from.data(), sizeof(value));
+    }
+    void operator()(std::string& text) { list(text); }
+    template <typename Value> void operator()(std::vector<Value>& values) { list(values); }
+    /// Everything was there, and nothing more.
+    bool isWhole() const { return isWhole_ && bytes_.empty(); }
+
+private:
+    template <typename List> void list(List& values) {
+        std::uint64_t size = 0;
+        (*this)(size);
+        constexpr std::size_t each = sizeof(values[0]);
+        const auto from = take(size <= bytes_.size() / each ? size * each : bytes_.size() + 1);
+        if (!isWhole_) return;
+        values.resize(size);
+        if (size > 0) std::memcpy(values.data(), from.data(), from.size());
+    }
+    std::span<const std::byte> take(std::uint64_t size) {
+        isWhole_ = isWhole_ && size <= bytes_.size();
+        if (!isWhole_) return {};
+        const auto taken = bytes_.first(size);
+        bytes_ = bytes_.subspan(size);
+        return taken;
+    }
+
+    std::span<const std::byte> bytes_;
+    bool isWhole_ = true;
+};
+
+// The same order both ways. A hand lets go of what it holds, and a sphere that pokes is not there.
+template <typename Run, typename Visit> void visit(Run& run, Visit& each) {
+    each(run.scene);
+    each(run.settings.solver);
+    each(run.settings.substeps);
+    each(run.settings.contactRoom);
+    each(run.settings.cutSurfaceRoom);
+    each(run.settings.forms.usesTexels);
+    each(run.settings.forms.usesGrids);
+    each(run.settings.forms.columns);
+    each(run.settings.forms.chunk);
+    each(run.settings.forms.residentBytes);
+    each(run.key);
+    each(run.played);
+    each(run.host.h);
+    each(run.host.colliderTime);
+    each(run.host.anchors);
+    each(run.host.hasNewTopology);
+    each(run.bytes);
+}
+
+vk::Buffer bufferFor(const vk::Device& device, std::uint64_t size, vk::MemoryKind kind) {
+    return {device, {.name = "state", .count = size / 4, .stride = 4, .kind = kind}};
+}
+
+} // namespace
+
+SavedRun saveRun(const vk::Device& device, const GrowingSimulation& growing, vk::Queue& queue) {
+    const sim::Simulation& simulation = growing.simulation();
+    queue.waitIdle();
+    const vk::Buffer copy = bufferFor(device, simulation.stateSize(), vk::MemoryKind::readback);
+    const VkCommandBuffer commands = queue.begin();
+    SavedRun run{.settings = growing.settings(), .key = simulation.stateKey()};
+    run.host = simulation.recordSaveState(commands, copy.view());
+    run.host.pokes.clear();
+    vk::Commands(device, commands).hostBarrier();
+    queue.wait(queue.submit(commands));
+    const auto* bytes = static_cast<const std::byte*>(copy.mapped());
+    run.bytes.assign(bytes, bytes + simulation.stateSize());
+    return run;
+}
+
+void loadRun(const vk::Device& device, GrowingSimulation& growing, const SavedRun& run, vk::Queue& queue) {
+    sim::Simulation& simulation = growing.simulation();
+    if (simulation.stateKey() != run.key || simulation.stateSize() != run.bytes.size())
+        throw Failure(badInput, "cannot go on from a state: it is of another simulation than " + run.scene +
+                                    " makes now: has the scene, the version or the device changed?");
+    queue.waitIdle();
+    const vk::Buffer copy = bufferFor(device, run.bytes.size(), vk::MemoryKind::upload);
+    std::memcpy(copy.mapped(), run.bytes.data(), run.bytes.size());
+    const VkCommandBuffer commands = queue.begin();
+    simulation.recordReset(commands);
+    simulation.recordLoadState(commands, copy.view(), run.host);
+    queue.wait(queue.submit(commands));
+}
+
+sim::Settings withRun(sim::Settings settings, const SavedRun& run) {
+    settings.contactRoom = run.settings.contactRoom;
+    settings.cutSurfaceRoom = run.settings.cutSurfaceRoom;
+    settings.forms = run.settings.forms;
+    return settings;
+}
+
+void writeRun(const std::filesystem::path& file, const SavedRun& run) {
+    Writer writer;
+    visit(run, writer);
+    const std::vector<std::byte> bytes = writer.take();
+    const std::uint64_t hash = fnv1a(bytes);
+    mesh::writeWhole(file, [&](std::ostream& stream) {
+        stream << title;
+        stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+        stream.write(reinterpret_cast<const char*>(&hash), sizeof(hash));
+    });
+}
+
+SavedRun readRun(const std::filesystem::path& file) {
+    std::error_code error;
+    if (!std::filesystem::exists(file, error)) refuse(file, "there is no such file");
+    if (!std::filesystem::is_regular_file(file, error)) refuse(file, "it is no file");
+    std::ifstream stream(file, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    if (!text.starts_with(title)) refuse(file, "it does not begin as states of this version do");
+    std::span<const std::byte> bytes = std::as_bytes(std::span(text)).subspan(title.size());
+    std::uint64_t hash = 0;
+    if (bytes.size() < sizeof(hash)) refuse(file, "it is cut short");
+    const auto end = bytes.last(sizeof(hash));
+    bytes = bytes.first(bytes.size() - sizeof(hash));
+    std::memcpy(&hash, end.data(), sizeof(hash));
+    if (fnv1a(bytes) != hash) refuse(file, "it is cut short, or was changed");
+    SavedRun run;
+    Reader reader(bytes);
+    visit(run, reader);
+    if (!reader.isWhole() || run.settings.solver > sim::Solver::gaussSeidel)
+        refuse(file, "it is not what its version says");
+    return run;
+}
+
+bool isRunFile(const std::filesystem::path& file) {
+    return file.extension() == ".state";
+}
+
+} // namespace sinew::app

@@ -1,0 +1,40 @@
+// A simulation between two steps as a file, to go on from in another run.
+#pragma once
+
+#include "app/growing_simulation.hpp"
+
+#include <filesystem>
+
+namespace sinew::app {
+
+/// What is saved: how to come to an equal simulation, and its state.
+struct SavedRun {
+    std::string scene;        ///< file, absolute; or the name of a built-in one
+    sim::Settings settings;   ///< solver, substeps, rooms and forms alone
+    std::uint64_t key = 0;    ///< sim::Simulation::stateKey()
+    std::uint64_t played = 0; ///< steps of the time in which blades cut by themselves
+    sim::SavedState host;
+    std::vector<std::byte> bytes; ///< sim::Simulation::stateSize()
+};
+
+/// The state of a simulation whose steps have all been submitted to `queue`, which it waits for. Scene and
+/// steps are the caller's to fill in. Throws vk::Error.
+SavedRun saveRun(const vk::Device& device, const GrowingSimulation& growing, vk::Queue& queue);
+
+/// Puts a simulation of the same scene and settings into that state, instead of Simulation::recordReset().
+/// `queue` as above. Throws Failure (badInput) where the state is of another simulation, and vk::Error.
+void loadRun(const vk::Device& device, GrowingSimulation& growing, const SavedRun& run, vk::Queue& queue);
+
+/// `settings` of the scene as the state was saved with.
+sim::Settings withRun(sim::Settings settings, const SavedRun& run);
+
+/// As mesh::writeWhole.
+void writeRun(const std::filesystem::path& file, const SavedRun& run);
+
+/// Throws Failure (badInput) where there is no such file, it is none of ours, cut short or changed.
+SavedRun readRun(const std::filesystem::path& file);
+
+/// What such files are called: ".state".
+bool isRunFile(const std::filesystem::path& file);
+
+} // namespace sinew::app

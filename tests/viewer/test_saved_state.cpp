@@ -1,0 +1,154 @@
+// States as files: what goes on from one has the bits of what went on without, and what is no state is
+// refused.
+#include "app/guard.hpp"
+#include "app/state_file.hpp"
+#include "support/device.hpp"
+#include "viewer/draw/stage.hpp"
+#include "viewer/opening.hpp"
+#include "viewer/replay.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <unistd.h>
+
+namespace sinew::viewer {
+namespace {
+
+// Bodies that fall on each other while a blade goes through one.
+constexpr const char* heap = R"([solver]
+substeps = 12
+[[box]]
+name = "cut"
+particles = [5, 5, 5]
+center = [0, 0.3, 0]
+spacing = 0.1
+young_modulus = 1e5
+cuttable = true
+collides = true
+[[box]]
+name = "above"
+particles = [3, 3, 3]
+center = [0.1, 0.85, 0.05]
+spacing = 0.1
+young_modulus = 1e5
+collides = true
+[[plane]]
+[[blade]]
+times = [0.05, 0.45]
+edges = [[[-0.5, 0.23, -0.5], [-0.5, 0.23, 0.5]], [[0.5, 0.23, -0.5], [0.5, 0.23, 0.5]]]
+)";
+
+std::filesystem::path temporary(const std::string& name) {
+    return std::filesystem::temp_directory_path() / ("sinew-" + std::to_string(::getpid()) + "-" + name);
+}
+
+// As in the window.
+Opening withHands(Opening opening) {
+    addHands(opening.loaded.settings);
+    return opening;
+}
+
+struct Played {
+    explicit Played(const std::filesystem::path& file)
+        : opening(withHands(open({.scene = file.string()}, 1.6f))),
+          stage(test::device(), opening.loaded.scene, opening.loaded.settings) {
+        stage.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
+        if (opening.run)
+            stage.load(test::device(), *opening.run, test::queue());
+        else
+            run([&](VkCommandBuffer commands) { stage.recordReset(commands); });
+    }
+    template <typename Record> void run(const Record& record) {
+        VkCommandBuffer commands = test::queue().begin();
+        record(commands);
+        test::queue().wait(test::queue().submit(commands));
+    }
+    void take(int steps) {
+        for (int i = 0; i < steps; ++i) run([&](VkCommandBuffer commands) { stage.recordStep(commands); });
+    }
+    std::uint64_t hash() { return stateHash(test::device(), stage, test::queue()); }
+    sim::Status status() { return stage.simulation().status(stage.steps()); }
+
+    Opening opening;
+    Stage stage;
+};
+
+struct SavedState : testing::Test {
+    SavedState() { std::ofstream(scene) << heap; }
+    ~SavedState() override {
+        std::filesystem::remove(scene);
+        std::filesystem::remove(file);
+    }
+    void save(const Played& played) {
+        app::SavedRun run = played.stage.save(test::device(), test::queue());
+        run.scene = scene.string();
+        app::writeRun(file, run);
+    }
+    std::string refusal() {
+        try {
+            const Played again{file};
+        } catch (const app::Failure& failure) {
+            EXPECT_EQ(failure.code(), app::badInput);
+            return failure.what();
+        }
+        return "none";
+    }
+
+    std::filesystem::path scene = temporary("heap.toml"), file = temporary("heap.state");
+};
+
+TEST_F(SavedState, GoesOnWithTheSameBits) {
+    Played played(scene);
+    for (const int steps : {3, 9, 12, 20}) { // before the blade, within its way, after it
+        played.take(steps);
+        save(played);
+        Played again(file);
+        EXPECT_EQ(again.hash(), played.hash());
+        EXPECT_EQ(again.stage.played(), played.stage.played());
+        const std::uint64_t before = played.hash();
+        played.take(15);
+        again.take(15);
+        EXPECT_NE(played.hash(), before);
+        EXPECT_EQ(again.hash(), played.hash()) << "after " << steps << " more steps";
+        EXPECT_EQ(again.status().linksCutInAll, played.status().linksCutInAll);
+        EXPECT_EQ(again.status().pieces, played.status().pieces);
+    }
+    EXPECT_GT(played.status().linksCutInAll, 0u) << "the blade met nothing";
+}
+
+TEST_F(SavedState, IsRefusedWhereItIsOfAnotherSimulation) {
+    save(Played(scene));
+    std::string other = heap;
+    other.replace(other.find("0.85"), 4, "0.86");
+    std::ofstream(scene) << other;
+    EXPECT_NE(refusal().find("it is of another simulation"), std::string::npos) << refusal();
+    std::filesystem::remove(scene);
+    EXPECT_ANY_THROW(Played{file});
+}
+
+TEST_F(SavedState, IsRefusedWhereItIsDamaged) {
+    save(Played(scene));
+    std::ifstream stream(file, std::ios::binary);
+    const std::string whole{std::istreambuf_iterator<char>(stream), {}};
+    const auto write = [&](const std::string& bytes) { std::ofstream(file, std::ios::binary) << bytes; };
+    for (const std::size_t size : {std::size_t{0}, std::size_t{5}, std::size_t{14}, std::size_t{30},
+                                   whole.size() / 2, whole.size() - 1}) {
+        write(whole.substr(0, size));
+        EXPECT_NE(refusal().find("cannot read a state"), std::string::npos)
+            << size << " bytes: " << refusal();
+    }
+    for (const std::size_t at : {std::size_t{20}, whole.size() / 3, whole.size() - 3}) {
+        std::string changed = whole;
+        changed[at] ^= 4;
+        write(changed);
+        EXPECT_NE(refusal().find("was changed"), std::string::npos) << refusal();
+    }
+    write(whole + "x");
+    EXPECT_NE(refusal().find("was changed"), std::string::npos);
+    std::filesystem::remove(file);
+    EXPECT_NE(refusal().find("there is no such file"), std::string::npos);
+}
+
+} // namespace
+} // namespace sinew::viewer
