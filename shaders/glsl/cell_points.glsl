@@ -1,11 +1,11 @@
-// How many of the hash grid lie in a block of cells, and in others that share slots with its rows. In the name `starts`.
+// How many of the hash grid lie in a block of cells, and in others that share slots with its rows. In the name START.
 uint pointsIn(ivec3 first, ivec3 last, Frame frame) {
     uint sum = 0u;
     for (int z = first.z; z <= last.z; ++z)
         for (int y = first.y; y <= last.y; ++y)
             for (int x = first.x; x <= last.x; x += 3) {
                 const uint slot = slotOf(ivec3(x, y, z), frame);
-                sum += starts[slot + uint(min(last.x - x + 1, 3))] - starts[slot];
+                sum += START(slot + uint(min(last.x - x + 1, 3))) - START(slot);
             }
     return sum;
 }

@@ -1,12 +1,12 @@
-// Whether a pair is one of those that never touch, in a table `excluded`: for each `of` the first of its partners, one more for
+// Whether a pair is one of those that never touch, in the table EXCLUDED: for each `of` the first of its partners, one more for
 // the end, then the partners of all, sorted.
 bool isExcluded(uint of, uint partner) {
-    uint low = excluded[of], high = excluded[of + 1u];
+    uint low = EXCLUDED(of), high = EXCLUDED(of + 1u);
     const uint end = high;
     while (low < high) {
         const uint middle = (low + high) / 2u;
-        if (excluded[middle] < partner) low = middle + 1u;
+        if (EXCLUDED(middle) < partner) low = middle + 1u;
         else high = middle;
     }
-    return low < end && excluded[low] == partner;
+    return low < end && EXCLUDED(low) == partner;
 }

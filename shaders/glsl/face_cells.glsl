@@ -8,15 +8,21 @@ struct Cells {
     uint points; // in them
 };
 
+// Beyond which no point of the grid is near; a little more: rounding [m].
+float rangeOf(Searched face) {
+    const vec3 size = max(abs(face.low), abs(face.high));
+    return 1.01 * (face.reach + uintBitsToFloat(points.widest)) + 1e-6 * max(size.x, max(size.y, size.z));
+}
+
 // None where there are too many.
 Cells cellsAround(Searched face, Frame frame) {
-    const float reach = face.reach + uintBitsToFloat(points.widest);
+    const float reach = rangeOf(face);
     const vec3 top = vec3(valueOf(bounds.highX), valueOf(bounds.highY), valueOf(bounds.highZ));
     const vec3 low = max(face.low - reach, frame.low), high = min(face.high + reach, top);
     Cells cells = Cells(ivec3(0), ivec3(-1), 0u);
     if (any(lessThan(high, low))) return cells;
-    cells.first = max(cellOf(low, frame) - 1, 0);
-    cells.last = cellOf(high, frame) + 1; // one more: rounding
+    cells.first = cellOf(low, frame);
+    cells.last = cellOf(high, frame);
     const vec3 size = vec3(cells.last - cells.first + 1);
     if (!(size.x * size.y * size.z <= mostCells)) return Cells(ivec3(0), ivec3(-1), ~0u);
     cells.points = pointsIn(cells.first, cells.last, frame);

@@ -3,15 +3,30 @@
 #include "kernel.glsl"
 #include "triangle.glsl"
 
+#ifdef TEXELS
+layout(binding = 0) uniform samplerBuffer positions;
+layout(binding = 1) uniform samplerBuffer velocities;
+layout(binding = 2) uniform samplerBuffer radii;
+layout(binding = 8) uniform usamplerBuffer excluded;
+#define POSITION(i) texelFetch(positions, int(i))
+#define VELOCITY(i) texelFetch(velocities, int(i))
+#define RADIUS(i) texelFetch(radii, int(i)).x
+#define EXCLUDED(k) texelFetch(excluded, int(k)).x
+#else
 layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
 layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
 layout(std430, binding = 2) readonly buffer Radii { float radii[]; };          // below 0 = touches no face
+layout(std430, binding = 8) readonly buffer Excluded { uint excluded[]; };     // first of each face, then points, sorted
+#define POSITION(i) positions[i]
+#define VELOCITY(i) velocities[i]
+#define RADIUS(i) radii[i]
+#define EXCLUDED(k) excluded[k]
+#endif
 layout(std430, binding = 3) readonly buffer Faces { ContactFace faces[]; };
 layout(std430, binding = 4) buffer Found { uint found[]; };              // faces near each point, listed or not; 0 at first
 layout(std430, binding = 5) writeonly buffer Candidates { uint candidates[]; };
 layout(std430, binding = 6) buffer FaceFound { uint faceFound[]; };      // points near each moving face, likewise
 layout(std430, binding = 7) writeonly buffer FaceCandidates { uint faceCandidates[]; };
-layout(std430, binding = 8) readonly buffer Excluded { uint excluded[]; }; // first of each face, then points, sorted
 layout(std140, binding = 9) uniform Step { StepParams step; };
 layout(std430, binding = WEIGHT_BINDING) readonly buffer Masses { float inverseMass[]; }; // also of what sleeps [1/kg]
 layout(push_constant) uniform Push { FaceFindPush push; };
@@ -28,8 +43,8 @@ struct Searched {
 
 Searched searchedOf(uint f) {
     const ContactFace face = faces[f];
-    const vec3 a = positions[face.a].xyz, b = positions[face.b].xyz, c = positions[face.c].xyz;
-    const vec3 va = velocities[face.a].xyz, vb = velocities[face.b].xyz, vc = velocities[face.c].xyz;
+    const vec3 a = POSITION(face.a).xyz, b = POSITION(face.b).xyz, c = POSITION(face.c).xyz;
+    const vec3 va = VELOCITY(face.a).xyz, vb = VELOCITY(face.b).xyz, vc = VELOCITY(face.c).xyz;
     const float way = step.h * sqrt(max(dot(va, va), max(dot(vb, vb), dot(vc, vc))));
     const vec3 low = min(a, min(b, c)), high = max(a, max(b, c)), size = high - low;
     Searched searched = Searched(f, face, a, triangleOf(b - a, c - a), low, high, face.thickness + push.margin + way);
@@ -48,21 +63,22 @@ bool isInBox(Searched face, vec3 x, float reach) {
 // Whether a fast point stays away from the ball around a face on all of its way in this substep: else a fine body would be listed
 // whole with it. What it makes in the next one is within the margin, or lists are made again.
 bool isBesideWay(Searched face, uint i, vec3 x) {
-    const vec3 way = step.h * velocities[i].xyz, d = 0.5 * (face.low + face.high) - x;
+    const vec3 way = step.h * VELOCITY(i).xyz, d = 0.5 * (face.low + face.high) - x;
     const float size = 0.5 * length(face.high - face.low), length2 = dot(way, way);
     if (length2 < size * size) return false;
     const vec3 apart = d + clamp(-dot(d, way) / length2, 0.0, 1.0) * way;
-    const float reach = 1.001 * (size + face.reach + radii[i]);
+    const float reach = 1.001 * (size + face.reach + RADIUS(i));
     return dot(apart, apart) > reach * reach;
 }
 
+// But for excluded pairs, of which whoever asks must look in a table.
 bool isNear(Searched face, uint i, vec3 x, float reach) {
     const uint f = face.index;
     if (i == face.face.a || i == face.face.b || i == face.face.c) return false;
     if (f >= push.moving && inverseMass[i] == 0.0) return false; // neither ever moves
     if (isBesideWay(face, i, x)) return false;
     const vec3 d = nearestOf(x - face.a, face.triangle).d;
-    return dot(d, d) < reach * reach && !isExcluded(f, i);
+    return dot(d, d) < reach * reach;
 }
 
 void listAtPoint(uint i, uint f) {

@@ -48,6 +48,7 @@ layout(push_constant) uniform Push { FindPush push; };
 layout(constant_id = 1) const bool hasOneRadius = false;
 
 #ifdef HAS_EXCLUSIONS
+#define EXCLUDED(k) excluded[k]
 #include "excluded.glsl"
 #else
 bool isExcluded(uint i, uint j) { return false; }

@@ -1,23 +1,51 @@
 #version 460
 // Every edge looks for others near it, in the cells around it and among those that stand apart, and lists them, in any order:
 // sort_contacts sorts. A pair is listed where the two are nearer than touching, a margin, and what both move in this substep,
-// and their balls likewise; both list it.
+// and their balls likewise, at both.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "kernel.glsl"
 #include "segments.glsl"
 #include "hash_grid.glsl"
 
+#ifdef TEXELS
+layout(binding = 0) uniform samplerBuffer positions;
+layout(binding = 1) uniform usamplerBuffer edges;
+layout(binding = 2) uniform samplerBuffer speeds;
+layout(binding = 3) uniform samplerBuffer thickness;
+layout(binding = 4) uniform usamplerBuffer sorted;
+layout(binding = 5) uniform usamplerBuffer starts;
+layout(binding = 6) uniform usamplerBuffer excluded;
+#define POSITION(i) texelFetch(positions, int(i))
+#define SPEED(e) texelFetch(speeds, int(e))
+#define THICKNESS(e) texelFetch(thickness, int(e)).x
+#define SORTED(k) texelFetch(sorted, int(k))
+#define START(slot) texelFetch(starts, int(slot)).x
+#define EXCLUDED(k) texelFetch(excluded, int(k)).x
+ContactEdge edgeAt(uint e) {
+    const uvec4 words = texelFetch(edges, int(e));
+    return ContactEdge(words.x, words.y, words.z, uintBitsToFloat(words.w));
+}
+#else
 layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
 layout(std430, binding = 1) readonly buffer Edges { ContactEdge edges[]; };
-layout(std430, binding = 2) readonly buffer Middles { vec4 middles[]; };
-layout(std430, binding = 3) readonly buffer Speeds { vec4 speeds[]; };
-layout(std430, binding = 4) readonly buffer Thickness { float thickness[]; };
-layout(std430, binding = 5) readonly buffer Sorted { uvec4 sorted[]; };
-layout(std430, binding = 6) readonly buffer Starts { uint starts[]; };
+layout(std430, binding = 2) readonly buffer Speeds { vec4 speeds[]; };
+layout(std430, binding = 3) readonly buffer Thickness { float thickness[]; };
+layout(std430, binding = 4) readonly buffer Sorted { uvec4 sorted[]; };
+layout(std430, binding = 5) readonly buffer Starts { uint starts[]; };
+layout(std430, binding = 6) readonly buffer Excluded { uint excluded[]; }; // first of each edge, then partners, sorted
+#define POSITION(i) positions[i]
+#define SPEED(e) speeds[e]
+#define THICKNESS(e) thickness[e]
+#define SORTED(k) sorted[k]
+#define START(slot) starts[slot]
+#define EXCLUDED(k) excluded[k]
+ContactEdge edgeAt(uint e) { return edges[e]; }
+#endif
 layout(std140, binding = 7) uniform Bounds { GridBounds bounds; };
 layout(std430, binding = 8) readonly buffer Points { FacePoints points; };
 layout(std430, binding = 9) readonly buffer Apart { uint apart[]; };
-layout(std430, binding = 10) readonly buffer Excluded { uint excluded[]; }; // first of each edge, then partners, sorted
+layout(std430, binding = 10) readonly buffer Middles { vec4 middles[]; };
 layout(std430, binding = 11) buffer Found { uint found[]; };               // edges near each, listed or not; 0 at first
 layout(std430, binding = 12) writeonly buffer Candidates { uint candidates[]; };
 layout(std430, binding = 13) writeonly buffer Ends { vec4 ends[]; };
@@ -26,20 +54,49 @@ layout(std140, binding = 15) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { FaceFindPush push; };
 
 #include "near_edges.glsl"
+#include "grid_rows.glsl"
+#include "cell_points.glsl"
 
-// Three cells in a row from `cell` on, but none beyond `last` in x.
-void searchCells(Searched one, ivec3 cell, int last, Frame frame, uint total, inout uint n) {
-    const uint slot = slotOf(cell, frame), width = uint(min(last - cell.x + 1, 3)), end = starts[slot + width];
-    for (uint k = starts[slot]; k < end && n <= push.limit; ++k) {
-        const uvec4 other = sorted[k < total ? k : k - total];
-        const ivec3 home = cellOf(uintBitsToFloat(other.xyz), frame);
-        if (home.yz != cell.yz || uint(home.x - cell.x) >= width || isApart(other.w) || !isNear(one, other.w)) continue;
-        list(one.index, other.w);
-        ++n;
+// Of up to 32 visits from `from` on, those in a ball around the edge that this one looks for: bit v for visit from + v.
+uint around(Searched one, float range, Rows rows, uint from, uint total) {
+    const uint last = min(from + 32u, rows.all);
+    uint visits = 0u;
+    for (uint visit = from; visit < last; ++visit) {
+        const uvec4 other = SORTED(placeOf(rows, visit, total));
+        const vec3 d = one.middle - uintBitsToFloat(other.xyz);
+        visits |= uint(dot(d, d) < range * range && looksFor(one.index, other.w)) << visit - from;
     }
+    return visits;
 }
 
-#include "cell_points.glsl"
+// Of these, the near ones.
+uint nearOf(Searched one, uint visits, Rows rows, uint from, Frame frame, uint total) {
+    uint near = 0u;
+    for (; visits != 0u; visits &= visits - 1u) {
+        const int bit = findLSB(visits);
+        const uint visit = from + uint(bit);
+        const uvec4 other = SORTED(placeOf(rows, visit, total));
+        const vec3 middle = uintBitsToFloat(other.xyz);
+        const ContactEdge edge = edgeAt(other.w);
+        const float way = wayOf(other.w);
+        if (isIn(rows, visit, cellOf(middle, frame)) && !isApart(edge, way) && isNear(one, other.w, edge, way, middle))
+            near |= 1u << bit;
+    }
+    return near;
+}
+
+// What stands under a condition is what costs: a batch is measured first, and what is left of it is looked at then.
+void searchRows(Searched one, float range, Rows rows, Frame frame, uint total, inout uint n) {
+    for (uint from = 0u; from < rows.all && n <= push.limit; from += 32u) {
+        uint near = nearOf(one, around(one, range, rows, from, total), rows, from, frame, total);
+        for (; near != 0u; near &= near - 1u) {
+            const uint f = SORTED(placeOf(rows, from + uint(findLSB(near)), total)).w;
+            if (isExcluded(one.index, f)) continue;
+            list(one.index, f);
+            ++n;
+        }
+    }
+}
 
 void searchGrid(Searched one, uint total) {
     const Frame frame = frameOf(bounds, push.cells, push.edge);
@@ -53,24 +110,25 @@ void searchGrid(Searched one, uint total) {
     if (pointsIn(first, last, frame) > FACE_MOST_POINTS) atomicMax(status.candidates, push.limit + 1u); // said, not lost
     uint n = 0u;
     for (int z = first.z; z <= last.z; ++z)
-        for (int y = first.y; y <= last.y; ++y)
-            for (int x = first.x; x <= last.x; x += 3) searchCells(one, ivec3(x, y, z), last.x, frame, total, n);
+        for (int y = first.y; y <= last.y; y += 3)
+            for (int x = first.x; x <= last.x; x += 3)
+                searchRows(one, range, rowsFrom(ivec3(x, y, z), last, frame), frame, total, n);
 }
 
 void main() {
     const uint e = itemIndex(push.points);
     const Searched one = searchedOf(e);
     ends[2u * e] = vec4(one.a, 0.0);
-    ends[2u * e + 1u] = vec4(positions[one.edge.b].xyz, 0.0);
+    ends[2u * e + 1u] = vec4(POSITION(one.edge.b).xyz, 0.0);
     if (one.edge.radius < 0.0) return;
-    const uint total = starts[push.cells];
-    const bool standsApart = isApart(e);
+    const uint total = START(push.cells);
+    const bool standsApart = isApart(one.edge, one.way);
     if (total > 0u && !standsApart) searchGrid(one, total);
     if (points.apart > FACE_MOST_POINTS) atomicMax(status.candidates, push.limit + 1u);
     for (uint k = 0u; k < min(points.apart, FACE_MOST_POINTS); ++k) {
         const uint f = apart[k];
-        if ((standsApart && f < e) || !isNear(one, f)) continue; // of two apart the first lists both
+        // of two apart the first lists both
+        if ((standsApart && f < e) || !isNear(one, f, edgeAt(f), wayOf(f), middles[f].xyz) || isExcluded(e, f)) continue;
         list(e, f);
-        list(f, e);
     }
 }

@@ -3,12 +3,22 @@
 // point the face is listed too. In any order: sort_faces and link_faces sort. A face with too much around it is left to
 // find_wide_faces.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define WEIGHT_BINDING 17
 #include "face_search.glsl"
 #include "hash_grid.glsl"
 
+#ifdef TEXELS
+layout(binding = 10) uniform usamplerBuffer sorted;
+layout(binding = 11) uniform usamplerBuffer starts;
+#define SORTED(k) texelFetch(sorted, int(k))
+#define START(slot) texelFetch(starts, int(slot)).x
+#else
 layout(std430, binding = 10) readonly buffer Sorted { uvec4 sorted[]; };
 layout(std430, binding = 11) readonly buffer Starts { uint starts[]; };
+#define SORTED(k) sorted[k]
+#define START(slot) starts[slot]
+#endif
 layout(std140, binding = 12) uniform Bounds { GridBounds bounds; };
 layout(std430, binding = 13) buffer Points { FacePoints points; };
 layout(std430, binding = 14) readonly buffer Apart { uint apart[]; };
@@ -16,46 +26,75 @@ layout(std430, binding = 15) readonly buffer SearchedFaces { uint searchedFaces[
 
 layout(std430, binding = 16) writeonly buffer Wide { uint wide[]; };
 
-float wayOf(uint i) { return step.h * length(velocities[i].xyz); }
+#include "face_cells.glsl"
+#include "grid_rows.glsl"
 
-void consider(Searched face, uint i, vec3 x, bool isApart, inout uint n) {
-    const float size = radii[i] + wayOf(i), reach = face.reach + size;
-    if (!isInBox(face, x, reach) || (size <= push.most) == isApart || !isNear(face, i, x, reach)) return;
+float wayOf(uint i) { return step.h * length(VELOCITY(i).xyz); }
+
+bool isNearby(Searched face, uint i, vec3 x, bool isApart) {
+    const float size = RADIUS(i) + wayOf(i), reach = face.reach + size;
+    return isInBox(face, x, reach) && (size <= push.most) != isApart && isNear(face, i, x, reach);
+}
+
+void list(Searched face, uint i, inout uint n) {
+    if (isExcluded(face.index, i)) return;
     listAtPoint(i, face.index);
     if (face.index >= push.moving) return;
     if (n < push.capacity) faceCandidates[n * push.faceRow + face.index] = i;
     ++n;
 }
 
-// Three cells in a row from `cell` on, but none beyond `last` in x.
-void searchCells(Searched face, ivec3 cell, int last, Frame frame, uint total, inout uint n) {
-    const uint slot = slotOf(cell, frame), width = uint(min(last - cell.x + 1, 3)), end = starts[slot + width];
-    for (uint k = starts[slot]; k < end && n <= push.limit; ++k) {
-        const uvec4 point = sorted[k < total ? k : k - total];
+// Of up to 32 visits from `from` on, the points near the box of the face: bit v for visit from + v.
+uint around(Searched face, float range, Rows rows, uint from, uint total) {
+    const uint last = min(from + 32u, rows.all);
+    uint visits = 0u;
+    for (uint visit = from; visit < last; ++visit) {
+        const vec3 x = uintBitsToFloat(SORTED(placeOf(rows, visit, total)).xyz);
+        visits |= uint(isInBox(face, x, range)) << visit - from;
+    }
+    return visits;
+}
+
+// Of these, those near the face.
+uint nearOf(Searched face, uint visits, Rows rows, uint from, Frame frame, uint total) {
+    uint near = 0u;
+    for (; visits != 0u; visits &= visits - 1u) {
+        const int bit = findLSB(visits);
+        const uint visit = from + uint(bit);
+        const uvec4 point = SORTED(placeOf(rows, visit, total));
         const vec3 x = uintBitsToFloat(point.xyz);
-        const ivec3 home = cellOf(x, frame);
-        if (home.yz == cell.yz && uint(home.x - cell.x) < width) consider(face, point.w, x, false, n);
+        if (isIn(rows, visit, cellOf(x, frame)) && isNearby(face, point.w, x, false)) near |= 1u << bit;
+    }
+    return near;
+}
+
+// What stands under a condition is what costs: a batch is measured first, and what is left of it is looked at then.
+void searchRows(Searched face, float range, Rows rows, Frame frame, uint total, inout uint n) {
+    for (uint from = 0u; from < rows.all && n <= push.limit; from += 32u) {
+        uint near = nearOf(face, around(face, range, rows, from, total), rows, from, frame, total);
+        for (; near != 0u; near &= near - 1u)
+            list(face, SORTED(placeOf(rows, from + uint(findLSB(near)), total)).w, n);
     }
 }
 
-#include "face_cells.glsl"
-
 void searchGrid(Searched face, Cells cells, Frame frame, uint total, inout uint n) {
+    const float range = rangeOf(face);
     for (int z = cells.first.z; z <= cells.last.z; ++z)
-        for (int y = cells.first.y; y <= cells.last.y; ++y)
+        for (int y = cells.first.y; y <= cells.last.y; y += 3)
             for (int x = cells.first.x; x <= cells.last.x; x += 3)
-                searchCells(face, ivec3(x, y, z), cells.last.x, frame, total, n);
+                searchRows(face, range, rowsFrom(ivec3(x, y, z), cells.last, frame), frame, total, n);
 }
 
 void searchApart(Searched face, inout uint n) {
-    for (uint k = 0u; k < points.apart && n <= push.limit; ++k) consider(face, apart[k], positions[apart[k]].xyz, true, n);
+    for (uint k = 0u; k < points.apart && n <= push.limit; ++k)
+        if (isNearby(face, apart[k], POSITION(apart[k]).xyz, true)) list(face, apart[k], n);
 }
 
 void main() {
     const uint f = searchedFaces[itemIndex(push.searched)];
     if (f == ~0u) return;
     const Searched face = searchedOf(f);
-    const uint total = starts[push.cells];
+    const uint total = START(push.cells);
     const Frame frame = frameOf(bounds, push.cells, push.edge);
     Cells cells = Cells(ivec3(0), ivec3(-1), 0u);
     if (total > 0u) cells = cellsAround(face, frame);

@@ -11,9 +11,9 @@ layout(std430, binding = 13) buffer Status { StatusWords status; };
 
 void main() {
     const uint i = itemIndex(push.points);
-    if (radii[i] < 0.0) return;
-    const vec3 x = positions[i].xyz;
-    const float size = radii[i] + step.h * length(velocities[i].xyz);
+    if (RADIUS(i) < 0.0) return;
+    const vec3 x = POSITION(i).xyz;
+    const float size = RADIUS(i) + step.h * length(VELOCITY(i).xyz);
     const uint all = push.large + points.wide;
     if (all > FACE_MOST_WIDE) atomicMax(status.candidates, push.limit + 1u); // more than can be done: said, not lost
     for (uint l = 0u; l < min(all, FACE_MOST_WIDE); ++l) {
@@ -21,7 +21,7 @@ void main() {
         if (f == ~0u) continue; // a cut has parted it
         const Searched face = searchedOf(f);
         const float reach = face.reach + size;
-        if (!isInBox(face, x, reach) || !isNear(face, i, x, reach)) continue;
+        if (!isInBox(face, x, reach) || !isNear(face, i, x, reach) || isExcluded(f, i)) continue;
         listAtPoint(i, face.index);
         if (face.index >= push.moving) continue;
         const uint slot = atomicAdd(faceFound[face.index], 1u);

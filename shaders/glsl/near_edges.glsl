@@ -4,35 +4,44 @@ struct Searched {
     ContactEdge edge;
     vec3 middle;
     vec3 a, ab;
-    float way; // of the faster end in this substep [m]
+    float way, thickness; // way of the faster end in this substep [m]
 };
 
-float wayOf(uint e) { return step.h * length(speeds[e].xyz); }
+float wayOf(uint e) { return step.h * length(SPEED(e).xyz); }
 
 Searched searchedOf(uint e) {
-    const ContactEdge edge = edges[e];
-    const vec3 a = positions[edge.a].xyz;
-    return Searched(e, edge, middles[e].xyz, a, positions[edge.b].xyz - a, wayOf(e));
+    const ContactEdge edge = edgeAt(e);
+    const vec3 a = POSITION(edge.a).xyz;
+    return Searched(e, edge, middles[e].xyz, a, POSITION(edge.b).xyz - a, wayOf(e), THICKNESS(e));
 }
 
-bool isApart(uint e) { return !(edges[e].radius + wayOf(e) <= push.most); } // as part_points has it
+bool isApart(ContactEdge edge, float way) { return !(edge.radius + way <= push.most); } // as part_points has it
 
 #include "excluded.glsl"
 
 bool shareAnEnd(ContactEdge e, ContactEdge f) { return e.a == f.a || e.a == f.b || e.b == f.a || e.b == f.b; }
 
-bool isNear(Searched one, uint f) {
-    const ContactEdge edge = edges[f];
+// But for excluded pairs, of which whoever asks must look in a table.
+bool isNear(Searched one, uint f, ContactEdge edge, float way, vec3 middle) {
     if (f == one.index || edge.radius < 0.0) return false; // that, cut
-    const vec3 d = one.middle - middles[f].xyz;
-    const float more = push.margin + (one.way + wayOf(f)), outer = one.edge.radius + edge.radius + more;
+    const vec3 d = one.middle - middle;
+    const float more = push.margin + (one.way + way), outer = one.edge.radius + edge.radius + more;
     if (dot(d, d) >= outer * outer || (one.edge.isMoving | edge.isMoving) == 0u || shareAnEnd(one.edge, edge)) return false;
-    const vec3 c = positions[edge.a].xyz;
-    const float reach = thickness[one.index] + thickness[f] + more;
-    return squaredBetween(one.a - c, one.ab, positions[edge.b].xyz - c) < reach * reach && !isExcluded(one.index, f);
+    const vec3 c = POSITION(edge.a).xyz;
+    const float reach = one.thickness + THICKNESS(f) + more;
+    return squaredBetween(one.a - c, one.ab, POSITION(edge.b).xyz - c) < reach * reach;
 }
 
-void list(uint e, uint f) {
+// Which of two edges in the grid looks for the other: half of all do so for each, and near ones as many as far ones.
+bool looksFor(uint e, uint f) { return ((e ^ f) & 1u) == 0u ? e < f : f < e; }
+
+void listAt(uint e, uint f) {
     const uint slot = atomicAdd(found[e], 1u);
     if (slot < push.capacity) candidates[slot * push.row + e] = f;
+}
+
+// At both.
+void list(uint e, uint f) {
+    listAt(e, f);
+    listAt(f, e);
 }

@@ -109,10 +109,10 @@ void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers
     program.dispatchIndirect(k::partPoints, grid.particles,
                              {lists.speeds, lists.radii, lists.points, lists.apart, particles.step},
                              lists.push);
-    program.dispatchIndirect(k::findEdges, grid.particles,
-                             {particles.positions, lists.edges, lists.middles, lists.speeds, lists.thickness,
-                              grid.sorted, grid.starts, grid.bounds, lists.points, lists.apart,
-                              lists.excluded, lists.found, lists.candidates, lists.ends,
+    program.dispatchIndirect(grid.usesTexels ? k::findEdges : k::findEdgesLoads, grid.particles,
+                             {particles.positions, lists.edges, lists.speeds, lists.thickness, grid.sorted,
+                              grid.starts, lists.excluded, grid.bounds, lists.points, lists.apart,
+                              lists.middles, lists.found, lists.candidates, lists.ends,
                               program.program().status, particles.step},
                              lists.push);
     program.dispatchIndirect(k::sortContactsLoads, grid.particles,

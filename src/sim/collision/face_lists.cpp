@@ -102,7 +102,8 @@ void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers
     std::vector<BufferId> buffers = searchBuffers(lists, particles);
     buffers.insert(buffers.end(), {grid.sorted, grid.starts, grid.bounds, lists.points, lists.apart,
                                    lists.searched, lists.wide, lists.inverseMasses});
-    program.dispatchIndirect(k::findFaces, grid.others, buffers, lists.push);
+    program.dispatchIndirect(grid.usesTexels ? k::findFaces : k::findFacesLoads, grid.others, buffers,
+                             lists.push);
     buffers = searchBuffers(lists, particles);
     buffers.insert(buffers.end(),
                    {lists.large, lists.wide, lists.points, program.program().status, lists.inverseMasses});
