@@ -159,15 +159,19 @@ double toTriangle(const Vector3d& p, const std::array<Vector3d, 3>& x) {
     return std::min({toSegment(p, x[0], x[1]), toSegment(p, x[1], x[2]), toSegment(p, x[2], x[0])});
 }
 
-// The least on a straight way that ends at p: a distance from something convex has one minimum along it.
-double alongWay(const Vector3d& p, const Vector3d& way, const std::array<Vector3d, 3>& x) {
+// Whether a straight way that ends at p comes nearer than `reach`: a distance from something convex has one
+// minimum along it, and changes by no more than one goes.
+bool comesNearer(const Vector3d& p, const Vector3d& way, const std::array<Vector3d, 3>& x, double reach) {
     double low = 0, high = 1;
     for (int n = 0; n < 80; ++n) {
         const double third = (high - low) / 3;
-        const bool isHigh = toTriangle(p - (low + third) * way, x) > toTriangle(p - (high - third) * way, x);
-        (isHigh ? low : high) += isHigh ? third : -third;
+        const double atLow = toTriangle(p - (low + third) * way, x),
+                     atHigh = toTriangle(p - (high - third) * way, x), least = std::min(atLow, atHigh);
+        if (least < reach) return true;
+        if (least - (high - low) * way.norm() >= reach) return false;
+        (atLow > atHigh ? low : high) += atLow > atHigh ? third : -third;
     }
-    return toTriangle(p - low * way, x);
+    return toTriangle(p - low * way, x) < reach;
 }
 
 // A box's half diagonal: points that go less far are listed by how far they are alone.
@@ -205,7 +209,7 @@ Expected bruteForce(const Cloud& cloud, const State& state, double margin) {
             const Vector3d ofPoint = double{substep} * at(state.v[i]);
             const double touching = (reach - ofPoint.norm()) * (1 - 1e-5) - 1e-5 * size;
             const bool isSlow = ofPoint.norm() < (1 - 1e-5) * halfBox(x);
-            if (isSlow || alongWay(at(state.x[i]), ofPoint, x) < touching) expected.sure[i].push_back(f);
+            if (isSlow || comesNearer(at(state.x[i]), ofPoint, x, touching)) expected.sure[i].push_back(f);
         }
     }
     return expected;
