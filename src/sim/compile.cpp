@@ -1,6 +1,7 @@
 // The table of contents of a step. Reads top to bottom in the order the device works.
 #include "sim/compile.hpp"
 
+#include "kernels.hpp"
 #include "layout.h"
 #include "sim/collision/face_contacts.hpp"
 #include "sim/collision/particle_contacts.hpp"
@@ -62,6 +63,23 @@ std::vector<layout::vec4> spread(const std::vector<layout::vec4>& values, const 
     std::vector<layout::vec4> result(layout.count);
     for (std::size_t i = 0; i < values.size(); ++i) result[layout.slot[i]] = values[i];
     return result;
+}
+
+// The w of a state's positions that is not the scene's for good is kept apart, to be put there again: where
+// the state is, and where it is saved.
+void addWeights(ProgramBuilder& program, const ParticleBuffers& particles, const std::vector<float>& w) {
+    std::vector<float> inSlots(particles.layout.count, 0);
+    for (std::size_t i = 0; i < w.size(); ++i) inSlots[particles.layout.slot[i]] = w[i];
+    const auto count = static_cast<std::uint32_t>(inSlots.size());
+    const BufferId weights = program.upload("state.weights", inSlots);
+    std::vector<BufferId> targets{particles.positions};
+    for (const Carried& carried : program.program().carried)
+        if (carried.to == particles.positions && carried.from != particles.positions)
+            targets.push_back(carried.from);
+    program.beginSettling();
+    for (const BufferId target : targets)
+        program.dispatch(kernels::setWeights, count, {target, weights}, layout::CountPush{count});
+    program.endSettling();
 }
 
 void skipContacts(ProgramBuilder& program, const Scene& scene) {
@@ -137,6 +155,7 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     solver.addPasses(program, particles);
     program.beginPhase("publish");
     publish::addPasses(program, particles);
+    if (solver.positionW != inverseMass) addWeights(program, particles, solver.positionW);
     sleep::finish(program, particles);
     surface::addSkins(program, scene.skins);
 

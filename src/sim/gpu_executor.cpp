@@ -81,7 +81,7 @@ struct SetPlan {
 
 SetPlan planSets(const StepProgram& program) {
     SetPlan plan;
-    for (const std::vector<Pass>* list : {&program.step, &program.skin}) {
+    for (const std::vector<Pass>* list : {&program.step, &program.skin, &program.settle}) {
         for (const Pass& pass : *list) {
             if (pass.kind != PassKind::dispatch) continue;
             const auto isSame = [&](const Pass* other) { return isSameDispatch(*other, pass); };
@@ -111,8 +111,10 @@ GpuExecutor::GpuExecutor(const vk::Device& device, const StepProgram& program)
     std::size_t nextSet = 0;
     step_ = resolve(program.step, nextSet);
     skin_ = resolve(program.skin, nextSet);
+    settle_ = resolve(program.settle, nextSet);
     checkGroups(step_, device.limits().maxGroupCount);
     checkGroups(skin_, device.limits().maxGroupCount);
+    checkGroups(settle_, device.limits().maxGroupCount);
     for (const Recorded& pass : step_) {
         if (timedPhases_.empty() || timedPhases_.back() != pass.phase) timedPhases_.push_back(pass.phase);
     }
@@ -177,6 +179,26 @@ void GpuExecutor::step(vk::Commands& commands, const HostBytes& host, vk::Timest
 
 void GpuExecutor::skin(vk::Commands& commands) noexcept {
     record(commands, skin_, {}, nullptr, true);
+}
+
+void GpuExecutor::settle(vk::Commands& commands) noexcept {
+    record(commands, settle_, {}, nullptr, true);
+}
+
+const vk::Buffer* GpuExecutor::stagingOf(BufferId buffer) const noexcept {
+    const auto found = std::ranges::find(staging_, buffer.index, &decltype(staging_)::value_type::first);
+    return found == staging_.end() ? nullptr : &found->second;
+}
+
+void GpuExecutor::restore(vk::Commands& commands, BufferId buffer) noexcept {
+    if (const vk::Buffer* initial = stagingOf(buffer)) commands.copy(initial->view(), view(buffer));
+}
+
+// The device writes what resets copy from: one that is on its way finds what it was to find.
+void GpuExecutor::replace(vk::Commands& commands, BufferId buffer, const vk::BufferView& contents,
+                          bool isOfState) noexcept {
+    if (const vk::Buffer* initial = stagingOf(buffer)) commands.copy(contents, initial->view());
+    if (!isOfState) commands.copy(contents, view(buffer));
 }
 
 void GpuExecutor::surface(vk::Commands& commands) noexcept {

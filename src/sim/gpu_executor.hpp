@@ -23,6 +23,13 @@ public:
     void step(vk::Commands& commands, const HostBytes& host, vk::Timestamps* timestamps,
               bool hasBlade = true) noexcept;
     void skin(vk::Commands& commands) noexcept;
+    /// Makes of a state that was put into the buffers one of this program (StepProgram::settle).
+    void settle(vk::Commands& commands) noexcept;
+    /// A buffer as it begins, if it begins with something.
+    void restore(vk::Commands& commands, BufferId buffer) noexcept;
+    /// What a buffer begins with from now on, and has at once unless it `isOfState`: `contents` has its size.
+    void replace(vk::Commands& commands, BufferId buffer, const vk::BufferView& contents,
+                 bool isOfState) noexcept;
     /// Those of a step that write the surface of cuts, by themselves.
     void surface(vk::Commands& commands) noexcept;
 
@@ -46,13 +53,14 @@ private:
     void record(vk::Commands& commands, const std::vector<Recorded>& passes, const HostBytes& host,
                 vk::Timestamps* timestamps, bool hasBlade) noexcept;
     void recordPass(vk::Commands& commands, const Recorded& pass, const HostBytes& host) noexcept;
+    const vk::Buffer* stagingOf(BufferId buffer) const noexcept;
 
     std::vector<vk::Buffer> buffers_;
     std::vector<std::pair<std::uint32_t, vk::Buffer>> staging_; // buffer index, its initial contents
     std::vector<vk::Kernel> kernels_;
     std::vector<vk::BindingSets> sets_;
     std::vector<std::size_t> setOfPass_;
-    std::vector<Recorded> step_, skin_;
+    std::vector<Recorded> step_, skin_, settle_;
     std::vector<std::uint32_t> timedPhases_;
 };
 

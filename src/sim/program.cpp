@@ -80,13 +80,14 @@ void ProgramBuilder::append(Pass pass) {
     pass.substep = substep_;
     pass.isOfCut = isCut_;
     pass.isOfSurface = isSurface_;
-    (isSkin_ ? program_.skin : program_.step).push_back(std::move(pass));
+    list().push_back(std::move(pass));
 }
 
 void ProgramBuilder::dispatchDirect(const vk::ShaderCode& code, std::uint32_t items,
                                     std::span<const BufferId> buffers, std::span<const std::byte> push,
                                     const Constants& constants) {
-    if (!gate_ || isSkin_ || isCut_) return dispatchBytes(code, items, buffers, push, constants);
+    if (!gate_ || isSkin_ || isCut_ || isSettling_)
+        return dispatchBytes(code, items, buffers, push, constants);
     const GatedDispatch gated = gate_(code, items);
     std::vector<BufferId> all(buffers.begin(), buffers.end());
     if (gated.last != BufferId{}) all.push_back(gated.last);
@@ -178,6 +179,7 @@ StepProgram ProgramBuilder::finish() {
     planBarriers(program_.step, program_.buffers.size());
     planWithoutCut(program_.step, program_.buffers.size());
     planBarriers(program_.skin, program_.buffers.size());
+    planBarriers(program_.settle, program_.buffers.size());
     return std::move(program_);
 }
 

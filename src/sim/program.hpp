@@ -136,6 +136,9 @@ struct CuttingBuffers {
     BufferId pieces;          ///< by particle: that which its piece is named after, or layout's NO_PARTICLE
     BufferId pieceSizes;      ///< by particle: particles of the piece that is named after it, or 0
     std::vector<BufferId> topology; ///< all that a copy of the cuts consists of
+    /// Lists of links and bends that lose their stiffness: as they begin, but for what settling makes of
+    /// them.
+    std::vector<BufferId> lists;
     /// Where everything was when contacts that cuts change were listed.
     std::vector<BufferId> contactsSeen;
     std::uint32_t crumbs = 0;              ///< Scene::crumbs, where some may be made; 0 = nothing is removed
@@ -188,9 +191,12 @@ struct SleepBuffers {
 struct StepProgram {
     std::vector<BufferSpec> buffers;
     std::vector<KernelUse> kernels;
-    std::vector<std::string> phases;  ///< what is timed, in order
-    std::vector<Pass> step;           ///< recorded for every step
-    std::vector<Pass> skin;           ///< recorded when somebody draws; may be empty
+    std::vector<std::string> phases; ///< what is timed, in order
+    std::vector<Pass> step;          ///< recorded for every step
+    std::vector<Pass> skin;          ///< recorded when somebody draws; may be empty
+    /// Recorded after a state of another material, or of other substeps, was put into the buffers: makes what
+    /// of the state follows from the scene alone that of this program. May be empty.
+    std::vector<Pass> settle;
     std::vector<std::string> skipped; ///< features this scene does not need, for reports
     std::vector<Carried> carried;     ///< what a simulation that takes over another's state copies
     BufferId parameters, status, positions, velocities; ///< the public ones; velocities may be invalid
@@ -320,6 +326,9 @@ public:
     void beginSurface() { isSurface_ = true; }
     void endSurface() { isSurface_ = false; }
     void beginSkin() { isSkin_ = true; }
+    /// Passes from here on, until endSettling(), belong to StepProgram::settle; no gate changes them.
+    void beginSettling() { isSettling_ = true; }
+    void endSettling() { isSettling_ = false; }
     void skip(std::string feature) { program_.skipped.push_back(std::move(feature)); }
 
     StepProgram& program() { return program_; }
@@ -329,7 +338,10 @@ private:
     BufferId add(BufferSpec spec);
     void update(BufferId buffer, HostData data);
     void append(Pass pass);
-    Pass& last() { return (isSkin_ ? program_.skin : program_.step).back(); }
+    std::vector<Pass>& list() {
+        return isSettling_ ? program_.settle : isSkin_ ? program_.skin : program_.step;
+    }
+    Pass& last() { return list().back(); }
     void makeLastIndirect(const IndirectItems& items);
     std::uint32_t kernelIndex(const vk::ShaderCode& code, const Constants& constants);
     void dispatchDirect(const vk::ShaderCode& code, std::uint32_t items, std::span<const BufferId> buffers,
@@ -341,7 +353,7 @@ private:
     std::vector<BufferId> remembered_, kept_;
     std::vector<std::function<void()>> checked_, endings_, skinMiddles_, skinEndings_;
     Gate gate_;
-    bool isReversed_ = false, isSkin_ = false, isCut_ = false, isSurface_ = false;
+    bool isReversed_ = false, isSkin_ = false, isSettling_ = false, isCut_ = false, isSurface_ = false;
     std::uint32_t substep_ = 0;
 };
 

@@ -10,6 +10,7 @@
 #include "sim/constraints/grab.hpp"
 #include "sim/cutting/blade.hpp"
 #include "sim/gpu_executor.hpp"
+#include "sim/program_values.hpp"
 #include "sim/ranges.hpp"
 #include "sim/substeps.hpp"
 #include "sim/validate.hpp"
@@ -20,6 +21,7 @@
 #include <cstddef>
 #include <cstring>
 #include <optional>
+#include <stdexcept>
 
 namespace sinew::sim {
 
@@ -69,6 +71,16 @@ StepProgram compileFor(const vk::Device& device, const Scene& scene, Settings se
     return compile(scene, settings);
 }
 
+// A change leaves the state where it is: it cannot be one of other particles.
+void requireSameParticles(const StepProgram& own, const StepProgram& other) {
+    const auto isSame = [&](BufferId a, BufferId b) {
+        return a == b && (a == BufferId{} || own.buffers[a.index].initial == other.buffers[b.index].initial);
+    };
+    if (!isSame(own.positions, other.positions) || !isSame(own.velocities, other.velocities))
+        throw std::invalid_argument("particles: a change of material must have those of the simulation, "
+                                    "where they were and as heavy");
+}
+
 // All that passes of a step write: the state between steps is among it.
 std::vector<BufferId> writtenBy(const StepProgram& program) {
     std::vector<bool> isWritten(program.buffers.size());
@@ -83,8 +95,30 @@ std::vector<BufferId> writtenBy(const StepProgram& program) {
 
 } // namespace
 
+struct SceneChange::Parts {
+    ProgramValues values;
+    std::vector<vk::Buffer> contents; // one for each of its buffers
+    SplitBudget budget;
+    float damping;
+    std::uint32_t changes; // of the simulation, when it was prepared
+};
+
+SceneChange::SceneChange(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+SceneChange::SceneChange(SceneChange&&) noexcept = default;
+SceneChange& SceneChange::operator=(SceneChange&&) noexcept = default;
+SceneChange::~SceneChange() = default;
+
+namespace {
+
+SplitBudget dampedBudget(const Scene& scene, const Settings& settings) {
+    return scene.dampingTime > 0 ? splitBudget(scene, settings) : SplitBudget{};
+}
+
+} // namespace
+
 struct Simulation::State {
     const vk::Device& device;
+    Settings chosen; // with a number of substeps
     StepProgram program;
     GpuExecutor executor;
     std::vector<BufferId> written;
@@ -97,6 +131,8 @@ struct Simulation::State {
     cutting::BladeWords blade;
     std::array<bool, framesInFlight> hasBlade{}; // of the newest steps
     bool hasNewTopology = false;                 // loaded since the last step
+    std::uint32_t changes = 0;                   // of the material
+    bool isChanged = false;                      // since the last step
     SplitBudget budget;
     float theta, omega, damping;
     std::uint32_t substeps;
@@ -123,15 +159,14 @@ struct Simulation::State {
 
     struct Resolved {};
     State(const vk::Device& d, const Scene& scene, const Settings& settings, Resolved)
-        : device(d), program(compileFor(d, scene, settings)), executor(d, program),
+        : device(d), chosen(settings), program(compileFor(d, scene, settings)), executor(d, program),
           written(writtenBy(program)), statusRing(d, {.name = "status.ring",
                                                       .count = framesInFlight,
                                                       .stride = sizeof(layout::StatusWords),
                                                       .kind = vk::MemoryKind::readback}),
           skins(rangesOf(scene.skins)), anchors(scene.attachments),
           hands(settings.grabs, scene.particles.size()),
-          colliders(scene.colliders, scene.driven, settings.pokes),
-          budget(scene.dampingTime > 0 ? splitBudget(scene, settings) : SplitBudget{}),
+          colliders(scene.colliders, scene.driven, settings.pokes), budget(dampedBudget(scene, settings)),
           theta(settings.solver == Solver::split ? settings.theta : 0), omega(settings.omega),
           damping(scene.damping), substeps(settings.substeps),
           hasContacts(collision::particle_contacts::areIn(scene) || collision::face_contacts::areIn(scene)) {
@@ -158,7 +193,7 @@ struct Simulation::State {
                     static_cast<float>(dampingBudget(budget, double{theta}, longest) / double{omega}),
                 .multiplierScale = previousH > 0 ? std::min(1.0f, h * h / (previousH * previousH)) : 0,
                 .thetaHStored = hasContacts ? 0 : theta * h,
-                .wakes = step.wakes || hasNewTopology ? 1u : 0u};
+                .wakes = step.wakes || hasNewTopology || isChanged ? 1u : 0u};
     }
 
     layout::StatusWords statusWords(std::uint64_t frame) const {
@@ -230,6 +265,15 @@ struct Simulation::State {
         executor.surface(commands);
     }
 
+    // What the scene alone says of a state that was put into the buffers.
+    void recordSettling(vk::Commands& commands) noexcept {
+        if (program.settle.empty()) return;
+        commands.barrier(); // they were copied
+        for (const BufferId list : program.cutting.lists) executor.restore(commands, list);
+        commands.barrier();
+        executor.settle(commands);
+    }
+
     // Copies buffers out to where they stand one behind the other, or back from there.
     enum class Way { out, back };
     void copy(vk::Commands& commands, const std::vector<BufferId>& buffers, vk::BufferView copies,
@@ -292,7 +336,7 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     commands.endStep();
     commands.hostBarrier();
     state_->previousH = parameters.h;
-    state_->hasNewTopology = false;
+    state_->hasNewTopology = state_->isChanged = false;
 }
 
 void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from) noexcept {
@@ -309,6 +353,7 @@ void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from) 
     copy(own.velocities, other.velocities);
     const std::size_t carried = std::min(own.carried.size(), other.carried.size());
     for (std::size_t b = 0; b < carried; ++b) copy(own.carried[b].to, other.carried[b].from);
+    state_->recordSettling(commands); // its material may be another one
     if (state_->hasMoreRoom(*from.state_)) state_->recordSurface(commands);
     commands.endStep();
     State::Settled end = from.state_->settledEnd;
@@ -319,6 +364,45 @@ void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from) 
     state_->anchors = from.state_->anchors;
     state_->hands = from.state_->hands;
     state_->colliders.moveTo(end.time, end.pokes);
+}
+
+std::optional<SceneChange> Simulation::prepareChange(const Scene& scene) const {
+    const Settings& settings = state_->chosen;
+    const StepProgram program = compileFor(state_->device, valid(scene, settings), settings);
+    requireSameParticles(state_->program, program);
+    std::optional<ProgramValues> values = valuesOf(state_->program, program);
+    if (!values) return std::nullopt;
+    auto parts = std::make_unique<SceneChange::Parts>(SceneChange::Parts{
+        std::move(*values), {}, dampedBudget(scene, settings), scene.damping, state_->changes});
+    for (const ProgramValues::Contents& one : parts->values.buffers) {
+        const BufferSpec& spec = program.buffers[one.buffer.index];
+        const vk::Buffer& buffer =
+            parts->contents.emplace_back(state_->device, vk::BufferRequest{.name = spec.label + ".changed",
+                                                                           .count = spec.count,
+                                                                           .stride = spec.stride,
+                                                                           .kind = vk::MemoryKind::upload});
+        std::ranges::copy(one.initial, buffer.mapped());
+    }
+    return SceneChange(std::move(parts));
+}
+
+bool Simulation::recordChange(VkCommandBuffer buffer, SceneChange& change) noexcept {
+    SceneChange::Parts& parts = *change.parts_;
+    if (parts.changes != state_->changes) return false;
+    vk::Commands commands(state_->device, buffer);
+    commands.beginStep();
+    for (std::size_t b = 0; b < parts.contents.size(); ++b) {
+        const ProgramValues::Contents& one = parts.values.buffers[b];
+        state_->executor.replace(commands, one.buffer, parts.contents[b].view(), one.isOfState);
+    }
+    take(state_->program, std::move(parts.values));
+    state_->recordSettling(commands);
+    commands.endStep();
+    state_->budget = parts.budget;
+    state_->damping = parts.damping;
+    ++state_->changes;
+    state_->isChanged = true;
+    return true;
 }
 
 std::uint64_t Simulation::stateSize() const noexcept {
@@ -350,11 +434,9 @@ SavedState Simulation::recordSaveState(VkCommandBuffer buffer, const vk::BufferV
     state_->copy(commands, state_->written, to, State::Way::out);
     commands.endStep();
     const auto pokes = this->pokes();
-    return {state_->previousH,
-            state_->colliders.time(),
-            state_->anchors.places(),
-            {pokes.begin(), pokes.end()},
-            state_->hasNewTopology};
+    return {state_->previousH,        state_->colliders.time(),
+            state_->anchors.places(), {pokes.begin(), pokes.end()},
+            state_->hasNewTopology,   state_->changes};
 }
 
 void Simulation::recordLoadState(VkCommandBuffer buffer, const vk::BufferView& from,
@@ -362,6 +444,10 @@ void Simulation::recordLoadState(VkCommandBuffer buffer, const vk::BufferView& f
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
     state_->copy(commands, state_->written, from, State::Way::back);
+    if (saved.changes != state_->changes) {
+        state_->recordSettling(commands);
+        state_->isChanged = true;
+    }
     commands.endStep();
     state_->previousH = saved.h;
     collision::PokeStates pokes{};
@@ -393,6 +479,7 @@ void Simulation::recordLoadTopology(VkCommandBuffer buffer, const vk::BufferView
     state_->copy(commands, state_->program.cutting.topology, from, State::Way::back);
     for (const BufferId seen : state_->program.cutting.contactsSeen)
         commands.fill(view(seen), farAwayBits); // contacts are listed anew
+    if (state_->changes > 0) state_->recordSettling(commands);
     commands.endStep();
     state_->hasNewTopology = true;
 }

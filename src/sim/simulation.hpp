@@ -6,6 +6,7 @@
 #include "vk/timestamps.hpp"
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -134,6 +135,7 @@ struct SavedState {
     std::vector<Vec3> anchors; ///< of the scene's attachments [m]
     std::vector<PokeState> pokes;
     bool hasNewTopology = false; ///< recordLoadTopology() since the last step
+    std::uint32_t changes = 0;   ///< recordChange() before it
 };
 
 /// The surface of cuts, to be drawn beside the skins after recordSkin(): the inside that a blade laid open,
@@ -150,6 +152,21 @@ struct CutSurface {
     /// Two VkDrawIndexedIndirectCommand, stride 20: the inside, then the pieces of skins. Both draw nothing
     /// while nothing is cut.
     vk::BufferView draws;
+};
+
+/// Another material for a simulation, ready to be copied (Simulation::prepareChange). Holds buffers of the
+/// device, which must outlive it.
+class SceneChange {
+public:
+    SceneChange(SceneChange&&) noexcept;
+    SceneChange& operator=(SceneChange&&) noexcept;
+    ~SceneChange();
+
+private:
+    friend class Simulation;
+    struct Parts;
+    explicit SceneChange(std::unique_ptr<Parts> parts);
+    std::unique_ptr<Parts> parts_;
 };
 
 /// Owns the buffers and pipelines of one scene. Must not outlive the Device. Never submits, waits or owns a
@@ -182,13 +199,27 @@ public:
     /// the last step that was not undone.
     void recordTakeOver(VkCommandBuffer commands, const Simulation& from) noexcept;
 
+    /// What turns this into the simulation of `scene`: its own but for the material, which is stiffness and
+    /// compliance, friction, restitution, damping (withMaterial(), or by hand). Nothing where that needs
+    /// other passes, such as friction where there was none: a new Simulation does that. The number of
+    /// substeps stays what it is. Takes as long as compiling the scene and creates buffers, no pipelines.
+    /// Any one thread, also while steps are recorded, but not during recordChange(). Throws as the
+    /// constructor does, and std::invalid_argument where particles differ.
+    std::optional<SceneChange> prepareChange(const Scene& scene) const;
+    /// Records the copies that make it so from the next step on, and after every reset; state, cuts and hands
+    /// stay, what sleeps wakes. `change` must live until `commands` have finished. `commands` as in
+    /// recordReset(). False, and nothing is recorded, where another change was recorded since it was
+    /// prepared.
+    bool recordChange(VkCommandBuffer commands, SceneChange& change) noexcept;
+
     /// Size of a copy of the whole state between steps [B].
     std::uint64_t stateSize() const noexcept;
     /// Records the copy of the state after the newest recorded step into `to`, of stateSize() bytes, and
     /// returns the rest of it. `commands` as in recordReset().
     SavedState recordSaveState(VkCommandBuffer commands, const vk::BufferView& to) const;
     /// Records the copy back: what follows has the same bits as what followed the save, but hands take hold
-    /// anew and what a step says of frames goes on. Of this very simulation, or of one with its stateKey().
+    /// anew and what a step says of frames goes on. Of this very simulation, or of one with its stateKey();
+    /// its material stays what it is.
     void recordLoadState(VkCommandBuffer commands, const vk::BufferView& from,
                          const SavedState& saved) noexcept;
     /// What says whether a copy fits: the same for simulations of the same scene and settings, whichever

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <list>
+#include <mutex>
 #include <unordered_map>
 
 namespace sinew::vk {
@@ -66,6 +67,7 @@ private:
     Placement place(const VkMemoryRequirements& need, MemoryKind kind, const std::string& name);
     std::optional<Placement> placeInBlocks(const VkMemoryRequirements& need, std::uint32_t type);
     VkResult addBlock(std::uint32_t type, VkDeviceSize size);
+    void remove(const BufferAllocation& allocation) noexcept;
     void giveBack(const Placement& placement) noexcept;
     VkDeviceSize nextBlockSize(std::uint32_t type) const noexcept;
     VkDeviceSize freeInHeap(std::uint32_t type) const noexcept;
@@ -76,9 +78,11 @@ private:
     std::list<Block> blocks_;
     std::unordered_map<std::uint64_t, Placement> placements_; ///< by token
     std::uint64_t nextToken_ = 1;
+    mutable std::mutex mutex_; // of all that changes
 };
 
 BufferAllocation BlockAllocator::create(const VkBufferCreateInfo& info, MemoryKind kind, const char* name) {
+    const std::lock_guard lock(mutex_);
     BufferAllocation allocation{.token = nextToken_++};
     check(functions_.vkCreateBuffer(device_, &info, nullptr, &allocation.buffer), "vkCreateBuffer", name);
     try {
@@ -92,13 +96,18 @@ BufferAllocation BlockAllocator::create(const VkBufferCreateInfo& info, MemoryKi
                                             placement.offset),
               "vkBindBufferMemory", name);
     } catch (...) {
-        destroy(allocation);
+        remove(allocation);
         throw;
     }
     return allocation;
 }
 
 void BlockAllocator::destroy(const BufferAllocation& allocation) noexcept {
+    const std::lock_guard lock(mutex_);
+    remove(allocation);
+}
+
+void BlockAllocator::remove(const BufferAllocation& allocation) noexcept {
     functions_.vkDestroyBuffer(device_, allocation.buffer, nullptr);
     const auto placement = placements_.find(allocation.token);
     if (placement == placements_.end()) return; // create failed before it found a place
@@ -176,6 +185,7 @@ VkDeviceSize BlockAllocator::freeInHeap(std::uint32_t type) const noexcept {
 }
 
 AllocatorStatistics BlockAllocator::statistics() const noexcept {
+    const std::lock_guard lock(mutex_);
     AllocatorStatistics statistics{.blocks = static_cast<std::uint32_t>(blocks_.size()),
                                    .buffers = static_cast<std::uint32_t>(placements_.size())};
     for (const Block& block : blocks_) statistics.reserved += block.size;
@@ -188,6 +198,7 @@ public:
     explicit HookAllocator(const BufferHook& hook) : hook_(hook) {}
 
     BufferAllocation create(const VkBufferCreateInfo& info, MemoryKind kind, const char* name) override {
+        const std::lock_guard lock(mutex_);
         const BufferAllocation allocation = hook_.create(info, kind, name);
         if (allocation.buffer == VK_NULL_HANDLE)
             throw Error(Failure::outOfMemory,
@@ -201,11 +212,13 @@ public:
     }
 
     void destroy(const BufferAllocation& allocation) noexcept override {
+        const std::lock_guard lock(mutex_);
         sizes_.erase(allocation.buffer);
         hook_.destroy(allocation);
     }
 
     AllocatorStatistics statistics() const noexcept override {
+        const std::lock_guard lock(mutex_);
         AllocatorStatistics statistics{.buffers = static_cast<std::uint32_t>(sizes_.size())};
         for (const auto& [buffer, size] : sizes_) statistics.used += size;
         statistics.reserved = statistics.used;
@@ -215,6 +228,7 @@ public:
 private:
     BufferHook hook_;
     std::unordered_map<VkBuffer, VkDeviceSize> sizes_; ///< [B]
+    mutable std::mutex mutex_;                         // of sizes_, and of the host's two functions
 };
 
 } // namespace

@@ -11,8 +11,8 @@ struct AllocatorStatistics {
     VkDeviceSize reserved = 0, used = 0;   ///< [B]
 };
 
-/// Hands out bound buffers. Set-up and tear-down only: no call is made while a step is recorded. Not thread
-/// safe.
+/// Hands out bound buffers. Set-up and tear-down only: no call is made while a step is recorded. Any thread:
+/// what is prepared while something else plays shares its device.
 class Allocator {
 public:
     virtual ~Allocator() = default;

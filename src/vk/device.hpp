@@ -30,7 +30,7 @@ struct BufferAllocation {
 
 /// The two functions a host may replace. `create` gets a complete VkBufferCreateInfo and a kind and returns a
 /// bound buffer, or throws vk::Error. Both are called at set-up and tear-down only, from the thread that does
-/// so.
+/// so, one call at a time.
 struct BufferHook {
     std::function<BufferAllocation(const VkBufferCreateInfo&, MemoryKind, const char* name)> create;
     std::function<void(const BufferAllocation&)> destroy;
@@ -93,10 +93,10 @@ template <typename Handle> std::uint64_t handleValue(Handle handle) noexcept {
         return handle;
 }
 
-/// Owns (create) or borrows a VkDevice, with its function tables and its allocator. Not thread safe;
-/// different devices are independent. Movable: buffers, kernels, binding sets, timestamps and commands refer
-/// to parts that stay where they are; only a Queue refers to the Device itself. All of them must be gone
-/// before it is destroyed.
+/// Owns (create) or borrows a VkDevice, with its function tables and its allocator, which any thread may use;
+/// all else is not thread safe. Different devices are independent. Movable: buffers, kernels, binding sets,
+/// timestamps and commands refer to parts that stay where they are; only a Queue refers to the Device itself.
+/// All of them must be gone before it is destroyed.
 class Device {
 public:
     /// Makes an instance and a device through the loader's entry point (vk::Loader opens one). Prefers a real

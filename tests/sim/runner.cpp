@@ -72,6 +72,15 @@ sim::Status Runner::run(int steps) {
     return status;
 }
 
+bool Runner::change(const sim::Scene& scene) {
+    std::optional<sim::SceneChange> change = simulation_.prepareChange(scene);
+    if (!change) return false;
+    const VkCommandBuffer commands = queue().begin();
+    EXPECT_TRUE(simulation_.recordChange(commands, *change));
+    queue().wait(queue().submit(commands));
+    return true;
+}
+
 void Runner::skin() {
     const VkCommandBuffer commands = queue().begin();
     simulation_.recordSkin(commands);

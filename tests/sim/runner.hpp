@@ -24,6 +24,8 @@ public:
     void reset();
     /// Goes on where `from` stands, with its next frame.
     void takeOver(const Runner& from);
+    /// From the next step on; false where that needs another simulation.
+    bool change(const sim::Scene& scene);
     void skin();
     /// The state between steps, to come back to.
     struct Saved {

@@ -121,12 +121,19 @@ void addListFilter(ProgramBuilder& program, BufferId list, std::span<const Liste
     program.carry(list, list);
     const BufferId uploaded = program.upload(areBends ? "cut.bends" : "cut.listed", ties),
                    links = cutting.links;
-    const auto addPass = [&program, links, uploaded, list, areBends, count = ties.size()] {
-        program.beginCut();
+    cutting.lists.push_back(list);
+    const auto addDispatch = [&program, links, uploaded, list, areBends, count = ties.size()] {
         program.dispatch(areBends ? k::partBends : k::partLinks, static_cast<std::uint32_t>(count),
                          {links, uploaded, list}, layout::CountPush{static_cast<std::uint32_t>(count)});
+    };
+    const auto addPass = [&program, addDispatch] {
+        program.beginCut();
+        addDispatch();
         program.endCut();
     };
+    program.beginSettling();
+    addDispatch();
+    program.endSettling();
     addPass();
     program.atEnd(addPass); // after links were given back
 }

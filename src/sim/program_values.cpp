@@ -1,0 +1,86 @@
+// Compares list by list.
+#include "sim/program_values.hpp"
+
+#include <algorithm>
+
+namespace sinew::sim {
+
+namespace {
+
+bool isSameKernel(const KernelUse& a, const KernelUse& b) {
+    return a.code == b.code && a.constants == b.constants;
+}
+
+bool isSameBuffer(const BufferSpec& a, const BufferSpec& b) {
+    return a.label == b.label && a.count == b.count && a.stride == b.stride &&
+           a.initial.empty() == b.initial.empty();
+}
+
+// But for what is pushed.
+bool isSamePass(const Pass& a, const Pass& b) {
+    const auto isSameUse = [](const BufferUse& x, const BufferUse& y) {
+        return x.buffer == y.buffer && x.access == y.access;
+    };
+    return a.kind == b.kind && a.kernel == b.kernel && a.items == b.items && a.value == b.value &&
+           a.isIndirect == b.isIndirect && a.isOfCut == b.isOfCut && a.isOfSurface == b.isOfSurface &&
+           a.phase == b.phase && a.push.size() == b.push.size() &&
+           std::ranges::equal(a.uses, b.uses, isSameUse);
+}
+
+bool haveOneShape(const StepProgram& a, const StepProgram& b) {
+    return a.particleCount == b.particleCount && a.phases == b.phases &&
+           std::ranges::equal(a.kernels, b.kernels, isSameKernel) &&
+           std::ranges::equal(a.buffers, b.buffers, isSameBuffer) &&
+           std::ranges::equal(a.step, b.step, isSamePass) && std::ranges::equal(a.skin, b.skin, isSamePass) &&
+           std::ranges::equal(a.settle, b.settle, isSamePass);
+}
+
+std::vector<ProgramValues::Push> pushesOf(const std::vector<Pass>& from, const std::vector<Pass>& to) {
+    std::vector<ProgramValues::Push> pushes;
+    for (std::size_t p = 0; p < from.size(); ++p)
+        if (from[p].push != to[p].push) pushes.push_back({p, to[p].push});
+    return pushes;
+}
+
+void markWritten(const std::vector<Pass>& passes, std::vector<bool>& isWritten) {
+    for (const Pass& pass : passes)
+        for (const BufferUse& use : pass.uses)
+            if (use.access != vk::Access::read) isWritten[use.buffer.index] = true;
+}
+
+} // namespace
+
+std::vector<bool> areWritten(const StepProgram& program) {
+    std::vector<bool> isWritten(program.buffers.size());
+    for (const std::vector<Pass>* list : {&program.step, &program.skin, &program.settle})
+        markWritten(*list, isWritten);
+    return isWritten;
+}
+
+std::optional<ProgramValues> valuesOf(const StepProgram& from, const StepProgram& to) {
+    if (!haveOneShape(from, to)) return std::nullopt;
+    const std::vector<bool> isWritten = areWritten(from);
+    std::vector<bool> isSettled(from.buffers.size());
+    markWritten(from.settle, isSettled);
+    ProgramValues values{
+        {}, pushesOf(from.step, to.step), pushesOf(from.skin, to.skin), pushesOf(from.settle, to.settle)};
+    for (std::uint32_t b = 0; b < from.buffers.size(); ++b) {
+        if (from.buffers[b].initial == to.buffers[b].initial) continue;
+        if (isWritten[b] && !isSettled[b]) return std::nullopt;
+        values.buffers.push_back({{b}, to.buffers[b].initial, isWritten[b]});
+    }
+    return values;
+}
+
+void take(StepProgram& program, ProgramValues values) noexcept {
+    for (ProgramValues::Contents& contents : values.buffers)
+        program.buffers[contents.buffer.index].initial = std::move(contents.initial);
+    const auto setPushes = [](std::vector<Pass>& passes, std::vector<ProgramValues::Push>& pushes) {
+        for (ProgramValues::Push& push : pushes) passes[push.pass].push = std::move(push.bytes);
+    };
+    setPushes(program.step, values.step);
+    setPushes(program.skin, values.skin);
+    setPushes(program.settle, values.settle);
+}
+
+} // namespace sinew::sim
