@@ -82,6 +82,13 @@ void addWeights(ProgramBuilder& program, const ParticleBuffers& particles, const
     program.endSettling();
 }
 
+// FNV-1a over all slots.
+std::uint64_t orderOf(const StateLayout& layout) {
+    std::uint64_t hash = 14695981039346656037u;
+    for (const std::uint32_t slot : layout.slot) hash = (hash ^ slot) * 1099511628211u;
+    return hash;
+}
+
 void skipContacts(ProgramBuilder& program, const Scene& scene) {
     const bool ofParticles = collision::particle_contacts::areIn(scene);
     const bool withFaces = collision::face_contacts::areIn(scene);
@@ -134,6 +141,7 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     if (scene.particles.empty()) return program.finish();
 
     const SolverPlan solver = entry(settings.solver).plan(scene, settings, inverseMass);
+    built.order = orderOf(solver.layout);
     const auto inSlots = [&](const std::vector<layout::vec4>& values) {
         return spread(values, solver.layout);
     };

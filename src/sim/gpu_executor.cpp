@@ -81,7 +81,7 @@ struct SetPlan {
 
 SetPlan planSets(const StepProgram& program) {
     SetPlan plan;
-    for (const std::vector<Pass>* list : {&program.step, &program.skin, &program.settle}) {
+    for (const std::vector<Pass>* list : {&program.step, &program.skin, &program.settle, &program.adopt}) {
         for (const Pass& pass : *list) {
             if (pass.kind != PassKind::dispatch) continue;
             const auto isSame = [&](const Pass* other) { return isSameDispatch(*other, pass); };
@@ -112,9 +112,11 @@ GpuExecutor::GpuExecutor(const vk::Device& device, const StepProgram& program)
     step_ = resolve(program.step, nextSet);
     skin_ = resolve(program.skin, nextSet);
     settle_ = resolve(program.settle, nextSet);
+    adopt_ = resolve(program.adopt, nextSet);
     checkGroups(step_, device.limits().maxGroupCount);
     checkGroups(skin_, device.limits().maxGroupCount);
     checkGroups(settle_, device.limits().maxGroupCount);
+    checkGroups(adopt_, device.limits().maxGroupCount);
     for (const Recorded& pass : step_) {
         if (timedPhases_.empty() || timedPhases_.back() != pass.phase) timedPhases_.push_back(pass.phase);
     }
@@ -183,6 +185,10 @@ void GpuExecutor::skin(vk::Commands& commands) noexcept {
 
 void GpuExecutor::settle(vk::Commands& commands) noexcept {
     record(commands, settle_, {}, nullptr, true);
+}
+
+void GpuExecutor::adopt(vk::Commands& commands) noexcept {
+    record(commands, adopt_, {}, nullptr, true);
 }
 
 const vk::Buffer* GpuExecutor::stagingOf(BufferId buffer) const noexcept {

@@ -25,6 +25,8 @@ public:
     void skin(vk::Commands& commands) noexcept;
     /// Makes of a state that was put into the buffers one of this program (StepProgram::settle).
     void settle(vk::Commands& commands) noexcept;
+    /// Makes of the public state that of this program (StepProgram::adopt).
+    void adopt(vk::Commands& commands) noexcept;
     /// A buffer as it begins, if it begins with something.
     void restore(vk::Commands& commands, BufferId buffer) noexcept;
     /// What a buffer begins with from now on, and has at once unless it `isOfState`: `contents` has its size.
@@ -60,7 +62,7 @@ private:
     std::vector<vk::Kernel> kernels_;
     std::vector<vk::BindingSets> sets_;
     std::vector<std::size_t> setOfPass_;
-    std::vector<Recorded> step_, skin_, settle_;
+    std::vector<Recorded> step_, skin_, settle_, adopt_;
     std::vector<std::uint32_t> timedPhases_;
 };
 

@@ -197,6 +197,10 @@ struct StepProgram {
     /// Recorded after a state of another material, or of other substeps, was put into the buffers: makes what
     /// of the state follows from the scene alone that of this program. May be empty.
     std::vector<Pass> settle;
+    /// Recorded after another solver's public state was put into the public buffers: makes this one's own of
+    /// it. Empty without public velocities.
+    std::vector<Pass> adopt;
+    std::uint64_t order = 0; ///< hash of where particles are in the state: programs with one can exchange it
     std::vector<std::string> skipped; ///< features this scene does not need, for reports
     std::vector<Carried> carried;     ///< what a simulation that takes over another's state copies
     BufferId parameters, status, positions, velocities; ///< the public ones; velocities may be invalid
@@ -329,6 +333,9 @@ public:
     /// Passes from here on, until endSettling(), belong to StepProgram::settle; no gate changes them.
     void beginSettling() { isSettling_ = true; }
     void endSettling() { isSettling_ = false; }
+    /// Likewise StepProgram::adopt.
+    void beginAdopting() { isAdopting_ = true; }
+    void endAdopting() { isAdopting_ = false; }
     void skip(std::string feature) { program_.skipped.push_back(std::move(feature)); }
 
     StepProgram& program() { return program_; }
@@ -339,7 +346,9 @@ private:
     void update(BufferId buffer, HostData data);
     void append(Pass pass);
     std::vector<Pass>& list() {
-        return isSettling_ ? program_.settle : isSkin_ ? program_.skin : program_.step;
+        if (isSettling_) return program_.settle;
+        if (isAdopting_) return program_.adopt;
+        return isSkin_ ? program_.skin : program_.step;
     }
     Pass& last() { return list().back(); }
     void makeLastIndirect(const IndirectItems& items);
@@ -353,7 +362,8 @@ private:
     std::vector<BufferId> remembered_, kept_;
     std::vector<std::function<void()>> checked_, endings_, skinMiddles_, skinEndings_;
     Gate gate_;
-    bool isReversed_ = false, isSkin_ = false, isSettling_ = false, isCut_ = false, isSurface_ = false;
+    bool isReversed_ = false, isSkin_ = false, isSettling_ = false, isAdopting_ = false, isCut_ = false,
+         isSurface_ = false;
     std::uint32_t substep_ = 0;
 };
 

@@ -37,8 +37,24 @@ void addKept(ProgramBuilder& program) {
 
 // The kernels for one way to find a slot.
 struct Kernels {
-    const vk::ShaderCode &measure, &publish, &publishPositions;
+    const vk::ShaderCode &measure, &publish, &publishPositions, &take;
 };
+
+// What is saved of a state that was taken is that state.
+template <typename Push>
+void addAdopting(ProgramBuilder& program, const ParticleBuffers& particles, const vk::ShaderCode& take,
+                 std::span<const BufferId> slots, const Push& push) {
+    const StepProgram& built = program.program();
+    std::vector<BufferId> buffers{particles.positions, particles.velocities, built.positions,
+                                  built.velocities};
+    buffers.insert(buffers.end(), slots.begin(), slots.end());
+    program.beginAdopting();
+    program.dispatch(take, particles.count, buffers, push);
+    for (const Carried& carried : std::vector(built.carried))
+        for (const BufferId state : {particles.positions, particles.velocities})
+            if (carried.to == state && carried.from != state) program.copy(state, carried.from);
+    program.endAdopting();
+}
 
 template <typename Push>
 void addKernels(ProgramBuilder& program, const ParticleBuffers& particles, const Kernels& kernels,
@@ -56,22 +72,25 @@ void addKernels(ProgramBuilder& program, const ParticleBuffers& particles, const
     addKept(program);
     program.dispatch(hasVelocities ? kernels.publish : kernels.publishPositions, particles.count, published,
                      push);
+    if (hasVelocities) addAdopting(program, particles, kernels.take, slots, push);
 }
 
 void addState(ProgramBuilder& program, const ParticleBuffers& particles) {
     const StateLayout& layout = particles.layout;
     if (layout.isInOrder) {
-        addKernels(program, particles, {k::measureState, k::publishState, k::publishPositions}, {},
-                   layout::CountPush{particles.count});
+        addKernels(program, particles, {k::measureState, k::publishState, k::publishPositions, k::takeState},
+                   {}, layout::CountPush{particles.count});
     } else if (layout.boxes) {
         const EqualBoxes& boxes = *layout.boxes;
         const layout::BoxesPush push{particles.count, boxes.particles, boxes.nodesX,      boxes.nodesY,
                                      boxes.origin,    boxes.rowStride, boxes.sliceStride, boxes.boxStride};
-        addKernels(program, particles, {k::measureStateBoxes, k::publishStateBoxes, k::publishPositionsBoxes},
+        addKernels(program, particles,
+                   {k::measureStateBoxes, k::publishStateBoxes, k::publishPositionsBoxes, k::takeStateBoxes},
                    {}, push);
     } else {
         const BufferId slots = program.upload("state.slots", layout.slot);
-        addKernels(program, particles, {k::measureStateSlots, k::publishStateSlots, k::publishPositionsSlots},
+        addKernels(program, particles,
+                   {k::measureStateSlots, k::publishStateSlots, k::publishPositionsSlots, k::takeStateSlots},
                    std::span(&slots, 1), layout::CountPush{particles.count});
     }
 }
@@ -80,11 +99,14 @@ void addState(ProgramBuilder& program, const ParticleBuffers& particles) {
 
 void addPasses(ProgramBuilder& program, const ParticleBuffers& particles) {
     addState(program, particles);
-    if (program.kept().empty() &&
-        program.program().cutting.counts != BufferId{}) // room for their surface may grow
+    if (program.kept().empty())
         for (const BufferId buffer : {particles.positions, particles.velocities})
             program.carry(buffer, buffer);
-    for (const BufferId memory : program.remembered()) addMemory(program, memory);
+    for (const BufferId memory : program.remembered()) {
+        const BufferId saved = addMemory(program, memory);
+        program.carry(memory, saved);
+        program.carry(saved, saved);
+    }
     for (const auto& addEnding : program.endings()) addEnding();
 }
 

@@ -5,10 +5,10 @@
 #include "sim/collision/collider_paths.hpp"
 #include "sim/collision/face_contacts.hpp"
 #include "sim/collision/particle_contacts.hpp"
-#include "sim/compile.hpp"
 #include "sim/constraints/attachment.hpp"
 #include "sim/constraints/grab.hpp"
 #include "sim/cutting/blade.hpp"
+#include "sim/gpu_compile.hpp"
 #include "sim/gpu_executor.hpp"
 #include "sim/program_values.hpp"
 #include "sim/ranges.hpp"
@@ -50,25 +50,6 @@ std::vector<SkinRange> rangesOf(const std::vector<Skin>& skins) {
         first += count;
     }
     return ranges;
-}
-
-std::uint64_t mostTexels(const StepProgram& program) {
-    std::uint64_t most = 0;
-    for (const Pass& pass : program.step)
-        for (std::size_t b = 0; pass.kind == PassKind::dispatch && b < boundUses(pass).size(); ++b)
-            if (program.kernels[pass.kernel].interface.bindings[b].kind == vk::BlockKind::texels)
-                most = std::max(most, program.buffers[pass.uses[b].buffer.index].count);
-    return most;
-}
-
-// As the settings say, but with no more shared memory and no longer texel buffers than the device has.
-StepProgram compileFor(const vk::Device& device, const Scene& scene, Settings settings) {
-    std::uint32_t& residentBytes = settings.forms.residentBytes;
-    residentBytes = std::min(residentBytes, device.limits().maxSharedMemory);
-    StepProgram program = compile(scene, settings);
-    if (mostTexels(program) <= device.limits().maxTexels) return program;
-    settings.forms.usesTexels = false;
-    return compile(scene, settings);
 }
 
 // A change leaves the state where it is: it cannot be one of other particles.
@@ -274,6 +255,46 @@ struct Simulation::State {
         executor.settle(commands);
     }
 
+    // Public positions and velocities, then all that is carried: calls use(index, buffer).
+    template <typename Use> void forEachHanded(const Use& use) const {
+        std::size_t index = 0;
+        use(index++, program.positions);
+        use(index++, program.velocities);
+        for (const Carried& carried : program.carried) use(index++, carried.from);
+    }
+
+    // Copies what `other` hands over, from where it is or from `copy`; what is carried, too, if they are
+    // alike: buffers of one name, of which there may be several, and the head of what has more room here.
+    void recordTaking(vk::Commands& commands, const State& other, const vk::BufferView& copy,
+                      bool isAlike) const noexcept {
+        std::size_t next = 0; // of the own that are carried
+        vk::BufferView place = copy;
+        const auto nameOf = [](const StepProgram& of, std::size_t c) -> const std::string& {
+            return of.buffers[of.carried[c].to.index].label;
+        };
+        other.forEachHanded([&](std::size_t index, BufferId handed) {
+            vk::BufferView origin = other.executor.view(handed);
+            if (copy.buffer != VK_NULL_HANDLE) {
+                place.size = origin.size;
+                origin = place;
+                place.offset += place.size;
+            }
+            BufferId own = index == 0 ? program.positions : program.velocities;
+            if (index > 1) {
+                std::size_t found = next;
+                while (found < program.carried.size() &&
+                       nameOf(program, found) != nameOf(other.program, index - 2))
+                    ++found;
+                if (!isAlike || found == program.carried.size()) return;
+                own = program.carried[found].to;
+                next = found + 1;
+            }
+            vk::BufferView target = executor.view(own);
+            target.size = origin.size = std::min(target.size, origin.size);
+            if (target.size > 0) commands.copy(origin, target);
+        });
+    }
+
     // Copies buffers out to where they stand one behind the other, or back from there.
     enum class Way { out, back };
     void copy(vk::Commands& commands, const std::vector<BufferId>& buffers, vk::BufferView copies,
@@ -339,31 +360,51 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     state_->hasNewTopology = state_->isChanged = false;
 }
 
-void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from) noexcept {
+void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from,
+                                const vk::BufferView& copy) noexcept {
     recordReset(buffer);
+    const State& other = *from.state_;
+    const bool isAlike =
+        state_->chosen.solver == other.chosen.solver && state_->program.order == other.program.order;
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
-    const StepProgram &own = state_->program, &other = from.state_->program;
-    const auto copy = [&](BufferId to, BufferId source) { // the head of what has more room here
-        vk::BufferView target = view(to), origin = from.view(source);
-        target.size = origin.size = std::min(target.size, origin.size);
-        if (target.size > 0) commands.copy(origin, target);
-    };
-    copy(own.positions, other.positions);
-    copy(own.velocities, other.velocities);
-    const std::size_t carried = std::min(own.carried.size(), other.carried.size());
-    for (std::size_t b = 0; b < carried; ++b) copy(own.carried[b].to, other.carried[b].from);
-    state_->recordSettling(commands); // its material may be another one
-    if (state_->hasMoreRoom(*from.state_)) state_->recordSurface(commands);
+    state_->recordTaking(commands, other, copy, isAlike);
+    if (!isAlike) {
+        commands.barrier();
+        state_->executor.adopt(commands);
+    }
+    state_->recordSettling(commands); // its material, or h, may be another one
+    if (state_->hasMoreRoom(other)) state_->recordSurface(commands);
     commands.endStep();
-    State::Settled end = from.state_->settledEnd;
+    State::Settled end = other.settledEnd;
     for (std::uint64_t frame = 0; frame < framesInFlight; ++frame) // from the oldest on
-        end = from.state_->settled(from.state_->nextFrame + frame, end);
+        end = other.settled(other.nextFrame + frame, end);
     state_->settledEnd = end;
-    state_->previousH = end.h;
-    state_->anchors = from.state_->anchors;
-    state_->hands = from.state_->hands;
+    state_->previousH = isAlike ? end.h : 0;
+    state_->anchors = other.anchors;
+    if (isAlike) state_->hands = other.hands;
+    state_->isChanged = true;
     state_->colliders.moveTo(end.time, end.pokes);
+}
+
+std::uint64_t Simulation::handOverSize() const noexcept {
+    std::uint64_t size = 0;
+    state_->forEachHanded([&](std::size_t, BufferId buffer) { size += view(buffer).size; });
+    return size;
+}
+
+void Simulation::recordHandOver(VkCommandBuffer buffer, const vk::BufferView& to) const noexcept {
+    vk::Commands commands(state_->device, buffer);
+    commands.beginStep();
+    vk::BufferView target = to;
+    state_->forEachHanded([&](std::size_t, BufferId handed) {
+        const vk::BufferView own = view(handed);
+        target.size = own.size;
+        if (own.size > 0) commands.copy(own, target);
+        target.offset += own.size;
+    });
+    commands.endStep();
+    commands.hostBarrier();
 }
 
 std::optional<SceneChange> Simulation::prepareChange(const Scene& scene) const {

@@ -191,13 +191,22 @@ public:
     /// of phases().
     void record(VkCommandBuffer commands, const Step& step, vk::Timestamps* timestamps = nullptr) noexcept;
 
-    /// Records the copies that put this simulation into the state of `from`, which was made of the same scene
-    /// and settings but for contactRoom and cutSurfaceRoom, at most as much as here: the next step goes on
-    /// where `from` stands.
-    /// `from` must live until the commands have finished. Instead of recordReset(), which it contains. All
-    /// steps of `from` must have finished. Colliders on a path, and pokes, are where they were at the end of
-    /// the last step that was not undone.
-    void recordTakeOver(VkCommandBuffer commands, const Simulation& from) noexcept;
+    /// Records the copies that put this simulation into the state of `from`, which was made of the same
+    /// scene, of whatever material, and of settings that may differ in solver, substeps, iterations,
+    /// contactRoom and cutSurfaceRoom, the last two at most as much as here: the next step goes on where
+    /// `from` stands. Instead of recordReset(), which it contains. All steps of `from` must have finished. It
+    /// must live until the commands have finished, and its device is this one's; or that is another one, and
+    /// `copy` what recordHandOver() of it has copied, brought to this device by the host. Colliders on a
+    /// path, and pokes, are where they were at the end of the last step that was not undone. Of the same
+    /// solver (and the same Forms::usesGrids) all is carried that a step leaves behind. Of another solver
+    /// positions and velocities are, both with Settings::publishesVelocities: a velocity half a substep
+    /// before the end is taken as that of the end, hands take hold anew, and what slept is awake.
+    void recordTakeOver(VkCommandBuffer commands, const Simulation& from,
+                        const vk::BufferView& copy = {}) noexcept;
+    /// Size of what recordTakeOver() copies from this [B].
+    std::uint64_t handOverSize() const noexcept;
+    /// Records the copy of it into `to`, of handOverSize() bytes, after which the host may read it.
+    void recordHandOver(VkCommandBuffer commands, const vk::BufferView& to) const noexcept;
 
     /// What turns this into the simulation of `scene`: its own but for the material, which is stiffness and
     /// compliance, friction, restitution, damping (withMaterial(), or by hand). Nothing where that needs

@@ -72,6 +72,24 @@ sim::Status Runner::run(int steps) {
     return status;
 }
 
+void Runner::takeOverByHost(const Runner& from) {
+    const auto make = [&](const char* name, vk::MemoryKind kind) {
+        return vk::Buffer(
+            device(),
+            {.name = name, .count = from.simulation_.handOverSize() / 4, .stride = 4, .kind = kind});
+    };
+    const vk::Buffer read = make("handed", vk::MemoryKind::readback),
+                     sent = make("taken", vk::MemoryKind::upload);
+    VkCommandBuffer commands = queue().begin();
+    from.simulation_.recordHandOver(commands, read.view());
+    queue().wait(queue().submit(commands));
+    std::copy_n(read.mapped(), from.simulation_.handOverSize(), sent.mapped());
+    commands = queue().begin();
+    simulation_.recordTakeOver(commands, from.simulation_, sent.view());
+    queue().wait(queue().submit(commands));
+    frame_ = from.frame_;
+}
+
 bool Runner::change(const sim::Scene& scene) {
     std::optional<sim::SceneChange> change = simulation_.prepareChange(scene);
     if (!change) return false;

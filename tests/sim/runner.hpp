@@ -24,6 +24,8 @@ public:
     void reset();
     /// Goes on where `from` stands, with its next frame.
     void takeOver(const Runner& from);
+    /// The same by way of host memory, as from another device.
+    void takeOverByHost(const Runner& from);
     /// From the next step on; false where that needs another simulation.
     bool change(const sim::Scene& scene);
     void skin();

@@ -1,0 +1,21 @@
+#version 460
+// Makes the state of a solver out of the public one, which another solver has left: what slept there is awake here.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+
+layout(std430, binding = 0) buffer Positions { vec4 positions[]; };
+layout(std430, binding = 1) buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg], as the scene has it
+layout(std430, binding = 2) buffer PublicPositions { vec4 publicPositions[]; };
+layout(std430, binding = 3) buffer PublicVelocities { vec4 publicVelocities[]; };
+#define SLOTS_BINDING 4
+#include "slots.glsl"
+
+void main() {
+    const uint i = itemIndex(push.count);
+    if (i >= push.count) return;
+    const uint slot = slotOf(i);
+    positions[slot].xyz = publicPositions[i].xyz;
+    velocities[slot].xyz = publicVelocities[i].xyz;
+    publicPositions[i].w = velocities[slot].w;
+    publicVelocities[i].w = velocities[slot].w;
+}

@@ -1,0 +1,163 @@
+// A simulation of other settings goes on where one of the same scene stands.
+#include "sim/bodies.hpp"
+#include "sim/material.hpp"
+#include "sim/runner.hpp"
+#include "sim/scenes.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace sinew;
+using namespace sinew::sim;
+
+namespace {
+
+constexpr Solver everySolver[] = {Solver::split, Solver::jacobi, Solver::gaussSeidel};
+
+Settings settingsOf(Solver solver, std::uint32_t substeps) {
+    return {.solver = solver, .substeps = substeps, .iterations = solver == Solver::split ? 1u : 3u};
+}
+
+Scene swingingSheet() {
+    Scene scene = test::sheet(10, 1e-5f);
+    test::disturb(scene, 0, 0.5f);
+    return scene;
+}
+
+double farthest(const test::Runner& a, const test::Runner& b) {
+    const auto x = a.positions(), y = b.positions();
+    double most = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) most = std::max(most, (x[i] - y[i]).norm());
+    return most;
+}
+
+// The scene as it stands.
+Scene sceneAt(const Scene& scene, const test::Runner& runner) {
+    Scene now = scene;
+    const auto x = runner.positions(), v = runner.velocities();
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        now.particles[i].position = test::toFloats(x[i]);
+        now.particles[i].velocity = test::toFloats(v[i]);
+    }
+    return now;
+}
+
+} // namespace
+
+TEST(TakeOver, ByAnotherSolverGoesOnAsASceneThatBeginsThere) {
+    const Scene scene = swingingSheet();
+    for (const Solver before : everySolver)
+        for (const Solver after : everySolver) {
+            if (before == after) continue;
+            SCOPED_TRACE(::testing::PrintToString(before) + " to " + ::testing::PrintToString(after));
+            test::Runner first(scene, settingsOf(before, 8)), second(scene, settingsOf(after, 12));
+            first.run(15);
+            second.run(3); // of which nothing may be left
+            second.takeOver(first);
+            EXPECT_EQ(farthest(first, second), 0);
+            test::Runner anew(sceneAt(scene, first), settingsOf(after, 12));
+            EXPECT_EQ(farthest(first, anew), 0);
+            second.run(10);
+            anew.run(10);
+            EXPECT_EQ(second.stateHash(), anew.stateHash());
+        }
+}
+
+TEST(TakeOver, ByABodyOnAGridFindsItsSlots) {
+    for (const int boxes : {1, 2}) { // 1: their slots are computed, 2: looked up
+        Scene scene = test::block(4, 0.1f, 1e5f, 0.2f);
+        if (boxes == 2)
+            addLattice(scene,
+                       {.origin = {1, 0.4f, 0}, .cells = {2, 3, 2}, .spacing = 0.1f, .youngModulus = 1e5f});
+        test::Runner first(scene, settingsOf(Solver::jacobi, 8)), second(scene, settingsOf(Solver::split, 8));
+        first.run(12);
+        second.takeOver(first);
+        EXPECT_EQ(farthest(first, second), 0);
+        EXPECT_EQ(second.run(1).nonFinite, 0u);
+        first.run(1);
+        EXPECT_LT(farthest(first, second), 2e-3) << "a step on, the two solvers are near";
+        EXPECT_GT(farthest(first, second), 0);
+        for (const float w : second.inverseMasses()) EXPECT_GT(w, 0);
+    }
+}
+
+// A sheet that falls by its two corners, smoothly: what it does next hardly depends on substeps.
+TEST(TakeOver, ByOtherSubstepsGoesOnWithoutAJolt) {
+    const Scene scene = test::sheet(10, 1e-3f);
+    for (const Solver solver : everySolver) {
+        SCOPED_TRACE(::testing::PrintToString(solver));
+        test::Runner first(scene, settingsOf(solver, 32)), second(scene, settingsOf(solver, 48)),
+            still(scene, settingsOf(solver, 32));
+        first.run(15);
+        second.takeOver(first);
+        still.takeOver(first);
+        EXPECT_EQ(farthest(first, second), 0);
+        first.run(2);
+        EXPECT_EQ(second.run(2).nonFinite, 0u);
+        const double way = farthest(first, still);
+        EXPECT_GT(way, 0.05);
+        EXPECT_LT(farthest(first, second), 0.05 * way) << "jacobi is softer with fewer substeps";
+        EXPECT_GT(farthest(first, second), 0);
+    }
+}
+
+TEST(TakeOver, BySubstepsThatAreTheSameHasTheSameBits) {
+    const Scene scene = swingingSheet();
+    for (const Solver solver : everySolver) {
+        SCOPED_TRACE(::testing::PrintToString(solver));
+        test::Runner first(scene, settingsOf(solver, 9)), second(scene, settingsOf(solver, 9));
+        first.run(15);
+        second.takeOver(first);
+        first.run(5);
+        second.run(5);
+        EXPECT_EQ(second.stateHash(), first.stateHash());
+    }
+}
+
+TEST(TakeOver, ByWayOfTheHostHasTheSameBits) {
+    Scene scene = test::block(3, 0.1f, 1e5f, 0.05f);
+    scene.planes = {{.friction = 0.5f}};
+    Settings settings = settingsOf(Solver::split, 8);
+    settings.sleeps = true;
+    settings.grabs = 2;
+    test::Runner first(scene, settings);
+    first.run(20);
+    for (const Solver after : {Solver::split, Solver::jacobi}) {
+        Settings other = settingsOf(after, 10);
+        other.grabs = 2;
+        other.sleeps = after == Solver::split;
+        test::Runner direct(scene, other), byHost(scene, other);
+        direct.takeOver(first);
+        byHost.takeOverByHost(first);
+        direct.run(7);
+        byHost.run(7);
+        EXPECT_EQ(direct.stateHash(), byHost.stateHash());
+        EXPECT_LT(farthest(direct, byHost), 1e-9);
+    }
+}
+
+TEST(TakeOver, KeepsCutsAndTakesAnotherMaterial) {
+    Scene scene{.name = "sheet"};
+    addCloth(scene, {.size = {9, 9},
+                     .spacing = 0.1f,
+                     .stretchCompliance = 1e-4f,
+                     .shearCompliance = 1e-4f,
+                     .skipStiffness = 100,
+                     .bendingStiffness = 1e-3f,
+                     .isCuttable = true});
+    scene.gravity = {};
+    const std::array from{Vec3{0.45f, -1, -0.5f}, Vec3{0.45f, 1, -0.5f}},
+        to{Vec3{0.45f, -1, 1.5f}, Vec3{0.45f, 1, 1.5f}};
+    test::Runner first(scene, settingsOf(Solver::split, 8));
+    EXPECT_GT(first.cut({.from = from, .to = to}).linksCut, 0u);
+    first.run(2);
+    const Scene soft = withMaterial(scene, {.stiffness = 0.3f});
+    test::Runner second(soft, settingsOf(Solver::split, 20));
+    second.takeOver(first);
+    const Status status = second.run(3);
+    EXPECT_EQ(status.pieces, 2u);
+    EXPECT_GT(status.linksCutInAll, 0u);
+    test::Runner made(soft, settingsOf(Solver::split, 20));
+    made.cut({.from = from, .to = to});
+    made.run(5);
+    EXPECT_LT(farthest(second, made), 1e-5);
+}
