@@ -13,8 +13,7 @@ namespace sinew::viewer {
 namespace {
 
 // "32 of 50,000 links are clamped (0.1 %); the softest has 87 % of its stiffness".
-std::string stiffnessText(const sim::Scene& scene, const sim::Settings& settings) {
-    const sim::StiffnessReport report = sim::inspectStiffness(scene, settings);
+std::string textOf(const sim::StiffnessReport& report) {
     if (report.elastic == 0) return "";
     char text[160];
     std::snprintf(text, sizeof text,
@@ -29,9 +28,16 @@ Knobs knobsOf(const scenes::LoadedScene& loaded) {
     const std::vector<std::string> solvers = sim::solverNames();
     const auto solver = std::ranges::find(solvers, sim::solverName(loaded.settings.solver));
     const sim::Vec3& g = loaded.scene.gravity;
+    const sim::Scene& scene = loaded.scene;
+    const bool hasColliders = scene.planes.empty() && !scene.colliders.empty();
     return {.gravity = std::hypot(g.x, g.y, g.z),
             .substeps = static_cast<int>(loaded.settings.substeps),
-            .solver = static_cast<int>(solver - solvers.begin())};
+            .solver = static_cast<int>(solver - solvers.begin()),
+            .damping = scene.damping,
+            .friction = !scene.planes.empty() ? scene.planes.front().friction
+                        : hasColliders        ? scene.colliders.front().friction
+                                              : scene.contacts.friction,
+            .bodies = std::vector<float>(scene.bodies.size(), 1)};
 }
 
 // "solve_distance[3]" is one of several that differ in their range only.
@@ -67,6 +73,18 @@ void addProgram(SceneFacts& facts, const sim::StepProgram& program) {
 
 } // namespace
 
+std::string stiffnessText(const Stage& stage) {
+    return textOf(stage.stiffness());
+}
+
+sim::Material materialOf(const Knobs& knobs, const Knobs& fromFile) {
+    sim::Material material{.stiffness = knobs.stiffness, .bodies = knobs.bodies};
+    if (std::ranges::all_of(knobs.bodies, [](float factor) { return factor == 1; })) material.bodies.clear();
+    if (knobs.damping != fromFile.damping) material.damping = knobs.damping;
+    if (knobs.friction != fromFile.friction) material.friction = knobs.friction;
+    return material;
+}
+
 SceneFacts sceneFacts(const Opening& opening, const Stage& stage, const vk::Device& device) {
     const sim::Scene& scene = stage.scene();
     const scenes::LoadedScene& loaded = opening.loaded;
@@ -78,10 +96,11 @@ SceneFacts sceneFacts(const Opening& opening, const Stage& stage, const vk::Devi
                      .particles = scene.particles.size(),
                      .constraints = stage.simulation().program().constraintCount,
                      .substepsWhy = sim::toText(loaded.substeps, loaded.settings),
-                     .stiffness = stiffnessText(scene, loaded.settings),
+                     .stiffness = stiffnessText(stage),
                      .canCut = std::ranges::any_of(scene.grids, &sim::Grid::isCuttable),
                      .solvers = sim::solverNames(),
                      .fromFile = knobsOf(loaded)};
+    for (const sim::Body& body : scene.bodies) facts.bodies.push_back(body.name);
     addProgram(facts, stage.simulation().program());
     return facts;
 }

@@ -11,6 +11,12 @@ namespace sinew::viewer {
 /// What stays the same. `settings` as the stage runs with them.
 SceneFacts sceneFacts(const Opening& opening, const Stage& stage, const vk::Device& device);
 
+/// How many links are clamped, and how soft the softest is; empty where none is elastic.
+std::string stiffnessText(const Stage& stage);
+
+/// What was turned of the material; what is as in the file is left as it is there.
+sim::Material materialOf(const Knobs& knobs, const Knobs& fromFile);
+
 /// `positions` of every particle [m].
 Strain measureStrain(const sim::Scene& scene, std::span<const sim::layout::vec4> positions);
 

@@ -30,6 +30,7 @@ struct Player {
     void operator()(const Pressed& event) const { tools.press(camera, event.isDown, event.at); }
     void operator()(Action event) const { tools.act(event); }
     void operator()(const Pulled& event) const { tools.pull(stage, event.gravity); }
+    void operator()(const Turned& event) const { tools.turn(stage, event.material); }
     void operator()(const Sized& event) const { tools.resize(event.radius); }
     void operator()(const Forgot&) const { tools.forget(); }
     void operator()(const Answered& event) const {

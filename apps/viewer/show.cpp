@@ -49,6 +49,7 @@ void Show::goOn(const Again& again) {
     knobs_.gravity = again.turned.gravity;
     knobs_.pace = again.turned.pace;
     tools_.pull(stage_, knobs_.gravity);
+    turnMaterial(again.turned);
     controller_.playback.setPace(double{knobs_.pace});
 }
 
@@ -98,6 +99,7 @@ void Show::turn() {
     const Wishes wishes = std::exchange(wishes_, {});
     grant(wishes, input);
     handle(input);
+    takeTurn();
     reportFiles(PictureWriter::Wait::no);
     if (replayed_) compareReplay();
     isHidden_ = !prepareSwapchain();

@@ -77,6 +77,8 @@ private:
     void handle(const Input& input);
     void grant(const Wishes& wishes, Input& input);
     void turnKnobs(const Knobs& knobs);
+    void turnMaterial(const Knobs& knobs);
+    void takeTurn();
     void changeDevice(std::size_t index);
     void goOn(const Again& again);
     float pictureAspect() const;

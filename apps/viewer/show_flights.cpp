@@ -36,6 +36,10 @@ void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
     flight.firstStep = stage_.steps() + 1;
     flight.steps = plan.steps;
     for (std::uint32_t step = 0; step < plan.steps; ++step) {
+        if (const auto material = stage_.recordTurn(frame.commands)) {
+            tools_.turned(*material);
+            sceneFacts_.stiffness = stiffnessText(stage_);
+        }
         const StepHands hands = tools_.takeStep(frame.commands, stage_);
         if (hands.sweep) flight.sweeps.push_back(*hands.sweep);
         recordStep(frame.commands, stage_, hands, step == 0 ? &times_[frame.slot] : nullptr);

@@ -28,12 +28,35 @@ void Show::turnKnobs(const Knobs& knobs) {
     controller_.playback.setPace(double{knobs.pace});
     knobs_.gravity = knobs.gravity;
     knobs_.pace = knobs.pace;
+    turnMaterial(knobs);
     const auto shape = [](const Knobs& some) { return std::pair(some.substeps, some.solver); };
     if (shape(knobs) == shape(knobs_) || library_.isOpening()) return;
     scenes::Overrides overrides;
     overrides.solver = sceneFacts_.solvers[static_cast<std::size_t>(knobs.solver)];
     overrides.substeps = static_cast<std::uint32_t>(knobs.substeps);
     library_.reopen(overrides, {controller_.camera, knobs, sceneFacts_.fromFile}, pictureAspect());
+}
+
+// Worked out beside what plays.
+void Show::turnMaterial(const Knobs& knobs) {
+    const sim::Material before = materialOf(knobs_, sceneFacts_.fromFile);
+    knobs_.stiffness = knobs.stiffness;
+    knobs_.damping = knobs.damping;
+    knobs_.friction = knobs.friction;
+    knobs_.bodies = knobs.bodies;
+    knobs_.body = knobs.body;
+    const sim::Material material = materialOf(knobs_, sceneFacts_.fromFile);
+    if (material != before) stage_.turn(material);
+}
+
+// What cannot be had leaves all as it is.
+void Show::takeTurn() {
+    try {
+        if (stage_.takeTurn(controller_.playback.isPaused()) == Stage::Turn::refused)
+            screen_.tell("this material needs other passes than the scene has: it stays as it was");
+    } catch (const std::exception& error) {
+        screen_.warn(error.what());
+    }
 }
 
 void Show::changeDevice(std::size_t index) {

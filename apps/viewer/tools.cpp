@@ -118,6 +118,16 @@ void Tools::pull(Stage& stage, float gravity) {
     stage.setGravity(gravity);
 }
 
+void Tools::turn(Stage& stage, const sim::Material& material) {
+    stage.turnNow(material);
+    turned(material);
+}
+
+void Tools::turned(const sim::Material& material) {
+    material_ = material;
+    log_.turn(material);
+}
+
 void Tools::resize(float radius) {
     poke_.setRadius(radius);
     log_.size(poke_.radius());
@@ -199,6 +209,7 @@ void Tools::reset() {
         log_.key(Action::poke);
     }
     if (gravity_) log_.pull(*gravity_);
+    log_.turn(material_);
 }
 
 void Tools::putAway(Stage& stage) {
@@ -206,6 +217,8 @@ void Tools::putAway(Stage& stage) {
     poke_.putAway();
     gravity_.reset();
     stage.setGravity(stage.scene().gravity);
+    if (material_ != sim::Material{}) stage.turnNow({});
+    material_ = {};
 }
 
 void Tools::forget() {

@@ -40,6 +40,9 @@ public:
     void move(const Camera& camera, const Vector2& pointer);
     /// As Stage::setGravity.
     void pull(Stage& stage, float gravity);
+    /// As Stage::turnNow; and what Stage::recordTurn() has recorded.
+    void turn(Stage& stage, const sim::Material& material);
+    void turned(const sim::Material& material);
     /// Of the sphere that pokes [m].
     void resize(float radius);
     /// False for an action that is none of theirs.
@@ -110,6 +113,7 @@ private:
     float pinReach_;               // of the pointer around a pin [m]
     std::optional<Ray> pinned_;    // a question
     std::optional<float> gravity_; // that was turned
+    sim::Material material_;       // likewise
     InputLog log_;
     std::uint32_t stepsBack_ = 0; // that are wanted
     bool canCut_ = false, isForgetful_ = false, isForgetfulOfSteps_ = false, wantsPin_ = false,

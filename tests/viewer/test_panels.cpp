@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
 
 namespace sinew::viewer {
 namespace {
@@ -48,6 +49,7 @@ protected:
         const Wishes after = picture(input, extent);
         wishes.actions.insert(wishes.actions.end(), after.actions.begin(), after.actions.end());
         if (after.device) wishes.device = after.device;
+        if (after.knobs) wishes.knobs = after.knobs;
         return wishes;
     }
     Wishes picture(const PanelInput& input = {}, VkExtent2D extent = large) {
@@ -63,6 +65,28 @@ protected:
     SceneFacts scene = someScene();
     Facts facts;
 };
+
+TEST_F(PanelsTest, TurnTheMaterialOfAllOrOfOneBody) {
+    scene.bodies = {"liver", "gut"};
+    scene.fromFile.bodies = facts.knobs.bodies = {1, 1};
+    facts.knobs.damping = scene.fromFile.damping = 200; // more than the slider has
+    constexpr VkExtent2D tall{1280, 1400};              // all of them are in sight
+    settle(tall);
+    const auto wishes = [&] {
+        std::set<std::string> turned;
+        for (float y = 20; y < 1390; y += 6)
+            if (const auto knobs = click({1200, y}, tall).knobs) {
+                if (knobs->stiffness != 1) turned.insert("stiffness");
+                if (knobs->bodies != facts.knobs.bodies) turned.insert("body");
+                if (knobs->damping != facts.knobs.damping) turned.insert("damping");
+                if (knobs->friction != 0) turned.insert("friction");
+            }
+        return turned;
+    };
+    EXPECT_EQ(wishes(), (std::set<std::string>{"stiffness", "damping", "friction"}));
+    facts.knobs.body = 1;
+    EXPECT_TRUE(wishes().contains("body"));
+}
 
 TEST_F(PanelsTest, HaveAButtonForEveryActionThatAKeyDoes) {
     for (const Binding& binding : bindings()) {

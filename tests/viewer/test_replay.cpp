@@ -60,6 +60,7 @@ struct Scene {
         test::queue().wait(test::queue().submit(commands));
     }
     void step(VkCommandBuffer commands) {
+        if (const auto material = stage.recordTurn(commands)) tools.turned(*material);
         const StepHands hands = tools.takeStep(commands, stage);
         recordStep(commands, stage, hands);
     }
@@ -120,6 +121,35 @@ void play(Played& played) {
     played.turn({.actions = {Action::undo}}, 0);
 }
 
+// In the thread that prepares it, as a window does.
+void turnMaterial(Played& played, const sim::Material& material) {
+    played.stage.turn(material);
+    Stage::Turn turn = Stage::Turn::none;
+    while (turn == Stage::Turn::none) turn = played.stage.takeTurn(false);
+    EXPECT_EQ(turn, Stage::Turn::ready);
+}
+
+// Softens the block, cuts it, takes the cut back, and stiffens it; the last that is asked for counts.
+void soften(Played& played) {
+    played.turn({}, 10);
+    turnMaterial(played, {.stiffness = 0.2f, .damping = 1.5f});
+    played.turn({}, 1);
+    EXPECT_EQ(played.stage.material().stiffness, 0.2f);
+    played.turn({}, 9);
+    played.turn({.actions = {Action::blade}});
+    played.dragFrom({0.1f, -0.45f}, {0.05f, 0.9f}, 5);
+    played.pressAt({0.15f, 0.45f}, false);
+    played.stage.turn({.stiffness = 9});
+    played.stage.turn({.stiffness = 2});
+    for (int i = 0; i < 1000 && played.stage.material().stiffness != 2; ++i) {
+        played.stage.takeTurn(false);
+        played.turn({}, 1);
+    }
+    played.turn({}, 5);
+    played.turn({.actions = {Action::undo}}, 0); // of a state that was softer
+    played.turn({}, 5);
+}
+
 // Pushes the block with a sphere that grows, from beside it and then on it, and lifts the sphere each time.
 void poke(Played& played) {
     played.turn({}, 20);
@@ -173,6 +203,33 @@ void expectTheSameBitsOf(void (*hands)(Played&)) {
 
 TEST(Replay, LeadsToTheSameBits) {
     expectTheSameBitsOf(play);
+}
+
+TEST(Replay, TurnsTheSameMaterial) {
+    expectTheSameBitsOf(soften);
+}
+
+TEST(Replay, OfAMaterialBeginsAtTheReset) {
+    Played played;
+    turnMaterial(played, {.stiffness = 0.2f, .bodies = {0.5f}});
+    played.turn({}, 3);
+    played.tools.reset();
+    played.run([&](VkCommandBuffer commands) { played.stage.recordReset(commands); });
+    played.turn({}, 30);
+    Scene again;
+    Replay replay(parseInput(toText(played.file()), "test"));
+    replayAll(again, replay);
+    EXPECT_EQ(again.hash(), played.hash());
+    again.tools.putAway(again.stage); // the replay begins again
+    again.tools.reset();
+    again.run([&](VkCommandBuffer commands) { again.stage.recordReset(commands); });
+    Scene untouched;
+    for (Scene* scene : {&again, &untouched})
+        scene->run([&](VkCommandBuffer commands) {
+            scene->step(commands);
+            scene->step(commands);
+        });
+    EXPECT_EQ(again.hash(), untouched.hash());
 }
 
 TEST(Replay, PushesWithTheSameSphere) {
@@ -245,7 +302,8 @@ TEST(InputFile, BringsEveryBitBack) {
                          .surface = 5000,
                          .events = {camera, Pointed{{odd, 3e8f}}, Action::undo, Answered{},
                                     Answered{Question::Asker::pin, Pick{3, {odd, 0, 0}, {0, odd, 0}}, odd},
-                                    Pulled{odd}, Forgot{}, Stepped{3}},
+                                    Pulled{odd}, Turned{{odd, {odd, 2}, {}, 0.0f}}, Turned{}, Forgot{},
+                                    Stepped{3}},
                          .hash = 0xfedcba9876543210u};
     const InputFile read = parseInput(toText(file), "test");
     EXPECT_EQ(read.events, file.events);
@@ -265,10 +323,27 @@ std::string complaintAbout(const std::string& text) {
 TEST(InputFile, IsRefusedWithItsLine) {
     EXPECT_EQ(complaintAbout("sinew input 1\n# by hand\n\nsteps 3\n"), "accepted");
     EXPECT_NE(complaintAbout("").find("a.input: it does not begin"), std::string::npos);
-    for (const char* line :
-         {"steps", "steps -1", "steps 1 2", "steps 99999999999", "pointer 0 nan", "pointer 0", "key F77",
-          "key", "press 0 x", "hand 3 0 0", "hand -1 0 0 0 0 0 0 0", "camera 0 0 0 -1 0 0 0.7 0", "state xyz",
-          "wave", "gravity inf"})
+    for (const char* line : {"steps",
+                             "steps -1",
+                             "steps 1 2",
+                             "steps 99999999999",
+                             "pointer 0 nan",
+                             "pointer 0",
+                             "key F77",
+                             "key",
+                             "press 0 x",
+                             "hand 3 0 0",
+                             "hand -1 0 0 0 0 0 0 0",
+                             "camera 0 0 0 -1 0 0 0.7 0",
+                             "state xyz",
+                             "wave",
+                             "gravity inf",
+                             "material",
+                             "material 1",
+                             "material 0 - -",
+                             "material 1 - x",
+                             "material 1 -1 -",
+                             "material 1 - - 0"})
         EXPECT_NE(complaintAbout(std::string("sinew input 1\n\n") + line + "\n").find("a.input:3: "),
                   std::string::npos)
             << line;

@@ -2,7 +2,9 @@
 #include "viewer/draw/stage.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <utility>
 
 namespace sinew::viewer {
 
@@ -15,11 +17,16 @@ std::string Divergence::sentence() const {
 }
 
 Stage::Stage(const vk::Device& device, sim::Scene scene, const sim::Settings& settings)
-    : scene_(std::move(scene)), settings_(settings), growing_(device, scene_, settings_),
+    : given_(std::move(scene)), scene_(given_), settings_(settings),
+      stiffness_(sim::inspectStiffness(given_, settings)), growing_(device, scene_, settings_),
       gravity_(scene_.gravity) {
     const sim::Vec3& g = scene_.gravity;
     const float length = std::hypot(g.x, g.y, g.z);
     if (length > 0) down_ = {g.x / length, g.y / length, g.z / length};
+}
+
+Stage::~Stage() {
+    if (turning_.valid()) turning_.wait();
 }
 
 void Stage::recordReset(VkCommandBuffer commands) noexcept {
@@ -41,6 +48,8 @@ void Stage::load(const vk::Device& device, const app::SavedRun& run, vk::Queue& 
 
 void Stage::recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps, std::span<const sim::Grab> grabs,
                        const sim::Blade& blade, std::span<const sim::Poke> pokes) noexcept {
+    recordTurn(commands);
+    ++recordedSteps_;
     const sim::Blade scripted = blades_.at(played_++);
     sim::Step step{.dt = scene_.dt, .gravity = gravity_, .frame = ++steps_};
     step.grabs = grabs;
@@ -54,6 +63,68 @@ void Stage::setGravity(float gravity) noexcept {
     gravity_.x *= gravity;
     gravity_.y *= gravity;
     gravity_.z *= gravity;
+}
+
+// Of the step program only what does not change meanwhile is read: recordTurn() waits for this.
+Stage::Turned Stage::prepare(const sim::Material& material) const {
+    Turned turned{material, sim::withMaterial(given_, material), {}, std::nullopt};
+    turned.change = simulation().prepareChange(turned.scene);
+    turned.stiffness = sim::inspectStiffness(turned.scene, settings_);
+    return turned;
+}
+
+void Stage::beginTurn() {
+    if (!wanted_ || turning_.valid() || ready_) return;
+    turning_ = std::async(std::launch::async, [this, material = *std::exchange(wanted_, std::nullopt)] {
+        return prepare(material);
+    });
+}
+
+void Stage::turn(const sim::Material& material) {
+    wanted_ = material;
+    beginTurn();
+}
+
+void Stage::turnNow(const sim::Material& material) {
+    ready_ = prepare(material);
+    if (!ready_->change) ready_.reset();
+}
+
+// While nothing is recorded, what is ready makes way for what was asked for later.
+Stage::Turn Stage::takeTurn(bool isPaused) {
+    if (isPaused && wanted_) ready_.reset();
+    beginTurn();
+    if (!turning_.valid() || turning_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+        return Turn::none;
+    Turned turned = turning_.get();
+    if (!turned.change) return Turn::refused;
+    ready_ = std::move(turned);
+    return Turn::ready;
+}
+
+std::optional<sim::Material> Stage::recordTurn(VkCommandBuffer commands) noexcept {
+    while (!recorded_.empty() && recorded_.front().step + sim::Simulation::framesInFlight < recordedSteps_)
+        recorded_.pop_front();
+    if (!ready_) return std::nullopt;
+    Turned turned = *std::exchange(ready_, std::nullopt);
+    simulation().recordChange(commands, *turned.change);
+    recorded_.push_back({std::move(*turned.change), recordedSteps_});
+    scene_ = std::move(turned.scene);
+    stiffness_ = turned.stiffness;
+    material_ = std::move(turned.material);
+    return material_;
+}
+
+// Before the simulation makes way for another one: what is prepared is of this one, and prepared again.
+void Stage::awaitTurn() {
+    if (ready_ && !wanted_) wanted_ = ready_->material;
+    ready_.reset();
+    if (!turning_.valid()) return;
+    try {
+        const Turned turned = turning_.get();
+        if (!wanted_) wanted_ = turned.material;
+    } catch (const std::exception&) { // there is no such material to be had: nobody waits for it
+    }
 }
 
 std::optional<Divergence> Stage::check(std::uint64_t step) const {
@@ -76,6 +147,7 @@ std::uint32_t Stage::neededRoom(std::uint64_t step) const {
 }
 
 bool Stage::makeRoom(std::uint64_t step, vk::Queue& queue) {
+    awaitTurn();
     if (!growing_.grow(neededRoom(step), queue)) return false;
     played_ -= steps_ - (step - 1);
     steps_ = step - 1;
@@ -83,7 +155,9 @@ bool Stage::makeRoom(std::uint64_t step, vk::Queue& queue) {
 }
 
 bool Stage::makeSurfaceRoom(std::uint32_t needed, vk::Queue& queue) {
-    return growing_.lacksSurface(needed) && growing_.growSurface(needed, queue);
+    if (!growing_.lacksSurface(needed)) return false;
+    awaitTurn();
+    return growing_.growSurface(needed, queue);
 }
 
 } // namespace sinew::viewer

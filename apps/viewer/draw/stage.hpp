@@ -4,7 +4,13 @@
 #include "app/growing_simulation.hpp"
 #include "app/state_file.hpp"
 #include "scenes/blades.hpp"
+#include "sim/material.hpp"
+#include "sim/substeps.hpp"
 #include "viewer/draw/camera.hpp"
+
+#include <deque>
+#include <future>
+#include <optional>
 
 namespace sinew::viewer {
 
@@ -23,6 +29,9 @@ struct Divergence {
 class Stage {
 public:
     Stage(const vk::Device& device, sim::Scene scene, const sim::Settings& settings);
+    ~Stage(); ///< waits for a material that is being prepared
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
 
     /// As those of sim::Simulation. A new stage must be reset once before its first step.
     void recordReset(VkCommandBuffer commands) noexcept;
@@ -42,6 +51,22 @@ public:
     void setGravity(float gravity) noexcept;
     void setGravity(const sim::Vec3& gravity) noexcept { gravity_ = gravity; }
     const sim::Vec3& gravity() const noexcept { return gravity_; }
+
+    /// Another material of the scene as it was given, from a later step on: prepared in a thread of its own;
+    /// of several that are asked for meanwhile the last.
+    void turn(const sim::Material& material);
+    /// The same from the next step on: waits, for replays. Throws as Simulation::prepareChange.
+    void turnNow(const sim::Material& material);
+    /// What came of turn(), where something did; to be called for every picture. Refused is what other passes
+    /// are needed for. Throws likewise: all is then as it was.
+    enum class Turn { none, ready, refused };
+    Turn takeTurn(bool isPaused);
+    /// Records what is ready: the next step has that material. Nothing where nothing is. Steps do so
+    /// themselves.
+    std::optional<sim::Material> recordTurn(VkCommandBuffer commands) noexcept;
+    const sim::Material& material() const noexcept { return material_; }
+    /// Of the scene as it is.
+    const sim::StiffnessReport& stiffness() const noexcept { return stiffness_; }
 
     /// For what goes back to earlier states.
     sim::Simulation& simulation() noexcept { return growing_.simulation(); }
@@ -75,12 +100,33 @@ public:
     const app::SurfaceRoom& surfaceRoom() const noexcept { return growing_.surfaceRoom(); }
 
 private:
-    sim::Scene scene_;
+    struct Turned {
+        sim::Material material;
+        sim::Scene scene;
+        sim::StiffnessReport stiffness;
+        std::optional<sim::SceneChange> change; // none: another step program
+    };
+    struct Recorded {
+        sim::SceneChange change;
+        std::uint64_t step; // of recordedSteps_
+    };
+    Turned prepare(const sim::Material& material) const;
+    void beginTurn();
+    void awaitTurn();
+
+    const sim::Scene given_;
+    sim::Scene scene_; // of the material that it has now
     sim::Settings settings_;
+    sim::StiffnessReport stiffness_;
     app::GrowingSimulation growing_;
     scenes::ScriptedBlades blades_;
     sim::Vec3 gravity_, down_{0, -1, 0};
-    std::uint64_t steps_ = 0, played_ = 0;
+    std::uint64_t steps_ = 0, played_ = 0, recordedSteps_ = 0;
+    sim::Material material_;
+    std::optional<sim::Material> wanted_; // after what is being prepared
+    std::optional<Turned> ready_;
+    std::deque<Recorded> recorded_; // that the device may still copy from
+    std::future<Turned> turning_;   // refers to what stands before it
 };
 
 } // namespace sinew::viewer

@@ -35,6 +35,10 @@ public:
         for (const float number : vector) add(number);
         return *this;
     }
+    Line& addWord(std::string_view word) {
+        text_.append(" ").append(word);
+        return *this;
+    }
     std::string end() { return std::move(text_) + "\n"; }
 
 private:
@@ -77,6 +81,19 @@ std::string text(const Pulled& pulled) {
     return Line("gravity").add(pulled.gravity).end();
 }
 
+// What is left to the scene is a dash.
+std::string text(const Turned& turned) {
+    const sim::Material& material = turned.material;
+    Line line("material");
+    line.add(material.stiffness);
+    for (const std::optional<float>& own : {material.damping, material.friction})
+        if (own)
+            line.add(*own);
+        else
+            line.addWord("-");
+    return line.addAll(material.bodies).end();
+}
+
 std::string text(const Sized& sized) {
     return Line("radius").add(sized.radius).end();
 }
@@ -115,6 +132,12 @@ public:
         if (!std::isfinite(value)) throw std::runtime_error("not a finite number");
         return value;
     }
+    // Where there is one, not a dash.
+    std::optional<float> finiteOrNone() {
+        const std::string next = word();
+        return next == "-" ? std::nullopt : std::optional(Words(next).finite());
+    }
+    bool isAtEnd() { return (words_ >> std::ws).eof(); }
     Vector2 pair() {
         const float x = finite();
         return {x, finite()};
@@ -166,6 +189,18 @@ Answered readAnswer(Words& words, Question::Asker asker) {
     return {asker, pick, words.finite()};
 }
 
+sim::Material readMaterial(Words& words) {
+    sim::Material material{.stiffness = words.finite()};
+    material.damping = words.finiteOrNone();
+    material.friction = words.finiteOrNone();
+    while (!words.isAtEnd()) material.bodies.push_back(words.finite());
+    const auto isFactor = [](float factor) { return factor > 0; };
+    if (!isFactor(material.stiffness) || !std::ranges::all_of(material.bodies, isFactor) ||
+        material.damping.value_or(0) < 0 || material.friction.value_or(0) < 0)
+        throw std::runtime_error("no material has these numbers");
+    return material;
+}
+
 struct Reader {
     std::string_view name;
     void (*read)(InputFile&, Words&);
@@ -196,6 +231,8 @@ const std::array readers{
                       Words& words) { to.events.emplace_back(readAnswer(words, Question::Asker::poke)); }},
     Reader{"radius", [](InputFile& to, Words& words) { to.events.emplace_back(Sized{words.finite()}); }},
     Reader{"gravity", [](InputFile& to, Words& words) { to.events.emplace_back(Pulled{words.finite()}); }},
+    Reader{"material",
+           [](InputFile& to, Words& words) { to.events.emplace_back(Turned{readMaterial(words)}); }},
     Reader{"forget", [](InputFile& to, Words&) { to.events.emplace_back(Forgot{}); }},
     Reader{"steps", [](InputFile& to,
                        Words& words) { to.events.emplace_back(Stepped{words.number<std::uint32_t>()}); }},

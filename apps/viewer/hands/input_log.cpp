@@ -12,6 +12,7 @@ void InputLog::restart() {
     pointed_.reset();
     gravity_.reset();
     radius_.reset();
+    material_ = {};
 }
 
 void InputLog::look(const Camera& camera) {
@@ -48,6 +49,12 @@ void InputLog::pull(float gravity) {
     if (gravity_ == gravity) return;
     gravity_ = gravity;
     events_.emplace_back(Pulled{gravity});
+}
+
+void InputLog::turn(const sim::Material& material) {
+    if (material_ == material) return;
+    material_ = material;
+    events_.emplace_back(Turned{material});
 }
 
 void InputLog::size(float radius) {

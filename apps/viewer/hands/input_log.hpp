@@ -2,6 +2,7 @@
 // and what was found under a press. The same events lead a simulation of the same scene to the same bits.
 #pragma once
 
+#include "sim/material.hpp"
 #include "viewer/hands/bindings.hpp"
 #include "viewer/hands/pick.hpp"
 
@@ -35,6 +36,11 @@ struct Pulled {
     float gravity = 0;
     bool operator==(const Pulled&) const = default;
 };
+/// The scene has this material from here on.
+struct Turned {
+    sim::Material material;
+    bool operator==(const Turned&) const = default;
+};
 /// The sphere that pokes has this radius from here on [m].
 struct Sized {
     float radius = 0;
@@ -49,7 +55,8 @@ struct Stepped {
     std::uint32_t count = 0;
     bool operator==(const Stepped&) const = default;
 };
-using InputEvent = std::variant<Camera, Pointed, Pressed, Action, Answered, Pulled, Sized, Forgot, Stepped>;
+using InputEvent =
+    std::variant<Camera, Pointed, Pressed, Action, Answered, Pulled, Turned, Sized, Forgot, Stepped>;
 
 /// Collects them; what changes nothing is left out.
 class InputLog {
@@ -63,6 +70,7 @@ public:
     void key(Action action);
     void answer(Answered answer);
     void pull(float gravity);
+    void turn(const sim::Material& material);
     void size(float radius);
     void forget();
     /// A step was recorded.
@@ -79,6 +87,7 @@ private:
     std::optional<Camera> camera_;
     std::optional<Pointed> pointed_; // nothing: the next one counts, wherever it is
     std::optional<float> gravity_, radius_;
+    sim::Material material_; // as at a reset, the scene's own
 };
 
 /// A log and what it is of.

@@ -72,6 +72,11 @@ struct Knobs {
     float pace = 1;        ///< seconds of the scene in a second of the clock; likewise
     int substeps = 1;      ///< 0 = as many as the scene needs; begins the scene anew
     int solver = 0;        ///< of SceneFacts::solvers; likewise
+    float stiffness = 1;   ///< factor on Young's modulus of all bodies; these act as soon as it is worked out
+    float damping = 0;     ///< [1/s]
+    float friction = 0;    ///< of planes, colliders and bodies
+    std::vector<float> bodies; ///< further factors on the stiffness of each, of SceneFacts::bodies
+    int body = -1;             ///< that the panel shows the factor of; -1 = all
     bool operator==(const Knobs&) const = default;
 };
 
@@ -87,7 +92,7 @@ struct SceneFacts {
     std::size_t dispatches = 0, barriers = 0; ///< of a step without a blade
     std::vector<std::string> skipped;         ///< features that the scene does not need
     bool canCut = false;
-    std::vector<std::string> solvers;
+    std::vector<std::string> solvers, bodies;
     Knobs fromFile; ///< as the file has them
 };
 

@@ -23,6 +23,57 @@ void tip(const char* text) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text);
 }
 
+// A factor of 1 is in the middle.
+bool factorSlider(float& factor) {
+    return ImGui::SliderFloat("##stiffness", &factor, 0.01f, 100, "x %.3g", ImGuiSliderFlags_Logarithmic);
+}
+
+// Which body's stiffness the slider turns.
+void bodyCombo(const SceneFacts& scene, int& body) {
+    const auto nameOf = [&](int i) {
+        return i < 0 ? "all bodies" : scene.bodies[static_cast<std::size_t>(i)].c_str();
+    };
+    if (!ImGui::BeginCombo("##body", nameOf(body))) return;
+    for (int i = -1; i < static_cast<int>(scene.bodies.size()); ++i) {
+        ImGui::PushID(i);
+        if (ImGui::Selectable(nameOf(i), i == body)) body = i;
+        ImGui::PopID();
+    }
+    ImGui::EndCombo();
+}
+
+// Damping and friction have a slider that is finest near 0.
+// What was typed within reason; what nobody has touched stays as the file has it.
+void limitMaterial(Knobs& turned) {
+    constexpr float least = 1e-4f, most = 1e4f, mostDamping = 100, mostFriction = 10;
+    turned.stiffness = std::clamp(turned.stiffness, least, most);
+    for (float& factor : turned.bodies) factor = std::clamp(factor, least, most);
+    turned.damping = std::clamp(turned.damping, 0.0f, mostDamping);
+    turned.friction = std::clamp(turned.friction, 0.0f, mostFriction);
+}
+
+bool materialKnobs(const SceneFacts& scene, Knobs& turned) {
+    bool isTurned = false;
+    knob("stiffness");
+    const bool isOne = turned.body >= 0 && static_cast<std::size_t>(turned.body) < turned.bodies.size();
+    isTurned |= factorSlider(isOne ? turned.bodies[static_cast<std::size_t>(turned.body)] : turned.stiffness);
+    tip("Young's modulus by that of the file; acts at once; Ctrl + click to type");
+    if (scene.bodies.size() > 1) {
+        knob("  of");
+        const int before = turned.body;
+        bodyCombo(scene, turned.body);
+        isTurned |= turned.body != before;
+    }
+    knob("damping");
+    isTurned |= ImGui::SliderFloat("##damping", &turned.damping, 0, 20, "%.2f 1/s");
+    tip("of all motion; acts at once");
+    knob("friction");
+    isTurned |= ImGui::SliderFloat("##friction", &turned.friction, 0, 2, "%.2f");
+    tip("of planes, colliders and bodies; acts at once");
+    if (isTurned) limitMaterial(turned);
+    return isTurned;
+}
+
 } // namespace
 
 void scenes(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
@@ -51,6 +102,7 @@ void knobs(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
     knob("pace");
     isTurned |= ImGui::SliderFloat("##pace", &turned.pace, 0.05f, 1, "%.2f x real time");
     tip("slow motion; acts at once");
+    isTurned |= materialKnobs(scene, turned);
     knob("substeps");
     isTurned |= ImGui::InputInt("##substeps", &turned.substeps, 1, 10, ImGuiInputTextFlags_EnterReturnsTrue);
     tip("begins the scene anew; 0 = as many as it needs");
@@ -65,7 +117,9 @@ void knobs(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
         ImGui::EndCombo();
     }
     tip("begins the scene anew");
-    if (facts.knobs != scene.fromFile && ImGui::Button("As in the file", {contentWidth(), 0})) {
+    Knobs shown = facts.knobs;
+    shown.body = scene.fromFile.body; // which one is looked at changes nothing
+    if (shown != scene.fromFile && ImGui::Button("As in the file", {contentWidth(), 0})) {
         turned = scene.fromFile;
         isTurned = true;
     }
