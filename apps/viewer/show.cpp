@@ -6,6 +6,7 @@
 #include "vk/queue.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace sinew::viewer {
@@ -37,6 +38,7 @@ Show::Show(Screen& screen, Library& library, const Devices& devices, const vk::D
         drawingTimes_.emplace_back(device, 2);
     }
     if (!isFromState_) controller_.playback.reset(); // fills the buffers
+    if (opening_.run) goOn(*opening_.run);
     if (opening_.again) goOn(*opening_.again);
     if (opening_.input) replay_.emplace(*opening_.input);
 }
@@ -51,6 +53,18 @@ void Show::goOn(const Again& again) {
     tools_.pull(stage_, knobs_.gravity);
     turnMaterial(again.turned);
     controller_.playback.setPace(double{knobs_.pace});
+}
+
+// The stage is there already; what it was turned to is shown, and stays after a reset.
+void Show::goOn(const app::SavedRun& run) {
+    const auto [x, y, z] = run.gravity;
+    knobs_.gravity = std::hypot(x, y, z);
+    knobs_.stiffness = run.material.stiffness;
+    if (!run.material.bodies.empty()) knobs_.bodies = run.material.bodies;
+    knobs_.damping = run.material.damping.value_or(knobs_.damping);
+    knobs_.friction = run.material.friction.value_or(knobs_.friction);
+    sceneFacts_.stiffness = stiffnessText(stage_);
+    if (stage_.material() != sim::Material{}) tools_.turned(stage_.material());
 }
 
 Show::~Show() {

@@ -81,6 +81,7 @@ private:
     void takeTurn();
     void changeDevice(std::size_t index);
     void goOn(const Again& again);
+    void goOn(const app::SavedRun& run);
     float pictureAspect() const;
     std::unique_ptr<Opening> takeOpened();
     bool mayOpen();

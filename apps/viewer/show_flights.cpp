@@ -24,7 +24,7 @@ void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
         if (replay_) tools_.putAway(stage_);
         tools_.reset();
         if (replay_) replay_->restart();
-        isFromState_ = false;
+        if (std::exchange(isFromState_, false)) tools_.pull(stage_, knobs_.gravity); // from now on in the log
         forgetFlights();
         isDiverged_ = false;
     }

@@ -94,6 +94,11 @@ template <typename Run, typename Visit> void visit(Run& run, Visit& each) {
     each(run.settings.forms.residentBytes);
     each(run.key);
     each(run.played);
+    each(run.material.stiffness);
+    each(run.material.bodies);
+    each(run.material.damping);
+    each(run.material.friction);
+    each(run.gravity);
     each(run.host.h);
     each(run.host.colliderTime);
     each(run.host.anchors);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/growing_simulation.hpp"
+#include "sim/material.hpp"
 
 #include <filesystem>
 
@@ -13,16 +14,19 @@ struct SavedRun {
     sim::Settings settings;   ///< solver, substeps, rooms and forms alone
     std::uint64_t key = 0;    ///< sim::Simulation::stateKey()
     std::uint64_t played = 0; ///< steps of the time in which blades cut by themselves
+    sim::Material material;   ///< that the scene was turned to
+    sim::Vec3 gravity;        ///< likewise [m/s^2]
     sim::SavedState host;
     std::vector<std::byte> bytes; ///< sim::Simulation::stateSize()
 };
 
-/// The state of a simulation whose steps have all been submitted to `queue`, which it waits for. Scene and
-/// steps are the caller's to fill in. Throws vk::Error.
+/// The state of a simulation whose steps have all been submitted to `queue`, which it waits for. What stands
+/// before `host` but settings and key is the caller's to fill in. Throws vk::Error.
 SavedRun saveRun(const vk::Device& device, const GrowingSimulation& growing, vk::Queue& queue);
 
-/// Puts a simulation of the same scene and settings into that state, instead of Simulation::recordReset().
-/// `queue` as above. Throws Failure (badInput) where the state is of another simulation, and vk::Error.
+/// Puts a simulation of the same scene, settings and material into that state, instead of
+/// Simulation::recordReset(). `queue` as above. Throws Failure (badInput) where the state is of another
+/// simulation, and vk::Error.
 void loadRun(const vk::Device& device, GrowingSimulation& growing, const SavedRun& run, vk::Queue& queue);
 
 /// `settings` of the scene as the state was saved with.

@@ -104,6 +104,21 @@ std::string sleepText(const StepProgram& program) {
 
 } // namespace
 
+std::uint64_t keyOf(const StepProgram& program) noexcept {
+    std::uint64_t key = 0xcbf29ce484222325u;
+    const auto add = [&](std::span<const std::byte> bytes) {
+        for (const std::byte byte : bytes) key = (key ^ static_cast<std::uint64_t>(byte)) * 0x100000001b3u;
+    };
+    for (const BufferSpec& buffer : program.buffers) {
+        const std::uint64_t size = buffer.bytes();
+        add(std::as_bytes(std::span(buffer.label)));
+        add(std::as_bytes(std::span(&size, 1)));
+        add(buffer.initial);
+    }
+    for (const Pass& pass : program.step) add(std::as_bytes(std::span(pass.label)));
+    return key;
+}
+
 std::uint64_t declaredBytes(const StepProgram& program) {
     std::uint64_t bytes = 0;
     for (const Pass& pass : program.step) {

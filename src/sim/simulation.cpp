@@ -453,20 +453,7 @@ std::uint64_t Simulation::stateSize() const noexcept {
 }
 
 std::uint64_t Simulation::stateKey() const noexcept {
-    std::uint64_t key = 0xcbf29ce484222325u; // FNV-1a [Fowler, Noll, Vo 1991]
-    const auto add = [&](std::span<const std::byte> bytes) {
-        for (const std::byte byte : bytes) key = (key ^ static_cast<std::uint64_t>(byte)) * 0x100000001b3u;
-    };
-    const auto addText = [&](const std::string& text) { add(std::as_bytes(std::span(text))); };
-    const auto addNumber = [&](std::uint64_t number) { add(std::as_bytes(std::span(&number, 1))); };
-    for (const BufferSpec& buffer : state_->program.buffers) {
-        addText(buffer.label);
-        addNumber(buffer.bytes());
-        add(buffer.initial);
-    }
-    for (const Pass& pass : state_->program.step) addText(pass.label);
-    for (const BufferId buffer : state_->written) addNumber(buffer.index);
-    return key;
+    return keyOf(state_->program);
 }
 
 SavedState Simulation::recordSaveState(VkCommandBuffer buffer, const vk::BufferView& to) const {

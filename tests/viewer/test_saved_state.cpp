@@ -117,6 +117,21 @@ TEST_F(SavedState, GoesOnWithTheSameBits) {
     EXPECT_GT(played.status().linksCutInAll, 0u) << "the blade met nothing";
 }
 
+TEST_F(SavedState, KeepsWhatTheSceneWasTurnedTo) {
+    Played played(scene);
+    played.take(5);
+    played.stage.turnNow({.stiffness = 0.4f, .friction = 0.9f});
+    played.stage.setGravity(3.7f);
+    played.take(20);
+    save(played);
+    Played again(file);
+    EXPECT_EQ(again.stage.material(), played.stage.material());
+    EXPECT_EQ(again.hash(), played.hash());
+    played.take(25);
+    again.take(25);
+    EXPECT_EQ(again.hash(), played.hash());
+}
+
 TEST_F(SavedState, IsRefusedWhereItIsOfAnotherSimulation) {
     save(Played(scene));
     std::string other = heap;

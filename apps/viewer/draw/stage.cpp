@@ -37,11 +37,21 @@ void Stage::recordReset(VkCommandBuffer commands) noexcept {
 app::SavedRun Stage::save(const vk::Device& device, vk::Queue& queue) const {
     app::SavedRun run = app::saveRun(device, growing_, queue);
     run.played = played_;
+    run.material = material_;
+    run.gravity = gravity_;
     return run;
 }
 
 void Stage::load(const vk::Device& device, const app::SavedRun& run, vk::Queue& queue) {
+    if (run.material != material_) {
+        turnNow(run.material);
+        const VkCommandBuffer commands = queue.begin();
+        growing_.simulation().recordReset(commands);
+        recordTurn(commands);
+        queue.wait(queue.submit(commands));
+    }
     app::loadRun(device, growing_, run, queue);
+    gravity_ = run.gravity;
     steps_ = 0;
     played_ = run.played;
 }
