@@ -5,10 +5,10 @@
 #include "kernel.glsl"
 
 layout(std430, binding = 0) buffer Positions { vec4 positions[]; };
-layout(std430, binding = 1) readonly buffer Weights { float weights[]; };
+layout(std430, binding = 1) readonly buffer Initial { vec4 initial[]; };
 layout(push_constant) uniform Push { CountPush push; };
 
 void main() {
     const uint i = itemIndex(push.count);
-    if (i < push.count) positions[i].w = weights[i];
+    if (i < push.count) positions[i].w = initial[i].w;
 }

@@ -65,20 +65,18 @@ std::vector<layout::vec4> spread(const std::vector<layout::vec4>& values, const 
     return result;
 }
 
-// The w of a state's positions that is not the scene's for good is kept apart, to be put there again: where
-// the state is, and where it is saved.
-void addWeights(ProgramBuilder& program, const ParticleBuffers& particles, const std::vector<float>& w) {
-    std::vector<float> inSlots(particles.layout.count, 0);
-    for (std::size_t i = 0; i < w.size(); ++i) inSlots[particles.layout.slot[i]] = w[i];
-    const auto count = static_cast<std::uint32_t>(inSlots.size());
-    const BufferId weights = program.upload("state.weights", inSlots);
+// The w of a state's positions that is not the scene's for good is put there again from what they began with:
+// where the state is, and where it is saved.
+void addWeights(ProgramBuilder& program, const ParticleBuffers& particles) {
+    const auto count = static_cast<std::uint32_t>(particles.layout.count);
+    const BufferId initial = program.initialOf("state.initial", particles.positions);
     std::vector<BufferId> targets{particles.positions};
     for (const Carried& carried : program.program().carried)
         if (carried.to == particles.positions && carried.from != particles.positions)
             targets.push_back(carried.from);
     program.beginSettling();
     for (const BufferId target : targets)
-        program.dispatch(kernels::setWeights, count, {target, weights}, layout::CountPush{count});
+        program.dispatch(kernels::setWeights, count, {target, initial}, layout::CountPush{count});
     program.endSettling();
 }
 
@@ -163,7 +161,7 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     solver.addPasses(program, particles);
     program.beginPhase("publish");
     publish::addPasses(program, particles);
-    if (solver.positionW != inverseMass) addWeights(program, particles, solver.positionW);
+    if (solver.positionW != inverseMass) addWeights(program, particles);
     sleep::finish(program, particles);
     surface::addSkins(program, scene.skins);
 

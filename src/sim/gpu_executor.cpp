@@ -33,7 +33,7 @@ std::vector<vk::Buffer> makeBuffers(const vk::Device& device, const StepProgram&
             usage |= VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
         if (id == program.skinIndices || id == cut.indices) usage |= VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
         buffers.emplace_back(device, vk::BufferRequest{.name = spec.label,
-                                                       .count = spec.count,
+                                                       .count = spec.initialOf ? 1 : spec.count,
                                                        .stride = spec.stride,
                                                        .kind = vk::MemoryKind::device,
                                                        .usage = usage});
@@ -98,13 +98,14 @@ SetPlan planSets(const StepProgram& program) {
 GpuExecutor::GpuExecutor(const vk::Device& device, const StepProgram& program)
     : buffers_(makeBuffers(device, program)), staging_(makeStaging(device, program)),
       kernels_(makeKernels(device, program)) {
+    for (std::uint32_t b = 0; b < program.buffers.size(); ++b)
+        if (program.buffers[b].initialOf) initialOf_.emplace(b, *program.buffers[b].initialOf);
     const SetPlan plan = planSets(program);
     std::vector<vk::BindingRequest> requests;
     for (const Pass* pass : plan.distinct) {
         vk::BindingRequest& request = requests.emplace_back();
         request.kernel = &kernels_[pass->kernel];
-        for (const BufferUse& use : boundUses(*pass))
-            request.buffers.push_back(buffers_[use.buffer.index].view());
+        for (const BufferUse& use : boundUses(*pass)) request.buffers.push_back(view(use.buffer));
     }
     if (!requests.empty()) sets_.emplace_back(device, requests);
     setOfPass_ = plan.setOfPass;
@@ -253,7 +254,9 @@ void GpuExecutor::recordPass(vk::Commands& commands, const Recorded& pass, const
 }
 
 vk::BufferView GpuExecutor::view(BufferId buffer) const noexcept {
-    return buffer == BufferId{} ? vk::BufferView{} : buffers_[buffer.index].view();
+    if (buffer == BufferId{}) return {};
+    const auto found = initialOf_.find(buffer.index);
+    return found == initialOf_.end() ? buffers_[buffer.index].view() : stagingOf({found->second})->view();
 }
 
 } // namespace sinew::sim

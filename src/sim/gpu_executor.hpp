@@ -5,6 +5,8 @@
 #include "vk/commands.hpp"
 #include "vk/timestamps.hpp"
 
+#include <map>
+
 namespace sinew::sim {
 
 /// Owns every device object of one program. Must not outlive the Device nor the program.
@@ -59,6 +61,7 @@ private:
 
     std::vector<vk::Buffer> buffers_;
     std::vector<std::pair<std::uint32_t, vk::Buffer>> staging_; // buffer index, its initial contents
+    std::map<std::uint32_t, std::uint32_t> initialOf_;          // BufferSpec::initialOf, by buffer
     std::vector<vk::Kernel> kernels_;
     std::vector<vk::BindingSets> sets_;
     std::vector<std::size_t> setOfPass_;

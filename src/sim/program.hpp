@@ -10,6 +10,7 @@
 #include <functional>
 #include <initializer_list>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -27,7 +28,9 @@ struct BufferSpec {
     std::uint64_t count = 0;        ///< elements
     std::uint32_t stride = 0;       ///< [B]
     std::vector<std::byte> initial; ///< count x stride bytes, or empty = zeros
-    std::uint64_t bytes() const { return count * stride; }
+    /// Instead of a buffer of its own: what the buffer with this index begins with, as resets copy it.
+    std::optional<std::uint32_t> initialOf = {};
+    std::uint64_t bytes() const { return initialOf ? 0 : count * stride; }
 };
 
 struct BufferUse {
@@ -253,6 +256,12 @@ public:
     /// Zeros at first.
     template <typename T> BufferId scratch(std::string label, std::uint64_t count) {
         return add({std::move(label), count, sizeof(T), {}});
+    }
+
+    /// What a buffer that was uploaded begins with, to be read by passes.
+    BufferId initialOf(std::string label, BufferId buffer) {
+        const BufferSpec& spec = program().buffers[buffer.index];
+        return add({std::move(label), spec.count, spec.stride, {}, buffer.index});
     }
 
     void beginPhase(std::string name);
