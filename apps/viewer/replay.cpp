@@ -2,7 +2,7 @@
 #include "viewer/replay.hpp"
 
 #include "app/guard.hpp"
-#include "app/hash.hpp"
+#include "sim/hash.hpp"
 #include "viewer/draw/stage.hpp"
 #include "viewer/hands/state_probe.hpp"
 #include "viewer/opening.hpp"
@@ -68,7 +68,7 @@ std::uint64_t stateHash(const vk::Device& device, const Stage& stage, vk::Queue&
     probe.record(commands);
     probe.recordVelocities(commands);
     queue.wait(queue.submit(commands));
-    return app::fnv1a(std::as_bytes(probe.velocities()), app::fnv1a(std::as_bytes(probe.positions())));
+    return sim::fnv1a(std::as_bytes(probe.velocities()), sim::fnv1a(std::as_bytes(probe.positions())));
 }
 
 Options withReplay(Options options, const InputFile& file) {

@@ -2,8 +2,8 @@
 #include "app/state_file.hpp"
 
 #include "app/guard.hpp"
-#include "app/hash.hpp"
 #include "mesh/export.hpp"
+#include "sim/hash.hpp"
 #include "vk/commands.hpp"
 
 #include <bit>
@@ -152,7 +152,7 @@ void writeRun(const std::filesystem::path& file, const SavedRun& run) {
     Writer writer;
     visit(run, writer);
     const std::vector<std::byte> bytes = writer.take();
-    const std::uint64_t hash = fnv1a(bytes);
+    const std::uint64_t hash = sim::fnv1a(bytes);
     mesh::writeWhole(file, [&](std::ostream& stream) {
         stream << title;
         stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
@@ -173,7 +173,7 @@ SavedRun readRun(const std::filesystem::path& file) {
     const auto end = bytes.last(sizeof(hash));
     bytes = bytes.first(bytes.size() - sizeof(hash));
     std::memcpy(&hash, end.data(), sizeof(hash));
-    if (fnv1a(bytes) != hash) refuse(file, "it is cut short, or was changed");
+    if (sim::fnv1a(bytes) != hash) refuse(file, "it is cut short, or was changed");
     SavedRun run;
     Reader reader(bytes);
     visit(run, reader);

@@ -8,6 +8,7 @@
 #include "sim/constraints/fixed.hpp"
 #include "sim/constraints/grab.hpp"
 #include "sim/cutting/cut.hpp"
+#include "sim/hash.hpp"
 #include "sim/lattice/cells.hpp"
 #include "sim/publish.hpp"
 #include "sim/sleep.hpp"
@@ -80,13 +81,6 @@ void addWeights(ProgramBuilder& program, const ParticleBuffers& particles) {
     program.endSettling();
 }
 
-// FNV-1a over all slots.
-std::uint64_t orderOf(const StateLayout& layout) {
-    std::uint64_t hash = 14695981039346656037u;
-    for (const std::uint32_t slot : layout.slot) hash = (hash ^ slot) * 1099511628211u;
-    return hash;
-}
-
 void skipContacts(ProgramBuilder& program, const Scene& scene) {
     const bool ofParticles = collision::particle_contacts::areIn(scene);
     const bool withFaces = collision::face_contacts::areIn(scene);
@@ -139,7 +133,7 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     if (scene.particles.empty()) return program.finish();
 
     const SolverPlan solver = entry(settings.solver).plan(scene, settings, inverseMass);
-    built.order = orderOf(solver.layout);
+    built.order = fnv1a(std::as_bytes(std::span(solver.layout.slot)));
     const auto inSlots = [&](const std::vector<layout::vec4>& values) {
         return spread(values, solver.layout);
     };

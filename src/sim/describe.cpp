@@ -1,6 +1,8 @@
 // The printed form of a step program: what a person audits and what golden tests compare.
 #include "sim/program.hpp"
 
+#include "sim/hash.hpp"
+
 #include <iomanip>
 #include <sstream>
 
@@ -105,10 +107,8 @@ std::string sleepText(const StepProgram& program) {
 } // namespace
 
 std::uint64_t keyOf(const StepProgram& program) noexcept {
-    std::uint64_t key = 0xcbf29ce484222325u;
-    const auto add = [&](std::span<const std::byte> bytes) {
-        for (const std::byte byte : bytes) key = (key ^ static_cast<std::uint64_t>(byte)) * 0x100000001b3u;
-    };
+    std::uint64_t key = fnv1a({});
+    const auto add = [&](std::span<const std::byte> bytes) { key = fnv1a(bytes, key); };
     for (const BufferSpec& buffer : program.buffers) {
         const std::uint64_t size = buffer.bytes();
         add(std::as_bytes(std::span(buffer.label)));
@@ -138,8 +138,11 @@ std::string describe(const StepProgram& program) {
     text << program.particleCount << " particles, " << program.constraintCount << " constraints, "
          << program.buffers.size() << " buffers, " << megabytes(memory) << "\n\n";
     for (const BufferSpec& buffer : program.buffers) {
-        text << "  " << std::left << std::setw(28) << buffer.label << std::right << std::setw(9)
-             << buffer.count << " x " << std::setw(3) << buffer.stride << " B\n";
+        text << "  " << std::left << std::setw(28) << buffer.label << std::right;
+        if (buffer.initialOf)
+            text << "  what " << program.buffers[*buffer.initialOf].label << " begin with\n";
+        else
+            text << std::setw(9) << buffer.count << " x " << std::setw(3) << buffer.stride << " B\n";
     }
     text << '\n';
     print(text, program, program.step);

@@ -231,8 +231,7 @@ void planBarriers(std::span<Pass> passes, std::size_t bufferCount);
 /// totals.
 std::string describe(const StepProgram& program);
 
-/// Tells programs apart: of names, sizes and first contents of buffers and of the passes of a step, by FNV-1a
-/// [Fowler, Noll, Vo 1991].
+/// Tells programs apart: a hash of names, sizes and first contents of buffers and of the passes of a step.
 std::uint64_t keyOf(const StepProgram& program) noexcept;
 
 /// Bytes that the kernels of one step declare to touch: each used buffer once a pass, twice where read and

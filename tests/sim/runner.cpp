@@ -2,6 +2,7 @@
 #include "sim/runner.hpp"
 
 #include "sim/compile.hpp"
+#include "sim/hash.hpp"
 
 #include <gtest/gtest.h>
 
@@ -164,11 +165,9 @@ std::vector<float> Runner::inverseMasses() const {
 }
 
 std::uint64_t Runner::stateHash() const {
-    std::uint64_t hash = 14695981039346656037u;
-    for (const vk::BufferView& view : {simulation_.positions(), simulation_.velocities()}) {
-        for (const std::uint8_t byte : queue().download<std::uint8_t>(view))
-            hash = (hash ^ byte) * 1099511628211u;
-    }
+    std::uint64_t hash = sim::fnv1a({});
+    for (const vk::BufferView& view : {simulation_.positions(), simulation_.velocities()})
+        hash = sim::fnv1a(queue().download<std::byte>(view), hash);
     return hash;
 }
 

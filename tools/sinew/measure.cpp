@@ -1,8 +1,8 @@
 // All sums in double and in the scene's order, whatever the device did.
 #include "sinew/measure.hpp"
 
-#include "app/hash.hpp"
 #include "sim/colliders.hpp"
+#include "sim/hash.hpp"
 #include "sinew/overlap.hpp"
 #include "sinew/skin_mesh.hpp"
 
@@ -139,7 +139,7 @@ double kineticEnergy(const State& state) {
 
 std::uint64_t stateHash(const State& state) {
     const auto bytes = [](const auto& list) { return std::as_bytes(std::span(list)); };
-    return app::fnv1a(bytes(state.velocities), app::fnv1a(bytes(state.positions)));
+    return sim::fnv1a(bytes(state.velocities), sim::fnv1a(bytes(state.positions)));
 }
 
 } // namespace sinew::tools

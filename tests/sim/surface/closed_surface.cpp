@@ -18,8 +18,7 @@ namespace {
 
 template <typename T> std::vector<T> read(CutBody& body, BufferId buffer, std::uint64_t& hash) {
     const vk::BufferView view = body.runner().simulation().view(buffer);
-    for (const std::uint8_t byte : queue().download<std::uint8_t>(view))
-        hash = (hash ^ byte) * 1099511628211u;
+    hash = fnv1a(queue().download<std::byte>(view), hash);
     return queue().download<T>(view);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sim/cutting/cut_body.hpp"
+#include "sim/hash.hpp"
 
 #include <map>
 
@@ -44,7 +45,7 @@ private:
     std::map<std::uint32_t, std::uint32_t> points_; // by key
     std::vector<Eigen::Vector3d> rest_, drawn_;
     std::vector<Triangle> triangles_;
-    std::uint64_t hash_ = 14695981039346656037u;
+    std::uint64_t hash_ = sim::fnv1a({});
 };
 
 } // namespace sinew::test

@@ -4,6 +4,7 @@
 #include "app/guard.hpp"
 #include "mesh/export.hpp"
 #include "sim/compile.hpp"
+#include "sim/hash.hpp"
 #include "sim/validate.hpp"
 #include "sinew/json.hpp"
 
@@ -17,15 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// FNV-1a, 64 bits.
 class Hash {
 public:
-    void add(std::span<const std::byte> bytes) {
-        for (const std::byte byte : bytes) {
-            value_ ^= static_cast<std::uint64_t>(byte);
-            value_ *= 0x100000001b3u;
-        }
-    }
+    void add(std::span<const std::byte> bytes) { value_ = sim::fnv1a(bytes, value_); }
     void addText(const std::string& text) { add(std::as_bytes(std::span(text))); }
     template <typename... Values> void addValues(const Values&... values) {
         (add(std::as_bytes(std::span(&values, 1))), ...);
@@ -33,7 +28,7 @@ public:
     std::string text() const { return fmt::format("{:016x}", value_); }
 
 private:
-    std::uint64_t value_ = 0xcbf29ce484222325u;
+    std::uint64_t value_ = sim::fnv1a({});
 };
 
 void addBodies(Hash& hash, const sim::Scene& scene) {

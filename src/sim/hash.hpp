@@ -1,11 +1,12 @@
-// FNV-1a [Fowler, Noll, Vo 1991], 64 bits: says whether two runs ended alike.
+// FNV-1a [Fowler, Noll, Vo 1991], 64 bits: says whether two runs ended alike, and tells programs and files
+// apart.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
-namespace sinew::app {
+namespace sinew::sim {
 
 /// Of all bytes; `before` goes on from a hash of those before them.
 constexpr std::uint64_t fnv1a(std::span<const std::byte> bytes, std::uint64_t before = 0xcbf29ce484222325u) {
@@ -13,4 +14,4 @@ constexpr std::uint64_t fnv1a(std::span<const std::byte> bytes, std::uint64_t be
     return before;
 }
 
-} // namespace sinew::app
+} // namespace sinew::sim
