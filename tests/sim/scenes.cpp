@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <ostream>
 #include <random>
 #include <stdexcept>
@@ -83,6 +84,24 @@ Scene sheet(std::uint32_t size, float compliance) {
                      .shearCompliance = 10 * compliance,
                      .pinned = {0, size - 1}});
     return scene;
+}
+
+Scene cuttableSheet() {
+    Scene scene{.name = "sheet", .gravity = {}};
+    addCloth(scene, {.size = {9, 9},
+                     .spacing = 0.1f,
+                     .stretchCompliance = 1e-4f,
+                     .shearCompliance = 1e-4f,
+                     .skipStiffness = 100,
+                     .bendingStiffness = 1e-3f,
+                     .isCuttable = true});
+    return scene;
+}
+
+Blade bladeAcrossSheet() {
+    static constexpr std::array from{Vec3{0.45f, -1, -0.5f}, Vec3{0.45f, 1, -0.5f}},
+        to{Vec3{0.45f, -1, 1.5f}, Vec3{0.45f, 1, 1.5f}};
+    return {.from = from, .to = to};
 }
 
 Scene particleAt(Vec3 position, Vec3 velocity) {

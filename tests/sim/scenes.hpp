@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/scene.hpp"
+#include "sim/simulation.hpp"
 
 #include <Eigen/Core>
 #include <functional>
@@ -40,6 +41,10 @@ sim::Scene spinningBlock(const sim::Vec3& speed);
 std::vector<float> raggedFill(std::size_t cells);
 /// A horizontal sheet of size^2 particles, 0.1 m apart, two corners pinned.
 sim::Scene sheet(std::uint32_t size, float compliance = 0);
+/// A sheet of 9 x 9 particles, 0.1 m apart, that may be cut, without gravity; and a blade that halves it at
+/// x = 0.45 m from one step to the next.
+sim::Scene cuttableSheet();
+sim::Blade bladeAcrossSheet();
 /// One particle of 1 kg.
 sim::Scene particleAt(sim::Vec3 position, sim::Vec3 velocity = {});
 

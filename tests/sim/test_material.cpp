@@ -131,23 +131,10 @@ TEST(Material, OfAStateGoneBackToIsThatOfNow) {
 }
 
 TEST(Material, OfASheetThatWasCutLeavesTheCut) {
-    Scene scene{.name = "sheet"};
-    addCloth(scene, {.size = {9, 9},
-                     .spacing = 0.1f,
-                     .stretchCompliance = 1e-4f,
-                     .shearCompliance = 1e-4f,
-                     .skipStiffness = 100,
-                     .bendingStiffness = 1e-3f,
-                     .isCuttable = true});
-    scene.gravity = {};
+    const Scene scene = test::cuttableSheet();
     const Settings settings = settingsOf(Solver::split);
-    const auto cut = [](test::Runner& runner) {
-        const std::array from{Vec3{0.45f, -1, -0.5f}, Vec3{0.45f, 1, -0.5f}},
-            to{Vec3{0.45f, -1, 1.5f}, Vec3{0.45f, 1, 1.5f}};
-        return runner.cut({.from = from, .to = to});
-    };
     test::Runner runner(scene, settings);
-    EXPECT_GT(cut(runner).linksCut, 0u);
+    EXPECT_GT(runner.cut(test::bladeAcrossSheet()).linksCut, 0u);
     runner.run(1);
     const Status before = runner.run(1);
     ASSERT_EQ(before.pieces, 2u);
@@ -155,7 +142,7 @@ TEST(Material, OfASheetThatWasCutLeavesTheCut) {
     ASSERT_TRUE(runner.change(withMaterial(scene, {.stiffness = 0.5f})));
     EXPECT_EQ(runner.run(4).pieces, 2u);
     test::Runner other(withMaterial(scene, {.stiffness = 0.5f}), settings);
-    cut(other);
+    other.cut(test::bladeAcrossSheet());
     other.run(6);
     const auto x = runner.positions(), y = other.positions(); // at rest: nothing but the cut is there
     for (std::size_t i = 0; i < x.size(); ++i) ASSERT_LT((x[i] - y[i]).norm(), 1e-5) << i;

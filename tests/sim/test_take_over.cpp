@@ -136,19 +136,9 @@ TEST(TakeOver, ByWayOfTheHostHasTheSameBits) {
 }
 
 TEST(TakeOver, KeepsCutsAndTakesAnotherMaterial) {
-    Scene scene{.name = "sheet"};
-    addCloth(scene, {.size = {9, 9},
-                     .spacing = 0.1f,
-                     .stretchCompliance = 1e-4f,
-                     .shearCompliance = 1e-4f,
-                     .skipStiffness = 100,
-                     .bendingStiffness = 1e-3f,
-                     .isCuttable = true});
-    scene.gravity = {};
-    const std::array from{Vec3{0.45f, -1, -0.5f}, Vec3{0.45f, 1, -0.5f}},
-        to{Vec3{0.45f, -1, 1.5f}, Vec3{0.45f, 1, 1.5f}};
+    const Scene scene = test::cuttableSheet();
     test::Runner first(scene, settingsOf(Solver::split, 8));
-    EXPECT_GT(first.cut({.from = from, .to = to}).linksCut, 0u);
+    EXPECT_GT(first.cut(test::bladeAcrossSheet()).linksCut, 0u);
     first.run(2);
     const Scene soft = withMaterial(scene, {.stiffness = 0.3f});
     test::Runner second(soft, settingsOf(Solver::split, 20));
@@ -157,7 +147,7 @@ TEST(TakeOver, KeepsCutsAndTakesAnotherMaterial) {
     EXPECT_EQ(status.pieces, 2u);
     EXPECT_GT(status.linksCutInAll, 0u);
     test::Runner made(soft, settingsOf(Solver::split, 20));
-    made.cut({.from = from, .to = to});
+    made.cut(test::bladeAcrossSheet());
     made.run(5);
     EXPECT_LT(farthest(second, made), 1e-5);
 }
