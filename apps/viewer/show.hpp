@@ -98,6 +98,7 @@ private:
     void recordCamera(const Presenter::Frame& frame, const Overlay& overlay);
     void settleCamera(std::uint32_t slot, const InFlight& flight);
     void handle(Action action);
+    void switchLayer(Action action);
     void lookAt(Look::At at);
     void settleLook(const Look& look);
     void changeSection(Action action);

@@ -130,25 +130,6 @@ void Show::handle(Action action) {
     case Action::nextScene:
         if (mayOpen()) library_.openNext(1, pictureAspect());
         break;
-    case Action::skinLook:
-        screen_.layers().skin = next(screen_.layers().skin);
-        break;
-    case Action::wires:
-        toggleWires();
-        break;
-    case Action::balls:
-        screen_.layers().hasBalls = !screen_.layers().hasBalls;
-        break;
-    case Action::links:
-        screen_.layers().hasLinks = !screen_.layers().hasLinks;
-        break;
-    case Action::contacts:
-        screen_.layers().hasContacts = !screen_.layers().hasContacts;
-        break;
-    case Action::colorMap:
-        screen_.layers().map = next(screen_.layers().map);
-        mapRange_ = {};
-        break;
     case Action::inspect:
         inspector_.toggle();
         break;
@@ -173,6 +154,33 @@ void Show::handle(Action action) {
         break;
     case Action::quit:
         screen_.window().close();
+        break;
+    default:
+        switchLayer(action);
+    }
+}
+
+void Show::switchLayer(Action action) {
+    Layers& layers = screen_.layers();
+    switch (action) {
+    case Action::skinLook:
+        layers.skin = next(layers.skin);
+        break;
+    case Action::wires:
+        toggleWires();
+        break;
+    case Action::balls:
+        layers.hasBalls = !layers.hasBalls;
+        break;
+    case Action::links:
+        layers.hasLinks = !layers.hasLinks;
+        break;
+    case Action::contacts:
+        layers.hasContacts = !layers.hasContacts;
+        break;
+    case Action::colorMap:
+        layers.map = next(layers.map);
+        mapRange_ = {};
         break;
     default:
         break; // drags, the wheel, and what the controller has done

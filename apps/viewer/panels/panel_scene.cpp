@@ -42,7 +42,6 @@ void bodyCombo(const SceneFacts& scene, int& body) {
     ImGui::EndCombo();
 }
 
-// Damping and friction have a slider that is finest near 0.
 // What was typed within reason; what nobody has touched stays as the file has it.
 void limitMaterial(Knobs& turned) {
     constexpr float least = 1e-4f, most = 1e4f, mostDamping = 100, mostFriction = 10;
