@@ -94,8 +94,8 @@ Preferences play(std::unique_ptr<Opening> opening, const Options& options, const
     screen.layers() = options.layers;
     announce(*first, *device, screen);
     if (isSoftware(*device))
-        std::printf("software device: small shadow maps and no multisampling while things move, all of it "
-                    "when paused\n");
+        std::printf("software device: small shadow maps, no multisampling and fewer pixels while things "
+                    "move, all of it when paused\n");
     std::printf("H shows help, Ctrl + Q quits\n");
     std::fflush(stdout);
     Library library(options, [&](Opening& next, const Options& wanted) {

@@ -19,13 +19,13 @@ sim::Settings fastest(const vk::Device& device, const Opening& opening) {
 }
 
 // A picture that nobody sees.
-void draw(const vk::Device& device, vk::Queue& queue, View& view, VkFormat format, const Camera& camera,
-          const sim::Simulation& simulation) {
+void draw(const vk::Device& device, vk::Queue& queue, View& view, VkFormat format, float scale,
+          const Camera& camera, const sim::Simulation& simulation) {
     const Image image(device, {.name = "unseen picture",
                                .extent = {64, 64},
                                .format = format,
                                .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT});
-    Canvas canvas = view.renderer.makeCanvas(image.extent(), std::array{image.view()});
+    Canvas canvas = view.renderer.makeCanvas(image.extent(), std::array{image.view()}, scale);
     const VkCommandBuffer commands = queue.begin();
     view.renderer.record(commands, 0, canvas, 0, camera, simulation);
     queue.wait(queue.submit(commands));
@@ -41,8 +41,9 @@ void warmUp(const vk::Device& device, PreparedShow& show, VkFormat format, const
     show.stage.recordStep(commands);
     show.stage.recordSkin(commands);
     queue.wait(queue.submit(commands));
-    draw(device, queue, show.moving, format, camera, show.stage.simulation());
-    if (show.still) draw(device, queue, *show.still, format, camera, show.stage.simulation());
+    for (const float scale : PictureBudget::scales)
+        draw(device, queue, show.moving, format, scale, camera, show.stage.simulation());
+    if (show.still) draw(device, queue, *show.still, format, 1, camera, show.stage.simulation());
 }
 
 } // namespace
@@ -53,6 +54,10 @@ Place::Place(const vk::Device& device, const Window& window)
 
 View::View(const vk::Device& device, VkFormat format, const Quality& quality, const StageLight& light)
     : renderer(device, {.color = format, .finalLayout = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR}, quality, light) {}
+
+void View::dropCanvases() {
+    for (std::optional<Canvas>& canvas : canvases) canvas.reset();
+}
 
 PreparedShow::PreparedShow(const vk::Device& device, const Opening& opening, VkFormat format)
     : stage(device, opening.loaded.scene, fastest(device, opening)),

@@ -5,6 +5,7 @@
 #include "viewer/draw/canvas.hpp"
 #include "viewer/draw/renderer.hpp"
 #include "viewer/draw/stage.hpp"
+#include "viewer/hands/picture_budget.hpp"
 #include "viewer/opening.hpp"
 #include "viewer/panels/facts.hpp"
 #include "viewer/panels/panel_painter.hpp"
@@ -21,11 +22,14 @@ struct Place {
     PanelPainter painter;
 };
 
-/// Drawing of one quality into the swapchain's images; the canvas is made when it is first needed.
+/// Drawing of one quality into the swapchain's images.
 struct View {
     View(const vk::Device& device, VkFormat format, const Quality& quality, const StageLight& light);
+    void dropCanvases();
     Renderer renderer;
-    std::optional<Canvas> canvas;
+    /// By PictureBudget::scale(), of which there is 0 alone where quality has no mayEnlarge; made when they
+    /// are first needed.
+    std::array<std::optional<Canvas>, PictureBudget::scales.size()> canvases;
 };
 
 /// Must not outlive opening and device, which must not move.

@@ -164,8 +164,8 @@ std::size_t Show::picturesOnTheirWay() {
 bool Show::prepareSwapchain() {
     return screen_.prepare([this] {
         shown_ = Shown::nothing;
-        prepared_.moving.canvas.reset();
-        if (prepared_.still) prepared_.still->canvas.reset();
+        prepared_.moving.dropCanvases();
+        if (prepared_.still) prepared_.still->dropCanvases();
     });
 }
 
@@ -196,21 +196,24 @@ void Show::draw(Plan plan, View& view) {
 
 // Timed where somebody wants to know: each look at the clock costs a software device a flush.
 void Show::drawPicture(const Presenter::Frame& frame, const Overlay& overlay, View& view) {
-    if (!view.canvas)
-        view.canvas.emplace(
-            view.renderer.makeCanvas(screen_.presenter().extent(), screen_.presenter().views()));
-    view.renderer.prepare(overlay.layers, *view.canvas);
+    const bool isReduced = prepared_.still && &view == &prepared_.moving;
+    const std::size_t scale = isReduced ? budget_.scale() : 0;
+    std::optional<Canvas>& canvas = view.canvases[scale];
+    if (!canvas)
+        canvas.emplace(view.renderer.makeCanvas(screen_.presenter().extent(), screen_.presenter().views(),
+                                                PictureBudget::scales[scale]));
+    view.renderer.prepare(overlay.layers, *canvas);
     const bool isTimed = inFlight_[frame.slot].isTimed = screen_.timing().isOn();
     vk::Commands commands(device_, frame.commands);
     vk::Timestamps& times = drawingTimes_[frame.slot];
     if (isTimed) times.reset(commands);
     if (isTimed) times.begin(commands, 0);
-    view.renderer.record(frame.commands, frame.slot, *view.canvas, frame.image, controller_.camera,
+    view.renderer.record(frame.commands, frame.slot, *canvas, frame.image, controller_.camera,
                          stage_.simulation(), overlay);
     if (isTimed) times.end(commands, 0);
     if (std::exchange(wantsScreenshot_, false)) recordScreenshot(frame, overlay);
     if (isTimed) times.begin(commands, 1);
-    drawPanels(frame, &view != &prepared_.moving || !prepared_.still);
+    drawPanels(frame, isReduced ? std::optional(PictureBudget::scales[scale]) : std::nullopt);
     if (isTimed) times.end(commands, 1);
 }
 
@@ -220,16 +223,16 @@ bool Show::isOfCut(bool isCutting) {
     return cutFrames_ > 0 && cutFrames_-- > 0;
 }
 
-void Show::drawPanels(const Presenter::Frame& frame, bool isFullQuality) {
-    wishes_ = screen_.drawPanels(frame, sceneFacts_, facts(isFullQuality));
+void Show::drawPanels(const Presenter::Frame& frame, std::optional<float> reduced) {
+    wishes_ = screen_.drawPanels(frame, sceneFacts_, facts(reduced));
     if (!wishes_.isEmpty()) panelsDue_ = picturesOfATouch;
 }
 
-Facts Show::facts(bool isFullQuality) const {
+Facts Show::facts(std::optional<float> reduced) const {
     Facts facts = gauges_.facts(stage_);
     facts.isPaused = controller_.playback.isPaused();
     facts.isDiverged = isDiverged_;
-    facts.isFullQuality = isFullQuality;
+    facts.reduced = reduced;
     facts.isHolding = tools_.isHolding();
     facts.isBladeOn = tools_.isBladeOn();
     facts.isPokeOn = tools_.isPokeOn();

@@ -10,8 +10,8 @@
 #include "viewer/hands/controller.hpp"
 #include "viewer/hands/inspection.hpp"
 #include "viewer/hands/inspector.hpp"
+#include "viewer/hands/picture_budget.hpp"
 #include "viewer/hands/state_probe.hpp"
-#include "viewer/hands/step_budget.hpp"
 #include "viewer/library.hpp"
 #include "viewer/opening.hpp"
 #include "viewer/pictures/picture_writer.hpp"
@@ -106,11 +106,12 @@ private:
     bool prepareSwapchain();
     void draw(Plan plan, View& view);
     void drawPicture(const Presenter::Frame& frame, const Overlay& overlay, View& view);
-    void drawPanels(const Presenter::Frame& frame, bool isFullQuality);
+    /// `reduced` as Facts::reduced.
+    void drawPanels(const Presenter::Frame& frame, std::optional<float> reduced);
     bool isOfCut(bool isCutting);
     std::size_t picturesOnTheirWay();
     void settleTimes(std::uint32_t slot, const InFlight& flight);
-    Facts facts(bool isFullQuality) const;
+    Facts facts(std::optional<float> reduced) const;
     void recordSteps(const Presenter::Frame& frame, Plan& plan);
     void forgetFlights();
     void makeSurfaceRoom();
@@ -154,7 +155,7 @@ private:
     std::vector<vk::Timestamps> drawingTimes_; // of picture and panels, likewise
     SceneFacts& sceneFacts_;
     Gauges gauges_;
-    StepBudget budget_;
+    PictureBudget budget_;
     Wishes wishes_; // of the newest picture
     Knobs knobs_;
     std::optional<Recording> recording_;

@@ -1,6 +1,6 @@
 // The table of bindings and what actions do, without a window.
 #include "viewer/hands/controller.hpp"
-#include "viewer/hands/step_budget.hpp"
+#include "viewer/hands/picture_budget.hpp"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -182,16 +182,16 @@ TEST(Controller, WheelForwardsComesNearer) {
     EXPECT_NEAR(controller.camera.distance, Camera{}.distance, 1e-5f);
 }
 
-TEST(StepBudget, IsAsAskedUntilAStepHasBeenTimed) {
-    StepBudget budget;
+TEST(PictureBudget, IsAsAskedUntilAStepHasBeenTimed) {
+    PictureBudget budget;
     EXPECT_EQ(budget.steps(2), 2u);
     budget.pictureTaken(0.2, 2);
     EXPECT_EQ(budget.steps(2), 2u);
 }
 
-TEST(StepBudget, TakesASecondStepOnlyWherePicturesStayWithinTheGoal) {
+TEST(PictureBudget, TakesASecondStepOnlyWherePicturesStayWithinTheGoal) {
     const auto steps = [](double step, double rest) {
-        StepBudget budget;
+        PictureBudget budget;
         for (int picture = 0; picture < 20; ++picture) {
             budget.stepTimed(step);
             const std::uint32_t taken = budget.steps(2);
@@ -204,6 +204,49 @@ TEST(StepBudget, TakesASecondStepOnlyWherePicturesStayWithinTheGoal) {
     EXPECT_EQ(steps(0.020, 0.015), 1u);
     EXPECT_EQ(steps(0.060, 0.080), 1u); // however slow, time goes on
     EXPECT_EQ(steps(0.001, 0.300), 1u);
+}
+
+// A device on which all but a step takes `fixed`, and `pixels` more at full size.
+std::vector<std::size_t> scalesOf(double step, double fixed, double pixels, int pictures) {
+    PictureBudget budget;
+    std::vector<std::size_t> scales;
+    for (int picture = 0; picture < pictures; ++picture) {
+        budget.stepTimed(step);
+        const std::uint32_t taken = budget.steps(2);
+        const float scale = PictureBudget::scales[budget.scale()];
+        budget.pictureTaken(taken * step + fixed + pixels * double{scale * scale}, taken);
+        scales.push_back(budget.scale());
+    }
+    return scales;
+}
+
+TEST(PictureBudget, DrawsFewerPixelsWhereThatBringsPicturesNearerTheGoal) {
+    EXPECT_EQ(scalesOf(0.004, 0.004, 0.006, 60).back(), 0u);
+    EXPECT_EQ(scalesOf(0.025, 0.010, 0.070, 60).back(), 2u);
+    EXPECT_EQ(scalesOf(0.020, 0.005, 0.040, 60).back(), 1u);
+    EXPECT_EQ(scalesOf(0.300, 0.004, 0.010, 60).back(), 0u) << "the step alone is slow";
+}
+
+TEST(PictureBudget, ComesToRestAtAScale) {
+    for (const double pixels : {0.02, 0.03, 0.04, 0.05, 0.06, 0.08, 0.12})
+        for (const double step : {0.002, 0.01, 0.02, 0.03}) {
+            const auto scales = scalesOf(step, 0.006, pixels, 200);
+            EXPECT_EQ(std::set(scales.begin() + 60, scales.end()).size(), 1u) << pixels << ' ' << step;
+        }
+}
+
+TEST(PictureBudget, GivesPixelsBackWhenThereIsTime) {
+    PictureBudget budget;
+    const auto play = [&](double seconds) {
+        for (int picture = 0; picture < 60; ++picture) {
+            budget.stepTimed(0.005);
+            budget.pictureTaken(0.005 + seconds, 1);
+        }
+    };
+    play(0.09);
+    EXPECT_EQ(budget.scale(), 2u);
+    play(0.006);
+    EXPECT_EQ(budget.scale(), 0u);
 }
 
 } // namespace

@@ -33,9 +33,9 @@ sim::Scene block(float height, bool hasGround) {
 
 // A scene with its picture taken after some steps.
 struct Shot {
-    Shot(const sim::Scene& scene, Camera view, const Quality& quality = quick)
+    Shot(const sim::Scene& scene, Camera view, const Quality& quality = quick, float scale = 1)
         : camera(view), light(lightFor(scene, view)), stage(test::device(), scene, {}),
-          offscreen(test::device(), extent, light, quality) {}
+          offscreen(test::device(), extent, light, quality, scale) {}
 
     Picture take(int steps = 0, const Overlay& overlay = {}) {
         VkCommandBuffer commands = test::queue().begin();
@@ -266,6 +266,36 @@ TEST(Picture, IsTheSameWithABackdropThatIsKept) {
             }
             EXPECT_GT(largestDifference(pictures[3], pictures[2]), 20) << "the body stands still";
         }
+}
+
+double meanDifference(const Picture& a, const Picture& b) {
+    EXPECT_EQ(a.pixels.size(), b.pixels.size());
+    double sum = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) sum += std::abs(int{a.pixels[i]} - int{b.pixels[i]});
+    return sum / static_cast<double>(a.pixels.size());
+}
+
+// With a backdrop that is kept, and one that is not yet.
+TEST(Picture, IsLikeItselfWhereItIsDrawnSmallerAndEnlarged) {
+    const sim::Scene scene = block(0.3f, true);
+    Quality quality = quick;
+    quality.samples = VK_SAMPLE_COUNT_1_BIT;
+    quality.keepsBackdrop = quality.mayEnlarge = true;
+    Shot full(scene, viewOf(scene), quality), same(scene, viewOf(scene), quality, 0.99999f),
+        half(scene, viewOf(scene), quality, 0.5f), tiny(scene, viewOf(scene), quality, 0.1f);
+    for (int picture = 0; picture < 4; ++picture) {
+        const Picture wanted = full.take(), small = half.take();
+        EXPECT_EQ(small.width, extent.width);
+        EXPECT_LE(largestDifference(wanted, same.take()), 1) << "as many pixels: none lies between two";
+        const double blur = meanDifference(wanted, small);
+        EXPECT_GT(blur, 0.1);
+        EXPECT_LT(blur, 3);
+        EXPECT_GT(meanDifference(wanted, tiny.take()), 1.5 * blur);
+        const Color corner{small.pixels[0], small.pixels[1], small.pixels[2]};
+        const Color inside{small.pixels[40], small.pixels[41], small.pixels[42]};
+        EXPECT_NEAR(brightness(corner), brightness(inside), 12) << "nothing shines in from beyond";
+        EXPECT_GT(redness(colorAt(small, half.camera, {0, 0.7f, 0})), 60) << "and it stands where it stood";
+    }
 }
 
 TEST(Backdrop, IsMadeInTheSecondPictureFromAPlace) {

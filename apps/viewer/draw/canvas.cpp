@@ -1,6 +1,9 @@
 // Images in the order that RenderPass::picture lists its attachments.
 #include "viewer/draw/canvas.hpp"
 
+#include <array>
+#include <utility>
+
 namespace sinew::viewer {
 
 Canvas::Canvas(const vk::Device& device, const RenderPass& pass, const CanvasFormat& format,
@@ -20,6 +23,12 @@ Canvas::Canvas(const vk::Device& device, const RenderPass& pass, const CanvasFor
                                                   .samples = format.samples});
     for (const VkImageView picture : pictures)
         framebuffers_.emplace_back(device, pass.handle(), views(picture), extent, "canvas.framebuffer");
+}
+
+Canvas::Canvas(const vk::Device& device, const RenderPass& pass, const CanvasFormat& format,
+               Enlarging enlarging)
+    : Canvas(device, pass, format, enlarging.drawn(), std::array{enlarging.view()}) {
+    enlarging_.emplace(std::move(enlarging));
 }
 
 std::vector<VkImageView> Canvas::views(VkImageView picture) const {

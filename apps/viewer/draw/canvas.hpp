@@ -1,8 +1,9 @@
 // The multisampled colour and depth images behind one or more pictures of a size, and a framebuffer per
-// picture.
+// picture; or one for all, where they are enlarged.
 #pragma once
 
 #include "viewer/draw/backdrop.hpp"
+#include "viewer/draw/enlarging.hpp"
 #include "viewer/draw/render_pass.hpp"
 
 namespace sinew::viewer {
@@ -19,6 +20,8 @@ class Canvas {
 public:
     Canvas(const vk::Device& device, const RenderPass& pass, const CanvasFormat& format, VkExtent2D extent,
            std::span<const VkImageView> pictures);
+    /// For the image that is enlarged; `pass` leaves it to be read.
+    Canvas(const vk::Device& device, const RenderPass& pass, const CanvasFormat& format, Enlarging enlarging);
 
     /// Adds the image in which a section counts surfaces, as RenderPass::colorMap, if it is not there yet.
     /// Throws vk::Error.
@@ -34,11 +37,17 @@ public:
     Backdrop& backdrop() noexcept { return *backdrop_; }             ///< where it hasBackdrop()
     const Backdrop& backdrop() const noexcept { return *backdrop_; } ///< likewise
 
-    VkExtent2D extent() const noexcept { return extent_; }
-    float aspect() const noexcept {
-        return static_cast<float>(extent_.width) / static_cast<float>(extent_.height);
+    /// Where pictures are drawn smaller than they are.
+    const std::optional<Enlarging>& enlarging() const noexcept { return enlarging_; }
+
+    VkExtent2D extent() const noexcept { return extent_; } ///< that is drawn
+    float aspect() const noexcept {                        ///< of the pictures
+        const VkExtent2D shown = enlarging_ ? enlarging_->extent() : extent_;
+        return static_cast<float>(shown.width) / static_cast<float>(shown.height);
     }
-    VkFramebuffer framebuffer(std::size_t picture) const noexcept { return framebuffers_[picture].handle(); }
+    VkFramebuffer framebuffer(std::size_t picture) const noexcept {
+        return framebuffers_[enlarging_ ? 0 : picture].handle();
+    }
 
 private:
     std::vector<VkImageView> views(VkImageView picture) const; // as RenderPass::picture wants them
@@ -49,6 +58,7 @@ private:
     std::vector<Image> counts_; ///< one or none, as the next
     std::vector<Framebuffer> countsFramebuffer_;
     std::optional<Backdrop> backdrop_;
+    std::optional<Enlarging> enlarging_;
 };
 
 } // namespace sinew::viewer

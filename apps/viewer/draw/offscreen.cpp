@@ -21,14 +21,14 @@ Image makeImage(const vk::Device& device, VkExtent2D extent) {
 } // namespace
 
 Offscreen::Offscreen(const vk::Device& device, VkExtent2D extent, const StageLight& light,
-                     const Quality& quality)
+                     const Quality& quality, float scale)
     : device_(device), image_(makeImage(device, extent)),
       readback_(device, {.name = "offscreen.readback",
                          .count = VkDeviceSize{extent.width} * extent.height,
                          .stride = 4,
                          .kind = vk::MemoryKind::readback}),
       renderer_(device, {.color = format}, quality, light),
-      canvas_(renderer_.makeCanvas(extent, std::array{image_.view()})) {}
+      canvas_(renderer_.makeCanvas(extent, std::array{image_.view()}, scale)) {}
 
 void Offscreen::record(VkCommandBuffer commands, const Camera& camera, const sim::Simulation& simulation,
                        const Overlay& overlay) noexcept {

@@ -6,11 +6,12 @@
 
 namespace sinew::viewer {
 
-/// Owns a renderer of full quality and one picture. Must not outlive its Device, which must not move.
+/// Owns a renderer and one picture, of full quality unless others are asked for. `scale` as in
+/// Renderer::makeCanvas. Must not outlive its Device, which must not move.
 class Offscreen {
 public:
     Offscreen(const vk::Device& device, VkExtent2D extent, const StageLight& light,
-              const Quality& quality = {});
+              const Quality& quality = {}, float scale = 1);
 
     /// As Renderer::prepare.
     void prepare(const Layers& layers) { renderer_.prepare(layers, canvas_); }

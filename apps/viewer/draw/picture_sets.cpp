@@ -8,10 +8,11 @@ namespace sinew::viewer {
 
 namespace {
 
-constexpr std::uint32_t mapCount = 4;                        // light.glsl, floor.frag
-constexpr std::uint32_t countsBinding = 1 + mapCount;        // section_cap.frag; frame.glsl has the first
-constexpr std::uint32_t backdropBinding = countsBinding + 1; // backdrop.frag
-constexpr std::uint32_t bindingCount = backdropBinding + 1;
+constexpr std::uint32_t mapCount = 4;                          // light.glsl, floor.frag
+constexpr std::uint32_t countsBinding = 1 + mapCount;          // section_cap.frag; frame.glsl has the first
+constexpr std::uint32_t backdropBinding = countsBinding + 1;   // backdrop.frag
+constexpr std::uint32_t enlargedBinding = backdropBinding + 1; // enlarge.frag
+constexpr std::uint32_t bindingCount = enlargedBinding + 1;
 
 std::vector<vk::Buffer> makeParams(const vk::Device& device, std::uint32_t slots) {
     std::vector<vk::Buffer> params;
@@ -71,6 +72,10 @@ void PictureSets::writeCounts(std::uint32_t slot, VkImageView counts, VkSampler 
 
 void PictureSets::writeBackdrop(std::uint32_t slot, VkImageView backdrop, VkSampler sampler) const noexcept {
     writeImage(slot, backdropBinding, backdrop, sampler);
+}
+
+void PictureSets::writeEnlarged(std::uint32_t slot, VkImageView drawn, VkSampler sampler) const noexcept {
+    writeImage(slot, enlargedBinding, drawn, sampler);
 }
 
 void PictureSets::writeImage(std::uint32_t slot, std::uint32_t binding, VkImageView view,

@@ -23,6 +23,8 @@ public:
     void writeCounts(std::uint32_t slot, VkImageView counts, VkSampler sampler) const noexcept;
     /// What stands behind all bodies, likewise.
     void writeBackdrop(std::uint32_t slot, VkImageView backdrop, VkSampler sampler) const noexcept;
+    /// A picture that is enlarged, likewise.
+    void writeEnlarged(std::uint32_t slot, VkImageView drawn, VkSampler sampler) const noexcept;
     void bind(VkCommandBuffer commands, std::uint32_t slot) const noexcept { sets_.bind(commands, slot); }
 
 private:

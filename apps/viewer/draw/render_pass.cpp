@@ -150,15 +150,26 @@ RenderPass RenderPass::picture(const vk::Device& device, const Picture& picture)
     return RenderPass(device, passInfo(attachments, subpass, dependencies), "picture");
 }
 
-RenderPass RenderPass::over(const vk::Device& device, VkFormat color, VkImageLayout finalLayout) {
-    std::array attachments{attachment(color, VK_SAMPLE_COUNT_1_BIT, finalLayout)};
-    attachments[0].loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
-    attachments[0].initialLayout = finalLayout;
+RenderPass RenderPass::ofColor(const vk::Device& device, const VkAttachmentDescription& color,
+                               const std::string& name) {
     const VkSubpassDescription subpass{.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
                                        .colorAttachmentCount = 1,
                                        .pColorAttachments = &colorReference};
-    const auto dependencies = between(readerOf(finalLayout), colors);
-    return RenderPass(device, passInfo(attachments, subpass, dependencies), "over");
+    const auto dependencies = between(readerOf(color.finalLayout), colors);
+    return RenderPass(device, passInfo(std::span(&color, 1), subpass, dependencies), name);
+}
+
+RenderPass RenderPass::whole(const vk::Device& device, VkFormat color, VkImageLayout finalLayout) {
+    VkAttachmentDescription picture = attachment(color, VK_SAMPLE_COUNT_1_BIT, finalLayout);
+    picture.loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+    return ofColor(device, picture, "whole");
+}
+
+RenderPass RenderPass::over(const vk::Device& device, VkFormat color, VkImageLayout finalLayout) {
+    VkAttachmentDescription picture = attachment(color, VK_SAMPLE_COUNT_1_BIT, finalLayout);
+    picture.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
+    picture.initialLayout = finalLayout;
+    return ofColor(device, picture, "over");
 }
 
 RenderPass::RenderPass(RenderPass&& other) noexcept

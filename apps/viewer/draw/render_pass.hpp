@@ -28,6 +28,9 @@ public:
     /// With one sample there is no third: the first attachment is the picture.
     static RenderPass picture(const vk::Device& device, const Picture& picture);
 
+    /// Draws all of a picture, of one sample and without depth, and leaves it in `finalLayout`, as picture().
+    static RenderPass whole(const vk::Device& device, VkFormat color, VkImageLayout finalLayout);
+
     /// Draws over a picture that picture() has left in its final layout, and leaves it there.
     static RenderPass over(const vk::Device& device, VkFormat color, VkImageLayout finalLayout);
 
@@ -39,6 +42,8 @@ public:
 
 private:
     RenderPass(const vk::Device& device, const VkRenderPassCreateInfo& info, const std::string& name);
+    static RenderPass ofColor(const vk::Device& device, const VkAttachmentDescription& color,
+                              const std::string& name);
     const vk::Device* device_ = nullptr;
     VkRenderPass pass_ = VK_NULL_HANDLE;
 };

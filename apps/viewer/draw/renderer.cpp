@@ -34,7 +34,8 @@ Quality reducedQuality() {
             .shadowTaps = 8,
             .skyTaps = 20,
             .samples = VK_SAMPLE_COUNT_1_BIT,
-            .keepsBackdrop = true};
+            .keepsBackdrop = true,
+            .mayEnlarge = true};
 }
 
 bool isSoftware(const vk::Device& device) {
@@ -46,7 +47,7 @@ Renderer::Renderer(const vk::Device& device, const Target& target, const Quality
     : device_(device), light_(light), colliders_(device, light.colliders),
       poke_(device, {{.radius = 1, .color = handColor}}), format_{target.color, canvasDepthFormat(device),
                                                                   quality.samples},
-      maps_(device, quality.shadowSize, quality.floorSize),
+      finalLayout_(target.finalLayout), maps_(device, quality.shadowSize, quality.floorSize),
       pass_(RenderPass::picture(device, {.color = format_.color,
                                          .depth = format_.depth,
                                          .samples = format_.samples,
@@ -62,12 +63,22 @@ Renderer::Renderer(const vk::Device& device, const Target& target, const Quality
     createPipelines();
     createCutPipelines();
     if (!balls_.ranges().empty()) createBallPipelines();
+    if (quality.keepsBackdrop || quality.mayEnlarge)
+        readablePass_.emplace(
+            RenderPass::picture(device_, {.color = format_.color,
+                                          .depth = format_.depth,
+                                          .samples = format_.samples,
+                                          .finalLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}));
     if (quality.keepsBackdrop) createBackdrop();
+    if (quality.mayEnlarge) createEnlarging();
 }
 
-Canvas Renderer::makeCanvas(VkExtent2D extent, std::span<const VkImageView> pictures) const {
-    Canvas canvas(device_, pass_, format_, extent, pictures);
-    if (backdropPass_) canvas.addBackdrop(device_, *backdropPass_, format_.color);
+Canvas Renderer::makeCanvas(VkExtent2D extent, std::span<const VkImageView> pictures, float scale) const {
+    Canvas canvas = scale < 1 && wholePass_
+                        ? Canvas(device_, *readablePass_, format_,
+                                 Enlarging(device_, *wholePass_, format_.color, extent, scale, pictures))
+                        : Canvas(device_, pass_, format_, extent, pictures);
+    if (has(backdropPipeline)) canvas.addBackdrop(device_, *readablePass_, format_.color);
     return canvas;
 }
 
@@ -81,6 +92,8 @@ void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, Canvas& canv
     sets_.writeCounts(slot, isOpened ? canvas.counts() : maps_.floor.image.view(), maps_.nearest());
     const Sheet sheet{canvas, picture, slot};
     const Backdrop::Use backdrop = prepareBackdrop(sheet, params);
+    const std::optional<Enlarging>& enlarging = canvas.enlarging();
+    sets_.writeEnlarged(slot, enlarging ? enlarging->view() : maps_.floor.image.view(), maps_.smooth());
     sets_.bind(commands, slot);
     vk::Commands labels(device_, commands);
     labels.beginLabel("light maps");
@@ -98,6 +111,7 @@ void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, Canvas& canv
     }
     labels.beginLabel("picture");
     recordPicture(commands, sheet, simulation, overlay, params, backdrop != Backdrop::Use::direct);
+    if (enlarging) recordEnlarging(commands, *enlarging, picture);
     labels.endLabel();
 }
 
@@ -148,7 +162,7 @@ Backdrop::Use Renderer::prepareBackdrop(const Sheet& sheet,
 
 void Renderer::recordBackdrop(VkCommandBuffer commands, const Canvas& canvas,
                               const layout::FrameParams& params) const noexcept {
-    begin(commands, *backdropPass_, canvas.backdrop().framebuffer(), canvas.extent(), empty);
+    begin(commands, *readablePass_, canvas.backdrop().framebuffer(), canvas.extent(), empty);
     if (light_.ground) drawGround(commands, params, false);
     drawScreen(commands, skyPipeline);
     device_.functions().vkCmdEndRenderPass(commands);
@@ -158,7 +172,8 @@ void Renderer::recordPicture(VkCommandBuffer commands, const Sheet& sheet, const
                              const Overlay& overlay, const layout::FrameParams& params,
                              bool hasBackdrop) const noexcept {
     const Canvas& canvas = sheet.canvas;
-    begin(commands, pass_, canvas.framebuffer(sheet.picture), canvas.extent(), empty);
+    begin(commands, canvas.enlarging() ? *readablePass_ : pass_, canvas.framebuffer(sheet.picture),
+          canvas.extent(), empty);
     const Layers& layers = overlay.layers;
     drawThings(commands, simulation, layers, skinPipeline);
     drawThings(commands, simulation, layers, skinBacksPipeline);
@@ -176,6 +191,13 @@ void Renderer::recordPicture(VkCommandBuffer commands, const Sheet& sheet, const
     if (light_.ground) drawGround(commands, params, hasBackdrop);
     drawScreen(commands, hasBackdrop ? backdropPipeline : skyPipeline);
     recordLayers(commands, simulation, overlay);
+    device_.functions().vkCmdEndRenderPass(commands);
+}
+
+void Renderer::recordEnlarging(VkCommandBuffer commands, const Enlarging& enlarging,
+                               std::size_t picture) const noexcept {
+    begin(commands, *wholePass_, enlarging.framebuffer(picture), enlarging.extent(), {});
+    drawScreen(commands, enlargePipeline);
     device_.functions().vkCmdEndRenderPass(commands);
 }
 

@@ -19,6 +19,7 @@ struct Quality {
     std::uint32_t shadowTaps = 32, skyTaps = 96;           ///< per pixel
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_4_BIT; ///< 1 and 4 work on every device
     bool keepsBackdrop = false; ///< sky and far floor, while the camera rests: where shading is dear
+    bool mayEnlarge = false;    ///< pictures may be drawn smaller than they are; needs one sample
 };
 
 /// For moving pictures in a window on a software device: smaller maps, fewer taps, one sample.
@@ -49,7 +50,8 @@ public:
     /// Makes what overlays with these layers are drawn with, and is not there yet. Throws vk::Error.
     void prepare(const Layers& layers, Canvas& canvas);
 
-    Canvas makeCanvas(VkExtent2D extent, std::span<const VkImageView> pictures) const;
+    /// Of less than 1 is the `scale` of the sides of what is drawn, where quality has mayEnlarge.
+    Canvas makeCanvas(VkExtent2D extent, std::span<const VkImageView> pictures, float scale = 1) const;
 
     /// Records one picture. `commands` must be recording, outside a render pass, after recordSkin() of
     /// `simulation` in the same queue. `slot` < slots; its previous picture must be finished. Leaves the
@@ -80,6 +82,7 @@ private:
     void createMapPipelines();
     void createPipelines();
     void createBackdrop();
+    void createEnlarging();
     void createCutPipelines();
     void createBallPipelines();
     void recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation,
@@ -105,6 +108,8 @@ private:
     void recordPicture(VkCommandBuffer commands, const Sheet& sheet, const sim::Simulation& simulation,
                        const Overlay& overlay, const layout::FrameParams& params,
                        bool hasBackdrop) const noexcept;
+    void recordEnlarging(VkCommandBuffer commands, const Enlarging& enlarging,
+                         std::size_t picture) const noexcept;
     void drawScreen(VkCommandBuffer commands, std::size_t pipeline) const noexcept;
     void drawGround(VkCommandBuffer commands, const layout::FrameParams& params,
                     bool isLitAlone) const noexcept;
@@ -137,6 +142,7 @@ private:
     StageLight light_;
     ColliderMeshes colliders_, poke_; // the second a sphere of radius 1
     CanvasFormat format_;
+    VkImageLayout finalLayout_;
     LightMaps maps_;
     RenderPass pass_;
     PictureSets sets_;
@@ -153,6 +159,7 @@ private:
         groundPipeline,
         skyPipeline,
         backdropPipeline,
+        enlargePipeline,
         handPipeline,
         insidePipeline,
         clippedPipeline,
@@ -179,7 +186,8 @@ private:
     // Of layers where they were prepared; behind them, in the same order, what a section makes of them.
     std::array<std::optional<Pipeline>, 2 * pipelineCount> pipelines_;
     std::optional<RenderPass> countsPass_;   // of a section
-    std::optional<RenderPass> backdropPass_; // where a backdrop is kept
+    std::optional<RenderPass> readablePass_; // as pass_, of pictures that shaders read
+    std::optional<RenderPass> wholePass_;    // where pictures may be enlarged
 };
 
 } // namespace sinew::viewer

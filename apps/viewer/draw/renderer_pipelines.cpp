@@ -82,15 +82,18 @@ void Renderer::createPipelines() {
 }
 
 void Renderer::createBackdrop() {
-    backdropPass_.emplace(
-        RenderPass::picture(device_, {.color = format_.color,
-                                      .depth = format_.depth,
-                                      .samples = format_.samples,
-                                      .finalLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}));
     addLit(backdropPipeline, {.name = "backdrop",
                               .vertex = &shaders::screenVert,
                               .fragment = &shaders::backdropFrag,
                               .depth = Depth::test});
+}
+
+void Renderer::createEnlarging() {
+    wholePass_.emplace(RenderPass::whole(device_, format_.color, finalLayout_));
+    addPipeline(enlargePipeline, {.name = "picture.enlarge",
+                                  .vertex = &shaders::screenVert,
+                                  .fragment = &shaders::enlargeFrag,
+                                  .pass = wholePass_->handle()});
 }
 
 void Renderer::createCutPipelines() {

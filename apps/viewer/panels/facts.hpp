@@ -100,8 +100,10 @@ struct SceneFacts {
 struct Facts {
     bool isPaused = false, isDiverged = false, isVsync = true, isBladeOn = false, isPokeOn = false,
          isHolding = false, isRecording = false;
-    bool isFullQuality = true; ///< shadows and antialiasing; a software device has them when paused
-    std::size_t pins = 0;      ///< that hold something where it is
+    /// Scale of the sides of a picture with plain shadows and no antialiasing, on a software device while
+    /// things move; of full quality: none.
+    std::optional<float> reduced;
+    std::size_t pins = 0; ///< that hold something where it is
     double framesPerSecond = 0;
     double pace = 1;     ///< seconds of the scene in a second of the clock, as asked
     double keptPace = 1; ///< as the machine could

@@ -52,7 +52,16 @@ void device(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
     if (scene.isSoftware) {
         ImGui::TextColored(warning(), "SOFTWARE DEVICE");
         ImGui::SameLine();
-        ImGui::TextColored(quiet(), "%s", facts.isFullQuality ? "no GPU" : "no GPU, plain shadows");
+        const bool isEnlarged = facts.reduced && *facts.reduced < 1;
+        ImGui::TextColored(quiet(), "%s",
+                           isEnlarged      ? "no GPU, fewer pixels"
+                           : facts.reduced ? "no GPU, plain shadows"
+                                           : "no GPU");
+        if (facts.reduced && ImGui::IsItemHovered())
+            ImGui::SetTooltip(
+                "while things move: small shadow maps, one sample a pixel, drawn at %.0f %% of the "
+                "size and enlarged; all of it when paused",
+                100 * double{*facts.reduced});
     }
     if (facts.devices.empty()) // not known yet
         wrapped(scene.device, ImGui::GetStyleColorVec4(ImGuiCol_Text));
