@@ -315,6 +315,37 @@ TEST(Backdrop, IsMadeInTheSecondPictureFromAPlace) {
     EXPECT_EQ(backdrop.next(here), Use::kept);
 }
 
+// From outside, from within, and of a skin that is inside out.
+TEST(Picture, IsTheSameWithoutTheBacksThatNobodySees) {
+    Quality less = quick;
+    less.leavesBacks = true;
+    const sim::Scene scene = block(0.3f, true);
+    sim::Scene turned = scene;
+    for (auto& triangle : turned.skins.front().triangles) std::swap(triangle[1], triangle[2]);
+    Camera within = viewOf(scene);
+    within.target = {0, 0.5f, 0};
+    within.distance = 0.1f;
+    for (const sim::Scene& shown : {scene, turned})
+        for (const Camera& camera : {viewOf(scene), within}) {
+            Shot all(shown, camera), some(shown, camera, less);
+            EXPECT_EQ(largestDifference(all.take(2), some.take(2)), 0);
+        }
+}
+
+TEST(Picture, HasTheLightOfTheFloorEverySecondTimeWhereThatIsEnough) {
+    Quality rarely = quick;
+    rarely.floorEvery = 2;
+    const sim::Scene scene = block(0.3f, true);
+    Shot always(scene, viewOf(scene)), seldom(scene, viewOf(scene), rarely);
+    for (int picture = 0; picture < 6; ++picture) {
+        const int largest = largestDifference(always.take(2), seldom.take(2));
+        if (picture % 2 == 0)
+            EXPECT_EQ(largest, 0) << "picture " << picture;
+        else
+            EXPECT_GT(largest, 0) << "the block falls, picture " << picture;
+    }
+}
+
 // A skin that is drawn inside out is seen, behind nothing, as one that is not.
 TEST(Picture, ShowsBacksWhereNoFrontHidesThem) {
     sim::Scene scene = block(0.3f, true), turned = scene;

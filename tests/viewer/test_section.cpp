@@ -130,6 +130,15 @@ TEST(Section, KnowsWhatIsClosed) {
     sim::Scene holed = blocks({0});
     holed.skins[0].triangles.pop_back();
     EXPECT_EQ(closedSkins(holed), (std::vector{false}));
+    EXPECT_EQ(outwardSkins(holed), (std::vector{false}));
+}
+
+TEST(Section, KnowsWhatFacesOutwards) {
+    sim::Scene scene = blocks({0, -1});
+    EXPECT_EQ(outwardSkins(scene), (std::vector{true, true}));
+    for (auto& triangle : scene.skins[1].triangles) std::swap(triangle[0], triangle[1]);
+    EXPECT_EQ(outwardSkins(scene), (std::vector{true, false}));
+    EXPECT_EQ(closedSkins(scene), (std::vector{true, true}));
 }
 
 TEST(Section, LaysOpenTheInsideOfABodyAsASolid) {

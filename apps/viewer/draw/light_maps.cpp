@@ -7,6 +7,8 @@ namespace sinew::viewer {
 
 namespace {
 
+constexpr VkSamplerAddressMode border = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER;
+
 VkFormat mapDepthFormat(const vk::Device& device) {
     constexpr std::array formats{VK_FORMAT_D32_SFLOAT, VK_FORMAT_X8_D24_UNORM_PACK32, VK_FORMAT_D16_UNORM};
     return findFormat(device, formats,
@@ -39,9 +41,12 @@ LightMaps::LightMaps(const vk::Device& device, std::uint32_t shadowSize, std::ui
     const bool isFiltered = findFormat(device, std::array{depthFormat_},
                                        VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT) == depthFormat_;
     try {
-        comparing_ = makeSampler(isFiltered ? VK_FILTER_LINEAR : VK_FILTER_NEAREST, true, "light.comparing");
-        nearest_ = makeSampler(VK_FILTER_NEAREST, false, "light.nearest");
-        smooth_ = makeSampler(VK_FILTER_LINEAR, false, "light.smooth");
+        comparing_ =
+            makeSampler(isFiltered ? VK_FILTER_LINEAR : VK_FILTER_NEAREST, true, border, "light.comparing");
+        nearest_ = makeSampler(VK_FILTER_NEAREST, false, border, "light.nearest");
+        smooth_ = makeSampler(VK_FILTER_LINEAR, false, border, "light.smooth");
+        stretching_ =
+            makeSampler(VK_FILTER_LINEAR, false, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, "stretching");
     } catch (...) {
         release();
         throw;
@@ -53,18 +58,19 @@ LightMaps::~LightMaps() {
 }
 
 void LightMaps::release() noexcept {
-    for (const VkSampler sampler : {comparing_, nearest_, smooth_})
+    for (const VkSampler sampler : {comparing_, nearest_, smooth_, stretching_})
         device_.functions().vkDestroySampler(device_.handle(), sampler, nullptr);
 }
 
-VkSampler LightMaps::makeSampler(VkFilter filter, bool isComparing, const std::string& name) {
+VkSampler LightMaps::makeSampler(VkFilter filter, bool isComparing, VkSamplerAddressMode beyond,
+                                 const std::string& name) {
     const VkSamplerCreateInfo info{.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
                                    .magFilter = filter,
                                    .minFilter = filter,
                                    .mipmapMode = VK_SAMPLER_MIPMAP_MODE_NEAREST,
-                                   .addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER,
-                                   .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER,
-                                   .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER,
+                                   .addressModeU = beyond,
+                                   .addressModeV = beyond,
+                                   .addressModeW = beyond,
                                    .compareEnable = isComparing,
                                    .compareOp = VK_COMPARE_OP_LESS_OR_EQUAL,
                                    .borderColor = VK_BORDER_COLOR_FLOAT_OPAQUE_WHITE};

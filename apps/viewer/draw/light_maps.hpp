@@ -25,10 +25,12 @@ public:
     VkSampler comparing() const noexcept { return comparing_; }
     VkSampler nearest() const noexcept { return nearest_; }
     VkSampler smooth() const noexcept { return smooth_; }
+    VkSampler stretching() const noexcept { return stretching_; } ///< as smooth(), of edges that go on
 
 private:
     void release() noexcept;
-    VkSampler makeSampler(VkFilter filter, bool isComparing, const std::string& name);
+    VkSampler makeSampler(VkFilter filter, bool isComparing, VkSamplerAddressMode beyond,
+                          const std::string& name);
     const vk::Device& device_;
     VkFormat depthFormat_;
 
@@ -36,7 +38,8 @@ public:
     LightMap shadow, plan, floor;
 
 private:
-    VkSampler comparing_ = VK_NULL_HANDLE, nearest_ = VK_NULL_HANDLE, smooth_ = VK_NULL_HANDLE;
+    VkSampler comparing_ = VK_NULL_HANDLE, nearest_ = VK_NULL_HANDLE, smooth_ = VK_NULL_HANDLE,
+              stretching_ = VK_NULL_HANDLE;
 };
 
 } // namespace sinew::viewer

@@ -35,7 +35,9 @@ Quality reducedQuality() {
             .skyTaps = 20,
             .samples = VK_SAMPLE_COUNT_1_BIT,
             .keepsBackdrop = true,
-            .mayEnlarge = true};
+            .mayEnlarge = true,
+            .leavesBacks = true,
+            .floorEvery = 2};
 }
 
 bool isSoftware(const vk::Device& device) {
@@ -47,7 +49,8 @@ Renderer::Renderer(const vk::Device& device, const Target& target, const Quality
     : device_(device), light_(light), colliders_(device, light.colliders),
       poke_(device, {{.radius = 1, .color = handColor}}), format_{target.color, canvasDepthFormat(device),
                                                                   quality.samples},
-      finalLayout_(target.finalLayout), maps_(device, quality.shadowSize, quality.floorSize),
+      finalLayout_(target.finalLayout), quality_(quality),
+      maps_(device, quality.shadowSize, quality.floorSize),
       pass_(RenderPass::picture(device, {.color = format_.color,
                                          .depth = format_.depth,
                                          .samples = format_.samples,
@@ -84,16 +87,17 @@ Canvas Renderer::makeCanvas(VkExtent2D extent, std::span<const VkImageView> pict
 
 void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, Canvas& canvas, std::size_t picture,
                       const Camera& camera, const sim::Simulation& simulation,
-                      const Overlay& overlay) const noexcept {
+                      const Overlay& overlay) noexcept {
     const layout::FrameParams params = frameParams(light_, camera, canvas.aspect(), overlay.layers.section);
     sets_.write(slot, params);
+    leavesBacks_ = quality_.leavesBacks && !overlay.layers.section && !light_.bounds.contains(eye(camera));
     const bool isOpened = overlay.layers.section && canvas.hasCounts() && has(capPipeline);
     // Else something that is there: drivers look at a set as a whole.
     sets_.writeCounts(slot, isOpened ? canvas.counts() : maps_.floor.image.view(), maps_.nearest());
     const Sheet sheet{canvas, picture, slot};
     const Backdrop::Use backdrop = prepareBackdrop(sheet, params);
     const std::optional<Enlarging>& enlarging = canvas.enlarging();
-    sets_.writeEnlarged(slot, enlarging ? enlarging->view() : maps_.floor.image.view(), maps_.smooth());
+    sets_.writeEnlarged(slot, enlarging ? enlarging->view() : maps_.floor.image.view(), maps_.stretching());
     sets_.bind(commands, slot);
     vk::Commands labels(device_, commands);
     labels.beginLabel("light maps");
@@ -116,19 +120,21 @@ void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, Canvas& canv
 }
 
 // Under a translucent skin balls throw the shadows, where there are some.
-void Renderer::recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation,
-                          const Overlay& overlay) const noexcept {
+void Renderer::drawShades(VkCommandBuffer commands, std::size_t ofSkins, std::size_t ofBalls,
+                          const sim::Simulation& simulation, const Overlay& overlay) const noexcept {
     const Layers& layers = overlay.layers;
     const bool hasSkins =
         layers.skin == SkinLook::solid || (layers.skin == SkinLook::glass && !layers.hasBalls);
-    const auto draw = [&](std::size_t ofSkins, std::size_t ofBalls) {
-        const std::size_t ofOpened = opened(ofSkins, layers);
-        if (hasSkins) drawSkins(commands, ofOpened, simulation);
-        if (hasSkins) drawCuts(commands, ofOpened, ofOpened, simulation);
-        drawColliders(commands, ofSkins, simulation);
-        drawPokes(commands, ofSkins, simulation);
-        drawBalls(commands, opened(ofBalls, layers), simulation, overlay);
-    };
+    const std::size_t ofOpened = opened(ofSkins, layers);
+    if (hasSkins) drawSkins(commands, ofOpened, simulation);
+    if (hasSkins) drawCuts(commands, ofOpened, ofOpened, simulation);
+    drawColliders(commands, ofSkins, simulation);
+    drawPokes(commands, ofSkins, simulation);
+    drawBalls(commands, opened(ofBalls, layers), simulation, overlay);
+}
+
+void Renderer::recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation,
+                          const Overlay& overlay) noexcept {
     const vk::DeviceFunctions& functions = device_.functions();
     const std::array far{VkClearValue{.depthStencil = {1, 0}}};
     const std::array open{VkClearValue{.color = {{1, 1, 1, 1}}}};
@@ -136,11 +142,12 @@ void Renderer::recordMaps(VkCommandBuffer commands, const sim::Simulation& simul
         begin(commands, map.pass, map.framebuffer.handle(), map.image.extent(), clear);
     };
     beginMap(maps_.shadow, far);
-    draw(shadowPipeline, ballShadowPipeline);
+    drawShades(commands, shadowPipeline, ballShadowPipeline, simulation, overlay);
     functions.vkCmdEndRenderPass(commands);
+    if (pictures_++ % quality_.floorEvery != 0) return;
     // Without a ground the other two are only cleared: the shaders' bindings stay readable.
     beginMap(maps_.plan, far);
-    if (light_.ground) draw(planPipeline, ballPlanPipeline);
+    if (light_.ground) drawShades(commands, planPipeline, ballPlanPipeline, simulation, overlay);
     functions.vkCmdEndRenderPass(commands);
     beginMap(maps_.floor, open);
     if (light_.ground) {

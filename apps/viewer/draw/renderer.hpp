@@ -20,6 +20,9 @@ struct Quality {
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_4_BIT; ///< 1 and 4 work on every device
     bool keepsBackdrop = false; ///< sky and far floor, while the camera rests: where shading is dear
     bool mayEnlarge = false;    ///< pictures may be drawn smaller than they are; needs one sample
+    /// Backs of skins that enclose something are drawn where the camera may be inside alone, or a section is.
+    bool leavesBacks = false;
+    std::uint32_t floorEvery = 1; ///< pictures: those between have the floor's light of an earlier one
 };
 
 /// For moving pictures in a window on a software device: smaller maps, fewer taps, one sample.
@@ -59,7 +62,7 @@ public:
     /// them is left out.
     void record(VkCommandBuffer commands, std::uint32_t slot, Canvas& canvas, std::size_t picture,
                 const Camera& camera, const sim::Simulation& simulation,
-                const Overlay& overlay = {}) const noexcept;
+                const Overlay& overlay = {}) noexcept;
 
 private:
     static constexpr sim::Vec3 handColor{0.95f, 0.62f, 0.10f}, pinColor{0.02f, 0.30f, 0.72f};
@@ -86,7 +89,9 @@ private:
     void createCutPipelines();
     void createBallPipelines();
     void recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation,
-                    const Overlay& overlay) const noexcept;
+                    const Overlay& overlay) noexcept;
+    void drawShades(VkCommandBuffer commands, std::size_t ofSkins, std::size_t ofBalls,
+                    const sim::Simulation& simulation, const Overlay& overlay) const noexcept;
     void recordCounts(VkCommandBuffer commands, const Canvas& canvas, const sim::Simulation& simulation,
                       const Overlay& overlay) const noexcept;
     void drawCap(VkCommandBuffer commands, const Canvas& canvas, const Layers& layers) const noexcept;
@@ -143,6 +148,9 @@ private:
     ColliderMeshes colliders_, poke_; // the second a sphere of radius 1
     CanvasFormat format_;
     VkImageLayout finalLayout_;
+    Quality quality_;
+    std::uint64_t pictures_ = 0;
+    bool leavesBacks_ = false; // in this picture
     LightMaps maps_;
     RenderPass pass_;
     PictureSets sets_;

@@ -106,6 +106,7 @@ void Renderer::drawSkins(VkCommandBuffer commands, std::size_t pipeline, const s
     const vk::BufferView pieces = simulation.pieceDraws();
     for (std::size_t i = 0; i < simulation.skins().size(); ++i) {
         if (pipeline == skinCountPipeline && !light_.isClosed[i]) continue; // it encloses nothing
+        if (pipeline == skinBacksPipeline && leavesBacks_ && light_.isOutward[i]) continue;
         const sim::SkinRange& skin = simulation.skins()[i];
         push(commands, values.size > 0 ? sim::Vec3{buffers.range} : skin.color, light_.gloss[i], {});
         functions.vkCmdDrawIndexed(commands, skin.indexCount, 1, skin.firstIndex, 0, 0);

@@ -91,7 +91,7 @@ void Renderer::createBackdrop() {
 void Renderer::createEnlarging() {
     wholePass_.emplace(RenderPass::whole(device_, format_.color, finalLayout_));
     addPipeline(enlargePipeline, {.name = "picture.enlarge",
-                                  .vertex = &shaders::screenVert,
+                                  .vertex = &shaders::enlargeVert,
                                   .fragment = &shaders::enlargeFrag,
                                   .pass = wholePass_->handle()});
 }

@@ -17,9 +17,9 @@ Section through(const Vector3& normal, const Vector3& point) {
     return {normal, normal.dot(point)};
 }
 
-// Vertices at one place have one number.
-std::vector<std::uint32_t> weldedVertices(const sim::Scene& scene, const sim::Skin& skin) {
-    using Place = std::tuple<float, float, float>;
+using Place = std::tuple<float, float, float>;
+
+std::vector<Place> placesOf(const sim::Scene& scene, const sim::Skin& skin) {
     const auto particlePlace = [&](std::uint32_t particle) {
         const sim::Vec3& x = scene.particles[particle].position;
         return Place{x.x, x.y, x.z};
@@ -42,6 +42,11 @@ std::vector<std::uint32_t> weldedVertices(const sim::Scene& scene, const sim::Sk
     std::vector<Place> places;
     for (const std::uint32_t particle : skin.particles) places.push_back(particlePlace(particle));
     for (const sim::CellEmbedding& cell : skin.cells) places.push_back(cellPlace(cell));
+    return places;
+}
+
+// Vertices at one place have one number.
+std::vector<std::uint32_t> weldedVertices(const std::vector<Place>& places) {
     std::vector<std::uint32_t> order(places.size()), welded(places.size());
     std::iota(order.begin(), order.end(), 0u);
     std::ranges::sort(order, {}, [&](std::uint32_t i) { return places[i]; });
@@ -52,7 +57,7 @@ std::vector<std::uint32_t> weldedVertices(const sim::Scene& scene, const sim::Sk
 }
 
 bool isClosed(const sim::Scene& scene, const sim::Skin& skin) {
-    const std::vector<std::uint32_t> welded = weldedVertices(scene, skin);
+    const std::vector<std::uint32_t> welded = weldedVertices(placesOf(scene, skin));
     std::vector<std::pair<std::uint32_t, std::uint32_t>> forwards, backwards;
     for (const auto& triangle : skin.triangles)
         for (std::size_t i = 0; i < 3; ++i) {
@@ -64,6 +69,19 @@ bool isClosed(const sim::Scene& scene, const sim::Skin& skin) {
     std::ranges::sort(forwards);
     std::ranges::sort(backwards);
     return !forwards.empty() && forwards == backwards;
+}
+
+// Six times it: of the tetrahedra between the triangles and the first vertex.
+double volumeOf(const sim::Scene& scene, const sim::Skin& skin) {
+    const std::vector<Place> places = placesOf(scene, skin);
+    const auto at = [&](std::uint32_t vertex) {
+        const auto& [x, y, z] = places[vertex];
+        return Eigen::Vector3d(double{x}, double{y}, double{z});
+    };
+    double volume = 0;
+    for (const auto& [a, b, c] : skin.triangles)
+        volume += (at(a) - at(0)).cross(at(b) - at(0)).dot(at(c) - at(0));
+    return volume;
 }
 
 } // namespace
@@ -107,6 +125,13 @@ std::vector<bool> closedSkins(const sim::Scene& scene) {
     std::vector<bool> closed;
     for (const sim::Skin& skin : scene.skins) closed.push_back(isClosed(scene, skin));
     return closed;
+}
+
+std::vector<bool> outwardSkins(const sim::Scene& scene) {
+    std::vector<bool> outward = closedSkins(scene);
+    for (std::size_t i = 0; i < outward.size(); ++i)
+        outward[i] = outward[i] && volumeOf(scene, scene.skins[i]) > 0;
+    return outward;
 }
 
 } // namespace sinew::viewer

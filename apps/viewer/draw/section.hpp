@@ -33,4 +33,7 @@ bool isCutAway(const Section& section, const Vector3& point);
 /// (cloth, meshes with holes) have no inside that could be shown.
 std::vector<bool> closedSkins(const sim::Scene& scene);
 
+/// Which of those show their fronts to who stands outside: their volume is more than 0.
+std::vector<bool> outwardSkins(const sim::Scene& scene);
+
 } // namespace sinew::viewer

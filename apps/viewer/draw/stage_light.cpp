@@ -72,6 +72,7 @@ StageLight lightFor(const sim::Scene& scene, const Camera& camera) {
         light.skins.push_back(skin.color);
     }
     light.isClosed = closedSkins(scene);
+    light.isOutward = outwardSkins(scene);
     light.balls = ballsOf(scene);
     light.colliders = scene.colliders;
     light.toLight = {level * std::sin(azimuth), std::sin(keyElevation), level * std::cos(azimuth)};

@@ -16,6 +16,7 @@ struct StageLight {
     std::vector<float> gloss;             ///< of each skin: 1 moist tissue, less for cloth
     std::vector<sim::Vec3> skins;         ///< their colors, linear RGB
     std::vector<bool> isClosed;           ///< likewise: whether it encloses something (closedSkins)
+    std::vector<bool> isOutward;          ///< likewise: and its triangles face outwards
     BallList balls;                       ///< what is drawn of bodies that have none
     bool showsSleep = false;              ///< bodies that sleep are paler
     std::vector<sim::Collider> colliders; ///< drawn where the simulation has them

@@ -36,10 +36,10 @@ std::uint32_t PictureBudget::steps(std::uint32_t most) const {
     return static_cast<std::uint32_t>(std::clamp(affordable, 1.0, static_cast<double>(std::max(most, 1u))));
 }
 
-// Of twice the pixels the rest of a picture takes twice as long at most.
+// Of four times the pixels the rest of a picture takes four times as long at most.
 void PictureBudget::chooseScale() {
     const std::size_t before = scale_;
-    const double larger = 2 * rest_;
+    const double larger = 4 * rest_;
     if (step_ + rest_ > goal && rest_ > cheap)
         scale_ = std::min(scale_ + 1, scales.size() - 1);
     else if (scale_ > 0 && (step_ + larger < reserve * goal || larger < reserve * cheap))

@@ -2,6 +2,7 @@
 #include "viewer/window/presenter.hpp"
 
 #include "viewer/draw/image.hpp"
+#include "viewer/draw/renderer.hpp"
 #include "vk/check.hpp"
 
 #include <algorithm>
@@ -80,10 +81,13 @@ void Presenter::chooseFormat() {
             return functions_.vkGetPhysicalDeviceSurfaceFormatsKHR(device_.physical(), surface_, count, out);
         },
         "vkGetPhysicalDeviceSurfaceFormatsKHR");
-    for (const VkFormat wanted : {VK_FORMAT_B8G8R8A8_SRGB, VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_B8G8R8A8_UNORM,
-                                  VK_FORMAT_R8G8B8A8_UNORM})
+    std::array wanted{VK_FORMAT_B8G8R8A8_SRGB, VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_B8G8R8A8_UNORM,
+                      VK_FORMAT_R8G8B8A8_UNORM};
+    // There what is blended or copied is decoded and encoded by arithmetic; shaders encode but once.
+    if (isSoftware(device_)) std::ranges::rotate(wanted, wanted.begin() + 2);
+    for (const VkFormat one : wanted)
         for (const VkSurfaceFormatKHR& format : formats)
-            if (format_.format == VK_FORMAT_UNDEFINED && format.format == wanted &&
+            if (format_.format == VK_FORMAT_UNDEFINED && format.format == one &&
                 format.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR)
                 format_ = format;
     if (format_.format == VK_FORMAT_UNDEFINED)

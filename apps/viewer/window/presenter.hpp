@@ -33,9 +33,8 @@ public:
     Presenter(const Presenter&) = delete;
     Presenter& operator=(const Presenter&) = delete;
 
-    VkFormat format() const noexcept {
-        return format_.format;
-    } ///< 8 bits a channel, sRGB where the surface has it
+    /// 8 bits a channel; on a GPU sRGB where the surface has it, on a software device rather not.
+    VkFormat format() const noexcept { return format_.format; }
 
     /// Makes the swapchain for a window of `pixels`. False where the surface has no size now: try again
     /// later. Waits for the queue; views of the old images are gone afterwards.
