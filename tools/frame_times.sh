@@ -46,7 +46,7 @@ play() { # PANELS
     table grab "$1"
     anew
     keys c
-    for x in 32 40 48; do drag 1 $((x * width / 100)) $((height / 6)) 0 8 $((height / 12)); sleep 1; done
+    for x in 44 52 60; do drag 1 $((x * width / 100)) $((height / 6)) 0 8 $((height / 12)); sleep 1; done
     keys c
     table "three cuts" "$1"
 }
