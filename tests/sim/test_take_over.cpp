@@ -113,6 +113,29 @@ TEST(TakeOver, BySubstepsThatAreTheSameHasTheSameBits) {
     }
 }
 
+// Forms differ in speed alone, and another device may be faster with others.
+TEST(TakeOver, ByOtherFormsHasTheSameBits) {
+    Scene scene = test::block(4, 0.1f, 1e5f, 0.05f);
+    scene.planes = {{.friction = 0.5f}};
+    const Settings settings = settingsOf(Solver::split, 9);
+    const Forms forms[] = {{.usesTexels = false},
+                           {.columns = 1, .chunk = 3},
+                           {.residentBytes = test::device().limits().maxSharedMemory}};
+    for (const Forms& before : forms)
+        for (const Forms& after : forms) {
+            Settings of = settings, other = settings;
+            of.forms = before;
+            other.forms = after;
+            test::Runner first(scene, of), second(scene, other);
+            first.run(15);
+            second.takeOver(first);
+            EXPECT_EQ(second.stateHash(), first.stateHash());
+            first.run(5);
+            second.run(5);
+            EXPECT_EQ(second.stateHash(), first.stateHash());
+        }
+}
+
 TEST(TakeOver, ByWayOfTheHostHasTheSameBits) {
     Scene scene = test::block(3, 0.1f, 1e5f, 0.05f);
     scene.planes = {{.friction = 0.5f}};
