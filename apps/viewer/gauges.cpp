@@ -85,6 +85,14 @@ sim::Material materialOf(const Knobs& knobs, const Knobs& fromFile) {
     return material;
 }
 
+Knobs turnedTo(const sim::Material& material, Knobs knobs, const Knobs& fromFile) {
+    knobs.stiffness = material.stiffness;
+    knobs.bodies = material.bodies.empty() ? fromFile.bodies : material.bodies;
+    knobs.damping = material.damping.value_or(fromFile.damping);
+    knobs.friction = material.friction.value_or(fromFile.friction);
+    return knobs;
+}
+
 SceneFacts sceneFacts(const Opening& opening, const Stage& stage, const vk::Device& device) {
     const sim::Scene& scene = stage.scene();
     const scenes::LoadedScene& loaded = opening.loaded;
@@ -161,6 +169,12 @@ void Gauges::restart() {
     facts_.strainRms.clear();
     facts_.strainMax.clear();
     facts_.slowed = facts_.sleeping = facts_.pieces = facts_.linksCut = 0;
+}
+
+void Gauges::goOn(const Gauges& before) {
+    std::vector<PhaseCurve> phases = std::move(facts_.phases);
+    facts_ = before.facts_;
+    facts_.phases = std::move(phases);
 }
 
 Facts Gauges::facts(const Stage& stage) const {

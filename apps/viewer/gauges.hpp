@@ -17,6 +17,9 @@ std::string stiffnessText(const Stage& stage);
 /// What was turned of the material; what is as in the file is left as it is there.
 sim::Material materialOf(const Knobs& knobs, const Knobs& fromFile);
 
+/// `knobs` turned so that this is their material.
+Knobs turnedTo(const sim::Material& material, Knobs knobs, const Knobs& fromFile);
+
 /// `positions` of every particle [m].
 Strain measureStrain(const sim::Scene& scene, std::span<const sim::layout::vec4> positions);
 
@@ -34,6 +37,8 @@ public:
     void strainMeasured(const Strain& strain);
     /// After a reset, or a way back.
     void restart();
+    /// After the simulation of `before` was taken over from, which may have other phases.
+    void goOn(const Gauges& before);
 
     /// Filled in but for what the window, the tools and the player know.
     Facts facts(const Stage& stage) const;

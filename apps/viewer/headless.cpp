@@ -182,14 +182,33 @@ private:
     // Up to the next step, or the end. What goes back to an earlier state has that of whole steps to save.
     Replay::Due playHistory() {
         if (!replay_) return Replay::Due::nothing;
-        Replay::Due due = Replay::Due::history;
-        while ((due = replay_->next(*tools_, camera_, stage_)) == Replay::Due::history) {
+        for (;;) {
+            const Replay::Due due = replay_->next(*tools_, camera_, stage_);
+            if (due == Replay::Due::step || due == Replay::Due::nothing) return due;
             settle();
-            VkCommandBuffer commands = queue_.begin();
-            tools_->recordHistory(commands, stage_);
-            queue_.wait(queue_.submit(commands));
+            if (due == Replay::Due::shape)
+                reshape();
+            else
+                goBack();
         }
-        return due;
+    }
+
+    void goBack() {
+        VkCommandBuffer commands = queue_.begin();
+        tools_->recordHistory(commands, stage_);
+        queue_.wait(queue_.submit(commands));
+    }
+
+    // Another simulation goes on.
+    void reshape() {
+        try {
+            stage_.reshape(queue_);
+        } catch (const std::invalid_argument& error) {
+            throw app::Failure(app::badInput, std::string("cannot play input: ") + error.what());
+        }
+        tools_->forgetStates();
+        inspection_.reset();
+        if (times_) times_->restart(stage_);
     }
 
     void submit(std::uint64_t frame) {

@@ -8,9 +8,14 @@ namespace sinew::viewer {
 
 HeadlessTimes::HeadlessTimes(const vk::Device& device, const Stage& stage)
     : device_(device), drawing_(device, 1) {
+    restart(stage);
+}
+
+void HeadlessTimes::restart(const Stage& stage) {
+    steps_.clear();
     const auto spans = static_cast<std::uint32_t>(stage.simulation().phases().size());
     for (std::uint32_t slot = 0; slot < sim::Simulation::framesInFlight; ++slot)
-        steps_.emplace_back(device, spans);
+        steps_.emplace_back(device_, spans);
 }
 
 void HeadlessTimes::stepFinished(std::uint64_t frame) {

@@ -15,6 +15,8 @@ namespace sinew::viewer {
 class HeadlessTimes {
 public:
     HeadlessTimes(const vk::Device& device, const Stage& stage);
+    /// After the stage has another simulation, of which no step was recorded yet.
+    void restart(const Stage& stage);
 
     /// For the commands of a step, of which framesInFlight at most are on their way.
     vk::Timestamps* ofStep(std::uint64_t frame) { return &steps_[frame % steps_.size()]; }

@@ -28,10 +28,12 @@ void change(std::unique_ptr<vk::Device>& device, std::unique_ptr<Show>& show,
     std::unique_ptr<vk::Device> nextDevice = std::move(opening->device);
     std::unique_ptr<Opening> next = std::move(opening);
     const std::string name = next->loaded.scene.name;
+    const bool goesOn = next->again.has_value();
     try {
         announce(*next, *nextDevice, screen);
         std::unique_ptr<Place> place = std::move(next->place);
         auto nextShow = std::make_unique<Show>(screen, library, devices, *nextDevice, std::move(next));
+        if (goesOn) nextShow->takeOver(*show);
         place = screen.moveTo(std::move(place)); // on the device that goes now
         place.reset();
         show = std::move(nextShow);

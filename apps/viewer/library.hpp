@@ -34,8 +34,8 @@ public:
     void openNext(int by, float aspect);
     /// A scene or a mesh: as on the command line.
     void openFile(const std::string& file, float aspect);
-    /// The scene on show once more, as it was turned: with another solver or other substeps, all else that
-    /// was asked for as before.
+    /// The scene on show once more, to take over from it: with another solver, other substeps or another
+    /// material, all else that was asked for as before.
     void reopen(const scenes::Overrides& overrides, const Again& again, float aspect);
 
     /// The scene on show once more, and from then on all of them, on another device.

@@ -17,10 +17,11 @@ namespace sinew::viewer {
 struct Place;
 struct PreparedShow;
 
-/// What is kept of a scene that is opened once more because something was turned.
+/// Of the simulation on show, which another one of its scene is to take over from because something was
+/// turned that needs one.
 struct Again {
-    Camera camera;
-    Knobs turned, fromFile;
+    sim::Material material; ///< that the other one is to have
+    sim::Settings settings; ///< with the room that there is
 };
 
 struct Opening {

@@ -15,6 +15,7 @@ sim::Settings fastest(const vk::Device& device, const Opening& opening) {
     vk::Queue queue(device);
     sim::Settings settings = opening.loaded.settings;
     addHands(settings);
+    if (opening.again) settings = app::withRoomOf(settings, opening.again->settings);
     return opening.run ? settings : sim::tuned(device, queue, opening.loaded.scene, settings);
 }
 
@@ -60,7 +61,8 @@ void View::dropCanvases() {
 }
 
 PreparedShow::PreparedShow(const vk::Device& device, const Opening& opening, VkFormat format)
-    : stage(device, opening.loaded.scene, fastest(device, opening)),
+    : stage(device, opening.loaded.scene, fastest(device, opening),
+            opening.again ? opening.again->material : sim::Material{}),
       facts(sceneFacts(opening, stage, device)),
       moving(device, format, isSoftware(device) ? reducedQuality() : Quality{}, opening.light) {
     stage.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
@@ -68,7 +70,7 @@ PreparedShow::PreparedShow(const vk::Device& device, const Opening& opening, VkF
         still.emplace(device, format, Quality{}, opening.light);
         warmUp(device, *this, format, opening.camera);
     }
-    if (!opening.run) return;
+    if (!opening.run || opening.again) return;
     vk::Queue queue(device);
     stage.load(device, *opening.run, queue);
 }

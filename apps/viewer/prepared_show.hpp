@@ -38,7 +38,7 @@ struct PreparedShow {
     /// window's pictures.
     PreparedShow(const vk::Device& device, const Opening& opening, VkFormat format);
 
-    Stage stage; ///< to be reset before its first step, unless it goes on from a saved state
+    Stage stage; ///< to be reset before its first step, unless it goes on from a state
     SceneFacts facts;
     View moving;
     std::optional<View> still; ///< where `moving` has less than full quality

@@ -31,6 +31,7 @@ struct Player {
     void operator()(Action event) const { tools.act(event); }
     void operator()(const Pulled& event) const { tools.pull(stage, event.gravity); }
     void operator()(const Turned& event) const { tools.turn(stage, event.material); }
+    void operator()(const Shaped& event) const { tools.shape(stage, event); }
     void operator()(const Sized& event) const { tools.resize(event.radius); }
     void operator()(const Forgot&) const { tools.forget(); }
     void operator()(const Answered& event) const {
@@ -49,6 +50,8 @@ struct Player {
 Replay::Due Replay::next(Tools& tools, Camera& camera, Stage& stage) {
     for (; at_ < file_.events.size(); ++at_) {
         const InputEvent& event = file_.events[at_];
+        // With the material that stands before it, at once.
+        if (stage.wantsShape() && !std::holds_alternative<Shaped>(event)) return Due::shape;
         if (const auto* stepped = std::get_if<Stepped>(&event)) {
             if (tools.wantsHistory()) return Due::history;
             if (taken_ < stepped->count) {
@@ -59,6 +62,7 @@ Replay::Due Replay::next(Tools& tools, Camera& camera, Stage& stage) {
         }
         std::visit(Player{tools, camera, stage}, event);
     }
+    if (stage.wantsShape()) return Due::shape;
     return tools.wantsHistory() ? Due::history : Due::nothing;
 }
 

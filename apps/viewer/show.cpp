@@ -30,7 +30,8 @@ Show::Show(Screen& screen, Library& library, const Devices& devices, const vk::D
       controller_(opening_.camera, opening_.loaded.scene.dt), stage_(prepared_.stage),
       probe_(std::in_place, device, stage_.simulation()),
       inspector_(device, stage_, Presenter::framesInFlight), tools_(device, opening_),
-      sceneFacts_(prepared_.facts), gauges_(stage_, opening_.loaded.scene.dt), knobs_(sceneFacts_.fromFile),
+      sceneFacts_(prepared_.facts), gauges_(stage_, opening_.loaded.scene.dt),
+      knobs_(sceneFacts_.fromFile), begun_{stage_.settings().solver, stage_.settings().substeps},
       status_(opening_.loaded.scene, device) {
     const auto spans = static_cast<std::uint32_t>(stage_.simulation().phases().size());
     for (std::uint32_t slot = 0; slot < Presenter::framesInFlight; ++slot) {
@@ -38,31 +39,15 @@ Show::Show(Screen& screen, Library& library, const Devices& devices, const vk::D
         drawingTimes_.emplace_back(device, 2);
     }
     if (!isFromState_) controller_.playback.reset(); // fills the buffers
-    if (opening_.run) goOn(*opening_.run);
-    if (opening_.again) goOn(*opening_.again);
+    if (isFromState_) goOn(*opening_.run);
     if (opening_.input) replay_.emplace(*opening_.input);
-}
-
-// A scene that begins anew because something was turned is seen from where it was, and stays as it was
-// turned.
-void Show::goOn(const Again& again) {
-    controller_.camera = again.camera;
-    sceneFacts_.fromFile = again.fromFile;
-    knobs_.gravity = again.turned.gravity;
-    knobs_.pace = again.turned.pace;
-    tools_.pull(stage_, knobs_.gravity);
-    turnMaterial(again.turned);
-    controller_.playback.setPace(double{knobs_.pace});
 }
 
 // The stage is there already; what it was turned to is shown, and stays after a reset.
 void Show::goOn(const app::SavedRun& run) {
     const auto [x, y, z] = run.gravity;
+    knobs_ = turnedTo(run.material, knobs_, sceneFacts_.fromFile);
     knobs_.gravity = std::hypot(x, y, z);
-    knobs_.stiffness = run.material.stiffness;
-    if (!run.material.bodies.empty()) knobs_.bodies = run.material.bodies;
-    knobs_.damping = run.material.damping.value_or(knobs_.damping);
-    knobs_.friction = run.material.friction.value_or(knobs_.friction);
     sceneFacts_.stiffness = stiffnessText(stage_);
     if (stage_.material() != sim::Material{}) tools_.turned(stage_.material());
 }
@@ -75,6 +60,7 @@ Show::~Show() {
 }
 
 std::unique_ptr<Opening> Show::run() {
+    keepAsItWas(); // where what was asked for could not be shown
     std::unique_ptr<Opening> next;
     while (!next && !screen_.window().isClosing() && !app::isInterrupted()) {
         turn();
@@ -94,6 +80,7 @@ std::unique_ptr<Opening> Show::takeOpened() {
         return library_.take();
     } catch (const std::exception& error) {
         screen_.warn(error.what());
+        keepAsItWas();
     }
     return nullptr;
 }
@@ -114,6 +101,7 @@ void Show::turn() {
     grant(wishes, input);
     handle(input);
     takeTurn();
+    reopenWhereTurned();
     reportFiles(PictureWriter::Wait::no);
     if (replayed_) compareReplay();
     isHidden_ = !prepareSwapchain();
@@ -173,6 +161,7 @@ void Show::draw(Plan plan, View& view) {
     screen_.presenter().waitForSlot();
     settle(screen_.presenter().nextSlot());
     if (surfaceMissing_ > 0) makeSurfaceRoom();
+    if (stage_.wantsShape()) reshape();
     if (isDiverged_ && !plan.isReset) plan.steps = 0; // keeps the last finite picture
     const std::optional<Presenter::Frame> frame = screen_.presenter().begin();
     if (!frame) {

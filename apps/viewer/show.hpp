@@ -1,6 +1,6 @@
 // A scene playing in a window: input, steps in real time, one submission a frame. A paused picture is drawn
 // once and then left alone; on a software device that last one has full quality. The loop stands in show.cpp,
-// the rest beside it: show_input, show_flights, show_pictures, show_replay.
+// the rest beside it: show_input, show_flights, show_pictures, show_replay, show_shape.
 #pragma once
 
 #include "viewer/devices.hpp"
@@ -38,6 +38,10 @@ public:
     ~Show(); ///< waits for the screen's queue
     Show(const Show&) = delete;
     Show& operator=(const Show&) = delete;
+
+    /// Goes on where `before` stands, which shows the same scene and does not play: with all that hands do
+    /// there. Instead of the reset that a new show begins with. Throws vk::Error; `before` is then as it was.
+    void takeOver(const Show& before);
 
     /// Plays until the window is closed or the program is interrupted, or until another scene is there, which
     /// it returns; it may then be called again. Throws vk::Error.
@@ -80,7 +84,12 @@ private:
     void turnMaterial(const Knobs& knobs);
     void takeTurn();
     void changeDevice(std::size_t index);
-    void goOn(const Again& again);
+    Knobs madeKnobs() const;
+    Again again() const;
+    void reopenWhereTurned();
+    void keepAsItWas();
+    void reshape();
+    void restartViews();
     void goOn(const app::SavedRun& run);
     float pictureAspect() const;
     std::unique_ptr<Opening> takeOpened();
@@ -156,8 +165,10 @@ private:
     SceneFacts& sceneFacts_;
     Gauges gauges_;
     PictureBudget budget_;
-    Wishes wishes_; // of the newest picture
-    Knobs knobs_;
+    Wishes wishes_;              // of the newest picture
+    Knobs knobs_;                // as they were turned, also where that is still being worked out
+    std::optional<Knobs> asked_; // of the library
+    Shaped begun_;               // as the stage was at the reset
     std::optional<Recording> recording_;
     std::array<std::unique_ptr<Offscreen>, Presenter::framesInFlight> cameras_; // of the recording
     std::array<InFlight, Presenter::framesInFlight> inFlight_;
@@ -165,12 +176,13 @@ private:
     StatusLine status_;
     Clock::time_point lastTurn_ = Clock::now(), lastChange_ = lastTurn_, lastStrain_ = lastTurn_;
     Shown shown_ = Shown::nothing;
-    std::uint32_t surfaceMissing_ = 0;            // Status::cutSurfaceMissing of the newest settled step
-    std::uint32_t panelsDue_ = 0;                 // pictures until the panels look as they should
-    std::uint32_t cutFrames_ = 0;                 // pictures that may still wait for a cut
-    bool isFromState_ = opening_.run.has_value(); // until the reset
+    std::uint32_t surfaceMissing_ = 0; // Status::cutSurfaceMissing of the newest settled step
+    std::uint32_t panelsDue_ = 0;      // pictures until the panels look as they should
+    std::uint32_t cutFrames_ = 0;      // pictures that may still wait for a cut
+    bool isFromState_ = opening_.run && !opening_.again; // until the reset
+    bool isBroken_ = false;                              // has diverged, likewise
     bool isHidden_ = false, isDiverged_ = false, isSurfaceMissing_ = false, isCut_ = false,
-         wantsScreenshot_ = false, wantsProbe_ = false;
+         isRefused_ = false, wantsScreenshot_ = false, wantsProbe_ = false;
 };
 
 } // namespace sinew::viewer

@@ -23,10 +23,12 @@ void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
         gauges_.restart();
         if (replay_) tools_.putAway(stage_);
         tools_.reset();
+        const sim::Settings& begun = replay_ ? stage_.madeWith() : stage_.settings();
+        begun_ = {begun.solver, begun.substeps};
         if (replay_) replay_->restart();
         if (std::exchange(isFromState_, false)) tools_.pull(stage_, knobs_.gravity); // from now on in the log
         forgetFlights();
-        isDiverged_ = false;
+        isDiverged_ = isBroken_ = false;
     }
     if (tools_.recordHistory(frame.commands, stage_)) {
         forgetFlights();
@@ -220,11 +222,8 @@ void Show::makeSurfaceRoom() {
     vk::Queue queue(device_);
     cutFrames_ = std::max(cutFrames_, 1u); // this picture waits for it
     if (!stage_.makeSurfaceRoom(needed, queue)) return warnOfSurface();
-    probe_.emplace(device_, stage_.simulation());
-    inspection_.reset(); // as layers want it, of the other simulation
-    inspector_.restart();
+    restartViews();
     tools_.restart({}, 0);
-    shown_ = Shown::nothing;
 }
 
 // Once: nothing but the picture suffers.
@@ -235,7 +234,7 @@ void Show::warnOfSurface() {
 }
 
 void Show::stop(const std::string& why) {
-    isDiverged_ = true;
+    isDiverged_ = isBroken_ = true;
     controller_.playback.pause();
     screen_.warn(why);
 }
@@ -248,9 +247,7 @@ void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
     if (!stage_.makeRoom(step, queue)) return stop(app::tooCrowded(step));
     if (std::exchange(replay_, std::nullopt))
         screen_.warn("the replay ends here: contacts need more room than when it was recorded");
-    probe_.emplace(device_, stage_.simulation());
-    inspection_.reset(); // as layers want it, of the other simulation
-    inspector_.restart();
+    restartViews();
     std::vector<Sweep> sweeps = undone.sweeps;
     for (const InFlight& later : inFlight_) // at most one has some
         sweeps.insert(sweeps.end(), later.sweeps.begin(), later.sweeps.end());

@@ -28,13 +28,9 @@ void Show::turnKnobs(const Knobs& knobs) {
     controller_.playback.setPace(double{knobs.pace});
     knobs_.gravity = knobs.gravity;
     knobs_.pace = knobs.pace;
+    knobs_.substeps = knobs.substeps;
+    knobs_.solver = knobs.solver;
     turnMaterial(knobs);
-    const auto shape = [](const Knobs& some) { return std::pair(some.substeps, some.solver); };
-    if (shape(knobs) == shape(knobs_) || library_.isOpening()) return;
-    scenes::Overrides overrides;
-    overrides.solver = sceneFacts_.solvers[static_cast<std::size_t>(knobs.solver)];
-    overrides.substeps = static_cast<std::uint32_t>(knobs.substeps);
-    library_.reopen(overrides, {controller_.camera, knobs, sceneFacts_.fromFile}, pictureAspect());
 }
 
 // Worked out beside what plays.
@@ -49,19 +45,13 @@ void Show::turnMaterial(const Knobs& knobs) {
     if (material != before) stage_.turn(material);
 }
 
-// What cannot be had leaves all as it is.
+// What cannot be had leaves all as it is; what needs other passes needs another simulation.
 void Show::takeTurn() {
     try {
-        if (stage_.takeTurn(controller_.playback.isPaused()) == Stage::Turn::refused)
-            screen_.tell("this material needs other passes than the scene has: it stays as it was");
+        if (stage_.takeTurn(controller_.playback.isPaused()) == Stage::Turn::refused) isRefused_ = true;
     } catch (const std::exception& error) {
         screen_.warn(error.what());
     }
-}
-
-void Show::changeDevice(std::size_t index) {
-    library_.reopenOn(requestFor(devices_.list(), index), {controller_.camera, knobs_, sceneFacts_.fromFile},
-                      pictureAspect());
 }
 
 // One at a time.

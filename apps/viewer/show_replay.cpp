@@ -3,6 +3,7 @@
 
 #include "app/guard.hpp"
 #include "mesh/export.hpp"
+#include "sim/compile.hpp"
 #include "viewer/window/preferences.hpp"
 #include "vk/check.hpp"
 #include "vk/queue.hpp"
@@ -16,14 +17,13 @@ namespace sinew::viewer {
 // Waits: nobody does this often.
 void Show::saveInput() {
     settleAll();
-    if (isDiverged_) return screen_.tell("a state that is no more cannot be reached again");
+    if (isBroken_) return screen_.tell("a state that is no more cannot be reached again");
     if (isFromState_)
         return screen_.tell("what hands did since a state was loaded is saved with the state alone: " +
                             std::string(keyOf(Action::saveState)));
-    const Options& options = library_.shown();
     InputFile file{.scene = sceneName(),
-                   .solver = options.overrides.solver.value_or(""),
-                   .substeps = options.overrides.substeps.value_or(0),
+                   .solver = sim::solverName(begun_.solver),
+                   .substeps = begun_.substeps,
                    .room = stage_.contactRoom().room,
                    .surface = stage_.surfaceRoom().needed,
                    .events = tools_.log().events()};
@@ -72,6 +72,7 @@ bool Show::playInput(const Presenter::Frame& frame) {
         const Replay::Due due = replay_->next(tools_, controller_.camera, stage_);
         if (due == Replay::Due::step) return true;
         if (due == Replay::Due::nothing) break;
+        if (due == Replay::Due::shape) return false; // before the next picture
         if (tools_.recordHistory(frame.commands, stage_)) forgetFlights();
     }
     endReplay();

@@ -128,6 +128,32 @@ void Tools::turned(const sim::Material& material) {
     log_.turn(material);
 }
 
+void Tools::shape(Stage& stage, const Shaped& shaped) {
+    stage.wantShape(shaped.solver, shaped.substeps);
+    log_.shape(shaped);
+}
+
+void Tools::forgetStates() {
+    history_.clear();
+    steps_.clear();
+}
+
+void Tools::goOn(const Tools& before, const Stage& stage) {
+    hand_ = before.hand_;
+    pins_ = before.pins_;
+    blade_ = before.blade_;
+    poke_ = before.poke_;
+    pinned_ = before.pinned_;
+    wantsPin_ = before.wantsPin_;
+    isPinArmed_ = before.isPinArmed_;
+    gravity_ = before.gravity_;
+    log_ = before.log_;
+    turned(stage.material());
+    log_.shape({stage.settings().solver, stage.settings().substeps});
+    if (before.history_.undos() + before.history_.redos() > 0)
+        note_ = "another simulation goes on: earlier cuts can no longer be undone";
+}
+
 void Tools::resize(float radius) {
     poke_.setRadius(radius);
     log_.size(poke_.radius());
@@ -219,6 +245,9 @@ void Tools::putAway(Stage& stage) {
     stage.setGravity(stage.scene().gravity);
     if (material_ != sim::Material{}) stage.turnNow({});
     material_ = {};
+    const sim::Settings &now = stage.settings(), &first = stage.madeWith();
+    if (now.solver != first.solver || now.substeps != first.substeps)
+        stage.wantShape(first.solver, first.substeps);
 }
 
 void Tools::forget() {

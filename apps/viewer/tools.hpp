@@ -43,6 +43,12 @@ public:
     /// As Stage::turnNow; and what Stage::recordTurn() has recorded.
     void turn(Stage& stage, const sim::Material& material);
     void turned(const sim::Material& material);
+    /// As Stage::wantShape, and once the stage has been reshaped: states to go back to are of a simulation
+    /// that is no more.
+    void shape(Stage& stage, const Shaped& shaped);
+    void forgetStates();
+    /// All that `before` has in hand, and its log, for a stage that has taken over that of `before`.
+    void goOn(const Tools& before, const Stage& stage);
     /// Of the sphere that pokes [m].
     void resize(float radius);
     /// False for an action that is none of theirs.

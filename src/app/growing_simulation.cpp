@@ -5,6 +5,7 @@
 #include "vk/check.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 namespace sinew::app {
 
@@ -17,6 +18,10 @@ constexpr std::uint32_t granule = 8;
 std::uint32_t roomFor(std::uint32_t needed) {
     const std::uint32_t roomy = needed + needed / 2;
     return std::min((roomy + granule - 1) / granule * granule, sim::ranges::mostContactRoom);
+}
+
+vk::Buffer bufferFor(const vk::Device& device, std::uint64_t size, vk::MemoryKind kind) {
+    return {device, {.name = "handed over", .count = size / 4, .stride = 4, .kind = kind}};
 }
 
 } // namespace
@@ -66,6 +71,39 @@ void GrowingSimulation::replace(const sim::Settings& settings, vk::Queue& queue)
     queue.wait(queue.submit(commands));
     simulation_ = std::move(roomier);
     settings_ = settings;
+}
+
+// Only as far as it was not made with it: pipelines take their time.
+void GrowingSimulation::makeRoomOf(const GrowingSimulation& other) {
+    const sim::Settings roomy = withRoomOf(settings_, other.settings_);
+    if (roomy.contactRoom > settings_.contactRoom || roomy.cutSurfaceRoom > settings_.cutSurfaceRoom)
+        simulation_ = std::make_unique<sim::Simulation>(device_, scene_, roomy);
+    settings_ = roomy;
+    room_ = other.room_;
+    room_.room = roomy.contactRoom;
+    surface_ = other.surface_;
+    surface_.isShort = false; // another device may have the memory
+}
+
+void GrowingSimulation::takeOver(const GrowingSimulation& from) {
+    makeRoomOf(from);
+    const std::uint64_t size = from.simulation_->handOverSize();
+    const vk::Buffer given = bufferFor(from.device_, size, vk::MemoryKind::readback),
+                     taken = bufferFor(device_, size, vk::MemoryKind::upload);
+    vk::Queue giving(from.device_), taking(device_);
+    VkCommandBuffer commands = giving.begin();
+    from.simulation_->recordHandOver(commands, given.view());
+    giving.wait(giving.submit(commands));
+    std::memcpy(taken.mapped(), given.mapped(), size);
+    commands = taking.begin();
+    simulation_->recordTakeOver(commands, *from.simulation_, taken.view());
+    taking.wait(taking.submit(commands));
+}
+
+sim::Settings withRoomOf(sim::Settings settings, const sim::Settings& other) {
+    settings.contactRoom = std::max(settings.contactRoom, other.contactRoom);
+    settings.cutSurfaceRoom = std::max(settings.cutSurfaceRoom, other.cutSurfaceRoom);
+    return settings;
 }
 
 std::string tooCrowded(std::uint64_t step) {

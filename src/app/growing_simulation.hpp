@@ -1,6 +1,7 @@
 // A simulation that gets more room where a step finds too little for its contacts or for the surface of its
 // cuts: what a program does about Status::contactRoom, of which the step was undone by then and is to be done
-// again, and about Status::cutSurfaceMissing.
+// again, and about Status::cutSurfaceMissing. One of other settings, or on another device, goes on where it
+// stands.
 #pragma once
 
 #include "sim/simulation.hpp"
@@ -50,8 +51,19 @@ public:
     bool growSurface(std::uint32_t needed, vk::Queue& queue);
     const SurfaceRoom& surfaceRoom() const noexcept { return surface_; }
 
-private:
+    /// Goes on after the newest step in a simulation of the scene as it is now and of `settings`, which may
+    /// differ from settings() as Simulation::recordTakeOver allows. Waits for `queue`, in which all was
+    /// submitted. Throws as sim::Simulation, and nothing has changed then.
     void replace(const sim::Settings& settings, vk::Queue& queue);
+
+    /// Goes on where `from` stands, which is of the same scene, of whatever material, and of such settings,
+    /// on this device or another one; with as much room as that has. By way of the host, whichever device it
+    /// is. All steps of both have finished. Waits, on queues of its own. Throws as sim::Simulation and
+    /// vk::Queue: it is then to be reset, and `from` is as it was.
+    void takeOver(const GrowingSimulation& from);
+
+private:
+    void makeRoomOf(const GrowingSimulation& other);
 
     const vk::Device& device_;
     const sim::Scene& scene_;
@@ -60,6 +72,9 @@ private:
     ContactRoom room_;
     SurfaceRoom surface_;
 };
+
+/// `settings` with at least the rooms of `other`.
+sim::Settings withRoomOf(sim::Settings settings, const sim::Settings& other);
 
 /// Why a simulation that cannot grow() stops at `step`, and what to do about it.
 std::string tooCrowded(std::uint64_t step);

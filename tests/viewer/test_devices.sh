@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# test_devices.sh VIEWER SCENE FOLDER: two devices in the panel (the same driver twice), the scene goes from one to the other; one that
-# is no longer there is said to be missing, and the scene stays where it is. FOLDER keeps the screenshots.
+# test_devices.sh VIEWER SCENE FOLDER: two devices in the panel (the same driver twice), the scene goes from one to the other and goes
+# on there, and so it does with other substeps; a replay comes to the same state. A device that is no longer there is said to be
+# missing, and the scene stays where it is. FOLDER keeps the screenshots.
 set -euo pipefail
 viewer=$1 scene=$2 folder=$3
 here=$(cd "$(dirname "$0")" && pwd)
@@ -28,15 +29,53 @@ choose() { # ENTRY COMMAND: again until the command is true, since on a busy mac
 }
 hasHeadlines() { (($(headlines) >= $1)); }
 
-echo "devices: both are listed, the scene goes to the other one and back"
+awaitBody() { # FILE: what is beside the panel and below a message, in a picture that stays
+    awaitStill whole.png
+    convert whole.png -crop 580x480+0+80 +repage "$1"
+}
+expectTheSame() { # FILE WHAT
+    awaitTitle paused
+    awaitBody "$1"
+    same before.png "$1" || fail "$2 shows another state"
+}
+
+echo "devices: both are listed, the scene goes on on the other one and back"
 start --device 0
 xdotool windowmove "$window" 0 0
-sleep 2
+keys space
+awaitTitle paused
+for _ in {1..5}; do keys period; done
+awaitBody before.png
 choose 1 hasHeadlines 2
-awaitTitle fps
+expectTheSame there.png "the other device"
 [[ ! -s viewer.err ]] || fail "something was said on stderr"
 choose 0 hasHeadlines 3
+awaitTitle paused
+for _ in {1..5}; do keys period; done
+awaitBody moved.png
+same before.png moved.png && fail "nothing moves on the device that took over"
+mv moved.png before.png
+
+echo "devices: other substeps take over, and a replay comes to the same state"
+xdotool mousemove 750 500 click --repeat 40 --delay 20 5 # to the end of the panel
+sleep 1
+xdotool mousemove 854 541 click 1                        # one more
+for _ in {1..100}; do grep -q ' with 17 substeps, on ' viewer.out && break; sleep 0.1; done
+grep -q ' with 17 substeps, on ' viewer.out || fail "the number of substeps was not turned"
+expectTheSame substeps.png "the simulation with more substeps"
+for _ in {1..5}; do keys period; done
+sleep 1
+keys F8
+for _ in {1..100}; do grep -q '^input: ' viewer.out && break; sleep 0.1; done
+hash=$(sed -n 's/^input: .*\(state hash .* steps\)$/\1/p' viewer.out)
+grep -q '^solve split 16$' block-*.input || fail "the input does not say where another device took over"
+grep -q '^solve split 17$' block-*.input || fail "the input does not say where the substeps changed"
+"$viewer" --headless --replay block-*.input >replay.out 2>replay.err || fail "the replay failed: $(cat replay.err)"
+grep -q "^$hash, as recorded$" replay.out || fail "the replay came to $(cat replay.out), not to $hash"
+keys space
 awaitTitle fps
+xdotool mousemove 750 500 click --repeat 40 --delay 20 4
+sleep 1
 
 echo "devices: one that has gone is refused in the window"
 export VK_ICD_FILENAMES=$driver
@@ -45,7 +84,7 @@ choose 1 test -s viewer.err
 shoot refused.png
 grep -q '^warning: no usable Vulkan device is called "1"' viewer.err || fail "nothing was said of a device that has gone"
 ! grep -qv '^warning: no usable Vulkan device' viewer.err || fail "more was said on stderr"
-(($(headlines) == 3)) || fail "another scene was opened"
+(($(headlines) == 4)) || fail "another scene was opened"
 : >viewer.err
 awaitTitle fps
 keys ctrl+q

@@ -93,13 +93,13 @@ TEST_F(LibraryTest, OpensWhatIsDroppedAndRefusesWhatIsNoMesh) {
 TEST_F(LibraryTest, OpensTheSameSceneAgainWithOtherSubsteps) {
     Library library = libraryOf("b.toml");
     Again again;
-    again.camera.distance = 7;
+    again.material.stiffness = 7;
     library.reopen({.substeps = 9}, again, 1.5f);
     const auto opened = await(library);
     ASSERT_TRUE(opened);
     EXPECT_EQ(opened->loaded.settings.substeps, 9u);
     ASSERT_TRUE(opened->again);
-    EXPECT_EQ(opened->again->camera.distance, 7);
+    EXPECT_EQ(opened->again->material.stiffness, 7);
     EXPECT_EQ(library.current(), 1u);
 }
 

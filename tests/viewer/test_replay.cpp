@@ -1,104 +1,13 @@
 // Logs of input: what is written is read back, and what hands did leads to the same bits when it is done
 // again.
-#include "viewer/replay.hpp"
+#include "played.hpp"
 
 #include "app/guard.hpp"
-#include "support/device.hpp"
-#include "viewer/hands/controller.hpp"
-#include "viewer/hands/state_probe.hpp"
-#include "viewer/opening.hpp"
-#include "viewer/tools.hpp"
 
-#include <gtest/gtest.h>
-
-#include <fstream>
 #include <limits>
-#include <unistd.h>
 
 namespace sinew::viewer {
 namespace {
-
-constexpr const char* block = R"([solver]
-substeps = 4
-[[box]]
-name = "block"
-particles = [4, 4, 4]
-center = [0, 0.5, 0]
-spacing = 0.13
-young_modulus = 2e4
-cuttable = true
-[[plane]]
-[camera]
-eye = [0, 0.5, 2]
-target = [0, 0.4, 0]
-)";
-
-Opening openBlock() {
-    const std::filesystem::path file =
-        std::filesystem::temp_directory_path() / ("sinew-replay-" + std::to_string(::getpid()) + ".toml");
-    std::ofstream(file) << block;
-    Opening opening = open({.scene = file.string()}, 1.6f);
-    std::filesystem::remove(file);
-    prepareForReplay(opening.loaded.settings, {});
-    return opening;
-}
-
-// Steps, tools and their questions, with the order of the window's loop and without its timing.
-struct Scene {
-    Opening opening = openBlock();
-    Controller controller{opening.camera, opening.loaded.scene.dt};
-    Stage stage{test::device(), opening.loaded.scene, opening.loaded.settings};
-    Tools tools{test::device(), opening};
-    StateProbe probe{test::device(), stage.simulation()};
-
-    Scene() {
-        run([&](VkCommandBuffer commands) { stage.recordReset(commands); });
-    }
-    template <typename Record> void run(const Record& record) {
-        VkCommandBuffer commands = test::queue().begin();
-        record(commands);
-        test::queue().wait(test::queue().submit(commands));
-    }
-    void step(VkCommandBuffer commands) {
-        if (const auto material = stage.recordTurn(commands)) tools.turned(*material);
-        const StepHands hands = tools.takeStep(commands, stage);
-        recordStep(commands, stage, hands);
-    }
-    std::uint64_t hash() { return stateHash(test::device(), stage, test::queue()); }
-};
-
-// A scene that somebody plays with.
-struct Played : Scene {
-    void turn(const Input& input, int steps = 1) {
-        for (const Action action : input.actions) tools.act(action);
-        tools.handle(input, controller);
-        if (input.notches != 0) controller.wheel(input.notches, input.pointer);
-        if (asked && asked == tools.question()) { // of the turn before
-            const auto found =
-                pick(stage.scene(), opening.light.balls, asked->ray, probe.positions(), probe.vertices());
-            tools.answer(*asked, found, found ? holdRadius(stage.scene(), found->particle) : 0);
-        }
-        run([&](VkCommandBuffer commands) {
-            tools.recordHistory(commands, stage);
-            for (int i = 0; i < steps; ++i) step(commands);
-            stage.recordSkin(commands);
-            probe.record(commands);
-        });
-        asked = tools.question();
-    }
-    void pressAt(const Vector2& at, bool isDown) {
-        turn({.presses = {{Action::grab, isDown, at}}, .pointer = at});
-    }
-    void dragFrom(const Vector2& from, const Vector2& by, int turns) {
-        pressAt(from, true);
-        for (int i = 0; i <= turns; ++i)
-            turn({.pointer = from + static_cast<float>(i) / static_cast<float>(turns) * by});
-    }
-    bool isPoking() const { return stage.simulation().pokes()[0].isThere; }
-    InputFile file() { return {.scene = "/block.toml", .events = tools.log().events(), .hash = hash()}; }
-
-    std::optional<Question> asked;
-};
 
 // Grabs and throws the block, pins it, cuts it, takes the cut back and forth, with a camera that moves.
 void play(Played& played) {
@@ -168,19 +77,6 @@ void poke(Played& played) {
     EXPECT_TRUE(played.tools.isPokeOn());
     played.turn({.actions = {Action::blade}}, 2);
     EXPECT_FALSE(played.tools.isPokeOn());
-}
-
-Replay::Due replayAll(Scene& scene, Replay& replay) {
-    for (;;) {
-        const Replay::Due due = replay.next(scene.tools, scene.controller.camera, scene.stage);
-        if (due == Replay::Due::nothing) return due;
-        scene.run([&](VkCommandBuffer commands) {
-            if (due == Replay::Due::history)
-                scene.tools.recordHistory(commands, scene.stage);
-            else
-                scene.step(commands);
-        });
-    }
 }
 
 void expectTheSameBitsOf(void (*hands)(Played&)) {
@@ -302,8 +198,8 @@ TEST(InputFile, BringsEveryBitBack) {
                          .surface = 5000,
                          .events = {camera, Pointed{{odd, 3e8f}}, Action::undo, Answered{},
                                     Answered{Question::Asker::pin, Pick{3, {odd, 0, 0}, {0, odd, 0}}, odd},
-                                    Pulled{odd}, Turned{{odd, {odd, 2}, {}, 0.0f}}, Turned{}, Forgot{},
-                                    Stepped{3}},
+                                    Pulled{odd}, Turned{{odd, {odd, 2}, {}, 0.0f}}, Turned{},
+                                    Shaped{sim::Solver::gaussSeidel, 1000}, Forgot{}, Stepped{3}},
                          .hash = 0xfedcba9876543210u};
     const InputFile read = parseInput(toText(file), "test");
     EXPECT_EQ(read.events, file.events);
@@ -343,7 +239,13 @@ TEST(InputFile, IsRefusedWithItsLine) {
                              "material 0 - -",
                              "material 1 - x",
                              "material 1 -1 -",
-                             "material 1 - - 0"})
+                             "material 1 - - 0",
+                             "solve",
+                             "solve split",
+                             "solve magic 3",
+                             "solve split 0",
+                             "solve split 1001",
+                             "solve split 3 4"})
         EXPECT_NE(complaintAbout(std::string("sinew input 1\n\n") + line + "\n").find("a.input:3: "),
                   std::string::npos)
             << line;

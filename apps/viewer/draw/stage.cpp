@@ -16,10 +16,11 @@ std::string Divergence::sentence() const {
            "material";
 }
 
-Stage::Stage(const vk::Device& device, sim::Scene scene, const sim::Settings& settings)
-    : given_(std::move(scene)), scene_(given_), settings_(settings),
-      stiffness_(sim::inspectStiffness(given_, settings)), growing_(device, scene_, settings_),
-      gravity_(scene_.gravity) {
+Stage::Stage(const vk::Device& device, sim::Scene scene, const sim::Settings& settings,
+             const sim::Material& material)
+    : given_(std::move(scene)), scene_(sim::withMaterial(given_, material)), settings_(settings),
+      stiffness_(sim::inspectStiffness(scene_, settings)), growing_(device, scene_, settings_),
+      gravity_(scene_.gravity), material_(material) {
     const sim::Vec3& g = scene_.gravity;
     const float length = std::hypot(g.x, g.y, g.z);
     if (length > 0) down_ = {g.x / length, g.y / length, g.z / length};
@@ -79,7 +80,7 @@ void Stage::setGravity(float gravity) noexcept {
 Stage::Turned Stage::prepare(const sim::Material& material) const {
     Turned turned{material, sim::withMaterial(given_, material), {}, std::nullopt};
     turned.change = simulation().prepareChange(turned.scene);
-    turned.stiffness = sim::inspectStiffness(turned.scene, settings_);
+    turned.stiffness = sim::inspectStiffness(turned.scene, settings());
     return turned;
 }
 
@@ -97,7 +98,39 @@ void Stage::turn(const sim::Material& material) {
 
 void Stage::turnNow(const sim::Material& material) {
     ready_ = prepare(material);
-    if (!ready_->change) ready_.reset();
+    refused_.reset();
+    if (ready_->change) return;
+    ready_.reset();
+    refused_ = material;
+}
+
+void Stage::reshape(vk::Queue& queue) {
+    if (!wantsShape()) return;
+    const std::optional<Shape> shape = std::exchange(shape_, std::nullopt);
+    const std::optional<sim::Material> refused = std::exchange(refused_, std::nullopt);
+    sim::Settings settings = growing_.settings();
+    if (shape) {
+        settings.solver = shape->solver;
+        settings.substeps = shape->substeps;
+    }
+    const sim::Material material = refused ? *refused : ready_ ? ready_->material : material_;
+    ready_.reset();
+    sim::Scene before = std::exchange(scene_, sim::withMaterial(given_, material));
+    try {
+        growing_.replace(settings, queue);
+    } catch (...) {
+        scene_ = std::move(before);
+        throw;
+    }
+    stiffness_ = sim::inspectStiffness(scene_, settings);
+    material_ = material;
+}
+
+void Stage::takeOver(const Stage& from) {
+    growing_.takeOver(from.growing_);
+    gravity_ = from.gravity_;
+    steps_ = from.steps_;
+    played_ = from.played_;
 }
 
 // While nothing is recorded, what is ready makes way for what was asked for later.

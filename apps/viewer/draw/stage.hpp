@@ -28,7 +28,9 @@ struct Divergence {
 /// Must not outlive its Device, which must not move.
 class Stage {
 public:
-    Stage(const vk::Device& device, sim::Scene scene, const sim::Settings& settings);
+    /// `material` that the scene, given as it is in its file, is turned to from the start.
+    Stage(const vk::Device& device, sim::Scene scene, const sim::Settings& settings,
+          const sim::Material& material = {});
     ~Stage(); ///< waits for a material that is being prepared
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
@@ -55,7 +57,8 @@ public:
     /// Another material of the scene as it was given, from a later step on: prepared in a thread of its own;
     /// of several that are asked for meanwhile the last.
     void turn(const sim::Material& material);
-    /// The same from the next step on: waits, for replays. Throws as Simulation::prepareChange.
+    /// The same from the next step on: waits, for replays. What needs other passes needs reshape(). Throws as
+    /// Simulation::prepareChange.
     void turnNow(const sim::Material& material);
     /// What came of turn(), where something did; to be called for every picture. Refused is what other passes
     /// are needed for. Throws likewise: all is then as it was.
@@ -67,6 +70,18 @@ public:
     const sim::Material& material() const noexcept { return material_; }
     /// Of the scene as it is.
     const sim::StiffnessReport& stiffness() const noexcept { return stiffness_; }
+
+    /// Another solver and number of substeps, at reshape().
+    void wantShape(sim::Solver solver, std::uint32_t substeps) { shape_ = Shape{solver, substeps}; }
+    bool wantsShape() const noexcept { return shape_ || refused_; }
+    /// Goes on after the newest step in another simulation(), as wanted: for replays, since it waits, for
+    /// pipelines, too, and for `queue`, in which all was submitted. Throws as sim::Simulation: all is then as
+    /// it was, and nothing wanted any more.
+    void reshape(vk::Queue& queue);
+
+    /// Goes on where `from` stands, a stage of the same scene that may have another material, solver, number
+    /// of substeps and device: as app::GrowingSimulation::takeOver, instead of recordReset().
+    void takeOver(const Stage& from);
 
     /// For what goes back to earlier states.
     sim::Simulation& simulation() noexcept { return growing_.simulation(); }
@@ -94,7 +109,9 @@ public:
     bool makeSurfaceRoom(std::uint32_t needed, vk::Queue& queue);
 
     const sim::Scene& scene() const noexcept { return scene_; }
-    const sim::Settings& settings() const noexcept { return settings_; }
+    /// As it was made; as it is now, with all the room that there is.
+    const sim::Settings& madeWith() const noexcept { return settings_; }
+    const sim::Settings& settings() const noexcept { return growing_.settings(); }
     const sim::Simulation& simulation() const noexcept { return growing_.simulation(); }
     const app::ContactRoom& contactRoom() const noexcept { return growing_.contactRoom(); }
     const app::SurfaceRoom& surfaceRoom() const noexcept { return growing_.surfaceRoom(); }
@@ -109,6 +126,10 @@ private:
     struct Recorded {
         sim::SceneChange change;
         std::uint64_t step; // of recordedSteps_
+    };
+    struct Shape {
+        sim::Solver solver;
+        std::uint32_t substeps;
     };
     Turned prepare(const sim::Material& material) const;
     void beginTurn();
@@ -125,8 +146,10 @@ private:
     sim::Material material_;
     std::optional<sim::Material> wanted_; // after what is being prepared
     std::optional<Turned> ready_;
-    std::deque<Recorded> recorded_; // that the device may still copy from
-    std::future<Turned> turning_;   // refers to what stands before it
+    std::optional<Shape> shape_;           // for reshape()
+    std::optional<sim::Material> refused_; // likewise
+    std::deque<Recorded> recorded_;        // that the device may still copy from
+    std::future<Turned> turning_;          // refers to what stands before it
 };
 
 } // namespace sinew::viewer

@@ -2,6 +2,8 @@
 #include "viewer/hands/input_log.hpp"
 
 #include "app/guard.hpp"
+#include "sim/compile.hpp"
+#include "sim/ranges.hpp"
 
 #include <algorithm>
 #include <array>
@@ -92,6 +94,10 @@ std::string text(const Turned& turned) {
         else
             line.addWord("-");
     return line.addAll(material.bodies).end();
+}
+
+std::string text(const Shaped& shaped) {
+    return Line("solve").addWord(sim::solverName(shaped.solver)).add(shaped.substeps).end();
 }
 
 std::string text(const Sized& sized) {
@@ -201,6 +207,16 @@ sim::Material readMaterial(Words& words) {
     return material;
 }
 
+Shaped readShape(Words& words) {
+    Shaped shaped;
+    const std::string solver = words.word();
+    if (!sim::parseSolver(solver, shaped.solver)) throw std::runtime_error("no solver is called " + solver);
+    shaped.substeps = words.number<std::uint32_t>();
+    if (!sim::ranges::substeps.holds(shaped.substeps))
+        throw std::runtime_error("substeps must be " + sim::toText(sim::ranges::substeps));
+    return shaped;
+}
+
 struct Reader {
     std::string_view name;
     void (*read)(InputFile&, Words&);
@@ -233,6 +249,7 @@ const std::array readers{
     Reader{"gravity", [](InputFile& to, Words& words) { to.events.emplace_back(Pulled{words.finite()}); }},
     Reader{"material",
            [](InputFile& to, Words& words) { to.events.emplace_back(Turned{readMaterial(words)}); }},
+    Reader{"solve", [](InputFile& to, Words& words) { to.events.emplace_back(readShape(words)); }},
     Reader{"forget", [](InputFile& to, Words&) { to.events.emplace_back(Forgot{}); }},
     Reader{"steps", [](InputFile& to,
                        Words& words) { to.events.emplace_back(Stepped{words.number<std::uint32_t>()}); }},

@@ -57,6 +57,11 @@ void InputLog::turn(const sim::Material& material) {
     events_.emplace_back(Turned{material});
 }
 
+void InputLog::shape(const Shaped& shaped) {
+    events_.emplace_back(shaped);
+    pointed_.reset();
+}
+
 void InputLog::size(float radius) {
     if (radius_ == radius) return;
     radius_ = radius;

@@ -41,6 +41,13 @@ struct Turned {
     sim::Material material;
     bool operator==(const Turned&) const = default;
 };
+/// Another simulation goes on from here, with this solver and so many substeps, and with the material that
+/// was turned last. There is no way back to states before it.
+struct Shaped {
+    sim::Solver solver = sim::Solver::split;
+    std::uint32_t substeps = 0;
+    bool operator==(const Shaped&) const = default;
+};
 /// The sphere that pokes has this radius from here on [m].
 struct Sized {
     float radius = 0;
@@ -56,7 +63,7 @@ struct Stepped {
     bool operator==(const Stepped&) const = default;
 };
 using InputEvent =
-    std::variant<Camera, Pointed, Pressed, Action, Answered, Pulled, Turned, Sized, Forgot, Stepped>;
+    std::variant<Camera, Pointed, Pressed, Action, Answered, Pulled, Turned, Shaped, Sized, Forgot, Stepped>;
 
 /// Collects them; what changes nothing is left out.
 class InputLog {
@@ -71,6 +78,7 @@ public:
     void answer(Answered answer);
     void pull(float gravity);
     void turn(const sim::Material& material);
+    void shape(const Shaped& shaped);
     void size(float radius);
     void forget();
     /// A step was recorded.

@@ -70,7 +70,7 @@ struct PassLine {
 struct Knobs {
     float gravity = 9.81f; ///< downwards [m/s^2]; acts in the next step
     float pace = 1;        ///< seconds of the scene in a second of the clock; likewise
-    int substeps = 1;      ///< 0 = as many as the scene needs; begins the scene anew
+    int substeps = 1;      ///< 0 = as many as the scene needs; acts when another simulation is there
     int solver = 0;        ///< of SceneFacts::solvers; likewise
     float stiffness = 1;   ///< factor on Young's modulus of all bodies; these act as soon as it is worked out
     float damping = 0;     ///< [1/s]

@@ -43,7 +43,7 @@ void picker(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
         ImGui::EndCombo();
     }
     if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("the devices that Vulkan finds here; another one begins the scene anew");
+        ImGui::SetTooltip("the devices that Vulkan finds here; the scene goes on on another one");
 }
 
 } // namespace

@@ -104,7 +104,7 @@ void knobs(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
     isTurned |= materialKnobs(scene, turned);
     knob("substeps");
     isTurned |= ImGui::InputInt("##substeps", &turned.substeps, 1, 10, ImGuiInputTextFlags_EnterReturnsTrue);
-    tip("begins the scene anew; 0 = as many as it needs");
+    tip("act when they are worked out; 0 = as many as the scene needs");
     knob("solver");
     const auto solver = static_cast<std::size_t>(turned.solver);
     if (ImGui::BeginCombo("##solver", solver < scene.solvers.size() ? scene.solvers[solver].c_str() : "")) {
@@ -115,7 +115,7 @@ void knobs(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
             }
         ImGui::EndCombo();
     }
-    tip("begins the scene anew");
+    tip("acts when it is worked out");
     Knobs shown = facts.knobs;
     shown.body = scene.fromFile.body; // which one is looked at changes nothing
     if (shown != scene.fromFile && ImGui::Button("As in the file", {contentWidth(), 0})) {

@@ -1,0 +1,115 @@
+// Another solver, other substeps, another device, a material that needs other passes: another simulation of
+// the scene takes over from the one on show.
+#include "viewer/show.hpp"
+
+#include "sim/compile.hpp"
+#include "vk/queue.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace sinew::viewer {
+
+namespace {
+
+bool areOfOneShape(const Knobs& a, const Knobs& b) {
+    return a.solver == b.solver && a.substeps == b.substeps;
+}
+
+} // namespace
+
+// As the stage is, whatever was turned since.
+Knobs Show::madeKnobs() const {
+    const sim::Settings& settings = stage_.settings();
+    const std::vector<std::string>& solvers = sceneFacts_.solvers;
+    Knobs knobs = knobs_;
+    knobs.substeps = static_cast<int>(settings.substeps);
+    knobs.solver =
+        static_cast<int>(std::ranges::find(solvers, sim::solverName(settings.solver)) - solvers.begin());
+    return knobs;
+}
+
+Again Show::again() const {
+    return {materialOf(knobs_, sceneFacts_.fromFile), stage_.settings()};
+}
+
+// What is turned while another one is being made is asked for when that is there.
+void Show::reopenWhereTurned() {
+    const bool isTurned = !areOfOneShape(knobs_, madeKnobs());
+    if ((!isTurned && !isRefused_) || replay_ || library_.isOpening()) return;
+    isRefused_ = false;
+    scenes::Overrides overrides;
+    if (isTurned) {
+        overrides.solver = sceneFacts_.solvers[static_cast<std::size_t>(knobs_.solver)];
+        overrides.substeps = static_cast<std::uint32_t>(knobs_.substeps);
+    }
+    asked_ = knobs_;
+    library_.reopen(overrides, again(), pictureAspect());
+}
+
+void Show::changeDevice(std::size_t index) {
+    if (replay_) return screen_.tell("a replay plays: " + std::string(keyOf(Action::drop)) + " ends it");
+    asked_ = madeKnobs();
+    library_.reopenOn(requestFor(devices_.list(), index), again(), pictureAspect());
+}
+
+// Where what was asked for cannot be had.
+void Show::keepAsItWas() {
+    if (!std::exchange(asked_, std::nullopt)) return;
+    knobs_ = turnedTo(stage_.material(), madeKnobs(), sceneFacts_.fromFile);
+}
+
+void Show::takeOver(const Show& before) {
+    stage_.takeOver(before.stage_);
+    restartViews(); // it may have had to make room first
+    controller_ = before.controller_;
+    tools_.goOn(before.tools_, stage_);
+    gauges_.goOn(before.gauges_);
+    const Facts counts = gauges_.facts(stage_);
+    status_.setCounts(counts.sleeping, counts.pieces);
+    pointer_ = before.pointer_;
+    if (before.inspector_.isOn()) inspector_.toggle();
+    begun_ = before.begun_;
+    isFromState_ = before.isFromState_;
+    isBroken_ = before.isBroken_;
+    isCut_ = before.isCut_;
+    sceneFacts_.fromFile = before.sceneFacts_.fromFile;
+    knobs_ = before.knobs_;
+    if (!before.asked_ || areOfOneShape(knobs_, *before.asked_)) knobs_ = madeKnobs(); // 0 is a number now
+    const sim::Material material = materialOf(knobs_, sceneFacts_.fromFile);
+    if (material != stage_.material()) stage_.turn(material); // turned meanwhile
+}
+
+// Of a replay: it may wait.
+void Show::reshape() {
+    settleAll();
+    vk::Queue queue(device_);
+    try {
+        stage_.reshape(queue);
+    } catch (const std::invalid_argument& error) {
+        replay_.reset();
+        return screen_.warn(std::string("the replay ends here: ") + error.what());
+    }
+    restartViews();
+    tools_.forgetStates();
+    const auto spans = static_cast<std::uint32_t>(stage_.simulation().phases().size());
+    for (vk::Timestamps& times : times_) times = vk::Timestamps(device_, spans);
+    Gauges gauges(stage_, opening_.loaded.scene.dt);
+    gauges.goOn(gauges_);
+    gauges_ = std::move(gauges);
+    const Knobs fromFile = sceneFacts_.fromFile;
+    sceneFacts_ = sceneFacts(opening_, stage_, device_);
+    sceneFacts_.fromFile = fromFile;
+    knobs_ = turnedTo(stage_.material(), madeKnobs(), fromFile);
+}
+
+// After the stage has another simulation.
+void Show::restartViews() {
+    probe_.emplace(device_, stage_.simulation());
+    inspection_.reset(); // as layers want it, of the other simulation
+    inspector_.restart();
+    shown_ = Shown::nothing;
+}
+
+} // namespace sinew::viewer

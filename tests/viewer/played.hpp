@@ -1,0 +1,123 @@
+// A scene that hands play with, and the replay of what they did: steps, tools and their questions, with the
+// order of the window's loop and without its timing.
+#pragma once
+
+#include "support/device.hpp"
+#include "viewer/hands/controller.hpp"
+#include "viewer/hands/state_probe.hpp"
+#include "viewer/opening.hpp"
+#include "viewer/replay.hpp"
+#include "viewer/tools.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+#include <unistd.h>
+
+namespace sinew::viewer {
+
+inline constexpr const char* block = R"([solver]
+substeps = 4
+[[box]]
+name = "block"
+particles = [4, 4, 4]
+center = [0, 0.5, 0]
+spacing = 0.13
+young_modulus = 2e4
+cuttable = true
+[[plane]]
+[camera]
+eye = [0, 0.5, 2]
+target = [0, 0.4, 0]
+)";
+
+inline Opening openText(const std::string& text) {
+    const std::filesystem::path file =
+        std::filesystem::temp_directory_path() / ("sinew-replay-" + std::to_string(::getpid()) + ".toml");
+    std::ofstream(file) << text;
+    Opening opening = open({.scene = file.string()}, 1.6f);
+    std::filesystem::remove(file);
+    prepareForReplay(opening.loaded.settings, {});
+    return opening;
+}
+
+// Steps, tools and their questions, with the order of the window's loop and without its timing.
+struct Scene {
+    Opening opening;
+    Controller controller{opening.camera, opening.loaded.scene.dt};
+    Stage stage;
+    Tools tools{test::device(), opening};
+    StateProbe probe{test::device(), stage.simulation()};
+
+    explicit Scene(const std::string& text = block, const sim::Material& material = {})
+        : opening(openText(text)),
+          stage(test::device(), opening.loaded.scene, opening.loaded.settings, material) {
+        run([&](VkCommandBuffer commands) { stage.recordReset(commands); });
+    }
+    template <typename Record> void run(const Record& record) {
+        VkCommandBuffer commands = test::queue().begin();
+        record(commands);
+        test::queue().wait(test::queue().submit(commands));
+    }
+    void step(VkCommandBuffer commands) {
+        if (const auto material = stage.recordTurn(commands)) tools.turned(*material);
+        const StepHands hands = tools.takeStep(commands, stage);
+        recordStep(commands, stage, hands);
+    }
+    std::uint64_t hash() { return stateHash(test::device(), stage, test::queue()); }
+};
+
+// A scene that somebody plays with.
+struct Played : Scene {
+    using Scene::Scene;
+    void turn(const Input& input, int steps = 1) {
+        for (const Action action : input.actions) tools.act(action);
+        tools.handle(input, controller);
+        if (input.notches != 0) controller.wheel(input.notches, input.pointer);
+        if (asked && asked == tools.question()) { // of the turn before
+            const auto found =
+                pick(stage.scene(), opening.light.balls, asked->ray, probe.positions(), probe.vertices());
+            tools.answer(*asked, found, found ? holdRadius(stage.scene(), found->particle) : 0);
+        }
+        run([&](VkCommandBuffer commands) {
+            tools.recordHistory(commands, stage);
+            for (int i = 0; i < steps; ++i) step(commands);
+            stage.recordSkin(commands);
+            probe.record(commands);
+        });
+        asked = tools.question();
+    }
+    void pressAt(const Vector2& at, bool isDown) {
+        turn({.presses = {{Action::grab, isDown, at}}, .pointer = at});
+    }
+    void dragFrom(const Vector2& from, const Vector2& by, int turns) {
+        pressAt(from, true);
+        for (int i = 0; i <= turns; ++i)
+            turn({.pointer = from + static_cast<float>(i) / static_cast<float>(turns) * by});
+    }
+    bool isPoking() const { return stage.simulation().pokes()[0].isThere; }
+    InputFile file() { return {.scene = "/block.toml", .events = tools.log().events(), .hash = hash()}; }
+
+    std::optional<Question> asked;
+};
+
+inline Replay::Due replayAll(Scene& scene, Replay& replay) {
+    for (;;) {
+        const Replay::Due due = replay.next(scene.tools, scene.controller.camera, scene.stage);
+        if (due == Replay::Due::nothing) return due;
+        if (due == Replay::Due::shape) {
+            scene.stage.reshape(test::queue());
+            scene.tools.forgetStates();
+            continue;
+        }
+        scene.run([&](VkCommandBuffer commands) {
+            if (due == Replay::Due::history)
+                scene.tools.recordHistory(commands, scene.stage);
+            else
+                scene.step(commands);
+        });
+    }
+}
+
+} // namespace sinew::viewer
