@@ -33,6 +33,7 @@ struct Player {
     void operator()(const Turned& event) const { tools.turn(stage, event.material); }
     void operator()(const Shaped& event) const { tools.shape(stage, event); }
     void operator()(const Sized& event) const { tools.resize(event.radius); }
+    void operator()(const Deepened& event) const { tools.setDepth(event.depth); }
     void operator()(const Forgot&) const { tools.forget(); }
     void operator()(const Answered& event) const {
         if (event.pick && event.pick->particle >= stage.scene().particles.size())

@@ -249,6 +249,8 @@ Facts Show::facts(std::optional<float> reduced) const {
     facts.found = inspector_.found();
     facts.isRecording = recording_.has_value();
     facts.knobs = knobs_;
+    facts.knobs.bladeDepth = tools_.depth();
+    facts.bladeDepths = {tools_.depths().least, tools_.depths().most};
     facts.pace = controller_.playback.pace();
     facts.knobs.pace = static_cast<float>(facts.pace);
     return facts;

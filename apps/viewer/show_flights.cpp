@@ -79,7 +79,7 @@ void Show::recordProbe(const Presenter::Frame& frame) {
     if (std::ranges::any_of(inFlight_, isAsked)) return;
     flight.isProbed = std::exchange(wantsProbe_, false);
     flight.look = std::exchange(wantsLook_, std::nullopt);
-    flight.question = tools_.question();
+    if (!replay_) flight.question = tools_.question(); // a replay has its answers
     flight.isMeasured = isStrainDue(flight.steps);
     const Ray ray = rayThrough(controller_.camera, pointer_);
     flight.isInspected = inspector_.isDue(ray);
@@ -173,7 +173,7 @@ void Show::settleProbe(InFlight& flight) {
     if (flight.question && flight.question == tools_.question()) {
         const sim::Scene& scene = stage_.scene();
         const auto found = pick(scene, opening_.light.balls, flight.question->ray, probe_->positions(),
-                                probe_->vertices(), Among::moving, opened());
+                                probe_->vertices(), flight.question->among(), opened());
         tools_.answer(*flight.question, found, found ? holdRadius(scene, found->particle) : 0);
     }
     if (flight.isMeasured && !isCut_)

@@ -26,6 +26,7 @@ void Show::grant(const Wishes& wishes, Input& input) {
 void Show::turnKnobs(const Knobs& knobs) {
     if (knobs.gravity != knobs_.gravity) tools_.pull(stage_, knobs.gravity);
     controller_.playback.setPace(double{knobs.pace});
+    if (knobs.bladeDepth != tools_.depth()) tools_.setDepth(knobs.bladeDepth);
     knobs_.gravity = knobs.gravity;
     knobs_.pace = knobs.pace;
     knobs_.substeps = knobs.substeps;
@@ -79,7 +80,7 @@ void Show::handle(const Input& asked) {
     status_.setTool(tools_.name());
     if (std::optional<Section>& section = screen_.layers().section; section && input.slide != 0)
         section = moved(*section, input.slide, opening_.light.bounds);
-    const float notches = input.notches + (tools_.isPokeOn() ? 0 : input.growth);
+    const float notches = input.notches + (tools_.isPokeOn() || tools_.isBladeOn() ? 0 : input.growth);
     if (notches != 0 && !replay_) controller_.wheel(notches, input.pointer);
 }
 

@@ -3,7 +3,6 @@
 
 #include "viewer/hands/controller.hpp"
 #include "viewer/opening.hpp"
-#include "vk/check.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -17,16 +16,6 @@ Tools::Tools(const vk::Device& device, const Opening& opening)
       pinReach_(0.04f * opening.light.radius()),
       canCut_(std::ranges::any_of(opening.loaded.scene.grids, &sim::Grid::isCuttable)) {}
 
-void recordStep(VkCommandBuffer commands, Stage& stage, const StepHands& hands,
-                vk::Timestamps* timestamps) noexcept {
-    sim::Blade blade;
-    if (hands.sweep)
-        blade = {.from = hands.sweep->from, .to = hands.sweep->to, .isCarried = hands.sweep->isCarried};
-    const std::span<const sim::Poke> pokes =
-        hands.poke ? std::span(&*hands.poke, 1) : std::span<const sim::Poke>();
-    stage.recordStep(commands, timestamps, hands.grabs, blade, pokes);
-}
-
 void Tools::handle(const Input& input, Controller& controller) {
     look(controller.camera);
     for (const Input::Press& one : input.presses)
@@ -39,11 +28,19 @@ void Tools::handle(const Input& input, Controller& controller) {
             controller.drag(Action::orbit, turn);
     }
     look(controller.camera);
-    if (input.growth != 0 && poke_.isOn()) {
-        poke_.grow(input.growth);
+    if (input.growth != 0) turnWheel(input.growth);
+    move(controller.camera, input.pointer);
+}
+
+void Tools::turnWheel(float notches) {
+    if (poke_.isOn()) {
+        poke_.grow(notches);
         log_.size(poke_.radius());
     }
-    move(controller.camera, input.pointer);
+    if (!blade_.isOn()) return;
+    blade_.deepen(notches);
+    log_.deepen(blade_.depth());
+    note_ = "the blade goes " + depthText(blade_.depth());
 }
 
 void Tools::move(const Camera& camera, const Vector2& pointer) {
@@ -79,12 +76,16 @@ std::optional<Question> Tools::question() const {
     if (hand_.question()) return Question{Question::Asker::hand, *hand_.question()};
     if (poke_.question()) return Question{Question::Asker::poke, *poke_.question()};
     if (pinned_) return Question{Question::Asker::pin, *pinned_};
+    if (blade_.question()) return Question{Question::Asker::blade, *blade_.question()};
+    if (blade_.preview()) return Question{Question::Asker::preview, *blade_.preview()};
     return std::nullopt;
 }
 
 void Tools::answer(const Question& question, const std::optional<Pick>& pick, float radius) {
     if (question != this->question()) return;
+    if (question.asker == Question::Asker::preview) return blade_.answerPreview(pick);
     log_.answer({question.asker, pick, radius});
+    if (question.asker == Question::Asker::blade) return blade_.answer(pick);
     if (question.asker == Question::Asker::hand) return hand_.answer(pick, radius);
     if (question.asker == Question::Asker::poke) return poke_.answer(pick);
     pinned_.reset();
@@ -159,6 +160,11 @@ void Tools::resize(float radius) {
     log_.size(poke_.radius());
 }
 
+void Tools::setDepth(const std::optional<float>& depth) {
+    blade_.setDepth(depth);
+    log_.deepen(blade_.depth());
+}
+
 // One tool is out at a time.
 void Tools::takeBlade() {
     if (!canCut_) return say("note: no body of this scene can be cut: cuttable = true makes it so");
@@ -229,6 +235,7 @@ void Tools::reset() {
     wantsUndo_ = wantsRedo_ = false;
     stepsBack_ = 0;
     log_.restart();
+    log_.deepen(blade_.depth());
     if (blade_.isOn()) log_.key(Action::blade);
     if (poke_.isOn()) {
         log_.size(poke_.radius());
@@ -240,6 +247,7 @@ void Tools::reset() {
 
 void Tools::putAway(Stage& stage) {
     if (blade_.isOn()) blade_.toggle();
+    blade_.setDepth(std::nullopt);
     poke_.putAway();
     gravity_.reset();
     stage.setGravity(stage.scene().gravity);
@@ -254,73 +262,6 @@ void Tools::forget() {
     log_.forget();
     history_.recycle();
     steps_.recycle();
-}
-
-// What hands hold stays behind, as after an undo. A cut that has not been yet cannot be undone.
-bool Tools::goBack(VkCommandBuffer commands, Stage& stage) {
-    const std::uint32_t wanted = std::exchange(stepsBack_, 0);
-    if (steps_.undos() == 0) {
-        note_ = "there is no earlier step to go back to";
-        return false;
-    }
-    log_.goBack();
-    clear();
-    for (std::uint32_t step = 0; step < wanted && steps_.recordBack(commands, stage); ++step) {
-    }
-    history_.forgetFrom(stage.played());
-    return true;
-}
-
-bool Tools::recordHistory(VkCommandBuffer commands, Stage& stage) {
-    if (stepsBack_ > 0) return goBack(commands, stage);
-    const bool isUndo = std::exchange(wantsUndo_, false), isRedo = std::exchange(wantsRedo_, false);
-    if (!isUndo && !isRedo) return false;
-    if ((isUndo ? history_.undos() : history_.redos()) == 0) return false; // hands and pins stay
-    log_.goBack();
-    clear();
-    steps_.recycle(); // they lead elsewhere
-    return isUndo ? history_.recordUndo(commands, stage) : history_.recordRedo(commands, stage);
-}
-
-// Without memory for a way back there is a cut all the same.
-void Tools::remember(VkCommandBuffer commands, const Stage& stage) {
-    try {
-        history_.recordBefore(commands, stage);
-    } catch (const vk::Error& error) {
-        if (!std::exchange(isForgetful_, true))
-            say(std::string("warning: this cut cannot be undone: ") + error.what());
-    }
-}
-
-// A state so large that few would have room is not copied in every step.
-void Tools::rememberStep(VkCommandBuffer commands, const Stage& stage) {
-    constexpr std::size_t worthIt = 8;
-    if (isForgetfulOfSteps_ || steps_.room(stage) < worthIt) return;
-    try {
-        steps_.recordBefore(commands, stage);
-    } catch (const vk::Error&) { // no memory: those that there are stay
-        isForgetfulOfSteps_ = true;
-    }
-}
-
-StepHands Tools::takeStep(VkCommandBuffer commands, const Stage& stage) {
-    log_.step();
-    rememberStep(commands, stage);
-    if (blade_.beginsStroke()) remember(commands, stage);
-    StepHands hands{.sweep = blade_.next(), .poke = poke_.poke()};
-    hands.grabs[0] = hand_.isHolding() ? hand_.grabs()[0] : emptyHand();
-    std::ranges::copy(pins_.grabs(), hands.grabs.begin() + 1);
-    return hands;
-}
-
-void Tools::restart(std::span<const Sweep> undone, std::uint64_t steps) {
-    if (history_.undos() + history_.redos() > 0)
-        say("note: more room was made: earlier cuts can no longer be undone");
-    log_.takeBack(steps);
-    log_.forget();
-    history_.clear(); // its states are of a simulation that is no more
-    steps_.clear();
-    blade_.putBack(undone);
 }
 
 } // namespace sinew::viewer

@@ -51,6 +51,10 @@ public:
     void goOn(const Tools& before, const Stage& stage);
     /// Of the sphere that pokes [m].
     void resize(float radius);
+    /// Of the blade, as CutTool::setDepth.
+    void setDepth(const std::optional<float>& depth);
+    const std::optional<float>& depth() const { return blade_.depth(); }
+    CutTool::Depths depths() const { return blade_.depths(); }
     /// False for an action that is none of theirs.
     bool act(Action action);
     /// The next press of the left button pins what is under it, as the button of a panel cannot.
@@ -92,7 +96,7 @@ public:
     /// How many steps there is a way back of.
     std::size_t stepsBack() const { return steps_.undos(); }
     std::size_t pins() const { return pins_.count(); }
-    Overlay overlay() const { return {hand_.hand(), pins_.shown(), blade_.path()}; }
+    Overlay overlay() const { return {hand_.hand(), pins_.shown(), blade_.path(), blade_.gauge()}; }
     /// What they said last, once: also a line on stderr.
     std::string takeNote() { return std::exchange(note_, {}); }
     /// For the title: " - holding".
@@ -101,6 +105,7 @@ public:
 private:
     void takeBlade();
     void takePoke();
+    void turnWheel(float notches);
     void pinAt(const Ray& ray);
     void pin(const Hand& hand, float radius);
     void drop();

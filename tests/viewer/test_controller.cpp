@@ -71,6 +71,8 @@ TEST(Bindings, HintAtWhatHandsCanDoNow) {
     EXPECT_NE(empty.find("C cuts"), std::string::npos);
     EXPECT_EQ(hintText(Hands::empty, false).find("cuts"), std::string::npos);
     EXPECT_NE(blade.find("Ctrl + Z"), std::string::npos);
+    EXPECT_NE(blade.find("cuts through"), std::string::npos);
+    EXPECT_NE(hintText(Hands::blade, true, 0.012f).find("cuts 0.012 m deep"), std::string::npos);
     const std::string poke = hintText(Hands::poke, true);
     EXPECT_NE(empty.find("O pokes"), std::string::npos);
     EXPECT_NE(poke.find("Shift + wheel"), std::string::npos);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace sinew::viewer {
 namespace {
 
@@ -131,6 +133,204 @@ TEST(CutTool, CutsAgainFirstWhatWasUndone) {
     EXPECT_TRUE(tool.beginsStroke());
     EXPECT_EQ(toVector(tool.next()->to[0]), toVector(undone[0].to[0]));
     EXPECT_TRUE(tool.next()->isCarried);
+}
+
+// A wall across the view, which ends at the right.
+struct Wall {
+    float z = 0.2f, end = 10;
+    std::optional<Pick> under(const Ray& ray) const {
+        const Vector3 at = ray.origin + (z - ray.origin.z()) / ray.direction.z() * ray.direction;
+        return at.x() < end ? std::optional(Pick{.point = at}) : std::nullopt;
+    }
+};
+
+CutTool withDepth(float depth) {
+    CutTool tool = withBlade();
+    tool.setDepth(depth);
+    return tool;
+}
+
+void answerAll(CutTool& tool, const Wall& wall) {
+    while (tool.question()) tool.answer(wall.under(*tool.question()));
+}
+
+std::vector<Sweep> cutsOf(CutTool& tool) {
+    std::vector<Sweep> sweeps;
+    while (const auto sweep = tool.next()) sweeps.push_back(*sweep);
+    return sweeps;
+}
+
+// Along the ray through both ends of an edge.
+float below(const Wall& wall, const std::array<sim::Vec3, 2>& edge) {
+    const Vector3 from = eye(fromFront), end = toVector(edge[1]);
+    const Ray ray{from, (end - from).normalized()};
+    return (end - wall.under(ray)->point).dot(ray.direction);
+}
+
+TEST(CutTool, EndsAsDeepBelowTheSurfaceAsItIsSet) {
+    const Wall wall;
+    CutTool tool = withDepth(0.1f);
+    tool.press(fromFront, {-0.1f, 0});
+    tool.move(fromFront, {0, 0.02f});
+    EXPECT_FALSE(tool.next()) << "nothing is cut until it is known where the surface is";
+    EXPECT_TRUE(tool.isCutting());
+    answerAll(tool, wall);
+    tool.move(fromFront, {0.1f, 0.02f});
+    tool.release();
+    answerAll(tool, wall);
+    const std::vector<Sweep> sweeps = cutsOf(tool);
+    ASSERT_EQ(sweeps.size(), 2u);
+    EXPECT_FALSE(sweeps[0].isCarried);
+    EXPECT_TRUE(sweeps[1].isCarried);
+    for (const Sweep& sweep : sweeps)
+        for (const auto& edge : {sweep.from, sweep.to}) {
+            EXPECT_NEAR(below(wall, edge), 0.1f, 1e-4f);
+            EXPECT_GT(edge[0].z, 0.5f) << "before the stage";
+        }
+    EXPECT_FALSE(tool.isCutting());
+    EXPECT_TRUE(tool.path().empty());
+}
+
+TEST(CutTool, GoesEvenlyBetweenPlacesWhoseSurfaceIsKnown) {
+    CutTool tool = withDepth(0.1f);
+    tool.press(fromFront, {0, 0});
+    for (int i = 1; i <= 4; ++i) tool.move(fromFront, {0.02f * static_cast<float>(i), 0});
+    tool.answer(Wall{.z = 0.3f}.under(*tool.question()));
+    tool.answer(Wall{.z = 0.1f}.under(*tool.question()));
+    EXPECT_FALSE(tool.question()) << "of the first place and the newest alone";
+    const std::vector<Sweep> sweeps = cutsOf(tool);
+    ASSERT_EQ(sweeps.size(), 4u);
+    EXPECT_NEAR(below({.z = 0.3f}, sweeps[0].from), 0.1f, 1e-4f);
+    for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_NEAR(sweeps[i].to[1].z, 0.2f - 0.05f * static_cast<float>(i + 1), 2e-3f) << i;
+}
+
+TEST(CutTool, KeepsTheDepthOfTheLastSurfaceBesideIt) {
+    const Wall wall{.end = 0.15f};
+    CutTool tool = withDepth(0.1f);
+    tool.press(fromFront, {0, 0});
+    answerAll(tool, wall);
+    for (int i = 1; i <= 10; ++i) tool.move(fromFront, {0.01f * static_cast<float>(i), 0});
+    tool.release();
+    answerAll(tool, wall);
+    const std::vector<Sweep> sweeps = cutsOf(tool);
+    ASSERT_EQ(sweeps.size(), 10u);
+    for (const Sweep& sweep : sweeps) EXPECT_NEAR(sweep.to[1].z, 0.1f, 5e-3f);
+}
+
+TEST(CutTool, CutsAllTheWayFromBesideABody) {
+    const Wall wall{.end = 0};
+    CutTool tool = withDepth(0.1f);
+    tool.press(fromFront, {0.2f, 0});
+    answerAll(tool, wall);
+    for (int i = 1; i <= 20; ++i) {
+        tool.move(fromFront, {0.2f - 0.02f * static_cast<float>(i), 0});
+        if (i % 3 == 0) answerAll(tool, wall);
+    }
+    tool.release();
+    answerAll(tool, wall);
+    const std::vector<Sweep> sweeps = cutsOf(tool);
+    ASSERT_FALSE(sweeps.empty());
+    EXPECT_GT(sweeps.front().from[0].x, 0) << "from where nothing is";
+    for (std::size_t i = 1; i < sweeps.size(); ++i)
+        EXPECT_EQ(toVector(sweeps[i].from[1]), toVector(sweeps[i - 1].to[1]));
+    EXPECT_NEAR(below(wall, sweeps.back().to), 0.1f, 1e-4f);
+}
+
+TEST(CutTool, CutsNothingToADepthWhereNothingIs) {
+    CutTool tool = withDepth(0.1f);
+    tool.press(fromFront, {0, 0});
+    for (int i = 1; i <= 300; ++i) {
+        tool.move(fromFront, {0.3f * std::sin(static_cast<float>(i)), 0});
+        answerAll(tool, {.end = -10});
+    }
+    tool.release();
+    answerAll(tool, {.end = -10});
+    EXPECT_TRUE(cutsOf(tool).empty());
+    EXPECT_FALSE(tool.isCutting());
+    EXPECT_TRUE(tool.path().empty());
+}
+
+// Whatever the order of presses, moves and answers, each stroke begins once, and no answer is missing.
+TEST(CutTool, FindsAnEndWhateverIsAnswered) {
+    std::uint32_t state = 1;
+    const auto random = [&] {
+        return static_cast<float>((state = state * 1664525u + 1013904223u) >> 8) / 16777216.0f;
+    };
+    CutTool tool = withDepth(0.05f);
+    std::vector<Sweep> sweeps;
+    for (int i = 0; i < 5000; ++i) {
+        const Vector2 at(random() - 0.5f, 0.5f * random() - 0.25f);
+        if (const float what = random(); what < 0.05f)
+            tool.press(fromFront, at);
+        else if (what < 0.1f)
+            tool.release();
+        else if (what < 0.12f)
+            tool.deepen(random() < 0.5f ? -3.0f : 3.0f);
+        else if (what < 0.6f)
+            tool.move(fromFront, at);
+        else if (tool.question())
+            tool.answer(Wall{.end = 0.6f * random() - 0.3f}.under(*tool.question()));
+        if (random() < 0.3f)
+            if (const auto sweep = tool.next()) sweeps.push_back(*sweep);
+    }
+    tool.release();
+    answerAll(tool, {});
+    for (const Sweep& sweep : cutsOf(tool)) sweeps.push_back(sweep);
+    EXPECT_FALSE(tool.isCutting());
+    ASSERT_GT(sweeps.size(), 500u);
+    for (std::size_t i = 1; i < sweeps.size(); ++i) {
+        EXPECT_TRUE(!sweeps[i].isCarried || toVector(sweeps[i].from[1]) == toVector(sweeps[i - 1].to[1]))
+            << i;
+    }
+}
+
+TEST(CutTool, GetsDeeperByTheWheelUntilItGoesThrough) {
+    CutTool tool = withBlade();
+    EXPECT_FALSE(tool.depth());
+    tool.deepen(1);
+    EXPECT_FALSE(tool.depth()) << "nothing is deeper than through";
+    tool.deepen(-1);
+    EXPECT_EQ(tool.depth(), tool.depths().most);
+    tool.deepen(-1000);
+    EXPECT_EQ(tool.depth(), tool.depths().least);
+    tool.deepen(1);
+    EXPECT_GT(tool.depth(), tool.depths().least);
+    tool.deepen(1000);
+    EXPECT_FALSE(tool.depth());
+}
+
+TEST(CutTool, ThatGoesThroughFromNowOnWaitsForNothing) {
+    CutTool tool = withDepth(0.1f);
+    tool.press(fromFront, {0, 0});
+    tool.move(fromFront, {0.1f, 0});
+    tool.setDepth(std::nullopt);
+    EXPECT_FALSE(tool.question());
+    const auto sweep = tool.next();
+    ASSERT_TRUE(sweep);
+    EXPECT_LT(sweep->to[1].z, -0.5f) << "behind the stage";
+}
+
+// To scale as seen: at the surface, the depth is as long.
+TEST(CutTool, ShowsItsDepthAtThePointer) {
+    CutTool tool = withDepth(0.1f);
+    tool.move(fromFront, {0, 0});
+    EXPECT_TRUE(tool.gauge().empty()) << "where the surface is, nobody knows yet";
+    ASSERT_TRUE(tool.preview());
+    tool.answerPreview(Wall{}.under(*tool.preview()));
+    ASSERT_EQ(tool.gauge().size(), 2u);
+    const float enlarged = (fromFront.distance - 0.2f) / (tool.gauge()[0] - eye(fromFront)).norm();
+    const Vector3 shown = enlarged * (tool.gauge()[1] - tool.gauge()[0]);
+    EXPECT_LT((shown - Vector3(0, -0.1f, 0)).norm(), 1e-4f) << "downwards";
+    tool.move(fromFront, {0, 0});
+    EXPECT_FALSE(tool.preview()) << "it is known";
+    for (int step = 0; step < 20; ++step) tool.stepTaken();
+    tool.move(fromFront, {0, 0});
+    EXPECT_TRUE(tool.preview()) << "it may have moved";
+    tool.setDepth(std::nullopt);
+    EXPECT_TRUE(tool.gauge().empty());
+    tool.toggle();
+    EXPECT_FALSE(tool.preview());
 }
 
 } // namespace

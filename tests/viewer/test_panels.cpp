@@ -88,6 +88,31 @@ TEST_F(PanelsTest, TurnTheMaterialOfAllOrOfOneBody) {
     EXPECT_TRUE(wishes().contains("body"));
 }
 
+// Anywhere on it: the right end is through.
+TEST_F(PanelsTest, TurnTheDepthOfTheBlade) {
+    facts.bladeDepths = {0.01f, 0.5f};
+    constexpr VkExtent2D tall{1280, 1400};
+    settle(tall);
+    const auto depths = [&](float x) {
+        std::set<float> turned;
+        for (float y = 20; y < 1390; y += 6)
+            if (const auto knobs = click({x, y}, tall).knobs;
+                knobs && knobs->bladeDepth != facts.knobs.bladeDepth)
+                turned.insert(knobs->bladeDepth.value_or(-1));
+        return turned;
+    };
+    const std::set<float> middle = depths(1200);
+    ASSERT_EQ(middle.size(), 1u);
+    EXPECT_GT(*middle.begin(), 0.01f);
+    EXPECT_LT(*middle.begin(), 0.5f);
+    facts.knobs.bladeDepth = scene.fromFile.bladeDepth = *middle.begin();
+    std::set<float> right;
+    for (float x = 1230; x < 1275; x += 2) right.merge(depths(x));
+    EXPECT_TRUE(right.contains(-1)) << "through";
+    scene.canCut = false;
+    EXPECT_TRUE(depths(1200).empty());
+}
+
 TEST_F(PanelsTest, HaveAButtonForEveryActionThatAKeyDoes) {
     for (const Binding& binding : bindings()) {
         const bool isKey = binding.trigger.kind == Trigger::Kind::key;

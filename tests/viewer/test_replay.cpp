@@ -149,6 +149,71 @@ TEST(Replay, OfASphereBeginsAtTheReset) {
     EXPECT_EQ(again.hash(), played.hash());
 }
 
+// Down the middle of the block, from above it to below, as deep as the blade is set.
+void stroke(Played& played) {
+    played.dragFrom({0.02f, -0.4f}, {0, 0.8f}, 24);
+    played.pressAt({0.02f, 0.4f}, false);
+    played.turn({}, 10);
+}
+
+// A cut to a depth, deeper by the wheel half way, and one that goes through from somewhere on.
+void incise(Played& played) {
+    played.turn({}, 5);
+    played.tools.setDepth(0.12f);
+    played.turn({.actions = {Action::blade}});
+    stroke(played);
+    EXPECT_GT(played.tools.history().undos(), 0u);
+    played.dragFrom({-0.3f, 0.02f}, {0.3f, 0}, 8);
+    played.turn({.growth = 2, .pointer = {0, 0.02f}});
+    EXPECT_GT(played.tools.depth().value(), 0.12f);
+    played.dragFrom({0, 0.02f}, {0.3f, 0}, 8);
+    played.tools.setDepth(std::nullopt);
+    played.turn({.pointer = {0.32f, 0.1f}}, 3);
+    played.pressAt({0.35f, 0.2f}, false);
+    played.turn({}, 10);
+}
+
+TEST(Replay, CutsAsDeep) {
+    expectTheSameBitsOf(incise);
+}
+
+TEST(Replay, OfADepthBeginsAtTheReset) {
+    Played played;
+    played.tools.setDepth(0.12f);
+    played.turn({.actions = {Action::blade}});
+    played.tools.reset();
+    played.run([&](VkCommandBuffer commands) { played.stage.recordReset(commands); });
+    stroke(played);
+    Scene again;
+    Replay replay(parseInput(toText(played.file()), "test"));
+    replayAll(again, replay);
+    EXPECT_EQ(again.hash(), played.hash());
+    EXPECT_EQ(again.tools.depth(), 0.12f);
+    again.tools.putAway(again.stage);
+    EXPECT_FALSE(again.tools.depth());
+}
+
+// What a stroke leaves of the block, in no gravity.
+sim::Status afterStroke(const std::optional<float>& depth) {
+    Played played;
+    played.tools.pull(played.stage, 0);
+    played.tools.setDepth(depth);
+    played.turn({.actions = {Action::blade}});
+    stroke(played);
+    EXPECT_FALSE(played.tools.question());
+    return played.stage.simulation().status(played.stage.steps());
+}
+
+TEST(BladeDepth, LeavesWhatLiesDeeperInOnePiece) {
+    const sim::Status shallow = afterStroke(0.08f), deep = afterStroke(0.2f), through = afterStroke({});
+    EXPECT_EQ(through.pieces, 2u);
+    EXPECT_EQ(shallow.pieces, 1u);
+    EXPECT_EQ(deep.pieces, 1u);
+    EXPECT_GT(shallow.linksCutInAll, 0u);
+    EXPECT_GT(deep.linksCutInAll, shallow.linksCutInAll);
+    EXPECT_GT(through.linksCutInAll, deep.linksCutInAll);
+}
+
 TEST(Replay, BeginsAtTheReset) {
     Played played;
     played.tools.pull(played.stage, 3);
@@ -198,7 +263,8 @@ TEST(InputFile, BringsEveryBitBack) {
                          .surface = 5000,
                          .events = {camera, Pointed{{odd, 3e8f}}, Action::undo, Answered{},
                                     Answered{Question::Asker::pin, Pick{3, {odd, 0, 0}, {0, odd, 0}}, odd},
-                                    Pulled{odd}, Turned{{odd, {odd, 2}, {}, 0.0f}}, Turned{},
+                                    Pulled{odd}, Turned{{odd, {odd, 2}, {}, 0.0f}}, Turned{}, Deepened{odd},
+                                    Deepened{}, Answered{Question::Asker::blade},
                                     Shaped{sim::Solver::gaussSeidel, 1000}, Forgot{}, Stepped{3}},
                          .hash = 0xfedcba9876543210u};
     const InputFile read = parseInput(toText(file), "test");
@@ -234,6 +300,9 @@ TEST(InputFile, IsRefusedWithItsLine) {
                              "state xyz",
                              "wave",
                              "gravity inf",
+                             "depth",
+                             "depth deep",
+                             "blade 1 0 0",
                              "material",
                              "material 1",
                              "material 0 - -",

@@ -20,6 +20,7 @@ struct Overlay {
     std::optional<Hand> hand;
     std::span<const Hand> pins = {};
     std::span<const Vector3> stroke = {}; ///< path of a blade, near the eye [m]; at most mostStrokePoints
+    std::span<const Vector3> gauge = {};  ///< of its depth, likewise: two points or none
     Layers layers = {};
     LayerBuffers buffers = {}; ///< of what `layers` needs
 };

@@ -57,7 +57,7 @@ Renderer::Renderer(const vk::Device& device, const Target& target, const Quality
                                          .finalLayout = target.finalLayout})),
       sets_(device, maps_, slots), balls_(device, light.balls), hand_(device),
       strokes_(device, {.name = "strokes",
-                        .count = slots * mostStrokePoints,
+                        .count = slots * pointsASlot,
                         .stride = sizeof(sim::layout::vec4),
                         .kind = vk::MemoryKind::upload,
                         .usage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT}),
@@ -194,7 +194,9 @@ void Renderer::recordPicture(VkCommandBuffer commands, const Sheet& sheet, const
     drawCap(commands, canvas, layers);
     if (overlay.hand) drawHand(commands, simulation, *overlay.hand, handColor, 1);
     for (const Hand& pin : overlay.pins) drawHand(commands, simulation, pin, pinColor, -1);
-    drawStroke(commands, overlay.stroke, sheet.slot);
+    drawStroke(commands, overlay.stroke, strokeColor, sheet.slot * pointsASlot);
+    drawStroke(commands, overlay.gauge.first(std::min<std::size_t>(overlay.gauge.size(), 2)), gaugeColor,
+               sheet.slot * pointsASlot + mostStrokePoints);
     if (light_.ground) drawGround(commands, params, hasBackdrop);
     drawScreen(commands, hasBackdrop ? backdropPipeline : skyPipeline);
     recordLayers(commands, simulation, overlay);

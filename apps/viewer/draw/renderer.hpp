@@ -65,7 +65,8 @@ public:
                 const Overlay& overlay = {}) noexcept;
 
 private:
-    static constexpr sim::Vec3 handColor{0.95f, 0.62f, 0.10f}, pinColor{0.02f, 0.30f, 0.72f};
+    static constexpr sim::Vec3 handColor{0.95f, 0.62f, 0.10f}, pinColor{0.02f, 0.30f, 0.72f},
+        strokeColor{0.10f, 0.55f, 0.95f}, gaugeColor{0.95f, 0.75f, 0.15f};
 
     void addPipeline(std::size_t index, PipelineRequest request);
     void addLit(std::size_t index, PipelineRequest request);
@@ -133,8 +134,9 @@ private:
                    const Overlay& overlay) const noexcept;
     void drawCuts(VkCommandBuffer commands, std::size_t ofInside, std::size_t ofClipped,
                   const sim::Simulation& simulation, const LayerBuffers& buffers = {}) const noexcept;
-    void drawStroke(VkCommandBuffer commands, std::span<const Vector3> stroke,
-                    std::uint32_t slot) const noexcept;
+    static constexpr std::size_t pointsASlot = mostStrokePoints + 2; // a stroke and a gauge
+    void drawStroke(VkCommandBuffer commands, std::span<const Vector3> stroke, const sim::Vec3& color,
+                    std::size_t first) const noexcept;
     void drawHand(VkCommandBuffer commands, const sim::Simulation& simulation, const Hand& hand,
                   const sim::Vec3& color, float ball) const noexcept;
     void bindMesh(VkCommandBuffer commands, const vk::BufferView& vertices,
@@ -156,7 +158,7 @@ private:
     PictureSets sets_;
     Balls balls_;
     HandMesh hand_;
-    vk::Buffer strokes_;                             // vec4, mostStrokePoints a slot
+    vk::Buffer strokes_;                             // vec4, pointsASlot each
     std::array<vk::SpecialisationConstant, 3> look_; // of what is lit
     enum PipelineIndex : std::size_t {
         shadowPipeline,

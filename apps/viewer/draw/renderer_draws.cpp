@@ -10,8 +10,6 @@ namespace {
 constexpr float ballGloss = 0.6f;      // of a skin's: balls are hard and dry
 constexpr float colliderGloss = 0.15f; // dull beside tissue
 
-constexpr sim::Vec3 strokeColor{0.10f, 0.55f, 0.95f};
-
 } // namespace
 
 // What a mesh bounds, in one draw for fronts and one for backs: of what is solid the backs are hidden then,
@@ -161,16 +159,16 @@ void Renderer::drawCuts(VkCommandBuffer commands, std::size_t ofInside, std::siz
     }
 }
 
-void Renderer::drawStroke(VkCommandBuffer commands, std::span<const Vector3> stroke,
-                          std::uint32_t slot) const noexcept {
+void Renderer::drawStroke(VkCommandBuffer commands, std::span<const Vector3> stroke, const sim::Vec3& color,
+                          std::size_t first) const noexcept {
     if (stroke.size() < 2) return;
-    const std::size_t first = slot * mostStrokePoints, count = std::min(stroke.size(), mostStrokePoints);
+    const std::size_t count = std::min(stroke.size(), mostStrokePoints);
     auto* points = reinterpret_cast<sim::layout::vec4*>(strokes_.mapped()) + first;
     for (std::size_t i = 0; i < count; ++i) points[i] = {stroke[i].x(), stroke[i].y(), stroke[i].z(), 0};
     bind(commands, handPipeline);
     for (std::size_t i = 0; i + 1 < count; ++i) {
         const Vector3& to = stroke[i + 1];
-        push(commands, {{strokeColor.x, strokeColor.y, strokeColor.z, ballGloss},
+        push(commands, {{color.x, color.y, color.z, ballGloss},
                         {to.x(), to.y(), to.z(), 0.008f * light_.radius()},
                         {0, 0, 0, 0.3f}});
         hand_.draw(commands, strokes_.view(), static_cast<std::uint32_t>(first + i));

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 
 namespace sinew::viewer {
 
@@ -22,7 +23,10 @@ constexpr std::array table{
     Binding{{drag, GLFW_MOUSE_BUTTON_MIDDLE}, pan, "middle drag", "pan"},
     Binding{{drag, GLFW_MOUSE_BUTTON_RIGHT, GLFW_MOD_SHIFT}, pan, "Shift + right drag", "pan"},
     Binding{{wheel}, zoom, "wheel", "zoom to the pointer"},
-    Binding{{wheel, 0, GLFW_MOD_SHIFT}, pokeSize, "Shift + wheel", "size of the sphere that pokes"},
+    Binding{{wheel, 0, GLFW_MOD_SHIFT},
+            toolSize,
+            "Shift + wheel",
+            "how deep the blade goes; size of the sphere that pokes"},
     Binding{{wheel, 0, GLFW_MOD_ALT}, moveSection, "Alt + wheel", "move the section plane"},
     Binding{{doubleClick, GLFW_MOUSE_BUTTON_LEFT},
             center,
@@ -36,8 +40,7 @@ constexpr std::array table{
     Binding{{key, GLFW_KEY_PERIOD}, step, ".", "pause and take one step", "Step"},
     Binding{{key, GLFW_KEY_COMMA}, stepBack, ",", "pause and go one step back", "Back"},
     Binding{{key, GLFW_KEY_R}, reset, "R", "reset the scene", "Reset"},
-    Binding{
-        {key, GLFW_KEY_C}, blade, "C", "blade: left drag cuts, from the front through to the back", "Blade"},
+    Binding{{key, GLFW_KEY_C}, blade, "C", "blade: left drag cuts, through or as deep as it is set", "Blade"},
     Binding{{key, GLFW_KEY_O}, poke, "O", "poke: left drag pushes with a sphere", "Poke"},
     Binding{{key, GLFW_KEY_ESCAPE}, drop, "Esc", "drop the blade, lift the sphere, let go", "Let go"},
     Binding{{key, GLFW_KEY_N},
@@ -157,7 +160,14 @@ std::string_view keyOf(Action action) {
     return found == table.end() ? std::string_view() : found->shown;
 }
 
-std::string hintText(Hands hands, bool canCut) {
+std::string depthText(const std::optional<float>& depth) {
+    if (!depth) return "through";
+    char text[40];
+    std::snprintf(text, sizeof text, "%.3g m deep", double{*depth});
+    return text;
+}
+
+std::string hintText(Hands hands, bool canCut, const std::optional<float>& depth) {
     constexpr std::string_view apart = "   \u00b7   ";
     std::string text;
     const auto add = [&](std::string_view words, std::initializer_list<Action> keys = {}) {
@@ -173,12 +183,13 @@ std::string hintText(Hands hands, bool canCut) {
         add("pull; let go of the button to drop");
         add("pins it there", {pin});
     } else if (hands == Hands::blade) {
-        add("left drag cuts through");
+        add("left drag cuts " + depthText(depth));
+        add("changes its depth", {toolSize});
         add("puts the blade away", {blade});
         add("goes back to before a cut", {undo});
     } else if (hands == Hands::poke) {
         add("left drag pushes");
-        add("changes its size", {pokeSize});
+        add("changes its size", {toolSize});
         add("puts the sphere away", {Action::poke});
     } else {
         add("left drag grabs");

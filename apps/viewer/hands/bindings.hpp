@@ -15,7 +15,7 @@ enum class Action {
     orbit,
     pan,
     zoom,
-    pokeSize,
+    toolSize,
     moveSection,
     center,
     frameBody,
@@ -89,9 +89,11 @@ std::string helpText();
 /// How the first key of an action is shown: "Space".
 std::string_view keyOf(Action action);
 /// What can be done now, in a line: with the blade or the sphere in hand, while a body is held, or with empty
-/// hands.
+/// hands; `depth` of the blade [m], nothing = through.
 enum class Hands { empty, holding, blade, poke };
-std::string hintText(Hands hands, bool canCut);
+std::string hintText(Hands hands, bool canCut, const std::optional<float>& depth = {});
+/// How deep a blade goes: "0.012 m deep", "through".
+std::string depthText(const std::optional<float>& depth);
 /// Where there is no room for it: how to get help.
 std::string shortHintText();
 

@@ -13,6 +13,8 @@ namespace {
 constexpr float shortest = 0.003f;      // move of the pointer that makes an edge [window heights]
 constexpr std::size_t mostWaiting = 16; // sweeps
 constexpr float drawnAt = 0.3f;         // of the way from the eye to the stage
+constexpr float leastDepth = 0.01f, mostDepth = 0.5f, deeper = 1.15f; // of the stage's radius; by a notch
+constexpr std::uint32_t stepsUnseen = 6; // until what lies under the pointer is looked at again
 
 sim::Vec3 toVec3(const Vector3& v) {
     return {v.x(), v.y(), v.z()};
@@ -25,67 +27,167 @@ CutTool::CutTool(const Box& stage)
 
 void CutTool::toggle() {
     isOn_ = !isOn_;
-    if (!isOn_) drop();
+    if (isOn_) return;
+    drop();
+    preview_.reset();
+    previewed_.reset();
+    surface_.reset();
+    showDepth();
+}
+
+CutTool::Depths CutTool::depths() const {
+    return {leastDepth * radius_, mostDepth * radius_};
+}
+
+// What waits for a depth that is no more is cut as far as the blade goes now.
+void CutTool::setDepth(const std::optional<float>& depth) {
+    const auto [least, most] = depths();
+    depth_ = depth ? std::optional(std::clamp(*depth, least, most)) : std::nullopt;
+    if (!depth_) {
+        cutSettled();
+        for (const Place& place : waiting_.takeUnsettled()) cut(place, place.far);
+    }
+    preview_.reset();
+    previewed_.reset();
+    showDepth();
+}
+
+void CutTool::deepen(float notches) {
+    const auto [least, most] = depths();
+    if (!depth_) {
+        if (notches < 0) setDepth(most);
+        return;
+    }
+    const float depth = *depth_ * std::pow(deeper, notches);
+    setDepth(depth > 1.001f * most ? std::nullopt : std::optional(depth));
 }
 
 // Where the ray passes the ball around the stage; beside it there is nothing to cut.
-std::optional<CutTool::Edge> CutTool::edgeAt(const Camera& camera, const Vector2& pointer) const {
-    const Ray ray = rayThrough(camera, pointer);
+std::optional<CutTool::Place> CutTool::placeAt(const Ray& ray, float nearest) const {
     const float middle = (center_ - ray.origin).dot(ray.direction);
     const float apart = (ray.origin + middle * ray.direction - center_).norm();
     const float half = std::sqrt(std::max(radius_ * radius_ - apart * apart, 0.01f * radius_ * radius_));
-    const float first = std::max(middle - half, 0.02f * camera.distance);
+    const float first = std::max(middle - half, nearest);
     if (apart > 2 * radius_ || middle + half <= first) return std::nullopt;
-    const auto at = [&](float distance) -> Vector3 { return ray.origin + distance * ray.direction; };
-    return Edge{at(first), at(middle + half), at(drawnAt * camera.distance)};
+    return Place{ray, first, middle + half};
 }
 
 void CutTool::press(const Camera& camera, const Vector2& pointer) {
     if (!isOn_) return;
-    isDown_ = isFirst_ = true;
+    hover(camera, pointer);
+    isDown_ = isBeside_ = true;
     pointer_ = pointer;
-    last_ = edgeAt(camera, pointer);
     path_.clear();
-    if (last_) path_ = {last_->drawn};
+    if (const auto place = placeAt(hovered_, 0.02f * camera.distance)) add(camera, *place);
 }
 
 void CutTool::move(const Camera& camera, const Vector2& pointer) {
+    if (isOn_) hover(camera, pointer);
     if (!isDown_ || (pointer - pointer_).norm() < shortest) return;
     pointer_ = pointer;
-    const std::optional<Edge> edge = edgeAt(camera, pointer);
-    if (!edge || !last_) { // beside the stage: another stroke where it comes back
-        last_ = edge;
+    if (const auto place = placeAt(hovered_, 0.02f * camera.distance))
+        add(camera, *place);
+    else
+        isBeside_ = true; // another stroke where it comes back
+}
+
+void CutTool::add(const Camera& camera, Place place) {
+    place.isFirst = std::exchange(isBeside_, false);
+    if (path_.size() == mostStrokePoints) path_.erase(path_.begin());
+    path_.emplace_back(place.ray.origin + drawnAt * camera.distance * place.ray.direction);
+    if (!depth_) return cut(place, place.far);
+    waiting_.add(place);
+    cutSettled();
+}
+
+void CutTool::cut(const Place& place, float far) {
+    const auto at = [&](float distance) -> Vector3 {
+        return place.ray.origin + distance * place.ray.direction;
+    };
+    const Edge edge{at(place.near), at(far)};
+    if (place.isFirst || !last_) {
         isFirst_ = true;
-        return;
-    }
-    if (sweeps_.size() >= mostWaiting && !isFirst_) { // the last piece goes on to here
-        sweeps_.back().to = {toVec3(edge->near), toVec3(edge->far)};
+    } else if (sweeps_.size() >= mostWaiting && !isFirst_) { // the last piece goes on to here
+        sweeps_.back().to = {toVec3(edge.near), toVec3(edge.far)};
     } else {
         sweeps_.push_back({{toVec3(last_->near), toVec3(last_->far)},
-                           {toVec3(edge->near), toVec3(edge->far)},
+                           {toVec3(edge.near), toVec3(edge.far)},
                            !std::exchange(isFirst_, false)});
     }
     last_ = edge;
-    if (path_.size() == mostStrokePoints) path_.erase(path_.begin());
-    path_.push_back(edge->drawn);
+}
+
+void CutTool::cutSettled() {
+    while (const auto settled = waiting_.take()) {
+        const Place& place = settled->place;
+        const float far = settled->surface + depth_.value_or(place.far);
+        if (far > place.near)
+            cut(place, std::min(far, place.far));
+        else
+            last_.reset(); // a body so near the eye
+    }
+}
+
+void CutTool::answer(const std::optional<Pick>& pick) {
+    if (!waiting_.question()) return;
+    const Ray ray = *waiting_.question();
+    std::optional<float> surface;
+    if (pick) surface_ = surface = (pick->point - ray.origin).dot(ray.direction);
+    waiting_.answer(surface);
+    cutSettled();
+    showDepth();
+}
+
+// One at a time, of the newest place.
+void CutTool::hover(const Camera& camera, const Vector2& pointer) {
+    camera_ = camera;
+    hovered_ = rayThrough(camera, pointer);
+    if (depth_ && !isDown_ && !preview_ && previewed_ != hovered_) preview_ = hovered_;
+    showDepth();
+}
+
+void CutTool::answerPreview(const std::optional<Pick>& pick) {
+    if (!preview_) return;
+    const Ray ray = *(previewed_ = std::exchange(preview_, std::nullopt));
+    if (pick) surface_ = (pick->point - ray.origin).dot(ray.direction);
+    stepsSince_ = 0;
+    showDepth();
+}
+
+void CutTool::stepTaken() {
+    if (++stepsSince_ > stepsUnseen) previewed_.reset();
+}
+
+// Downwards on the picture: along the ray, where it goes, nobody would see how far.
+void CutTool::showDepth() {
+    gauge_.clear();
+    if (!isOn_ || !depth_ || !surface_ || !(*surface_ > 0)) return;
+    const float drawn = drawnAt * camera_.distance;
+    const Vector3 down = -viewMatrix(camera_).block<1, 3>(1, 0).transpose();
+    const Vector3 from = hovered_.origin + drawn * hovered_.direction;
+    gauge_ = {from, from + *depth_ * drawn / *surface_ * down};
 }
 
 void CutTool::release() {
     isDown_ = false;
-    last_.reset();
+    isBeside_ = true;
+    waiting_.end();
 }
 
 void CutTool::drop() {
     release();
+    waiting_.clear();
     sweeps_.clear();
     path_.clear();
 }
 
 std::optional<Sweep> CutTool::next() {
-    if (sweeps_.empty()) return std::nullopt;
-    const Sweep sweep = sweeps_.front();
-    sweeps_.pop_front();
-    if (sweeps_.empty() && !isDown_) path_.clear();
+    std::optional<Sweep> sweep;
+    if (!sweeps_.empty()) {
+        sweep = sweeps_.front();
+        sweeps_.pop_front();
+    }
+    if (!isCutting()) path_.clear();
     return sweep;
 }
 

@@ -70,7 +70,7 @@ std::string text(Action action) {
     return "key " + std::string(keyOf(action)) + "\n";
 }
 
-constexpr std::array<std::string_view, 3> askers{"hand", "pin", "poke"};
+constexpr std::array<std::string_view, 4> askers{"hand", "pin", "poke", "blade"};
 
 std::string text(const Answered& answered) {
     const std::string asker(askers[static_cast<std::size_t>(answered.asker)]);
@@ -102,6 +102,10 @@ std::string text(const Shaped& shaped) {
 
 std::string text(const Sized& sized) {
     return Line("radius").add(sized.radius).end();
+}
+
+std::string text(const Deepened& deepened) {
+    return deepened.depth ? Line("depth").add(*deepened.depth).end() : "depth -\n";
 }
 
 std::string text(const Forgot&) {
@@ -179,6 +183,10 @@ Camera readCamera(Words& words) {
     return camera;
 }
 
+template <bool isDown> void readPress(InputFile& to, Words& words) {
+    to.events.emplace_back(Pressed{isDown, words.pair()});
+}
+
 Action readKey(Words& words) {
     const std::string shown = words.rest();
     const auto known = std::ranges::find(bindings(), shown, &Binding::shown);
@@ -186,13 +194,16 @@ Action readKey(Words& words) {
     return known->action;
 }
 
-Answered readAnswer(Words& words, Question::Asker asker) {
+template <Question::Asker asker> void readAnswer(InputFile& to, Words& words) {
     const std::string first = words.word();
-    if (first == "nothing") return {.asker = asker};
+    if (first == "nothing") {
+        to.events.emplace_back(Answered{.asker = asker});
+        return;
+    }
     Pick pick{.particle = Words(first).number<std::uint32_t>()};
     pick.point = words.triple();
     pick.offset = words.triple();
-    return {asker, pick, words.finite()};
+    to.events.emplace_back(Answered{asker, pick, words.finite()});
 }
 
 sim::Material readMaterial(Words& words) {
@@ -230,21 +241,15 @@ const std::array readers{
     Reader{"surface", [](InputFile& to, Words& words) { to.surface = words.number<std::uint32_t>(); }},
     Reader{"camera", [](InputFile& to, Words& words) { to.events.emplace_back(readCamera(words)); }},
     Reader{"pointer", [](InputFile& to, Words& words) { to.events.emplace_back(Pointed{words.pair()}); }},
-    Reader{"press",
-           [](InputFile& to, Words& words) {
-               to.events.emplace_back(Pressed{true, words.pair()});
-           }},
-    Reader{"release",
-           [](InputFile& to, Words& words) {
-               to.events.emplace_back(Pressed{false, words.pair()});
-           }},
+    Reader{"press", readPress<true>},
+    Reader{"release", readPress<false>},
     Reader{"key", [](InputFile& to, Words& words) { to.events.emplace_back(readKey(words)); }},
-    Reader{"hand", [](InputFile& to,
-                      Words& words) { to.events.emplace_back(readAnswer(words, Question::Asker::hand)); }},
-    Reader{"pin", [](InputFile& to,
-                     Words& words) { to.events.emplace_back(readAnswer(words, Question::Asker::pin)); }},
-    Reader{"poke", [](InputFile& to,
-                      Words& words) { to.events.emplace_back(readAnswer(words, Question::Asker::poke)); }},
+    Reader{"hand", readAnswer<Question::Asker::hand>},
+    Reader{"pin", readAnswer<Question::Asker::pin>},
+    Reader{"poke", readAnswer<Question::Asker::poke>},
+    Reader{"blade", readAnswer<Question::Asker::blade>},
+    Reader{"depth",
+           [](InputFile& to, Words& words) { to.events.emplace_back(Deepened{words.finiteOrNone()}); }},
     Reader{"radius", [](InputFile& to, Words& words) { to.events.emplace_back(Sized{words.finite()}); }},
     Reader{"gravity", [](InputFile& to, Words& words) { to.events.emplace_back(Pulled{words.finite()}); }},
     Reader{"material",

@@ -12,6 +12,7 @@ void InputLog::restart() {
     pointed_.reset();
     gravity_.reset();
     radius_.reset();
+    depth_.reset();
     material_ = {};
 }
 
@@ -66,6 +67,12 @@ void InputLog::size(float radius) {
     if (radius_ == radius) return;
     radius_ = radius;
     events_.emplace_back(Sized{radius});
+}
+
+void InputLog::deepen(const std::optional<float>& depth) {
+    if (depth_ == depth) return;
+    depth_ = depth;
+    events_.emplace_back(Deepened{depth});
 }
 
 void InputLog::forget() {

@@ -53,6 +53,11 @@ struct Sized {
     float radius = 0;
     bool operator==(const Sized&) const = default;
 };
+/// The blade goes this deep from here on [m]; nothing = through.
+struct Deepened {
+    std::optional<float> depth;
+    bool operator==(const Deepened&) const = default;
+};
 /// States to go back to were lost.
 struct Forgot {
     bool operator==(const Forgot&) const = default;
@@ -62,8 +67,8 @@ struct Stepped {
     std::uint32_t count = 0;
     bool operator==(const Stepped&) const = default;
 };
-using InputEvent =
-    std::variant<Camera, Pointed, Pressed, Action, Answered, Pulled, Turned, Shaped, Sized, Forgot, Stepped>;
+using InputEvent = std::variant<Camera, Pointed, Pressed, Action, Answered, Pulled, Turned, Shaped, Sized,
+                                Deepened, Forgot, Stepped>;
 
 /// Collects them; what changes nothing is left out.
 class InputLog {
@@ -80,6 +85,7 @@ public:
     void turn(const sim::Material& material);
     void shape(const Shaped& shaped);
     void size(float radius);
+    void deepen(const std::optional<float>& depth);
     void forget();
     /// A step was recorded.
     void step();
@@ -94,7 +100,7 @@ private:
     std::vector<InputEvent> events_;
     std::optional<Camera> camera_;
     std::optional<Pointed> pointed_; // nothing: the next one counts, wherever it is
-    std::optional<float> gravity_, radius_;
+    std::optional<float> gravity_, radius_, depth_;
     sim::Material material_; // as at a reset, the scene's own
 };
 

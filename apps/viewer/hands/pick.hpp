@@ -16,15 +16,19 @@ struct Pick {
     bool operator==(const Pick&) const = default;
 };
 
-/// What a tool asks of the state on show: what lies there.
-struct Question {
-    enum class Asker { hand, pin, poke } asker = Asker::hand;
-    Ray ray;
-    bool operator==(const Question&) const = default;
-};
-
 /// Whether what is fixed may be the nearest particle.
 enum class Among { moving, all };
+
+/// What a tool asks of the state on show: what lies there. A preview is for the eye alone.
+struct Question {
+    enum class Asker { hand, pin, poke, blade, preview } asker = Asker::hand;
+    Ray ray;
+    /// What is fixed can be cut, not held.
+    Among among() const {
+        return asker == Asker::blade || asker == Asker::preview ? Among::all : Among::moving;
+    }
+    bool operator==(const Question&) const = default;
+};
 
 /// What a section leaves of a picture; `isClosed` as StageLight::isClosed.
 struct Opened {

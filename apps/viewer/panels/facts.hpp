@@ -75,8 +75,9 @@ struct Knobs {
     float stiffness = 1;   ///< factor on Young's modulus of all bodies; these act as soon as it is worked out
     float damping = 0;     ///< [1/s]
     float friction = 0;    ///< of planes, colliders and bodies
-    std::vector<float> bodies; ///< further factors on the stiffness of each, of SceneFacts::bodies
-    int body = -1;             ///< that the panel shows the factor of; -1 = all
+    std::vector<float> bodies;       ///< further factors on the stiffness of each, of SceneFacts::bodies
+    std::optional<float> bladeDepth; ///< below the surface [m]; nothing = through; acts at once
+    int body = -1;                   ///< that the panel shows the factor of; -1 = all
     bool operator==(const Knobs&) const = default;
 };
 
@@ -123,6 +124,7 @@ struct Facts {
     std::vector<vk::DeviceDescription> devices; ///< that there are; empty until they were looked for
     Knobs knobs;
     Layers layers;
+    std::array<float, 2> bladeDepths{};  ///< least and most of a blade that does not go through [m]
     std::array<float, 2> sectionReach{}; ///< lowest and highest offset of its plane, where there is one [m]
     MapReading map;                      ///< of the map that is on, if one is
     float mapRange = 0;                  ///< which value has the last color; 0 = not known yet

@@ -73,6 +73,20 @@ bool materialKnobs(const SceneFacts& scene, Knobs& turned) {
     return isTurned;
 }
 
+// Its right end is through.
+bool bladeKnob(const Facts& facts, Knobs& turned) {
+    const auto [least, most] = facts.bladeDepths;
+    const float through = 1.05f * most;
+    float depth = turned.bladeDepth.value_or(through);
+    knob("blade depth");
+    const bool isTurned =
+        ImGui::SliderFloat("##depth", &depth, least, through, turned.bladeDepth ? "%.3g m" : "through",
+                           ImGuiSliderFlags_Logarithmic);
+    tip("below the surface under the pointer; the right end: through; acts at once");
+    if (isTurned) turned.bladeDepth = depth > most ? std::nullopt : std::optional(std::max(depth, least));
+    return isTurned;
+}
+
 } // namespace
 
 void scenes(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
@@ -102,6 +116,7 @@ void knobs(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
     isTurned |= ImGui::SliderFloat("##pace", &turned.pace, 0.05f, 1, "%.2f x real time");
     tip("slow motion; acts at once");
     isTurned |= materialKnobs(scene, turned);
+    if (scene.canCut) isTurned |= bladeKnob(facts, turned);
     knob("substeps");
     isTurned |= ImGui::InputInt("##substeps", &turned.substeps, 1, 10, ImGuiInputTextFlags_EnterReturnsTrue);
     tip("act when they are worked out; 0 = as many as the scene needs");

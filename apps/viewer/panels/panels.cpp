@@ -247,7 +247,7 @@ void Panels::buildHint(const SceneFacts& scene, const Facts& facts, VkExtent2D e
     const float edge = gap * scale_, pad = 10 * scale_;
     const float room =
         static_cast<float>(extent.width) - 2 * edge - (isShown(extent) ? sideWidth * scale_ + edge : 0);
-    std::string text = hintText(hands, scene.canCut);
+    std::string text = hintText(hands, scene.canCut, facts.knobs.bladeDepth);
     if (ImGui::CalcTextSize(text.c_str()).x + 2 * pad > room) text = shortHintText();
     ImGui::SetNextWindowPos({edge, static_cast<float>(extent.height) - edge}, ImGuiCond_Always, {0, 1});
     ImGui::SetNextWindowBgAlpha(0.85f);

@@ -159,7 +159,7 @@ struct Window::State {
             return;
         }
         const auto action = actionFor({Trigger::Kind::wheel, 0, modifiers()});
-        float& turned = action == Action::pokeSize      ? input.growth
+        float& turned = action == Action::toolSize      ? input.growth
                         : action == Action::moveSection ? input.slide
                                                         : input.notches;
         turned += static_cast<float>(notches);

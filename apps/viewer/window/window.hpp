@@ -28,10 +28,10 @@ struct Input {
     std::vector<Action> actions;
     std::vector<Press> presses;
     std::vector<Drag> drags;
-    std::vector<std::string> files;    ///< dropped on the window
-    float notches = 0;                 ///< of the wheel, forwards positive
-    float growth = 0;                  ///< likewise of the wheel that changes the size of the sphere
-    float slide = 0;                   ///< likewise of the wheel that moves the section plane
+    std::vector<std::string> files; ///< dropped on the window
+    float notches = 0;              ///< of the wheel, forwards positive
+    float growth = 0; ///< likewise of the wheel that sets the depth of the blade, or the size of the sphere
+    float slide = 0;  ///< likewise of the wheel that moves the section plane
     Vector2 pointer = Vector2::Zero(); ///< from the middle, x right, y down, in window heights
     bool needsRedraw = false;          ///< resized or uncovered
     PanelInput panels;                 ///< what is not in the others

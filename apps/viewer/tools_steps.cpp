@@ -1,0 +1,89 @@
+// What tools do in steps, and the way back from them.
+#include "viewer/tools.hpp"
+
+#include "vk/check.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace sinew::viewer {
+
+void recordStep(VkCommandBuffer commands, Stage& stage, const StepHands& hands,
+                vk::Timestamps* timestamps) noexcept {
+    sim::Blade blade;
+    if (hands.sweep)
+        blade = {.from = hands.sweep->from, .to = hands.sweep->to, .isCarried = hands.sweep->isCarried};
+    const std::span<const sim::Poke> pokes =
+        hands.poke ? std::span(&*hands.poke, 1) : std::span<const sim::Poke>();
+    stage.recordStep(commands, timestamps, hands.grabs, blade, pokes);
+}
+
+// What hands hold stays behind, as after an undo. A cut that has not been yet cannot be undone.
+bool Tools::goBack(VkCommandBuffer commands, Stage& stage) {
+    const std::uint32_t wanted = std::exchange(stepsBack_, 0);
+    if (steps_.undos() == 0) {
+        note_ = "there is no earlier step to go back to";
+        return false;
+    }
+    log_.goBack();
+    clear();
+    for (std::uint32_t step = 0; step < wanted && steps_.recordBack(commands, stage); ++step) {
+    }
+    history_.forgetFrom(stage.played());
+    return true;
+}
+
+bool Tools::recordHistory(VkCommandBuffer commands, Stage& stage) {
+    if (stepsBack_ > 0) return goBack(commands, stage);
+    const bool isUndo = std::exchange(wantsUndo_, false), isRedo = std::exchange(wantsRedo_, false);
+    if (!isUndo && !isRedo) return false;
+    if ((isUndo ? history_.undos() : history_.redos()) == 0) return false; // hands and pins stay
+    log_.goBack();
+    clear();
+    steps_.recycle(); // they lead elsewhere
+    return isUndo ? history_.recordUndo(commands, stage) : history_.recordRedo(commands, stage);
+}
+
+// Without memory for a way back there is a cut all the same.
+void Tools::remember(VkCommandBuffer commands, const Stage& stage) {
+    try {
+        history_.recordBefore(commands, stage);
+    } catch (const vk::Error& error) {
+        if (!std::exchange(isForgetful_, true))
+            say(std::string("warning: this cut cannot be undone: ") + error.what());
+    }
+}
+
+// A state so large that few would have room is not copied in every step.
+void Tools::rememberStep(VkCommandBuffer commands, const Stage& stage) {
+    constexpr std::size_t worthIt = 8;
+    if (isForgetfulOfSteps_ || steps_.room(stage) < worthIt) return;
+    try {
+        steps_.recordBefore(commands, stage);
+    } catch (const vk::Error&) { // no memory: those that there are stay
+        isForgetfulOfSteps_ = true;
+    }
+}
+
+StepHands Tools::takeStep(VkCommandBuffer commands, const Stage& stage) {
+    log_.step();
+    blade_.stepTaken();
+    rememberStep(commands, stage);
+    if (blade_.beginsStroke()) remember(commands, stage);
+    StepHands hands{.sweep = blade_.next(), .poke = poke_.poke()};
+    hands.grabs[0] = hand_.isHolding() ? hand_.grabs()[0] : emptyHand();
+    std::ranges::copy(pins_.grabs(), hands.grabs.begin() + 1);
+    return hands;
+}
+
+void Tools::restart(std::span<const Sweep> undone, std::uint64_t steps) {
+    if (history_.undos() + history_.redos() > 0)
+        say("note: more room was made: earlier cuts can no longer be undone");
+    log_.takeBack(steps);
+    log_.forget();
+    history_.clear(); // its states are of a simulation that is no more
+    steps_.clear();
+    blade_.putBack(undone);
+}
+
+} // namespace sinew::viewer
