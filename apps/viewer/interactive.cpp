@@ -48,6 +48,14 @@ float aspectOf(VkExtent2D size) {
     return static_cast<float>(size.width) / static_cast<float>(size.height);
 }
 
+// What the command line says goes before what is remembered.
+Preferences asAsked(Preferences preferences, const Options& options) {
+    preferences.isVsync = options.isVsync.value_or(preferences.isVsync);
+    if (options.arePanelsShown) preferences.arePanelsShown = options.arePanelsShown;
+    preferences.scale = options.scale.value_or(preferences.scale);
+    return preferences;
+}
+
 // Started without a scene, the window goes on with the last one, in the size in which it was left.
 Options recalled(Options options, const Preferences& preferences) {
     if (!options.hasSize && preferences.width > 0 && preferences.height > 0)
@@ -72,7 +80,8 @@ std::unique_ptr<Opening> openFirst(const Options& asked, Options& options) {
     return std::make_unique<Opening>(open(options, aspectOf(options.size)));
 }
 
-// A size that was asked for is of this run alone.
+// A size that was asked for is of this run alone; so is all else that was, unless somebody has changed it
+// since.
 Preferences leftBy(const Screen& screen, const Library& library, const Options& options,
                    const Preferences& before) {
     Preferences left = screen.preferences();
@@ -81,6 +90,10 @@ Preferences leftBy(const Screen& screen, const Library& library, const Options& 
         left.width = before.width;
         left.height = before.height;
     }
+    if (left.isVsync == options.isVsync) left.isVsync = before.isVsync;
+    if (options.arePanelsShown && left.arePanelsShown == options.arePanelsShown)
+        left.arePanelsShown = before.arePanelsShown;
+    if (left.scale == options.scale) left.scale = before.scale;
     return left;
 }
 
@@ -92,7 +105,9 @@ Preferences play(std::unique_ptr<Opening> opening, const Options& options, const
     std::unique_ptr<vk::Device> device = devices.open(options.device);
     std::unique_ptr<Opening> first = std::move(opening);
     prepare(*first, *device, window);
-    Screen screen(window, std::move(first->place), {options.isTimed, options.start}, preferences);
+    Screen screen(window, std::move(first->place), {options.isTimed, options.start},
+                  asAsked(preferences, options));
+    if (options.isFullScreen) window.toggleFullScreen();
     screen.layers() = options.layers;
     announce(*first, *device, screen);
     if (isSoftware(*device))

@@ -62,6 +62,7 @@ Opening open(const Options& asked, float aspect) {
         opening.loaded.settings = app::withRun(opening.loaded.settings, *opening.run);
         addHands(opening.loaded.settings);
     }
+    opening.bladeDepth = options.bladeDepth;
     opening.camera = firstView(opening.loaded, aspect);
     opening.light = lightFor(opening.loaded.scene, opening.camera);
     opening.light.showsSleep = opening.loaded.settings.sleeps;

@@ -32,6 +32,7 @@ struct Opening {
     scenes::LoadedScene loaded;
     Camera camera;
     StageLight light;
+    std::optional<float> bladeDepth; ///< to begin with, as CutTool::setDepth
     std::optional<Again> again;
     std::optional<InputFile> input;   ///< to be played
     std::optional<app::SavedRun> run; ///< to go on from

@@ -5,6 +5,7 @@
 #include "sim/compile.hpp"
 #include "sim/ranges.hpp"
 #include "viewer/hands/bindings.hpp"
+#include "viewer/window/preferences.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -67,6 +68,34 @@ void addSceneOptions(CLI::App& app, Options& options) {
     app.add_flag(
         "--validation,!--no-validation", options.hasValidation,
         "check every Vulkan call with the Khronos validation layer (slow); a message makes the exit code 70");
+}
+
+// What keys change in the window.
+void addWindowOptions(CLI::App& app, Options& options) {
+    constexpr const char* group = "In the window; what is not said is as it was left";
+    const auto add = [&](const char* name, std::optional<bool>& value, const char* help) {
+        app.add_flag_function(
+               name, [&value](std::int64_t count) { value = count > 0; }, help)
+            ->group(group);
+    };
+    add("--vsync,!--no-vsync", options.isVsync, "wait for the screen, or not");
+    add("--panels,!--no-panels", options.arePanelsShown, "show the panels, or not");
+    app.add_option("--scale", options.scale, "of texts and panels, on top of what the screen asks for")
+        ->check(CLI::Range(Preferences::leastScale, Preferences::mostScale))
+        ->group(group);
+    app.add_flag("--full-screen", options.isFullScreen, "begin in full screen")->group(group);
+    app.add_option("--blade-depth", options.bladeDepth,
+                   "how far below the surface the blade goes [m]; without it, through")
+        ->check(CLI::PositiveNumber)
+        ->excludes("--replay") // which has its own
+        ->group(group);
+}
+
+// They would do nothing.
+void checkWindow(const CLI::App& app, const Options& options) {
+    if (!options.isHeadless) return;
+    for (const char* name : {"--vsync", "--panels", "--scale", "--full-screen", "--blade-depth"})
+        if (app.count(name) > 0) refuse(std::string(name) + " is of the window: --headless has none");
 }
 
 void addHeadlessOptions(CLI::App& app, Options& options) {
@@ -134,6 +163,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
         "--timing", options.isTimed,
         "say how long the first picture took, whenever hands had to wait for more than 0.1 s, and at the "
         "end how long pictures took");
+    addWindowOptions(app, options);
     addHeadlessOptions(app, options);
     try {
         app.parse(argc, argv);
@@ -147,6 +177,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     if (app.count("--size") > 0) options.size = parseSize(size);
     options.hasSize = app.count("--size") > 0;
     options.hasFrames = app.count("--frames") + app.count("--picture-frames") > 0;
+    checkWindow(app, options);
     checkHeadless(options, app.count("--frames") > 0);
     return options;
 }

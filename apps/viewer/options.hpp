@@ -22,7 +22,11 @@ struct Options {
     std::string device; ///< as vk::DeviceRequest::device
     bool hasValidation = false;
     VkExtent2D size{1280, 720};
-    bool hasSize = false; ///< asked for: a window does not begin as it was left
+    bool hasSize = false;                        ///< asked for: a window does not begin as it was left
+    std::optional<bool> isVsync, arePanelsShown; ///< instead of what was chosen in the window
+    std::optional<float> scale;                  ///< of texts, likewise
+    bool isFullScreen = false;
+    std::optional<float> bladeDepth; ///< as CutTool::setDepth
     Layers layers;
     bool isTimed = false;                                                           ///< Timing
     std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now(); ///< of the program

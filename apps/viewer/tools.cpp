@@ -14,7 +14,9 @@ Tools::Tools(const vk::Device& device, const Opening& opening)
     : blade_(opening.light.bounds), poke_(opening.light.radius(), opening.loaded.scene.planes),
       history_(device, History::mostCuts), steps_(device, History::mostSteps),
       pinReach_(0.04f * opening.light.radius()),
-      canCut_(std::ranges::any_of(opening.loaded.scene.grids, &sim::Grid::isCuttable)) {}
+      canCut_(std::ranges::any_of(opening.loaded.scene.grids, &sim::Grid::isCuttable)) {
+    setDepth(opening.bladeDepth);
+}
 
 void Tools::handle(const Input& input, Controller& controller) {
     look(controller.camera);

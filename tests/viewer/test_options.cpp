@@ -38,6 +38,33 @@ TEST(Options, HeadlessTakesEveryFrameByDefault) {
     EXPECT_EQ(options.folder, "pictures");
 }
 
+TEST(Options, HaveWhatKeysChangeInTheWindow) {
+    const Options none = parse({});
+    EXPECT_FALSE(none.isVsync || none.arePanelsShown || none.scale || none.isFullScreen || none.bladeDepth);
+    const Options all =
+        parse({"--no-vsync", "--panels", "--scale", "1.5", "--full-screen", "--blade-depth", "0.02"});
+    EXPECT_EQ(all.isVsync, false);
+    EXPECT_EQ(all.arePanelsShown, true);
+    EXPECT_EQ(all.scale, 1.5f);
+    EXPECT_TRUE(all.isFullScreen);
+    EXPECT_EQ(all.bladeDepth, 0.02f);
+    EXPECT_NE(complaint({"--scale", "9"}).find("--scale"), std::string::npos);
+    EXPECT_NE(complaint({"--blade-depth", "0"}).find("--blade-depth"), std::string::npos);
+    EXPECT_NE(complaint({"--blade-depth", "1", "--replay", "a.input"}).find("--replay"), std::string::npos);
+}
+
+TEST(Options, OfTheWindowAreRefusedWithoutOne) {
+    for (const std::vector<const char*>& some : {std::vector{"--no-vsync"},
+                                                 {"--panels"},
+                                                 {"--scale", "2"},
+                                                 {"--full-screen"},
+                                                 {"--blade-depth", "1"}}) {
+        std::vector<const char*> all{"--headless", "--out", "x"};
+        all.insert(all.end(), some.begin(), some.end());
+        EXPECT_NE(complaint(all).find("is of the window"), std::string::npos) << some.front();
+    }
+}
+
 TEST(Options, EveryKeepsFrameZero) {
     const Options options = parse({"--headless", "--out", "x", "--every", "3"});
     EXPECT_TRUE(options.wantsPicture(0));

@@ -310,6 +310,30 @@ bytes=$(stat -c %s "$film") || fail "interrupted, the film is lost"
 ((bytes > 0 && bytes % (640 * 400 * 4) == 0)) || fail "interrupted, the film has $bytes bytes, which are no whole pictures"
 [[ -z $(find . -name '*.part') ]] || fail "interrupted, there is a part of a film: $(find . -name '*.part')"
 
+echo "window: what the command line says goes before what is remembered, and is not remembered"
+cp config/sinew/viewer.conf before.conf
+scene=scenes/block.toml
+start --panels --no-vsync --scale 1.5 --full-screen
+for _ in {1..100}; do [[ $(xdotool getwindowgeometry "$window") == *"$screen"* ]] && break; sleep 0.1; done
+[[ $(xdotool getwindowgeometry "$window") == *"$screen"* ]] || fail "--full-screen does not fill the screen"
+keys space
+awaitTitle paused
+extent=$screen awaitStill whole.png
+keys Tab
+extent=$screen awaitStill bare.png
+same whole.png bare.png && fail "--panels shows none" # nor did the run before, in its small window
+keys Tab
+keys ctrl+q
+awaitEnd 0
+diff <(grep -v '^scene' before.conf) <(grep -v '^scene' config/sinew/viewer.conf) >/dev/null || fail "what the command line said is remembered: $(cat config/sinew/viewer.conf)"
+start --vsync
+keys v ctrl+plus # chosen now
+sleep 1
+keys ctrl+q
+awaitEnd 0
+grep -q '^vsync = false' config/sinew/viewer.conf || fail "what V chose is not remembered"
+grep -q '^scale = 1\.125' config/sinew/viewer.conf || fail "what Ctrl + plus chose is not remembered"
+
 echo "window: no display"
 code=0
 DISPLAY='' WAYLAND_DISPLAY='' "$viewer" >viewer.out 2>viewer.err || code=$?
