@@ -36,8 +36,8 @@ struct Table {
     }
 
     Picture take(bool withPanels, std::uint32_t slot = 0) {
-        panels.build(facts, changing, {}, extent, 1.0 / 60); // twice: sizes are learnt in the first
-        panels.build(facts, changing, {}, extent, 1.0 / 60);
+        // Sizes are learnt in the first, in the second how far what is wrapped can be scrolled.
+        for (int picture = 0; picture < 3; ++picture) panels.build(facts, changing, {}, extent, 1.0 / 60);
         VkCommandBuffer commands = test::queue().begin();
         stage.recordReset(commands);
         stage.recordSkin(commands);
