@@ -18,7 +18,7 @@ constexpr std::uint64_t framesAfterContact = 4, mostFrames = 60;
 constexpr double moved = 1e-3; // [m] off the way without contacts, beyond any rounding
 
 /// With all of its particles, which are what a large scene is there for, but fewer substeps.
-constexpr std::size_t large = 50'000;
+constexpr std::size_t large = 10'000;
 constexpr std::uint32_t substepsOfLarge = 4;
 
 std::vector<std::string> sceneNames() {
