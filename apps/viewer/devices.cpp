@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace sinew::viewer {
 
@@ -22,6 +23,17 @@ Devices::Devices(const Window& window, const Options& options, std::atomic<std::
     request_.instanceExtensions = window.surfaceExtensions();
     request_.deviceExtensions = {VK_KHR_SWAPCHAIN_EXTENSION_NAME};
     request_.canUseFamily = Window::canPresent;
+}
+
+std::unique_ptr<vk::Device> Devices::open(const std::string& wanted) const {
+    vk::DeviceRequest request = request_;
+    request.device = wanted;
+    return std::make_unique<vk::Device>(vk::Device::create(loader_.getInstanceProcAddr(), request));
+}
+
+// Not before somebody asks, when a device is open: two threads that asked a display at once what it can do
+// ended one start of about a hundred, inside Mesa 22.3, which went without an answer.
+void Devices::search() const {
     vk::DeviceRequest search = request_;
     search.hasValidation = false; // the layer has nothing to say of a list
     search_ = std::async(std::launch::async, [this, search] {
@@ -33,13 +45,8 @@ Devices::Devices(const Window& window, const Options& options, std::atomic<std::
     });
 }
 
-std::unique_ptr<vk::Device> Devices::open(const std::string& wanted) const {
-    vk::DeviceRequest request = request_;
-    request.device = wanted;
-    return std::make_unique<vk::Device>(vk::Device::create(loader_.getInstanceProcAddr(), request));
-}
-
 const std::vector<vk::DeviceDescription>& Devices::list() const {
+    if (!std::exchange(isSearched_, true)) search();
     if (search_.valid() && search_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
         found_ = search_.get();
     return found_;

@@ -18,7 +18,7 @@ std::string requestFor(std::span<const vk::DeviceDescription> devices, std::size
 /// `window` and `messages` must outlive it and every device.
 class Devices {
 public:
-    /// Main thread. Looks for devices in another one. `options` and `messages` as deviceRequest().
+    /// Main thread. `options` and `messages` as deviceRequest().
     Devices(const Window& window, const Options& options, std::atomic<std::size_t>& messages);
 
     Devices(const Devices&) = delete;
@@ -27,15 +27,18 @@ public:
     /// As vk::DeviceRequest::device. Any thread. Throws vk::Error.
     std::unique_ptr<vk::Device> open(const std::string& wanted) const;
 
-    /// Every device with what it lacks for this window; empty until all were found. The thread that made
-    /// this.
+    /// Every device with what it lacks for this window; empty until all were found, for which another thread
+    /// looks from the first call on. The thread that made this.
     const std::vector<vk::DeviceDescription>& list() const;
 
 private:
+    void search() const;
+
     vk::Loader loader_;
     vk::DeviceRequest request_;
     mutable std::future<std::vector<vk::DeviceDescription>> search_;
     mutable std::vector<vk::DeviceDescription> found_;
+    mutable bool isSearched_ = false;
 };
 
 } // namespace sinew::viewer

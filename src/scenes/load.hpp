@@ -51,6 +51,8 @@ struct LoadedScene {
 
 /// What the command line says over the file.
 struct Overrides {
+    /// One that has no form for cuts leaves whole what the scene offers for cutting, with a warning; a scene
+    /// that cuts or tears by itself is refused.
     std::optional<std::string> solver;
     std::optional<std::uint32_t> substeps; ///< 0 = chosen
     std::optional<std::uint32_t> iterations;

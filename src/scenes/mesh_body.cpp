@@ -168,11 +168,11 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
     }
     addSurface(loaded, section, first);
     faces.add(loaded, section, firstGrid);
+    warn(summary, loaded.warnings);
     if (body.isCuttable && loaded.scene.skins.back().anchors.empty())
         loaded.warnings.push_back(
             "mesh " + summary.file +
             " is open, or too thin for its voxels: cuts stretch its skin and show no inside");
-    warn(summary, loaded.warnings);
     loaded.meshes.push_back(std::move(summary));
 }
 

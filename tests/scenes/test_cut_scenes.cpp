@@ -1,8 +1,8 @@
-// Every shipped scene in which something may be cut, with all that must hold after each of its strokes, and
-// in steps in which something tears, looked at (sim/cutting/stroke_check). Scenes are found in their folder,
-// so that a new one is held to it as well. So that it takes seconds, voxels are coarser, substeps and strokes
-// few, and where something touches nobody waits between strokes for bodies to come to rest: SINEW_FULL=1 in
-// the environment plays scenes as they are.
+// Every shipped scene in which something is cut or tears, with all that must hold after each of its strokes,
+// and in steps in which something tears, looked at (sim/cutting/stroke_check). Scenes are found in their
+// folder, so that a new one is held to it as well. So that it takes seconds, voxels are coarser, substeps and
+// strokes few, and where something touches nobody waits between strokes for bodies to come to rest:
+// SINEW_FULL=1 in the environment plays scenes as they are.
 #include "scenes/blades.hpp"
 #include "sim/cutting/stroke_check.hpp"
 #include "support/full.hpp"
@@ -33,7 +33,9 @@ std::vector<std::string> cutSceneNames() {
     for (const fs::directory_entry& file : fs::directory_iterator(SINEW_SOURCE_FOLDER "/scenes")) {
         std::ifstream stream(file.path());
         const std::string text(std::istreambuf_iterator<char>(stream), {});
-        if (text.find("\ncuttable = true") != std::string::npos) names.push_back(file.path().stem().string());
+        const auto has = [&](const char* words) { return text.find(words) != std::string::npos; };
+        if (has("\n[[blade]]") || has("\n[[strokes]]") || has("\ntear = "))
+            names.push_back(file.path().stem().string());
     }
     std::ranges::sort(names);
     return names;

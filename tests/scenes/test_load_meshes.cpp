@@ -1,4 +1,5 @@
 // Meshes in scenes: where they may come from, how they are placed, what is said about them.
+#include "mesh/generate.hpp"
 #include "scenes/load_fixture.hpp"
 
 using namespace sinew;
@@ -35,6 +36,38 @@ TEST_F(Load, TurnsScalesAndMovesAMesh) {
     EXPECT_NEAR(double{surface.high.y}, 2.25, 1e-6);
     EXPECT_NEAR(surface.volume, 0.125 / 6, 1e-8);
     EXPECT_EQ(loaded.meshes[0].voxels.cells[0], 4u);
+}
+
+TEST_F(Load, OffersADroppedMeshForCutting) {
+    mesh::exportObj(folder_ / "closed.obj", mesh::generate("sphere", 12));
+    const scenes::LoadedScene split = scenes::load(folder_ / "closed.obj");
+    EXPECT_TRUE(split.scene.grids.at(0).isCuttable);
+    EXPECT_EQ(split.warnings, std::vector<std::string>{});
+}
+
+TEST_F(Load, LeavesWholeWhatOnlyMayBeCutWithASolverThatCannot) {
+    const std::string offered =
+        "[[box]]\ncenter = [0, 1, 0]\nparticles = [3, 3, 3]\nspacing = 0.1\nyoung_modulus = 1e5\n"
+        "cuttable = true\n";
+    for (const char* solver : {"jacobi", "gauss_seidel"}) {
+        const scenes::LoadedScene loaded = scenes::load(write("scene.toml", offered), {.solver = solver});
+        EXPECT_FALSE(loaded.scene.grids.at(0).isCuttable);
+        ASSERT_FALSE(loaded.warnings.empty());
+        EXPECT_EQ(loaded.warnings[0],
+                  std::string("nothing can be cut with solver ") + solver + ": use split");
+    }
+    EXPECT_TRUE(scenes::load(write("scene.toml", offered), {.solver = "split"}).scene.grids.at(0).isCuttable);
+
+    const std::string blade = "[[blade]]\ntimes = [0.5, 0.7]\n"
+                              "edges = [[[0, 1, -1], [0, 1, 1]], [[0, -1, -1], [0, -1, 1]]]\n";
+    const auto refusal = [&](const std::string& text) {
+        return errorOf(write("scene.toml", text), {.solver = "jacobi"});
+    };
+    const std::string refused = "may be cut, which solver jacobi has no form for: use split";
+    EXPECT_NE(refusal(offered + "tear = 0.5\n").find(refused), std::string::npos);
+    EXPECT_NE(refusal(offered + blade).find(refused), std::string::npos);
+    EXPECT_NE(errorOfText("[solver]\nname = \"jacobi\"\n" + offered).find(refused), std::string::npos)
+        << "a file that asks for both is wrong";
 }
 
 TEST_F(Load, CountsTheEdgesOfAnOpenMesh) {
