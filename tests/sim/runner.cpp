@@ -8,12 +8,22 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 namespace sinew::test {
 
 namespace {
 
 using Vec4 = std::array<float, 4>;
+
+constexpr int rehearsalsOfAPair = 2; // of a step of one kind after one of another
+
+// What makes other commands of a step.
+unsigned kindOf(const sim::Step& step) {
+    return unsigned{!step.anchors.empty()} | unsigned{!step.grabs.empty()} << 1 |
+           unsigned{!step.pokes.empty()} << 2 | unsigned{step.wakes} << 3 |
+           unsigned{!step.blade.from.empty()} << 4 | unsigned{(step.ray.radius > 0)} << 5;
+}
 
 // On a software device small scenes are several times faster without a thread pool. Whoever sets the variable
 // wins.
@@ -34,21 +44,43 @@ std::vector<Eigen::Vector3d> download(const vk::BufferView& view, std::size_t co
 Runner::Runner(const sim::Scene& scene, const sim::Settings& settings)
     : simulation_(device(), scene, settings), dt_(scene.dt), gravity_(scene.gravity),
       slots_(sim::stateLayout(scene, settings).slot) {
+    if (isPlayed()) rehearsed_ = std::make_unique<sim::Simulation>(validatedDevice(), scene, settings);
     reset();
 }
 
+template <typename Record> void Runner::submit(const Record& record) {
+    const auto on = [&record](vk::Queue& queue, sim::Simulation& simulation) {
+        const VkCommandBuffer commands = queue.begin();
+        record(commands, simulation);
+        queue.wait(queue.submit(commands));
+    };
+    on(queue(), simulation_);
+    if (rehearsed_) on(validatedQueue(), *rehearsed_);
+}
+
+void Runner::rehearse(const sim::Step& step) {
+    if (!rehearsed_) return;
+    const unsigned kind = kindOf(step), before = std::exchange(kind_, kind);
+    if (rehearsals_[{before, kind}]++ >= rehearsalsOfAPair) return;
+    sim::Step rehearsed = step;
+    rehearsed.frame = rehearsedFrame_++;
+    const VkCommandBuffer commands = validatedQueue().begin();
+    rehearsed_->record(commands, rehearsed);
+    validatedQueue().wait(validatedQueue().submit(commands));
+}
+
 void Runner::reset() {
-    const VkCommandBuffer commands = queue().begin();
-    simulation_.recordReset(commands);
-    queue().wait(queue().submit(commands));
-    frame_ = 0;
+    submit([](VkCommandBuffer commands, sim::Simulation& simulation) { simulation.recordReset(commands); });
+    frame_ = rehearsedFrame_ = 0;
 }
 
 void Runner::takeOver(const Runner& from) {
-    const VkCommandBuffer commands = queue().begin();
-    simulation_.recordTakeOver(commands, from.simulation_);
-    queue().wait(queue().submit(commands));
+    submit([&](VkCommandBuffer commands, sim::Simulation& simulation) {
+        const bool isTested = &simulation == &simulation_;
+        simulation.recordTakeOver(commands, isTested ? from.simulation_ : *from.rehearsed_);
+    });
     frame_ = from.frame_;
+    rehearsedFrame_ = from.rehearsedFrame_;
 }
 
 sim::Status Runner::step(float dt, std::span<const sim::Vec3> anchors) {
@@ -64,6 +96,7 @@ sim::Status Runner::step(sim::Step step) {
     const VkCommandBuffer commands = queue().begin();
     simulation_.record(commands, step);
     queue().wait(queue().submit(commands));
+    rehearse(step);
     return simulation_.status(frame_++);
 }
 
@@ -92,18 +125,16 @@ void Runner::takeOverByHost(const Runner& from) {
 }
 
 bool Runner::change(const sim::Scene& scene) {
-    std::optional<sim::SceneChange> change = simulation_.prepareChange(scene);
-    if (!change) return false;
-    const VkCommandBuffer commands = queue().begin();
-    EXPECT_TRUE(simulation_.recordChange(commands, *change));
-    queue().wait(queue().submit(commands));
+    if (!simulation_.prepareChange(scene)) return false;
+    submit([&](VkCommandBuffer commands, sim::Simulation& simulation) {
+        std::optional<sim::SceneChange> change = simulation.prepareChange(scene);
+        EXPECT_TRUE(simulation.recordChange(commands, *change));
+    });
     return true;
 }
 
 void Runner::skin() {
-    const VkCommandBuffer commands = queue().begin();
-    simulation_.recordSkin(commands);
-    queue().wait(queue().submit(commands));
+    submit([](VkCommandBuffer commands, sim::Simulation& simulation) { simulation.recordSkin(commands); });
 }
 
 Runner::Saved Runner::save() {

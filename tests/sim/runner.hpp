@@ -6,6 +6,10 @@
 
 #include <Eigen/Core>
 
+#include <map>
+#include <memory>
+#include <utility>
+
 namespace sinew::test {
 
 class Runner {
@@ -49,7 +53,15 @@ public:
     sim::Simulation& simulation() { return simulation_; }
 
 private:
+    void rehearse(const sim::Step& step);
+    // On the device under test and, where that is without the validation layer, under it.
+    template <typename Record> void submit(const Record& record);
+
     sim::Simulation simulation_;
+    std::unique_ptr<sim::Simulation> rehearsed_;              // where isPlayed()
+    std::map<std::pair<unsigned, unsigned>, int> rehearsals_; // of each kind of step after another
+    unsigned kind_ = 0;                                       // of the step before
+    std::uint64_t rehearsedFrame_ = 0;
     float dt_;
     sim::Vec3 gravity_;
     std::vector<std::uint32_t> slots_; // of each particle in the solver's state

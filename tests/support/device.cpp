@@ -1,6 +1,8 @@
 // A GoogleTest environment owns the device, a listener turns messages into failures.
 #include "support/device.hpp"
 
+#include "support/full.hpp"
+
 #include "vk/loader.hpp"
 
 #include <gtest/gtest.h>
@@ -22,17 +24,20 @@ namespace {
 
 class SharedDevice final : public testing::Environment {
 public:
-    void ensure() {
-        if (device_) return;
-        vk::enableQueueSubmitValidation();
+    explicit SharedDevice(bool hasValidation) : hasValidation_(hasValidation) {}
+
+    SharedDevice& ensure() {
+        if (device_) return *this;
+        if (hasValidation_) vk::enableQueueSubmitValidation();
         loader_ = std::make_unique<vk::Loader>();
         const auto keep = [this](const std::string& message) {
             const std::lock_guard lock(mutex_);
             messages_.push_back(message);
         };
         device_ = std::make_unique<vk::Device>(vk::Device::create(
-            loader_->getInstanceProcAddr(), {.hasValidation = true, .onValidationMessage = keep}));
+            loader_->getInstanceProcAddr(), {.hasValidation = hasValidation_, .onValidationMessage = keep}));
         queue_ = std::make_unique<vk::Queue>(*device_);
+        return *this;
     }
 
     void TearDown() override { // GoogleTest's spelling
@@ -50,6 +55,7 @@ public:
     vk::Queue& queue() const { return *queue_; }
 
 private:
+    bool hasValidation_;
     std::unique_ptr<vk::Loader> loader_;
     std::mutex mutex_;
     std::vector<std::string> messages_;
@@ -68,29 +74,40 @@ private:
     SharedDevice& shared_;
 };
 
-SharedDevice& registerSharedDevice() {
-    auto* shared = new SharedDevice; // GoogleTest owns environment and listener
+SharedDevice& registerSharedDevice(bool hasValidation) {
+    auto* shared = new SharedDevice(hasValidation); // GoogleTest owns environment and listener
     testing::AddGlobalTestEnvironment(shared);
     testing::UnitTest::GetInstance()->listeners().Append(new MessagesFailTests(*shared));
     return *shared;
 }
 
-SharedDevice& sharedDevice = registerSharedDevice();
+SharedDevice& validated = registerSharedDevice(true);
+SharedDevice& tested = isPlayed() ? registerSharedDevice(false) : validated;
 
 } // namespace
 
+bool isPlayed() {
+    return std::getenv("SINEW_PLAYED") != nullptr && !isFull();
+}
+
 const vk::Device& device() {
-    sharedDevice.ensure();
-    return sharedDevice.device();
+    return tested.ensure().device();
 }
 
 vk::Queue& queue() {
-    sharedDevice.ensure();
-    return sharedDevice.queue();
+    return tested.ensure().queue();
+}
+
+const vk::Device& validatedDevice() {
+    return validated.ensure().device();
+}
+
+vk::Queue& validatedQueue() {
+    return validated.ensure().queue();
 }
 
 std::vector<std::string> takeMessages() {
-    return sharedDevice.take();
+    return validated.take();
 }
 
 } // namespace sinew::test

@@ -1,5 +1,10 @@
 // The one Vulkan device of a test binary, under core, synchronisation and queue-submit validation. Including
 // this is enough: a test during which the layer says anything fails, unless it took the messages.
+//
+// The layer takes more than half of the time of tests that play a scene for thousands of steps, whose
+// commands are the same from step to step. Where SINEW_PLAYED is in the environment (PLAYED of sinew_test)
+// and SINEW_FULL is not, device() is without the layer, and Runner takes the first steps of each kind on a
+// second device that has it.
 #pragma once
 
 #include "vk/queue.hpp"
@@ -13,6 +18,12 @@ namespace sinew::test {
 /// for it.
 const vk::Device& device();
 vk::Queue& queue();
+
+/// Whether device() is without the layer.
+bool isPlayed();
+/// As device() and queue(), always under validation.
+const vk::Device& validatedDevice();
+vk::Queue& validatedQueue();
 
 /// Validation messages since the last call or the start of the test; the test no longer fails for them. For
 /// canaries.
