@@ -125,12 +125,17 @@ void Runner::takeOverByHost(const Runner& from) {
 }
 
 bool Runner::change(const sim::Scene& scene) {
-    if (!simulation_.prepareChange(scene)) return false;
+    std::vector<sim::SceneChange> changes; // until the commands have finished
+    bool isPossible = true;
     submit([&](VkCommandBuffer commands, sim::Simulation& simulation) {
         std::optional<sim::SceneChange> change = simulation.prepareChange(scene);
-        EXPECT_TRUE(simulation.recordChange(commands, *change));
+        if (!change) {
+            isPossible = false;
+            return;
+        }
+        EXPECT_TRUE(simulation.recordChange(commands, changes.emplace_back(*std::move(change))));
     });
-    return true;
+    return isPossible;
 }
 
 void Runner::skin() {
