@@ -97,6 +97,27 @@ Preferences leftBy(const Screen& screen, const Library& library, const Options& 
     return left;
 }
 
+// Without a window, and made when the first preview is wanted, in their thread.
+class PreviewDevice {
+public:
+    PreviewDevice(const Options& options, std::atomic<std::size_t>& messages)
+        : request_(deviceRequest(options, messages)) {}
+
+    Picture operator()(const Options& scene) {
+        if (!device_) {
+            loader_ = std::make_shared<vk::Loader>();
+            device_ =
+                std::make_shared<vk::Device>(vk::Device::create(loader_->getInstanceProcAddr(), request_));
+        }
+        return drawPreview(*device_, scene);
+    }
+
+private:
+    vk::DeviceRequest request_;
+    std::shared_ptr<vk::Loader> loader_; // shared as std::function wants to be copied
+    std::shared_ptr<vk::Device> device_;
+};
+
 // Until the window is closed. What is declared later is gone earlier.
 Preferences play(std::unique_ptr<Opening> opening, const Options& options, const Preferences& preferences,
                  std::atomic<std::size_t>& messages) {
@@ -115,10 +136,14 @@ Preferences play(std::unique_ptr<Opening> opening, const Options& options, const
                     "move, all of it when paused\n");
     std::printf("H shows help, Ctrl + Q quits\n");
     std::fflush(stdout);
-    Library library(options, [&](Opening& next, const Options& wanted) {
-        next.device = devices.open(wanted.device);
-        prepare(next, *next.device, window);
-    });
+    Library library(
+        options,
+        [&](Opening& next, const Options& wanted) {
+            next.device = devices.open(wanted.device);
+            prepare(next, *next.device, window);
+        },
+        PreviewDevice(options, messages));
+    screen.expectPreviews(library.names().size());
     auto show = std::make_unique<Show>(screen, library, devices, *device, std::move(first));
     while (auto next = show->run()) change(device, show, std::move(next), screen, library, devices);
     if (options.isTimed) screen.timing().printTable();

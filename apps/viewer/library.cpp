@@ -29,8 +29,11 @@ std::vector<fs::path> sceneFiles(const fs::path& folder) {
 
 } // namespace
 
-Library::Library(Options options, Prepare prepare)
-    : options_(std::move(options)), prepare_(std::move(prepare)), current_(none) {
+Library::Library(Options options, Prepare prepare, Draw draw)
+    : options_(std::move(options)), prepare_(std::move(prepare)), current_(none),
+      previews_([this, draw = std::move(draw), started = options_](std::size_t name) {
+          return draw ? draw(ofScene(started, name)) : Picture{};
+      }) {
     const fs::path opened = options_.scene;
     if (opened.extension() == ".toml")
         for (const fs::path& file : sceneFiles(opened.parent_path())) {
@@ -49,11 +52,14 @@ Library::Library(Options options, Prepare prepare)
 
 void Library::open(std::size_t name, float aspect) {
     if (name >= names_.size()) return;
-    Options options = options_;
+    begin({ofScene(options_, name), name}, aspect);
+}
+
+Options Library::ofScene(Options options, std::size_t name) const {
     options.scene = files_.empty() ? "" : files_[name];
     options.builtIn = names_[name];
     options.overrides = {};
-    begin({std::move(options), name}, aspect);
+    return options;
 }
 
 void Library::openNext(int by, float aspect) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "viewer/opening.hpp"
+#include "viewer/previews.hpp"
 
 #include <functional>
 #include <future>
@@ -16,9 +17,12 @@ public:
     /// What else there is to do for a scene that was loaded, in the thread that loads; throws what it likes.
     using Prepare = std::function<void(Opening&, const Options&)>;
 
+    /// What a scene looks like, in the thread of the previews; likewise.
+    using Draw = std::function<Picture(const Options&)>;
+
     /// `options` as the program was started with. Offered are the scene files beside the one opened, or those
     /// built in.
-    explicit Library(Options options, Prepare prepare = {});
+    explicit Library(Options options, Prepare prepare = {}, Draw draw = {});
 
     /// What the first scene is opened with.
     const Options& options() const { return options_; }
@@ -27,6 +31,8 @@ public:
     const std::vector<std::string>& names() const { return names_; }
     /// Of the scene on show, or of none (-1).
     std::size_t current() const { return current_; }
+    /// Of names(), where there is a Draw.
+    Previews& previews() { return previews_; }
 
     /// Begins to open another scene for a picture `aspect` wide; nothing while one is being opened.
     void open(std::size_t name, float aspect);
@@ -55,6 +61,7 @@ private:
         std::optional<Again> again = {};
     };
     void begin(Request request, float aspect);
+    Options ofScene(Options options, std::size_t name) const;
 
     Options options_;
     Prepare prepare_;
@@ -62,6 +69,7 @@ private:
     std::size_t current_;
     std::optional<Request> shown_, before_, asked_;
     std::future<std::unique_ptr<Opening>> opening_;
+    Previews previews_; // last: its thread reads names_ and files_
 };
 
 } // namespace sinew::viewer

@@ -50,14 +50,19 @@ Opening::Opening() = default;
 Opening::Opening(Opening&&) noexcept = default;
 Opening::~Opening() = default;
 
-Opening open(const Options& asked, float aspect) {
+Opening open(const Options& options, float aspect) {
+    Opening opening = look(options, aspect);
+    for (const std::string& warning : opening.loaded.warnings)
+        std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    return opening;
+}
+
+Opening look(const Options& asked, float aspect) {
     Opening opening;
     if (app::isRunFile(asked.scene)) opening.run = app::readRun(asked.scene);
     const Options options = opening.run ? withScene(asked, *opening.run) : asked;
     opening.loaded = options.scene.empty() ? scenes::loadBuiltIn(options.builtIn, options.overrides)
                                            : scenes::load(options.scene, options.overrides);
-    for (const std::string& warning : opening.loaded.warnings)
-        std::fprintf(stderr, "warning: %s\n", warning.c_str());
     if (opening.run) {
         opening.loaded.settings = app::withRun(opening.loaded.settings, *opening.run);
         addHands(opening.loaded.settings);

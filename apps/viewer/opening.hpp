@@ -46,6 +46,9 @@ struct Opening {
 /// file says, or with every body in a picture `aspect` wide. Throws as scenes::load and app::readRun.
 Opening open(const Options& options, float aspect);
 
+/// The same without a word on stderr.
+Opening look(const Options& options, float aspect);
+
 /// For the pointer and its pins, and a sphere: what holds and pushes nothing costs nothing.
 void addHands(sim::Settings& settings);
 

@@ -55,6 +55,7 @@ std::unique_ptr<Place> Screen::moveTo(std::unique_ptr<Place> place) {
     change();
     try {
         place_->painter.setAtlas(panels_.atlas());
+        place_->painter.setSheet(sheet_);
         prepare([] {});
     } catch (...) {
         change();
@@ -113,6 +114,18 @@ void Screen::rescale() {
     isNoticeNew_ = true; // what is shown is laid out anew
 }
 
+void Screen::expectPreviews(std::size_t count) {
+    sheet_ = PictureSheet(count);
+    place_->presenter.waitIdle(); // the one before may be in use
+    place_->painter.setSheet(sheet_);
+}
+
+void Screen::addPreview(std::size_t scene, const Picture& picture) {
+    if (!sheet_.set(scene, picture)) return;
+    place_->painter.addPicture(sheet_, scene);
+    isNoticeNew_ = true;
+}
+
 void Screen::feed(const PanelInput& input) {
     merge(input_, input);
 }
@@ -123,6 +136,7 @@ Wishes Screen::drawPanels(const Presenter::Frame& frame, const SceneFacts& scene
     facts.isVsync = isVsync_;
     facts.notice = notice_.text;
     facts.isNoticeBad = notice_.isBad;
+    facts.previews = sheet_.has();
     PanelInput input = std::move(input_);
     input_ = {};
     input_.pointer = input.pointer;

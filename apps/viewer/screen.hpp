@@ -46,6 +46,10 @@ public:
     bool isVsync() const { return isVsync_; }
     void toggleVsync();
 
+    /// Pictures that panels show, of so many scenes.
+    void expectPreviews(std::size_t count);
+    void addPreview(std::size_t scene, const Picture& picture);
+
     /// Input for the next drawPanels(), with what earlier pictures have not seen.
     void feed(const PanelInput& input);
     /// Lays the panels out and draws them over the frame's picture, which must be in PRESENT_SRC_KHR layout.
@@ -56,7 +60,7 @@ public:
     void warn(const std::string& text);
     /// Says it in the window alone.
     void tell(const std::string& text);
-    /// True once when a message has come or gone.
+    /// True once when a message or a preview has come, or a message has gone.
     bool hasNewNotice();
 
 private:
@@ -72,6 +76,7 @@ private:
     std::unique_ptr<Place> place_;
     Timing timing_;
     Panels panels_;
+    PictureSheet sheet_{0};
     PanelInput input_;
     Notice notice_;
     Layers layers_;

@@ -103,6 +103,8 @@ void Show::turn() {
     takeTurn();
     reopenWhereTurned();
     reportFiles(PictureWriter::Wait::no);
+    while (const auto preview = library_.previews().take())
+        screen_.addPreview(preview->first, preview->second);
     if (replayed_) compareReplay();
     isHidden_ = !prepareSwapchain();
     const auto now = Clock::now();

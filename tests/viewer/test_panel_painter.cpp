@@ -35,9 +35,22 @@ struct Table {
         painter.setPictures(extent, std::array{offscreen.view()});
     }
 
+    // What `draw` says to Dear ImGui, and nothing else, over the scene.
+    template <typename Draw> Picture takeDrawn(const Draw& draw) {
+        ImGui::GetIO().DisplaySize = {static_cast<float>(extent.width), static_cast<float>(extent.height)};
+        ImGui::NewFrame();
+        draw();
+        ImGui::Render();
+        return picture(true, 0);
+    }
+
     Picture take(bool withPanels, std::uint32_t slot = 0) {
         // Sizes are learnt in the first, in the second how far what is wrapped can be scrolled.
-        for (int picture = 0; picture < 3; ++picture) panels.build(facts, changing, {}, extent, 1.0 / 60);
+        for (int i = 0; i < 3; ++i) panels.build(facts, changing, {}, extent, 1.0 / 60);
+        return picture(withPanels, slot);
+    }
+
+    Picture picture(bool withPanels, std::uint32_t slot) {
         VkCommandBuffer commands = test::queue().begin();
         stage.recordReset(commands);
         stage.recordSkin(commands);
@@ -106,6 +119,42 @@ TEST(PanelPainter, TakesAnySlotAndMoreTrianglesThanBefore) {
     const Picture first = table.take(true, 0), second = table.take(true, 1);
     EXPECT_LT(mean(first, 300, 480), mean(few, 300, 480) - 0.2) << "help stands in the middle";
     EXPECT_EQ(first.pixels, second.pixels);
+}
+
+// Both pictures of the sheet, each as large as it is, beside each other.
+TEST(PanelPainter, ShowsPicturesOfItsSheetAsTheyAre) {
+    Table table;
+    PictureSheet sheet(2);
+    const auto plain = [](std::uint8_t red, std::uint8_t green, std::uint8_t blue) {
+        Picture picture{
+            .width = PictureSheet::extent.width, .height = PictureSheet::extent.height, .pixels = {}};
+        for (std::uint32_t i = 0; i < picture.width * picture.height; ++i)
+            picture.pixels.insert(picture.pixels.end(), {red, green, blue, 255});
+        return picture;
+    };
+    sheet.set(0, plain(200, 40, 30));
+    table.painter.setSheet(sheet);
+    sheet.set(1, plain(20, 60, 180));
+    table.painter.addPicture(sheet, 1);
+    const Picture picture = table.takeDrawn([] {
+        constexpr float width = PictureSheet::extent.width, height = PictureSheet::extent.height;
+        for (int i = 0; i < 2; ++i) {
+            const float left = 20 + 200 * static_cast<float>(i), row = 0.5f * static_cast<float>(i);
+            ImGui::GetForegroundDrawList()->AddImage(reinterpret_cast<ImTextureID>(sheetTexture), {left, 20},
+                                                     {left + width, 20 + height}, {0, row}, {1, row + 0.5f});
+        }
+    });
+    const auto at = [&](std::uint32_t column, std::uint32_t row) {
+        const std::uint8_t* one = &picture.pixels[4 * (std::size_t{row} * picture.width + column)];
+        return std::array<int, 3>{one[0], one[1], one[2]};
+    };
+    for (const std::uint32_t row : {20u, 80u, 139u})
+        for (const std::uint32_t column : {20u, 100u, 211u}) {
+            EXPECT_EQ(at(column, row), (std::array{200, 40, 30})) << column << ' ' << row;
+            EXPECT_EQ(at(column + 200, row), (std::array{20, 60, 180})) << column << ' ' << row;
+        }
+    EXPECT_NE(at(100, 19), (std::array{200, 40, 30}));
+    EXPECT_NE(at(100, 140), (std::array{200, 40, 30}));
 }
 
 } // namespace

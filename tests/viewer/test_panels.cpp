@@ -113,6 +113,20 @@ TEST_F(PanelsTest, TurnTheDepthOfTheBlade) {
     EXPECT_TRUE(depths(1200).empty());
 }
 
+// The list drops down below its field; where it is seen, pictures are asked for, and no others.
+TEST_F(PanelsTest, AskForPicturesOfScenesThatAreSeenInTheList) {
+    facts.scenes = {"cloth", "cube", "organ", "tear"};
+    facts.previews = {false, true, false};
+    settle();
+    EXPECT_TRUE(picture().previews.empty());
+    Wishes wishes;
+    for (float y = 20; y < 300 && wishes.previews.empty(); y += 6) {
+        click({1080, y});
+        wishes = picture({.pointer = {1080, y}});
+    }
+    EXPECT_EQ(wishes.previews, (std::vector<std::size_t>{0, 2})) << "what has one, or no place for one";
+}
+
 TEST_F(PanelsTest, HaveAButtonForEveryActionThatAKeyDoes) {
     for (const Binding& binding : bindings()) {
         const bool isKey = binding.trigger.kind == Trigger::Kind::key;

@@ -120,6 +120,7 @@ struct Facts {
     std::size_t undos = 0;         ///< how many of them the former are
     std::vector<std::string> scenes;
     std::size_t scene = static_cast<std::size_t>(-1); ///< of `scenes`; none of them = -1
+    std::vector<bool> previews; ///< which of the first of them have a picture in the sheet
     bool isOpening = false;
     std::vector<vk::DeviceDescription> devices; ///< that there are; empty until they were looked for
     Knobs knobs;
@@ -143,6 +144,7 @@ struct Wishes {
     std::optional<std::size_t> device; ///< of Facts::devices
     std::optional<Knobs> knobs;
     std::optional<float> sectionOffset; ///< [m]
+    std::vector<std::size_t> previews;  ///< of Facts::scenes whose names are seen without a picture
     bool isEmpty() const { return actions.empty() && !scene && !device && !knobs && !sectionOffset; }
 };
 

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace sinew::viewer {
 
@@ -19,15 +20,33 @@ namespace {
 static_assert(sizeof(ImDrawVert) == sizeof(PanelVertex));
 static_assert(sizeof(ImDrawIdx) == 2);
 
-constexpr VkDescriptorSetLayoutBinding atlasBinding{.binding = 0,
-                                                    .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                                    .descriptorCount = 1,
-                                                    .stageFlags = VK_SHADER_STAGE_FRAGMENT_BIT};
+constexpr VkDescriptorSetLayoutBinding bufferBinding(std::uint32_t binding) {
+    return {.binding = binding,
+            .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+            .descriptorCount = 1,
+            .stageFlags = VK_SHADER_STAGE_FRAGMENT_BIT};
+}
+constexpr std::uint32_t ofAtlas = 0, ofSheet = 1;
+constexpr std::array textures{bufferBinding(ofAtlas), bufferBinding(ofSheet)};
 
-// Whether the picture encodes what is written, as sRGB (panel.frag).
+// Whether the picture encodes what is written, as sRGB (panel.vert, panel_picture.frag).
 std::array<vk::SpecialisationConstant, 1> srgbConstant(VkFormat format) {
     const bool encodes = format == VK_FORMAT_B8G8R8A8_SRGB || format == VK_FORMAT_R8G8B8A8_SRGB;
     return {vk::SpecialisationConstant{0, encodes ? 1u : 0u}};
+}
+
+Pipeline makePipeline(const vk::Device& device, const char* name, const vk::ShaderCode& fragment,
+                      const SetLayout& set, const RenderPass& pass, VkFormat format) {
+    const auto constants = srgbConstant(format);
+    return {device,
+            {.name = name,
+             .vertex = &shaders::panelVert,
+             .fragment = &fragment,
+             .layout = set.handle(),
+             .pass = pass.handle(),
+             .input = PipelineRequest::Input::panels,
+             .blend = PipelineRequest::Blend::over,
+             .constants = constants}};
 }
 
 // At least `bytes` long; a new one has room for half as much again.
@@ -46,16 +65,21 @@ void grow(std::optional<vk::Buffer>& buffer, const vk::Device& device, const cha
 PanelPainter::PanelPainter(const vk::Device& device, VkFormat format, VkImageLayout finalLayout,
                            std::uint32_t slots)
     : device_(device), pass_(RenderPass::over(device, format, finalLayout)),
-      set_(device, "panels", std::span(&atlasBinding, 1), sizeof(layout::PanelPush), 1),
-      pipeline_(device, {.name = "panels",
-                         .vertex = &shaders::panelVert,
-                         .fragment = &shaders::panelFrag,
-                         .layout = set_.handle(),
-                         .pass = pass_.handle(),
-                         .input = PipelineRequest::Input::panels,
-                         .blend = PipelineRequest::Blend::over,
-                         .constants = srgbConstant(format)}),
+      set_(device, "panels", textures, sizeof(layout::PanelPush), 1),
+      glyphs_(makePipeline(device, "panels", shaders::panelFrag, set_, pass_, format)),
+      pictures_(makePipeline(device, "panels.pictures", shaders::panelPictureFrag, set_, pass_, format)),
       slots_(slots) {}
+
+void PanelPainter::write(std::uint32_t binding, const vk::BufferView& view) const noexcept {
+    const VkDescriptorBufferInfo buffer{view.buffer, view.offset, view.size};
+    const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                     .dstSet = set_.set(0),
+                                     .dstBinding = binding,
+                                     .descriptorCount = 1,
+                                     .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                     .pBufferInfo = &buffer};
+    device_.functions().vkUpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
+}
 
 void PanelPainter::setAtlas(const GlyphAtlas& atlas) {
     atlasSize_ = {atlas.width, atlas.height};
@@ -65,14 +89,25 @@ void PanelPainter::setAtlas(const GlyphAtlas& atlas) {
                                               .stride = 4,
                                               .kind = vk::MemoryKind::upload});
     std::memcpy(atlas_->mapped(), atlas.coverage.data(), atlas.coverage.size() / 4 * 4);
-    const vk::BufferView view = atlas_->view();
-    const VkDescriptorBufferInfo buffer{view.buffer, view.offset, view.size};
-    const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                     .dstSet = set_.set(0),
-                                     .descriptorCount = 1,
-                                     .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                     .pBufferInfo = &buffer};
-    device_.functions().vkUpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
+    write(ofAtlas, atlas_->view());
+}
+
+void PanelPainter::setSheet(const PictureSheet& sheet) {
+    const auto count = static_cast<std::uint32_t>(sheet.has().size());
+    sheetSize_ = {PictureSheet::extent.width, PictureSheet::extent.height * count};
+    if (count == 0) return sheet_.reset();
+    sheet_.emplace(device_, vk::BufferRequest{.name = "panels.sheet",
+                                              .count = sheet.texels().size(),
+                                              .stride = 4,
+                                              .kind = vk::MemoryKind::upload});
+    std::memcpy(sheet_->mapped(), sheet.texels().data(), sheet.texels().size() * sizeof(std::uint32_t));
+    write(ofSheet, sheet_->view());
+}
+
+void PanelPainter::addPicture(const PictureSheet& sheet, std::size_t i) {
+    const std::span<const std::uint32_t> texels = sheet.texelsOf(i);
+    if (sheet_ && !texels.empty())
+        std::memcpy(sheet_->mapped() + i * texels.size_bytes(), texels.data(), texels.size_bytes());
 }
 
 void PanelPainter::setPictures(VkExtent2D extent, std::span<const VkImageView> pictures) {
@@ -113,19 +148,27 @@ void PanelPainter::begin(VkCommandBuffer commands, std::size_t picture) const no
 void PanelPainter::bind(VkCommandBuffer commands, const Slot& slot) const noexcept {
     const vk::DeviceFunctions& functions = device_.functions();
     const vk::BufferView vertices = slot.vertices->view(), indices = slot.indices->view();
-    const layout::PanelPush push{
-        .scale = {2 / static_cast<float>(extent_.width), 2 / static_cast<float>(extent_.height)},
-        .atlas = {static_cast<float>(atlasSize_.width), static_cast<float>(atlasSize_.height)},
-        .full = {full_.x(), full_.y()}};
-    functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.handle());
     set_.bind(commands, 0);
     functions.vkCmdBindVertexBuffers(commands, 0, 1, &vertices.buffer, &vertices.offset);
     functions.vkCmdBindIndexBuffer(commands, indices.buffer, indices.offset, VK_INDEX_TYPE_UINT16);
+}
+
+void PanelPainter::use(VkCommandBuffer commands, bool isOfSheet) const noexcept {
+    const VkExtent2D size = isOfSheet ? sheetSize_ : atlasSize_;
+    const layout::PanelPush push{
+        .scale = {2 / static_cast<float>(extent_.width), 2 / static_cast<float>(extent_.height)},
+        .atlas = {static_cast<float>(size.width), static_cast<float>(size.height)},
+        .full = {full_.x(), full_.y()},
+        .pictureHeight = static_cast<float>(PictureSheet::extent.height)};
+    const vk::DeviceFunctions& functions = device_.functions();
+    functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                                (isOfSheet ? pictures_ : glyphs_).handle());
     functions.vkCmdPushConstants(commands, set_.handle(), drawingStages, 0, sizeof(push), &push);
 }
 
 void PanelPainter::drawList(VkCommandBuffer commands, const ImDrawList& list, std::uint32_t firstVertex,
                             std::uint32_t firstIndex) const noexcept {
+    std::optional<bool> wasOfSheet;
     for (const ImDrawCmd& command : list.CmdBuffer) {
         const auto within = [](float value, std::uint32_t most) {
             return std::clamp(static_cast<std::int32_t>(std::floor(value)), 0,
@@ -135,7 +178,9 @@ void PanelPainter::drawList(VkCommandBuffer commands, const ImDrawList& list, st
                               within(command.ClipRect.y, extent_.height)};
         const std::int32_t right = within(command.ClipRect.z, extent_.width);
         const std::int32_t bottom = within(command.ClipRect.w, extent_.height);
-        if (right <= from.x || bottom <= from.y) continue;
+        const bool isOfSheet = reinterpret_cast<std::size_t>(command.TextureId) == sheetTexture;
+        if (right <= from.x || bottom <= from.y || (isOfSheet && !sheet_)) continue;
+        if (std::exchange(wasOfSheet, isOfSheet) != isOfSheet) use(commands, isOfSheet);
         const VkRect2D scissor{
             from, {static_cast<std::uint32_t>(right - from.x), static_cast<std::uint32_t>(bottom - from.y)}};
         device_.functions().vkCmdSetScissor(commands, 0, 1, &scissor);

@@ -7,6 +7,7 @@
 #include "viewer/draw/pipeline.hpp"
 #include "viewer/draw/render_pass.hpp"
 #include "viewer/draw/set_layout.hpp"
+#include "viewer/panels/picture_sheet.hpp"
 #include "vk/buffer.hpp"
 
 #include <optional>
@@ -34,6 +35,11 @@ public:
     /// Glyphs from now on. Nothing that was recorded may be unfinished.
     void setAtlas(const GlyphAtlas& atlas);
 
+    /// Pictures from now on, likewise.
+    void setSheet(const PictureSheet& sheet);
+    /// One more of the same sheet, which nothing that was recorded shows.
+    void addPicture(const PictureSheet& sheet, std::size_t i);
+
     /// Framebuffers for pictures of a size. The views belong to the caller and must outlive them; what was
     /// drawn into the old ones must be finished.
     void setPictures(VkExtent2D extent, std::span<const VkImageView> pictures);
@@ -50,15 +56,17 @@ private:
     void upload(Slot& slot, const ImDrawData& drawn);
     void begin(VkCommandBuffer commands, std::size_t picture) const noexcept;
     void bind(VkCommandBuffer commands, const Slot& slot) const noexcept;
+    void use(VkCommandBuffer commands, bool isOfSheet) const noexcept;
     void drawList(VkCommandBuffer commands, const ImDrawList& list, std::uint32_t firstVertex,
                   std::uint32_t firstIndex) const noexcept;
+    void write(std::uint32_t binding, const vk::BufferView& view) const noexcept;
 
     const vk::Device& device_;
     RenderPass pass_;
     SetLayout set_;
-    Pipeline pipeline_;
-    std::optional<vk::Buffer> atlas_;
-    VkExtent2D atlasSize_{}, extent_{};
+    Pipeline glyphs_, pictures_;
+    std::optional<vk::Buffer> atlas_, sheet_;
+    VkExtent2D atlasSize_{}, sheetSize_{}, extent_{};
     Vector2 full_ = Vector2::Zero();
     std::vector<Slot> slots_;
     std::vector<Framebuffer> framebuffers_;

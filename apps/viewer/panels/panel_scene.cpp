@@ -1,5 +1,6 @@
 // Which scene is on show, and what can be turned in it.
 #include "viewer/panels/panel_parts.hpp"
+#include "viewer/panels/picture_sheet.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -87,15 +88,50 @@ bool bladeKnob(const Facts& facts, Knobs& turned) {
     return isTurned;
 }
 
+// Which is in the sheet one under the other, as many as there are places for.
+void preview(const Facts& facts, std::size_t scene, const ImVec2& from, const ImVec2& to, Wishes& wishes) {
+    const std::size_t count = facts.previews.size();
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    if (scene >= count || !facts.previews[scene]) {
+        list->AddRectFilled(from, to, ImGui::GetColorU32(ImGuiCol_FrameBg));
+        if (scene < count) wishes.previews.push_back(scene);
+        return;
+    }
+    const auto row = [count](std::size_t i) { return static_cast<float>(i) / static_cast<float>(count); };
+    list->AddImage(reinterpret_cast<ImTextureID>(sheetTexture), from, to, {0, row(scene)},
+                   {1, row(scene + 1)});
+}
+
+// A picture beside each name.
+void sceneList(const Facts& facts, Wishes& wishes) {
+    const float height = 3.6f * ImGui::GetFontSize(), between = ImGui::GetStyle().ItemSpacing.x;
+    const float width = height * static_cast<float>(PictureSheet::extent.width) /
+                        static_cast<float>(PictureSheet::extent.height);
+    for (std::size_t i = 0; i < facts.scenes.size(); ++i) {
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        ImGui::PushID(static_cast<int>(i));
+        if (ImGui::Selectable("##scene", i == facts.scene, ImGuiSelectableFlags_None, {0, height}))
+            wishes.scene = i;
+        const bool isSeen = ImGui::IsItemVisible();
+        if (i == facts.scene && ImGui::IsWindowAppearing()) ImGui::SetScrollHereY();
+        ImGui::PopID();
+        if (!isSeen) continue;
+        preview(facts, i, at, {at.x + width, at.y + height}, wishes);
+        const ImVec2 text{at.x + width + 2 * between, at.y + (height - ImGui::GetFontSize()) / 2};
+        const ImVec4 color = i == facts.scene ? accent() : ImGui::GetStyleColorVec4(ImGuiCol_Text);
+        ImGui::GetWindowDrawList()->AddText(text, ImGui::GetColorU32(color), facts.scenes[i].c_str());
+    }
+}
+
 } // namespace
 
 void scenes(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
     heading(facts.isOpening ? "scene: opening ..." : "scene");
     const float step = 0.7f * buttonWidth(4), between = ImGui::GetStyle().ItemSpacing.x;
     ImGui::SetNextItemWidth(contentWidth() - 2 * (step + between));
-    if (ImGui::BeginCombo("##scenes", scene.name.c_str(), ImGuiComboFlags_HeightLarge)) {
-        for (std::size_t i = 0; i < facts.scenes.size(); ++i)
-            if (ImGui::Selectable(facts.scenes[i].c_str(), i == facts.scene)) wishes.scene = i;
+    ImGui::SetNextWindowSizeConstraints({contentWidth(), 0}, ImGui::GetIO().DisplaySize);
+    if (ImGui::BeginCombo("##scenes", scene.name.c_str(), ImGuiComboFlags_HeightLargest)) {
+        sceneList(facts, wishes);
         ImGui::EndCombo();
     }
     tip("or drop a scene or a mesh (OBJ, STL, PLY, glTF, GLB) on the window");

@@ -11,8 +11,9 @@ struct alignas(8) vec2 {
 
 struct PanelPush {
     vec2 scale; // 2 / size of the picture [1/pixel]
-    vec2 atlas; // size of the atlas [texels]
-    vec2 full; // place in it that is covered whole: what is no glyph is drawn with that [texels]
+    vec2 atlas; // size of the atlas, or of the sheet of pictures [texels]
+    vec2 full; // place in the atlas that is covered whole: what is no glyph is drawn with that [texels]
+    float pictureHeight; // of each in the sheet [texels]
 };
 
 #ifdef __cplusplus

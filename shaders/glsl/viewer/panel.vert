@@ -11,9 +11,7 @@ layout(location = 2) in vec4 tint;
 layout(location = 0) out vec2 texel;
 layout(location = 1) out vec4 color;
 
-vec3 decoded(vec3 shown) {
-    return mix(pow((shown + 0.055) / 1.055, vec3(2.4)), shown / 12.92, lessThanEqual(shown, vec3(0.04045)));
-}
+#include "viewer/srgb.glsl"
 
 void main() {
     texel = atlasPlace * push.atlas;

@@ -1,0 +1,82 @@
+// A thread that waits for wishes.
+#include "viewer/previews.hpp"
+
+#include "viewer/draw/offscreen.hpp"
+#include "viewer/draw/stage.hpp"
+#include "viewer/opening.hpp"
+#include "viewer/panels/picture_sheet.hpp"
+#include "vk/queue.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <exception>
+
+namespace sinew::viewer {
+
+namespace {
+
+constexpr int patience = 10; // nice value: what plays goes before
+
+// Of the calling thread alone, and of those that a device will start in it. It is no more than a favour.
+void giveWay() {
+    (void)setpriority(PRIO_PROCESS, 0, patience);
+}
+
+} // namespace
+
+Picture drawPreview(const vk::Device& device, const Options& options) {
+    constexpr VkExtent2D extent = PictureSheet::extent;
+    const Opening opening =
+        look(options, static_cast<float>(extent.width) / static_cast<float>(extent.height));
+    Stage stage(device, opening.loaded.scene, opening.loaded.settings);
+    Offscreen offscreen(device, extent, opening.light);
+    vk::Queue queue(device);
+    const VkCommandBuffer commands = queue.begin();
+    stage.recordReset(commands);
+    stage.recordSkin(commands);
+    offscreen.record(commands, opening.camera, stage.simulation());
+    queue.wait(queue.submit(commands));
+    return offscreen.read();
+}
+
+Previews::Previews(Draw draw) : draw_(std::move(draw)) {}
+
+Previews::~Previews() = default;
+
+void Previews::want(std::vector<std::size_t> scenes) {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(scenes, [this](std::size_t one) { return std::ranges::count(begun_, one) > 0; });
+    wanted_ = std::move(scenes);
+    if (wanted_.empty()) return;
+    if (!thread_.joinable()) thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
+    isWanted_.notify_one();
+}
+
+std::optional<std::pair<std::size_t, Picture>> Previews::take() {
+    const std::lock_guard lock(mutex_);
+    if (made_.empty()) return std::nullopt;
+    auto first = std::move(made_.front());
+    made_.erase(made_.begin());
+    return first;
+}
+
+void Previews::work(const std::stop_token& stop) {
+    giveWay();
+    std::unique_lock lock(mutex_);
+    while (isWanted_.wait(lock, stop, [this] { return !wanted_.empty(); }) && !stop.stop_requested()) {
+        const std::size_t scene = wanted_.front();
+        wanted_.erase(wanted_.begin());
+        begun_.push_back(scene);
+        lock.unlock();
+        std::optional<Picture> picture;
+        try {
+            picture = draw_(scene);
+        } catch (const std::exception&) { // whoever opens it is told
+        }
+        lock.lock();
+        if (picture) made_.emplace_back(scene, std::move(*picture));
+    }
+}
+
+} // namespace sinew::viewer

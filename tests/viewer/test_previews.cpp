@@ -1,0 +1,106 @@
+// Small pictures of scenes: the thread that makes them, and what is on them.
+#include "viewer/previews.hpp"
+
+#include "support/device.hpp"
+#include "viewer/panels/picture_sheet.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+namespace sinew::viewer {
+namespace {
+
+using Made = std::pair<std::size_t, Picture>;
+
+// So many pictures, however long they take.
+std::vector<Made> await(Previews& previews, std::size_t count) {
+    std::vector<Made> made;
+    while (made.size() < count) {
+        if (auto one = previews.take()) made.push_back(std::move(*one));
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return made;
+}
+
+Picture ofWidth(std::size_t width) {
+    return {.width = static_cast<std::uint32_t>(width), .height = 1, .pixels = {}};
+}
+
+TEST(Previews, AreMadeInTheOrderInWhichTheyAreWantedAndOnce) {
+    std::atomic<int> drawn = 0;
+    Previews previews([&](std::size_t scene) {
+        ++drawn;
+        return ofWidth(scene);
+    });
+    EXPECT_FALSE(previews.take());
+    previews.want({4, 2, 7});
+    const std::vector<Made> first = await(previews, 3);
+    EXPECT_EQ(first[0].first, 4u);
+    EXPECT_EQ(first[1].first, 2u);
+    EXPECT_EQ(first[2].first, 7u);
+    EXPECT_EQ(first[1].second.width, 2u);
+    previews.want({2, 4, 5});
+    EXPECT_EQ(await(previews, 1)[0].first, 5u);
+    EXPECT_EQ(drawn, 4);
+}
+
+TEST(Previews, GoOnAfterASceneOfWhichThereIsNone) {
+    Previews previews([](std::size_t scene) {
+        if (scene == 0) throw std::runtime_error("this is no scene");
+        return ofWidth(scene);
+    });
+    previews.want({0, 1});
+    EXPECT_EQ(await(previews, 1)[0].first, 1u);
+    previews.want({0, 2});
+    EXPECT_EQ(await(previews, 1)[0].first, 2u) << "what failed is not tried again";
+}
+
+TEST(Previews, EndWithoutMakingWhatIsStillWanted) {
+    std::atomic<int> drawn = 0;
+    std::atomic<bool> isAllowed = false;
+    std::jthread allowing;
+    {
+        Previews previews([&](std::size_t scene) {
+            ++drawn;
+            while (!isAllowed) std::this_thread::yield();
+            return ofWidth(scene);
+        });
+        previews.want({0, 1, 2});
+        while (drawn == 0) std::this_thread::yield();
+        allowing = std::jthread([&] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(50)); // it is asked to stop by then
+            isAllowed = true;
+        });
+    }
+    EXPECT_LT(drawn, 3);
+}
+
+TEST(PreviewPicture, ShowsTheBodiesOfAScene) {
+    Options options;
+    options.builtIn = "organ";
+    const Picture picture = drawPreview(test::device(), options);
+    EXPECT_EQ(picture.width, PictureSheet::extent.width);
+    EXPECT_EQ(picture.height, PictureSheet::extent.height);
+    std::size_t red = 0;
+    for (std::size_t i = 0; i < picture.pixels.size(); i += 4)
+        if (picture.pixels[i] > 2 * picture.pixels[i + 1]) ++red;
+    EXPECT_GT(red, picture.pixels.size() / 4 / 50) << "of the organ";
+    PictureSheet sheet(2);
+    EXPECT_TRUE(sheet.set(1, picture));
+    EXPECT_FALSE(sheet.set(2, picture)) << "beyond it";
+    EXPECT_FALSE(sheet.set(0, ofWidth(3)));
+    EXPECT_EQ(sheet.has(), (std::vector<bool>{false, true}));
+}
+
+TEST(PreviewPicture, OfNoSceneIsNone) {
+    Options options;
+    options.scene = "/nowhere/none.toml";
+    EXPECT_ANY_THROW(drawPreview(test::device(), options));
+}
+
+} // namespace
+} // namespace sinew::viewer
