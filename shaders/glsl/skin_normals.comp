@@ -1,5 +1,7 @@
 #version 460
-// Smooth vertex normals of the deformed skin: the area-weighted sum over a vertex's triangles, gathered in fixed order.
+// Smooth vertex normals of the deformed skin: those of a vertex's triangles by their angles there (Thuermer and Wuethrich 1998),
+// so that they stay as they are where flat ones are split, gathered in fixed order. Triangles of which one side is much shorter
+// than the other count less: slivers of a split skin say little of where it faces.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -12,11 +14,18 @@ layout(push_constant) uniform Push { CountPush push; };
 void main() {
     const uint i = itemIndex(push.count);
     if (i >= push.count) return;
+    const vec3 here = vertices[i].position.xyz;
     vec3 sum = vec3(0.0);
     for (uint s = 0u; s < fans[i].count; ++s) {
         const uint t = 3u * trianglesOfVertex[fans[i].first + s];
-        const vec3 a = vertices[indices[t]].position.xyz;
-        sum += cross(vertices[indices[t + 1u]].position.xyz - a, vertices[indices[t + 2u]].position.xyz - a);
+        const uint a = indices[t], b = indices[t + 1u], c = indices[t + 2u];
+        const uint next = a == i ? b : b == i ? c : a, last = a == i ? c : b == i ? a : b;
+        const vec3 u = vertices[next].position.xyz - here, v = vertices[last].position.xyz - here;
+        const vec3 across = cross(u, v);
+        const float twice = length(across); // the area
+        const float evenness = min(dot(u, u), dot(v, v)) / max(dot(u, u), dot(v, v));
+        const float weight = atan(twice, dot(u, v)) * evenness / (evenness + 0.01);
+        sum += twice > 0.0 ? weight / twice * across : vec3(0.0);
     }
     const float size = length(sum);
     vertices[i].normal = vec4(size > 0.0 ? sum / size : vec3(0.0, 1.0, 0.0), 0.0);

@@ -111,17 +111,22 @@ TEST(SkinNormals, AreOfUnitLengthAndPointOutOfABall) {
     }
 }
 
-TEST(SkinNormals, AreTheAreaWeightedMeanOfTheTriangles) {
+// Slivers apart, which count less.
+TEST(SkinNormals, AreThoseOfTheTrianglesByTheirAngles) {
     Scene scene = test::sheet(6);
     test::disturb(scene, 0.03f, 0);
     test::Runner runner(scene);
     const std::vector<Vertex> vertices = skinOf(runner);
     std::vector<Vector3d> sums(vertices.size(), Vector3d::Zero());
-    for (const auto& [a, b, c] : scene.skins[0].triangles) {
-        const Vector3d p = xyz(vertices[a].position);
-        const Vector3d area = (xyz(vertices[b].position) - p).cross(xyz(vertices[c].position) - p);
-        for (const std::uint32_t corner : {a, b, c}) sums[corner] += area;
-    }
+    for (const auto& triangle : scene.skins[0].triangles)
+        for (std::size_t n = 0; n < 3; ++n) {
+            const Vector3d here = xyz(vertices[triangle[n]].position);
+            const Vector3d u = xyz(vertices[triangle[(n + 1) % 3]].position) - here,
+                           v = xyz(vertices[triangle[(n + 2) % 3]].position) - here;
+            const double angle = std::acos(u.normalized().dot(v.normalized()));
+            const double evenness = std::pow(std::min(u.norm() / v.norm(), v.norm() / u.norm()), 2);
+            sums[triangle[n]] += angle * evenness / (evenness + 0.01) * u.cross(v).normalized();
+        }
     for (std::size_t v = 0; v < vertices.size(); ++v) {
         EXPECT_LE((xyz(vertices[v].normal) - sums[v].normalized()).norm(), 1e-5) << v;
     }
