@@ -172,8 +172,8 @@ void Show::settleTimes(std::uint32_t slot, const InFlight& flight) {
 void Show::settleProbe(InFlight& flight) {
     if (flight.question && flight.question == tools_.question()) {
         const sim::Scene& scene = stage_.scene();
-        const auto found = pick(scene, opening_.light.balls, flight.question->ray, probe_->positions(),
-                                probe_->vertices(), flight.question->among(), opened());
+        const auto found = pick(scene, opening_.light.balls, flight.question->ray, probe_->seen(),
+                                flight.question->among(), opened());
         tools_.answer(*flight.question, found, found ? holdRadius(scene, found->particle) : 0);
     }
     if (flight.isMeasured && !isCut_)
@@ -189,8 +189,7 @@ void Show::settleProbe(InFlight& flight) {
 // Beside all bodies there is everything to be looked at, and nothing to turn around.
 void Show::settleLook(const Look& look) {
     const sim::Scene& scene = stage_.scene();
-    const auto found = pick(scene, opening_.light.balls, look.ray, probe_->positions(), probe_->vertices(),
-                            Among::all, opened());
+    const auto found = pick(scene, opening_.light.balls, look.ray, probe_->seen(), Among::all, opened());
     if (look.at == Look::At::point) {
         if (found) controller_.camera = centered(controller_.camera, found->point);
     } else {

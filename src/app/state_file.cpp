@@ -19,7 +19,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "state files are little endian");
 
-constexpr std::string_view title = "sinew state 1\n";
+constexpr std::string_view title = "sinew state 2\n";
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
     throw Failure(badInput, "cannot read a state: " + file.string() + ": " + why);
@@ -103,6 +103,7 @@ template <typename Run, typename Visit> void visit(Run& run, Visit& each) {
     each(run.host.colliderTime);
     each(run.host.anchors);
     each(run.host.hasNewTopology);
+    each(run.host.isUncut);
     each(run.bytes);
 }
 

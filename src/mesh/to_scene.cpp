@@ -108,6 +108,7 @@ sim::Lattice makeLattice(const VoxelGrid& grid, const MeshBody& body, double vol
 void hang(sim::Skin& skin, std::vector<Vector3> positions, const VoxelGrid& grid,
           const sim::LatticeCorners& corners, bool isClipped) {
     if (isClipped) {
+        skin.wholeTriangles = skin.triangles;
         SplitSkin split = splitSkin(std::move(positions), std::move(skin.triangles));
         positions = std::move(split.positions);
         skin.triangles = std::move(split.triangles);

@@ -147,6 +147,7 @@ std::string describe(const StepProgram& program) {
     text << '\n';
     print(text, program, program.step);
     if (!program.skin.empty()) print(text, program, program.skin);
+    if (!program.wholeSkin.empty()) print(text, program, program.wholeSkin);
     std::size_t passes = 0, dispatches = 0, barriers = 0;
     for (const Pass& pass : program.step) {
         if (pass.isOfCut) continue;

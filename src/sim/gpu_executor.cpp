@@ -31,7 +31,8 @@ std::vector<vk::Buffer> makeBuffers(const vk::Device& device, const StepProgram&
             usage |= VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
         if (holdsArguments[b] || id == cut.draws || id == program.pieceDraws)
             usage |= VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
-        if (id == program.skinIndices || id == cut.indices) usage |= VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+        if (id == program.skinIndices || id == program.wholeIndices || id == cut.indices)
+            usage |= VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
         buffers.emplace_back(device, vk::BufferRequest{.name = spec.label,
                                                        .count = spec.initialOf ? 1 : spec.count,
                                                        .stride = spec.stride,
@@ -73,7 +74,7 @@ bool isSameDispatch(const Pass& a, const Pass& b) {
     return a.kernel == b.kernel && std::ranges::equal(boundUses(a), boundUses(b), isSameBuffer);
 }
 
-// Distinct (kernel, buffers) pairs of both lists, and which of them each dispatch uses.
+// Distinct (kernel, buffers) pairs of all lists, and which of them each dispatch uses.
 struct SetPlan {
     std::vector<const Pass*> distinct;
     std::vector<std::size_t> setOfPass;
@@ -81,7 +82,8 @@ struct SetPlan {
 
 SetPlan planSets(const StepProgram& program) {
     SetPlan plan;
-    for (const std::vector<Pass>* list : {&program.step, &program.skin, &program.settle, &program.adopt}) {
+    for (const std::vector<Pass>* list :
+         {&program.step, &program.skin, &program.wholeSkin, &program.settle, &program.adopt}) {
         for (const Pass& pass : *list) {
             if (pass.kind != PassKind::dispatch) continue;
             const auto isSame = [&](const Pass* other) { return isSameDispatch(*other, pass); };
@@ -112,10 +114,12 @@ GpuExecutor::GpuExecutor(const vk::Device& device, const StepProgram& program)
     std::size_t nextSet = 0;
     step_ = resolve(program.step, nextSet);
     skin_ = resolve(program.skin, nextSet);
+    wholeSkin_ = resolve(program.wholeSkin, nextSet);
     settle_ = resolve(program.settle, nextSet);
     adopt_ = resolve(program.adopt, nextSet);
     checkGroups(step_, device.limits().maxGroupCount);
     checkGroups(skin_, device.limits().maxGroupCount);
+    checkGroups(wholeSkin_, device.limits().maxGroupCount);
     checkGroups(settle_, device.limits().maxGroupCount);
     checkGroups(adopt_, device.limits().maxGroupCount);
     for (const Recorded& pass : step_) {
@@ -182,6 +186,10 @@ void GpuExecutor::step(vk::Commands& commands, const HostBytes& host, vk::Timest
 
 void GpuExecutor::skin(vk::Commands& commands) noexcept {
     record(commands, skin_, {}, nullptr, true);
+}
+
+void GpuExecutor::wholeSkin(vk::Commands& commands) noexcept {
+    record(commands, wholeSkin_, {}, nullptr, true);
 }
 
 void GpuExecutor::settle(vk::Commands& commands) noexcept {

@@ -179,6 +179,7 @@ StepProgram ProgramBuilder::finish() {
     planBarriers(program_.step, program_.buffers.size());
     planWithoutCut(program_.step, program_.buffers.size());
     planBarriers(program_.skin, program_.buffers.size());
+    planBarriers(program_.wholeSkin, program_.buffers.size());
     planBarriers(program_.settle, program_.buffers.size());
     planBarriers(program_.adopt, program_.buffers.size());
     return std::move(program_);

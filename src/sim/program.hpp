@@ -197,6 +197,8 @@ struct StepProgram {
     std::vector<std::string> phases; ///< what is timed, in order
     std::vector<Pass> step;          ///< recorded for every step
     std::vector<Pass> skin;          ///< recorded when somebody draws; may be empty
+    /// Likewise while nothing is cut, for wholeIndices; empty where no skin has fewer triangles then.
+    std::vector<Pass> wholeSkin;
     /// Recorded after a state of another material, or of other substeps, was put into the buffers: makes what
     /// of the state follows from the scene alone that of this program. May be empty.
     std::vector<Pass> settle;
@@ -208,6 +210,7 @@ struct StepProgram {
     std::vector<Carried> carried;     ///< what a simulation that takes over another's state copies
     BufferId parameters, status, positions, velocities; ///< the public ones; velocities may be invalid
     BufferId skinVertices, skinIndices;                 ///< invalid without skins
+    BufferId wholeIndices;                              ///< Skin::wholeTriangles, or triangles, of all skins
     ContactBuffers contacts;
     SleepBuffers sleep;
     PokeGroups pokes;
@@ -341,7 +344,9 @@ public:
     /// Among those: passes that write the surface of cuts anew from what is kept of cells.
     void beginSurface() { isSurface_ = true; }
     void endSurface() { isSurface_ = false; }
+    /// All that follows belongs to StepProgram::skin, or wholeSkin; no gate changes it.
     void beginSkin() { isSkin_ = true; }
+    void beginWholeSkin() { isSkin_ = isWhole_ = true; }
     /// Passes from here on, until endSettling(), belong to StepProgram::settle; no gate changes them.
     void beginSettling() { isSettling_ = true; }
     void endSettling() { isSettling_ = false; }
@@ -360,6 +365,7 @@ private:
     std::vector<Pass>& list() {
         if (isSettling_) return program_.settle;
         if (isAdopting_) return program_.adopt;
+        if (isWhole_) return program_.wholeSkin;
         return isSkin_ ? program_.skin : program_.step;
     }
     Pass& last() { return list().back(); }
@@ -374,8 +380,8 @@ private:
     std::vector<BufferId> remembered_, kept_;
     std::vector<std::function<void()>> checked_, endings_, skinMiddles_, skinEndings_;
     Gate gate_;
-    bool isReversed_ = false, isSkin_ = false, isSettling_ = false, isAdopting_ = false, isCut_ = false,
-         isSurface_ = false;
+    bool isReversed_ = false, isSkin_ = false, isWhole_ = false, isSettling_ = false, isAdopting_ = false,
+         isCut_ = false, isSurface_ = false;
     std::uint32_t substep_ = 0;
 };
 

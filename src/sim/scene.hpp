@@ -232,6 +232,9 @@ struct Skin {
     /// anchors of every triangle are corners of one tetrahedron (lattice::isKuhn) of a filled cell;
     /// mesh::addMesh splits skins so. Else it stretches over a cut.
     std::vector<std::uint32_t> anchors;
+    /// Empty, or the same surface in fewer triangles between the first of the vertices, as it was before
+    /// mesh::addMesh split it: what is drawn while nothing is cut (SkinDetail::drawn).
+    std::vector<std::array<std::uint32_t, 3>> wholeTriangles;
     Vec3 color{0.78f, 0.36f, 0.32f}; ///< linear RGB
     std::size_t vertexCount() const { return particles.empty() ? cells.size() : particles.size(); }
 };

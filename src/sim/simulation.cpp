@@ -12,6 +12,7 @@
 #include "sim/gpu_executor.hpp"
 #include "sim/program_values.hpp"
 #include "sim/ranges.hpp"
+#include "sim/skin_ranges.hpp"
 #include "sim/substeps.hpp"
 #include "sim/validate.hpp"
 
@@ -39,17 +40,6 @@ constexpr std::uint32_t farAwayBits = 0x5d5e0b6b;
 float withinRange(float dt) {
     const auto low = static_cast<float>(ranges::dt.low), high = static_cast<float>(ranges::dt.high);
     return dt >= low ? std::min(dt, high) : low;
-}
-
-std::vector<SkinRange> rangesOf(const std::vector<Skin>& skins) {
-    std::vector<SkinRange> ranges;
-    std::uint32_t first = 0;
-    for (const Skin& skin : skins) {
-        const auto count = static_cast<std::uint32_t>(3 * skin.triangles.size());
-        ranges.push_back({skin.name, skin.color, first, count});
-        first += count;
-    }
-    return ranges;
 }
 
 // A change leaves the state where it is: it cannot be one of other particles.
@@ -105,13 +95,14 @@ struct Simulation::State {
     std::vector<BufferId> written;
     vk::Buffer statusRing;                // one slot a frame in flight, read by the host
     std::optional<vk::Buffer> countsRing; // likewise; where bodies may be cut
-    std::vector<SkinRange> skins;
+    std::vector<SkinRange> skins, wholeSkins;
     constraints::attachment::Anchors anchors;
     constraints::grab::Hands hands;
     collision::ColliderPaths colliders;
     cutting::BladeWords blade;
     std::array<bool, framesInFlight> hasBlade{}; // of the newest steps
     bool hasNewTopology = false;                 // loaded since the last step
+    bool isUncut = false;                        // since the last reset, whatever comes of its steps
     std::uint32_t changes = 0;                   // of the material
     bool isChanged = false;                      // since the last step
     SplitBudget budget;
@@ -145,8 +136,8 @@ struct Simulation::State {
                                                       .count = framesInFlight,
                                                       .stride = sizeof(layout::StatusWords),
                                                       .kind = vk::MemoryKind::readback}),
-          skins(rangesOf(scene.skins)), anchors(scene.attachments),
-          hands(settings.grabs, scene.particles.size()),
+          skins(rangesOf(scene.skins, Triangles::all)), wholeSkins(rangesOf(scene.skins, Triangles::whole)),
+          anchors(scene.attachments), hands(settings.grabs, scene.particles.size()),
           colliders(scene.colliders, scene.driven, settings.pokes), budget(dampedBudget(scene, settings)),
           theta(settings.solver == Solver::split ? settings.theta : 0), omega(settings.omega),
           damping(scene.damping), substeps(settings.substeps),
@@ -325,6 +316,7 @@ void Simulation::recordReset(VkCommandBuffer buffer) noexcept {
     state_->anchors.reset();
     state_->hands.reset();
     state_->colliders.moveTo(0);
+    state_->isUncut = true;
 }
 
 void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps* timestamps) noexcept {
@@ -343,6 +335,7 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     const bool isBlade = state_->countsRing && state_->blade.read(step);
     const bool hasBlade = isBlade || state_->program.cutting.tears;
     state_->hasBlade[step.frame % framesInFlight] = hasBlade;
+    state_->isUncut = state_->isUncut && !hasBlade;
     vk::Commands commands(state_->device, buffer);
     if (timestamps) timestamps->reset(commands);
     commands.beginStep();
@@ -383,6 +376,7 @@ void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from,
     state_->previousH = isAlike ? end.h : 0;
     state_->anchors = other.anchors;
     if (isAlike) state_->hands = other.hands;
+    state_->isUncut = other.isUncut;
     state_->isChanged = true;
     state_->colliders.moveTo(end.time, end.pokes);
 }
@@ -464,7 +458,8 @@ SavedState Simulation::recordSaveState(VkCommandBuffer buffer, const vk::BufferV
     const auto pokes = this->pokes();
     return {state_->previousH,        state_->colliders.time(),
             state_->anchors.places(), {pokes.begin(), pokes.end()},
-            state_->hasNewTopology,   state_->changes};
+            state_->hasNewTopology,   state_->changes,
+            state_->isUncut};
 }
 
 void Simulation::recordLoadState(VkCommandBuffer buffer, const vk::BufferView& from,
@@ -484,6 +479,7 @@ void Simulation::recordLoadState(VkCommandBuffer buffer, const vk::BufferView& f
     state_->unsettled = {};
     state_->anchors.moveTo(saved.anchors);
     state_->hasNewTopology = saved.hasNewTopology;
+    state_->isUncut = saved.isUncut;
     state_->hands.reset();
     state_->colliders.moveTo(saved.colliderTime, pokes);
 }
@@ -510,12 +506,16 @@ void Simulation::recordLoadTopology(VkCommandBuffer buffer, const vk::BufferView
     if (state_->changes > 0) state_->recordSettling(commands);
     commands.endStep();
     state_->hasNewTopology = true;
+    state_->isUncut = false; // for all that the host knows
 }
 
-void Simulation::recordSkin(VkCommandBuffer buffer) noexcept {
+void Simulation::recordSkin(VkCommandBuffer buffer, SkinDetail detail) noexcept {
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
-    state_->executor.skin(commands);
+    if (detail == SkinDetail::drawn && drawnSkins().areWhole)
+        state_->executor.wholeSkin(commands);
+    else
+        state_->executor.skin(commands);
     commands.endStep();
 }
 
@@ -539,6 +539,11 @@ vk::BufferView Simulation::skinIndices() const noexcept {
 }
 const std::vector<SkinRange>& Simulation::skins() const noexcept {
     return state_->skins;
+}
+Simulation::DrawnSkins Simulation::drawnSkins() const noexcept {
+    const vk::BufferView whole = view(state_->program.wholeIndices);
+    if (state_->isUncut && whole.size > 0) return {whole, state_->wholeSkins, true};
+    return {skinIndices(), state_->skins};
 }
 CutSurface Simulation::cutSurface() const noexcept {
     const CutSurfaceBuffers& buffers = state_->program.cutSurface;

@@ -136,7 +136,12 @@ struct SavedState {
     std::vector<PokeState> pokes;
     bool hasNewTopology = false; ///< recordLoadTopology() since the last step
     std::uint32_t changes = 0;   ///< recordChange() before it
+    bool isUncut = false;        ///< nothing can have been cut since the reset
 };
+
+/// What recordSkin() makes of skins that were split so that they may be cut: all of their triangles, or those
+/// that are to be drawn, which are fewer while nothing is cut (drawnSkins()).
+enum class SkinDetail { all, drawn };
 
 /// The surface of cuts, to be drawn beside the skins after recordSkin(): the inside that a blade laid open,
 /// and the pieces of skins beside it. Those of the skin's own triangles that pieces stand for are degenerate
@@ -243,7 +248,8 @@ public:
     void recordLoadTopology(VkCommandBuffer commands, const vk::BufferView& from) noexcept;
 
     /// Records the skins of the newest recorded state; afterwards skinVertices() is visible to vertex input.
-    void recordSkin(VkCommandBuffer commands) noexcept;
+    /// With SkinDetail::drawn only vertices of drawnSkins() are those of this state.
+    void recordSkin(VkCommandBuffer commands, SkinDetail detail = SkinDetail::all) noexcept;
 
     /// Public state [m], [m/s]: particleCount x vec4, stride 16, w = inverse mass [1/kg], 0 while the
     /// particle sleeps. `split` reports the velocity half a substep before the step's end (leapfrog). No
@@ -261,6 +267,15 @@ public:
     vk::BufferView skinVertices() const noexcept;
     vk::BufferView skinIndices() const noexcept;
     const std::vector<SkinRange>& skins() const noexcept;
+    /// What to draw of the skins after recordSkin(), with either detail: 32-bit indices into skinVertices(),
+    /// and the range of each skin in them. Valid for what was recorded until then; another step, reset or
+    /// state may change it.
+    struct DrawnSkins {
+        vk::BufferView indices;
+        std::span<const SkinRange> ranges;
+        bool areWhole = false; ///< Skin::wholeTriangles, where a skin has some
+    };
+    DrawnSkins drawnSkins() const noexcept;
     CutSurface cutSurface() const noexcept;
     /// What the skins of sheets fall into along cuts, to be drawn beside skins() with the same two buffers:
     /// one VkDrawIndexedIndirectCommand a skin, stride 20, of nothing where nothing is cut. The skin's own

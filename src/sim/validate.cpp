@@ -269,6 +269,10 @@ void checkSkin(const Skin& skin, const std::string& name, std::size_t particles,
         for (const std::uint32_t corner : skin.triangles[t])
             complaints.checkIndex(corner, skin.vertexCount(), "vertices",
                                   [&] { return name + element(".triangles", t); });
+    for (std::size_t t = 0; t < skin.wholeTriangles.size(); ++t)
+        for (const std::uint32_t corner : skin.wholeTriangles[t])
+            complaints.checkIndex(corner, skin.vertexCount(), "vertices",
+                                  [&] { return name + element(".wholeTriangles", t); });
     for (const float channel : {skin.color.x, skin.color.y, skin.color.z})
         complaints.check(double{channel}, ranges::color, [&] { return name + ".color"; });
 }

@@ -76,8 +76,8 @@ struct Played : Scene {
         tools.handle(input, controller);
         if (input.notches != 0) controller.wheel(input.notches, input.pointer);
         if (asked && asked == tools.question()) { // of the turn before
-            const auto found = pick(stage.scene(), opening.light.balls, asked->ray, probe.positions(),
-                                    probe.vertices(), asked->among());
+            const auto found =
+                pick(stage.scene(), opening.light.balls, asked->ray, probe.seen(), asked->among());
             tools.answer(*asked, found, found ? holdRadius(stage.scene(), found->particle) : 0);
         }
         run([&](VkCommandBuffer commands) {

@@ -40,7 +40,7 @@ struct Seen {
         }
         return {{x.x(), x.y(), x.z(), 1}, {}};
     }
-    std::optional<Pick> at(const Ray& ray) const { return pick(scene, balls, ray, positions, vertices); }
+    std::optional<Pick> at(const Ray& ray) const { return pick(scene, balls, ray, {positions, vertices}); }
 };
 
 // 0.4 m wide around the origin; with a second one 2 m behind it.

@@ -504,7 +504,7 @@ TEST(Layers, MarkContactsThroughTheBody) {
 TEST(StateProbe, FindsTheBodyWhereItIsNow) {
     const sim::Scene scene = block(0.5f, true);
     Stage stage(test::device(), scene, {});
-    const StateProbe probe(test::device(), stage.simulation());
+    StateProbe probe(test::device(), stage.simulation());
     VkCommandBuffer commands = test::queue().begin();
     stage.recordReset(commands);
     for (int i = 0; i < 4; ++i) stage.recordStep(commands);
@@ -515,9 +515,9 @@ TEST(StateProbe, FindsTheBodyWhereItIsNow) {
     EXPECT_NEAR(probe.bounds().min().y(), fallen, 2e-3f);
     EXPECT_NEAR(probe.bounds().sizes().y(), 0.4f, 1e-3f);
     EXPECT_EQ(probe.positions().size(), scene.particles.size());
-    ASSERT_EQ(probe.vertices().size(), scene.skins[0].vertexCount());
+    ASSERT_EQ(probe.seen().vertices.size(), scene.skins[0].vertexCount());
     float lowest = 1;
-    for (const auto& vertex : probe.vertices()) lowest = std::min(lowest, vertex.position.y);
+    for (const auto& vertex : probe.seen().vertices) lowest = std::min(lowest, vertex.position.y);
     EXPECT_NEAR(lowest, fallen, 2e-3f);
 }
 

@@ -235,7 +235,8 @@ TEST(Section, HandsReachWhatItHasLaidOpenAndNothingBefore) {
     const std::vector<bool> closed = closedSkins(scene);
     const Ray ray{{0.03f, 0.02f, 3}, -Vector3::UnitZ()};
     const auto at = [&](const Section& section) {
-        return pick(scene, ballsOf(scene), ray, positions, vertices, Among::moving, Opened{section, closed});
+        return pick(scene, ballsOf(scene), ray, {positions, vertices}, Among::moving,
+                    Opened{section, closed});
     };
     const auto inside = at({Vector3::UnitZ(), 0.02f});
     ASSERT_TRUE(inside);

@@ -99,13 +99,14 @@ void Renderer::drawSkins(VkCommandBuffer commands, std::size_t pipeline, const s
     const vk::DeviceFunctions& functions = device_.functions();
     const vk::BufferView& values = buffers.skins;
     bind(commands, pipeline);
-    bindMesh(commands, simulation.skinVertices(), simulation.skinIndices());
+    const sim::Simulation::DrawnSkins drawn = simulation.drawnSkins();
+    bindMesh(commands, simulation.skinVertices(), drawn.indices);
     if (values.size > 0) functions.vkCmdBindVertexBuffers(commands, 1, 1, &values.buffer, &values.offset);
     const vk::BufferView pieces = simulation.pieceDraws();
     for (std::size_t i = 0; i < simulation.skins().size(); ++i) {
         if (pipeline == skinCountPipeline && !light_.isClosed[i]) continue; // it encloses nothing
         if (pipeline == skinBacksPipeline && leavesBacks_ && light_.isOutward[i]) continue;
-        const sim::SkinRange& skin = simulation.skins()[i];
+        const sim::SkinRange& skin = drawn.ranges[i];
         push(commands, values.size > 0 ? sim::Vec3{buffers.range} : skin.color, light_.gloss[i], {});
         functions.vkCmdDrawIndexed(commands, skin.indexCount, 1, skin.firstIndex, 0, 0);
         if (pieces.size > 0)

@@ -40,7 +40,10 @@ public:
     void recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps = nullptr,
                     std::span<const sim::Grab> grabs = {}, const sim::Blade& blade = {},
                     std::span<const sim::Poke> pokes = {}) noexcept;
-    void recordSkin(VkCommandBuffer commands) noexcept { growing_.simulation().recordSkin(commands); }
+    /// What is to be drawn of it.
+    void recordSkin(VkCommandBuffer commands) noexcept {
+        growing_.simulation().recordSkin(commands, sim::SkinDetail::drawn);
+    }
 
     /// As app::saveRun and loadRun; what is loaded has taken no step since then.
     app::SavedRun save(const vk::Device& device, vk::Queue& queue) const;

@@ -98,7 +98,7 @@ void Inspector::settle(std::uint32_t slot, const BallList& balls, const StatePro
     const Asked asked = std::exchange(asked_[slot], {});
     if (!asked.ray || !isOn_) return;
     const sim::Scene& scene = stage_.scene();
-    const auto met = pick(scene, balls, *asked.ray, probe.positions(), probe.vertices(), Among::all, opened);
+    const auto met = pick(scene, balls, *asked.ray, probe.seen(), Among::all, opened);
     found_.reset();
     if (!met) return;
     found_ = foundAt(scene, met->particle, probe.positions(), probe.velocities(), isCut);

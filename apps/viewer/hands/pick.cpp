@@ -79,9 +79,11 @@ void addBody(const sim::Scene& scene, const sim::Skin& skin, std::vector<std::ui
             for (std::uint32_t i = 0; i < body.particleCount; ++i) holders.push_back(body.firstParticle + i);
 }
 
-void lookAtSkin(const sim::Skin& skin, const Ray& ray, std::span<const sim::layout::SkinVertex> vertices,
-                const Seen& seen, Nearest& nearest, int& winding) {
-    for (const auto& triangle : skin.triangles) {
+void lookAtSkin(const sim::Skin& skin, bool isWhole, const Ray& ray,
+                std::span<const sim::layout::SkinVertex> vertices, const Seen& seen, Nearest& nearest,
+                int& winding) {
+    const bool isDrawnWhole = isWhole && !skin.wholeTriangles.empty();
+    for (const auto& triangle : isDrawnWhole ? skin.wholeTriangles : skin.triangles) {
         const auto corner = [&](std::size_t i) { return placeOf(vertices[triangle[i]].position); };
         bool isBack = false;
         const float distance = meetsTriangle(ray, corner(0), corner(1), corner(2), isBack);
@@ -94,13 +96,14 @@ void lookAtSkin(const sim::Skin& skin, const Ray& ray, std::span<const sim::layo
     }
 }
 
-void lookAtSkins(const sim::Scene& scene, const Ray& ray, std::span<const sim::layout::SkinVertex> vertices,
-                 const Seen& seen, const std::optional<Opened>& opened, Nearest& nearest) {
+void lookAtSkins(const sim::Scene& scene, const Ray& ray, const SeenState& state, const Seen& seen,
+                 const std::optional<Opened>& opened, Nearest& nearest) {
     std::size_t first = 0;
     for (std::size_t i = 0; i < scene.skins.size(); ++i) {
         const sim::Skin& skin = scene.skins[i];
         int winding = 0; // around where the ray enters what is left
-        lookAtSkin(skin, ray, vertices.subspan(first, skin.vertexCount()), seen, nearest, winding);
+        lookAtSkin(skin, state.isWhole, ray, state.vertices.subspan(first, skin.vertexCount()), seen, nearest,
+                   winding);
         first += skin.vertexCount();
         if (!seen.isOpened || seen.from == none || winding == 0 || !opened->isClosed[i]) continue;
         nearest = {seen.from, {}};
@@ -120,13 +123,11 @@ void lookAtBalls(const BallList& balls, const Ray& ray, std::span<const sim::lay
 } // namespace
 
 std::optional<Pick> pick(const sim::Scene& scene, const BallList& balls, const Ray& ray,
-                         std::span<const sim::layout::vec4> positions,
-                         std::span<const sim::layout::SkinVertex> vertices, Among among,
-                         const std::optional<Opened>& opened) {
+                         const SeenState& state, Among among, const std::optional<Opened>& opened) {
     const Seen seen = seenOf(ray, opened);
     Nearest nearest;
-    if (!vertices.empty()) lookAtSkins(scene, ray, vertices, seen, opened, nearest);
-    lookAtBalls(balls, ray, positions, seen, nearest);
+    if (!state.vertices.empty()) lookAtSkins(scene, ray, state, seen, opened, nearest);
+    lookAtBalls(balls, ray, state.positions, seen, nearest);
     if (nearest.distance == none) return std::nullopt;
     const Vector3 point = ray.origin + nearest.distance * ray.direction;
     if (among == Among::moving) {
@@ -134,10 +135,10 @@ std::optional<Pick> pick(const sim::Scene& scene, const BallList& balls, const R
         std::erase_if(nearest.holders, [&](std::uint32_t i) { return inverseMass[i] == 0; });
     }
     if (nearest.holders.empty()) return std::nullopt;
-    const auto apart = [&](std::uint32_t i) { return (placeOf(positions[i]) - point).squaredNorm(); };
+    const auto apart = [&](std::uint32_t i) { return (placeOf(state.positions[i]) - point).squaredNorm(); };
     const std::uint32_t particle =
         *std::ranges::min_element(nearest.holders, {}, [&](std::uint32_t i) { return apart(i); });
-    return Pick{particle, point, point - placeOf(positions[particle]), nearest.distance};
+    return Pick{particle, point, point - placeOf(state.positions[particle]), nearest.distance};
 }
 
 sim::Body bodyOf(const sim::Scene& scene, std::uint32_t particle) {

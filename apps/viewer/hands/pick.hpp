@@ -36,11 +36,17 @@ struct Opened {
     const std::vector<bool>& isClosed;
 };
 
-/// A state as StateProbe reads it. Nothing where the ray meets no body, or only what is not asked for. What
-/// is cut away is not met; the inside of a body that it has laid open is.
+/// A state as StateProbe reads it.
+struct SeenState {
+    std::span<const sim::layout::vec4> positions;
+    std::span<const sim::layout::SkinVertex> vertices; ///< of all skins
+    bool isWhole = false;                              ///< sim::Simulation::DrawnSkins::areWhole
+};
+
+/// Nothing where the ray meets no body, or only what is not asked for. What is cut away is not met; the
+/// inside of a body that it has laid open is.
 std::optional<Pick> pick(const sim::Scene& scene, const BallList& balls, const Ray& ray,
-                         std::span<const sim::layout::vec4> positions,
-                         std::span<const sim::layout::SkinVertex> vertices, Among among = Among::moving,
+                         const SeenState& state, Among among = Among::moving,
                          const std::optional<Opened>& opened = {});
 
 /// Which one a particle is of; one of no particles where none holds it.

@@ -17,7 +17,7 @@ vk::Buffer readback(const vk::Device& device, const std::string& name, const vk:
 } // namespace
 
 StateProbe::StateProbe(const vk::Device& device, const sim::Simulation& simulation)
-    : device_(device), particles_(simulation.program().particleCount),
+    : device_(device), simulation_(simulation), particles_(simulation.program().particleCount),
       positions_{simulation.positions(), readback(device, "probe.positions", simulation.positions())} {
     const vk::BufferView velocities = simulation.velocities(), vertices = simulation.skinVertices();
     if (velocities.size > 0)
@@ -25,7 +25,8 @@ StateProbe::StateProbe(const vk::Device& device, const sim::Simulation& simulati
     if (vertices.size > 0) vertices_.emplace(Copy{vertices, readback(device, "probe.vertices", vertices)});
 }
 
-void StateProbe::record(VkCommandBuffer handle) const noexcept {
+void StateProbe::record(VkCommandBuffer handle) noexcept {
+    isWhole_ = simulation_.drawnSkins().areWhole;
     vk::Commands commands(device_, handle);
     commands.copy(positions_.from, positions_.to.view());
     if (vertices_) {
@@ -64,9 +65,12 @@ std::span<const sim::layout::vec4> StateProbe::velocities() const noexcept {
     return {reinterpret_cast<const sim::layout::vec4*>(velocities_->to.mapped()), particles_};
 }
 
-std::span<const sim::layout::SkinVertex> StateProbe::vertices() const noexcept {
-    if (!vertices_) return {};
-    return {reinterpret_cast<const sim::layout::SkinVertex*>(vertices_->to.mapped()), vertices_->to.count()};
+SeenState StateProbe::seen() const noexcept {
+    SeenState seen{.positions = positions(), .vertices = {}, .isWhole = isWhole_};
+    if (vertices_)
+        seen.vertices = {reinterpret_cast<const sim::layout::SkinVertex*>(vertices_->to.mapped()),
+                         vertices_->to.count()};
+    return seen;
 }
 
 } // namespace sinew::viewer

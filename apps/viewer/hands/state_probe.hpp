@@ -4,7 +4,7 @@
 
 #include "layout.h"
 #include "sim/simulation.hpp"
-#include "viewer/draw/geometry.hpp"
+#include "viewer/hands/pick.hpp"
 #include "vk/buffer.hpp"
 
 #include <optional>
@@ -20,7 +20,7 @@ public:
     /// Velocities too, in the same commands as record(), where the simulation has some.
     void recordVelocities(VkCommandBuffer commands) const noexcept;
     /// After recordSkin() of the simulation, if there are skins.
-    void record(VkCommandBuffer commands) const noexcept;
+    void record(VkCommandBuffer commands) noexcept;
 
     /// The box around all finite positions [m]; empty where there is none. Of this and what follows, the
     /// recorded frame must have finished.
@@ -31,8 +31,8 @@ public:
     std::span<const sim::layout::vec4> positions() const noexcept;
     /// Of every particle [m/s]; empty where there are none.
     std::span<const sim::layout::vec4> velocities() const noexcept;
-    /// Of all skins, one behind the other; empty where there are none.
-    std::span<const sim::layout::SkinVertex> vertices() const noexcept;
+    /// What a ray can meet: those, and vertices as they were drawn.
+    SeenState seen() const noexcept;
 
 private:
     struct Copy {
@@ -40,7 +40,9 @@ private:
         vk::Buffer to;
     };
     const vk::Device& device_;
+    const sim::Simulation& simulation_;
     std::size_t particles_;
+    bool isWhole_ = false; // what was recorded
     Copy positions_;
     std::optional<Copy> velocities_, vertices_;
 };

@@ -6,6 +6,8 @@
 #include "layout.h"
 
 #include <algorithm>
+#include <array>
+#include <string>
 
 namespace sinew::sim::surface {
 
@@ -37,36 +39,86 @@ Fans fansOf(const std::vector<std::uint32_t>& indices, std::size_t vertices) {
     return result;
 }
 
-void addVertices(ProgramBuilder& program, const Skin& skin, BufferId positions, BufferId vertices,
-                 std::uint32_t firstVertex) {
-    const layout::SkinPush push{static_cast<std::uint32_t>(skin.vertexCount()), firstVertex};
-    if (!skin.particles.empty()) {
-        const BufferId particles = program.upload(skin.name + ".particles", skin.particles);
-        program.dispatch(kernels::skinParticles, push.count, {positions, particles, vertices}, push);
-        return;
-    }
+// The buffer that says what the vertices hang on.
+BufferId uploadHolders(ProgramBuilder& program, const Skin& skin) {
+    if (!skin.particles.empty()) return program.upload(skin.name + ".particles", skin.particles);
     std::vector<layout::CellVertex> items;
     for (const CellEmbedding& cell : skin.cells) {
         layout::CellVertex& item = items.emplace_back();
         item.weights = {cell.weights.x, cell.weights.y, cell.weights.z, 0};
         std::copy(cell.particles.begin(), cell.particles.end(), item.corners);
     }
-    const BufferId cells = program.upload(skin.name + ".cells", items);
-    program.dispatch(kernels::skinCells, push.count, {positions, cells, vertices}, push);
+    return program.upload(skin.name + ".cells", items);
+}
+
+// The first `count` vertices of every skin.
+template <typename Count>
+void addVertices(ProgramBuilder& program, const std::vector<Skin>& skins,
+                 const std::vector<BufferId>& holders, const Count& count) {
+    const StepProgram& built = program.program();
+    std::uint32_t firstVertex = 0;
+    for (std::size_t s = 0; s < skins.size(); ++s) {
+        const Skin& skin = skins[s];
+        if (skin.vertexCount() == 0) continue;
+        const layout::SkinPush push{count(skin), firstVertex};
+        program.dispatch(skin.particles.empty() ? kernels::skinCells : kernels::skinParticles, push.count,
+                         {built.positions, holders[s], built.skinVertices}, push);
+        firstVertex += static_cast<std::uint32_t>(skin.vertexCount());
+    }
+}
+
+void addNormals(ProgramBuilder& program, const std::vector<std::uint32_t>& indices, BufferId indexBuffer,
+                std::uint32_t vertexCount, const std::string& name) {
+    const Fans fans = fansOf(indices, vertexCount);
+    const BufferId fanBuffer = program.upload(name + ".fans", fans.fans);
+    const BufferId triangles = program.upload(name + ".triangles_of_vertex", fans.triangles);
+    program.dispatch(kernels::skinNormals, vertexCount,
+                     {program.program().skinVertices, indexBuffer, fanBuffer, triangles},
+                     layout::CountPush{vertexCount});
+}
+
+const std::vector<std::array<std::uint32_t, 3>>& wholeTriangles(const Skin& skin) {
+    return skin.wholeTriangles.empty() ? skin.triangles : skin.wholeTriangles;
+}
+
+// Those that its whole triangles are between, and what is in front of them.
+std::uint32_t wholeVertices(const Skin& skin) {
+    if (skin.wholeTriangles.empty()) return static_cast<std::uint32_t>(skin.vertexCount());
+    std::uint32_t last = 0;
+    for (const auto& triangle : skin.wholeTriangles) last = std::max(last, std::ranges::max(triangle));
+    return last + 1;
+}
+
+template <typename Triangles>
+std::vector<std::uint32_t> join(const std::vector<Skin>& skins, const Triangles& trianglesOf) {
+    std::vector<std::uint32_t> indices;
+    std::uint32_t firstVertex = 0;
+    for (const Skin& skin : skins) {
+        for (const auto& triangle : trianglesOf(skin))
+            for (const std::uint32_t corner : triangle) indices.push_back(firstVertex + corner);
+        firstVertex += static_cast<std::uint32_t>(skin.vertexCount());
+    }
+    return indices;
+}
+
+// The same skins while nothing is cut.
+void addWholeSkins(ProgramBuilder& program, const std::vector<Skin>& skins,
+                   const std::vector<BufferId>& holders) {
+    const auto isSplit = [](const Skin& skin) { return !skin.wholeTriangles.empty(); };
+    if (std::ranges::none_of(skins, isSplit)) return;
+    program.beginWholeSkin();
+    program.beginPhase("whole skin");
+    const std::vector<std::uint32_t> indices = join(skins, wholeTriangles);
+    program.program().wholeIndices = program.upload("skin.whole_indices", indices);
+    addVertices(program, skins, holders, wholeVertices);
+    addNormals(program, indices, program.program().wholeIndices, std::ranges::max(indices) + 1, "skin.whole");
 }
 
 } // namespace
 
 std::vector<std::uint32_t> joinIndices(const std::vector<Skin>& skins) {
-    std::vector<std::uint32_t> indices;
-    std::uint32_t firstVertex = 0;
-    for (const Skin& skin : skins) {
-        for (const auto& triangle : skin.triangles) {
-            for (const std::uint32_t corner : triangle) indices.push_back(firstVertex + corner);
-        }
-        firstVertex += static_cast<std::uint32_t>(skin.vertexCount());
-    }
-    return indices;
+    return join(
+        skins, [](const Skin& skin) -> const auto& { return skin.triangles; });
 }
 
 void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins) {
@@ -81,20 +133,15 @@ void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins) {
     built.skinVertices =
         program.scratch<layout::SkinVertex>("skin.vertices", vertexCount + built.pieceVertices);
     if (built.skinIndices == BufferId{}) built.skinIndices = program.upload("skin.indices", indices);
-    std::uint32_t firstVertex = 0;
-    for (const Skin& skin : skins) {
-        if (skin.vertexCount() == 0) continue;
-        addVertices(program, skin, built.positions, built.skinVertices, firstVertex);
-        firstVertex += static_cast<std::uint32_t>(skin.vertexCount());
-    }
+    std::vector<BufferId> holders;
+    for (const Skin& skin : skins)
+        holders.push_back(skin.vertexCount() > 0 ? uploadHolders(program, skin) : BufferId{});
+    addVertices(program, skins, holders,
+                [](const Skin& skin) { return static_cast<std::uint32_t>(skin.vertexCount()); });
     for (const auto& addMore : program.skinMiddles()) addMore();
-    const Fans fans = fansOf(indices, vertexCount);
-    const BufferId fanBuffer = program.upload("skin.fans", fans.fans);
-    const BufferId triangles = program.upload("skin.triangles_of_vertex", fans.triangles);
-    program.dispatch(kernels::skinNormals, vertexCount,
-                     {built.skinVertices, built.skinIndices, fanBuffer, triangles},
-                     layout::CountPush{vertexCount});
+    addNormals(program, indices, built.skinIndices, vertexCount, "skin");
     for (const auto& addMore : program.skinEndings()) addMore();
+    addWholeSkins(program, skins, holders);
 }
 
 } // namespace sinew::sim::surface

@@ -9,7 +9,8 @@ namespace sinew::sim::surface {
 /// Triangles of all skins, three vertices each, with those of a skin behind those before it.
 std::vector<std::uint32_t> joinIndices(const std::vector<Skin>& skins);
 
-/// Appends the skin passes and sets the program's skin buffers; nothing where `skins` is empty. Skins lie
+/// Appends the skin passes, and those of whole skins where some were split, and sets the program's skin
+/// buffers; nothing where `skins` is empty. Skins lie
 /// behind one another in one vertex and one index buffer, in the order of the scene.
 void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins);
 

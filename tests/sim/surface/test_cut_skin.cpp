@@ -12,7 +12,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <random>
 
@@ -93,6 +95,81 @@ std::size_t stretched(const ClosedSurface& surface, double spacing) {
 }
 
 } // namespace
+
+namespace {
+
+std::vector<layout::SkinVertex> drawnBy(CutBody& body, SkinDetail detail) {
+    const VkCommandBuffer commands = test::queue().begin();
+    body.runner().simulation().recordSkin(commands, detail);
+    test::queue().wait(test::queue().submit(commands));
+    return test::queue().download<layout::SkinVertex>(body.runner().simulation().skinVertices());
+}
+
+Vector3d normalOf(const layout::SkinVertex& vertex) {
+    return {double{vertex.normal.x}, double{vertex.normal.y}, double{vertex.normal.z}};
+}
+
+} // namespace
+
+// The triangles of the mesh, not those that it was split into, between vertices that are where they are
+// anyway.
+TEST(CutSkin, IsDrawnAsItsMeshUntilItIsCut) {
+    constexpr Shape fine{"organ", 49, 20}; // as scenes/organ.toml
+    Scene scene = sceneOf(fine);
+    scene.gravity = {0, -9.81f, 0};
+    scene.fixed.push_back({0});
+    CutBody body(scene);
+    const Simulation& simulation = body.runner().simulation();
+    const Skin& skin = scene.skins[0];
+    ASSERT_EQ(skin.wholeTriangles.size(), mesh::generate(fine.name, fine.detail).triangles.size());
+    body.runner().run(5);
+    ASSERT_TRUE(simulation.drawnSkins().areWhole);
+    const auto indices =
+        test::queue().download<std::array<std::uint32_t, 3>>(simulation.drawnSkins().indices);
+    EXPECT_EQ(indices, skin.wholeTriangles);
+    EXPECT_EQ(simulation.drawnSkins().ranges[0].indexCount, 3 * skin.wholeTriangles.size());
+
+    const auto split = drawnBy(body, SkinDetail::all);
+    body.runner().run(1);
+    const auto whole = drawnBy(body, SkinDetail::drawn), after = drawnBy(body, SkinDetail::all);
+    double least = 1, sum = 0;
+    for (const auto& triangle : skin.wholeTriangles)
+        for (const std::uint32_t v : triangle) {
+            ASSERT_EQ(std::memcmp(&whole[v].position, &after[v].position, sizeof whole[v].position), 0) << v;
+            ASSERT_NE(std::memcmp(&whole[v].position, &split[v].position, sizeof whole[v].position), 0) << v;
+            const double alike = normalOf(whole[v]).dot(normalOf(after[v]));
+            least = std::min(least, alike);
+            sum += alike;
+        }
+    const double mean = sum / (3.0 * static_cast<double>(skin.wholeTriangles.size()));
+    std::printf("normals: %.2f degrees apart in the mean, %.1f at most\n",
+                std::acos(mean) * 180 / std::numbers::pi, std::acos(least) * 180 / std::numbers::pi);
+    EXPECT_GT(mean, 0.9999) << "nobody sees the first cut elsewhere";
+    EXPECT_GT(least, 0.98);
+    const std::size_t last = skin.vertexCount() - 1;
+    EXPECT_EQ(std::memcmp(&whole[last], &split[last], sizeof whole[last]), 0) << "nobody asked for it";
+
+    const vk::Buffer copy(
+        test::device(),
+        {.name = "state", .count = simulation.stateSize() / 4, .stride = 4, .kind = vk::MemoryKind::device});
+    VkCommandBuffer commands = test::queue().begin();
+    const SavedState uncut = simulation.recordSaveState(commands, copy.view());
+    test::queue().wait(test::queue().submit(commands));
+    body.cut(sweepOf({{0, 0, 0}, Vector3d::UnitX()}, 3));
+    EXPECT_FALSE(simulation.drawnSkins().areWhole);
+    EXPECT_EQ(simulation.drawnSkins().indices.buffer, simulation.skinIndices().buffer);
+    EXPECT_EQ(simulation.drawnSkins().ranges[0].indexCount, 3 * skin.triangles.size());
+    const auto cut = drawnBy(body, SkinDetail::drawn);
+    EXPECT_NE(std::memcmp(&cut[last], &after[last], sizeof cut[last]), 0);
+
+    commands = test::queue().begin();
+    body.runner().simulation().recordLoadState(commands, copy.view(), uncut);
+    test::queue().wait(test::queue().submit(commands));
+    EXPECT_TRUE(simulation.drawnSkins().areWhole) << "an undo";
+    body.cut(sweepOf({{0, 0, 0}, Vector3d::UnitX()}, 3));
+    body.runner().reset();
+    EXPECT_TRUE(simulation.drawnSkins().areWhole);
+}
 
 TEST(CutSkin, OfAnUncutBodyIsItsMesh) {
     for (const Shape& shape : {sphere, knot, organ}) {
