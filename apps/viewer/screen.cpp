@@ -34,6 +34,7 @@ Screen::Screen(Window& window, std::unique_ptr<Place> place, const Timing& timin
       ownScale_(preferences.scale), windowScale_(window.scale()), isVsync_(preferences.isVsync) {
     panels_.choose(preferences.arePanelsShown);
     place_->painter.setAtlas(panels_.atlas());
+    panels_.setPaste([this] { return window_.clipboard(); });
     window_.setCover({[this](const Vector2& pixels) { return panels_.covers(pixels); },
                       [this] { return panels_.takesKeys(); }});
 }

@@ -96,7 +96,9 @@ void Show::turn() {
     screen_.timing().beforeInput(isIdle);
     Input input = screen_.window().poll(isIdle ? idleWait : 0);
     screen_.timing().afterInput(!input.isEmpty() || input.panels.isTouched, picturesOnTheirWay());
-    const bool isPointed = input.pointer != std::exchange(pointer_, input.pointer) && inspector_.isOn();
+    const bool hasMoved = input.pointer != std::exchange(pointer_, input.pointer);
+    const bool isPointed = hasMoved && inspector_.isOn(), isUsed = hasMoved || !input.presses.empty();
+    if (!replay_ && tools_.lendBlade(input.held == Action::blade, isUsed)) input.needsRedraw = true;
     const Wishes wishes = std::exchange(wishes_, {});
     grant(wishes, input);
     handle(input);

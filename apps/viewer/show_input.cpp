@@ -16,6 +16,7 @@ void Show::grant(const Wishes& wishes, Input& input) {
             input.actions.push_back(action);
     if (!wishes.previews.empty()) library_.previews().want(wishes.previews);
     if (wishes.scene && mayOpen()) library_.open(*wishes.scene, pictureAspect());
+    if (wishes.file && mayOpen()) library_.openFile(*wishes.file, pictureAspect());
     if (wishes.device && mayOpen()) changeDevice(*wishes.device);
     if (wishes.sectionOffset && screen_.layers().section) {
         screen_.layers().section->offset = *wishes.sectionOffset;
@@ -121,6 +122,9 @@ void Show::handle(Action action) {
         break;
     case Action::nextScene:
         if (mayOpen()) library_.openNext(1, pictureAspect());
+        break;
+    case Action::open:
+        screen_.panels().askForFile();
         break;
     case Action::inspect:
         inspector_.toggle();

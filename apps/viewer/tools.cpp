@@ -149,6 +149,8 @@ void Tools::goOn(const Tools& before, const Stage& stage) {
     pinned_ = before.pinned_;
     wantsPin_ = before.wantsPin_;
     isPinArmed_ = before.isPinArmed_;
+    isLent_ = before.isLent_;
+    wasPokeOn_ = before.wasPokeOn_;
     gravity_ = before.gravity_;
     log_ = before.log_;
     turned(stage.material());
@@ -172,6 +174,21 @@ void Tools::takeBlade() {
     if (!canCut_) return say("note: no body of this scene can be cut: cuttable = true makes it so");
     if (poke_.isOn()) poke_.toggle();
     blade_.toggle();
+}
+
+bool Tools::lendBlade(bool isHeld, bool isUsed) {
+    isLent_ = isLent_ && blade_.isOn(); // or somebody has put it away
+    if (isHeld == isLent_) return false;
+    if (isHeld) {
+        if (!isUsed || !canCut_ || blade_.isOn() || poke_.isDown() || hand_.isDown()) return false;
+        wasPokeOn_ = poke_.isOn();
+    } else if (blade_.isCutting()) {
+        return false;
+    }
+    isLent_ = isHeld;
+    act(Action::blade);
+    if (!isHeld && std::exchange(wasPokeOn_, false)) act(Action::poke);
+    return true;
 }
 
 void Tools::takePoke() {

@@ -57,6 +57,9 @@ public:
     CutTool::Depths depths() const { return blade_.depths(); }
     /// False for an action that is none of theirs.
     bool act(Action action);
+    /// The blade as long as `isHeld`, from when the pointer is used: what was in hand before comes back then,
+    /// once a stroke has ended. Whether that changes something.
+    bool lendBlade(bool isHeld, bool isUsed);
     /// The next press of the left button pins what is under it, as the button of a panel cannot.
     void armPin() { isPinArmed_ = true; }
     /// Lets go of everything, and takes out all pins: what was held or to be cut is where nobody expects it.
@@ -128,7 +131,7 @@ private:
     InputLog log_;
     std::uint32_t stepsBack_ = 0; // that are wanted
     bool canCut_ = false, isForgetful_ = false, isForgetfulOfSteps_ = false, wantsPin_ = false,
-         isPinArmed_ = false, wantsUndo_ = false, wantsRedo_ = false;
+         isPinArmed_ = false, wantsUndo_ = false, wantsRedo_ = false, isLent_ = false, wasPokeOn_ = false;
 };
 
 } // namespace sinew::viewer

@@ -1,6 +1,8 @@
 // The panels without a device: what a pointer does in them, and what belongs to them.
 #include "viewer/panels/panels.hpp"
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 #include <imgui.h>
 #include <imgui_internal.h>
@@ -113,6 +115,41 @@ TEST_F(PanelsTest, TurnTheDepthOfTheBlade) {
     EXPECT_TRUE(depths(1200).empty());
 }
 
+TEST_F(PanelsTest, TakeAPathThatIsTypedOrPastedAndNoneAfterEsc) {
+    const auto key = [&](int code, int modifiers = 0) {
+        Wishes wishes = picture({.keys = {{code, true}}, .modifiers = modifiers});
+        const Wishes after = picture({.keys = {{code, false}}});
+        return wishes.file ? wishes.file : after.file;
+    };
+    const auto ask = [&] {
+        panels.askForFile();
+        settle();
+        settle();
+        EXPECT_TRUE(panels.takesKeys());
+    };
+    settle();
+    EXPECT_FALSE(panels.takesKeys());
+    ask();
+    PanelInput typed;
+    for (const char one : std::string("/tmp/a.obj")) typed.characters.push_back(static_cast<unsigned>(one));
+    EXPECT_FALSE(picture(typed).file);
+    EXPECT_EQ(key(GLFW_KEY_ENTER), "/tmp/a.obj");
+    settle();
+    EXPECT_FALSE(panels.takesKeys());
+
+    panels.setPaste([] { return "/tmp/b.toml"; });
+    ask();
+    EXPECT_FALSE(key(GLFW_KEY_V, GLFW_MOD_CONTROL));
+    EXPECT_EQ(key(GLFW_KEY_ENTER), "/tmp/b.toml");
+
+    ask();
+    picture(typed);
+    EXPECT_FALSE(key(GLFW_KEY_ESCAPE));
+    settle();
+    EXPECT_FALSE(panels.takesKeys());
+    EXPECT_FALSE(key(GLFW_KEY_ENTER));
+}
+
 // The list drops down below its field; where it is seen, pictures are asked for, and no others.
 TEST_F(PanelsTest, AskForPicturesOfScenesThatAreSeenInTheList) {
     facts.scenes = {"cloth", "cube", "organ", "tear"};
@@ -137,7 +174,7 @@ TEST_F(PanelsTest, HaveAButtonForEveryActionThatAKeyDoes) {
     settle();
     std::set<Action> clicked;
     for (float y = 20; y < 720; y += 12)
-        for (float x = 1010; x < 1260; x += 40)
+        for (float x = 1010; x < 1260; x += 30)
             for (const Action action : click({x, y}).actions) clicked.insert(action);
     EXPECT_EQ(clicked, actionsOfButtons());
 }

@@ -214,6 +214,39 @@ TEST(BladeDepth, LeavesWhatLiesDeeperInOnePiece) {
     EXPECT_GT(through.linksCutInAll, deep.linksCutInAll);
 }
 
+TEST(Tools, LendTheBladeWhileAKeyIsHeldAndThePointerUsed) {
+    Played scene;
+    Tools& tools = scene.tools;
+    EXPECT_FALSE(tools.lendBlade(true, false)) << "for Ctrl + S nobody needs a blade";
+    EXPECT_FALSE(tools.isBladeOn());
+    EXPECT_TRUE(tools.lendBlade(true, true));
+    EXPECT_FALSE(tools.lendBlade(true, true)) << "once";
+    EXPECT_TRUE(tools.isBladeOn());
+    scene.pressAt({0, 0}, true);
+    EXPECT_FALSE(tools.lendBlade(false, true)) << "in the middle of a stroke";
+    EXPECT_TRUE(tools.isBladeOn());
+    scene.pressAt({0, 0}, false);
+    for (int i = 0; i < 5; ++i) scene.turn({});
+    EXPECT_TRUE(tools.lendBlade(false, false));
+    EXPECT_FALSE(tools.isBladeOn());
+
+    tools.act(Action::poke);
+    EXPECT_TRUE(tools.lendBlade(true, true));
+    EXPECT_TRUE(tools.isBladeOn() && !tools.isPokeOn());
+    EXPECT_TRUE(tools.lendBlade(false, false));
+    EXPECT_TRUE(tools.isPokeOn() && !tools.isBladeOn()) << "back in hand";
+    tools.act(Action::blade); // for good
+    EXPECT_FALSE(tools.lendBlade(true, true));
+    EXPECT_FALSE(tools.lendBlade(false, true));
+    EXPECT_TRUE(tools.isBladeOn());
+    InputFile file = scene.file();
+    Scene again;
+    Replay replay(file);
+    EXPECT_EQ(replayAll(again, replay), Replay::Due::nothing);
+    EXPECT_EQ(again.hash(), file.hash);
+    EXPECT_TRUE(again.tools.isBladeOn());
+}
+
 TEST(Replay, BeginsAtTheReset) {
     Played played;
     played.tools.pull(played.stage, 3);

@@ -14,11 +14,15 @@ namespace {
 
 using enum Action;
 constexpr auto key = Trigger::Kind::key, drag = Trigger::Kind::drag, wheel = Trigger::Kind::wheel,
-               doubleClick = Trigger::Kind::doubleClick;
+               doubleClick = Trigger::Kind::doubleClick, held = Trigger::Kind::held;
 
 // Bindings of one action stand together; the first one's help is the one that is shown.
 constexpr std::array table{
     Binding{{drag, GLFW_MOUSE_BUTTON_LEFT}, grab, "left drag", "on a body: grab and pull; beside: orbit"},
+    Binding{{drag, GLFW_MOUSE_BUTTON_LEFT, GLFW_MOD_CONTROL},
+            grab,
+            "",
+            "on a body: grab and pull; beside: orbit"},
     Binding{{drag, GLFW_MOUSE_BUTTON_RIGHT}, orbit, "right drag", "orbit"},
     Binding{{drag, GLFW_MOUSE_BUTTON_MIDDLE}, pan, "middle drag", "pan"},
     Binding{{drag, GLFW_MOUSE_BUTTON_RIGHT, GLFW_MOD_SHIFT}, pan, "Shift + right drag", "pan"},
@@ -41,6 +45,10 @@ constexpr std::array table{
     Binding{{key, GLFW_KEY_COMMA}, stepBack, ",", "pause and go one step back", "Back"},
     Binding{{key, GLFW_KEY_R}, reset, "R", "reset the scene", "Reset"},
     Binding{{key, GLFW_KEY_C}, blade, "C", "blade: left drag cuts, through or as deep as it is set", "Blade"},
+    Binding{{held, 0, GLFW_MOD_CONTROL},
+            blade,
+            "Ctrl held",
+            "blade: left drag cuts, through or as deep as it is set"},
     Binding{{key, GLFW_KEY_O}, poke, "O", "poke: left drag pushes with a sphere", "Poke"},
     Binding{{key, GLFW_KEY_ESCAPE}, drop, "Esc", "drop the blade, lift the sphere, let go", "Let go"},
     Binding{{key, GLFW_KEY_N},
@@ -89,6 +97,11 @@ constexpr std::array table{
             "Face"},
     Binding{{key, GLFW_KEY_PAGE_UP}, previousScene, "Page Up", "open the scene before this one", "Previous"},
     Binding{{key, GLFW_KEY_PAGE_DOWN}, nextScene, "Page Down", "open the next scene", "Next"},
+    Binding{{key, GLFW_KEY_O, GLFW_MOD_CONTROL},
+            open,
+            "Ctrl + O",
+            "open a scene, a mesh or a saved state by its path",
+            "Open"},
     Binding{{key, GLFW_KEY_F9},
             record,
             "F9",

@@ -33,6 +33,7 @@ enum class Action {
     slowMotion,
     previousScene,
     nextScene,
+    open,
     skinLook,
     wires,
     balls,
@@ -57,9 +58,10 @@ enum class Action {
     quit
 };
 
-/// What a hand does. `code` and `modifiers` are GLFW's: a key, a mouse button, or nothing for the wheel.
+/// What a hand does. `code` and `modifiers` are GLFW's: a key, a mouse button, or nothing for the wheel and
+/// for modifiers that are held.
 struct Trigger {
-    enum class Kind { key, drag, doubleClick, wheel } kind = Kind::key;
+    enum class Kind { key, drag, doubleClick, wheel, held } kind = Kind::key;
     int code = 0;
     int modifiers = 0; ///< of Shift and Ctrl, of the wheel Alt too; others are ignored
     bool operator==(const Trigger&) const = default;

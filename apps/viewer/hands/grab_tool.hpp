@@ -29,6 +29,7 @@ public:
     /// How far around its particle it holds, as answer() was told [m].
     float radius() const { return grabs_.empty() ? 0 : grabs_[0].radius; }
 
+    bool isDown() const { return isDown_; }
     bool isHolding() const { return !grabs_.empty(); }
     /// For sim::Step::grabs.
     std::span<const sim::Grab> grabs() const { return grabs_; }

@@ -141,11 +141,12 @@ struct Facts {
 struct Wishes {
     std::vector<Action> actions;
     std::optional<std::size_t> scene;  ///< of Facts::scenes
+    std::optional<std::string> file;   ///< to be opened
     std::optional<std::size_t> device; ///< of Facts::devices
     std::optional<Knobs> knobs;
     std::optional<float> sectionOffset; ///< [m]
     std::vector<std::size_t> previews;  ///< of Facts::scenes whose names are seen without a picture
-    bool isEmpty() const { return actions.empty() && !scene && !device && !knobs && !sectionOffset; }
+    bool isEmpty() const { return actions.empty() && !scene && !file && !device && !knobs && !sectionOffset; }
 };
 
 } // namespace sinew::viewer

@@ -6,6 +6,10 @@
 
 #include <imgui.h>
 
+namespace sinew::viewer {
+struct PathField;
+}
+
 namespace sinew::viewer::parts {
 
 /// Colors that stay apart for most colour-blind eyes (Okabe and Ito 2008), of the phases in their order.
@@ -49,7 +53,7 @@ void speed(const Facts& facts);
 void counts(const SceneFacts& scene, const Facts& facts);
 void cuts(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
 void program(const SceneFacts& scene);
-void scenes(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
+void scenes(const SceneFacts& scene, const Facts& facts, PathField& path, Wishes& wishes);
 void knobs(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
 
 /// A little window beside the pointer; `free` pixels from the left are beside the panel.

@@ -1,9 +1,13 @@
 // Which scene is on show, and what can be turned in it.
 #include "viewer/panels/panel_parts.hpp"
+#include "viewer/panels/panels.hpp"
 #include "viewer/panels/picture_sheet.hpp"
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <utility>
 
 namespace sinew::viewer::parts {
 
@@ -123,12 +127,31 @@ void sceneList(const Facts& facts, Wishes& wishes) {
     }
 }
 
+// As shells understand it.
+std::string expanded(const char* path) {
+    const char* home = std::getenv("HOME");
+    const bool isOfHome = path[0] == '~' && path[1] == '/' && home != nullptr;
+    return isOfHome ? std::string(home) + (path + 1) : path;
+}
+
+// Enter opens what was typed; Esc, or a click elsewhere, takes the line away.
+void pathLine(PathField& path, Wishes& wishes) {
+    if (!path.isShown) return;
+    if (std::exchange(path.wantsKeys, false)) ImGui::SetKeyboardFocusHere();
+    ImGui::SetNextItemWidth(contentWidth());
+    const bool isEntered =
+        ImGui::InputTextWithHint("##path", "path of a scene, mesh or state", path.text.data(),
+                                 path.text.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+    if (isEntered && path.text[0] != '\0') wishes.file = expanded(path.text.data());
+    if (isEntered || ImGui::IsItemDeactivated()) path.isShown = false;
+}
+
 } // namespace
 
-void scenes(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
+void scenes(const SceneFacts& scene, const Facts& facts, PathField& path, Wishes& wishes) {
     heading(facts.isOpening ? "scene: opening ..." : "scene");
     const float step = 0.7f * buttonWidth(4), between = ImGui::GetStyle().ItemSpacing.x;
-    ImGui::SetNextItemWidth(contentWidth() - 2 * (step + between));
+    ImGui::SetNextItemWidth(contentWidth() - 3 * (step + between));
     ImGui::SetNextWindowSizeConstraints({contentWidth(), 0}, ImGui::GetIO().DisplaySize);
     if (ImGui::BeginCombo("##scenes", scene.name.c_str(), ImGuiComboFlags_HeightLargest)) {
         sceneList(facts, wishes);
@@ -139,6 +162,9 @@ void scenes(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
     button(Action::previousScene, wishes, step, false, "<");
     ImGui::SameLine();
     button(Action::nextScene, wishes, step, false, ">");
+    ImGui::SameLine();
+    button(Action::open, wishes, step, path.isShown);
+    pathLine(path, wishes);
 }
 
 void knobs(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {

@@ -114,7 +114,7 @@ void setStyle(float scale) {
 }
 
 void mapKeys(ImGuiIO& io) {
-    constexpr std::array<std::pair<ImGuiKey_, int>, 16> keys{{{ImGuiKey_Tab, GLFW_KEY_TAB},
+    constexpr std::array<std::pair<ImGuiKey_, int>, 17> keys{{{ImGuiKey_Tab, GLFW_KEY_TAB},
                                                               {ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
                                                               {ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
                                                               {ImGuiKey_UpArrow, GLFW_KEY_UP},
@@ -127,6 +127,7 @@ void mapKeys(ImGuiIO& io) {
                                                               {ImGuiKey_KeyPadEnter, GLFW_KEY_KP_ENTER},
                                                               {ImGuiKey_Escape, GLFW_KEY_ESCAPE},
                                                               {ImGuiKey_A, GLFW_KEY_A},
+                                                              {ImGuiKey_V, GLFW_KEY_V},
                                                               {ImGuiKey_X, GLFW_KEY_X},
                                                               {ImGuiKey_Y, GLFW_KEY_Y},
                                                               {ImGuiKey_Z, GLFW_KEY_Z}}};
@@ -141,6 +142,12 @@ Panels::Panels(float scale) : context_(ImGui::CreateContext()), scale_(scale) {
     io.BackendRendererName = "sinew";
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
     mapKeys(io);
+    io.ClipboardUserData = this;
+    io.GetClipboardTextFn = [](void* panels) {
+        auto& self = *static_cast<Panels*>(panels);
+        self.pasted_ = self.paste_ ? self.paste_() : "";
+        return self.pasted_.c_str();
+    };
     atlas_ = makeAtlas(scale);
     setStyle(scale);
 }
@@ -172,6 +179,11 @@ bool Panels::takesKeys() const {
 
 const ImDrawData& Panels::drawn() const {
     return *ImGui::GetDrawData();
+}
+
+void Panels::askForFile() {
+    if (!isShown(lastExtent_)) toggle();
+    path_ = {.isShown = true, .wantsKeys = true};
 }
 
 void Panels::feed(const PanelInput& input, VkExtent2D extent, double seconds) {
@@ -228,7 +240,7 @@ void Panels::buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D e
         {width, 0}, {width, std::max(static_cast<float>(extent.height) - 2 * edge, 40.0f)});
     ImGui::Begin("side", nullptr, fixed);
     parts::device(scene, facts, wishes);
-    parts::scenes(scene, facts, wishes);
+    parts::scenes(scene, facts, path_, wishes);
     parts::play(facts, wishes);
     parts::look(scene, facts, wishes);
     parts::speed(facts);

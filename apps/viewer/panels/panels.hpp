@@ -7,11 +7,20 @@
 #include "viewer/panels/panel_input.hpp"
 #include "viewer/panels/panel_painter.hpp"
 
+#include <array>
+#include <functional>
 #include <memory>
+#include <utility>
 
 struct ImGuiContext;
 
 namespace sinew::viewer {
+
+/// A path that is being typed.
+struct PathField {
+    bool isShown = false, wantsKeys = false;
+    std::array<char, 1024> text{};
+};
 
 /// One at a time (Dear ImGui's context is global); one thread.
 class Panels {
@@ -35,6 +44,11 @@ public:
     bool covers(const Vector2& pixels) const;
     /// Whether keys are being typed into a panel.
     bool takesKeys() const;
+
+    /// A line to type a path into, where there was none: Wishes::file. What is pasted there comes from
+    /// `paste`.
+    void askForFile();
+    void setPaste(std::function<std::string()> paste) { paste_ = std::move(paste); }
 
     /// As the constructor does. The atlas is another one then.
     void rescale(float scale);
@@ -64,6 +78,9 @@ private:
     float scale_;
     std::optional<bool> isShown_;
     bool isHelpShown_ = false;
+    PathField path_;
+    std::function<std::string()> paste_;
+    std::string pasted_;
     VkExtent2D lastExtent_{};
     std::vector<Rectangle> covered_;
 };

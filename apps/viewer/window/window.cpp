@@ -83,6 +83,13 @@ struct Window::State {
                (isDown(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT) ? GLFW_MOD_ALT : 0);
     }
 
+    std::optional<Action> held() const {
+        const bool isControlDown = glfwGetKey(window, GLFW_KEY_LEFT_CONTROL) == GLFW_PRESS ||
+                                   glfwGetKey(window, GLFW_KEY_RIGHT_CONTROL) == GLFW_PRESS;
+        if (!isControlDown || cover.takesKeys()) return std::nullopt;
+        return actionFor({Trigger::Kind::held, 0, GLFW_MOD_CONTROL});
+    }
+
     bool isCovered() const { return cover.holds(pixels()); }
 
     void onKey(int key, int scancode, int event, int modifiers) {
@@ -237,6 +244,7 @@ Input Window::poll(double seconds) {
         glfwPollEvents();
     Input input = std::exchange(state_->input, {});
     input.pointer = state_->pointer();
+    input.held = state_->held();
     input.panels.pointer = state_->pixels();
     input.panels.isDown = state_->isDownInPanel;
     return input;
@@ -273,6 +281,11 @@ bool Window::isClosing() const {
 
 void Window::close() {
     glfwSetWindowShouldClose(state_->window, GLFW_TRUE);
+}
+
+std::string Window::clipboard() const {
+    const char* text = glfwGetClipboardString(state_->window);
+    return text != nullptr ? text : "";
 }
 
 void Window::setTitle(const std::string& title) {

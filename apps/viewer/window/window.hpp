@@ -6,6 +6,7 @@
 #include "vk/device.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,7 @@ struct Input {
     float growth = 0; ///< likewise of the wheel that sets the depth of the blade, or the size of the sphere
     float slide = 0;  ///< likewise of the wheel that moves the section plane
     Vector2 pointer = Vector2::Zero(); ///< from the middle, x right, y down, in window heights
+    std::optional<Action> held;        ///< by modifiers alone
     bool needsRedraw = false;          ///< resized or uncovered
     PanelInput panels;                 ///< what is not in the others
     bool isEmpty() const {
@@ -67,6 +69,7 @@ public:
     VkExtent2D size() const;   ///< for another one of this size; in full screen, as it was before
     bool isClosing() const;
     void close();
+    std::string clipboard() const; ///< empty where it holds no text
     void setTitle(const std::string& title);
     void toggleFullScreen();
 
