@@ -5,6 +5,12 @@
 
 namespace sinew::viewer {
 
+namespace {
+
+constexpr std::uint32_t picturesOfAFocus = 5; // until Dear ImGui takes keys for a line that it has just got
+
+} // namespace
+
 // A button has the pointer over the panel: what is to be pinned is pointed at next.
 void Show::grant(const Wishes& wishes, Input& input) {
     for (const Action action : wishes.actions)
@@ -125,6 +131,7 @@ void Show::handle(Action action) {
         break;
     case Action::open:
         screen_.panels().askForFile();
+        panelsDue_ = picturesOfAFocus;
         break;
     case Action::inspect:
         inspector_.toggle();
