@@ -137,6 +137,12 @@ TEST_F(PanelsTest, TakeAPathThatIsTypedOrPastedAndNoneAfterEsc) {
     settle();
     EXPECT_FALSE(panels.takesKeys());
 
+    ask();
+    picture(typed);
+    EXPECT_EQ(picture({.keys = {{GLFW_KEY_ENTER, true}, {GLFW_KEY_ENTER, false}}}).file, "/tmp/a.obj")
+        << "tapped between two pictures";
+    settle();
+
     panels.setPaste([] { return "/tmp/b.toml"; });
     ask();
     EXPECT_FALSE(key(GLFW_KEY_V, GLFW_MOD_CONTROL));

@@ -292,6 +292,14 @@ grep -q '^4 pictures in other-' viewer.out || fail "F9 made no film of the four 
 film=$(sed -n 's/^recording //p' viewer.out)
 [[ -s $film && ( ! -d $film || -s $film/frame_0003.png ) ]] || fail "the film is not there"
 [[ $(wc -l <viewer.err) == 1 ]] || fail "more was said on stderr"
+keys ctrl+o
+awaitOther filmed.png asked.png "Ctrl + O asks for no path"
+xdotool type --window "$window" --delay 50 "$folder/scenes/block.toml"
+keys Return
+awaitTitle 'block'
+keys Tab # the panels that it was typed into
+keys Prior
+awaitTitle 'other'
 keys ctrl+q
 code=0
 wait "$running" || code=$?

@@ -196,9 +196,24 @@ void Panels::feed(const PanelInput& input, VkExtent2D extent, double seconds) {
     io.MouseWheel = input.notches;
     io.KeyCtrl = (input.modifiers & GLFW_MOD_CONTROL) != 0;
     io.KeyShift = (input.modifiers & GLFW_MOD_SHIFT) != 0;
-    for (const auto& [key, isDown] : input.keys)
-        if (key >= 0 && key < IM_ARRAYSIZE(io.KeysDown)) io.KeysDown[key] = isDown;
+    feedKeys(input);
     for (const unsigned character : input.characters) io.AddInputCharacter(character);
+}
+
+// A key that went down and up between two pictures is down in one.
+void Panels::feedKeys(const PanelInput& input) {
+    ImGuiIO& io = ImGui::GetIO();
+    for (const int key : released_) io.KeysDown[key] = false;
+    released_.clear();
+    std::vector<int> pressed;
+    for (const auto& [key, isDown] : input.keys) {
+        if (key < 0 || key >= IM_ARRAYSIZE(io.KeysDown)) continue;
+        if (isDown) pressed.push_back(key);
+        if (!isDown && std::ranges::count(pressed, key) > 0)
+            released_.push_back(key);
+        else
+            io.KeysDown[key] = isDown;
+    }
 }
 
 Wishes Panels::build(const SceneFacts& scene, const Facts& facts, const PanelInput& input, VkExtent2D extent,

@@ -65,6 +65,7 @@ public:
 
 private:
     void feed(const PanelInput& input, VkExtent2D extent, double seconds);
+    void feedKeys(const PanelInput& input);
     void buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D extent, Wishes& wishes);
     void buildHint(const SceneFacts& scene, const Facts& facts, VkExtent2D extent);
     void buildNotice(const Facts& facts, VkExtent2D extent);
@@ -81,6 +82,7 @@ private:
     PathField path_;
     std::function<std::string()> paste_;
     std::string pasted_;
+    std::vector<int> released_; // keys, in the next picture
     VkExtent2D lastExtent_{};
     std::vector<Rectangle> covered_;
 };
