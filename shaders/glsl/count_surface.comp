@@ -19,6 +19,7 @@ layout(std430, binding = 6) readonly buffer Listed { uint listed[]; };
 
 uint triangles = 0u;
 void triangle(uvec2 a, uvec2 b, uvec2 c) { ++triangles; }
+void writeNoted() {}
 bool hasPoint(uvec2 point) { return hasBit(owned[point.x], point.y & ~1u); }
 void setNormal(uint axis, bool isHigh) {}
 #include "cut_inside.glsl"

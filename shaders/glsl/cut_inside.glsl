@@ -2,6 +2,7 @@
 // once a side, and on faces that their two tetrahedra see split in different ways. Whoever includes this says what becomes of
 //
 //   triangle(a, b, c)   points as (slot, bit), right-handed seen from outside of the part that it belongs to
+//   writeNoted()        those since the last call, 6 at most
 
 #include "seen_faces.glsl"
 
@@ -56,46 +57,76 @@ void partFace(uint cell, uint p, uint m, uvec4 labels) {
     }
 }
 
-void partTetrahedron(uint cell, uint p, uint parted) {
+// In two at its first face, in three or four face by face.
+void partTetrahedron(uint cell, uint p, uint m, uint parted) {
     const uvec4 labels = labelsOf(parted);
     const uint parts = partsOf(labels);
-    if (parts == 1u) return;
-    if (parts > 2u) {
-        [[dont_unroll]] for (uint m = 0u; m < 4u; ++m) partFace(cell, p, m, labels);
-        return;
-    }
+    if (parts > 2u) partFace(cell, p, m, labels);
+    if (parts != 2u || m > 0u) return;
     const uint others = uint(labels.y != 0u) + uint(labels.z != 0u) + uint(labels.w != 0u); // not with the first corner
     if (others == 2u) partTwo(cell, p, labels.y == 0u ? 1u : labels.z == 0u ? 2u : 3u);
     else partOne(cell, p, others == 3u ? 0u : labels.y != 0u ? 1u : labels.z != 0u ? 2u : 3u);
 }
 
+// How the two sides of a face that a slot owns see it, the one first that splits it in two where the other one sees it otherwise.
+struct Seen {
+    Side from;
+    uvec3 pattern, beyond;
+    bool isUnlike;
+};
+
+Seen seenBoth(uint slot, uint q) {
+    const Side low = firstSide(slot, q), high = secondSide(slot, q);
+    const bool hasLow = hasTetrahedron(complex[low.cell], low.p), hasHigh = hasTetrahedron(complex[high.cell], high.p);
+    const bool areThere = hasLow && hasHigh || (hasLow || hasHigh) && hasPrisms(complex[slot], q);
+    const uvec3 ofLow = hasLow ? seenFrom(low) : seenAlone(low), ofHigh = hasHigh ? seenFrom(high) : seenAlone(high);
+    const uint ways = waysOf(ofLow), waysBeyond = waysOf(ofHigh);
+    const bool isUnlike = areThere && ofLow != ofHigh && min(ways, waysBeyond) == 2u;
+    if (ways == 2u) return Seen(low, ofLow, ofHigh, isUnlike);
+    return Seen(high, ofHigh, ofLow, isUnlike);
+}
+
 // Between two tetrahedra, or one and prisms, that split their face differently, one of them in two.
 void fillFace(uint slot, uint q) {
-    Side two = firstSide(slot, q), other = secondSide(slot, q);
-    const bool hasTwo = hasTetrahedron(complex[two.cell], two.p), hasOther = hasTetrahedron(complex[other.cell], other.p);
-    if (!hasTwo && !hasOther || !(hasTwo && hasOther) && !hasPrisms(complex[slot], q)) return;
-    uvec3 pattern = hasTwo ? seenFrom(two) : seenAlone(two), beyond = hasOther ? seenFrom(other) : seenAlone(other);
-    if (pattern == beyond || min(waysOf(pattern), waysOf(beyond)) != 2u) return;
-    if (waysOf(pattern) != 2u) {
-        const Side swapped = two;
-        two = other;
-        other = swapped;
-        const uvec3 kept = pattern;
-        pattern = beyond;
-        beyond = kept;
-    }
+    const Seen seen = seenBoth(slot, q);
+    const Side two = seen.from;
     const uvec4 corners = cornersOf(two.p);
     const uvec3 face = faceOf(two.m);
-    const uint a = loneOf(pattern), b = (a + 1u) % 3u, c = (a + 2u) % 3u;
-    const bool isThree = waysOf(beyond) == 3u, isKept = isOutward(two.p, two.m);
+    const uint a = loneOf(seen.pattern), b = (a + 1u) % 3u, c = (a + 2u) % 3u;
+    const bool isThree = waysOf(seen.beyond) == 3u, isKept = isOutward(two.p, two.m);
     const uvec2 across = edgePoint(two.cell, corners, face[b], face[c]);
     const uvec2 own = isThree ? uvec2(slot, faceBit(q, a)) : across, far = isThree ? uvec2(slot, faceBit(q, b)) : across;
     oriented(isKept, edgePoint(two.cell, corners, face[a], face[b]), edgePoint(two.cell, corners, face[a], face[c]), own);
     oriented(isKept, edgePoint(two.cell, corners, face[b], face[a]), far, edgePoint(two.cell, corners, face[c], face[a]));
 }
 
+// Faces of a cell's tetrahedra for which there is something to do: bit 4 p + m.
+uint facesParted(uint cell) {
+    const uint word = complex[cell], all = partitions[cell];
+    uint faces = 0u;
+    [[dont_unroll]] for (uint p = 0u; p < tetrahedra; ++p) {
+        const uint parts = hasTetrahedron(word, p) ? partsOf(labelsOf(partitionOf(all, p))) : 1u;
+        faces |= (parts == 1u ? 0u : parts == 2u ? 1u : 15u) << 4u * p;
+    }
+    return faces;
+}
+
+// Faces that a slot owns.
+uint facesToFill(uint slot) {
+    uint faces = 0u;
+    [[dont_unroll]] for (uint q = 0u; q < 12u; ++q) faces |= uint(seenBoth(slot, q).isUnlike) << q;
+    return faces;
+}
+
+// A loop for those alone: what stands under a condition costs a software device its time nevertheless.
 void addInside(uint cell) {
-    [[dont_unroll]] for (uint p = 0u; p < tetrahedra; ++p)
-        if (hasTetrahedron(complex[cell], p)) partTetrahedron(cell, p, partitionOf(partitions[cell], p));
-    [[dont_unroll]] for (uint q = 0u; q < 12u; ++q) fillFace(cell, q);
+    [[dont_unroll]] for (uint left = facesParted(cell); left != 0u; left &= left - 1u) {
+        const uint n = uint(findLSB(left)), p = n / 4u;
+        partTetrahedron(cell, p, n % 4u, partitionOf(partitions[cell], p));
+        writeNoted();
+    }
+    [[dont_unroll]] for (uint left = facesToFill(cell); left != 0u; left &= left - 1u) {
+        fillFace(cell, uint(findLSB(left)));
+        writeNoted();
+    }
 }

@@ -2,7 +2,9 @@
 // on their edges put in, so that no gap opens beside a piece. The points are those of cut_inside. Whoever includes this says what becomes of
 //
 //   triangle(a, b, c)   points as (slot, bit), right-handed seen from outside; corner() for a particle
+//   writeNoted()        those since the last call, 6 at most
 //   hasPoint(a)         whether there is such a point
+//   setNormal(axis, isHigh)   of those that follow
 
 const uint particleBit = 128u;
 uvec2 corner(uint cell, uint at) { return uvec2(slotOf(cell, at), particleBit); }
@@ -71,6 +73,7 @@ uint addOutside(uint cell) {
             if (isCell(complex[next])) continue;
             setNormal(axis, side == 0u);
             if (outsideFace(cell, p, 3u * side, partitionOf(partitions[cell], p)) > 0u) pieces |= 1u << 2u * p + side;
+            writeNoted();
         }
     return pieces;
 }

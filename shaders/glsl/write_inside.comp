@@ -24,8 +24,18 @@ uint indexOf(uvec2 point) {
     return placeOf(own, copyOf(own, point.y));
 }
 
+// Corners. Triangles are written in one place: a software device compiles what a call does for every call.
+uvec2 noted[18];
+uint count = 0u;
 void triangle(uvec2 a, uvec2 b, uvec2 c) {
-    const uint corners[3] = uint[3](indexOf(a), indexOf(b), indexOf(c));
+    noted[count] = a;
+    noted[count + 1u] = b;
+    noted[count + 2u] = c;
+    count += 3u;
+}
+
+void writeTriangle(uint first) {
+    const uint corners[3] = uint[3](indexOf(noted[first]), indexOf(noted[first + 1u]), indexOf(noted[first + 2u]));
     const vec3 at = vertices[corners[0]].rest.xyz;
     const vec3 area = 0.5 * cross(vertices[corners[1]].rest.xyz - at, vertices[corners[2]].rest.xyz - at);
     const ivec3 normal = ivec3(round(area * (SURFACE_NORMAL / (push.spacing * push.spacing))));
@@ -34,6 +44,11 @@ void triangle(uvec2 a, uvec2 b, uvec2 c) {
         [[dont_unroll]] for (int axis = 0; axis < 3; ++axis) atomicAdd(vertices[corners[n]].normal[axis], normal[axis]);
     }
     ++next;
+}
+
+void writeNoted() {
+    [[dont_unroll]] for (uint n = 0u; n < count; n += 3u) writeTriangle(n);
+    count = 0u;
 }
 #include "cut_inside.glsl"
 

@@ -39,14 +39,24 @@ CutVertex vertexAt(uvec2 point) {
     return vertex;
 }
 
+// Corners of the triangles of a face. They are written in one place: a software device compiles what a call does for every call.
+uvec2 noted[18];
+uint count = 0u;
 void triangle(uvec2 a, uvec2 b, uvec2 c) {
-    const uvec2 corners[3] = uvec2[3](a, b, c);
-    [[dont_unroll]] for (uint n = 0u; n < 3u; ++n) {
+    noted[count] = a;
+    noted[count + 1u] = b;
+    noted[count + 2u] = c;
+    count += 3u;
+}
+
+void writeNoted() {
+    [[dont_unroll]] for (uint n = 0u; n < count; ++n) {
         const uint vertex = state.points + 3u * next + n;
-        vertices[vertex] = vertexAt(corners[n]);
+        vertices[vertex] = vertexAt(noted[n]);
         indices[3u * (state.inside + next) + n] = vertex;
     }
-    ++next;
+    next += count / 3u;
+    count = 0u;
 }
 #include "cut_outside.glsl"
 

@@ -22,20 +22,22 @@ layout(push_constant) uniform Push { PrismPush push; };
 #include "skin_points.glsl"
 #include "skin_rest.glsl"
 
-uint next; // triangle, of those outside
+uint next; // triangle, of those outside: the first
 SkinPrism prism;
 uint self;
 
 #include "piece_vertices.glsl"
 
-void triangle(uint a, uint b, uint c) {
-    const uint corners[3] = uint[3](a, b, c);
-    [[dont_unroll]] for (uint n = 0u; n < 3u; ++n) {
-        const uint vertex = state.points + 3u * next + n;
-        vertices[vertex] = vertexAt(corners[n]);
-        indices[3u * (state.inside + next) + n] = vertex;
+// Their corners, 4 bits each. They are written in one place: a software device compiles what a call does for every call.
+uint noted[6], count = 0u;
+void triangle(uint a, uint b, uint c) { noted[count++] = a | b << 4 | c << 8; }
+
+void writeNoted() {
+    [[dont_unroll]] for (uint corner = 0u; corner < 3u * count; ++corner) {
+        const uint vertex = state.points + 3u * next + corner;
+        vertices[vertex] = vertexAt(noted[corner / 3u] >> 4u * (corner % 3u) & 15u);
+        indices[3u * (state.inside + next) + corner] = vertex;
     }
-    ++next;
 }
 
 void main() {
@@ -63,4 +65,5 @@ void main() {
         triangle(6u + a, b, c);
         triangle(6u + a, c, 3u + c);
     }
+    writeNoted();
 }
