@@ -2,7 +2,7 @@
 #include "viewer/window/window.hpp"
 
 #include "app/guard.hpp"
-#include "viewer/window/lost_display.hpp"
+#include "viewer/window/display.hpp"
 #include "vk/check.hpp"
 
 #define GLFW_INCLUDE_NONE
@@ -196,6 +196,7 @@ struct Window::State {
 Window::Window(VkExtent2D size) : state_(std::make_unique<State>()) {
     if (glfwInit() != GLFW_TRUE) failWithoutDisplay();
     watchDisplay();
+    widenDisplay();
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     state_->window = glfwCreateWindow(static_cast<int>(size.width), static_cast<int>(size.height), "Sinew",
                                       nullptr, nullptr);
