@@ -15,10 +15,14 @@ namespace sinew::viewer {
 
 namespace {
 
-// As on the command line, and in the window: what is known of a scene before it plays.
-void announce(const Opening& opening, const vk::Device& device, Screen& screen) {
+// What is known of a scene before it plays: on the command line,
+void say(const Opening& opening, const vk::Device& device) {
     std::printf("%s\n", headline(opening, device).c_str());
     std::fflush(stdout);
+}
+
+// and in the window.
+void tell(const Opening& opening, Screen& screen) {
     if (!opening.loaded.warnings.empty()) screen.tell(opening.loaded.warnings.front());
 }
 
@@ -30,7 +34,8 @@ void change(std::unique_ptr<vk::Device>& device, std::unique_ptr<Show>& show,
     const std::string name = next->loaded.scene.name;
     const bool goesOn = next->again.has_value();
     try {
-        announce(*next, *nextDevice, screen);
+        say(*next, *nextDevice);
+        tell(*next, screen);
         std::unique_ptr<Place> place = std::move(next->place);
         auto nextShow = std::make_unique<Show>(screen, library, devices, *nextDevice, std::move(next));
         if (goesOn) nextShow->takeOver(*show);
@@ -125,12 +130,14 @@ Preferences play(std::unique_ptr<Opening> opening, const Options& options, const
     const Devices devices(window, options, messages);
     std::unique_ptr<vk::Device> device = devices.open(options.device);
     std::unique_ptr<Opening> first = std::move(opening);
+    say(*first, *device);
+    window.setTitle("Sinew - preparing " + first->loaded.scene.name); // for seconds, if drivers compile
     prepare(*first, *device, window);
     Screen screen(window, std::move(first->place), {options.isTimed, options.start},
                   asAsked(preferences, options));
     if (options.isFullScreen) window.toggleFullScreen();
     screen.layers() = options.layers;
-    announce(*first, *device, screen);
+    tell(*first, screen);
     if (isSoftware(*device))
         std::printf("software device: small shadow maps, no multisampling and fewer pixels while things "
                     "move, all of it when paused\n");

@@ -2,8 +2,8 @@
 #include "viewer/prepared_show.hpp"
 
 #include "sim/gpu_tune.hpp"
-#include "viewer/draw/image.hpp"
 #include "viewer/gauges.hpp"
+#include "viewer/warm_up.hpp"
 #include "vk/queue.hpp"
 
 namespace sinew::viewer {
@@ -17,34 +17,6 @@ sim::Settings fastest(const vk::Device& device, const Opening& opening) {
     addHands(settings);
     if (opening.again) settings = app::withRoomOf(settings, opening.again->settings);
     return opening.run ? settings : sim::tuned(device, queue, opening.loaded.scene, settings);
-}
-
-// A picture that nobody sees.
-void draw(const vk::Device& device, vk::Queue& queue, View& view, VkFormat format, float scale,
-          const Camera& camera, const sim::Simulation& simulation) {
-    const Image image(device, {.name = "unseen picture",
-                               .extent = {64, 64},
-                               .format = format,
-                               .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT});
-    Canvas canvas = view.renderer.makeCanvas(image.extent(), std::array{image.view()}, scale);
-    const VkCommandBuffer commands = queue.begin();
-    view.renderer.record(commands, 0, canvas, 0, camera, simulation);
-    queue.wait(queue.submit(commands));
-}
-
-// Drivers of software devices compile what is used for the first time: here that keeps nobody waiting.
-// (Others compile pipelines when they are made, and might mind the layout that a picture for no window is
-// left in.)
-void warmUp(const vk::Device& device, PreparedShow& show, VkFormat format, const Camera& camera) {
-    vk::Queue queue(device);
-    const VkCommandBuffer commands = queue.begin();
-    show.stage.recordReset(commands);
-    show.stage.recordStep(commands);
-    show.stage.recordSkin(commands);
-    queue.wait(queue.submit(commands));
-    for (const float scale : PictureBudget::scales)
-        draw(device, queue, show.moving, format, scale, camera, show.stage.simulation());
-    if (show.still) draw(device, queue, *show.still, format, 1, camera, show.stage.simulation());
 }
 
 } // namespace

@@ -1,0 +1,66 @@
+// A step, a blade through the middle, pictures of every size.
+#include "viewer/warm_up.hpp"
+
+#include "viewer/draw/image.hpp"
+#include "vk/queue.hpp"
+
+#include <array>
+
+namespace sinew::viewer {
+
+namespace {
+
+// Upright, through all that there is.
+struct Through {
+    explicit Through(const Box& box) {
+        const Vector3 middle = box.center(), half = box.sizes();
+        for (std::size_t n = 0; n < 2; ++n) {
+            const float z = middle.z() + (n == 0 ? half.z() : -half.z());
+            from[n] = {middle.x(), middle.y() + half.y(), z};
+            to[n] = {middle.x(), middle.y() - half.y(), z};
+        }
+    }
+    std::array<sim::Vec3, 2> from, to;
+};
+
+Box boxOf(const sim::Scene& scene) {
+    Box box;
+    for (const sim::Particle& particle : scene.particles)
+        box.extend(Vector3(particle.position.x, particle.position.y, particle.position.z));
+    return box;
+}
+
+void draw(const vk::Device& device, vk::Queue& queue, View& view, VkFormat format, float scale,
+          const Camera& camera, const Stage& stage) {
+    const Image image(device, {.name = "unseen picture",
+                               .extent = {64, 64},
+                               .format = format,
+                               .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT});
+    Canvas canvas = view.renderer.makeCanvas(image.extent(), std::array{image.view()}, scale);
+    const std::array<Vector3, 2> stroke{camera.target, camera.target + Vector3::UnitY()};
+    Overlay overlay{.stroke = stroke};
+    if (!stage.scene().particles.empty()) overlay.hand = Hand{.target = camera.target};
+    const VkCommandBuffer commands = queue.begin();
+    view.renderer.record(commands, 0, canvas, 0, camera, stage.simulation(), overlay);
+    queue.wait(queue.submit(commands));
+}
+
+} // namespace
+
+void warmUp(const vk::Device& device, PreparedShow& show, VkFormat format, const Camera& camera) {
+    vk::Queue queue(device);
+    const Through blade(boxOf(show.stage.scene()));
+    VkCommandBuffer commands = queue.begin();
+    show.stage.recordReset(commands);
+    show.stage.recordStep(commands, nullptr, {}, {blade.from, blade.to});
+    show.stage.recordSkin(commands);
+    queue.wait(queue.submit(commands));
+    for (const float scale : PictureBudget::scales)
+        draw(device, queue, show.moving, format, scale, camera, show.stage);
+    if (show.still) draw(device, queue, *show.still, format, 1, camera, show.stage);
+    commands = queue.begin();
+    show.stage.recordReset(commands);
+    queue.wait(queue.submit(commands));
+}
+
+} // namespace sinew::viewer
