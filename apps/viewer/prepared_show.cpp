@@ -4,6 +4,7 @@
 #include "sim/gpu_tune.hpp"
 #include "viewer/gauges.hpp"
 #include "viewer/warm_up.hpp"
+#include "vk/kernel_store.hpp"
 #include "vk/queue.hpp"
 
 namespace sinew::viewer {
@@ -48,6 +49,7 @@ PreparedShow::PreparedShow(const vk::Device& device, const Opening& opening, VkF
 }
 
 void prepare(Opening& opening, const vk::Device& device, const Window& window) {
+    const vk::KeptKernels kept(device); // what was tried for speed, and what is played
     opening.place = std::make_unique<Place>(device, window);
     opening.prepared = std::make_unique<PreparedShow>(device, opening, opening.place->presenter.format());
 }

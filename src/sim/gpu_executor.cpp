@@ -58,13 +58,14 @@ std::vector<std::pair<std::uint32_t, vk::Buffer>> makeStaging(const vk::Device& 
     return staging;
 }
 
-std::vector<vk::Kernel> makeKernels(const vk::Device& device, const StepProgram& program) {
-    std::vector<vk::Kernel> kernels;
+std::vector<std::shared_ptr<const vk::Kernel>> makeKernels(const vk::Device& device,
+                                                           const StepProgram& program) {
+    std::vector<std::shared_ptr<const vk::Kernel>> kernels;
     kernels.reserve(program.kernels.size());
     for (const KernelUse& use : program.kernels) {
         std::vector<vk::SpecialisationConstant> constants;
         for (const auto& [id, value] : use.constants) constants.push_back({id, value});
-        kernels.emplace_back(device, *use.code, constants);
+        kernels.push_back(device.kernels().get(device, *use.code, constants));
     }
     return kernels;
 }
@@ -106,7 +107,7 @@ GpuExecutor::GpuExecutor(const vk::Device& device, const StepProgram& program)
     std::vector<vk::BindingRequest> requests;
     for (const Pass* pass : plan.distinct) {
         vk::BindingRequest& request = requests.emplace_back();
-        request.kernel = &kernels_[pass->kernel];
+        request.kernel = kernels_[pass->kernel].get();
         for (const BufferUse& use : boundUses(*pass)) request.buffers.push_back(view(use.buffer));
     }
     if (!requests.empty()) sets_.emplace_back(device, requests);
@@ -156,7 +157,7 @@ std::vector<GpuExecutor::Recorded> GpuExecutor::resolve(const std::vector<Pass>&
                           .first = view(pass.isIndirect ? pass.uses.back().buffer : pass.uses[0].buffer),
                           .second = pass.uses.size() > 1 ? view(pass.uses[1].buffer) : vk::BufferView{}};
         if (pass.kind == PassKind::dispatch) {
-            recorded.kernel = &kernels_[pass.kernel];
+            recorded.kernel = kernels_[pass.kernel].get();
             recorded.set = sets_[0][setOfPass_[nextSet++]];
             const std::uint32_t groupSize = recorded.kernel->interface().groupSize[0];
             recorded.groups = (pass.items - 1) / groupSize + 1;

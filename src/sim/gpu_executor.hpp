@@ -3,6 +3,7 @@
 
 #include "sim/program.hpp"
 #include "vk/commands.hpp"
+#include "vk/kernel_store.hpp"
 #include "vk/timestamps.hpp"
 
 #include <map>
@@ -63,7 +64,7 @@ private:
     std::vector<vk::Buffer> buffers_;
     std::vector<std::pair<std::uint32_t, vk::Buffer>> staging_; // buffer index, its initial contents
     std::map<std::uint32_t, std::uint32_t> initialOf_;          // BufferSpec::initialOf, by buffer
-    std::vector<vk::Kernel> kernels_;
+    std::vector<std::shared_ptr<const vk::Kernel>> kernels_;
     std::vector<vk::BindingSets> sets_;
     std::vector<std::size_t> setOfPass_;
     std::vector<Recorded> step_, skin_, wholeSkin_, settle_, adopt_;

@@ -5,7 +5,7 @@
 #include "sim/lattice/batches.hpp"
 #include "sim/ranges.hpp"
 #include "sim/substeps.hpp"
-#include "vk/device.hpp"
+#include "vk/kernel_store.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -73,6 +73,7 @@ Tuning tune(const vk::Device& device, const Scene& scene, const Settings& settin
             const TimedSubmit& submit) {
     constexpr std::uint32_t trialSubsteps = 8;
     constexpr double gain = 0.97;
+    const vk::KeptKernels kept(device); // forms share most of them
     Tuning tuning{.fastest = settings.forms};
     Settings trial = withSubsteps(scene, settings);
     trial.substeps = std::min(trial.substeps, trialSubsteps);

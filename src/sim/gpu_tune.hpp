@@ -27,9 +27,9 @@ struct Tuning {
 };
 
 /// Tries forms one change after another, each against the best so far, in trial steps of at most 8 substeps
-/// on a simulation of its own; takes another form only where it is at least 3 % faster. Creates and destroys
-/// pipelines: tens of milliseconds a form, more where a driver compiles it for the first time. Throws what
-/// Simulation throws.
+/// on a simulation of its own; takes another form only where it is at least 3 % faster. Creates pipelines:
+/// those of the given form, and the few in which another one differs; while vk::KeptKernels are there, a
+/// simulation that follows has no others to make. Throws what Simulation throws.
 Tuning tune(const vk::Device& device, const Scene& scene, const Settings& settings,
             const TimedSubmit& submit);
 

@@ -6,6 +6,7 @@
 #include "vk/check.hpp"
 #include "vk/choice.hpp"
 #include "vk/instance.hpp"
+#include "vk/kernel_store.hpp"
 
 #include <algorithm>
 #include <string_view>
@@ -26,6 +27,7 @@ struct Device::State {
     DeviceDescription description;
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;
     std::unique_ptr<Allocator> allocator;
+    KernelStore kernels;
 
     State() = default;
     State(const State&) = delete;
@@ -220,6 +222,10 @@ const Limits& Device::limits() const noexcept {
 const DeviceDescription& Device::description() const noexcept {
     return state_->description;
 }
+KernelStore& Device::kernels() const noexcept {
+    return state_->kernels;
+}
+
 Allocator& Device::allocator() const noexcept {
     return *state_->allocator;
 }

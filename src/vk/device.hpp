@@ -16,6 +16,7 @@
 namespace sinew::vk {
 
 class Allocator;
+class KernelStore;
 
 /// Where a buffer should live. `device`: fastest for kernels. `upload`: host writes, kernels or copies read.
 /// `readback`: kernels or copies write, the host reads. The last two are mapped for their whole life.
@@ -93,10 +94,10 @@ template <typename Handle> std::uint64_t handleValue(Handle handle) noexcept {
         return handle;
 }
 
-/// Owns (create) or borrows a VkDevice, with its function tables and its allocator, which any thread may use;
-/// all else is not thread safe. Different devices are independent. Movable: buffers, kernels, binding sets,
-/// timestamps and commands refer to parts that stay where they are; only a Queue refers to the Device itself.
-/// All of them must be gone before it is destroyed.
+/// Owns (create) or borrows a VkDevice, with its function tables, its allocator and its kernels, which any
+/// thread may use; all else is not thread safe. Different devices are independent. Movable: buffers, kernels,
+/// binding sets, timestamps and commands refer to parts that stay where they are; only a Queue refers to the
+/// Device itself. All of them must be gone before it is destroyed.
 class Device {
 public:
     /// Makes an instance and a device through the loader's entry point (vk::Loader opens one). Prefers a real
@@ -124,6 +125,7 @@ public:
     const Limits& limits() const noexcept;
     const DeviceDescription& description() const noexcept; ///< of a borrowed device the index is 0
     Allocator& allocator() const noexcept;
+    KernelStore& kernels() const noexcept;
     VkPipelineCache pipelineCache() const noexcept;
 
     /// Names an object for validation messages and captures; does nothing without VK_EXT_debug_utils.

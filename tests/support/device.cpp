@@ -3,12 +3,14 @@
 
 #include "support/full.hpp"
 
+#include "vk/kernel_store.hpp"
 #include "vk/loader.hpp"
 
 #include <gtest/gtest.h>
 
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 // The validation layer keeps memory until the process ends, which the leak detector reports in every binary
@@ -37,10 +39,12 @@ public:
         device_ = std::make_unique<vk::Device>(vk::Device::create(
             loader_->getInstanceProcAddr(), {.hasValidation = hasValidation_, .onValidationMessage = keep}));
         queue_ = std::make_unique<vk::Queue>(*device_);
+        kept_.emplace(*device_);
         return *this;
     }
 
     void TearDown() override { // GoogleTest's spelling
+        kept_.reset();
         queue_.reset();
         device_.reset();
         for (const std::string& message : take())
@@ -61,6 +65,7 @@ private:
     std::vector<std::string> messages_;
     std::unique_ptr<vk::Device> device_;
     std::unique_ptr<vk::Queue> queue_;
+    std::optional<vk::KeptKernels> kept_; // many a test makes one simulation after the other
 };
 
 class MessagesFailTests final : public testing::EmptyTestEventListener {

@@ -13,6 +13,7 @@ vk::Device create(const vk::Loader& loader, const DeviceOptions& options) {
 
 } // namespace
 
-Session::Session(const DeviceOptions& options) : device(create(loader, options)), queue(device) {}
+Session::Session(const DeviceOptions& options)
+    : device(create(loader, options)), queue(device), kept(device) {}
 
 } // namespace sinew::tools

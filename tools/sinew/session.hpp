@@ -3,6 +3,7 @@
 
 #include "sinew/options.hpp"
 #include "vk/device.hpp"
+#include "vk/kernel_store.hpp"
 #include "vk/loader.hpp"
 #include "vk/queue.hpp"
 
@@ -12,6 +13,7 @@ struct Session {
     vk::Loader loader;
     vk::Device device;
     vk::Queue queue;
+    vk::KeptKernels kept; // of what is tried for speed and what is measured then
 
     /// Throws vk::Error. Call before threads start: validation sets an environment variable.
     explicit Session(const DeviceOptions& options);

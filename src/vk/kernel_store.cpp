@@ -1,0 +1,51 @@
+// A map from what a kernel is made of to the kernel.
+#include "vk/kernel_store.hpp"
+
+#include <utility>
+
+namespace sinew::vk {
+
+std::shared_ptr<const Kernel> KernelStore::get(const Device& device, const ShaderCode& code,
+                                               std::span<const SpecialisationConstant> constants) {
+    Key key{code.words.data(), {}};
+    for (const SpecialisationConstant& constant : constants)
+        key.second.emplace_back(constant.id, constant.value);
+    const auto find = [&]() -> std::shared_ptr<const Kernel> {
+        const auto found = entries_.find(key);
+        return found == entries_.end() ? nullptr : found->second.users.lock();
+    };
+    {
+        const std::scoped_lock lock(mutex_);
+        if (std::shared_ptr<const Kernel> kernel = find()) {
+            if (keepers_ > 0) entries_.at(key).kept = kernel;
+            return kernel;
+        }
+    }
+    auto made = std::make_shared<const Kernel>(device, code, constants); // takes long: others need not wait
+    const std::scoped_lock lock(mutex_);
+    if (std::shared_ptr<const Kernel> kernel = find()) return kernel; // another thread was faster
+    std::erase_if(entries_, [](const auto& entry) { return entry.second.users.expired(); });
+    entries_.insert_or_assign(std::move(key), Entry{made, keepers_ > 0 ? made : nullptr});
+    return made;
+}
+
+void KernelStore::addKeeper() {
+    const std::scoped_lock lock(mutex_);
+    ++keepers_;
+}
+
+void KernelStore::removeKeeper() noexcept {
+    const std::scoped_lock lock(mutex_);
+    if (--keepers_ > 0) return;
+    for (auto& [key, entry] : entries_) entry.kept.reset();
+}
+
+KeptKernels::KeptKernels(const Device& device) : store_(device.kernels()) {
+    store_.addKeeper();
+}
+
+KeptKernels::~KeptKernels() {
+    store_.removeKeeper();
+}
+
+} // namespace sinew::vk

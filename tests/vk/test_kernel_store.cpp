@@ -1,0 +1,75 @@
+// What several users of a device share, and how long it is kept.
+#include "support/host_device.hpp"
+#include "test_kernels.hpp"
+
+#include "vk/kernel_store.hpp"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+namespace sinew::test {
+
+namespace {
+
+// A device whose store nobody else keeps anything in; leaks fail the test.
+class KernelStore : public testing::Test {
+protected:
+    std::shared_ptr<const vk::Kernel> get(const vk::ShaderCode& code,
+                                          std::span<const vk::SpecialisationConstant> constants = {}) {
+        return device_->kernels().get(*device_, code, constants);
+    }
+    void TearDown() override {
+        device_.reset();
+        for (const std::string& message : host_.finish()) ADD_FAILURE() << message;
+    }
+    HostDevice host_;
+    std::optional<vk::Device> device_ = vk::Device::borrow(host_.handles());
+};
+
+} // namespace
+
+TEST_F(KernelStore, GivesAKernelThatSomebodyHas) {
+    const vk::SpecialisationConstant small{3, 16}, large{3, 32};
+    const auto first = get(kernels::everything, {&small, 1});
+    EXPECT_EQ(get(kernels::everything, {&small, 1}), first);
+    EXPECT_NE(get(kernels::everything, {&large, 1}), first);
+    EXPECT_NE(get(kernels::everything), first);
+    EXPECT_NE(get(kernels::copyValues), get(kernels::addOne));
+    EXPECT_EQ(get(kernels::everything, {&large, 1})->interface().groupSize[0], 32u);
+}
+
+TEST_F(KernelStore, KeepsNothingUnasked) {
+    std::weak_ptr<const vk::Kernel> gone = get(kernels::copyValues);
+    EXPECT_TRUE(gone.expired());
+    EXPECT_NE(get(kernels::copyValues), nullptr);
+}
+
+TEST_F(KernelStore, KeepsWhatItGivesWhileSomebodyAsksItTo) {
+    auto user = get(kernels::addOne);
+    std::weak_ptr<const vk::Kernel> made, found = user;
+    {
+        const vk::KeptKernels kept(*device_);
+        {
+            const vk::KeptKernels within(*device_);
+            made = get(kernels::copyValues);
+        }
+        EXPECT_FALSE(made.expired());
+        EXPECT_EQ(get(kernels::copyValues), made.lock());
+        EXPECT_EQ(get(kernels::addOne), user);
+        user.reset();
+        EXPECT_FALSE(found.expired());
+    }
+    EXPECT_TRUE(made.expired());
+    EXPECT_TRUE(found.expired());
+}
+
+TEST_F(KernelStore, GivesAllThreadsTheSame) {
+    std::array<std::shared_ptr<const vk::Kernel>, 4> got;
+    std::vector<std::thread> threads;
+    for (auto& kernel : got) threads.emplace_back([&] { kernel = get(kernels::everything); });
+    for (std::thread& thread : threads) thread.join();
+    for (const auto& kernel : got) EXPECT_EQ(kernel, got[0]);
+}
+
+} // namespace sinew::test
