@@ -5,11 +5,10 @@
 set -euo pipefail
 viewer=$1 scene=$2 folder=$3
 here=$(cd "$(dirname "$0")" && pwd)
-extent=900x640
-. "$here/window.sh"
-
 driver=${VK_ICD_FILENAMES:-}
 [[ -f $driver ]] || { echo "SKIPPED: VK_ICD_FILENAMES names no single driver"; exit 77; }
+extent=900x640
+. "$here/window.sh"
 cp "$driver" other.json
 export VK_ICD_FILENAMES=$driver:$folder/other.json
 
