@@ -157,5 +157,23 @@ TEST(PanelPainter, ShowsPicturesOfItsSheetAsTheyAre) {
     EXPECT_NE(at(100, 140), (std::array{200, 40, 30}));
 }
 
+TEST(PanelPainter, HidesWhatIsBehindAreas) {
+    Table table;
+    const Picture picture = table.takeDrawn([] {
+        ImDrawList& list = *ImGui::GetBackgroundDrawList();
+        list.PushTextureID(reinterpret_cast<ImTextureID>(areaTexture));
+        list.AddRectFilled({20, 20}, {120, 60}, IM_COL32(200, 40, 30, 120));
+        list.PopTextureID();
+        list.AddRectFilled({20, 80}, {120, 120}, IM_COL32(200, 40, 30, 120));
+    });
+    const auto red = [&](std::uint32_t column, std::uint32_t row) {
+        return int{picture.pixels[4 * (std::size_t{row} * picture.width + column)]};
+    };
+    for (const std::uint32_t column : {20u, 70u, 119u}) {
+        EXPECT_EQ(red(column, 40), 200) << column;
+        EXPECT_NE(red(column, 100), 200) << column << ": what is no area is mixed with the scene";
+    }
+}
+
 } // namespace
 } // namespace sinew::viewer

@@ -35,8 +35,11 @@ std::array<vk::SpecialisationConstant, 1> srgbConstant(VkFormat format) {
     return {vk::SpecialisationConstant{0, encodes ? 1u : 0u}};
 }
 
+using Blend = PipelineRequest::Blend;
+
 Pipeline makePipeline(const vk::Device& device, const char* name, const vk::ShaderCode& fragment,
-                      const SetLayout& set, const RenderPass& pass, VkFormat format) {
+                      const SetLayout& set, const RenderPass& pass, VkFormat format,
+                      Blend blend = Blend::over) {
     const auto constants = srgbConstant(format);
     return {device,
             {.name = name,
@@ -45,7 +48,7 @@ Pipeline makePipeline(const vk::Device& device, const char* name, const vk::Shad
              .layout = set.handle(),
              .pass = pass.handle(),
              .input = PipelineRequest::Input::panels,
-             .blend = PipelineRequest::Blend::over,
+             .blend = blend,
              .constants = constants}};
 }
 
@@ -68,6 +71,7 @@ PanelPainter::PanelPainter(const vk::Device& device, VkFormat format, VkImageLay
       set_(device, "panels", textures, sizeof(layout::PanelPush), 1),
       glyphs_(makePipeline(device, "panels", shaders::panelFrag, set_, pass_, format)),
       pictures_(makePipeline(device, "panels.pictures", shaders::panelPictureFrag, set_, pass_, format)),
+      areas_(makePipeline(device, "panels.areas", shaders::panelAreaFrag, set_, pass_, format, Blend::none)),
       slots_(slots) {}
 
 void PanelPainter::write(std::uint32_t binding, const vk::BufferView& view) const noexcept {
@@ -153,22 +157,24 @@ void PanelPainter::bind(VkCommandBuffer commands, const Slot& slot) const noexce
     functions.vkCmdBindIndexBuffer(commands, indices.buffer, indices.offset, VK_INDEX_TYPE_UINT16);
 }
 
-void PanelPainter::use(VkCommandBuffer commands, bool isOfSheet) const noexcept {
-    const VkExtent2D size = isOfSheet ? sheetSize_ : atlasSize_;
+void PanelPainter::use(VkCommandBuffer commands, std::size_t texture) const noexcept {
+    const VkExtent2D size = texture == sheetTexture ? sheetSize_ : atlasSize_;
+    const Pipeline& pipeline = texture == sheetTexture  ? pictures_
+                               : texture == areaTexture ? areas_
+                                                        : glyphs_;
     const layout::PanelPush push{
         .scale = {2 / static_cast<float>(extent_.width), 2 / static_cast<float>(extent_.height)},
         .atlas = {static_cast<float>(size.width), static_cast<float>(size.height)},
         .full = {full_.x(), full_.y()},
         .pictureHeight = static_cast<float>(PictureSheet::extent.height)};
     const vk::DeviceFunctions& functions = device_.functions();
-    functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                                (isOfSheet ? pictures_ : glyphs_).handle());
+    functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle());
     functions.vkCmdPushConstants(commands, set_.handle(), drawingStages, 0, sizeof(push), &push);
 }
 
 void PanelPainter::drawList(VkCommandBuffer commands, const ImDrawList& list, std::uint32_t firstVertex,
                             std::uint32_t firstIndex) const noexcept {
-    std::optional<bool> wasOfSheet;
+    std::optional<std::size_t> used;
     for (const ImDrawCmd& command : list.CmdBuffer) {
         const auto within = [](float value, std::uint32_t most) {
             return std::clamp(static_cast<std::int32_t>(std::floor(value)), 0,
@@ -178,9 +184,9 @@ void PanelPainter::drawList(VkCommandBuffer commands, const ImDrawList& list, st
                               within(command.ClipRect.y, extent_.height)};
         const std::int32_t right = within(command.ClipRect.z, extent_.width);
         const std::int32_t bottom = within(command.ClipRect.w, extent_.height);
-        const bool isOfSheet = reinterpret_cast<std::size_t>(command.TextureId) == sheetTexture;
-        if (right <= from.x || bottom <= from.y || (isOfSheet && !sheet_)) continue;
-        if (std::exchange(wasOfSheet, isOfSheet) != isOfSheet) use(commands, isOfSheet);
+        const auto texture = reinterpret_cast<std::size_t>(command.TextureId);
+        if (right <= from.x || bottom <= from.y || (texture == sheetTexture && !sheet_)) continue;
+        if (std::exchange(used, texture) != texture) use(commands, texture);
         const VkRect2D scissor{
             from, {static_cast<std::uint32_t>(right - from.x), static_cast<std::uint32_t>(bottom - from.y)}};
         device_.functions().vkCmdSetScissor(commands, 0, 1, &scissor);

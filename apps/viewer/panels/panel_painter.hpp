@@ -25,6 +25,10 @@ struct GlyphAtlas {
     std::vector<std::uint8_t> coverage;
 };
 
+/// As ImDrawCmd::TextureId: areas that hide what is behind them, whatever their alpha, and are not mixed with
+/// it.
+inline constexpr std::size_t areaTexture = 2;
+
 /// Must not outlive its Device, which must not move.
 class PanelPainter {
 public:
@@ -56,7 +60,7 @@ private:
     void upload(Slot& slot, const ImDrawData& drawn);
     void begin(VkCommandBuffer commands, std::size_t picture) const noexcept;
     void bind(VkCommandBuffer commands, const Slot& slot) const noexcept;
-    void use(VkCommandBuffer commands, bool isOfSheet) const noexcept;
+    void use(VkCommandBuffer commands, std::size_t texture) const noexcept;
     void drawList(VkCommandBuffer commands, const ImDrawList& list, std::uint32_t firstVertex,
                   std::uint32_t firstIndex) const noexcept;
     void write(std::uint32_t binding, const vk::BufferView& view) const noexcept;
@@ -64,7 +68,7 @@ private:
     const vk::Device& device_;
     RenderPass pass_;
     SetLayout set_;
-    Pipeline glyphs_, pictures_;
+    Pipeline glyphs_, pictures_, areas_;
     std::optional<vk::Buffer> atlas_, sheet_;
     VkExtent2D atlasSize_{}, sheetSize_{}, extent_{};
     Vector2 full_ = Vector2::Zero();

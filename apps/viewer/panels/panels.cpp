@@ -68,7 +68,7 @@ void setColors(ImGuiStyle& style) {
     const ImVec4 clear = color(0, 0, 0, 0);
     colors[ImGuiCol_Text] = color(232, 234, 237);
     colors[ImGuiCol_TextDisabled] = parts::quiet();
-    colors[ImGuiCol_WindowBg] = color(20, 23, 28, 0.94f);
+    colors[ImGuiCol_WindowBg] = color(20, 23, 28);
     colors[ImGuiCol_PopupBg] = color(32, 36, 42, 0.98f);
     colors[ImGuiCol_ChildBg] = clear;
     colors[ImGuiCol_Border] = color(255, 255, 255, 0.08f);
@@ -245,6 +245,26 @@ void Panels::remember() {
     }
 }
 
+namespace {
+
+// Of the window that is being built, in place of its own: not mixed with the picture, which takes a software
+// device longer than all else in it. Its round ends are.
+void addGround() {
+    if (ImGui::GetCurrentWindow()->Hidden) return; // it has no size yet
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const ImU32 color = ImGui::GetColorU32(ImGuiCol_WindowBg);
+    const ImVec2 from = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    const ImVec2 to{from.x + size.x, from.y + size.y};
+    const float round = ImGui::GetStyle().WindowRounding, end = std::ceil(round);
+    list.AddRectFilled(from, {to.x, from.y + end + 2}, color, round, ImDrawFlags_RoundCornersTop);
+    list.AddRectFilled({from.x, to.y - end - 2}, to, color, round, ImDrawFlags_RoundCornersBottom);
+    list.PushTextureID(reinterpret_cast<ImTextureID>(areaTexture));
+    list.AddRectFilled({from.x, from.y + end}, {to.x, to.y - end}, color);
+    list.PopTextureID();
+}
+
+} // namespace
+
 void Panels::buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D extent, Wishes& wishes) {
     const float edge = gap * scale_;
     const float width =
@@ -253,7 +273,8 @@ void Panels::buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D e
     ImGui::SetNextWindowSize({width, 0});
     ImGui::SetNextWindowSizeConstraints(
         {width, 0}, {width, std::max(static_cast<float>(extent.height) - 2 * edge, 40.0f)});
-    ImGui::Begin("side", nullptr, fixed);
+    ImGui::Begin("side", nullptr, fixed | ImGuiWindowFlags_NoBackground);
+    addGround();
     parts::device(scene, facts, wishes);
     parts::scenes(scene, facts, path_, wishes);
     parts::play(facts, wishes);
