@@ -153,7 +153,8 @@ struct PrismPush {
 #define SKIN_NEAR 0u
 #define SKIN_PARTED 1u
 #define SKIN_VERTICES 2u
-#define SKIN_LISTS 3u
+#define SKIN_SPLIT 3u
+#define SKIN_LISTS 4u
 
 // Of such a vertex that is on the wrong side of a blade, as w of where that lets it be at rest: it moves there once its anchor
 // has lost a link; it has.

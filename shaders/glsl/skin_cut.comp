@@ -43,19 +43,22 @@ void main() {
     const uint count = min(push.count, state.points + 3u * state.outside), i = itemIndex(count);
     if (i >= count) return;
     const CutVertex vertex = cutVertices[i];
-    if (vertex.point >> 30 == 1u) { // a corner of a skin
-        vertices[i] = skinVertices[vertex.point ^ SURFACE_SKIN];
-        return;
-    }
     const vec3 normal = vec3(vertex.normal[0], vertex.normal[1], vertex.normal[2]) / SURFACE_NORMAL;
     vec3 x = vec3(0.0), turned = vec3(0.0);
     float moving = 0.0;
-    for (int c = 0; c < 4; ++c) {
-        if (vertex.shares[c] == 0.0) continue;
+    // Most have one corner: a loop for those that have a share, since a software device takes its time for the others, too.
+    const bvec4 isShare = notEqual(vertex.shares, vec4(0.0));
+    uint left = uint(isShare.x) | uint(isShare.y) << 1 | uint(isShare.z) << 2 | uint(isShare.w) << 3;
+    for (; left != 0u; left &= left - 1u) {
+        const int c = findLSB(left);
         mat3 f;
         x += vertex.shares[c] * placeAt(vertex, c, f);
         moving += vertex.shares[c] * positions[particles[vertex.corners[c]]].w;
         turned += vertex.shares[c] * (mat3(cross(f[1], f[2]), cross(f[2], f[0]), cross(f[0], f[1])) * normal);
+    }
+    if (vertex.point >> 30 == 1u) { // a corner of a skin
+        vertices[i] = skinVertices[vertex.point ^ SURFACE_SKIN];
+        return;
     }
     const float size = length(turned);
     vertices[i] = SkinVertex(vec4(x, moving > 0.0 ? 1.0 : 0.0), vec4(size > 0.0 ? turned / size : vec3(0.0, 1.0, 0.0), 0.0));

@@ -1,5 +1,5 @@
 #version 460
-// Vertices of skins in cells that a cut has parted: over skin_cells, which goes before.
+// Vertices of skins in cells that a cut has parted (list_split): over skin_cells, which goes before.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "cut.glsl"
@@ -7,15 +7,15 @@
 #include "kuhn.glsl"
 
 layout(std430, binding = 0) readonly buffer Hung { HungVertex hung[]; };
-layout(std430, binding = 1) readonly buffer Partitions { uint partitions[]; };
-layout(std430, binding = 2) readonly buffer Links { uint links[]; };
-layout(std430, binding = 3) readonly buffer Rest { vec4 rest[]; };
-layout(std430, binding = 4) readonly buffer Particles { uint particles[]; }; // of each slot
-layout(std430, binding = 5) readonly buffer Positions { vec4 positions[]; }; // of each particle
-layout(std430, binding = 6) readonly buffer Gradients { Gradient gradients[]; };
-layout(std430, binding = 7) buffer Vertices { SkinVertex vertices[]; };
-
-layout(std430, binding = 8) readonly buffer Moved { vec4 moved[]; };
+layout(std430, binding = 1) readonly buffer Links { uint links[]; };
+layout(std430, binding = 2) readonly buffer Rest { vec4 rest[]; };
+layout(std430, binding = 3) readonly buffer Particles { uint particles[]; }; // of each slot
+layout(std430, binding = 4) readonly buffer Positions { vec4 positions[]; }; // of each particle
+layout(std430, binding = 5) readonly buffer Gradients { Gradient gradients[]; };
+layout(std430, binding = 6) buffer Vertices { SkinVertex vertices[]; };
+layout(std430, binding = 7) readonly buffer Moved { vec4 moved[]; };
+layout(std430, binding = 8) readonly buffer Counts { uint counts[]; };
+layout(std430, binding = 9) readonly buffer Listed { uint listed[]; };
 
 #define ALIVE(i) links[i]
 #define AT(i) positions[particles[i]].xyz
@@ -25,11 +25,11 @@ layout(std430, binding = 8) readonly buffer Moved { vec4 moved[]; };
 #include "skin_rest.glsl"
 
 void main() {
-    const uint item = itemIndex(push.count);
-    if (item >= push.count) return;
-    const HungVertex vertex = hung[push.first + item];
-    const vec3 shift = restOf(push.first + item).xyz - vertex.rest.xyz;
-    if (partitions[vertex.cell] == 0u && shift == vec3(0.0)) return;
+    const uint count = counts[SKIN_LISTS * push.run + SKIN_SPLIT], item = itemIndex(count);
+    if (item >= count) return;
+    const uint v = listed[push.first + item];
+    const HungVertex vertex = hung[v];
+    const vec3 shift = restOf(v).xyz - vertex.rest.xyz;
     const uint held = heldWith(vertex.cell, vertex.corner);
     if (held == 255u && shift == vec3(0.0)) return;
     vec3 x = placeOf(vertex, held);

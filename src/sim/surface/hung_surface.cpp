@@ -26,6 +26,11 @@ void addListed(ProgramBuilder& program, const CutSurface& surface, const vk::Sha
                              pushOf(surface, surface.hung.prismCount));
 }
 
+void addPlan(ProgramBuilder& program, const HungSurface& hung) {
+    const layout::CountPush lists{static_cast<std::uint32_t>(SKIN_LISTS * hung.ranges.size())};
+    program.dispatch(k::planListed, lists.count, {hung.counts, hung.arguments}, lists);
+}
+
 // Who the blade may meet, and where links have died: the passes that follow go there alone.
 void addLists(ProgramBuilder& program, const CutSurface& surface, BufferId bladePlaces, BufferId placesBefore,
               BufferId blade) {
@@ -43,8 +48,7 @@ void addLists(ProgramBuilder& program, const CutSurface& surface, BufferId blade
                          {bladePlaces, placesBefore, blade, status, hung.vertices, hung.moved, hung.marks,
                           hung.counts, hung.listed},
                          range.vertices);
-    const layout::CountPush lists{static_cast<std::uint32_t>(SKIN_LISTS * hung.ranges.size())};
-    program.dispatch(k::planListed, lists.count, {hung.counts, hung.arguments}, lists);
+    addPlan(program, hung);
 }
 
 // By skin.
@@ -168,11 +172,18 @@ void addPrismTriangles(ProgramBuilder& program, const CutSurface& surface) {
 void addSplitVertices(ProgramBuilder& program, const CutSurface& surface) {
     const StepProgram& built = program.program();
     const HungSurface& hung = surface.hung;
+    if (hung.prismCount == 0) return;
+    program.fill(hung.counts, 0);
     for (const HungRange& range : hung.ranges)
-        program.dispatchIndirect(k::skinSplit, {surface.arguments, surface.push.runs + 2, hung.vertexCount},
-                                 {hung.vertices, surface.partitions, built.cutting.links, surface.rest,
-                                  surface.source.particles, built.positions, surface.gradients,
-                                  built.skinVertices, hung.moved},
+        program.dispatchIndirect(k::listSplit, {surface.arguments, surface.push.runs + 2, hung.vertexCount},
+                                 {hung.vertices, surface.partitions, hung.moved, hung.counts, hung.listed},
+                                 range.vertices);
+    addPlan(program, hung);
+    for (const HungRange& range : hung.ranges)
+        program.dispatchIndirect(k::skinSplit, listOf(hung, range.vertices, SKIN_SPLIT),
+                                 {hung.vertices, built.cutting.links, surface.rest, surface.source.particles,
+                                  built.positions, surface.gradients, built.skinVertices, hung.moved,
+                                  hung.counts, hung.listed},
                                  range.vertices);
 }
 
