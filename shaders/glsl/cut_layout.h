@@ -111,6 +111,24 @@ struct Gradient {
 // A triangle of a skin that is an outer face of a cell: the cell's slot and bit of SurfaceCounts::pieces, and the triangle.
 struct SkinFace {
     uint cell, bit, triangle;
+    uint mixed; // the triangle in a mixed skin
+    uint whole; // the whole triangle that it is a part of, or NO_WHOLE
+};
+#define NO_WHOLE 0xffffffffu
+
+// A triangle of a skin as it was before it was split. A mixed skin has these away from cuts, and their parts beside cuts; where
+// the two meet, it has both.
+struct WholeTriangle {
+    uint vertices[3]; // HungVertex
+    uint mixed;       // the triangle in the mixed skin
+};
+#define WHOLE_ALONE 0u
+#define WHOLE_MIXED 1u  // with its parts
+#define WHOLE_PARTED 2u // its parts alone
+
+struct WholePush {
+    uint count;    // vertices that hang
+    uint vertices; // of all skins, those that may be corners of whole triangles
 };
 
 // Skins of meshes hang on the lattice by prisms: between a triangle of the skin and the particles that its corners go with, which

@@ -1,5 +1,6 @@
 #version 460
-// The surface of a cut, last pass: triangles of a skin of which pieces are drawn instead shrink to a point.
+// The surface of a cut, last pass: triangles of a skin of which pieces are drawn instead shrink to a point. In a mixed skin so do those that
+// whole triangles stand for.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -8,6 +9,10 @@ layout(std430, binding = 1) readonly buffer State { SurfaceState state; };
 layout(std430, binding = 2) readonly buffer Faces { SkinFace faces[]; };
 layout(std430, binding = 3) readonly buffer AllIndices { uint allIndices[]; }; // of the uncut skins
 layout(std430, binding = 4) writeonly buffer Indices { uint indices[]; };
+#ifdef MIXED
+layout(std430, binding = 5) readonly buffer States { uint states[]; }; // of whole triangles
+layout(std430, binding = 6) writeonly buffer MixedIndices { uint mixedIndices[]; };
+#endif
 layout(push_constant) uniform Push { CountPush push; };
 
 void main() {
@@ -16,4 +21,8 @@ void main() {
     const SkinFace face = faces[i];
     const bool isHidden = state.missing == 0u && (counts[face.cell].pieces >> face.bit & 1u) != 0u;
     for (uint n = 0u; n < 3u; ++n) indices[3u * face.triangle + n] = allIndices[3u * face.triangle + (isHidden ? 0u : n)];
+#ifdef MIXED
+    const bool isDrawn = !isHidden && (face.whole == NO_WHOLE || states[face.whole] != WHOLE_ALONE);
+    for (uint n = 0u; n < 3u; ++n) mixedIndices[3u * face.mixed + n] = isDrawn ? allIndices[3u * face.triangle + n] : 0u; // one vertex for all
+#endif
 }

@@ -9,11 +9,23 @@ layout(std430, binding = 0) buffer Vertices { SkinVertex vertices[]; };
 layout(std430, binding = 1) readonly buffer Indices { uint indices[]; };
 layout(std430, binding = 2) readonly buffer Fans { VertexTriangles fans[]; };
 layout(std430, binding = 3) readonly buffer TrianglesOfVertex { uint trianglesOfVertex[]; };
+#ifdef WHOLE // of mixed skins: where all triangles around a vertex are whole
+layout(std430, binding = 4) readonly buffer Hung { HungVertex hung[]; };
+layout(std430, binding = 5) readonly buffer Marks { uint marks[]; }; // of vertices that hang
+layout(push_constant) uniform Push { WholePush push; };
+#else
 layout(push_constant) uniform Push { CountPush push; };
+#endif
 
 void main() {
-    const uint i = itemIndex(push.count);
-    if (i >= push.count) return;
+    const uint item = itemIndex(push.count);
+    if (item >= push.count) return;
+#ifdef WHOLE
+    const uint i = hung[item].vertex;
+    if (i >= push.vertices || marks[item] != 0u || fans[i].count == 0u) return;
+#else
+    const uint i = item;
+#endif
     const vec3 here = vertices[i].position.xyz;
     vec3 sum = vec3(0.0);
     for (uint s = 0u; s < fans[i].count; ++s) {

@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <unordered_map>
+#include <utility>
 
 namespace sinew::mesh {
 
@@ -43,7 +45,10 @@ Vector3 placeOf(const Node& node) {
 class Splitter {
 public:
     Splitter(std::vector<Vector3> positions, std::vector<Triangle> triangles)
-        : skin_{std::move(positions), std::move(triangles), {}} {}
+        : skin_{std::move(positions), std::move(triangles), {}, {}} {
+        skin_.wholeOf.resize(skin_.triangles.size());
+        std::iota(skin_.wholeOf.begin(), skin_.wholeOf.end(), 0u);
+    }
 
     SplitSkin run() {
         for (Eigen::Index axis = 0; axis < 3; ++axis) splitBetweenCells(axis);
@@ -52,9 +57,12 @@ public:
                                      std::llround(std::floor(x.y() + 0.5)),
                                      std::llround(std::floor(x.z() + 0.5))});
         points_.clear();
-        std::vector<Triangle> whole;
-        whole.swap(skin_.triangles);
-        for (const Triangle& triangle : whole) splitBetweenNodes(triangle);
+        const std::vector<Triangle> whole = std::exchange(skin_.triangles, {});
+        const std::vector<std::uint32_t> wholeOf = std::exchange(skin_.wholeOf, {});
+        for (std::size_t t = 0; t < whole.size(); ++t) {
+            splitBetweenNodes(whole[t]);
+            skin_.wholeOf.resize(skin_.triangles.size(), wholeOf[t]);
+        }
         return std::move(skin_);
     }
 
@@ -93,15 +101,18 @@ private:
     // The lowest plane first, in both triangles of an edge.
     void splitBetweenCells(Eigen::Index axis) {
         std::vector<Triangle> done, open;
-        for (const Triangle& triangle : skin_.triangles) {
-            open.push_back(triangle);
+        std::vector<std::uint32_t> wholeOf;
+        for (std::size_t t = 0; t < skin_.triangles.size(); ++t) {
+            open.push_back(skin_.triangles[t]);
             while (!open.empty()) {
                 const Triangle next = open.back();
                 open.pop_back();
                 splitAtLowest(next, axis, open, done);
             }
+            wholeOf.resize(done.size(), skin_.wholeOf[t]);
         }
         skin_.triangles = std::move(done);
+        skin_.wholeOf = std::move(wholeOf);
     }
 
     void splitAtLowest(const Triangle& triangle, Eigen::Index axis, std::vector<Triangle>& open,

@@ -14,6 +14,7 @@ namespace sinew::mesh {
 struct SplitSkin {
     std::vector<Vector3> positions; ///< [cells]; the given ones come first, as they were
     std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::vector<std::uint32_t> wholeOf; ///< of each triangle: the given one that it is a part of
     std::vector<std::array<std::int64_t, 3>> anchors; ///< of each vertex: a node about where it is
 };
 

@@ -112,6 +112,7 @@ void hang(sim::Skin& skin, std::vector<Vector3> positions, const VoxelGrid& grid
         SplitSkin split = splitSkin(std::move(positions), std::move(skin.triangles));
         positions = std::move(split.positions);
         skin.triangles = std::move(split.triangles);
+        skin.wholeOf = std::move(split.wholeOf);
         for (const auto& node : split.anchors)
             skin.anchors.push_back(corners.at(static_cast<std::uint32_t>(node[0]),
                                               static_cast<std::uint32_t>(node[1]),

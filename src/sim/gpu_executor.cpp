@@ -31,7 +31,8 @@ std::vector<vk::Buffer> makeBuffers(const vk::Device& device, const StepProgram&
             usage |= VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
         if (holdsArguments[b] || id == cut.draws || id == program.pieceDraws)
             usage |= VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
-        if (id == program.skinIndices || id == program.wholeIndices || id == cut.indices)
+        if (id == program.skinIndices || id == program.wholeIndices || id == program.mixedIndices ||
+            id == cut.indices)
             usage |= VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
         buffers.emplace_back(device, vk::BufferRequest{.name = spec.label,
                                                        .count = spec.initialOf ? 1 : spec.count,

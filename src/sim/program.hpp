@@ -211,6 +211,11 @@ struct StepProgram {
     BufferId parameters, status, positions, velocities; ///< the public ones; velocities may be invalid
     BufferId skinVertices, skinIndices;                 ///< invalid without skins
     BufferId wholeIndices;                              ///< Skin::wholeTriangles, or triangles, of all skins
+    BufferId mixedIndices; ///< of both, once something is cut; invalid where no skin is split
+    struct IndexRange {
+        std::uint32_t first = 0, count = 0;
+    };
+    std::vector<IndexRange> mixedRanges; ///< by skin
     ContactBuffers contacts;
     SleepBuffers sleep;
     PokeGroups pokes;

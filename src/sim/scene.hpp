@@ -235,6 +235,9 @@ struct Skin {
     /// Empty, or the same surface in fewer triangles between the first of the vertices, as it was before
     /// mesh::addMesh split it: what is drawn while nothing is cut (SkinDetail::drawn).
     std::vector<std::array<std::uint32_t, 3>> wholeTriangles;
+    /// Empty, or for each of `triangles` the whole triangle that it is a part of: away from cuts that one is
+    /// drawn in place of its parts (Simulation::drawnSkins).
+    std::vector<std::uint32_t> wholeOf;
     Vec3 color{0.78f, 0.36f, 0.32f}; ///< linear RGB
     std::size_t vertexCount() const { return particles.empty() ? cells.size() : particles.size(); }
 };

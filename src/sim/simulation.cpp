@@ -95,7 +95,7 @@ struct Simulation::State {
     std::vector<BufferId> written;
     vk::Buffer statusRing;                // one slot a frame in flight, read by the host
     std::optional<vk::Buffer> countsRing; // likewise; where bodies may be cut
-    std::vector<SkinRange> skins, wholeSkins;
+    std::vector<SkinRange> skins, wholeSkins, mixedSkins;
     constraints::attachment::Anchors anchors;
     constraints::grab::Hands hands;
     collision::ColliderPaths colliders;
@@ -137,7 +137,8 @@ struct Simulation::State {
                                                       .stride = sizeof(layout::StatusWords),
                                                       .kind = vk::MemoryKind::readback}),
           skins(rangesOf(scene.skins, Triangles::all)), wholeSkins(rangesOf(scene.skins, Triangles::whole)),
-          anchors(scene.attachments), hands(settings.grabs, scene.particles.size()),
+          mixedSkins(rangesOf(scene.skins, program.mixedRanges)), anchors(scene.attachments),
+          hands(settings.grabs, scene.particles.size()),
           colliders(scene.colliders, scene.driven, settings.pokes), budget(dampedBudget(scene, settings)),
           theta(settings.solver == Solver::split ? settings.theta : 0), omega(settings.omega),
           damping(scene.damping), substeps(settings.substeps),
@@ -540,9 +541,11 @@ vk::BufferView Simulation::skinIndices() const noexcept {
 const std::vector<SkinRange>& Simulation::skins() const noexcept {
     return state_->skins;
 }
-Simulation::DrawnSkins Simulation::drawnSkins() const noexcept {
+Simulation::DrawnSkins Simulation::drawnSkins(Overlap overlap) const noexcept {
     const vk::BufferView whole = view(state_->program.wholeIndices);
     if (state_->isUncut && whole.size > 0) return {whole, state_->wholeSkins, true};
+    const vk::BufferView mixed = view(state_->program.mixedIndices);
+    if (overlap == Overlap::some && mixed.size > 0) return {mixed, state_->mixedSkins};
     return {skinIndices(), state_->skins};
 }
 CutSurface Simulation::cutSurface() const noexcept {

@@ -143,6 +143,10 @@ struct SavedState {
 /// that are to be drawn, which are fewer while nothing is cut (drawnSkins()).
 enum class SkinDetail { all, drawn };
 
+/// Whether some triangles of a skin may be drawn in two forms, one over the other, so that there are fewer of
+/// them once something is cut: not for what counts, mixes or outlines them.
+enum class Overlap { none, some };
+
 /// The surface of cuts, to be drawn beside the skins after recordSkin(): the inside that a blade laid open,
 /// and the pieces of skins beside it. Those of the skin's own triangles that pieces stand for are degenerate
 /// from then on. Closed where both are taken together, two-sided: each piece has its own side. Views are
@@ -269,13 +273,14 @@ public:
     const std::vector<SkinRange>& skins() const noexcept;
     /// What to draw of the skins after recordSkin(), with either detail: 32-bit indices into skinVertices(),
     /// and the range of each skin in them. Valid for what was recorded until then; another step, reset or
-    /// state may change it.
+    /// state may change it. With Overlap::some, after a cut, Skin::wholeTriangles away from it and
+    /// `triangles` beside it, where the scene has no sheet that may be cut; vertices as with Overlap::none.
     struct DrawnSkins {
         vk::BufferView indices;
         std::span<const SkinRange> ranges;
         bool areWhole = false; ///< Skin::wholeTriangles, where a skin has some
     };
-    DrawnSkins drawnSkins() const noexcept;
+    DrawnSkins drawnSkins(Overlap overlap = Overlap::none) const noexcept;
     CutSurface cutSurface() const noexcept;
     /// What the skins of sheets fall into along cuts, to be drawn beside skins() with the same two buffers:
     /// one VkDrawIndexedIndirectCommand a skin, stride 20, of nothing where nothing is cut. The skin's own

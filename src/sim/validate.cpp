@@ -269,6 +269,13 @@ void checkSkin(const Skin& skin, const std::string& name, std::size_t particles,
         for (const std::uint32_t corner : skin.triangles[t])
             complaints.checkIndex(corner, skin.vertexCount(), "vertices",
                                   [&] { return name + element(".triangles", t); });
+    if (!skin.wholeOf.empty() && skin.wholeOf.size() != skin.triangles.size())
+        complaints.add(name, "says of " + number(skin.wholeOf.size()) + " of " +
+                                 number(skin.triangles.size()) +
+                                 " triangles what they are parts of, must say it of all or none");
+    for (std::size_t t = 0; t < skin.wholeOf.size(); ++t)
+        complaints.checkIndex(skin.wholeOf[t], skin.wholeTriangles.size(), "whole triangles",
+                              [&] { return name + element(".wholeOf", t); });
     for (std::size_t t = 0; t < skin.wholeTriangles.size(); ++t)
         for (const std::uint32_t corner : skin.wholeTriangles[t])
             complaints.checkIndex(corner, skin.vertexCount(), "vertices",

@@ -219,6 +219,16 @@ const Fault faults[] =
         {"skin[0].particles[1]: is 8", [](Scene& s, Settings&) { s.skins[0].particles[1] = 8; }},
         {"skin[0].triangles[0]: is 3, but there are 3 vertices",
          [](Scene& s, Settings&) { s.skins[0].triangles[0][2] = 3; }},
+        {"skin[0].wholeOf[0]: is 1, but there are 1 whole triangles",
+         [](Scene& s, Settings&) {
+             s.skins[0].wholeTriangles = {{0, 1, 2}};
+             s.skins[0].wholeOf = {1};
+         }},
+        {"skin[0]: says of 2 of 1 triangles what they are parts of",
+         [](Scene& s, Settings&) {
+             s.skins[0].wholeTriangles = {{0, 1, 2}};
+             s.skins[0].wholeOf = {0, 0};
+         }},
         {"skin[0].color: is 1.5", [](Scene& s, Settings&) { s.skins[0].color.y = 1.5f; }},
         {"skin[1].cells[0].particles: is 9",
          [](Scene& s, Settings&) { s.skins[1].cells[0].particles[7] = 9; }},

@@ -10,6 +10,10 @@ namespace {
 constexpr float ballGloss = 0.6f;      // of a skin's: balls are hard and dry
 constexpr float colliderGloss = 0.15f; // dull beside tissue
 
+bool isAnyOf(std::size_t pipeline, std::initializer_list<std::size_t> those) {
+    return std::ranges::count(those, pipeline) > 0;
+}
+
 } // namespace
 
 // What a mesh bounds, in one draw for fronts and one for backs: of what is solid the backs are hidden then,
@@ -99,7 +103,10 @@ void Renderer::drawSkins(VkCommandBuffer commands, std::size_t pipeline, const s
     const vk::DeviceFunctions& functions = device_.functions();
     const vk::BufferView& values = buffers.skins;
     bind(commands, pipeline);
-    const sim::Simulation::DrawnSkins drawn = simulation.drawnSkins();
+    const bool isOneLayer =
+        isAnyOf(pipeline % pipelineCount, {skinGlassPipeline, wiresPipeline, skinCountPipeline});
+    const sim::Simulation::DrawnSkins drawn =
+        simulation.drawnSkins(isOneLayer ? sim::Overlap::none : sim::Overlap::some);
     bindMesh(commands, simulation.skinVertices(), drawn.indices);
     if (values.size > 0) functions.vkCmdBindVertexBuffers(commands, 1, 1, &values.buffer, &values.offset);
     const vk::BufferView pieces = simulation.pieceDraws();

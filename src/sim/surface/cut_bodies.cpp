@@ -58,10 +58,18 @@ private:
         const auto complex = hangSkin(scene_, grid, box, place, firstPrism, firstHung);
         if (!complex) return false;
         const auto prisms = static_cast<std::uint32_t>(complex->prisms.size());
+        const Skin& skin = scene_.skins[place.index];
+        const auto firstWhole = static_cast<std::uint32_t>(bodies_.wholes.size());
         for (std::uint32_t t = 0; t < prisms; ++t) // prisms come behind all slots
-            bodies_.faces.push_back({.cell = static_cast<std::uint32_t>(layout_.count) + firstPrism + t,
-                                     .bit = 0,
-                                     .triangle = place.firstTriangle + t});
+            bodies_.faces.push_back(
+                {.cell = static_cast<std::uint32_t>(layout_.count) + firstPrism + t,
+                 .bit = 0,
+                 .triangle = place.firstTriangle + t,
+                 .mixed = 0,
+                 .whole = skin.wholeOf.empty() ? NO_WHOLE : firstWhole + skin.wholeOf[t]});
+        if (!skin.wholeOf.empty())
+            for (const auto& [a, b, c] : skin.wholeTriangles)
+                bodies_.wholes.push_back({{firstHung + a, firstHung + b, firstHung + c}, 0});
         bodies_.prisms.insert(bodies_.prisms.end(), complex->prisms.begin(), complex->prisms.end());
         bodies_.vertices.insert(bodies_.vertices.end(), complex->vertices.begin(), complex->vertices.end());
         std::ranges::copy(complex->words, bodies_.complex.begin() + box.origin);

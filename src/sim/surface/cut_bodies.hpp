@@ -22,6 +22,7 @@ struct CutBodies {
     std::vector<layout::vec4> pulled;    ///< the same as blades see it; empty where that is no different
     std::vector<layout::SkinPrism> prisms;
     std::vector<layout::HungVertex> vertices;
+    std::vector<layout::WholeTriangle> wholes;
     std::vector<HungRange> ranges;    ///< of bodies with prisms
     double cells = 0;                 ///< of all bodies whose skin is clipped; 0 = there are none
     std::uint32_t room = 0;           ///< Settings::cutSurfaceRoom

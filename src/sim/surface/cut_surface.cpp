@@ -3,6 +3,7 @@
 
 #include "kernels.hpp"
 #include "sim/surface/hung_surface.hpp"
+#include "sim/surface/mixed_skin.hpp"
 #include "sim/surface/skin.hpp"
 
 #include <algorithm>
@@ -74,6 +75,7 @@ void addDrawing(ProgramBuilder& program, const CutSurface& surface) {
     const StepProgram& built = program.program();
     const CutSurfaceBuffers drawn = built.cutSurface;
     if (surface.hung.prismCount == 0) addGradients(program, surface);
+    addWholeNormals(program, surface);
     addRimNormals(program, surface);
     const IndirectItems vertices{surface.arguments, surface.push.runs, surface.push.room};
     const layout::CountPush room{surface.push.room};
@@ -93,8 +95,8 @@ void addDrawing(ProgramBuilder& program, const CutSurface& surface) {
 
 } // namespace
 
-std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& scene,
-                                          const CutBodies& bodies, const CutSource& source) {
+std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& scene, CutBodies bodies,
+                                          const CutSource& source) {
     auto surface = std::make_shared<CutSurface>();
     surface->source = source;
     surface->skins = bodies.skins;
@@ -114,6 +116,7 @@ std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& 
     drawn.draws = program.scratch<layout::DrawArguments>("surface.draws", 2);
     surface->arguments =
         program.scratch<layout::DispatchArguments>("surface.arguments", surface->push.runs + 3);
+    addMixedSkins(program, *surface, scene, bodies);
     surface->skinFaces = program.upload("surface.skin_faces", bodies.faces);
     surface->allIndices = program.upload("surface.all_indices", joinIndices(scene.skins));
     const bool hasPieces = built.skinIndices != BufferId{}; // of sheets: then they are in the topology
@@ -166,10 +169,7 @@ void addCutSurfacePasses(ProgramBuilder& program, const CutSurface& surface, Buf
               {complex, partitions, owned, listed, surface.starts, drawn.state, surface.rest, drawn.rest,
                drawn.indices, surface.source.particles});
     addPrismTriangles(program, surface);
-    program.dispatch(
-        k::hideFaces, surface.faces,
-        {surface.counts, drawn.state, surface.skinFaces, surface.allIndices, program.program().skinIndices},
-        layout::CountPush{surface.faces});
+    addFacePasses(program, surface);
     program.endSurface();
 }
 

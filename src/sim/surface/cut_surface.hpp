@@ -58,13 +58,18 @@ struct CutSurface {
         allIndices, gradients;
     BufferId bladeRest; ///< where a blade has particles at rest: `rest`, or below the skin
     HungSurface hung;
-    std::vector<std::uint32_t> skins; ///< that are clipped
+    std::uint32_t wholeCount = 0; ///< triangles of mixed skins; 0 = there are none
+    BufferId wholes, wholeStates; ///< these; WHOLE_ALONE ...
+    BufferId wholeMarks;          ///< by vertex that hangs: 1 = a corner of one that its parts stand for
+    BufferId wholeIndices, wholeFans, wholesOfVertex; ///< what their normals come from
+    std::uint32_t wholeVertices = 0;                  ///< of all skins, that have such a normal
+    std::vector<std::uint32_t> skins;                 ///< that are clipped
 };
 
 /// Buffers, and the skin's indices, which cuts change. After those of StepProgram::cutting, to whose topology
 /// they are added.
-std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& scene,
-                                          const CutBodies& bodies, const CutSource& source);
+std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& scene, CutBodies bodies,
+                                          const CutSource& source);
 
 /// In the phase "cut", after places were put down: those that a blade meets. Returns them.
 BufferId addPulling(ProgramBuilder& program, const CutSurface& surface, BufferId placesBefore, BufferId work,

@@ -43,8 +43,10 @@ public:
         const bool hasBelow = below[axis]-- > 0 && isFilled(below), hasAbove = isFilled(nodes[0]);
         if (hasBelow == hasAbove) return std::nullopt;
         if (hasAbove) // the low face of the cell
-            return layout::SkinFace{slot(nodes[0]), 2 * tetrahedron(*middle, *high) + 1, triangle};
-        return layout::SkinFace{slot(below), 2 * tetrahedron(across, across | *middle), triangle};
+            return layout::SkinFace{slot(nodes[0]), 2 * tetrahedron(*middle, *high) + 1, triangle, 0,
+                                    NO_WHOLE};
+        return layout::SkinFace{slot(below), 2 * tetrahedron(across, across | *middle), triangle, 0,
+                                NO_WHOLE};
     }
 
     std::size_t outerFaces() const {

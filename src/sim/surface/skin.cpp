@@ -69,11 +69,9 @@ void addVertices(ProgramBuilder& program, const std::vector<Skin>& skins,
 
 void addNormals(ProgramBuilder& program, const std::vector<std::uint32_t>& indices, BufferId indexBuffer,
                 std::uint32_t vertexCount, const std::string& name) {
-    const Fans fans = fansOf(indices, vertexCount);
-    const BufferId fanBuffer = program.upload(name + ".fans", fans.fans);
-    const BufferId triangles = program.upload(name + ".triangles_of_vertex", fans.triangles);
+    const VertexFans fans = uploadFans(program, indices, vertexCount, name);
     program.dispatch(kernels::skinNormals, vertexCount,
-                     {program.program().skinVertices, indexBuffer, fanBuffer, triangles},
+                     {program.program().skinVertices, indexBuffer, fans.fans, fans.triangles},
                      layout::CountPush{vertexCount});
 }
 
@@ -115,6 +113,13 @@ void addWholeSkins(ProgramBuilder& program, const std::vector<Skin>& skins,
 }
 
 } // namespace
+
+VertexFans uploadFans(ProgramBuilder& program, const std::vector<std::uint32_t>& indices,
+                      std::uint32_t vertexCount, const std::string& name) {
+    const Fans fans = fansOf(indices, vertexCount);
+    return {program.upload(name + ".fans", fans.fans),
+            program.upload(name + ".triangles_of_vertex", fans.triangles)};
+}
 
 std::vector<std::uint32_t> joinIndices(const std::vector<Skin>& skins) {
     return join(

@@ -9,6 +9,13 @@ namespace sinew::sim::surface {
 /// Triangles of all skins, three vertices each, with those of a skin behind those before it.
 std::vector<std::uint32_t> joinIndices(const std::vector<Skin>& skins);
 
+/// The triangles around each of the first `vertexCount` vertices, for skin_normals.
+struct VertexFans {
+    BufferId fans, triangles;
+};
+VertexFans uploadFans(ProgramBuilder& program, const std::vector<std::uint32_t>& indices,
+                      std::uint32_t vertexCount, const std::string& name);
+
 /// Appends the skin passes, and those of whole skins where some were split, and sets the program's skin
 /// buffers; nothing where `skins` is empty. Skins lie
 /// behind one another in one vertex and one index buffer, in the order of the scene.

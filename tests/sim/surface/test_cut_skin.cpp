@@ -347,6 +347,7 @@ TEST(CutSkin, OfAStepThatIsUndoneIsUndoneWithItAndComesBackWithTheTopology) {
 TEST(CutSkin, OfWrongAnchorsIsNotClipped) {
     Scene scene = sceneOf(sphere);
     scene.skins[0].triangles.pop_back();
+    scene.skins[0].wholeOf.pop_back();
     EXPECT_EQ(test::Runner(scene).simulation().cutSurface().vertices.size, 0u) << "an open skin";
     scene = sceneOf(sphere);
     std::swap(scene.skins[0].anchors.front(), scene.skins[0].anchors.back());

@@ -1,0 +1,15 @@
+#version 460
+// Mixed skins, second pass: the corners of whole triangles that their parts stand for.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+
+layout(std430, binding = 0) readonly buffer Wholes { WholeTriangle wholes[]; };
+layout(std430, binding = 1) readonly buffer States { uint states[]; };
+layout(std430, binding = 2) writeonly buffer Marks { uint marks[]; }; // of vertices that hang
+layout(push_constant) uniform Push { CountPush push; };
+
+void main() {
+    const uint i = itemIndex(push.count);
+    if (i >= push.count || states[i] != WHOLE_PARTED) return;
+    marks[wholes[i].vertices[0]] = marks[wholes[i].vertices[1]] = marks[wholes[i].vertices[2]] = 1u;
+}

@@ -1,0 +1,140 @@
+// One index buffer for all mixed skins: of each, its whole triangles and then its parts.
+#include "sim/surface/mixed_skin.hpp"
+
+#include "kernels.hpp"
+#include "sim/surface/skin.hpp"
+
+#include <algorithm>
+
+namespace sinew::sim::surface {
+
+namespace {
+
+namespace k = kernels;
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+// Triangles of all skins behind one another, and where those of each begin.
+struct Layout {
+    std::vector<std::uint32_t> indices;
+    std::vector<std::uint32_t> wholes, parts; // by skin: triangles before them in the buffer
+    std::vector<StepProgram::IndexRange> ranges;
+};
+
+class Joiner {
+public:
+    void add(const Skin& skin, bool isMixed) {
+        const auto first = static_cast<std::uint32_t>(layout_.indices.size());
+        layout_.wholes.push_back(first / 3);
+        if (isMixed)
+            for (const Triangle& triangle : skin.wholeTriangles) append(triangle);
+        layout_.parts.push_back(static_cast<std::uint32_t>(layout_.indices.size() / 3));
+        for (const Triangle& triangle : skin.triangles)
+            append(isMixed ? Triangle{} : triangle); // parts are drawn when something is cut
+        layout_.ranges.push_back({first, static_cast<std::uint32_t>(layout_.indices.size()) - first});
+        firstVertex_ += static_cast<std::uint32_t>(skin.vertexCount());
+    }
+    Layout finish() { return std::move(layout_); }
+
+private:
+    void append(const Triangle& triangle) {
+        for (const std::uint32_t corner : triangle) layout_.indices.push_back(firstVertex_ + corner);
+    }
+    Layout layout_;
+    std::uint32_t firstVertex_ = 0;
+};
+
+// Faces and whole triangles of bodies are in the order of their skins, as bodies.skins has it.
+void place(const Scene& scene, const Layout& layout, CutBodies& bodies) {
+    std::vector<std::uint32_t> skinOf; // by triangle of all skins
+    std::vector<std::uint32_t> first;  // by skin
+    for (std::uint32_t s = 0; s < scene.skins.size(); ++s) {
+        first.push_back(static_cast<std::uint32_t>(skinOf.size()));
+        skinOf.insert(skinOf.end(), scene.skins[s].triangles.size(), s);
+    }
+    for (layout::SkinFace& face : bodies.faces) {
+        const std::uint32_t s = skinOf[face.triangle];
+        face.mixed = layout.parts[s] + face.triangle - first[s];
+    }
+    std::size_t next = 0;
+    for (const std::uint32_t s : bodies.skins) {
+        if (scene.skins[s].wholeOf.empty()) continue;
+        for (std::uint32_t t = 0; t < scene.skins[s].wholeTriangles.size(); ++t)
+            bodies.wholes[next++].mixed = layout.wholes[s] + t;
+    }
+}
+
+void uploadWholes(ProgramBuilder& program, CutSurface& surface, const CutBodies& bodies) {
+    std::vector<std::uint32_t> indices;
+    for (const layout::WholeTriangle& whole : bodies.wholes)
+        for (const std::uint32_t corner : whole.vertices) indices.push_back(bodies.vertices[corner].vertex);
+    surface.wholeVertices = std::ranges::max(indices) + 1;
+    surface.wholeIndices = program.upload("surface.whole_indices", indices);
+    const VertexFans fans = uploadFans(program, indices, surface.wholeVertices, "surface.whole");
+    surface.wholeFans = fans.fans;
+    surface.wholesOfVertex = fans.triangles;
+}
+
+} // namespace
+
+void addMixedSkins(ProgramBuilder& program, CutSurface& surface, const Scene& scene, CutBodies& bodies) {
+    StepProgram& built = program.program();
+    if (bodies.wholes.empty() || built.pieceDraws != BufferId{}) return; // those draw from skinIndices
+    Joiner joiner;
+    for (std::uint32_t s = 0; s < scene.skins.size(); ++s)
+        joiner.add(scene.skins[s],
+                   std::ranges::count(bodies.skins, s) > 0 && !scene.skins[s].wholeOf.empty());
+    Layout layout = joiner.finish();
+    place(scene, layout, bodies);
+    built.mixedIndices = program.upload("skin.mixed_indices", layout.indices);
+    built.mixedRanges = std::move(layout.ranges);
+    surface.wholeCount = static_cast<std::uint32_t>(bodies.wholes.size());
+    surface.wholes = program.upload("surface.wholes", bodies.wholes);
+    surface.wholeStates = program.scratch<std::uint32_t>("surface.whole_states", surface.wholeCount);
+    surface.wholeMarks = program.scratch<std::uint32_t>("surface.whole_marks", bodies.vertices.size());
+    for (const BufferId buffer : {built.mixedIndices, surface.wholeMarks}) {
+        built.cutting.topology.push_back(buffer);
+        program.carry(buffer, buffer);
+    }
+    uploadWholes(program, surface, bodies);
+}
+
+void addWholeNormals(ProgramBuilder& program, const CutSurface& surface) {
+    if (surface.wholeCount == 0) return;
+    const auto hung =
+        static_cast<std::uint32_t>(program.program().buffers[surface.hung.vertices.index].count);
+    program.dispatch(k::skinNormalsWhole, hung,
+                     {program.program().skinVertices, surface.wholeIndices, surface.wholeFans,
+                      surface.wholesOfVertex, surface.hung.vertices, surface.wholeMarks},
+                     layout::WholePush{.count = hung, .vertices = surface.wholeVertices});
+}
+
+void addFacePasses(ProgramBuilder& program, const CutSurface& surface) {
+    const StepProgram& built = program.program();
+    const BufferId state = built.cutSurface.state;
+    const layout::CountPush faces{surface.faces}, wholes{surface.wholeCount};
+    if (surface.wholeCount == 0) {
+        program.dispatch(k::hideFaces, faces.count,
+                         {surface.counts, state, surface.skinFaces, surface.allIndices, built.skinIndices},
+                         faces);
+        return;
+    }
+    program.fill(surface.wholeStates, 0);
+    program.fill(surface.wholeMarks, 0);
+    program.dispatch(k::openWholes, faces.count,
+                     {surface.counts, state, surface.skinFaces, surface.hung.prisms, surface.hung.vertices,
+                      surface.hung.moved, surface.partitions, surface.wholeStates},
+                     layout::PrismPush{.first = surface.slots, .count = faces.count});
+    program.dispatch(k::markWholes, wholes.count, {surface.wholes, surface.wholeStates, surface.wholeMarks},
+                     wholes);
+    program.dispatch(
+        k::drawWholes, wholes.count,
+        {surface.wholes, surface.wholeMarks, surface.hung.vertices, surface.wholeStates, built.mixedIndices},
+        wholes);
+    program.dispatch(k::hideFacesMixed, faces.count,
+                     {surface.counts, state, surface.skinFaces, surface.allIndices, built.skinIndices,
+                      surface.wholeStates, built.mixedIndices},
+                     faces);
+}
+
+} // namespace sinew::sim::surface

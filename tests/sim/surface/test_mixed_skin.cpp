@@ -1,0 +1,244 @@
+// Skins once something is cut: whole triangles away from cuts, their parts beside them, no gap between the
+// two.
+#include "layout.h"
+#include "mesh/generate.hpp"
+#include "mesh/to_scene.hpp"
+#include "sim/bodies.hpp"
+#include "sim/cutting/cut_body.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <map>
+#include <numeric>
+#include <set>
+
+using namespace sinew;
+using namespace sinew::sim;
+using Eigen::Vector3d;
+using test::CutBody;
+using test::CutPlane;
+using test::sweepOf;
+
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+constexpr double reach = 3;
+
+void addOrgan(Scene& scene) {
+    mesh::MeshBody body{.name = "organ", .youngModulus = 1e5f, .isCuttable = true};
+    body.voxels.resolution = 14;
+    mesh::addMesh(scene, mesh::generate("organ", 49), body);
+}
+
+Scene organScene() {
+    Scene scene{.name = "organ", .gravity = {0, 0, 0}};
+    addOrgan(scene);
+    return scene;
+}
+
+bool isThere(const Triangle& triangle) {
+    return triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0];
+}
+
+std::vector<Triangle> download(const vk::BufferView& indices) {
+    return test::queue().download<Triangle>(indices);
+}
+
+// What is drawn of one skin with either form of overlap.
+struct Mixed {
+    Mixed(const Simulation& simulation, const Skin& skin) : parts(skin.triangles.size()) {
+        const Simulation::DrawnSkins drawn = simulation.drawnSkins(Overlap::some);
+        const SkinRange& range = drawn.ranges.back();
+        EXPECT_FALSE(drawn.areWhole);
+        EXPECT_EQ(range.indexCount, 3 * (skin.wholeTriangles.size() + skin.triangles.size()));
+        const std::vector<Triangle> all = download(drawn.indices);
+        const auto first = all.begin() + range.firstIndex / 3;
+        wholes.assign(first, first + static_cast<std::ptrdiff_t>(skin.wholeTriangles.size()));
+        parts.assign(first + static_cast<std::ptrdiff_t>(skin.wholeTriangles.size()),
+                     first + static_cast<std::ptrdiff_t>(range.indexCount / 3));
+        const std::vector<Triangle> full = download(simulation.skinIndices());
+        left.assign(full.end() - static_cast<std::ptrdiff_t>(skin.triangles.size()), full.end());
+        for (std::size_t t = 0; t < parts.size(); ++t) partsOf[skin.wholeOf[t]].push_back(t);
+    }
+    // Those of a whole triangle that no pieces stand for.
+    bool hasAllParts(std::uint32_t whole) const {
+        for (const std::size_t t : partsOf.at(whole))
+            if (isThere(left[t]) && parts[t] != left[t]) return false;
+        return true;
+    }
+    std::size_t count() const {
+        return static_cast<std::size_t>(std::ranges::count_if(wholes, isThere) +
+                                        std::ranges::count_if(parts, isThere));
+    }
+    std::vector<Triangle> wholes, parts, left; // left: as they are without overlap
+    std::map<std::uint32_t, std::vector<std::size_t>> partsOf;
+};
+
+std::vector<layout::SkinVertex> drawnBy(test::Runner& runner, SkinDetail detail) {
+    const VkCommandBuffer commands = test::queue().begin();
+    runner.simulation().recordSkin(commands, detail);
+    test::queue().wait(test::queue().submit(commands));
+    return test::queue().download<layout::SkinVertex>(runner.simulation().skinVertices());
+}
+
+Vector3d normalOf(const layout::SkinVertex& vertex) {
+    return {double{vertex.normal.x}, double{vertex.normal.y}, double{vertex.normal.z}};
+}
+
+std::vector<Vector3d> verticesOf(test::Runner& runner) {
+    std::vector<Vector3d> places;
+    for (const auto& vertex : drawnBy(runner, SkinDetail::all))
+        places.emplace_back(double{vertex.position.x}, double{vertex.position.y}, double{vertex.position.z});
+    return places;
+}
+
+Vector3d areaOf(const Triangle& triangle, const std::vector<Vector3d>& places) {
+    const Vector3d &a = places[triangle[0]], &b = places[triangle[1]], &c = places[triangle[2]];
+    return 0.5 * (b - a).cross(c - a);
+}
+
+} // namespace
+
+TEST(MixedSkin, KnowsWhatItsPartsArePartsOf) {
+    const Scene scene = organScene();
+    const Skin& skin = scene.skins[0];
+    ASSERT_EQ(skin.wholeOf.size(), skin.triangles.size());
+    test::Runner runner(scene, {.substeps = 2});
+    const std::vector<Vector3d> places = verticesOf(runner);
+    std::vector<Vector3d> areas(skin.wholeTriangles.size(), Vector3d::Zero());
+    for (std::size_t t = 0; t < skin.triangles.size(); ++t)
+        areas[skin.wholeOf[t]] += areaOf(skin.triangles[t], places);
+    for (std::size_t w = 0; w < areas.size(); ++w) {
+        const Vector3d whole = areaOf(skin.wholeTriangles[w], places);
+        ASSERT_LT((areas[w] - whole).norm(), 1e-3 * whole.norm() + 1e-9) << w;
+    }
+}
+
+TEST(MixedSkin, IsWholeAwayFromACutAndItsPartsBesideIt) {
+    const Scene scene = organScene();
+    const Skin& skin = scene.skins[0];
+    CutBody body(scene);
+    const std::vector<Vector3d> places = verticesOf(body.runner());
+    const vk::Buffer uncut = body.runner().saveTopology();
+    const CutPlane plane{{0, 0, 0}, Vector3d(1, 0.2, 0.1).normalized()};
+    ASSERT_GT(body.cut(sweepOf(plane, reach)).linksCutInAll, 0u);
+    const Mixed mixed(body.runner().simulation(), skin);
+
+    std::size_t hidden = 0, parted = 0;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> edges; // whole triangles
+    for (std::uint32_t w = 0; w < mixed.wholes.size(); ++w) {
+        const bool isWhole = isThere(mixed.wholes[w]);
+        ASSERT_TRUE(!isWhole || mixed.wholes[w] == skin.wholeTriangles[w]) << w;
+        ASSERT_TRUE(isWhole || mixed.hasAllParts(w)) << w << " is not drawn at all";
+        parted += isWhole ? 0 : 1;
+        for (const std::size_t t : mixed.partsOf.at(w)) {
+            ASSERT_TRUE(!isThere(mixed.parts[t]) || mixed.parts[t] == mixed.left[t])
+                << "a piece stands for " << t;
+            if (isThere(mixed.left[t])) continue;
+            ++hidden;
+            ASSERT_FALSE(isWhole) << w << " covers what the blade took";
+        }
+        double nearest = 1e9;
+        for (std::size_t n = 0; n < 3; ++n) {
+            const std::uint32_t a = skin.wholeTriangles[w][n], b = skin.wholeTriangles[w][(n + 1) % 3];
+            edges[{std::min(a, b), std::max(a, b)}].push_back(w);
+            nearest = std::min(nearest, std::abs(plane.normal.dot(places[a] - plane.point)));
+        }
+        if (nearest < 4 * body.spacing()) continue;
+        ASSERT_TRUE(isWhole) << w;
+        for (const std::size_t t : mixed.partsOf.at(w)) ASSERT_FALSE(isThere(mixed.parts[t])) << w;
+    }
+    EXPECT_GT(hidden, 50u);
+    EXPECT_GT(parted, 50u);
+    for (const auto& [edge, both] : edges) {
+        ASSERT_EQ(both.size(), 2u);
+        for (std::size_t n = 0; n < 2; ++n)
+            ASSERT_TRUE(isThere(mixed.wholes[both[n]]) || mixed.hasAllParts(both[1 - n]))
+                << "a gap may open beside " << both[n];
+    }
+    EXPECT_LT(mixed.count(), 0.6 * static_cast<double>(skin.triangles.size()));
+
+    body.runner().loadTopology(uncut);
+    const Mixed undone(body.runner().simulation(), skin);
+    EXPECT_EQ(undone.wholes, skin.wholeTriangles);
+    EXPECT_EQ(undone.count(), skin.wholeTriangles.size());
+}
+
+// Not as parts, of which there are more, would have it: nobody sees a cut elsewhere.
+TEST(MixedSkin, IsLitAwayFromACutAsBefore) {
+    const Scene scene = organScene();
+    const Skin& skin = scene.skins[0];
+    CutBody body(scene);
+    body.runner().run(1);
+    const auto before = drawnBy(body.runner(), SkinDetail::drawn);
+    const CutPlane plane{{0, 0, 0}, Vector3d::UnitX()};
+    body.cut(sweepOf(plane, reach));
+    const auto after = drawnBy(body.runner(), SkinDetail::drawn);
+    const Mixed mixed(body.runner().simulation(), skin);
+    std::set<std::uint32_t> beside;
+    for (std::uint32_t w = 0; w < mixed.wholes.size(); ++w)
+        if (!isThere(mixed.wholes[w]))
+            beside.insert(skin.wholeTriangles[w].begin(), skin.wholeTriangles[w].end());
+    std::size_t same = 0;
+    for (const Triangle& triangle : skin.wholeTriangles)
+        for (const std::uint32_t v : triangle) {
+            const double alike = normalOf(before[v]).dot(normalOf(after[v]));
+            ASSERT_GT(alike, beside.contains(v) ? 0.7 : 1 - 1e-6) << v;
+            same += beside.contains(v) ? 0 : 1;
+        }
+    EXPECT_GT(same, skin.wholeTriangles.size());
+    EXPECT_GT(beside.size(), 50u);
+}
+
+TEST(MixedSkin, IsTheSameAfterEveryStrokeHoweverOftenItIsCut) {
+    const Scene scene = organScene();
+    CutBody once(scene), twice(scene);
+    const auto plane = [](double x) { return sweepOf({{x, 0, 0}, Vector3d::UnitX()}, reach); };
+    ASSERT_GT(once.cut(plane(0.03)).linksCutInAll, 0u);
+    twice.cut(plane(0.03));
+    twice.cut(plane(0.03)); // nothing is left to be cut
+    const auto all = [](CutBody& body) {
+        return download(body.runner().simulation().drawnSkins(Overlap::some).indices);
+    };
+    EXPECT_EQ(all(once), all(twice));
+    once.cut(plane(-0.05));
+    EXPECT_NE(all(once), all(twice));
+}
+
+// A box has the outer faces of its cells for a skin, of which there are no fewer.
+TEST(MixedSkin, LeavesOtherSkinsAsTheyAre) {
+    Scene scene{.name = "both", .gravity = {0, 0, 0}};
+    const std::array<std::uint32_t, 3> cells{4, 4, 4};
+    Lattice lattice{.name = "box",
+                    .origin = {-0.2f, -0.2f, -0.2f},
+                    .cells = cells,
+                    .spacing = 0.1f,
+                    .fill = std::vector<float>(64, 1.0f),
+                    .youngModulus = 1e5f,
+                    .density = 1000,
+                    .isCuttable = true};
+    lattice.origin.y += 5;
+    addLatticeSkin(scene, lattice, addLattice(scene, lattice), {0.7f, 0.2f, 0.1f});
+    const std::size_t ofBox = scene.skins[0].triangles.size();
+    addOrgan(scene);
+    test::Runner runner(scene, {.substeps = 2});
+    runner.cut(sweepOf({{0.03, 0, 0}, Vector3d::UnitX()}, 8).blade());
+    const Simulation& simulation = runner.simulation();
+    const std::vector<Triangle> full = download(simulation.skinIndices()),
+                                drawn = download(simulation.drawnSkins(Overlap::some).indices);
+    std::size_t hidden = 0;
+    for (std::size_t t = 0; t < ofBox; ++t) {
+        ASSERT_EQ(isThere(full[t]), isThere(drawn[t])) << t;
+        ASSERT_TRUE(!isThere(full[t]) || full[t] == drawn[t]) << t;
+        hidden += isThere(full[t]) ? 0 : 1;
+    }
+    EXPECT_GT(hidden, 0u);
+    const Mixed mixed(simulation, scene.skins[1]);
+    EXPECT_GT(std::ranges::count_if(mixed.parts, isThere), 0);
+    EXPECT_LT(mixed.count(), scene.skins[1].triangles.size());
+    for (const Triangle& whole : mixed.wholes)
+        ASSERT_TRUE(!isThere(whole) || std::ranges::min(whole) >= scene.skins[0].vertexCount());
+}
