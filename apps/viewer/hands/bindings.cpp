@@ -119,7 +119,7 @@ constexpr std::array table{
             "save the state in the current folder; opened or dropped here, it goes on",
             "Save"},
     Binding{{key, GLFW_KEY_F7}, times, "F7", "print how long pictures took since it was last asked", "Times"},
-    Binding{{key, GLFW_KEY_F11}, fullScreen, "F11", "full screen", "Full screen"},
+    Binding{{key, GLFW_KEY_F11}, fullScreen, "F11", "full screen", "Full"},
     Binding{{key, GLFW_KEY_V}, vsync, "V", "wait for the screen (vsync) or not", "Vsync"},
     Binding{{key, GLFW_KEY_EQUAL, GLFW_MOD_CONTROL}, largerTexts, "Ctrl + plus", "larger texts", "Larger"},
     Binding{{key, GLFW_KEY_EQUAL, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT}, largerTexts, "", "larger texts"},
