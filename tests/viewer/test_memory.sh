@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# test_memory.sh VIEWER SCENE FOLDER: going to and fro between two scenes leaves the viewer as large as it was: what the scene before
+# took is given back. The least of three readings, since a reading may fall into a change.
+set -euo pipefail
+viewer=$1 given=$2 folder=$3
+here=$(cd "$(dirname "$0")" && pwd)
+extent=640x400 options=(--no-validation) scene=
+. "$here/window.sh"
+cp "$given" one.toml
+sed '0,/^name.*/s//name = "other"/' "$given" >two.toml
+scene=$folder/one.toml
+start
+
+shown() { grep -c ' particles, ' viewer.out || true; }
+change() { # the scene before in the folder's list, and half a second of it
+    local before
+    before=$(shown)
+    keys Prior
+    for _ in {1..600}; do (($(shown) > before)) && break; sleep 0.1; done
+    (($(shown) > before)) || fail "the next scene never came"
+    sleep 0.5
+}
+resident() { awk '/^VmRSS/ {print $2}' "/proc/$running/status"; } # kB
+least() { # of three changes
+    local size=$((1 << 40)) now
+    for _ in 1 2 3; do
+        change
+        now=$(resident)
+        ((now < size)) && size=$now
+    done
+    echo "$size"
+}
+change
+before=$(least)
+after=$(least)
+after=$(least)
+echo "resident: $before kB in the first changes, $after kB six changes later"
+((after - before < 100000)) || fail "the viewer grew by $((after - before)) kB"
+keys ctrl+q
+awaitEnd 0
