@@ -79,9 +79,17 @@ struct SurfaceState {
 struct SurfacePush {
     uint chunks; // of slots
     uint room;   // triangles, and as many vertices
-    uint runs;   // of slots: arguments 0 .. runs - 1 are for them, the one after for all vertices
-    uint hung;   // vertices of skins that hang on a lattice: the third argument after those of runs
+    uint runs;   // of slots: arguments 0 .. runs - 1 are for them, those after for SURFACE_VERTICES ...
+    uint hung;   // vertices of skins that hang on a lattice
 };
+
+// Arguments of what the surface is for, after those of runs.
+#define SURFACE_VERTICES 0u // all
+#define SURFACE_LISTED 1u   // items that have any of it, in a step that may have changed it
+#define SURFACE_HUNG 2u     // vertices of skins that hang, if there is a surface
+#define SURFACE_POINTS 3u
+#define SURFACE_OUTSIDE 4u // vertices of triangles outside
+#define SURFACE_ARGUMENTS 5u
 
 // VkDrawIndexedIndirectCommand.
 struct DrawArguments {

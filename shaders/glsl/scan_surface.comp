@@ -47,7 +47,9 @@ void main() {
     draws[1] = DrawArguments(3u * total.z, 1u, 3u * total.y, 0, 0u);
     for (uint r = 0u; r < push.runs; ++r) arguments[r] = DispatchArguments(min(total.x, 1u) * groups[r], 1u, 1u, 0u);
     listed[0] = total.w;
-    arguments[push.runs + 1u] = DispatchArguments(isWritten ? groupsOf(total.w) : 0u, 1u, 1u, 0u);
-    arguments[push.runs + 2u] = DispatchArguments(min(total.x, 1u) * groupsOf(push.hung), 1u, 1u, 0u);
-    arguments[push.runs] = DispatchArguments(groupsOf(total.x + 3u * total.z), 1u, 1u, 0u);
+    arguments[push.runs + SURFACE_LISTED] = DispatchArguments(isWritten ? groupsOf(total.w) : 0u, 1u, 1u, 0u);
+    arguments[push.runs + SURFACE_HUNG] = DispatchArguments(min(total.x, 1u) * groupsOf(push.hung), 1u, 1u, 0u);
+    arguments[push.runs + SURFACE_VERTICES] = DispatchArguments(groupsOf(total.x + 3u * total.z), 1u, 1u, 0u);
+    arguments[push.runs + SURFACE_POINTS] = DispatchArguments(groupsOf(total.x), 1u, 1u, 0u);
+    arguments[push.runs + SURFACE_OUTSIDE] = DispatchArguments(groupsOf(3u * total.z), 1u, 1u, 0u);
 }

@@ -1,5 +1,5 @@
 #version 460
-// Where the vertices of a cut surface are, and their normals: moved with the material around the corners that each hangs on.
+// Where the points of a cut surface are, and their normals: moved with the material around the corners that each hangs on.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -10,13 +10,14 @@ layout(std430, binding = 3) readonly buffer Particles { uint particles[]; }; // 
 layout(std430, binding = 4) readonly buffer Positions { vec4 positions[]; }; // of each particle
 layout(std430, binding = 5) readonly buffer Gradients { Gradient gradients[]; };
 layout(std430, binding = 6) writeonly buffer Vertices { SkinVertex vertices[]; };
-layout(std430, binding = 7) readonly buffer SkinVertices { SkinVertex skinVertices[]; };
+layout(std430, binding = 7) writeonly buffer Turns { Gradient turns[]; }; // of each point: how normals turn there, for skin_pieces
 #ifdef HUNG
-layout(std430, binding = 8) readonly buffer Hung { HungVertex hung[]; };
-layout(std430, binding = 9) readonly buffer Moved { vec4 moved[]; };
-layout(std430, binding = 10) readonly buffer Near { uint near[]; };
-layout(std430, binding = 11) readonly buffer Links { uint links[]; };
-layout(std430, binding = 12) readonly buffer Strides { uvec2 strides[]; }; // by skin: slots from a node to the next in y, in z
+layout(std430, binding = 8) readonly buffer SkinVertices { SkinVertex skinVertices[]; };
+layout(std430, binding = 9) readonly buffer Hung { HungVertex hung[]; };
+layout(std430, binding = 10) readonly buffer Moved { vec4 moved[]; };
+layout(std430, binding = 11) readonly buffer Near { uint near[]; };
+layout(std430, binding = 12) readonly buffer Links { uint links[]; };
+layout(std430, binding = 13) readonly buffer Strides { uvec2 strides[]; }; // by skin: slots from a node to the next in y, in z
 #endif
 layout(push_constant) uniform Push { CountPush push; };
 
@@ -40,11 +41,11 @@ vec3 placeAt(CutVertex vertex, int c, out mat3 turn) {
 }
 
 void main() {
-    const uint count = min(push.count, state.points + 3u * state.outside), i = itemIndex(count);
+    const uint count = min(push.count, state.points), i = itemIndex(count);
     if (i >= count) return;
     const CutVertex vertex = cutVertices[i];
-    const vec3 normal = vec3(vertex.normal[0], vertex.normal[1], vertex.normal[2]) / SURFACE_NORMAL;
-    vec3 x = vec3(0.0), turned = vec3(0.0);
+    vec3 x = vec3(0.0);
+    mat3 turn = mat3(0.0); // the cofactor of the motion
     float moving = 0.0;
     // Most have one corner: a loop for those that have a share, since a software device takes its time for the others, too.
     const bvec4 isShare = notEqual(vertex.shares, vec4(0.0));
@@ -54,12 +55,10 @@ void main() {
         mat3 f;
         x += vertex.shares[c] * placeAt(vertex, c, f);
         moving += vertex.shares[c] * positions[particles[vertex.corners[c]]].w;
-        turned += vertex.shares[c] * (mat3(cross(f[1], f[2]), cross(f[2], f[0]), cross(f[0], f[1])) * normal);
+        turn += vertex.shares[c] * mat3(cross(f[1], f[2]), cross(f[2], f[0]), cross(f[0], f[1]));
     }
-    if (vertex.point >> 30 == 1u) { // a corner of a skin
-        vertices[i] = skinVertices[vertex.point ^ SURFACE_SKIN];
-        return;
-    }
-    const float size = length(turned);
-    vertices[i] = SkinVertex(vec4(x, moving > 0.0 ? 1.0 : 0.0), vec4(size > 0.0 ? turned / size : vec3(0.0, 1.0, 0.0), 0.0));
+    const vec3 normal = turn * vec3(vertex.normal[0], vertex.normal[1], vertex.normal[2]) / SURFACE_NORMAL;
+    const float size = length(normal);
+    vertices[i] = SkinVertex(vec4(x, moving > 0.0 ? 1.0 : 0.0), vec4(size > 0.0 ? normal / size : vec3(0.0, 1.0, 0.0), 0.0));
+    turns[i] = Gradient(vec4(turn[0], 0.0), vec4(turn[1], 0.0), vec4(turn[2], 0.0));
 }

@@ -35,7 +35,8 @@ void addHiding(ProgramBuilder& program, const Cut& cut, BufferId slots, std::uin
         {slots, cut.particles, cut.buffers.pieces, cut.labels, built.positions, built.skinVertices},
         layout::CountPush{vertices});
     const layout::SurfacePush& push = cut.surface->push;
-    program.dispatchIndirect(k::hideCrumbSurface, {cut.surface->arguments, push.runs, push.room},
+    program.dispatchIndirect(k::hideCrumbSurface,
+                             {cut.surface->arguments, push.runs + SURFACE_VERTICES, push.room},
                              {slots, cut.particles, cut.buffers.pieces, cut.labels, built.positions,
                               drawn.vertices, drawn.state, drawn.rest},
                              layout::CountPush{push.room});

@@ -48,8 +48,8 @@ void addItems(ProgramBuilder& program, CutSurface& surface, const CutBodies& bod
 void addListed(ProgramBuilder& program, const CutSurface& surface, const vk::ShaderCode& code,
                std::initializer_list<BufferId> buffers) {
     for (const layout::CutPush& run : surface.source.runs)
-        program.dispatchIndirect(code, {surface.arguments, surface.push.runs + 1, surface.items}, buffers,
-                                 run);
+        program.dispatchIndirect(code, {surface.arguments, surface.push.runs + SURFACE_LISTED, surface.items},
+                                 buffers, run);
 }
 
 // Dispatches over the slots of every run near what was cut.
@@ -77,20 +77,25 @@ void addDrawing(ProgramBuilder& program, const CutSurface& surface) {
     if (surface.hung.prismCount == 0) addGradients(program, surface);
     addWholeNormals(program, surface);
     addRimNormals(program, surface);
-    const IndirectItems vertices{surface.arguments, surface.push.runs, surface.push.room};
+    const IndirectItems points{surface.arguments, surface.push.runs + SURFACE_POINTS, surface.push.room};
+    const IndirectItems outside{surface.arguments, surface.push.runs + SURFACE_OUTSIDE, surface.push.room};
     const layout::CountPush room{surface.push.room};
     if (surface.hung.prismCount > 0)
-        program.dispatchIndirect(k::skinCutHung, vertices,
+        program.dispatchIndirect(k::skinCutHung, points,
                                  {drawn.state, drawn.rest, surface.rest, surface.source.particles,
-                                  built.positions, surface.gradients, drawn.vertices, built.skinVertices,
-                                  surface.hung.vertices, surface.hung.moved, surface.near,
+                                  built.positions, surface.gradients, drawn.vertices, surface.turns,
+                                  built.skinVertices, surface.hung.vertices, surface.hung.moved, surface.near,
                                   built.cutting.links, surface.hung.strides},
                                  room);
     else
-        program.dispatchIndirect(k::skinCut, vertices,
+        program.dispatchIndirect(k::skinCut, points,
                                  {drawn.state, drawn.rest, surface.rest, surface.source.particles,
-                                  built.positions, surface.gradients, drawn.vertices, built.skinVertices},
+                                  built.positions, surface.gradients, drawn.vertices, surface.turns},
                                  room);
+    program.dispatchIndirect(k::skinPieces, outside,
+                             {drawn.state, drawn.rest, built.positions, surface.gradients, drawn.vertices,
+                              built.skinVertices, surface.turns},
+                             room);
 }
 
 } // namespace
@@ -112,10 +117,11 @@ std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& 
     drawn.state = program.scratch<layout::SurfaceState>("surface.state", 1);
     drawn.rest = program.scratch<layout::CutVertex>("surface.rest_vertices", room);
     drawn.vertices = program.scratch<layout::SkinVertex>("surface.vertices", room);
+    surface->turns = program.scratch<layout::Gradient>("surface.turns", room);
     drawn.indices = program.scratch<std::uint32_t>("surface.indices", 3 * std::uint64_t{room});
     drawn.draws = program.scratch<layout::DrawArguments>("surface.draws", 2);
-    surface->arguments =
-        program.scratch<layout::DispatchArguments>("surface.arguments", surface->push.runs + 3);
+    surface->arguments = program.scratch<layout::DispatchArguments>("surface.arguments",
+                                                                    surface->push.runs + SURFACE_ARGUMENTS);
     addMixedSkins(program, *surface, scene, bodies);
     surface->skinFaces = program.upload("surface.skin_faces", bodies.faces);
     surface->allIndices = program.upload("surface.all_indices", joinIndices(scene.skins));

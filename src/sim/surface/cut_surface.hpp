@@ -12,7 +12,8 @@
 // (skin triangles that pieces stand for).
 //
 // Items of the surface are slots, and prisms behind them. When somebody draws: find_gradients (how the
-// material around particles near a cut has turned and strained), skin_cut (vertices and normals).
+// material around particles near a cut has turned and strained), skin_cut (points and their normals), then
+// skin_pieces (corners of pieces, at the points).
 //
 // Nothing is appended by a counter: the same cut makes the same bits in any order.
 #pragma once
@@ -56,6 +57,7 @@ struct CutSurface {
     std::uint32_t faces = 0, slots = 0, items = 0;
     BufferId complex, partitions, near, owned, counts, starts, sums, listed, arguments, rest, skinFaces,
         allIndices, gradients;
+    BufferId turns;     ///< by point: the cofactor of the motion there, in columns
     BufferId bladeRest; ///< where a blade has particles at rest: `rest`, or below the skin
     HungSurface hung;
     std::uint32_t wholeCount = 0; ///< triangles of mixed skins; 0 = there are none

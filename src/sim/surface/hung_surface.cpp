@@ -22,8 +22,8 @@ IndirectItems listOf(const HungSurface& hung, const layout::CutPush& range, std:
 // Items of the surface that have any of it.
 void addListed(ProgramBuilder& program, const CutSurface& surface, const vk::ShaderCode& code,
                std::initializer_list<BufferId> buffers) {
-    program.dispatchIndirect(code, {surface.arguments, surface.push.runs + 1, surface.items}, buffers,
-                             pushOf(surface, surface.hung.prismCount));
+    program.dispatchIndirect(code, {surface.arguments, surface.push.runs + SURFACE_LISTED, surface.items},
+                             buffers, pushOf(surface, surface.hung.prismCount));
 }
 
 void addPlan(ProgramBuilder& program, const HungSurface& hung) {
@@ -175,9 +175,9 @@ void addSplitVertices(ProgramBuilder& program, const CutSurface& surface) {
     if (hung.prismCount == 0) return;
     program.fill(hung.counts, 0);
     for (const HungRange& range : hung.ranges)
-        program.dispatchIndirect(k::listSplit, {surface.arguments, surface.push.runs + 2, hung.vertexCount},
-                                 {hung.vertices, surface.partitions, hung.moved, hung.counts, hung.listed},
-                                 range.vertices);
+        program.dispatchIndirect(
+            k::listSplit, {surface.arguments, surface.push.runs + SURFACE_HUNG, hung.vertexCount},
+            {hung.vertices, surface.partitions, hung.moved, hung.counts, hung.listed}, range.vertices);
     addPlan(program, hung);
     for (const HungRange& range : hung.ranges)
         program.dispatchIndirect(k::skinSplit, listOf(hung, range.vertices, SKIN_SPLIT),
@@ -190,7 +190,8 @@ void addSplitVertices(ProgramBuilder& program, const CutSurface& surface) {
 void addRimNormals(ProgramBuilder& program, const CutSurface& surface) {
     const HungSurface& hung = surface.hung;
     if (hung.prismCount == 0) return;
-    program.dispatchIndirect(k::turnRims, {surface.arguments, surface.push.runs + 2, hung.vertexCount},
+    program.dispatchIndirect(k::turnRims,
+                             {surface.arguments, surface.push.runs + SURFACE_HUNG, hung.vertexCount},
                              {hung.rims, hung.vertices, surface.gradients, program.program().skinVertices},
                              pushOf(surface, hung.vertexCount));
 }
