@@ -175,7 +175,8 @@ struct PrismPush {
     uint run;    // likewise: its lists
 };
 
-// Lists of a body whose skin is clipped: prisms near the blade, prisms near links that died, vertices near the blade.
+// Lists of a body whose skin is clipped: prisms near the blade, prisms near links that died, vertices near the blade, and those in
+// parted cells.
 #define SKIN_NEAR 0u
 #define SKIN_PARTED 1u
 #define SKIN_VERTICES 2u

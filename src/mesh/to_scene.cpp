@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace sinew::mesh {
 namespace {
@@ -109,6 +110,7 @@ void hang(sim::Skin& skin, std::vector<Vector3> positions, const VoxelGrid& grid
           const sim::LatticeCorners& corners, bool isClipped) {
     if (isClipped) {
         skin.wholeTriangles = skin.triangles;
+        const std::size_t whole = positions.size(); // the first of those after
         SplitSkin split = splitSkin(std::move(positions), std::move(skin.triangles));
         positions = std::move(split.positions);
         skin.triangles = std::move(split.triangles);
@@ -117,7 +119,12 @@ void hang(sim::Skin& skin, std::vector<Vector3> positions, const VoxelGrid& grid
             skin.anchors.push_back(corners.at(static_cast<std::uint32_t>(node[0]),
                                               static_cast<std::uint32_t>(node[1]),
                                               static_cast<std::uint32_t>(node[2])));
-        if (std::ranges::count(skin.anchors, sim::LatticeCorners::noParticle) > 0) skin.anchors.clear();
+        if (std::ranges::count(skin.anchors, sim::LatticeCorners::noParticle) > 0) {
+            positions.resize(whole); // it is never clipped: as it came
+            skin.triangles = std::exchange(skin.wholeTriangles, {});
+            skin.wholeOf.clear();
+            skin.anchors.clear();
+        }
     }
     skin.cells.reserve(positions.size());
     for (const Vector3& position : positions) skin.cells.push_back(embed(grid, corners, position));

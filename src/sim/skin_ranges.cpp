@@ -1,4 +1,4 @@
-// Counts.
+// Adds up what comes before each skin.
 #include "sim/skin_ranges.hpp"
 
 namespace sinew::sim {

@@ -229,6 +229,8 @@ const Fault faults[] =
              s.skins[0].wholeTriangles = {{0, 1, 2}};
              s.skins[0].wholeOf = {0, 0};
          }},
+        {"skin[0].wholeTriangles[0]: is 3, but there are 3 vertices",
+         [](Scene& s, Settings&) { s.skins[0].wholeTriangles = {{0, 1, 3}}; }},
         {"skin[0].color: is 1.5", [](Scene& s, Settings&) { s.skins[0].color.y = 1.5f; }},
         {"skin[1].cells[0].particles: is 9",
          [](Scene& s, Settings&) { s.skins[1].cells[0].particles[7] = 9; }},

@@ -67,9 +67,11 @@ private:
                  .triangle = place.firstTriangle + t,
                  .mixed = 0,
                  .whole = skin.wholeOf.empty() ? NO_WHOLE : firstWhole + skin.wholeOf[t]});
-        if (!skin.wholeOf.empty())
+        if (!skin.wholeOf.empty()) {
+            bodies_.mixed.push_back(place.index);
             for (const auto& [a, b, c] : skin.wholeTriangles)
                 bodies_.wholes.push_back({{firstHung + a, firstHung + b, firstHung + c}, 0});
+        }
         bodies_.prisms.insert(bodies_.prisms.end(), complex->prisms.begin(), complex->prisms.end());
         bodies_.vertices.insert(bodies_.vertices.end(), complex->vertices.begin(), complex->vertices.end());
         std::ranges::copy(complex->words, bodies_.complex.begin() + box.origin);

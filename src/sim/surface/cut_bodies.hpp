@@ -23,6 +23,7 @@ struct CutBodies {
     std::vector<layout::SkinPrism> prisms;
     std::vector<layout::HungVertex> vertices;
     std::vector<layout::WholeTriangle> wholes;
+    std::vector<std::uint32_t> mixed; ///< skins that these are of, in their order
     std::vector<HungRange> ranges;    ///< of bodies with prisms
     double cells = 0;                 ///< of all bodies whose skin is clipped; 0 = there are none
     std::uint32_t room = 0;           ///< Settings::cutSurfaceRoom

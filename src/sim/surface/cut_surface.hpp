@@ -12,8 +12,8 @@
 // (skin triangles that pieces stand for).
 //
 // Items of the surface are slots, and prisms behind them. When somebody draws: find_gradients (how the
-// material around particles near a cut has turned and strained), skin_cut (points and their normals), then
-// skin_pieces (corners of pieces, at the points).
+// material around particles near a cut has turned and strained), skin_normals_whole (of mixed skins, away
+// from cuts), skin_cut (points and their normals), skin_pieces (corners of pieces, at the points).
 //
 // Nothing is appended by a counter: the same cut makes the same bits in any order.
 #pragma once

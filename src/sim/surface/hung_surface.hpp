@@ -6,7 +6,7 @@
 //   end    cut_skin     where edges of the skin have met the blade
 //          move_rims    vertices on the wrong side of it move to it
 //          part_prisms; write_rims (points), write_prisms (inside), write_pieces (what is left of the skin)
-//   skin   skin_split   vertices in parted cells, before normals; turn_rims: normals beside cuts
+//   skin   list_split, skin_split: vertices in parted cells, before normals; turn_rims: normals beside cuts
 #pragma once
 
 #include "sim/surface/cut_surface.hpp"

@@ -44,7 +44,7 @@ private:
     std::uint32_t firstVertex_ = 0;
 };
 
-// Faces and whole triangles of bodies are in the order of their skins, as bodies.skins has it.
+// Faces of bodies are anywhere, whole triangles in the order of bodies.mixed.
 void place(const Scene& scene, const Layout& layout, CutBodies& bodies) {
     std::vector<std::uint32_t> skinOf; // by triangle of all skins
     std::vector<std::uint32_t> first;  // by skin
@@ -57,11 +57,9 @@ void place(const Scene& scene, const Layout& layout, CutBodies& bodies) {
         face.mixed = layout.parts[s] + face.triangle - first[s];
     }
     std::size_t next = 0;
-    for (const std::uint32_t s : bodies.skins) {
-        if (scene.skins[s].wholeOf.empty()) continue;
+    for (const std::uint32_t s : bodies.mixed)
         for (std::uint32_t t = 0; t < scene.skins[s].wholeTriangles.size(); ++t)
             bodies.wholes[next++].mixed = layout.wholes[s] + t;
-    }
 }
 
 void uploadWholes(ProgramBuilder& program, CutSurface& surface, const CutBodies& bodies) {
@@ -82,8 +80,7 @@ void addMixedSkins(ProgramBuilder& program, CutSurface& surface, const Scene& sc
     if (bodies.wholes.empty() || built.pieceDraws != BufferId{}) return; // those draw from skinIndices
     Joiner joiner;
     for (std::uint32_t s = 0; s < scene.skins.size(); ++s)
-        joiner.add(scene.skins[s],
-                   std::ranges::count(bodies.skins, s) > 0 && !scene.skins[s].wholeOf.empty());
+        joiner.add(scene.skins[s], std::ranges::count(bodies.mixed, s) > 0);
     Layout layout = joiner.finish();
     place(scene, layout, bodies);
     built.mixedIndices = program.upload("skin.mixed_indices", layout.indices);
@@ -101,8 +98,7 @@ void addMixedSkins(ProgramBuilder& program, CutSurface& surface, const Scene& sc
 
 void addWholeNormals(ProgramBuilder& program, const CutSurface& surface) {
     if (surface.wholeCount == 0) return;
-    const auto hung =
-        static_cast<std::uint32_t>(program.program().buffers[surface.hung.vertices.index].count);
+    const std::uint32_t hung = surface.hung.vertexCount;
     program.dispatch(k::skinNormalsWhole, hung,
                      {program.program().skinVertices, surface.wholeIndices, surface.wholeFans,
                       surface.wholesOfVertex, surface.hung.vertices, surface.wholeMarks},

@@ -13,6 +13,9 @@ struct Point {
 inline Point operator-(const Point& a, const Point& b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
+inline double dot(const Point& a, const Point& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 inline Point pointOf(const layout::vec4& v) {
     return {double{v.x}, double{v.y}, double{v.z}};
 }

@@ -13,9 +13,6 @@ namespace {
 Point along(const Point& a, double t, const Point& way) {
     return {a.x + t * way.x, a.y + t * way.y, a.z + t * way.z};
 }
-double dot(const Point& a, const Point& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
 
 // Ericson 2005, 5.1.5.
 Point nearestOn(const Point& p, const std::array<Point, 3>& t) {

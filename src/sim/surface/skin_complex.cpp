@@ -4,6 +4,7 @@
 
 #include "sim/lattice/link_masks.hpp"
 #include "sim/surface/kuhn.hpp"
+#include "sim/surface/rest_normals.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -87,7 +88,6 @@ private:
             vertex.rest.w = static_cast<float>(place_.index);
             vertex.weights = {w.x, w.y, w.z,
                               static_cast<float>(std::popcount(lattice::linksAt(grid_, nodes_[v])))};
-            vertex.normal.w = grid_.restLength[0];
             vertex.vertex = place_.firstVertex + v;
             vertex.cell = slot(*cell);
             vertex.anchor = slot(nodes_[v]);
@@ -97,24 +97,13 @@ private:
         return true;
     }
 
-    // The mean of the triangles around a vertex, by area.
     void addNormals() {
-        auto& vertices = complex_.vertices;
-        for (const auto& [a, b, c] : skin_.triangles) {
-            const layout::vec4 x = vertices[a].rest, y = vertices[b].rest, z = vertices[c].rest;
-            const Vec3 p{y.x - x.x, y.y - x.y, y.z - x.z}, q{z.x - x.x, z.y - x.y, z.z - x.z};
-            for (const std::uint32_t corner : {a, b, c}) {
-                layout::vec4& normal = vertices[corner].normal;
-                normal.x += p.y * q.z - p.z * q.y;
-                normal.y += p.z * q.x - p.x * q.z;
-                normal.z += p.x * q.y - p.y * q.x;
-            }
-        }
-        for (layout::HungVertex& vertex : vertices) {
-            layout::vec4& normal = vertex.normal;
-            const float size = std::sqrt(normal.x * normal.x + normal.y * normal.y + normal.z * normal.z);
-            const float scale = size > 0 ? 1 / size : 0;
-            normal = {normal.x * scale, normal.y * scale, normal.z * scale, normal.w};
+        std::vector<Point> rest;
+        for (const layout::HungVertex& vertex : complex_.vertices) rest.push_back(pointOf(vertex.rest));
+        const std::vector<Point> normals = restNormals(skin_, rest);
+        for (std::size_t v = 0; v < normals.size(); ++v) {
+            const Vec3 normal = toVec3(normals[v]);
+            complex_.vertices[v].normal = {normal.x, normal.y, normal.z, grid_.restLength[0]};
         }
     }
 

@@ -5,6 +5,7 @@
 #include "mesh/to_scene.hpp"
 #include "sim/bodies.hpp"
 #include "sim/cutting/cut_body.hpp"
+#include "sim/surface/rest_normals.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,6 +20,7 @@ using namespace sinew::sim;
 using Eigen::Vector3d;
 using test::CutBody;
 using test::CutPlane;
+using test::Sweep;
 using test::sweepOf;
 
 namespace {
@@ -27,10 +29,14 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 constexpr double reach = 3;
 
-void addOrgan(Scene& scene) {
-    mesh::MeshBody body{.name = "organ", .youngModulus = 1e5f, .isCuttable = true};
+void addBody(Scene& scene, const mesh::TriangleMesh& mesh) {
+    mesh::MeshBody body{.name = "body", .youngModulus = 1e5f, .isCuttable = true};
     body.voxels.resolution = 14;
-    mesh::addMesh(scene, mesh::generate("organ", 49), body);
+    mesh::addMesh(scene, mesh, body);
+}
+
+void addOrgan(Scene& scene) {
+    addBody(scene, mesh::generate("organ", 49));
 }
 
 Scene organScene() {
@@ -88,10 +94,13 @@ Vector3d normalOf(const layout::SkinVertex& vertex) {
     return {double{vertex.normal.x}, double{vertex.normal.y}, double{vertex.normal.z}};
 }
 
+Vector3d placeOf(const layout::SkinVertex& vertex) {
+    return {double{vertex.position.x}, double{vertex.position.y}, double{vertex.position.z}};
+}
+
 std::vector<Vector3d> verticesOf(test::Runner& runner) {
     std::vector<Vector3d> places;
-    for (const auto& vertex : drawnBy(runner, SkinDetail::all))
-        places.emplace_back(double{vertex.position.x}, double{vertex.position.y}, double{vertex.position.z});
+    for (const auto& vertex : drawnBy(runner, SkinDetail::all)) places.push_back(placeOf(vertex));
     return places;
 }
 
@@ -191,6 +200,84 @@ TEST(MixedSkin, IsLitAwayFromACutAsBefore) {
         }
     EXPECT_GT(same, skin.wholeTriangles.size());
     EXPECT_GT(beside.size(), 50u);
+}
+
+// Or a rim would be lit as no skin beside it is.
+TEST(MixedSkin, HasTheNormalsAtRestThatTheDeviceMakes) {
+    const Scene scene = organScene();
+    test::Runner runner(scene, {.substeps = 2});
+    const auto vertices = drawnBy(runner, SkinDetail::all);
+    std::vector<surface::Point> rest;
+    for (const auto& vertex : vertices) rest.push_back(surface::pointOf(vertex.position));
+    for (const bool isMixed : {true, false}) {
+        Skin skin = scene.skins[0];
+        if (!isMixed) skin.wholeOf.clear();
+        const std::vector<surface::Point> normals = surface::restNormals(skin, rest);
+        std::size_t others = 0;
+        for (std::size_t v = 0; v < vertices.size(); ++v) {
+            const double alike =
+                normalOf(vertices[v]).dot(Vector3d(normals[v].x, normals[v].y, normals[v].z));
+            ASSERT_TRUE(!isMixed || alike > 1 - 1e-5) << v;
+            others += alike < 1 - 1e-5 ? 1 : 0;
+        }
+        EXPECT_EQ(others > 0, !isMixed) << "the parts have normals of their own";
+    }
+}
+
+TEST(MixedSkin, OfSeveralBodiesIsOneBehindTheOther) {
+    const Sweep sweep = sweepOf({{0.03, 0, 0}, Vector3d::UnitX()}, reach);
+    CutBody alone(organScene());
+    alone.cut(sweep);
+    const Mixed expected(alone.runner().simulation(), alone.scene().skins[0]);
+
+    Scene scene{.name = "both", .gravity = {0, 0, 0}};
+    mesh::TriangleMesh sphere = mesh::generate("sphere", 24);
+    for (Vec3& position : sphere.positions) position.y += 3 * static_cast<float>(reach);
+    addBody(scene, sphere);
+    addOrgan(scene);
+    const auto firstVertex = static_cast<std::uint32_t>(scene.skins[0].vertexCount());
+    ASSERT_EQ(scene.skins[1].triangles, alone.scene().skins[0].triangles);
+    test::Runner both(scene, {.substeps = 2});
+    both.cut(sweep.blade());
+    const Simulation::DrawnSkins drawn = both.simulation().drawnSkins(Overlap::some);
+    ASSERT_EQ(drawn.ranges.size(), 2u);
+    const std::vector<Triangle> all = download(drawn.indices);
+    const auto& wholes = scene.skins[0].wholeTriangles;
+    const std::size_t second = wholes.size() + scene.skins[0].triangles.size();
+    ASSERT_EQ(all.size(), second + expected.wholes.size() + expected.parts.size());
+    EXPECT_TRUE(std::equal(wholes.begin(), wholes.end(), all.begin())) << "what is not cut is whole";
+    for (std::size_t t = wholes.size(); t < second; ++t) ASSERT_FALSE(isThere(all[t])) << t;
+    for (std::size_t t = second; t < all.size(); ++t) {
+        const std::size_t n = t - second;
+        Triangle one =
+            n < expected.wholes.size() ? expected.wholes[n] : expected.parts[n - expected.wholes.size()];
+        ASSERT_EQ(isThere(all[t]), isThere(one)) << n;
+        for (std::uint32_t& corner : one) corner += firstVertex;
+        ASSERT_TRUE(!isThere(one) || all[t] == one) << n;
+    }
+}
+
+TEST(MixedSkin, DoesNotDependOnOrderOrRoomAndIsTakenOver) {
+    const Scene scene = organScene();
+    CutBody body(scene), reversed(scene, {.substeps = 2, .isReversed = true});
+    const auto all = [](test::Runner& runner) {
+        return download(runner.simulation().drawnSkins(Overlap::some).indices);
+    };
+    const Sweep sweep = sweepOf({{0.03, 0, 0}, Vector3d(1, 0.3, 0.2).normalized()}, reach);
+    body.cut(sweep);
+    reversed.cut(sweep);
+    const std::vector<Triangle> expected = all(body.runner());
+    EXPECT_EQ(all(reversed.runner()), expected);
+    const auto room = static_cast<std::uint32_t>(body.runner().simulation().cutSurface().vertices.size /
+                                                 sizeof(layout::SkinVertex));
+    test::Runner roomy(scene, {.substeps = 2, .cutSurfaceRoom = 2 * room});
+    roomy.takeOver(body.runner());
+    EXPECT_EQ(all(roomy), expected);
+    const Sweep second = sweepOf({{-0.05, 0, 0}, Vector3d::UnitX()}, reach);
+    body.cut(second);
+    roomy.cut(second.blade());
+    EXPECT_NE(all(body.runner()), expected);
+    EXPECT_EQ(all(roomy), all(body.runner()));
 }
 
 TEST(MixedSkin, IsTheSameAfterEveryStrokeHoweverOftenItIsCut) {
