@@ -32,6 +32,7 @@ bool haveOneShape(const StepProgram& a, const StepProgram& b) {
            std::ranges::equal(a.kernels, b.kernels, isSameKernel) &&
            std::ranges::equal(a.buffers, b.buffers, isSameBuffer) &&
            std::ranges::equal(a.step, b.step, isSamePass) && std::ranges::equal(a.skin, b.skin, isSamePass) &&
+           std::ranges::equal(a.wholeSkin, b.wholeSkin, isSamePass) &&
            std::ranges::equal(a.settle, b.settle, isSamePass);
 }
 
@@ -52,7 +53,7 @@ void markWritten(const std::vector<Pass>& passes, std::vector<bool>& isWritten) 
 
 std::vector<bool> areWritten(const StepProgram& program) {
     std::vector<bool> isWritten(program.buffers.size());
-    for (const std::vector<Pass>* list : {&program.step, &program.skin, &program.settle})
+    for (const std::vector<Pass>* list : {&program.step, &program.skin, &program.wholeSkin, &program.settle})
         markWritten(*list, isWritten);
     return isWritten;
 }
@@ -62,8 +63,11 @@ std::optional<ProgramValues> valuesOf(const StepProgram& from, const StepProgram
     const std::vector<bool> isWritten = areWritten(from);
     std::vector<bool> isSettled(from.buffers.size());
     markWritten(from.settle, isSettled);
-    ProgramValues values{
-        {}, pushesOf(from.step, to.step), pushesOf(from.skin, to.skin), pushesOf(from.settle, to.settle)};
+    ProgramValues values{.buffers = {},
+                         .step = pushesOf(from.step, to.step),
+                         .skin = pushesOf(from.skin, to.skin),
+                         .wholeSkin = pushesOf(from.wholeSkin, to.wholeSkin),
+                         .settle = pushesOf(from.settle, to.settle)};
     for (std::uint32_t b = 0; b < from.buffers.size(); ++b) {
         if (from.buffers[b].initial == to.buffers[b].initial) continue;
         if (isWritten[b] && !isSettled[b]) return std::nullopt;
@@ -80,6 +84,7 @@ void take(StepProgram& program, ProgramValues values) noexcept {
     };
     setPushes(program.step, values.step);
     setPushes(program.skin, values.skin);
+    setPushes(program.wholeSkin, values.wholeSkin);
     setPushes(program.settle, values.settle);
 }
 

@@ -14,19 +14,20 @@ std::shared_ptr<const Kernel> KernelStore::get(const Device& device, const Shade
         const auto found = entries_.find(key);
         return found == entries_.end() ? nullptr : found->second.users.lock();
     };
+    const auto keep = [&](const std::shared_ptr<const Kernel>& kernel) {
+        if (keepers_ > 0) entries_.at(key).kept = kernel;
+        return kernel;
+    };
     {
         const std::scoped_lock lock(mutex_);
-        if (std::shared_ptr<const Kernel> kernel = find()) {
-            if (keepers_ > 0) entries_.at(key).kept = kernel;
-            return kernel;
-        }
+        if (const std::shared_ptr<const Kernel> kernel = find()) return keep(kernel);
     }
     auto made = std::make_shared<const Kernel>(device, code, constants); // takes long: others need not wait
     const std::scoped_lock lock(mutex_);
-    if (std::shared_ptr<const Kernel> kernel = find()) return kernel; // another thread was faster
+    if (const std::shared_ptr<const Kernel> kernel = find()) return keep(kernel); // another thread was faster
     std::erase_if(entries_, [](const auto& entry) { return entry.second.users.expired(); });
-    entries_.insert_or_assign(std::move(key), Entry{made, keepers_ > 0 ? made : nullptr});
-    return made;
+    entries_[key].users = made;
+    return keep(made);
 }
 
 void KernelStore::addKeeper() {

@@ -14,7 +14,8 @@ namespace sinew::vk {
 class KernelStore {
 public:
     /// The kernel of this code and these constants, in their order, that somebody has or that is kept, else a
-    /// new one. Must not outlive `device`, whose store this is. Throws as Kernel.
+    /// new one. Code is known by where its words are: these must stay there as long as the store, as what is
+    /// compiled in does. Must not outlive `device`, whose store this is. Throws as Kernel.
     std::shared_ptr<const Kernel> get(const Device& device, const ShaderCode& code,
                                       std::span<const SpecialisationConstant> constants);
 

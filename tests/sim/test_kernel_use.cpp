@@ -1,0 +1,38 @@
+// Simulations of one device share what their programs have in common.
+#include "sim/program.hpp"
+#include "sim/runner.hpp"
+#include "sim/scenes.hpp"
+#include "vk/kernel_store.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace sinew;
+using namespace sinew::sim;
+
+namespace {
+
+// Users of each kernel of a simulation's program, but for this one.
+std::vector<long> usersOf(const Simulation& simulation) {
+    std::vector<long> users;
+    for (const KernelUse& use : simulation.program().kernels) {
+        std::vector<vk::SpecialisationConstant> constants;
+        for (const auto& [id, value] : use.constants) constants.push_back({id, value});
+        users.push_back(test::device().kernels().get(test::device(), *use.code, constants).use_count() - 1);
+    }
+    return users;
+}
+
+} // namespace
+
+TEST(KernelUse, IsSharedBySimulations) {
+    const Scene scene = test::sheet(6, 1e-5f);
+    test::Runner first(scene);
+    const std::vector<long> before = usersOf(first.simulation());
+    {
+        test::Runner second(scene);
+        const std::vector<long> during = usersOf(second.simulation());
+        ASSERT_EQ(during.size(), before.size());
+        for (std::size_t k = 0; k < before.size(); ++k) EXPECT_EQ(during[k], before[k] + 1) << k;
+    }
+    EXPECT_EQ(usersOf(first.simulation()), before);
+}
