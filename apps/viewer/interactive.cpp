@@ -108,13 +108,13 @@ public:
     PreviewDevice(const Options& options, std::atomic<std::size_t>& messages)
         : request_(deviceRequest(options, messages)) {}
 
-    Picture operator()(const Options& scene) {
+    std::optional<Picture> operator()(const Options& scene, const std::stop_token& stop) {
         if (!device_) {
             loader_ = std::make_shared<vk::Loader>();
             device_ =
                 std::make_shared<vk::Device>(vk::Device::create(loader_->getInstanceProcAddr(), request_));
         }
-        return drawPreview(*device_, scene);
+        return drawPreview(*device_, scene, stop);
     }
 
 private:
@@ -124,8 +124,8 @@ private:
 };
 
 // Until the window is closed. What is declared later is gone earlier.
-Preferences play(std::unique_ptr<Opening> opening, const Options& options, const Preferences& preferences,
-                 std::atomic<std::size_t>& messages) {
+void play(std::unique_ptr<Opening> opening, const Options& options, const Preferences& preferences,
+          std::atomic<std::size_t>& messages) {
     Window window(options.size);
     const Devices devices(window, options, messages);
     std::unique_ptr<vk::Device> device = devices.open(options.device);
@@ -154,14 +154,15 @@ Preferences play(std::unique_ptr<Opening> opening, const Options& options, const
     auto show = std::make_unique<Show>(screen, library, devices, *device, std::move(first));
     while (auto next = show->run()) change(device, show, std::move(next), screen, library, devices);
     if (options.isTimed) screen.timing().printTable();
-    return leftBy(screen, library, options, preferences);
+    const Preferences left = leftBy(screen, library, options, preferences);
+    if (left != preferences) savePreferences(preferencesFile(), left);
+    window.hide(); // threads end in their time
 }
 
 } // namespace
 
 int runInteractive(const Options& asked, std::atomic<std::size_t>& messages) {
-    const std::filesystem::path file = preferencesFile();
-    const Preferences preferences = loadPreferences(file);
+    const Preferences preferences = loadPreferences(preferencesFile());
     Options options = recalled(asked, preferences);
     std::optional<InputFile> input;
     if (!options.replay.empty()) options = withReplay(options, *(input = loadInput(options.replay)));
@@ -171,8 +172,7 @@ int runInteractive(const Options& asked, std::atomic<std::size_t>& messages) {
         opening->input = std::move(input);
     }
     if (options.hasValidation) vk::enableQueueSubmitValidation();
-    const Preferences left = play(std::move(opening), options, preferences, messages);
-    if (left != preferences) savePreferences(file, left);
+    play(std::move(opening), options, preferences, messages);
     return app::isInterrupted() ? app::interrupted : app::done;
 }
 

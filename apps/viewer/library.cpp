@@ -31,9 +31,10 @@ std::vector<fs::path> sceneFiles(const fs::path& folder) {
 
 Library::Library(Options options, Prepare prepare, Draw draw)
     : options_(std::move(options)), prepare_(std::move(prepare)), current_(none),
-      previews_([this, draw = std::move(draw), started = options_](std::size_t name) {
-          return draw ? draw(ofScene(started, name)) : Picture{};
-      }) {
+      previews_(
+          [this, draw = std::move(draw), started = options_](std::size_t name, const std::stop_token& stop) {
+              return draw ? draw(ofScene(started, name), stop) : std::nullopt;
+          }) {
     const fs::path opened = options_.scene;
     if (opened.extension() == ".toml")
         for (const fs::path& file : sceneFiles(opened.parent_path())) {

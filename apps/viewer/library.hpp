@@ -18,7 +18,7 @@ public:
     using Prepare = std::function<void(Opening&, const Options&)>;
 
     /// What a scene looks like, in the thread of the previews; likewise.
-    using Draw = std::function<Picture(const Options&)>;
+    using Draw = std::function<std::optional<Picture>(const Options&, const std::stop_token&)>;
 
     /// `options` as the program was started with. Offered are the scene files beside the one opened, or those
     /// built in.

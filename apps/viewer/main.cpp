@@ -12,7 +12,7 @@ namespace {
 using namespace sinew;
 
 // One heap for all threads. Scenes are prepared in threads of their own, and what such a thread freed would
-// stay in its heap, where the next one does not look: a third of a gigabyte after six changes of scene.
+// stay in its heap, where the next one does not look: 456 MB after six changes of scene.
 // Drawing allocates too little to wait.
 void shareHeap() {
 #ifdef __GLIBC__

@@ -25,12 +25,17 @@ void giveWay() {
 
 } // namespace
 
-Picture drawPreview(const vk::Device& device, const Options& options) {
+// Each of the stages takes a second or so on a software device.
+std::optional<Picture> drawPreview(const vk::Device& device, const Options& options,
+                                   const std::stop_token& stop) {
     constexpr VkExtent2D extent = PictureSheet::extent;
     const Opening opening =
         look(options, static_cast<float>(extent.width) / static_cast<float>(extent.height));
+    if (stop.stop_requested()) return std::nullopt;
     Stage stage(device, opening.loaded.scene, opening.loaded.settings);
+    if (stop.stop_requested()) return std::nullopt;
     Offscreen offscreen(device, extent, opening.light);
+    if (stop.stop_requested()) return std::nullopt;
     vk::Queue queue(device);
     const VkCommandBuffer commands = queue.begin();
     stage.recordReset(commands);
@@ -71,7 +76,7 @@ void Previews::work(const std::stop_token& stop) {
         lock.unlock();
         std::optional<Picture> picture;
         try {
-            picture = draw_(scene);
+            picture = draw_(scene, stop);
         } catch (const std::exception&) { // whoever opens it is told
         }
         lock.lock();

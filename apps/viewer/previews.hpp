@@ -9,6 +9,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -16,17 +17,18 @@
 namespace sinew::viewer {
 
 /// A scene as it begins, seen as when it is opened; of PictureSheet::extent. Says nothing on stderr. Throws
-/// as open(), sim::Simulation and vk::Error.
-Picture drawPreview(const vk::Device& device, const Options& options);
+/// as open(), sim::Simulation and vk::Error. Ends early, without one, if it is asked to stop.
+std::optional<Picture> drawPreview(const vk::Device& device, const Options& options,
+                                   const std::stop_token& stop = {});
 
 /// Pictures of numbered scenes, made one after another in a thread of its own, which gives way to others.
 class Previews {
 public:
     /// Called in that thread; of what throws there is no picture.
-    using Draw = std::function<Picture(std::size_t scene)>;
+    using Draw = std::function<std::optional<Picture>(std::size_t scene, const std::stop_token& stop)>;
 
     explicit Previews(Draw draw);
-    ~Previews(); ///< waits for the picture that is being made
+    ~Previews(); ///< asks what is being made to stop, and waits for that
     Previews(const Previews&) = delete;
     Previews& operator=(const Previews&) = delete;
 

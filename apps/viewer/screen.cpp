@@ -16,10 +16,8 @@ constexpr std::chrono::seconds warningStays{12}, notePasses{4};
 
 // What came in several polls before one picture.
 void merge(PanelInput& all, const PanelInput& next) {
-    const auto wasPressed = all.wasPressed;
     PanelInput merged = next;
-    for (std::size_t b = 0; b < wasPressed.size(); ++b)
-        merged.wasPressed[b] = merged.wasPressed[b] || wasPressed[b];
+    for (std::size_t b = 0; b < merged.presses.size(); ++b) merged.presses[b] += all.presses[b];
     merged.notches += all.notches;
     merged.characters.insert(merged.characters.begin(), all.characters.begin(), all.characters.end());
     merged.keys.insert(merged.keys.begin(), all.keys.begin(), all.keys.end());
@@ -35,6 +33,7 @@ Screen::Screen(Window& window, std::unique_ptr<Place> place, const Timing& timin
     panels_.choose(preferences.arePanelsShown);
     place_->painter.setAtlas(panels_.atlas());
     panels_.setPaste([this] { return window_.clipboard(); });
+    panels_.setCopy([this](const std::string& text) { window_.setClipboard(text); });
     window_.setCover({[this](const Vector2& pixels) { return panels_.covers(pixels); },
                       [this] { return panels_.takesKeys(); }});
 }

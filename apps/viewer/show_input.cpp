@@ -20,7 +20,7 @@ void Show::grant(const Wishes& wishes, Input& input) {
             armed_ = action == Action::center ? Look::At::point : Look::At::body;
         else
             input.actions.push_back(action);
-    if (!wishes.previews.empty()) library_.previews().want(wishes.previews);
+    if (wishes.previews) library_.previews().want(*wishes.previews);
     if (wishes.scene && mayOpen()) library_.open(*wishes.scene, pictureAspect());
     if (wishes.file && mayOpen()) library_.openFile(*wishes.file, pictureAspect());
     if (wishes.device && mayOpen()) changeDevice(*wishes.device);

@@ -182,7 +182,7 @@ bool Tools::lendBlade(bool isHeld, bool isUsed) {
     if (isHeld) {
         if (!isUsed || !canCut_ || blade_.isOn() || poke_.isDown() || hand_.isDown()) return false;
         wasPokeOn_ = poke_.isOn();
-    } else if (blade_.isCutting()) {
+    } else if (blade_.isDown()) {
         return false;
     }
     isLent_ = isHeld;
@@ -266,6 +266,7 @@ void Tools::reset() {
 
 void Tools::putAway(Stage& stage) {
     if (blade_.isOn()) blade_.toggle();
+    blade_.drop();
     blade_.setDepth(std::nullopt);
     poke_.putAway();
     gravity_.reset();

@@ -123,6 +123,20 @@ TEST(CutTool, DropsWhatIsStillToBeCut) {
     EXPECT_TRUE(tool.isOn());
 }
 
+TEST(CutTool, CutsWhatWasSweptWhenItIsPutAway) {
+    CutTool tool = withBlade();
+    tool.press(fromFront, {0, 0});
+    tool.move(fromFront, {0.1f, 0});
+    tool.toggle();
+    tool.move(fromFront, {0.2f, 0});
+    EXPECT_FALSE(tool.isDown());
+    EXPECT_FALSE(tool.path().empty());
+    EXPECT_TRUE(tool.next());
+    EXPECT_FALSE(tool.next());
+    EXPECT_FALSE(tool.isCutting());
+    EXPECT_TRUE(tool.path().empty());
+}
+
 TEST(CutTool, CutsAgainFirstWhatWasUndone) {
     CutTool tool = withBlade();
     tool.press(fromFront, {0, 0});

@@ -45,9 +45,11 @@ protected:
     Wishes click(const Vector2& at, VkExtent2D extent = large) {
         PanelInput input{.pointer = at};
         picture(input, extent);
-        input.isDown[0] = input.wasPressed[0] = true;
+        input.isDown[0] = true;
+        input.presses[0] = 1;
         Wishes wishes = picture(input, extent);
-        input.isDown[0] = input.wasPressed[0] = false;
+        input.isDown[0] = false;
+        input.presses[0] = 0;
         const Wishes after = picture(input, extent);
         wishes.actions.insert(wishes.actions.end(), after.actions.begin(), after.actions.end());
         if (after.device) wishes.device = after.device;
@@ -156,18 +158,111 @@ TEST_F(PanelsTest, TakeAPathThatIsTypedOrPastedAndNoneAfterEsc) {
     EXPECT_FALSE(key(GLFW_KEY_ENTER));
 }
 
+PanelInput typing(const std::string& text) {
+    PanelInput input;
+    for (const char one : text) input.characters.push_back(static_cast<unsigned char>(one));
+    return input;
+}
+
+TEST_F(PanelsTest, TakeAPathThatIsTypedBeforeTheLineForItIsThere) {
+    settle();
+    panels.askForFile();
+    EXPECT_TRUE(panels.takesKeys()) << "or what is typed would be commands";
+    PanelInput all = typing("/tmp/a.obj");
+    all.keys = {{GLFW_KEY_ENTER, true}, {GLFW_KEY_ENTER, false}};
+    std::optional<std::string> file = picture(all).file;
+    for (int i = 0; i < 6 && !file; ++i) file = picture().file;
+    EXPECT_EQ(file, "/tmp/a.obj");
+    settle();
+    EXPECT_FALSE(panels.takesKeys());
+    panels.askForFile();
+    panels.toggle(); // the line is not seen
+    EXPECT_FALSE(panels.takesKeys());
+}
+
+TEST_F(PanelsTest, KeepTheLineForAPathWhateverAppears) {
+    panels.toggleHelp();
+    settle();
+    panels.askForFile();
+    EXPECT_FALSE(panels.isHelpShown());
+    settle();
+    settle();
+    picture(typing("/tmp/a"));
+    facts.notice = "the blade goes 0.1 m deep";
+    settle();
+    facts.isInspecting = true;
+    settle();
+    EXPECT_TRUE(panels.takesKeys());
+    picture(typing(".obj"));
+    const PanelInput enter{.keys = {{GLFW_KEY_ENTER, true}}};
+    EXPECT_EQ(picture(enter).file, "/tmp/a.obj");
+}
+
+TEST_F(PanelsTest, CopyWhatIsInALine) {
+    std::string copied;
+    panels.setCopy([&](const std::string& text) { copied = text; });
+    settle();
+    panels.askForFile();
+    settle();
+    settle();
+    picture(typing("/tmp/a.obj"));
+    for (const int key : {GLFW_KEY_A, GLFW_KEY_C}) {
+        picture({.keys = {{key, true}}, .modifiers = GLFW_MOD_CONTROL});
+        picture({.keys = {{key, false}}});
+    }
+    EXPECT_EQ(copied, "/tmp/a.obj");
+}
+
+// Some pictures take long.
+TEST_F(PanelsTest, SeeEveryTapOfAButton) {
+    settle();
+    std::optional<Vector2> at;
+    for (float y = 20; y < 720 && !at; y += 12)
+        for (float x = 1010; x < 1260 && !at; x += 30)
+            if (const Wishes wishes = click({x, y}); wishes.actions == std::vector{Action::step})
+                at = Vector2(x, y);
+    ASSERT_TRUE(at);
+    const auto taps = [&](std::initializer_list<int> presses) {
+        std::size_t steps = 0;
+        for (const int count : presses) {
+            PanelInput input{.pointer = *at};
+            input.presses[0] = count;
+            steps += picture(input).actions.size();
+        }
+        return steps;
+    };
+    EXPECT_EQ(taps({1, 0, 0}), 1u);
+    EXPECT_EQ(taps({1, 1, 0, 0, 0}), 2u) << "in two pictures";
+    EXPECT_EQ(taps({2, 0, 0, 0, 0}), 2u) << "in one";
+}
+
+TEST_F(PanelsTest, KeepANoticeBesideThePanel) {
+    facts.notice = "a line that is long enough to be as wide as the window lets it, which is less than that";
+    for (const float width : {1280.0f, 800.0f, 770.0f}) {
+        const VkExtent2D extent{static_cast<std::uint32_t>(width), 600};
+        settle(extent);
+        settle(extent);
+        const ImGuiWindow* notice = ImGui::FindWindowByName("notice");
+        const ImGuiWindow* side = ImGui::FindWindowByName("side");
+        ASSERT_TRUE(notice != nullptr && side != nullptr && side->Active);
+        EXPECT_LE(notice->Pos.x + notice->Size.x, side->Pos.x) << width;
+        EXPECT_GT(notice->Size.x, 200) << width;
+    }
+}
+
 // The list drops down below its field; where it is seen, pictures are asked for, and no others.
 TEST_F(PanelsTest, AskForPicturesOfScenesThatAreSeenInTheList) {
     facts.scenes = {"cloth", "cube", "organ", "tear"};
     facts.previews = {false, true, false};
     settle();
-    EXPECT_TRUE(picture().previews.empty());
+    EXPECT_TRUE(picture().previews.value().empty());
     Wishes wishes;
-    for (float y = 20; y < 300 && wishes.previews.empty(); y += 6) {
+    wishes.previews.emplace();
+    for (float y = 20; y < 300 && wishes.previews->empty(); y += 6) {
         click({1080, y});
         wishes = picture({.pointer = {1080, y}});
     }
-    EXPECT_EQ(wishes.previews, (std::vector<std::size_t>{0, 2})) << "what has one, or no place for one";
+    EXPECT_EQ(*wishes.previews, (std::vector<std::size_t>{0, 2})) << "what has one, or no place for one";
 }
 
 TEST_F(PanelsTest, HaveAButtonForEveryActionThatAKeyDoes) {

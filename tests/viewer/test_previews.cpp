@@ -32,7 +32,7 @@ Picture ofWidth(std::size_t width) {
 
 TEST(Previews, AreMadeInTheOrderInWhichTheyAreWantedAndOnce) {
     std::atomic<int> drawn = 0;
-    Previews previews([&](std::size_t scene) {
+    Previews previews([&](std::size_t scene, const std::stop_token&) {
         ++drawn;
         return ofWidth(scene);
     });
@@ -49,7 +49,7 @@ TEST(Previews, AreMadeInTheOrderInWhichTheyAreWantedAndOnce) {
 }
 
 TEST(Previews, GoOnAfterASceneOfWhichThereIsNone) {
-    Previews previews([](std::size_t scene) {
+    Previews previews([](std::size_t scene, const std::stop_token&) {
         if (scene == 0) throw std::runtime_error("this is no scene");
         return ofWidth(scene);
     });
@@ -64,7 +64,7 @@ TEST(Previews, EndWithoutMakingWhatIsStillWanted) {
     std::atomic<bool> isAllowed = false;
     std::jthread allowing;
     {
-        Previews previews([&](std::size_t scene) {
+        Previews previews([&](std::size_t scene, const std::stop_token&) {
             ++drawn;
             while (!isAllowed) std::this_thread::yield();
             return ofWidth(scene);
@@ -82,7 +82,7 @@ TEST(Previews, EndWithoutMakingWhatIsStillWanted) {
 TEST(PreviewPicture, ShowsTheBodiesOfAScene) {
     Options options;
     options.builtIn = "organ";
-    const Picture picture = drawPreview(test::device(), options);
+    const Picture picture = drawPreview(test::device(), options).value();
     EXPECT_EQ(picture.width, PictureSheet::extent.width);
     EXPECT_EQ(picture.height, PictureSheet::extent.height);
     std::size_t red = 0;
@@ -94,6 +94,30 @@ TEST(PreviewPicture, ShowsTheBodiesOfAScene) {
     EXPECT_FALSE(sheet.set(2, picture)) << "beyond it";
     EXPECT_FALSE(sheet.set(0, ofWidth(3)));
     EXPECT_EQ(sheet.has(), (std::vector<bool>{false, true}));
+}
+
+TEST(Previews, AskWhatIsBeingMadeToStop) {
+    std::atomic<bool> isBegun = false, isAsked = false;
+    {
+        Previews previews([&](std::size_t, const std::stop_token& stop) -> std::optional<Picture> {
+            isBegun = true;
+            while (!stop.stop_requested()) std::this_thread::yield();
+            isAsked = true;
+            return std::nullopt;
+        });
+        previews.want({0});
+        while (!isBegun) std::this_thread::yield();
+    }
+    EXPECT_TRUE(isAsked);
+}
+
+TEST(PreviewPicture, IsNoneWhereNobodyWaitsForIt) {
+    Options options;
+    options.builtIn = "cube";
+    std::stop_source source;
+    EXPECT_TRUE(drawPreview(test::device(), options, source.get_token()));
+    source.request_stop();
+    EXPECT_FALSE(drawPreview(test::device(), options, source.get_token()));
 }
 
 TEST(PreviewPicture, OfNoSceneIsNone) {

@@ -247,6 +247,26 @@ TEST(Tools, LendTheBladeWhileAKeyIsHeldAndThePointerUsed) {
     EXPECT_TRUE(again.tools.isBladeOn());
 }
 
+// While time stands still no step cuts it.
+TEST(Tools, TakeTheBladeBackWhileItsStrokeWaitsForAStep) {
+    Played scene;
+    const auto paused = [&](Input input) { scene.turn(input, 0); };
+    ASSERT_TRUE(scene.tools.lendBlade(true, true));
+    paused({.presses = {{Action::grab, true, {-0.6f, 0}}}, .pointer = {-0.6f, 0}});
+    for (const float x : {-0.3f, 0.0f, 0.3f, 0.6f}) paused({.pointer = {x, 0}});
+    EXPECT_FALSE(scene.tools.lendBlade(false, true)) << "the button is down";
+    paused({.presses = {{Action::grab, false, {0.6f, 0}}}, .pointer = {0.6f, 0}});
+    EXPECT_TRUE(scene.tools.lendBlade(false, true));
+    EXPECT_FALSE(scene.tools.isBladeOn());
+    for (int i = 0; i < 6; ++i) scene.turn({});
+    EXPECT_GT(scene.stage.simulation().status(scene.stage.steps() - 1).linksCutInAll, 0u);
+    InputFile file = scene.file();
+    Scene again;
+    Replay replay(file);
+    EXPECT_EQ(replayAll(again, replay), Replay::Due::nothing);
+    EXPECT_EQ(again.hash(), file.hash);
+}
+
 TEST(Replay, BeginsAtTheReset) {
     Played played;
     played.tools.pull(played.stage, 3);

@@ -15,9 +15,9 @@ finish() {
     wait
 }
 trap finish EXIT
-fail() {
-    echo "FAILED: $1"
-    cat viewer.out viewer.err
+fail() { # on stderr: it may be called where stdout is a value
+    echo "FAILED: $1" >&2
+    cat viewer.out viewer.err >&2
     exit 1
 }
 

@@ -28,7 +28,7 @@ CutTool::CutTool(const Box& stage)
 void CutTool::toggle() {
     isOn_ = !isOn_;
     if (isOn_) return;
-    drop();
+    release();
     preview_.reset();
     previewed_.reset();
     surface_.reset();

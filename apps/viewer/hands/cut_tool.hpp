@@ -26,6 +26,7 @@ public:
     explicit CutTool(const Box& stage);
 
     bool isOn() const { return isOn_; }
+    /// Putting it away ends the stroke; what has been swept is cut all the same, in the next steps.
     void toggle();
 
     /// Of blades that do not go through [m].
@@ -52,6 +53,7 @@ public:
     void putBack(std::span<const Sweep> sweeps);
     /// Whether the piece that next() returns begins a stroke.
     bool beginsStroke() const { return !sweeps_.empty() && !sweeps_.front().isCarried; }
+    bool isDown() const { return isDown_; }
     bool isCutting() const { return isDown_ || !sweeps_.empty() || !waiting_.isEmpty(); }
 
     /// A ray of the stroke that is still to be answered: cuts wait for it.

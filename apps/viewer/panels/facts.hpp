@@ -145,7 +145,8 @@ struct Wishes {
     std::optional<std::size_t> device; ///< of Facts::devices
     std::optional<Knobs> knobs;
     std::optional<float> sectionOffset; ///< [m]
-    std::vector<std::size_t> previews;  ///< of Facts::scenes whose names are seen without a picture
+    /// Of Facts::scenes whose names are seen without a picture; nothing = no panel has been drawn.
+    std::optional<std::vector<std::size_t>> previews;
     bool isEmpty() const { return actions.empty() && !scene && !file && !device && !knobs && !sectionOffset; }
 };
 

@@ -14,7 +14,7 @@ namespace sinew::viewer {
 struct PanelInput {
     Vector2 pointer = Vector2::Constant(-1); ///< from the upper left corner [pixels]
     std::array<bool, 3> isDown{};            ///< left, right, middle; pressed over a panel
-    std::array<bool, 3> wasPressed{};        ///< since the last picture, even if it is up again
+    std::array<int, 3> presses{};            ///< since the last picture, even if it is up again
     float notches = 0;                       ///< of the wheel, over a panel
     std::vector<unsigned> characters;        ///< typed into a panel
     std::vector<std::pair<int, bool>> keys;  ///< GLFW's, and whether they went down

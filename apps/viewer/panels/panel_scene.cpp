@@ -98,7 +98,7 @@ void preview(const Facts& facts, std::size_t scene, const ImVec2& from, const Im
     ImDrawList* list = ImGui::GetWindowDrawList();
     if (scene >= count || !facts.previews[scene]) {
         list->AddRectFilled(from, to, ImGui::GetColorU32(ImGuiCol_FrameBg));
-        if (scene < count) wishes.previews.push_back(scene);
+        if (scene < count) wishes.previews->push_back(scene);
         return;
     }
     const auto row = [count](std::size_t i) { return static_cast<float>(i) / static_cast<float>(count); };

@@ -16,12 +16,14 @@ namespace sinew::viewer {
 
 namespace {
 
-constexpr float textHeight = 14, sideWidth = 296, gap = 12; // at a scale of 1 [pixels]
+constexpr float textHeight = 14, sideWidth = 296, gap = 12, leastNotice = 200; // at a scale of 1 [pixels]
+constexpr int mostPicturesUnfocused = 20; // of a line that is to take keys
 constexpr float roomBeside = 2.6f; // the picture is at least this many panels wide, or they start hidden
 
 constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
-                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav;
+                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
+                                   ImGuiWindowFlags_NoFocusOnAppearing; // somebody may be typing
 
 // What Debian, Fedora and Arch call it; without any the font that Dear ImGui has built in.
 const char* findFont() {
@@ -114,7 +116,7 @@ void setStyle(float scale) {
 }
 
 void mapKeys(ImGuiIO& io) {
-    constexpr std::array<std::pair<ImGuiKey_, int>, 17> keys{{{ImGuiKey_Tab, GLFW_KEY_TAB},
+    constexpr std::array<std::pair<ImGuiKey_, int>, 18> keys{{{ImGuiKey_Tab, GLFW_KEY_TAB},
                                                               {ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
                                                               {ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
                                                               {ImGuiKey_UpArrow, GLFW_KEY_UP},
@@ -127,6 +129,7 @@ void mapKeys(ImGuiIO& io) {
                                                               {ImGuiKey_KeyPadEnter, GLFW_KEY_KP_ENTER},
                                                               {ImGuiKey_Escape, GLFW_KEY_ESCAPE},
                                                               {ImGuiKey_A, GLFW_KEY_A},
+                                                              {ImGuiKey_C, GLFW_KEY_C},
                                                               {ImGuiKey_V, GLFW_KEY_V},
                                                               {ImGuiKey_X, GLFW_KEY_X},
                                                               {ImGuiKey_Y, GLFW_KEY_Y},
@@ -147,6 +150,10 @@ Panels::Panels(float scale) : context_(ImGui::CreateContext()), scale_(scale) {
         auto& self = *static_cast<Panels*>(panels);
         self.pasted_ = self.paste_ ? self.paste_() : "";
         return self.pasted_.c_str();
+    };
+    io.SetClipboardTextFn = [](void* panels, const char* text) {
+        const auto& self = *static_cast<Panels*>(panels);
+        if (self.copy_) self.copy_(text);
     };
     atlas_ = makeAtlas(scale);
     setStyle(scale);
@@ -174,7 +181,12 @@ bool Panels::covers(const Vector2& pixels) const {
 }
 
 bool Panels::takesKeys() const {
-    return ImGui::GetIO().WantTextInput;
+    return ImGui::GetIO().WantTextInput || isAsking();
+}
+
+// A line that is not seen gets no keys.
+bool Panels::isAsking() const {
+    return path_.isShown && isShown(lastExtent_);
 }
 
 const ImDrawData& Panels::drawn() const {
@@ -182,8 +194,10 @@ const ImDrawData& Panels::drawn() const {
 }
 
 void Panels::askForFile() {
+    closeHelp(); // it lies over all else
     if (!isShown(lastExtent_)) toggle();
     path_ = {.isShown = true, .wantsKeys = true};
+    early_ = {};
 }
 
 void Panels::feed(const PanelInput& input, VkExtent2D extent, double seconds) {
@@ -191,13 +205,38 @@ void Panels::feed(const PanelInput& input, VkExtent2D extent, double seconds) {
     io.DisplaySize = {static_cast<float>(extent.width), static_cast<float>(extent.height)};
     io.DeltaTime = std::clamp(static_cast<float>(seconds), 1e-4f, 0.1f);
     io.MousePos = {input.pointer.x(), input.pointer.y()};
-    for (std::size_t button = 0; button < input.isDown.size(); ++button)
-        io.MouseDown[button] = input.isDown[button] || input.wasPressed[button];
+    for (std::size_t button = 0; button < input.isDown.size(); ++button) feedButton(input, button);
     io.MouseWheel = input.notches;
     io.KeyCtrl = (input.modifiers & GLFW_MOD_CONTROL) != 0;
     io.KeyShift = (input.modifiers & GLFW_MOD_SHIFT) != 0;
-    feedKeys(input);
-    for (const unsigned character : input.characters) io.AddInputCharacter(character);
+    feedTyped(input);
+}
+
+// Down in a picture for each press, and up in one between two.
+void Panels::feedButton(const PanelInput& input, std::size_t button) {
+    bool& isDown = ImGui::GetIO().MouseDown[button];
+    int& owed = owed_[button];
+    owed += input.presses[button];
+    if (owed > 0) {
+        isDown = !isDown;
+        owed -= isDown ? 1 : 0;
+    } else {
+        isDown = input.isDown[button];
+    }
+}
+
+// What is typed before the line for a path takes keys, waits for it.
+void Panels::feedTyped(const PanelInput& input) {
+    const bool isEarly = isAsking() && !ImGui::GetIO().WantTextInput;
+    early_.keys.insert(early_.keys.end(), input.keys.begin(), input.keys.end());
+    early_.characters.insert(early_.characters.end(), input.characters.begin(), input.characters.end());
+    if (isEarly) {
+        if (++path_.pictures > mostPicturesUnfocused) path_ = {};
+        return;
+    }
+    const PanelInput typed = std::exchange(early_, {});
+    feedKeys(typed);
+    for (const unsigned character : typed.characters) ImGui::GetIO().AddInputCharacter(character);
 }
 
 // A key that went down and up between two pictures is down in one.
@@ -221,6 +260,7 @@ Wishes Panels::build(const SceneFacts& scene, const Facts& facts, const PanelInp
     feed(input, extent, seconds);
     lastExtent_ = extent;
     Wishes wishes;
+    wishes.previews.emplace();
     ImGui::NewFrame();
     if (isShown(extent)) buildSide(scene, facts, extent, wishes);
     buildHint(scene, facts, extent);
@@ -309,7 +349,9 @@ void Panels::buildHint(const SceneFacts& scene, const Facts& facts, VkExtent2D e
 void Panels::buildNotice(const Facts& facts, VkExtent2D extent) {
     if (facts.notice.empty()) return;
     const float edge = gap * scale_;
-    const float width = std::min(560 * scale_, static_cast<float>(extent.width) - 2 * edge);
+    const float all = static_cast<float>(extent.width) - 2 * edge;
+    const float beside = all - (isShown(extent) ? sideWidth * scale_ + edge : 0); // of the panel
+    const float width = std::min(560 * scale_, beside >= leastNotice * scale_ ? beside : all);
     ImGui::SetNextWindowPos({edge, edge});
     ImGui::SetNextWindowSize({width, 0});
     ImGui::Begin("notice", nullptr, fixed | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);

@@ -19,6 +19,7 @@ namespace sinew::viewer {
 /// A path that is being typed.
 struct PathField {
     bool isShown = false, wantsKeys = false;
+    int pictures = 0; ///< in which it has been waiting for keys
     std::array<char, 1024> text{};
 };
 
@@ -42,13 +43,15 @@ public:
     /// Whether a place (pixels) belongs to a panel of the last build(): what is pressed there is not the
     /// scene's.
     bool covers(const Vector2& pixels) const;
-    /// Whether keys are being typed into a panel.
+    /// Whether keys are being typed into a panel, or will be: from askForFile() on.
     bool takesKeys() const;
 
     /// A line to type a path into, where there was none: Wishes::file. What is pasted there comes from
     /// `paste`.
     void askForFile();
     void setPaste(std::function<std::string()> paste) { paste_ = std::move(paste); }
+    /// What is copied or cut out of a line goes to `copy`.
+    void setCopy(std::function<void(const std::string&)> copy) { copy_ = std::move(copy); }
 
     /// As the constructor does. The atlas is another one then.
     void rescale(float scale);
@@ -65,7 +68,10 @@ public:
 
 private:
     void feed(const PanelInput& input, VkExtent2D extent, double seconds);
+    void feedButton(const PanelInput& input, std::size_t button);
+    void feedTyped(const PanelInput& input);
     void feedKeys(const PanelInput& input);
+    bool isAsking() const;
     void buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D extent, Wishes& wishes);
     void buildHint(const SceneFacts& scene, const Facts& facts, VkExtent2D extent);
     void buildNotice(const Facts& facts, VkExtent2D extent);
@@ -82,7 +88,10 @@ private:
     PathField path_;
     std::function<std::string()> paste_;
     std::string pasted_;
+    std::function<void(const std::string&)> copy_;
     std::vector<int> released_; // keys, in the next picture
+    PanelInput early_;          // typed, by what path_ waits for
+    std::array<int, 3> owed_{}; // presses that no picture has seen yet
     VkExtent2D lastExtent_{};
     std::vector<Rectangle> covered_;
 };

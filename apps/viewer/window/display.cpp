@@ -35,7 +35,7 @@ void watchDisplay() {
 }
 
 void widenDisplay() {
-    constexpr int wide = 4 << 20; // [bytes]: a picture of 1280 x 720; the system may grant less
+    constexpr int wide = 4 << 20; // [bytes]: a picture of 1280 x 720; net.core.wmem_max may grant less
     const auto open = find<void* (*)()>("glfwGetX11Display");
     const auto connection = find<int (*)(void* display)>("XConnectionNumber");
     void* display = open && connection ? open() : nullptr;

@@ -45,6 +45,7 @@ struct Window::State {
     bool wasCovered = false; // the pointer
     std::optional<Action> dragged;
     int dragButton = 0;
+    std::optional<std::optional<Action>> heldAtPress; // at the first since the last poll
     int clicked = -1;     // button of the last press, unless that was the second of two
     double clickTime = 0; // [s]
     std::uint64_t polls = 0, clickPoll = 0;
@@ -86,7 +87,11 @@ struct Window::State {
     std::optional<Action> held() const {
         const bool isControlDown = glfwGetKey(window, GLFW_KEY_LEFT_CONTROL) == GLFW_PRESS ||
                                    glfwGetKey(window, GLFW_KEY_RIGHT_CONTROL) == GLFW_PRESS;
-        if (!isControlDown || cover.takesKeys()) return std::nullopt;
+        return heldWith(isControlDown ? GLFW_MOD_CONTROL : 0);
+    }
+
+    std::optional<Action> heldWith(int modifiers) const {
+        if ((modifiers & GLFW_MOD_CONTROL) == 0 || cover.takesKeys()) return std::nullopt;
         return actionFor({Trigger::Kind::held, 0, GLFW_MOD_CONTROL});
     }
 
@@ -116,13 +121,14 @@ struct Window::State {
         const bool isTheirs = event == GLFW_PRESS ? !dragged && isCovered() : isDownInPanel[b];
         if (!isTheirs) return false;
         isDownInPanel[b] = event == GLFW_PRESS;
-        input.panels.wasPressed[b] = input.panels.wasPressed[b] || event == GLFW_PRESS;
+        input.panels.presses[b] += event == GLFW_PRESS ? 1 : 0;
         return input.panels.isTouched = true;
     }
 
     void onButton(int button, int event, int modifiers) {
         input.panels.modifiers = modifiers;
         if (isOfPanels(button, event)) return;
+        if (event == GLFW_PRESS && !heldAtPress) heldAtPress = heldWith(modifiers);
         if (event == GLFW_PRESS) countClick(button, modifiers);
         if (event == GLFW_PRESS && !dragged) {
             dragged = actionFor({Trigger::Kind::drag, button, modifiers});
@@ -245,7 +251,8 @@ Input Window::poll(double seconds) {
         glfwPollEvents();
     Input input = std::exchange(state_->input, {});
     input.pointer = state_->pointer();
-    input.held = state_->held();
+    const auto atPress = std::exchange(state_->heldAtPress, std::nullopt);
+    input.held = atPress ? *atPress : state_->held(); // it may be up again
     input.panels.pointer = state_->pixels();
     input.panels.isDown = state_->isDownInPanel;
     return input;
@@ -287,6 +294,14 @@ void Window::close() {
 std::string Window::clipboard() const {
     const char* text = glfwGetClipboardString(state_->window);
     return text != nullptr ? text : "";
+}
+
+void Window::setClipboard(const std::string& text) {
+    glfwSetClipboardString(state_->window, text.c_str());
+}
+
+void Window::hide() {
+    glfwHideWindow(state_->window);
 }
 
 void Window::setTitle(const std::string& title) {

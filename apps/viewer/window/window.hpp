@@ -70,6 +70,8 @@ public:
     bool isClosing() const;
     void close();
     std::string clipboard() const; ///< empty where it holds no text
+    void setClipboard(const std::string& text);
+    void hide(); ///< before what takes its time to end
     void setTitle(const std::string& title);
     void toggleFullScreen();
 
