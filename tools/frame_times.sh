@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # tools/frame_times.sh [SCENE [SIZE]]: how long the pictures of the window take (docs/performance.md) on the software device under an X
-# server without a screen: left alone, in an orbit, with a hand on the body, in three cuts, with panels and without. A table of each.
+# server without a screen: left alone, in an orbit, with a hand on the body, in three cuts and after them, with panels and without. A table of each.
 # Needs xvfb, xdotool and imagemagick. What it prints is worth something where nothing else runs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -49,6 +49,8 @@ play() { # PANELS
     for x in 44 52 60; do drag 1 $((x * width / 100)) $((height / 6)) 0 8 $((height / 12)); sleep 1; done
     keys c
     table "three cuts" "$1"
+    sleep 6
+    table "left alone after three cuts" "$1"
 }
 
 start
