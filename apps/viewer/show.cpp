@@ -28,7 +28,7 @@ Show::Show(Screen& screen, Library& library, const Devices& devices, const vk::D
     : screen_(screen), library_(library), devices_(devices), device_(device), ownOpening_(std::move(opening)),
       opening_(*ownOpening_), prepared_(*opening_.prepared),
       controller_(opening_.camera, opening_.loaded.scene.dt), stage_(prepared_.stage),
-      probe_(std::in_place, device, stage_.simulation()),
+      probe_(std::in_place, device, stage_.scene(), stage_.simulation()),
       inspector_(device, stage_, Presenter::framesInFlight), tools_(device, opening_),
       sceneFacts_(prepared_.facts), gauges_(stage_, opening_.loaded.scene.dt),
       knobs_(sceneFacts_.fromFile), begun_{stage_.settings().solver, stage_.settings().substeps},

@@ -170,7 +170,8 @@ void Show::settleTimes(std::uint32_t slot, const InFlight& flight) {
 }
 
 void Show::settleProbe(InFlight& flight) {
-    if (flight.question && flight.question == tools_.question()) {
+    const bool isSeen = probe_->isComplete(); // else it is asked again
+    if (isSeen && flight.question && flight.question == tools_.question()) {
         const sim::Scene& scene = stage_.scene();
         const auto found = pick(scene, opening_.light.balls, flight.question->ray, probe_->seen(),
                                 flight.question->among(), opened());
@@ -178,7 +179,8 @@ void Show::settleProbe(InFlight& flight) {
     }
     if (flight.isMeasured && !isCut_)
         gauges_.strainMeasured(measureStrain(stage_.scene(), probe_->positions()));
-    if (flight.look) settleLook(*flight.look);
+    if (flight.look && isSeen) settleLook(*flight.look);
+    if (flight.look && !isSeen && !wantsLook_) wantsLook_ = flight.look;
     if (!flight.isProbed) return;
     if (const Box bounds = probe_->bounds(); !bounds.isEmpty()) {
         controller_.camera = framing(controller_.camera, bounds, pictureAspect());

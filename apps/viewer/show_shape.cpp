@@ -106,7 +106,7 @@ void Show::reshape() {
 
 // After the stage has another simulation.
 void Show::restartViews() {
-    probe_.emplace(device_, stage_.simulation());
+    probe_.emplace(device_, stage_.scene(), stage_.simulation());
     inspection_.reset(); // as layers want it, of the other simulation
     inspector_.restart();
     shown_ = Shown::nothing;

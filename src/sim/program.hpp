@@ -150,13 +150,14 @@ struct CuttingBuffers {
 
 /// The surface of cuts (surface/cut_surface.hpp); invalid where no skin is clipped.
 struct CutSurfaceBuffers {
-    BufferId state;    ///< one layout::SurfaceState
-    BufferId vertices; ///< layout::SkinVertex, as of the last skin list
-    BufferId rest;     ///< layout::CutVertex of each
-    BufferId indices;  ///< of triangles inside, then outside
-    BufferId draws;    ///< layout::DrawArguments for each of the two
-    BufferId hung;     ///< layout::HungVertex of skins of meshes that are clipped; invalid without them
-    BufferId moved;    ///< of each: where it is at rest, if w is VERTEX_MOVED
+    BufferId state;     ///< one layout::SurfaceState
+    BufferId vertices;  ///< layout::SkinVertex, as of the last skin list
+    BufferId rest;      ///< layout::CutVertex of each
+    BufferId indices;   ///< of triangles inside, then outside
+    BufferId draws;     ///< layout::DrawArguments for each of the two
+    BufferId particles; ///< by slot: which one CutVertex::corners mean
+    BufferId hung;      ///< layout::HungVertex of skins of meshes that are clipped; invalid without them
+    BufferId moved;     ///< of each: where it is at rest, if w is VERTEX_MOVED
 };
 
 /// What may touch: lists by slot of layout::ContactCandidate (collision/contact_lists.hpp, face_lists.hpp,

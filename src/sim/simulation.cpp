@@ -550,7 +550,8 @@ Simulation::DrawnSkins Simulation::drawnSkins(Overlap overlap) const noexcept {
 }
 CutSurface Simulation::cutSurface() const noexcept {
     const CutSurfaceBuffers& buffers = state_->program.cutSurface;
-    return {view(buffers.vertices), view(buffers.rest), view(buffers.indices), view(buffers.draws)};
+    return {view(buffers.vertices), view(buffers.rest),  view(buffers.indices),
+            view(buffers.draws),    view(buffers.state), view(buffers.particles)};
 }
 vk::BufferView Simulation::pieceDraws() const noexcept {
     return state_->executor.view(state_->program.pieceDraws);

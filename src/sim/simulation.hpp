@@ -161,6 +161,8 @@ struct CutSurface {
     /// Two VkDrawIndexedIndirectCommand, stride 20: the inside, then the pieces of skins. Both draw nothing
     /// while nothing is cut.
     vk::BufferView draws;
+    vk::BufferView counts;    ///< one layout::SurfaceState: how much of the buffers above there is
+    vk::BufferView particles; ///< 32 bits: of each slot (CutVertex::corners) the particle in it
 };
 
 /// Another material for a simulation, ready to be copied (Simulation::prepareChange). Holds buffers of the

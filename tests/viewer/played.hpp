@@ -48,7 +48,7 @@ struct Scene {
     Controller controller{opening.camera, opening.loaded.scene.dt};
     Stage stage;
     Tools tools{test::device(), opening};
-    StateProbe probe{test::device(), stage.simulation()};
+    StateProbe probe{test::device(), stage.scene(), stage.simulation()};
 
     explicit Scene(const std::string& text = block, const sim::Material& material = {})
         : opening(openText(text)),

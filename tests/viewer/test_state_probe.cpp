@@ -1,91 +1,184 @@
 // What the pointer meets on a mesh that may be cut, as it is drawn: before a cut some of its vertices have
-// not moved with it.
+// not moved with it, after one its inside lies open.
+#include "mesh/generate.hpp"
+#include "mesh/to_scene.hpp"
 #include "support/device.hpp"
 #include "viewer/draw/stage.hpp"
 #include "viewer/hands/state_probe.hpp"
-#include "viewer/opening.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 
 namespace sinew::viewer {
 namespace {
 
-class ProbedOrgan : public testing::Test {
-protected:
+constexpr float speed = 3; // of either half once they are two [m/s]
+
+// An organ around the origin that falls, and of which the halves want to go apart along x.
+sim::Scene organ(float away, std::uint32_t resolution) {
+    sim::Scene scene{.name = "organ", .gravity = {0, -9.81f, 0}};
+    mesh::MeshBody body{.name = "organ", .youngModulus = 1e5f, .isCuttable = true};
+    body.voxels.resolution = resolution;
+    mesh::addMesh(scene, mesh::generate("organ", 49), body);
+    for (sim::Particle& particle : scene.particles)
+        particle.velocity.x = particle.position.x >= 0 ? away : -away;
+    return scene;
+}
+
+class ProbedOrgan {
+public:
+    explicit ProbedOrgan(float away = 0, std::uint32_t resolution = 14) : scene_(organ(away, resolution)) {
+        run([&](VkCommandBuffer commands) { stage.recordReset(commands); });
+    }
+    void step(int steps, bool isCut = false) {
+        static constexpr std::array<sim::Vec3, 2> from{{{0, -3, -3}, {0, 3, -3}}},
+            to{{{0, -3, 3}, {0, 3, 3}}};
+        run([&](VkCommandBuffer commands) {
+            for (int i = 0; i < steps; ++i)
+                stage.recordStep(commands, nullptr, {},
+                                 isCut && i == 0 ? sim::Blade{.from = from, .to = to} : sim::Blade{});
+            stage.recordSkin(commands);
+            probe.record(commands);
+        });
+    }
+    // All parts of the skin where they are.
+    SeenState parts() {
+        run([&](VkCommandBuffer commands) {
+            stage.simulation().recordSkin(commands, sim::SkinDetail::all);
+            all_.record(commands);
+        });
+        SeenState seen = all_.seen();
+        seen.isWhole = false;
+        return seen;
+    }
+    std::optional<Pick> at(const Ray& ray, const SeenState& seen) const {
+        return pick(scene_, balls_, ray, seen);
+    }
+    Vector3 placeOf(std::uint32_t particle) const {
+        const sim::layout::vec4& at = probe.positions()[particle];
+        return {at.x, at.y, at.z};
+    }
+    Vector3 middle() const { return probe.bounds().center(); }
+    const sim::Scene& scene() const { return scene_; }
+    const BallList& balls() const { return balls_; }
+    float spacing() const { return scene_.grids[0].restLength[0]; }
+
+private:
     template <typename Record> void run(const Record& record) {
         VkCommandBuffer commands = test::queue().begin();
         record(commands);
         test::queue().wait(test::queue().submit(commands));
     }
-    // Down to where it has fallen, with what is drawn then.
-    void step(int steps, const sim::Blade& blade = {}) {
-        run([&](VkCommandBuffer commands) {
-            for (int i = 0; i < steps; ++i)
-                stage.recordStep(commands, nullptr, {}, i == 0 ? blade : sim::Blade{}, {});
-            stage.recordSkin(commands);
-            probe.record(commands);
-        });
-    }
-    std::optional<Pick> at(const Ray& ray, const SeenState& seen) const {
-        return pick(stage.scene(), opening.light.balls, ray, seen);
-    }
-    // The same with all parts of the skin where they are.
-    std::optional<Pick> expected(const Ray& ray) {
-        run([&](VkCommandBuffer commands) {
-            stage.simulation().recordSkin(commands, sim::SkinDetail::all);
-            all.record(commands);
-        });
-        SeenState seen = all.seen();
-        seen.isWhole = false;
-        return at(ray, seen);
-    }
-    std::vector<Ray> rays() const {
-        std::vector<Ray> rays;
-        for (float x = -0.06f; x < 0.07f; x += 0.03f)
-            for (float y = -0.06f; y < 0.07f; y += 0.03f) rays.push_back(rayThrough(opening.camera, {x, y}));
-        return rays;
-    }
+    sim::Scene scene_;
+    BallList balls_ = ballsOf(scene_);
 
-    Opening opening = open({.scene = "", .builtIn = "organ"}, 1.6f);
-    Stage stage{test::device(), opening.loaded.scene, opening.loaded.settings};
-    StateProbe probe{test::device(), stage.simulation()}, all{test::device(), stage.simulation()};
+public:
+    Stage stage{test::device(), scene_, {.substeps = 16}};
+    StateProbe probe{test::device(), scene_, stage.simulation()};
+
+private:
+    StateProbe all_{test::device(), scene_, stage.simulation()};
 };
 
-TEST_F(ProbedOrgan, IsMetWhereItIsDrawnBeforeACutAndAfter) {
-    run([&](VkCommandBuffer commands) { stage.recordReset(commands); });
-    step(12);
-    ASSERT_TRUE(probe.seen().isWhole);
-    std::size_t met = 0, stale = 0;
-    for (const Ray& ray : rays()) {
-        const auto seen = at(ray, probe.seen());
-        SeenState parts = probe.seen(); // which nobody has moved yet
-        parts.isWhole = false;
-        const auto wrong = at(ray, parts);
-        stale += wrong.has_value() != seen.has_value() ||
-                 (seen && std::abs(wrong->distance - seen->distance) > 1e-3f);
-        const auto right = expected(ray);
-        ASSERT_EQ(seen.has_value(), right.has_value());
-        if (!seen) continue;
-        ++met;
-        EXPECT_LT((seen->point - right->point).norm(), 1e-4f);
+TEST(StateProbe, MeetsAMeshWhereItIsDrawnUntilItIsCut) {
+    ProbedOrgan organ;
+    organ.step(12);
+    const SeenState seen = organ.probe.seen();
+    ASSERT_TRUE(seen.isWhole);
+    EXPECT_FALSE(seen.cuts);
+    SeenState unmoved = seen;
+    unmoved.isWhole = false;
+    std::vector<Ray> rays;
+    for (float x = -0.2f; x < 0.21f; x += 0.03f)
+        for (float z = -0.2f; z < 0.21f; z += 0.03f)
+            rays.push_back({organ.middle() + Vector3(x, 5, z), {0, -1, 0}});
+    std::vector<std::optional<Pick>> met, wrong;
+    for (const Ray& ray : rays) {
+        met.push_back(organ.at(ray, seen));
+        wrong.push_back(organ.at(ray, unmoved));
     }
-    EXPECT_GT(met, 5u);
-    EXPECT_GT(stale, 0u) << "all parts are where they are anyway: this shows nothing";
+    const SeenState parts = organ.parts();
+    std::size_t count = 0, others = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const auto expected = organ.at(rays[i], parts);
+        ASSERT_EQ(met[i].has_value(), expected.has_value());
+        if (!met[i]) continue;
+        ++count;
+        EXPECT_LT((met[i]->point - expected->point).norm(), 1e-4f);
+        others += !wrong[i] || std::abs(wrong[i]->distance - met[i]->distance) > 1e-3f ? 1 : 0;
+    }
+    EXPECT_GT(count, 20u);
+    EXPECT_GT(others, 20u) << "all parts are where they are anyway: this shows nothing";
+}
 
-    const Box box = probe.bounds();
-    const Vector3 low = box.min() - box.sizes(), high = box.max() + box.sizes(), middle = box.center();
-    const std::array from{sim::Vec3{middle.x(), low.y(), low.z()}, sim::Vec3{middle.x(), high.y(), low.z()}};
-    const std::array to{sim::Vec3{middle.x(), low.y(), high.z()}, sim::Vec3{middle.x(), high.y(), high.z()}};
-    step(6, {.from = from, .to = to});
-    ASSERT_GT(stage.simulation().status(stage.steps() - 1).linksCutInAll, 0u);
-    EXPECT_FALSE(probe.seen().isWhole);
-    for (const Ray& ray : rays()) {
-        const auto seen = at(ray, probe.seen()), right = expected(ray);
-        ASSERT_EQ(seen.has_value(), right.has_value());
-        EXPECT_TRUE(!seen || (seen->point - right->point).norm() < 1e-4f);
-    }
+// Across the gap, from between the halves.
+TEST(StateProbe, MeetsTheInsideThatACutHasLaidOpen) {
+    ProbedOrgan organ(speed);
+    organ.step(1, true);
+    for (int i = 0; i < 2; ++i) organ.step(4);
+    ASSERT_TRUE(organ.probe.isComplete());
+    const SeenState seen = organ.probe.seen();
+    ASSERT_FALSE(seen.isWhole);
+    ASSERT_TRUE(seen.cuts);
+    const Vector3 middle = organ.middle();
+    std::size_t inside = 0;
+    for (float y = -0.2f; y < 0.21f; y += 0.02f)
+        for (float z = -0.2f; z < 0.21f; z += 0.02f)
+            for (const float side : {-1.0f, 1.0f}) {
+                const auto met = organ.at({middle + Vector3(0, y, z), {side, 0, 0}}, seen);
+                if (!met) continue;
+                ++inside;
+                EXPECT_NEAR(met->distance, 9 * speed / 60, 0.1f) << "what was cut, not the skin beyond";
+                const Vector3 particle = organ.placeOf(met->particle);
+                EXPECT_GT(side * (particle.x() - middle.x()), 0.5f * met->distance)
+                    << "of the half that is met";
+                EXPECT_LT((particle - met->point).norm(), 2 * organ.spacing());
+            }
+    EXPECT_GT(inside, 40u);
+}
+
+// Skin, pieces and inside are closed together: behind a section that goes through a half there is inside
+// wherever a ray along its normal meets that half at all, and from the gap there is none.
+TEST(StateProbe, KnowsWhatASectionOpensOfACutBody) {
+    ProbedOrgan organ(speed);
+    organ.step(1, true);
+    for (int i = 0; i < 2; ++i) organ.step(4);
+    const SeenState seen = organ.probe.seen();
+    const Vector3 middle = organ.middle();
+    const std::vector<bool> isClosed{true};
+    const auto opened = [&](float x, float y, float z) {
+        const Section section{.normal = {1, 0, 0}, .offset = middle.x() + x};
+        const Ray ray{middle + Vector3(5, y, z), {-1, 0, 0}};
+        const auto met = pick(organ.scene(), organ.balls(), ray, seen, Among::all, Opened{section, isClosed});
+        return met ? std::optional(5 - met->distance) : std::nullopt;
+    };
+    std::size_t cases = 0;
+    for (float y = -0.1f; y < 0.11f; y += 0.02f)
+        for (float z = -0.1f; z < 0.11f; z += 0.02f) {
+            const auto left = organ.at({middle + Vector3(0, y, z), {-1, 0, 0}}, seen),
+                       right = organ.at({middle + Vector3(0, y, z), {1, 0, 0}}, seen),
+                       skin = organ.at({middle + Vector3(5, y, z), {-1, 0, 0}}, seen);
+            if (!left || !right || 5 - skin->distance < right->distance + 0.05f) continue; // thin there
+            const float solid = right->distance + 0.03f;
+            const auto back = organ.at({middle + Vector3(solid, y, z), {-1, 0, 0}}, seen);
+            if (!back || std::abs(back->distance - 0.03f) > 1e-4f) continue; // a fold is there
+            ++cases;
+            EXPECT_NEAR(opened(solid, y, z).value(), solid, 1e-4f) << "in the half";
+            EXPECT_NEAR(opened(0, y, z).value(), -left->distance, 1e-4f) << "in the gap";
+        }
+    EXPECT_GT(cases, 10u);
+}
+
+TEST(StateProbe, AsksAgainWhereMoreWasCutThanItHadRoomFor) {
+    ProbedOrgan organ(0, 24);
+    organ.step(1, true);
+    EXPECT_FALSE(organ.probe.isComplete());
+    EXPECT_FALSE(organ.probe.seen().cuts);
+    organ.step(0);
+    EXPECT_TRUE(organ.probe.isComplete());
+    EXPECT_TRUE(organ.probe.seen().cuts);
 }
 
 } // namespace

@@ -55,12 +55,15 @@ float meetsBall(const Ray& ray, const Vector3& center, float radius, const Seen&
     return t > seen.from && t <= seen.to ? t : none;
 }
 
-// Of a skin's triangle, all particles that hold its corners.
-void addHolders(const sim::Skin& skin, const std::array<std::uint32_t, 3>& triangle,
+// Of a skin's triangle, all particles that hold its corners; where something is cut, those that go with it
+// alone, since the cell of a corner may be parted.
+void addHolders(const sim::Skin& skin, const SeenCuts::Triangle& triangle, bool isCut,
                 std::vector<std::uint32_t>& holders) {
     for (const std::uint32_t corner : triangle)
         if (skin.cells.empty())
             holders.push_back(skin.particles[corner]);
+        else if (isCut && !skin.anchors.empty())
+            holders.push_back(skin.anchors[corner]);
         else
             holders.insert(holders.end(), skin.cells[corner].particles.begin(),
                            skin.cells[corner].particles.end());
@@ -79,37 +82,102 @@ void addBody(const sim::Scene& scene, const sim::Skin& skin, std::vector<std::ui
             for (std::uint32_t i = 0; i < body.particleCount; ++i) holders.push_back(body.firstParticle + i);
 }
 
-void lookAtSkin(const sim::Skin& skin, bool isWhole, const Ray& ray,
-                std::span<const sim::layout::SkinVertex> vertices, const Seen& seen, Nearest& nearest,
-                int& winding) {
-    const bool isDrawnWhole = isWhole && !skin.wholeTriangles.empty();
-    for (const auto& triangle : isDrawnWhole ? skin.wholeTriangles : skin.triangles) {
-        const auto corner = [&](std::size_t i) { return placeOf(vertices[triangle[i]].position); };
-        bool isBack = false;
-        const float distance = meetsTriangle(ray, corner(0), corner(1), corner(2), isBack);
-        if (distance == none || distance < seen.from || distance > seen.to) continue;
-        winding += isBack ? 1 : -1;
-        if (distance >= nearest.distance) continue;
-        nearest.distance = distance;
-        nearest.holders.clear();
-        addHolders(skin, triangle, nearest.holders);
-    }
-}
+// Skins, and the surface of cuts in them: both together are closed where a skin is.
+class SkinPicker {
+public:
+    SkinPicker(const sim::Scene& scene, const Ray& ray, const SeenState& state, const Seen& seen)
+        : scene_(scene), ray_(ray), state_(state), seen_(seen), windings_(scene.skins.size()) {}
 
-void lookAtSkins(const sim::Scene& scene, const Ray& ray, const SeenState& state, const Seen& seen,
-                 const std::optional<Opened>& opened, Nearest& nearest) {
-    std::size_t first = 0;
-    for (std::size_t i = 0; i < scene.skins.size(); ++i) {
-        const sim::Skin& skin = scene.skins[i];
-        int winding = 0; // around where the ray enters what is left
-        lookAtSkin(skin, state.isWhole, ray, state.vertices.subspan(first, skin.vertexCount()), seen, nearest,
-                   winding);
-        first += skin.vertexCount();
-        if (!seen.isOpened || seen.from == none || winding == 0 || !opened->isClosed[i]) continue;
-        nearest = {seen.from, {}};
-        addBody(scene, skin, nearest.holders);
+    void look(Nearest& nearest) {
+        Place place;
+        std::size_t before = 0; // triangles
+        for (place.skin = 0; place.skin < scene_.skins.size(); ++place.skin) {
+            const sim::Skin& skin = scene_.skins[place.skin];
+            place.areOfAll = state_.cuts.has_value();
+            if (place.areOfAll)
+                lookAt(place, state_.cuts->skins.subspan(before, skin.triangles.size()), nearest);
+            else
+                lookAt(place,
+                       state_.isWhole && !skin.wholeTriangles.empty() ? skin.wholeTriangles : skin.triangles,
+                       nearest);
+            place.firstVertex += static_cast<std::uint32_t>(skin.vertexCount());
+            before += skin.triangles.size();
+        }
+        if (state_.cuts) lookAtCuts(*state_.cuts, nearest);
     }
-}
+
+    // Where the ray enters what a section has left, inside of something.
+    void lookInside(const std::vector<bool>& isClosed, Nearest& nearest) const {
+        for (std::size_t s = 0; s < windings_.size(); ++s) {
+            if (windings_[s] == 0 || !isClosed[s]) continue;
+            nearest = {seen_.from, {}};
+            addBody(scene_, scene_.skins[s], nearest.holders);
+        }
+    }
+
+private:
+    struct Place {
+        std::uint32_t skin = 0, firstVertex = 0;
+        bool areOfAll = false; // corners of triangles: vertices of all skins, or of this one
+    };
+    void lookAt(const Place& place, std::span<const SeenCuts::Triangle> triangles, Nearest& nearest) {
+        const std::uint32_t own = place.areOfAll ? place.firstVertex : 0, all = place.firstVertex - own;
+        for (const auto& [a, b, c] : triangles) {
+            const auto corner = [&](std::uint32_t i) { return placeOf(state_.vertices[all + i].position); };
+            if (meets(place.skin, corner(a), corner(b), corner(c), nearest))
+                addHolders(scene_.skins[place.skin], {a - own, b - own, c - own}, state_.cuts.has_value(),
+                           nearest.holders);
+        }
+    }
+
+    void lookAtCuts(const SeenCuts& cuts, Nearest& nearest) {
+        for (const SeenCuts::Triangle& triangle : cuts.surface) {
+            const auto corner = [&](std::size_t i) { return placeOf(cuts.vertices[triangle[i]].position); };
+            const auto s = static_cast<std::uint32_t>(cuts.rest[triangle[0]].rest.w);
+            if (!meets(s, corner(0), corner(1), corner(2), nearest)) continue;
+            for (const std::uint32_t vertex : triangle) addHoldersOf(s, cuts, vertex, nearest.holders);
+        }
+    }
+
+    // Of a vertex of the surface of cuts.
+    void addHoldersOf(std::uint32_t s, const SeenCuts& cuts, std::uint32_t vertex,
+                      std::vector<std::uint32_t>& holders) const {
+        const std::uint32_t point = cuts.rest[vertex].point;
+        if ((point & SURFACE_PARTICLE) != 0) return holders.push_back(point ^ SURFACE_PARTICLE);
+        if ((point & SURFACE_SKIN) != 0) {
+            const std::uint32_t corner = (point ^ SURFACE_SKIN) - firstVertexOf(s);
+            return addHolders(scene_.skins[s], {corner, corner, corner}, true, holders);
+        }
+        const bool isRim = (point & SURFACE_RIM) != 0;
+        const sim::layout::CutVertex& on = cuts.rest[point & (SURFACE_RIM - 1)];
+        const std::array<float, 4> shares{on.shares.x, on.shares.y, on.shares.z, on.shares.w};
+        for (std::size_t c = 0; c < (isRim ? 2u : 4u); ++c)
+            if (shares[c] > 0) holders.push_back(cuts.particles[on.corners[c]]);
+    }
+
+    std::uint32_t firstVertexOf(std::uint32_t s) const {
+        std::size_t first = 0;
+        for (std::uint32_t i = 0; i < s; ++i) first += scene_.skins[i].vertexCount();
+        return static_cast<std::uint32_t>(first);
+    }
+
+    // True where it is the nearest until now; that has no holders yet then.
+    bool meets(std::uint32_t s, const Vector3& a, const Vector3& b, const Vector3& c, Nearest& nearest) {
+        bool isBack = false;
+        const float distance = meetsTriangle(ray_, a, b, c, isBack);
+        if (distance == none || distance < seen_.from || distance > seen_.to) return false;
+        windings_[s] += isBack ? 1 : -1;
+        if (distance >= nearest.distance) return false;
+        nearest = {distance, {}};
+        return true;
+    }
+
+    const sim::Scene& scene_;
+    const Ray& ray_;
+    const SeenState& state_;
+    const Seen& seen_;
+    std::vector<int> windings_; // by skin, around where the ray enters what is left
+};
 
 void lookAtBalls(const BallList& balls, const Ray& ray, std::span<const sim::layout::vec4> positions,
                  const Seen& seen, Nearest& nearest) {
@@ -126,7 +194,11 @@ std::optional<Pick> pick(const sim::Scene& scene, const BallList& balls, const R
                          const SeenState& state, Among among, const std::optional<Opened>& opened) {
     const Seen seen = seenOf(ray, opened);
     Nearest nearest;
-    if (!state.vertices.empty()) lookAtSkins(scene, ray, state, seen, opened, nearest);
+    if (!state.vertices.empty()) {
+        SkinPicker skins(scene, ray, state, seen);
+        skins.look(nearest);
+        if (seen.isOpened && seen.from != none) skins.lookInside(opened->isClosed, nearest);
+    }
     lookAtBalls(balls, ray, state.positions, seen, nearest);
     if (nearest.distance == none) return std::nullopt;
     const Vector3 point = ray.origin + nearest.distance * ray.direction;

@@ -36,15 +36,28 @@ struct Opened {
     const std::vector<bool>& isClosed;
 };
 
+/// What cuts have made of skins, and what they have laid open, as CutProbe reads it.
+struct SeenCuts {
+    using Triangle = std::array<std::uint32_t, 3>;
+    /// Of skins one behind the other, into the vertices of all; of sheets as they are uncut.
+    std::span<const Triangle> skins;
+    std::span<const Triangle> surface; ///< of sim::CutSurface
+    std::span<const sim::layout::SkinVertex> vertices;
+    std::span<const sim::layout::CutVertex> rest; ///< of each vertex
+    std::span<const std::uint32_t> particles;     ///< by slot
+};
+
 /// A state as StateProbe reads it.
 struct SeenState {
     std::span<const sim::layout::vec4> positions;
     std::span<const sim::layout::SkinVertex> vertices; ///< of all skins
     bool isWhole = false;                              ///< sim::Simulation::DrawnSkins::areWhole
+    std::optional<SeenCuts> cuts{};                    ///< nothing where nothing is cut
 };
 
-/// Nothing where the ray meets no body, or only what is not asked for. What is cut away is not met; the
-/// inside of a body that it has laid open is.
+/// Nothing where the ray meets no body, or only what is not asked for. Of a section, what is cut away is not
+/// met, the inside that it has laid open is. The particle is one of those that what is met hangs on, on its
+/// side of a cut.
 std::optional<Pick> pick(const sim::Scene& scene, const BallList& balls, const Ray& ray,
                          const SeenState& state, Among among = Among::moving,
                          const std::optional<Opened>& opened = {});

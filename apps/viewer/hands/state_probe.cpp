@@ -16,13 +16,14 @@ vk::Buffer readback(const vk::Device& device, const std::string& name, const vk:
 
 } // namespace
 
-StateProbe::StateProbe(const vk::Device& device, const sim::Simulation& simulation)
+StateProbe::StateProbe(const vk::Device& device, const sim::Scene& scene, const sim::Simulation& simulation)
     : device_(device), simulation_(simulation), particles_(simulation.program().particleCount),
       positions_{simulation.positions(), readback(device, "probe.positions", simulation.positions())} {
     const vk::BufferView velocities = simulation.velocities(), vertices = simulation.skinVertices();
     if (velocities.size > 0)
         velocities_.emplace(Copy{velocities, readback(device, "probe.velocities", velocities)});
     if (vertices.size > 0) vertices_.emplace(Copy{vertices, readback(device, "probe.vertices", vertices)});
+    if (simulation.cutSurface().vertices.size > 0) cuts_.emplace(device, scene, simulation);
 }
 
 void StateProbe::record(VkCommandBuffer handle) noexcept {
@@ -33,6 +34,7 @@ void StateProbe::record(VkCommandBuffer handle) noexcept {
         commands.barrier();
         commands.copy(vertices_->from, vertices_->to.view());
     }
+    if (cuts_) cuts_->record(commands);
     commands.hostBarrier();
 }
 
@@ -67,6 +69,7 @@ std::span<const sim::layout::vec4> StateProbe::velocities() const noexcept {
 
 SeenState StateProbe::seen() const noexcept {
     SeenState seen{.positions = positions(), .vertices = {}, .isWhole = isWhole_};
+    if (cuts_) seen.cuts = cuts_->seen();
     if (vertices_)
         seen.vertices = {reinterpret_cast<const sim::layout::SkinVertex*>(vertices_->to.mapped()),
                          vertices_->to.count()};

@@ -4,7 +4,7 @@
 
 #include "layout.h"
 #include "sim/simulation.hpp"
-#include "viewer/hands/pick.hpp"
+#include "viewer/hands/cut_probe.hpp"
 #include "vk/buffer.hpp"
 
 #include <optional>
@@ -15,7 +15,8 @@ namespace sinew::viewer {
 /// Must not outlive its Device, which must not move, nor the simulation.
 class StateProbe {
 public:
-    StateProbe(const vk::Device& device, const sim::Simulation& simulation);
+    /// Of a simulation of this scene.
+    StateProbe(const vk::Device& device, const sim::Scene& scene, const sim::Simulation& simulation);
 
     /// Velocities too, in the same commands as record(), where the simulation has some.
     void recordVelocities(VkCommandBuffer commands) const noexcept;
@@ -31,8 +32,10 @@ public:
     std::span<const sim::layout::vec4> positions() const noexcept;
     /// Of every particle [m/s]; empty where there are none.
     std::span<const sim::layout::vec4> velocities() const noexcept;
-    /// What a ray can meet: those, and vertices as they were drawn.
+    /// What a ray can meet: those, vertices as they were drawn, and what cuts have laid open.
     SeenState seen() const noexcept;
+    /// False where more has been cut since than was copied: what is asked has to be asked again.
+    bool isComplete() const noexcept { return !cuts_ || cuts_->isComplete(); }
 
 private:
     struct Copy {
@@ -45,6 +48,7 @@ private:
     bool isWhole_ = false; // what was recorded
     Copy positions_;
     std::optional<Copy> velocities_, vertices_;
+    std::optional<CutProbe> cuts_;
 };
 
 } // namespace sinew::viewer

@@ -120,6 +120,7 @@ std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& 
     surface->turns = program.scratch<layout::Gradient>("surface.turns", room);
     drawn.indices = program.scratch<std::uint32_t>("surface.indices", 3 * std::uint64_t{room});
     drawn.draws = program.scratch<layout::DrawArguments>("surface.draws", 2);
+    drawn.particles = surface->source.particles;
     surface->arguments = program.scratch<layout::DispatchArguments>("surface.arguments",
                                                                     surface->push.runs + SURFACE_ARGUMENTS);
     addMixedSkins(program, *surface, scene, bodies);
