@@ -52,7 +52,7 @@ private:
         std::ranges::stable_sort(sides, [](const Side& a, const Side& b) {
             return a.angle != b.angle ? a.angle < b.angle : a.runsAlong && !b.runsAlong;
         });
-        std::ranges::rotate(sides, firstOf(sides));
+        std::rotate(sides.begin(), firstOf(sides), sides.end());
         std::vector<std::uint32_t> open; // those that wait for the other side of their material
         for (const Side& side : sides) {
             if (!side.runsAlong) {

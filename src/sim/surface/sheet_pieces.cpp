@@ -24,7 +24,7 @@ std::optional<std::uint32_t> kindOf(const Nodes& nodes, std::uint32_t x, std::ui
         if (right > 1 || down > 1) return std::nullopt;
         corners[n] = right | down << 1;
     }
-    std::ranges::rotate(corners, std::ranges::min_element(corners));
+    std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
     constexpr std::array<std::array<std::uint32_t, 3>, 4> kinds{{{0, 2, 3}, {0, 3, 1}, {0, 3, 2}, {0, 1, 3}}};
     const auto found = std::ranges::find(kinds, corners);
     if (found == kinds.end()) return std::nullopt;
