@@ -168,6 +168,13 @@ struct HungVertex {
     uint corner;  // of the cell, that the anchor is
 };
 
+// The lattice of the body that a skin is of; no spacing where the skin does not hang.
+struct SkinGrid {
+    uint rowStride, sliceStride; // slots from a node to the next in y, in z
+    float spacing;               // [m]
+    uint unused;
+};
+
 struct PrismPush {
     uint first;  // items of the surface before prisms: slots
     uint count;  // prisms, or vertices that hang

@@ -20,14 +20,14 @@ void addNearby(uint i, vec3 point, vec3 end, float spacing, inout Nearby sum, in
     weight += share;
 }
 
-Nearby nearbyOf(uint i, vec3 point, vec3 end, ivec2 stride, float spacing) {
+Nearby nearbyOf(uint i, vec3 point, vec3 end, SkinGrid grid) {
     Nearby sum = Nearby(vec3(0.0), vec3(0.0), mat3(0.0));
     float weight = 0.0;
-    addNearby(i, point, end, spacing, sum, weight);
+    addNearby(i, point, end, grid.spacing, sum, weight);
     for (uint alive = links[i]; alive != 0u; alive &= alive - 1u) {
         const ivec3 d = directionOf(findLSB(alive));
-        const int way = d.x + d.y * stride.x + d.z * stride.y;
-        addNearby(uint(int(i) + way), point, end, spacing, sum, weight);
+        const int way = d.x + d.y * int(grid.rowStride) + d.z * int(grid.sliceStride);
+        addNearby(uint(int(i) + way), point, end, grid.spacing, sum, weight);
     }
     if (weight > 0.0) return Nearby(sum.place / weight, sum.end / weight, sum.turn / weight);
     const mat3 f = matrixOf(gradients[i]);
@@ -35,11 +35,9 @@ Nearby nearbyOf(uint i, vec3 point, vec3 end, ivec2 stride, float spacing) {
     return Nearby(x + f * (point - rest[i].xyz), x + f * (end - rest[i].xyz), f);
 }
 
-// The place, and how the material has turned there. `end` and `other` are vertices that hang; the point goes with slot i.
-vec3 rimPlace(vec3 point, uint i, uint end, uint other, uint skin, out mat3 turn) {
+// `end` and `other` are vertices that hang; the point goes with the first.
+vec3 rimPlace(vec3 point, Nearby nearby, uint end, uint other) {
     const vec3 from = restOf(end).xyz;
     const float part = min(1.0, length(point - from) / max(length(restOf(other).xyz - from), 1e-30));
-    const Nearby nearby = nearbyOf(i, point, from, ivec2(strides[skin]), hung[end].normal.w);
-    turn = nearby.turn;
     return nearby.place + (1.0 - part) * (skinVertices[hung[end].vertex].position.xyz - nearby.end);
 }

@@ -17,7 +17,7 @@ layout(std430, binding = 9) readonly buffer Hung { HungVertex hung[]; };
 layout(std430, binding = 10) readonly buffer Moved { vec4 moved[]; };
 layout(std430, binding = 11) readonly buffer Near { uint near[]; };
 layout(std430, binding = 12) readonly buffer Links { uint links[]; };
-layout(std430, binding = 13) readonly buffer Strides { uvec2 strides[]; }; // by skin: slots from a node to the next in y, in z
+layout(std430, binding = 13) readonly buffer Grids { SkinGrid grids[]; }; // by skin
 #endif
 layout(push_constant) uniform Push { CountPush push; };
 
@@ -29,15 +29,23 @@ mat3 matrixOf(Gradient g) { return mat3(g.x.xyz, g.y.xyz, g.z.xyz); }
 #include "rim_place.glsl"
 #endif
 
-// Where what corner c has of a vertex is, and how it has turned.
+// Where what corner c has of a vertex is, and how it has turned. Inside of a skin that hangs it goes as rims do, so that neither pokes out of
+// the other.
 vec3 placeAt(CutVertex vertex, int c, out mat3 turn) {
+    const vec3 point = vertex.rest.xyz;
 #ifdef HUNG
-    if ((vertex.point & SURFACE_RIM) != 0u)
-        return rimPlace(vertex.rest.xyz, vertex.corners[c], vertex.corners[2 + c], vertex.corners[3 - c], uint(vertex.rest.w), turn);
+    const bool isRim = (vertex.point & SURFACE_RIM) != 0u;
+    const SkinGrid grid = grids[uint(vertex.rest.w)];
+    if (grid.spacing > 0.0) {
+        const vec3 end = isRim ? restOf(vertex.corners[2 + c]).xyz : point;
+        const Nearby nearby = nearbyOf(vertex.corners[c], point, end, grid);
+        turn = nearby.turn;
+        return isRim ? rimPlace(point, nearby, vertex.corners[2 + c], vertex.corners[3 - c]) : nearby.place;
+    }
 #endif
     const uint corner = vertex.corners[c];
     turn = matrixOf(gradients[corner]);
-    return positions[particles[corner]].xyz + turn * (vertex.rest.xyz - rest[corner].xyz);
+    return positions[particles[corner]].xyz + turn * (point - rest[corner].xyz);
 }
 
 void main() {

@@ -85,7 +85,7 @@ void addDrawing(ProgramBuilder& program, const CutSurface& surface) {
                                  {drawn.state, drawn.rest, surface.rest, surface.source.particles,
                                   built.positions, surface.gradients, drawn.vertices, surface.turns,
                                   built.skinVertices, surface.hung.vertices, surface.hung.moved, surface.near,
-                                  built.cutting.links, surface.hung.strides},
+                                  built.cutting.links, surface.hung.grids},
                                  room);
     else
         program.dispatchIndirect(k::skinCut, points,

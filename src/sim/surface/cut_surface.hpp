@@ -46,7 +46,7 @@ struct HungSurface {
         marks;                  ///< lists of prisms and of vertices (SKIN_LISTS), and who is asked for
     BufferId placed;            ///< by vertex, of those that are listed: where the step begins with it [m]
     BufferId counts, arguments; ///< SKIN_LISTS of each range
-    BufferId strides;           ///< by skin: slots from a node to the next in y and in z
+    BufferId grids;             ///< by skin: SkinGrid
     BufferId pulls;             ///< by slot: from a particle to its pulled place [m]
     BufferId pulledPlaces;      ///< by slot, where particles are for a blade [m]; invalid = at their places
 };

@@ -52,14 +52,14 @@ void addLists(ProgramBuilder& program, const CutSurface& surface, BufferId blade
 }
 
 // By skin.
-std::vector<std::array<std::uint32_t, 2>> stridesOf(const CutBodies& bodies) {
-    std::vector<std::array<std::uint32_t, 2>> strides;
+std::vector<layout::SkinGrid> gridsOf(const CutBodies& bodies) {
+    std::vector<layout::SkinGrid> grids(1 + std::size_t{std::ranges::max(bodies.skins)});
     for (const HungRange& range : bodies.ranges) {
-        const auto skin = static_cast<std::size_t>(bodies.vertices[range.vertices.first].rest.w);
-        strides.resize(std::max(strides.size(), skin + 1));
-        strides[skin] = {range.vertices.rowStride, range.vertices.sliceStride};
+        const layout::HungVertex& first = bodies.vertices[range.vertices.first];
+        grids[static_cast<std::size_t>(first.rest.w)] = {range.vertices.rowStride, range.vertices.sliceStride,
+                                                         first.normal.w, 0};
     }
-    return strides;
+    return grids;
 }
 
 } // namespace
@@ -83,7 +83,7 @@ void addHungBuffers(ProgramBuilder& program, CutSurface& surface, const CutBodie
     const std::size_t lists = SKIN_LISTS * hung.ranges.size();
     hung.counts = program.scratch<std::uint32_t>("surface.skin_counts", lists);
     hung.arguments = program.scratch<layout::DispatchArguments>("surface.skin_arguments", lists);
-    hung.strides = program.upload("surface.strides", stridesOf(bodies));
+    hung.grids = program.upload("surface.grids", gridsOf(bodies));
     program.program().cutSurface.hung = hung.vertices;
     program.program().cutSurface.moved = hung.moved;
     if (!bodies.pulled.empty()) {
