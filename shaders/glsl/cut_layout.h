@@ -190,6 +190,12 @@ struct PrismPush {
 #define SKIN_SPLIT 3u
 #define SKIN_LISTS 4u
 
+// Where a step with a blade finds it, and where the last one did, from where it goes straight: what the blade has to do with it is then asked
+// of one way without leaps. now.w = 0: it was not near the last one.
+struct PlacedVertex {
+    vec4 before, now; // [m]
+};
+
 // Of such a vertex that is on the wrong side of a blade, as w of where that lets it be at rest: it moves there once its anchor
 // has lost a link; it has.
 #define VERTEX_MOVES 1.0

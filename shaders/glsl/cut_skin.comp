@@ -18,7 +18,7 @@ layout(std430, binding = 6) readonly buffer SavedLinks { uint savedLinks[]; };
 layout(std430, binding = 7) readonly buffer Prisms { SkinPrism prisms[]; };
 layout(std430, binding = 8) readonly buffer Counts { uint counts[]; };
 layout(std430, binding = 9) readonly buffer Nears { uint nears[]; };   // prisms (list_prisms)
-layout(std430, binding = 10) readonly buffer Placed { vec4 placed[]; }; // vertices (place_vertices)
+layout(std430, binding = 10) readonly buffer Placed { PlacedVertex placed[]; }; // vertices (place_vertices)
 
 #include "blade_skin.glsl"
 #include "skin_prisms.glsl"
@@ -37,8 +37,8 @@ void main() {
         uint hit = bitfieldExtract(hits, int(8u * n), 8);
         if (isWhole && blade.isCarried == 0u) hit = 0u;
         if (isNear && (isWhole || hit == 0u)) {
-            const float at = hitOf(waysOf(prism.anchors[n], prism.anchors[next], placed[prism.vertices[n]].xyz,
-                                         placed[prism.vertices[next]].xyz));
+            const PlacedVertex a = placed[prism.vertices[n]], b = placed[prism.vertices[next]];
+            const float at = hitOf(Ends(a.before.xyz, b.before.xyz, a.now.xyz, b.now.xyz));
             if (at <= 1.0) hit = uint(round(255.0 * clamp(at, 0.02, 0.98)));
         }
         hits = bitfieldInsert(hits, hit, int(8u * n), 8);

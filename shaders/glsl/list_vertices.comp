@@ -12,6 +12,7 @@ layout(std430, binding = 5) readonly buffer Moved { vec4 moved[]; };
 layout(std430, binding = 6) buffer Marks { uint marks[]; }; // none when this is done
 layout(std430, binding = 7) buffer Counts { uint counts[]; };
 layout(std430, binding = 8) writeonly buffer Listed { uint listed[]; }; // of a body from its first vertex on
+layout(std430, binding = 9) writeonly buffer Placed { PlacedVertex placed[]; };
 
 #define PLACE(i) pulledPlaces[i].xyz
 #include "near_blade.glsl"
@@ -27,4 +28,5 @@ void main() {
     const bool isMarked = marks[v] != 0u;
     marks[v] = 0u;
     if (isMarked || mayMove(v)) listed[push.first + atomicAdd(counts[SKIN_LISTS * push.run + SKIN_VERTICES], 1u)] = v;
+    else if (blade.quads > 0u && isFinished(status)) placed[v].now = vec4(0.0);
 }

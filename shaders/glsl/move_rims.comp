@@ -22,7 +22,7 @@ layout(std430, binding = 10) buffer Rims { uint rims[]; };
 layout(std430, binding = 11) readonly buffer Status { StatusWords status; };
 layout(std430, binding = 12) readonly buffer Counts { uint counts[]; };
 layout(std430, binding = 13) readonly buffer Listed { uint listed[]; }; // vertices (list_vertices)
-layout(std430, binding = 14) readonly buffer Placed { vec4 placed[]; }; // likewise (place_vertices)
+layout(std430, binding = 14) readonly buffer Placed { PlacedVertex placed[]; }; // likewise (place_vertices)
 
 #include "before_cut.glsl"
 #include "blade_skin.glsl"
@@ -32,9 +32,10 @@ const float leastVolume = 1e-3; // of its own at rest: flatter material does not
 const float leastTangent = 0.2; // of the normal of a blade along the skin, squared: flatter ones shave
 
 // Where the blade that meets the way to its particle lets the vertex be, at rest; w = 0 where it does not.
-vec4 behindBlade(HungVertex self, vec3 x) {
+vec4 behindBlade(HungVertex self, PlacedVertex vertex) {
     const uint i = self.anchor;
-    const Meeting meeting = stripMeeting(waysOf(i, i, x, PLACE(i)));
+    const vec3 x = vertex.now.xyz;
+    const Meeting meeting = stripMeeting(Ends(vertex.before.xyz, placeBefore(i), x, PLACE(i)));
     const float size = length(meeting.normal);
     if (meeting.at > 1.0 || !(size > 0.0)) return vec4(0.0);
     const mat3 turn = gradientAt(i);
@@ -58,7 +59,7 @@ void main() {
     if (to.w == VERTEX_MOVED || !isNear && to.w == 0.0) return;
     if (blade.isCarried == 0u) to = vec4(0.0);
     if (isNear && (rims[v] == 0u || blade.isCarried != 0u)) { // beside an older cut what a stroke begins with leaves the rim where it is
-        const vec4 behind = behindBlade(self, placed[v].xyz);
+        const vec4 behind = behindBlade(self, placed[v]);
         if (behind.w > 0.0) to = to.w == 0.0 ? behind : vec4(0.0); // else it came back
     }
     if (to.w > 0.0 && bitCount(links[self.anchor]) < int(self.weights.w)) {

@@ -13,9 +13,14 @@ layout(std430, binding = 3) readonly buffer Hung { HungVertex hung[]; };
 layout(std430, binding = 4) readonly buffer Partitions { uint partitions[]; }; // before this step
 layout(std430, binding = 5) readonly buffer Counts { uint counts[]; };
 layout(std430, binding = 6) readonly buffer Listed { uint listed[]; };
-layout(std430, binding = 7) writeonly buffer Placed { vec4 placed[]; };
+layout(std430, binding = 7) buffer Placed { PlacedVertex placed[]; };
+layout(std430, binding = 8) readonly buffer PulledPlaces { vec4 pulledPlaces[]; };
+layout(std430, binding = 9) readonly buffer PlacesBefore { vec4 before[]; };
+layout(std430, binding = 10) readonly buffer Blade { BladeHead blade; };
 
+#define PLACE(i) pulledPlaces[i].xyz
 #include "before_cut.glsl"
+#include "near_blade.glsl"
 
 // Cells that were whole hang together.
 vec3 placeNow(HungVertex vertex) {
@@ -28,5 +33,10 @@ void main() {
     const uint count = counts[SKIN_LISTS * push.run + SKIN_VERTICES], item = itemIndex(count);
     if (item >= count) return;
     const uint v = listed[push.first + item];
-    placed[v] = vec4(placeNow(hung[v]), 1.0);
+    const uint anchor = hung[v].anchor;
+    const vec3 x = placeNow(hung[v]);
+    const vec4 last = placed[v].now;
+    // what has only now come near goes as its particle does: nobody has asked about it before
+    const bool isOnItsWay = blade.isCarried != 0u && last.w > 0.0;
+    placed[v] = PlacedVertex(vec4(isOnItsWay ? last.xyz : x + placeBefore(anchor) - PLACE(anchor), 1.0), vec4(x, 1.0));
 }

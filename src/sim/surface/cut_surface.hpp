@@ -44,7 +44,7 @@ struct HungSurface {
     BufferId moved; ///< by vertex: where it has moved to beside a cut [m]
     BufferId nears, parted, listed,
         marks;                  ///< lists of prisms and of vertices (SKIN_LISTS), and who is asked for
-    BufferId placed;            ///< by vertex, of those that are listed: where the step begins with it [m]
+    BufferId placed;            ///< by vertex: PlacedVertex
     BufferId counts, arguments; ///< SKIN_LISTS of each range
     BufferId grids;             ///< by skin: SkinGrid
     BufferId pulls;             ///< by slot: from a particle to its pulled place [m]

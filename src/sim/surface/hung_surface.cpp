@@ -46,7 +46,7 @@ void addLists(ProgramBuilder& program, const CutSurface& surface, BufferId blade
     for (const HungRange& range : hung.ranges)
         program.dispatch(k::listVertices, range.vertices.count,
                          {bladePlaces, placesBefore, blade, status, hung.vertices, hung.moved, hung.marks,
-                          hung.counts, hung.listed},
+                          hung.counts, hung.listed, hung.placed},
                          range.vertices);
     addPlan(program, hung);
 }
@@ -79,7 +79,7 @@ void addHungBuffers(ProgramBuilder& program, CutSurface& surface, const CutBodie
     hung.parted = program.scratch<std::uint32_t>("surface.parted_prisms", hung.prismCount);
     hung.listed = program.scratch<std::uint32_t>("surface.near_vertices", hung.vertexCount);
     hung.marks = program.scratch<std::uint32_t>("surface.vertex_marks", hung.vertexCount);
-    hung.placed = program.scratch<layout::vec4>("surface.placed", hung.vertexCount);
+    hung.placed = program.scratch<layout::PlacedVertex>("surface.placed", hung.vertexCount);
     const std::size_t lists = SKIN_LISTS * hung.ranges.size();
     hung.counts = program.scratch<std::uint32_t>("surface.skin_counts", lists);
     hung.arguments = program.scratch<layout::DispatchArguments>("surface.skin_arguments", lists);
@@ -93,7 +93,7 @@ void addHungBuffers(ProgramBuilder& program, CutSurface& surface, const CutBodie
         program.program().cutting.topology.push_back(hung.pulls);
         program.carry(hung.pulls, hung.pulls);
     }
-    for (const BufferId buffer : {hung.hits, hung.rims, hung.moved}) {
+    for (const BufferId buffer : {hung.hits, hung.rims, hung.moved, hung.placed}) {
         program.program().cutting.topology.push_back(buffer);
         program.carry(buffer, buffer);
     }
@@ -120,7 +120,8 @@ void addSkinHits(ProgramBuilder& program, const CutSurface& surface, BufferId bl
     for (const HungRange& range : hung.ranges)
         program.dispatchIndirect(k::placeVertices, listOf(hung, range.vertices, SKIN_VERTICES),
                                  {cutting.savedLinks, cutting.places, surface.rest, hung.vertices,
-                                  surface.partitions, hung.counts, hung.listed, hung.placed},
+                                  surface.partitions, hung.counts, hung.listed, hung.placed, bladePlaces,
+                                  placesBefore, blade},
                                  range.vertices);
     for (const HungRange& range : hung.ranges)
         program.dispatchIndirect(k::cutSkin, listOf(hung, range.prisms, SKIN_NEAR),

@@ -59,9 +59,35 @@ struct Roughness {
 struct Rim {
     Roughness rest;   // off the line between the neighbours
     Roughness motion; // ways off what those of the neighbours, in parts of their distances, would be
-    Roughness
-        skin; // the same of vertices of the skin, against the linear motion that fits their neighbours best
+    Roughness skin,
+        inside; // the same of other points, against the linear motion that fits their neighbours best
 };
+
+Roughness measurePart(const ClosedSurface& surface, Part part, double spacing) {
+    const auto way = [&](std::uint32_t p) -> Vector3d { return surface.drawn()[p] - surface.rest()[p]; };
+    Neighbours around(surface.rest().size());
+    for (const auto& triangle : surface.triangles())
+        if (triangle.part == part)
+            for (std::size_t n = 0; n < 3; ++n)
+                for (std::size_t m = 1; m < 3; ++m)
+                    around[triangle.points[n]].insert(triangle.points[(n + m) % 3]);
+    Roughness roughness;
+    for (std::uint32_t p = 0; p < around.size(); ++p) {
+        if (around[p].size() < 5) continue;
+        Eigen::Matrix4d normal = 1e-6 * spacing * spacing * Eigen::Matrix4d::Identity();
+        Eigen::Matrix<double, 4, 3> right = Eigen::Matrix<double, 4, 3>::Zero();
+        normal(3, 3) = 0;
+        for (const std::uint32_t q : around[p]) {
+            Eigen::Vector4d at;
+            at << surface.rest()[q] - surface.rest()[p], 1;
+            normal += at * at.transpose();
+            right += at * way(q).transpose();
+        }
+        const Eigen::Matrix<double, 4, 3> fit = normal.ldlt().solve(right);
+        roughness.add((way(p) - fit.row(3).transpose()).norm() / spacing);
+    }
+    return roughness;
+}
 
 Rim measureRim(const ClosedSurface& surface, double spacing) {
     const auto way = [&](std::uint32_t p) -> Vector3d { return surface.drawn()[p] - surface.rest()[p]; };
@@ -79,26 +105,8 @@ Rim measureRim(const ClosedSurface& surface, double spacing) {
         const Vector3d line = (from + to).normalized();
         rim.rest.add((from - line.dot(from) * line).norm() / spacing);
     }
-    Neighbours around(surface.rest().size());
-    for (const auto& triangle : surface.triangles())
-        if (triangle.part == Part::skin)
-            for (std::size_t n = 0; n < 3; ++n)
-                for (std::size_t m = 1; m < 3; ++m)
-                    around[triangle.points[n]].insert(triangle.points[(n + m) % 3]);
-    for (std::uint32_t p = 0; p < around.size(); ++p) {
-        if (around[p].size() < 5) continue;
-        Eigen::Matrix4d normal = 1e-6 * spacing * spacing * Eigen::Matrix4d::Identity();
-        Eigen::Matrix<double, 4, 3> right = Eigen::Matrix<double, 4, 3>::Zero();
-        normal(3, 3) = 0;
-        for (const std::uint32_t q : around[p]) {
-            Eigen::Vector4d at;
-            at << surface.rest()[q] - surface.rest()[p], 1;
-            normal += at * at.transpose();
-            right += at * way(q).transpose();
-        }
-        const Eigen::Matrix<double, 4, 3> fit = normal.ldlt().solve(right);
-        rim.skin.add((way(p) - fit.row(3).transpose()).norm() / spacing);
-    }
+    rim.skin = measurePart(surface, Part::skin, spacing);
+    rim.inside = measurePart(surface, Part::inside, spacing);
     return rim;
 }
 
@@ -128,7 +136,9 @@ void strokeDown(CutBody& body, int steps, double bottom) {
 
 // Points of a rim that hung on one particle each stood out by up to 0.9 cells, 0.03 to 0.07 rms, wherever
 // those beside them hung on another one. The end of a cut that ends inside opens like a corner, which is no
-// roughness of the rim: there the most is not looked at.
+// roughness of the rim: there the most is not looked at. Points inside hung on one particle each likewise
+// (0.04 to 0.14 rms), and stood out of the rims. In slow strokes points of the skin leapt from step to step,
+// past the blade (rims at rest up to 0.23 cells off).
 TEST(Rims, MoveAsSmoothlyAsTheSkin) {
     for (const int steps : {1, 30})
         for (const bool isThrough : {true, false}) {
@@ -142,11 +152,16 @@ TEST(Rims, MoveAsSmoothlyAsTheSkin) {
                 const Rim rim = measureRim(surface, body.spacing());
                 std::printf(
                     "%2d steps, %s, %2d later: %zu points; at rest %.4f cells rms, %.3f at most; ways "
-                    "%.4f rms, %.3f at most; of the skin %.4f, %.3f\n",
+                    "%.4f rms, %.3f at most; of the skin %.4f, %.3f, inside %.4f, %.3f\n",
                     steps, isThrough ? "through" : "half way", more, rim.rest.count, rim.rest.rms(),
-                    rim.rest.most, rim.motion.rms(), rim.motion.most, rim.skin.rms(), rim.skin.most);
+                    rim.rest.most, rim.motion.rms(), rim.motion.most, rim.skin.rms(), rim.skin.most,
+                    rim.inside.rms(), rim.inside.most);
                 ASSERT_GT(rim.motion.count, 200u);
                 EXPECT_LT(rim.rest.rms(), 0.03);
+                if (steps > 1) {
+                    EXPECT_LT(rim.rest.most, 0.2);
+                }
+                EXPECT_LT(rim.inside.rms(), isThrough ? 0.035 : 0.09);
                 EXPECT_LT(rim.motion.rms(), more == 1 && !isThrough ? 0.05 : 0.03);
                 if (isThrough) {
                     EXPECT_LT(rim.motion.most, 0.3);
