@@ -26,7 +26,14 @@ mat3 matrixOf(Gradient g) { return mat3(g.x.xyz, g.y.xyz, g.z.xyz); }
 #ifdef HUNG
 #include "link_masks.glsl"
 #include "skin_rest.glsl"
-#include "rim_place.glsl"
+#include "nearby.glsl"
+
+// Where a point on an edge of a skin is: towards the end of the edge that it goes with it goes over into where the skin has that.
+vec3 rimPlace(vec3 point, Nearby nearby, uint end, uint other) {
+    const vec3 from = restOf(end).xyz;
+    const float part = min(1.0, length(point - from) / max(length(restOf(other).xyz - from), 1e-30));
+    return nearby.place + (1.0 - part) * (skinVertices[hung[end].vertex].position.xyz - nearby.end);
+}
 #endif
 
 // Where what corner c has of a vertex is, and how it has turned. Inside of a skin that hangs it goes as rims do, so that neither pokes out of

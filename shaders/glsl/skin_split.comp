@@ -16,6 +16,7 @@ layout(std430, binding = 6) buffer Vertices { SkinVertex vertices[]; };
 layout(std430, binding = 7) readonly buffer Moved { vec4 moved[]; };
 layout(std430, binding = 8) readonly buffer Counts { uint counts[]; };
 layout(std430, binding = 9) readonly buffer Listed { uint listed[]; };
+layout(std430, binding = 10) readonly buffer Near { uint near[]; };
 
 #define ALIVE(i) links[i]
 #define AT(i) positions[particles[i]].xyz
@@ -24,15 +25,19 @@ layout(std430, binding = 9) readonly buffer Listed { uint listed[]; };
 #include "skin_place.glsl"
 #include "skin_rest.glsl"
 
+mat3 matrixOf(Gradient g) { return mat3(g.x.xyz, g.y.xyz, g.z.xyz); }
+#include "nearby.glsl"
+
 void main() {
     const uint count = counts[SKIN_LISTS * push.run + SKIN_SPLIT], item = itemIndex(count);
     if (item >= count) return;
     const uint v = listed[push.first + item];
     const HungVertex vertex = hung[v];
-    const vec3 shift = restOf(v).xyz - vertex.rest.xyz;
+    if (moved[v].w == VERTEX_MOVED) { // onto a rim
+        const SkinGrid grid = SkinGrid(push.rowStride, push.sliceStride, push.spacing, 0u);
+        vertices[vertex.vertex].position.xyz = nearbyOf(vertex.anchor, moved[v].xyz, moved[v].xyz, grid).place;
+        return;
+    }
     const uint held = heldWith(vertex.cell, vertex.corner);
-    if (held == 255u && shift == vec3(0.0)) return;
-    vec3 x = placeOf(vertex, held);
-    if (shift != vec3(0.0)) x += TURN(vertex.anchor) * shift;
-    vertices[vertex.vertex].position.xyz = x;
+    if (held != 255u) vertices[vertex.vertex].position.xyz = placeOf(vertex, held);
 }

@@ -184,7 +184,7 @@ void addSplitVertices(ProgramBuilder& program, const CutSurface& surface) {
         program.dispatchIndirect(k::skinSplit, listOf(hung, range.vertices, SKIN_SPLIT),
                                  {hung.vertices, built.cutting.links, surface.rest, surface.source.particles,
                                   built.positions, surface.gradients, built.skinVertices, hung.moved,
-                                  hung.counts, hung.listed},
+                                  hung.counts, hung.listed, surface.near},
                                  range.vertices);
 }
 

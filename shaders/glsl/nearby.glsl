@@ -1,10 +1,10 @@
-// Where a point on an edge of a skin is that a cut has parted, on the side of one end: part of skin_cut. The motion around the point is the
-// mean of those around the particle that the end goes with and around all that are linked with it, near ones more, so that points next to each
-// other move alike whichever particles the ends of their edges go with. Towards the end it goes over into where the skin has that.
+// Where a point beside a cut is that goes with a particle: the mean of the motions around that and around all that are linked with it, near ones
+// more, so that points next to each other move alike whichever particles they go with. Whoever includes this has near[], rest[], links[],
+// gradients[], positions[] and particles[].
 const float rimReach = 2.0; // [cells]
 
 struct Nearby {
-    vec3 place, end; // where the point and the end of its edge would be
+    vec3 place, end; // where the point and another one would be
     mat3 turn;
 };
 
@@ -33,11 +33,4 @@ Nearby nearbyOf(uint i, vec3 point, vec3 end, SkinGrid grid) {
     const mat3 f = matrixOf(gradients[i]);
     const vec3 x = positions[particles[i]].xyz;
     return Nearby(x + f * (point - rest[i].xyz), x + f * (end - rest[i].xyz), f);
-}
-
-// `end` and `other` are vertices that hang; the point goes with the first.
-vec3 rimPlace(vec3 point, Nearby nearby, uint end, uint other) {
-    const vec3 from = restOf(end).xyz;
-    const float part = min(1.0, length(point - from) / max(length(restOf(other).xyz - from), 1e-30));
-    return nearby.place + (1.0 - part) * (skinVertices[hung[end].vertex].position.xyz - nearby.end);
 }
