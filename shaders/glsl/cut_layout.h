@@ -190,7 +190,28 @@ struct PrismPush {
 #define SKIN_SPLIT 3u
 #define SKIN_LISTS 4u
 
-// Where a step with a blade finds it, and where the last one did, from where it goes straight: what the blade has to do with it is then asked
+// A slot that a skin goes with. From `first` on what hangs there is listed: prisms, each once, with the first of their corners that does, as
+// 4 times the prism and which corner; then vertices.
+struct SkinSlot {
+    uint slot, first;
+    uint corners, vertices; // how many
+};
+
+struct SkinSlotsPush {
+    uint first, count;     // such slots
+    uint prisms, vertices; // the body's first
+    float spacing;         // [m]
+    uint run;              // its lists
+};
+
+// Of such a slot. In this stroke the blade was near it; it is of a prism that is listed; its vertices were, in the last step with a blade;
+// and in this stroke.
+#define SLOT_MET 1u
+#define SLOT_ASKED 2u
+#define SLOT_LISTED 4u
+#define SLOT_OF_STROKE 8u
+
+// Where a step with a blade finds a vertex, and where the last one did, from where it goes straight: what the blade has to do with it is then asked
 // of one way without leaps. now.w = 0: it was not near the last one.
 struct PlacedVertex {
     vec4 before, now; // [m]

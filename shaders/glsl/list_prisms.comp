@@ -1,39 +1,54 @@
 #version 460
-// Lists the prisms of a skin near the blade of a step, whose vertices are marked, and those near the links that died. What is costly is
-// done for these alone; the lists have no order, and need none.
+// Lists the prisms of a skin near the blade of a step, and those near the links that died, by the slots that they stand on. What is costly
+// is done for these alone; the lists have no order, and need none.
 #extension GL_GOOGLE_include_directive : require
-#include "cut.glsl"
+#extension GL_EXT_control_flow_attributes : require
+#include "kernel.glsl"
 
 layout(std430, binding = 0) readonly buffer PulledPlaces { vec4 pulledPlaces[]; };
 layout(std430, binding = 1) readonly buffer PlacesBefore { vec4 before[]; };
 layout(std430, binding = 2) readonly buffer Blade { BladeHead blade; };
 layout(std430, binding = 3) readonly buffer Status { StatusWords status; };
 layout(std430, binding = 4) readonly buffer Prisms { SkinPrism prisms[]; };
-layout(std430, binding = 5) readonly buffer SkinHits { uint skinHits[]; };
-layout(std430, binding = 6) readonly buffer Dirty { uint dirty[]; };
-layout(std430, binding = 7) buffer Counts { uint counts[]; }; // SKIN_LISTS of each body
-layout(std430, binding = 8) writeonly buffer Nears { uint nears[]; };    // of a body from its first prism on
-layout(std430, binding = 9) writeonly buffer Parted { uint parted[]; };  // likewise
-layout(std430, binding = 10) writeonly buffer Marks { uint marks[]; };   // of vertices: 1 = of a prism near the blade
+layout(std430, binding = 5) readonly buffer Slots { SkinSlot slots[]; };
+layout(std430, binding = 6) readonly buffer Hanging { uint hanging[]; };
+layout(std430, binding = 7) readonly buffer Dirty { uint dirty[]; };
+layout(std430, binding = 8) buffer Counts { uint counts[]; };           // SKIN_LISTS of each body
+layout(std430, binding = 9) writeonly buffer Nears { uint nears[]; };   // of a body from its first prism on
+layout(std430, binding = 10) writeonly buffer Parted { uint parted[]; }; // likewise
+layout(std430, binding = 11) buffer Flags { uint flags[]; };            // of slots
+layout(push_constant) uniform Push { SkinSlotsPush push; };
 
 #define PLACE(i) pulledPlaces[i].xyz
 #include "near_blade.glsl"
 #include "dirty.glsl"
 
-// A new stroke forgets what older ones have met.
-bool isMet(uint i, uint anchor) {
-    return blade.quads > 0u && isFinished(status) && (isNearBlade(anchor) || skinHits[i] != 0u && blade.isCarried == 0u);
+void listNear(uint i) {
+    nears[push.prisms + atomicAdd(counts[SKIN_LISTS * push.run + SKIN_NEAR], 1u)] = i;
+    [[dont_unroll]] for (uint n = 0u; n < 3u; ++n) atomicOr(flags[prisms[i].anchors[n]], SLOT_ASKED);
+}
+
+// A prism is listed once, by the first of its corners.
+void listParted(uint i, uint corner) {
+    for (uint n = 0u; n < corner; ++n)
+        if (isDirty(prisms[i].anchors[n])) return;
+    parted[push.prisms + atomicAdd(counts[SKIN_LISTS * push.run + SKIN_PARTED], 1u)] = i;
 }
 
 void main() {
     const uint item = itemIndex(push.count);
     if (item >= push.count) return;
-    const uint i = push.first + item;
-    const SkinPrism prism = prisms[i];
-    if (isMet(i, prism.anchors[0])) {
-        nears[push.first + atomicAdd(counts[SKIN_LISTS * push.run + SKIN_NEAR], 1u)] = i;
-        marks[prism.vertices[0]] = marks[prism.vertices[1]] = marks[prism.vertices[2]] = 1u;
+    const SkinSlot slot = slots[push.first + item];
+    const bool isCutting = blade.quads > 0u && isFinished(status), isNear = isCutting && isNearBlade(slot.slot);
+    const bool isNewStroke = isCutting && blade.isCarried == 0u;
+    const bool wasMet = (atomicOr(flags[slot.slot], isNear ? SLOT_MET : 0u) & SLOT_MET) != 0u;
+    if (isNewStroke && !isNear && wasMet) atomicAnd(flags[slot.slot], ~SLOT_MET);
+    const bool isMet = isNear || isNewStroke && wasMet; // a new stroke forgets what older ones have met
+    const bool isParted = isDirty(slot.slot);
+    if (!isMet && !isParted) return;
+    for (uint k = 0u; k < slot.corners; ++k) {
+        const uint corner = hanging[slot.first + k];
+        if (isMet && (corner & 3u) == 0u) listNear(corner >> 2);
+        if (isParted) listParted(corner >> 2, corner & 3u);
     }
-    if (isDirty(prism.anchors[0]) || isDirty(prism.anchors[1]) || isDirty(prism.anchors[2]))
-        parted[push.first + atomicAdd(counts[SKIN_LISTS * push.run + SKIN_PARTED], 1u)] = i;
 }

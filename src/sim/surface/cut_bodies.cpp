@@ -4,6 +4,7 @@
 #include "sim/lattice/batches.hpp"
 #include "sim/surface/lattice_faces.hpp"
 #include "sim/surface/skin_complex.hpp"
+#include "sim/surface/skin_slots.hpp"
 #include "sim/surface/unfold_anchors.hpp"
 
 #include <algorithm>
@@ -79,7 +80,7 @@ private:
         unfoldAnchors(scene_, grid, box, *complex, pulled);
         pulled_.insert(pulled_.end(), pulled.begin(), pulled.end());
         addBody(grid, place.index);
-        addRange(box, firstPrism, prisms, firstHung, static_cast<std::uint32_t>(complex->vertices.size()));
+        addRange(box, firstPrism, firstHung, *complex);
         return true;
     }
 
@@ -93,17 +94,18 @@ private:
             static_cast<double>(std::ranges::count_if(grid.fill, [](std::uint8_t fill) { return fill > 0; }));
     }
 
-    void addRange(const lattice::Box& box, std::uint32_t firstPrism, std::uint32_t prisms,
-                  std::uint32_t firstHung, std::uint32_t vertices) {
+    void addRange(const lattice::Box& box, std::uint32_t firstPrism, std::uint32_t firstHung,
+                  const SkinComplex& complex) {
         const auto run = std::ranges::find_if(runs_, [&](const layout::CutPush& push) {
             return box.origin >= push.first && box.origin - push.first < push.count;
         });
         HungRange range{*run, *run};
         range.prisms.first = firstPrism;
-        range.prisms.count = prisms;
+        range.prisms.count = static_cast<std::uint32_t>(complex.prisms.size());
         range.vertices.first = firstHung;
-        range.vertices.count = vertices;
+        range.vertices.count = static_cast<std::uint32_t>(complex.vertices.size());
         range.prisms.run = range.vertices.run = static_cast<std::uint32_t>(bodies_.ranges.size());
+        addSkinSlots(bodies_, complex, range);
         bodies_.ranges.push_back(range);
     }
 

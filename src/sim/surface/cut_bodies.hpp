@@ -9,10 +9,11 @@
 
 namespace sinew::sim::surface {
 
-/// Prisms of a body and the vertices of its skin, as the kernels over them say: `first` and `count` among
-/// those of all bodies.
+/// Prisms of a body, the vertices of its skin and the slots that these go with, as the kernels over them say:
+/// `first` and `count` among those of all bodies.
 struct HungRange {
     layout::CutPush prisms{}, vertices{};
+    layout::SkinSlotsPush slots{};
 };
 
 struct CutBodies {
@@ -23,11 +24,13 @@ struct CutBodies {
     std::vector<layout::SkinPrism> prisms;
     std::vector<layout::HungVertex> vertices;
     std::vector<layout::WholeTriangle> wholes;
-    std::vector<std::uint32_t> mixed; ///< skins that these are of, in their order
-    std::vector<HungRange> ranges;    ///< of bodies with prisms
-    double cells = 0;                 ///< of all bodies whose skin is clipped; 0 = there are none
-    std::uint32_t room = 0;           ///< Settings::cutSurfaceRoom
-    std::vector<std::uint32_t> skins; ///< that are clipped
+    std::vector<std::uint32_t> mixed;    ///< skins that these are of, in their order
+    std::vector<layout::SkinSlot> slots; ///< that these go with
+    std::vector<std::uint32_t> hanging;  ///< what hangs there
+    std::vector<HungRange> ranges;       ///< of bodies with prisms
+    double cells = 0;                    ///< of all bodies whose skin is clipped; 0 = there are none
+    std::uint32_t room = 0;              ///< Settings::cutSurfaceRoom
+    std::vector<std::uint32_t> skins;    ///< that are clipped
 };
 
 /// Of those bodies that may be cut and whose skin can be clipped; the others are left out. `runs` are those

@@ -39,16 +39,16 @@ struct HungSurface {
     std::vector<HungRange> ranges;
     std::uint32_t prismCount = 0, vertexCount = 0;
     BufferId prisms, vertices;
-    BufferId hits;  ///< by prism: where its edges were cut
-    BufferId rims;  ///< by vertex: whether a triangle around is drawn in pieces
-    BufferId moved; ///< by vertex: where it has moved to beside a cut [m]
-    BufferId nears, parted, listed,
-        marks;                  ///< lists of prisms and of vertices (SKIN_LISTS), and who is asked for
-    BufferId placed;            ///< by vertex: PlacedVertex
-    BufferId counts, arguments; ///< SKIN_LISTS of each range
-    BufferId grids;             ///< by skin: SkinGrid
-    BufferId pulls;             ///< by slot: from a particle to its pulled place [m]
-    BufferId pulledPlaces;      ///< by slot, where particles are for a blade [m]; invalid = at their places
+    BufferId hits;                      ///< by prism: where its edges were cut
+    BufferId rims;                      ///< by vertex: whether a triangle around is drawn in pieces
+    BufferId moved;                     ///< by vertex: where it has moved to beside a cut [m]
+    BufferId nears, parted, listed;     ///< lists of prisms and of vertices (SKIN_LISTS)
+    BufferId slots, hanging, slotFlags; ///< SkinSlot; what hangs there; by slot: SLOT_MET ...
+    BufferId placed;                    ///< by vertex: PlacedVertex
+    BufferId counts, arguments;         ///< SKIN_LISTS of each range
+    BufferId grids;                     ///< by skin: SkinGrid
+    BufferId pulls;                     ///< by slot: from a particle to its pulled place [m]
+    BufferId pulledPlaces; ///< by slot, where particles are for a blade [m]; invalid = at their places
 };
 
 struct CutSurface {

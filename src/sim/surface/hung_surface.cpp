@@ -39,15 +39,15 @@ void addLists(ProgramBuilder& program, const CutSurface& surface, BufferId blade
     const HungSurface& hung = surface.hung;
     program.fill(hung.counts, 0);
     for (const HungRange& range : hung.ranges)
-        program.dispatch(k::listPrisms, range.prisms.count,
-                         {bladePlaces, placesBefore, blade, status, hung.prisms, hung.hits, cutting.dirty,
-                          hung.counts, hung.nears, hung.parted, hung.marks},
-                         range.prisms);
+        program.dispatch(k::listPrisms, range.slots.count,
+                         {bladePlaces, placesBefore, blade, status, hung.prisms, hung.slots, hung.hanging,
+                          cutting.dirty, hung.counts, hung.nears, hung.parted, hung.slotFlags},
+                         range.slots);
     for (const HungRange& range : hung.ranges)
-        program.dispatch(k::listVertices, range.vertices.count,
-                         {bladePlaces, placesBefore, blade, status, hung.vertices, hung.moved, hung.marks,
+        program.dispatch(k::listVertices, range.slots.count,
+                         {bladePlaces, placesBefore, blade, status, hung.slots, hung.hanging, hung.slotFlags,
                           hung.counts, hung.listed, hung.placed},
-                         range.vertices);
+                         range.slots);
     addPlan(program, hung);
 }
 
@@ -78,7 +78,9 @@ void addHungBuffers(ProgramBuilder& program, CutSurface& surface, const CutBodie
     hung.nears = program.scratch<std::uint32_t>("surface.near_prisms", hung.prismCount);
     hung.parted = program.scratch<std::uint32_t>("surface.parted_prisms", hung.prismCount);
     hung.listed = program.scratch<std::uint32_t>("surface.near_vertices", hung.vertexCount);
-    hung.marks = program.scratch<std::uint32_t>("surface.vertex_marks", hung.vertexCount);
+    hung.slots = program.upload("surface.skin_slots", bodies.slots);
+    hung.hanging = program.upload("surface.hanging", bodies.hanging);
+    hung.slotFlags = program.scratch<std::uint32_t>("surface.slot_flags", surface.slots);
     hung.placed = program.scratch<layout::PlacedVertex>("surface.placed", hung.vertexCount);
     const std::size_t lists = SKIN_LISTS * hung.ranges.size();
     hung.counts = program.scratch<std::uint32_t>("surface.skin_counts", lists);
@@ -93,7 +95,7 @@ void addHungBuffers(ProgramBuilder& program, CutSurface& surface, const CutBodie
         program.program().cutting.topology.push_back(hung.pulls);
         program.carry(hung.pulls, hung.pulls);
     }
-    for (const BufferId buffer : {hung.hits, hung.rims, hung.moved, hung.placed}) {
+    for (const BufferId buffer : {hung.hits, hung.rims, hung.moved, hung.placed, hung.slotFlags}) {
         program.program().cutting.topology.push_back(buffer);
         program.carry(buffer, buffer);
     }
