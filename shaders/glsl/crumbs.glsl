@@ -7,6 +7,6 @@ layout(std430, binding = 4) readonly buffer Positions { vec4 positions[]; };
 layout(std430, binding = 5) writeonly buffer Vertices { SkinVertex vertices[]; };
 
 void hide(uint vertex, uint slot) {
-    if (slot == NO_PARTICLE || pieces[particles[slot]] != NO_PARTICLE) return;
+    if (slot == NO_PARTICLE || pieces[particles[slot]] != REMOVED_PIECE) return;
     vertices[vertex] = SkinVertex(vec4(positions[particles[labels[slot]]].xyz, 0.0), vec4(0.0, 1.0, 0.0, 0.0));
 }

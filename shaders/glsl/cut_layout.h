@@ -1,4 +1,6 @@
 // The part of layout.h, which alone includes it, that is about cuts.
+#include "pieces.h"
+
 // Bodies that may be cut. What the host says of a step with a blade: a strip of quads between two poly-lines, and a ray.
 struct BladeHead {
     vec4 low, high;  // box around all that cuts [m]
@@ -28,7 +30,11 @@ struct CutCounts {
     uint linksOfStep; // in the newest step with a blade
     uint pieces;
     uint missing;     // SurfaceState::missing
+    uint crumbs, crumbParticles; // pieces that were removed, and theirs
+    uint crumbMass;   // of those, in 1 / CRUMB_MASS of all that may be cut
+    uint unused0;
 };
+#define CRUMB_MASS 4294967040.0 // the largest float below 2^32
 
 // Where the links that a node owns were cut, of the seven that are edges of Kuhn's tetrahedra, in the order (1,0,0) (0,1,0)
 // (1,1,0) (0,0,1) (1,0,1) (0,1,1) (1,1,1): byte k % 4 of word k / 4, in 1/255 of the way from the node to the other end, from 5 to 250.
@@ -37,7 +43,6 @@ struct LinkHits {
     uint low, high;
 };
 
-#define NO_PARTICLE 0xffffffffu
 
 struct CutPush {
     uint first, count;           // slots
@@ -55,6 +60,13 @@ struct CutPush {
 struct CrumbPush {
     uint first, count;
     uint least;
+};
+
+// A triangle of a skin that is not clipped: its corners, where they stand among the indices, and how many particles they hang on.
+struct CrumbTriangle {
+    uint corners[3];
+    uint place;
+    uint first, count; // of the list of those
 };
 
 struct PiecesPush {

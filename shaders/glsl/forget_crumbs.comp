@@ -12,5 +12,5 @@ void main() {
     const uint item = itemIndex(push.count);
     if (item >= push.count) return;
     const uint particle = particles[push.first + item];
-    if (particle != NO_PARTICLE && pieces[particle] == NO_PARTICLE) sizes[particle] = 0u;
+    if (particle != NO_PARTICLE && pieces[particle] == REMOVED_PIECE) sizes[particle] = 0u;
 }

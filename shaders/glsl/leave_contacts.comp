@@ -13,7 +13,7 @@ void main() {
     const uint item = itemIndex(push.count);
     if (item >= push.count) return;
     const uint i = push.first + item, particle = particles[i];
-    if (particle == NO_PARTICLE || pieces[particle] != NO_PARTICLE || radii[i] < 0.0) return;
+    if (particle == NO_PARTICLE || pieces[particle] != REMOVED_PIECE || radii[i] < 0.0) return;
     radii[i] = -1.0;
     atomicMax(bounds.moved, 1u);
 }

@@ -1,6 +1,6 @@
 #version 460
-// Edges on a sheet of which the link is dead touch nothing, as edges with a radius below 0 do, and do again where links are given
-// back. Where links at one have changed, all lists are made again.
+// Edges on a sheet of which the link is dead, or the piece was removed, touch nothing, as edges with a radius below 0 do, and do
+// again where links are given back. Where links at one have changed, all lists are made again.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "link_masks.glsl"
@@ -11,6 +11,8 @@ layout(std430, binding = 2) readonly buffer CutEdges { CutEdge cutEdges[]; };
 layout(std430, binding = 3) readonly buffer Radii { float radii[]; };
 layout(std430, binding = 4) buffer Edges { ContactEdge edges[]; };
 layout(std430, binding = 5) buffer Bounds { GridBounds bounds; };
+layout(std430, binding = 6) readonly buffer Particles { uint particles[]; }; // of each slot
+layout(std430, binding = 7) readonly buffer Pieces { uint pieces[]; };
 layout(push_constant) uniform Push { CutFacesPush push; };
 
 void main() {
@@ -18,6 +20,7 @@ void main() {
     if (item >= push.count) return;
     const CutEdge edge = cutEdges[item];
     const int bit = bitTo(int(edge.way), 0u, push.sliceStride);
-    edges[edge.edge].radius = (links[edge.slot] >> bit & 1u) != 0u ? radii[edge.edge] : -1.0;
+    const bool isThere = (links[edge.slot] >> bit & 1u) != 0u && pieces[particles[edge.slot]] != REMOVED_PIECE;
+    edges[edge.edge].radius = isThere ? radii[edge.edge] : -1.0;
     if (links[edge.slot] != savedLinks[edge.slot] && bounds.moved == 0u) atomicMax(bounds.moved, 1u);
 }

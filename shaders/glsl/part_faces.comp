@@ -1,6 +1,6 @@
 #version 460
 // Faces on a sheet between corners that a cut has parted leave the list of those that look for points near them, and come back with
-// links that are given back. Where links around one have changed, all lists are made again.
+// links that are given back; faces of crumbs leave it too. Where links around one have changed, all lists are made again.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -10,6 +10,7 @@ layout(std430, binding = 2) readonly buffer Faces { CutFace faces[]; };
 layout(std430, binding = 3) writeonly buffer Searched { uint searched[]; }; // ~0 = none
 layout(std430, binding = 4) writeonly buffer Large { uint large[]; };       // likewise
 layout(std430, binding = 5) buffer Bounds { GridBounds bounds; };
+layout(std430, binding = 6) readonly buffer Radii { float radii[]; };       // below 0 = of a crumb
 layout(push_constant) uniform Push { CutFacesPush push; };
 #include "sheet_edges.glsl"
 
@@ -18,7 +19,7 @@ void main() {
     if (item >= push.count) return;
     const CutFace face = faces[item];
     const Cuts cuts = cutsOf(SheetTriangle(face.slot, face.kind));
-    const uint left = cuts.dead < 2u ? face.face : ~0u;
+    const uint left = cuts.dead < 2u && radii[face.slot] >= 0.0 ? face.face : ~0u;
     if (face.isLarge != 0u) large[face.place] = left;
     else searched[face.place] = left;
     bool isNew = false;

@@ -25,5 +25,5 @@ void main() {
     if (!isFirst) return;
     counts.linksOfStep = work.cut;
     counts.links += work.cut;
-    if (work.cut > 0u) counts.pieces = 0u;
+    if (work.cut > 0u) counts.pieces = counts.crumbs = counts.crumbParticles = counts.crumbMass = 0u;
 }

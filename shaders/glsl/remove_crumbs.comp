@@ -8,6 +8,7 @@ layout(std430, binding = 1) readonly buffer Particles { uint particles[]; };
 layout(std430, binding = 2) readonly buffer Sizes { uint sizes[]; };
 layout(std430, binding = 3) writeonly buffer Pieces { uint pieces[]; };
 layout(std430, binding = 4) buffer Counts { CutCounts counts; };
+layout(std430, binding = 5) readonly buffer Masses { uint masses[]; }; // of particles, as CutCounts::crumbMass
 layout(push_constant) uniform Push { CrumbPush push; };
 
 void main() {
@@ -17,6 +18,10 @@ void main() {
     if (particle == NO_PARTICLE) return;
     const uint piece = particles[labels[i]];
     if (sizes[piece] >= push.least) return;
-    pieces[particle] = NO_PARTICLE;
-    if (piece == particle) atomicAdd(counts.pieces, ~0u); // one less
+    pieces[particle] = REMOVED_PIECE;
+    atomicAdd(counts.crumbParticles, 1u);
+    atomicAdd(counts.crumbMass, masses[particle]);
+    if (piece != particle) return;
+    atomicAdd(counts.pieces, ~0u); // one less
+    atomicAdd(counts.crumbs, 1u);
 }

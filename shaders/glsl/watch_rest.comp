@@ -5,7 +5,7 @@
 #include "kernel.glsl"
 
 layout(std430, binding = 0) readonly buffer Weights { float weights[]; };      // inverse mass of what is awake [1/kg]
-layout(std430, binding = 1) readonly buffer Limits { float limits[]; };        // how far what rests may drift [m]
+layout(std430, binding = 1) readonly buffer Limits { float limits[]; };        // how far what rests may drift [m]; below 0 = it was removed and rests
 layout(std430, binding = 2) readonly buffer Positions { vec4 positions[]; };   // x + thetaH v
 layout(std430, binding = 3) readonly buffer Velocities { vec4 velocities[]; };
 layout(std140, binding = 4) uniform Step { StepParams step; };
@@ -23,6 +23,10 @@ void main() {
     islands[i] = components[i]; // of what never moves too: a piece may be named after that (part_islands)
     if (weights[i] == 0.0) return;
     const vec3 x = positions[i].xyz - step.thetaH * velocity.xyz;
+    if (limits[i] < 0.0) {
+        rests[i] = vec4(x, SLEEP_TIME);
+        return;
+    }
     const vec4 rest = rests[i];
     const bool isSlow = dot(velocity.xyz, velocity.xyz) <= SLEEP_SPEED * SLEEP_SPEED;
     const bool rests_ = rest.w >= 0.0 && isSlow && distance(x, rest.xyz) <= limits[i]; // below 0: it woke in this step

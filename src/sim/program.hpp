@@ -136,8 +136,11 @@ struct CuttingBuffers {
     std::vector<CutRun> runs; ///< what passes over slots that may be cut are dispatched for
     BufferId places;          ///< by slot: where particles were when the step began [m]
     BufferId counts;          ///< one layout::CutCounts
-    BufferId pieces;          ///< by particle: that which its piece is named after, or layout's NO_PARTICLE
-    BufferId pieceSizes;      ///< by particle: particles of the piece that is named after it, or 0
+    BufferId particles;       ///< by slot: which one is there, or layout's NO_PARTICLE
+    /// By particle: that which its piece is named after; layout's NO_PARTICLE where nothing may be cut, its
+    /// REMOVED_PIECE in a crumb.
+    BufferId pieces;
+    BufferId pieceSizes;            ///< by particle: particles of the piece that is named after it, or 0
     std::vector<BufferId> topology; ///< all that a copy of the cuts consists of
     /// Lists of links and bends that lose their stiffness: as they begin, but for what settling makes of
     /// them.
@@ -145,6 +148,7 @@ struct CuttingBuffers {
     /// Where everything was when contacts that cuts change were listed.
     std::vector<BufferId> contactsSeen;
     std::uint32_t crumbs = 0;              ///< Scene::crumbs, where some may be made; 0 = nothing is removed
+    double crumbUnit = 0;                  ///< of layout::CutCounts::crumbMass [kg]
     std::vector<ContactGrid> contactGrids; ///< that crumbs leave
 };
 

@@ -217,6 +217,11 @@ struct Body {
 struct CellEmbedding {
     std::array<std::uint32_t, 8> particles{};
     Vec3 weights; ///< local coordinates in the cell, each in [0, 1]
+    float share(std::size_t corner) const {
+        return ((corner & 1) != 0 ? weights.x : 1 - weights.x) *
+               ((corner & 2) != 0 ? weights.y : 1 - weights.y) *
+               ((corner & 4) != 0 ? weights.z : 1 - weights.z);
+    }
 };
 
 /// The visible triangle mesh a body carries. Its vertices either are particles (`particles`) or lie in
@@ -262,9 +267,9 @@ struct Scene {
     std::vector<DrivenBody> driven;
     std::vector<Face> faces;
     ContactSettings contacts;
-    /// Pieces of fewer particles than that, of bodies of voxels that may be cut, are removed as the step ends
-    /// whose cut has made them: nothing touches, draws or counts them any more. Their particles stay in the
-    /// state, as of no piece, with their mass, and move on under gravity, planes and colliders. An undo of
+    /// Pieces of fewer particles than that are removed as the step ends whose cut has made them: nothing
+    /// touches, holds, draws or counts them any more. Their particles stay in the state, as of no piece, with
+    /// their mass, and move on under gravity, planes and colliders, or sleep (Settings::sleeps). An undo of
     /// the cut brings them back. 0 = none.
     std::uint32_t crumbs = 0;
     std::vector<Body> bodies;

@@ -584,6 +584,9 @@ Status Simulation::status(std::uint64_t frame) const noexcept {
             .linksCut = state_->hasBlade[slot] ? counts.linksOfStep : 0,
             .linksCutInAll = counts.links,
             .pieces = counts.pieces,
+            .crumbs = counts.crumbs,
+            .crumbParticles = counts.crumbParticles,
+            .crumbMass = static_cast<float>(state_->program.cutting.crumbUnit * counts.crumbMass),
             .cutSurfaceMissing = counts.missing};
 }
 

@@ -115,6 +115,9 @@ struct Status {
     std::uint32_t linksCut = 0;
     std::uint32_t linksCutInAll = 0; ///< since the uncut bodies, or those of recordLoadTopology()
     std::uint32_t pieces = 0;        ///< of bodies that may be cut, single particles among them
+    std::uint32_t crumbs = 0;        ///< pieces that were removed (Scene::crumbs), which are not among those
+    std::uint32_t crumbParticles = 0;
+    float crumbMass = 0; ///< of those that are not without one for good [kg]
     /// Triangles and vertices that the surface of cuts needs, where that is more than there is room for; else
     /// 0. The surface is not drawn then, and skins are not clipped; nothing else is missing, and no step is
     /// undone. A simulation with more room (Settings::cutSurfaceRoom) that takes over draws it.
@@ -263,7 +266,8 @@ public:
     vk::BufferView positions() const noexcept;
     vk::BufferView velocities() const noexcept;
     /// Pieces of bodies that may be cut, as of the newest step: for each particle a uint32, the particle that
-    /// its piece is named after (one of them; 0xffffffff in other bodies), and for each particle the number
+    /// its piece is named after (one of them; 0xffffffff in other bodies, 0xfffffffe in pieces that were
+    /// removed, Scene::crumbs), and for each particle the number
     /// of particles of the piece that is named after it, 0 where none is. Empty views where no body may be
     /// cut.
     vk::BufferView pieces() const noexcept;

@@ -33,16 +33,21 @@ void downloadSheets(vk::Queue& queue, const sim::Simulation& simulation, Drawn& 
     }
 }
 
+void findThinned(const sim::Scene& scene, Drawn& drawn) {
+    std::size_t index = 0;
+    for (const sim::Skin& skin : scene.skins) {
+        bool isThinned = false;
+        for (std::size_t t = 0; t < skin.triangles.size(); ++t, index += 3)
+            isThinned = isThinned || drawn.skinIndices[index] == drawn.skinIndices[index + 1];
+        drawn.isThinned.push_back(isThinned);
+    }
+}
+
 class Walk {
 public:
     Walk(const sim::Scene& scene, std::size_t index, const Drawn& drawn,
          const std::function<void(const DrawnTriangle&)>& use)
         : skin_(scene.skins[index]), drawn_(drawn), use_(use) {
-        mayVanish_ = scene.crumbs > 0 && std::ranges::any_of(scene.grids, [&](const sim::Grid& grid) {
-                         const std::uint32_t first =
-                             skin_.particles.empty() ? skin_.cells[0].particles[0] : skin_.particles[0];
-                         return grid.isCuttable && first - grid.firstParticle < grid.node.size();
-                     });
         for (std::size_t s = 0; s < index; ++s) {
             firstVertex_ += static_cast<std::uint32_t>(scene.skins[s].vertexCount());
             firstIndex_ += 3 * scene.skins[s].triangles.size();
@@ -87,7 +92,7 @@ private:
     }
 
     void give(const DrawnTriangle& triangle) const {
-        if (!mayVanish_ || triangle.piece != NO_PARTICLE) use_(triangle); // crumbs are removed
+        if (triangle.piece != REMOVED_PIECE) use_(triangle);
     }
 
     static Corners cornersAt(const std::vector<std::uint32_t>& indices, std::size_t first) {
@@ -99,13 +104,12 @@ private:
         if (drawn_.pieces.empty()) return NO_PARTICLE;
         const std::uint32_t own = vertex - firstVertex_;
         if (!skin_.particles.empty()) return drawn_.pieces[skin_.particles[own]];
-        return drawn_.pieces[skin_.anchors.empty() ? skin_.cells[own].particles[0] : skin_.anchors[own]];
+        return skin_.anchors.empty() ? NO_PARTICLE : drawn_.pieces[skin_.anchors[own]]; // else it stretches
     }
 
     const sim::Skin& skin_;
     const Drawn& drawn_;
     const std::function<void(const DrawnTriangle&)>& use_;
-    bool mayVanish_ = false;
     std::uint32_t firstVertex_ = 0;
     std::size_t firstIndex_ = 0;
 };
@@ -118,8 +122,9 @@ Drawn downloadDrawn(vk::Queue& queue, const sim::Simulation& simulation, const s
     drawn.skinVertices = queue.download<sim::layout::SkinVertex>(simulation.skinVertices());
     downloadPieces(queue, simulation, scene, settings, drawn);
     const sim::CutSurface cut = simulation.cutSurface();
-    if (cut.vertices.size + simulation.pieceDraws().size == 0) return drawn;
+    if (drawn.pieces.empty() || scene.skins.empty()) return drawn;
     drawn.skinIndices = queue.download<std::uint32_t>(simulation.skinIndices());
+    findThinned(scene, drawn);
     if (simulation.pieceDraws().size > 0) downloadSheets(queue, simulation, drawn);
     if (cut.vertices.size == 0) return drawn;
     drawn.vertices = queue.download<sim::layout::SkinVertex>(cut.vertices);
@@ -135,6 +140,7 @@ void eachTriangle(const sim::Scene& scene, std::size_t index, const Drawn& drawn
 }
 
 bool isCut(std::size_t index, const Drawn& drawn) {
+    if (index < drawn.isThinned.size() && drawn.isThinned[index]) return true;
     if (index < drawn.pieceDraws.size() && drawn.pieceDraws[index].indexCount > 0) return true;
     const auto mine = static_cast<float>(index);
     return std::ranges::any_of(drawn.draws, [&](const sim::layout::DrawArguments& draw) {

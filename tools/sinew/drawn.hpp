@@ -20,6 +20,7 @@ struct Drawn {
     std::vector<std::uint32_t> sheetSlots; ///< by skin vertex: of those that sheets fall into, a slot
     std::vector<std::uint32_t> pieces;     ///< by particle, as Simulation::pieces()
     std::vector<std::uint32_t> slotPieces; ///< the same by slot of the solver's state
+    std::vector<bool> isThinned;           ///< by skin: triangles of it have shrunk to a point
 };
 
 /// `scene` and `settings` are those of `simulation`. Waits for `queue`.

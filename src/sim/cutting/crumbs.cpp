@@ -4,9 +4,12 @@
 
 #include "kernels.hpp"
 #include "sim/collision/hash_grid.hpp"
-#include "sim/surface/cut_surface.hpp"
+#include "sim/constraints/grab.hpp"
+#include "sim/cutting/crumb_skins.hpp"
+#include "sim/sleep.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sinew::sim::cutting {
 
@@ -14,72 +17,70 @@ namespace {
 
 namespace k = kernels;
 
-// Of each vertex of all skins the slot that it goes with, NO_PARTICLE where its skin is not clipped.
-std::vector<std::uint32_t> vertexSlots(const Scene& scene, const Cut& cut, const StateLayout& layout) {
-    std::vector<std::uint32_t> slots;
-    for (std::uint32_t s = 0; s < scene.skins.size(); ++s) {
-        const Skin& skin = scene.skins[s];
-        const std::vector<std::uint32_t>& particles = skin.particles.empty() ? skin.anchors : skin.particles;
-        const bool isClipped = std::ranges::find(cut.surface->skins, s) != cut.surface->skins.end();
-        for (std::size_t v = 0; v < skin.vertexCount(); ++v)
-            slots.push_back(isClipped ? layout.slot[particles[v]] : NO_PARTICLE);
+// Of particles that may be cut [kg]; what has none is fixed for good.
+std::vector<double> massesOf(const Scene& scene) {
+    std::vector<double> masses(scene.particles.size());
+    for (const Grid& grid : scene.grids) {
+        if (!grid.isCuttable) continue;
+        for (std::uint32_t i = grid.firstParticle; i < grid.firstParticle + grid.node.size(); ++i)
+            if (scene.particles[i].inverseMass > 0) masses[i] = 1 / double{scene.particles[i].inverseMass};
     }
-    return slots;
+    return masses;
 }
 
-void addHiding(ProgramBuilder& program, const Cut& cut, BufferId slots, std::uint32_t vertices) {
-    const StepProgram& built = program.program();
-    const CutSurfaceBuffers& drawn = built.cutSurface;
-    program.dispatch(
-        k::hideCrumbs, vertices,
-        {slots, cut.particles, cut.buffers.pieces, cut.labels, built.positions, built.skinVertices},
-        layout::CountPush{vertices});
-    const layout::SurfacePush& push = cut.surface->push;
-    program.dispatchIndirect(k::hideCrumbSurface,
-                             {cut.surface->arguments, push.runs + SURFACE_VERTICES, push.room},
-                             {slots, cut.particles, cut.buffers.pieces, cut.labels, built.positions,
-                              drawn.vertices, drawn.state, drawn.rest},
-                             layout::CountPush{push.room});
+BufferId uploadMasses(ProgramBuilder& program, const Scene& scene) {
+    const std::vector<double> masses = massesOf(scene);
+    double all = 0;
+    for (const double mass : masses) all += mass;
+    const double unit = all / CRUMB_MASS;
+    program.program().cutting.crumbUnit = unit;
+    std::vector<std::uint32_t> parts;
+    for (const double mass : masses)
+        parts.push_back(mass > 0 ? static_cast<std::uint32_t>(mass / unit) : 0); // the sum fits
+    return program.upload("crumbs.masses", parts);
+}
+
+void addToTopology(ProgramBuilder& program, BufferId buffer) {
+    program.program().cutting.topology.push_back(buffer);
+    program.carry(buffer, buffer);
 }
 
 } // namespace
 
-void addCrumbs(ProgramBuilder& program, const Scene& scene, const Cut& cut, const StateLayout& layout) {
-    const auto isLattice = [](const Run& run) { return run.push.rowStride > 0; };
-    if (scene.crumbs < 2 || std::ranges::none_of(cut.runs, isLattice)) return;
+void addCrumbs(ProgramBuilder& program, const Scene& scene, Cut& cut, const ParticleBuffers& particles) {
+    if (scene.crumbs < 2) return;
     program.program().cutting.crumbs = scene.crumbs;
-    if (!cut.surface) return;
-    const std::vector<std::uint32_t> slots = vertexSlots(scene, cut, layout);
-    const BufferId uploaded = program.upload("crumbs.vertex_slots", slots);
-    program.atSkin([&program, cut, uploaded, count = static_cast<std::uint32_t>(slots.size())] {
-        addHiding(program, cut, uploaded, count);
-    });
+    cut.crumbMasses = uploadMasses(program, scene);
+    cut.crumbSkins = addCrumbSkins(program, scene, cut, particles.layout);
+    if (particles.sleep) addToTopology(program, particles.sleep->limits);
 }
 
-void addCrumbRemoval(ProgramBuilder& program, const Cut& cut) {
+void addCrumbRemoval(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& particles) {
     const CuttingBuffers& buffers = program.program().cutting;
     if (buffers.crumbs == 0) return;
     const auto runs = static_cast<std::uint32_t>(cut.runs.size());
     const auto add = [&](const vk::ShaderCode& code, std::initializer_list<BufferId> bound) {
         for (std::uint32_t r = 0; r < runs; ++r) {
             const layout::CutPush& push = cut.runs[r].push;
-            if (push.rowStride == 0) continue; // a sheet
             program.dispatchIndirect(code, {cut.arguments, 2 * runs + r, push.count}, bound,
                                      layout::CrumbPush{push.first, push.count, buffers.crumbs});
         }
     };
-    add(k::removeCrumbs, {cut.labels, cut.particles, buffers.pieceSizes, buffers.pieces, buffers.counts});
+    add(k::removeCrumbs,
+        {cut.labels, cut.particles, buffers.pieceSizes, buffers.pieces, buffers.counts, cut.crumbMasses});
     add(k::forgetCrumbs, {cut.particles, buffers.pieces, buffers.pieceSizes});
     for (const ContactGrid& grid : buffers.contactGrids)
         add(k::leaveContacts, {cut.particles, buffers.pieces, grid.radii, grid.bounds});
+    if (particles.grabs) add(k::dropCrumbs, {cut.particles, buffers.pieces, particles.grabs->bodies});
+    if (particles.sleep) add(k::restCrumbs, {cut.particles, buffers.pieces, particles.sleep->limits});
+    addTriangleHiding(program, cut.crumbSkins);
 }
 
 void letCrumbsLeave(ProgramBuilder& program, BufferId radii, const collision::hash_grid::Grid& grid) {
     CuttingBuffers& buffers = program.program().cutting;
     if (buffers.crumbs == 0) return;
     buffers.contactGrids.push_back({radii, grid.bounds});
-    buffers.topology.push_back(radii);
-    program.carry(radii, radii);
+    addToTopology(program, radii);
     if (std::ranges::find(buffers.contactsSeen, grid.detected) == buffers.contactsSeen.end())
         buffers.contactsSeen.push_back(grid.detected);
 }

@@ -138,7 +138,7 @@ void addFindingPieces(ProgramBuilder& program, const Cut& cut, const ParticleBuf
     addIndirect(program, cut, k::countPieces, static_cast<std::uint32_t>(cut.runs.size()),
                 {cut.labels, cut.particles, buffers.pieces, buffers.pieceSizes, buffers.counts}, chunksOf);
     addParting(program, cut, particles);
-    addCrumbRemoval(program, cut);
+    addCrumbRemoval(program, cut, particles);
 }
 
 void addClosing(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& particles) {
@@ -163,7 +163,7 @@ void add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
     Cut cut = addBuffers(program, scene, settings, particles);
     if (cut.runs.empty()) return;
     cut.bladePlaces = cut.buffers.places;
-    addCrumbs(program, scene, cut, particles.layout);
+    addCrumbs(program, scene, cut, particles);
     program.beginPhase("cut");
     program.beginCut();
     addOpening(program, cut, particles);

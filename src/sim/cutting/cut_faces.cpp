@@ -124,9 +124,10 @@ void addFilter(ProgramBuilder& program, const collision::face_lists::Lists& list
     if (faces.empty()) return;
     makeTopology(program, lists.grid.detected, {lists.searched, lists.large});
     const CuttingBuffers& cutting = program.program().cutting;
-    std::vector<BufferId> buffers{cutting.links,  cutting.savedLinks, program.upload("cut.faces", faces),
-                                  lists.searched, lists.large,        lists.grid.bounds};
-    if (run.rowStride > 0) buffers.push_back(lists.radii);
+    const std::vector<BufferId> buffers{
+        cutting.links,  cutting.savedLinks, program.upload("cut.faces", faces),
+        lists.searched, lists.large,        lists.grid.bounds,
+        lists.radii};
     const layout::CutFacesPush push{static_cast<std::uint32_t>(faces.size()), run.sliceStride};
     addTwice(program,
              [&program, &code, buffers, push] { program.dispatch(code, push.count, buffers, push); });
@@ -154,10 +155,10 @@ void addEdgeFilter(ProgramBuilder& program, const collision::edge_contacts::Cont
         const BufferId uploaded = program.upload("cut.edges", edges);
         const layout::CutFacesPush push{static_cast<std::uint32_t>(edges.size()), run.sliceStride};
         addTwice(program, [&program, cutting, lists, uploaded, push] {
-            program.dispatch(
-                k::partEdges, push.count,
-                {cutting.links, cutting.savedLinks, uploaded, lists.radii, lists.edges, lists.grid.bounds},
-                push);
+            program.dispatch(k::partEdges, push.count,
+                             {cutting.links, cutting.savedLinks, uploaded, lists.radii, lists.edges,
+                              lists.grid.bounds, cutting.particles, cutting.pieces},
+                             push);
         });
     }
 }

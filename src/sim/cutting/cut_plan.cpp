@@ -137,14 +137,19 @@ void addPieces(ProgramBuilder& program, Cut& cut, Initial& initial, std::size_t 
     // one.
     cut.rounds = 2 * static_cast<std::uint32_t>(std::bit_width(initial.links.size())) + 2;
     cut.labels = program.upload("pieces.labels", pieces.labels);
-    cut.particles = program.upload("pieces.particles", initial.particles);
+    cut.particles = cut.buffers.particles = program.upload("pieces.particles", initial.particles);
     cut.groups = program.upload("pieces.groups", groups);
     cut.arguments = program.scratch<layout::DispatchArguments>("pieces.arguments", 4 * std::uint64_t{runs});
     cut.buffers.pieces = program.upload("pieces", pieces.ofParticles);
     cut.buffers.pieceSizes = program.upload("pieces.sizes", pieces.sizes);
-    cut.buffers.counts = program.upload(
-        "cut.counts",
-        std::vector{layout::CutCounts{.links = 0, .linksOfStep = 0, .pieces = pieces.count, .missing = 0}});
+    cut.buffers.counts = program.upload("cut.counts", std::vector{layout::CutCounts{.links = 0,
+                                                                                    .linksOfStep = 0,
+                                                                                    .pieces = pieces.count,
+                                                                                    .missing = 0,
+                                                                                    .crumbs = 0,
+                                                                                    .crumbParticles = 0,
+                                                                                    .crumbMass = 0,
+                                                                                    .unused0 = 0}});
 }
 
 void addLists(ProgramBuilder& program, Cut& cut, std::size_t slots) {

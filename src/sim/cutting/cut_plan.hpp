@@ -3,6 +3,7 @@
 
 #include "layout.h"
 #include "sim/compile.hpp"
+#include "sim/cutting/crumb_skins.hpp"
 
 namespace sinew::sim::surface {
 struct CutSurface;
@@ -29,9 +30,11 @@ struct Cut {
     BufferId bladePlaces; // by slot: where particles are for the blade, buffers.places but for some
     BufferId labels, particles, arguments, groups; // of pieces
     BufferId uncutBodies, weights;                 // likewise, where hands may hold some
-    std::shared_ptr<surface::CutSurface> surface;  // none where no skin is clipped
-    std::shared_ptr<surface::SheetPieces> sheets;  // likewise
-    std::shared_ptr<Tearing> tearing;              // likewise
+    BufferId crumbMasses;                          // by particle; where crumbs are removed
+    CrumbSkins crumbSkins;
+    std::shared_ptr<surface::CutSurface> surface; // none where no skin is clipped
+    std::shared_ptr<surface::SheetPieces> sheets; // likewise
+    std::shared_ptr<Tearing> tearing;             // likewise
     bool usesTexels = false;
     std::uint32_t rounds = 0;
 };

@@ -3,6 +3,7 @@
 #include "layout.h"
 #include "sim/bodies.hpp"
 #include "sim/compile.hpp"
+#include "sim/lattice/placement.hpp"
 #include "sim/scenes.hpp"
 #include "sim/surface/closed_surface.hpp"
 #include "sim/validate.hpp"
@@ -13,12 +14,14 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 using namespace sinew;
 using namespace sinew::sim;
 using Eigen::Vector3d;
 using test::ClosedSurface;
 using test::CutBody;
+using test::Runner;
 using test::sweepOf;
 
 namespace {
@@ -55,13 +58,52 @@ double drawnVolume(const ClosedSurface& surface) {
 
 std::size_t gone(const CutBody& body) {
     const auto pieces = body.pieces();
-    return static_cast<std::size_t>(
-        std::count(pieces.begin(), pieces.end() - 1, NO_PARTICLE)); // but the ball, which nothing may cut
+    return static_cast<std::size_t>(std::ranges::count(pieces, REMOVED_PIECE));
 }
 
 std::size_t counted(const CutBody& body) {
     const auto sizes = body.pieceSizes();
     return std::accumulate(sizes.begin(), sizes.end(), std::size_t{0});
+}
+
+// The particles that cornerCut() parts.
+std::vector<std::uint32_t> corner(const CutBody& body) {
+    return {body.particleAt(0, 0, 0), body.particleAt(1, 0, 0), body.particleAt(0, 1, 0),
+            body.particleAt(0, 0, 1)};
+}
+
+double massOf(const Scene& scene, const std::vector<std::uint32_t>& particles) {
+    double mass = 0;
+    for (const std::uint32_t i : particles) mass += 1 / double{scene.particles[i].inverseMass};
+    return mass;
+}
+
+Vector3d cornerMomentum(const CutBody& body, Runner& runner) {
+    const std::vector<Vector3d> velocities = runner.velocities();
+    Vector3d momentum = Vector3d::Zero();
+    for (const std::uint32_t i : corner(body))
+        momentum += velocities[i] / double{body.scene().particles[i].inverseMass};
+    return momentum;
+}
+
+// The skin of the cube in cells that are not said to be cut: it stretches.
+Scene stretchedCube(std::uint32_t crumbs) {
+    Scene scene = cube(crumbs);
+    const Grid& grid = scene.grids[0];
+    Skin& skin = scene.skins[0];
+    for (const std::uint32_t particle : std::exchange(skin.particles, {})) {
+        const auto node = lattice::coordinates(grid, grid.node[particle - grid.firstParticle]);
+        CellEmbedding& around = skin.cells.emplace_back();
+        std::array<std::uint32_t, 3> low{};
+        for (std::size_t axis = 0; axis < 3; ++axis) low[axis] = std::min(node[axis], grid.nodes[axis] - 2);
+        around.weights = {static_cast<float>(node[0] - low[0]), static_cast<float>(node[1] - low[1]),
+                          static_cast<float>(node[2] - low[2])};
+        for (std::uint32_t c = 0; c < 8; ++c)
+            around.particles[c] =
+                grid.firstParticle + (low[0] + (c & 1)) +
+                grid.nodes[0] * ((low[1] + (c >> 1 & 1)) + grid.nodes[1] * (low[2] + (c >> 2)));
+    }
+    return scene;
 }
 
 double ballSpeedAfter(CutBody& body, int steps) {
@@ -79,6 +121,9 @@ TEST(Crumbs, AreNoPiecesAnyMore) {
     EXPECT_EQ(status.linksCut, kept.runner().simulation().status(0).linksCut);
     EXPECT_EQ(gone(body), 4u);
     EXPECT_EQ(counted(body), 125u - 4);
+    EXPECT_EQ(status.crumbs, 1u);
+    EXPECT_EQ(status.crumbParticles, 4u);
+    EXPECT_NEAR(double{status.crumbMass} / massOf(body.scene(), corner(body)), 1, 1e-6);
     EXPECT_EQ(body.runner().stateHash(), kept.runner().stateHash()) << "masses and ways are what they were";
     // and stay none in steps that cut elsewhere, or find pieces smaller still
     EXPECT_EQ(body.cut(sweepOf({Vector3d(0.11, 0, 0), Vector3d(1, 0, 0)}, 1)).pieces, 2u);
@@ -133,6 +178,81 @@ TEST(Crumbs, TouchNothing) {
     EXPECT_GT(further, stopped + double{spacing} / 2);
 }
 
+// Triangles that nothing clips go with what any of their corners hangs on.
+TEST(Crumbs, TakeTheTrianglesOfASkinThatStretchesWithThem) {
+    for (const std::uint32_t crumbs : {0u, 5u}) {
+        CutBody body(stretchedCube(crumbs));
+        const auto shown = [&body] {
+            const auto indices =
+                test::queue().download<std::uint32_t>(body.runner().simulation().skinIndices());
+            std::vector<std::array<std::uint32_t, 3>> triangles;
+            for (std::size_t t = 0; t < indices.size(); t += 3)
+                if (indices[t] != indices[t + 1])
+                    triangles.push_back({indices[t], indices[t + 1], indices[t + 2]});
+            return triangles;
+        };
+        const vk::Buffer uncut = body.runner().saveTopology();
+        const auto all = body.scene().skins[0].triangles;
+        EXPECT_EQ(shown(), all);
+        body.cut(cornerCut());
+        auto left = all;
+        const Scene named = cube(0); // the same vertices, by particle
+        const std::vector<std::uint32_t> removed = corner(body);
+        if (crumbs > 0)
+            std::erase_if(left, [&](const auto& triangle) {
+                return std::ranges::any_of(triangle, [&](std::uint32_t vertex) {
+                    return std::ranges::count(removed, named.skins[0].particles[vertex]) > 0;
+                });
+            });
+        EXPECT_EQ(shown(), left);
+        EXPECT_EQ(left.size() < all.size(), crumbs > 0);
+        body.runner().loadTopology(uncut);
+        EXPECT_EQ(shown(), all);
+    }
+}
+
+TEST(Crumbs, AreHeldByNoHand) {
+    for (const bool isHeldBefore : {false, true})
+        for (const std::uint32_t crumbs : {0u, 5u}) {
+            CutBody body(cube(crumbs), {.substeps = 2, .grabs = 1});
+            Runner& runner = body.runner();
+            const Grab grab{.particle = body.particleAt(0, 0, 0), .radius = 0.06f, .target = {0, -1, 0}};
+            const std::span<const Grab> grabs = isHeldBefore ? std::span(&grab, 1) : std::span<const Grab>{};
+            const test::Sweep sweep = cornerCut();
+            runner.step({.dt = 1.0f / 60, .gravity = {}, .grabs = grabs});
+            runner.step({.dt = 1.0f / 60, .gravity = {}, .grabs = grabs, .blade = sweep.blade()});
+            const Vector3d before = cornerMomentum(body, runner);
+            runner.step({.dt = 1.0f / 60, .gravity = {}, .grabs = std::span(&grab, 1)});
+            Grab pulled = grab;
+            pulled.target = {0, -2, 0};
+            for (int step = 0; step < 3; ++step)
+                runner.step({.dt = 1.0f / 60, .gravity = {}, .grabs = std::span(&pulled, 1)});
+            const double gained = (cornerMomentum(body, runner) - before).norm();
+            const double some = 0.1 * massOf(body.scene(), corner(body)); // at 0.1 m/s
+            if (crumbs > 0)
+                EXPECT_LT(gained, 1e-5 * some);
+            else
+                EXPECT_GT(gained, some);
+        }
+}
+
+// They fall for ever, with nothing below, and cost nothing soon.
+TEST(Crumbs, Sleep) {
+    for (const std::uint32_t crumbs : {0u, 5u}) {
+        Scene scene = cube(crumbs);
+        scene.gravity = {0, -9.81f, 0};
+        const std::vector<std::uint32_t> loose = corner(CutBody(scene));
+        for (std::uint32_t i = 0; i < scene.particles.size(); ++i)
+            if (std::ranges::count(loose, i) == 0) scene.fixed.push_back({i});
+        CutBody body(scene, {.substeps = 2, .sleeps = true});
+        const vk::Buffer uncut = body.runner().saveTopology();
+        body.cut(cornerCut());
+        EXPECT_EQ(body.runner().run(60).sleeping, crumbs > 0 ? 4u : 0u);
+        body.runner().loadTopology(uncut);
+        EXPECT_EQ(body.runner().run(2).sleeping, 0u) << "and are pulled back";
+    }
+}
+
 TEST(Crumbs, ComeBackWithTheTopology) {
     CutBody body(cube(5));
     const vk::Buffer uncut = body.runner().saveTopology();
@@ -143,6 +263,7 @@ TEST(Crumbs, ComeBackWithTheTopology) {
     EXPECT_EQ(body.words(), words);
     EXPECT_EQ(gone(body), 0u);
     EXPECT_EQ(counted(body), 125u);
+    EXPECT_EQ(body.runner().run(1).crumbs, 0u);
     EXPECT_NEAR(drawnVolume(ClosedSurface(body)) / (64 * cell), 1, 1e-3);
     EXPECT_LT(ballSpeedAfter(body, 3), 0.9 * std::sqrt(3) * double{ballSpeed}) << "and touch again";
 }

@@ -1,0 +1,13 @@
+#version 460
+// So does what the skin of a sheet falls into.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "crumbs.glsl"
+layout(std430, binding = 6) readonly buffer State { SheetState state; };
+layout(std430, binding = 7) readonly buffer SheetVertices { SheetVertex sheetVertices[]; };
+layout(push_constant) uniform Push { SheetSkinPush push; };
+
+void main() {
+    const uint count = min(push.vertexRoom, state.vertices), i = itemIndex(count);
+    if (i < count) hide(push.firstVertex + i, sheetVertices[i].a);
+}
