@@ -163,13 +163,13 @@ Balls::Balls(const vk::Device& device, const BallList& list) : device_(device), 
     indexCount_ = static_cast<std::uint32_t>(3 * ball.triangles.size());
 }
 
-void Balls::bind(VkCommandBuffer commands, const vk::BufferView& positions,
+void Balls::bind(VkCommandBuffer commands, const vk::BufferView& positions, const vk::BufferView& removed,
                  const vk::BufferView& values) const noexcept {
     const vk::BufferView corners = buffers_[0].view(), radii = buffers_[1].view(),
                          indices = buffers_[2].view();
-    const std::array buffers{corners.buffer, positions.buffer, radii.buffer, values.buffer};
-    const std::array offsets{corners.offset, positions.offset, radii.offset, values.offset};
-    const std::uint32_t count = values.size > 0 ? 4 : 3;
+    const std::array buffers{corners.buffer, positions.buffer, removed.buffer, radii.buffer, values.buffer};
+    const std::array offsets{corners.offset, positions.offset, removed.offset, radii.offset, values.offset};
+    const std::uint32_t count = values.size > 0 ? 5 : 4;
     const vk::DeviceFunctions& functions = device_.functions();
     functions.vkCmdBindVertexBuffers(commands, 0, count, buffers.data(), offsets.data());
     functions.vkCmdBindIndexBuffer(commands, indices.buffer, indices.offset, VK_INDEX_TYPE_UINT32);

@@ -38,9 +38,9 @@ public:
     Balls(const vk::Device& device, const BallList& list);
 
     const std::vector<BallRange>& ranges() const noexcept { return ranges_; }
-    /// Binds vertices (binding 0), positions (1) and radii (2), and indices; values of particles (3) unless
-    /// that is empty. Only where there are ranges().
-    void bind(VkCommandBuffer commands, const vk::BufferView& positions,
+    /// Binds vertices (binding 0), positions (1), removedParticles() (2) and radii (3), and indices; values
+    /// of particles (4) unless that is empty. Only where there are ranges().
+    void bind(VkCommandBuffer commands, const vk::BufferView& positions, const vk::BufferView& removed,
               const vk::BufferView& values = {}) const noexcept;
     void draw(VkCommandBuffer commands, const BallRange& range) const noexcept;
 

@@ -6,6 +6,7 @@
 #include "sim/compile.hpp"
 #include "viewer/draw/balls.hpp"
 #include "viewer/draw/mesh_buffer.hpp"
+#include "viewer/draw/removed.hpp"
 #include "viewer/draw/value_maps.hpp"
 #include "viewer_shaders.hpp"
 
@@ -103,12 +104,12 @@ vk::BindingSets ContactMarks::bindingSets() const {
         {&kernel_,
          {simulation_.positions(), particles_.view(), bySlot_.view(), walls_.view(), viewOf(lists.pairs, 8),
           viewOf(lists.pairCounts, 4), viewOf(lists.faces, 16), viewOf(lists.facePairs, 8),
-          viewOf(lists.faceCounts, 4), marks_.view(), draw_.view()}}};
+          viewOf(lists.faceCounts, 4), marks_.view(), draw_.view(), removedParticles(simulation_)}}};
     if (push_.edges > 0)
         requests.push_back({&ofEdges_,
                             {simulation_.positions(), bySlot_.view(), simulation_.view(lists.edges),
                              simulation_.view(lists.edgePairs), simulation_.view(lists.edgeCounts),
-                             marks_.view(), draw_.view()}});
+                             marks_.view(), draw_.view(), removedParticles(simulation_)}});
     return {device_, requests};
 }
 

@@ -43,24 +43,29 @@ HandMesh::HandMesh(const vk::Device& device, const Shape& shape)
           filledBuffer(device, "hand.indices", makeMesh(shape).triangles, VK_BUFFER_USAGE_INDEX_BUFFER_BIT)),
       indexCount_(static_cast<std::uint32_t>(3 * indices_.count())) {}
 
-void HandMesh::draw(VkCommandBuffer commands, const vk::BufferView& points,
+void HandMesh::draw(VkCommandBuffer commands, const vk::BufferView& points, const vk::BufferView& removed,
                     std::uint32_t first) const noexcept {
-    bind(commands, points);
+    bind(commands, std::array{points, removed});
     device_.functions().vkCmdDrawIndexed(commands, indexCount_, 1, 0, 0, first);
 }
 
 void HandMesh::drawIndirect(VkCommandBuffer commands, const vk::BufferView& points,
                             const vk::BufferView& draw) const noexcept {
-    bind(commands, points);
+    bind(commands, std::array{points});
     device_.functions().vkCmdDrawIndexedIndirect(commands, draw.buffer, draw.offset, 1, draw.stride);
 }
 
-void HandMesh::bind(VkCommandBuffer commands, const vk::BufferView& points) const noexcept {
+void HandMesh::bind(VkCommandBuffer commands, std::span<const vk::BufferView> ofInstances) const noexcept {
     const vk::BufferView vertices = vertices_.view(), indices = indices_.view();
-    const std::array buffers{vertices.buffer, points.buffer};
-    const std::array offsets{vertices.offset, points.offset};
+    std::array buffers{vertices.buffer, vertices.buffer, vertices.buffer};
+    std::array offsets{vertices.offset, vertices.offset, vertices.offset};
+    for (std::size_t i = 0; i < ofInstances.size(); ++i) {
+        buffers[i + 1] = ofInstances[i].buffer;
+        offsets[i + 1] = ofInstances[i].offset;
+    }
     const vk::DeviceFunctions& functions = device_.functions();
-    functions.vkCmdBindVertexBuffers(commands, 0, buffers.size(), buffers.data(), offsets.data());
+    functions.vkCmdBindVertexBuffers(commands, 0, static_cast<std::uint32_t>(1 + ofInstances.size()),
+                                     buffers.data(), offsets.data());
     functions.vkCmdBindIndexBuffer(commands, indices.buffer, indices.offset, VK_INDEX_TYPE_UINT32);
 }
 

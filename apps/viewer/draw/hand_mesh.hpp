@@ -38,15 +38,17 @@ public:
     HandMesh(const vk::Device& device, const Shape& shape);
 
     /// A rope from element `first` of `points` (vec4: the public positions, or a stroke) and a ball, as the
-    /// push constants of the caller say; the pipeline must be bound.
-    void draw(VkCommandBuffer commands, const vk::BufferView& points, std::uint32_t first) const noexcept;
+    /// push constants of the caller say; the pipeline must be bound. No rope where `removed` says so of the
+    /// element.
+    void draw(VkCommandBuffer commands, const vk::BufferView& points, const vk::BufferView& removed,
+              std::uint32_t first) const noexcept;
     /// One for each of `points`, as the device says (VkDrawIndexedIndirectCommand, of indexCount() indices).
     void drawIndirect(VkCommandBuffer commands, const vk::BufferView& points,
                       const vk::BufferView& draw) const noexcept;
     std::uint32_t indexCount() const noexcept { return indexCount_; }
 
 private:
-    void bind(VkCommandBuffer commands, const vk::BufferView& points) const noexcept;
+    void bind(VkCommandBuffer commands, std::span<const vk::BufferView> ofInstances) const noexcept;
 
     const vk::Device& device_;
     vk::Buffer vertices_, indices_;

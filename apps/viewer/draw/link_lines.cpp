@@ -5,6 +5,7 @@
 #include "sim/coloring.hpp"
 #include "sim/compile.hpp"
 #include "viewer/draw/mesh_buffer.hpp"
+#include "viewer/draw/removed.hpp"
 #include "viewer/draw/value_maps.hpp"
 #include "viewer_shaders.hpp"
 
@@ -98,8 +99,9 @@ LinkLines::LinkLines(const vk::Device& device, const sim::Scene& scene, const si
 
 vk::BindingSets LinkLines::bindingSets(const sim::Simulation& simulation) const {
     const vk::BufferView alive = simulation.view(simulation.program().cutting.links);
-    const std::array requests{vk::BindingRequest{
-        &live_, {links_.view(), alive.size > 0 ? alive : noWords_.view(), indices_.view()}}};
+    const std::array requests{vk::BindingRequest{&live_,
+                                                 {links_.view(), alive.size > 0 ? alive : noWords_.view(),
+                                                  indices_.view(), removedParticles(simulation)}}};
     return {device_, requests};
 }
 

@@ -51,10 +51,12 @@ constexpr std::array skinAttributes{
 constexpr std::array ballBindings{
     VkVertexInputBindingDescription{0, sizeof(sim::layout::vec4), VK_VERTEX_INPUT_RATE_VERTEX},
     VkVertexInputBindingDescription{1, sizeof(sim::layout::vec4), VK_VERTEX_INPUT_RATE_INSTANCE},
-    VkVertexInputBindingDescription{2, sizeof(float), VK_VERTEX_INPUT_RATE_INSTANCE}};
+    VkVertexInputBindingDescription{2, sizeof(std::uint32_t), VK_VERTEX_INPUT_RATE_INSTANCE},
+    VkVertexInputBindingDescription{3, sizeof(float), VK_VERTEX_INPUT_RATE_INSTANCE}};
 constexpr std::array ballAttributes{VkVertexInputAttributeDescription{0, 0, VK_FORMAT_R32G32B32A32_SFLOAT, 0},
                                     VkVertexInputAttributeDescription{1, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 0},
-                                    VkVertexInputAttributeDescription{2, 2, VK_FORMAT_R32_SFLOAT, 0}};
+                                    VkVertexInputAttributeDescription{4, 2, VK_FORMAT_R32_UINT, 0},
+                                    VkVertexInputAttributeDescription{2, 3, VK_FORMAT_R32_SFLOAT, 0}};
 
 constexpr std::array cutBindings{
     skinBinding,
@@ -72,10 +74,10 @@ constexpr VkVertexInputAttributeDescription valueAttribute(std::uint32_t binding
 }
 constexpr std::array skinValueBindings{skinBinding, valueBinding(1, VK_VERTEX_INPUT_RATE_VERTEX)};
 constexpr std::array skinValueAttributes{skinAttributes[0], skinAttributes[1], valueAttribute(1)};
-constexpr std::array ballValueBindings{ballBindings[0], ballBindings[1], ballBindings[2],
-                                       valueBinding(3, VK_VERTEX_INPUT_RATE_INSTANCE)};
+constexpr std::array ballValueBindings{ballBindings[0], ballBindings[1], ballBindings[2], ballBindings[3],
+                                       valueBinding(4, VK_VERTEX_INPUT_RATE_INSTANCE)};
 constexpr std::array ballValueAttributes{ballAttributes[0], ballAttributes[1], ballAttributes[2],
-                                         valueAttribute(3)};
+                                         ballAttributes[3], valueAttribute(4)};
 constexpr std::array cutValueBindings{cutBindings[0], cutBindings[1],
                                       valueBinding(2, VK_VERTEX_INPUT_RATE_VERTEX)};
 constexpr std::array cutValueAttributes{cutAttributes[0], cutAttributes[1], valueAttribute(2)};
@@ -105,7 +107,7 @@ constexpr std::array vertexForms{VertexForm{},
                                  VertexForm{{&skinBinding, 1}, {skinAttributes.data(), 1}},
                                  VertexForm{{&skinBinding, 1}, skinAttributes},
                                  VertexForm{ballBindings, ballAttributes},
-                                 VertexForm{{ballBindings.data(), 2}, {ballAttributes.data(), 2}},
+                                 VertexForm{{ballBindings.data(), 3}, {ballAttributes.data(), 3}},
                                  VertexForm{cutBindings, cutAttributes},
                                  VertexForm{panelBindings, panelAttributes},
                                  VertexForm{skinValueBindings, skinValueAttributes},

@@ -21,11 +21,11 @@ struct PipelineRequest {
     VkPipelineLayout layout = VK_NULL_HANDLE;
     VkRenderPass pass = VK_NULL_HANDLE;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
-    /// Of SkinVertex, binding 0; or corners of a ball, and its place and radius an instance, bindings 0 to 2;
-    /// of a hand those without a radius. Of a cut SkinVertex and CutVertex, bindings 0 and 1. Of panels
-    /// PanelVertex. With a value (float) at location 3: skins at binding 1, balls an instance at 3, cuts
-    /// at 2. Of a mark corners as of a hand, and ContactMark an instance, bindings 0 and 1. Of
-    /// particles positions.
+    /// Of SkinVertex, binding 0; or corners of a ball, and an instance its place, its piece at location 4,
+    /// and its radius, bindings 0 to 3; of a hand those without a radius. Of a cut SkinVertex and CutVertex,
+    /// bindings 0 and 1. Of panels PanelVertex. With a value (float) at location 3: skins at binding 1, balls
+    /// an instance at 4, cuts at 2. Of a mark corners as of a hand, and ContactMark an instance, bindings 0
+    /// and 1. Of particles positions.
     enum class Input {
         none,
         positions,

@@ -1,6 +1,8 @@
 // Draws of what there is in a scene, with the pipeline that is asked for.
 #include "viewer/draw/renderer.hpp"
 
+#include "viewer/draw/removed.hpp"
+
 #include <algorithm>
 
 namespace sinew::viewer {
@@ -129,7 +131,8 @@ void Renderer::drawBalls(VkCommandBuffer commands, std::size_t pipeline, const s
     if (balls.ranges().empty() || !has(pipeline)) return;
     const bool isMap = pipeline % pipelineCount == ballValuesPipeline || pipeline == ballValuesCountPipeline;
     bind(commands, pipeline);
-    balls.bind(commands, simulation.positions(), isMap ? overlay.buffers.particles : vk::BufferView{});
+    balls.bind(commands, simulation.positions(), removedParticles(simulation),
+               isMap ? overlay.buffers.particles : vk::BufferView{});
     for (const BallRange& range : balls.ranges()) {
         push(commands, isMap ? sim::Vec3{overlay.buffers.range} : range.color, ballGloss, {});
         balls.draw(commands, range);
@@ -143,7 +146,7 @@ void Renderer::drawHand(VkCommandBuffer commands, const sim::Simulation& simulat
     push(commands, {{color.x, color.y, color.z, ballGloss},
                     {at.x(), at.y(), at.z(), 0.02f * light_.radius()},
                     {held.x(), held.y(), held.z(), ball}});
-    hand_.draw(commands, simulation.positions(), hand.particle);
+    hand_.draw(commands, simulation.positions(), removedParticles(simulation), hand.particle);
 }
 
 // Both draws come from the device, which alone knows how much there is.
@@ -179,7 +182,7 @@ void Renderer::drawStroke(VkCommandBuffer commands, std::span<const Vector3> str
         push(commands, {{color.x, color.y, color.z, ballGloss},
                         {to.x(), to.y(), to.z(), 0.008f * light_.radius()},
                         {0, 0, 0, 0.3f}});
-        hand_.draw(commands, strokes_.view(), static_cast<std::uint32_t>(first + i));
+        hand_.draw(commands, strokes_.view(), strokes_.view(), static_cast<std::uint32_t>(first + i));
     }
 }
 

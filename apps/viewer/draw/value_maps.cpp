@@ -5,6 +5,7 @@
 #include "sim/compile.hpp"
 #include "sim/lattice/link_masks.hpp"
 #include "viewer/draw/mesh_buffer.hpp"
+#include "viewer/draw/removed.hpp"
 #include "viewer_shaders.hpp"
 
 #include <algorithm>
@@ -128,9 +129,7 @@ std::vector<layout::ValueHolders> skinHolders(const sim::Scene& scene) {
             std::array<float, 8> shares{};
             layout::ValueHolders held{};
             for (std::size_t k = 0; k < 8; ++k) {
-                const sim::Vec3& t = cell.weights;
-                shares[k] = ((k & 1) != 0 ? t.x : 1 - t.x) * ((k & 2) != 0 ? t.y : 1 - t.y) *
-                            ((k & 4) != 0 ? t.z : 1 - t.z);
+                shares[k] = cell.share(k);
                 held.particles[k] = cell.particles[k];
             }
             held.low = {shares[0], shares[1], shares[2], shares[3]};
@@ -207,12 +206,14 @@ ValueMaps::ValueMaps(const vk::Device& device, const Tables& tables, const sim::
 
 vk::BindingSets ValueMaps::bindingSets(const sim::Simulation& simulation) const {
     const vk::BufferView alive = simulation.view(simulation.program().cutting.links);
-    const vk::BufferView places = simulation.positions(), values = values_.view(), spread = spread_.view();
+    const vk::BufferView places = simulation.positions(), values = values_.view(), spread = spread_.view(),
+                         removed = removedParticles(simulation);
     std::vector<vk::BindingRequest> requests{
         {&strain_,
-         {places, linksOf_.view(), links_.view(), alive.size > 0 ? alive : noLinks_.view(), values, spread}},
-        {&speed_, {hasSpeeds_ ? simulation.velocities() : places, values, spread}},
-        {&sleep_, {places, inverseMasses_.view(), values, spread}}};
+         {places, linksOf_.view(), links_.view(), alive.size > 0 ? alive : noLinks_.view(), values, spread,
+          removed}},
+        {&speed_, {hasSpeeds_ ? simulation.velocities() : places, values, spread, removed}},
+        {&sleep_, {places, inverseMasses_.view(), values, spread, removed}}};
     if (heldVertices_ > 0) requests.push_back({&skin_, {values, holders_.view(), skinValues_.view()}});
     if (cutVertices_ > 0)
         requests.push_back({&cut_,

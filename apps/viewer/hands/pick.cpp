@@ -86,7 +86,8 @@ void addBody(const sim::Scene& scene, const sim::Skin& skin, std::vector<std::ui
 class SkinPicker {
 public:
     SkinPicker(const sim::Scene& scene, const Ray& ray, const SeenState& state, const Seen& seen)
-        : scene_(scene), ray_(ray), state_(state), seen_(seen), windings_(scene.skins.size()) {}
+        : scene_(scene), ray_(ray), state_(state), seen_(seen), windings_(scene.skins.size()),
+          hasCrumbs_(std::ranges::count(state.pieces, REMOVED_PIECE) > 0) {}
 
     void look(Nearest& nearest) {
         Place place;
@@ -124,10 +125,24 @@ private:
         const std::uint32_t own = place.areOfAll ? place.firstVertex : 0, all = place.firstVertex - own;
         for (const auto& [a, b, c] : triangles) {
             const auto corner = [&](std::uint32_t i) { return placeOf(state_.vertices[all + i].position); };
+            if (isGone(scene_.skins[place.skin], {a - own, b - own, c - own})) continue;
             if (meets(place.skin, corner(a), corner(b), corner(c), nearest))
                 addHolders(scene_.skins[place.skin], {a - own, b - own, c - own}, state_.cuts.has_value(),
                            nearest.holders);
         }
+    }
+
+    // One that stretches over cuts goes with whatever it hangs on (sim/cutting/crumb_skins); all others have
+    // shrunk to a point.
+    bool isGone(const sim::Skin& skin, const SeenCuts::Triangle& triangle) const {
+        if (!hasCrumbs_) return false;
+        return std::ranges::any_of(triangle, [&](std::uint32_t corner) {
+            if (skin.cells.empty()) return isRemoved(state_.pieces, skin.particles[corner]);
+            const sim::CellEmbedding& cell = skin.cells[corner];
+            for (std::size_t k = 0; k < cell.particles.size(); ++k)
+                if (cell.share(k) > 0 && isRemoved(state_.pieces, cell.particles[k])) return true;
+            return false;
+        });
     }
 
     void lookAtCuts(const SeenCuts& cuts, Nearest& nearest) {
@@ -177,18 +192,24 @@ private:
     const SeenState& state_;
     const Seen& seen_;
     std::vector<int> windings_; // by skin, around where the ray enters what is left
+    bool hasCrumbs_;
 };
 
-void lookAtBalls(const BallList& balls, const Ray& ray, std::span<const sim::layout::vec4> positions,
-                 const Seen& seen, Nearest& nearest) {
+void lookAtBalls(const BallList& balls, const Ray& ray, const SeenState& state, const Seen& seen,
+                 Nearest& nearest) {
     for (const BallRange& range : balls.ranges)
         for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
-            const float distance = meetsBall(ray, placeOf(positions[i]), balls.radii[i], seen);
+            if (isRemoved(state.pieces, i)) continue;
+            const float distance = meetsBall(ray, placeOf(state.positions[i]), balls.radii[i], seen);
             if (distance < nearest.distance) nearest = {distance, {i}};
         }
 }
 
 } // namespace
+
+bool isRemoved(std::span<const std::uint32_t> pieces, std::uint32_t particle) {
+    return !pieces.empty() && pieces[particle] == REMOVED_PIECE;
+}
 
 std::optional<Pick> pick(const sim::Scene& scene, const BallList& balls, const Ray& ray,
                          const SeenState& state, Among among, const std::optional<Opened>& opened) {
@@ -199,13 +220,14 @@ std::optional<Pick> pick(const sim::Scene& scene, const BallList& balls, const R
         skins.look(nearest);
         if (seen.isOpened && seen.from != none) skins.lookInside(opened->isClosed, nearest);
     }
-    lookAtBalls(balls, ray, state.positions, seen, nearest);
+    lookAtBalls(balls, ray, state, seen, nearest);
     if (nearest.distance == none) return std::nullopt;
     const Vector3 point = ray.origin + nearest.distance * ray.direction;
     if (among == Among::moving) {
         const std::vector<float> inverseMass = sim::inverseMasses(scene);
         std::erase_if(nearest.holders, [&](std::uint32_t i) { return inverseMass[i] == 0; });
     }
+    std::erase_if(nearest.holders, [&](std::uint32_t i) { return isRemoved(state.pieces, i); });
     if (nearest.holders.empty()) return std::nullopt;
     const auto apart = [&](std::uint32_t i) { return (placeOf(state.positions[i]) - point).squaredNorm(); };
     const std::uint32_t particle =

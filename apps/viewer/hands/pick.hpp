@@ -53,7 +53,12 @@ struct SeenState {
     std::span<const sim::layout::SkinVertex> vertices; ///< of all skins
     bool isWhole = false;                              ///< sim::Simulation::DrawnSkins::areWhole
     std::optional<SeenCuts> cuts{};                    ///< nothing where nothing is cut
+    /// Of every particle, sim::Simulation::pieces(); empty where nothing can be cut.
+    std::span<const std::uint32_t> pieces{};
 };
+
+/// Whether it is part of a crumb, of which nothing is seen.
+bool isRemoved(std::span<const std::uint32_t> pieces, std::uint32_t particle);
 
 /// Nothing where the ray meets no body, or only what is not asked for. Of a section, what is cut away is not
 /// met, the inside that it has laid open is. The particle is one of those that what is met hangs on, on its

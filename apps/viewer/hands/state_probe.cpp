@@ -19,10 +19,12 @@ vk::Buffer readback(const vk::Device& device, const std::string& name, const vk:
 StateProbe::StateProbe(const vk::Device& device, const sim::Scene& scene, const sim::Simulation& simulation)
     : device_(device), simulation_(simulation), particles_(simulation.program().particleCount),
       positions_{simulation.positions(), readback(device, "probe.positions", simulation.positions())} {
-    const vk::BufferView velocities = simulation.velocities(), vertices = simulation.skinVertices();
+    const vk::BufferView velocities = simulation.velocities(), vertices = simulation.skinVertices(),
+                         pieces = simulation.pieces();
     if (velocities.size > 0)
         velocities_.emplace(Copy{velocities, readback(device, "probe.velocities", velocities)});
     if (vertices.size > 0) vertices_.emplace(Copy{vertices, readback(device, "probe.vertices", vertices)});
+    if (pieces.size > 0) pieces_.emplace(Copy{pieces, readback(device, "probe.pieces", pieces)});
     if (simulation.cutSurface().vertices.size > 0) cuts_.emplace(device, scene, simulation);
 }
 
@@ -30,6 +32,7 @@ void StateProbe::record(VkCommandBuffer handle) noexcept {
     isWhole_ = simulation_.drawnSkins().areWhole;
     vk::Commands commands(device_, handle);
     commands.copy(positions_.from, positions_.to.view());
+    if (pieces_) commands.copy(pieces_->from, pieces_->to.view());
     if (vertices_) {
         commands.barrier();
         commands.copy(vertices_->from, vertices_->to.view());
@@ -51,7 +54,9 @@ Box StateProbe::bounds() const {
 
 Box StateProbe::bounds(const sim::Body& body) const {
     Box box;
-    for (const sim::layout::vec4& place : positions().subspan(body.firstParticle, body.particleCount)) {
+    for (std::uint32_t i = body.firstParticle; i < body.firstParticle + body.particleCount; ++i) {
+        if (isRemoved(pieces(), i)) continue;
+        const sim::layout::vec4& place = positions()[i];
         const Vector3 position(place.x, place.y, place.z);
         if (position.allFinite()) box.extend(position);
     }
@@ -62,13 +67,18 @@ std::span<const sim::layout::vec4> StateProbe::positions() const noexcept {
     return {reinterpret_cast<const sim::layout::vec4*>(positions_.to.mapped()), particles_};
 }
 
+std::span<const std::uint32_t> StateProbe::pieces() const noexcept {
+    if (!pieces_) return {};
+    return {reinterpret_cast<const std::uint32_t*>(pieces_->to.mapped()), particles_};
+}
+
 std::span<const sim::layout::vec4> StateProbe::velocities() const noexcept {
     if (!velocities_) return {};
     return {reinterpret_cast<const sim::layout::vec4*>(velocities_->to.mapped()), particles_};
 }
 
 SeenState StateProbe::seen() const noexcept {
-    SeenState seen{.positions = positions(), .vertices = {}, .isWhole = isWhole_};
+    SeenState seen{.positions = positions(), .vertices = {}, .isWhole = isWhole_, .pieces = pieces()};
     if (cuts_) seen.cuts = cuts_->seen();
     if (vertices_)
         seen.vertices = {reinterpret_cast<const sim::layout::SkinVertex*>(vertices_->to.mapped()),

@@ -23,8 +23,8 @@ public:
     /// After recordSkin() of the simulation, if there are skins.
     void record(VkCommandBuffer commands) noexcept;
 
-    /// The box around all finite positions [m]; empty where there is none. Of this and what follows, the
-    /// recorded frame must have finished.
+    /// The box around all finite positions of what is there [m]; empty where there is none. Of this and what
+    /// follows, the recorded frame must have finished.
     Box bounds() const;
     /// The same of one body.
     Box bounds(const sim::Body& body) const;
@@ -32,6 +32,8 @@ public:
     std::span<const sim::layout::vec4> positions() const noexcept;
     /// Of every particle [m/s]; empty where there are none.
     std::span<const sim::layout::vec4> velocities() const noexcept;
+    /// Of every particle, sim::Simulation::pieces(); empty where nothing can be cut.
+    std::span<const std::uint32_t> pieces() const noexcept;
     /// What a ray can meet: those, vertices as they were drawn, and what cuts have laid open.
     SeenState seen() const noexcept;
     /// False where more has been cut since than was copied: what is asked has to be asked again.
@@ -47,7 +49,7 @@ private:
     std::size_t particles_;
     bool isWhole_ = false; // what was recorded
     Copy positions_;
-    std::optional<Copy> velocities_, vertices_;
+    std::optional<Copy> velocities_, vertices_, pieces_;
     std::optional<CutProbe> cuts_;
 };
 

@@ -1,5 +1,5 @@
 #version 460
-// The ends of links, two indices each; of one that a blade has cut twice the same, which draws nothing.
+// The ends of links, two indices each; of one that a blade has cut, or that was removed, twice the same, which draws nothing.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "viewer/values.h"
@@ -7,13 +7,15 @@
 layout(std430, binding = 0) readonly buffer Links { LineLink links[]; };
 layout(std430, binding = 1) readonly buffer Alive { uint alive[]; }; // by slot, link_masks.glsl
 layout(std430, binding = 2) writeonly buffer Indices { uint indices[]; };
+layout(std430, binding = 3) readonly buffer Pieces { uint pieces[]; }; // of particles
 layout(push_constant) uniform Push { ValuesPush push; };
 
 void main() {
     const uint i = itemIndex(push.count);
     if (i >= push.count) return;
     const LineLink link = links[i];
+    const bool isGone = pieces[link.a] == REMOVED_PIECE;
     const bool isCut = link.bit != 0u && (alive[link.slot] & link.bit) == 0u;
     indices[2u * i] = link.a;
-    indices[2u * i + 1u] = isCut ? link.a : link.b;
+    indices[2u * i + 1u] = isGone || isCut ? link.a : link.b;
 }

@@ -18,6 +18,7 @@ layout(std430, binding = 7) readonly buffer FacePairs { uvec2 facePairs[]; }; //
 layout(std430, binding = 8) readonly buffer FaceCounts { uint faceCounts[]; };
 layout(std430, binding = 9) writeonly buffer Marks { ContactMark marks[]; };
 layout(std430, binding = 10) buffer Draw { MarkDraw draw; };
+layout(std430, binding = 11) readonly buffer Pieces { uint pieces[]; }; // of particles
 layout(push_constant) uniform Push { MarkPush push; };
 #include "viewer/marks.glsl"
 
@@ -38,6 +39,7 @@ void markPairs(uint i, uint slot, vec3 x) {
         const uvec2 candidate = pairs[s * push.pairRow + slot];
         const vec3 d = x - placeOf(candidate.x);
         const float distance = length(d);
+        if (isGone(candidate.x)) continue;
         if ((bySlot[candidate.x] <= i && push.only == NO_PARTICLE) || distance > 1.02 * uintBitsToFloat(candidate.y)) continue; // one of the two says it
         mark(x - 0.5 * d, d / max(distance, 1e-20), 1.0);
     }
@@ -47,6 +49,7 @@ void markFaces(uint slot, vec3 x) {
     for (uint s = 0u; s < faceCounts[slot]; ++s) {
         const uvec2 candidate = facePairs[s * push.faceRow + slot];
         const ContactFace face = faces[candidate.x];
+        if (isGone(face.a)) continue;
         const vec3 a = placeOf(face.a);
         const Nearest nearest = nearestOf(x - a, triangleOf(placeOf(face.b) - a, placeOf(face.c) - a));
         const float distance = length(nearest.d);
@@ -61,6 +64,7 @@ void main() {
     if (item >= items) return;
     const uint i = isOne ? push.only : item;
     const MarkParticle own = particles[i];
+    if (isGone(own.slot)) return;
     const vec3 x = positions[i].xyz;
     if (positions[i].w > 0.0)
         for (uint w = push.firstWall; w < push.firstWall + push.walls; ++w) markWall(walls[w], x, own.contactOffset, own.nearness);

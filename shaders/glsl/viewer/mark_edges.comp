@@ -13,6 +13,7 @@ layout(std430, binding = 3) readonly buffer Candidates { uvec2 candidates[]; }; 
 layout(std430, binding = 4) readonly buffer Counts { uint counts[]; };
 layout(std430, binding = 5) writeonly buffer Marks { ContactMark marks[]; };
 layout(std430, binding = 6) buffer Draw { MarkDraw draw; };
+layout(std430, binding = 7) readonly buffer Pieces { uint pieces[]; }; // of particles
 layout(push_constant) uniform Push { MarkPush push; };
 #include "viewer/marks.glsl"
 
@@ -24,10 +25,11 @@ bool isWanted(ContactEdge edge) {
 
 void main() {
     const uint e = itemIndex(push.edges);
-    if (e >= push.edges || counts[e] == 0u || !isWanted(edges[e])) return;
+    if (e >= push.edges || counts[e] == 0u || !isWanted(edges[e]) || isGone(edges[e].a)) return;
     const vec3 a = placeOf(edges[e].a), ab = placeOf(edges[e].b) - a;
     for (uint s = 0u; s < counts[e]; ++s) {
         const uvec2 candidate = candidates[s * push.edgeRow + e];
+        if (isGone(edges[candidate.x].a)) continue;
         if (candidate.x <= e && push.only == NO_PARTICLE) continue; // one of the two says it
         const vec3 c = placeOf(edges[candidate.x].a), cd = placeOf(edges[candidate.x].b) - c;
         const Crossing crossing = crossingOf(a - c, ab, cd, leastSine);

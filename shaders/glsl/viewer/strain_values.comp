@@ -11,12 +11,17 @@ layout(std430, binding = 2) readonly buffer Links { ValueLink links[]; };
 layout(std430, binding = 3) readonly buffer Alive { uint alive[]; }; // by slot, link_masks.glsl
 layout(std430, binding = 4) writeonly buffer Values { float values[]; };
 layout(std430, binding = 5) buffer Spread { ValueSpread spread; };
+layout(std430, binding = 6) readonly buffer Pieces { uint pieces[]; }; // of particles
 layout(push_constant) uniform Push { ValuesPush push; };
 #include "viewer/spread.glsl"
 
 void main() {
     const uint i = itemIndex(push.count);
     if (i >= push.count) return;
+    if (pieces[i] == REMOVED_PIECE) {
+        values[i] = NO_VALUE;
+        return;
+    }
     const ValueLinks own = linksOf[i];
     const uint isAlive = alive[own.slot];
     const vec3 x = positions[i].xyz;

@@ -1,0 +1,221 @@
+// Crumbs that were removed are gone for whoever looks: balls, lines, marks, values, the pointer and the ropes
+// of hands, under validation.
+#include "viewer/draw/offscreen.hpp"
+#include "viewer/draw/stage.hpp"
+#include "viewer/hands/inspection.hpp"
+#include "viewer/hands/state_probe.hpp"
+
+#include "sim/bodies.hpp"
+#include "sim/compile.hpp"
+#include "support/device.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <functional>
+
+namespace sinew::viewer {
+namespace {
+
+constexpr float spacing = 0.1f, radius = 0.04f;
+const std::array<std::uint32_t, 4> corner{0, 1, 5, 25}; // particles
+
+enum class Look { bare, skin, stretched };
+
+// A block of 5 x 5 x 5 particles that lies on the floor, and is cut at its corner (0, 0, 0).
+sim::Scene block(std::uint32_t crumbs, Look look = Look::bare, float speed = 0) {
+    sim::Scene scene{.name = "block", .gravity = {0, 0, 0}};
+    const sim::Lattice lattice{.origin = {0, radius, 0},
+                               .cells = {4, 4, 4},
+                               .spacing = spacing,
+                               .radius = radius,
+                               .isCuttable = true};
+    const sim::LatticeCorners corners = sim::addLattice(scene, lattice);
+    if (look == Look::skin) sim::addLatticeSkin(scene, lattice, corners, {1, 0, 0});
+    if (look == Look::stretched) // a triangle before the corner, and one at the other end
+        scene.skins.push_back({.name = "patch",
+                               .triangles = {{0, 2, 1}, {3, 4, 5}},
+                               .particles = {1, 5, 25, 4, 9, 3},
+                               .color = {1, 0, 0}});
+    scene.bodies[0].color = {1, 0, 0};
+    for (sim::Particle& particle : scene.particles) particle.contactOffset = radius;
+    for (const std::uint32_t i : corner) scene.particles[i].velocity = {-speed, 0, -speed};
+    scene.planes.push_back({});
+    scene.crumbs = crumbs;
+    return scene;
+}
+
+using Sweep = std::array<std::array<sim::Vec3, 2>, 2>;
+
+// Parts those four particles from the rest.
+constexpr Sweep cornerCut{
+    {{{{-1.96f, 0.08f, 2.04f}, {0.04f, -1.92f, 2.04f}}}, {{{0.04f, 2.08f, -1.96f}, {2.04f, 0.08f, -1.96f}}}}};
+// Halves.
+constexpr Sweep halfCut{{{{{0.17f, 1, -1}, {0.17f, 1, 1}}}, {{{0.17f, -1, -1}, {0.17f, -1, 1}}}}};
+
+struct Cut {
+    explicit Cut(const sim::Scene& scene_, const Layers& on = {}, const Sweep& sweep = cornerCut,
+                 int more = 1)
+        : layers(on), scene(scene_), stage(test::device(), scene, {.substeps = 8}),
+          inspection(test::device(), stage, 1), probe(test::device(), scene, stage.simulation()) {
+        inspection.prepare(layers);
+        run([&](VkCommandBuffer commands) { stage.recordReset(commands); });
+        run([&](VkCommandBuffer commands) {
+            stage.recordStep(commands, nullptr, {}, sim::Blade{.from = sweep[0], .to = sweep[1]});
+            for (int i = 0; i < more; ++i) stage.recordStep(commands, nullptr, {}, {});
+            stage.recordSkin(commands);
+            inspection.record(commands, layers, 0);
+            probe.record(commands);
+        });
+    }
+    void run(const std::function<void(VkCommandBuffer)>& record) {
+        VkCommandBuffer commands = test::queue().begin();
+        record(commands);
+        test::queue().wait(test::queue().submit(commands));
+    }
+    std::optional<Pick> at(const Ray& ray) { return pick(scene, ballsOf(scene), ray, probe.seen()); }
+
+    Layers layers;
+    sim::Scene scene;
+    Stage stage;
+    Inspection inspection;
+    StateProbe probe;
+};
+
+bool isOfCorner(std::uint32_t particle) {
+    return std::ranges::count(corner, particle) > 0;
+}
+
+TEST(Removed, IsCutOffInTheSceneOfTheseTests) {
+    EXPECT_EQ(Cut(block(0)).stage.simulation().status(2).pieces, 2u);
+    const sim::Status status = Cut(block(5)).stage.simulation().status(2);
+    EXPECT_EQ(status.pieces, 1u);
+    EXPECT_EQ(status.crumbParticles, 4u);
+}
+
+TEST(Removed, HasNoLines) {
+    for (const std::uint32_t crumbs : {0u, 5u}) {
+        Cut cut(block(crumbs), {.hasLinks = true});
+        const auto ends =
+            test::queue().download<std::uint32_t>(cut.inspection.buffers(cut.layers, 0).links->indices());
+        std::size_t inside = 0;
+        for (std::size_t i = 0; i < ends.size(); i += 2)
+            inside += ends[i] != ends[i + 1] && isOfCorner(ends[i]) ? 1 : 0;
+        EXPECT_EQ(inside, crumbs > 0 ? 0u : 6u);
+    }
+}
+
+TEST(Removed, HasNoMarks) {
+    for (const int more : {0, 2}) { // lists are made again in the step after the cut
+        EXPECT_EQ(Cut(block(0), {.hasContacts = true}, cornerCut, more).inspection.contacts(0), 25u);
+        EXPECT_EQ(Cut(block(5), {.hasContacts = true}, cornerCut, more).inspection.contacts(0), 25u - 3);
+    }
+}
+
+TEST(Removed, HasNoValues) {
+    for (const ColorMap map : {ColorMap::strain, ColorMap::speed, ColorMap::sleep})
+        for (const std::uint32_t crumbs : {0u, 5u}) {
+            Cut cut(block(crumbs, Look::bare, 2), {.map = map});
+            std::array<float, 125> values{};
+            test::queue().download(cut.inspection.buffers(cut.layers, 0).particles, values.data(),
+                                   sizeof values);
+            for (std::uint32_t i = 0; i < values.size(); ++i)
+                EXPECT_EQ(values[i]<0, crumbs> 0 && isOfCorner(i)) << i;
+            if (map != ColorMap::speed) continue;
+            const float largest = cut.inspection.reading(0).largest;
+            EXPECT_EQ(largest<1, crumbs> 0) << "the corner flies off at 2.8 m/s";
+        }
+}
+
+TEST(Removed, IsNotUnderThePointer) {
+    const Vector3 along = Vector3(1, 1, 1).normalized();
+    const Ray ray{Vector3(0, radius, 0) - along, along};
+    for (const Look look : {Look::bare, Look::skin}) {
+        const auto kept = Cut(block(0, look)).at(ray), left = Cut(block(5, look)).at(ray);
+        ASSERT_TRUE(kept);
+        EXPECT_TRUE(isOfCorner(kept->particle));
+        ASSERT_TRUE(left) << "what lies behind";
+        EXPECT_FALSE(isOfCorner(left->particle));
+        EXPECT_GT(left->distance, kept->distance + 0.5f * spacing);
+    }
+    const auto kept = Cut(block(0, Look::stretched)).at(ray);
+    ASSERT_TRUE(kept);
+    EXPECT_TRUE(isOfCorner(kept->particle));
+    EXPECT_FALSE(Cut(block(5, Look::stretched)).at(ray)) << "a triangle that nothing clips";
+}
+
+TEST(Removed, IsNotInThePicture) {
+    const float wide = Cut(block(0, Look::bare, 2), {}, cornerCut, 30).probe.bounds().diagonal().norm();
+    const float narrow = Cut(block(5, Look::bare, 2), {}, cornerCut, 30).probe.bounds().diagonal().norm();
+    const float all = std::sqrt(3.0f) * 4 * spacing;
+    EXPECT_GT(wide, 1.5f * all);
+    EXPECT_NEAR(narrow, all, 0.1f * all);
+}
+
+struct Photo {
+    explicit Photo(Cut& taken) : cut(taken) {
+        camera = framing({}, stageBounds(cut.scene), 1.6f);
+        offscreen.emplace(test::device(), VkExtent2D{320, 200}, lightFor(cut.scene, camera),
+                          Quality{.shadowSize = 256,
+                                  .floorSize = 128,
+                                  .shadowTaps = 4,
+                                  .skyTaps = 4,
+                                  .samples = VK_SAMPLE_COUNT_1_BIT});
+    }
+    Picture take(Overlay overlay = {}) {
+        overlay.layers = cut.layers;
+        overlay.buffers = cut.inspection.buffers(cut.layers, 0);
+        offscreen->prepare(overlay.layers);
+        cut.run([&](VkCommandBuffer commands) {
+            cut.stage.recordSkin(commands);
+            offscreen->record(commands, camera, cut.stage.simulation(), overlay);
+        });
+        return offscreen->read();
+    }
+
+    Cut& cut;
+    Camera camera;
+    std::optional<Offscreen> offscreen;
+};
+
+std::size_t redPixels(const Picture& picture) {
+    std::size_t count = 0;
+    for (std::size_t at = 0; at < picture.pixels.size(); at += 4)
+        count += picture.pixels[at] > 2 * picture.pixels[at + 1] + 20 ? 1 : 0;
+    return count;
+}
+
+// Both halves of a block are crumbs: nothing is left to be seen of it.
+TEST(Removed, IsNotDrawn) {
+    for (const Look look : {Look::bare, Look::skin})
+        for (const bool hasBalls : {false, true}) {
+            const Layers layers{.skin = hasBalls ? SkinLook::hidden : SkinLook::solid, .hasBalls = hasBalls};
+            Cut kept(block(0, look), layers, halfCut), removed(block(200, look), layers, halfCut);
+            EXPECT_GT(redPixels(Photo(kept).take()), 500u);
+            EXPECT_EQ(redPixels(Photo(removed).take()), 0u);
+        }
+}
+
+std::size_t differences(const Picture& a, const Picture& b) {
+    std::size_t count = 0;
+    for (std::size_t at = 0; at < a.pixels.size(); at += 4)
+        count += std::memcmp(&a.pixels[at], &b.pixels[at], 4) != 0 ? 1 : 0;
+    return count;
+}
+
+TEST(Removed, HangsOnNoRope) {
+    std::array<std::size_t, 2> drawn{};
+    for (const std::uint32_t crumbs : {0u, 5u}) {
+        Cut cut(block(crumbs));
+        Photo photo(cut);
+        Overlay holding;
+        holding.hand = Hand{0, Vector3::Zero(), Vector3(0, 0.55f, 0)};
+        drawn[crumbs > 0] = differences(photo.take(holding), photo.take());
+    }
+    EXPECT_GT(drawn[1], 0u) << "the hand itself";
+    EXPECT_LT(drawn[1], drawn[0] / 2);
+}
+
+} // namespace
+} // namespace sinew::viewer
