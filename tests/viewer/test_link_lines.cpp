@@ -122,6 +122,31 @@ TEST(LinkLines, LeaveOutWhatABladeHasCut) {
     EXPECT_EQ(lines.leftOut(), lines.stage.simulation().status(lines.stage.steps()).linksCutInAll);
 }
 
+// A sheet that resists folding, of which one link more than its own leads over a node, is cut across.
+TEST(LinkLines, LeaveOutWhatLeadsOverACut) {
+    sim::Scene scene{.name = "sheet", .gravity = {0, 0, 0}};
+    sim::addCloth(
+        scene,
+        {.size = {9, 7}, .spacing = 0.1f, .membraneStiffness = 100, .skipStiffness = 50, .isCuttable = true});
+    const auto own = static_cast<std::uint32_t>(scene.distances.size());
+    scene.distances.push_back({.a = 9 * 2 + 3, .b = 9 * 4 + 5, .restLength = 0.2f * std::sqrt(2.0f)});
+    Lines lines(scene, sim::Solver::split);
+    lines.step();
+    EXPECT_EQ(lines.leftOut(), 0u);
+    const std::array<sim::Vec3, 2> from{{{0.37f, 1, -1}, {0.37f, 1, 2}}},
+        to{{{0.37f, -1, -1}, {0.37f, -1, 2}}};
+    lines.step({.from = from, .to = to});
+    std::size_t across = 0;
+    for (const sim::DistanceConstraint& link : scene.distances)
+        across += (scene.particles[link.a].position.x < 0.37f) != (scene.particles[link.b].position.x < 0.37f)
+                      ? 1
+                      : 0;
+    EXPECT_EQ(across, 7u + 2 * 6 + 2 * 7 + 1) << "rows, diagonals, two skips a row, and one over a corner";
+    EXPECT_EQ(lines.leftOut(), across);
+    EXPECT_TRUE((scene.particles[scene.distances[own].a].position.x < 0.37f) !=
+                (scene.particles[scene.distances[own].b].position.x < 0.37f));
+}
+
 // Pixels of a picture that have the color of a class, nearly.
 std::size_t pixelsOf(const Picture& picture, const std::array<float, 3>& linear) {
     const auto shown = [](float x) {

@@ -30,6 +30,17 @@ std::string noteOf(sim::Solver solver, std::size_t classes) {
     return "jacobi has no classes: all links are corrected at once, and each particle takes the mean";
 }
 
+layout::LineLink lineOf(const sim::Scene& scene, std::uint32_t d, std::span<const std::uint32_t> slots) {
+    const sim::DistanceConstraint& link = scene.distances[d];
+    const LinkBits bits = linkBits(scene, d);
+    return {link.a,
+            link.b,
+            bits.ofA != 0 ? slots[link.a] : 0,
+            bits.ofA,
+            bits.ofOver != 0 ? slots[bits.over] : 0,
+            bits.ofOver};
+}
+
 // Class by class, then the rest; `slots` of the particles in the solver's state.
 std::vector<layout::LineLink> lineLinks(const sim::Scene& scene, const LinkClasses& classes,
                                         std::span<const std::uint32_t> slots) {
@@ -40,10 +51,7 @@ std::vector<layout::LineLink> lineLinks(const sim::Scene& scene, const LinkClass
         if (!isListed[d]) order.push_back(d);
     std::vector<layout::LineLink> links;
     links.reserve(order.size());
-    for (const std::uint32_t d : order) {
-        const sim::DistanceConstraint& link = scene.distances[d];
-        links.push_back({link.a, link.b, slots[link.a], linkBits(scene, d).ofA});
-    }
+    for (const std::uint32_t d : order) links.push_back(lineOf(scene, d, slots));
     if (links.empty()) links.emplace_back(); // no buffer is empty
     return links;
 }

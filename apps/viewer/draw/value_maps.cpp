@@ -35,12 +35,28 @@ std::array<int, 3> nodeOf(const sim::Grid& grid, std::uint32_t particle) {
             static_cast<int>(node / grid.nodes[0] / grid.nodes[1])};
 }
 
-const sim::Grid* gridOf(const sim::Scene& scene, std::size_t distance) {
+// That may be cut and has both ends of a link, which need not be one of its own.
+const sim::Grid* gridOf(const sim::Scene& scene, const sim::DistanceConstraint& link) {
     const auto holds = [&](const sim::Grid& grid) {
-        return distance - grid.firstDistance < grid.distanceCount;
+        const std::size_t count = grid.node.size();
+        return grid.isCuttable && link.a - grid.firstParticle < count && link.b - grid.firstParticle < count;
     };
     const auto grid = std::ranges::find_if(scene.grids, holds);
     return grid == scene.grids.end() ? nullptr : &*grid;
+}
+
+// What stands in the middle of such a way; none where no particle does.
+std::optional<std::uint32_t> particleBetween(const sim::Grid& grid, const std::array<int, 3>& a,
+                                             const std::array<int, 3>& b) {
+    std::array<std::uint32_t, 3> middle{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if ((a[axis] + b[axis]) % 2 != 0) return std::nullopt;
+        middle[axis] = static_cast<std::uint32_t>((a[axis] + b[axis]) / 2);
+    }
+    const std::uint32_t node = middle[0] + grid.nodes[0] * (middle[1] + grid.nodes[1] * middle[2]);
+    const auto found = std::ranges::lower_bound(grid.node, node);
+    if (found == grid.node.end() || *found != node) return std::nullopt;
+    return grid.firstParticle + static_cast<std::uint32_t>(found - grid.node.begin());
 }
 
 template <typename T> std::vector<T> atLeastOne(std::vector<T> elements) {
@@ -65,17 +81,24 @@ std::uint32_t elements(const vk::BufferView& view) {
 
 } // namespace
 
-// A link that leads farther than to a neighbour, of a body that may be cut, has no bit of its own.
 LinkBits linkBits(const sim::Scene& scene, std::size_t distance) {
     const sim::DistanceConstraint& link = scene.distances[distance];
-    const sim::Grid* grid = gridOf(scene, distance);
+    const sim::Grid* grid = gridOf(scene, link);
     LinkBits bits{.isCounted = link.restLength > 0};
-    if (grid == nullptr || !grid->isCuttable) return bits;
+    if (grid == nullptr) return bits;
     const std::array<int, 3> a = nodeOf(*grid, link.a), b = nodeOf(*grid, link.b);
-    const auto bit = bitOf({b[0] - a[0], b[1] - a[1], b[2] - a[2]});
-    if (!bit) return {.isCounted = false};
-    bits.ofA = 1u << *bit;
-    bits.ofB = 1u << (sim::lattice::directionCount - 1 - *bit);
+    const std::array<int, 3> way{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    if (const auto bit = bitOf(way)) {
+        bits.ofA = 1u << *bit;
+        bits.ofB = 1u << (sim::lattice::directionCount - 1 - *bit);
+        return bits;
+    }
+    bits.isCounted = false;
+    const auto over = particleBetween(*grid, a, b);
+    const auto half = bitOf({way[0] / 2, way[1] / 2, way[2] / 2});
+    if (!over || !half) return bits;
+    bits.over = *over;
+    bits.ofA = bits.ofOver = 1u << *half;
     return bits;
 }
 

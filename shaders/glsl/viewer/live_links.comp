@@ -15,7 +15,7 @@ void main() {
     if (i >= push.count) return;
     const LineLink link = links[i];
     const bool isGone = pieces[link.a] == REMOVED_PIECE;
-    const bool isCut = link.bit != 0u && (alive[link.slot] & link.bit) == 0u;
+    const bool isCut = (alive[link.slot] & link.bit) != link.bit || (alive[link.overSlot] & link.overBit) != link.overBit;
     indices[2u * i] = link.a;
     indices[2u * i + 1u] = isGone || isCut ? link.a : link.b;
 }

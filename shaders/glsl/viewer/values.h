@@ -28,6 +28,7 @@ struct LineLink {
     uint a, b; // particles
     uint slot; // of the word of live links of a
     uint bit;  // of that word; 0 = cannot be cut
+    uint overSlot, overBit; // likewise of the particle between, of a link that leads over one
 };
 
 // Of which particles a vertex of a skin has its value; shares sum up to 1.
