@@ -310,6 +310,14 @@ struct CutTie {
     uint bits;          // of the first, and << 8 of the second
 };
 
+// A tether between particles that were linked, uncut.
+struct CutTether {
+    uint tether;
+    uint particle, anchor; // slots
+    float reach;           // uncut [m]
+};
+#define NO_REACH 1e30 // [m]
+
 // Tearing. Of the cell above a slot: the greatest stretch - 1, below 0 for no cell, and its direction in the grid; y is 0 in sheets.
 struct CellStrain {
     float strain, x, y, z;

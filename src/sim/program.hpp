@@ -136,6 +136,7 @@ struct CuttingBuffers {
     std::vector<CutRun> runs; ///< what passes over slots that may be cut are dispatched for
     BufferId places;          ///< by slot: where particles were when the step began [m]
     BufferId counts;          ///< one layout::CutCounts
+    BufferId labels;          ///< by slot: the lowest slot of its piece
     BufferId particles;       ///< by slot: which one is there, or layout's NO_PARTICLE
     /// By particle: that which its piece is named after; layout's NO_PARTICLE where nothing may be cut, its
     /// REMOVED_PIECE in a crumb.

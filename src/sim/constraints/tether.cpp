@@ -2,6 +2,7 @@
 #include "sim/constraints/tether.hpp"
 
 #include "kernels.hpp"
+#include "sim/cutting/cut_tethers.hpp"
 
 #include <algorithm>
 
@@ -17,6 +18,7 @@ Tethers add(ProgramBuilder& program, const Scene& scene, const StateLayout& layo
     std::vector<layout::TetheredParticle> particles;
     std::uint32_t last = 0; // particle, while there is one
     std::vector<layout::TetherReach> reaches;
+    std::vector<cutting::ListedTether> listed;
     for (const Tether& tether : sorted) {
         if (particles.empty() || last != tether.particle)
             particles.push_back(
@@ -24,10 +26,13 @@ Tethers add(ProgramBuilder& program, const Scene& scene, const StateLayout& layo
         last = tether.particle;
         ++particles.back().count;
         reaches.push_back({layout.slot[tether.anchor], tether.length});
+        listed.push_back({layout.slot[tether.particle], layout.slot[tether.anchor], tether.length});
     }
-    return {.count = static_cast<std::uint32_t>(particles.size()),
-            .particles = program.upload("tethers.particles", particles),
-            .tethers = program.upload("tethers", reaches)};
+    const Tethers tethers{.count = static_cast<std::uint32_t>(particles.size()),
+                          .particles = program.upload("tethers.particles", particles),
+                          .tethers = program.upload("tethers", reaches)};
+    cutting::addTetherFilter(program, tethers.tethers, listed);
+    return tethers;
 }
 
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Tethers& tethers) {

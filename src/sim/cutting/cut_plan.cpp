@@ -136,7 +136,7 @@ void addPieces(ProgramBuilder& program, Cut& cut, Initial& initial, std::size_t 
     // Two rounds at least halve the labels that are not final: a low one may take only its least neighbour in
     // one.
     cut.rounds = 2 * static_cast<std::uint32_t>(std::bit_width(initial.links.size())) + 2;
-    cut.labels = program.upload("pieces.labels", pieces.labels);
+    cut.labels = cut.buffers.labels = program.upload("pieces.labels", pieces.labels);
     cut.particles = cut.buffers.particles = program.upload("pieces.particles", initial.particles);
     cut.groups = program.upload("pieces.groups", groups);
     cut.arguments = program.scratch<layout::DispatchArguments>("pieces.arguments", 4 * std::uint64_t{runs});

@@ -1,0 +1,16 @@
+#version 460
+// Tethers between particles that a cut has parted hold nothing any more, and do again where links are given back.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+
+layout(std430, binding = 0) readonly buffer Labels { uint labels[]; }; // of pieces, by slot
+layout(std430, binding = 1) readonly buffer Parted { CutTether parted[]; };
+layout(std430, binding = 2) buffer Tethers { TetherReach tethers[]; };
+layout(push_constant) uniform Push { CountPush push; };
+
+void main() {
+    const uint i = itemIndex(push.count);
+    if (i >= push.count) return;
+    const CutTether tether = parted[i];
+    tethers[tether.tether].reach = labels[tether.particle] == labels[tether.anchor] ? tether.reach : NO_REACH;
+}
