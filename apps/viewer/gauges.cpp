@@ -155,6 +155,9 @@ void Gauges::stepFinished(const sim::Status& status) {
     facts_.sleeping = status.sleeping;
     facts_.pieces = status.pieces;
     facts_.linksCut = status.linksCutInAll;
+    facts_.crumbs = status.crumbs;
+    facts_.crumbParticles = status.crumbParticles;
+    facts_.crumbMass = status.crumbMass;
     if (status.linksCutInAll == 0) return;
     facts_.strainRms.clear(); // the length of a cut link is no error
     facts_.strainMax.clear();
@@ -169,6 +172,8 @@ void Gauges::restart() {
     facts_.strainRms.clear();
     facts_.strainMax.clear();
     facts_.slowed = facts_.sleeping = facts_.pieces = facts_.linksCut = 0;
+    facts_.crumbs = facts_.crumbParticles = 0;
+    facts_.crumbMass = 0;
 }
 
 void Gauges::goOn(const Gauges& before) {

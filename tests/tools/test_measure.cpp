@@ -70,6 +70,30 @@ TEST(Strain, HasNoMeaningWithoutConstraints) {
     EXPECT_FALSE(errors.strainMax.has_value());
 }
 
+// Two balls in each other below the floor, linked to a third: of crumbs nothing is measured.
+TEST(Removed, CountsInNoFigure) {
+    sim::Scene scene = twoLinks();
+    for (sim::Particle& particle : scene.particles) particle.radius = 0.3f;
+    scene.distances = {{0, 1, 1, 0}};
+    scene.particles.push_back({.position = {1, 2.5f, 0}, .radius = 0.3f});
+    scene.planes.push_back({});
+    State state = stateOf(scene);
+    state.positions[0][0] = -0.5f;
+    state.positions[2][1] = state.positions[3][1] = -1;
+    state.velocities[2][1] = state.velocities[3][1] = 2;
+    const tools::Errors all = tools::measure(scene, state, {}, 0);
+    EXPECT_NEAR(all.strainMax.value(), 0.5, 1e-6);
+    EXPECT_NEAR(all.penetrationMax.value(), 1, 1e-6);
+    EXPECT_GT(tools::overlapOf(scene, state)->pairs, 0u);
+    EXPECT_NEAR(tools::kineticEnergy(state), 4, 1e-6);
+    state.isRemoved = {true, false, true, true};
+    const tools::Errors left = tools::measure(scene, state, {}, 0);
+    EXPECT_FALSE(left.strainMax.has_value());
+    EXPECT_NEAR(left.penetrationMax.value(), 0, 1e-6);
+    EXPECT_EQ(tools::overlapOf(scene, state)->pairs, 0u);
+    EXPECT_EQ(tools::kineticEnergy(state), 0);
+}
+
 TEST(Volume, IsTheRelativeChangeOfAClosedSkin) {
     const sim::Scene scene = cube();
     EXPECT_NEAR(tools::measure(scene, stateOf(scene), skinsOf(scene, 1.1f), 0).volume.value(), 0.331, 1e-5);

@@ -1,4 +1,5 @@
 // The panels without a device: what a pointer does in them, and what belongs to them.
+#include "viewer/panels/panel_parts.hpp"
 #include "viewer/panels/panels.hpp"
 
 #define GLFW_INCLUDE_NONE
@@ -278,6 +279,23 @@ TEST_F(PanelsTest, HaveAButtonForEveryActionThatAKeyDoes) {
         for (float x = 1010; x < 1260; x += 30)
             for (const Action action : click({x, y}).actions) clicked.insert(action);
     EXPECT_EQ(clicked, actionsOfButtons());
+}
+
+// A line more, while there are some.
+TEST_F(PanelsTest, SayHowManyCrumbsWereRemoved) {
+    const auto height = [&] {
+        settle();
+        float most = 0;
+        for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
+            most = std::max(most, window->ContentSize.y);
+        return most;
+    };
+    const float without = height();
+    facts.crumbs = 3;
+    facts.crumbParticles = 1'200;
+    facts.crumbMass = 0.0214f;
+    EXPECT_GT(height(), without + 8);
+    EXPECT_EQ(parts::crumbsText(facts), "3: 1,200 particles, 0.0214 kg");
 }
 
 TEST_F(PanelsTest, OfferToUndoOnlyWhatWasDone) {

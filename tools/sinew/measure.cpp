@@ -35,7 +35,7 @@ void measureStrain(const sim::Scene& scene, const State& state, Errors& errors) 
     double squares = 0, largest = 0;
     std::size_t count = 0;
     for (const sim::DistanceConstraint& d : scene.distances) {
-        if (d.restLength == 0) continue;
+        if (d.restLength == 0 || !state.has(d.a) || !state.has(d.b)) continue;
         const Point edge = sum(pointOf(state.positions[d.b]), pointOf(state.positions[d.a]), -1);
         const double strain = length(edge) / double{d.restLength} - 1;
         squares += strain * strain;
@@ -90,7 +90,7 @@ double depthInColliders(const sim::Scene& scene, const State& state, double time
         const sim::Pose pose = sim::poseAt(collider, time);
         for (std::size_t i = 0; i < scene.particles.size(); ++i) {
             const auto& x = state.positions[i];
-            if (x[3] == 0) continue;
+            if (x[3] == 0 || !state.has(i)) continue;
             const double gap = sim::gapTo(collider, pose, {x[0], x[1], x[2]});
             deepest =
                 std::max(deepest, double{scene.particles[i].contactOffset} + double{collider.margin} - gap);
@@ -111,7 +111,7 @@ Errors measurePenetration(const sim::Scene& scene, const State& state, std::uint
         std::max(deepest, depthInColliders(scene, state, double{scene.dt} * static_cast<double>(frames)));
     for (const sim::Plane& plane : scene.planes) {
         for (std::size_t i = 0; i < scene.particles.size(); ++i) {
-            if (state.positions[i][3] == 0) continue; // fixed: no plane moves it
+            if (state.positions[i][3] == 0 || !state.has(i)) continue; // fixed: no plane moves it
             const double height = dot(pointOf(plane.normal), pointOf(state.positions[i]));
             const double depth = double{plane.offset} + double{scene.particles[i].contactOffset} - height;
             deepest = std::max(deepest, depth);
@@ -132,8 +132,9 @@ Errors measure(const sim::Scene& scene, const State& state, std::span<const mesh
 
 double kineticEnergy(const State& state) {
     double energy = 0;
-    for (const auto& v : state.velocities)
-        if (v[3] > 0) energy += 0.5 * dot(pointOf(v), pointOf(v)) / double{v[3]};
+    for (std::size_t i = 0; i < state.velocities.size(); ++i)
+        if (const auto& v = state.velocities[i]; v[3] > 0 && state.has(i))
+            energy += 0.5 * dot(pointOf(v), pointOf(v)) / double{v[3]};
     return energy;
 }
 

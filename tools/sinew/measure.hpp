@@ -13,6 +13,10 @@ namespace sinew::tools {
 struct State {
     std::vector<std::array<float, 4>> positions, velocities;
     std::vector<bool> isAsleep = {}; ///< by particle; empty where nothing can sleep
+    /// Likewise: of a crumb (sim::Scene::crumbs); empty where nothing can be cut. Figures leave them out, but
+    /// for momentum.
+    std::vector<bool> isRemoved = {};
+    bool has(std::size_t particle) const { return isRemoved.empty() || !isRemoved[particle]; }
 };
 
 /// Empty where a figure has no meaning for the scene.

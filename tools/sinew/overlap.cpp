@@ -101,7 +101,7 @@ std::optional<Overlap> overlapOf(const sim::Scene& scene, const State& state) {
         const auto& at = state.positions[i];
         x[i] = {double{at[0]}, double{at[1]}, double{at[2]}};
         const bool isPlaced = std::isfinite(at[0]) && std::isfinite(at[1]) && std::isfinite(at[2]);
-        if (scene.particles[i].radius <= 0 || !isPlaced) continue;
+        if (scene.particles[i].radius <= 0 || !isPlaced || !state.has(i)) continue;
         wide.push_back(i);
         largest = std::max(largest, double{scene.particles[i].radius});
     }

@@ -147,7 +147,12 @@ Json overflowJson(const RunRecord& record) {
 
 Json cutJson(const RunRecord& record) {
     if (record.program.cutting.counts == sim::BufferId{}) return nullptr;
-    return {{"blades", record.loaded.blades.size()}, {"links", record.linksCut}, {"pieces", record.pieces}};
+    const CutFigures& cuts = record.cuts;
+    return {
+        {"blades", record.loaded.blades.size()},
+        {"links", cuts.links},
+        {"pieces", cuts.pieces},
+        {"crumbs", {{"pieces", cuts.crumbs}, {"particles", cuts.crumbParticles}, {"mass", cuts.crumbMass}}}};
 }
 
 } // namespace
@@ -227,6 +232,13 @@ std::string stiffnessText(const scenes::LoadedScene& loaded) {
     return text;
 }
 
+// Of what was removed.
+std::string crumbsText(const CutFigures& cuts) {
+    if (cuts.crumbs == 0) return {};
+    return fmt::format(", {} removed with {} particles, {:.3g} kg", cuts.crumbs, cuts.crumbParticles,
+                       cuts.crumbMass);
+}
+
 std::string toText(const RunRecord& record) {
     const sim::Settings& settings = record.loaded.settings;
     std::string text = fmt::format("{}: {} particles, {} constraints, {} with {} substeps, on {} ({})\n",
@@ -256,7 +268,8 @@ std::string toText(const RunRecord& record) {
         text += fmt::format("asleep: {} particles, {} whole bodies\n",
                             sleeping["particles"].get<std::size_t>(), sleeping["bodies"].get<std::size_t>());
     if (record.program.cutting.counts != sim::BufferId{})
-        text += fmt::format("cut: {} links, {} pieces\n", record.linksCut, record.pieces);
+        text += fmt::format("cut: {} links, {} pieces{}\n", record.cuts.links, record.cuts.pieces,
+                            crumbsText(record.cuts));
     text += fmt::format("state hash: {:016x}\n", stateHash(record.state));
     if (record.hasValidation)
         text += fmt::format("validation: {} messages\n", record.validationMessages.size());

@@ -27,9 +27,9 @@ struct RunRecord {
     std::optional<Divergence> divergence;
     app::ContactRoom contactRoom;
     app::SurfaceRoom surfaceRoom;
-    std::uint32_t surfaceMissing = 0;       ///< at the end
-    std::uint64_t slowed = 0;               ///< as Runner::slowed()
-    std::uint32_t linksCut = 0, pieces = 0; ///< of bodies that may be cut
+    std::uint32_t surfaceMissing = 0; ///< at the end
+    std::uint64_t slowed = 0;         ///< as Runner::slowed()
+    CutFigures cuts;
     bool isInterrupted = false;
     State state;
     SkinMeshes skins;

@@ -30,6 +30,7 @@ std::vector<mesh::ParticleState> particleStates(const State& state) {
     std::vector<mesh::ParticleState> particles;
     particles.reserve(state.positions.size());
     for (std::size_t i = 0; i < state.positions.size(); ++i) {
+        if (!state.has(i)) continue;
         const auto &x = state.positions[i], &v = state.velocities[i];
         particles.push_back({{x[0], x[1], x[2]}, {v[0], v[1], v[2]}, x[3]});
     }
@@ -75,8 +76,7 @@ RunRecord simulate(const RunOptions& options, const scenes::LoadedScene& loaded,
             .surfaceRoom = runner.surfaceRoom(),
             .surfaceMissing = runner.surfaceMissing(),
             .slowed = runner.slowed(),
-            .linksCut = runner.linksCut(),
-            .pieces = runner.pieces(),
+            .cuts = runner.cuts(),
             .isInterrupted = app::isInterrupted() && runner.steps() < options.frames,
             .state = runner.readState(),
             .skins = runner.readSkins(),

@@ -97,8 +97,11 @@ bool Runner::finishStep(std::uint64_t frame) {
     else {
         ++done_;
         slowed_ += status.slowed;
-        linksCut_ = status.linksCutInAll;
-        pieces_ = status.pieces;
+        cuts_ = {.links = status.linksCutInAll,
+                 .pieces = status.pieces,
+                 .crumbs = status.crumbs,
+                 .crumbParticles = status.crumbParticles,
+                 .crumbMass = double{status.crumbMass}};
         surfaceMissing_ = status.cutSurfaceMissing;
     }
     return true;
@@ -161,7 +164,11 @@ double Runner::recordMs() const {
 State Runner::readState() {
     State state{session_.queue.download<std::array<float, 4>>(simulation().positions()),
                 session_.queue.download<std::array<float, 4>>(simulation().velocities()),
+                {},
                 {}};
+    if (simulation().pieces().size > 0)
+        for (const std::uint32_t piece : session_.queue.download<std::uint32_t>(simulation().pieces()))
+            state.isRemoved.push_back(piece == REMOVED_PIECE);
     if (!settings_.sleeps) return state;
     const std::vector<float> inverseMass = sim::inverseMasses(scene_); // the device has 0 for what sleeps
     for (std::size_t i = 0; i < inverseMass.size(); ++i) {

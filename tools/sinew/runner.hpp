@@ -26,6 +26,13 @@ struct SkinMeshes {
     std::vector<std::vector<mesh::ShadedMesh>> shaded;   ///< likewise, with normals
 };
 
+/// What sim::Status says of bodies that may be cut.
+struct CutFigures {
+    std::uint32_t links = 0, pieces = 0;
+    std::uint32_t crumbs = 0, crumbParticles = 0; ///< pieces that were removed, and theirs
+    double crumbMass = 0;                         ///< [kg]
+};
+
 class Runner {
 public:
     /// Creates the simulation and runs one step that is thrown away, so that drivers which compile late do so
@@ -50,8 +57,7 @@ public:
     const app::SurfaceRoom& surfaceRoom() const { return growing_.surfaceRoom(); }
     std::uint32_t surfaceMissing() const { return surfaceMissing_; } ///< Status::cutSurfaceMissing, likewise
     /// Of the newest step with a finite state.
-    std::uint32_t linksCut() const { return linksCut_; }
-    std::uint32_t pieces() const { return pieces_; }
+    const CutFigures& cuts() const { return cuts_; }
 
     /// Wall-clock time [ms] from the end of one step to the end of the next, of the newest 65,536 steps at
     /// most, the one that diverged included: an endless run must not grow. In no order.
@@ -86,7 +92,8 @@ private:
     std::vector<double> frameMs_, deviceMs_, phaseSums_;
     double recordSum_ = 0, lastEnd_ = 0; // [ms]
     std::uint64_t recorded_ = 0, timed_ = 0;
-    std::uint32_t linksCut_ = 0, pieces_ = 0, surfaceMissing_ = 0;
+    CutFigures cuts_;
+    std::uint32_t surfaceMissing_ = 0;
 };
 
 } // namespace sinew::tools

@@ -116,8 +116,10 @@ struct Facts {
     std::uint32_t contactRoom = 0, contactsNeeded = 0, timesGrown = 0, slowed = 0;
     bool isContactRoomShort = false;
     std::uint32_t sleeping = 0, pieces = 0, linksCut = 0;
-    std::vector<std::string> cuts; ///< that can be undone, then those that can be redone
-    std::size_t undos = 0;         ///< how many of them the former are
+    std::uint32_t crumbs = 0, crumbParticles = 0; ///< pieces that were removed, and theirs
+    float crumbMass = 0;                          ///< [kg]
+    std::vector<std::string> cuts;                ///< that can be undone, then those that can be redone
+    std::size_t undos = 0;                        ///< how many of them the former are
     std::vector<std::string> scenes;
     std::size_t scene = static_cast<std::size_t>(-1); ///< of `scenes`; none of them = -1
     std::vector<bool> previews; ///< which of the first of them have a picture in the sheet

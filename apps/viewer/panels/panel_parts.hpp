@@ -23,6 +23,8 @@ ImVec4 accent();
 
 /// "12,345".
 std::string grouped(std::uint64_t number);
+/// Of pieces that were removed.
+std::string crumbsText(const Facts& facts);
 
 /// Between the margins of the panel [pixels].
 float contentWidth();

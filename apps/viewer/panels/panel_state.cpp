@@ -23,10 +23,17 @@ void counts(const SceneFacts& scene, const Facts& facts) {
     if (!scene.stiffness.empty()) wrapped(scene.stiffness, quiet());
 }
 
+std::string crumbsText(const Facts& facts) {
+    char mass[32];
+    std::snprintf(mass, sizeof mass, "%.3g kg", double{facts.crumbMass});
+    return grouped(facts.crumbs) + ": " + grouped(facts.crumbParticles) + " particles, " + mass;
+}
+
 void cuts(const SceneFacts&, const Facts& facts, Wishes& wishes) {
     heading("cuts");
     pair("links cut", grouped(facts.linksCut), "pieces", grouped(facts.pieces),
          ImGui::GetStyleColorVec4(ImGuiCol_Text));
+    if (facts.crumbs > 0) row("crumbs removed", crumbsText(facts));
     const float width = buttonWidth(2);
     ImGui::BeginDisabled(facts.undos == 0);
     button(Action::undo, wishes, width);
