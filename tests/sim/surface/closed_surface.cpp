@@ -166,6 +166,45 @@ double ClosedSurface::area(Part part) const {
     return sum;
 }
 
+// The sum over triangles of what the segments in them enclose.
+ClosedSurface::Section ClosedSurface::section(const CutPlane& plane) const {
+    double twice = 0;
+    Section section;
+    for (const auto& triangle : triangles_) {
+        std::array<Vector3d, 2> ends; // where the triangle leads up through the plane, and down
+        int found = 0;
+        for (std::size_t n = 0; n < 3; ++n) {
+            const Vector3d a = rest_[triangle.points[n]], b = rest_[triangle.points[(n + 1) % 3]];
+            const double from = plane.normal.dot(a - plane.point), to = plane.normal.dot(b - plane.point);
+            if ((from >= 0) == (to >= 0)) continue;
+            ends[from < 0 ? 0 : 1] = a + from / (from - to) * (b - a);
+            ++found;
+        }
+        if (found != 2) continue;
+        twice += plane.normal.dot((ends[0] - plane.point).cross(ends[1] - plane.point));
+        section.rim += (ends[1] - ends[0]).norm();
+    }
+    section.area = std::abs(twice) / 2;
+    return section;
+}
+
+double ClosedSurface::lengthInside(const Vector3d& point, const Vector3d& direction) const {
+    std::vector<double> met; // along the line
+    for (const auto& triangle : triangles_) {
+        const Vector3d &a = rest_[triangle.points[0]], ab = rest_[triangle.points[1]] - a,
+                       ac = rest_[triangle.points[2]] - a, p = direction.cross(ac), from = point - a,
+                       q = from.cross(ab);
+        const double volume = ab.dot(p);
+        if (volume == 0) continue;
+        const double u = from.dot(p) / volume, v = direction.dot(q) / volume;
+        if (u >= 0 && v >= 0 && u + v <= 1) met.push_back(ac.dot(q) / volume);
+    }
+    std::ranges::sort(met);
+    double length = 0;
+    for (std::size_t i = 0; i + 1 < met.size(); i += 2) length += met[i + 1] - met[i];
+    return length;
+}
+
 std::uint64_t ClosedSurface::hash() const {
     return hash_;
 }

@@ -34,7 +34,14 @@ public:
     std::vector<double> volumes(double cell) const;
     double volume() const;
     double area(Part part) const; ///< at rest
-    std::uint64_t hash() const;   ///< over the bits of all buffers
+    /// Section by a plane of what is enclosed at rest, where nothing is cut.
+    struct Section {
+        double area = 0, rim = 0; ///< length of its outline
+    };
+    Section section(const CutPlane& plane) const;
+    /// How long a straight line is inside of it, likewise.
+    double lengthInside(const Eigen::Vector3d& point, const Eigen::Vector3d& direction) const;
+    std::uint64_t hash() const; ///< over the bits of all buffers
 
 private:
     std::uint32_t pointOf(std::uint32_t key, const Eigen::Vector3d& rest, const Eigen::Vector3d& drawn);

@@ -56,25 +56,6 @@ std::size_t expectClosed(const ClosedSurface& surface, double volume, double cel
     return volumes.size();
 }
 
-// Of the section of a skin by a plane: the sum over its triangles of what the segments in them enclose.
-double sectionOf(const ClosedSurface& surface, const CutPlane& plane) {
-    double twice = 0;
-    for (const auto& triangle : surface.triangles()) {
-        std::array<Vector3d, 2> ends; // where the triangle leads up through the plane, and down
-        int found = 0;
-        for (std::size_t n = 0; n < 3; ++n) {
-            const Vector3d a = surface.rest()[triangle.points[n]],
-                           b = surface.rest()[triangle.points[(n + 1) % 3]];
-            const double from = plane.normal.dot(a - plane.point), to = plane.normal.dot(b - plane.point);
-            if ((from >= 0) == (to >= 0)) continue;
-            ends[from < 0 ? 0 : 1] = a + from / (from - to) * (b - a);
-            ++found;
-        }
-        if (found == 2) twice += plane.normal.dot((ends[0] - plane.point).cross(ends[1] - plane.point));
-    }
-    return std::abs(twice) / 2;
-}
-
 Vector3d random(std::mt19937& numbers) {
     std::uniform_real_distribution<double> uniform(-1, 1);
     const double x = uniform(numbers), y = uniform(numbers), z = uniform(numbers);
@@ -231,7 +212,7 @@ TEST(CutSkin, OfAPlaneIsClosedAndHasItsArea) {
         const bool isLinkedAcross = each.shape.resolution == knot.resolution; // strands nearer than a cell
         EXPECT_TRUE(parts == pieces || isLinkedAcross) << each.name << ": " << parts << " parts";
         std::printf("volume %+.2g; ", surface.volume() / uncut.volume() - 1);
-        const double area = surface.area(Part::inside) / 2, section = sectionOf(uncut, plane);
+        const double area = surface.area(Part::inside) / 2, section = uncut.section(plane).area;
         double off = 0, mean = 0; // the blade
         std::vector<Vec3> inside;
         for (const auto& triangle : surface.triangles())

@@ -1,0 +1,169 @@
+// The two skins that are hardest to cut, a knot four cells thick whose strands come near each other and an
+// organ with notches, by planes in general position: all that must hold after a cut is looked at.
+#include "mesh/generate.hpp"
+#include "mesh/to_scene.hpp"
+#include "sim/cutting/stroke_check.hpp"
+#include "sim/scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+using namespace sinew;
+using namespace sinew::sim;
+using Eigen::Vector3d;
+using test::ClosedSurface;
+using test::CutPlane;
+using test::StrokeCheck;
+using test::StrokeResult;
+using test::sweepOf;
+using Part = test::ClosedSurface::Part;
+
+namespace {
+
+constexpr int planes = 10;
+
+struct Shape {
+    const char* name;
+    std::uint32_t detail, resolution;
+};
+constexpr Shape shapes[] = {{"torus_knot", 48, 18}, {"organ", 32, 14}};
+
+Scene sceneOf(const Shape& shape) {
+    Scene scene{.name = shape.name, .gravity = {0, 0, 0}};
+    mesh::MeshBody body{.name = shape.name, .youngModulus = 1e5f, .isCuttable = true};
+    body.voxels.resolution = shape.resolution;
+    mesh::addMesh(scene, mesh::generate(shape.name, shape.detail), body);
+    return scene;
+}
+
+// Any direction is as likely, and any place within half of the body's size around its middle.
+class RandomPlanes {
+public:
+    explicit RandomPlanes(const Shape& shape) {
+        for (const Vec3& x : mesh::generate(shape.name, shape.detail).positions)
+            box_.extend(test::toVector(x));
+    }
+    CutPlane next() {
+        const auto between = [&] { return static_cast<double>(numbers_()) / 2147483648.0 - 1; };
+        const auto inCube = [&] {
+            const double x = between(), y = between(), z = between();
+            return Vector3d(x, y, z);
+        };
+        const Vector3d middle = box_.center() + box_.sizes().cwiseProduct(inCube()) / 4;
+        Vector3d normal = inCube();
+        while (normal.norm() > 1 || normal.norm() < 0.1) normal = inCube();
+        return {middle, normal.normalized()};
+    }
+
+private:
+    Eigen::AlignedBox3d box_;
+    std::mt19937 numbers_{20251};
+};
+
+struct Cuts {
+    double area = 0, section = 0, rim = 0; ///< in cells
+    double error() const { return area / section - 1; }
+    double errorAtRim() const { return (area - section) / rim; }
+};
+
+// Of one plane through the uncut body.
+Cuts cutOnce(StrokeCheck& check, const ClosedSurface& uncut, const CutPlane& plane, const std::string& what) {
+    check.body().runner().reset();
+    check.run(1);
+    StrokeResult result = check.stroke(sweepOf(plane, 1, 3).blade(), what);
+    check.checkSurface(result, what);
+    const double spacing = check.body().spacing();
+    const auto [section, rim] = uncut.section(plane);
+    const Cuts cuts{ClosedSurface(check.body()).area(Part::inside) / 2 / (spacing * spacing),
+                    section / (spacing * spacing), rim / spacing};
+    std::printf("%-24s %5zu live links, %2u pieces, %2zu crowded edges, volume %+.1e, section %5.1f cells^2, "
+                "area %+.2f %%, %+.3f cells along the rim\n",
+                what.c_str(), result.live, result.status.pieces, result.crowdedEdges, result.volumeError,
+                cuts.section, 100 * cuts.error(), cuts.errorAtRim());
+    return cuts;
+}
+
+} // namespace
+
+// Within 5 % of what the blade has swept, or 0.05 cells along its rim: there triangles are turned over beside
+// notches, which count twice, and a body four cells thick is nearly all rim.
+bool isNear(const Cuts& cuts) {
+    return std::abs(cuts.area - cuts.section) < std::max(0.05 * cuts.section, 0.05 * cuts.rim);
+}
+
+TEST(HardSkins, HoldByTenPlanesEach) {
+    for (const Shape& shape : shapes) {
+        RandomPlanes random(shape);
+        StrokeCheck check(sceneOf(shape), {.substeps = 2}, true);
+        const ClosedSurface uncut(check.body());
+        for (int p = 0; p < planes; ++p) {
+            const std::string what = std::string(shape.name) + ", plane " + std::to_string(p + 1);
+            const Cuts cuts = cutOnce(check, uncut, random.next(), what);
+            EXPECT_TRUE(isNear(cuts)) << what;
+        }
+    }
+}
+
+// Of bodies half as fine again 5 % is enough.
+TEST(HardSkins, OfFinerBodiesHoldWithinFivePercent) {
+    for (Shape shape : shapes) {
+        RandomPlanes random(shape);
+        shape.resolution = shape.resolution * 3 / 2;
+        StrokeCheck check(sceneOf(shape), {.substeps = 2}, true);
+        const ClosedSurface uncut(check.body());
+        for (int p = 0; p < planes; ++p) {
+            const std::string what = std::string("finer ") + shape.name + ", plane " + std::to_string(p + 1);
+            const Cuts cuts = cutOnce(check, uncut, random.next(), what);
+            EXPECT_LT(std::abs(cuts.error()), 0.05) << what;
+        }
+    }
+}
+
+// Where two planes of one body meet inside of it.
+double lengthBetween(const ClosedSurface& uncut, const CutPlane& a, const CutPlane& b) {
+    const Vector3d along = a.normal.cross(b.normal);
+    if (along.norm() < 1e-6) return 0;
+    Eigen::Matrix3d rows;
+    rows << a.normal.transpose(), b.normal.transpose(), along.transpose();
+    const Vector3d point = rows.inverse() * Vector3d(a.normal.dot(a.point), b.normal.dot(b.point), 0);
+    return uncut.lengthInside(point, along.normalized());
+}
+
+// One after another through the same body. Cuts nearer than a cell share cells, so where they cross up to a
+// cell beside the line is torn in another way than the blade went.
+TEST(HardSkins, HoldByTenPlanesThatCross) {
+    for (const Shape& shape : shapes) {
+        RandomPlanes random(shape);
+        StrokeCheck check(sceneOf(shape), {.substeps = 2}, true);
+        const ClosedSurface uncut(check.body());
+        const double spacing = check.body().spacing();
+        std::vector<CutPlane> done;
+        Cuts cuts;
+        double crossing = 0; // cells
+        StrokeResult result;
+        for (int p = 0; p < planes; ++p) {
+            const CutPlane plane = random.next();
+            const std::string what = std::string(shape.name) + ", planes up to " + std::to_string(p + 1);
+            result = check.stroke(sweepOf(plane, 1, 3).blade(), what);
+            check.checkSurface(result, what);
+            const auto [section, rim] = uncut.section(plane);
+            cuts.section += section / (spacing * spacing);
+            cuts.rim += rim / spacing;
+            for (const CutPlane& other : done) crossing += lengthBetween(uncut, plane, other) / spacing;
+            done.push_back(plane);
+            cuts.area = ClosedSurface(check.body()).area(Part::inside) / 2 / (spacing * spacing);
+            std::printf("%-32s %3u pieces, %3zu parts, %3zu crowded edges of %6zu triangles, volume %+.1e, "
+                        "area %+.2f %%, %+.3f cells along rims of %.0f, crossings %.0f\n",
+                        what.c_str(), result.status.pieces, result.parts, result.crowdedEdges,
+                        result.triangles, result.volumeError, 100 * cuts.error(), cuts.errorAtRim(), cuts.rim,
+                        crossing);
+            EXPECT_LT(std::abs(cuts.area - cuts.section), 0.05 * cuts.rim + crossing) << what;
+        }
+    }
+}
