@@ -1,6 +1,7 @@
 #version 460
 // First pass of a cut: lists the nodes that own a link whose box meets that of the blade, with those links. Few do, so what is
-// costly is done for these alone. A list has no order, and needs none: links die one by one.
+// costly is done for these alone. A list has no order, and needs none: links die one by one. CRUMBS: not those of removed pieces,
+// which nobody sees.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "cut.glsl"
@@ -18,10 +19,17 @@ layout(std430, binding = 2) readonly buffer Blade { BladeHead blade; };
 layout(std430, binding = 3) readonly buffer Work { CutWork work; };
 layout(std430, binding = 4) buffer Counts { uint counts[]; };      // of nodes, by run
 layout(std430, binding = 5) writeonly buffer Nears { uvec2 nears[]; }; // slot, links; of a run from its first slot on
+#ifdef CRUMBS
+layout(std430, binding = 6) readonly buffer Particles { uint particles[]; }; // of each slot
+layout(std430, binding = 7) readonly buffer Pieces { uint pieces[]; };
+bool isThere(uint i) { return particles[i] != NO_PARTICLE && pieces[particles[i]] != REMOVED_PIECE; }
+#else
+bool isThere(uint i) { return true; }
+#endif
 
 void main() {
     const uint item = itemIndex(push.count), i = push.first + min(item, push.count - 1u);
-    const uint owned = item < push.count ? links[i] & OWNED_MASK : 0u;
+    const uint owned = item < push.count && isThere(i) ? links[i] & OWNED_MASK : 0u;
     const vec3 a = PLACE(i);
     const float margin = 1e-3 * push.spacing + (blade.isCarried != 0u ? uintBitsToFloat(work.farthest) : 0.0);
     const vec3 low = blade.low.xyz - margin, high = blade.high.xyz + margin;

@@ -42,15 +42,23 @@ void planLists(ProgramBuilder& program, const Cut& cut, BufferId counts, BufferI
     program.dispatch(k::planListed, runs.count, {counts, arguments}, runs);
 }
 
+void addNear(ProgramBuilder& program, const Cut& cut) {
+    std::vector<BufferId> buffers{cut.bladePlaces, cut.buffers.links, cut.blade,
+                                  cut.work,        cut.nearCounts,    cut.nears};
+    const bool hasCrumbs = program.program().cutting.crumbs > 0;
+    if (hasCrumbs) buffers.insert(buffers.end(), {cut.particles, cut.buffers.pieces});
+    const vk::ShaderCode& texels = hasCrumbs ? k::findNearLinksCrumbs : k::findNearLinks;
+    const vk::ShaderCode& loads = hasCrumbs ? k::findNearLinksLoadsCrumbs : k::findNearLinksLoads;
+    for (const Run& run : cut.runs)
+        program.dispatch(cut.usesTexels ? texels : loads, run.push.count, buffers, run.push);
+}
+
 // What the blade meets: near nodes first, and what is costly for these alone.
 void addBlade(ProgramBuilder& program, const Cut& cut) {
     const CuttingBuffers& buffers = cut.buffers;
     program.fill(buffers.dirty, 0);
     program.fill(cut.nearCounts, 0);
-    for (const Run& run : cut.runs)
-        program.dispatch(cut.usesTexels ? k::findNearLinks : k::findNearLinksLoads, run.push.count,
-                         {cut.bladePlaces, buffers.links, cut.blade, cut.work, cut.nearCounts, cut.nears},
-                         run.push);
+    addNear(program, cut);
     planLists(program, cut, cut.nearCounts, cut.nearArguments);
     for (const Run& run : cut.runs)
         program.dispatchIndirect(cut.usesTexels ? k::cutLinks : k::cutLinksLoads,

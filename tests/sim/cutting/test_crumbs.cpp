@@ -133,6 +133,21 @@ TEST(Crumbs, AreNoPiecesAnyMore) {
     EXPECT_EQ(counted(body), 125u - 4);
 }
 
+// Nor are they cut any more.
+TEST(Crumbs, AreMetByNoBlade) {
+    CutBody kept(cube(0)), body(cube(5));
+    kept.cut(cornerCut());
+    body.cut(cornerCut());
+    const test::Sweep beside =
+        sweepOf({Vector3d(0.5 * double{spacing}, 0, 0), Vector3d::UnitX()}, 0.3 * double{spacing});
+    EXPECT_GT(kept.cut(beside).linksCut, 0u);
+    const Status status = body.cut(beside);
+    EXPECT_EQ(status.linksCut, 0u);
+    EXPECT_EQ(status.crumbs, 1u);
+    EXPECT_EQ(gone(body), 4u);
+    EXPECT_EQ(body.cut(sweepOf({Vector3d(0.02, 0, 0), Vector3d(1, 0, 0)}, 1)).crumbs, 1u);
+}
+
 TEST(Crumbs, OfAsManyParticlesAsAreAskedForStay) {
     CutBody body(cube(4));
     EXPECT_EQ(body.cut(cornerCut()).pieces, 2u);
