@@ -1,12 +1,19 @@
 #version 460
 // Tearing, second pass: lists cells that are stretched beyond the limit and more than all around them, in any order: no two of them
-// share a link.
+// share a link. CRUMBS: none of removed pieces, which nobody sees.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
 layout(std430, binding = 0) readonly buffer Strains { CellStrain strains[]; };
 layout(std430, binding = 1) writeonly buffer Found { uint found[]; };
 layout(std430, binding = 2) buffer Tears { TearCount tears; };
+#ifdef CRUMBS
+layout(std430, binding = 3) readonly buffer Particles { uint particles[]; }; // of each slot
+layout(std430, binding = 4) readonly buffer Pieces { uint pieces[]; };
+bool isThere(uint cell) { return pieces[particles[cell]] != REMOVED_PIECE; } // its corners hang together
+#else
+bool isThere(uint cell) { return true; }
+#endif
 layout(push_constant) uniform Push { TearPush push; };
 #include "tears.glsl"
 
@@ -14,7 +21,7 @@ void main() {
     const uint item = itemIndex(push.count);
     if (item >= push.count) return;
     const uint cell = push.first + item;
-    if (!(strains[cell].strain > push.limit)) return;
+    if (!(strains[cell].strain > push.limit) || !isThere(cell)) return;
     const int rows = push.rowStride > 0u ? 1 : 0; // sheets have one
     for (int z = -1; z <= 1; ++z)
         for (int y = -rows; y <= rows; ++y)

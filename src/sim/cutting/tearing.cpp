@@ -26,6 +26,17 @@ std::shared_ptr<Tearing> addTearing(ProgramBuilder& program, const Cut& cut, std
     return tearing;
 }
 
+namespace {
+
+void addFinding(ProgramBuilder& program, const Tearing& tearing, const TearingBody& body, const Cut& cut) {
+    std::vector<BufferId> buffers{tearing.strains, body.found, body.count};
+    const bool hasCrumbs = program.program().cutting.crumbs > 0;
+    if (hasCrumbs) buffers.insert(buffers.end(), {cut.particles, cut.buffers.pieces});
+    program.dispatch(hasCrumbs ? k::findTearsCrumbs : k::findTears, body.push.count, buffers, body.push);
+}
+
+} // namespace
+
 void addTearingPasses(ProgramBuilder& program, const Tearing& tearing, const Cut& cut) {
     const CuttingBuffers& buffers = cut.buffers;
     for (const TearingBody& body : tearing.bodies) {
@@ -33,7 +44,7 @@ void addTearingPasses(ProgramBuilder& program, const Tearing& tearing, const Cut
         program.fill(body.count, 0);
         program.dispatch(isSheet ? k::strainCells : k::strainVoxels, body.push.count,
                          {buffers.links, cut.cells, buffers.places, tearing.strains}, body.push);
-        program.dispatch(k::findTears, body.push.count, {tearing.strains, body.found, body.count}, body.push);
+        addFinding(program, tearing, body, cut);
         program.dispatch(
             isSheet ? k::tearCells : k::tearVoxels, body.push.count,
             {buffers.links, buffers.hits, buffers.dirty, tearing.strains, body.found, body.count}, body.push);

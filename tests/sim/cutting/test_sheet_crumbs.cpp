@@ -125,6 +125,19 @@ TEST(SheetCrumbs, TouchNothing) {
     }
 }
 
+// The corner is pulled apart as soon as it is off.
+TEST(SheetCrumbs, TearNoMore) {
+    for (const std::uint32_t crumbs : {0u, 7u}) {
+        Scene scene = sheet(crumbs);
+        scene.grids[0].tearStrain = 0.3f;
+        scene.particles[0].velocity = {-3, 0, -3};
+        CutBody body(scene);
+        const std::uint32_t cut = body.cut(cornerCut()).linksCutInAll;
+        const std::uint32_t torn = body.runner().run(5).linksCutInAll - cut;
+        EXPECT_EQ(torn > 0, crumbs == 0) << torn;
+    }
+}
+
 // Edges are searched by their middles: those of a removed piece have left the grid.
 TEST(SheetCrumbs, HaveNoEdgesThatTouch) {
     Scene scene = sheet(7, 0.1f * spacing); // thin: edges touch too
