@@ -6,9 +6,11 @@
 #include "viewer/prepared_show.hpp"
 #include "viewer/replay.hpp"
 #include "viewer/show.hpp"
+#include "vk/check.hpp"
 #include "vk/loader.hpp"
 
 #include <cstdio>
+#include <functional>
 #include <stdexcept>
 
 namespace sinew::viewer {
@@ -102,6 +104,40 @@ Preferences leftBy(const Screen& screen, const Library& library, const Options& 
     return left;
 }
 
+// What is kept when something else than its user ends the program, once, and what is said of it.
+class Keeping {
+public:
+    Keeping(Window& window, std::function<std::string()> keep) : window_(window), keep_(std::move(keep)) {
+        window_.setFarewell([this] { return (*this)(); });
+    }
+    ~Keeping() {
+        window_.setFarewell([said = said_.value_or("")] { return said; });
+    }
+    Keeping(const Keeping&) = delete;
+    Keeping& operator=(const Keeping&) = delete;
+
+    const std::string& operator()() {
+        if (!said_) said_ = keep_();
+        return *said_;
+    }
+
+private:
+    Window& window_;
+    std::function<std::string()> keep_;
+    std::optional<std::string> said_;
+};
+
+// The exception at hand, with `kept` at the end of its line.
+[[noreturn]] void throwAgain(const std::string& kept) {
+    try {
+        throw;
+    } catch (const app::Failure& error) {
+        throw app::Failure(error.code(), error.what() + kept);
+    } catch (const vk::Error& error) {
+        throw vk::Error(error.failure(), error.what() + kept);
+    }
+}
+
 // Without a window, and made when the first preview is wanted, in their thread.
 class PreviewDevice {
 public:
@@ -152,10 +188,21 @@ void play(std::unique_ptr<Opening> opening, const Options& options, const Prefer
         PreviewDevice(options, messages));
     screen.expectPreviews(library.names().size());
     auto show = std::make_unique<Show>(screen, library, devices, *device, std::move(first));
-    while (auto next = show->run()) change(device, show, std::move(next), screen, library, devices);
+    const auto keepSettings = [&] {
+        const Preferences left = leftBy(screen, library, options, preferences);
+        if (left != preferences) savePreferences(preferencesFile(), left);
+    };
+    Keeping keeping(window, [&] {
+        keepSettings();
+        return show->keepInput(preferencesFile().parent_path());
+    });
+    try {
+        while (auto next = show->run()) change(device, show, std::move(next), screen, library, devices);
+    } catch (...) { // a lost device
+        throwAgain(keeping());
+    }
     if (options.isTimed) screen.timing().printTable();
-    const Preferences left = leftBy(screen, library, options, preferences);
-    if (left != preferences) savePreferences(preferencesFile(), left);
+    keepSettings();
     window.hide(); // threads end in their time
 }
 

@@ -47,6 +47,11 @@ public:
     /// it returns; it may then be called again. Throws vk::Error.
     std::unique_ptr<Opening> run();
 
+    /// For when the program ends before its user wants it to: writes what hands did since the reset, as far
+    /// as no file has it, to the current folder or else to `otherwise`, and says how to have it again, for
+    /// the end of a line. Empty where there is nothing to keep. Asks nothing of device and window.
+    std::string keepInput(const std::filesystem::path& otherwise) const;
+
 private:
     using Clock = std::chrono::steady_clock;
 
@@ -96,6 +101,7 @@ private:
     bool mayOpen();
     std::string nameAt(std::uint64_t step) const;
     void saveInput();
+    InputFile inputFile() const;
     void saveState();
     std::string sceneName() const;
     bool playInput(const Presenter::Frame& frame);
@@ -176,6 +182,7 @@ private:
     StatusLine status_;
     Clock::time_point lastTurn_ = Clock::now(), lastChange_ = lastTurn_, lastStrain_ = lastTurn_;
     Shown shown_ = Shown::nothing;
+    std::size_t inputSaved_ = 0;       // events of the log that some file has, or a reset has made
     std::uint32_t surfaceMissing_ = 0; // Status::cutSurfaceMissing of the newest settled step
     std::uint32_t panelsDue_ = 0;      // pictures until the panels look as they should
     std::uint32_t cutFrames_ = 0;      // pictures that may still wait for a cut

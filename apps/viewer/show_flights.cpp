@@ -23,6 +23,7 @@ void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
         gauges_.restart();
         if (replay_) tools_.putAway(stage_);
         tools_.reset();
+        inputSaved_ = tools_.log().events().size();
         const sim::Settings& begun = replay_ ? stage_.madeWith() : stage_.settings();
         begun_ = {begun.solver, begun.substeps};
         if (replay_) replay_->restart();

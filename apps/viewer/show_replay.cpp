@@ -21,23 +21,46 @@ void Show::saveInput() {
     if (isFromState_)
         return screen_.tell("what hands did since a state was loaded is saved with the state alone: " +
                             std::string(keyOf(Action::saveState)));
-    InputFile file{.scene = sceneName(),
-                   .solver = sim::solverName(begun_.solver),
-                   .substeps = begun_.substeps,
-                   .room = stage_.contactRoom().room,
-                   .surface = stage_.surfaceRoom().needed,
-                   .events = tools_.log().events()};
+    InputFile file = inputFile();
     vk::Queue queue(device_);
     file.hash = stateHash(device_, stage_, queue);
     try {
         const std::filesystem::path name = freeName(nameAt(stage_.steps()), ".input");
         mesh::writeWhole(name, [&](std::ostream& stream) { stream << toText(file); });
+        inputSaved_ = file.events.size();
         std::printf("input: %s, %s\n", name.c_str(), hashText(*file.hash, stage_.steps()).c_str());
         std::fflush(stdout);
         screen_.tell("input: " + name.string() + "; --replay plays it again");
     } catch (const mesh::ExportError& error) {
         screen_.warn(error.what());
     }
+}
+
+InputFile Show::inputFile() const {
+    return {.scene = sceneName(),
+            .solver = sim::solverName(begun_.solver),
+            .substeps = begun_.substeps,
+            .room = stage_.contactRoom().room,
+            .surface = stage_.surfaceRoom().needed,
+            .events = tools_.log().events()};
+}
+
+// Without a hash of the state: steps may be on their way.
+std::string Show::keepInput(const std::filesystem::path& otherwise) const {
+    if (replay_ || isFromState_ || !tools_.log().hasDeeds(inputSaved_)) return {};
+    const std::string text = toText(inputFile());
+    std::string why;
+    for (const std::filesystem::path& folder : {std::filesystem::path(), otherwise}) {
+        try {
+            if (!folder.empty()) std::filesystem::create_directories(folder);
+            const std::filesystem::path name = freeName(nameAt(stage_.steps()), ".input", folder);
+            mesh::writeWhole(name, [&](std::ostream& stream) { stream << text; });
+            return ": --replay " + std::filesystem::absolute(name).string() + " does again what hands did";
+        } catch (const std::exception& error) { // mesh::ExportError, std::filesystem::filesystem_error
+            why = error.what();
+        }
+    }
+    return ": what hands did is lost: " + why;
 }
 
 std::string Show::sceneName() const {
@@ -82,6 +105,7 @@ bool Show::playInput(const Presenter::Frame& frame) {
 // Where it ended is there to be looked at.
 void Show::endReplay() {
     replayed_ = replay_->file();
+    inputSaved_ = tools_.log().events().size();
     replay_.reset();
     controller_.playback.pause();
 }

@@ -70,6 +70,7 @@ void Show::takeOver(const Show& before) {
     status_.setCounts(counts.sleeping, counts.pieces);
     pointer_ = before.pointer_;
     if (before.inspector_.isOn()) inspector_.toggle();
+    inputSaved_ = before.inputSaved_;
     begun_ = before.begun_;
     isFromState_ = before.isFromState_;
     isBroken_ = before.isBroken_;

@@ -34,14 +34,6 @@ ExitCode codeOf(vk::Failure failure) {
     return internalFault;
 }
 
-/// One line, whatever a file name or an importer put into the text.
-int report(ExitCode code, std::string message) noexcept {
-    std::ranges::replace_if(
-        message, [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; }, ' ');
-    std::fprintf(stderr, "error: %s\n", message.c_str());
-    return code;
-}
-
 int translate() {
     try {
         throw;
@@ -63,6 +55,13 @@ int translate() {
 }
 
 } // namespace
+
+int report(ExitCode code, std::string message) noexcept {
+    std::ranges::replace_if(
+        message, [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; }, ' ');
+    std::fprintf(stderr, "error: %s\n", message.c_str());
+    return code;
+}
 
 int guarded(const std::function<int()>& body) noexcept {
     try {

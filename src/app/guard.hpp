@@ -34,6 +34,9 @@ private:
 /// else 70.
 int guarded(const std::function<int()>& body) noexcept;
 
+/// Says it in a line of that kind, with a blank for what would break the line; returns `code`.
+int report(ExitCode code, std::string message) noexcept;
+
 /// Asks SIGINT, SIGTERM and SIGPIPE to set a flag instead of ending the process.
 void catchSignals();
 bool isInterrupted() noexcept;

@@ -1,21 +1,54 @@
 #!/usr/bin/env bash
-# test_lost_display.sh VIEWER SCENE FOLDER: the display goes away while a film is made and while another scene is loaded. The viewer says
-# so in one line and ends by itself; the pictures of its film are whole.
+# test_lost_display.sh VIEWER SCENE FOLDER: the display goes away while a film is made, while another scene is loaded, and after hands
+# have cut. The viewer says so in one line and ends by itself; the pictures of its film are whole, settings
+# are kept, and what hands did can be done again.
 set -euo pipefail
-viewer=$1 scene=$2 folder=$3
+viewer=$1 player=$1 scene=$2 folder=$3
 here=$(cd "$(dirname "$0")" && pwd)
 extent=640x480
-[[ ${4:-} ]] || { "$0" "$1" "$2" "$3/film" film && exec "$0" "$1" "$2" "$3/load" load; exit; }
+if [[ ! ${4:-} ]]; then
+    for loss in film load hands full; do "$0" "$1" "$2" "$3/$loss" "$loss"; done
+    exit
+fi
 . "$here/window.sh"
 
+cut() { # down the middle of the window, again where so little time went to it that it saw no more than an end of the stroke
+    keys c
+    awaitTitle blade
+    for _ in {1..5}; do
+        xdotool mousemove 320 100 mousedown 1
+        sleep 0.3
+        for _ in {1..40}; do xdotool mousemove_relative -- 0 8; sleep 0.05; done
+        sleep 0.3
+        xdotool mouseup 1
+        for _ in {1..50}; do [[ $(title) == *pieces* ]] && return; sleep 0.1; done
+    done
+    fail "nothing was cut"
+}
+
+if [[ $4 == full ]]; then # what the viewer runs in is gone by then
+    mkdir gone
+    printf '#!/bin/sh\ncd "%s/gone" && exec "%s" "$@"\n' "$folder" "$viewer" >start
+    chmod +x start
+    viewer=$folder/start
+fi
 start
-if [[ $4 == film ]]; then
+case $4 in
+film)
     keys F9
     filmed() { (($(find . -name '*.png' | wc -l) >= 3)) || compgen -G '*.part' >/dev/null; } # without ffmpeg, with it
     for _ in {1..300}; do filmed && break; sleep 0.1; done
-    filmed || fail "nothing was filmed"
-else
-    keys Next
+    filmed || fail "nothing was filmed" ;;
+load)
+    keys Next ;;
+*)
+    keys v
+    cut ;;
+esac
+kept=$folder
+if [[ $4 == full ]]; then
+    rmdir gone
+    kept=$folder/config/sinew
 fi
 kill "${processes[0]}" # the X server
 for _ in {1..600}; do kill -0 "$running" 2>/dev/null || break; sleep 0.1; done
@@ -27,4 +60,20 @@ grep -q '^error: the window was closed: its display went away' viewer.err || fai
 for picture in $(find . -name '*.png'); do
     convert "$picture" null: || fail "$picture is not whole"
 done
+grep -q "^scene = $scene\$" config/sinew/viewer.conf || fail "the scene on show is not remembered"
+if [[ $4 == film || $4 == load ]]; then
+    [[ -z $(find . -name '*.input') ]] || fail "hands did nothing, and that was kept"
+else
+    grep -q '^vsync = false$' config/sinew/viewer.conf || fail "what V chose is not remembered"
+    input=$(sed -n 's/.*: --replay \(.*\) does again what hands did$/\1/p' viewer.err)
+    [[ $input == "$kept"/block-*.input && -s $input ]] || fail "what hands did is not kept"
+    played() { # LOG: the state that it comes to
+        "$player" --headless --replay "$1" >replay.out 2>replay.err || fail "the replay failed: $(cat replay.err)"
+        sed -n 's/^state hash \([0-9a-f]*\) after [1-9][0-9]* steps.*/\1/p' replay.out
+    }
+    cut=$(played "$input")
+    grep -e '^sinew' -e '^scene' -e '^solver' -e '^substeps' -e '^steps' "$input" >idle.input
+    idle=$(played idle.input)
+    [[ -n $cut && -n $idle && $cut != "$idle" ]] || fail "the replay does not cut: $cut, $idle without hands"
+fi
 echo "$4: passed"

@@ -102,6 +102,16 @@ void InputLog::takeBack(std::uint64_t steps) {
     pointed_.reset();
 }
 
+bool InputLog::hasDeeds(std::size_t first) const {
+    const auto isDeed = [](const InputEvent& event) {
+        return std::holds_alternative<Pressed>(event) || std::holds_alternative<Action>(event) ||
+               std::holds_alternative<Pulled>(event) || std::holds_alternative<Turned>(event) ||
+               std::holds_alternative<Shaped>(event);
+    };
+    return first < events_.size() &&
+           std::any_of(events_.begin() + static_cast<std::ptrdiff_t>(first), events_.end(), isDeed);
+}
+
 std::uint64_t InputFile::steps() const {
     std::uint64_t all = 0;
     for (const InputEvent& event : events)

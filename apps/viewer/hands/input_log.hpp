@@ -95,6 +95,8 @@ public:
     void takeBack(std::uint64_t steps);
 
     const std::vector<InputEvent>& events() const { return events_; }
+    /// Whether there is more from that one on than steps and looks around.
+    bool hasDeeds(std::size_t first) const;
 
 private:
     std::vector<InputEvent> events_;

@@ -9,12 +9,13 @@ namespace sinew::viewer {
 
 namespace fs = std::filesystem;
 
-fs::path freeName(std::string name, const std::string& extension) {
+fs::path freeName(std::string name, const std::string& extension, const fs::path& folder) {
     for (char& c : name)
         if (c == '/' || c == '\\' || static_cast<unsigned char>(c) < 32) c = '_';
-    fs::path file = name + extension;
+    fs::path file = folder / (name + extension);
     std::error_code error; // what cannot be looked at will not be written either, and then says why
-    for (int copy = 2; fs::exists(file, error); ++copy) file = name + "-" + std::to_string(copy) + extension;
+    for (int copy = 2; fs::exists(file, error); ++copy)
+        file = folder / (name + "-" + std::to_string(copy) + extension);
     return file;
 }
 

@@ -30,8 +30,9 @@ private:
     std::size_t count_ = 0;
 };
 
-/// `name` and `extension` with what makes a file or folder of the current folder out of them that is not
-/// there yet.
-std::filesystem::path freeName(std::string name, const std::string& extension);
+/// `name` and `extension` with what makes a file or folder of `folder`, or of the current one, out of them
+/// that is not there yet.
+std::filesystem::path freeName(std::string name, const std::string& extension,
+                               const std::filesystem::path& folder = {});
 
 } // namespace sinew::viewer

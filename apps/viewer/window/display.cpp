@@ -7,14 +7,11 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <string_view>
+#include <exception>
 
 namespace sinew::viewer {
 
 namespace {
-
-constexpr std::string_view message =
-    "error: the window was closed: its display went away: open it again on another display\n";
 
 template <typename Function> Function find(const char* name) {
     return reinterpret_cast<Function>(dlsym(RTLD_DEFAULT, name));
@@ -22,24 +19,55 @@ template <typename Function> Function find(const char* name) {
 
 // Xlib ends a program whose display has gone with exit(), in the middle of whatever its other threads do. It
 // can go on instead, but GLFW cannot.
-int end(void* /*display*/) {
-    [[maybe_unused]] const auto written = write(STDERR_FILENO, message.data(), message.size());
-    _exit(app::noDevice);
+[[noreturn]] void leave(const std::string& kept) {
+    _exit(
+        app::report(app::noDevice,
+                    "the window was closed: its display went away: open it again on another display" + kept));
+}
+
+[[noreturn]] void leaveWith(void* /*display*/, void* farewell) {
+    const auto& keep = *static_cast<const Farewell*>(farewell);
+    std::string kept;
+    try {
+        if (keep) kept = keep();
+    } catch (const std::exception& error) { // it must not reach Xlib
+        kept = std::string(": nothing was kept: ") + error.what();
+    }
+    leave(kept);
+}
+
+int leaveAtOnce(void* /*display*/) {
+    leave({});
+}
+
+// leaveWith() comes next.
+int keepQuiet(void* /*display*/) {
+    return 0;
+}
+
+void* openDisplay() {
+    const auto open = find<void* (*)()>("glfwGetX11Display");
+    return open ? open() : nullptr;
 }
 
 } // namespace
 
-void watchDisplay() {
+void watchDisplay(const Farewell& farewell) {
     using Handler = int (*)(void* display);
-    if (const auto set = find<Handler (*)(Handler)>("XSetIOErrorHandler")) set(end);
+    using ExitHandler = void (*)(void* display, void* data);
+    const auto set = find<Handler (*)(Handler)>("XSetIOErrorHandler");
+    const auto setExit = find<void (*)(void* display, ExitHandler, void* data)>("XSetIOErrorExitHandler");
+    void* const display = openDisplay();
+    if (!set || display == nullptr) return;
+    set(setExit ? keepQuiet : leaveAtOnce);
+    if (setExit) setExit(display, leaveWith, const_cast<Farewell*>(&farewell));
 }
 
 void widenDisplay() {
     constexpr int wide = 4 << 20; // [bytes]: a picture of 1280 x 720; net.core.wmem_max may grant less
-    const auto open = find<void* (*)()>("glfwGetX11Display");
     const auto connection = find<int (*)(void* display)>("XConnectionNumber");
-    void* display = open && connection ? open() : nullptr;
-    if (display != nullptr)
+    void* const display = openDisplay();
+    if (connection && display != nullptr)
         setsockopt(connection(display), SOL_SOCKET, SO_SNDBUF, &wide, sizeof(wide)); // slower without
 }
 

@@ -2,7 +2,6 @@
 #include "viewer/window/window.hpp"
 
 #include "app/guard.hpp"
-#include "viewer/window/display.hpp"
 #include "vk/check.hpp"
 
 #define GLFW_INCLUDE_NONE
@@ -51,7 +50,8 @@ struct Window::State {
     std::uint64_t polls = 0, clickPoll = 0;
     Vector2 clickPlace = Vector2::Zero();
     Vector2 cursor = Vector2::Zero();        // screen coordinates
-    int x = 0, y = 0, width = 0, height = 0; // of the window before full screen
+    int x = 0, y = 0, width = 0, height = 0; // of the window, but for full screen
+    Farewell farewell;
 
     static State& of(GLFWwindow* window) { return *static_cast<State*>(glfwGetWindowUserPointer(window)); }
 
@@ -194,6 +194,11 @@ struct Window::State {
             of(w).input.files.assign(files, files + count);
         });
         glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { of(w).input.needsRedraw = true; });
+        glfwSetWindowSizeCallback(window, [](GLFWwindow* w, int wide, int high) {
+            if (glfwGetWindowMonitor(w) != nullptr) return;
+            of(w).width = wide;
+            of(w).height = high;
+        });
         glfwSetFramebufferSizeCallback(window,
                                        [](GLFWwindow* w, int, int) { of(w).input.needsRedraw = true; });
     }
@@ -201,7 +206,7 @@ struct Window::State {
 
 Window::Window(VkExtent2D size) : state_(std::make_unique<State>()) {
     if (glfwInit() != GLFW_TRUE) failWithoutDisplay();
-    watchDisplay();
+    watchDisplay(state_->farewell);
     widenDisplay();
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     state_->window = glfwCreateWindow(static_cast<int>(size.width), static_cast<int>(size.height), "Sinew",
@@ -214,6 +219,7 @@ Window::Window(VkExtent2D size) : state_(std::make_unique<State>()) {
         throw app::Failure(app::noDevice,
                            "cannot open a window: " + reason + ": use --headless --frames N --out DIR");
     }
+    glfwGetWindowSize(state_->window, &state_->width, &state_->height);
     state_->listen();
 }
 
@@ -258,6 +264,10 @@ Input Window::poll(double seconds) {
     return input;
 }
 
+void Window::setFarewell(Farewell farewell) {
+    state_->farewell = std::move(farewell);
+}
+
 void Window::setCover(Cover cover) {
     state_->cover = std::move(cover);
 }
@@ -278,9 +288,8 @@ VkExtent2D Window::pixels() const {
 }
 
 VkExtent2D Window::size() const {
-    int width = state_->width, height = state_->height;
-    if (glfwGetWindowMonitor(state_->window) == nullptr) glfwGetWindowSize(state_->window, &width, &height);
-    return {static_cast<std::uint32_t>(std::max(width, 0)), static_cast<std::uint32_t>(std::max(height, 0))};
+    return {static_cast<std::uint32_t>(std::max(state_->width, 0)),
+            static_cast<std::uint32_t>(std::max(state_->height, 0))};
 }
 
 bool Window::isClosing() const {

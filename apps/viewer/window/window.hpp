@@ -3,6 +3,7 @@
 
 #include "viewer/hands/bindings.hpp"
 #include "viewer/panels/panel_input.hpp"
+#include "viewer/window/display.hpp"
 #include "vk/device.hpp"
 
 #include <memory>
@@ -61,12 +62,17 @@ public:
     /// From now on `cover` is asked first. What it refers to must outlive the last poll().
     void setCover(Cover cover);
 
+    /// Asked for should the display go away, as watchDisplay(); until then there is none.
+    void setFarewell(Farewell farewell);
+
     /// Handles waiting events; waits for the first one at most `seconds`.
     Input poll(double seconds);
 
     float scale() const;       ///< of texts, as the display wants them; 1 = 96 pixels an inch
     VkExtent2D pixels() const; ///< 0 x 0 while minimised
-    VkExtent2D size() const;   ///< for another one of this size; in full screen, as it was before
+    /// For another one of this size, as of the last poll; in full screen, as it was before. Asks nothing of
+    /// the display.
+    VkExtent2D size() const;
     bool isClosing() const;
     void close();
     std::string clipboard() const; ///< empty where it holds no text
