@@ -28,6 +28,16 @@ Camera firstView(const scenes::LoadedScene& loaded, float aspect) {
     return camera;
 }
 
+// As it was seen when it was saved.
+Camera seenAgain(Camera camera, const app::SavedView& view) {
+    camera.target = toVector(view.target);
+    camera.distance = view.distance;
+    camera.azimuth = view.azimuth;
+    camera.elevation = view.elevation;
+    camera.fieldOfView = view.fieldOfView;
+    return camera;
+}
+
 // Of a saved state, which was there with this solver and so many substeps.
 Options withScene(Options options, const app::SavedRun& run) {
     options.scene.clear();
@@ -71,6 +81,7 @@ Opening look(const Options& asked, float aspect) {
     opening.camera = firstView(opening.loaded, aspect);
     opening.light = lightFor(opening.loaded.scene, opening.camera);
     opening.light.showsSleep = opening.loaded.settings.sleeps;
+    if (opening.run && opening.run->view) opening.camera = seenAgain(opening.camera, *opening.run->view);
     return opening;
 }
 

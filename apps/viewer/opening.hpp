@@ -43,7 +43,8 @@ struct Opening {
 };
 
 /// Loads the scene, or that of a saved state, prints its warnings to stderr and looks at it: from where the
-/// file says, or with every body in a picture `aspect` wide. Throws as scenes::load and app::readRun.
+/// file or the state says, or with every body in a picture `aspect` wide. Throws as scenes::load and
+/// app::readRun.
 Opening open(const Options& options, float aspect);
 
 /// The same without a word on stderr.

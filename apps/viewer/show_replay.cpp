@@ -14,6 +14,18 @@
 
 namespace sinew::viewer {
 
+namespace {
+
+app::SavedView viewOf(const Camera& camera) {
+    return {.target = {camera.target.x(), camera.target.y(), camera.target.z()},
+            .distance = camera.distance,
+            .azimuth = camera.azimuth,
+            .elevation = camera.elevation,
+            .fieldOfView = camera.fieldOfView};
+}
+
+} // namespace
+
 // Waits: nobody does this often.
 void Show::saveInput() {
     settleAll();
@@ -76,6 +88,7 @@ void Show::saveState() {
     try {
         app::SavedRun run = stage_.save(device_, queue);
         run.scene = sceneName();
+        run.view = viewOf(controller_.camera);
         const std::filesystem::path name = freeName(nameAt(stage_.played()), ".state");
         app::writeRun(name, run);
         std::printf("state: %s\n", name.c_str());

@@ -6,9 +6,12 @@
 #include "sim/hash.hpp"
 #include "vk/commands.hpp"
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <fstream>
+#include <initializer_list>
 #include <iterator>
 #include <ostream>
 #include <type_traits>
@@ -19,7 +22,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "state files are little endian");
 
-constexpr std::string_view title = "sinew state 2\n";
+constexpr std::string_view title = "sinew state 3\n";
+constexpr std::string_view titleWithoutView = "sinew state 2\n";
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
     throw Failure(badInput, "cannot read a state: " + file.string() + ": " + why);
@@ -107,8 +111,33 @@ template <typename Run, typename Visit> void visit(Run& run, Visit& each) {
     each(run.bytes);
 }
 
+// After the rest, since there was none in files of version 2.
+template <typename View, typename Visit> void visitView(View& view, Visit& each) {
+    each(view.target);
+    each(view.distance);
+    each(view.azimuth);
+    each(view.elevation);
+    each(view.fieldOfView);
+}
+
+bool isView(const SavedView& view) {
+    const auto isFinite = [](std::initializer_list<float> numbers) {
+        return std::ranges::all_of(numbers, [](float one) { return std::isfinite(one); });
+    };
+    constexpr float half = 3.14f; // of a turn [rad]
+    return isFinite(
+               {view.target.x, view.target.y, view.target.z, view.distance, view.azimuth, view.elevation}) &&
+           view.distance > 0 && view.fieldOfView > 0 && view.fieldOfView < half;
+}
+
 vk::Buffer bufferFor(const vk::Device& device, std::uint64_t size, vk::MemoryKind kind) {
     return {device, {.name = "state", .count = size / 4, .stride = 4, .kind = kind}};
+}
+
+void readView(SavedRun& run, Reader& reader) {
+    std::uint32_t hasView = 0;
+    reader(hasView);
+    if (hasView != 0) visitView(run.view.emplace(), reader);
 }
 
 } // namespace
@@ -152,6 +181,8 @@ sim::Settings withRun(sim::Settings settings, const SavedRun& run) {
 void writeRun(const std::filesystem::path& file, const SavedRun& run) {
     Writer writer;
     visit(run, writer);
+    writer(std::uint32_t{run.view.has_value()});
+    if (run.view) visitView(*run.view, writer);
     const std::vector<std::byte> bytes = writer.take();
     const std::uint64_t hash = sim::fnv1a(bytes);
     mesh::writeWhole(file, [&](std::ostream& stream) {
@@ -167,7 +198,9 @@ SavedRun readRun(const std::filesystem::path& file) {
     if (!std::filesystem::is_regular_file(file, error)) refuse(file, "it is no file");
     std::ifstream stream(file, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    if (!text.starts_with(title)) refuse(file, "it does not begin as states of this version do");
+    const bool mayHaveView = text.starts_with(title);
+    if (!mayHaveView && !text.starts_with(titleWithoutView))
+        refuse(file, "it does not begin as states of this version do");
     std::span<const std::byte> bytes = std::as_bytes(std::span(text)).subspan(title.size());
     std::uint64_t hash = 0;
     if (bytes.size() < sizeof(hash)) refuse(file, "it is cut short");
@@ -178,7 +211,9 @@ SavedRun readRun(const std::filesystem::path& file) {
     SavedRun run;
     Reader reader(bytes);
     visit(run, reader);
-    if (!reader.isWhole() || run.settings.solver > sim::Solver::gaussSeidel)
+    if (mayHaveView) readView(run, reader);
+    if (!reader.isWhole() || (run.view && !isView(*run.view)) ||
+        run.settings.solver > sim::Solver::gaussSeidel)
         refuse(file, "it is not what its version says");
     return run;
 }

@@ -5,8 +5,18 @@
 #include "sim/material.hpp"
 
 #include <filesystem>
+#include <optional>
 
 namespace sinew::app {
+
+/// From where it was looked at.
+struct SavedView {
+    sim::Vec3 target;      ///< that the eye turns around [m]
+    float distance = 0;    ///< of the eye [m]
+    float azimuth = 0;     ///< likewise, around y, 0 = on the +z side [rad]
+    float elevation = 0;   ///< likewise, above the target's level [rad]
+    float fieldOfView = 0; ///< vertical [rad]
+};
 
 /// What is saved: how to come to an equal simulation, and its state.
 struct SavedRun {
@@ -17,11 +27,12 @@ struct SavedRun {
     sim::Material material;   ///< that the scene was turned to
     sim::Vec3 gravity;        ///< likewise [m/s^2]
     sim::SavedState host;
-    std::vector<std::byte> bytes; ///< sim::Simulation::stateSize()
+    std::vector<std::byte> bytes;  ///< sim::Simulation::stateSize()
+    std::optional<SavedView> view; ///< nothing: not known, as in files of older versions
 };
 
 /// The state of a simulation whose steps have all been submitted to `queue`, which it waits for. What stands
-/// before `host` but settings and key is the caller's to fill in. Throws vk::Error.
+/// before `host` but settings and key, and the view, is the caller's to fill in. Throws vk::Error.
 SavedRun saveRun(const vk::Device& device, const GrowingSimulation& growing, vk::Queue& queue);
 
 /// Puts a simulation of the same scene, settings and material into that state, instead of

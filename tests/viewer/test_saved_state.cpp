@@ -2,6 +2,7 @@
 // refused.
 #include "app/guard.hpp"
 #include "app/state_file.hpp"
+#include "sim/hash.hpp"
 #include "support/device.hpp"
 #include "viewer/draw/stage.hpp"
 #include "viewer/opening.hpp"
@@ -10,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <limits>
 #include <unistd.h>
 
 namespace sinew::viewer {
@@ -130,6 +132,49 @@ TEST_F(SavedState, KeepsWhatTheSceneWasTurnedTo) {
     played.take(25);
     again.take(25);
     EXPECT_EQ(again.hash(), played.hash());
+}
+
+TEST_F(SavedState, KeepsWhereItWasSeenFrom) {
+    const Played played(scene);
+    app::SavedRun run = played.stage.save(test::device(), test::queue());
+    run.scene = scene.string();
+    run.view = {.target = {0.1f, -0.2f, 0.3f},
+                .distance = 0.7f,
+                .azimuth = -2,
+                .elevation = 0.5f,
+                .fieldOfView = 0.9f};
+    app::writeRun(file, run);
+    const Camera first = played.opening.camera;
+    const Opening opening = open({.scene = file.string()}, 1.6f);
+    EXPECT_EQ(opening.camera, (Camera{.target = {0.1f, -0.2f, 0.3f},
+                                      .distance = 0.7f,
+                                      .azimuth = -2,
+                                      .elevation = 0.5f,
+                                      .fieldOfView = 0.9f,
+                                      .lowestEye = first.lowestEye}));
+    EXPECT_EQ(opening.light.toLight, played.opening.light.toLight) << "which follows from the first view";
+    run.view->distance = std::numeric_limits<float>::quiet_NaN();
+    app::writeRun(file, run);
+    EXPECT_NE(refusal().find("it is not what its version says"), std::string::npos) << refusal();
+}
+
+// Which had nothing between the state and the hash.
+TEST_F(SavedState, OfTheVersionBeforeIsSeenAsItsScene) {
+    Played played(scene);
+    played.take(3);
+    save(played);
+    std::ifstream stream(file, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(stream), {}};
+    const std::string title = "sinew state 3\n";
+    ASSERT_TRUE(text.starts_with(title));
+    text =
+        text.substr(title.size(), text.size() - title.size() - sizeof(std::uint32_t) - sizeof(std::uint64_t));
+    const std::uint64_t hash = sim::fnv1a(std::as_bytes(std::span(text)));
+    text.append(reinterpret_cast<const char*>(&hash), sizeof(hash));
+    std::ofstream(file, std::ios::binary) << "sinew state 2\n" << text;
+    Played again(file);
+    EXPECT_EQ(again.hash(), played.hash());
+    EXPECT_EQ(again.opening.camera, played.opening.camera);
 }
 
 TEST_F(SavedState, IsRefusedWhereItIsOfAnotherSimulation) {

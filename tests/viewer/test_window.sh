@@ -223,7 +223,10 @@ more=$(($(sed 's/.* after \([0-9]*\) steps/\1/' <<<"$hash") + 7))
 grep -q "^$hash, as recorded$" replay.out || fail "with more steps the replay came to $(cat replay.out), not to $hash"
 grep -q " after $more steps$" replay.out || fail "nothing is said of the steps after the replay: $(cat replay.out)"
 
-echo "window: a state that is saved goes on in another run, cut as it was"
+echo "window: a state that is saved goes on in another run, cut and seen as it was"
+find . -name 'block-*.png' -delete
+keys F12
+for _ in {1..100}; do compgen -G 'block-*.png' >/dev/null && break; sleep 0.1; done
 keys ctrl+s
 for _ in {1..100}; do grep -q '^state: ' viewer.out && break; sleep 0.1; done
 grep -q '^state: block-[0-9]*\.state$' viewer.out || fail "Ctrl + S saved no state"
@@ -233,7 +236,7 @@ for run in first second; do
     grep '^state hash' "$run.out" >"$run.hash" || fail "nothing is said of the state in the end: $(cat "$run.out")"
 done
 cmp -s first.hash second.hash || fail "two runs from a state differ: $(cat first.hash second.hash)"
-[[ -s first/frame_0000.png ]] || fail "there is no picture of what was saved"
+same block-*.png first/frame_0000.png || fail "what was saved is not seen as it was"
 head -c 3000 block-*.state >short.state
 "$viewer" short.state --headless --frames 1 --out short >short.out 2>short.err && fail "half a state is taken for one"
 (($(grep -c '^error: cannot read a state: .*short.state: it is cut short' short.err) == 1)) || fail "half a state: $(cat short.err)"
