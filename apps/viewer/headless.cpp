@@ -93,7 +93,7 @@ public:
     Recorder(const Options& options, const Opening& opening, const vk::Device& device,
              std::optional<InputFile> input)
         : opening_(opening), device_(device), camera_(opening.camera),
-          stage_(device, opening.loaded.scene, opening.loaded.settings),
+          stage_(device, opening.loaded.scene, opening.loaded.settings, firstMaterial(opening)),
           offscreen_(device, options.size, opening.light), layers_(options.layers), queue_(device) {
         stage_.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
         if (options.isTimed) times_.emplace(device, stage_);
@@ -212,7 +212,7 @@ private:
     }
 
     void submit(std::uint64_t frame) {
-        if (frame == 0 && opening_.run) stage_.load(device_, *opening_.run, queue_);
+        if (frame == 0 && opening_.run) load();
         VkCommandBuffer commands = queue_.begin();
         Submission next{.frame = frame, .value = 0, .hands = {}, .gravity = stage_.gravity()};
         if (tools_ && frame > 0) next.hands = tools_->takeStep(commands, stage_);
@@ -223,6 +223,13 @@ private:
         next.value = queue_.submit(commands);
         if (times_ && frame > 0) times_->submitted();
         submissions_.push_back(next);
+    }
+
+    void load() {
+        stage_.load(device_, *opening_.run, queue_);
+        if (!replay_) return;
+        stage_.widen(roomOf(replay_->file()), queue_);
+        tools_->begin(stage_);
     }
 
     void record(VkCommandBuffer commands, const Submission& next) {
@@ -286,7 +293,7 @@ int runHeadless(const Options& asked, std::atomic<std::size_t>& messages) {
     const Options options = input ? withReplay(asked, *input) : asked;
     const float aspect = static_cast<float>(options.size.width) / static_cast<float>(options.size.height);
     Opening opening = open(options, aspect);
-    if (input) prepareForReplay(opening.loaded.settings, *input);
+    if (input) prepareForReplay(opening, *input);
     if (options.hasValidation) vk::enableQueueSubmitValidation();
     const vk::Loader loader;
     const vk::Device device =

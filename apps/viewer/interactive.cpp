@@ -215,7 +215,7 @@ int runInteractive(const Options& asked, std::atomic<std::size_t>& messages) {
     if (!options.replay.empty()) options = withReplay(options, *(input = loadInput(options.replay)));
     auto opening = openFirst(input ? options : asked, options);
     if (input) {
-        prepareForReplay(opening->loaded.settings, *input);
+        prepareForReplay(*opening, *input);
         opening->input = std::move(input);
     }
     if (options.hasValidation) vk::enableQueueSubmitValidation();

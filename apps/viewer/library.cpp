@@ -2,6 +2,7 @@
 #include "viewer/library.hpp"
 
 #include "scenes/built_in.hpp"
+#include "viewer/replay.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -81,18 +82,20 @@ void Library::openFile(const std::string& file, float aspect) {
 }
 
 void Library::reopen(const scenes::Overrides& overrides, const Again& again, float aspect) {
-    Request request = *shown_;
+    Request request{shown_->options, shown_->name, again};
     if (overrides.solver) request.options.overrides.solver = overrides.solver;
     if (overrides.substeps) request.options.overrides.substeps = overrides.substeps;
-    request.again = again;
     begin(std::move(request), aspect);
 }
 
 void Library::reopenOn(const std::string& device, const Again& again, float aspect) {
-    Request request = *shown_;
+    Request request{shown_->options, shown_->name, again};
     request.options.device = device;
-    request.again = again;
     begin(std::move(request), aspect);
+}
+
+void Library::playAgain(const InputFile& input, float aspect) {
+    begin({shown_->options, shown_->name, std::nullopt, input}, aspect);
 }
 
 void Library::begin(Request request, float aspect) {
@@ -101,6 +104,8 @@ void Library::begin(Request request, float aspect) {
     opening_ = std::async(std::launch::async, [asked = *asked_, aspect, this] {
         auto opening = std::make_unique<Opening>(viewer::open(asked.options, aspect));
         opening->again = asked.again;
+        if (asked.input) prepareForReplay(*opening, *asked.input);
+        opening->input = asked.input;
         if (prepare_) prepare_(*opening, asked.options);
         return opening;
     });

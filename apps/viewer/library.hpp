@@ -47,6 +47,9 @@ public:
     /// The scene on show once more, and from then on all of them, on another device.
     void reopenOn(const std::string& device, const Again& again, float aspect);
 
+    /// The state on show once more, to begin a log anew that begins from it.
+    void playAgain(const InputFile& input, float aspect);
+
     bool isOpening() const { return opening_.valid(); }
     /// What was asked for, once it is there; until then nothing. Throws app::Failure and what scenes::load
     /// and Prepare throw: the scene on show is then still the current one.
@@ -59,6 +62,7 @@ private:
         Options options;
         std::size_t name;
         std::optional<Again> again = {};
+        std::optional<InputFile> input = {};
     };
     void begin(Request request, float aspect);
     Options ofScene(Options options, std::size_t name) const;

@@ -85,6 +85,10 @@ Opening look(const Options& asked, float aspect) {
     return opening;
 }
 
+sim::Material firstMaterial(const Opening& opening) {
+    return opening.again ? opening.again->material : opening.run ? opening.run->material : sim::Material{};
+}
+
 void addHands(sim::Settings& settings) {
     settings.grabs = sim::ranges::mostGrabs;
     settings.pokes = 1;

@@ -50,6 +50,9 @@ Opening open(const Options& options, float aspect);
 /// The same without a word on stderr.
 Opening look(const Options& options, float aspect);
 
+/// What the scene is to be of from the start: of what it goes on from.
+sim::Material firstMaterial(const Opening& opening);
+
 /// For the pointer and its pins, and a sphere: what holds and pushes nothing costs nothing.
 void addHands(sim::Settings& settings);
 

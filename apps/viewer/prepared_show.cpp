@@ -3,6 +3,7 @@
 
 #include "sim/gpu_tune.hpp"
 #include "viewer/gauges.hpp"
+#include "viewer/replay.hpp"
 #include "viewer/warm_up.hpp"
 #include "vk/kernel_store.hpp"
 #include "vk/queue.hpp"
@@ -34,8 +35,7 @@ void View::dropCanvases() {
 }
 
 PreparedShow::PreparedShow(const vk::Device& device, const Opening& opening, VkFormat format)
-    : stage(device, opening.loaded.scene, fastest(device, opening),
-            opening.again ? opening.again->material : sim::Material{}),
+    : stage(device, opening.loaded.scene, fastest(device, opening), firstMaterial(opening)),
       facts(sceneFacts(opening, stage, device)),
       moving(device, format, isSoftware(device) ? reducedQuality() : Quality{}, opening.light) {
     stage.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
@@ -46,6 +46,7 @@ PreparedShow::PreparedShow(const vk::Device& device, const Opening& opening, VkF
     if (!opening.run || opening.again) return;
     vk::Queue queue(device);
     stage.load(device, *opening.run, queue);
+    if (opening.input) stage.widen(roomOf(*opening.input), queue);
 }
 
 void prepare(Opening& opening, const vk::Device& device, const Window& window) {

@@ -76,7 +76,21 @@ std::uint64_t stateHash(const vk::Device& device, const Stage& stage, vk::Queue&
     return sim::fnv1a(std::as_bytes(probe.velocities()), sim::fnv1a(std::as_bytes(probe.positions())));
 }
 
+namespace {
+
+// Where it was, or beside the log where both have moved.
+std::string stateOf(const SavedOrigin& from, const std::filesystem::path& log) {
+    std::error_code error;
+    const std::filesystem::path beside = log.parent_path() / std::filesystem::path(from.file).filename();
+    const bool hasMoved =
+        !std::filesystem::exists(from.file, error) && std::filesystem::exists(beside, error);
+    return hasMoved ? beside.string() : from.file;
+}
+
+} // namespace
+
 Options withReplay(Options options, const InputFile& file) {
+    if (options.scene.empty() && file.from) options.scene = stateOf(*file.from, options.replay);
     if (options.scene.empty() && !file.scene.empty())
         (file.scene.front() == '/' ? options.scene : options.builtIn) = file.scene;
     if (!options.overrides.solver && !file.solver.empty()) options.overrides.solver = file.solver;
@@ -85,11 +99,22 @@ Options withReplay(Options options, const InputFile& file) {
     return options;
 }
 
-void prepareForReplay(sim::Settings& settings, const InputFile& file) {
+void prepareForReplay(Opening& opening, const InputFile& file) {
+    if (file.from && (!opening.run || opening.run->fileHash != file.from->hash))
+        throw app::Failure(app::badInput, "cannot play input: it begins from a state: " + file.from->file +
+                                              ": what was opened is another one: open the file that was "
+                                              "loaded then");
+    sim::Settings& settings = opening.loaded.settings;
     addHands(settings);
-    settings.contactRoom = std::clamp(file.room, settings.contactRoom, sim::ranges::mostContactRoom);
-    settings.cutSurfaceRoom =
-        std::clamp(file.surface, settings.cutSurfaceRoom, sim::ranges::mostCutSurfaceRoom);
+    if (!file.from) settings = app::withRoomOf(settings, roomOf(file));
+    opening.bladeDepth.reset(); // the log has its own
+}
+
+sim::Settings roomOf(const InputFile& file) {
+    sim::Settings room;
+    room.contactRoom = std::min(file.room, sim::ranges::mostContactRoom);
+    room.cutSurfaceRoom = std::min(file.surface, sim::ranges::mostCutSurfaceRoom);
+    return room;
 }
 
 std::string hashText(std::uint64_t hash, std::uint64_t steps) {

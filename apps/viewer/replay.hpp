@@ -7,6 +7,7 @@
 
 namespace sinew::viewer {
 
+struct Opening;
 class Stage;
 class Tools;
 
@@ -43,8 +44,11 @@ std::uint64_t stateHash(const vk::Device& device, const Stage& stage, vk::Queue&
 
 /// The scene that the log is of, with what was asked for over it; what the command line says goes first.
 Options withReplay(Options options, const InputFile& file);
-/// Hands for the tools, and room for contacts as there was.
-void prepareForReplay(sim::Settings& settings, const InputFile& file);
+/// Hands for the tools, and room for contacts as there was: for a log that begins from a state
+/// Stage::widen(roomOf()) makes that, once the state is there. Throws app::Failure (badInput) where the log
+/// begins from another state than the one that was opened.
+void prepareForReplay(Opening& opening, const InputFile& file);
+sim::Settings roomOf(const InputFile& file);
 
 /// "state hash 0123456789abcdef after 240 steps".
 std::string hashText(std::uint64_t hash, std::uint64_t steps);

@@ -38,8 +38,10 @@ Show::Show(Screen& screen, Library& library, const Devices& devices, const vk::D
         times_.emplace_back(device, spans);
         drawingTimes_.emplace_back(device, 2);
     }
-    if (!isFromState_) controller_.playback.reset(); // fills the buffers
-    if (isFromState_) goOn(*opening_.run);
+    if (!opening_.run || opening_.again)
+        controller_.playback.reset(); // fills the buffers
+    else
+        goOn(*opening_.run);
     if (opening_.input) replay_.emplace(*opening_.input);
 }
 
@@ -49,7 +51,8 @@ void Show::goOn(const app::SavedRun& run) {
     knobs_ = turnedTo(run.material, knobs_, sceneFacts_.fromFile);
     knobs_.gravity = std::hypot(x, y, z);
     sceneFacts_.stiffness = stiffnessText(stage_);
-    if (stage_.material() != sim::Material{}) tools_.turned(stage_.material());
+    tools_.begin(stage_);
+    from_ = {rememberedScene(library_.shown().scene, {}), run.fileHash};
 }
 
 Show::~Show() {
@@ -138,6 +141,10 @@ Plan Show::plan(double elapsed) {
     const bool isOneByOne = recording_ || replay_;
     Plan plan = controller_.playback.plan(elapsed, isOneByOne ? 1 : budget_.steps(Playback::maxSteps));
     if (recording_ && !controller_.playback.isPaused() && !plan.isReset) plan.steps = 1;
+    if (plan.isReset && replay_ && from_) { // the state is put in anew, beside what plays
+        if (mayOpen()) library_.playAgain(replay_->file(), pictureAspect());
+        plan.isReset = false;
+    }
     return plan;
 }
 

@@ -186,8 +186,8 @@ private:
     std::uint32_t surfaceMissing_ = 0; // Status::cutSurfaceMissing of the newest settled step
     std::uint32_t panelsDue_ = 0;      // pictures until the panels look as they should
     std::uint32_t cutFrames_ = 0;      // pictures that may still wait for a cut
-    bool isFromState_ = opening_.run && !opening_.again; // until the reset
-    bool isBroken_ = false;                              // has diverged, likewise
+    std::optional<SavedOrigin> from_;  // until the reset
+    bool isBroken_ = false;            // has diverged, likewise
     bool isHidden_ = false, isDiverged_ = false, isSurfaceMissing_ = false, isCut_ = false,
          isRefused_ = false, wantsScreenshot_ = false, wantsProbe_ = false;
 };

@@ -27,7 +27,7 @@ void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
         const sim::Settings& begun = replay_ ? stage_.madeWith() : stage_.settings();
         begun_ = {begun.solver, begun.substeps};
         if (replay_) replay_->restart();
-        if (std::exchange(isFromState_, false)) tools_.pull(stage_, knobs_.gravity); // from now on in the log
+        if (std::exchange(from_, std::nullopt)) tools_.pull(stage_, knobs_.gravity); // from now on in the log
         forgetFlights();
         isDiverged_ = isBroken_ = false;
     }

@@ -30,9 +30,8 @@ app::SavedView viewOf(const Camera& camera) {
 void Show::saveInput() {
     settleAll();
     if (isBroken_) return screen_.tell("a state that is no more cannot be reached again");
-    if (isFromState_)
-        return screen_.tell("what hands did since a state was loaded is saved with the state alone: " +
-                            std::string(keyOf(Action::saveState)));
+    if (from_ && from_->file.empty())
+        return screen_.tell("the name of the state that this began from fits in no line of a log");
     InputFile file = inputFile();
     vk::Queue queue(device_);
     file.hash = stateHash(device_, stage_, queue);
@@ -50,6 +49,7 @@ void Show::saveInput() {
 
 InputFile Show::inputFile() const {
     return {.scene = sceneName(),
+            .from = from_,
             .solver = sim::solverName(begun_.solver),
             .substeps = begun_.substeps,
             .room = stage_.contactRoom().room,
@@ -59,7 +59,7 @@ InputFile Show::inputFile() const {
 
 // Without a hash of the state: steps may be on their way.
 std::string Show::keepInput(const std::filesystem::path& otherwise) const {
-    if (replay_ || isFromState_ || !tools_.log().hasDeeds(inputSaved_)) return {};
+    if (replay_ || (from_ && from_->file.empty()) || !tools_.log().hasDeeds(inputSaved_)) return {};
     const std::string text = toText(inputFile());
     std::string why;
     for (const std::filesystem::path& folder : {std::filesystem::path(), otherwise}) {

@@ -72,7 +72,7 @@ void Show::takeOver(const Show& before) {
     if (before.inspector_.isOn()) inspector_.toggle();
     inputSaved_ = before.inputSaved_;
     begun_ = before.begun_;
-    isFromState_ = before.isFromState_;
+    from_ = before.from_;
     isBroken_ = before.isBroken_;
     isCut_ = before.isCut_;
     sceneFacts_.fromFile = before.sceneFacts_.fromFile;

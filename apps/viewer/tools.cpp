@@ -136,6 +136,11 @@ void Tools::shape(Stage& stage, const Shaped& shaped) {
     log_.shape(shaped);
 }
 
+void Tools::begin(const Stage& stage) {
+    material_ = stage.material();
+    log_.begin(material_);
+}
+
 void Tools::forgetStates() {
     history_.clear();
     steps_.clear();

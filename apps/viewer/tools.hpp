@@ -47,6 +47,8 @@ public:
     /// that is no more.
     void shape(Stage& stage, const Shaped& shaped);
     void forgetStates();
+    /// Instead of reset(): the stage has come to where it is without them.
+    void begin(const Stage& stage);
     /// All that `before` has in hand, and its log, for a stage that has taken over that of `before`.
     void goOn(const Tools& before, const Stage& stage);
     /// Of the sphere that pokes [m].

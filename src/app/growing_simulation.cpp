@@ -73,6 +73,14 @@ void GrowingSimulation::replace(const sim::Settings& settings, vk::Queue& queue)
     settings_ = settings;
 }
 
+void GrowingSimulation::widen(const sim::Settings& roomy, vk::Queue& queue) {
+    const sim::Settings settings = withRoomOf(settings_, roomy);
+    if (settings.contactRoom == settings_.contactRoom && settings.cutSurfaceRoom == settings_.cutSurfaceRoom)
+        return;
+    replace(settings, queue);
+    room_.room = settings.contactRoom;
+}
+
 // Only as far as it was not made with it: pipelines take their time.
 void GrowingSimulation::makeRoomOf(const GrowingSimulation& other) {
     const sim::Settings roomy = withRoomOf(settings_, other.settings_);

@@ -56,6 +56,10 @@ public:
     /// submitted. Throws as sim::Simulation, and nothing has changed then.
     void replace(const sim::Settings& settings, vk::Queue& queue);
 
+    /// Goes on after the newest step in a simulation with at least those rooms of `roomy`, where there is
+    /// less. As replace().
+    void widen(const sim::Settings& roomy, vk::Queue& queue);
+
     /// Goes on where `from` stands, which is of the same scene, of whatever material, and of such settings,
     /// on this device or another one; with as much room as that has. By way of the host, whichever device it
     /// is. All steps of both have finished. Waits, on queues of its own. Throws as sim::Simulation and

@@ -215,6 +215,7 @@ SavedRun readRun(const std::filesystem::path& file) {
     if (!reader.isWhole() || (run.view && !isView(*run.view)) ||
         run.settings.solver > sim::Solver::gaussSeidel)
         refuse(file, "it is not what its version says");
+    run.fileHash = hash;
     return run;
 }
 

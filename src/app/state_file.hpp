@@ -29,10 +29,12 @@ struct SavedRun {
     sim::SavedState host;
     std::vector<std::byte> bytes;  ///< sim::Simulation::stateSize()
     std::optional<SavedView> view; ///< nothing: not known, as in files of older versions
+    std::uint64_t fileHash = 0;    ///< of all that the file has that it was read from
 };
 
 /// The state of a simulation whose steps have all been submitted to `queue`, which it waits for. What stands
-/// before `host` but settings and key, and the view, is the caller's to fill in. Throws vk::Error.
+/// before `host` but settings and key, and what stands after `bytes`, is the caller's to fill in. Throws
+/// vk::Error.
 SavedRun saveRun(const vk::Device& device, const GrowingSimulation& growing, vk::Queue& queue);
 
 /// Puts a simulation of the same scene, settings and material into that state, instead of

@@ -38,7 +38,13 @@ inline Opening openText(const std::string& text) {
     std::ofstream(file) << text;
     Opening opening = open({.scene = file.string()}, 1.6f);
     std::filesystem::remove(file);
-    prepareForReplay(opening.loaded.settings, {});
+    prepareForReplay(opening, {});
+    return opening;
+}
+
+inline Opening openFile(const std::filesystem::path& file, const InputFile& input = {}) {
+    Opening opening = open({.scene = file.string()}, 1.6f);
+    prepareForReplay(opening, input);
     return opening;
 }
 
@@ -51,9 +57,18 @@ struct Scene {
     StateProbe probe{test::device(), stage.scene(), stage.simulation()};
 
     explicit Scene(const std::string& text = block, const sim::Material& material = {})
-        : opening(openText(text)),
-          stage(test::device(), opening.loaded.scene, opening.loaded.settings, material) {
-        run([&](VkCommandBuffer commands) { stage.recordReset(commands); });
+        : Scene(openText(text), material) {}
+    explicit Scene(const std::filesystem::path& file, const InputFile& input = {})
+        : Scene(openFile(file, input)) {}
+    explicit Scene(Opening opened, const std::optional<sim::Material>& material = {})
+        : opening(std::move(opened)), stage(test::device(), opening.loaded.scene, opening.loaded.settings,
+                                            material.value_or(firstMaterial(opening))) {
+        if (opening.run) {
+            stage.load(test::device(), *opening.run, test::queue());
+            tools.begin(stage);
+        } else {
+            run([&](VkCommandBuffer commands) { stage.recordReset(commands); });
+        }
     }
     template <typename Record> void run(const Record& record) {
         VkCommandBuffer commands = test::queue().begin();

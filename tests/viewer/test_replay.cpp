@@ -310,6 +310,7 @@ TEST(InputFile, BringsEveryBitBack) {
     const float odd = 0.1f + std::numeric_limits<float>::epsilon();
     const Camera camera{.target = {odd, -odd, 1e-30f}};
     const InputFile file{.scene = "/a b/c.toml",
+                         .from = SavedOrigin{"/a b/c d.state", 0xfedcba98u},
                          .solver = "jacobi",
                          .substeps = 7,
                          .room = 64,
@@ -322,6 +323,7 @@ TEST(InputFile, BringsEveryBitBack) {
                          .hash = 0xfedcba9876543210u};
     const InputFile read = parseInput(toText(file), "test");
     EXPECT_EQ(read.events, file.events);
+    EXPECT_EQ(read.from, file.from);
     EXPECT_EQ(toText(read), toText(file));
 }
 
@@ -353,6 +355,9 @@ TEST(InputFile, IsRefusedWithItsLine) {
                              "state xyz",
                              "wave",
                              "gravity inf",
+                             "from",
+                             "from 12",
+                             "from x /a.state",
                              "depth",
                              "depth deep",
                              "blade 1 0 0",

@@ -260,6 +260,57 @@ keys ctrl+q
 awaitEnd 0
 uncut=$scene
 scene=$(echo block-*.state)
+state=$scene
+start
+awaitTitle 'pieces'
+
+echo "window: what hands did since a state was loaded leads there again, in the window and without"
+xdotool mousemove 320 $((now + height / 2)) mousedown 1
+for _ in {1..10}; do xdotool mousemove_relative -- 4 -6; sleep 0.1; done
+xdotool mouseup 1
+keys space
+awaitTitle paused
+rm block-*.input
+keys F8
+for _ in {1..100}; do grep -q '^input: ' viewer.out && break; sleep 0.1; done
+hash=$(sed -n 's/^input: .*\(state hash .* steps\)$/\1/p' viewer.out)
+[[ -n $hash ]] || fail "F8 saved no input of a state"
+log=$(echo block-*.input)
+grep -q '^press ' "$log" || fail "what hands did is not in the log"
+keys ctrl+q
+awaitEnd 0
+"$viewer" --headless --replay "$log" >replay.out 2>replay.err || fail "the replay failed: $(cat replay.err)"
+grep -q "^$hash, as recorded$" replay.out || fail "from a state the replay came to $(cat replay.out), not to $hash"
+scene=
+played() { # TIMES
+    for _ in {1..600}; do (($(grep -c "^$hash, as recorded$" viewer.out) >= $1)) && return; sleep 0.1; done
+    fail "the replay in the window did not come to $hash"
+}
+start --replay "$log"
+played 1
+keys ctrl+q
+awaitEnd 0
+start --replay "$log"
+keys r # begins it again
+for _ in {1..300}; do (($(grep -c ' particles, ' viewer.out) >= 2)) && break; sleep 0.1; done
+(($(grep -c ' particles, ' viewer.out) >= 2)) || fail "R does not begin a replay from a state again"
+played 1
+keys ctrl+q
+awaitEnd 0
+cp "$state" kept.state
+sed 's/^from [0-9a-f]*/from 123/' "$log" >other.input
+for run in "--headless" ""; do
+    code=0
+    "$viewer" $run --replay other.input >replay.out 2>replay.err || code=$?
+    [[ $code == 3 && $(wc -l <replay.err) == 1 ]] || fail "from another state: exit code $code: $(cat replay.err)"
+    grep -q '^error: cannot play input: it begins from a state: /.*/block-' replay.err || fail "from another state: $(cat replay.err)"
+done
+rm "$state"
+code=0
+"$viewer" --headless --replay "$log" >replay.out 2>replay.err || code=$?
+[[ $code == 3 && $(wc -l <replay.err) == 1 ]] || fail "without its state: exit code $code: $(cat replay.err)"
+mv kept.state "$state"
+scene=$state
 start
 awaitTitle 'pieces'
 keys r

@@ -22,7 +22,7 @@ fail() { # on stderr: it may be called where stdout is a value
 }
 
 exec 3<>"$folder/display"
-Xvfb -displayfd 3 -screen 0 "${screen}x24" -nolisten tcp >/dev/null 2>&1 &
+Xvfb -displayfd 3 -screen 0 "${screen}x24" -nolisten tcp -noreset >/dev/null 2>&1 &
 processes+=($!)
 for _ in {1..100}; do [[ -s display ]] && break; sleep 0.1; done
 [[ -s display ]] || fail "Xvfb did not start"

@@ -49,6 +49,9 @@ public:
     app::SavedRun save(const vk::Device& device, vk::Queue& queue) const;
     void load(const vk::Device& device, const app::SavedRun& run, vk::Queue& queue);
 
+    /// As app::GrowingSimulation::widen.
+    void widen(const sim::Settings& roomy, vk::Queue& queue) { growing_.widen(roomy, queue); }
+
     /// Blades that cut by themselves, from the reset on; in their steps no other one does.
     void setBlades(scenes::ScriptedBlades blades) { blades_ = std::move(blades); }
 

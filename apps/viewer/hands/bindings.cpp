@@ -111,7 +111,7 @@ constexpr std::array table{
     Binding{{key, GLFW_KEY_F8},
             saveInput,
             "F8",
-            "save what hands did since the reset in the current folder; --replay plays it again",
+            "save what hands did since the reset, or a state, in the current folder; --replay plays it again",
             "Input"},
     Binding{{key, GLFW_KEY_S, GLFW_MOD_CONTROL},
             saveState,

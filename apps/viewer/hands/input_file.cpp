@@ -228,6 +228,13 @@ Shaped readShape(Words& words) {
     return shaped;
 }
 
+SavedOrigin readOrigin(Words& words) {
+    SavedOrigin from;
+    from.hash = words.number<std::uint64_t>(16);
+    from.file = words.rest();
+    return from;
+}
+
 struct Reader {
     std::string_view name;
     void (*read)(InputFile&, Words&);
@@ -235,6 +242,7 @@ struct Reader {
 
 const std::array readers{
     Reader{"scene", [](InputFile& to, Words& words) { to.scene = words.rest(); }},
+    Reader{"from", [](InputFile& to, Words& words) { to.from = readOrigin(words); }},
     Reader{"solver", [](InputFile& to, Words& words) { to.solver = words.word(); }},
     Reader{"substeps", [](InputFile& to, Words& words) { to.substeps = words.number<std::uint32_t>(); }},
     Reader{"room", [](InputFile& to, Words& words) { to.room = words.number<std::uint32_t>(); }},
@@ -280,6 +288,7 @@ void readLine(const std::string& line, InputFile& file) {
 std::string toText(const InputFile& file) {
     std::string all = std::string(title) + "\n";
     if (!file.scene.empty()) all += "scene " + file.scene + "\n";
+    if (file.from) all += Line("from").add(file.from->hash, 16).addWord(file.from->file).end();
     if (!file.solver.empty()) all += "solver " + file.solver + "\n";
     if (file.substeps > 0) all += Line("substeps").add(file.substeps).end();
     if (file.room > 0) all += Line("room").add(file.room).end();

@@ -1,5 +1,6 @@
-// What hands did to a scene since its reset, step by step, to be done again: camera, pointer, presses, keys,
-// and what was found under a press. The same events lead a simulation of the same scene to the same bits.
+// What hands did to a scene since its reset, or since a saved state, step by step, to be done again: camera,
+// pointer, presses, keys, and what was found under a press. The same events lead a simulation of the same
+// scene to the same bits.
 #pragma once
 
 #include "sim/material.hpp"
@@ -75,6 +76,8 @@ class InputLog {
 public:
     /// Begins anew, at a reset.
     void restart();
+    /// Begins where there is this material already.
+    void begin(const sim::Material& material) { material_ = material; }
 
     void look(const Camera& camera);
     void point(const Vector2& pointer);
@@ -106,9 +109,17 @@ private:
     sim::Material material_; // as at a reset, the scene's own
 };
 
+/// A saved state that a log begins from.
+struct SavedOrigin {
+    std::string file;       ///< from the root
+    std::uint64_t hash = 0; ///< app::SavedRun::fileHash
+    bool operator==(const SavedOrigin&) const = default;
+};
+
 /// A log and what it is of.
 struct InputFile {
-    std::string scene; ///< as rememberedScene(); empty = not said
+    std::string scene;               ///< as rememberedScene(); empty = not said
+    std::optional<SavedOrigin> from; ///< instead of the reset
     std::string solver;
     std::uint32_t substeps = 0; ///< 0 = chosen
     std::uint32_t room = 0;     ///< of contacts, at least; 0 = as the scene says
