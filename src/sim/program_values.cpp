@@ -2,6 +2,7 @@
 #include "sim/program_values.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace sinew::sim {
 
@@ -86,6 +87,26 @@ void take(StepProgram& program, ProgramValues values) noexcept {
     setPushes(program.skin, values.skin);
     setPushes(program.wholeSkin, values.wholeSkin);
     setPushes(program.settle, values.settle);
+}
+
+void requireSameParticles(const StepProgram& from, const StepProgram& to) {
+    const auto isSame = [&](BufferId a, BufferId b) {
+        return a == b && (a == BufferId{} || from.buffers[a.index].initial == to.buffers[b.index].initial);
+    };
+    if (!isSame(from.positions, to.positions) || !isSame(from.velocities, to.velocities))
+        throw std::invalid_argument("particles: a change of material must have those of the simulation, "
+                                    "where they were and as heavy");
+}
+
+std::vector<BufferId> writtenByStep(const StepProgram& program) {
+    std::vector<bool> isWritten(program.buffers.size());
+    for (const Pass& pass : program.step)
+        for (const BufferUse& use : pass.uses)
+            if (use.access != vk::Access::read) isWritten[use.buffer.index] = true;
+    std::vector<BufferId> buffers;
+    for (std::uint32_t b = 0; b < isWritten.size(); ++b)
+        if (isWritten[b]) buffers.push_back({b});
+    return buffers;
 }
 
 } // namespace sinew::sim

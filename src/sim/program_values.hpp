@@ -30,6 +30,13 @@ std::optional<ProgramValues> valuesOf(const StepProgram& from, const StepProgram
 /// Puts them into `program`, which they were made from: what it begins with and pushes from now on.
 void take(StepProgram& program, ProgramValues values) noexcept;
 
+/// A change leaves the state where it is. Throws std::invalid_argument where `to` begins with other particles
+/// than `from`.
+void requireSameParticles(const StepProgram& from, const StepProgram& to);
+
+/// All that passes of a step write: the state between steps is among it.
+std::vector<BufferId> writtenByStep(const StepProgram& program);
+
 /// By buffer: whether passes of a step, of the skins or of settling write it.
 std::vector<bool> areWritten(const StepProgram& program);
 

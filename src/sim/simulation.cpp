@@ -22,7 +22,6 @@
 #include <cstddef>
 #include <cstring>
 #include <optional>
-#include <stdexcept>
 
 namespace sinew::sim {
 
@@ -40,28 +39,6 @@ constexpr std::uint32_t farAwayBits = 0x5d5e0b6b;
 float withinRange(float dt) {
     const auto low = static_cast<float>(ranges::dt.low), high = static_cast<float>(ranges::dt.high);
     return dt >= low ? std::min(dt, high) : low;
-}
-
-// A change leaves the state where it is: it cannot be one of other particles.
-void requireSameParticles(const StepProgram& own, const StepProgram& other) {
-    const auto isSame = [&](BufferId a, BufferId b) {
-        return a == b && (a == BufferId{} || own.buffers[a.index].initial == other.buffers[b.index].initial);
-    };
-    if (!isSame(own.positions, other.positions) || !isSame(own.velocities, other.velocities))
-        throw std::invalid_argument("particles: a change of material must have those of the simulation, "
-                                    "where they were and as heavy");
-}
-
-// All that passes of a step write: the state between steps is among it.
-std::vector<BufferId> writtenBy(const StepProgram& program) {
-    std::vector<bool> isWritten(program.buffers.size());
-    for (const Pass& pass : program.step)
-        for (const BufferUse& use : pass.uses)
-            if (use.access != vk::Access::read) isWritten[use.buffer.index] = true;
-    std::vector<BufferId> buffers;
-    for (std::uint32_t b = 0; b < isWritten.size(); ++b)
-        if (isWritten[b]) buffers.push_back({b});
-    return buffers;
 }
 
 } // namespace
@@ -132,10 +109,10 @@ struct Simulation::State {
     struct Resolved {};
     State(const vk::Device& d, const Scene& scene, const Settings& settings, Resolved)
         : device(d), chosen(settings), program(compileFor(d, scene, settings)), executor(d, program),
-          written(writtenBy(program)), statusRing(d, {.name = "status.ring",
-                                                      .count = framesInFlight,
-                                                      .stride = sizeof(layout::StatusWords),
-                                                      .kind = vk::MemoryKind::readback}),
+          written(writtenByStep(program)), statusRing(d, {.name = "status.ring",
+                                                          .count = framesInFlight,
+                                                          .stride = sizeof(layout::StatusWords),
+                                                          .kind = vk::MemoryKind::readback}),
           skins(rangesOf(scene.skins, Triangles::all)), wholeSkins(rangesOf(scene.skins, Triangles::whole)),
           mixedSkins(rangesOf(scene.skins, program.mixedRanges)), anchors(scene.attachments),
           hands(settings.grabs, scene.particles.size()),
@@ -287,6 +264,31 @@ struct Simulation::State {
         });
     }
 
+    // Where a copy of the state has a buffer; the buffer itself where it is no part of the state.
+    vk::BufferView placeIn(const vk::BufferView& saved, BufferId buffer) const noexcept {
+        vk::BufferView place = saved;
+        for (const BufferId one : written) {
+            place.size = executor.view(one).size;
+            if (one == buffer) return place;
+            place.offset += place.size;
+        }
+        return executor.view(buffer);
+    }
+
+    // The host's part of a state.
+    void moveTo(const SavedState& saved) noexcept {
+        previousH = saved.h;
+        collision::PokeStates pokes{};
+        std::copy_n(saved.pokes.begin(), std::min(saved.pokes.size(), pokes.size()), pokes.begin());
+        settledEnd = {saved.h, saved.colliderTime, pokes};
+        unsettled = {};
+        anchors.moveTo(saved.anchors);
+        hasNewTopology = saved.hasNewTopology;
+        isUncut = saved.isUncut;
+        hands.reset();
+        colliders.moveTo(saved.colliderTime, pokes);
+    }
+
     // Copies buffers out to where they stand one behind the other, or back from there.
     enum class Way { out, back };
     void copy(vk::Commands& commands, const std::vector<BufferId>& buffers, vk::BufferView copies,
@@ -354,8 +356,8 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     state_->hasNewTopology = state_->isChanged = false;
 }
 
-void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from,
-                                const vk::BufferView& copy) noexcept {
+void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from, const vk::BufferView& copy,
+                                const SavedState* saved) noexcept {
     recordReset(buffer);
     const State& other = *from.state_;
     const bool isAlike =
@@ -370,6 +372,12 @@ void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from,
     state_->recordSettling(commands); // its material, or h, may be another one
     if (state_->hasMoreRoom(other)) state_->recordSurface(commands);
     commands.endStep();
+    state_->isChanged = true;
+    if (saved != nullptr) {
+        state_->moveTo(*saved);
+        if (!isAlike) state_->previousH = state_->settledEnd.h = 0;
+        return;
+    }
     State::Settled end = other.settledEnd;
     for (std::uint64_t frame = 0; frame < framesInFlight; ++frame) // from the oldest on
         end = other.settled(other.nextFrame + frame, end);
@@ -378,7 +386,7 @@ void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from,
     state_->anchors = other.anchors;
     if (isAlike) state_->hands = other.hands;
     state_->isUncut = other.isUncut;
-    state_->isChanged = true;
+    state_->hasNewTopology = other.hasNewTopology;
     state_->colliders.moveTo(end.time, end.pokes);
 }
 
@@ -388,12 +396,14 @@ std::uint64_t Simulation::handOverSize() const noexcept {
     return size;
 }
 
-void Simulation::recordHandOver(VkCommandBuffer buffer, const vk::BufferView& to) const noexcept {
+void Simulation::recordHandOver(VkCommandBuffer buffer, const vk::BufferView& to,
+                                const vk::BufferView& saved) const noexcept {
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
     vk::BufferView target = to;
     state_->forEachHanded([&](std::size_t, BufferId handed) {
-        const vk::BufferView own = view(handed);
+        const vk::BufferView own =
+            saved.buffer == VK_NULL_HANDLE ? view(handed) : state_->placeIn(saved, handed);
         target.size = own.size;
         if (own.size > 0) commands.copy(own, target);
         target.offset += own.size;
@@ -473,16 +483,7 @@ void Simulation::recordLoadState(VkCommandBuffer buffer, const vk::BufferView& f
         state_->isChanged = true;
     }
     commands.endStep();
-    state_->previousH = saved.h;
-    collision::PokeStates pokes{};
-    std::copy_n(saved.pokes.begin(), std::min(saved.pokes.size(), pokes.size()), pokes.begin());
-    state_->settledEnd = {saved.h, saved.colliderTime, pokes};
-    state_->unsettled = {};
-    state_->anchors.moveTo(saved.anchors);
-    state_->hasNewTopology = saved.hasNewTopology;
-    state_->isUncut = saved.isUncut;
-    state_->hands.reset();
-    state_->colliders.moveTo(saved.colliderTime, pokes);
+    state_->moveTo(saved);
 }
 
 std::uint64_t Simulation::topologySize() const noexcept {

@@ -215,12 +215,16 @@ public:
     /// solver (and the same Forms::usesGrids) all is carried that a step leaves behind. Of another solver
     /// positions and velocities are, both with Settings::publishesVelocities: a velocity half a substep
     /// before the end is taken as that of the end, hands take hold anew, and what slept is awake.
-    void recordTakeOver(VkCommandBuffer commands, const Simulation& from,
-                        const vk::BufferView& copy = {}) noexcept;
+    /// With `saved`, `copy` is what recordHandOver() has copied of a state that `from` saved, on this device
+    /// or another one: it goes on from that, and hands take hold anew.
+    void recordTakeOver(VkCommandBuffer commands, const Simulation& from, const vk::BufferView& copy = {},
+                        const SavedState* saved = nullptr) noexcept;
     /// Size of what recordTakeOver() copies from this [B].
     std::uint64_t handOverSize() const noexcept;
-    /// Records the copy of it into `to`, of handOverSize() bytes, after which the host may read it.
-    void recordHandOver(VkCommandBuffer commands, const vk::BufferView& to) const noexcept;
+    /// Records the copy of it into `to`, of handOverSize() bytes, after which the host may read it; or the
+    /// same of a state that this has saved into `saved`, of stateSize().
+    void recordHandOver(VkCommandBuffer commands, const vk::BufferView& to,
+                        const vk::BufferView& saved = {}) const noexcept;
 
     /// What turns this into the simulation of `scene`: its own but for the material, which is stiffness and
     /// compliance, friction, restitution, damping (withMaterial(), or by hand). Nothing where that needs

@@ -106,7 +106,7 @@ sim::Status Runner::run(int steps) {
     return status;
 }
 
-void Runner::takeOverByHost(const Runner& from) {
+void Runner::takeOverByHost(const Runner& from, const Saved* saved) {
     const auto make = [&](const char* name, vk::MemoryKind kind) {
         return vk::Buffer(
             device(),
@@ -115,11 +115,11 @@ void Runner::takeOverByHost(const Runner& from) {
     const vk::Buffer read = make("handed", vk::MemoryKind::readback),
                      sent = make("taken", vk::MemoryKind::upload);
     VkCommandBuffer commands = queue().begin();
-    from.simulation_.recordHandOver(commands, read.view());
+    from.simulation_.recordHandOver(commands, read.view(), saved ? saved->buffer.view() : vk::BufferView());
     queue().wait(queue().submit(commands));
     std::copy_n(read.mapped(), from.simulation_.handOverSize(), sent.mapped());
     commands = queue().begin();
-    simulation_.recordTakeOver(commands, from.simulation_, sent.view());
+    simulation_.recordTakeOver(commands, from.simulation_, sent.view(), saved ? &saved->host : nullptr);
     queue().wait(queue().submit(commands));
     frame_ = from.frame_;
 }

@@ -28,8 +28,6 @@ public:
     void reset();
     /// Goes on where `from` stands, with its next frame.
     void takeOver(const Runner& from);
-    /// The same by way of host memory, as from another device.
-    void takeOverByHost(const Runner& from);
     /// From the next step on; false where that needs another simulation.
     bool change(const sim::Scene& scene);
     void skin();
@@ -39,6 +37,8 @@ public:
         sim::SavedState host;
     };
     Saved save();
+    /// By way of host memory, as from another device; of a state that `from` has saved, if any.
+    void takeOverByHost(const Runner& from, const Saved* saved = nullptr);
     void load(const Saved& saved);
     /// What is cut, to be put back into the state of another time.
     vk::Buffer saveTopology() const;

@@ -136,6 +136,40 @@ TEST(TakeOver, ByOtherFormsHasTheSameBits) {
         }
 }
 
+// Of a sheet that a sphere passes through, which goes along its path by the clock of the state.
+TEST(TakeOver, OfAStateThatWasSavedGoesOnFromThat) {
+    Scene scene = swingingSheet();
+    scene.colliders = {
+        {.radius = 0.2f,
+         .path = {{0, {.position = {0.4f, -0.6f, 0.4f}}}, {1, {.position = {0.4f, 0.6f, 0.4f}}}}}};
+    for (const Solver solver : everySolver) {
+        SCOPED_TRACE(::testing::PrintToString(solver));
+        test::Runner first(scene, settingsOf(solver, 9)), same(scene, settingsOf(solver, 9)),
+            second(scene, settingsOf(solver, 9)), other(scene, settingsOf(solver, 14));
+        first.run(15);
+        same.run(15);
+        const test::Runner::Saved saved = first.save();
+        first.run(20);
+        const std::uint64_t after = first.stateHash();
+        for (test::Runner* next : {&second, &other}) {
+            next->run(2); // of which nothing may be left
+            next->takeOverByHost(first, &saved);
+            EXPECT_EQ(next->stateHash(), same.stateHash());
+        }
+        EXPECT_EQ(first.stateHash(), after) << "it stands where it stood";
+        EXPECT_NE(after, same.stateHash());
+        same.run(10);
+        second.run(10);
+        other.run(10);
+        EXPECT_EQ(second.stateHash(), same.stateHash());
+        EXPECT_NE(other.stateHash(), same.stateHash()) << "with other substeps";
+        const test::Runner::Saved again = second.save();
+        second.run(3);
+        second.load(again);
+        EXPECT_EQ(second.stateHash(), same.stateHash());
+    }
+}
+
 TEST(TakeOver, ByWayOfTheHostHasTheSameBits) {
     Scene scene = test::block(3, 0.1f, 1e5f, 0.05f);
     scene.planes = {{.friction = 0.5f}};
