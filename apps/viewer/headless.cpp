@@ -123,9 +123,9 @@ public:
     /// Waits for every frame and checks it. Throws app::Failure (diverged).
     void settle() {
         while (!submissions_.empty()) settleOldest();
-        if (!stage_.makeSurfaceRoom(std::exchange(surfaceMissing_, 0), queue_)) return;
+        if (!stage_.makeSurfaceRoom(std::exchange(surfaceMissing_, 0), queue_, bring())) return;
         inspection_.reset();
-        if (tools_) tools_->restart({}, 0);
+        if (tools_) tools_->moveOn();
     }
 
     /// Of a replay, what came after its last step, and the state in which it was left; likewise of what went
@@ -202,11 +202,11 @@ private:
     // Another simulation goes on.
     void reshape() {
         try {
-            stage_.reshape(queue_);
+            stage_.reshape(queue_, bring());
         } catch (const std::invalid_argument& error) {
             throw app::Failure(app::badInput, std::string("cannot play input: ") + error.what());
         }
-        tools_->forgetStates();
+        tools_->reshaped();
         inspection_.reset();
         if (times_) times_->restart(stage_);
     }
@@ -240,16 +240,27 @@ private:
             stage_.recordStep(commands, timestamps);
     }
 
+    app::Bring bring() { return tools_ ? tools_->bring() : app::Bring(); }
+
+    void forgetUndone(const std::deque<Submission>& undone) {
+        std::vector<Sweep> sweeps;
+        for (const Submission& one : undone)
+            if (one.hands.sweep) sweeps.push_back(*one.hands.sweep);
+        tools_->moveOn();
+        tools_->forgetUndone(stage_, sweeps);
+    }
+
     // All steps from `first` on were undone; hands do in them what they did.
     void redoFrom(const Submission& first) {
         std::deque<Submission> undone = std::exchange(submissions_, {});
         undone.push_front(first);
-        if (!stage_.makeRoom(first.frame, queue_))
+        if (!stage_.makeRoom(first.frame, queue_, bring()))
             throw app::Failure(app::diverged, app::tooCrowded(first.frame));
         inspection_.reset(); // there is another simulation now
-        if (tools_) tools_->restart({}, 0);
+        if (tools_) forgetUndone(undone);
         for (Submission& again : undone) {
             VkCommandBuffer commands = queue_.begin();
+            if (again.hands.sweep && !again.hands.sweep->isCarried) tools_->remember(commands, stage_);
             stage_.setGravity(again.gravity);
             record(commands, again);
             again.value = queue_.submit(commands);

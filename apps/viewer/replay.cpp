@@ -34,7 +34,7 @@ struct Player {
     void operator()(const Shaped& event) const { tools.shape(stage, event); }
     void operator()(const Sized& event) const { tools.resize(event.radius); }
     void operator()(const Deepened& event) const { tools.setDepth(event.depth); }
-    void operator()(const Forgot&) const { tools.forget(); }
+    void operator()(const Forgot& event) const { event.areOfSteps ? tools.forgetSteps() : tools.forget(); }
     void operator()(const Answered& event) const {
         if (event.pick && event.pick->particle >= stage.scene().particles.size())
             throw app::Failure(app::badInput, "cannot play input: particle " +

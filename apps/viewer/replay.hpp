@@ -17,7 +17,7 @@ public:
 
     enum class Due {
         history, ///< something is to be undone or redone first: Tools::recordHistory
-        shape,   ///< all is to be finished, then Stage::reshape() and Tools::forgetStates()
+        shape,   ///< all is to be finished, then Stage::reshape() and Tools::reshaped()
         step,    ///< a step is to be recorded
         nothing  ///< all is done
     };

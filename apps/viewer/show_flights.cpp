@@ -223,9 +223,9 @@ void Show::makeSurfaceRoom() {
     if (needed == 0) return; // somebody has gone back to before
     vk::Queue queue(device_);
     cutFrames_ = std::max(cutFrames_, 1u); // this picture waits for it
-    if (!stage_.makeSurfaceRoom(needed, queue)) return warnOfSurface();
+    if (!stage_.makeSurfaceRoom(needed, queue, tools_.bring())) return warnOfSurface();
     restartViews();
-    tools_.restart({}, 0);
+    tools_.moveOn();
 }
 
 // Once: nothing but the picture suffers.
@@ -246,14 +246,14 @@ void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
     screen_.presenter().waitIdle();
     vk::Queue queue(device_);
     const std::uint64_t newest = stage_.steps();
-    if (!stage_.makeRoom(step, queue)) return stop(app::tooCrowded(step));
+    if (!stage_.makeRoom(step, queue, tools_.bring())) return stop(app::tooCrowded(step));
     if (std::exchange(replay_, std::nullopt))
         screen_.warn("the replay ends here: contacts need more room than when it was recorded");
     restartViews();
     std::vector<Sweep> sweeps = undone.sweeps;
     for (const InFlight& later : inFlight_) // at most one has some
         sweeps.insert(sweeps.end(), later.sweeps.begin(), later.sweeps.end());
-    tools_.restart(sweeps, newest - stage_.steps());
+    tools_.restart(stage_, sweeps, newest - stage_.steps());
     for (InFlight& other : inFlight_) {
         other.steps = 0;
         other.sweeps.clear();

@@ -61,7 +61,7 @@ void Show::keepAsItWas() {
 }
 
 void Show::takeOver(const Show& before) {
-    stage_.takeOver(before.stage_);
+    stage_.takeOver(before.stage_, tools_.bringOf(before.tools_));
     restartViews(); // it may have had to make room first
     controller_ = before.controller_;
     tools_.goOn(before.tools_, stage_);
@@ -87,13 +87,13 @@ void Show::reshape() {
     settleAll();
     vk::Queue queue(device_);
     try {
-        stage_.reshape(queue);
+        stage_.reshape(queue, tools_.bring());
     } catch (const std::invalid_argument& error) {
         replay_.reset();
         return screen_.warn(std::string("the replay ends here: ") + error.what());
     }
     restartViews();
-    tools_.forgetStates();
+    tools_.reshaped();
     const auto spans = static_cast<std::uint32_t>(stage_.simulation().phases().size());
     for (vk::Timestamps& times : times_) times = vk::Timestamps(device_, spans);
     Gauges gauges(stage_, opening_.loaded.scene.dt);

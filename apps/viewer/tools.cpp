@@ -3,12 +3,20 @@
 
 #include "viewer/hands/controller.hpp"
 #include "viewer/opening.hpp"
+#include "vk/check.hpp"
 
 #include <algorithm>
 #include <cstdio>
 #include <utility>
 
 namespace sinew::viewer {
+
+namespace {
+
+constexpr const char* lost =
+    "warning: earlier cuts can no longer be undone: there is no memory to bring them over";
+
+} // namespace
 
 Tools::Tools(const vk::Device& device, const Opening& opening)
     : blade_(opening.light.bounds), poke_(opening.light.radius(), opening.loaded.scene.planes),
@@ -141,9 +149,21 @@ void Tools::begin(const Stage& stage) {
     log_.begin(material_);
 }
 
-void Tools::forgetStates() {
-    history_.clear();
+void Tools::reshaped() {
     steps_.clear();
+    if (std::exchange(isLost_, false)) say(lost);
+}
+
+app::Bring Tools::bringOf(const Tools& before) {
+    return [this, &before](const sim::Simulation& from, vk::Queue& giving, sim::Simulation& to,
+                           vk::Queue& taking) {
+        try {
+            history_.bring(before.history_, from, giving, to, taking);
+        } catch (const vk::Error&) {
+            history_.clear();
+            isLost_ = true;
+        }
+    };
 }
 
 void Tools::goOn(const Tools& before, const Stage& stage) {
@@ -160,8 +180,9 @@ void Tools::goOn(const Tools& before, const Stage& stage) {
     log_ = before.log_;
     turned(stage.material());
     log_.shape({stage.settings().solver, stage.settings().substeps});
-    if (before.history_.undos() + before.history_.redos() > 0)
-        note_ = "another simulation goes on: earlier cuts can no longer be undone";
+    const bool isLost = isLost_;
+    reshaped();
+    if (isLost) log_.forget();
 }
 
 void Tools::resize(float radius) {
@@ -286,6 +307,11 @@ void Tools::putAway(Stage& stage) {
 void Tools::forget() {
     log_.forget();
     history_.recycle();
+    steps_.recycle();
+}
+
+void Tools::forgetSteps() {
+    log_.forget({.areOfSteps = true});
     steps_.recycle();
 }
 

@@ -43,10 +43,14 @@ public:
     /// As Stage::turnNow; and what Stage::recordTurn() has recorded.
     void turn(Stage& stage, const sim::Material& material);
     void turned(const sim::Material& material);
-    /// As Stage::wantShape, and once the stage has been reshaped: states to go back to are of a simulation
+    /// As Stage::wantShape, and once the stage has been reshaped: states of single steps are of a simulation
     /// that is no more.
     void shape(Stage& stage, const Shaped& shaped);
-    void forgetStates();
+    void reshaped();
+    /// For what gives a stage another simulation: brings over what can be undone; that of `before`, for a
+    /// stage that takes over from another one. Without memory for it nothing can be undone any more.
+    app::Bring bring() { return bringOf(*this); }
+    app::Bring bringOf(const Tools& before);
     /// Instead of reset(): the stage has come to where it is without them.
     void begin(const Stage& stage);
     /// All that `before` has in hand, and its log, for a stage that has taken over that of `before`.
@@ -69,8 +73,9 @@ public:
     /// At a reset: as new, but for what stays in the hand, the blade or the sphere as large as it is, and for
     /// gravity.
     void reset();
-    /// There is no way back to earlier states any more.
+    /// There is no way back to earlier states any more, or none step by step.
     void forget();
+    void forgetSteps();
 
     /// One at a time; it stays until it is answered, or is no question any more.
     std::optional<Question> question() const;
@@ -87,9 +92,14 @@ public:
     /// What they do in the next step, which is then recorded into `commands`; a copy of the state before a
     /// cut is recorded here.
     StepHands takeStep(VkCommandBuffer commands, const Stage& stage);
-    /// After the stage has another simulation, and so many steps were undone. `undone`, in their order, are
-    /// cut again.
-    void restart(std::span<const Sweep> undone, std::uint64_t steps);
+    /// After the stage has another simulation, with bring().
+    void moveOn();
+    /// Likewise, where so many steps were undone. `undone`, in their order, are cut again.
+    void restart(const Stage& stage, std::span<const Sweep> undone, std::uint64_t steps);
+    /// What can be undone of those sweeps was never done: takeStep(), or who takes those steps again,
+    /// remembers anew.
+    void forgetUndone(const Stage& stage, std::span<const Sweep> undone);
+    void remember(VkCommandBuffer commands, const Stage& stage);
 
     /// All since the reset.
     const InputLog& log() const { return log_; }
@@ -122,7 +132,6 @@ private:
     PokeTool poke_;
     History history_, steps_; // of cuts; of all steps
     std::string note_;
-    void remember(VkCommandBuffer commands, const Stage& stage);
     void rememberStep(VkCommandBuffer commands, const Stage& stage);
     bool goBack(VkCommandBuffer commands, Stage& stage);
 
@@ -132,6 +141,7 @@ private:
     sim::Material material_;       // likewise
     InputLog log_;
     std::uint32_t stepsBack_ = 0; // that are wanted
+    bool isLost_ = false;         // what could be undone, in bring()
     bool canCut_ = false, isForgetful_ = false, isForgetfulOfSteps_ = false, wantsPin_ = false,
          isPinArmed_ = false, wantsUndo_ = false, wantsRedo_ = false, isLent_ = false, wasPokeOn_ = false;
 };

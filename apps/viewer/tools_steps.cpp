@@ -76,14 +76,21 @@ StepHands Tools::takeStep(VkCommandBuffer commands, const Stage& stage) {
     return hands;
 }
 
-void Tools::restart(std::span<const Sweep> undone, std::uint64_t steps) {
-    if (history_.undos() + history_.redos() > 0)
-        say("note: more room was made: earlier cuts can no longer be undone");
+void Tools::moveOn() {
+    log_.forget({.areOfSteps = !isLost_});
+    reshaped();
+}
+
+void Tools::restart(const Stage& stage, std::span<const Sweep> undone, std::uint64_t steps) {
     log_.takeBack(steps);
-    log_.forget();
-    history_.clear(); // its states are of a simulation that is no more
-    steps_.clear();
+    moveOn();
+    forgetUndone(stage, undone);
     blade_.putBack(undone);
+}
+
+void Tools::forgetUndone(const Stage& stage, std::span<const Sweep> undone) {
+    const auto begins = std::ranges::count(undone, false, &Sweep::isCarried);
+    history_.forgetFrom(stage.played(), static_cast<std::size_t>(begins));
 }
 
 } // namespace sinew::viewer

@@ -32,12 +32,12 @@ GrowingSimulation::GrowingSimulation(const vk::Device& device, const sim::Scene&
       simulation_(std::make_unique<sim::Simulation>(device, scene, settings)),
       room_{.room = settings.contactRoom} {}
 
-bool GrowingSimulation::grow(std::uint32_t needed, vk::Queue& queue) {
+bool GrowingSimulation::grow(std::uint32_t needed, vk::Queue& queue, const Bring& bring) {
     room_.needed = std::max(room_.needed, needed);
     if (needed > sim::ranges::mostContactRoom) return false;
     sim::Settings settings = settings_;
     settings.contactRoom = roomFor(needed);
-    replace(settings, queue);
+    replace(settings, queue, bring);
     room_.room = settings.contactRoom;
     ++room_.grown;
     return true;
@@ -47,14 +47,14 @@ bool GrowingSimulation::lacksSurface(std::uint32_t needed) const noexcept {
     return needed > 0 && !surface_.isShort;
 }
 
-bool GrowingSimulation::growSurface(std::uint32_t needed, vk::Queue& queue) {
+bool GrowingSimulation::growSurface(std::uint32_t needed, vk::Queue& queue, const Bring& bring) {
     surface_.needed = std::max(surface_.needed, needed);
     sim::Settings settings = settings_;
     settings.cutSurfaceRoom = std::min(needed + needed / 2, sim::ranges::mostCutSurfaceRoom);
     surface_.isShort = settings.cutSurfaceRoom < needed;
     if (surface_.isShort) return false;
     try {
-        replace(settings, queue);
+        replace(settings, queue, bring);
     } catch (const vk::Error&) { // of memory, or a longer buffer than the device has
         surface_.isShort = true;
         return false;
@@ -63,9 +63,10 @@ bool GrowingSimulation::growSurface(std::uint32_t needed, vk::Queue& queue) {
     return true;
 }
 
-void GrowingSimulation::replace(const sim::Settings& settings, vk::Queue& queue) {
+void GrowingSimulation::replace(const sim::Settings& settings, vk::Queue& queue, const Bring& bring) {
     queue.waitIdle();
     auto roomier = std::make_unique<sim::Simulation>(device_, scene_, settings);
+    if (bring) bring(*simulation_, queue, *roomier, queue);
     const VkCommandBuffer commands = queue.begin();
     roomier->recordTakeOver(commands, *simulation_);
     queue.wait(queue.submit(commands));
@@ -93,12 +94,13 @@ void GrowingSimulation::makeRoomOf(const GrowingSimulation& other) {
     surface_.isShort = false; // another device may have the memory
 }
 
-void GrowingSimulation::takeOver(const GrowingSimulation& from) {
+void GrowingSimulation::takeOver(const GrowingSimulation& from, const Bring& bring) {
     makeRoomOf(from);
     const std::uint64_t size = from.simulation_->handOverSize();
     const vk::Buffer given = bufferFor(from.device_, size, vk::MemoryKind::readback),
                      taken = bufferFor(device_, size, vk::MemoryKind::upload);
     vk::Queue giving(from.device_), taking(device_);
+    if (bring) bring(*from.simulation_, giving, *simulation_, taking);
     VkCommandBuffer commands = giving.begin();
     from.simulation_->recordHandOver(commands, given.view());
     giving.wait(giving.submit(commands));

@@ -7,6 +7,7 @@
 #include "sim/simulation.hpp"
 #include "vk/queue.hpp"
 
+#include <functional>
 #include <memory>
 
 namespace sinew::app {
@@ -25,6 +26,11 @@ struct SurfaceRoom {
     bool isShort = false;     ///< there can be no such room: the surface of cuts is not drawn
 };
 
+/// Brings states that somebody keeps over to a simulation that is about to take over from another one, while
+/// both are there and have finished: all that `to` holds is written over afterwards. Throws nothing.
+using Bring = std::function<void(const sim::Simulation& from, vk::Queue& giving, sim::Simulation& to,
+                                 vk::Queue& taking)>;
+
 class GrowingSimulation {
 public:
     /// As sim::Simulation. `device` and `scene` must outlive it and stay where they are.
@@ -41,20 +47,20 @@ public:
     /// submitted, and goes on in a simulation with that much room, rounded up, in the state before that step.
     /// False, and nothing has changed, where no simulation has as much. Throws vk::Error where the device has
     /// no memory for it.
-    bool grow(std::uint32_t needed, vk::Queue& queue);
+    bool grow(std::uint32_t needed, vk::Queue& queue, const Bring& bring = {});
 
     /// After steps of which Status::cutSurfaceMissing was `needed` at most, all of them finished: whether
     /// there is to be more room, and was not less than that before.
     bool lacksSurface(std::uint32_t needed) const noexcept;
     /// Goes on after the newest step in a simulation with that much room and half as much again. False, and
     /// nothing has changed, where the device has no memory for it. Waits for `queue`.
-    bool growSurface(std::uint32_t needed, vk::Queue& queue);
+    bool growSurface(std::uint32_t needed, vk::Queue& queue, const Bring& bring = {});
     const SurfaceRoom& surfaceRoom() const noexcept { return surface_; }
 
     /// Goes on after the newest step in a simulation of the scene as it is now and of `settings`, which may
     /// differ from settings() as Simulation::recordTakeOver allows. Waits for `queue`, in which all was
     /// submitted. Throws as sim::Simulation, and nothing has changed then.
-    void replace(const sim::Settings& settings, vk::Queue& queue);
+    void replace(const sim::Settings& settings, vk::Queue& queue, const Bring& bring = {});
 
     /// Goes on after the newest step in a simulation with at least those rooms of `roomy`, where there is
     /// less. As replace().
@@ -64,7 +70,7 @@ public:
     /// on this device or another one; with as much room as that has. By way of the host, whichever device it
     /// is. All steps of both have finished. Waits, on queues of its own. Throws as sim::Simulation and
     /// vk::Queue: it is then to be reset, and `from` is as it was.
-    void takeOver(const GrowingSimulation& from);
+    void takeOver(const GrowingSimulation& from, const Bring& bring = {});
 
 private:
     void makeRoomOf(const GrowingSimulation& other);

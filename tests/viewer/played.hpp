@@ -122,8 +122,8 @@ inline Replay::Due replayAll(Scene& scene, Replay& replay) {
         const Replay::Due due = replay.next(scene.tools, scene.controller.camera, scene.stage);
         if (due == Replay::Due::nothing) return due;
         if (due == Replay::Due::shape) {
-            scene.stage.reshape(test::queue());
-            scene.tools.forgetStates();
+            scene.stage.reshape(test::queue(), scene.tools.bring());
+            scene.tools.reshaped();
             continue;
         }
         scene.run([&](VkCommandBuffer commands) {

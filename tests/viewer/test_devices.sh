@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # test_devices.sh VIEWER SCENE FOLDER: two devices in the panel (the same driver twice), the scene goes from one to the other and goes
-# on there, and so it does with other substeps; a replay comes to the same state. A device that is no longer there is said to be
+# on there, and so it does with other substeps, and with the cuts that can be undone; a replay comes to the same state. A device that is no longer there is said to be
 # missing, and the scene stays where it is. FOLDER keeps the screenshots.
 set -euo pipefail
 viewer=$1 scene=$2 folder=$3
@@ -41,7 +41,8 @@ expectTheSame() { # FILE WHAT
 echo "devices: both are listed, the scene goes on on the other one and back"
 start --device 0
 xdotool windowmove "$window" 0 0
-keys space
+cut 450 100 600
+keys c space
 awaitTitle paused
 for _ in {1..5}; do keys period; done
 awaitBody before.png
@@ -64,6 +65,17 @@ grep -q ' with 17 substeps, on ' viewer.out || fail "the number of substeps was 
 expectTheSame substeps.png "the simulation with more substeps"
 for _ in {1..5}; do keys period; done
 sleep 1
+
+echo "devices: what was cut before all that is undone, and done again"
+for way in ctrl+z ctrl+shift+z ctrl+z; do
+    keys $way
+    for _ in {1..100}; do
+        [[ $way == ctrl+z && $(title) != *pieces* || $way == ctrl+shift+z && $(title) == *pieces* ]] && break
+        keys period # the title knows with the next step
+        sleep 0.3
+    done
+    [[ $way == ctrl+z && $(title) != *pieces* || $way == ctrl+shift+z && $(title) == *pieces* ]] || fail "$way leads nowhere"
+done
 keys F8
 for _ in {1..100}; do grep -q '^input: ' viewer.out && break; sleep 0.1; done
 hash=$(sed -n 's/^input: .*\(state hash .* steps\)$/\1/p' viewer.out)

@@ -107,8 +107,8 @@ TEST_F(ReplayOfState, HasTheRoomThatThereWasInTheEnd) {
             on.run([&](VkCommandBuffer commands) { on.step(commands); });
             const std::uint64_t step = on.stage.steps();
             if (on.stage.neededRoom(step) == 0) continue;
-            ASSERT_TRUE(on.stage.makeRoom(step, test::queue()));
-            on.tools.restart({}, 1);
+            ASSERT_TRUE(on.stage.makeRoom(step, test::queue(), on.tools.bring()));
+            on.tools.restart(on.stage, {}, 1);
             --i;
         }
     };

@@ -23,7 +23,7 @@ const sim::Material damped{.damping = 1.5f}; // by a pass that `jacobi` has only
 
 // As Show::takeOver.
 void takeOver(Played& next, const Played& before) {
-    next.stage.takeOver(before.stage);
+    next.stage.takeOver(before.stage, next.tools.bringOf(before.tools));
     next.tools.goOn(before.tools, next.stage);
     next.controller = before.controller;
     next.asked.reset();
@@ -88,16 +88,155 @@ TEST(StageTakeOver, KeepsPlacesCutsPinsGravityAndTime) {
     EXPECT_EQ(next.stage.gravity().y, -3);
     EXPECT_EQ(next.tools.pins(), 1u);
     EXPECT_TRUE(next.tools.isHolding());
-    EXPECT_EQ(next.tools.history().undos(), 0u) << "those states are of the other simulation";
-    EXPECT_FALSE(next.tools.takeNote().empty());
+    EXPECT_EQ(next.tools.history().times(), before.tools.history().times());
+    EXPECT_EQ(next.tools.stepsBack(), 0u) << "of single steps there is no way back";
+    EXPECT_TRUE(next.tools.takeNote().empty());
     next.turn({}, 6);
     const sim::Status status = next.stage.simulation().status(next.stage.steps());
     EXPECT_EQ(status.nonFinite, 0u);
     EXPECT_EQ(status.pieces, cut.pieces);
     EXPECT_EQ(status.linksCutInAll, cut.linksCutInAll);
     next.turn({.actions = {Action::undo}}, 3);
+    EXPECT_EQ(next.stage.simulation().status(next.stage.steps()).pieces, 1u);
+    next.turn({.actions = {Action::redo}}, 3);
     EXPECT_EQ(next.stage.simulation().status(next.stage.steps()).pieces, cut.pieces);
     expectTheSameBitsAgain(next, block);
+}
+
+// Across the block, at that height.
+void cutAt(Played& played, float height) {
+    played.turn({.actions = {Action::blade}});
+    played.dragFrom({-0.5f, height}, {1, 0}, 6);
+    played.pressAt({0.5f, height}, false);
+    played.turn({.actions = {Action::blade}}, 4);
+}
+
+// Two cuts, the second of which is undone, and the states that there are to go to: before both, after the
+// first, after the second.
+struct Cuts {
+    explicit Cuts(Played& played) {
+        played.tools.pull(played.stage, 3);
+        played.turn({}, 4);
+        cutAt(played, 0.1f);
+        cutAt(played, -0.05f);
+        hashes[2] = played.hash();
+        played.turn({.actions = {Action::undo}}, 0);
+        hashes[1] = played.hash();
+        played.turn({.actions = {Action::undo}}, 0);
+        hashes[0] = played.hash();
+        played.turn({.actions = {Action::redo}}, 0);
+        EXPECT_EQ(played.hash(), hashes[1]);
+        EXPECT_NE(hashes[0], hashes[1]);
+        EXPECT_NE(hashes[1], hashes[2]);
+    }
+    void expectAllIn(Played& played) const {
+        const auto go = [&](Action way, std::uint64_t hash) {
+            played.turn({.actions = {way}}, 0);
+            EXPECT_EQ(played.hash(), hash);
+        };
+        EXPECT_EQ(played.tools.history().undos(), 1u);
+        EXPECT_EQ(played.tools.history().redos(), 1u);
+        go(Action::undo, hashes[0]);
+        go(Action::redo, hashes[1]);
+        go(Action::redo, hashes[2]);
+        go(Action::undo, hashes[1]);
+        go(Action::undo, hashes[0]);
+    }
+    std::array<std::uint64_t, 3> hashes{};
+};
+
+TEST(Undo, GoesOnWithOtherSubstepsAndAnotherMaterial) {
+    Played before;
+    const Cuts cuts(before);
+    Played next(with("substeps = 9"), {.stiffness = 0.5f, .damping = 1.5f});
+    next.turn({}, 3);
+    takeOver(next, before);
+    cuts.expectAllIn(next);
+    next.turn({}, 5);
+    cutAt(next, 0.1f);
+    EXPECT_EQ(next.tools.history().undos(), 1u);
+    next.turn({.actions = {Action::undo}}, 2);
+    EXPECT_EQ(next.stage.simulation().status(next.stage.steps()).linksCutInAll, 0u);
+    cuts.expectAllIn(before); // which has kept its own
+    expectTheSameBitsAgain(next, block);
+}
+
+TEST(Undo, LeadsWithMoreRoomToTheStepsThatItLedToWithout) {
+    Played little, roomy;
+    const Cuts cuts(little), same(roomy);
+    const std::uint32_t more = 4 * roomy.stage.settings().cutSurfaceRoom + 10000;
+    ASSERT_TRUE(roomy.stage.makeSurfaceRoom(more, test::queue(), roomy.tools.bring()));
+    EXPECT_GT(roomy.stage.simulation().stateSize(), little.stage.simulation().stateSize());
+    roomy.tools.moveOn();
+    for (Played* played : {&little, &roomy})
+        for (const Action way : {Action::undo, Action::redo, Action::redo}) {
+            played->tools.act(way); // not turn(), whose probe is of the simulation before
+            played->run([&](VkCommandBuffer commands) {
+                EXPECT_TRUE(played->tools.recordHistory(commands, played->stage));
+                for (int i = 0; i < 7; ++i) played->step(commands);
+            });
+        }
+    EXPECT_EQ(roomy.hash(), little.hash());
+    EXPECT_EQ(roomy.stage.simulation().status(roomy.stage.steps()).linksCutInAll,
+              little.stage.simulation().status(little.stage.steps()).linksCutInAll);
+}
+
+TEST(Undo, GoesOnOnAnotherDevice) {
+    std::vector<std::string> messages;
+    const vk::Loader loader;
+    const vk::Device device =
+        vk::Device::create(loader.getInstanceProcAddr(),
+                           {.hasValidation = true, .onValidationMessage = [&](const std::string& text) {
+                                messages.push_back(text);
+                            }});
+    Played here;
+    const Cuts cuts(here);
+    {
+        Stage there(device, here.opening.loaded.scene, here.opening.loaded.settings);
+        Tools tools(device, here.opening);
+        there.takeOver(here.stage, tools.bringOf(here.tools));
+        tools.goOn(here.tools, there);
+        vk::Queue queue(device);
+        EXPECT_EQ(stateHash(device, there, queue), cuts.hashes[1]);
+        const auto go = [&](Action way, int steps) {
+            tools.act(way);
+            const VkCommandBuffer commands = queue.begin();
+            EXPECT_TRUE(tools.recordHistory(commands, there));
+            for (int i = 0; i < steps; ++i) there.recordStep(commands);
+            queue.wait(queue.submit(commands));
+        };
+        go(Action::undo, 0);
+        EXPECT_EQ(stateHash(device, there, queue), cuts.hashes[0]);
+        go(Action::redo, 0);
+        go(Action::redo, 3);
+        here.turn({.actions = {Action::redo}}, 3);
+        EXPECT_EQ(stateHash(device, there, queue), here.hash());
+    }
+    EXPECT_TRUE(messages.empty()) << messages.front();
+}
+
+// A stroke whose steps found too little room is remembered once: from before the step that is done again.
+TEST(Undo, OfAStrokeThatIsCutAgainIsThereOnce) {
+    Played played;
+    const Cuts cuts(played);
+    const std::array begun{Sweep{}};
+    played.run([&](VkCommandBuffer commands) { played.tools.remember(commands, played.stage); });
+    EXPECT_EQ(played.tools.history().undos(), 2u);
+    played.tools.forgetUndone(played.stage, begun);
+    EXPECT_EQ(played.tools.history().undos(), 1u);
+    played.tools.forgetUndone(played.stage, begun);
+    EXPECT_EQ(played.tools.history().undos(), 1u) << "that one was done";
+}
+
+TEST(InputFile, OfTheVersionBeforeLosesStatesWithTheSolver) {
+    const InputFile before = parseInput("sinew input 1\nsolve split 9\nsteps 1\n", "test"),
+                    now = parseInput("sinew input 2\nsolve split 9\nforget steps\nforget\nsteps 1\n", "test");
+    const Shaped shaped{sim::Solver::split, 9};
+    EXPECT_EQ(before.events, (std::vector<InputEvent>{shaped, Forgot{}, Stepped{1}}));
+    EXPECT_EQ(now.events,
+              (std::vector<InputEvent>{shaped, Forgot{.areOfSteps = true}, Forgot{}, Stepped{1}}));
+    EXPECT_EQ(parseInput(toText(now), "test").events, now.events);
+    EXPECT_THROW(parseInput("sinew input 2\nforget me\n", "test"), app::Failure);
 }
 
 TEST(StageTakeOver, ByAnotherSolverAndBackIsDoneAgainByAReplay) {
@@ -211,8 +350,8 @@ TEST(StageReshape, IsTakenBackAtTheBeginningOfAReplay) {
     again.tools.putAway(again.stage);
     again.tools.reset();
     again.run([&](VkCommandBuffer commands) { again.stage.recordReset(commands); });
-    again.stage.reshape(test::queue());
-    again.tools.forgetStates();
+    again.stage.reshape(test::queue(), again.tools.bring());
+    again.tools.reshaped();
     EXPECT_EQ(again.stage.settings().solver, sim::Solver::jacobi);
     EXPECT_EQ(again.stage.settings().substeps, 12u);
     EXPECT_EQ(again.stage.material(), sim::Material{});

@@ -62,6 +62,19 @@ awaitStill() { # FILE: a picture that stays; a paused software device draws its 
     fail "the paused picture never stood still"
 }
 same() { compare -metric AE "$1" "$2" null: >/dev/null 2>&1; }
+cut() { # X FROM TO: a stroke down the window, again where so little time went to it that it saw no more than an end of the stroke
+    keys c
+    awaitTitle blade
+    for _ in {1..5}; do
+        xdotool mousemove "$1" "$2" mousedown 1
+        sleep 0.3
+        for ((y = $2; y < $3; y += 8)); do xdotool mousemove_relative -- 0 8; sleep 0.05; done
+        sleep 0.3
+        xdotool mouseup 1
+        for _ in {1..50}; do [[ $(title) == *pieces* ]] && return; sleep 0.1; done
+    done
+    fail "nothing was cut"
+}
 awaitEnd() { # CODE
     local code=0
     wait "$running" || code=$?

@@ -104,7 +104,7 @@ void Stage::turnNow(const sim::Material& material) {
     refused_ = material;
 }
 
-void Stage::reshape(vk::Queue& queue) {
+void Stage::reshape(vk::Queue& queue, const app::Bring& bring) {
     if (!wantsShape()) return;
     const std::optional<Shape> shape = std::exchange(shape_, std::nullopt);
     const std::optional<sim::Material> refused = std::exchange(refused_, std::nullopt);
@@ -117,7 +117,7 @@ void Stage::reshape(vk::Queue& queue) {
     ready_.reset();
     sim::Scene before = std::exchange(scene_, sim::withMaterial(given_, material));
     try {
-        growing_.replace(settings, queue);
+        growing_.replace(settings, queue, bring);
     } catch (...) {
         scene_ = std::move(before);
         throw;
@@ -126,8 +126,8 @@ void Stage::reshape(vk::Queue& queue) {
     material_ = material;
 }
 
-void Stage::takeOver(const Stage& from) {
-    growing_.takeOver(from.growing_);
+void Stage::takeOver(const Stage& from, const app::Bring& bring) {
+    growing_.takeOver(from.growing_, bring);
     gravity_ = from.gravity_;
     steps_ = from.steps_;
     played_ = from.played_;
@@ -189,18 +189,18 @@ std::uint32_t Stage::neededRoom(std::uint64_t step) const {
     return status.frame == static_cast<std::uint32_t>(step) ? status.contactRoom : 0;
 }
 
-bool Stage::makeRoom(std::uint64_t step, vk::Queue& queue) {
+bool Stage::makeRoom(std::uint64_t step, vk::Queue& queue, const app::Bring& bring) {
     awaitTurn();
-    if (!growing_.grow(neededRoom(step), queue)) return false;
+    if (!growing_.grow(neededRoom(step), queue, bring)) return false;
     played_ -= steps_ - (step - 1);
     steps_ = step - 1;
     return true;
 }
 
-bool Stage::makeSurfaceRoom(std::uint32_t needed, vk::Queue& queue) {
+bool Stage::makeSurfaceRoom(std::uint32_t needed, vk::Queue& queue, const app::Bring& bring) {
     if (!growing_.lacksSurface(needed)) return false;
     awaitTurn();
-    return growing_.growSurface(needed, queue);
+    return growing_.growSurface(needed, queue, bring);
 }
 
 } // namespace sinew::viewer

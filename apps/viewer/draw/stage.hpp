@@ -83,11 +83,11 @@ public:
     /// Goes on after the newest step in another simulation(), as wanted: for replays, since it waits, for
     /// pipelines, too, and for `queue`, in which all was submitted. Throws as sim::Simulation: all is then as
     /// it was, and nothing wanted any more.
-    void reshape(vk::Queue& queue);
+    void reshape(vk::Queue& queue, const app::Bring& bring = {});
 
     /// Goes on where `from` stands, a stage of the same scene that may have another material, solver, number
     /// of substeps and device: as app::GrowingSimulation::takeOver, instead of recordReset().
-    void takeOver(const Stage& from);
+    void takeOver(const Stage& from, const app::Bring& bring = {});
 
     /// For what goes back to earlier states.
     sim::Simulation& simulation() noexcept { return growing_.simulation(); }
@@ -107,12 +107,12 @@ public:
     std::uint32_t neededRoom(std::uint64_t step) const;
     /// Goes back before that step with room for it, in another simulation(). Waits for `queue`, in which all
     /// was submitted. False where there can be no such room. Throws vk::Error.
-    bool makeRoom(std::uint64_t step, vk::Queue& queue);
+    bool makeRoom(std::uint64_t step, vk::Queue& queue, const app::Bring& bring = {});
 
     /// After steps of which Status::cutSurfaceMissing was `needed` at most, all of them finished: goes on
     /// after the newest with room for it, in another simulation(). False where there is none to be had, or
     /// nothing to do. Waits for `queue`.
-    bool makeSurfaceRoom(std::uint32_t needed, vk::Queue& queue);
+    bool makeSurfaceRoom(std::uint32_t needed, vk::Queue& queue, const app::Bring& bring = {});
 
     const sim::Scene& scene() const noexcept { return scene_; }
     /// As it was made; as it is now, with all the room that there is.

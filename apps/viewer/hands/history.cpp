@@ -2,24 +2,84 @@
 #include "viewer/hands/history.hpp"
 
 #include <algorithm>
+#include <cstring>
+#include <optional>
 
 namespace sinew::viewer {
 
-History::State History::record(VkCommandBuffer commands, const Stage& stage) {
+// What goes from one simulation to another, by way of the host where their devices differ.
+struct History::Ferry {
+    Ferry(const vk::Device& givingDevice, const sim::Simulation& given, vk::Queue& givingQueue,
+          const vk::Device& takingDevice, sim::Simulation& taken, vk::Queue& takingQueue)
+        : from(given), to(taken), giving(givingQueue), taking(takingQueue),
+          loaded(
+              bufferFor(givingDevice, given.handOverSize(),
+                        &givingDevice == &takingDevice ? vk::MemoryKind::device : vk::MemoryKind::readback)) {
+        if (&givingDevice != &takingDevice)
+            landed.emplace(bufferFor(takingDevice, given.handOverSize(), vk::MemoryKind::upload));
+    }
+
+    // `to` is then in that state.
+    void carry(const State& state) const {
+        VkCommandBuffer commands = giving.begin();
+        from.recordHandOver(commands, loaded.view(), state.buffer.view());
+        giving.wait(giving.submit(commands));
+        if (landed) std::memcpy(landed->mapped(), loaded.mapped(), from.handOverSize());
+        commands = taking.begin();
+        to.recordTakeOver(commands, from, landed ? landed->view() : loaded.view(), &state.host);
+        taking.wait(taking.submit(commands));
+    }
+
+    static vk::Buffer bufferFor(const vk::Device& device, std::uint64_t size, vk::MemoryKind kind) {
+        return {device, {.name = "history.brought", .count = size / 4, .stride = 4, .kind = kind}};
+    }
+
+    const sim::Simulation& from;
+    sim::Simulation& to;
+    vk::Queue &giving, &taking;
+    vk::Buffer loaded;
+    std::optional<vk::Buffer> landed;
+};
+
+History::State History::record(VkCommandBuffer commands, const sim::Simulation& simulation,
+                               std::uint64_t played) {
     if (spare_.empty())
         spare_.emplace_back(device_, vk::BufferRequest{.name = "history",
-                                                       .count = stage.simulation().stateSize() / 4,
+                                                       .count = simulation.stateSize() / 4,
                                                        .stride = 4,
                                                        .kind = vk::MemoryKind::device});
-    State state{std::move(spare_.back()), {}, stage.played()};
+    State state{std::move(spare_.back()), {}, played};
     spare_.pop_back();
-    state.host = stage.simulation().recordSaveState(commands, state.buffer.view());
+    state.host = simulation.recordSaveState(commands, state.buffer.view());
     return state;
 }
 
-std::size_t History::room(const Stage& stage) const {
-    const std::uint64_t size = std::max<std::uint64_t>(stage.simulation().stateSize(), 1);
+std::size_t History::room(const sim::Simulation& simulation) const {
+    const std::uint64_t size = std::max<std::uint64_t>(simulation.stateSize(), 1);
     return std::clamp<std::size_t>(mostBytes / size, 1, mostStates_);
+}
+
+void History::bring(const History& other, const sim::Simulation& from, vk::Queue& giving, sim::Simulation& to,
+                    vk::Queue& taking) {
+    const std::size_t count = other.before_.size() + other.after_.size();
+    if (count == 0) return clear();
+    const Ferry ferry(other.device_, from, giving, device_, to, taking);
+    History brought(device_, mostStates_);
+    std::size_t forgotten = count - std::min(count, room(to));
+    const auto bringAll = [&](const States& states, States& into) {
+        for (const State& state : states) {
+            if (forgotten > 0 && forgotten-- > 0) continue;
+            ferry.carry(state);
+            const VkCommandBuffer commands = taking.begin();
+            into.push_back(brought.record(commands, to, state.played));
+            taking.wait(taking.submit(commands));
+        }
+    };
+    bringAll(other.before_, brought.before_);
+    bringAll(other.after_, brought.after_);
+    clear();
+    before_ = std::move(brought.before_);
+    after_ = std::move(brought.after_);
 }
 
 void History::recordBefore(VkCommandBuffer commands, const Stage& stage) {
@@ -30,12 +90,12 @@ void History::recordBefore(VkCommandBuffer commands, const Stage& stage) {
     };
     while (!after_.empty()) forget(after_);
     while (before_.size() >= most) forget(before_);
-    before_.push_back(record(commands, stage));
+    before_.push_back(record(commands, stage.simulation(), stage.played()));
 }
 
 bool History::recordSwap(VkCommandBuffer commands, Stage& stage, States& from, States& to) {
     if (from.empty()) return false;
-    to.push_back(record(commands, stage));
+    to.push_back(record(commands, stage.simulation(), stage.played()));
     load(commands, stage, from);
     return true;
 }
@@ -53,8 +113,8 @@ bool History::recordBack(VkCommandBuffer commands, Stage& stage) {
     return true;
 }
 
-void History::forgetFrom(std::uint64_t played) {
-    for (; !before_.empty() && before_.back().played >= played; before_.pop_back())
+void History::forgetFrom(std::uint64_t played, std::size_t most) {
+    for (; most > 0 && !before_.empty() && before_.back().played >= played; before_.pop_back(), --most)
         spare_.push_back(std::move(before_.back().buffer));
 }
 

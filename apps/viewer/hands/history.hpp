@@ -4,23 +4,25 @@
 
 #include "viewer/draw/stage.hpp"
 #include "vk/buffer.hpp"
+#include "vk/queue.hpp"
 
 #include <deque>
 
 namespace sinew::viewer {
 
-/// Of the simulation of one stage, which is given to every call. Must not outlive its Device, which must not
-/// move.
+/// Of the simulation of one stage, which is given to every call, until bring(). Must not outlive its Device,
+/// which must not move.
 class History {
 public:
-    static constexpr std::uint64_t mostBytes = 256u << 20; ///< of device memory, but one state always
+    /// Of device memory, but one state always.
+    static constexpr std::uint64_t mostBytes = 256u << 20;
     static constexpr std::size_t mostCuts = 32, mostSteps = 120;
 
     /// Of `mostStates` at most.
     History(const vk::Device& device, std::size_t mostStates) : device_(device), mostStates_(mostStates) {}
 
     /// How many states there is room for, one at least.
-    std::size_t room(const Stage& stage) const;
+    std::size_t room(const Stage& stage) const { return room(stage.simulation()); }
 
     /// Records a copy of the state as it is, to come back to. What was undone is forgotten. Throws vk::Error
     /// where there is no memory for it.
@@ -30,8 +32,13 @@ public:
     bool recordRedo(VkCommandBuffer commands, Stage& stage);
     /// The same way back for good: the state as it is cannot be gone forwards to.
     bool recordBack(VkCommandBuffer commands, Stage& stage);
-    /// Forgets those to go back to that are not before `played`.
-    void forgetFrom(std::uint64_t played);
+    /// Forgets those to go back to that are not before `played`, or so many of them.
+    void forgetFrom(std::uint64_t played, std::size_t most = mostSteps);
+    /// Instead of its own, the states of `other`, which may be this: those of `from` become states of `to`,
+    /// as Simulation::recordTakeOver makes them. Where there is less room for them, the oldest are forgotten;
+    /// while it lasts both are there. Waits. Throws vk::Error, and its own are then as they were.
+    void bring(const History& other, const sim::Simulation& from, vk::Queue& giving, sim::Simulation& to,
+               vk::Queue& taking);
 
     std::size_t undos() const { return before_.size(); }
     std::size_t redos() const { return after_.size(); }
@@ -50,7 +57,9 @@ private:
         std::uint64_t played = 0; ///< Stage::played()
     };
     using States = std::deque<State>;
-    State record(VkCommandBuffer commands, const Stage& stage);
+    struct Ferry;
+    State record(VkCommandBuffer commands, const sim::Simulation& simulation, std::uint64_t played);
+    std::size_t room(const sim::Simulation& simulation) const;
     void load(VkCommandBuffer commands, Stage& stage, States& from);
     bool recordSwap(VkCommandBuffer commands, Stage& stage, States& from, States& to);
 

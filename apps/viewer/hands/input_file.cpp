@@ -17,7 +17,8 @@ namespace sinew::viewer {
 
 namespace {
 
-constexpr std::string_view title = "sinew input 1";
+constexpr std::string_view title = "sinew input 2";
+constexpr std::string_view titleBefore = "sinew input 1"; // where "solve" lost all states to go back to
 
 // A line in the making: words with blanks between them.
 class Line {
@@ -108,8 +109,8 @@ std::string text(const Deepened& deepened) {
     return deepened.depth ? Line("depth").add(*deepened.depth).end() : "depth -\n";
 }
 
-std::string text(const Forgot&) {
-    return "forget\n";
+std::string text(const Forgot& forgot) {
+    return forgot.areOfSteps ? "forget steps\n" : "forget\n";
 }
 
 std::string text(const Stepped& stepped) {
@@ -235,6 +236,12 @@ SavedOrigin readOrigin(Words& words) {
     return from;
 }
 
+Forgot readForgot(Words& words) {
+    if (words.isAtEnd()) return {};
+    if (words.word() != "steps") throw std::runtime_error("steps alone are forgotten without the rest");
+    return {.areOfSteps = true};
+}
+
 struct Reader {
     std::string_view name;
     void (*read)(InputFile&, Words&);
@@ -263,7 +270,7 @@ const std::array readers{
     Reader{"material",
            [](InputFile& to, Words& words) { to.events.emplace_back(Turned{readMaterial(words)}); }},
     Reader{"solve", [](InputFile& to, Words& words) { to.events.emplace_back(readShape(words)); }},
-    Reader{"forget", [](InputFile& to, Words&) { to.events.emplace_back(Forgot{}); }},
+    Reader{"forget", [](InputFile& to, Words& words) { to.events.emplace_back(readForgot(words)); }},
     Reader{"steps", [](InputFile& to,
                        Words& words) { to.events.emplace_back(Stepped{words.number<std::uint32_t>()}); }},
     Reader{"state", [](InputFile& to, Words& words) { to.hash = words.number<std::uint64_t>(16); }}};
@@ -303,11 +310,13 @@ InputFile parseInput(const std::string& text, const std::string& name) {
     InputFile file;
     std::istringstream lines(text);
     std::string line;
-    if (!std::getline(lines, line) || line != title)
+    if (!std::getline(lines, line) || (line != title && line != titleBefore))
         refuse(name, "it does not begin with " + std::string(title));
+    const bool forgetsWithSolver = line == titleBefore;
     for (std::size_t number = 2; std::getline(lines, line); ++number) {
         try {
             readLine(line, file);
+            if (forgetsWithSolver && line.starts_with("solve ")) file.events.emplace_back(Forgot{});
         } catch (const std::runtime_error& error) {
             refuse(name + ":" + std::to_string(number), error.what());
         }

@@ -75,8 +75,8 @@ void InputLog::deepen(const std::optional<float>& depth) {
     events_.emplace_back(Deepened{depth});
 }
 
-void InputLog::forget() {
-    events_.emplace_back(Forgot{});
+void InputLog::forget(const Forgot& forgot) {
+    events_.emplace_back(forgot);
 }
 
 void InputLog::step() {

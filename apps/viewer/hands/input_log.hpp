@@ -43,7 +43,7 @@ struct Turned {
     bool operator==(const Turned&) const = default;
 };
 /// Another simulation goes on from here, with this solver and so many substeps, and with the material that
-/// was turned last. There is no way back to states before it.
+/// was turned last. There is no way back step by step from it.
 struct Shaped {
     sim::Solver solver = sim::Solver::split;
     std::uint32_t substeps = 0;
@@ -59,8 +59,9 @@ struct Deepened {
     std::optional<float> depth;
     bool operator==(const Deepened&) const = default;
 };
-/// States to go back to were lost.
+/// States to go back to were lost, or those to go back to step by step alone.
 struct Forgot {
+    bool areOfSteps = false;
     bool operator==(const Forgot&) const = default;
 };
 /// Steps with what came before them; none = something was undone or redone without one.
@@ -89,7 +90,7 @@ public:
     void shape(const Shaped& shaped);
     void size(float radius);
     void deepen(const std::optional<float>& depth);
-    void forget();
+    void forget(const Forgot& forgot = {});
     /// A step was recorded.
     void step();
     /// Something was undone or redone.
