@@ -13,6 +13,7 @@
 #include "viewer/pictures/video.hpp"
 #include "viewer/replay.hpp"
 #include "viewer/tools.hpp"
+#include "vk/check.hpp"
 #include "vk/loader.hpp"
 #include "vk/queue.hpp"
 
@@ -330,6 +331,9 @@ int runHeadless(const Options& asked, std::atomic<std::size_t>& messages) {
     } catch (const app::Failure& failure) {
         if (failure.code() == app::diverged) // what was drawn before is whole and stays
             outputs.finish();
+        throw;
+    } catch (const vk::Error&) { // likewise: encoders and files need no device
+        outputs.finish();
         throw;
     }
     outputs.finish();

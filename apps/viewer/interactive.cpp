@@ -199,6 +199,7 @@ void play(std::unique_ptr<Opening> opening, const Options& options, const Prefer
     try {
         while (auto next = show->run()) change(device, show, std::move(next), screen, library, devices);
     } catch (...) { // a lost device
+        show->finishFilm();
         throwAgain(keeping());
     }
     if (options.isTimed) screen.timing().printTable();

@@ -51,6 +51,8 @@ public:
     /// as no file has it, to the current folder or else to `otherwise`, and says how to have it again, for
     /// the end of a line. Empty where there is nothing to keep. Asks nothing of device and window.
     std::string keepInput(const std::filesystem::path& otherwise) const;
+    /// Likewise: a film that is being made ends with the pictures that it has.
+    void finishFilm();
 
 private:
     using Clock = std::chrono::steady_clock;

@@ -59,6 +59,11 @@ void Show::toggleRecording() {
 void Show::stopRecording() {
     if (!recording_) return;
     settleAll(); // the last pictures
+    finishFilm();
+    for (auto& camera : cameras_) camera.reset();
+}
+
+void Show::finishFilm() {
     if (!recording_) return;
     try {
         recording_->finish();
@@ -71,7 +76,6 @@ void Show::stopRecording() {
         screen_.warn(error.what());
     }
     recording_.reset();
-    for (auto& camera : cameras_) camera.reset();
 }
 
 void Show::recordCamera(const Presenter::Frame& frame, const Overlay& overlay) {

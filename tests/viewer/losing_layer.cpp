@@ -1,0 +1,139 @@
+// A Vulkan layer whose devices are lost as soon as the file that SINEW_LOSE_DEVICES names is there: they take
+// no more work, and waits fail.
+#include <vulkan/vk_layer.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <mutex>
+#include <unistd.h>
+
+namespace {
+
+struct Next {
+    PFN_vkGetInstanceProcAddr instance = nullptr;
+    PFN_vkGetDeviceProcAddr device = nullptr;
+    VkInstance handle = VK_NULL_HANDLE; // of an instance
+    VkDevice owner = VK_NULL_HANDLE;    // of a device
+};
+
+// Everything that is dispatched begins with a pointer to its instance's or device's table.
+template <typename Handle> void* keyOf(Handle handle) {
+    return *reinterpret_cast<void**>(handle);
+}
+
+std::mutex mutex;
+std::map<void*, Next> instances, devices;
+
+Next nextOf(const std::map<void*, Next>& all, void* key) {
+    const std::lock_guard lock(mutex);
+    const auto found = all.find(key);
+    return found == all.end() ? Next{} : found->second;
+}
+
+bool areLost() {
+    const char* file = std::getenv("SINEW_LOSE_DEVICES");
+    return file != nullptr && access(file, F_OK) == 0;
+}
+
+template <typename Function, typename Handle> Function down(Handle handle, const char* name) {
+    const Next next = nextOf(devices, keyOf(handle));
+    return reinterpret_cast<Function>(next.device(next.owner, name));
+}
+
+template <typename Info, typename Create> Info* linkIn(const Create* create, VkStructureType type) {
+    auto* info = reinterpret_cast<Info*>(const_cast<void*>(create->pNext));
+    while (info != nullptr && !(info->sType == type && info->function == VK_LAYER_LINK_INFO))
+        info = reinterpret_cast<Info*>(const_cast<void*>(info->pNext));
+    return info;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL createInstance(const VkInstanceCreateInfo* create,
+                                              const VkAllocationCallbacks* allocator, VkInstance* instance) {
+    auto* link = linkIn<VkLayerInstanceCreateInfo>(create, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
+    if (link == nullptr) return VK_ERROR_INITIALIZATION_FAILED;
+    Next next{.instance = link->u.pLayerInfo->pfnNextGetInstanceProcAddr};
+    link->u.pLayerInfo = link->u.pLayerInfo->pNext;
+    const auto call =
+        reinterpret_cast<PFN_vkCreateInstance>(next.instance(VK_NULL_HANDLE, "vkCreateInstance"));
+    const VkResult result = call(create, allocator, instance);
+    if (result != VK_SUCCESS) return result;
+    next.handle = *instance;
+    const std::lock_guard lock(mutex);
+    instances[keyOf(*instance)] = next;
+    return result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkDeviceCreateInfo* create,
+                                            const VkAllocationCallbacks* allocator, VkDevice* device) {
+    auto* link = linkIn<VkLayerDeviceCreateInfo>(create, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
+    if (link == nullptr) return VK_ERROR_INITIALIZATION_FAILED;
+    const PFN_vkGetInstanceProcAddr instance = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
+    Next next{.instance = instance, .device = link->u.pLayerInfo->pfnNextGetDeviceProcAddr};
+    link->u.pLayerInfo = link->u.pLayerInfo->pNext;
+    const Next above = nextOf(instances, keyOf(physical));
+    const auto call = reinterpret_cast<PFN_vkCreateDevice>(instance(above.handle, "vkCreateDevice"));
+    const VkResult result = call(physical, create, allocator, device);
+    if (result != VK_SUCCESS) return result;
+    next.owner = *device;
+    const std::lock_guard lock(mutex);
+    devices[keyOf(*device)] = next;
+    return result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, std::uint32_t count, const VkSubmitInfo* infos,
+                                      VkFence fence) {
+    if (areLost()) return VK_ERROR_DEVICE_LOST;
+    return down<PFN_vkQueueSubmit>(queue, "vkQueueSubmit")(queue, count, infos, fence);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL waitIdle(VkQueue queue) {
+    const VkResult result = down<PFN_vkQueueWaitIdle>(queue, "vkQueueWaitIdle")(queue);
+    return areLost() ? VK_ERROR_DEVICE_LOST : result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL waitForFences(VkDevice device, std::uint32_t count, const VkFence* fences,
+                                             VkBool32 all, std::uint64_t timeout) {
+    if (areLost()) return VK_ERROR_DEVICE_LOST;
+    return down<PFN_vkWaitForFences>(device, "vkWaitForFences")(device, count, fences, all, timeout);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL waitSemaphores(VkDevice device, const VkSemaphoreWaitInfo* info,
+                                              std::uint64_t timeout) {
+    if (areLost()) return VK_ERROR_DEVICE_LOST;
+    return down<PFN_vkWaitSemaphores>(device, "vkWaitSemaphores")(device, info, timeout);
+}
+
+PFN_vkVoidFunction own(const char* name) {
+    const auto is = [name](const char* other) { return std::strcmp(name, other) == 0; };
+    if (is("vkCreateInstance")) return reinterpret_cast<PFN_vkVoidFunction>(createInstance);
+    if (is("vkCreateDevice")) return reinterpret_cast<PFN_vkVoidFunction>(createDevice);
+    if (is("vkQueueSubmit")) return reinterpret_cast<PFN_vkVoidFunction>(submit);
+    if (is("vkQueueWaitIdle")) return reinterpret_cast<PFN_vkVoidFunction>(waitIdle);
+    if (is("vkWaitForFences")) return reinterpret_cast<PFN_vkVoidFunction>(waitForFences);
+    if (is("vkWaitSemaphores")) return reinterpret_cast<PFN_vkVoidFunction>(waitSemaphores);
+    return nullptr;
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* name) {
+    if (const PFN_vkVoidFunction function = own(name)) return function;
+    return nextOf(devices, keyOf(device)).device(device, name);
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddr(VkInstance instance, const char* name) {
+    if (std::strcmp(name, "vkGetDeviceProcAddr") == 0)
+        return reinterpret_cast<PFN_vkVoidFunction>(getDeviceProcAddr);
+    if (const PFN_vkVoidFunction function = own(name)) return function;
+    return instance == VK_NULL_HANDLE ? nullptr : nextOf(instances, keyOf(instance)).instance(instance, name);
+}
+
+} // namespace
+
+extern "C" VK_LAYER_EXPORT VkResult VKAPI_CALL
+vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* versions) {
+    versions->loaderLayerInterfaceVersion = 2;
+    versions->pfnGetInstanceProcAddr = getInstanceProcAddr;
+    versions->pfnGetDeviceProcAddr = getDeviceProcAddr;
+    versions->pfnGetPhysicalDeviceProcAddr = nullptr;
+    return VK_SUCCESS;
+}

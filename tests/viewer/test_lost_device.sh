@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# test_lost_device.sh VIEWER SCENE FOLDER LAYERS: the device is lost, in the window after hands have cut, and without one while a film is
+# made. One line says so, exit code 5; settings and what hands did are kept, and so are the pictures that there were.
+set -euo pipefail
+viewer=$1 player=$1 scene=$2 folder=$3 layers=$4
+here=$(cd "$(dirname "$0")" && pwd)
+extent=640x480 options=(--no-validation)
+. "$here/window.sh"
+export SINEW_LOSE_DEVICES=$folder/lost
+printf '#!/bin/sh\nexec env VK_LAYER_PATH="%s" VK_INSTANCE_LAYERS=VK_LAYER_SINEW_losing "%s" "$@"\n' "$layers" "$player" >start
+chmod +x start
+
+mkdir bin # stands in for ffmpeg: its last argument is the file
+printf '#!/bin/sh\nfor last; do :; done\nexec cat >"${last#file:}"\n' >bin/ffmpeg
+chmod +x bin/ffmpeg
+PATH=$folder/bin:$PATH
+expectFilm() { # FILE BYTES: of whole pictures of so many bytes
+    local bytes
+    bytes=$(stat -c %s "$1") || fail "the film is lost"
+    ((bytes > 0 && bytes % $2 == 0)) || fail "the film has $bytes bytes, which are no whole pictures"
+    [[ -z $(find . -name '*.part*' -o -name '.*.png*') ]] || fail "partial files: $(find .)"
+}
+
+echo "lost device: in the window"
+viewer=$folder/start
+start
+keys v
+cut 320 100 420
+keys F9
+for _ in {1..300}; do [[ -n $(find . -name '*.mp4*.part' -size +4000k) ]] && break; sleep 0.1; done
+touch lost
+for _ in {1..300}; do kill -0 "$running" 2>/dev/null || break; sleep 0.1; done
+! kill -0 "$running" 2>/dev/null || fail "the viewer does not end"
+code=0
+wait "$running" || code=$?
+[[ $code == 5 && $(wc -l <viewer.err) == 1 ]] || fail "exit code $code"
+grep -q '^error: .*VK_ERROR_DEVICE_LOST' viewer.err || fail "nothing was said of the device"
+expectFilm "$(sed -n 's/^recording //p' viewer.out)" $((640 * 480 * 4))
+grep -q '^vsync = false$' config/sinew/viewer.conf || fail "what V chose is not remembered"
+input=$(sed -n 's/.*: --replay \(.*\) does again what hands did$/\1/p' viewer.err)
+[[ $input == "$folder"/block-*.input ]] && grep -q '^press ' "$input" || fail "what hands did is not kept"
+rm lost
+"$player" --headless --replay "$input" >replay.out 2>replay.err || fail "the replay failed: $(cat replay.err)"
+grep -q '^state hash' replay.out || fail "the replay came to nothing"
+
+echo "lost device: without a window"
+"$folder/start" "$scene" --headless --frames 1000000 --every 5 --size 64x64 --out film --video film.mp4 >viewer.out 2>viewer.err &
+running=$!
+for _ in {1..300}; do [[ -e film/frame_0010.png ]] && break; sleep 0.1; done
+touch lost
+for _ in {1..300}; do kill -0 "$running" 2>/dev/null || break; sleep 0.1; done
+code=0
+wait "$running" || code=$?
+[[ $code == 5 && $(grep -c '^error: .*VK_ERROR_DEVICE_LOST' viewer.err) == 1 ]] || fail "exit code $code"
+expectFilm film.mp4 $((64 * 64 * 4))
+for picture in film/*.png; do
+    convert "$picture" null: || fail "$picture is not whole"
+done
+echo "passed"
