@@ -41,7 +41,7 @@ expectTheSame() { # FILE WHAT
 echo "devices: both are listed, the scene goes on on the other one and back"
 start --device 0
 xdotool windowmove "$window" 0 0
-cut 450 100 600
+cutDown 450 100 600
 keys c space
 awaitTitle paused
 for _ in {1..5}; do keys period; done

@@ -25,7 +25,7 @@ echo "lost device: in the window"
 viewer=$folder/start
 start
 keys v
-cut 320 100 420
+cutDown 320 100 420
 keys F9
 for _ in {1..300}; do [[ -n $(find . -name '*.mp4*.part' -size +4000k) ]] && break; sleep 0.1; done
 touch lost

@@ -29,7 +29,7 @@ load)
     keys Next ;;
 *)
     keys v
-    cut 320 100 420 ;;
+    cutDown 320 100 420 ;;
 esac
 kept=$folder
 if [[ $4 == full ]]; then

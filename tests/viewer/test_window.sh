@@ -377,6 +377,26 @@ bytes=$(stat -c %s "$film") || fail "interrupted, the film is lost"
 ((bytes > 0 && bytes % (640 * 400 * 4) == 0)) || fail "interrupted, the film has $bytes bytes, which are no whole pictures"
 [[ -z $(find . -name '*.part') ]] || fail "interrupted, there is a part of a film: $(find . -name '*.part')"
 
+echo "window: an encoder that ends, as on a full disk, ends the film alone"
+cp bin/ffmpeg whole
+printf '#!/bin/sh\nhead -c 3000000 >/dev/null\nexit 1\n' >bin/ffmpeg
+start
+keys F9
+for _ in {1..200}; do [[ -s viewer.err ]] && break; sleep 0.1; done
+[[ $(cat viewer.err) == "warning: cannot write video: "*": ffmpeg has stopped: see its message above" ]] || fail "nothing was said of an encoder that ended"
+mv whole bin/ffmpeg
+sleep 1
+kill -0 "$running" || fail "the viewer ended with the encoder"
+keys F9
+for _ in {1..200}; do [[ -n $(find . -name '*.mp4*.part' -size +1000k) ]] && break; sleep 0.1; done
+keys F9
+for _ in {1..200}; do grep -q ' pictures in other-.*\.mp4$' viewer.out && break; sleep 0.1; done
+grep -q ' pictures in other-.*\.mp4$' viewer.out || fail "there is no film after the one that failed"
+keys ctrl+q
+code=0
+wait "$running" || code=$?
+[[ $code == 0 && $(wc -l <viewer.err) == 1 ]] || fail "exit code $code, or more than one line, after an encoder that ended"
+
 echo "window: what the command line says goes before what is remembered, and is not remembered"
 cp config/sinew/viewer.conf before.conf
 scene=scenes/block.toml

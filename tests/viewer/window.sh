@@ -62,7 +62,7 @@ awaitStill() { # FILE: a picture that stays; a paused software device draws its 
     fail "the paused picture never stood still"
 }
 same() { compare -metric AE "$1" "$2" null: >/dev/null 2>&1; }
-cut() { # X FROM TO: a stroke down the window, again where so little time went to it that it saw no more than an end of the stroke
+cutDown() { # X FROM TO: a stroke down the window, again where so little time went to it that it saw no more than an end of the stroke
     keys c
     awaitTitle blade
     for _ in {1..5}; do

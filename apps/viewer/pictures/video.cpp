@@ -113,10 +113,30 @@ void Video::start(const std::string& program, const std::vector<std::string>& ar
     }
 }
 
+namespace {
+
+// An encoder that has ended, as of a full disk, ends a film: SIGPIPE would be taken for a wish to end all.
+ssize_t writeQuietly(int pipe, const void* bytes, std::size_t size) {
+    sigset_t broken, before;
+    sigemptyset(&broken);
+    sigaddset(&broken, SIGPIPE);
+    ::pthread_sigmask(SIG_BLOCK, &broken, &before);
+    const ssize_t written = ::write(pipe, bytes, size);
+    const int error = errno;
+    const timespec atOnce{};
+    if (written != static_cast<ssize_t>(size)) // what was partly written may have raised it, too
+        ::sigtimedwait(&broken, nullptr, &atOnce);
+    ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    errno = error;
+    return written;
+}
+
+} // namespace
+
 void Video::add(const Picture& picture) {
     const std::uint8_t* bytes = picture.pixels.data();
     for (std::size_t left = picture.pixels.size(); left > 0;) {
-        const ssize_t written = ::write(pipe_, bytes, left);
+        const ssize_t written = writeQuietly(pipe_, bytes, left);
         if (written < 0 && errno == EINTR) continue;
         if (written <= 0) fail("ffmpeg has stopped: see its message above");
         bytes += written;
