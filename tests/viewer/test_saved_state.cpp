@@ -187,6 +187,21 @@ TEST_F(SavedState, IsRefusedWhereItIsOfAnotherSimulation) {
     EXPECT_ANY_THROW(Played{file});
 }
 
+// Larger than any memory, where the file system has files with holes.
+TEST_F(SavedState, IsNotReadWhereItIsNone) {
+    std::ofstream(file) << "something else";
+    std::error_code error;
+    std::filesystem::resize_file(file, std::uintmax_t{1} << 42, error);
+    if (error) GTEST_SKIP() << error.message();
+    EXPECT_NE(refusal().find("it does not begin as states"), std::string::npos) << refusal();
+    try {
+        loadInput(file);
+        FAIL() << "accepted";
+    } catch (const app::Failure& failure) {
+        EXPECT_NE(std::string(failure.what()).find("it does not begin with"), std::string::npos);
+    }
+}
+
 TEST_F(SavedState, IsRefusedWhereItIsDamaged) {
     save(Played(scene));
     std::ifstream stream(file, std::ios::binary);

@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::string_view title = "sinew input 2";
 constexpr std::string_view titleBefore = "sinew input 1"; // where "solve" lost all states to go back to
+static_assert(title.size() == titleBefore.size());
 
 // A line in the making: words with blanks between them.
 class Line {
@@ -327,9 +328,13 @@ InputFile parseInput(const std::string& text, const std::string& name) {
 InputFile loadInput(const std::filesystem::path& file) {
     std::error_code error;
     std::ostringstream text;
-    if (std::filesystem::is_regular_file(file, error))
-        text << std::ifstream(file, std::ios::binary).rdbuf();
-    else if (std::filesystem::exists(file, error))
+    if (std::filesystem::is_regular_file(file, error)) {
+        std::ifstream stream(file, std::ios::binary);
+        std::string head(title.size(), ' '); // what is something else, however large, is not read
+        stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+        text << head;
+        if (head == title || head == titleBefore) text << stream.rdbuf();
+    } else if (std::filesystem::exists(file, error))
         refuse(file.string(), "it is no file");
     else
         refuse(file.string(), "there is no such file");
