@@ -21,6 +21,11 @@ extern "C" void countInterruption(int) {
     interruptions = 1;
 }
 
+bool isIgnored(int signal) {
+    struct sigaction now {};
+    return sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
+}
+
 ExitCode codeOf(vk::Failure failure) {
     switch (failure) {
     case vk::Failure::noDevice:
@@ -78,7 +83,8 @@ int guarded(const std::function<int()>& body) noexcept {
 
 void catchSignals() {
     interruptions = 0;
-    for (const int signal : {SIGINT, SIGTERM, SIGPIPE}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
+        if (signal == SIGHUP && isIgnored(signal)) continue; // nohup: the run outlives its terminal
         struct sigaction action {};
         action.sa_handler = countInterruption;
         // Once: whoever asks a second time wants the process gone.

@@ -37,7 +37,8 @@ int guarded(const std::function<int()>& body) noexcept;
 /// Says it in a line of that kind, with a blank for what would break the line; returns `code`.
 int report(ExitCode code, std::string message) noexcept;
 
-/// Asks SIGINT, SIGTERM and SIGPIPE to set a flag instead of ending the process.
+/// Asks SIGINT, SIGTERM, SIGHUP and SIGPIPE to set a flag instead of ending the process; SIGHUP unless it is
+/// ignored.
 void catchSignals();
 bool isInterrupted() noexcept;
 

@@ -61,12 +61,21 @@ TEST(Guard, KeepsAMessageOnOneLine) {
 }
 
 TEST(Signals, SetAFlagAndLetTheProcessGoOn) {
-    for (const int signal : {SIGINT, SIGTERM, SIGPIPE}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
         app::catchSignals();
         EXPECT_FALSE(app::isInterrupted());
         std::raise(signal);
         EXPECT_TRUE(app::isInterrupted());
     }
+}
+
+// As under nohup.
+TEST(Signals, OfATerminalThatGoesAreIgnoredWhereTheyWere) {
+    auto* const before = std::signal(SIGHUP, SIG_IGN);
+    app::catchSignals();
+    std::raise(SIGHUP);
+    EXPECT_FALSE(app::isInterrupted());
+    std::signal(SIGHUP, before);
 }
 
 TEST(Signals, EndTheProcessTheSecondTime) {
