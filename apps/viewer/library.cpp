@@ -121,6 +121,13 @@ std::unique_ptr<Opening> Library::take() {
     return opened;
 }
 
+void Library::askAgain(const Again& again, float aspect) {
+    Request request = *shown_;
+    putBack();
+    request.again = again;
+    begin(std::move(request), aspect);
+}
+
 void Library::putBack() {
     shown_ = before_;
     current_ = shown_->name;

@@ -54,6 +54,8 @@ public:
     /// What was asked for, once it is there; until then nothing. Throws app::Failure and what scenes::load
     /// and Prepare throw: the scene on show is then still the current one.
     std::unique_ptr<Opening> take();
+    /// After take() of what was to take over: that is made once more, for what is to be taken over by now.
+    void askAgain(const Again& again, float aspect);
     /// After take(), where what it gave could not be shown: what was on show before is the current one again.
     void putBack();
 

@@ -3,6 +3,7 @@
 
 #include "app/guard.hpp"
 #include "vk/check.hpp"
+#include "vk/kernel_store.hpp"
 #include "vk/queue.hpp"
 
 #include <algorithm>
@@ -13,12 +14,14 @@ namespace sinew::viewer {
 
 namespace {
 
-constexpr double idleWait = 0.1;              // [s] at most between looks at signals while nothing moves
-constexpr std::uint32_t picturesOfATouch = 3; // until Dear ImGui shows what a press has changed
-constexpr double stillAfter = 0.25;           // [s] without a change before a paused picture is the last one
+constexpr double idleWait = 0.1;                   // [s] at most between looks at signals while nothing moves
+constexpr double rehearsalWait = 0.005;            // [s] between looks at whether a rehearsal is over
+constexpr std::chrono::milliseconds patience{300}; // until hands are told that something is being made
+constexpr std::uint32_t picturesOfATouch = 3;      // until Dear ImGui shows what a press has changed
+constexpr double stillAfter = 0.25; // [s] without a change before a paused picture is the last one
 
 static_assert(Presenter::framesInFlight * Playback::maxSteps <= sim::Simulation::framesInFlight);
-static_assert(Presenter::framesInFlight <= Renderer::slots);
+static_assert(3 * Presenter::framesInFlight < Renderer::slots); // with films and files of pictures
 static_assert(Presenter::framesInFlight <= Timing::slots);
 
 } // namespace
@@ -29,8 +32,9 @@ Show::Show(Screen& screen, Library& library, const Devices& devices, const vk::D
       opening_(*ownOpening_), prepared_(*opening_.prepared),
       controller_(opening_.camera, opening_.loaded.scene.dt), stage_(prepared_.stage),
       probe_(std::in_place, device, stage_.scene(), stage_.simulation()),
-      inspector_(device, stage_, Presenter::framesInFlight), tools_(device, opening_),
-      sceneFacts_(prepared_.facts), gauges_(stage_, opening_.loaded.scene.dt),
+      backstage_(device, prepared_, opening_.camera, Presenter::framesInFlight),
+      inspector_(stage_, Presenter::framesInFlight), tools_(device, opening_), sceneFacts_(prepared_.facts),
+      gauges_(stage_, opening_.loaded.scene.dt),
       knobs_(sceneFacts_.fromFile), begun_{stage_.settings().solver, stage_.settings().substeps},
       status_(opening_.loaded.scene, device) {
     const auto spans = static_cast<std::uint32_t>(stage_.simulation().phases().size());
@@ -38,6 +42,7 @@ Show::Show(Screen& screen, Library& library, const Devices& devices, const vk::D
         times_.emplace_back(device, spans);
         drawingTimes_.emplace_back(device, 2);
     }
+    pipelines_ = device.kernels().pipelinesMade(); // of the first scene, before there was a window
     if (!opening_.run || opening_.again)
         controller_.playback.reset(); // fills the buffers
     else
@@ -77,10 +82,19 @@ std::unique_ptr<Opening> Show::run() {
     return next;
 }
 
-// What cannot be opened leaves all as it is.
+// What cannot be opened leaves all as it is. What is to go on with less room than there is by now would have
+// to make more in this thread: it is asked for again.
 std::unique_ptr<Opening> Show::takeOpened() {
+    if (stage_.isGrowing() || backstage_.isBusy()) return nullptr;
     try {
-        return library_.take();
+        std::unique_ptr<Opening> opened = library_.take();
+        const auto hasRoom = [this](const Again& other) {
+            const sim::Settings& room = stage_.settings();
+            return other.settings.contactRoom >= room.contactRoom &&
+                   other.settings.cutSurfaceRoom >= room.cutSurfaceRoom;
+        };
+        if (!opened || !opened->again || hasRoom(*opened->again)) return opened;
+        library_.askAgain({opened->again->material, stage_.settings()}, pictureAspect());
     } catch (const std::exception& error) {
         screen_.warn(error.what());
         keepAsItWas();
@@ -95,12 +109,18 @@ float Show::pictureAspect() const {
 
 void Show::turn() {
     const bool isIdle = isHidden_ || (shown_ == Shown::still && panelsDue_ == 0);
-    screen_.presenter().waitForSlot(); // the next picture has what came until it can be drawn
+    const bool isBusy = backstage_.isBusy();        // pictures wait for it, hands do not
+    if (!isBusy) screen_.presenter().waitForSlot(); // the next picture has what came until it can be drawn
+    const bool isMaking = backstage_.isMaking() || stage_.isGrowing();
     screen_.timing().beforeInput(isIdle);
-    Input input = screen_.window().poll(isIdle ? idleWait : 0);
+    Input input = screen_.window().poll(isBusy || (isIdle && isMaking) ? rehearsalWait
+                                        : isIdle                       ? idleWait
+                                                                       : 0);
     screen_.timing().afterInput(!input.isEmpty() || input.panels.isTouched, picturesOnTheirWay());
     const bool hasMoved = input.pointer != std::exchange(pointer_, input.pointer);
-    const bool isPointed = hasMoved && inspector_.isOn(), isUsed = hasMoved || !input.presses.empty();
+    const bool isUsed = hasMoved || !input.presses.empty();
+    // Panels change over a still scene without taking its quality away.
+    if (input.panels.isTouched || (hasMoved && inspector_.isOn())) panelsDue_ = picturesOfATouch;
     if (!replay_ && tools_.lendBlade(input.held == Action::blade, isUsed)) input.needsRedraw = true;
     const Wishes wishes = std::exchange(wishes_, {});
     grant(wishes, input);
@@ -110,30 +130,65 @@ void Show::turn() {
     reportFiles(PictureWriter::Wait::no);
     while (const auto preview = library_.previews().take())
         screen_.addPreview(preview->first, preview->second);
+    isInputDue_ = isInputDue_ || !input.isEmpty();
+    if (!isBusy) play();
+    goOn();
+    countPipelines();
+    if (const auto title = status_.title(controller_.playback.isPaused(), isDiverged_))
+        screen_.window().setTitle(*title);
+}
+
+// Steps and a picture, where there is something to be seen.
+void Show::play() {
     if (replayed_) compareReplay();
+    takeGrowth();
+    if (backstage_.isBusy()) return;
     isHidden_ = !prepareSwapchain();
     const auto now = Clock::now();
     const double elapsed = std::chrono::duration<double>(now - std::exchange(lastTurn_, now)).count();
     if (isHidden_) return; // time stands still while nobody can look
     const Plan plan = this->plan(elapsed);
-    const bool isChanged = !controller_.playback.isPaused() || plan.isReset || plan.steps > 0 ||
-                           !input.isEmpty() || wantsScreenshot_ || wantsProbe_ || wantsLook_ ||
-                           tools_.isWaiting() || shown_ == Shown::nothing;
+    const bool hasInput = std::exchange(isInputDue_, false);
+    const bool isChanged = !controller_.playback.isPaused() || plan.isReset || plan.steps > 0 || hasInput ||
+                           wantsScreenshot_ || wantsProbe_ || wantsLook_ || tools_.isWaiting() ||
+                           shown_ == Shown::nothing;
     if (isChanged) lastChange_ = now;
-    // Panels change over a still scene without taking its quality away.
-    if (input.panels.isTouched || isPointed || screen_.hasNewNotice()) panelsDue_ = picturesOfATouch;
-    if (isChanged || shown_ != Shown::still || panelsDue_ > 0) {
-        const bool isLast = !isChanged && (shown_ == Shown::still ||
-                                           now - lastChange_ >= std::chrono::duration<double>(stillAfter));
-        panelsDue_ -= std::min(panelsDue_, 1u);
-        shown_ = isLast ? Shown::still : Shown::moving;
-        gauges_.frame(elapsed, plan.steps);
-        if (plan.steps > 0) budget_.pictureTaken(elapsed, plan.steps);
-        draw(plan, isLast && prepared_.still ? *prepared_.still : prepared_.moving);
-        if (isLast) settleAll();
+    if (screen_.hasNewNotice()) panelsDue_ = picturesOfATouch;
+    if (!isChanged && shown_ == Shown::still && panelsDue_ == 0) return;
+    const bool isLast = !isChanged && (shown_ == Shown::still ||
+                                       now - lastChange_ >= std::chrono::duration<double>(stillAfter));
+    panelsDue_ -= std::min(panelsDue_, 1u);
+    shown_ = isLast ? Shown::still : Shown::moving;
+    gauges_.frame(elapsed, plan.steps);
+    if (plan.steps > 0) budget_.pictureTaken(elapsed, plan.steps);
+    draw(plan, isLast && prepared_.still ? *prepared_.still : prepared_.moving);
+    if (isLast) settleAll();
+}
+
+// What is made beside the pictures. Without memory for layers there are none.
+void Show::goOn() {
+    try {
+        if (backstage_.goOn()) shown_ = Shown::nothing;
+    } catch (const vk::Error& error) {
+        if (error.failure() != vk::Failure::outOfMemory) throw;
+        screen_.layers() = {};
+        if (inspector_.isOn()) inspector_.toggle();
+        screen_.warn(error.what());
     }
-    if (const auto title = status_.title(controller_.playback.isPaused(), isDiverged_))
-        screen_.window().setTitle(*title);
+    const bool isMaking = backstage_.isMaking() || stage_.lacksContactRoom();
+    if (!isMaking) isMakingSaid_ = false;
+    if (!isMaking) return makingSince_.reset();
+    if (!makingSince_) makingSince_ = Clock::now();
+    if (isMakingSaid_ || Clock::now() - *makingSince_ < patience) return;
+    isMakingSaid_ = true;
+    screen_.tell(stage_.lacksContactRoom() ? "more room for contacts is being made: steps wait for it"
+                                           : "what is to be shown is being prepared");
+}
+
+// Of this thread, which is not to make any.
+void Show::countPipelines() {
+    const std::size_t made = device_.kernels().pipelinesMade();
+    screen_.timing().times().addPipelines(made - std::exchange(pipelines_, made));
 }
 
 // A film has a picture of every step.
@@ -174,6 +229,7 @@ void Show::draw(Plan plan, View& view) {
     if (surfaceMissing_ > 0) makeSurfaceRoom();
     if (stage_.wantsShape()) reshape();
     if (isDiverged_ && !plan.isReset) plan.steps = 0; // keeps the last finite picture
+    if (stage_.lacksContactRoom()) plan.steps = 0;    // until there is more
     const std::optional<Presenter::Frame> frame = screen_.presenter().begin();
     if (!frame) {
         if (plan.isReset) controller_.playback.reset();
@@ -189,6 +245,7 @@ void Show::draw(Plan plan, View& view) {
     picturesOnTheirWay(); // some are there when they have been presented
     if (screen_.timing().awaitsPicture()) {
         screen_.presenter().waitIdle();
+        countPipelines();
         screen_.timing().firstPicture();
     }
     status_.frameDrawn();
@@ -202,7 +259,7 @@ void Show::drawPicture(const Presenter::Frame& frame, const Overlay& overlay, Vi
     if (!canvas)
         canvas.emplace(view.renderer.makeCanvas(screen_.presenter().extent(), screen_.presenter().views(),
                                                 PictureBudget::scales[scale]));
-    view.renderer.prepare(overlay.layers, *canvas);
+    view.renderer.prepareCanvas(overlay.layers, *canvas);
     const bool isTimed = inFlight_[frame.slot].isTimed = screen_.timing().isOn();
     vk::Commands commands(device_, frame.commands);
     vk::Timestamps& times = drawingTimes_[frame.slot];
@@ -255,7 +312,8 @@ Facts Show::facts(std::optional<float> reduced) const {
     facts.map = mapRange_.newest();
     facts.mapRange = mapRange_.range();
     facts.contactsFound = contactsFound_;
-    if (screen_.layers().hasLinks && inspection_) facts.links = inspection_->links();
+    if (drawn_.layers.hasLinks) facts.links = backstage_.inspection().links();
+    facts.isPreparing = drawn_.layers != screen_.layers();
     facts.isInspecting = inspector_.isOn();
     facts.found = inspector_.found();
     facts.isRecording = recording_.has_value();

@@ -3,12 +3,12 @@
 // the rest beside it: show_input, show_flights, show_pictures, show_replay, show_shape.
 #pragma once
 
+#include "viewer/backstage.hpp"
 #include "viewer/devices.hpp"
-#include "viewer/draw/offscreen.hpp"
+#include "viewer/draw/shot.hpp"
 #include "viewer/draw/stage.hpp"
 #include "viewer/gauges.hpp"
 #include "viewer/hands/controller.hpp"
-#include "viewer/hands/inspection.hpp"
 #include "viewer/hands/inspector.hpp"
 #include "viewer/hands/picture_budget.hpp"
 #include "viewer/hands/state_probe.hpp"
@@ -73,11 +73,11 @@ private:
         std::optional<Look> look;
         bool isMeasured = false;          // for the strain
         bool isRecorded = false;          // by cameras_
-        ColorMap map = ColorMap::none;    // of inspection_
+        ColorMap map = ColorMap::none;    // of what is inspected
         bool hasContacts = false;         // likewise
         bool isInspected = false;         // for the inspector
         std::optional<Question> question; // of the tools
-        std::unique_ptr<Offscreen> screenshot;
+        std::unique_ptr<Shot> screenshot;
         std::uint64_t screenshotStep = 0;
     };
 
@@ -90,6 +90,9 @@ private:
     void turnKnobs(const Knobs& knobs);
     void turnMaterial(const Knobs& knobs);
     void takeTurn();
+    void takeGrowth();
+    void endGrowth();
+    void play();
     void changeDevice(std::size_t index);
     Knobs madeKnobs() const;
     Again again() const;
@@ -137,6 +140,9 @@ private:
     void recordProbe(const Presenter::Frame& frame);
     void inspect(const Presenter::Frame& frame, const Ray& ray);
     Overlay recordLayers(const Presenter::Frame& frame);
+    void goOn();
+    void countPipelines();
+    Renderer& wholeQuality();
     void recordScreenshot(const Presenter::Frame& frame, const Overlay& overlay);
     void settleScreenshot(const InFlight& flight);
     void settle(std::uint32_t slot);
@@ -157,8 +163,9 @@ private:
     PreparedShow& prepared_;
     Controller controller_;
     Stage& stage_;
-    std::optional<StateProbe> probe_;      // of the stage's simulation
-    std::optional<Inspection> inspection_; // likewise, where a layer wants it
+    std::optional<StateProbe> probe_; // of the stage's simulation
+    Backstage backstage_;
+    Watched drawn_; // of what is wanted, what the newest picture has
     Inspector inspector_;
     Vector2 pointer_ = Vector2::Zero(); // as Input::pointer
     std::optional<Look> wantsLook_;
@@ -178,7 +185,7 @@ private:
     std::optional<Knobs> asked_; // of the library
     Shaped begun_;               // as the stage was at the reset
     std::optional<Recording> recording_;
-    std::array<std::unique_ptr<Offscreen>, Presenter::framesInFlight> cameras_; // of the recording
+    std::array<std::unique_ptr<Shot>, Presenter::framesInFlight> cameras_; // of the recording
     std::array<InFlight, Presenter::framesInFlight> inFlight_;
     PictureWriter writer_{1};
     StatusLine status_;
@@ -188,10 +195,13 @@ private:
     std::uint32_t surfaceMissing_ = 0; // Status::cutSurfaceMissing of the newest settled step
     std::uint32_t panelsDue_ = 0;      // pictures until the panels look as they should
     std::uint32_t cutFrames_ = 0;      // pictures that may still wait for a cut
-    std::optional<SavedOrigin> from_;  // until the reset
-    bool isBroken_ = false;            // has diverged, likewise
+    std::optional<Clock::time_point> makingSince_; // nobody has been told
+    std::size_t pipelines_ = 0;                    // of this thread, that were counted
+    std::optional<SavedOrigin> from_;              // until the reset
+    bool isBroken_ = false;                        // has diverged, likewise
     bool isHidden_ = false, isDiverged_ = false, isSurfaceMissing_ = false, isCut_ = false,
-         isRefused_ = false, wantsScreenshot_ = false, wantsProbe_ = false;
+         isRefused_ = false, wantsScreenshot_ = false, wantsProbe_ = false, isInputDue_ = false,
+         isMakingSaid_ = false, isSurfaceGrowing_ = false;
 };
 
 } // namespace sinew::viewer

@@ -89,39 +89,22 @@ void Show::recordProbe(const Presenter::Frame& frame) {
     if (flight.isInspected) inspect(frame, ray);
 }
 
-// Without memory for it nothing is inspected.
 void Show::inspect(const Presenter::Frame& frame, const Ray& ray) {
     probe_->recordVelocities(frame.commands);
-    try {
-        inspector_.record(frame.commands, frame.slot, ray);
-    } catch (const vk::Error& error) {
-        if (error.failure() != vk::Failure::outOfMemory) throw;
-        inFlight_[frame.slot].isInspected = false;
-        inspector_.toggle();
-        screen_.warn(error.what());
-    }
+    inspector_.record(frame.commands, frame.slot, ray, backstage_.inspection().counter());
 }
 
-// Without memory for them there are no layers.
+// What is there of what is wanted.
 Overlay Show::recordLayers(const Presenter::Frame& frame) {
     Overlay overlay = tools_.overlay();
-    Layers& layers = screen_.layers();
-    if (layers.needsBuffers()) {
-        try {
-            if (!inspection_) inspection_.emplace(device_, stage_, Presenter::framesInFlight);
-            inspection_->prepare(layers);
-        } catch (const vk::Error& error) {
-            if (error.failure() != vk::Failure::outOfMemory) throw;
-            layers = {};
-            screen_.warn(error.what());
-            return overlay;
-        }
-        inspection_->record(frame.commands, layers, frame.slot);
-        inFlight_[frame.slot].map = layers.map;
-        inFlight_[frame.slot].hasContacts = layers.hasContacts;
-        overlay.buffers = inspection_->buffers(layers, mapRange_.range());
-    }
-    overlay.layers = layers;
+    drawn_ = backstage_.ready({screen_.layers(), inspector_.isOn()});
+    const Layers& layers = overlay.layers = drawn_.layers;
+    if (!layers.needsBuffers()) return overlay;
+    const Inspection& inspection = backstage_.inspection();
+    inspection.record(frame.commands, layers, frame.slot);
+    inFlight_[frame.slot].map = layers.map;
+    inFlight_[frame.slot].hasContacts = layers.hasContacts;
+    overlay.buffers = inspection.buffers(layers, mapRange_.range());
     return overlay;
 }
 
@@ -130,9 +113,12 @@ void Show::settle(std::uint32_t slot) {
     InFlight flight = std::exchange(inFlight_[slot], {});
     settleTimes(slot, flight);
     settleProbe(flight);
-    if (flight.isInspected) inspector_.settle(slot, opening_.light.balls, *probe_, isCut_, opened());
+    if (flight.isInspected)
+        inspector_.settle(slot, opening_.light.balls, *probe_, isCut_, opened(),
+                          backstage_.inspection().counter());
     settleMap(slot, flight);
-    if (flight.hasContacts && inspection_) contactsFound_ = inspection_->contacts(slot);
+    if (flight.hasContacts && drawn_.layers.hasContacts)
+        contactsFound_ = backstage_.inspection().contacts(slot);
     bool isUndone = false;
     for (std::uint32_t i = 0; i < flight.steps && !isDiverged_; ++i) {
         const std::uint64_t step = flight.firstStep + i;
@@ -209,23 +195,41 @@ std::optional<Opened> Show::opened() const {
 
 // A picture whose colors have another range by now is drawn once more.
 void Show::settleMap(std::uint32_t slot, const InFlight& flight) {
-    if (flight.map == ColorMap::none || flight.map != screen_.layers().map || !inspection_) return;
+    if (flight.map == ColorMap::none || flight.map != screen_.layers().map) return;
     const float before = mapRange_.range();
-    mapRange_.read(inspection_->reading(slot));
+    mapRange_.read(backstage_.inspection().reading(slot));
     if (mapRange_.range() != before) shown_ = Shown::nothing;
 }
 
-// All steps have been taken: only the picture lacked something.
+// All steps have been taken: only the picture lacks something, and they go on.
 void Show::makeSurfaceRoom() {
-    if (isSurfaceMissing_) return; // there is no such room
-    settleAll();
+    if (isSurfaceMissing_ || stage_.isGrowing()) return; // there is no such room, or it comes
     const std::uint32_t needed = std::exchange(surfaceMissing_, 0);
     if (needed == 0) return; // somebody has gone back to before
+    isSurfaceGrowing_ = stage_.beginSurfaceRoom(needed);
+    if (!isSurfaceGrowing_) warnOfSurface();
+}
+
+// A simulation with more room goes on, once no picture is on its way any more.
+void Show::takeGrowth() {
+    if (!stage_.isGrowing()) return;
+    const Stage::Growth growth = stage_.askGrowth();
+    if (growth == Stage::Growth::none && std::exchange(isSurfaceGrowing_, false)) warnOfSurface();
+    if (growth != Stage::Growth::made) return;
+    settleAll();
+    backstage_.forget();
     vk::Queue queue(device_);
-    cutFrames_ = std::max(cutFrames_, 1u); // this picture waits for it
-    if (!stage_.makeSurfaceRoom(needed, queue, tools_.bring())) return warnOfSurface();
+    stage_.bringGrowth(queue, tools_.bring());
+    backstage_.rehearse([this](VkCommandBuffer commands) { stage_.recordGrowth(commands); },
+                        [this] { endGrowth(); });
+}
+
+void Show::endGrowth() {
+    stage_.endGrowth();
     restartViews();
+    isSurfaceGrowing_ = false;
     tools_.moveOn();
+    surfaceMissing_ = 0; // the next step says whether that was enough
 }
 
 // Once: nothing but the picture suffers.
@@ -241,15 +245,12 @@ void Show::stop(const std::string& why) {
     screen_.warn(why);
 }
 
-// Later frames take the undone steps again.
+// Later frames take the undone steps again, when there is a simulation with room for them.
 void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
-    screen_.presenter().waitIdle();
-    vk::Queue queue(device_);
     const std::uint64_t newest = stage_.steps();
-    if (!stage_.makeRoom(step, queue, tools_.bring())) return stop(app::tooCrowded(step));
+    if (!stage_.beginRoom(step)) return stop(app::tooCrowded(step));
     if (std::exchange(replay_, std::nullopt))
         screen_.warn("the replay ends here: contacts need more room than when it was recorded");
-    restartViews();
     std::vector<Sweep> sweeps = undone.sweeps;
     for (const InFlight& later : inFlight_) // at most one has some
         sweeps.insert(sweeps.end(), later.sweeps.begin(), later.sweeps.end());
@@ -257,12 +258,7 @@ void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
     for (InFlight& other : inFlight_) {
         other.steps = 0;
         other.sweeps.clear();
-        wantsProbe_ = std::exchange(other.isProbed, false) || wantsProbe_;
-        other.isMeasured = other.isRecorded = other.isInspected = false;
-        other.map = ColorMap::none;
-        other.hasContacts = false;
-        other.question.reset();
-        if (other.look) wantsLook_ = std::exchange(other.look, std::nullopt);
+        other.isRecorded = false;
     }
 }
 

@@ -17,18 +17,22 @@ std::string Show::nameAt(std::uint64_t step) const {
     return opening_.loaded.scene.name + stem;
 }
 
+// Its pipelines are there, and were used: files show what the window shows when it is still.
+Renderer& Show::wholeQuality() {
+    return prepared_.still ? prepared_.still->renderer : prepared_.moving.renderer;
+}
+
 void Show::recordScreenshot(const Presenter::Frame& frame, const Overlay& overlay) {
     InFlight& flight = inFlight_[frame.slot];
     try {
-        flight.screenshot =
-            std::make_unique<Offscreen>(device_, screen_.presenter().extent(), opening_.light);
+        flight.screenshot = std::make_unique<Shot>(device_, wholeQuality(), screen_.presenter().extent());
     } catch (const vk::Error& error) {
         if (error.failure() != vk::Failure::outOfMemory) throw;
         return screen_.warn(std::string("no picture: ") + error.what());
     }
     flight.screenshotStep = stage_.steps();
-    flight.screenshot->prepare(overlay.layers);
-    flight.screenshot->record(frame.commands, controller_.camera, stage_.simulation(), overlay);
+    flight.screenshot->record(frame.commands, frame.slot + 2 * Presenter::framesInFlight, controller_.camera,
+                              stage_.simulation(), overlay);
 }
 
 // The one before must be there: its name is taken only then.
@@ -45,7 +49,7 @@ void Show::toggleRecording() {
     try {
         recording_.emplace(nameAt(stage_.steps()), extent.width, extent.height,
                            1 / double{stage_.scene().dt});
-        for (auto& camera : cameras_) camera = std::make_unique<Offscreen>(device_, extent, opening_.light);
+        for (auto& camera : cameras_) camera = std::make_unique<Shot>(device_, wholeQuality(), extent);
         std::printf("recording %s\n", recording_->target().c_str());
         std::fflush(stdout);
         screen_.tell("recording " + recording_->target().string() + ", a picture a step; " +
@@ -79,8 +83,8 @@ void Show::finishFilm() {
 }
 
 void Show::recordCamera(const Presenter::Frame& frame, const Overlay& overlay) {
-    cameras_[frame.slot]->prepare(overlay.layers);
-    cameras_[frame.slot]->record(frame.commands, controller_.camera, stage_.simulation(), overlay);
+    cameras_[frame.slot]->record(frame.commands, frame.slot + Presenter::framesInFlight, controller_.camera,
+                                 stage_.simulation(), overlay);
     inFlight_[frame.slot].isRecorded = true;
 }
 

@@ -85,6 +85,7 @@ void Show::takeOver(const Show& before) {
 // Of a replay: it may wait.
 void Show::reshape() {
     settleAll();
+    backstage_.forget(); // of the simulation that goes
     vk::Queue queue(device_);
     try {
         stage_.reshape(queue, tools_.bring());
@@ -108,7 +109,8 @@ void Show::reshape() {
 // After the stage has another simulation.
 void Show::restartViews() {
     probe_.emplace(device_, stage_.scene(), stage_.simulation());
-    inspection_.reset(); // as layers want it, of the other simulation
+    backstage_.forget(); // layers are made of the other one
+    drawn_ = {};
     inspector_.restart();
     shown_ = Shown::nothing;
 }

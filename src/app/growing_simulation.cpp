@@ -32,46 +32,60 @@ GrowingSimulation::GrowingSimulation(const vk::Device& device, const sim::Scene&
       simulation_(std::make_unique<sim::Simulation>(device, scene, settings)),
       room_{.room = settings.contactRoom} {}
 
-bool GrowingSimulation::grow(std::uint32_t needed, vk::Queue& queue, const Bring& bring) {
+std::optional<sim::Settings> GrowingSimulation::roomForContacts(std::uint32_t needed) {
     room_.needed = std::max(room_.needed, needed);
-    if (needed > sim::ranges::mostContactRoom) return false;
+    if (needed > sim::ranges::mostContactRoom) return std::nullopt;
     sim::Settings settings = settings_;
     settings.contactRoom = roomFor(needed);
-    replace(settings, queue, bring);
-    room_.room = settings.contactRoom;
-    ++room_.grown;
-    return true;
+    return settings;
+}
+
+bool GrowingSimulation::grow(std::uint32_t needed, vk::Queue& queue, const Bring& bring) {
+    const std::optional<sim::Settings> settings = roomForContacts(needed);
+    if (settings) replace(*settings, queue, bring);
+    return settings.has_value();
 }
 
 bool GrowingSimulation::lacksSurface(std::uint32_t needed) const noexcept {
     return needed > 0 && !surface_.isShort;
 }
 
-bool GrowingSimulation::growSurface(std::uint32_t needed, vk::Queue& queue, const Bring& bring) {
+std::optional<sim::Settings> GrowingSimulation::roomForSurface(std::uint32_t needed) {
     surface_.needed = std::max(surface_.needed, needed);
     sim::Settings settings = settings_;
     settings.cutSurfaceRoom = std::min(needed + needed / 2, sim::ranges::mostCutSurfaceRoom);
     surface_.isShort = settings.cutSurfaceRoom < needed;
-    if (surface_.isShort) return false;
+    return surface_.isShort ? std::nullopt : std::optional(settings);
+}
+
+bool GrowingSimulation::growSurface(std::uint32_t needed, vk::Queue& queue, const Bring& bring) {
+    const std::optional<sim::Settings> settings = roomForSurface(needed);
+    if (!settings) return false;
     try {
-        replace(settings, queue, bring);
+        replace(*settings, queue, bring);
     } catch (const vk::Error&) { // of memory, or a longer buffer than the device has
-        surface_.isShort = true;
+        lackSurface();
         return false;
     }
-    ++surface_.grown;
     return true;
+}
+
+void GrowingSimulation::goOnIn(std::unique_ptr<sim::Simulation> next, const sim::Settings& settings) {
+    room_.grown += settings.contactRoom > settings_.contactRoom ? 1 : 0;
+    surface_.grown += settings.cutSurfaceRoom > settings_.cutSurfaceRoom ? 1 : 0;
+    room_.room = settings.contactRoom;
+    simulation_ = std::move(next);
+    settings_ = settings;
 }
 
 void GrowingSimulation::replace(const sim::Settings& settings, vk::Queue& queue, const Bring& bring) {
     queue.waitIdle();
-    auto roomier = std::make_unique<sim::Simulation>(device_, scene_, settings);
-    if (bring) bring(*simulation_, queue, *roomier, queue);
+    auto next = std::make_unique<sim::Simulation>(device_, scene_, settings);
+    if (bring) bring(*simulation_, queue, *next, queue);
     const VkCommandBuffer commands = queue.begin();
-    roomier->recordTakeOver(commands, *simulation_);
+    next->recordTakeOver(commands, *simulation_);
     queue.wait(queue.submit(commands));
-    simulation_ = std::move(roomier);
-    settings_ = settings;
+    goOnIn(std::move(next), settings);
 }
 
 void GrowingSimulation::widen(const sim::Settings& roomy, vk::Queue& queue) {

@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace sinew::app {
 
@@ -41,7 +42,19 @@ public:
     const sim::Simulation& simulation() const noexcept { return *simulation_; }
     /// Those of simulation(), with the room that it has.
     const sim::Settings& settings() const noexcept { return settings_; }
+    const vk::Device& device() const noexcept { return device_; }
     const ContactRoom& contactRoom() const noexcept { return room_; }
+
+    /// What a simulation() has to be made with after a step whose Status::contactRoom is `needed`, or after
+    /// steps of which Status::cutSurfaceMissing was `needed` at most: grow() and growSurface() in two, for
+    /// who makes it in another thread. Nothing where there can be no such room.
+    std::optional<sim::Settings> roomForContacts(std::uint32_t needed);
+    std::optional<sim::Settings> roomForSurface(std::uint32_t needed);
+    /// There is no memory for what roomForSurface() said: nothing is to be drawn beyond.
+    void lackSurface() { surface_.isShort = true; }
+    /// Goes on in `next`, which is of such settings and has taken over from simulation(): nothing that uses
+    /// that is on its way any more.
+    void goOnIn(std::unique_ptr<sim::Simulation> next, const sim::Settings& settings);
 
     /// After a step whose Status::contactRoom is `needed`: waits for `queue`, in which every step was
     /// submitted, and goes on in a simulation with that much room, rounded up, in the state before that step.

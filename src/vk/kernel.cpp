@@ -2,6 +2,7 @@
 #include "vk/kernel.hpp"
 
 #include "vk/check.hpp"
+#include "vk/kernel_store.hpp"
 
 #include <algorithm>
 #include <map>
@@ -155,6 +156,7 @@ void Kernel::create(const Device& device, const ShaderCode& code,
     layout_ = createLayout(device_, *functions_, setLayout_, interface_.pushConstantSize, name_);
     device.name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, handleValue(layout_), name_);
     pipeline_ = createPipeline(device, code, layout_, constants);
+    device.kernels().countPipeline();
     device.name(VK_OBJECT_TYPE_PIPELINE, handleValue(pipeline_), name_);
 }
 

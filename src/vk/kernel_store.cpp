@@ -30,6 +30,17 @@ std::shared_ptr<const Kernel> KernelStore::get(const Device& device, const Shade
     return keep(made);
 }
 
+void KernelStore::countPipeline() {
+    const std::scoped_lock lock(mutex_);
+    ++pipelinesOf_[std::this_thread::get_id()];
+}
+
+std::size_t KernelStore::pipelinesMade() const {
+    const std::scoped_lock lock(mutex_);
+    const auto found = pipelinesOf_.find(std::this_thread::get_id());
+    return found == pipelinesOf_.end() ? 0 : found->second;
+}
+
 void KernelStore::addKeeper() {
     const std::scoped_lock lock(mutex_);
     ++keepers_;

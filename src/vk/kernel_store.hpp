@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <thread>
 
 namespace sinew::vk {
 
@@ -19,6 +20,11 @@ public:
     std::shared_ptr<const Kernel> get(const Device& device, const ShaderCode& code,
                                       std::span<const SpecialisationConstant> constants);
 
+    /// Says that the calling thread has made a pipeline of the device, and how many it has: a thread that
+    /// must not wait for compilers can show that it makes none.
+    void countPipeline();
+    std::size_t pipelinesMade() const;
+
 private:
     friend class KeptKernels;
     void addKeeper();
@@ -29,7 +35,8 @@ private:
         std::weak_ptr<const Kernel> users;
         std::shared_ptr<const Kernel> kept; // while there are keepers
     };
-    std::mutex mutex_;
+    mutable std::mutex mutex_; // of all that follows
+    std::map<std::thread::id, std::size_t> pipelinesOf_;
     std::map<Key, Entry> entries_;
     int keepers_ = 0;
 };

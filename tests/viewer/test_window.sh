@@ -337,9 +337,12 @@ for _ in {1..200}; do [[ -s viewer.err ]] && break; sleep 0.1; done
 [[ $(title) == *other*paused* ]] || fail "a scene that is none took the place of one"
 keys F9
 for _ in {1..200}; do grep -q '^recording other-' viewer.out && break; sleep 0.1; done
-for _ in {1..4}; do keys period; done
-sleep 1
 awaitStill filmed.png
+for step in {1..4}; do # one after the other: a busy machine takes its time for a whole picture
+    mv filmed.png unfilmed.png
+    keys period
+    awaitOther unfilmed.png filmed.png "step $step of the film changes nothing"
+done
 keys F9
 for _ in {1..200}; do grep -q '^4 pictures in other-' viewer.out && break; sleep 0.1; done
 grep -q '^4 pictures in other-' viewer.out || fail "F9 made no film of the four steps"

@@ -72,4 +72,18 @@ TEST_F(KernelStore, GivesAllThreadsTheSame) {
     for (const auto& kernel : got) EXPECT_EQ(kernel, got[0]);
 }
 
+TEST_F(KernelStore, KnowsWhichThreadMadePipelines) {
+    std::shared_ptr<const vk::Kernel> there;
+    std::size_t made = 0;
+    std::thread([&] {
+        there = get(kernels::copyValues);
+        made = device_->kernels().pipelinesMade();
+    }).join();
+    EXPECT_EQ(made, 1u);
+    EXPECT_EQ(get(kernels::copyValues), there);
+    EXPECT_EQ(device_->kernels().pipelinesMade(), 0u) << "it was there";
+    const auto other = get(kernels::addOne);
+    EXPECT_EQ(device_->kernels().pipelinesMade(), 1u);
+}
+
 } // namespace sinew::test

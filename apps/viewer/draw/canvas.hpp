@@ -40,6 +40,10 @@ public:
     /// Where pictures are drawn smaller than they are.
     const std::optional<Enlarging>& enlarging() const noexcept { return enlarging_; }
 
+    /// Its pictures are copied, not shown.
+    void setCopied() noexcept { isCopied_ = true; }
+    bool isCopied() const noexcept { return isCopied_; }
+
     VkExtent2D extent() const noexcept { return extent_; } ///< that is drawn
     float aspect() const noexcept {                        ///< of the pictures
         const VkExtent2D shown = enlarging_ ? enlarging_->extent() : extent_;
@@ -59,6 +63,7 @@ private:
     std::vector<Framebuffer> countsFramebuffer_;
     std::optional<Backdrop> backdrop_;
     std::optional<Enlarging> enlarging_;
+    bool isCopied_ = false;
 };
 
 } // namespace sinew::viewer

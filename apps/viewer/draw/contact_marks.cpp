@@ -56,7 +56,7 @@ layout::MarkWall wallOf(const sim::Collider& collider, const sim::Pose& pose) {
 
 ContactMarks::ContactMarks(const vk::Device& device, const sim::Scene& scene, const sim::Settings& settings,
                            const sim::Simulation& simulation, std::uint32_t slots, Room room)
-    : device_(device), scene_(scene),
+    : device_(device), planes_(scene.planes), colliders_(scene.colliders),
       simulation_(simulation), push_{.count = static_cast<std::uint32_t>(scene.particles.size()),
                                      .walls = wallCount(scene),
                                      .firstWall = 0,
@@ -87,8 +87,8 @@ ContactMarks::ContactMarks(const vk::Device& device, const sim::Scene& scene, co
                       .count = slots,
                       .stride = sizeof(layout::MarkDraw),
                       .kind = vk::MemoryKind::readback}),
-      kernel_(device, shaders::markContacts, {}), ofEdges_(device, shaders::markEdges, {}),
-      sets_(bindingSets()) {}
+      kernel_(device.kernels().get(device, shaders::markContacts, {})),
+      ofEdges_(device.kernels().get(device, shaders::markEdges, {})), sets_(bindingSets()) {}
 
 // What a scene has no lists of is never read.
 vk::BindingSets ContactMarks::bindingSets() const {
@@ -101,12 +101,12 @@ vk::BindingSets ContactMarks::bindingSets() const {
         return view;
     };
     std::vector<vk::BindingRequest> requests{
-        {&kernel_,
+        {kernel_.get(),
          {simulation_.positions(), particles_.view(), bySlot_.view(), walls_.view(), viewOf(lists.pairs, 8),
           viewOf(lists.pairCounts, 4), viewOf(lists.faces, 16), viewOf(lists.facePairs, 8),
           viewOf(lists.faceCounts, 4), marks_.view(), draw_.view(), removedParticles(simulation_)}}};
     if (push_.edges > 0)
-        requests.push_back({&ofEdges_,
+        requests.push_back({ofEdges_.get(),
                             {simulation_.positions(), bySlot_.view(), simulation_.view(lists.edges),
                              simulation_.view(lists.edgePairs), simulation_.view(lists.edgeCounts),
                              marks_.view(), draw_.view(), removedParticles(simulation_)}});
@@ -122,10 +122,10 @@ void ContactMarks::dispatch(vk::Commands& commands, const vk::Kernel& kernel, st
 
 void ContactMarks::writeWalls(std::uint32_t slot) const noexcept {
     auto* wall = reinterpret_cast<layout::MarkWall*>(walls_.mapped()) + std::size_t{slot} * push_.walls;
-    for (const sim::Plane& plane : scene_.planes) *wall++ = wallOf(plane);
+    for (const sim::Plane& plane : planes_) *wall++ = wallOf(plane);
     const std::span<const sim::Pose> poses = simulation_.colliderPoses();
-    for (std::size_t c = 0; c < scene_.colliders.size(); ++c)
-        *wall++ = wallOf(scene_.colliders[c], c < poses.size() ? poses[c] : scene_.colliders[c].pose);
+    for (std::size_t c = 0; c < colliders_.size(); ++c)
+        *wall++ = wallOf(colliders_[c], c < poses.size() ? poses[c] : colliders_[c].pose);
 }
 
 void ContactMarks::record(VkCommandBuffer commands, std::uint32_t slot) const noexcept {
@@ -152,10 +152,10 @@ void ContactMarks::record(VkCommandBuffer handle, std::uint32_t slot, layout::Ma
     commands.beginStep();
     commands.update(draw_.view(), &empty, sizeof empty);
     commands.barrier();
-    dispatch(commands, kernel_, 0, push, items);
+    dispatch(commands, *kernel_, 0, push, items);
     commands.barrier();
     if (push.edges > 0) {
-        dispatch(commands, ofEdges_, 1, push, push.edges);
+        dispatch(commands, *ofEdges_, 1, push, push.edges);
         commands.barrier();
     }
     commands.copy(draw_.view(), read);

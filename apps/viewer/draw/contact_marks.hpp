@@ -6,10 +6,11 @@
 #include "viewer/draw/hand_mesh.hpp"
 #include "viewer/values.h"
 #include "vk/commands.hpp"
+#include "vk/kernel_store.hpp"
 
 namespace sinew::viewer {
 
-/// Must not outlive its Device, which must not move, nor the scene and the simulation.
+/// Must not outlive its Device, which must not move, nor the simulation.
 class ContactMarks {
 public:
     /// For marks to be drawn, or to count only.
@@ -38,13 +39,14 @@ private:
     void writeWalls(std::uint32_t slot) const noexcept;
 
     const vk::Device& device_;
-    const sim::Scene& scene_;
+    std::vector<sim::Plane> planes_;
+    std::vector<sim::Collider> colliders_;
     const sim::Simulation& simulation_;
     layout::MarkPush push_{};
     HandMesh mesh_;
     vk::Buffer particles_, bySlot_, walls_, nothing_;
     vk::Buffer marks_, draw_, draws_;
-    vk::Kernel kernel_, ofEdges_;
+    std::shared_ptr<const vk::Kernel> kernel_, ofEdges_; // of the device's store
     vk::BindingSets sets_;
 };
 

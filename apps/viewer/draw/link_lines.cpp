@@ -102,12 +102,12 @@ LinkLines::LinkLines(const vk::Device& device, const sim::Scene& scene, const si
                         .stride = sizeof(std::uint32_t),
                         .usage = VK_BUFFER_USAGE_INDEX_BUFFER_BIT}),
       noWords_(device, {.name = "lines.no_words", .count = 1, .stride = sizeof(std::uint32_t)}),
-      live_(device, shaders::liveLinks, {}), sets_(bindingSets(simulation)),
+      live_(device.kernels().get(device, shaders::liveLinks, {})), sets_(bindingSets(simulation)),
       ranges_(rangesOf(classes_, count_)) {}
 
 vk::BindingSets LinkLines::bindingSets(const sim::Simulation& simulation) const {
     const vk::BufferView alive = simulation.view(simulation.program().cutting.links);
-    const std::array requests{vk::BindingRequest{&live_,
+    const std::array requests{vk::BindingRequest{live_.get(),
                                                  {links_.view(), alive.size > 0 ? alive : noWords_.view(),
                                                   indices_.view(), removedParticles(simulation)}}};
     return {device_, requests};
@@ -126,8 +126,8 @@ void LinkLines::record(VkCommandBuffer handle) const noexcept {
     vk::Commands commands(device_, handle);
     commands.beginLabel("links");
     commands.beginStep();
-    commands.bind(live_, sets_[0]);
-    commands.push(live_, &push, sizeof push);
+    commands.bind(*live_, sets_[0]);
+    commands.push(*live_, &push, sizeof push);
     commands.dispatch((count_ + GROUP_ITEMS - 1) / GROUP_ITEMS);
     commands.endStep();
     commands.endLabel();

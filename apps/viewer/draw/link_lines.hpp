@@ -6,6 +6,7 @@
 #include "viewer/draw/layers.hpp"
 #include "viewer/values.h"
 #include "vk/commands.hpp"
+#include "vk/kernel_store.hpp"
 
 namespace sinew::viewer {
 
@@ -48,8 +49,8 @@ private:
     LinkClasses classes_;
     std::uint32_t count_;
     vk::Buffer links_, indices_;
-    vk::Buffer noWords_; // stands for live links where nothing can be cut
-    vk::Kernel live_;
+    vk::Buffer noWords_;                     // stands for live links where nothing can be cut
+    std::shared_ptr<const vk::Kernel> live_; // of the device's store
     vk::BindingSets sets_;
     std::vector<Range> ranges_;
 };

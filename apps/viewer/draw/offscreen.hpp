@@ -1,8 +1,7 @@
-// A picture without a window: the renderer's target image and its way back to the host.
+// A picture without a window.
 #pragma once
 
-#include "viewer/draw/png.hpp"
-#include "viewer/draw/renderer.hpp"
+#include "viewer/draw/shot.hpp"
 
 namespace sinew::viewer {
 
@@ -11,31 +10,29 @@ namespace sinew::viewer {
 class Offscreen {
 public:
     Offscreen(const vk::Device& device, VkExtent2D extent, const StageLight& light,
-              const Quality& quality = {}, float scale = 1);
+              const Quality& quality = {}, float scale = 1)
+        : renderer_(device, {.color = VK_FORMAT_R8G8B8A8_SRGB}, quality, light), // every device copies it
+          shot_(device, renderer_, extent, scale) {}
 
-    /// As Renderer::prepare.
-    void prepare(const Layers& layers) { renderer_.prepare(layers, canvas_); }
+    /// Makes what these layers are drawn with. Throws vk::Error.
+    void prepare(const Layers& layers) { renderer_.add(renderer_.make(layers)); }
 
-    /// Records picture and copy. As Renderer::record; the previous picture must be finished.
+    /// As those of Shot.
     void record(VkCommandBuffer commands, const Camera& camera, const sim::Simulation& simulation,
-                const Overlay& overlay = {}) noexcept;
-
-    /// The same in two, for what draws over the picture in between: it finds and leaves view() in
-    /// TRANSFER_SRC_OPTIMAL layout.
+                const Overlay& overlay = {}) {
+        shot_.record(commands, 0, camera, simulation, overlay);
+    }
     void recordPicture(VkCommandBuffer commands, const Camera& camera, const sim::Simulation& simulation,
-                       const Overlay& overlay = {}) noexcept;
-    void recordCopy(VkCommandBuffer commands) const noexcept;
-    VkImageView view() const noexcept { return image_.view(); }
-
-    /// The picture of the newest finished record().
-    Picture read() const;
+                       const Overlay& overlay = {}) {
+        shot_.recordPicture(commands, 0, camera, simulation, overlay);
+    }
+    void recordCopy(VkCommandBuffer commands) const noexcept { shot_.recordCopy(commands); }
+    VkImageView view() const noexcept { return shot_.view(); }
+    Picture read() const { return shot_.read(); }
 
 private:
-    const vk::Device& device_;
-    Image image_;
-    vk::Buffer readback_;
     Renderer renderer_;
-    Canvas canvas_;
+    Shot shot_;
 };
 
 } // namespace sinew::viewer

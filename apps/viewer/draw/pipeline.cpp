@@ -4,6 +4,7 @@
 #include "layout.h"
 #include "viewer/values.h"
 #include "vk/check.hpp"
+#include "vk/kernel_store.hpp"
 
 #include <array>
 #include <utility>
@@ -223,6 +224,7 @@ Pipeline::Pipeline(const vk::Device& device, const PipelineRequest& request) : d
         stages.push_back(fragment->stage(VK_SHADER_STAGE_FRAGMENT_BIT, constants));
     }
     pipeline_ = create(device, request, stages);
+    device.kernels().countPipeline();
     device.name(VK_OBJECT_TYPE_PIPELINE, vk::handleValue(pipeline_), request.name);
 }
 

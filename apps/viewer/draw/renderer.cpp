@@ -2,7 +2,10 @@
 // pass, which is multisampled where quality says so.
 #include "viewer/draw/renderer.hpp"
 
+#include "viewer/draw/mesh_buffer.hpp"
 #include "vk/commands.hpp"
+
+#include <utility>
 
 namespace sinew::viewer {
 
@@ -49,7 +52,7 @@ Renderer::Renderer(const vk::Device& device, const Target& target, const Quality
     : device_(device), light_(light), colliders_(device, light.colliders),
       poke_(device, {{.radius = 1, .color = handColor}}), format_{target.color, canvasDepthFormat(device),
                                                                   quality.samples},
-      finalLayout_(target.finalLayout), quality_(quality),
+      finalLayout_(target.finalLayout), quality_(quality), drawsEdges_(viewer::drawsEdges(device)),
       maps_(device, quality.shadowSize, quality.floorSize),
       pass_(RenderPass::picture(device, {.color = format_.color,
                                          .depth = format_.depth,
@@ -61,19 +64,28 @@ Renderer::Renderer(const vk::Device& device, const Target& target, const Quality
                         .stride = sizeof(sim::layout::vec4),
                         .kind = vk::MemoryKind::upload,
                         .usage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT}),
-      look_(lookOf(target, quality)) {
-    createMapPipelines();
-    createPipelines();
-    createCutPipelines();
-    if (!balls_.ranges().empty()) createBallPipelines();
+      nothing_(filledBuffer(device, "picture.nothing", std::vector<sim::layout::vec4>(64),
+                            VK_BUFFER_USAGE_VERTEX_BUFFER_BIT)),
+      look_(lookOf(target, quality)),
+      copiedPass_(RenderPass::picture(device, {.color = format_.color,
+                                               .depth = format_.depth,
+                                               .samples = format_.samples,
+                                               .finalLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL})) {
+    Additions to;
+    makeMaps(to);
+    makeBodies(to);
+    makeCuts(to);
+    if (!balls_.ranges().empty()) makeBalls(to);
     if (quality.keepsBackdrop || quality.mayEnlarge)
         readablePass_.emplace(
             RenderPass::picture(device_, {.color = format_.color,
                                           .depth = format_.depth,
                                           .samples = format_.samples,
                                           .finalLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}));
-    if (quality.keepsBackdrop) createBackdrop();
-    if (quality.mayEnlarge) createEnlarging();
+    if (quality.keepsBackdrop) makeBackdrop(to);
+    if (quality.mayEnlarge) wholePass_.emplace(RenderPass::whole(device_, format_.color, finalLayout_));
+    if (quality.mayEnlarge) makeEnlarging(to);
+    add(std::move(to));
 }
 
 Canvas Renderer::makeCanvas(VkExtent2D extent, std::span<const VkImageView> pictures, float scale) const {
@@ -83,6 +95,19 @@ Canvas Renderer::makeCanvas(VkExtent2D extent, std::span<const VkImageView> pict
                         : Canvas(device_, pass_, format_, extent, pictures);
     if (has(backdropPipeline)) canvas.addBackdrop(device_, *readablePass_, format_.color);
     return canvas;
+}
+
+Canvas Renderer::makeCopiedCanvas(VkExtent2D extent, std::span<const VkImageView> pictures,
+                                  float scale) const {
+    if (finalLayout_ == VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL) return makeCanvas(extent, pictures, scale);
+    Canvas canvas(device_, copiedPass_, format_, extent, pictures);
+    canvas.setCopied();
+    return canvas;
+}
+
+// They differ in what becomes of the picture, which pipelines do not ask for.
+const RenderPass& Renderer::passOf(const Canvas& canvas) const noexcept {
+    return canvas.enlarging() ? *readablePass_ : canvas.isCopied() ? copiedPass_ : pass_;
 }
 
 void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, Canvas& canvas, std::size_t picture,
@@ -179,8 +204,7 @@ void Renderer::recordPicture(VkCommandBuffer commands, const Sheet& sheet, const
                              const Overlay& overlay, const layout::FrameParams& params,
                              bool hasBackdrop) const noexcept {
     const Canvas& canvas = sheet.canvas;
-    begin(commands, canvas.enlarging() ? *readablePass_ : pass_, canvas.framebuffer(sheet.picture),
-          canvas.extent(), empty);
+    begin(commands, passOf(canvas), canvas.framebuffer(sheet.picture), canvas.extent(), empty);
     const Layers& layers = overlay.layers;
     drawThings(commands, simulation, layers, skinPipeline);
     drawThings(commands, simulation, layers, skinBacksPipeline);

@@ -38,7 +38,8 @@ bool isSoftware(const vk::Device& device);
 /// move.
 class Renderer {
 public:
-    static constexpr std::uint32_t slots = 2; ///< pictures recorded but not finished, at most
+    /// Pictures recorded but not finished, at most: those of a window, films and files of them, a rehearsal.
+    static constexpr std::uint32_t slots = 7;
 
     struct Target {
         VkFormat color = VK_FORMAT_R8G8B8A8_SRGB;
@@ -50,11 +51,42 @@ public:
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    /// Makes what overlays with these layers are drawn with, and is not there yet. Throws vk::Error.
+    /// Pipelines that a renderer has not had yet.
+    class Additions {
+    public:
+        std::size_t count() const { return made_.size(); }
+
+    private:
+        friend class Renderer;
+        struct Made {
+            std::size_t index;
+            PipelineRequest request;
+            Pipeline pipeline;
+        };
+        std::vector<Made> made_;
+        std::optional<RenderPass> countsPass_;
+    };
+    /// Makes what overlays with these layers are drawn with, and is not there yet. Any thread, while pictures
+    /// are recorded, but nothing is added. Throws vk::Error.
+    Additions make(const Layers& layers) const;
+    void add(Additions additions);
+    /// Whether all that they are drawn with is there.
+    bool has(const Layers& layers) const noexcept;
+    /// Makes it at once, and in the canvas what these layers need. Throws vk::Error.
     void prepare(const Layers& layers, Canvas& canvas);
+    /// The latter alone, where the renderer has these layers.
+    void prepareCanvas(const Layers& layers, Canvas& canvas) const;
+    /// Draws nothing with one of the additions, made for `layers`, into `canvas`, which need not be prepared
+    /// and which nobody sees: a driver that compiles what is first used does so then. Slot as in record().
+    void recordRehearsal(VkCommandBuffer commands, std::uint32_t slot, Canvas& canvas, const Camera& camera,
+                         const Layers& layers, const Additions& additions, std::size_t which) const;
 
     /// Of less than 1 is the `scale` of the sides of what is drawn, where quality has mayEnlarge.
     Canvas makeCanvas(VkExtent2D extent, std::span<const VkImageView> pictures, float scale = 1) const;
+    /// For pictures that are left in TRANSFER_SRC_OPTIMAL layout; another one than the target's has a scale
+    /// of 1.
+    Canvas makeCopiedCanvas(VkExtent2D extent, std::span<const VkImageView> pictures, float scale = 1) const;
+    VkFormat format() const noexcept { return format_.color; }
 
     /// Records one picture. `commands` must be recording, outside a render pass, after recordSkin() of
     /// `simulation` in the same queue. `slot` < slots; its previous picture must be finished. Leaves the
@@ -68,27 +100,40 @@ private:
     static constexpr sim::Vec3 handColor{0.95f, 0.62f, 0.10f}, pinColor{0.02f, 0.30f, 0.72f},
         strokeColor{0.10f, 0.55f, 0.95f}, gaugeColor{0.95f, 0.75f, 0.15f};
 
-    void addPipeline(std::size_t index, PipelineRequest request);
-    void addLit(std::size_t index, PipelineRequest request);
-    void addDepths(std::size_t ofShadow, std::size_t ofPlan, const PipelineRequest& request);
+    void addPipeline(Additions& to, std::size_t index, PipelineRequest request) const;
+    void addLit(Additions& to, std::size_t index, PipelineRequest request) const;
+    void addDepths(Additions& to, std::size_t ofShadow, std::size_t ofPlan,
+                   const PipelineRequest& request) const;
     /// The form of a pipeline that leaves away what a section does, where there is one.
     std::size_t opened(std::size_t pipeline, const Layers& layers) const noexcept {
         return layers.section && has(pipeline + pipelineCount) ? pipeline + pipelineCount : pipeline;
     }
     bool has(std::size_t pipeline) const noexcept { return pipelines_[pipeline].has_value(); }
-    void prepareGlass();
-    void prepareValues();
-    void prepareWires();
-    void prepareContacts();
-    void prepareLinks();
-    void prepareSection(Canvas& canvas);
-    void prepareCounts();
-    void createMapPipelines();
-    void createPipelines();
-    void createBackdrop();
-    void createEnlarging();
-    void createCutPipelines();
-    void createBallPipelines();
+    /// What a layer is drawn with: the first of its pipelines stands for all.
+    struct Feature {
+        bool (*isIn)(const Layers& layers);
+        std::size_t first;
+        void (Renderer::*make)(Additions& to) const;
+    };
+    static std::span<const Feature> features();
+    bool isDrawn(const Feature& feature, const Layers& layers) const;
+    void makeGlass(Additions& to) const;
+    void makeValues(Additions& to) const;
+    void makeWires(Additions& to) const;
+    void makeContacts(Additions& to) const;
+    void makeLinks(Additions& to) const;
+    void makeSection(Additions& to) const;
+    void makeOpened(Additions& to, std::size_t index, const PipelineRequest& whole) const;
+    void makeCounts(Additions& to) const;
+    void makeMaps(Additions& to) const;
+    void makeBodies(Additions& to) const;
+    void makeBackdrop(Additions& to) const;
+    void makeEnlarging(Additions& to) const;
+    void makeCuts(Additions& to) const;
+    void makeBalls(Additions& to) const;
+    bool isOpened(std::size_t index) const noexcept;
+    const RenderPass& countsPass(Additions& to) const;
+    const RenderPass& passOf(const Canvas& canvas) const noexcept;
     void recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation,
                     const Overlay& overlay) noexcept;
     void drawShades(VkCommandBuffer commands, std::size_t ofSkins, std::size_t ofBalls,
@@ -151,6 +196,7 @@ private:
     CanvasFormat format_;
     VkImageLayout finalLayout_;
     Quality quality_;
+    bool drawsEdges_;
     std::uint64_t pictures_ = 0;
     bool leavesBacks_ = false; // in this picture
     LightMaps maps_;
@@ -159,6 +205,7 @@ private:
     Balls balls_;
     HandMesh hand_;
     vk::Buffer strokes_;                             // vec4, pointsASlot each
+    vk::Buffer nothing_;                             // corners that are one
     std::array<vk::SpecialisationConstant, 3> look_; // of what is lit
     enum PipelineIndex : std::size_t {
         shadowPipeline,
@@ -197,6 +244,7 @@ private:
     std::array<std::optional<Pipeline>, 2 * pipelineCount> pipelines_;
     std::optional<RenderPass> countsPass_;   // of a section
     std::optional<RenderPass> readablePass_; // as pass_, of pictures that shaders read
+    RenderPass copiedPass_;                  // likewise, of pictures that are copied
     std::optional<RenderPass> wholePass_;    // where pictures may be enlarged
 };
 

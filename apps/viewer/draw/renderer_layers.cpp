@@ -20,14 +20,39 @@ bool drawsEdges(const vk::Device& device) {
     return features.features.fillModeNonSolid == VK_TRUE;
 }
 
+std::span<const Renderer::Feature> Renderer::features() {
+    static constexpr std::array all{
+        Feature{[](const Layers& layers) { return layers.hasBalls; }, ballPipeline, &Renderer::makeBalls},
+        Feature{[](const Layers& layers) { return layers.skin == SkinLook::glass; }, skinGlassPipeline,
+                &Renderer::makeGlass},
+        Feature{[](const Layers& layers) { return layers.map != ColorMap::none; }, skinValuesPipeline,
+                &Renderer::makeValues},
+        Feature{[](const Layers& layers) { return layers.hasWires; }, wiresPipeline, &Renderer::makeWires},
+        Feature{[](const Layers& layers) { return layers.hasLinks; }, linkPipeline, &Renderer::makeLinks},
+        Feature{[](const Layers& layers) { return layers.hasContacts; }, contactPipeline,
+                &Renderer::makeContacts}};
+    return all;
+}
+
+bool Renderer::isDrawn(const Feature& feature, const Layers& layers) const {
+    return feature.isIn(layers) && (feature.first != wiresPipeline || drawsEdges_);
+}
+
+Renderer::Additions Renderer::make(const Layers& layers) const {
+    Additions to;
+    for (const Feature& feature : features())
+        if (isDrawn(feature, layers) && !has(feature.first)) (this->*feature.make)(to);
+    if (layers.section) makeSection(to); // last: of those that there are by now
+    return to;
+}
+
 void Renderer::prepare(const Layers& layers, Canvas& canvas) {
-    if (layers.hasBalls && !has(ballPipeline)) createBallPipelines();
-    if (layers.skin == SkinLook::glass && !has(skinGlassPipeline)) prepareGlass();
-    if (layers.map != ColorMap::none && !has(skinValuesPipeline)) prepareValues();
-    if (layers.hasWires && !has(wiresPipeline) && drawsEdges(device_)) prepareWires();
-    if (layers.hasLinks && !has(linkPipeline)) prepareLinks();
-    if (layers.hasContacts && !has(contactPipeline)) prepareContacts();
-    if (layers.section) prepareSection(canvas); // last: of those that there are by now
+    add(make(layers));
+    prepareCanvas(layers, canvas);
+}
+
+void Renderer::prepareCanvas(const Layers& layers, Canvas& canvas) const {
+    if (layers.section) canvas.addCounts(device_, *countsPass_, format_.samples);
 }
 
 // In the colors of a map: skins where they are solid, and all balls.

@@ -3,6 +3,8 @@
 
 #include "viewer_shaders.hpp"
 
+#include <utility>
+
 namespace sinew::viewer {
 
 namespace {
@@ -18,115 +20,129 @@ constexpr std::array plan{vk::SpecialisationConstant{3, 1}};
 
 } // namespace
 
-void Renderer::addPipeline(std::size_t index, PipelineRequest request) {
+void Renderer::addPipeline(Additions& to, std::size_t index, PipelineRequest request) const {
     request.layout = sets_.layout();
-    pipelines_[index].emplace(device_, request);
-    if (index < pipelineCount) requests_[index] = request;
+    to.made_.push_back({index, request, Pipeline(device_, request)});
 }
 
-void Renderer::addLit(std::size_t index, PipelineRequest request) {
+void Renderer::addLit(Additions& to, std::size_t index, PipelineRequest request) const {
     request.name.insert(0, "picture.");
     request.pass = pass_.handle();
     request.samples = format_.samples;
     request.constants = look_;
-    addPipeline(index, request);
+    addPipeline(to, index, request);
 }
 
-void Renderer::addDepths(std::size_t ofShadow, std::size_t ofPlan, const PipelineRequest& request) {
+void Renderer::addDepths(Additions& to, std::size_t ofShadow, std::size_t ofPlan,
+                         const PipelineRequest& request) const {
     PipelineRequest each = request;
     each.depth = solid;
     each.name = "picture.shadow." + request.name;
     each.pass = maps_.shadow.pass.handle();
-    addPipeline(ofShadow, each);
+    addPipeline(to, ofShadow, each);
     each.name = "picture.plan." + request.name;
     each.pass = maps_.plan.pass.handle();
     each.constants = plan;
-    addPipeline(ofPlan, each);
+    addPipeline(to, ofPlan, each);
 }
 
-void Renderer::createMapPipelines() {
-    addDepths(shadowPipeline, planPipeline,
+void Renderer::add(Additions additions) {
+    for (Additions::Made& made : additions.made_) {
+        pipelines_[made.index].emplace(std::move(made.pipeline));
+        if (made.index < pipelineCount) requests_[made.index] = std::move(made.request);
+    }
+    if (additions.countsPass_) countsPass_.emplace(std::move(*additions.countsPass_));
+}
+
+void Renderer::makeMaps(Additions& to) const {
+    addDepths(to, shadowPipeline, planPipeline,
               {.name = "skin", .vertex = &shaders::depthVert, .input = Input::positions});
-    addPipeline(floorPipeline, {.name = "picture.floor",
-                                .vertex = &shaders::screenVert,
-                                .fragment = &shaders::floorFrag,
-                                .pass = maps_.floor.pass.handle(),
-                                .constants = look_});
+    addPipeline(to, floorPipeline,
+                {.name = "picture.floor",
+                 .vertex = &shaders::screenVert,
+                 .fragment = &shaders::floorFrag,
+                 .pass = maps_.floor.pass.handle(),
+                 .constants = look_});
 }
 
-void Renderer::createPipelines() {
+void Renderer::makeBodies(Additions& to) const {
     const PipelineRequest skin{.name = "skin",
                                .vertex = &shaders::skinVert,
                                .fragment = &shaders::skinFrag,
                                .input = Input::positionsAndNormals,
                                .depth = solid,
                                .faces = Faces::fronts};
-    addLit(skinPipeline, skin);
+    addLit(to, skinPipeline, skin);
     PipelineRequest backs = skin;
     backs.name = "skin_backs";
     backs.faces = Faces::backs;
-    addLit(skinBacksPipeline, backs);
-    addLit(handPipeline, {.name = "hand",
-                          .vertex = &shaders::handVert,
-                          .fragment = &shaders::skinFrag,
-                          .input = Input::hand,
-                          .depth = solid});
-    addLit(groundPipeline, {.name = "ground",
-                            .vertex = &shaders::groundVert,
-                            .fragment = &shaders::groundFrag,
-                            .depth = solid,
-                            .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP});
+    addLit(to, skinBacksPipeline, backs);
+    addLit(to, handPipeline,
+           {.name = "hand",
+            .vertex = &shaders::handVert,
+            .fragment = &shaders::skinFrag,
+            .input = Input::hand,
+            .depth = solid});
+    addLit(to, groundPipeline,
+           {.name = "ground",
+            .vertex = &shaders::groundVert,
+            .fragment = &shaders::groundFrag,
+            .depth = solid,
+            .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP});
     addLit(
-        skyPipeline,
+        to, skyPipeline,
         {.name = "sky", .vertex = &shaders::screenVert, .fragment = &shaders::skyFrag, .depth = Depth::test});
 }
 
-void Renderer::createBackdrop() {
-    addLit(backdropPipeline, {.name = "backdrop",
-                              .vertex = &shaders::screenVert,
-                              .fragment = &shaders::backdropFrag,
-                              .depth = Depth::test});
+void Renderer::makeBackdrop(Additions& to) const {
+    addLit(to, backdropPipeline,
+           {.name = "backdrop",
+            .vertex = &shaders::screenVert,
+            .fragment = &shaders::backdropFrag,
+            .depth = Depth::test});
 }
 
-void Renderer::createEnlarging() {
-    wholePass_.emplace(RenderPass::whole(device_, format_.color, finalLayout_));
-    addPipeline(enlargePipeline, {.name = "picture.enlarge",
-                                  .vertex = &shaders::enlargeVert,
-                                  .fragment = &shaders::enlargeFrag,
-                                  .pass = wholePass_->handle()});
+void Renderer::makeEnlarging(Additions& to) const {
+    addPipeline(to, enlargePipeline,
+                {.name = "picture.enlarge",
+                 .vertex = &shaders::enlargeVert,
+                 .fragment = &shaders::enlargeFrag,
+                 .pass = wholePass_->handle()});
 }
 
-void Renderer::createCutPipelines() {
+void Renderer::makeCuts(Additions& to) const {
     PipelineRequest request{.name = "inside",
                             .vertex = &shaders::cutVert,
                             .fragment = &shaders::insideFrag,
                             .input = Input::cuts,
                             .depth = solid};
-    addLit(insidePipeline, request);
+    addLit(to, insidePipeline, request);
     request.name = "clipped";
     request.fragment = &shaders::clippedFrag;
-    addLit(clippedPipeline, request);
+    addLit(to, clippedPipeline, request);
 }
 
-void Renderer::createBallPipelines() {
-    addDepths(ballShadowPipeline, ballPlanPipeline,
+void Renderer::makeBalls(Additions& to) const {
+    addDepths(to, ballShadowPipeline, ballPlanPipeline,
               {.name = "ball", .vertex = &shaders::ballDepthVert, .input = Input::balls});
-    addLit(ballPipeline, {.name = "ball",
-                          .vertex = &shaders::ballVert,
-                          .fragment = &shaders::skinFrag,
-                          .input = Input::balls,
-                          .depth = solid});
+    addLit(to, ballPipeline,
+           {.name = "ball",
+            .vertex = &shaders::ballVert,
+            .fragment = &shaders::skinFrag,
+            .input = Input::balls,
+            .depth = solid});
 }
 
-void Renderer::prepareGlass() {
+void Renderer::makeGlass(Additions& to) const {
     const auto add = [&](std::size_t index, const char* name, const vk::ShaderCode& vertex,
                          const vk::ShaderCode& fragment, Input input) {
-        addLit(index, {.name = name,
-                       .vertex = &vertex,
-                       .fragment = &fragment,
-                       .input = input,
-                       .depth = Depth::test,
-                       .blend = Blend::over});
+        addLit(to, index,
+               {.name = name,
+                .vertex = &vertex,
+                .fragment = &fragment,
+                .input = input,
+                .depth = Depth::test,
+                .blend = Blend::over});
     };
     add(skinGlassPipeline, "skin_glass", shaders::skinVert, shaders::skinGlassFrag,
         Input::positionsAndNormals);
@@ -134,44 +150,48 @@ void Renderer::prepareGlass() {
     add(clippedGlassPipeline, "clipped_glass", shaders::cutVert, shaders::clippedGlassFrag, Input::cuts);
 }
 
-void Renderer::prepareValues() {
+void Renderer::makeValues(Additions& to) const {
     const auto add = [&](std::size_t index, const char* name, const vk::ShaderCode& vertex, Input input) {
-        addLit(index, {.name = name,
-                       .vertex = &vertex,
-                       .fragment = &shaders::valuesFrag,
-                       .input = input,
-                       .depth = solid});
+        addLit(to, index,
+               {.name = name,
+                .vertex = &vertex,
+                .fragment = &shaders::valuesFrag,
+                .input = input,
+                .depth = solid});
     };
     add(skinValuesPipeline, "skin_values", shaders::skinValuesVert, Input::skinValues);
     add(cutValuesPipeline, "cut_values", shaders::cutValuesVert, Input::cutValues);
     add(ballValuesPipeline, "ball_values", shaders::ballValuesVert, Input::ballValues);
 }
 
-void Renderer::prepareWires() {
-    addLit(wiresPipeline, {.name = "wires",
-                           .vertex = &shaders::wiresVert,
-                           .fragment = &shaders::wiresFrag,
-                           .input = Input::positions,
-                           .depth = Depth::test,
-                           .hasEdgesAlone = true,
-                           .blend = Blend::over});
+void Renderer::makeWires(Additions& to) const {
+    addLit(to, wiresPipeline,
+           {.name = "wires",
+            .vertex = &shaders::wiresVert,
+            .fragment = &shaders::wiresFrag,
+            .input = Input::positions,
+            .depth = Depth::test,
+            .hasEdgesAlone = true,
+            .blend = Blend::over});
 }
 
-void Renderer::prepareLinks() {
-    addLit(linkPipeline, {.name = "links",
-                          .vertex = &shaders::wiresVert,
-                          .fragment = &shaders::linkFrag,
-                          .input = Input::particles,
-                          .depth = solid,
-                          .topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST});
+void Renderer::makeLinks(Additions& to) const {
+    addLit(to, linkPipeline,
+           {.name = "links",
+            .vertex = &shaders::wiresVert,
+            .fragment = &shaders::linkFrag,
+            .input = Input::particles,
+            .depth = solid,
+            .topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST});
 }
 
 // What touches is hidden by what touches it, so marks are seen through everything.
-void Renderer::prepareContacts() {
-    addLit(contactPipeline, {.name = "contacts",
-                             .vertex = &shaders::markVert,
-                             .fragment = &shaders::markFrag,
-                             .input = Input::marks});
+void Renderer::makeContacts(Additions& to) const {
+    addLit(to, contactPipeline,
+           {.name = "contacts",
+            .vertex = &shaders::markVert,
+            .fragment = &shaders::markFrag,
+            .input = Input::marks});
 }
 
 } // namespace sinew::viewer

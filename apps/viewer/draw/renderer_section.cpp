@@ -38,33 +38,61 @@ const vk::ShaderCode* openedForm(const vk::ShaderCode* shader) {
 
 } // namespace
 
-void Renderer::prepareSection(Canvas& canvas) {
-    if (!countsPass_)
-        countsPass_.emplace(RenderPass::colorMap(device_, countsFormat, "section", format_.samples));
-    canvas.addCounts(device_, *countsPass_, format_.samples);
-    if (!has(capPipeline)) prepareCounts();
-    const std::uint32_t hasOneSample = format_.samples == VK_SAMPLE_COUNT_1_BIT ? 1 : 0;
-    for (std::size_t i = 0; i < pipelineCount; ++i) {
-        if (!has(i) || has(i + pipelineCount) || i == handPipeline) continue;
-        PipelineRequest request = requests_[i];
-        const bool isDepth = request.fragment == nullptr;
-        const vk::ShaderCode* form = openedForm(isDepth ? request.vertex : request.fragment);
-        if (form == nullptr) continue;
-        (isDepth ? request.vertex : request.fragment) = form;
-        if (isDepth) request.fragment = &shaders::sectionDepthFrag;
-        request.isDepthOnly = isDepth;
-        request.name += ".section";
-        std::vector<vk::SpecialisationConstant> constants(request.constants.begin(), request.constants.end());
-        constants.push_back({4, hasOneSample});
-        request.constants = constants;
-        addPipeline(i + pipelineCount, request);
-    }
+const RenderPass& Renderer::countsPass(Additions& to) const {
+    if (countsPass_) return *countsPass_;
+    if (!to.countsPass_)
+        to.countsPass_.emplace(RenderPass::colorMap(device_, countsFormat, "section", format_.samples));
+    return *to.countsPass_;
 }
 
-void Renderer::prepareCounts() {
+bool Renderer::has(const Layers& layers) const noexcept {
+    const auto isMissing = [&](const Feature& feature) {
+        return isDrawn(feature, layers) && !has(feature.first);
+    };
+    if (std::ranges::any_of(features(), isMissing)) return false;
+    if (!layers.section) return true;
+    for (std::size_t i = 0; i < pipelineCount; ++i)
+        if (has(i) && !has(i + pipelineCount) && isOpened(i)) return false;
+    return has(capPipeline);
+}
+
+// Hands reach through the plane.
+bool Renderer::isOpened(std::size_t index) const noexcept {
+    const PipelineRequest& request = requests_[index];
+    return index != handPipeline &&
+           openedForm(request.fragment == nullptr ? request.vertex : request.fragment) != nullptr;
+}
+
+void Renderer::makeOpened(Additions& to, std::size_t index, const PipelineRequest& whole) const {
+    PipelineRequest request = whole;
+    const bool isDepth = request.fragment == nullptr;
+    const vk::ShaderCode* form = openedForm(isDepth ? request.vertex : request.fragment);
+    if (form == nullptr || index == handPipeline) return;
+    (isDepth ? request.vertex : request.fragment) = form;
+    if (isDepth) request.fragment = &shaders::sectionDepthFrag;
+    request.isDepthOnly = isDepth;
+    request.name += ".section";
+    const std::uint32_t hasOneSample = format_.samples == VK_SAMPLE_COUNT_1_BIT ? 1 : 0;
+    std::vector<vk::SpecialisationConstant> constants(request.constants.begin(), request.constants.end());
+    constants.push_back({4, hasOneSample});
+    request.constants = constants;
+    addPipeline(to, index + pipelineCount, request);
+}
+
+void Renderer::makeSection(Additions& to) const {
+    for (std::size_t i = 0, made = to.made_.size(); i < made; ++i) {
+        const PipelineRequest request = to.made_[i].request; // a copy: more are made
+        makeOpened(to, to.made_[i].index, request);
+    }
+    for (std::size_t i = 0; i < pipelineCount; ++i)
+        if (has(i) && !has(i + pipelineCount)) makeOpened(to, i, requests_[i]);
+    if (!has(capPipeline)) makeCounts(to);
+}
+
+void Renderer::makeCounts(Additions& to) const {
     const bool hasOneSample = format_.samples == VK_SAMPLE_COUNT_1_BIT;
     const std::array constants{vk::SpecialisationConstant{4, hasOneSample ? 1u : 0u}};
-    PipelineRequest request{.pass = countsPass_->handle(),
+    PipelineRequest request{.pass = countsPass(to).handle(),
                             .samples = format_.samples,
                             .blend = PipelineRequest::Blend::sum,
                             .constants = constants};
@@ -74,7 +102,7 @@ void Renderer::prepareCounts() {
         request.vertex = &vertex;
         request.fragment = &fragment;
         request.input = input;
-        addPipeline(index, request);
+        addPipeline(to, index, request);
     };
     using Input = PipelineRequest::Input;
     add(skinCountPipeline, "skins", shaders::skinVert, shaders::skinCountFrag, Input::positionsAndNormals);
@@ -82,10 +110,11 @@ void Renderer::prepareCounts() {
     add(ballCountPipeline, "balls", shaders::ballVert, shaders::ballCountFrag, Input::balls);
     add(ballValuesCountPipeline, "ball_values", shaders::ballValuesVert, shaders::ballValuesCountFrag,
         Input::ballValues);
-    addLit(capPipeline, {.name = "section_cap",
-                         .vertex = &shaders::screenVert,
-                         .fragment = hasOneSample ? &shaders::sectionCapSingleFrag : &shaders::sectionCapFrag,
-                         .depth = PipelineRequest::Depth::testAndWrite});
+    addLit(to, capPipeline,
+           {.name = "section_cap",
+            .vertex = &shaders::screenVert,
+            .fragment = hasOneSample ? &shaders::sectionCapSingleFrag : &shaders::sectionCapFrag,
+            .depth = PipelineRequest::Depth::testAndWrite});
 }
 
 // Only what is drawn as a solid. Particles inside a solid skin are hidden by its cap.

@@ -1,6 +1,8 @@
 // Counts steps and turns status words into sentences.
 #include "viewer/draw/stage.hpp"
 
+#include "vk/check.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -85,7 +87,7 @@ Stage::Turned Stage::prepare(const sim::Material& material) const {
 }
 
 void Stage::beginTurn() {
-    if (!wanted_ || turning_.valid() || ready_) return;
+    if (!wanted_ || turning_.valid() || ready_ || growth_) return; // for the simulation that comes
     turning_ = std::async(std::launch::async, [this, material = *std::exchange(wanted_, std::nullopt)] {
         return prepare(material);
     });
@@ -106,6 +108,8 @@ void Stage::turnNow(const sim::Material& material) {
 
 void Stage::reshape(vk::Queue& queue, const app::Bring& bring) {
     if (!wantsShape()) return;
+    growth_.reset(); // of the other solver: what still lacks room says so again
+    wantedRoom_.reset();
     const std::optional<Shape> shape = std::exchange(shape_, std::nullopt);
     const std::optional<sim::Material> refused = std::exchange(refused_, std::nullopt);
     sim::Settings settings = growing_.settings();
@@ -189,11 +193,16 @@ std::uint32_t Stage::neededRoom(std::uint64_t step) const {
     return status.frame == static_cast<std::uint32_t>(step) ? status.contactRoom : 0;
 }
 
+// Of the steps that were undone.
+void Stage::goBackBefore(std::uint64_t step) noexcept {
+    played_ -= steps_ - (step - 1);
+    steps_ = step - 1;
+}
+
 bool Stage::makeRoom(std::uint64_t step, vk::Queue& queue, const app::Bring& bring) {
     awaitTurn();
     if (!growing_.grow(neededRoom(step), queue, bring)) return false;
-    played_ -= steps_ - (step - 1);
-    steps_ = step - 1;
+    goBackBefore(step);
     return true;
 }
 
@@ -201,6 +210,78 @@ bool Stage::makeSurfaceRoom(std::uint32_t needed, vk::Queue& queue, const app::B
     if (!growing_.lacksSurface(needed)) return false;
     awaitTurn();
     return growing_.growSurface(needed, queue, bring);
+}
+
+// Of the scene as it was given, which never changes: what is on show may be turned meanwhile.
+void Stage::beginGrowth(const sim::Settings& settings, bool isOfContacts) {
+    auto making = std::async(std::launch::async, [this, settings, material = material_] {
+        const sim::Scene scene = sim::withMaterial(given_, material);
+        return std::make_unique<sim::Simulation>(growing_.device(), scene, settings);
+    });
+    growth_.emplace(Growing{settings, isOfContacts, material_, std::move(making), nullptr});
+}
+
+bool Stage::beginRoom(std::uint64_t step) {
+    const std::uint32_t needed = neededRoom(step);
+    const std::optional<sim::Settings> settings = growing_.roomForContacts(needed);
+    if (!settings) return false;
+    goBackBefore(step);
+    if (growth_)
+        wantedRoom_ = needed;
+    else
+        beginGrowth(*settings, true);
+    return true;
+}
+
+bool Stage::beginSurfaceRoom(std::uint32_t needed) {
+    if (!growing_.lacksSurface(needed)) return false;
+    const std::optional<sim::Settings> settings = growing_.roomForSurface(needed);
+    if (settings) beginGrowth(*settings, false);
+    return settings.has_value();
+}
+
+Stage::Growth Stage::askGrowth() {
+    if (!growth_) return Growth::none;
+    if (growth_->made) return Growth::made;
+    const bool isThere = growth_->making.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    if (!isThere || turning_.valid()) return Growth::making;
+    Growing growth = *std::exchange(growth_, std::nullopt);
+    try {
+        growth.made = growth.making.get();
+    } catch (const vk::Error&) {
+        if (growth.isOfContacts) throw;
+        growing_.lackSurface();
+        beginWanted();
+        return Growth::none;
+    }
+    if (growth.material != material_) { // turned meanwhile
+        beginGrowth(growth.settings, growth.isOfContacts);
+        return Growth::making;
+    }
+    growth_ = std::move(growth);
+    return Growth::made;
+}
+
+void Stage::bringGrowth(vk::Queue& queue, const app::Bring& bring) {
+    if (bring) bring(simulation(), queue, *growth_->made, queue);
+}
+
+void Stage::recordGrowth(VkCommandBuffer commands) noexcept {
+    growth_->made->recordTakeOver(commands, simulation());
+}
+
+void Stage::endGrowth() {
+    Growing growth = *std::exchange(growth_, std::nullopt);
+    if (ready_ && !wanted_) wanted_ = ready_->material; // what is prepared is of the other one
+    ready_.reset();
+    growing_.goOnIn(std::move(growth.made), growth.settings);
+    beginWanted();
+}
+
+void Stage::beginWanted() {
+    if (!wantedRoom_) return;
+    const std::uint32_t needed = *std::exchange(wantedRoom_, std::nullopt);
+    if (const auto settings = growing_.roomForContacts(needed)) beginGrowth(*settings, true);
 }
 
 } // namespace sinew::viewer

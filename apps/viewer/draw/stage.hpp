@@ -114,6 +114,24 @@ public:
     /// nothing to do. Waits for `queue`.
     bool makeSurfaceRoom(std::uint32_t needed, vk::Queue& queue, const app::Bring& bring = {});
 
+    /// The same without waiting: a simulation with that much room is made in a thread of its own. Before more
+    /// room for contacts no step may be recorded; for the surface of cuts steps go on meanwhile. False where
+    /// there can be none. One at a time.
+    bool beginRoom(std::uint64_t step);
+    bool beginSurfaceRoom(std::uint32_t needed);
+    bool isGrowing() const noexcept { return growth_.has_value(); }
+    bool lacksContactRoom() const noexcept { return wantedRoom_ || (growth_ && growth_->isOfContacts); }
+    /// Whether it is there by now. `none` of the surface: there is no memory for it, and nothing grows any
+    /// more. Throws what making it threw, where it is for contacts.
+    enum class Growth { making, made, none };
+    Growth askGrowth();
+    /// What is made takes over the state that there is: all steps have finished, and no other is recorded
+    /// until endGrowth(), once the commands have finished: simulation() is then that one. Before that kept
+    /// states are brought over; waits for `queue`.
+    void bringGrowth(vk::Queue& queue, const app::Bring& bring);
+    void recordGrowth(VkCommandBuffer commands) noexcept;
+    void endGrowth();
+
     const sim::Scene& scene() const noexcept { return scene_; }
     /// As it was made; as it is now, with all the room that there is.
     const sim::Settings& madeWith() const noexcept { return settings_; }
@@ -137,9 +155,19 @@ private:
         sim::Solver solver;
         std::uint32_t substeps;
     };
+    struct Growing {
+        sim::Settings settings;
+        bool isOfContacts;
+        sim::Material material;
+        std::future<std::unique_ptr<sim::Simulation>> making; // or, once there:
+        std::unique_ptr<sim::Simulation> made;
+    };
     Turned prepare(const sim::Material& material) const;
     void beginTurn();
     void awaitTurn();
+    void beginGrowth(const sim::Settings& settings, bool isOfContacts);
+    void beginWanted();
+    void goBackBefore(std::uint64_t step) noexcept;
 
     const sim::Scene given_;
     sim::Scene scene_; // of the material that it has now
@@ -155,7 +183,9 @@ private:
     std::optional<Shape> shape_;           // for reshape()
     std::optional<sim::Material> refused_; // likewise
     std::deque<Recorded> recorded_;        // that the device may still copy from
-    std::future<Turned> turning_;          // refers to what stands before it
+    std::future<Turned> turning_;          // refers to what stands before it, as the next
+    std::optional<Growing> growth_;
+    std::optional<std::uint32_t> wantedRoom_; // for contacts, after the growth that there is
 };
 
 } // namespace sinew::viewer

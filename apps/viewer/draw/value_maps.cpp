@@ -222,29 +222,32 @@ ValueMaps::ValueMaps(const vk::Device& device, const Tables& tables, const sim::
                         .count = slots,
                         .stride = sizeof(layout::ValueSpread),
                         .kind = vk::MemoryKind::readback}),
-      strain_(device, shaders::strainValues, {}), speed_(device, shaders::speedValues, {}),
-      sleep_(device, shaders::sleepValues, {}), skin_(device, shaders::skinValues, {}),
-      cut_(device, shaders::cutValues, {}), sheet_(device, shaders::sheetValues, {}),
-      sheets_(sheetsOf<Sheet>(simulation)), sets_(bindingSets(simulation)) {}
+      strain_(device.kernels().get(device, shaders::strainValues, {})),
+      speed_(device.kernels().get(device, shaders::speedValues, {})),
+      sleep_(device.kernels().get(device, shaders::sleepValues, {})),
+      skin_(device.kernels().get(device, shaders::skinValues, {})),
+      cut_(device.kernels().get(device, shaders::cutValues, {})),
+      sheet_(device.kernels().get(device, shaders::sheetValues, {})), sheets_(sheetsOf<Sheet>(simulation)),
+      sets_(bindingSets(simulation)) {}
 
 vk::BindingSets ValueMaps::bindingSets(const sim::Simulation& simulation) const {
     const vk::BufferView alive = simulation.view(simulation.program().cutting.links);
     const vk::BufferView places = simulation.positions(), values = values_.view(), spread = spread_.view(),
                          removed = removedParticles(simulation);
     std::vector<vk::BindingRequest> requests{
-        {&strain_,
+        {strain_.get(),
          {places, linksOf_.view(), links_.view(), alive.size > 0 ? alive : noLinks_.view(), values, spread,
           removed}},
-        {&speed_, {hasSpeeds_ ? simulation.velocities() : places, values, spread, removed}},
-        {&sleep_, {places, inverseMasses_.view(), values, spread, removed}}};
-    if (heldVertices_ > 0) requests.push_back({&skin_, {values, holders_.view(), skinValues_.view()}});
+        {speed_.get(), {hasSpeeds_ ? simulation.velocities() : places, values, spread, removed}},
+        {sleep_.get(), {places, inverseMasses_.view(), values, spread, removed}}};
+    if (heldVertices_ > 0) requests.push_back({skin_.get(), {values, holders_.view(), skinValues_.view()}});
     if (cutVertices_ > 0)
-        requests.push_back({&cut_,
+        requests.push_back({cut_.get(),
                             {values, skinValues_.view(), simulation.cutSurface().rest, particleOfSlot_.view(),
                              cutValues_.view()}});
     for (const sim::PieceVertices& pieces : simulation.program().pieceSkins)
         requests.push_back(
-            {&sheet_,
+            {sheet_.get(),
              {values, simulation.view(pieces.vertices), particleOfSlot_.view(), skinValues_.view()}});
     return {device_, requests};
 }
@@ -266,19 +269,19 @@ void ValueMaps::record(VkCommandBuffer handle, ColorMap map, std::uint32_t slot)
     commands.fill(skinValues_.view(), none); // vertices that nobody is known to hold
     if (map == ColorMap::speed && !hasSpeeds_) commands.fill(values_.view(), none);
     commands.barrier();
-    if (map == ColorMap::strain) dispatch(commands, strain_, strainSet, particleCount_);
-    if (map == ColorMap::speed && hasSpeeds_) dispatch(commands, speed_, speedSet, particleCount_);
-    if (map == ColorMap::sleep) dispatch(commands, sleep_, sleepSet, particleCount_);
+    if (map == ColorMap::strain) dispatch(commands, *strain_, strainSet, particleCount_);
+    if (map == ColorMap::speed && hasSpeeds_) dispatch(commands, *speed_, speedSet, particleCount_);
+    if (map == ColorMap::sleep) dispatch(commands, *sleep_, sleepSet, particleCount_);
     commands.barrier();
     vk::BufferView read = spreads_.view();
     read.offset += VkDeviceSize{slot} * read.stride;
     read.size = read.stride;
     commands.copy(spread_.view(), read);
-    if (heldVertices_ > 0) dispatch(commands, skin_, skinSet, heldVertices_);
+    if (heldVertices_ > 0) dispatch(commands, *skin_, skinSet, heldVertices_);
     std::size_t set = firstOther + (cutVertices_ > 0 ? 1 : 0);
-    for (const Sheet& sheet : sheets_) dispatch(commands, sheet_, set++, sheet.count, sheet.first);
+    for (const Sheet& sheet : sheets_) dispatch(commands, *sheet_, set++, sheet.count, sheet.first);
     commands.barrier();
-    if (cutVertices_ > 0) dispatch(commands, cut_, firstOther, cutVertices_);
+    if (cutVertices_ > 0) dispatch(commands, *cut_, firstOther, cutVertices_);
     commands.endStep();
     commands.hostBarrier();
     commands.endLabel();

@@ -7,6 +7,7 @@
 #include "viewer/draw/layers.hpp"
 #include "viewer/values.h"
 #include "vk/commands.hpp"
+#include "vk/kernel_store.hpp"
 
 namespace sinew::sim {
 struct StateLayout;
@@ -76,7 +77,7 @@ private:
     vk::Buffer linksOf_, links_, holders_, particleOfSlot_, inverseMasses_;
     vk::Buffer noLinks_; // stands for live links where nothing can be cut
     vk::Buffer values_, skinValues_, cutValues_, spread_, spreads_;
-    vk::Kernel strain_, speed_, sleep_, skin_, cut_, sheet_;
+    std::shared_ptr<const vk::Kernel> strain_, speed_, sleep_, skin_, cut_, sheet_; // of the device's store
     std::vector<Sheet> sheets_;
     vk::BindingSets sets_;
 };

@@ -4,41 +4,82 @@
 #include "viewer/draw/stage.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace sinew::viewer {
 
 Inspection::Inspection(const vk::Device& device, const Stage& stage, std::uint32_t slots)
     : device_(device), stage_(stage), slots_(slots) {}
 
+bool Inspection::has(const Watched& watched) const noexcept {
+    const Layers& layers = watched.layers;
+    return (layers.map == ColorMap::none || parts_.values) && (!layers.hasBalls || parts_.balls) &&
+           (!layers.hasLinks || parts_.links) && (!layers.hasContacts || parts_.contacts) &&
+           (!watched.isCounting || parts_.counter);
+}
+
+Inspection::Parts Inspection::make(const Watched& watched, const sim::Scene& scene) const {
+    const Layers& layers = watched.layers;
+    const sim::Settings& settings = stage_.settings();
+    const sim::Simulation& simulation = stage_.simulation();
+    const std::uint32_t all = slots_ + 1;
+    Parts parts;
+    if (layers.map != ColorMap::none && !parts_.values)
+        parts.values = std::make_unique<const ValueMaps>(device_, scene, settings, simulation, all);
+    if (layers.hasBalls && !parts_.balls)
+        parts.balls = std::make_unique<const Balls>(device_, allBallsOf(scene));
+    if (layers.hasLinks && !parts_.links)
+        parts.links = std::make_unique<const LinkLines>(device_, scene, settings, simulation);
+    if (layers.hasContacts && !parts_.contacts)
+        parts.contacts = std::make_unique<const ContactMarks>(device_, scene, settings, simulation, all);
+    if (watched.isCounting && !parts_.counter)
+        parts.counter = std::make_unique<const ContactMarks>(device_, scene, settings, simulation, all,
+                                                             ContactMarks::Room::none);
+    return parts;
+}
+
+void Inspection::add(Parts parts) noexcept {
+    if (parts.values) parts_.values = std::move(parts.values);
+    if (parts.balls) parts_.balls = std::move(parts.balls);
+    if (parts.links) parts_.links = std::move(parts.links);
+    if (parts.contacts) parts_.contacts = std::move(parts.contacts);
+    if (parts.counter) parts_.counter = std::move(parts.counter);
+    before_ = {};
+}
+
 void Inspection::prepare(const Layers& layers) {
-    if (layers.map != ColorMap::none && !values_)
-        values_.emplace(device_, stage_.scene(), stage_.settings(), stage_.simulation(), slots_);
-    if (layers.hasBalls && !balls_)
-        balls_ = std::make_unique<const Balls>(device_, allBallsOf(stage_.scene()));
-    if (layers.hasLinks && !links_)
-        links_ = std::make_unique<const LinkLines>(device_, stage_.scene(), stage_.settings(),
-                                                   stage_.simulation());
-    if (layers.hasContacts && !contacts_)
-        contacts_ = std::make_unique<const ContactMarks>(device_, stage_.scene(), stage_.settings(),
-                                                         stage_.simulation(), slots_);
+    add(make({layers}, stage_.scene()));
+}
+
+void Inspection::restart() noexcept {
+    if (!parts_.areNone()) before_ = std::exchange(parts_, {});
+}
+
+void Inspection::Parts::recordRehearsal(VkCommandBuffer commands, std::uint32_t slot) const noexcept {
+    if (values)
+        for (const ColorMap map : {ColorMap::strain, ColorMap::speed, ColorMap::sleep})
+            values->record(commands, map, slot);
+    if (links) links->record(commands);
+    if (contacts) contacts->record(commands, slot);
+    if (counter) counter->record(commands, slot);
 }
 
 void Inspection::record(VkCommandBuffer commands, const Layers& layers, std::uint32_t slot) const noexcept {
-    if (layers.map != ColorMap::none) values_->record(commands, layers.map, slot);
-    if (layers.hasLinks) links_->record(commands);
-    if (layers.hasContacts) contacts_->record(commands, slot);
+    if (layers.map != ColorMap::none) parts_.values->record(commands, layers.map, slot);
+    if (layers.hasLinks) parts_.links->record(commands);
+    if (layers.hasContacts) parts_.contacts->record(commands, slot);
 }
 
 LayerBuffers Inspection::buffers(const Layers& layers, float range) const noexcept {
     LayerBuffers buffers{.range = layers.map == ColorMap::sleep ? 1 : range};
     if (layers.map != ColorMap::none) {
-        buffers.particles = values_->particles();
-        buffers.skins = values_->skins();
-        buffers.cuts = values_->cuts();
+        buffers.particles = parts_.values->particles();
+        buffers.skins = parts_.values->skins();
+        buffers.cuts = parts_.values->cuts();
     }
-    if (layers.hasBalls) buffers.balls = balls_.get();
-    if (layers.hasLinks) buffers.links = links_.get();
-    if (layers.hasContacts) buffers.contacts = contacts_.get();
+    if (layers.hasBalls) buffers.balls = parts_.balls.get();
+    if (layers.hasLinks) buffers.links = parts_.links.get();
+    if (layers.hasContacts) buffers.contacts = parts_.contacts.get();
     return buffers;
 }
 

@@ -1,5 +1,5 @@
-// What layers are drawn from, of one simulation: made when a layer is first on, so that what nobody looks at
-// costs nothing.
+// What layers are drawn from, of the stage's simulation: made when a layer is first on, so that what nobody
+// looks at costs nothing.
 #pragma once
 
 #include "viewer/draw/balls.hpp"
@@ -14,39 +14,63 @@ namespace sinew::viewer {
 
 class Stage;
 
-/// Must not outlive its Device, which must not move, nor the stage, nor the simulation that this has now.
+/// What is looked at: layers, and whether contacts of a particle under the pointer are counted.
+struct Watched {
+    Layers layers;
+    bool isCounting = false;
+};
+
+/// Must not outlive its Device, which must not move, nor the stage.
 class Inspection {
 public:
-    /// Makes nothing yet. `slots` pictures may be under way at a time.
+    /// What it may have of a simulation.
+    struct Parts {
+        std::unique_ptr<const ValueMaps> values;
+        std::unique_ptr<const Balls> balls; // pictures refer to it
+        std::unique_ptr<const LinkLines> links;
+        std::unique_ptr<const ContactMarks> contacts, counter;
+        bool areNone() const { return !values && !balls && !links && !contacts && !counter; }
+        /// The kernels of what there is, once: a driver that compiles what is first used does so then.
+        void recordRehearsal(VkCommandBuffer commands, std::uint32_t slot) const noexcept;
+    };
+
+    /// Makes nothing yet. `slots` pictures, and a rehearsal, may be under way at a time.
     Inspection(const vk::Device& device, const Stage& stage, std::uint32_t slots);
 
-    /// Makes what `layers` need and is not there yet. Throws vk::Error.
+    bool has(const Watched& watched) const noexcept;
+    /// Makes what is not there yet, of the simulation that the stage has and of `scene`, a copy of the
+    /// stage's. Any thread, while that lasts and nothing is added. Throws vk::Error.
+    Parts make(const Watched& watched, const sim::Scene& scene) const;
+    void add(Parts parts) noexcept;
+    /// Makes it at once. Throws vk::Error.
     void prepare(const Layers& layers);
+    /// After the stage has another simulation: nothing is there. Kernels are kept for what is made next.
+    void restart() noexcept;
 
     /// Their kernels, of the state that recordSkin() was recorded for, where they have some. `layers` must be
-    /// prepared. `slot` < slots; what was recorded into it must have finished.
+    /// there. `slot` < slots; what was recorded into it must have finished.
     void record(VkCommandBuffer commands, const Layers& layers, std::uint32_t slot) const noexcept;
 
     /// How the values of a map spread, of a slot with one that has finished.
-    MapReading reading(std::uint32_t slot) const noexcept { return values_->reading(slot); }
+    MapReading reading(std::uint32_t slot) const noexcept { return parts_.values->reading(slot); }
 
     /// How many places where bodies touch were found, likewise.
-    std::uint32_t contacts(std::uint32_t slot) const noexcept { return contacts_->found(slot); }
+    std::uint32_t contacts(std::uint32_t slot) const noexcept { return parts_.contacts->found(slot); }
 
-    /// Of prepared layers with links.
-    LinkFacts links() const { return links_->facts(); }
+    /// Of layers with links that are there.
+    LinkFacts links() const { return parts_.links->facts(); }
 
-    /// For a picture with prepared `layers`, a map's colors up to `range`.
+    /// Null where it is not there.
+    const ContactMarks* counter() const noexcept { return parts_.counter.get(); }
+
+    /// For a picture with `layers` that are there, a map's colors up to `range`.
     LayerBuffers buffers(const Layers& layers, float range) const noexcept;
 
 private:
     const vk::Device& device_;
     const Stage& stage_;
     std::uint32_t slots_;
-    std::optional<ValueMaps> values_;
-    std::unique_ptr<const Balls> balls_; // pictures refer to it
-    std::unique_ptr<const LinkLines> links_;
-    std::unique_ptr<const ContactMarks> contacts_;
+    Parts parts_, before_; // before_: of the simulation before
 };
 
 /// The range of a map's colors from picture to picture: up at once, down to what was read last where a dozen

@@ -60,8 +60,7 @@ Found foundAt(const sim::Scene& scene, std::uint32_t particle, std::span<const s
     return found;
 }
 
-Inspector::Inspector(const vk::Device& device, const Stage& stage, std::uint32_t slots)
-    : device_(device), stage_(stage), asked_(slots) {}
+Inspector::Inspector(const Stage& stage, std::uint32_t slots) : stage_(stage), asked_(slots) {}
 
 void Inspector::toggle() {
     isOn_ = !isOn_;
@@ -70,7 +69,6 @@ void Inspector::toggle() {
 }
 
 void Inspector::restart() {
-    contacts_.reset();
     std::ranges::fill(asked_, Asked{});
     last_.reset();
 }
@@ -80,21 +78,18 @@ bool Inspector::isDue(const Ray& ray) const {
     return isOn_ && (ray != last_ || !isCounted || Clock::now() - lastTime_ >= pause);
 }
 
-void Inspector::record(VkCommandBuffer commands, std::uint32_t slot, const Ray& ray) {
+void Inspector::record(VkCommandBuffer commands, std::uint32_t slot, const Ray& ray,
+                       const ContactMarks* counter) {
     last_ = ray;
     lastTime_ = Clock::now();
     asked_[slot] = {ray, std::nullopt};
-    if (!found_) return;
-    if (!contacts_)
-        contacts_ = std::make_unique<const ContactMarks>(
-            device_, stage_.scene(), stage_.settings(), stage_.simulation(),
-            static_cast<std::uint32_t>(asked_.size()), ContactMarks::Room::none);
-    contacts_->recordOf(commands, slot, found_->particle);
+    if (!found_ || counter == nullptr) return;
+    counter->recordOf(commands, slot, found_->particle);
     asked_[slot].counted = found_->particle;
 }
 
 void Inspector::settle(std::uint32_t slot, const BallList& balls, const StateProbe& probe, bool isCut,
-                       const std::optional<Opened>& opened) {
+                       const std::optional<Opened>& opened, const ContactMarks* counter) {
     const Asked asked = std::exchange(asked_[slot], {});
     if (!asked.ray || !isOn_) return;
     const sim::Scene& scene = stage_.scene();
@@ -102,7 +97,7 @@ void Inspector::settle(std::uint32_t slot, const BallList& balls, const StatePro
     found_.reset();
     if (!met) return;
     found_ = foundAt(scene, met->particle, probe.positions(), probe.velocities(), isCut);
-    if (asked.counted == met->particle) found_->contacts = contacts_->found(slot);
+    if (asked.counted == met->particle && counter != nullptr) found_->contacts = counter->found(slot);
 }
 
 } // namespace sinew::viewer

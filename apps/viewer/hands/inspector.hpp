@@ -18,11 +18,11 @@ class StateProbe;
 Found foundAt(const sim::Scene& scene, std::uint32_t particle, std::span<const sim::layout::vec4> positions,
               std::span<const sim::layout::vec4> velocities, bool isCut);
 
-/// Must not outlive its Device, which must not move, nor the stage.
+/// Must not outlive the stage.
 class Inspector {
 public:
     /// `slots` frames may be under way at a time.
-    Inspector(const vk::Device& device, const Stage& stage, std::uint32_t slots);
+    Inspector(const Stage& stage, std::uint32_t slots);
 
     void toggle();
     bool isOn() const { return isOn_; }
@@ -32,11 +32,12 @@ public:
     /// Whether a copy of the state is wanted to look where `ray` leads; says so at most ten times a second
     /// while nothing else changes.
     bool isDue(const Ray& ray) const;
-    /// Of the state that is copied into the frame of `slot`, for `ray`. Throws vk::Error.
-    void record(VkCommandBuffer commands, std::uint32_t slot, const Ray& ray);
+    /// Of the state that is copied into the frame of `slot`, for `ray`. `counter` of contacts, null where
+    /// there is none yet; settle() has the same one then.
+    void record(VkCommandBuffer commands, std::uint32_t slot, const Ray& ray, const ContactMarks* counter);
     /// When that frame has finished.
     void settle(std::uint32_t slot, const BallList& balls, const StateProbe& probe, bool isCut,
-                const std::optional<Opened>& opened = {});
+                const std::optional<Opened>& opened, const ContactMarks* counter);
 
     /// Nothing where it is off or where nothing is.
     const std::optional<Found>& found() const { return found_; }
@@ -48,10 +49,8 @@ private:
         std::optional<std::uint32_t> counted; // the particle whose contacts are counted
     };
 
-    const vk::Device& device_;
     const Stage& stage_;
     std::vector<Asked> asked_; // a slot
-    std::unique_ptr<const ContactMarks> contacts_;
     std::optional<Ray> last_;
     std::optional<Found> found_;
     Clock::time_point lastTime_{};

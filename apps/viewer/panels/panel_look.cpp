@@ -143,6 +143,7 @@ void look(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
     ImGui::SameLine();
     button(Action::inspect, wishes, width, facts.isInspecting);
     section(facts, wishes);
+    if (facts.isPreparing) return wrapped("being prepared ...", quiet());
     if (layers.hasContacts) row("contacts", grouped(facts.contactsFound));
     if (layers.hasLinks) linkLegend(facts.links);
     if (layers.map != ColorMap::none) legend(facts, scene.particles);

@@ -69,14 +69,16 @@ std::string FrameTimes::line(Kind kind) const {
 }
 
 std::string FrameTimes::table() const {
-    char head[160], foot[120];
+    char head[160], foot[200];
     std::snprintf(head, sizeof head, "frame times: %.1f pictures a second\n  %-44s%8s%10s%10s%10s\n",
                   framesPerSecond(), "", "count", "p50", "p95", "max");
     std::string text = head;
     for (std::size_t kind = 0; kind < values_.size(); ++kind)
         if (values_[kind].total > 0) text += line(static_cast<Kind>(kind));
-    std::snprintf(foot, sizeof foot, "  frames over %.0f ms: %zu, in a cut: %zu\n", tooLong, slow_,
-                  slowOfCut_);
+    std::snprintf(foot, sizeof foot,
+                  "  frames over %.0f ms: %zu, in a cut: %zu\n"
+                  "  pipelines made while keys waited: %zu\n",
+                  tooLong, slow_, slowOfCut_, pipelines_);
     return text + foot;
 }
 

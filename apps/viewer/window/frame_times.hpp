@@ -30,6 +30,8 @@ public:
     void add(Kind kind, double value);
     /// A picture that came `ms` after the last.
     void addFrame(double ms, bool isOfCut);
+    /// By the thread that looks at keys, which waits for them meanwhile.
+    void addPipelines(std::size_t count) { pipelines_ += count; }
     void clear();
 
     std::size_t count(Kind kind) const { return of(kind).total; }
@@ -54,7 +56,7 @@ private:
     std::string line(Kind kind) const;
 
     std::array<Values, static_cast<std::size_t>(Kind::count)> values_;
-    std::size_t slow_ = 0, slowOfCut_ = 0;
+    std::size_t slow_ = 0, slowOfCut_ = 0, pipelines_ = 0;
 };
 
 } // namespace sinew::viewer

@@ -1,0 +1,136 @@
+// A thread for one lot of layers after the other; a submission for each thing that is rehearsed.
+#include "viewer/backstage.hpp"
+
+#include "vk/check.hpp"
+
+#include <array>
+#include <chrono>
+#include <utility>
+
+namespace sinew::viewer {
+
+Backstage::Backstage(const vk::Device& device, PreparedShow& show, const Camera& camera, std::uint32_t slots)
+    : device_(device), show_(show), camera_(camera), inspection_(device, show.stage, slots), slots_(slots),
+      isRehearsing_(isSoftware(device)), queue_(device) {}
+
+Backstage::~Backstage() {
+    if (making_.valid()) making_.wait();
+    try {
+        queue_.waitIdle();
+    } catch (const vk::Error&) { // of a lost device there is nothing to wait for
+    }
+}
+
+bool Backstage::has(const Watched& watched) const noexcept {
+    return inspection_.has(watched) && show_.moving.renderer.has(watched.layers) &&
+           (!show_.still || show_.still->renderer.has(watched.layers));
+}
+
+Watched Backstage::ready(const Watched& wanted) {
+    if (!isMaking() && !has(wanted))
+        making_ = std::async(std::launch::async,
+                             [this, wanted, scene = show_.stage.scene()] { return make(wanted, scene); });
+    Watched ready;
+    const auto add = [&](auto& part, const auto& asked) {
+        const auto before = std::exchange(part, asked);
+        if (!has(ready)) part = before;
+    };
+    add(ready.layers.section, wanted.layers.section);
+    add(ready.layers.skin, wanted.layers.skin);
+    add(ready.layers.map, wanted.layers.map);
+    add(ready.layers.hasWires, wanted.layers.hasWires);
+    add(ready.layers.hasBalls, wanted.layers.hasBalls);
+    add(ready.layers.hasLinks, wanted.layers.hasLinks);
+    add(ready.layers.hasContacts, wanted.layers.hasContacts);
+    add(ready.isCounting, wanted.isCounting);
+    return ready;
+}
+
+// In a thread of its own.
+Backstage::Made Backstage::make(const Watched& wanted, const sim::Scene& scene) const {
+    const auto unseen = [this](const Renderer& renderer) {
+        Image image(device_,
+                    {.name = "unseen picture",
+                     .extent = {60, 44}, // no powers of two, as windows: drivers tell them apart
+                     .format = renderer.format(),
+                     .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
+        Canvas canvas = renderer.makeCopiedCanvas(image.extent(), std::array{image.view()});
+        return Unseen{std::move(image), std::move(canvas)};
+    };
+    Made made{.layers = wanted.layers,
+              .moving = show_.moving.renderer.make(wanted.layers),
+              .still = show_.still ? show_.still->renderer.make(wanted.layers) : Renderer::Additions{},
+              .parts = inspection_.make(wanted, scene),
+              .ofMoving = {},
+              .ofStill = {}};
+    if (!isRehearsing_) return made;
+    made.ofMoving.emplace(unseen(show_.moving.renderer));
+    if (show_.still) made.ofStill.emplace(unseen(show_.still->renderer));
+    return made;
+}
+
+bool Backstage::goOn() {
+    const auto isThere = [this] {
+        return making_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    };
+    if (making_.valid() && isThere()) made_.emplace(making_.get());
+    if (!made_ || isBusy()) return false;
+    const std::size_t all = 1 + made_->moving.count() + made_->still.count();
+    const bool isRehearsed = !isRehearsing_ || made_->rehearsed == all;
+    if (isRehearsed)
+        add();
+    else
+        rehearseNext();
+    return isRehearsed;
+}
+
+// One pipeline at a time: pictures come in between.
+void Backstage::rehearseNext() {
+    rehearse([this](VkCommandBuffer commands) {
+        const std::size_t next = made_->rehearsed++;
+        if (next == 0) return made_->parts.recordRehearsal(commands, slots_);
+        const bool isOfMoving = next <= made_->moving.count();
+        const Renderer::Additions& additions = isOfMoving ? made_->moving : made_->still;
+        const Renderer& renderer = isOfMoving ? show_.moving.renderer : show_.still->renderer;
+        Canvas& canvas = isOfMoving ? made_->ofMoving->canvas : made_->ofStill->canvas;
+        renderer.recordRehearsal(commands, Renderer::slots - 1, canvas, camera_, made_->layers, additions,
+                                 next - 1 - (isOfMoving ? 0 : made_->moving.count()));
+    });
+}
+
+void Backstage::add() {
+    Made made = *std::exchange(made_, std::nullopt);
+    show_.moving.renderer.add(std::move(made.moving));
+    if (show_.still) show_.still->renderer.add(std::move(made.still));
+    inspection_.add(std::move(made.parts));
+}
+
+void Backstage::rehearse(const std::function<void(VkCommandBuffer)>& record, std::function<void()> done) {
+    const VkCommandBuffer commands = queue_.begin();
+    record(commands);
+    running_ = queue_.submit(commands);
+    done_ = std::move(done);
+}
+
+bool Backstage::isBusy() {
+    if (!running_) return false;
+    std::uint64_t finished = 0;
+    vk::check(device_.functions().vkGetSemaphoreCounterValue(device_.handle(), queue_.timeline(), &finished),
+              "vkGetSemaphoreCounterValue", "the rehearsal");
+    if (finished < *running_) return true;
+    running_.reset();
+    if (const std::function<void()> done = std::exchange(done_, {})) done();
+    return running_.has_value();
+}
+
+void Backstage::forget() {
+    if (making_.valid()) making_.wait();
+    making_ = {};
+    queue_.waitIdle();
+    running_.reset();
+    done_ = {};
+    made_.reset();
+    inspection_.restart();
+}
+
+} // namespace sinew::viewer

@@ -1,0 +1,86 @@
+#!/usr/bin/env bash
+# test_first_use.sh VIEWER FOLDER: what is first used while a scene plays (layers, a section, pictures, a film, more room for contacts
+# and for the surface of cuts) is there, and the thread that looks at keys has made no pipeline for it.
+set -euo pipefail
+viewer=$1 folder=$2
+here=$(cd "$(dirname "$0")" && pwd)
+extent=320x200
+options=(--validation --timing)
+. "$here/window.sh"
+
+# Room for a single neighbour, and a blade of the scene's own whose cuts need more surface than there is room for.
+cat >crowd.toml <<'TOML'
+name = "crowd"
+[solver]
+substeps = 8
+[contacts]
+room = 1
+[[box]]
+name = "a"
+particles = [8, 8, 8]
+spacing = 0.05
+collides = true
+center = [0, 0.5, 0]
+young_modulus = 3e4
+density = 1000
+cuttable = true
+color = [0.70, 0.20, 0.16]
+[[box]]
+name = "b"
+particles = [4, 4, 4]
+spacing = 0.05
+collides = true
+center = [0, 1.0, 0]
+young_modulus = 3e4
+density = 1000
+color = [0.20, 0.40, 0.70]
+[[plane]]
+TOML
+scene=crowd.toml
+start
+xdotool windowmove "$window" 0 0
+xdotool mousemove 160 110
+reds() { # FILE: pixels of the red body; in the colors of a map there are none
+    convert "$1" -colorspace sRGB -fx 'r > 1.5*g && r > 0.3 ? 1 : 0' -format '%[fx:round(mean*w*h)]' info:
+}
+echo "first use: more room for contacts, while the window goes on"
+for _ in {1..30}; do
+    sleep 0.7
+    keys F8
+    room=$(cat crowd-*.input 2>/dev/null | sed -n 's/^room //p' | sort -n | tail -n 1 || true)
+    ((${room:-1} > 1)) && break
+done
+((room > 1)) || fail "there is no more room for contacts"
+keys space
+awaitTitle paused
+shoot bare.png
+(($(reds bare.png) > 100)) || fail "no body is seen"
+echo "first use: every layer and the section"
+keys l 1 2 3 4 5 m i # the first lot is made, and then what was asked for meanwhile
+for _ in {1..600}; do
+    shoot layers.png
+    (($(reds layers.png) < 20)) && break
+    sleep 0.3
+done
+(($(reds layers.png) < 20)) || fail "bodies do not get the colors of the map"
+echo "first use: a picture, a film"
+keys F12
+for _ in {1..300}; do grep -q '^picture: ' viewer.out && break; sleep 0.1; done
+grep -q '^picture: ' viewer.out || fail "F12 made no picture"
+keys F9
+for _ in {1..100}; do grep -q '^recording ' viewer.out && break; sleep 0.1; done
+for _ in {1..100}; do
+    keys period
+    sleep 1
+    keys F9
+    sleep 1
+    grep -q '^[1-9][0-9]* pictures in ' viewer.out && break
+    keys F9
+    sleep 1
+done
+grep -q '^[1-9][0-9]* pictures in ' viewer.out || fail "F9 made no film"
+keys ctrl+q
+awaitEnd 0
+(($(grep -c 'pipelines made while keys waited: 0$' viewer.out) == 1)) || fail "the window's thread made pipelines: $(grep pipelines viewer.out)"
+grep -q 'pipelines made while keys waited: [^0]' viewer.out && fail "the window's thread made pipelines: $(grep pipelines viewer.out)"
+echo passed
