@@ -42,6 +42,7 @@ Watched Backstage::ready(const Watched& wanted) {
     add(ready.layers.hasBalls, wanted.layers.hasBalls);
     add(ready.layers.hasLinks, wanted.layers.hasLinks);
     add(ready.layers.hasContacts, wanted.layers.hasContacts);
+    add(ready.layers.hasCells, wanted.layers.hasCells);
     add(ready.isCounting, wanted.isCounting);
     return ready;
 }

@@ -156,14 +156,23 @@ private:
         if (!inspection_) inspection_.emplace(device_, stage_, 1);
         inspection_->prepare(layers_);
         inspection_->record(commands, layers_, 0);
-        float range = 0;
-        if (layers_.map != ColorMap::none) {
+        float range = 0, cellRange = 0;
+        if (layers_.map != ColorMap::none || layers_.hasCells) {
             queue_.wait(queue_.submit(commands));
-            range = inspection_->reading(0).range;
+            if (layers_.map != ColorMap::none) range = inspection_->reading(0).range;
+            if (layers_.hasCells) sayCells(cellRange);
             commands = queue_.begin();
         }
-        overlay.buffers = inspection_->buffers(layers_, range);
+        overlay.buffers = inspection_->buffers(layers_, range, cellRange);
         return overlay;
+    }
+
+    // Once, where there is nothing to be drawn.
+    void sayCells(float& range) {
+        const std::vector<GridFacts> grids = inspection_->grids(0);
+        range = cellRangeOf(grids);
+        if (grids.empty() && !std::exchange(isGridMissed_, true))
+            std::fprintf(stderr, "note: this scene has no hash grid: no cells are drawn\n");
     }
 
     struct Submission {
@@ -289,7 +298,8 @@ private:
     Layers layers_;
     std::optional<Inspection> inspection_;
     std::optional<Replay> replay_;
-    bool isCompared_ = false;    // with what was recorded
+    bool isCompared_ = false; // with what was recorded
+    bool isGridMissed_ = false;
     std::optional<Tools> tools_; // of the replay
     std::optional<HeadlessTimes> times_;
     vk::Queue queue_; // last: waits for what still uses the others

@@ -312,6 +312,7 @@ Facts Show::facts(std::optional<float> reduced) const {
     facts.map = mapRange_.newest();
     facts.mapRange = mapRange_.range();
     facts.contactsFound = contactsFound_;
+    if (drawn_.layers.hasCells) facts.grids = grids_;
     if (drawn_.layers.hasLinks) facts.links = backstage_.inspection().links();
     facts.isPreparing = drawn_.layers != screen_.layers();
     facts.isInspecting = inspector_.isOn();

@@ -75,6 +75,7 @@ private:
         bool isRecorded = false;          // by cameras_
         ColorMap map = ColorMap::none;    // of what is inspected
         bool hasContacts = false;         // likewise
+        bool hasCells = false;            // likewise
         bool isInspected = false;         // for the inspector
         std::optional<Question> question; // of the tools
         std::unique_ptr<Shot> screenshot;
@@ -148,6 +149,7 @@ private:
     void settle(std::uint32_t slot);
     void settleProbe(InFlight& flight);
     void settleMap(std::uint32_t slot, const InFlight& flight);
+    void settleCells(std::uint32_t slot);
     void toggleWires();
     void stop(const std::string& why);
     void makeRoom(std::uint64_t step, const InFlight& undone);
@@ -172,6 +174,7 @@ private:
     std::optional<Look::At> armed_; // by a button: the next press says where
     MapRange mapRange_;
     std::uint32_t contactsFound_ = 0;
+    std::vector<GridFacts> grids_; // of the newest picture with cells
     Tools tools_;
     std::optional<Replay> replay_;
     std::optional<InputFile> replayed_;        // that has just come to its end

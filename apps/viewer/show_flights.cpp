@@ -104,7 +104,8 @@ Overlay Show::recordLayers(const Presenter::Frame& frame) {
     inspection.record(frame.commands, layers, frame.slot);
     inFlight_[frame.slot].map = layers.map;
     inFlight_[frame.slot].hasContacts = layers.hasContacts;
-    overlay.buffers = inspection.buffers(layers, mapRange_.range());
+    inFlight_[frame.slot].hasCells = layers.hasCells;
+    overlay.buffers = inspection.buffers(layers, mapRange_.range(), cellRangeOf(grids_));
     return overlay;
 }
 
@@ -119,6 +120,7 @@ void Show::settle(std::uint32_t slot) {
     settleMap(slot, flight);
     if (flight.hasContacts && drawn_.layers.hasContacts)
         contactsFound_ = backstage_.inspection().contacts(slot);
+    if (flight.hasCells && drawn_.layers.hasCells) settleCells(slot);
     bool isUndone = false;
     for (std::uint32_t i = 0; i < flight.steps && !isDiverged_; ++i) {
         const std::uint64_t step = flight.firstStep + i;
@@ -199,6 +201,12 @@ void Show::settleMap(std::uint32_t slot, const InFlight& flight) {
     const float before = mapRange_.range();
     mapRange_.read(backstage_.inspection().reading(slot));
     if (mapRange_.range() != before) shown_ = Shown::nothing;
+}
+
+void Show::settleCells(std::uint32_t slot) {
+    const float before = cellRangeOf(grids_);
+    grids_ = backstage_.inspection().grids(slot);
+    if (cellRangeOf(grids_) != before) shown_ = Shown::nothing;
 }
 
 // All steps have been taken: only the picture lacks something, and they go on.

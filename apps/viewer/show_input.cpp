@@ -181,6 +181,9 @@ void Show::switchLayer(Action action) {
     case Action::contacts:
         layers.hasContacts = !layers.hasContacts;
         break;
+    case Action::cells:
+        layers.hasCells = !layers.hasCells;
+        break;
     case Action::colorMap:
         layers.map = next(layers.map);
         mapRange_ = {};

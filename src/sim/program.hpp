@@ -179,6 +179,17 @@ struct ContactBuffers {
     std::uint32_t edgeRow = 0, edgeCount = 0;
 };
 
+/// A hash grid, in which contacts are looked for, to be looked at between steps: as it was built last.
+struct GridBuffers {
+    std::string name;        ///< "grid" of particles, "faces.grid" of points, "edges.grid" of edges
+    BufferId bounds;         ///< layout::GridBounds
+    BufferId starts;         ///< of the table's slots in `sorted`; behind them, how many that has
+    BufferId sorted;         ///< bits of a place, and an index, slot by slot
+    std::uint32_t count = 0; ///< elements that `sorted` may have
+    std::uint32_t cells = 0; ///< slots of the table
+    float edge = 0;          ///< layout::GridPush::edge [m]
+};
+
 /// What the vertices hang on that the skin of a sheet has along cuts (surface/sheet_pieces.hpp).
 struct PieceVertices {
     BufferId vertices;       ///< layout::SheetVertex
@@ -223,6 +234,7 @@ struct StepProgram {
     };
     std::vector<IndexRange> mixedRanges; ///< by skin
     ContactBuffers contacts;
+    std::vector<GridBuffers> grids; ///< by kind of contact that is looked for in one
     SleepBuffers sleep;
     PokeGroups pokes;
     CuttingBuffers cutting;

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <random>
 
 namespace sinew::viewer {
 namespace {
@@ -204,6 +205,114 @@ TEST(SleepMap, KnowsWhoSleepsAndWhoNeverMoves) {
     EXPECT_EQ(read[1], 1) << "falls";
     EXPECT_LT(read[2], 0) << "fixed";
     EXPECT_EQ(resting.inspection.buffers(resting.layers, 0.1f).range, 1) << "from asleep to awake";
+}
+
+// Loose balls, still, so that the grid is of where they are.
+sim::Scene scattered(std::uint32_t count, float size) {
+    sim::Scene scene;
+    scene.gravity = {0, 0, 0};
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> place(0, size);
+    for (std::uint32_t i = 0; i < count; ++i)
+        scene.particles.push_back(
+            {.position = {place(random), place(random), place(random)}, .radius = 0.01f});
+    return scene;
+}
+
+struct Cells {
+    GridFacts facts;
+    std::vector<layout::CellMark> marks;
+};
+
+Cells cellsOf(const sim::Scene& scene) {
+    Inspected still(scene, {.hasCells = true});
+    still.step(1);
+    const std::vector<GridFacts> grids = still.inspection.grids(0);
+    if (grids.size() != 1) return {};
+    const HashCells& cells = *still.inspection.buffers(still.layers, 0).cells;
+    auto marks = test::queue().download<layout::CellMark>(cells.marks());
+    marks.resize(grids[0].cells);
+    return {grids[0], marks};
+}
+
+// By where the balls are, which no kernel is asked.
+void expectEachBallInOneCell(const Cells& cells, const sim::Scene& scene) {
+    std::vector<int> times(scene.particles.size());
+    std::uint32_t most = 0, shared = 0;
+    for (const layout::CellMark& mark : cells.marks) {
+        const float edge = mark.low.w, rounding = 1e-5f * edge;
+        std::uint32_t held = 0;
+        for (std::size_t i = 0; i < times.size(); ++i) {
+            const sim::Vec3& x = scene.particles[i].position;
+            const auto isWithin = [&](float at, float low) {
+                return at >= low - rounding && at < low + edge + rounding;
+            };
+            if (!isWithin(x.x, mark.low.x) || !isWithin(x.y, mark.low.y) || !isWithin(x.z, mark.low.z))
+                continue;
+            ++times[i];
+            ++held;
+        }
+        EXPECT_EQ(mark.held.x, static_cast<float>(held));
+        most = std::max(most, held);
+        shared += mark.held.y > 0 ? 1 : 0;
+    }
+    EXPECT_EQ(std::ranges::count(times, 1), static_cast<std::ptrdiff_t>(times.size()));
+    EXPECT_EQ(cells.facts.held, times.size());
+    EXPECT_EQ(cells.facts.most, most);
+    EXPECT_EQ(cells.facts.shared, shared);
+}
+
+// As dense as balls lie that do not push each other.
+sim::Scene packed() {
+    sim::Scene scene = scattered(343, 0.008f);
+    for (std::size_t i = 0; i < scene.particles.size(); ++i) {
+        sim::Vec3& x = scene.particles[i].position;
+        x.x += 0.03f * static_cast<float>(i % 7);
+        x.y += 0.03f * static_cast<float>(i / 7 % 7);
+        x.z += 0.03f * static_cast<float>(i / 49);
+    }
+    return scene;
+}
+
+TEST(HashCells, HoldEachBallOnceWhereTheGridIsDense) {
+    const sim::Scene scene = packed();
+    const Cells cells = cellsOf(scene);
+    ASSERT_GT(cells.marks.size(), 50u);
+    expectEachBallInOneCell(cells, scene);
+    EXPECT_EQ(cells.facts.shared, 0u);
+    EXPECT_GT(cells.facts.most, 2u);
+    EXPECT_NEAR(cells.facts.edge, 0.0457f, 0.0005f)
+        << "twice the largest in it, and a margin of half a radius";
+}
+
+TEST(HashCells, SayWhoSharesASlotWhereTheTableIsTooSmallForTheBox) {
+    const sim::Scene scene = scattered(700, 5);
+    const Cells cells = cellsOf(scene);
+    expectEachBallInOneCell(cells, scene);
+    EXPECT_GT(cells.facts.shared, 20u);
+    EXPECT_LT(cells.facts.shared, 400u);
+}
+
+TEST(HashCells, AreOfEveryGridThatTheSolverHas) {
+    sim::Scene scene = scattered(40, 0.3f);
+    Inspected before(scene, {.hasCells = true});
+    before.step(0);
+    ASSERT_EQ(before.inspection.grids(0).size(), 1u);
+    EXPECT_EQ(before.inspection.grids(0)[0].cells, 0u) << "no step has built it";
+    Inspected block(cuttableBlock(), {.hasCells = true});
+    block.step(2);
+    EXPECT_TRUE(block.inspection.grids(0).empty()) << "nothing can meet";
+    for (const sim::Vec3& x : {sim::Vec3{0, 0, 0}, sim::Vec3{0.1f, 0, 0}, sim::Vec3{0, 0.1f, 0}})
+        scene.particles.push_back({.position = x, .radius = 0.01f});
+    scene.faces = {{{40, 41, 42}, 0.01f}};
+    Inspected faces(scene, {.hasCells = true});
+    faces.step(1);
+    const std::vector<GridFacts> grids = faces.inspection.grids(0);
+    ASSERT_GE(grids.size(), 2u);
+    for (const GridFacts& grid : grids) {
+        EXPECT_GT(grid.cells, 0u) << grid.name;
+        EXPECT_GE(grid.held, grid.cells) << grid.name;
+    }
 }
 
 TEST(ContactMarks, AreWhereBallsLieOnTheFloorAndOnEachOther) {

@@ -21,7 +21,8 @@ constexpr std::array names{Name{"glass", [](Layers& layers) { layers.skin = Skin
                            Name{"wires", [](Layers& layers) { layers.hasWires = true; }},
                            Name{"particles", [](Layers& layers) { layers.hasBalls = true; }},
                            Name{"links", [](Layers& layers) { layers.hasLinks = true; }},
-                           Name{"contacts", [](Layers& layers) { layers.hasContacts = true; }}};
+                           Name{"contacts", [](Layers& layers) { layers.hasContacts = true; }},
+                           Name{"cells", [](Layers& layers) { layers.hasCells = true; }}};
 
 // Linear sRGB of a color in OKLab: lightness 0 to 1, and two that are 0 for grey.
 std::array<float, 3> fromLab(double lightness, double a, double b) {

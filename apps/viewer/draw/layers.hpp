@@ -14,6 +14,7 @@ namespace sinew::viewer {
 
 class Balls;
 class ContactMarks;
+class HashCells;
 class LinkLines;
 
 enum class SkinLook { solid, glass, hidden };
@@ -33,10 +34,13 @@ struct Layers {
     bool hasBalls = false; ///< particles of bodies with a skin, too
     bool hasLinks = false; ///< in the colors of their classes
     bool hasContacts = false;
+    bool hasCells = false;          ///< of hash grids, that hold something
     std::optional<Section> section; ///< opens bodies
     bool operator==(const Layers&) const = default;
     /// Whether something of it comes from buffers that are made for it (Inspection).
-    bool needsBuffers() const { return map != ColorMap::none || hasBalls || hasLinks || hasContacts; }
+    bool needsBuffers() const {
+        return map != ColorMap::none || hasBalls || hasLinks || hasContacts || hasCells;
+    }
 };
 
 /// The one after it, round and round: solid, glass, hidden.
@@ -45,7 +49,7 @@ SkinLook next(SkinLook look);
 ColorMap next(ColorMap map);
 
 /// How the command line calls layers: "glass", "hidden", "strain", "speed", "sleep", "wires", "particles",
-/// "links", "contacts".
+/// "links", "contacts", "cells".
 std::vector<std::string> layerNames();
 /// One of them on top of others; false for a name that is none.
 bool addLayer(const std::string& name, Layers& layers);
@@ -73,6 +77,17 @@ struct MapReading {
     float beyond = 0;  ///< share of those with more than `range`
 };
 
+/// A hash grid, as it was built last.
+struct GridFacts {
+    std::string name;         ///< of what is in it
+    float edge = 0;           ///< of a cell [m]
+    std::uint32_t cells = 0;  ///< that hold something
+    std::uint32_t shared = 0; ///< of them, in whose slot of the table there are others, too
+    std::uint32_t most = 0;   ///< in a cell
+    std::uint32_t held = 0;   ///< in all of them
+    std::uint32_t slots = 0;  ///< of the table
+};
+
 /// Where layers are drawn from, as Inspection makes it. Views of what is not on are empty.
 struct LayerBuffers {
     vk::BufferView particles; ///< float a particle: the map's value, below 0 where there is none
@@ -82,6 +97,8 @@ struct LayerBuffers {
     const Balls* balls = nullptr;
     const LinkLines* links = nullptr;
     const ContactMarks* contacts = nullptr;
+    const HashCells* cells = nullptr;
+    float cellRange = 0; ///< how many in a cell have the last color; 0 = not known yet
 };
 
 } // namespace sinew::viewer

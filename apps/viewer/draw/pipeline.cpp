@@ -92,6 +92,12 @@ constexpr std::array markAttributes{ballAttributes[0],
                                     VkVertexInputAttributeDescription{2, 1, VK_FORMAT_R32G32B32A32_SFLOAT,
                                                                       offsetof(layout::ContactMark, normal)}};
 
+constexpr VkVertexInputBindingDescription cellBinding{0, sizeof(layout::CellMark),
+                                                      VK_VERTEX_INPUT_RATE_INSTANCE};
+constexpr std::array cellAttributes{
+    VkVertexInputAttributeDescription{0, 0, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(layout::CellMark, low)},
+    VkVertexInputAttributeDescription{1, 0, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(layout::CellMark, held)}};
+
 constexpr std::array panelBindings{
     VkVertexInputBindingDescription{0, sizeof(PanelVertex), VK_VERTEX_INPUT_RATE_VERTEX}};
 constexpr std::array panelAttributes{
@@ -115,7 +121,8 @@ constexpr std::array vertexForms{VertexForm{},
                                  VertexForm{ballValueBindings, ballValueAttributes},
                                  VertexForm{cutValueBindings, cutValueAttributes},
                                  VertexForm{markBindings, markAttributes},
-                                 VertexForm{{ballBindings.data(), 1}, {ballAttributes.data(), 1}}};
+                                 VertexForm{{ballBindings.data(), 1}, {ballAttributes.data(), 1}},
+                                 VertexForm{{&cellBinding, 1}, cellAttributes}};
 
 VkPipelineVertexInputStateCreateInfo vertexInput(PipelineRequest::Input input) {
     const VertexForm& form = vertexForms[static_cast<std::size_t>(input)];

@@ -25,7 +25,7 @@ struct PipelineRequest {
     /// and its radius, bindings 0 to 3; of a hand those without a radius. Of a cut SkinVertex and CutVertex,
     /// bindings 0 and 1. Of panels PanelVertex. With a value (float) at location 3: skins at binding 1, balls
     /// an instance at 4, cuts at 2. Of a mark corners as of a hand, and ContactMark an instance, bindings 0
-    /// and 1. Of particles positions.
+    /// and 1. Of particles positions. Of cells CellMark an instance, binding 0.
     enum class Input {
         none,
         positions,
@@ -38,7 +38,8 @@ struct PipelineRequest {
         ballValues,
         cutValues,
         marks,
-        particles
+        particles,
+        cells
     } input = Input::none;
     enum class Depth { none, test, testAndWrite } depth = Depth::none;
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;

@@ -122,6 +122,7 @@ private:
     void makeWires(Additions& to) const;
     void makeContacts(Additions& to) const;
     void makeLinks(Additions& to) const;
+    void makeCells(Additions& to) const;
     void makeSection(Additions& to) const;
     void makeOpened(Additions& to, std::size_t index, const PipelineRequest& whole) const;
     void makeCounts(Additions& to) const;
@@ -232,6 +233,7 @@ private:
         wiresPipeline,
         contactPipeline,
         linkPipeline,
+        cellPipeline,
         skinCountPipeline,
         cutCountPipeline,
         ballCountPipeline,

@@ -2,6 +2,7 @@
 #include "viewer/draw/renderer.hpp"
 
 #include "viewer/draw/contact_marks.hpp"
+#include "viewer/draw/hash_cells.hpp"
 #include "viewer/draw/link_lines.hpp"
 #include "viewer_shaders.hpp"
 
@@ -30,7 +31,8 @@ std::span<const Renderer::Feature> Renderer::features() {
         Feature{[](const Layers& layers) { return layers.hasWires; }, wiresPipeline, &Renderer::makeWires},
         Feature{[](const Layers& layers) { return layers.hasLinks; }, linkPipeline, &Renderer::makeLinks},
         Feature{[](const Layers& layers) { return layers.hasContacts; }, contactPipeline,
-                &Renderer::makeContacts}};
+                &Renderer::makeContacts},
+        Feature{[](const Layers& layers) { return layers.hasCells; }, cellPipeline, &Renderer::makeCells}};
     return all;
 }
 
@@ -95,6 +97,11 @@ void Renderer::recordLayers(VkCommandBuffer commands, const sim::Simulation& sim
         drawCuts(commands, wires, wires, simulation);
     }
     if (overlay.buffers.links != nullptr && has(linkPipeline)) drawLinks(commands, simulation, overlay);
+    if (overlay.buffers.cells != nullptr && has(cellPipeline)) {
+        bind(commands, opened(cellPipeline, layers));
+        push(commands, {{overlay.buffers.cellRange}, {}, {}});
+        overlay.buffers.cells->draw(commands);
+    }
     if (overlay.buffers.contacts != nullptr && has(contactPipeline)) {
         const ContactMarks& contacts = *overlay.buffers.contacts;
         bind(commands, opened(contactPipeline, layers));

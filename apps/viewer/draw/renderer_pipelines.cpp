@@ -185,6 +185,16 @@ void Renderer::makeLinks(Additions& to) const {
             .topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST});
 }
 
+void Renderer::makeCells(Additions& to) const {
+    addLit(to, cellPipeline,
+           {.name = "cells",
+            .vertex = &shaders::cellVert,
+            .fragment = &shaders::cellFrag,
+            .input = Input::cells,
+            .depth = solid,
+            .topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST});
+}
+
 // What touches is hidden by what touches it, so marks are seen through everything.
 void Renderer::makeContacts(Additions& to) const {
     addLit(to, contactPipeline,

@@ -29,6 +29,7 @@ constexpr std::array forms{Form{&shaders::depthVert, &shaders::depthSectionVert}
                            Form{&shaders::valuesFrag, &shaders::valuesSectionFrag},
                            Form{&shaders::wiresFrag, &shaders::wiresSectionFrag},
                            Form{&shaders::linkFrag, &shaders::linkSectionFrag},
+                           Form{&shaders::cellFrag, &shaders::cellSectionFrag},
                            Form{&shaders::markFrag, &shaders::markSectionFrag}};
 
 const vk::ShaderCode* openedForm(const vk::ShaderCode* shader) {

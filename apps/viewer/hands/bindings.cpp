@@ -73,6 +73,11 @@ constexpr std::array table{
             "links; those that the solver corrects together in one color",
             "Links"},
     Binding{{key, GLFW_KEY_5}, contacts, "5", "where bodies touch, and along which normals", "Contacts"},
+    Binding{{key, GLFW_KEY_6},
+            cells,
+            "6",
+            "cells of the hash grids that hold something; in colors by how many",
+            "Cells"},
     Binding{
         {key, GLFW_KEY_M}, colorMap, "M", "colors: of the bodies, by strain, by speed, by sleep", "Colors"},
     Binding{{key, GLFW_KEY_I},

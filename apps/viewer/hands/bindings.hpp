@@ -39,6 +39,7 @@ enum class Action {
     balls,
     links,
     contacts,
+    cells,
     colorMap,
     inspect,
     section,

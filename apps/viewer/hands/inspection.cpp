@@ -15,7 +15,7 @@ bool Inspection::has(const Watched& watched) const noexcept {
     const Layers& layers = watched.layers;
     return (layers.map == ColorMap::none || parts_.values) && (!layers.hasBalls || parts_.balls) &&
            (!layers.hasLinks || parts_.links) && (!layers.hasContacts || parts_.contacts) &&
-           (!watched.isCounting || parts_.counter);
+           (!layers.hasCells || parts_.cells) && (!watched.isCounting || parts_.counter);
 }
 
 Inspection::Parts Inspection::make(const Watched& watched, const sim::Scene& scene) const {
@@ -32,6 +32,8 @@ Inspection::Parts Inspection::make(const Watched& watched, const sim::Scene& sce
         parts.links = std::make_unique<const LinkLines>(device_, scene, settings, simulation);
     if (layers.hasContacts && !parts_.contacts)
         parts.contacts = std::make_unique<const ContactMarks>(device_, scene, settings, simulation, all);
+    if (layers.hasCells && !parts_.cells)
+        parts.cells = std::make_unique<const HashCells>(device_, simulation, all);
     if (watched.isCounting && !parts_.counter)
         parts.counter = std::make_unique<const ContactMarks>(device_, scene, settings, simulation, all,
                                                              ContactMarks::Room::none);
@@ -43,6 +45,7 @@ void Inspection::add(Parts parts) noexcept {
     if (parts.balls) parts_.balls = std::move(parts.balls);
     if (parts.links) parts_.links = std::move(parts.links);
     if (parts.contacts) parts_.contacts = std::move(parts.contacts);
+    if (parts.cells) parts_.cells = std::move(parts.cells);
     if (parts.counter) parts_.counter = std::move(parts.counter);
     before_ = {};
 }
@@ -61,6 +64,7 @@ void Inspection::Parts::recordRehearsal(VkCommandBuffer commands, std::uint32_t 
             values->record(commands, map, slot);
     if (links) links->record(commands);
     if (contacts) contacts->record(commands, slot);
+    if (cells) cells->record(commands, slot);
     if (counter) counter->record(commands, slot);
 }
 
@@ -68,10 +72,11 @@ void Inspection::record(VkCommandBuffer commands, const Layers& layers, std::uin
     if (layers.map != ColorMap::none) parts_.values->record(commands, layers.map, slot);
     if (layers.hasLinks) parts_.links->record(commands);
     if (layers.hasContacts) parts_.contacts->record(commands, slot);
+    if (layers.hasCells) parts_.cells->record(commands, slot);
 }
 
-LayerBuffers Inspection::buffers(const Layers& layers, float range) const noexcept {
-    LayerBuffers buffers{.range = layers.map == ColorMap::sleep ? 1 : range};
+LayerBuffers Inspection::buffers(const Layers& layers, float range, float cellRange) const noexcept {
+    LayerBuffers buffers{.range = layers.map == ColorMap::sleep ? 1 : range, .cellRange = cellRange};
     if (layers.map != ColorMap::none) {
         buffers.particles = parts_.values->particles();
         buffers.skins = parts_.values->skins();
@@ -80,7 +85,14 @@ LayerBuffers Inspection::buffers(const Layers& layers, float range) const noexce
     if (layers.hasBalls) buffers.balls = parts_.balls.get();
     if (layers.hasLinks) buffers.links = parts_.links.get();
     if (layers.hasContacts) buffers.contacts = parts_.contacts.get();
+    if (layers.hasCells) buffers.cells = parts_.cells.get();
     return buffers;
+}
+
+float cellRangeOf(std::span<const GridFacts> grids) {
+    std::uint32_t most = 0;
+    for (const GridFacts& grid : grids) most = std::max(most, grid.most);
+    return static_cast<float>(most);
 }
 
 void MapRange::read(const MapReading& reading) {

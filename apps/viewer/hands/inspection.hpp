@@ -4,6 +4,7 @@
 
 #include "viewer/draw/balls.hpp"
 #include "viewer/draw/contact_marks.hpp"
+#include "viewer/draw/hash_cells.hpp"
 #include "viewer/draw/link_lines.hpp"
 #include "viewer/draw/value_maps.hpp"
 
@@ -29,7 +30,8 @@ public:
         std::unique_ptr<const Balls> balls; // pictures refer to it
         std::unique_ptr<const LinkLines> links;
         std::unique_ptr<const ContactMarks> contacts, counter;
-        bool areNone() const { return !values && !balls && !links && !contacts && !counter; }
+        std::unique_ptr<const HashCells> cells;
+        bool areNone() const { return !values && !balls && !links && !contacts && !counter && !cells; }
         /// The kernels of what there is, once: a driver that compiles what is first used does so then.
         void recordRehearsal(VkCommandBuffer commands, std::uint32_t slot) const noexcept;
     };
@@ -57,14 +59,17 @@ public:
     /// How many places where bodies touch were found, likewise.
     std::uint32_t contacts(std::uint32_t slot) const noexcept { return parts_.contacts->found(slot); }
 
+    /// The grids with their cells, likewise.
+    std::vector<GridFacts> grids(std::uint32_t slot) const { return parts_.cells->reading(slot); }
+
     /// Of layers with links that are there.
     LinkFacts links() const { return parts_.links->facts(); }
 
     /// Null where it is not there.
     const ContactMarks* counter() const noexcept { return parts_.counter.get(); }
 
-    /// For a picture with `layers` that are there, a map's colors up to `range`.
-    LayerBuffers buffers(const Layers& layers, float range) const noexcept;
+    /// For a picture with `layers` that are there, the colors of a map and of cells up to these.
+    LayerBuffers buffers(const Layers& layers, float range, float cellRange = 0) const noexcept;
 
 private:
     const vk::Device& device_;
@@ -72,6 +77,9 @@ private:
     std::uint32_t slots_;
     Parts parts_, before_; // before_: of the simulation before
 };
+
+/// Most that are in a cell of any of them, whose color is the last of the map.
+float cellRangeOf(std::span<const GridFacts> grids);
 
 /// The range of a map's colors from picture to picture: up at once, down to what was read last where a dozen
 /// readings in a row are below. It is a quantile of 99 % already: in a blow the bulk of a body has its peak,

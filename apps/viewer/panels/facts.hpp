@@ -133,6 +133,7 @@ struct Facts {
     float mapRange = 0;                  ///< which value has the last color; 0 = not known yet
     std::uint32_t contactsFound = 0;     ///< where they are shown
     LinkFacts links;                     ///< likewise
+    std::vector<GridFacts> grids;        ///< likewise; none where the solver has none
     bool isPreparing = false;            ///< layers that are on and not drawn yet
     bool isInspecting = false;
     std::optional<Found> found; ///< while inspecting

@@ -10,6 +10,7 @@ namespace sinew::viewer::parts {
 namespace {
 
 constexpr std::array skinNames{"Skin", "Glass", "No skin"};
+constexpr std::array<float, 3> sharedColor{0.79f, 0.0f, 0.21f}; // cell.vert
 constexpr std::array mapNames{"Colors", "Strain", "Speed", "Sleep"};
 
 // "2 %", "0.5 m/s".
@@ -43,20 +44,21 @@ void colorBar() {
     ImGui::Dummy({width, height});
 }
 
+void colorSwatch(const std::array<float, 3>& color, const char* name) {
+    const float side = ImGui::GetTextLineHeight();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + side, at.y + side}, shown(color));
+    ImGui::Dummy({side, side});
+    ImGui::SameLine();
+    ImGui::TextUnformatted(name);
+}
+
 // Two colors, and how many there are of each.
 void sleepLegend(const Facts& facts, std::size_t particles) {
     const auto colors = mapColors();
-    const float side = ImGui::GetTextLineHeight();
-    const auto swatch = [&](const std::array<float, 3>& color, const char* name) {
-        const ImVec2 at = ImGui::GetCursorScreenPos();
-        ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + side, at.y + side}, shown(color));
-        ImGui::Dummy({side, side});
-        ImGui::SameLine();
-        ImGui::TextUnformatted(name);
-    };
-    swatch(colors.back(), "awake");
+    colorSwatch(colors.back(), "awake");
     ImGui::SameLine();
-    swatch(colors.front(), "asleep");
+    colorSwatch(colors.front(), "asleep");
     row("asleep", grouped(facts.sleeping) + " of " + grouped(particles));
 }
 
@@ -105,6 +107,28 @@ void linkLegend(const LinkFacts& links) {
     if (links.fixed > 0) row("links that nobody corrects", grouped(links.fixed));
 }
 
+// Under the bar from one to as many as are in a cell, grid by grid: all of them have the same colors.
+void cellLegend(const std::vector<GridFacts>& grids) {
+    if (grids.empty()) return wrapped("no grid here: nothing can meet that is looked for in one", quiet());
+    std::uint32_t most = 0, shared = 0;
+    for (const GridFacts& grid : grids) {
+        most = std::max(most, grid.most);
+        shared += grid.shared;
+    }
+    if (most == 0) return wrapped("no step has been taken yet: the grids are empty", quiet());
+    colorBar();
+    row("in a cell, from 0", grouped(most));
+    for (const GridFacts& grid : grids) {
+        char text[64];
+        std::snprintf(text, sizeof text, "%s, cells of %.3g m", grid.name.c_str(), double{grid.edge});
+        row(text, grouped(grid.cells));
+        row("  in them, of slots", grouped(grid.held) + " / " + grouped(grid.slots));
+    }
+    if (shared == 0) return;
+    colorSwatch(sharedColor, "share a slot with others");
+    row("", grouped(shared));
+}
+
 // Its plane's buttons, and where it is.
 void section(const Facts& facts, Wishes& wishes) {
     const std::optional<Section>& section = facts.layers.section;
@@ -126,17 +150,18 @@ void section(const Facts& facts, Wishes& wishes) {
 
 void look(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
     const Layers& layers = facts.layers;
-    float width = buttonWidth(3);
+    const float width = buttonWidth(4);
     button(Action::skinLook, wishes, width, layers.skin != SkinLook::solid,
            skinNames[static_cast<std::size_t>(layers.skin)]);
     ImGui::SameLine();
     button(Action::wires, wishes, width, layers.hasWires);
     ImGui::SameLine();
     button(Action::balls, wishes, width, layers.hasBalls);
-    width = buttonWidth(4);
-    button(Action::links, wishes, width, layers.hasLinks);
     ImGui::SameLine();
+    button(Action::links, wishes, width, layers.hasLinks);
     button(Action::contacts, wishes, width, layers.hasContacts);
+    ImGui::SameLine();
+    button(Action::cells, wishes, width, layers.hasCells);
     ImGui::SameLine();
     button(Action::colorMap, wishes, width, layers.map != ColorMap::none,
            mapNames[static_cast<std::size_t>(layers.map)]);
@@ -145,6 +170,7 @@ void look(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
     section(facts, wishes);
     if (facts.isPreparing) return wrapped("being prepared ...", quiet());
     if (layers.hasContacts) row("contacts", grouped(facts.contactsFound));
+    if (layers.hasCells) cellLegend(facts.grids);
     if (layers.hasLinks) linkLegend(facts.links);
     if (layers.map != ColorMap::none) legend(facts, scene.particles);
 }

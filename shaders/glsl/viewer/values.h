@@ -90,6 +90,29 @@ struct MarkPush {
     uint only;             // the particle whose contacts are wanted; NO_PARTICLE = all
 };
 
+// A cell of a hash grid that holds something.
+struct CellMark {
+    vec4 low;  // corner; w: edge [m]
+    vec4 held; // x: how many are in it, y: how many of other cells are in the same slot of the table
+};
+
+// VkDrawIndirectCommand of a grid's cells, and what there is to be said of them.
+struct CellDraw {
+    uint vertexCount, instanceCount, firstVertex, firstInstance;
+    uint sharing; // cells whose slot others are in, too
+    uint most;   // in a cell
+    uint held;   // in all
+    float edge;  // of a cell [m]
+};
+
+struct CellPush {
+    uint count; // elements that may be sorted
+    uint cells; // slots of the table
+    float edge; // GridPush::edge [m]
+    uint grid;  // among all
+    uint first; // mark
+};
+
 #ifdef __cplusplus
 } // namespace sinew::viewer::layout
 #endif

@@ -89,6 +89,13 @@ Grid add(ProgramBuilder& program, const Request& request) {
     grid.unswept = {grid.arguments, GRID_UNSWEPT, grid.push.count};
     grid.slowed = {grid.arguments, GRID_SLOWED, grid.push.count};
     if (request.quiet >= 0) grid.fast = program.scratch<std::uint32_t>(name + ".fast", MOST_FAST);
+    program.program().grids.push_back({.name = name,
+                                       .bounds = grid.bounds,
+                                       .starts = grid.starts,
+                                       .sorted = grid.sorted,
+                                       .count = grid.push.count,
+                                       .cells = cells,
+                                       .edge = grid.push.edge});
     return grid;
 }
 

@@ -1,0 +1,38 @@
+#version 460
+// The cells of a hash grid that hold something, as the grid was built last: each is told by the first that lies in it, with how
+// many do and how many of other cells share its slot of the table.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "hash_grid.glsl"
+#include "viewer/values.h"
+
+layout(std430, binding = 0) readonly buffer Bounds { GridBounds bounds; };
+layout(std430, binding = 1) readonly buffer Starts { uint starts[]; };
+layout(std430, binding = 2) readonly buffer Sorted { uvec4 sorted[]; }; // bits of the place; index
+layout(std430, binding = 3) writeonly buffer Marks { CellMark marks[]; };
+layout(std430, binding = 4) buffer Draws { CellDraw draws[]; };
+layout(push_constant) uniform Push { CellPush push; };
+
+void main() {
+    const uint i = itemIndex(push.count);
+    if (i >= starts[push.cells]) return; // how many there are
+    const Frame grid = frameOf(bounds, push.cells, push.edge);
+    const ivec3 cell = cellOf(uintBitsToFloat(sorted[i].xyz), grid);
+    const uint slot = slotOf(cell, grid);
+    uint own = 0u, strange = 0u;
+    for (uint j = starts[slot]; j < starts[slot + 1u]; ++j) {
+        if (cellOf(uintBitsToFloat(sorted[j].xyz), grid) != cell) {
+            ++strange;
+            continue;
+        }
+        if (j < i) return;
+        ++own;
+    }
+    const uint place = atomicAdd(draws[push.grid].instanceCount, 1u);
+    atomicMax(draws[push.grid].most, own);
+    atomicAdd(draws[push.grid].held, own);
+    if (strange > 0u) atomicAdd(draws[push.grid].sharing, 1u);
+    const float edge = 1.0 / grid.perLength;
+    draws[push.grid].edge = edge;
+    marks[push.first + place] = CellMark(vec4(grid.low + edge * vec3(cell), edge), vec4(own, strange, 0.0, 0.0));
+}
