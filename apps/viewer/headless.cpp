@@ -4,6 +4,7 @@
 
 #include "app/guard.hpp"
 #include "app/progress.hpp"
+#include "viewer/beside.hpp"
 #include "viewer/draw/offscreen.hpp"
 #include "viewer/draw/stage.hpp"
 #include "viewer/hands/inspection.hpp"
@@ -98,6 +99,7 @@ public:
           offscreen_(device, options.size, opening.light), layers_(options.layers), queue_(device) {
         stage_.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
         if (options.isTimed) times_.emplace(device, stage_);
+        if (const auto shape = parseBeside(options.beside)) beside_ = makeBeside(*shape);
         if (!input) return;
         replay_.emplace(std::move(*input));
         tools_.emplace(device, opening);
@@ -114,7 +116,10 @@ public:
         stage_.recordSkin(commands);
         const Overlay overlay = recordLayers(commands);
         if (times_) times_->beginDrawing(commands);
-        offscreen_.record(commands, camera_, stage_.simulation(), overlay);
+        if (beside_)
+            recordHalves(commands, overlay);
+        else
+            offscreen_.record(commands, camera_, stage_.simulation(), overlay);
         if (times_) times_->endDrawing(commands);
         queue_.wait(queue_.submit(commands));
         if (times_) times_->pictureFinished();
@@ -139,6 +144,26 @@ public:
         std::printf("%s\n", hashText(stateHash(device_, stage_, queue_), stage_.steps()).c_str());
     }
 
+    /// Where another solver was asked for: what a step of each cost, and how wrong it is in the end.
+    void printBeside() {
+        if (!beside_) return;
+        StateProbe probe(device_, stage_.scene(), stage_.simulation());
+        const VkCommandBuffer commands = queue_.begin();
+        stage_.recordSkin(commands);
+        probe.record(commands);
+        beside_->recordPicture(commands, 0, true);
+        queue_.wait(queue_.submit(commands));
+        checkBeside(0);
+        const Strain strain = measureStrain(stage_.scene(), probe.positions());
+        const Facts other = beside_->facts();
+        const sim::Settings& settings = stage_.settings();
+        std::printf("%s: strain of links rms %.3f %%, largest %.2f %%\n",
+                    toText(BesideShape{settings.solver, settings.substeps}).c_str(), 100 * strain.rms,
+                    100 * strain.largest);
+        std::printf("%s: strain of links rms %.3f %%, largest %.2f %%\n", toText(beside_->shape()).c_str(),
+                    100 * double{other.strainRms.newest()}, 100 * double{other.strainMax.newest()});
+    }
+
     /// Where they were asked for; waits for nothing.
     void printTimes() const {
         if (times_) std::fputs(times_->table().c_str(), stdout);
@@ -147,6 +172,29 @@ public:
     PictureText text(std::uint64_t frame) const { return pictureText(opening_, device_, frame); }
 
 private:
+    std::unique_ptr<Beside> makeBeside(const BesideShape& shape) const {
+        try {
+            return std::make_unique<Beside>(device_, opening_.loaded, opening_.loaded.settings,
+                                            sim::Material{}, shape, sim::Simulation::framesInFlight);
+        } catch (const std::invalid_argument& error) {
+            const std::string why = error.what();
+            throw app::Failure(app::badInput,
+                               "cannot play " + toText(shape) + " beside: " + why.substr(0, why.find('\n')));
+        }
+    }
+
+    void recordHalves(VkCommandBuffer commands, const Overlay& overlay) {
+        beside_->recordPicture(commands, 0, false);
+        const Overlay other = overlayBeside(overlay);
+        offscreen_.recordHalves(commands, camera_,
+                                {{{stage_.simulation(), overlay}, {beside_->simulation(), other}}});
+    }
+
+    void checkBeside(std::uint32_t slot) {
+        if (const auto trouble = beside_->settle(slot))
+            throw app::Failure(app::diverged, "beside: " + trouble->why);
+    }
+
     // The range of a map is that of its own picture, whichever others are taken.
     Overlay recordLayers(VkCommandBuffer& commands) {
         Overlay overlay = tools_ ? tools_->overlay() : Overlay{};
@@ -226,6 +274,12 @@ private:
         VkCommandBuffer commands = queue_.begin();
         Submission next{.frame = frame, .value = 0, .hands = {}, .gravity = stage_.gravity()};
         if (tools_ && frame > 0) next.hands = tools_->takeStep(commands, stage_);
+        if (frame == 0 && beside_) {
+            if (opening_.run)
+                beside_->recordTakeOver(commands, stage_);
+            else
+                beside_->recordReset(commands);
+        }
         if (frame == 0 && !opening_.run)
             stage_.recordReset(commands);
         else if (frame > 0)
@@ -248,6 +302,11 @@ private:
             recordStep(commands, stage_, next.hands, timestamps);
         else
             stage_.recordStep(commands, timestamps);
+        if (beside_) beside_->recordStep(commands, stage_, next.hands, slotOf(next.frame), false);
+    }
+
+    static std::uint32_t slotOf(std::uint64_t frame) {
+        return static_cast<std::uint32_t>(frame % sim::Simulation::framesInFlight);
     }
 
     app::Bring bring() { return tools_ ? tools_->bring() : app::Bring(); }
@@ -284,6 +343,7 @@ private:
         queue_.wait(oldest.value);
         if (oldest.frame == 0) return;
         if (times_) times_->stepFinished(oldest.frame);
+        if (beside_) checkBeside(slotOf(oldest.frame));
         if (stage_.neededRoom(oldest.frame) > 0) return redoFrom(oldest);
         if (const std::optional<Divergence> divergence = stage_.check(oldest.frame))
             throw app::Failure(app::diverged, divergence->sentence());
@@ -301,6 +361,7 @@ private:
     bool isCompared_ = false; // with what was recorded
     bool isGridMissed_ = false;
     std::optional<Tools> tools_; // of the replay
+    std::unique_ptr<Beside> beside_;
     std::optional<HeadlessTimes> times_;
     vk::Queue queue_; // last: waits for what still uses the others
     std::deque<Submission> submissions_;
@@ -313,7 +374,9 @@ int runHeadless(const Options& asked, std::atomic<std::size_t>& messages) {
     std::optional<InputFile> input;
     if (!asked.replay.empty()) input = loadInput(asked.replay);
     const Options options = input ? withReplay(asked, *input) : asked;
-    const float aspect = static_cast<float>(options.size.width) / static_cast<float>(options.size.height);
+    const float halves = options.beside.empty() ? 1 : 0.5f;
+    const float aspect =
+        halves * static_cast<float>(options.size.width) / static_cast<float>(options.size.height);
     Opening opening = open(options, aspect);
     if (input) prepareForReplay(opening, *input);
     if (options.hasValidation) vk::enableQueueSubmitValidation();
@@ -338,6 +401,7 @@ int runHeadless(const Options& asked, std::atomic<std::size_t>& messages) {
         progress.finish();
         recorder.finishReplay();
         recorder.printTimes();
+        recorder.printBeside();
     } catch (const app::Failure& failure) {
         if (failure.code() == app::diverged) // what was drawn before is whole and stays
             outputs.finish();

@@ -173,6 +173,7 @@ void play(std::unique_ptr<Opening> opening, const Options& options, const Prefer
                   asAsked(preferences, options));
     if (options.isFullScreen) window.toggleFullScreen();
     screen.layers() = options.layers;
+    screen.beside() = parseBeside(options.beside);
     tell(*first, screen);
     if (isSoftware(*device))
         std::printf("software device: small shadow maps, no multisampling and fewer pixels while things "

@@ -4,6 +4,7 @@
 #include "app/guard.hpp"
 #include "sim/compile.hpp"
 #include "sim/ranges.hpp"
+#include "viewer/beside.hpp"
 #include "viewer/hands/bindings.hpp"
 #include "viewer/window/preferences.hpp"
 
@@ -157,6 +158,8 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
            "along that it lies [m]")
         ->delimiter(',')
         ->expected(4);
+    app.add_option("--beside", options.beside,
+                   "another solver beside the first, in step with it: SOLVER or SOLVER:SUBSTEPS");
     app.add_option("--replay", options.replay,
                    "a log of input, as the window saves it: opens its scene and does the same again");
     app.add_flag(
@@ -174,6 +177,8 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     }
     for (const std::string& layer : layers) addLayer(layer, options.layers);
     if (!section.empty()) options.layers.section = parseSection(section);
+    if (!options.beside.empty() && !parseBeside(options.beside))
+        refuse("--beside " + options.beside + " is no SOLVER or SOLVER:SUBSTEPS, such as gauss_seidel:4");
     if (app.count("--size") > 0) options.size = parseSize(size);
     options.hasSize = app.count("--size") > 0;
     options.hasFrames = app.count("--frames") + app.count("--picture-frames") > 0;

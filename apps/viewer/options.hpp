@@ -28,7 +28,8 @@ struct Options {
     bool isFullScreen = false;
     std::optional<float> bladeDepth; ///< as CutTool::setDepth
     Layers layers;
-    bool isTimed = false;                                                           ///< Timing
+    std::string beside;   ///< as parseBeside; empty = none
+    bool isTimed = false; ///< Timing
     std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now(); ///< of the program
 
     std::filesystem::path replay; ///< a log of input; empty = none

@@ -32,6 +32,7 @@ View::View(const vk::Device& device, VkFormat format, const Quality& quality, co
 
 void View::dropCanvases() {
     for (std::optional<Canvas>& canvas : canvases) canvas.reset();
+    halves.reset();
 }
 
 PreparedShow::PreparedShow(const vk::Device& device, const Opening& opening, VkFormat format)

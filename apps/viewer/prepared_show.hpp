@@ -30,6 +30,7 @@ struct View {
     /// By PictureBudget::scale(), of which there is 0 alone where quality has no mayEnlarge; made when they
     /// are first needed.
     std::array<std::optional<Canvas>, PictureBudget::scales.size()> canvases;
+    std::optional<Halves> halves; ///< of the same pictures, likewise
 };
 
 /// Must not outlive opening and device, which must not move.

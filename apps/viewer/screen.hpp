@@ -2,6 +2,7 @@
 // scenes. Each scene brings its own place to draw in.
 #pragma once
 
+#include "viewer/beside.hpp"
 #include "viewer/panels/panels.hpp"
 #include "viewer/prepared_show.hpp"
 #include "viewer/window/preferences.hpp"
@@ -37,6 +38,10 @@ public:
     /// What is on, of every scene.
     Layers& layers() { return layers_; }
     const Layers& layers() const { return layers_; }
+
+    /// What is to play beside every scene; nothing = none.
+    std::optional<BesideShape>& beside() { return beside_; }
+    const std::optional<BesideShape>& beside() const { return beside_; }
 
     /// Of the window and the panels, as they are now.
     Preferences preferences() const;
@@ -80,6 +85,7 @@ private:
     PanelInput input_;
     Notice notice_;
     Layers layers_;
+    std::optional<BesideShape> beside_;
     float ownScale_, windowScale_; // of texts: as chosen, and as the display wants them
     Clock::time_point lastPicture_ = Clock::now();
     VkExtent2D pixels_{};

@@ -21,7 +21,7 @@ constexpr std::uint32_t picturesOfATouch = 3;      // until Dear ImGui shows wha
 constexpr double stillAfter = 0.25; // [s] without a change before a paused picture is the last one
 
 static_assert(Presenter::framesInFlight * Playback::maxSteps <= sim::Simulation::framesInFlight);
-static_assert(3 * Presenter::framesInFlight < Renderer::slots); // with films and files of pictures
+static_assert(6 * Presenter::framesInFlight < Renderer::slots); // with films and files of pictures, of halves
 static_assert(Presenter::framesInFlight <= Timing::slots);
 
 } // namespace
@@ -85,7 +85,7 @@ std::unique_ptr<Opening> Show::run() {
 // What cannot be opened leaves all as it is. What is to go on with less room than there is by now would have
 // to make more in this thread: it is asked for again.
 std::unique_ptr<Opening> Show::takeOpened() {
-    if (stage_.isGrowing() || backstage_.isBusy()) return nullptr;
+    if (stage_.isGrowing() || backstage_.isBusy() || besideMaking_.valid()) return nullptr;
     try {
         std::unique_ptr<Opening> opened = library_.take();
         const auto hasRoom = [this](const Again& other) {
@@ -103,6 +103,12 @@ std::unique_ptr<Opening> Show::takeOpened() {
 }
 
 float Show::pictureAspect() const {
+    const std::uint32_t height = screen_.presenter().extent().height;
+    if (!beside_ || height == 0) return wholeAspect();
+    return 0.5f * static_cast<float>(halvesWidth()) / static_cast<float>(height);
+}
+
+float Show::wholeAspect() const {
     const VkExtent2D extent = screen_.presenter().extent();
     return extent.height > 0 ? static_cast<float>(extent.width) / static_cast<float>(extent.height) : 1;
 }
@@ -111,12 +117,13 @@ void Show::turn() {
     const bool isIdle = isHidden_ || (shown_ == Shown::still && panelsDue_ == 0);
     const bool isBusy = backstage_.isBusy();        // pictures wait for it, hands do not
     if (!isBusy) screen_.presenter().waitForSlot(); // the next picture has what came until it can be drawn
-    const bool isMaking = backstage_.isMaking() || stage_.isGrowing();
+    const bool isMaking = backstage_.isMaking() || stage_.isGrowing() || besideMaking_.valid();
     screen_.timing().beforeInput(isIdle);
     Input input = screen_.window().poll(isBusy || (isIdle && isMaking) ? rehearsalWait
                                         : isIdle                       ? idleWait
                                                                        : 0);
     screen_.timing().afterInput(!input.isEmpty() || input.panels.isTouched, picturesOnTheirWay());
+    foldPointer(input);
     const bool hasMoved = input.pointer != std::exchange(pointer_, input.pointer);
     const bool isUsed = hasMoved || !input.presses.empty();
     // Panels change over a still scene without taking its quality away.
@@ -142,6 +149,7 @@ void Show::turn() {
 void Show::play() {
     if (replayed_) compareReplay();
     takeGrowth();
+    if (!backstage_.isBusy()) tendBeside();
     if (backstage_.isBusy()) return;
     isHidden_ = !prepareSwapchain();
     const auto now = Clock::now();
@@ -175,7 +183,7 @@ void Show::goOn() {
         if (inspector_.isOn()) inspector_.toggle();
         screen_.warn(error.what());
     }
-    const bool isMaking = backstage_.isMaking() || stage_.lacksContactRoom();
+    const bool isMaking = backstage_.isMaking() || stage_.lacksContactRoom() || besideMaking_.valid();
     if (!isMaking) isMakingSaid_ = false;
     if (!isMaking) return makingSince_.reset();
     if (!makingSince_) makingSince_ = Clock::now();
@@ -254,19 +262,22 @@ void Show::draw(Plan plan, View& view) {
 // Timed where somebody wants to know: each look at the clock costs a software device a flush.
 void Show::drawPicture(const Presenter::Frame& frame, const Overlay& overlay, View& view) {
     const bool isReduced = prepared_.still && &view == &prepared_.moving;
-    const std::size_t scale = isReduced ? budget_.scale() : 0;
+    const std::size_t scale = isReduced && !beside_ ? budget_.scale() : 0;
     std::optional<Canvas>& canvas = view.canvases[scale];
-    if (!canvas)
+    if (!canvas && !beside_)
         canvas.emplace(view.renderer.makeCanvas(screen_.presenter().extent(), screen_.presenter().views(),
                                                 PictureBudget::scales[scale]));
-    view.renderer.prepareCanvas(overlay.layers, *canvas);
+    if (canvas) view.renderer.prepareCanvas(overlay.layers, *canvas);
     const bool isTimed = inFlight_[frame.slot].isTimed = screen_.timing().isOn();
     vk::Commands commands(device_, frame.commands);
     vk::Timestamps& times = drawingTimes_[frame.slot];
     if (isTimed) times.reset(commands);
     if (isTimed) times.begin(commands, 0);
-    view.renderer.record(frame.commands, frame.slot, *canvas, frame.image, controller_.camera,
-                         stage_.simulation(), overlay);
+    if (beside_)
+        drawHalves(frame, overlay, view);
+    else
+        view.renderer.record(frame.commands, frame.slot, *canvas, frame.image, controller_.camera,
+                             stage_.simulation(), overlay);
     if (isTimed) times.end(commands, 0);
     if (std::exchange(wantsScreenshot_, false)) recordScreenshot(frame, overlay);
     if (isTimed) times.begin(commands, 1);
@@ -315,6 +326,7 @@ Facts Show::facts(std::optional<float> reduced) const {
     if (drawn_.layers.hasCells) facts.grids = grids_;
     if (drawn_.layers.hasLinks) facts.links = backstage_.inspection().links();
     facts.isPreparing = drawn_.layers != screen_.layers();
+    facts.beside = besideFacts();
     facts.isInspecting = inspector_.isOn();
     facts.found = inspector_.found();
     facts.isRecording = recording_.has_value();

@@ -1,6 +1,6 @@
 // A scene playing in a window: input, steps in real time, one submission a frame. A paused picture is drawn
 // once and then left alone; on a software device that last one has full quality. The loop stands in show.cpp,
-// the rest beside it: show_input, show_flights, show_pictures, show_replay, show_shape.
+// the rest beside it: show_input, show_flights, show_pictures, show_replay, show_shape, show_beside.
 #pragma once
 
 #include "viewer/backstage.hpp"
@@ -151,6 +151,18 @@ private:
     void settleMap(std::uint32_t slot, const InFlight& flight);
     void settleCells(std::uint32_t slot);
     void toggleWires();
+    void toggleBeside();
+    void tendBeside();
+    void makeBeside(const BesideShape& shape, const sim::Settings& settings);
+    void takeBeside();
+    void dropBeside();
+    void settleBeside(std::uint32_t slot);
+    void foldPointer(Input& input);
+    void drawHalves(const Presenter::Frame& frame, const Overlay& overlay, View& view);
+    void recordShot(Shot& shot, VkCommandBuffer commands, std::uint32_t slot, const Overlay& overlay);
+    BesideFacts besideFacts() const;
+    float wholeAspect() const;
+    std::uint32_t halvesWidth() const;
     void stop(const std::string& why);
     void makeRoom(std::uint64_t step, const InFlight& undone);
     void settleAll();
@@ -169,6 +181,9 @@ private:
     Backstage backstage_;
     Watched drawn_; // of what is wanted, what the newest picture has
     Inspector inspector_;
+    std::unique_ptr<Beside> beside_;
+    std::optional<BesideShape> besideAsked_; // that it is, or is being made as
+    std::future<std::unique_ptr<Beside>> besideMaking_;
     Vector2 pointer_ = Vector2::Zero(); // as Input::pointer
     std::optional<Look> wantsLook_;
     std::optional<Look::At> armed_; // by a button: the next press says where
@@ -204,7 +219,8 @@ private:
     bool isBroken_ = false;                        // has diverged, likewise
     bool isHidden_ = false, isDiverged_ = false, isSurfaceMissing_ = false, isCut_ = false,
          isRefused_ = false, wantsScreenshot_ = false, wantsProbe_ = false, isInputDue_ = false,
-         isMakingSaid_ = false, isSurfaceGrowing_ = false;
+         isMakingSaid_ = false, isSurfaceGrowing_ = false, isBesideOut_ = false, isRightHalf_ = false,
+         isButtonDown_ = false;
 };
 
 } // namespace sinew::viewer

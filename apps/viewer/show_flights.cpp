@@ -20,6 +20,8 @@ void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
     InFlight& flight = inFlight_[frame.slot];
     if (plan.isReset) {
         stage_.recordReset(frame.commands);
+        if (beside_) beside_->recordReset(frame.commands);
+        isBesideOut_ = false;
         gauges_.restart();
         if (replay_) tools_.putAway(stage_);
         tools_.reset();
@@ -34,6 +36,7 @@ void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
     if (tools_.recordHistory(frame.commands, stage_)) {
         forgetFlights();
         isDiverged_ = false;
+        isBesideOut_ = true; // it goes on from there, too
     }
     if (replay_ && plan.steps > 0 && !playInput(frame)) plan.steps = 0;
     flight.firstStep = stage_.steps() + 1;
@@ -46,9 +49,12 @@ void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
         const StepHands hands = tools_.takeStep(frame.commands, stage_);
         if (hands.sweep) flight.sweeps.push_back(*hands.sweep);
         recordStep(frame.commands, stage_, hands, step == 0 ? &times_[frame.slot] : nullptr);
+        if (beside_ && !isBesideOut_)
+            beside_->recordStep(frame.commands, stage_, hands, frame.slot, step == 0);
     }
     stage_.recordSkin(frame.commands);
     recordProbe(frame);
+    if (beside_) beside_->recordPicture(frame.commands, frame.slot, flight.isMeasured);
 }
 
 // What is on its way belongs to a state that is no more: nobody need look at it, nor cut it again.
@@ -121,6 +127,7 @@ void Show::settle(std::uint32_t slot) {
     if (flight.hasContacts && drawn_.layers.hasContacts)
         contactsFound_ = backstage_.inspection().contacts(slot);
     if (flight.hasCells && drawn_.layers.hasCells) settleCells(slot);
+    settleBeside(slot);
     bool isUndone = false;
     for (std::uint32_t i = 0; i < flight.steps && !isDiverged_; ++i) {
         const std::uint64_t step = flight.firstStep + i;
@@ -257,6 +264,7 @@ void Show::stop(const std::string& why) {
 void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
     const std::uint64_t newest = stage_.steps();
     if (!stage_.beginRoom(step)) return stop(app::tooCrowded(step));
+    isBesideOut_ = true; // it has taken those steps
     if (std::exchange(replay_, std::nullopt))
         screen_.warn("the replay ends here: contacts need more room than when it was recorded");
     std::vector<Sweep> sweeps = undone.sweeps;

@@ -28,6 +28,7 @@ void Show::grant(const Wishes& wishes, Input& input) {
         screen_.layers().section->offset = *wishes.sectionOffset;
         input.needsRedraw = true;
     }
+    if (wishes.beside) screen_.beside() = shapeOf(*wishes.beside);
     if (wishes.knobs && !replay_) turnKnobs(*wishes.knobs); // a replay has the hands
 }
 
@@ -52,6 +53,7 @@ void Show::turnMaterial(const Knobs& knobs) {
     knobs_.body = knobs.body;
     const sim::Material material = materialOf(knobs_, sceneFacts_.fromFile);
     if (material != before) stage_.turn(material);
+    if (material != before && beside_) besideAsked_.reset(); // made again with it
 }
 
 // What cannot be had leaves all as it is; what needs other passes needs another simulation.
@@ -107,6 +109,9 @@ void Show::handle(Action action) {
     case Action::turnSection:
     case Action::faceSection:
         changeSection(action);
+        break;
+    case Action::beside:
+        toggleBeside();
         break;
     case Action::screenshot:
         wantsScreenshot_ = true;

@@ -31,8 +31,15 @@ void Show::recordScreenshot(const Presenter::Frame& frame, const Overlay& overla
         return screen_.warn(std::string("no picture: ") + error.what());
     }
     flight.screenshotStep = stage_.steps();
-    flight.screenshot->record(frame.commands, frame.slot + 2 * Presenter::framesInFlight, controller_.camera,
-                              stage_.simulation(), overlay);
+    recordShot(*flight.screenshot, frame.commands, frame.slot + 2 * Presenter::framesInFlight, overlay);
+}
+
+// With what is beside, as the window shows it.
+void Show::recordShot(Shot& shot, VkCommandBuffer commands, std::uint32_t slot, const Overlay& overlay) {
+    if (!beside_) return shot.record(commands, slot, controller_.camera, stage_.simulation(), overlay);
+    const Overlay other = overlayBeside(overlay);
+    shot.recordHalves(commands, {slot, slot + 3 * Presenter::framesInFlight}, controller_.camera,
+                      {{{stage_.simulation(), overlay}, {beside_->simulation(), other}}});
 }
 
 // The one before must be there: its name is taken only then.
@@ -83,8 +90,7 @@ void Show::finishFilm() {
 }
 
 void Show::recordCamera(const Presenter::Frame& frame, const Overlay& overlay) {
-    cameras_[frame.slot]->record(frame.commands, frame.slot + Presenter::framesInFlight, controller_.camera,
-                                 stage_.simulation(), overlay);
+    recordShot(*cameras_[frame.slot], frame.commands, frame.slot + Presenter::framesInFlight, overlay);
     inFlight_[frame.slot].isRecorded = true;
 }
 

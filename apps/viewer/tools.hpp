@@ -20,8 +20,9 @@ struct Opening;
 
 /// What hands do in one step.
 struct StepHands {
-    std::array<sim::Grab, sim::ranges::mostGrabs> grabs{}; ///< the pointer's, then pins
-    std::optional<Sweep> sweep;                            ///< of the blade
+    StepHands() { grabs.fill(emptyHand()); }
+    std::array<sim::Grab, sim::ranges::mostGrabs> grabs; ///< the pointer's, then pins; at first empty
+    std::optional<Sweep> sweep;                          ///< of the blade
     std::optional<sim::Poke> poke;
 };
 void recordStep(VkCommandBuffer commands, Stage& stage, const StepHands& hands,

@@ -70,7 +70,9 @@ StepHands Tools::takeStep(VkCommandBuffer commands, const Stage& stage) {
     blade_.stepTaken();
     rememberStep(commands, stage);
     if (blade_.beginsStroke()) remember(commands, stage);
-    StepHands hands{.sweep = blade_.next(), .poke = poke_.poke()};
+    StepHands hands;
+    hands.sweep = blade_.next();
+    hands.poke = poke_.poke();
     hands.grabs[0] = hand_.isHolding() ? hand_.grabs()[0] : emptyHand();
     std::ranges::copy(pins_.grabs(), hands.grabs.begin() + 1);
     return hands;

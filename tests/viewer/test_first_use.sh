@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# test_first_use.sh VIEWER FOLDER: what is first used while a scene plays (layers, a section, pictures, a film, more room for contacts
-# and for the surface of cuts) is there, and the thread that looks at keys has made no pipeline for it.
+# test_first_use.sh VIEWER FOLDER: what is first used while a scene plays (layers, a section, pictures, a film, more room for contacts,
+# another solver beside the first) is there, and the thread that looks at keys has made no pipeline for it.
 set -euo pipefail
 viewer=$1 folder=$2
 here=$(cd "$(dirname "$0")" && pwd)
@@ -8,7 +8,7 @@ extent=320x200
 options=(--validation --timing)
 . "$here/window.sh"
 
-# Room for a single neighbour, and a blade of the scene's own whose cuts need more surface than there is room for.
+# Room for a single neighbour.
 cat >crowd.toml <<'TOML'
 name = "crowd"
 [solver]
@@ -79,8 +79,45 @@ for _ in {1..100}; do
     sleep 1
 done
 grep -q '^[1-9][0-9]* pictures in ' viewer.out || fail "F9 made no film"
+echo "first use: another solver beside"
+line() { convert "$1" -crop 2x160+159+0 +repage -colorspace sRGB -format '%[fx:mean < 0.1 ? 1 : 0]' info:; } # between the halves
+[[ $(line layers.png) == 0 ]] || fail "there are halves before B"
+keys b
+for _ in {1..300}; do
+    shoot halves.png
+    [[ $(line halves.png) == 1 ]] && break
+    [[ -s viewer.err ]] && break
+    sleep 0.3
+done
+grep -q '^warning: not beside: .*solver gauss_seidel has no form for' viewer.err || fail "what gauss_seidel has no form for is not refused"
+(($(wc -l <viewer.err) == 1)) || fail "more was said on stderr"
+: >viewer.err
 keys ctrl+q
 awaitEnd 0
 (($(grep -c 'pipelines made while keys waited: 0$' viewer.out) == 1)) || fail "the window's thread made pipelines: $(grep pipelines viewer.out)"
 grep -q 'pipelines made while keys waited: [^0]' viewer.out && fail "the window's thread made pipelines: $(grep pipelines viewer.out)"
+
+echo "first use: another solver beside the first, in halves"
+sed -e '/cuttable/d' -e '/collides/d' crowd.toml >loose.toml
+scene=loose.toml
+start --beside jacobi
+xdotool windowmove "$window" 0 0
+for _ in {1..300}; do
+    shoot halves.png
+    [[ $(line halves.png) == 1 ]] && break
+    sleep 0.3
+done
+[[ $(line halves.png) == 1 ]] || fail "--beside shows no halves"
+halfReds() { convert "$1" -crop "160x200+$2+0" +repage half.png && reds half.png; }
+(($(halfReds halves.png 0) > 30 && $(halfReds halves.png 160) > 30)) || fail "a body is missing in a half"
+keys b
+for _ in {1..100}; do
+    shoot whole.png
+    [[ $(line whole.png) == 0 ]] && break
+    sleep 0.3
+done
+[[ $(line whole.png) == 0 ]] || fail "B does not end it"
+keys ctrl+q
+awaitEnd 0
+(($(grep -c 'pipelines made while keys waited: 0$' viewer.out) == 1)) || fail "the window's thread made pipelines: $(grep pipelines viewer.out)"
 echo passed

@@ -53,6 +53,12 @@ TEST(Options, HaveWhatKeysChangeInTheWindow) {
     EXPECT_NE(complaint({"--blade-depth", "1", "--replay", "a.input"}).find("--replay"), std::string::npos);
 }
 
+TEST(Options, SayWhatPlaysBeside) {
+    EXPECT_EQ(parse({"--beside", "gauss_seidel:4"}).beside, "gauss_seidel:4");
+    EXPECT_EQ(parse({}).beside, "");
+    EXPECT_NE(complaint({"--beside", "newton"}).find("--beside newton"), std::string::npos);
+}
+
 TEST(Options, OfTheWindowAreRefusedWithoutOne) {
     for (const std::vector<const char*>& some : {std::vector{"--no-vsync"},
                                                  {"--panels"},

@@ -16,6 +16,8 @@ public:
     VkExtent2D extent() const noexcept { return extent_; }        ///< of the pictures
     VkExtent2D drawn() const noexcept { return image_.extent(); } ///< of the image
     VkImageView view() const noexcept { return image_.view(); }   ///< of the image
+    /// Whether it has pictures of its own; else it is a part of some.
+    bool isWhole() const noexcept { return !framebuffers_.empty(); }
     VkFramebuffer framebuffer(std::size_t picture) const noexcept { return framebuffers_[picture].handle(); }
 
 private:

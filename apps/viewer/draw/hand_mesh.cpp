@@ -36,6 +36,14 @@ Mesh makeMesh(const HandMesh::Shape& shape) {
 
 } // namespace
 
+Overlay overlayBeside(const Overlay& overlay) {
+    Overlay other = overlay;
+    other.layers.map = ColorMap::none;
+    other.layers.hasLinks = other.layers.hasContacts = other.layers.hasCells = false;
+    other.buffers = {.balls = overlay.buffers.balls};
+    return other;
+}
+
 HandMesh::HandMesh(const vk::Device& device, const Shape& shape)
     : device_(device), vertices_(filledBuffer(device, "hand.vertices", makeMesh(shape).corners,
                                               VK_BUFFER_USAGE_VERTEX_BUFFER_BIT)),

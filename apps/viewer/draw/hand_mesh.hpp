@@ -25,6 +25,9 @@ struct Overlay {
     LayerBuffers buffers = {}; ///< of what `layers` needs
 };
 
+/// The same for a second simulation, of whose state layers know nothing: those that need none.
+Overlay overlayBeside(const Overlay& overlay);
+
 constexpr std::size_t mostStrokePoints = 256;
 
 /// Vertices for hand.vert or mark.vert and indices. Must not outlive its Device, which must not move.

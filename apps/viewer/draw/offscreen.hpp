@@ -26,6 +26,10 @@ public:
                        const Overlay& overlay = {}) {
         shot_.recordPicture(commands, 0, camera, simulation, overlay);
     }
+    void recordHalves(VkCommandBuffer commands, const Camera& camera,
+                      const std::array<Shot::Side, 2>& sides) {
+        shot_.recordHalves(commands, {0, 1}, camera, sides);
+    }
     void recordCopy(VkCommandBuffer commands) const noexcept { shot_.recordCopy(commands); }
     VkImageView view() const noexcept { return shot_.view(); }
     Picture read() const { return shot_.read(); }

@@ -76,20 +76,19 @@ Renderer::Renderer(const vk::Device& device, const Target& target, const Quality
     makeBodies(to);
     makeCuts(to);
     if (!balls_.ranges().empty()) makeBalls(to);
-    if (quality.keepsBackdrop || quality.mayEnlarge)
-        readablePass_.emplace(
-            RenderPass::picture(device_, {.color = format_.color,
-                                          .depth = format_.depth,
-                                          .samples = format_.samples,
-                                          .finalLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}));
+    readablePass_.emplace(
+        RenderPass::picture(device_, {.color = format_.color,
+                                      .depth = format_.depth,
+                                      .samples = format_.samples,
+                                      .finalLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}));
     if (quality.keepsBackdrop) makeBackdrop(to);
-    if (quality.mayEnlarge) wholePass_.emplace(RenderPass::whole(device_, format_.color, finalLayout_));
-    if (quality.mayEnlarge) makeEnlarging(to);
+    wholePass_.emplace(RenderPass::whole(device_, format_.color, finalLayout_));
+    makeEnlarging(to);
     add(std::move(to));
 }
 
 Canvas Renderer::makeCanvas(VkExtent2D extent, std::span<const VkImageView> pictures, float scale) const {
-    Canvas canvas = scale < 1 && wholePass_
+    Canvas canvas = scale < 1 && quality_.mayEnlarge
                         ? Canvas(device_, *readablePass_, format_,
                                  Enlarging(device_, *wholePass_, format_.color, extent, scale, pictures))
                         : Canvas(device_, pass_, format_, extent, pictures);
@@ -126,7 +125,8 @@ void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, Canvas& canv
     sets_.bind(commands, slot);
     vk::Commands labels(device_, commands);
     labels.beginLabel("light maps");
-    recordMaps(commands, simulation, overlay);
+    const bool isPart = enlarging && !enlarging->isWhole(); // the other has other bodies
+    recordMaps(commands, simulation, overlay, isPart || pictures_++ % quality_.floorEvery == 0);
     labels.endLabel();
     if (isOpened) {
         labels.beginLabel("section");
@@ -140,7 +140,7 @@ void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, Canvas& canv
     }
     labels.beginLabel("picture");
     recordPicture(commands, sheet, simulation, overlay, params, backdrop != Backdrop::Use::direct);
-    if (enlarging) recordEnlarging(commands, *enlarging, picture);
+    if (enlarging && enlarging->isWhole()) recordEnlarging(commands, *enlarging, picture);
     labels.endLabel();
 }
 
@@ -158,8 +158,8 @@ void Renderer::drawShades(VkCommandBuffer commands, std::size_t ofSkins, std::si
     drawBalls(commands, opened(ofBalls, layers), simulation, overlay);
 }
 
-void Renderer::recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation,
-                          const Overlay& overlay) noexcept {
+void Renderer::recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation, const Overlay& overlay,
+                          bool isFloorDue) const noexcept {
     const vk::DeviceFunctions& functions = device_.functions();
     const std::array far{VkClearValue{.depthStencil = {1, 0}}};
     const std::array open{VkClearValue{.color = {{1, 1, 1, 1}}}};
@@ -169,7 +169,7 @@ void Renderer::recordMaps(VkCommandBuffer commands, const sim::Simulation& simul
     beginMap(maps_.shadow, far);
     drawShades(commands, shadowPipeline, ballShadowPipeline, simulation, overlay);
     functions.vkCmdEndRenderPass(commands);
-    if (pictures_++ % quality_.floorEvery != 0) return;
+    if (!isFloorDue) return;
     // Without a ground the other two are only cleared: the shaders' bindings stay readable.
     beginMap(maps_.plan, far);
     if (light_.ground) drawShades(commands, planPipeline, ballPlanPipeline, simulation, overlay);

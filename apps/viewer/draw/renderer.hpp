@@ -4,8 +4,8 @@
 
 #include "sim/simulation.hpp"
 #include "viewer/draw/balls.hpp"
-#include "viewer/draw/canvas.hpp"
 #include "viewer/draw/collider_meshes.hpp"
+#include "viewer/draw/halves.hpp"
 #include "viewer/draw/hand_mesh.hpp"
 #include "viewer/draw/picture_sets.hpp"
 #include "viewer/draw/pipeline.hpp"
@@ -38,8 +38,9 @@ bool isSoftware(const vk::Device& device);
 /// move.
 class Renderer {
 public:
-    /// Pictures recorded but not finished, at most: those of a window, films and files of them, a rehearsal.
-    static constexpr std::uint32_t slots = 7;
+    /// Pictures recorded but not finished, at most: those of a window, films and files of them, each
+    /// of two halves, a rehearsal.
+    static constexpr std::uint32_t slots = 13;
 
     struct Target {
         VkFormat color = VK_FORMAT_R8G8B8A8_SRGB;
@@ -86,6 +87,12 @@ public:
     /// For pictures that are left in TRANSFER_SRC_OPTIMAL layout; another one than the target's has a scale
     /// of 1.
     Canvas makeCopiedCanvas(VkExtent2D extent, std::span<const VkImageView> pictures, float scale = 1) const;
+    /// For two pictures in one: each is recorded into a canvas of its own, in a slot of its own, then both
+    /// put in their places, `width` pixels from the left. `isCopied` as of makeCopiedCanvas().
+    Halves makeHalves(VkExtent2D extent, std::span<const VkImageView> pictures, std::uint32_t width,
+                      bool isCopied = false) const;
+    void recordHalves(VkCommandBuffer commands, std::array<std::uint32_t, 2> ofHalves, const Halves& halves,
+                      std::size_t picture) const noexcept;
     VkFormat format() const noexcept { return format_.color; }
 
     /// Records one picture. `commands` must be recording, outside a render pass, after recordSkin() of
@@ -135,8 +142,8 @@ private:
     bool isOpened(std::size_t index) const noexcept;
     const RenderPass& countsPass(Additions& to) const;
     const RenderPass& passOf(const Canvas& canvas) const noexcept;
-    void recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation,
-                    const Overlay& overlay) noexcept;
+    void recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation, const Overlay& overlay,
+                    bool isFloorDue) const noexcept;
     void drawShades(VkCommandBuffer commands, std::size_t ofSkins, std::size_t ofBalls,
                     const sim::Simulation& simulation, const Overlay& overlay) const noexcept;
     void recordCounts(VkCommandBuffer commands, const Canvas& canvas, const sim::Simulation& simulation,

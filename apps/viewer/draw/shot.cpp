@@ -43,6 +43,20 @@ void Shot::recordPicture(VkCommandBuffer commands, std::uint32_t slot, const Cam
     renderer_.record(commands, slot, canvas_, 0, camera, simulation, overlay);
 }
 
+void Shot::recordHalves(VkCommandBuffer commands, std::array<std::uint32_t, 2> slots, const Camera& camera,
+                        const std::array<Side, 2>& sides) {
+    if (!halves_)
+        halves_.emplace(
+            renderer_.makeHalves(image_.extent(), std::array{image_.view()}, image_.extent().width, true));
+    for (std::size_t side = 0; side < 2; ++side) {
+        renderer_.prepareCanvas(sides[side].overlay.layers, halves_->canvases[side]);
+        renderer_.record(commands, slots[side], halves_->canvases[side], 0, camera, sides[side].simulation,
+                         sides[side].overlay);
+    }
+    renderer_.recordHalves(commands, slots, *halves_, 0);
+    recordCopy(commands);
+}
+
 void Shot::recordCopy(VkCommandBuffer commands) const noexcept {
     const VkBufferImageCopy region{.bufferOffset = readback_.view().offset,
                                    .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},

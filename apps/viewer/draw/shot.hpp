@@ -18,6 +18,14 @@ public:
     void record(VkCommandBuffer commands, std::uint32_t slot, const Camera& camera,
                 const sim::Simulation& simulation, const Overlay& overlay = {});
 
+    /// Two simulations beside each other, each with its overlay: in `slots`, one each.
+    struct Side {
+        const sim::Simulation& simulation;
+        const Overlay& overlay;
+    };
+    void recordHalves(VkCommandBuffer commands, std::array<std::uint32_t, 2> slots, const Camera& camera,
+                      const std::array<Side, 2>& sides);
+
     /// The same in two, for what draws over the picture in between: it finds and leaves view() in
     /// TRANSFER_SRC_OPTIMAL layout.
     void recordPicture(VkCommandBuffer commands, std::uint32_t slot, const Camera& camera,
@@ -34,6 +42,7 @@ private:
     Image image_;
     vk::Buffer readback_;
     Canvas canvas_;
+    std::optional<Halves> halves_; // made when they are first wanted
 };
 
 } // namespace sinew::viewer

@@ -137,6 +137,13 @@ void Stage::takeOver(const Stage& from, const app::Bring& bring) {
     played_ = from.played_;
 }
 
+void Stage::recordTakeOver(VkCommandBuffer commands, const Stage& from) noexcept {
+    simulation().recordTakeOver(commands, from.simulation());
+    gravity_ = from.gravity_;
+    steps_ = from.steps_;
+    played_ = from.played_;
+}
+
 // While nothing is recorded, what is ready makes way for what was asked for later.
 Stage::Turn Stage::takeTurn(bool isPaused) {
     if (isPaused && wanted_) ready_.reset();

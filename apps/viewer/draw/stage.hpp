@@ -89,6 +89,10 @@ public:
     /// of substeps and device: as app::GrowingSimulation::takeOver, instead of recordReset().
     void takeOver(const Stage& from, const app::Bring& bring = {});
 
+    /// The same on this device, in commands before which all steps of both have finished, with the room that
+    /// this has.
+    void recordTakeOver(VkCommandBuffer commands, const Stage& from) noexcept;
+
     /// For what goes back to earlier states.
     sim::Simulation& simulation() noexcept { return growing_.simulation(); }
 

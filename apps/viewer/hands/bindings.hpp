@@ -42,6 +42,7 @@ enum class Action {
     cells,
     colorMap,
     inspect,
+    beside,
     section,
     turnSection,
     faceSection,

@@ -81,6 +81,22 @@ struct Knobs {
     bool operator==(const Knobs&) const = default;
 };
 
+/// The solver that plays beside the one on show.
+struct BesideKnobs {
+    int solver = 0;   ///< of SceneFacts::solvers
+    int substeps = 0; ///< 0 = as many as the scene needs
+    bool operator==(const BesideKnobs&) const = default;
+};
+constexpr int mostSubsteps = 1000;
+
+struct BesideFacts {
+    bool isOn = false, isMaking = false;
+    BesideKnobs knobs;                ///< where it is on
+    std::array<std::string, 2> names; ///< of the first and of this; empty while it is not there
+    std::vector<PhaseCurve> phases;   ///< as Facts::phases
+    Curve strainRms, strainMax;       ///< as those of Facts
+};
+
 /// What stays as it is while a scene is shown.
 struct SceneFacts {
     std::string name, device, driver;
@@ -135,6 +151,7 @@ struct Facts {
     LinkFacts links;                     ///< likewise
     std::vector<GridFacts> grids;        ///< likewise; none where the solver has none
     bool isPreparing = false;            ///< layers that are on and not drawn yet
+    BesideFacts beside;
     bool isInspecting = false;
     std::optional<Found> found; ///< while inspecting
     std::string notice;         ///< the newest message; empty = none
@@ -149,9 +166,12 @@ struct Wishes {
     std::optional<std::size_t> device; ///< of Facts::devices
     std::optional<Knobs> knobs;
     std::optional<float> sectionOffset; ///< [m]
+    std::optional<BesideKnobs> beside;
     /// Of Facts::scenes whose names are seen without a picture; nothing = no panel has been drawn.
     std::optional<std::vector<std::size_t>> previews;
-    bool isEmpty() const { return actions.empty() && !scene && !file && !device && !knobs && !sectionOffset; }
+    bool isEmpty() const {
+        return actions.empty() && !scene && !file && !device && !knobs && !sectionOffset && !beside;
+    }
 };
 
 } // namespace sinew::viewer

@@ -52,6 +52,7 @@ void device(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
 void play(const Facts& facts, Wishes& wishes);
 void look(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
 void speed(const Facts& facts);
+void beside(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
 void counts(const SceneFacts& scene, const Facts& facts);
 void cuts(const SceneFacts& scene, const Facts& facts, Wishes& wishes);
 void program(const SceneFacts& scene);

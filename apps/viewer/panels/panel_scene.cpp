@@ -13,8 +13,6 @@ namespace sinew::viewer::parts {
 
 namespace {
 
-constexpr int mostSubsteps = 1000;
-
 // A quiet name, and on the right of it room for something to turn.
 void knob(const char* name) {
     ImGui::AlignTextToFramePadding();

@@ -16,7 +16,7 @@ namespace sinew::viewer {
 
 namespace {
 
-constexpr float textHeight = 14, sideWidth = 296, gap = 12, leastNotice = 200; // at a scale of 1 [pixels]
+constexpr float textHeight = 14, sidePanel = 296, gap = 12, leastNotice = 200; // at a scale of 1 [pixels]
 constexpr int mostPicturesUnfocused = 20; // of a line that is to take keys
 constexpr float roomBeside = 2.6f; // the picture is at least this many panels wide, or they start hidden
 
@@ -171,7 +171,11 @@ Panels::~Panels() {
 }
 
 bool Panels::isShown(VkExtent2D extent) const {
-    return isShown_.value_or(static_cast<float>(extent.width) >= roomBeside * sideWidth * scale_);
+    return isShown_.value_or(static_cast<float>(extent.width) >= roomBeside * sidePanel * scale_);
+}
+
+std::uint32_t Panels::sideWidth(VkExtent2D extent) const {
+    return isShown(extent) ? static_cast<std::uint32_t>(std::ceil((sidePanel + 2 * gap) * scale_)) : 0;
 }
 
 bool Panels::covers(const Vector2& pixels) const {
@@ -265,7 +269,7 @@ Wishes Panels::build(const SceneFacts& scene, const Facts& facts, const PanelInp
     if (isShown(extent)) buildSide(scene, facts, extent, wishes);
     buildHint(scene, facts, extent);
     buildNotice(facts, extent);
-    const float side = isShown(extent) ? (sideWidth + gap) * scale_ : 0;
+    const float side = isShown(extent) ? (sidePanel + gap) * scale_ : 0;
     parts::probe(facts, scale_, static_cast<float>(extent.width) - side);
     if (isHelpShown_) parts::help(scale_);
     ImGui::Render();
@@ -308,7 +312,7 @@ void addGround() {
 void Panels::buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D extent, Wishes& wishes) {
     const float edge = gap * scale_;
     const float width =
-        std::min(sideWidth * scale_, std::max(static_cast<float>(extent.width) - 2 * edge, 40.0f));
+        std::min(sidePanel * scale_, std::max(static_cast<float>(extent.width) - 2 * edge, 40.0f));
     ImGui::SetNextWindowPos({static_cast<float>(extent.width) - width - edge, edge});
     ImGui::SetNextWindowSize({width, 0});
     ImGui::SetNextWindowSizeConstraints(
@@ -320,6 +324,7 @@ void Panels::buildSide(const SceneFacts& scene, const Facts& facts, VkExtent2D e
     parts::play(facts, wishes);
     parts::look(scene, facts, wishes);
     parts::speed(facts);
+    parts::beside(scene, facts, wishes);
     parts::counts(scene, facts);
     if (scene.canCut) parts::cuts(scene, facts, wishes);
     parts::knobs(scene, facts, wishes);
@@ -334,7 +339,7 @@ void Panels::buildHint(const SceneFacts& scene, const Facts& facts, VkExtent2D e
                                           : Hands::empty;
     const float edge = gap * scale_, pad = 10 * scale_;
     const float room =
-        static_cast<float>(extent.width) - 2 * edge - (isShown(extent) ? sideWidth * scale_ + edge : 0);
+        static_cast<float>(extent.width) - 2 * edge - (isShown(extent) ? sidePanel * scale_ + edge : 0);
     std::string text = hintText(hands, scene.canCut, facts.knobs.bladeDepth);
     if (ImGui::CalcTextSize(text.c_str()).x + 2 * pad > room) text = shortHintText();
     ImGui::SetNextWindowPos({edge, static_cast<float>(extent.height) - edge}, ImGuiCond_Always, {0, 1});
@@ -350,7 +355,7 @@ void Panels::buildNotice(const Facts& facts, VkExtent2D extent) {
     if (facts.notice.empty()) return;
     const float edge = gap * scale_;
     const float all = static_cast<float>(extent.width) - 2 * edge;
-    const float beside = all - (isShown(extent) ? sideWidth * scale_ + edge : 0); // of the panel
+    const float beside = all - (isShown(extent) ? sidePanel * scale_ + edge : 0); // of the panel
     const float width = std::min(560 * scale_, beside >= leastNotice * scale_ ? beside : all);
     ImGui::SetNextWindowPos({edge, edge});
     ImGui::SetNextWindowSize({width, 0});

@@ -65,6 +65,8 @@ public:
     bool isHelpShown() const { return isHelpShown_; }
     /// Before anybody has said otherwise, in windows that leave room beside them.
     bool isShown(VkExtent2D extent) const;
+    /// How much of a picture they stand in at the right [pixels].
+    std::uint32_t sideWidth(VkExtent2D extent) const;
 
 private:
     void feed(const PanelInput& input, VkExtent2D extent, double seconds);

@@ -1,0 +1,117 @@
+// A stage, gauges of its own, and the words of both.
+#include "viewer/beside.hpp"
+
+#include "sim/compile.hpp"
+#include "sim/ranges.hpp"
+#include "sim/substeps.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+namespace sinew::viewer {
+
+namespace {
+
+// As the first has them but for the shape; forms that were fast for another solver say nothing here.
+sim::Settings settingsFor(const sim::Scene& scene, sim::Settings settings, const BesideShape& shape) {
+    settings.solver = shape.solver;
+    settings.substeps = shape.substeps;
+    return shape.substeps == 0 ? sim::withSubsteps(scene, settings) : settings;
+}
+
+BesideShape shapeOf(const sim::Settings& settings) {
+    return {settings.solver, settings.substeps};
+}
+
+} // namespace
+
+std::optional<BesideShape> parseBeside(const std::string& text) {
+    const std::size_t colon = text.find(':');
+    BesideShape shape;
+    if (!sim::parseSolver(text.substr(0, colon), shape.solver)) return std::nullopt;
+    if (colon == std::string::npos) return shape;
+    const char *from = text.data() + colon + 1, *end = text.data() + text.size();
+    const auto [last, error] = std::from_chars(from, end, shape.substeps);
+    const bool isNumber = error == std::errc() && last == end;
+    if (!isNumber || !sim::ranges::substeps.holds(shape.substeps)) return std::nullopt;
+    return shape;
+}
+
+BesideKnobs knobsOf(const BesideShape& shape) {
+    const std::vector<std::string> names = sim::solverNames();
+    const auto found = std::ranges::find(names, sim::solverName(shape.solver));
+    return {static_cast<int>(found - names.begin()), static_cast<int>(shape.substeps)};
+}
+
+BesideShape shapeOf(const BesideKnobs& knobs) {
+    BesideShape shape{.substeps = static_cast<std::uint32_t>(knobs.substeps)};
+    sim::parseSolver(sim::solverNames().at(static_cast<std::size_t>(knobs.solver)), shape.solver);
+    return shape;
+}
+
+std::string toText(const BesideShape& shape) {
+    const std::string solver = sim::solverName(shape.solver);
+    return shape.substeps == 0 ? solver : solver + ", " + std::to_string(shape.substeps) + " substeps";
+}
+
+Beside::Beside(const vk::Device& device, const scenes::LoadedScene& loaded, const sim::Settings& settings,
+               const sim::Material& material, const BesideShape& shape, std::uint32_t slots)
+    : shape_(shapeOf(settingsFor(sim::withMaterial(loaded.scene, material), settings, shape))),
+      stage_(device, loaded.scene, settingsFor(loaded.scene, settings, shape_), material),
+      gauges_(stage_, loaded.scene.dt), probe_(device, stage_.scene(), stage_.simulation()), flights_(slots) {
+    stage_.setBlades({loaded.blades, loaded.scene.dt});
+    const auto spans = static_cast<std::uint32_t>(stage_.simulation().phases().size());
+    for (std::uint32_t slot = 0; slot < slots; ++slot) times_.emplace_back(device, spans);
+}
+
+void Beside::recordReset(VkCommandBuffer commands) noexcept {
+    stage_.recordReset(commands);
+    gauges_.restart();
+    isCut_ = false;
+    for (Flight& flight : flights_) flight = {};
+}
+
+void Beside::recordTakeOver(VkCommandBuffer commands, const Stage& first) noexcept {
+    stage_.recordTakeOver(commands, first);
+    gauges_.restart();
+    for (Flight& flight : flights_) flight = {};
+}
+
+void Beside::recordStep(VkCommandBuffer commands, const Stage& first, const StepHands& hands,
+                        std::uint32_t slot, bool isTimed) noexcept {
+    Flight& flight = flights_[slot];
+    if (flight.steps++ == 0) flight.firstStep = stage_.steps() + 1;
+    flight.isTimed = flight.isTimed || isTimed;
+    stage_.setGravity(first.gravity());
+    viewer::recordStep(commands, stage_, hands, isTimed ? &times_[slot] : nullptr);
+}
+
+void Beside::recordPicture(VkCommandBuffer commands, std::uint32_t slot, bool isMeasured) noexcept {
+    stage_.recordSkin(commands);
+    flights_[slot].isMeasured = isMeasured;
+    if (isMeasured) probe_.record(commands);
+}
+
+std::optional<Beside::Trouble> Beside::settle(std::uint32_t slot) {
+    const Flight flight = std::exchange(flights_[slot], {});
+    for (std::uint32_t i = 0; i < flight.steps; ++i) {
+        const std::uint64_t step = flight.firstStep + i;
+        if (const std::uint32_t needed = stage_.neededRoom(step); needed > sim::ranges::mostContactRoom)
+            return Trouble{app::tooCrowded(step)};
+        else if (needed > 0)
+            return Trouble{"its contacts need more room",
+                           std::min(needed + needed / 2, sim::ranges::mostContactRoom)};
+        if (const std::optional<Divergence> divergence = stage_.check(step))
+            return Trouble{divergence->sentence()};
+        const sim::Status status = stage_.simulation().status(step);
+        gauges_.stepFinished(status);
+        isCut_ = status.linksCutInAll > 0;
+    }
+    if (flight.isTimed) gauges_.stepTimed(times_[slot].milliseconds());
+    if (flight.isMeasured && !isCut_)
+        gauges_.strainMeasured(measureStrain(stage_.scene(), probe_.positions()));
+    return std::nullopt;
+}
+
+} // namespace sinew::viewer

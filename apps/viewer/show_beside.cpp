@@ -1,0 +1,161 @@
+// Another simulation beside the one on show: made in a thread, kept in step, drawn in the right half.
+#include "viewer/show.hpp"
+
+#include "vk/check.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace sinew::viewer {
+
+namespace {
+
+// Of a complaint of several the first.
+std::string firstLine(const std::string& text) {
+    return text.substr(0, text.find('\n'));
+}
+
+} // namespace
+
+void Show::toggleBeside() {
+    std::optional<BesideShape>& wanted = screen_.beside();
+    if (!wanted)
+        wanted = BesideShape{stage_.settings().solver == sim::Solver::gaussSeidel ? sim::Solver::split
+                                                                                  : sim::Solver::gaussSeidel};
+    else
+        wanted.reset();
+}
+
+// What was asked for is not there, or no more.
+void Show::tendBeside() {
+    const std::optional<BesideShape>& wanted = screen_.beside();
+    if (besideMaking_.valid()) {
+        if (besideMaking_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) takeBeside();
+    } else if (wanted && wanted != besideAsked_) {
+        makeBeside(*wanted, stage_.settings());
+    } else if (!wanted && besideAsked_) {
+        dropBeside();
+    } else if (beside_ && isBesideOut_ && !stage_.lacksContactRoom() && !isDiverged_) {
+        settleAll();
+        backstage_.rehearse([this](VkCommandBuffer commands) { beside_->recordTakeOver(commands, stage_); });
+        isBesideOut_ = false;
+        shown_ = Shown::nothing;
+    }
+}
+
+void Show::makeBeside(const BesideShape& shape, const sim::Settings& settings) {
+    besideAsked_ = shape;
+    besideMaking_ = std::async(std::launch::async, [this, shape, settings, material = stage_.material()] {
+        return std::make_unique<Beside>(device_, opening_.loaded, settings, material, shape,
+                                        Presenter::framesInFlight);
+    });
+}
+
+// It goes on where the first stands; a step before that is its rehearsal.
+void Show::takeBeside() {
+    std::unique_ptr<Beside> made;
+    try {
+        made = besideMaking_.get();
+    } catch (const std::invalid_argument& error) {
+        screen_.warn("not beside: " + firstLine(error.what()));
+    } catch (const vk::Error& error) {
+        if (error.failure() != vk::Failure::outOfMemory) throw;
+        screen_.warn(std::string("not beside: ") + error.what());
+    }
+    const std::optional<BesideShape> asked = besideAsked_;
+    dropBeside();
+    if (!made) return screen_.beside().reset();
+    besideAsked_ = asked; // another one may be wanted by now: that is made then
+    beside_ = std::move(made);
+    backstage_.rehearse([this](VkCommandBuffer commands) {
+        beside_->recordReset(commands);
+        beside_->recordStep(commands, stage_, {}, 0, false);
+        beside_->recordTakeOver(commands, stage_);
+    });
+    isBesideOut_ = false;
+    shown_ = Shown::nothing;
+}
+
+void Show::dropBeside() {
+    settleAll();
+    beside_.reset();
+    besideAsked_.reset();
+    shown_ = Shown::nothing;
+}
+
+void Show::settleBeside(std::uint32_t slot) {
+    if (!beside_) return;
+    const std::optional<Beside::Trouble> trouble = beside_->settle(slot);
+    if (!trouble || isBesideOut_) return;
+    screen_.presenter().waitIdle();
+    const BesideShape shape = beside_->shape();
+    beside_.reset();
+    if (trouble->room > 0) { // as the first does, but from where that stands
+        sim::Settings settings = stage_.settings();
+        settings.contactRoom = std::max(settings.contactRoom, trouble->room);
+        if (!besideMaking_.valid()) makeBeside(shape, settings);
+        return;
+    }
+    screen_.warn("beside: " + trouble->why);
+    screen_.beside().reset();
+}
+
+// Beside the panels, where they leave room.
+std::uint32_t Show::halvesWidth() const {
+    const VkExtent2D extent = screen_.presenter().extent();
+    const std::uint32_t side = screen_.panels().sideWidth(extent);
+    return 2 * side < extent.width ? extent.width - side : extent.width;
+}
+
+// Both halves act on both: where the pointer is in the one that it was pressed in.
+void Show::foldPointer(Input& input) {
+    const VkExtent2D extent = screen_.presenter().extent();
+    if (!beside_ || extent.height == 0) return;
+    const auto width = static_cast<float>(halvesWidth()), whole = static_cast<float>(extent.width),
+               height = static_cast<float>(extent.height);
+    const auto isRight = [&](const Vector2& at) { return at.x() * height + 0.5f * (whole - width) >= 0; };
+    const auto fold = [&](Vector2& at) {
+        at.x() -= ((isRightHalf_ ? 0.75f : 0.25f) * width - 0.5f * whole) / height; // from the half's middle
+    };
+    if (!isButtonDown_) isRightHalf_ = isRight(input.pointer);
+    for (Input::Press& press : input.presses) {
+        if (press.isDown) isRightHalf_ = isRight(press.pointer);
+        isButtonDown_ = press.isDown;
+        fold(press.pointer);
+    }
+    fold(input.pointer);
+}
+
+void Show::drawHalves(const Presenter::Frame& frame, const Overlay& overlay, View& view) {
+    const std::uint32_t width = halvesWidth();
+    if (view.halves && view.halves->width != width) {
+        screen_.presenter().waitIdle(); // the other frame may use them; this one is not submitted yet
+        view.halves.reset();
+    }
+    if (!view.halves)
+        view.halves.emplace(
+            view.renderer.makeHalves(screen_.presenter().extent(), screen_.presenter().views(), width));
+    const std::uint32_t other = frame.slot + 3 * Presenter::framesInFlight;
+    for (Canvas& canvas : view.halves->canvases) view.renderer.prepareCanvas(overlay.layers, canvas);
+    view.renderer.record(frame.commands, frame.slot, view.halves->canvases[0], 0, controller_.camera,
+                         stage_.simulation(), overlay);
+    view.renderer.record(frame.commands, other, view.halves->canvases[1], 0, controller_.camera,
+                         beside_->simulation(), overlayBeside(overlay));
+    view.renderer.recordHalves(frame.commands, {frame.slot, other}, *view.halves, frame.image);
+}
+
+BesideFacts Show::besideFacts() const {
+    BesideFacts facts{.isOn = screen_.beside().has_value(), .isMaking = besideMaking_.valid()};
+    if (const auto& wanted = screen_.beside()) facts.knobs = knobsOf(*wanted);
+    if (!beside_) return facts;
+    const sim::Settings& first = stage_.settings();
+    const Facts measured = beside_->facts();
+    facts.names = {toText({first.solver, first.substeps}), toText(beside_->shape())};
+    facts.phases = measured.phases;
+    facts.strainRms = measured.strainRms;
+    facts.strainMax = measured.strainMax;
+    return facts;
+}
+
+} // namespace sinew::viewer

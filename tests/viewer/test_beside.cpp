@@ -1,0 +1,169 @@
+// Two solvers side by side: in step, with the same hands, measured alike, drawn in two halves.
+#include "played.hpp"
+
+#include "viewer/beside.hpp"
+#include "viewer/draw/offscreen.hpp"
+
+#include <cmath>
+
+namespace sinew::viewer {
+namespace {
+
+std::string changed(std::string text, const std::string& from, const std::string& to) {
+    EXPECT_NE(text.find(from), std::string::npos) << from;
+    return text.replace(text.find(from), from.size(), to);
+}
+const std::string hanging = changed(changed(block, "cuttable = true\n", ""), "[[plane]]\n", "");
+
+// A scene that is played with another one beside it, in the order of the window's loop.
+struct Pair : Played {
+    explicit Pair(const BesideShape& shape, const std::string& text = hanging)
+        : Played(text), beside(test::device(), opening.loaded, stage.settings(), stage.material(), shape, 1) {
+        run([&](VkCommandBuffer commands) { beside.recordReset(commands); });
+    }
+    std::optional<Beside::Trouble> play(int steps, const StepHands& hands = {}) {
+        for (int i = 0; i < steps; ++i) {
+            run([&](VkCommandBuffer commands) {
+                recordStep(commands, stage, hands);
+                beside.recordStep(commands, stage, hands, 0, true);
+                stage.recordSkin(commands);
+                beside.recordPicture(commands, 0, true);
+                probe.record(commands);
+            });
+            if (auto trouble = beside.settle(0)) return trouble;
+        }
+        return std::nullopt;
+    }
+    std::vector<sim::layout::vec4> placesOf(const sim::Simulation& simulation) {
+        return test::queue().download<sim::layout::vec4>(simulation.positions());
+    }
+    // Farthest apart of a particle here and there [m].
+    double apart() {
+        const auto here = placesOf(stage.simulation()), there = placesOf(beside.simulation());
+        double most = 0;
+        for (std::size_t i = 0; i < here.size(); ++i)
+            most = std::max(most, std::hypot(double{here[i].x} - double{there[i].x},
+                                             double{here[i].y} - double{there[i].y},
+                                             double{here[i].z} - double{there[i].z}));
+        return most;
+    }
+    Beside beside;
+};
+
+TEST(BesideShape, IsReadFromTheCommandLineAndShown) {
+    EXPECT_EQ(parseBeside("jacobi"), (BesideShape{sim::Solver::jacobi, 0}));
+    EXPECT_EQ(parseBeside("gauss_seidel:4"), (BesideShape{sim::Solver::gaussSeidel, 4}));
+    for (const char* bad : {"", "gauss", "split:", "split:0", "split:x", "split:4x", "split:-1", ":4"})
+        EXPECT_FALSE(parseBeside(bad)) << bad;
+    EXPECT_EQ(toText(BesideShape{sim::Solver::split, 7}), "split, 7 substeps");
+    for (const char* text : {"jacobi:3", "split", "gauss_seidel:12"})
+        EXPECT_EQ(shapeOf(knobsOf(*parseBeside(text))), *parseBeside(text));
+}
+
+TEST(Beside, OfTheSameShapeHasTheSameBits) {
+    Pair pair({sim::Solver::split, 4});
+    ASSERT_FALSE(pair.play(5));
+    EXPECT_EQ(pair.apart(), 0);
+    EXPECT_EQ(pair.beside.stage().steps(), 5u);
+}
+
+TEST(Beside, OfAnotherSolverFallsAlikeAndIsMeasured) {
+    Pair pair({sim::Solver::gaussSeidel, 6});
+    ASSERT_FALSE(pair.play(10));
+    EXPECT_EQ(pair.beside.shape(), (BesideShape{sim::Solver::gaussSeidel, 6}));
+    const double fallen = 0.5 * 9.81 * std::pow(10.0 / 60, 2);
+    EXPECT_LT(pair.apart(), 0.1 * fallen) << "free fall is the same for all";
+    EXPECT_EQ(pair.beside.facts().strainRms.count(), 10u);
+    EXPECT_LT(pair.beside.facts().strainRms.newest(), 0.01f);
+    EXPECT_FALSE(pair.beside.facts().phases.empty());
+    EXPECT_EQ(pair.beside.facts().phases.front().ms.count(), 10u);
+}
+
+TEST(Beside, IsHeldByTheSameHandAndPulledByTheSameGravity) {
+    Pair pair({sim::Solver::jacobi, 8});
+    pair.stage.setGravity(2);
+    StepHands hands;
+    hands.grabs[0] = {.particle = 0,
+                      .radius = 0.2f,
+                      .target = {0.3f, 1.2f, 0},
+                      .stiffness = 2000,
+                      .damping = 90,
+                      .maxAcceleration = 400};
+    const auto before = pair.placesOf(pair.beside.simulation());
+    ASSERT_FALSE(pair.play(1, hands)); // takes hold where it is
+    hands.grabs[0].target.y += 0.3f;
+    ASSERT_FALSE(pair.play(20, hands));
+    const auto held = pair.placesOf(pair.beside.simulation());
+    EXPECT_GT(held[0].y, before[0].y + 0.1f) << "lifted";
+    const auto first = pair.placesOf(pair.stage.simulation());
+    EXPECT_NEAR(first[0].y, held[0].y, 0.05f) << "both follow the hand";
+    EXPECT_EQ(pair.beside.stage().gravity().y, -2);
+}
+
+TEST(Beside, GoesOnWhereTheFirstStands) {
+    Pair pair({sim::Solver::gaussSeidel, 6});
+    StepHands hands;
+    hands.grabs[0] = {.particle = 0,
+                      .radius = 0.2f,
+                      .target = {0.3f, 1.2f, 0},
+                      .stiffness = 2000,
+                      .damping = 90,
+                      .maxAcceleration = 400};
+    ASSERT_FALSE(pair.play(12, hands));
+    ASSERT_GT(pair.apart(), 0);
+    pair.run([&](VkCommandBuffer commands) { pair.beside.recordTakeOver(commands, pair.stage); });
+    EXPECT_EQ(pair.apart(), 0);
+    EXPECT_EQ(pair.beside.stage().steps(), pair.stage.steps());
+    EXPECT_EQ(pair.beside.facts().strainRms.count(), 0u) << "what was measured was of another state";
+    ASSERT_FALSE(pair.play(2, hands));
+}
+
+TEST(Beside, RefusesWhatItsSolverHasNoFormFor) {
+    EXPECT_THROW(Pair({sim::Solver::jacobi, 8}, block), std::invalid_argument) << "cuts";
+}
+
+TEST(Beside, IsDrawnInTheRightHalf) {
+    Pair pair({sim::Solver::split, 4});
+    constexpr VkExtent2D whole{161, 80}, half{81, 80};
+    Offscreen both(test::device(), whole, pair.opening.light), one(test::device(), half, pair.opening.light);
+    const auto drawBoth = [&] {
+        pair.run([&](VkCommandBuffer commands) {
+            pair.stage.recordSkin(commands);
+            pair.beside.recordPicture(commands, 0, false);
+            const Overlay none;
+            both.recordHalves(commands, pair.opening.camera,
+                              {{{pair.stage.simulation(), none}, {pair.beside.simulation(), none}}});
+        });
+        return both.read();
+    };
+    const auto drawOne = [&](const sim::Simulation& simulation) {
+        pair.run([&](VkCommandBuffer commands) {
+            pair.stage.recordSkin(commands);
+            pair.beside.recordPicture(commands, 0, false);
+            one.record(commands, pair.opening.camera, simulation);
+        });
+        return one.read();
+    };
+    // Pixels in which a half differs from a picture of its own, the line between halves left out.
+    const auto differing = [&](const Picture& picture, const Picture& own, std::uint32_t from) {
+        int count = 0;
+        for (std::uint32_t y = 0; y < half.height; ++y)
+            for (std::uint32_t x = 2; x + 2 < half.width; ++x)
+                for (std::uint32_t part = 0; part < 3; ++part)
+                    count += std::abs(picture.pixels[4 * (y * whole.width + from + x) + part] -
+                                      own.pixels[4 * (y * half.width + x) + part]) > 2
+                                 ? 1
+                                 : 0;
+        return count;
+    };
+    for (int i = 0; i < 20; ++i) // the first alone
+        pair.run([&](VkCommandBuffer commands) { recordStep(commands, pair.stage, {}); });
+    const Picture picture = drawBoth();
+    const Picture left = drawOne(pair.stage.simulation()), right = drawOne(pair.beside.simulation());
+    EXPECT_EQ(differing(picture, left, 0), 0);
+    EXPECT_EQ(differing(picture, right, whole.width - half.width), 0);
+    EXPECT_GT(differing(picture, left, whole.width - half.width), 50) << "it has fallen";
+}
+
+} // namespace
+} // namespace sinew::viewer
