@@ -28,6 +28,7 @@ Curve sumOfPhases(const std::vector<PhaseCurve>& phases) {
 // Two lines on one scale, which `largest` is of; a slow step is cut off.
 void bothPlot(const Curve& left, const Curve& right, const char* format, double factor) {
     const float most = std::max({1.2f * left.quantile(0.9f), 1.2f * right.quantile(0.9f), 1e-9f});
+    ImGui::Spacing();
     const ImVec2 from = ImGui::GetCursorScreenPos();
     const float width = contentWidth(), height = 3 * ImGui::GetTextLineHeight();
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -47,10 +48,10 @@ void bothPlot(const Curve& left, const Curve& right, const char* format, double 
 void lineOf(const std::string& name, std::size_t color, const Curve& ms, const Curve& rms,
             const Curve& largest) {
     ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(phaseColor(color)), "%s", name.c_str());
-    const std::string cost = ms.count() > 0 ? figure("%.2f ms a step", double{ms.median()}) : "";
+    const std::string cost = ms.count() > 0 ? figure("%.2f ms", double{ms.median()}) : "";
     row(cost.c_str(), rms.count() == 0 ? ""
                                        : figure("rms %.2f %%", 100.0 * double{rms.newest()}) +
-                                             figure(", at most %.1f %%", 100.0 * double{largest.newest()}));
+                                             figure(", max %.1f %%", 100.0 * double{largest.newest()}));
 }
 
 void shapeKnobs(const SceneFacts& scene, const BesideKnobs& knobs, Wishes& wishes) {
