@@ -103,6 +103,22 @@ TEST_F(LibraryTest, OpensTheSameSceneAgainWithOtherSubsteps) {
     EXPECT_EQ(library.current(), 1u);
 }
 
+// Where what is on show has more room by then than what was opened to take over from it.
+TEST_F(LibraryTest, OpensWhatIsToTakeOverOnceMore) {
+    Library library = libraryOf("b.toml");
+    library.reopen({.substeps = 9}, {}, 1.5f);
+    ASSERT_TRUE(await(library));
+    Again roomier;
+    roomier.settings.contactRoom = 48;
+    library.askAgain(roomier, 1.5f);
+    EXPECT_FALSE(library.shown().overrides.substeps) << "the one on show is still there";
+    const auto opened = await(library);
+    ASSERT_TRUE(opened && opened->again);
+    EXPECT_EQ(opened->again->settings.contactRoom, 48u);
+    EXPECT_EQ(opened->loaded.settings.substeps, 9u) << "what was asked for stays";
+    EXPECT_EQ(library.shown().overrides.substeps, 9u);
+}
+
 TEST_F(LibraryTest, OpensOneAtATime) {
     Library library = libraryOf("b.toml");
     library.open(0, 1.5f);
