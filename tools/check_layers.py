@@ -14,7 +14,7 @@ LAYERS = {
     "app": ["mesh", "sim", "vk"],
 }
 # Finer rules inside a layer: (files, includes they may not have, why).
-SIM_MAY_USE_VK = re.compile(r"src/sim/(gpu_\w+|simulation)\.(cpp|hpp)$")
+SIM_MAY_USE_VK = re.compile(r"src/sim/(gpu_\w+|simulation(_states?)?)\.(cpp|hpp)$")
 PURE_VK = {"vk/spirv.hpp"}  # includes no Vulkan header
 MESH_MAY_USE_SIM = {"sim/scene.hpp", "sim/bodies.hpp"}
 MESH_ON_DEVICE = "src/mesh/gpu/"  # the only part of mesh that sees Vulkan

@@ -1,0 +1,282 @@
+// What a Simulation holds: for the files of the façade alone. simulation.cpp makes it and records steps,
+// simulation_states.cpp takes states over, saves, loads and changes them.
+#pragma once
+
+#include "layout.h"
+#include "sim/collision/collider_paths.hpp"
+#include "sim/collision/face_contacts.hpp"
+#include "sim/collision/particle_contacts.hpp"
+#include "sim/constraints/attachment.hpp"
+#include "sim/constraints/grab.hpp"
+#include "sim/cutting/blade.hpp"
+#include "sim/gpu_compile.hpp"
+#include "sim/gpu_executor.hpp"
+#include "sim/program_values.hpp"
+#include "sim/ranges.hpp"
+#include "sim/simulation.hpp"
+#include "sim/skin_ranges.hpp"
+#include "sim/substeps.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <optional>
+
+namespace sinew::sim {
+
+/// `scene`. Throws what there is to complain about.
+const Scene& valid(const Scene& scene, const Settings& settings);
+SplitBudget dampedBudget(const Scene& scene, const Settings& settings);
+
+struct SceneChange::Parts {
+    ProgramValues values;
+    std::vector<vk::Buffer> contents; // one for each of its buffers
+    SplitBudget budget;
+    float damping;
+    std::uint32_t changes; // of the simulation, when it was prepared
+};
+
+struct Simulation::State {
+    const vk::Device& device;
+    Settings chosen; // with a number of substeps
+    StepProgram program;
+    GpuExecutor executor;
+    std::vector<BufferId> written;
+    vk::Buffer statusRing;                // one slot a frame in flight, read by the host
+    std::optional<vk::Buffer> countsRing; // likewise; where bodies may be cut
+    std::vector<SkinRange> skins, wholeSkins, mixedSkins;
+    constraints::attachment::Anchors anchors;
+    constraints::grab::Hands hands;
+    collision::ColliderPaths colliders;
+    cutting::BladeWords blade;
+    std::array<bool, framesInFlight> hasBlade{}; // of the newest steps
+    bool hasNewTopology = false;                 // loaded since the last step
+    bool isUncut = false;                        // since the last reset, whatever comes of its steps
+    std::uint32_t changes = 0;                   // of the material
+    bool isChanged = false;                      // since the last step
+    SplitBudget budget;
+    float theta, omega, damping;
+    std::uint32_t substeps;
+    bool hasContacts; // between particles: gathers of `split` then store x, not x + theta h v
+    std::array<float, framesInFlight> lostTime{}; // of the newest steps [s]
+    float previousH = 0; // 0 before the first step: the half-kick that starts the leapfrog
+    // A step that came to its end: its h, and where it left colliders and pokes.
+    struct Settled {
+        float h = 0;
+        double time = 0;
+        collision::PokeStates pokes{};
+    };
+    // Steps of which the host has not yet looked whether they came to their end, and the last that has.
+    struct Unsettled {
+        bool isRecorded = false;
+        Settled end;
+    };
+    std::array<Unsettled, framesInFlight> unsettled{};
+    std::uint64_t nextFrame = 0;
+    Settled settledEnd;
+
+    State(const vk::Device& d, const Scene& scene, const Settings& asked)
+        : State(d, scene, withSubsteps(valid(scene, asked), asked), {}) {}
+
+    struct Resolved {};
+    State(const vk::Device& d, const Scene& scene, const Settings& settings, Resolved)
+        : device(d), chosen(settings), program(compileFor(d, scene, settings)), executor(d, program),
+          written(writtenByStep(program)), statusRing(d, {.name = "status.ring",
+                                                          .count = framesInFlight,
+                                                          .stride = sizeof(layout::StatusWords),
+                                                          .kind = vk::MemoryKind::readback}),
+          skins(rangesOf(scene.skins, Triangles::all)), wholeSkins(rangesOf(scene.skins, Triangles::whole)),
+          mixedSkins(rangesOf(scene.skins, program.mixedRanges)), anchors(scene.attachments),
+          hands(settings.grabs, scene.particles.size()),
+          colliders(scene.colliders, scene.driven, settings.pokes), budget(dampedBudget(scene, settings)),
+          theta(settings.solver == Solver::split ? settings.theta : 0), omega(settings.omega),
+          damping(scene.damping), substeps(settings.substeps),
+          hasContacts(collision::particle_contacts::areIn(scene) || collision::face_contacts::areIn(scene)) {
+        if (program.cutting.counts != BufferId{})
+            countsRing.emplace(d, vk::BufferRequest{.name = "cut.counts.ring",
+                                                    .count = framesInFlight,
+                                                    .stride = sizeof(layout::CutCounts),
+                                                    .kind = vk::MemoryKind::readback});
+    }
+
+    layout::StepParams parameters(const Step& step, float dt) const {
+        const float h = dt / static_cast<float>(substeps);
+        const double longest = double{std::max(h, previousH)};
+        const Vec3& g = step.gravity;
+        return {.gravity = {g.x, g.y, g.z, 0},
+                .h = h,
+                .hPrevious = previousH,
+                .thetaH = theta * h,
+                .thetaHPrevious = theta * previousH,
+                .velocityFactor = std::exp(-damping * h),
+                .restSpeed = 2 * std::sqrt(g.x * g.x + g.y * g.y + g.z * g.z) * h,
+                .frame = static_cast<std::uint32_t>(step.frame),
+                .dampingShare =
+                    static_cast<float>(dampingBudget(budget, double{theta}, longest) / double{omega}),
+                .multiplierScale = previousH > 0 ? std::min(1.0f, h * h / (previousH * previousH)) : 0,
+                .thetaHStored = hasContacts ? 0 : theta * h,
+                .wakes = step.wakes || hasNewTopology || isChanged ? 1u : 0u};
+    }
+
+    layout::StatusWords statusWords(std::uint64_t frame) const {
+        layout::StatusWords words;
+        std::memcpy(&words, statusRing.mapped() + frame % framesInFlight * sizeof(words), sizeof(words));
+        return words;
+    }
+
+    layout::CutCounts cutCounts(std::uint64_t frame) const {
+        layout::CutCounts counts{};
+        if (countsRing)
+            std::memcpy(&counts, countsRing->mapped() + frame % framesInFlight * sizeof(counts),
+                        sizeof(counts));
+        return counts;
+    }
+
+    // The last step before `frame` that settled has this `end`; where the one that this slot of the ring held
+    // came to its end, that counts.
+    Settled settled(std::uint64_t frame, const Settled& end) const {
+        const Unsettled& step = unsettled[frame % framesInFlight];
+        if (!step.isRecorded) return end;
+        const layout::StatusWords words = statusWords(frame);
+        return words.nonFinite == 0 && words.candidates == 0 ? step.end : end;
+    }
+
+    // Of the passes that only pokes need.
+    std::array<layout::DispatchArguments, POKE_ARGUMENTS> pokeArguments() const {
+        const std::uint32_t one = colliders.pokes().areAny() ? 1 : 0;
+        const auto arguments = [one](std::uint32_t groups) {
+            return layout::DispatchArguments{one * groups, 1, 1, 0};
+        };
+        static_assert(POKES_PLACED == 0 && POKES_TOUCHING == 1);
+        return {arguments(program.pokes.placed), arguments(program.pokes.touching)};
+    }
+
+    static vk::BufferView slotOf(const vk::Buffer& ring, std::uint64_t frame) {
+        vk::BufferView slot = ring.view();
+        slot.size = slot.stride;
+        slot.offset += slot.stride * (frame % framesInFlight);
+        return slot;
+    }
+
+    // What steps have found out, where the host may read it.
+    void recordStatus(vk::Commands& commands, std::uint64_t frame) const noexcept {
+        commands.copy(executor.view(program.status), slotOf(statusRing, frame));
+        if (countsRing) commands.copy(executor.view(program.cutting.counts), slotOf(*countsRing, frame));
+    }
+
+    // For the surface of cuts.
+    bool hasMoreRoom(const State& other) const noexcept {
+        return executor.view(program.cutSurface.rest).size >
+                   other.executor.view(other.program.cutSurface.rest).size ||
+               program.pieceVertices > other.program.pieceVertices;
+    }
+
+    // Writes what is missing of it, or has another place here.
+    void recordSurface(vk::Commands& commands) noexcept {
+        const auto setMissing = [&](BufferId buffer, std::size_t offset) {
+            vk::BufferView word = executor.view(buffer);
+            if (word.size == 0) return;
+            word.offset += offset;
+            word.size = sizeof(std::uint32_t);
+            commands.fill(word, 1);
+        };
+        commands.barrier(); // they were copied
+        setMissing(program.cutSurface.state, offsetof(layout::SurfaceState, missing));
+        for (const BufferId state : program.sheetStates)
+            setMissing(state, offsetof(layout::SheetState, missing));
+        executor.surface(commands);
+    }
+
+    // What the scene alone says of a state that was put into the buffers.
+    void recordSettling(vk::Commands& commands) noexcept {
+        if (program.settle.empty()) return;
+        commands.barrier(); // they were copied
+        for (const BufferId list : program.cutting.lists) executor.restore(commands, list);
+        commands.barrier();
+        executor.settle(commands);
+    }
+
+    // Public positions and velocities, then all that is carried: calls use(index, buffer).
+    template <typename Use> void forEachHanded(const Use& use) const {
+        std::size_t index = 0;
+        use(index++, program.positions);
+        use(index++, program.velocities);
+        for (const Carried& carried : program.carried) use(index++, carried.from);
+    }
+
+    // Copies what `other` hands over, from where it is or from `copy`; what is carried, too, if they are
+    // alike: buffers of one name, of which there may be several, and the head of what has more room here.
+    void recordTaking(vk::Commands& commands, const State& other, const vk::BufferView& copy,
+                      bool isAlike) const noexcept {
+        std::size_t next = 0; // of the own that are carried
+        vk::BufferView place = copy;
+        const auto nameOf = [](const StepProgram& of, std::size_t c) -> const std::string& {
+            return of.buffers[of.carried[c].to.index].label;
+        };
+        other.forEachHanded([&](std::size_t index, BufferId handed) {
+            vk::BufferView origin = other.executor.view(handed);
+            if (copy.buffer != VK_NULL_HANDLE) {
+                place.size = origin.size;
+                origin = place;
+                place.offset += place.size;
+            }
+            BufferId own = index == 0 ? program.positions : program.velocities;
+            if (index > 1) {
+                std::size_t found = next;
+                while (found < program.carried.size() &&
+                       nameOf(program, found) != nameOf(other.program, index - 2))
+                    ++found;
+                if (!isAlike || found == program.carried.size()) return;
+                own = program.carried[found].to;
+                next = found + 1;
+            }
+            vk::BufferView target = executor.view(own);
+            target.size = origin.size = std::min(target.size, origin.size);
+            if (target.size > 0) commands.copy(origin, target);
+        });
+    }
+
+    // Where a copy of the state has a buffer; the buffer itself where it is no part of the state.
+    vk::BufferView placeIn(const vk::BufferView& saved, BufferId buffer) const noexcept {
+        vk::BufferView place = saved;
+        for (const BufferId one : written) {
+            place.size = executor.view(one).size;
+            if (one == buffer) return place;
+            place.offset += place.size;
+        }
+        return executor.view(buffer);
+    }
+
+    // The host's part of a state.
+    void moveTo(const SavedState& saved) noexcept {
+        previousH = saved.h;
+        collision::PokeStates pokes{};
+        std::copy_n(saved.pokes.begin(), std::min(saved.pokes.size(), pokes.size()), pokes.begin());
+        settledEnd = {saved.h, saved.colliderTime, pokes};
+        unsettled = {};
+        anchors.moveTo(saved.anchors);
+        hasNewTopology = saved.hasNewTopology;
+        isUncut = saved.isUncut;
+        hands.reset();
+        colliders.moveTo(saved.colliderTime, pokes);
+    }
+
+    // Copies buffers out to where they stand one behind the other, or back from there.
+    enum class Way { out, back };
+    void copy(vk::Commands& commands, const std::vector<BufferId>& buffers, vk::BufferView copies,
+              Way way) const noexcept {
+        for (const BufferId buffer : buffers) {
+            const vk::BufferView own = executor.view(buffer);
+            copies.size = own.size;
+            if (way == Way::out)
+                commands.copy(own, copies);
+            else
+                commands.copy(copies, own);
+            copies.offset += own.size;
+        }
+    }
+};
+
+} // namespace sinew::sim

@@ -1,0 +1,174 @@
+// States of a simulation that come from elsewhere: of another simulation, of what was saved, of another
+// material, of earlier topology.
+#include "sim/simulation_state.hpp"
+
+namespace sinew::sim {
+
+namespace {
+
+// Bits of a float, 1e18: nobody is there [m].
+constexpr std::uint32_t farAwayBits = 0x5d5e0b6b;
+
+} // namespace
+
+SceneChange::SceneChange(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+SceneChange::SceneChange(SceneChange&&) noexcept = default;
+SceneChange& SceneChange::operator=(SceneChange&&) noexcept = default;
+SceneChange::~SceneChange() = default;
+
+void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from, const vk::BufferView& copy,
+                                const SavedState* saved) noexcept {
+    recordReset(buffer);
+    const State& other = *from.state_;
+    const bool isAlike =
+        state_->chosen.solver == other.chosen.solver && state_->program.order == other.program.order;
+    vk::Commands commands(state_->device, buffer);
+    commands.beginStep();
+    state_->recordTaking(commands, other, copy, isAlike);
+    if (!isAlike) {
+        commands.barrier();
+        state_->executor.adopt(commands);
+    }
+    state_->recordSettling(commands); // its material, or h, may be another one
+    if (state_->hasMoreRoom(other)) state_->recordSurface(commands);
+    commands.endStep();
+    state_->isChanged = true;
+    if (saved != nullptr) {
+        state_->moveTo(*saved);
+        if (!isAlike) state_->previousH = state_->settledEnd.h = 0;
+        return;
+    }
+    State::Settled end = other.settledEnd;
+    for (std::uint64_t frame = 0; frame < framesInFlight; ++frame) // from the oldest on
+        end = other.settled(other.nextFrame + frame, end);
+    state_->settledEnd = end;
+    state_->previousH = isAlike ? end.h : 0;
+    state_->anchors = other.anchors;
+    if (isAlike) state_->hands = other.hands;
+    state_->isUncut = other.isUncut;
+    state_->hasNewTopology = other.hasNewTopology;
+    state_->colliders.moveTo(end.time, end.pokes);
+}
+
+std::uint64_t Simulation::handOverSize() const noexcept {
+    std::uint64_t size = 0;
+    state_->forEachHanded([&](std::size_t, BufferId buffer) { size += view(buffer).size; });
+    return size;
+}
+
+void Simulation::recordHandOver(VkCommandBuffer buffer, const vk::BufferView& to,
+                                const vk::BufferView& saved) const noexcept {
+    vk::Commands commands(state_->device, buffer);
+    commands.beginStep();
+    vk::BufferView target = to;
+    state_->forEachHanded([&](std::size_t, BufferId handed) {
+        const vk::BufferView own =
+            saved.buffer == VK_NULL_HANDLE ? view(handed) : state_->placeIn(saved, handed);
+        target.size = own.size;
+        if (own.size > 0) commands.copy(own, target);
+        target.offset += own.size;
+    });
+    commands.endStep();
+    commands.hostBarrier();
+}
+
+std::optional<SceneChange> Simulation::prepareChange(const Scene& scene) const {
+    const Settings& settings = state_->chosen;
+    const StepProgram program = compileFor(state_->device, valid(scene, settings), settings);
+    requireSameParticles(state_->program, program);
+    std::optional<ProgramValues> values = valuesOf(state_->program, program);
+    if (!values) return std::nullopt;
+    auto parts = std::make_unique<SceneChange::Parts>(SceneChange::Parts{
+        std::move(*values), {}, dampedBudget(scene, settings), scene.damping, state_->changes});
+    for (const ProgramValues::Contents& one : parts->values.buffers) {
+        const BufferSpec& spec = program.buffers[one.buffer.index];
+        const vk::Buffer& buffer =
+            parts->contents.emplace_back(state_->device, vk::BufferRequest{.name = spec.label + ".changed",
+                                                                           .count = spec.count,
+                                                                           .stride = spec.stride,
+                                                                           .kind = vk::MemoryKind::upload});
+        std::ranges::copy(one.initial, buffer.mapped());
+    }
+    return SceneChange(std::move(parts));
+}
+
+bool Simulation::recordChange(VkCommandBuffer buffer, SceneChange& change) noexcept {
+    SceneChange::Parts& parts = *change.parts_;
+    if (parts.changes != state_->changes) return false;
+    vk::Commands commands(state_->device, buffer);
+    commands.beginStep();
+    for (std::size_t b = 0; b < parts.contents.size(); ++b) {
+        const ProgramValues::Contents& one = parts.values.buffers[b];
+        state_->executor.replace(commands, one.buffer, parts.contents[b].view(), one.isOfState);
+    }
+    take(state_->program, std::move(parts.values));
+    state_->recordSettling(commands);
+    commands.endStep();
+    state_->budget = parts.budget;
+    state_->damping = parts.damping;
+    ++state_->changes;
+    state_->isChanged = true;
+    return true;
+}
+
+std::uint64_t Simulation::stateSize() const noexcept {
+    std::uint64_t size = 0;
+    for (const BufferId buffer : state_->written) size += view(buffer).size;
+    return size;
+}
+
+std::uint64_t Simulation::stateKey() const noexcept {
+    return keyOf(state_->program);
+}
+
+SavedState Simulation::recordSaveState(VkCommandBuffer buffer, const vk::BufferView& to) const {
+    vk::Commands commands(state_->device, buffer);
+    commands.beginStep();
+    state_->copy(commands, state_->written, to, State::Way::out);
+    commands.endStep();
+    const auto pokes = this->pokes();
+    return {state_->previousH,        state_->colliders.time(),
+            state_->anchors.places(), {pokes.begin(), pokes.end()},
+            state_->hasNewTopology,   state_->changes,
+            state_->isUncut};
+}
+
+void Simulation::recordLoadState(VkCommandBuffer buffer, const vk::BufferView& from,
+                                 const SavedState& saved) noexcept {
+    vk::Commands commands(state_->device, buffer);
+    commands.beginStep();
+    state_->copy(commands, state_->written, from, State::Way::back);
+    if (saved.changes != state_->changes) {
+        state_->recordSettling(commands);
+        state_->isChanged = true;
+    }
+    commands.endStep();
+    state_->moveTo(saved);
+}
+
+std::uint64_t Simulation::topologySize() const noexcept {
+    std::uint64_t size = 0;
+    for (const BufferId buffer : state_->program.cutting.topology) size += view(buffer).size;
+    return size;
+}
+
+void Simulation::recordSaveTopology(VkCommandBuffer buffer, const vk::BufferView& to) const noexcept {
+    vk::Commands commands(state_->device, buffer);
+    commands.beginStep();
+    state_->copy(commands, state_->program.cutting.topology, to, State::Way::out);
+    commands.endStep();
+}
+
+void Simulation::recordLoadTopology(VkCommandBuffer buffer, const vk::BufferView& from) noexcept {
+    vk::Commands commands(state_->device, buffer);
+    commands.beginStep();
+    state_->copy(commands, state_->program.cutting.topology, from, State::Way::back);
+    for (const BufferId seen : state_->program.cutting.contactsSeen)
+        commands.fill(view(seen), farAwayBits); // contacts are listed anew
+    if (state_->changes > 0) state_->recordSettling(commands);
+    commands.endStep();
+    state_->hasNewTopology = true;
+    state_->isUncut = false; // for all that the host knows
+}
+
+} // namespace sinew::sim
