@@ -236,7 +236,8 @@ for run in first second; do
     grep '^state hash' "$run.out" >"$run.hash" || fail "nothing is said of the state in the end: $(cat "$run.out")"
 done
 cmp -s first.hash second.hash || fail "two runs from a state differ: $(cat first.hash second.hash)"
-same block-*.png first/frame_0000.png || fail "what was saved is not seen as it was"
+# The window's own renderer draws F12, whose format may be another one: edges are mixed otherwise there.
+alike block-*.png first/frame_0000.png || fail "what was saved is not seen as it was"
 head -c 3000 block-*.state >short.state
 "$viewer" short.state --headless --frames 1 --out short >short.out 2>short.err && fail "half a state is taken for one"
 (($(grep -c '^error: cannot read a state: .*short.state: it is cut short' short.err) == 1)) || fail "half a state: $(cat short.err)"

@@ -62,6 +62,12 @@ awaitStill() { # FILE: a picture that stays; a paused software device draws its 
     fail "the paused picture never stood still"
 }
 same() { compare -metric AE "$1" "$2" null: >/dev/null 2>&1; }
+alike() { # by half a percent, root of the mean square: two pixels aside are more
+    local off
+    off=$(compare -metric RMSE "$1" "$2" null: 2>&1 || true)
+    off=${off#*(}
+    python3 -c 'import sys; sys.exit(not float(sys.argv[1]) < 0.005)' "${off%)*}"
+}
 cutDown() { # X FROM TO: a stroke down the window, again where so little time went to it that it saw no more than an end of the stroke
     keys c
     awaitTitle blade

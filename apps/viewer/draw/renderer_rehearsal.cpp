@@ -6,7 +6,7 @@ namespace sinew::viewer {
 
 namespace {
 
-constexpr std::uint32_t mostBindings = 4; // of vertices, of any pipeline
+constexpr std::uint32_t mostBindings = 5; // of vertices, of any pipeline
 
 } // namespace
 
