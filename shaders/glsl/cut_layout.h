@@ -56,6 +56,12 @@ struct CutPush {
 // Slots that one invocation counts particles in.
 #define PIECE_CHUNK 32
 
+// Of a particle that may be cut, where crumbs are removed.
+struct CrumbParticle {
+    uint mass;  // as CutCounts::crumbMass
+    uint whole; // particles of its piece, uncut
+};
+
 // Of pieces that are removed: slots of a run, and how many particles a piece keeps for.
 struct CrumbPush {
     uint first, count;

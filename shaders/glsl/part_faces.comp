@@ -10,7 +10,8 @@ layout(std430, binding = 2) readonly buffer Faces { CutFace faces[]; };
 layout(std430, binding = 3) writeonly buffer Searched { uint searched[]; }; // ~0 = none
 layout(std430, binding = 4) writeonly buffer Large { uint large[]; };       // likewise
 layout(std430, binding = 5) buffer Bounds { GridBounds bounds; };
-layout(std430, binding = 6) readonly buffer Radii { float radii[]; };       // below 0 = of a crumb
+layout(std430, binding = 6) readonly buffer Particles { uint particles[]; }; // of each slot
+layout(std430, binding = 7) readonly buffer Pieces { uint pieces[]; };
 layout(push_constant) uniform Push { CutFacesPush push; };
 #include "sheet_edges.glsl"
 
@@ -19,7 +20,7 @@ void main() {
     if (item >= push.count) return;
     const CutFace face = faces[item];
     const Cuts cuts = cutsOf(SheetTriangle(face.slot, face.kind));
-    const uint left = cuts.dead < 2u && radii[face.slot] >= 0.0 ? face.face : ~0u;
+    const uint left = cuts.dead < 2u && pieces[particles[face.slot]] != REMOVED_PIECE ? face.face : ~0u;
     if (face.isLarge != 0u) large[face.place] = left;
     else searched[face.place] = left;
     bool isNew = false;

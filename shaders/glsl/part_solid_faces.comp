@@ -10,7 +10,8 @@ layout(std430, binding = 2) readonly buffer Faces { CutSolidFace faces[]; };
 layout(std430, binding = 3) writeonly buffer Searched { uint searched[]; }; // ~0 = none
 layout(std430, binding = 4) writeonly buffer Large { uint large[]; };       // likewise
 layout(std430, binding = 5) buffer Bounds { GridBounds bounds; };
-layout(std430, binding = 6) readonly buffer Radii { float radii[]; };       // below 0 = of a crumb
+layout(std430, binding = 6) readonly buffer Particles { uint particles[]; }; // of each slot
+layout(std430, binding = 7) readonly buffer Pieces { uint pieces[]; };
 layout(push_constant) uniform Push { CutFacesPush push; };
 
 uint isDead(uint slot, uint bit) { return 1u - (links[slot] >> (bit & 255u) & 1u); }
@@ -20,7 +21,7 @@ void main() {
     if (item >= push.count) return;
     const CutSolidFace face = faces[item];
     const uint dead = isDead(face.low, face.bits) + isDead(face.low, face.bits >> 8) + isDead(face.middle, face.bits >> 16);
-    const uint left = dead < 2u && radii[face.low] >= 0.0 ? face.face : ~0u;
+    const uint left = dead < 2u && pieces[particles[face.low]] != REMOVED_PIECE ? face.face : ~0u;
     if (face.isLarge != 0u) large[face.place] = left;
     else searched[face.place] = left;
     const bool isNew = links[face.low] != savedLinks[face.low] || links[face.middle] != savedLinks[face.middle];

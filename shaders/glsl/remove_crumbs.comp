@@ -1,5 +1,5 @@
 #version 460
-// After pieces were found anew: particles of those that have too few are of none.
+// After pieces were found anew: particles of those that have too few are of none. What nobody has cut anything off stays, however small.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -8,7 +8,7 @@ layout(std430, binding = 1) readonly buffer Particles { uint particles[]; };
 layout(std430, binding = 2) readonly buffer Sizes { uint sizes[]; };
 layout(std430, binding = 3) writeonly buffer Pieces { uint pieces[]; };
 layout(std430, binding = 4) buffer Counts { CutCounts counts; };
-layout(std430, binding = 5) readonly buffer Masses { uint masses[]; }; // of particles, as CutCounts::crumbMass
+layout(std430, binding = 5) readonly buffer Crumbs { CrumbParticle crumbs[]; }; // by particle
 layout(push_constant) uniform Push { CrumbPush push; };
 
 void main() {
@@ -17,10 +17,10 @@ void main() {
     const uint i = push.first + item, particle = particles[i];
     if (particle == NO_PARTICLE) return;
     const uint piece = particles[labels[i]];
-    if (sizes[piece] >= push.least) return;
+    if (sizes[piece] >= min(push.least, crumbs[particle].whole)) return;
     pieces[particle] = REMOVED_PIECE;
     atomicAdd(counts.crumbParticles, 1u);
-    atomicAdd(counts.crumbMass, masses[particle]);
+    atomicAdd(counts.crumbMass, crumbs[particle].mass);
     if (piece != particle) return;
     atomicAdd(counts.pieces, ~0u); // one less
     atomicAdd(counts.crumbs, 1u);

@@ -18,6 +18,7 @@ void main() {
     const uint i = itemIndex(pulling.unused0);
     if (i >= pulling.unused0) return;
     const uint slot = bodies[held[i]].slot;
+    if (bodies[held[i]].mass == 0.0) return; // a crumb that was removed
     if (!isAsleep(weights[slot], velocities[slot])) return;
     atomicOr(marks[islands[slot]], 1u);
     atomicMax(waking[SLEEP_OPENING].groupsX, push.groups);

@@ -66,7 +66,7 @@ constexpr Key keys[] = {
     {"", "plane", Kind::tables, "", {}, "", "half spaces that particles stay in"},
     {"", "collider", Kind::tables, "", {}, "", "spheres, capsules and boxes that particles stay out of, still or moving"},
     {"", "contacts", Kind::table, "", {}, "", "how particles touch each other"},
-    {"", "crumbs", Kind::count, "particles", ranges::crumbs, "0", "pieces of a box, a mesh or a cloth of fewer particles than that are removed as they are cut off: nothing touches, holds, draws or saves them any more; 0 = none"},
+    {"", "crumbs", Kind::count, "particles", ranges::crumbs, "0", "pieces of a box, a mesh or a cloth of fewer particles than that are removed as they are cut off: nothing touches, holds, draws or exports them any more; 0 = none"},
     {"", "cut_surface_room", Kind::count, "triangles", ranges::cutSurfaceRoom, "0", "that the surface of cuts has room for at first, where that is more than some cuts through the whole of each body need; programs make more where it is too little"},
     {"", "blade", Kind::tables, "", {}, "", "blades that cut at given times"},
     {"", "strokes", Kind::tables, "", {}, "", "many blades at random places"},

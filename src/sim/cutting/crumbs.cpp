@@ -6,10 +6,10 @@
 #include "sim/collision/hash_grid.hpp"
 #include "sim/constraints/grab.hpp"
 #include "sim/cutting/crumb_skins.hpp"
+#include "sim/cutting/first_contents.hpp"
 #include "sim/sleep.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace sinew::sim::cutting {
 
@@ -28,16 +28,20 @@ std::vector<double> massesOf(const Scene& scene) {
     return masses;
 }
 
-BufferId uploadMasses(ProgramBuilder& program, const Scene& scene) {
+BufferId uploadParticles(ProgramBuilder& program, const Scene& scene) {
     const std::vector<double> masses = massesOf(scene);
     double all = 0;
     for (const double mass : masses) all += mass;
-    const double unit = all / CRUMB_MASS;
-    program.program().cutting.crumbUnit = unit;
-    std::vector<std::uint32_t> parts;
-    for (const double mass : masses)
-        parts.push_back(mass > 0 ? static_cast<std::uint32_t>(mass / unit) : 0); // the sum fits
-    return program.upload("crumbs.masses", parts);
+    CuttingBuffers& buffers = program.program().cutting;
+    buffers.crumbUnit = all / CRUMB_MASS;
+    const auto pieces = firstContents<std::uint32_t>(program, buffers.pieces),
+               sizes = firstContents<std::uint32_t>(program, buffers.pieceSizes);
+    std::vector<layout::CrumbParticle> crumbs;
+    for (std::size_t i = 0; i < masses.size(); ++i)
+        crumbs.push_back(
+            {masses[i] > 0 ? static_cast<std::uint32_t>(masses[i] / buffers.crumbUnit) : 0, // the sum fits
+             pieces[i] == NO_PARTICLE ? 0 : sizes[pieces[i]]});
+    return program.upload("crumbs.particles", crumbs);
 }
 
 void addToTopology(ProgramBuilder& program, BufferId buffer) {
@@ -50,7 +54,7 @@ void addToTopology(ProgramBuilder& program, BufferId buffer) {
 void addCrumbs(ProgramBuilder& program, const Scene& scene, Cut& cut, const ParticleBuffers& particles) {
     if (scene.crumbs < 2) return;
     program.program().cutting.crumbs = scene.crumbs;
-    cut.crumbMasses = uploadMasses(program, scene);
+    cut.crumbParticles = uploadParticles(program, scene);
     cut.crumbSkins = addCrumbSkins(program, scene, cut, particles.layout);
     if (particles.sleep) addToTopology(program, particles.sleep->limits);
 }
@@ -67,7 +71,7 @@ void addCrumbRemoval(ProgramBuilder& program, const Cut& cut, const ParticleBuff
         }
     };
     add(k::removeCrumbs,
-        {cut.labels, cut.particles, buffers.pieceSizes, buffers.pieces, buffers.counts, cut.crumbMasses});
+        {cut.labels, cut.particles, buffers.pieceSizes, buffers.pieces, buffers.counts, cut.crumbParticles});
     add(k::forgetCrumbs, {cut.particles, buffers.pieces, buffers.pieceSizes});
     for (const ContactGrid& grid : buffers.contactGrids)
         add(k::leaveContacts, {cut.particles, buffers.pieces, grid.radii, grid.bounds});

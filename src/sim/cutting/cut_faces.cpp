@@ -3,10 +3,10 @@
 #include "sim/cutting/cut_faces.hpp"
 
 #include "kernels.hpp"
+#include "sim/cutting/first_contents.hpp"
 #include "sim/lattice/link_masks.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <functional>
 #include <optional>
 
@@ -15,13 +15,6 @@ namespace sinew::sim::cutting {
 namespace {
 
 namespace k = kernels;
-
-template <typename T> std::vector<T> initialOf(ProgramBuilder& program, BufferId buffer) {
-    const BufferSpec& spec = program.program().buffers[buffer.index];
-    std::vector<T> values(spec.initial.size() / sizeof(T));
-    if (!values.empty()) std::memcpy(values.data(), spec.initial.data(), spec.initial.size());
-    return values;
-}
 
 bool isIn(const CutRun& run, std::uint32_t slot) {
     return slot >= run.first && slot - run.first < run.count;
@@ -63,10 +56,10 @@ std::optional<layout::CutSolidFace> solidOf(const CutRun& run, const layout::Con
 template <typename Part, typename PartOf>
 std::vector<Part> facesOf(ProgramBuilder& program, const collision::face_lists::Lists& lists,
                           const PartOf& partOf) {
-    const auto all = initialOf<layout::ContactFace>(program, lists.faces);
+    const auto all = firstContents<layout::ContactFace>(program, lists.faces);
     std::vector<Part> result;
     for (const bool isLarge : {false, true}) {
-        const auto searched = initialOf<std::uint32_t>(program, isLarge ? lists.large : lists.searched);
+        const auto searched = firstContents<std::uint32_t>(program, isLarge ? lists.large : lists.searched);
         for (std::uint32_t place = 0; place < searched.size(); ++place) {
             const std::uint32_t face = searched[place];
             if (face >= all.size()) continue; // padding
@@ -125,9 +118,9 @@ void addFilter(ProgramBuilder& program, const collision::face_lists::Lists& list
     makeTopology(program, lists.grid.detected, {lists.searched, lists.large});
     const CuttingBuffers& cutting = program.program().cutting;
     const std::vector<BufferId> buffers{
-        cutting.links,  cutting.savedLinks, program.upload("cut.faces", faces),
-        lists.searched, lists.large,        lists.grid.bounds,
-        lists.radii};
+        cutting.links,     cutting.savedLinks, program.upload("cut.faces", faces),
+        lists.searched,    lists.large,        lists.grid.bounds,
+        cutting.particles, cutting.pieces};
     const layout::CutFacesPush push{static_cast<std::uint32_t>(faces.size()), run.sliceStride};
     addTwice(program,
              [&program, &code, buffers, push] { program.dispatch(code, push.count, buffers, push); });
@@ -149,7 +142,7 @@ void addEdgeFilter(ProgramBuilder& program, const collision::edge_contacts::Cont
     const auto& lists = contacts.lists;
     for (const CutRun& run : cutting.runs) {
         if (run.rowStride > 0) continue;
-        const auto edges = edgesOf(run, initialOf<layout::ContactEdge>(program, lists.edges));
+        const auto edges = edgesOf(run, firstContents<layout::ContactEdge>(program, lists.edges));
         if (edges.empty()) continue;
         makeTopology(program, lists.grid.detected, {lists.edges});
         const BufferId uploaded = program.upload("cut.edges", edges);

@@ -30,7 +30,7 @@ struct Cut {
     BufferId bladePlaces; // by slot: where particles are for the blade, buffers.places but for some
     BufferId labels, particles, arguments, groups; // of pieces
     BufferId uncutBodies, weights;                 // likewise, where hands may hold some
-    BufferId crumbMasses;                          // by particle; where crumbs are removed
+    BufferId crumbParticles;                       // CrumbParticle; where crumbs are removed
     CrumbSkins crumbSkins;
     std::shared_ptr<surface::CutSurface> surface; // none where no skin is clipped
     std::shared_ptr<surface::SheetPieces> sheets; // likewise

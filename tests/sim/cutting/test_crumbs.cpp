@@ -305,6 +305,19 @@ TEST(Crumbs, LeaveTheSameBitsInReversedOrder) {
     EXPECT_EQ(surfaces[0], surfaces[1]);
 }
 
+// Only what a cut has made is a crumb.
+TEST(Crumbs, AreNotSmallBodiesThatNobodyCut) {
+    Scene scene = cube(10);
+    addLattice(
+        scene,
+        {.name = "small", .origin = {1, 1, 1}, .cells = {1, 1, 1}, .spacing = spacing, .isCuttable = true});
+    Runner runner(scene, {.substeps = 2});
+    const Status status = runner.cut(cornerCut().blade());
+    EXPECT_EQ(status.crumbs, 1u);
+    EXPECT_EQ(status.crumbParticles, 4u);
+    EXPECT_EQ(status.pieces, 2u);
+}
+
 TEST(Crumbs, AreInNoSceneThatKeepsThem) {
     for (const char* kernel : {"remove_crumbs", "forget_crumbs", "leave_contacts"}) {
         EXPECT_FALSE(test::usesKernel(cube(0), kernel)) << kernel;
