@@ -20,7 +20,7 @@ void main() {
         links[i] = savedLinks[i];
         return;
     }
-    if (blade.quads > 0u || blade.rayFrom.w > 0.0) before[i] = places[i]; // strokes go on over steps without a blade
+    if (blade.quads > 0u) before[i] = places[i]; // strokes go on over steps without a blade; a ray has no way
     const uint cut = savedLinks[i] & ~links[i] & OWNED_MASK & push.stiffLinks;
     if (cut != 0u) atomicAdd(work.cut, uint(bitCount(cut)));
 }

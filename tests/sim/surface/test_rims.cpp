@@ -121,15 +121,20 @@ Scene hangingOrgan() {
     return scene;
 }
 
+struct Stage {
+    int first, last;
+};
+
 // A slanted blade along z comes down to `bottom`.
-void strokeDown(CutBody& body, int steps, double bottom) {
+void strokeDown(CutBody& body, int steps, double bottom, const Stage& stage) {
     constexpr double at = 0.02, slant = 0.2, top = 0.3;
     const auto edge = [&](int step) {
         const double y = top + (bottom - top) * step / steps;
         const auto point = [&](double z) { return test::toFloats({at + slant * (y + z), y, z}); };
         return std::vector<Vec3>{point(-1), point(1)};
     };
-    for (int s = 1; s <= steps; ++s) body.cut({.from = edge(s - 1), .to = edge(s), .isCarried = s > 1});
+    for (int s = stage.first; s <= stage.last; ++s)
+        body.cut({.from = edge(s - 1), .to = edge(s), .isCarried = s > 1});
 }
 
 } // namespace
@@ -144,7 +149,7 @@ TEST(Rims, MoveAsSmoothlyAsTheSkin) {
         for (const bool isThrough : {true, false}) {
             CutBody body(hangingOrgan(), {.substeps = 8});
             body.runner().run(5);
-            strokeDown(body, steps, isThrough ? -0.4 : 0);
+            strokeDown(body, steps, isThrough ? -0.4 : 0, {1, steps});
             for (const int more : {1, 10}) {
                 body.runner().run(more);
                 const ClosedSurface surface(body);
@@ -161,11 +166,26 @@ TEST(Rims, MoveAsSmoothlyAsTheSkin) {
                 if (steps > 1) {
                     EXPECT_LT(rim.rest.most, 0.2);
                 }
-                EXPECT_LT(rim.inside.rms(), isThrough ? 0.035 : 0.09);
-                EXPECT_LT(rim.motion.rms(), more == 1 && !isThrough ? 0.05 : 0.03);
+                EXPECT_LT(rim.inside.rms(), steps == 1 && more == 1 && !isThrough ? 0.075 : 0.035);
+                EXPECT_LT(rim.motion.rms(), more == 1 && !isThrough ? 0.035 : 0.03);
                 if (isThrough) {
                     EXPECT_LT(rim.motion.most, 0.3);
                 }
             }
         }
+}
+
+// What a stroke has met so far, and where points of the skin were, go along.
+TEST(Rims, AreTheSameWhereAnotherSimulationTakesOverInAStroke) {
+    constexpr int steps = 24;
+    const Scene scene = hangingOrgan();
+    CutBody body(scene, {.substeps = 8}), roomy(scene, {.substeps = 8, .cutSurfaceRoom = 1u << 18});
+    body.runner().run(5);
+    strokeDown(body, steps, 0, {1, steps / 2});
+    roomy.runner().takeOver(body.runner());
+    for (CutBody* one : {&body, &roomy}) strokeDown(*one, steps, 0, {steps / 2 + 1, steps});
+    const ClosedSurface expected(body), surface(roomy);
+    ASSERT_GT(rimOf(expected).size(), 0u);
+    EXPECT_EQ(surface.rest(), expected.rest());
+    EXPECT_EQ(surface.drawn(), expected.drawn());
 }
