@@ -18,6 +18,7 @@
 #include "vk/loader.hpp"
 #include "vk/queue.hpp"
 
+#include <algorithm>
 #include <cinttypes>
 #include <cstdio>
 #include <deque>
@@ -99,15 +100,22 @@ public:
           offscreen_(device, options.size, opening.light), layers_(options.layers), queue_(device) {
         stage_.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
         if (options.isTimed) times_.emplace(device, stage_);
-        if (const auto shape = parseBeside(options.beside)) beside_ = makeBeside(*shape);
-        if (!input) return;
-        replay_.emplace(std::move(*input));
-        tools_.emplace(device, opening);
+        if (input) {
+            replay_.emplace(std::move(*input));
+            tools_.emplace(device, opening);
+        }
+        if (opening.run) load();
+        besideShape_ = parseBeside(options.beside);
+        if (besideShape_) beside_ = makeBeside(stage_.settings());
     }
 
     /// Submits a frame; with `isPictured`, waits for its picture.
     std::optional<Picture> advance(std::uint64_t frame, bool isPictured) {
         while (submissions_.size() >= sim::Simulation::framesInFlight) settleOldest();
+        if (beside_ && beside_->stage().material() != stage_.material()) { // the replay has turned it
+            settle();
+            goOnBeside();
+        }
         if (frame > 0 && replay_ && playHistory() == Replay::Due::nothing) compareReplay();
         submit(frame);
         if (!isPictured) return std::nullopt;
@@ -172,15 +180,31 @@ public:
     PictureText text(std::uint64_t frame) const { return pictureText(opening_, device_, frame); }
 
 private:
-    std::unique_ptr<Beside> makeBeside(const BesideShape& shape) const {
+    // As the first is now, but for its rooms.
+    std::unique_ptr<Beside> makeBeside(const sim::Settings& room) const {
         try {
-            return std::make_unique<Beside>(device_, opening_.loaded, opening_.loaded.settings,
-                                            sim::Material{}, shape, sim::Simulation::framesInFlight);
+            return std::make_unique<Beside>(device_, opening_.loaded,
+                                            app::withRoomOf(stage_.settings(), room), stage_.material(),
+                                            *besideShape_, sim::Simulation::framesInFlight);
         } catch (const std::invalid_argument& error) {
             const std::string why = error.what();
-            throw app::Failure(app::badInput,
-                               "cannot play " + toText(shape) + " beside: " + why.substr(0, why.find('\n')));
+            throw app::Failure(app::badInput, "cannot play " + toText(*besideShape_) +
+                                                  " beside: " + why.substr(0, why.find('\n')));
         }
+    }
+
+    // Where the first stands, as it is now, in room for so many contacts at least: all steps of both have
+    // finished.
+    void goOnBeside(std::uint32_t contactRoom = 0) {
+        if (!beside_) return;
+        const Stage& now = beside_->stage();
+        sim::Settings room = now.settings();
+        const bool isRoomy = room.contactRoom >= contactRoom && now.hasRoomOf(stage_);
+        room.contactRoom = std::max(room.contactRoom, contactRoom);
+        if (!isRoomy || now.material() != stage_.material()) beside_ = makeBeside(room);
+        VkCommandBuffer commands = queue_.begin();
+        beside_->recordTakeOver(commands, stage_);
+        queue_.wait(queue_.submit(commands));
     }
 
     void recordHalves(VkCommandBuffer commands, const Overlay& overlay) {
@@ -190,9 +214,14 @@ private:
                                 {{{stage_.simulation(), overlay}, {beside_->simulation(), other}}});
     }
 
+    // More room is made as for the first, but it goes on from where that stands.
     void checkBeside(std::uint32_t slot) {
-        if (const auto trouble = beside_->settle(slot))
-            throw app::Failure(app::diverged, "beside: " + trouble->why);
+        const auto trouble = beside_->settle(slot);
+        if (!trouble) return;
+        if (trouble->room == 0) throw app::Failure(app::diverged, "beside: " + trouble->why);
+        queue_.waitIdle();
+        goOnBeside(trouble->room);
+        std::fprintf(stderr, "note: beside: %s: it goes on where the first stands\n", trouble->why.c_str());
     }
 
     // The range of a map is that of its own picture, whichever others are taken.
@@ -255,6 +284,7 @@ private:
         VkCommandBuffer commands = queue_.begin();
         tools_->recordHistory(commands, stage_);
         queue_.wait(queue_.submit(commands));
+        goOnBeside();
     }
 
     // Another simulation goes on.
@@ -270,7 +300,6 @@ private:
     }
 
     void submit(std::uint64_t frame) {
-        if (frame == 0 && opening_.run) load();
         VkCommandBuffer commands = queue_.begin();
         Submission next{.frame = frame, .value = 0, .hands = {}, .gravity = stage_.gravity()};
         if (tools_ && frame > 0) next.hands = tools_->takeStep(commands, stage_);
@@ -327,6 +356,7 @@ private:
             throw app::Failure(app::diverged, app::tooCrowded(first.frame));
         inspection_.reset(); // there is another simulation now
         if (tools_) forgetUndone(undone);
+        goOnBeside(); // it has taken those steps
         for (Submission& again : undone) {
             VkCommandBuffer commands = queue_.begin();
             if (again.hands.sweep && !again.hands.sweep->isCarried) tools_->remember(commands, stage_);
@@ -343,10 +373,10 @@ private:
         queue_.wait(oldest.value);
         if (oldest.frame == 0) return;
         if (times_) times_->stepFinished(oldest.frame);
-        if (beside_) checkBeside(slotOf(oldest.frame));
         if (stage_.neededRoom(oldest.frame) > 0) return redoFrom(oldest);
         if (const std::optional<Divergence> divergence = stage_.check(oldest.frame))
             throw app::Failure(app::diverged, divergence->sentence());
+        if (beside_) checkBeside(slotOf(oldest.frame));
         surfaceMissing_ = stage_.simulation().status(oldest.frame).cutSurfaceMissing;
     }
 
@@ -361,6 +391,7 @@ private:
     bool isCompared_ = false; // with what was recorded
     bool isGridMissed_ = false;
     std::optional<Tools> tools_; // of the replay
+    std::optional<BesideShape> besideShape_;
     std::unique_ptr<Beside> beside_;
     std::optional<HeadlessTimes> times_;
     vk::Queue queue_; // last: waits for what still uses the others

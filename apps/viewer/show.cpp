@@ -202,7 +202,9 @@ void Show::countPipelines() {
 // A film has a picture of every step.
 Plan Show::plan(double elapsed) {
     const bool isOneByOne = recording_ || replay_;
-    Plan plan = controller_.playback.plan(elapsed, isOneByOne ? 1 : budget_.steps(Playback::maxSteps));
+    const std::uint32_t most = isOneByOne ? 1 : budget_.steps(Playback::maxSteps);
+    Plan plan =
+        controller_.playback.plan(elapsed, stage_.lacksContactRoom() ? 0 : most); // until there is more
     if (recording_ && !controller_.playback.isPaused() && !plan.isReset) plan.steps = 1;
     if (plan.isReset && replay_ && from_) { // the state is put in anew, beside what plays
         if (mayOpen()) library_.playAgain(replay_->file(), pictureAspect());
@@ -237,7 +239,7 @@ void Show::draw(Plan plan, View& view) {
     if (surfaceMissing_ > 0) makeSurfaceRoom();
     if (stage_.wantsShape()) reshape();
     if (isDiverged_ && !plan.isReset) plan.steps = 0; // keeps the last finite picture
-    if (stage_.lacksContactRoom()) plan.steps = 0;    // until there is more
+    if (stage_.lacksContactRoom()) plan.steps = 0;    // since settle()
     const std::optional<Presenter::Frame> frame = screen_.presenter().begin();
     if (!frame) {
         if (plan.isReset) controller_.playback.reset();

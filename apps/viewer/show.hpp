@@ -153,7 +153,8 @@ private:
     void toggleWires();
     void toggleBeside();
     void tendBeside();
-    void makeBeside(const BesideShape& shape, const sim::Settings& settings);
+    bool isBesideFit() const;
+    void makeBeside(const BesideShape& shape, const sim::Settings& room);
     void takeBeside();
     void dropBeside();
     void settleBeside(std::uint32_t slot);
@@ -185,6 +186,7 @@ private:
     std::optional<BesideShape> besideAsked_; // that it is, or is being made as
     std::future<std::unique_ptr<Beside>> besideMaking_;
     Vector2 pointer_ = Vector2::Zero(); // as Input::pointer
+    float fold_ = 0;                    // from its middle to that of the half that it is in, likewise
     std::optional<Look> wantsLook_;
     std::optional<Look::At> armed_; // by a button: the next press says where
     MapRange mapRange_;
@@ -219,8 +221,7 @@ private:
     bool isBroken_ = false;                        // has diverged, likewise
     bool isHidden_ = false, isDiverged_ = false, isSurfaceMissing_ = false, isCut_ = false,
          isRefused_ = false, wantsScreenshot_ = false, wantsProbe_ = false, isInputDue_ = false,
-         isMakingSaid_ = false, isSurfaceGrowing_ = false, isBesideOut_ = false, isRightHalf_ = false,
-         isButtonDown_ = false;
+         isMakingSaid_ = false, isSurfaceGrowing_ = false, isBesideOut_ = false, isButtonDown_ = false;
 };
 
 } // namespace sinew::viewer

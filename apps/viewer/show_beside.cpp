@@ -3,7 +3,6 @@
 
 #include "vk/check.hpp"
 
-#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -32,8 +31,8 @@ void Show::tendBeside() {
     const std::optional<BesideShape>& wanted = screen_.beside();
     if (besideMaking_.valid()) {
         if (besideMaking_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) takeBeside();
-    } else if (wanted && wanted != besideAsked_) {
-        makeBeside(*wanted, stage_.settings());
+    } else if (wanted && (wanted != besideAsked_ || !isBesideFit())) {
+        makeBeside(*wanted, beside_ ? beside_->stage().settings() : stage_.settings());
     } else if (!wanted && besideAsked_) {
         dropBeside();
     } else if (beside_ && isBesideOut_ && !stage_.lacksContactRoom() && !isDiverged_) {
@@ -44,15 +43,25 @@ void Show::tendBeside() {
     }
 }
 
-void Show::makeBeside(const BesideShape& shape, const sim::Settings& settings) {
+// Of what the first has been turned to, and with the room to go on where that stands.
+bool Show::isBesideFit() const {
+    if (!beside_) return true;
+    const Stage& beside = beside_->stage();
+    return beside.material() == stage_.material() && (!isBesideOut_ || beside.hasRoomOf(stage_));
+}
+
+// With the rooms of the first, and no less than in `room`.
+void Show::makeBeside(const BesideShape& shape, const sim::Settings& room) {
     besideAsked_ = shape;
+    const sim::Settings settings = app::withRoomOf(stage_.settings(), room);
     besideMaking_ = std::async(std::launch::async, [this, shape, settings, material = stage_.material()] {
         return std::make_unique<Beside>(device_, opening_.loaded, settings, material, shape,
                                         Presenter::framesInFlight);
     });
 }
 
-// It goes on where the first stands; a step before that is its rehearsal.
+// It goes on where the first stands; a step before that is its rehearsal. Where that has come to more room
+// meanwhile another one is made at once; where it has been turned, by tendBeside().
 void Show::takeBeside() {
     std::unique_ptr<Beside> made;
     try {
@@ -63,9 +72,13 @@ void Show::takeBeside() {
         if (error.failure() != vk::Failure::outOfMemory) throw;
         screen_.warn(std::string("not beside: ") + error.what());
     }
+    if (!made || !screen_.beside()) {
+        screen_.beside().reset();
+        return dropBeside();
+    }
+    if (!made->stage().hasRoomOf(stage_)) return makeBeside(*besideAsked_, made->stage().settings());
     const std::optional<BesideShape> asked = besideAsked_;
     dropBeside();
-    if (!made) return screen_.beside().reset();
     besideAsked_ = asked; // another one may be wanted by now: that is made then
     beside_ = std::move(made);
     backstage_.rehearse([this](VkCommandBuffer commands) {
@@ -78,6 +91,7 @@ void Show::takeBeside() {
 }
 
 void Show::dropBeside() {
+    isBesideOut_ = true; // what it finds out is of no use any more
     settleAll();
     beside_.reset();
     besideAsked_.reset();
@@ -89,12 +103,11 @@ void Show::settleBeside(std::uint32_t slot) {
     const std::optional<Beside::Trouble> trouble = beside_->settle(slot);
     if (!trouble || isBesideOut_) return;
     screen_.presenter().waitIdle();
-    const BesideShape shape = beside_->shape();
+    sim::Settings room = beside_->stage().settings();
     beside_.reset();
     if (trouble->room > 0) { // as the first does, but from where that stands
-        sim::Settings settings = stage_.settings();
-        settings.contactRoom = std::max(settings.contactRoom, trouble->room);
-        if (!besideMaking_.valid()) makeBeside(shape, settings);
+        room.contactRoom = trouble->room;
+        if (!besideMaking_.valid()) makeBeside(*besideAsked_, room);
         return;
     }
     screen_.warn("beside: " + trouble->why);
@@ -108,23 +121,24 @@ std::uint32_t Show::halvesWidth() const {
     return 2 * side < extent.width ? extent.width - side : extent.width;
 }
 
-// Both halves act on both: where the pointer is in the one that it was pressed in.
+// Both halves act on both: where the pointer is in the one that it was pressed in. Until it is released
+// nothing moves it but a hand, though halves come and go.
 void Show::foldPointer(Input& input) {
     const VkExtent2D extent = screen_.presenter().extent();
-    if (!beside_ || extent.height == 0) return;
-    const auto width = static_cast<float>(halvesWidth()), whole = static_cast<float>(extent.width),
-               height = static_cast<float>(extent.height);
-    const auto isRight = [&](const Vector2& at) { return at.x() * height + 0.5f * (whole - width) >= 0; };
-    const auto fold = [&](Vector2& at) {
-        at.x() -= ((isRightHalf_ ? 0.75f : 0.25f) * width - 0.5f * whole) / height; // from the half's middle
+    const auto foldAt = [&](const Vector2& at) {
+        if (!beside_ || extent.height == 0) return 0.0f;
+        const auto width = static_cast<float>(halvesWidth()), whole = static_cast<float>(extent.width),
+                   height = static_cast<float>(extent.height);
+        const bool isRight = at.x() * height + 0.5f * (whole - width) >= 0;
+        return ((isRight ? 0.75f : 0.25f) * width - 0.5f * whole) / height;
     };
-    if (!isButtonDown_) isRightHalf_ = isRight(input.pointer);
+    if (!isButtonDown_) fold_ = foldAt(input.pointer);
     for (Input::Press& press : input.presses) {
-        if (press.isDown) isRightHalf_ = isRight(press.pointer);
+        if (press.isDown) fold_ = foldAt(press.pointer);
         isButtonDown_ = press.isDown;
-        fold(press.pointer);
+        press.pointer.x() -= fold_;
     }
-    fold(input.pointer);
+    input.pointer.x() -= fold_;
 }
 
 void Show::drawHalves(const Presenter::Frame& frame, const Overlay& overlay, View& view) {

@@ -33,7 +33,8 @@ void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
         forgetFlights();
         isDiverged_ = isBroken_ = false;
     }
-    if (tools_.recordHistory(frame.commands, stage_)) {
+    if (!stage_.lacksContactRoom() &&
+        tools_.recordHistory(frame.commands, stage_)) { // else later, from where steps go on
         forgetFlights();
         isDiverged_ = false;
         isBesideOut_ = true; // it goes on from there, too
@@ -227,7 +228,7 @@ void Show::makeSurfaceRoom() {
 
 // A simulation with more room goes on, once no picture is on its way any more.
 void Show::takeGrowth() {
-    if (!stage_.isGrowing()) return;
+    if (!stage_.isGrowing() || backstage_.isMaking()) return; // layers that are being made first
     const Stage::Growth growth = stage_.askGrowth();
     if (growth == Stage::Growth::none && std::exchange(isSurfaceGrowing_, false)) warnOfSurface();
     if (growth != Stage::Growth::made) return;
@@ -244,7 +245,8 @@ void Show::endGrowth() {
     restartViews();
     isSurfaceGrowing_ = false;
     tools_.moveOn();
-    surfaceMissing_ = 0; // the next step says whether that was enough
+    if (surfaceMissing_ <= stage_.settings().cutSurfaceRoom)
+        surfaceMissing_ = 0; // else more was cut meanwhile
 }
 
 // Once: nothing but the picture suffers.
@@ -262,6 +264,7 @@ void Show::stop(const std::string& why) {
 
 // Later frames take the undone steps again, when there is a simulation with room for them.
 void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
+    screen_.presenter().waitIdle(); // a picture on its way writes into what tools forget
     const std::uint64_t newest = stage_.steps();
     if (!stage_.beginRoom(step)) return stop(app::tooCrowded(step));
     isBesideOut_ = true; // it has taken those steps

@@ -53,7 +53,6 @@ void Show::turnMaterial(const Knobs& knobs) {
     knobs_.body = knobs.body;
     const sim::Material material = materialOf(knobs_, sceneFacts_.fromFile);
     if (material != before) stage_.turn(material);
-    if (material != before && beside_) besideAsked_.reset(); // made again with it
 }
 
 // What cannot be had leaves all as it is; what needs other passes needs another simulation.

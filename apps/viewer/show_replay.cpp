@@ -53,7 +53,7 @@ InputFile Show::inputFile() const {
             .solver = sim::solverName(begun_.solver),
             .substeps = begun_.substeps,
             .room = stage_.contactRoom().room,
-            .surface = stage_.surfaceRoom().needed,
+            .surface = stage_.settings().cutSurfaceRoom,
             .events = tools_.log().events()};
 }
 
@@ -84,6 +84,8 @@ std::string Show::sceneName() const {
 void Show::saveState() {
     settleAll();
     if (isDiverged_) return screen_.tell("a state that is no more cannot be saved");
+    if (stage_.lacksContactRoom())
+        return screen_.tell("not saved: steps wait for more room; again in a moment");
     vk::Queue queue(device_);
     try {
         app::SavedRun run = stage_.save(device_, queue);
@@ -109,7 +111,9 @@ bool Show::playInput(const Presenter::Frame& frame) {
         if (due == Replay::Due::step) return true;
         if (due == Replay::Due::nothing) break;
         if (due == Replay::Due::shape) return false; // before the next picture
-        if (tools_.recordHistory(frame.commands, stage_)) forgetFlights();
+        if (!tools_.recordHistory(frame.commands, stage_)) continue;
+        forgetFlights();
+        isBesideOut_ = true; // it goes on from there, too
     }
     endReplay();
     return false;

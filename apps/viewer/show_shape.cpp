@@ -69,6 +69,8 @@ void Show::takeOver(const Show& before) {
     const Facts counts = gauges_.facts(stage_);
     status_.setCounts(counts.sleeping, counts.pieces);
     pointer_ = before.pointer_;
+    fold_ = before.fold_;
+    isButtonDown_ = before.isButtonDown_;
     if (before.inspector_.isOn()) inspector_.toggle();
     inputSaved_ = before.inputSaved_;
     begun_ = before.begun_;

@@ -177,6 +177,9 @@ void Tools::goOn(const Tools& before, const Stage& stage) {
     isLent_ = before.isLent_;
     wasPokeOn_ = before.wasPokeOn_;
     gravity_ = before.gravity_;
+    wantsUndo_ = before.wantsUndo_;
+    wantsRedo_ = before.wantsRedo_;
+    stepsBack_ = before.stepsBack_;
     log_ = before.log_;
     turned(stage.material());
     log_.shape({stage.settings().solver, stage.settings().substeps});

@@ -118,6 +118,27 @@ TEST(Beside, GoesOnWhereTheFirstStands) {
     ASSERT_FALSE(pair.play(2, hands));
 }
 
+// What takes over needs the room of the one that it takes over from.
+TEST(Beside, GoesOnWithTheRoomAndTheMaterialThatTheFirstHas) {
+    Pair pair({sim::Solver::split, 6}, block);
+    ASSERT_FALSE(pair.play(3));
+    ASSERT_TRUE(pair.stage.makeSurfaceRoom(4 * pair.stage.settings().cutSurfaceRoom + 200000, test::queue()));
+    pair.stage.turnNow({.stiffness = 0.5f});
+    pair.run([&](VkCommandBuffer commands) { pair.step(commands); });
+    ASSERT_EQ(pair.stage.material(), sim::Material{.stiffness = 0.5f});
+    EXPECT_FALSE(pair.beside.stage().hasRoomOf(pair.stage));
+    Beside next(test::device(), pair.opening.loaded,
+                app::withRoomOf(pair.beside.stage().settings(), pair.stage.settings()), pair.stage.material(),
+                pair.beside.shape(), 1);
+    EXPECT_TRUE(next.stage().hasRoomOf(pair.stage));
+    EXPECT_EQ(next.stage().material(), pair.stage.material());
+    pair.run([&](VkCommandBuffer commands) { next.recordTakeOver(commands, pair.stage); });
+    const auto here = pair.placesOf(pair.stage.simulation()), there = pair.placesOf(next.simulation());
+    ASSERT_EQ(here.size(), there.size());
+    for (std::size_t i = 0; i < here.size(); ++i)
+        EXPECT_TRUE(here[i].x == there[i].x && here[i].y == there[i].y && here[i].z == there[i].z) << i;
+}
+
 TEST(Beside, RefusesWhatItsSolverHasNoFormFor) {
     EXPECT_THROW(Pair({sim::Solver::jacobi, 8}, block), std::invalid_argument) << "cuts";
 }

@@ -59,6 +59,7 @@ void step(Played& played, int steps) {
 }
 
 void take(Played& played) {
+    played.stage.bringGrowth(test::queue(), played.tools.bring());
     played.run([&](VkCommandBuffer commands) { played.stage.recordGrowth(commands); });
     played.stage.endGrowth();
 }

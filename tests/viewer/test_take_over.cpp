@@ -6,6 +6,8 @@
 #include "vk/loader.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 namespace sinew::viewer {
 namespace {
@@ -162,13 +164,19 @@ TEST(Undo, GoesOnWithOtherSubstepsAndAnotherMaterial) {
 }
 
 TEST(Undo, LeadsWithMoreRoomToTheStepsThatItLedToWithout) {
-    Played little, roomy;
-    const Cuts cuts(little), same(roomy);
+    Played little, roomy, growing; // the last in another thread
+    const Cuts cuts(little), same(roomy), likewise(growing);
     const std::uint32_t more = 4 * roomy.stage.settings().cutSurfaceRoom + 10000;
     ASSERT_TRUE(roomy.stage.makeSurfaceRoom(more, test::queue(), roomy.tools.bring()));
     EXPECT_GT(roomy.stage.simulation().stateSize(), little.stage.simulation().stateSize());
-    roomy.tools.moveOn();
-    for (Played* played : {&little, &roomy})
+    ASSERT_TRUE(growing.stage.beginSurfaceRoom(more));
+    while (growing.stage.askGrowth() == Stage::Growth::making)
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    growing.stage.bringGrowth(test::queue(), growing.tools.bring());
+    growing.run([&](VkCommandBuffer commands) { growing.stage.recordGrowth(commands); });
+    growing.stage.endGrowth();
+    for (Played* played : {&roomy, &growing}) played->tools.moveOn();
+    for (Played* played : {&little, &roomy, &growing})
         for (const Action way : {Action::undo, Action::redo, Action::redo}) {
             played->tools.act(way); // not turn(), whose probe is of the simulation before
             played->run([&](VkCommandBuffer commands) {
@@ -177,6 +185,7 @@ TEST(Undo, LeadsWithMoreRoomToTheStepsThatItLedToWithout) {
             });
         }
     EXPECT_EQ(roomy.hash(), little.hash());
+    EXPECT_EQ(growing.hash(), little.hash());
     EXPECT_EQ(roomy.stage.simulation().status(roomy.stage.steps()).linksCutInAll,
               little.stage.simulation().status(little.stage.steps()).linksCutInAll);
 }

@@ -4,6 +4,7 @@
 #include "vk/check.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -137,7 +138,13 @@ void Stage::takeOver(const Stage& from, const app::Bring& bring) {
     played_ = from.played_;
 }
 
+bool Stage::hasRoomOf(const Stage& other) const noexcept {
+    return settings().contactRoom >= other.settings().contactRoom &&
+           settings().cutSurfaceRoom >= other.settings().cutSurfaceRoom;
+}
+
 void Stage::recordTakeOver(VkCommandBuffer commands, const Stage& from) noexcept {
+    assert(hasRoomOf(from));
     simulation().recordTakeOver(commands, from.simulation());
     gravity_ = from.gravity_;
     steps_ = from.steps_;

@@ -90,8 +90,9 @@ public:
     void takeOver(const Stage& from, const app::Bring& bring = {});
 
     /// The same on this device, in commands before which all steps of both have finished, with the room that
-    /// this has.
+    /// this has: hasRoomOf(from).
     void recordTakeOver(VkCommandBuffer commands, const Stage& from) noexcept;
+    bool hasRoomOf(const Stage& other) const noexcept;
 
     /// For what goes back to earlier states.
     sim::Simulation& simulation() noexcept { return growing_.simulation(); }

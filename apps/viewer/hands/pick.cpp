@@ -132,12 +132,13 @@ private:
         }
     }
 
-    // One that stretches over cuts goes with whatever it hangs on (sim/cutting/crumb_skins); all others have
-    // shrunk to a point.
+    // One that is clipped goes with its anchors, one that stretches over cuts with whatever it hangs on
+    // (sim/cutting/crumb_skins).
     bool isGone(const sim::Skin& skin, const SeenCuts::Triangle& triangle) const {
         if (!hasCrumbs_) return false;
         return std::ranges::any_of(triangle, [&](std::uint32_t corner) {
             if (skin.cells.empty()) return isRemoved(state_.pieces, skin.particles[corner]);
+            if (!skin.anchors.empty() && state_.cuts) return isRemoved(state_.pieces, skin.anchors[corner]);
             const sim::CellEmbedding& cell = skin.cells[corner];
             for (std::size_t k = 0; k < cell.particles.size(); ++k)
                 if (cell.share(k) > 0 && isRemoved(state_.pieces, cell.particles[k])) return true;
