@@ -42,12 +42,6 @@ constexpr Reader anyReader{colorStage | VK_PIPELINE_STAGE_TRANSFER_BIT |
                            VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT};
 constexpr Reader sampling{VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT};
 
-Reader readerOf(VkImageLayout layout) {
-    return layout == VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL
-               ? Reader{VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT}
-               : Reader{colorStage, 0};
-}
-
 // Of a pass that draws in `stages`: after whoever reads what it draws into, and before whoever reads it then.
 struct Drawing {
     VkPipelineStageFlags stages;
@@ -155,7 +149,7 @@ RenderPass RenderPass::ofColor(const vk::Device& device, const VkAttachmentDescr
     const VkSubpassDescription subpass{.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
                                        .colorAttachmentCount = 1,
                                        .pColorAttachments = &colorReference};
-    const auto dependencies = between(readerOf(color.finalLayout), colors);
+    const auto dependencies = between(anyReader, colors);
     return RenderPass(device, passInfo(std::span(&color, 1), subpass, dependencies), name);
 }
 
