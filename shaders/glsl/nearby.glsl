@@ -1,7 +1,7 @@
 // Where a point beside a cut is that goes with a particle: the mean of the motions around that and around all that are linked with it, near ones
 // more, so that points next to each other move alike whichever particles they go with. Whoever includes this has near[], rest[], links[],
 // gradients[], positions[] and particles[].
-const float rimReach = 2.0; // [cells]
+const float meanReach = 2.0; // [cells]
 
 struct Nearby {
     vec3 place, end; // where the point and another one would be
@@ -10,7 +10,7 @@ struct Nearby {
 
 void addNearby(uint i, vec3 point, vec3 end, float spacing, inout Nearby sum, inout float weight) {
     if (near[i] == 0u) return;
-    const vec3 away = (rest[i].xyz - point) / (rimReach * spacing);
+    const vec3 away = (rest[i].xyz - point) / (meanReach * spacing);
     const float rise = max(0.0, 1.0 - dot(away, away)), share = rise * rise * float(bitCount(links[i]));
     const mat3 f = matrixOf(gradients[i]);
     const vec3 x = positions[particles[i]].xyz, home = rest[i].xyz;

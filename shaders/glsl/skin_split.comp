@@ -18,14 +18,14 @@ layout(std430, binding = 8) readonly buffer Counts { uint counts[]; };
 layout(std430, binding = 9) readonly buffer Listed { uint listed[]; };
 layout(std430, binding = 10) readonly buffer Near { uint near[]; };
 
+mat3 matrixOf(Gradient g) { return mat3(g.x.xyz, g.y.xyz, g.z.xyz); }
+
 #define ALIVE(i) links[i]
 #define AT(i) positions[particles[i]].xyz
 #define REST(i) rest[i].xyz
-#define TURN(i) mat3(gradients[i].x.xyz, gradients[i].y.xyz, gradients[i].z.xyz)
+#define TURN(i) matrixOf(gradients[i])
 #include "skin_place.glsl"
-#include "skin_rest.glsl"
 
-mat3 matrixOf(Gradient g) { return mat3(g.x.xyz, g.y.xyz, g.z.xyz); }
 #include "nearby.glsl"
 
 void main() {
