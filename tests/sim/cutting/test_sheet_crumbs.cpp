@@ -160,3 +160,14 @@ TEST(SheetCrumbs, HaveNoEdgesThatTouch) {
     body.cut(cornerCut());
     EXPECT_EQ(touching(corner), 0u);
 }
+
+// Particles that never move have no radius for faces that do not either: they are no crumbs for that.
+TEST(SheetCrumbs, AreNotSheetsThatAreHeldEverywhere) {
+    Scene scene = sheet(0);
+    for (std::uint32_t i = 0; i < particles; ++i) scene.particles[i].inverseMass = 0;
+    CutBody body(scene);
+    const test::Sweep beside{.from = {{5, -1, -1}, {5, -1, 1}}, .to = {{5, 1, -1}, {5, 1, 1}}};
+    ASSERT_EQ(body.cut(beside).linksCutInAll, 0u);
+    body.runner().run(30);
+    EXPECT_GT(body.runner().positions()[particles].y(), 0) << "a ball of 2 m/s fell through";
+}
