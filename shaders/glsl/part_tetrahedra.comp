@@ -10,7 +10,7 @@ layout(std430, binding = 0) readonly buffer Links { uint links[]; };
 layout(std430, binding = 1) readonly buffer Complex { uint complex[]; };
 layout(std430, binding = 2) readonly buffer ListedCounts { uint listedCounts[]; };
 layout(std430, binding = 3) writeonly buffer Partitions { uint partitions[]; }; // of the cell above a slot, 5 bits each
-layout(std430, binding = 4) writeonly buffer Near { uint near[]; };             // 1 = a point may hang on the particle
+layout(std430, binding = 4) writeonly buffer Near { uint near[]; };             // 1 = something is asked how it has turned there
 layout(std430, binding = 5) readonly buffer Listed { uint listed[]; };
 #include "listed_slot.glsl"
 
@@ -42,6 +42,17 @@ bool isWhole(uint words[8]) {
     return dead == 0u;
 }
 
+// Whether all links between its corners that carry something live.
+bool isHeld(uint words[8]) {
+    bool isHeld = true;
+    [[dont_unroll]] for (int low = 0; low < 7; ++low)
+        [[dont_unroll]] for (int high = low + 1; high < 8; ++high) {
+            const ivec3 d = cornerOf(high) - cornerOf(low);
+            isHeld = isHeld && (isAlive(words[low], d.x, d.y, d.z) || !isAlive(push.stiffLinks, d.x, d.y, d.z));
+        }
+    return isHeld;
+}
+
 void main() {
     const uint i = listedSlot();
     if (i == NO_SLOT || !isCell(complex[i])) return;
@@ -51,6 +62,6 @@ void main() {
     const uint first = isWhole(words) ? tetrahedra : 0u;
     [[dont_unroll]] for (uint p = first; p < tetrahedra; ++p) all |= partitionOf(words, cornersOf(p)) << partitionBits * p;
     partitions[i] = all;
-    if (all == 0u) return;
+    if (all == 0u && isHeld(words)) return;
     [[dont_unroll]] for (uint k = 0u; k < 8u; ++k) near[slotOf(i, k)] = 1u;
 }

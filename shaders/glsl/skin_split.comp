@@ -33,7 +33,7 @@ void main() {
     if (item >= count) return;
     const uint v = listed[push.first + item];
     const HungVertex vertex = hung[v];
-    if (moved[v].w == VERTEX_MOVED && near[vertex.anchor] != 0u) { // onto a rim; beside a nick that parts nothing there is none
+    if (moved[v].w == VERTEX_MOVED) { // onto a rim
         const SkinGrid grid = SkinGrid(push.rowStride, push.sliceStride, push.spacing, 0u);
         vertices[vertex.vertex].position.xyz = nearbyOf(vertex.anchor, moved[v].xyz, moved[v].xyz, grid).place;
         return;

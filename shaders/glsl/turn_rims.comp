@@ -7,12 +7,11 @@ layout(std430, binding = 0) readonly buffer Rims { uint rims[]; };
 layout(std430, binding = 1) readonly buffer Hung { HungVertex hung[]; };
 layout(std430, binding = 2) readonly buffer Gradients { Gradient gradients[]; };
 layout(std430, binding = 3) writeonly buffer Vertices { SkinVertex vertices[]; };
-layout(std430, binding = 4) readonly buffer Near { uint near[]; }; // those that have a gradient
 layout(push_constant) uniform Push { PrismPush push; };
 
 void main() {
     const uint i = itemIndex(push.count);
-    if (i >= push.count || rims[i] == 0u || near[hung[i].anchor] == 0u) return;
+    if (i >= push.count || rims[i] == 0u) return;
     const Gradient g = gradients[hung[i].anchor];
     const mat3 cofactor = mat3(cross(g.y.xyz, g.z.xyz), cross(g.z.xyz, g.x.xyz), cross(g.x.xyz, g.y.xyz));
     const vec3 normal = cofactor * hung[i].normal.xyz;

@@ -193,10 +193,10 @@ void addSplitVertices(ProgramBuilder& program, const CutSurface& surface) {
 void addRimNormals(ProgramBuilder& program, const CutSurface& surface) {
     const HungSurface& hung = surface.hung;
     if (hung.prismCount == 0) return;
-    program.dispatchIndirect(
-        k::turnRims, {surface.arguments, surface.push.runs + SURFACE_HUNG, hung.vertexCount},
-        {hung.rims, hung.vertices, surface.gradients, program.program().skinVertices, surface.near},
-        pushOf(surface, hung.vertexCount));
+    program.dispatchIndirect(k::turnRims,
+                             {surface.arguments, surface.push.runs + SURFACE_HUNG, hung.vertexCount},
+                             {hung.rims, hung.vertices, surface.gradients, program.program().skinVertices},
+                             pushOf(surface, hung.vertexCount));
 }
 
 } // namespace sinew::sim::surface
