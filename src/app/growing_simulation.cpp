@@ -93,7 +93,6 @@ void GrowingSimulation::widen(const sim::Settings& roomy, vk::Queue& queue) {
     if (settings.contactRoom == settings_.contactRoom && settings.cutSurfaceRoom == settings_.cutSurfaceRoom)
         return;
     replace(settings, queue);
-    room_.room = settings.contactRoom;
 }
 
 // Only as far as it was not made with it: pipelines take their time.

@@ -2,18 +2,16 @@
 #include "sim/cutting/cut_tethers.hpp"
 
 #include "kernels.hpp"
+#include "sim/cutting/first_contents.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 namespace sinew::sim::cutting {
 
 void addTetherFilter(ProgramBuilder& program, BufferId list, std::span<const ListedTether> tethers) {
     CuttingBuffers& cutting = program.program().cutting;
     if (cutting.runs.empty()) return;
-    const BufferSpec& spec = program.program().buffers[cutting.labels.index];
-    std::vector<std::uint32_t> labels(spec.count); // uncut
-    std::memcpy(labels.data(), spec.initial.data(), spec.initial.size());
+    const auto labels = firstContents<std::uint32_t>(program, cutting.labels); // uncut
     const auto mayBeCut = [&](std::uint32_t slot) {
         return std::ranges::any_of(cutting.runs, [&](const CutRun& run) {
             return slot >= run.first && slot - run.first < run.count;
