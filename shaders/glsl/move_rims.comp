@@ -41,8 +41,9 @@ vec4 behindBlade(HungVertex self, PlacedVertex vertex) {
     const mat3 turn = gradientAt(i);
     if (!(abs(determinant(turn)) > leastVolume)) return vec4(0.0);
     const vec3 n = meeting.normal / size;
-    const vec3 skin = normalize(cofactor(turn) * self.normal.xyz);
-    vec3 way = n - dot(n, skin) * skin;
+    const vec3 skin = cofactor(turn) * self.normal.xyz; // zero where its triangles are all folded upon each other
+    const float area = dot(skin, skin);
+    vec3 way = area > 0.0 ? n - dot(n, skin) / area * skin : n;
     if (dot(way, way) < leastTangent) way = n;
     way *= dot(n, meeting.at * (PLACE(i) - x)) / dot(n, way);
     way *= min(1.0, mostWay * push.spacing / max(length(way), 1e-30));

@@ -222,3 +222,32 @@ TEST(Rims, AreWhereTheyWereBesideNicks) {
     }
     EXPECT_GT(rims, 100u);
 }
+
+// A vertex whose triangles are folded upon each other faces no way: a blade between it and its particle
+// leaves it at a place all the same.
+TEST(Rims, AreSomewhereWhereTheSkinFacesNoWay) {
+    Scene scene{.name = "knot", .gravity = {0, 0, 0}};
+    mesh::MeshBody knot{.name = "knot", .youngModulus = 1e5f, .isCuttable = true};
+    knot.voxels.resolution = 16;
+    mesh::addMesh(scene, mesh::generate("torus_knot", 24), knot);
+    CutBody body(scene);
+    const Simulation& simulation = body.runner().simulation();
+    const auto hung =
+        test::queue().download<layout::HungVertex>(simulation.view(simulation.program().cutSurface.hung));
+    const auto at = [](const layout::vec4& x) -> Vector3d { return {double{x.x}, double{x.y}, double{x.z}}; };
+    std::size_t folded = 0;
+    for (const layout::HungVertex& vertex : hung) {
+        if (at(vertex.normal).norm() > 0) continue;
+        ++folded;
+        for (const Vector3d axis : {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()})
+            for (const double way : {-0.2, 0.2}) {
+                const Vector3d place = at(vertex.rest) + way * body.spacing() * axis;
+                body.cut(test::sweepOf({place, axis}, body.spacing()));
+            }
+    }
+    ASSERT_GT(folded, 0u);
+    const ClosedSurface surface(body);
+    EXPECT_GT(surface.area(Part::inside), 0);
+    EXPECT_TRUE(std::ranges::all_of(surface.rest(), [](const Vector3d& x) { return x.allFinite(); }));
+    EXPECT_TRUE(std::ranges::all_of(surface.drawn(), [](const Vector3d& x) { return x.allFinite(); }));
+}
