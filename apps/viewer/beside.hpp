@@ -39,8 +39,9 @@ public:
     /// The step that was recorded for `first` just now, and that of the first is timed.
     void recordStep(VkCommandBuffer commands, const Stage& first, const StepHands& hands, std::uint32_t slot,
                     bool isTimed) noexcept;
-    /// What is drawn, and with `isMeasured` a copy of where particles are.
-    void recordPicture(VkCommandBuffer commands, std::uint32_t slot, bool isMeasured) noexcept;
+    /// What is drawn, for layers with that overlap, and with `isMeasured` a copy of where particles are.
+    void recordPicture(VkCommandBuffer commands, std::uint32_t slot, bool isMeasured,
+                       sim::Overlap overlap = sim::Overlap::none) noexcept;
 
     /// Why it cannot go on; where contacts need more room, for how many with one.
     struct Trouble {

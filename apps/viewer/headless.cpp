@@ -121,7 +121,7 @@ public:
         if (!isPictured) return std::nullopt;
         settle(); // first: a step that is done again would show in no picture
         VkCommandBuffer commands = queue_.begin();
-        stage_.recordSkin(commands);
+        stage_.recordSkin(commands, layers_.overlap());
         const Overlay overlay = recordLayers(commands);
         if (times_) times_->beginDrawing(commands);
         if (beside_)
@@ -208,7 +208,7 @@ private:
     }
 
     void recordHalves(VkCommandBuffer commands, const Overlay& overlay) {
-        beside_->recordPicture(commands, 0, false);
+        beside_->recordPicture(commands, 0, false, layers_.overlap());
         const Overlay other = overlayBeside(overlay);
         offscreen_.recordHalves(commands, camera_,
                                 {{{stage_.simulation(), overlay}, {beside_->simulation(), other}}});

@@ -53,9 +53,7 @@ void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
         if (beside_ && !isBesideOut_)
             beside_->recordStep(frame.commands, stage_, hands, frame.slot, step == 0);
     }
-    stage_.recordSkin(frame.commands);
     recordProbe(frame);
-    if (beside_) beside_->recordPicture(frame.commands, frame.slot, flight.isMeasured);
 }
 
 // What is on its way belongs to a state that is no more: nobody need look at it, nor cut it again.
@@ -101,11 +99,15 @@ void Show::inspect(const Presenter::Frame& frame, const Ray& ray) {
     inspector_.record(frame.commands, frame.slot, ray, backstage_.inspection().counter());
 }
 
-// What is there of what is wanted.
+// Skins, and what is there of what is wanted over them.
 Overlay Show::recordLayers(const Presenter::Frame& frame) {
     Overlay overlay = tools_.overlay();
     drawn_ = backstage_.ready({screen_.layers(), inspector_.isOn()});
     const Layers& layers = overlay.layers = drawn_.layers;
+    stage_.recordSkin(frame.commands, layers.overlap());
+    if (beside_)
+        beside_->recordPicture(frame.commands, frame.slot, inFlight_[frame.slot].isMeasured,
+                               layers.overlap());
     if (!layers.needsBuffers()) return overlay;
     const Inspection& inspection = backstage_.inspection();
     inspection.record(frame.commands, layers, frame.slot);

@@ -151,6 +151,12 @@ struct WholeTriangle {
 #define WHOLE_ALONE 0u
 #define WHOLE_MIXED 1u  // with its parts
 #define WHOLE_PARTED 2u // its parts alone
+#define WHOLE_BESIDE 3u // alone, but normals of parts around it come from its parts, too
+
+// What drawing a mixed skin takes of a vertex.
+#define VERTEX_UNSEEN 0u
+#define VERTEX_PLACED 1u // its place: normals beside it come from it, or it is a corner of a whole triangle
+#define VERTEX_SHOWN 2u  // and its normal among parts
 
 struct WholePush {
     uint count;    // vertices that hang

@@ -8,6 +8,7 @@ layout(std430, binding = 1) readonly buffer Marks { uint marks[]; };
 layout(std430, binding = 2) readonly buffer Hung { HungVertex hung[]; };
 layout(std430, binding = 3) buffer States { uint states[]; };
 layout(std430, binding = 4) writeonly buffer Indices { uint indices[]; };
+layout(std430, binding = 5) writeonly buffer Shown { uint shown[]; };
 layout(push_constant) uniform Push { CountPush push; };
 
 void main() {
@@ -17,5 +18,9 @@ void main() {
     const bool isParted = states[i] == WHOLE_PARTED;
     const bool isBeside = marks[whole.vertices[0]] + marks[whole.vertices[1]] + marks[whole.vertices[2]] > 0u;
     if (!isParted) states[i] = isBeside ? WHOLE_MIXED : WHOLE_ALONE;
-    for (uint n = 0u; n < 3u; ++n) indices[3u * whole.mixed + n] = isParted ? 0u : hung[whole.vertices[n]].vertex;
+    for (uint n = 0u; n < 3u; ++n) {
+        const uint corner = hung[whole.vertices[n]].vertex;
+        indices[3u * whole.mixed + n] = isParted ? 0u : corner;
+        if (isParted || isBeside) shown[corner] = VERTEX_SHOWN;
+    }
 }

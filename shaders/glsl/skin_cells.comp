@@ -6,11 +6,17 @@
 layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
 layout(std430, binding = 1) readonly buffer Cells { CellVertex cells[]; };
 layout(std430, binding = 2) buffer Vertices { SkinVertex vertices[]; };
+#ifdef SHOWN // what drawing a mixed skin takes
+layout(std430, binding = 3) readonly buffer Shown { uint shown[]; };
+#endif
 layout(push_constant) uniform Push { SkinPush push; };
 
 void main() {
     const uint i = itemIndex(push.count);
     if (i >= push.count) return;
+#ifdef SHOWN
+    if (shown[push.firstVertex + i] == VERTEX_UNSEEN) return;
+#endif
     const CellVertex cell = cells[i];
     const vec3 t = cell.weights.xyz;
     vec3 x = vec3(0.0);

@@ -14,6 +14,9 @@ layout(std430, binding = 4) readonly buffer Hung { HungVertex hung[]; };
 layout(std430, binding = 5) readonly buffer Marks { uint marks[]; }; // of vertices that hang
 layout(push_constant) uniform Push { WholePush push; };
 #else
+#ifdef SHOWN // what drawing a mixed skin takes
+layout(std430, binding = 4) readonly buffer Shown { uint shown[]; };
+#endif
 layout(push_constant) uniform Push { CountPush push; };
 #endif
 
@@ -25,6 +28,9 @@ void main() {
     if (i >= push.vertices || marks[item] != 0u || fans[i].count == 0u) return;
 #else
     const uint i = item;
+#endif
+#ifdef SHOWN
+    if (shown[i] != VERTEX_SHOWN) return;
 #endif
     const vec3 here = vertices[i].position.xyz;
     vec3 sum = vec3(0.0);

@@ -148,6 +148,7 @@ std::string describe(const StepProgram& program) {
     print(text, program, program.step);
     if (!program.skin.empty()) print(text, program, program.skin);
     if (!program.wholeSkin.empty()) print(text, program, program.wholeSkin);
+    if (!program.mixedSkin.empty()) print(text, program, program.mixedSkin);
     std::size_t passes = 0, dispatches = 0, barriers = 0;
     for (const Pass& pass : program.step) {
         if (pass.isOfCut) continue;

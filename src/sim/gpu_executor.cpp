@@ -12,7 +12,7 @@ namespace {
 // Which buffers hold the arguments of an indirect dispatch.
 std::vector<bool> holdArguments(const StepProgram& program) {
     std::vector<bool> result(program.buffers.size());
-    for (const std::vector<Pass>* list : {&program.step, &program.skin})
+    for (const std::vector<Pass>* list : {&program.step, &program.skin, &program.mixedSkin})
         for (const Pass& pass : *list)
             if (pass.isIndirect) result[pass.uses.back().buffer.index] = true;
     return result;
@@ -85,8 +85,8 @@ struct SetPlan {
 
 SetPlan planSets(const StepProgram& program) {
     SetPlan plan;
-    for (const std::vector<Pass>* list :
-         {&program.step, &program.skin, &program.wholeSkin, &program.settle, &program.adopt}) {
+    for (const std::vector<Pass>* list : {&program.step, &program.skin, &program.wholeSkin,
+                                          &program.mixedSkin, &program.settle, &program.adopt}) {
         for (const Pass& pass : *list) {
             if (pass.kind != PassKind::dispatch) continue;
             const auto isSame = [&](const Pass* other) { return isSameDispatch(*other, pass); };
@@ -118,11 +118,13 @@ GpuExecutor::GpuExecutor(const vk::Device& device, const StepProgram& program)
     step_ = resolve(program.step, nextSet);
     skin_ = resolve(program.skin, nextSet);
     wholeSkin_ = resolve(program.wholeSkin, nextSet);
+    mixedSkin_ = resolve(program.mixedSkin, nextSet);
     settle_ = resolve(program.settle, nextSet);
     adopt_ = resolve(program.adopt, nextSet);
     checkGroups(step_, device.limits().maxGroupCount);
     checkGroups(skin_, device.limits().maxGroupCount);
     checkGroups(wholeSkin_, device.limits().maxGroupCount);
+    checkGroups(mixedSkin_, device.limits().maxGroupCount);
     checkGroups(settle_, device.limits().maxGroupCount);
     checkGroups(adopt_, device.limits().maxGroupCount);
     for (const Recorded& pass : step_) {
@@ -193,6 +195,10 @@ void GpuExecutor::skin(vk::Commands& commands) noexcept {
 
 void GpuExecutor::wholeSkin(vk::Commands& commands) noexcept {
     record(commands, wholeSkin_, {}, nullptr, true);
+}
+
+void GpuExecutor::mixedSkin(vk::Commands& commands) noexcept {
+    record(commands, mixedSkin_, {}, nullptr, true);
 }
 
 void GpuExecutor::settle(vk::Commands& commands) noexcept {

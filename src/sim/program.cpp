@@ -86,7 +86,7 @@ void ProgramBuilder::append(Pass pass) {
 void ProgramBuilder::dispatchDirect(const vk::ShaderCode& code, std::uint32_t items,
                                     std::span<const BufferId> buffers, std::span<const std::byte> push,
                                     const Constants& constants) {
-    if (!gate_ || isSkin_ || isCut_ || isSettling_ || isAdopting_)
+    if (!gate_ || skinList_ || isCut_ || isSettling_ || isAdopting_)
         return dispatchBytes(code, items, buffers, push, constants);
     const GatedDispatch gated = gate_(code, items);
     std::vector<BufferId> all(buffers.begin(), buffers.end());
@@ -180,6 +180,7 @@ StepProgram ProgramBuilder::finish() {
     planWithoutCut(program_.step, program_.buffers.size());
     planBarriers(program_.skin, program_.buffers.size());
     planBarriers(program_.wholeSkin, program_.buffers.size());
+    planBarriers(program_.mixedSkin, program_.buffers.size());
     planBarriers(program_.settle, program_.buffers.size());
     planBarriers(program_.adopt, program_.buffers.size());
     return std::move(program_);

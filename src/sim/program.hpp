@@ -216,6 +216,8 @@ struct StepProgram {
     std::vector<Pass> skin;          ///< recorded when somebody draws; may be empty
     /// Likewise while nothing is cut, for wholeIndices; empty where no skin has fewer triangles then.
     std::vector<Pass> wholeSkin;
+    /// Likewise once something is cut, for mixedIndices; empty where there are none.
+    std::vector<Pass> mixedSkin;
     /// Recorded after a state of another material, or of other substeps, was put into the buffers: makes what
     /// of the state follows from the scene alone that of this program. May be empty.
     std::vector<Pass> settle;
@@ -228,7 +230,8 @@ struct StepProgram {
     BufferId parameters, status, positions, velocities; ///< the public ones; velocities may be invalid
     BufferId skinVertices, skinIndices;                 ///< invalid without skins
     BufferId wholeIndices;                              ///< Skin::wholeTriangles, or triangles, of all skins
-    BufferId mixedIndices; ///< of both, once something is cut; invalid where no skin is split
+    BufferId mixedIndices;  ///< of both, once something is cut; invalid where no skin is split
+    BufferId shownVertices; ///< likewise, by vertex of all skins: what drawing those takes (VERTEX_SHOWN ...)
     struct IndexRange {
         std::uint32_t first = 0, count = 0;
     };
@@ -367,9 +370,10 @@ public:
     /// Among those: passes that write the surface of cuts anew from what is kept of cells.
     void beginSurface() { isSurface_ = true; }
     void endSurface() { isSurface_ = false; }
-    /// All that follows belongs to StepProgram::skin, or wholeSkin; no gate changes it.
-    void beginSkin() { isSkin_ = true; }
-    void beginWholeSkin() { isSkin_ = isWhole_ = true; }
+    /// All that follows belongs to StepProgram::skin, or to another list of skins; no gate changes it.
+    void beginSkin() { skinList_ = &StepProgram::skin; }
+    void beginWholeSkin() { skinList_ = &StepProgram::wholeSkin; }
+    void beginMixedSkin() { skinList_ = &StepProgram::mixedSkin; }
     /// Passes from here on, until endSettling(), belong to StepProgram::settle; no gate changes them.
     void beginSettling() { isSettling_ = true; }
     void endSettling() { isSettling_ = false; }
@@ -388,8 +392,7 @@ private:
     std::vector<Pass>& list() {
         if (isSettling_) return program_.settle;
         if (isAdopting_) return program_.adopt;
-        if (isWhole_) return program_.wholeSkin;
-        return isSkin_ ? program_.skin : program_.step;
+        return skinList_ ? program_.*skinList_ : program_.step;
     }
     Pass& last() { return list().back(); }
     void makeLastIndirect(const IndirectItems& items);
@@ -403,8 +406,8 @@ private:
     std::vector<BufferId> remembered_, kept_;
     std::vector<std::function<void()>> checked_, endings_, skinMiddles_, skinEndings_;
     Gate gate_;
-    bool isReversed_ = false, isSkin_ = false, isWhole_ = false, isSettling_ = false, isAdopting_ = false,
-         isCut_ = false, isSurface_ = false;
+    std::vector<Pass> StepProgram::*skinList_ = nullptr; // null: passes are of the step
+    bool isReversed_ = false, isSettling_ = false, isAdopting_ = false, isCut_ = false, isSurface_ = false;
     std::uint32_t substep_ = 0;
 };
 

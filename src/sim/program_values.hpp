@@ -20,7 +20,7 @@ struct ProgramValues {
         std::vector<std::byte> bytes;
     };
     std::vector<Contents> buffers;
-    std::vector<Push> step, skin, wholeSkin, settle;
+    std::vector<Push> step, skin, wholeSkin, mixedSkin, settle;
 };
 
 /// Nothing where `to` has other buffers, kernels or passes than `from`, or begins with another state: only a

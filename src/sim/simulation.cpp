@@ -75,11 +75,14 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     state_->hasNewTopology = state_->isChanged = false;
 }
 
-void Simulation::recordSkin(VkCommandBuffer buffer, SkinDetail detail) noexcept {
+void Simulation::recordSkin(VkCommandBuffer buffer, SkinDetail detail, Overlap overlap) noexcept {
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
-    if (detail == SkinDetail::drawn && drawnSkins().areWhole)
+    const bool isDrawn = detail == SkinDetail::drawn;
+    if (isDrawn && drawnSkins().areWhole)
         state_->executor.wholeSkin(commands);
+    else if (isDrawn && overlap == Overlap::some && !state_->program.mixedSkin.empty())
+        state_->executor.mixedSkin(commands);
     else
         state_->executor.skin(commands);
     commands.endStep();

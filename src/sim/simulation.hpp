@@ -261,8 +261,9 @@ public:
     void recordLoadTopology(VkCommandBuffer commands, const vk::BufferView& from) noexcept;
 
     /// Records the skins of the newest recorded state; afterwards skinVertices() is visible to vertex input.
-    /// With SkinDetail::drawn only vertices of drawnSkins() are those of this state.
-    void recordSkin(VkCommandBuffer commands, SkinDetail detail = SkinDetail::all) noexcept;
+    /// With SkinDetail::drawn only vertices of drawnSkins(overlap) are those of this state.
+    void recordSkin(VkCommandBuffer commands, SkinDetail detail = SkinDetail::all,
+                    Overlap overlap = Overlap::none) noexcept;
 
     /// Public state [m], [m/s]: particleCount x vec4, stride 16, w = inverse mass [1/kg], 0 while the
     /// particle sleeps. `split` reports the velocity half a substep before the step's end (leapfrog). No

@@ -1,6 +1,7 @@
 // What is drawn of bodies beside their lit skins, or instead of them: chosen by hands or on the command line.
 #pragma once
 
+#include "sim/simulation.hpp"
 #include "viewer/draw/section.hpp"
 #include "vk/buffer.hpp"
 
@@ -40,6 +41,10 @@ struct Layers {
     /// Whether something of it comes from buffers that are made for it (Inspection).
     bool needsBuffers() const {
         return map != ColorMap::none || hasBalls || hasLinks || hasContacts || hasCells;
+    }
+    /// What skins are made for (Stage::recordSkin): some layers draw no triangle in two forms.
+    sim::Overlap overlap() const {
+        return skin == SkinLook::glass || hasWires || section ? sim::Overlap::none : sim::Overlap::some;
     }
 };
 

@@ -40,9 +40,10 @@ public:
     void recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps = nullptr,
                     std::span<const sim::Grab> grabs = {}, const sim::Blade& blade = {},
                     std::span<const sim::Poke> pokes = {}) noexcept;
-    /// What is to be drawn of it.
-    void recordSkin(VkCommandBuffer commands) noexcept {
-        growing_.simulation().recordSkin(commands, sim::SkinDetail::drawn);
+    /// What is to be drawn of it: with sim::Overlap::some in layers none of which needs (Layers::overlap)
+    /// another.
+    void recordSkin(VkCommandBuffer commands, sim::Overlap overlap = sim::Overlap::none) noexcept {
+        growing_.simulation().recordSkin(commands, sim::SkinDetail::drawn, overlap);
     }
 
     /// As app::saveRun and loadRun; what is loaded has taken no step since then.

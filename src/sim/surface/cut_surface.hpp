@@ -63,6 +63,7 @@ struct CutSurface {
     std::uint32_t wholeCount = 0; ///< triangles of mixed skins; 0 = there are none
     BufferId wholes, wholeStates; ///< these; WHOLE_ALONE ...
     BufferId wholeMarks;          ///< by vertex that hangs: 1 = a corner of one that its parts stand for
+    BufferId shownAtFirst;        ///< StepProgram::shownVertices while nothing is cut
     BufferId wholeIndices, wholeFans, wholesOfVertex; ///< what their normals come from
     std::uint32_t wholeVertices = 0;                  ///< of all skins, that have such a normal
     std::vector<std::uint32_t> skins;                 ///< that are clipped

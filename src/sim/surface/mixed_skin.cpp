@@ -62,6 +62,21 @@ void place(const Scene& scene, const Layout& layout, CutBodies& bodies) {
             bodies.wholes[next++].mixed = layout.wholes[s] + t;
 }
 
+// While whole triangles alone are drawn of mixed skins.
+std::vector<std::uint32_t> shownAtFirst(const Scene& scene, const CutBodies& bodies) {
+    std::vector<std::uint32_t> shown;
+    for (std::uint32_t s = 0; s < scene.skins.size(); ++s) {
+        const Skin& skin = scene.skins[s];
+        const std::size_t first = shown.size();
+        const bool isMixed = std::ranges::count(bodies.mixed, s) > 0;
+        shown.insert(shown.end(), skin.vertexCount(), isMixed ? VERTEX_UNSEEN : VERTEX_SHOWN);
+        if (!isMixed) continue;
+        for (const Triangle& whole : skin.wholeTriangles)
+            for (const std::uint32_t corner : whole) shown[first + corner] = VERTEX_PLACED;
+    }
+    return shown;
+}
+
 void uploadWholes(ProgramBuilder& program, CutSurface& surface, const CutBodies& bodies) {
     std::vector<std::uint32_t> indices;
     for (const layout::WholeTriangle& whole : bodies.wholes)
@@ -89,7 +104,10 @@ void addMixedSkins(ProgramBuilder& program, CutSurface& surface, const Scene& sc
     surface.wholes = program.upload("surface.wholes", bodies.wholes);
     surface.wholeStates = program.scratch<std::uint32_t>("surface.whole_states", surface.wholeCount);
     surface.wholeMarks = program.scratch<std::uint32_t>("surface.whole_marks", bodies.vertices.size());
-    for (const BufferId buffer : {built.mixedIndices, surface.wholeMarks}) {
+    const std::vector<std::uint32_t> shown = shownAtFirst(scene, bodies);
+    built.shownVertices = program.upload("skin.shown_vertices", shown);
+    surface.shownAtFirst = program.upload("skin.shown_at_first", shown);
+    for (const BufferId buffer : {built.mixedIndices, surface.wholeMarks, built.shownVertices}) {
         built.cutting.topology.push_back(buffer);
         program.carry(buffer, buffer);
     }
@@ -117,19 +135,23 @@ void addFacePasses(ProgramBuilder& program, const CutSurface& surface) {
     }
     program.fill(surface.wholeStates, 0);
     program.fill(surface.wholeMarks, 0);
+    program.copy(surface.shownAtFirst, built.shownVertices);
     program.dispatch(k::openWholes, faces.count,
                      {surface.counts, state, surface.skinFaces, surface.hung.prisms, surface.hung.vertices,
                       surface.hung.moved, surface.partitions, surface.wholeStates},
                      layout::PrismPush{.first = surface.slots, .count = faces.count});
     program.dispatch(k::markWholes, wholes.count, {surface.wholes, surface.wholeStates, surface.wholeMarks},
                      wholes);
-    program.dispatch(
-        k::drawWholes, wholes.count,
-        {surface.wholes, surface.wholeMarks, surface.hung.vertices, surface.wholeStates, built.mixedIndices},
-        wholes);
+    program.dispatch(k::drawWholes, wholes.count,
+                     {surface.wholes, surface.wholeMarks, surface.hung.vertices, surface.wholeStates,
+                      built.mixedIndices, built.shownVertices},
+                     wholes);
+    program.dispatch(k::reachWholes, wholes.count,
+                     {surface.wholes, surface.hung.vertices, built.shownVertices, surface.wholeStates},
+                     wholes);
     program.dispatch(k::hideFacesMixed, faces.count,
                      {surface.counts, state, surface.skinFaces, surface.allIndices, built.skinIndices,
-                      surface.wholeStates, built.mixedIndices},
+                      surface.wholeStates, built.mixedIndices, built.shownVertices},
                      faces);
 }
 

@@ -5,7 +5,8 @@
 //
 // Parts stand for a whole triangle where a blade took some of them, or moved what they hang on. In a step
 // with a cut: open_wholes (which these are), mark_wholes (their corners), draw_wholes (those, and those
-// around them), hide_faces (parts).
+// around them), reach_wholes (those around these), hide_faces (parts). Of vertices that are in no triangle
+// that is drawn neither places nor normals are made when somebody draws (StepProgram::shownVertices).
 #pragma once
 
 #include "sim/surface/cut_surface.hpp"

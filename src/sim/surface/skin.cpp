@@ -51,27 +51,30 @@ BufferId uploadHolders(ProgramBuilder& program, const Skin& skin) {
     return program.upload(skin.name + ".cells", items);
 }
 
-// The first `count` vertices of every skin.
+// The first `count` vertices of every skin; of those in cells the ones that `shown` says, where it is given.
 template <typename Count>
 void addVertices(ProgramBuilder& program, const std::vector<Skin>& skins,
-                 const std::vector<BufferId>& holders, const Count& count) {
+                 const std::vector<BufferId>& holders, const Count& count, BufferId shown = {}) {
     const StepProgram& built = program.program();
     std::uint32_t firstVertex = 0;
     for (std::size_t s = 0; s < skins.size(); ++s) {
         const Skin& skin = skins[s];
         if (skin.vertexCount() == 0) continue;
         const layout::SkinPush push{count(skin), firstVertex};
-        program.dispatch(skin.particles.empty() ? kernels::skinCells : kernels::skinParticles, push.count,
-                         {built.positions, holders[s], built.skinVertices}, push);
+        if (shown != BufferId{} && skin.particles.empty())
+            program.dispatch(kernels::skinCellsShown, push.count,
+                             {built.positions, holders[s], built.skinVertices, shown}, push);
+        else
+            program.dispatch(skin.particles.empty() ? kernels::skinCells : kernels::skinParticles, push.count,
+                             {built.positions, holders[s], built.skinVertices}, push);
         firstVertex += static_cast<std::uint32_t>(skin.vertexCount());
     }
 }
 
-void addNormals(ProgramBuilder& program, const std::vector<std::uint32_t>& indices, BufferId indexBuffer,
-                std::uint32_t vertexCount, const std::string& name) {
-    const VertexFans fans = uploadFans(program, indices, vertexCount, name);
+void addNormals(ProgramBuilder& program, BufferId indices, const VertexFans& fans,
+                std::uint32_t vertexCount) {
     program.dispatch(kernels::skinNormals, vertexCount,
-                     {program.program().skinVertices, indexBuffer, fans.fans, fans.triangles},
+                     {program.program().skinVertices, indices, fans.fans, fans.triangles},
                      layout::CountPush{vertexCount});
 }
 
@@ -109,7 +112,28 @@ void addWholeSkins(ProgramBuilder& program, const std::vector<Skin>& skins,
     const std::vector<std::uint32_t> indices = join(skins, wholeTriangles);
     program.program().wholeIndices = program.upload("skin.whole_indices", indices);
     addVertices(program, skins, holders, wholeVertices);
-    addNormals(program, indices, program.program().wholeIndices, std::ranges::max(indices) + 1, "skin.whole");
+    const std::uint32_t vertexCount = std::ranges::max(indices) + 1;
+    addNormals(program, program.program().wholeIndices,
+               uploadFans(program, indices, vertexCount, "skin.whole"), vertexCount);
+}
+
+std::uint32_t allVertices(const Skin& skin) {
+    return static_cast<std::uint32_t>(skin.vertexCount());
+}
+
+// The same skins once something is cut, of which not all is drawn.
+void addMixedSkin(ProgramBuilder& program, const std::vector<Skin>& skins,
+                  const std::vector<BufferId>& holders, const VertexFans& fans, std::uint32_t vertexCount) {
+    const StepProgram& built = program.program();
+    if (built.mixedIndices == BufferId{}) return;
+    program.beginMixedSkin();
+    program.beginPhase("mixed skin");
+    addVertices(program, skins, holders, allVertices, built.shownVertices);
+    for (const auto& addMore : program.skinMiddles()) addMore();
+    program.dispatch(kernels::skinNormalsShown, vertexCount,
+                     {built.skinVertices, built.skinIndices, fans.fans, fans.triangles, built.shownVertices},
+                     layout::CountPush{vertexCount});
+    for (const auto& addMore : program.skinEndings()) addMore();
 }
 
 } // namespace
@@ -129,7 +153,7 @@ std::vector<std::uint32_t> joinIndices(const std::vector<Skin>& skins) {
 void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins) {
     StepProgram& built = program.program();
     std::uint32_t vertexCount = 0;
-    for (const Skin& skin : skins) vertexCount += static_cast<std::uint32_t>(skin.vertexCount());
+    for (const Skin& skin : skins) vertexCount += allVertices(skin);
     const std::vector<std::uint32_t> indices = joinIndices(skins);
     if (vertexCount == 0 || indices.empty()) return;
 
@@ -141,12 +165,13 @@ void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins) {
     std::vector<BufferId> holders;
     for (const Skin& skin : skins)
         holders.push_back(skin.vertexCount() > 0 ? uploadHolders(program, skin) : BufferId{});
-    addVertices(program, skins, holders,
-                [](const Skin& skin) { return static_cast<std::uint32_t>(skin.vertexCount()); });
+    addVertices(program, skins, holders, allVertices);
     for (const auto& addMore : program.skinMiddles()) addMore();
-    addNormals(program, indices, built.skinIndices, vertexCount, "skin");
+    const VertexFans fans = uploadFans(program, indices, vertexCount, "skin");
+    addNormals(program, built.skinIndices, fans, vertexCount);
     for (const auto& addMore : program.skinEndings()) addMore();
     addWholeSkins(program, skins, holders);
+    addMixedSkin(program, skins, holders, fans, vertexCount);
 }
 
 } // namespace sinew::sim::surface

@@ -5,12 +5,15 @@
 #include "mesh/to_scene.hpp"
 #include "sim/bodies.hpp"
 #include "sim/cutting/cut_body.hpp"
+#include "sim/scenes.hpp"
 #include "sim/surface/rest_normals.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 
+#include <bit>
+#include <cstring>
 #include <map>
 #include <numeric>
 #include <set>
@@ -83,11 +86,39 @@ struct Mixed {
     std::map<std::uint32_t, std::vector<std::size_t>> partsOf;
 };
 
-std::vector<layout::SkinVertex> drawnBy(test::Runner& runner, SkinDetail detail) {
+std::vector<layout::SkinVertex> drawnBy(test::Runner& runner, SkinDetail detail,
+                                        Overlap overlap = Overlap::none) {
     const VkCommandBuffer commands = test::queue().begin();
-    runner.simulation().recordSkin(commands, detail);
+    runner.simulation().recordSkin(commands, detail, overlap);
     test::queue().wait(test::queue().submit(commands));
     return test::queue().download<layout::SkinVertex>(runner.simulation().skinVertices());
+}
+
+// Of what is drawn with an overlap everything, and of the rest less, is as if all were made.
+void expectMadeWhereDrawn(test::Runner& runner, const std::string& when) {
+    SCOPED_TRACE(when);
+    constexpr std::uint32_t poison = 0x7fc12345; // not a number
+    const Simulation& simulation = runner.simulation();
+    const auto cuts = [&] {
+        return test::queue().download<layout::SkinVertex>(simulation.cutSurface().vertices);
+    };
+    const auto isSame = [](const layout::SkinVertex& a, const layout::SkinVertex& b) {
+        return std::memcmp(&a, &b, sizeof(a)) == 0;
+    };
+    const auto all = drawnBy(runner, SkinDetail::all);
+    const auto allCuts = cuts();
+    const VkCommandBuffer commands = test::queue().begin();
+    vk::Commands(test::device(), commands).fill(simulation.skinVertices(), poison);
+    test::queue().wait(test::queue().submit(commands));
+    const auto some = drawnBy(runner, SkinDetail::drawn, Overlap::some);
+    for (const Triangle& triangle : download(simulation.drawnSkins(Overlap::some).indices))
+        for (const std::uint32_t v : triangle)
+            ASSERT_TRUE(!isThere(triangle) || isSame(some[v], all[v])) << "vertex " << v;
+    EXPECT_TRUE(std::ranges::equal(cuts(), allCuts, isSame)) << "the surface of cuts";
+    const auto unseen = std::ranges::count_if(some, [](const layout::SkinVertex& vertex) {
+        return std::bit_cast<std::uint32_t>(vertex.position.x) == poison;
+    });
+    EXPECT_GT(unseen, static_cast<std::ptrdiff_t>(some.size() / 4)) << "of " << some.size();
 }
 
 Vector3d normalOf(const layout::SkinVertex& vertex) {
@@ -328,4 +359,33 @@ TEST(MixedSkin, LeavesOtherSkinsAsTheyAre) {
     EXPECT_LT(mixed.count(), scene.skins[1].triangles.size());
     for (const Triangle& whole : mixed.wholes)
         ASSERT_TRUE(!isThere(whole) || std::ranges::min(whole) >= scene.skins[0].vertexCount());
+}
+
+// While a body gapes, and in the middle of a slow stroke.
+TEST(MixedSkin, IsMadeWhereItIsDrawnAlone) {
+    Scene scene = organScene();
+    scene.gravity = {0, -9.81f, 0};
+    CutBody body(scene);
+    test::Runner& runner = body.runner();
+    const vk::Buffer uncut = runner.saveTopology();
+    ASSERT_GT(body.cut(sweepOf({{0.03, 0, 0}, Vector3d(1, 0.2, 0.1).normalized()}, reach)).linksCutInAll, 0u);
+    expectMadeWhereDrawn(runner, "after a cut");
+    runner.run(10);
+    expectMadeWhereDrawn(runner, "ten steps later");
+    const Vector3d along = 0.15 * Vector3d::UnitZ();
+    for (int s = 0; s < 8; ++s) {
+        const Vector3d top(-0.05, 0.2 - 0.04 * s, 0);
+        Sweep slow;
+        for (const double end : {-1.0, 1.0}) {
+            slow.from.push_back(test::toFloats(top + end * along));
+            slow.to.push_back(test::toFloats(top - Vector3d(0, 0.04, 0) + end * along));
+        }
+        slow.isCarried = s > 0;
+        body.cut(slow);
+        if (s % 3 == 1) expectMadeWhereDrawn(runner, "in a slow stroke");
+    }
+    runner.loadTopology(uncut);
+    expectMadeWhereDrawn(runner, "undone");
+    body.cut(sweepOf({{0, 0, 0}, Vector3d::UnitY()}, reach));
+    expectMadeWhereDrawn(runner, "cut again");
 }
