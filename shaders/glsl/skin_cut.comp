@@ -4,24 +4,39 @@
 #include "kernel.glsl"
 
 layout(std430, binding = 0) readonly buffer State { SurfaceState state; };
-layout(std430, binding = 1) readonly buffer CutVertices { CutVertex cutVertices[]; };
-layout(std430, binding = 2) readonly buffer Rest { vec4 rest[]; };
-layout(std430, binding = 3) readonly buffer Particles { uint particles[]; }; // of each slot
-layout(std430, binding = 4) readonly buffer Positions { vec4 positions[]; }; // of each particle
-layout(std430, binding = 5) readonly buffer Gradients { Gradient gradients[]; };
-layout(std430, binding = 6) writeonly buffer Vertices { SkinVertex vertices[]; };
-layout(std430, binding = 7) writeonly buffer Turns { Gradient turns[]; }; // of each point: how normals turn there, for skin_pieces
+#include "skin_material.glsl"
+#ifdef TEXELS
+layout(binding = 7) uniform usamplerBuffer cutVertices; // CutVertex
+CutVertex vertexAt(uint i) {
+    const int v = int(4u * i);
+    const uvec4 corners = texelFetch(cutVertices, v + 2), last = texelFetch(cutVertices, v + 3);
+    const ivec3 normal = ivec3(last.xyz);
+    return CutVertex(uintBitsToFloat(texelFetch(cutVertices, v)), uintBitsToFloat(texelFetch(cutVertices, v + 1)),
+                     uint[4](corners.x, corners.y, corners.z, corners.w), int[3](normal.x, normal.y, normal.z), last.w);
+}
+#else
+layout(std430, binding = 7) readonly buffer CutVertices { CutVertex cutVertices[]; };
+CutVertex vertexAt(uint i) { return cutVertices[i]; }
+#endif
+layout(std430, binding = 8) writeonly buffer Vertices { SkinVertex vertices[]; };
+layout(std430, binding = 9) writeonly buffer Turns { Gradient turns[]; }; // of each point: how normals turn there, for skin_pieces
 #ifdef HUNG
-layout(std430, binding = 8) readonly buffer SkinVertices { SkinVertex skinVertices[]; };
-layout(std430, binding = 9) readonly buffer Hung { HungVertex hung[]; };
-layout(std430, binding = 10) readonly buffer Moved { vec4 moved[]; };
-layout(std430, binding = 11) readonly buffer Near { uint near[]; };
-layout(std430, binding = 12) readonly buffer Links { uint links[]; };
+#ifdef TEXELS
+layout(binding = 10) uniform samplerBuffer skinVertices; // SkinVertex
+layout(binding = 11) uniform usamplerBuffer hung;        // HungVertex
+layout(binding = 12) uniform samplerBuffer moved;
+#define MOVED(v) texelFetch(moved, int(v))
+#define HUNG_REST(v) uintBitsToFloat(texelFetch(hung, int(4u * (v))))
+#define SKIN_PLACE(v) texelFetch(skinVertices, int(2u * texelFetch(hung, int(4u * (v) + 3u)).x)).xyz
+#else
+layout(std430, binding = 10) readonly buffer SkinVertices { SkinVertex skinVertices[]; };
+layout(std430, binding = 11) readonly buffer Hung { HungVertex hung[]; };
+layout(std430, binding = 12) readonly buffer Moved { vec4 moved[]; };
+#define SKIN_PLACE(v) skinVertices[hung[v].vertex].position.xyz
+#endif
 layout(std430, binding = 13) readonly buffer Grids { SkinGrid grids[]; }; // by skin
 #endif
 layout(push_constant) uniform Push { CountPush push; };
-
-mat3 matrixOf(Gradient g) { return mat3(g.x.xyz, g.y.xyz, g.z.xyz); }
 
 #ifdef HUNG
 #include "link_masks.glsl"
@@ -32,7 +47,7 @@ mat3 matrixOf(Gradient g) { return mat3(g.x.xyz, g.y.xyz, g.z.xyz); }
 vec3 rimPlace(vec3 point, Nearby nearby, uint end, uint other) {
     const vec3 from = restOf(end).xyz;
     const float part = min(1.0, length(point - from) / max(length(restOf(other).xyz - from), 1e-30));
-    return nearby.place + (1.0 - part) * (skinVertices[hung[end].vertex].position.xyz - nearby.end);
+    return nearby.place + (1.0 - part) * (SKIN_PLACE(end) - nearby.end);
 }
 #endif
 
@@ -51,14 +66,14 @@ vec3 placeAt(CutVertex vertex, int c, out mat3 turn) {
     }
 #endif
     const uint corner = vertex.corners[c];
-    turn = matrixOf(gradients[corner]);
-    return positions[particles[corner]].xyz + turn * (point - rest[corner].xyz);
+    turn = TURN(corner);
+    return AT(corner) + turn * (point - HOME(corner));
 }
 
 void main() {
     const uint count = min(push.count, state.points), i = itemIndex(count);
     if (i >= count) return;
-    const CutVertex vertex = cutVertices[i];
+    const CutVertex vertex = vertexAt(i);
     vec3 x = vec3(0.0);
     mat3 turn = mat3(0.0); // the cofactor of the motion
     float moving = 0.0;
@@ -69,7 +84,7 @@ void main() {
         const int c = findLSB(left);
         mat3 f;
         x += vertex.shares[c] * placeAt(vertex, c, f);
-        moving += vertex.shares[c] * positions[particles[vertex.corners[c]]].w;
+        moving += vertex.shares[c] * POSITION(PARTICLE(vertex.corners[c])).w;
         turn += vertex.shares[c] * mat3(cross(f[1], f[2]), cross(f[2], f[0]), cross(f[0], f[1]));
     }
     const vec3 normal = turn * vec3(vertex.normal[0], vertex.normal[1], vertex.normal[2]) / SURFACE_NORMAL;

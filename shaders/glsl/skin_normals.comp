@@ -5,17 +5,35 @@
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
+#ifdef TEXELS
+layout(std430, binding = 0) writeonly buffer Vertices { SkinVertex vertices[]; };
+layout(binding = 1) uniform usamplerBuffer indices;
+layout(binding = 2) uniform usamplerBuffer fans; // VertexTriangles
+layout(binding = 3) uniform usamplerBuffer trianglesOfVertex;
+layout(binding = 4) uniform samplerBuffer places; // vertices, as they are
+#define INDEX(t) texelFetch(indices, int(t)).x
+#define FAN(i) texelFetch(fans, int(i)).xy
+#define TRIANGLE(k) texelFetch(trianglesOfVertex, int(k)).x
+#define VERTEX(i) texelFetch(places, int(2u * (i))).xyz
+#define NEXT 5
+#else
 layout(std430, binding = 0) buffer Vertices { SkinVertex vertices[]; };
 layout(std430, binding = 1) readonly buffer Indices { uint indices[]; };
 layout(std430, binding = 2) readonly buffer Fans { VertexTriangles fans[]; };
 layout(std430, binding = 3) readonly buffer TrianglesOfVertex { uint trianglesOfVertex[]; };
+#define INDEX(t) indices[t]
+#define FAN(i) uvec2(fans[i].first, fans[i].count)
+#define TRIANGLE(k) trianglesOfVertex[k]
+#define VERTEX(i) vertices[i].position.xyz
+#define NEXT 4
+#endif
 #ifdef WHOLE // of mixed skins: where all triangles around a vertex are whole
-layout(std430, binding = 4) readonly buffer Hung { HungVertex hung[]; };
-layout(std430, binding = 5) readonly buffer Marks { uint marks[]; }; // of vertices that hang
+layout(std430, binding = NEXT) readonly buffer Hung { HungVertex hung[]; };
+layout(std430, binding = NEXT + 1) readonly buffer Marks { uint marks[]; }; // of vertices that hang
 layout(push_constant) uniform Push { WholePush push; };
 #else
 #ifdef SHOWN // what drawing a mixed skin takes
-layout(std430, binding = 4) readonly buffer Shown { uint shown[]; };
+layout(std430, binding = NEXT) readonly buffer Shown { uint shown[]; };
 #endif
 layout(push_constant) uniform Push { CountPush push; };
 #endif
@@ -25,20 +43,24 @@ void main() {
     if (item >= push.count) return;
 #ifdef WHOLE
     const uint i = hung[item].vertex;
-    if (i >= push.vertices || marks[item] != 0u || fans[i].count == 0u) return;
+    if (i >= push.vertices || marks[item] != 0u) return;
 #else
     const uint i = item;
 #endif
 #ifdef SHOWN
     if (shown[i] != VERTEX_SHOWN) return;
 #endif
-    const vec3 here = vertices[i].position.xyz;
+    const uvec2 fan = FAN(i);
+#ifdef WHOLE
+    if (fan.y == 0u) return;
+#endif
+    const vec3 here = VERTEX(i);
     vec3 sum = vec3(0.0);
-    for (uint s = 0u; s < fans[i].count; ++s) {
-        const uint t = 3u * trianglesOfVertex[fans[i].first + s];
-        const uint a = indices[t], b = indices[t + 1u], c = indices[t + 2u];
+    for (uint s = 0u; s < fan.y; ++s) {
+        const uint t = 3u * TRIANGLE(fan.x + s);
+        const uint a = INDEX(t), b = INDEX(t + 1u), c = INDEX(t + 2u);
         const uint next = a == i ? b : b == i ? c : a, last = a == i ? c : b == i ? a : b;
-        const vec3 u = vertices[next].position.xyz - here, v = vertices[last].position.xyz - here;
+        const vec3 u = VERTEX(next) - here, v = VERTEX(last) - here;
         const vec3 across = cross(u, v);
         const float twice = length(across); // the area
         const float evenness = min(dot(u, u), dot(v, v)) / max(dot(u, u), dot(v, v));

@@ -157,7 +157,7 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     publish::addPasses(program, particles);
     if (solver.positionW != inverseMass) addWeights(program, particles);
     sleep::finish(program, particles);
-    surface::addSkins(program, scene.skins);
+    surface::addSkins(program, scene.skins, settings.forms.usesTexels);
 
     if (scene.distances.empty()) program.skip("distance constraints");
     if (scene.damping == 0) program.skip("damping");

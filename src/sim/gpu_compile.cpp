@@ -9,10 +9,14 @@ namespace {
 
 std::uint64_t mostTexels(const StepProgram& program) {
     std::uint64_t most = 0;
-    for (const Pass& pass : program.step)
-        for (std::size_t b = 0; pass.kind == PassKind::dispatch && b < boundUses(pass).size(); ++b)
-            if (program.kernels[pass.kernel].interface.bindings[b].kind == vk::BlockKind::texels)
-                most = std::max(most, program.buffers[pass.uses[b].buffer.index].count);
+    for (const std::vector<Pass>* list :
+         {&program.step, &program.skin, &program.wholeSkin, &program.mixedSkin})
+        for (const Pass& pass : *list)
+            for (std::size_t b = 0; pass.kind == PassKind::dispatch && b < boundUses(pass).size(); ++b) {
+                const BufferSpec& spec = program.buffers[pass.uses[b].buffer.index];
+                if (program.kernels[pass.kernel].interface.bindings[b].kind == vk::BlockKind::texels)
+                    most = std::max(most, vk::KernelBinding::texelsIn(spec.bytes(), spec.stride));
+            }
     return most;
 }
 

@@ -120,7 +120,7 @@ void ProgramBuilder::dispatchBytes(const vk::ShaderCode& code, std::uint32_t ite
         if (!interface.bindings[b].takes(spec.stride)) {
             refuse(code, "binding " + interface.bindings[b].name + " has stride " +
                              std::to_string(interface.bindings[b].stride) + ", buffer " + spec.label +
-                             " has " + std::to_string(spec.stride)); // 0: texels of 4, 8 or 16 bytes
+                             " has " + std::to_string(spec.stride)); // 0: texels of 4, 8 or 16 n bytes
         }
         pass.uses.push_back({buffers[b], interface.bindings[b].access});
     }

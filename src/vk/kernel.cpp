@@ -197,17 +197,18 @@ void checkView(const Kernel& kernel, const KernelBinding& binding, const BufferV
         throw Error(Failure::misuse, where + ": no buffer is bound");
     const bool isTexels = binding.kind == BlockKind::texels;
     if (!binding.takes(view.stride))
-        throw Error(Failure::misuse,
-                    where + ": the buffer's stride is " + std::to_string(view.stride) +
-                        " bytes, the kernel's is " +
-                        (isTexels ? std::string("4, 8 or 16") : std::to_string(binding.stride)));
+        throw Error(
+            Failure::misuse,
+            where + ": the buffer's stride is " + std::to_string(view.stride) + " bytes, the kernel's is " +
+                (isTexels ? std::string("4, 8 or a multiple of 16") : std::to_string(binding.stride)));
     const VkDeviceSize alignment = isTexels ? limits.texelBufferAlignment : limits.storageBufferAlignment;
     if (view.offset % alignment != 0)
         throw Error(Failure::misuse, where + ": the offset " + std::to_string(view.offset) +
                                          " is no multiple of the device's " + std::to_string(alignment) +
                                          " bytes");
-    if (isTexels && view.size / view.stride > limits.maxTexels)
-        throw Error(Failure::outOfMemory, where + ": " + std::to_string(view.size / view.stride) +
+    const std::uint64_t texels = isTexels ? KernelBinding::texelsIn(view.size, view.stride) : 0;
+    if (texels > limits.maxTexels)
+        throw Error(Failure::outOfMemory, where + ": " + std::to_string(texels) +
                                               " elements exceed the device's maxTexelBufferElements of " +
                                               std::to_string(limits.maxTexels));
     if (view.size > limits.maxStorageBufferRange)

@@ -4,6 +4,7 @@
 
 #include "vk/shader_code.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -17,7 +18,7 @@ enum class Access : std::uint8_t { read = 1, write = 2, readWrite = 3 };
 /// `uniform`: a block that every invocation reads alike and none writes; software devices read it once a
 /// group, not once a lane. At most 16 KiB, which every device allows. `texels`: a samplerBuffer (float32) or
 /// usamplerBuffer (uint32): a storage buffer read element by element through the texture path, which some
-/// devices gather from faster. Its elements have 4, 8 or 16 bytes.
+/// devices gather from faster. Its elements have 4 or 8 bytes, or a multiple of 16, of which a texel is 16.
 enum class BlockKind : std::uint8_t { storage, uniform, texels };
 
 struct KernelBinding {
@@ -32,7 +33,12 @@ struct KernelBinding {
 
     /// Whether a buffer with elements of `bytes` may be bound here.
     bool takes(std::uint32_t bytes) const {
-        return kind == BlockKind::texels ? bytes == 4 || bytes == 8 || bytes == 16 : bytes == stride;
+        if (kind != BlockKind::texels) return bytes == stride;
+        return bytes == 4 || bytes == 8 || (bytes > 0 && bytes % 16 == 0);
+    }
+    /// How many texels a buffer of `bytes` in all has, with elements of `elementBytes` that it takes.
+    static std::uint64_t texelsIn(std::uint64_t bytes, std::uint32_t elementBytes) {
+        return bytes / std::min(elementBytes, 16u);
     }
 };
 

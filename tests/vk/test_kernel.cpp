@@ -149,7 +149,7 @@ TEST(Texels, AreRefusedWhereAnElementHasNoFormat) {
     const vk::Buffer four(device(), {.name = "four", .count = 4, .stride = 16});
     const std::string message =
         bindingComplaint(vk::Failure::misuse, kernel, {three.view(), four.view(), four.view()});
-    expectParts(message, {"fetch_texels", "weights", "12 bytes", "4, 8 or 16"});
+    expectParts(message, {"fetch_texels", "weights", "12 bytes", "4, 8 or a multiple of 16"});
 }
 
 } // namespace sinew::test

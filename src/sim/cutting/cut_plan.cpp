@@ -171,7 +171,7 @@ void addSurface(ProgramBuilder& program, const Scene& scene, const surface::CutB
                               .arguments = cut.arguments,
                               .firstArgument = 3 * static_cast<std::uint32_t>(cut.runs.size())};
     for (const Run& run : cut.runs) source.runs.push_back(run.push);
-    cut.surface = surface::addCutSurface(program, scene, bodies, source);
+    cut.surface = surface::addCutSurface(program, scene, bodies, source, cut.usesTexels);
 }
 
 void addHands(ProgramBuilder& program, Cut& cut, const constraints::grab::Grabs& grabs) {

@@ -80,18 +80,16 @@ void addDrawing(ProgramBuilder& program, const CutSurface& surface) {
     const IndirectItems points{surface.arguments, surface.push.runs + SURFACE_POINTS, surface.push.room};
     const IndirectItems outside{surface.arguments, surface.push.runs + SURFACE_OUTSIDE, surface.push.room};
     const layout::CountPush room{surface.push.room};
-    if (surface.hung.prismCount > 0)
-        program.dispatchIndirect(k::skinCutHung, points,
-                                 {drawn.state, drawn.rest, surface.rest, surface.source.particles,
-                                  built.positions, surface.gradients, drawn.vertices, surface.turns,
-                                  built.skinVertices, surface.hung.vertices, surface.hung.moved, surface.near,
-                                  built.cutting.links, surface.hung.grids},
-                                 room);
-    else
-        program.dispatchIndirect(k::skinCut, points,
-                                 {drawn.state, drawn.rest, surface.rest, surface.source.particles,
-                                  built.positions, surface.gradients, drawn.vertices, surface.turns},
-                                 room);
+    std::vector<BufferId> buffers{
+        drawn.state,       built.cutting.links, surface.rest, surface.source.particles, built.positions,
+        surface.gradients, surface.near,        drawn.rest,   drawn.vertices,           surface.turns};
+    const bool isHung = surface.hung.prismCount > 0;
+    if (isHung)
+        buffers.insert(buffers.end(),
+                       {built.skinVertices, surface.hung.vertices, surface.hung.moved, surface.hung.grids});
+    program.dispatchIndirect(isHung ? (surface.usesTexels ? k::skinCutHung : k::skinCutHungLoads)
+                                    : (surface.usesTexels ? k::skinCut : k::skinCutLoads),
+                             points, buffers, room);
     program.dispatchIndirect(k::skinPieces, outside,
                              {drawn.state, drawn.rest, built.positions, surface.gradients, drawn.vertices,
                               built.skinVertices, surface.turns},
@@ -101,8 +99,9 @@ void addDrawing(ProgramBuilder& program, const CutSurface& surface) {
 } // namespace
 
 std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& scene, CutBodies bodies,
-                                          const CutSource& source) {
+                                          const CutSource& source, bool usesTexels) {
     auto surface = std::make_shared<CutSurface>();
+    surface->usesTexels = usesTexels;
     surface->source = source;
     surface->skins = bodies.skins;
     surface->push = {.chunks = chunksFor(bodies.rest.size() + bodies.prisms.size()),

@@ -20,6 +20,7 @@
 
 #include "layout.h"
 #include "sim/surface/cut_bodies.hpp"
+#include "sim/surface/skin.hpp"
 
 #include <memory>
 
@@ -54,25 +55,27 @@ struct HungSurface {
 struct CutSurface {
     CutSource source;
     layout::SurfacePush push{};
+    bool usesTexels = true; ///< Forms::usesTexels
     std::uint32_t faces = 0, slots = 0, items = 0;
     BufferId complex, partitions, near, owned, counts, starts, sums, listed, arguments, rest, skinFaces,
         allIndices, gradients;
     BufferId turns;     ///< by point: the cofactor of the motion there, in columns
     BufferId bladeRest; ///< where a blade has particles at rest: `rest`, or below the skin
     HungSurface hung;
-    std::uint32_t wholeCount = 0; ///< triangles of mixed skins; 0 = there are none
-    BufferId wholes, wholeStates; ///< these; WHOLE_ALONE ...
-    BufferId wholeMarks;          ///< by vertex that hangs: 1 = a corner of one that its parts stand for
-    BufferId shownAtFirst;        ///< StepProgram::shownVertices while nothing is cut
-    BufferId wholeIndices, wholeFans, wholesOfVertex; ///< what their normals come from
-    std::uint32_t wholeVertices = 0;                  ///< of all skins, that have such a normal
-    std::vector<std::uint32_t> skins;                 ///< that are clipped
+    std::uint32_t wholeCount = 0;     ///< triangles of mixed skins; 0 = there are none
+    BufferId wholes, wholeStates;     ///< these; WHOLE_ALONE ...
+    BufferId wholeMarks;              ///< by vertex that hangs: 1 = a corner of one that its parts stand for
+    BufferId shownAtFirst;            ///< StepProgram::shownVertices while nothing is cut
+    BufferId wholeIndices;            ///< what their normals come from,
+    VertexFans wholeFans;             ///< with these
+    std::uint32_t wholeVertices = 0;  ///< of all skins, that have such a normal
+    std::vector<std::uint32_t> skins; ///< that are clipped
 };
 
 /// Buffers, and the skin's indices, which cuts change. After those of StepProgram::cutting, to whose topology
 /// they are added.
 std::shared_ptr<CutSurface> addCutSurface(ProgramBuilder& program, const Scene& scene, CutBodies bodies,
-                                          const CutSource& source);
+                                          const CutSource& source, bool usesTexels);
 
 /// In the phase "cut", after places were put down: those that a blade meets. Returns them.
 BufferId addPulling(ProgramBuilder& program, const CutSurface& surface, BufferId placesBefore, BufferId work,

@@ -183,11 +183,11 @@ void addSplitVertices(ProgramBuilder& program, const CutSurface& surface) {
             {hung.vertices, surface.partitions, hung.moved, hung.counts, hung.listed}, range.vertices);
     addPlan(program, hung);
     for (const HungRange& range : hung.ranges)
-        program.dispatchIndirect(k::skinSplit, listOf(hung, range.vertices, SKIN_SPLIT),
-                                 {hung.vertices, built.cutting.links, surface.rest, surface.source.particles,
-                                  built.positions, surface.gradients, built.skinVertices, hung.moved,
-                                  hung.counts, hung.listed, surface.near},
-                                 range.vertices);
+        program.dispatchIndirect(
+            surface.usesTexels ? k::skinSplit : k::skinSplitLoads, listOf(hung, range.vertices, SKIN_SPLIT),
+            {hung.vertices, built.cutting.links, surface.rest, surface.source.particles, built.positions,
+             surface.gradients, surface.near, hung.moved, hung.counts, hung.listed, built.skinVertices},
+            range.vertices);
 }
 
 void addRimNormals(ProgramBuilder& program, const CutSurface& surface) {

@@ -83,9 +83,7 @@ void uploadWholes(ProgramBuilder& program, CutSurface& surface, const CutBodies&
         for (const std::uint32_t corner : whole.vertices) indices.push_back(bodies.vertices[corner].vertex);
     surface.wholeVertices = std::ranges::max(indices) + 1;
     surface.wholeIndices = program.upload("surface.whole_indices", indices);
-    const VertexFans fans = uploadFans(program, indices, surface.wholeVertices, "surface.whole");
-    surface.wholeFans = fans.fans;
-    surface.wholesOfVertex = fans.triangles;
+    surface.wholeFans = uploadFans(program, indices, surface.wholeVertices, "surface.whole");
 }
 
 } // namespace
@@ -117,10 +115,9 @@ void addMixedSkins(ProgramBuilder& program, CutSurface& surface, const Scene& sc
 void addWholeNormals(ProgramBuilder& program, const CutSurface& surface) {
     if (surface.wholeCount == 0) return;
     const std::uint32_t hung = surface.hung.vertexCount;
-    program.dispatch(k::skinNormalsWhole, hung,
-                     {program.program().skinVertices, surface.wholeIndices, surface.wholeFans,
-                      surface.wholesOfVertex, surface.hung.vertices, surface.wholeMarks},
-                     layout::WholePush{.count = hung, .vertices = surface.wholeVertices});
+    addNormals(program, {&k::skinNormalsWhole, &k::skinNormalsWholeLoads}, surface.usesTexels,
+               surface.wholeIndices, surface.wholeFans, {surface.hung.vertices, surface.wholeMarks},
+               layout::WholePush{.count = hung, .vertices = surface.wholeVertices});
 }
 
 void addFacePasses(ProgramBuilder& program, const CutSurface& surface) {

@@ -13,6 +13,16 @@ namespace sinew::sim::surface {
 
 namespace {
 
+namespace k = kernels;
+
+constexpr NormalForm ofAll{&k::skinNormals, &k::skinNormalsLoads};
+
+struct Skins {
+    const std::vector<Skin>& all;
+    std::vector<BufferId> holders; // what their vertices hang on
+    bool usesTexels = true;
+};
+
 struct Fans {
     std::vector<layout::VertexTriangles> fans;
     std::vector<std::uint32_t> triangles;
@@ -53,29 +63,25 @@ BufferId uploadHolders(ProgramBuilder& program, const Skin& skin) {
 
 // The first `count` vertices of every skin; of those in cells the ones that `shown` says, where it is given.
 template <typename Count>
-void addVertices(ProgramBuilder& program, const std::vector<Skin>& skins,
-                 const std::vector<BufferId>& holders, const Count& count, BufferId shown = {}) {
+void addVertices(ProgramBuilder& program, const Skins& skins, const Count& count, BufferId shown = {}) {
     const StepProgram& built = program.program();
     std::uint32_t firstVertex = 0;
-    for (std::size_t s = 0; s < skins.size(); ++s) {
-        const Skin& skin = skins[s];
+    for (std::size_t s = 0; s < skins.all.size(); ++s) {
+        const Skin& skin = skins.all[s];
         if (skin.vertexCount() == 0) continue;
         const layout::SkinPush push{count(skin), firstVertex};
-        if (shown != BufferId{} && skin.particles.empty())
-            program.dispatch(kernels::skinCellsShown, push.count,
-                             {built.positions, holders[s], built.skinVertices, shown}, push);
-        else
-            program.dispatch(skin.particles.empty() ? kernels::skinCells : kernels::skinParticles, push.count,
-                             {built.positions, holders[s], built.skinVertices}, push);
+        std::vector<BufferId> buffers{built.positions, skins.holders[s], built.skinVertices};
+        if (!skin.particles.empty()) {
+            program.dispatch(k::skinParticles, push.count, buffers, push);
+        } else if (shown == BufferId{}) {
+            program.dispatch(skins.usesTexels ? k::skinCells : k::skinCellsLoads, push.count, buffers, push);
+        } else {
+            buffers.push_back(shown);
+            program.dispatch(skins.usesTexels ? k::skinCellsShown : k::skinCellsShownLoads, push.count,
+                             buffers, push);
+        }
         firstVertex += static_cast<std::uint32_t>(skin.vertexCount());
     }
-}
-
-void addNormals(ProgramBuilder& program, BufferId indices, const VertexFans& fans,
-                std::uint32_t vertexCount) {
-    program.dispatch(kernels::skinNormals, vertexCount,
-                     {program.program().skinVertices, indices, fans.fans, fans.triangles},
-                     layout::CountPush{vertexCount});
 }
 
 const std::vector<std::array<std::uint32_t, 3>>& wholeTriangles(const Skin& skin) {
@@ -103,18 +109,17 @@ std::vector<std::uint32_t> join(const std::vector<Skin>& skins, const Triangles&
 }
 
 // The same skins while nothing is cut.
-void addWholeSkins(ProgramBuilder& program, const std::vector<Skin>& skins,
-                   const std::vector<BufferId>& holders) {
+void addWholeSkins(ProgramBuilder& program, const Skins& skins) {
     const auto isSplit = [](const Skin& skin) { return !skin.wholeTriangles.empty(); };
-    if (std::ranges::none_of(skins, isSplit)) return;
+    if (std::ranges::none_of(skins.all, isSplit)) return;
     program.beginWholeSkin();
     program.beginPhase("whole skin");
-    const std::vector<std::uint32_t> indices = join(skins, wholeTriangles);
+    const std::vector<std::uint32_t> indices = join(skins.all, wholeTriangles);
     program.program().wholeIndices = program.upload("skin.whole_indices", indices);
-    addVertices(program, skins, holders, wholeVertices);
+    addVertices(program, skins, wholeVertices);
     const std::uint32_t vertexCount = std::ranges::max(indices) + 1;
-    addNormals(program, program.program().wholeIndices,
-               uploadFans(program, indices, vertexCount, "skin.whole"), vertexCount);
+    addNormals(program, ofAll, skins.usesTexels, program.program().wholeIndices,
+               uploadFans(program, indices, vertexCount, "skin.whole"), {}, layout::CountPush{vertexCount});
 }
 
 std::uint32_t allVertices(const Skin& skin) {
@@ -122,17 +127,16 @@ std::uint32_t allVertices(const Skin& skin) {
 }
 
 // The same skins once something is cut, of which not all is drawn.
-void addMixedSkin(ProgramBuilder& program, const std::vector<Skin>& skins,
-                  const std::vector<BufferId>& holders, const VertexFans& fans, std::uint32_t vertexCount) {
+void addMixedSkin(ProgramBuilder& program, const Skins& skins, const VertexFans& fans,
+                  std::uint32_t vertexCount) {
     const StepProgram& built = program.program();
     if (built.mixedIndices == BufferId{}) return;
     program.beginMixedSkin();
     program.beginPhase("mixed skin");
-    addVertices(program, skins, holders, allVertices, built.shownVertices);
+    addVertices(program, skins, allVertices, built.shownVertices);
     for (const auto& addMore : program.skinMiddles()) addMore();
-    program.dispatch(kernels::skinNormalsShown, vertexCount,
-                     {built.skinVertices, built.skinIndices, fans.fans, fans.triangles, built.shownVertices},
-                     layout::CountPush{vertexCount});
+    addNormals(program, {&k::skinNormalsShown, &k::skinNormalsShownLoads}, skins.usesTexels,
+               built.skinIndices, fans, {built.shownVertices}, layout::CountPush{vertexCount});
     for (const auto& addMore : program.skinEndings()) addMore();
 }
 
@@ -150,7 +154,7 @@ std::vector<std::uint32_t> joinIndices(const std::vector<Skin>& skins) {
         skins, [](const Skin& skin) -> const auto& { return skin.triangles; });
 }
 
-void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins) {
+void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins, bool usesTexels) {
     StepProgram& built = program.program();
     std::uint32_t vertexCount = 0;
     for (const Skin& skin : skins) vertexCount += allVertices(skin);
@@ -162,16 +166,16 @@ void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins) {
     built.skinVertices =
         program.scratch<layout::SkinVertex>("skin.vertices", vertexCount + built.pieceVertices);
     if (built.skinIndices == BufferId{}) built.skinIndices = program.upload("skin.indices", indices);
-    std::vector<BufferId> holders;
+    Skins all{skins, {}, usesTexels};
     for (const Skin& skin : skins)
-        holders.push_back(skin.vertexCount() > 0 ? uploadHolders(program, skin) : BufferId{});
-    addVertices(program, skins, holders, allVertices);
+        all.holders.push_back(skin.vertexCount() > 0 ? uploadHolders(program, skin) : BufferId{});
+    addVertices(program, all, allVertices);
     for (const auto& addMore : program.skinMiddles()) addMore();
     const VertexFans fans = uploadFans(program, indices, vertexCount, "skin");
-    addNormals(program, built.skinIndices, fans, vertexCount);
+    addNormals(program, ofAll, usesTexels, built.skinIndices, fans, {}, layout::CountPush{vertexCount});
     for (const auto& addMore : program.skinEndings()) addMore();
-    addWholeSkins(program, skins, holders);
-    addMixedSkin(program, skins, holders, fans, vertexCount);
+    addWholeSkins(program, all);
+    addMixedSkin(program, all, fans, vertexCount);
 }
 
 } // namespace sinew::sim::surface

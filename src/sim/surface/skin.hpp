@@ -19,6 +19,20 @@ VertexFans uploadFans(ProgramBuilder& program, const std::vector<std::uint32_t>&
 /// Appends the skin passes, and those of whole skins where some were split, and sets the program's skin
 /// buffers; nothing where `skins` is empty. Skins lie
 /// behind one another in one vertex and one index buffer, in the order of the scene.
-void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins);
+void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins, bool usesTexels);
+
+/// Smooth normals of the vertices that `form` is about, in `count` invocations.
+struct NormalForm {
+    const vk::ShaderCode *texels, *loads;
+};
+template <typename Push>
+void addNormals(ProgramBuilder& program, const NormalForm& form, bool usesTexels, BufferId indices,
+                const VertexFans& fans, std::initializer_list<BufferId> more, const Push& push) {
+    const BufferId vertices = program.program().skinVertices;
+    std::vector<BufferId> buffers{vertices, indices, fans.fans, fans.triangles};
+    if (usesTexels) buffers.push_back(vertices);
+    buffers.insert(buffers.end(), more);
+    program.dispatch(usesTexels ? *form.texels : *form.loads, push.count, buffers, push);
+}
 
 } // namespace sinew::sim::surface
