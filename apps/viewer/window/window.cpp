@@ -51,29 +51,22 @@ struct Window::State {
     Vector2 clickPlace = Vector2::Zero();
     Vector2 cursor = Vector2::Zero();        // screen coordinates
     int x = 0, y = 0, width = 0, height = 0; // of the window, but for full screen
+    // As events have them: to ask takes a way to the display server and back, several times a picture.
+    int wide = 0, high = 0, pixelsWide = 0, pixelsHigh = 0; // as it is
+    bool isIconified = false;
     Farewell farewell;
 
     static State& of(GLFWwindow* window) { return *static_cast<State*>(glfwGetWindowUserPointer(window)); }
 
-    float windowHeight() const {
-        int wide = 0, high = 0;
-        glfwGetWindowSize(window, &wide, &high);
-        return static_cast<float>(std::max(high, 1));
-    }
+    float windowHeight() const { return static_cast<float>(std::max(high, 1)); }
 
     // From the middle, in window heights.
     Vector2 pointer() const {
-        int wide = 0, high = 0;
-        glfwGetWindowSize(window, &wide, &high);
         return (cursor - 0.5f * Vector2(static_cast<float>(wide), static_cast<float>(high))) / windowHeight();
     }
 
     // From the upper left corner of the picture.
-    Vector2 pixels() const {
-        int wide = 0, high = 0;
-        glfwGetFramebufferSize(window, &wide, &high);
-        return static_cast<float>(high) / windowHeight() * cursor;
-    }
+    Vector2 pixels() const { return static_cast<float>(pixelsHigh) / windowHeight() * cursor; }
 
     // GLFW says them of keys and buttons alone.
     int modifiers() const {
@@ -194,13 +187,27 @@ struct Window::State {
             of(w).input.files.assign(files, files + count);
         });
         glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { of(w).input.needsRedraw = true; });
-        glfwSetWindowSizeCallback(window, [](GLFWwindow* w, int wide, int high) {
+        glfwSetWindowSizeCallback(window, [](GLFWwindow* w, int across, int down) {
+            of(w).wide = across;
+            of(w).high = down;
             if (glfwGetWindowMonitor(w) != nullptr) return;
-            of(w).width = wide;
-            of(w).height = high;
+            of(w).width = across;
+            of(w).height = down;
         });
-        glfwSetFramebufferSizeCallback(window,
-                                       [](GLFWwindow* w, int, int) { of(w).input.needsRedraw = true; });
+        glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int across, int down) {
+            of(w).pixelsWide = across;
+            of(w).pixelsHigh = down;
+            of(w).input.needsRedraw = true;
+        });
+        glfwSetWindowIconifyCallback(
+            window, [](GLFWwindow* w, int iconified) { of(w).isIconified = iconified == GLFW_TRUE; });
+        measure();
+    }
+
+    void measure() {
+        glfwGetWindowSize(window, &wide, &high);
+        glfwGetFramebufferSize(window, &pixelsWide, &pixelsHigh);
+        isIconified = glfwGetWindowAttrib(window, GLFW_ICONIFIED) == GLFW_TRUE;
     }
 };
 
@@ -219,8 +226,9 @@ Window::Window(VkExtent2D size) : state_(std::make_unique<State>()) {
         throw app::Failure(app::noDevice,
                            "cannot open a window: " + reason + ": use --headless --frames N --out DIR");
     }
-    glfwGetWindowSize(state_->window, &state_->width, &state_->height);
     state_->listen();
+    state_->width = state_->wide;
+    state_->height = state_->high;
 }
 
 Window::~Window() {
@@ -279,12 +287,10 @@ float Window::scale() const {
 }
 
 VkExtent2D Window::pixels() const {
-    int width = 0, height = 0;
-    glfwGetFramebufferSize(state_->window, &width, &height);
-    const bool isHidden =
-        glfwGetWindowAttrib(state_->window, GLFW_ICONIFIED) == GLFW_TRUE || width <= 0 || height <= 0;
+    const int wide = state_->pixelsWide, high = state_->pixelsHigh;
+    const bool isHidden = state_->isIconified || wide <= 0 || high <= 0;
     return isHidden ? VkExtent2D{}
-                    : VkExtent2D{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
+                    : VkExtent2D{static_cast<std::uint32_t>(wide), static_cast<std::uint32_t>(high)};
 }
 
 VkExtent2D Window::size() const {
