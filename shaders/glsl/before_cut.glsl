@@ -1,10 +1,18 @@
-// Part of the kernels that ask where a skin is in the state that a step with a blade begins with. Whoever includes this has
-//
-//   places[], savedLinks[]   of the body then
-//   rest[]                   where its particles were at rest
-#define ALIVE(i) savedLinks[i]
+// Part of the kernels that ask where a skin is in the state that a step with a blade begins with: places of its particles there and at rest,
+// from bindings 4 and 5.
+#include "saved_links.glsl"
+#ifdef TEXELS
+layout(binding = 4) uniform samplerBuffer places;
+layout(binding = 5) uniform samplerBuffer rest;
+#define AT(i) texelFetch(places, int(i)).xyz
+#define REST(i) texelFetch(rest, int(i)).xyz
+#else
+layout(std430, binding = 4) readonly buffer Places { vec4 places[]; };
+layout(std430, binding = 5) readonly buffer Rest { vec4 rest[]; };
 #define AT(i) places[i].xyz
 #define REST(i) rest[i].xyz
+#endif
+#define ALIVE(i) SAVED(i)
 #define TURN(i) gradientAt(i)
 #include "gradient.glsl"
 #include "skin_place.glsl"

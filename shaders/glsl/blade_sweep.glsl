@@ -1,6 +1,9 @@
 // Part of the kernels that find what the blade of a step meets: the edges of its strip, from where they were to where they are, against a
 // link that has gone from where it was when they were there. Whoever includes this has the buffers of cut_links, and PLACE(i), where a
-// slot's particle is.
+// slot's particle is; or says what POINT(n) is, of the blade.
+#ifndef POINT
+#define POINT(n) points[n].xyz
+#endif
 
 #include "near_blade.glsl"
 
@@ -20,9 +23,9 @@ Meeting stripMeeting(Ends x) {
     const vec3 low = min(min(x.a0, x.b0), min(x.a1, x.b1)), high = max(max(x.a0, x.b0), max(x.a1, x.b1));
     const vec3 shift = push.spacing * bladeShift;
     Meeting nearest = Meeting(never, vec3(0.0));
-    vec3 e0 = points[0].xyz + shift, e1 = points[1].xyz + shift;
+    vec3 e0 = POINT(0u) + shift, e1 = POINT(1u) + shift;
     for (uint q = 1u; q <= blade.quads; ++q) {
-        const vec3 g0 = points[2u * q].xyz + shift, g1 = points[2u * q + 1u].xyz + shift;
+        const vec3 g0 = POINT(2u * q) + shift, g1 = POINT(2u * q + 1u) + shift;
         if (all(lessThanEqual(min(min(e0, g0), min(e1, g1)), high)) && all(greaterThanEqual(max(max(e0, g0), max(e1, g1)), low))) {
             const float at = edgeHit(x, e0, g0, e1, g1);
             if (at < nearest.at) nearest = Meeting(at, normalOf(x, at, e0, g0, e1, g1));

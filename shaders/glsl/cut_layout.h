@@ -2,6 +2,7 @@
 #include "pieces.h"
 
 // Bodies that may be cut. What the host says of a step with a blade: a strip of quads between two poly-lines, and a ray.
+// Not for a uniform block: software devices build numbers that branches depend on into kernels, and would do so for every step.
 struct BladeHead {
     vec4 low, high;  // box around all that cuts [m]
     vec4 rayFrom;    // w = radius of the ray, 0 = there is none [m]

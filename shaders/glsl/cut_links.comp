@@ -7,19 +7,16 @@
 #include "link_masks.glsl"
 #include "blade_hit.glsl"
 
+#include "blade_places.glsl"
 #ifdef TEXELS
-layout(binding = 0) uniform samplerBuffer places;
-#define PLACE(i) texelFetch(places, int(i)).xyz
+layout(binding = 3) uniform samplerBuffer points;
+#define POINT(n) texelFetch(points, int(n)).xyz
 #else
-layout(std430, binding = 0) readonly buffer Places { vec4 places[]; };
-#define PLACE(i) places[i].xyz
+layout(std430, binding = 3) readonly buffer Points { vec4 points[]; };
 #endif
-layout(std430, binding = 1) readonly buffer PlacesBefore { vec4 before[]; };
-layout(std430, binding = 2) buffer Links { uint links[]; };
-layout(std430, binding = 3) buffer Hits { LinkHits hits[]; };
-layout(std430, binding = 4) buffer Dirty { uint dirty[]; };
-layout(std430, binding = 5) readonly buffer Blade { BladeHead blade; };
-layout(std430, binding = 6) readonly buffer Points { vec4 points[]; };
+layout(std430, binding = 4) buffer Links { uint links[]; };
+layout(std430, binding = 5) buffer Hits { LinkHits hits[]; };
+layout(std430, binding = 6) buffer Dirty { uint dirty[]; };
 layout(std430, binding = 7) readonly buffer Work { CutWork work; };
 layout(std430, binding = 8) readonly buffer Counts { uint counts[]; };
 layout(std430, binding = 9) readonly buffer Nears { uvec2 nears[]; };
@@ -30,6 +27,7 @@ layout(std430, binding = 9) readonly buffer Nears { uvec2 nears[]; };
 #include "blade_sweep.glsl"
 
 void main() {
+    readBlade();
     const uint count = counts[push.run], item = itemIndex(count);
     if (item >= count) return;
     const uint i = nears[push.first + item].x;

@@ -8,36 +8,48 @@
 #include "kuhn.glsl"
 #include "blade_hit.glsl"
 
-layout(std430, binding = 0) readonly buffer PulledPlaces { vec4 pulledPlaces[]; };
-layout(std430, binding = 1) readonly buffer PlacesBefore { vec4 before[]; };
-layout(std430, binding = 2) readonly buffer Links { uint links[]; };
-layout(std430, binding = 3) buffer SkinHits { uint skinHits[]; }; // of each prism: byte n for its edge n, in 1/255; 0 = none
-layout(std430, binding = 4) readonly buffer Blade { BladeHead blade; };
-layout(std430, binding = 5) readonly buffer Points { vec4 points[]; };
-layout(std430, binding = 6) readonly buffer SavedLinks { uint savedLinks[]; };
-layout(std430, binding = 7) readonly buffer Prisms { SkinPrism prisms[]; };
+#include "blade_places.glsl"
+#include "saved_links.glsl"
+#ifdef TEXELS
+layout(binding = 4) uniform samplerBuffer points;
+layout(binding = 5) uniform usamplerBuffer prisms; // SkinPrism
+layout(binding = 6) uniform samplerBuffer placed;  // PlacedVertex (place_vertices)
+#define POINT(n) texelFetch(points, int(n)).xyz
+SkinPrism prismAt(uint i) {
+    const uvec4 a = texelFetch(prisms, int(3u * i)), b = texelFetch(prisms, int(3u * i + 1u)), c = texelFetch(prisms, int(3u * i + 2u));
+    return SkinPrism(uint[3](a.x, a.y, a.z), uint[3](a.w, b.x, b.y), uint[3](b.z, b.w, c.x), c.y, c.z, c.w);
+}
+PlacedVertex placedAt(uint v) { return PlacedVertex(texelFetch(placed, int(2u * v)), texelFetch(placed, int(2u * v + 1u))); }
+#else
+layout(std430, binding = 4) readonly buffer Points { vec4 points[]; };
+layout(std430, binding = 5) readonly buffer Prisms { SkinPrism prisms[]; };
+layout(std430, binding = 6) readonly buffer Placed { PlacedVertex placed[]; }; // (place_vertices)
+SkinPrism prismAt(uint i) { return prisms[i]; }
+PlacedVertex placedAt(uint v) { return placed[v]; }
+#endif
+layout(std430, binding = 7) buffer SkinHits { uint skinHits[]; }; // of each prism: byte n for its edge n, in 1/255; 0 = none
 layout(std430, binding = 8) readonly buffer Counts { uint counts[]; };
-layout(std430, binding = 9) readonly buffer Nears { uint nears[]; };   // prisms (list_prisms)
-layout(std430, binding = 10) readonly buffer Placed { PlacedVertex placed[]; }; // vertices (place_vertices)
+layout(std430, binding = 9) readonly buffer Nears { uint nears[]; }; // prisms (list_prisms)
 
 #include "blade_skin.glsl"
-#include "skin_prisms.glsl"
+#include "prism_links.glsl"
 
 void main() {
+    readBlade();
     const uint count = counts[SKIN_LISTS * push.run + SKIN_NEAR], item = itemIndex(count);
     if (item >= count) return;
     const uint i = nears[push.first + item];
-    const SkinPrism prism = prisms[i];
+    const SkinPrism prism = prismAt(i);
     const bool isNear = isNearBlade(prism.anchors[0]);
     uint hits = skinHits[i];
     [[dont_unroll]] for (uint n = 0u; n < 3u; ++n) {
         if (linkOf(prism, n) == 0u || i > prism.beyond[n] >> 2) continue;
-        const bool isWhole = areLinked(savedLinks[lowEnd(prism, n)], linkOf(prism, n));
+        const bool isWhole = areLinked(SAVED(lowEnd(prism, n)), linkOf(prism, n));
         const uint next = (n + 1u) % 3u;
         uint hit = bitfieldExtract(hits, int(8u * n), 8);
         if (isWhole && blade.isCarried == 0u) hit = 0u;
         if (isNear && (isWhole || hit == 0u)) {
-            const PlacedVertex a = placed[prism.vertices[n]], b = placed[prism.vertices[next]];
+            const PlacedVertex a = placedAt(prism.vertices[n]), b = placedAt(prism.vertices[next]);
             const float at = hitOf(Ends(a.before.xyz, b.before.xyz, a.now.xyz, b.now.xyz));
             if (at <= 1.0) hit = uint(round(255.0 * clamp(at, 0.02, 0.98)));
         }

@@ -2,43 +2,48 @@
 // Lists the prisms of a skin near the blade of a step, and those near the links that died, by the slots that they stand on. What is costly
 // is done for these alone; the lists have no order, and need none.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_control_flow_attributes : require
 #include "kernel.glsl"
 
-layout(std430, binding = 0) readonly buffer PulledPlaces { vec4 pulledPlaces[]; };
-layout(std430, binding = 1) readonly buffer PlacesBefore { vec4 before[]; };
-layout(std430, binding = 2) readonly buffer Blade { BladeHead blade; };
-layout(std430, binding = 3) readonly buffer Status { StatusWords status; };
-layout(std430, binding = 4) readonly buffer Prisms { SkinPrism prisms[]; };
-layout(std430, binding = 5) readonly buffer Slots { SkinSlot slots[]; };
-layout(std430, binding = 6) readonly buffer Hanging { uint hanging[]; };
+#include "blade_places.glsl"
+#include "skin_slots.glsl"
+#ifdef TEXELS
+layout(binding = 5) uniform usamplerBuffer prisms; // SkinPrism
+uvec3 anchorsOf(uint i) { return uvec3(texelFetch(prisms, int(3u * i)).w, texelFetch(prisms, int(3u * i + 1u)).xy); }
+#else
+layout(std430, binding = 5) readonly buffer Prisms { SkinPrism prisms[]; };
+uvec3 anchorsOf(uint i) { return uvec3(prisms[i].anchors[0], prisms[i].anchors[1], prisms[i].anchors[2]); }
+#endif
+layout(std430, binding = 6) readonly buffer Status { StatusWords status; };
 layout(std430, binding = 7) readonly buffer Dirty { uint dirty[]; };
-layout(std430, binding = 8) buffer Counts { uint counts[]; };           // SKIN_LISTS of each body
-layout(std430, binding = 9) writeonly buffer Nears { uint nears[]; };   // of a body from its first prism on
+layout(std430, binding = 8) buffer Counts { uint counts[]; };            // SKIN_LISTS of each body
+layout(std430, binding = 9) writeonly buffer Nears { uint nears[]; };    // of a body from its first prism on
 layout(std430, binding = 10) writeonly buffer Parted { uint parted[]; }; // likewise
-layout(std430, binding = 11) buffer Flags { uint flags[]; };            // of slots
+layout(std430, binding = 11) buffer Flags { uint flags[]; };             // of slots
 layout(push_constant) uniform Push { SkinSlotsPush push; };
 
-#define PLACE(i) pulledPlaces[i].xyz
 #include "near_blade.glsl"
 #include "dirty.glsl"
 
 void listNear(uint i) {
     nears[push.prisms + atomicAdd(counts[SKIN_LISTS * push.run + SKIN_NEAR], 1u)] = i;
-    [[dont_unroll]] for (uint n = 0u; n < 3u; ++n) atomicOr(flags[prisms[i].anchors[n]], SLOT_ASKED);
+    const uvec3 anchors = anchorsOf(i);
+    atomicOr(flags[anchors.x], SLOT_ASKED);
+    if (anchors.y != anchors.x) atomicOr(flags[anchors.y], SLOT_ASKED);
+    if (anchors.z != anchors.x && anchors.z != anchors.y) atomicOr(flags[anchors.z], SLOT_ASKED);
 }
 
 // A prism is listed once, by the first of its corners.
 void listParted(uint i, uint corner) {
-    for (uint n = 0u; n < corner; ++n)
-        if (isDirty(prisms[i].anchors[n])) return;
+    const uvec3 anchors = anchorsOf(i);
+    if (corner > 0u && isDirty(anchors.x) || corner > 1u && isDirty(anchors.y)) return;
     parted[push.prisms + atomicAdd(counts[SKIN_LISTS * push.run + SKIN_PARTED], 1u)] = i;
 }
 
 void main() {
+    readBlade();
     const uint item = itemIndex(push.count);
     if (item >= push.count) return;
-    const SkinSlot slot = slots[push.first + item];
+    const SkinSlot slot = slotAt(push.first + item);
     const bool isCutting = blade.quads > 0u && isFinished(status), isNear = isCutting && isNearBlade(slot.slot);
     const bool isNewStroke = isCutting && blade.isCarried == 0u;
     const bool wasMet = (atomicOr(flags[slot.slot], isNear ? SLOT_MET : 0u) & SLOT_MET) != 0u;
@@ -47,7 +52,7 @@ void main() {
     const bool isParted = isDirty(slot.slot);
     if (!isMet && !isParted) return;
     for (uint k = 0u; k < slot.corners; ++k) {
-        const uint corner = hanging[slot.first + k];
+        const uint corner = HANGING(slot.first + k);
         if (isMet && (corner & 3u) == 0u) listNear(corner >> 2);
         if (isParted) listParted(corner >> 2, corner & 3u);
     }

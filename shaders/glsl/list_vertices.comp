@@ -4,25 +4,22 @@
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
-layout(std430, binding = 0) readonly buffer PulledPlaces { vec4 pulledPlaces[]; };
-layout(std430, binding = 1) readonly buffer PlacesBefore { vec4 before[]; };
-layout(std430, binding = 2) readonly buffer Blade { BladeHead blade; };
-layout(std430, binding = 3) readonly buffer Status { StatusWords status; };
-layout(std430, binding = 4) readonly buffer Slots { SkinSlot slots[]; };
-layout(std430, binding = 5) readonly buffer Hanging { uint hanging[]; };
+#include "blade_places.glsl"
+#include "skin_slots.glsl"
+layout(std430, binding = 5) readonly buffer Status { StatusWords status; };
 layout(std430, binding = 6) buffer Flags { uint flags[]; }; // of slots
 layout(std430, binding = 7) buffer Counts { uint counts[]; };
 layout(std430, binding = 8) writeonly buffer Listed { uint listed[]; }; // of a body from its first vertex on
 layout(std430, binding = 9) writeonly buffer Placed { PlacedVertex placed[]; };
 layout(push_constant) uniform Push { SkinSlotsPush push; };
 
-#define PLACE(i) pulledPlaces[i].xyz
 #include "near_blade.glsl"
 
 void main() {
+    readBlade();
     const uint item = itemIndex(push.count);
     if (item >= push.count || blade.quads == 0u || !isFinished(status)) return;
-    const SkinSlot slot = slots[push.first + item];
+    const SkinSlot slot = slotAt(push.first + item);
     const uint word = flags[slot.slot];
     const bool isNear = (word & SLOT_ASKED) != 0u || isNearBlade(slot.slot), wasListed = (word & SLOT_LISTED) != 0u;
     const bool isOfStroke = isNear || blade.isCarried != 0u && (word & SLOT_OF_STROKE) != 0u;
@@ -33,7 +30,7 @@ void main() {
     uint place = 0u;
     if (isListed) place = push.vertices + atomicAdd(counts[SKIN_LISTS * push.run + SKIN_VERTICES], slot.vertices);
     for (uint k = 0u; k < slot.vertices; ++k) {
-        const uint v = hanging[first + k];
+        const uint v = HANGING(first + k);
         if (isListed) listed[place + k] = v;
         else placed[v].now = vec4(0.0);
     }

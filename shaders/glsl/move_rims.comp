@@ -8,23 +8,24 @@
 #include "kuhn.glsl"
 #include "blade_hit.glsl"
 
-layout(std430, binding = 0) readonly buffer PulledPlaces { vec4 pulledPlaces[]; };
-layout(std430, binding = 1) readonly buffer PlacesBefore { vec4 before[]; };
-layout(std430, binding = 2) readonly buffer Links { uint links[]; };
-layout(std430, binding = 3) buffer Moved { vec4 moved[]; };
-layout(std430, binding = 4) readonly buffer Blade { BladeHead blade; };
-layout(std430, binding = 5) readonly buffer Points { vec4 points[]; };
-layout(std430, binding = 6) readonly buffer SavedLinks { uint savedLinks[]; };
-layout(std430, binding = 7) readonly buffer Places { vec4 places[]; };
-layout(std430, binding = 8) readonly buffer Rest { vec4 rest[]; };
-layout(std430, binding = 9) readonly buffer Hung { HungVertex hung[]; };
+#include "blade_places.glsl"
+#include "before_cut.glsl"
+#define HUNG_BINDING 6
+#include "hung_vertex.glsl"
+#ifdef TEXELS
+layout(binding = 7) uniform samplerBuffer points;
+#define POINT(n) texelFetch(points, int(n)).xyz
+#else
+layout(std430, binding = 7) readonly buffer Points { vec4 points[]; };
+#endif
+layout(std430, binding = 8) readonly buffer Links { uint links[]; };
+layout(std430, binding = 9) buffer Moved { vec4 moved[]; };
 layout(std430, binding = 10) buffer Rims { uint rims[]; };
 layout(std430, binding = 11) readonly buffer Status { StatusWords status; };
 layout(std430, binding = 12) readonly buffer Counts { uint counts[]; };
 layout(std430, binding = 13) readonly buffer Listed { uint listed[]; }; // vertices (list_vertices)
 layout(std430, binding = 14) readonly buffer Placed { PlacedVertex placed[]; }; // likewise (place_vertices)
 
-#include "before_cut.glsl"
 #include "blade_skin.glsl"
 
 const float mostWay = 1.5;      // [cells]
@@ -51,10 +52,11 @@ vec4 behindBlade(HungVertex self, PlacedVertex vertex) {
 }
 
 void main() {
+    readBlade();
     const uint count = counts[SKIN_LISTS * push.run + SKIN_VERTICES], item = itemIndex(count);
     if (item >= count || blade.quads == 0u || !isFinished(status)) return; // strokes go on over steps without a blade
     const uint v = listed[push.first + item];
-    const HungVertex self = hung[v];
+    const HungVertex self = hungAt(v);
     vec4 to = moved[v];
     const bool isNear = isNearBlade(self.anchor);
     if (to.w == VERTEX_MOVED || !isNear && to.w == 0.0) return;

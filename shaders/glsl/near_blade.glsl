@@ -1,8 +1,15 @@
 // Part of the kernels that find what is near the blade of a step. Whoever includes this has before[], blade, and PLACE(i), where a
-// slot's particle is.
+// slot's particle is; or says what BEFORE(i) is.
+#ifndef BEFORE
+#define BEFORE(i) before[i]
+#endif
 
 // Where the particle of a slot was when the edge was where it now begins.
-vec3 placeBefore(uint i) { return blade.isCarried != 0u && before[i].w > 0.0 ? before[i].xyz : PLACE(i); }
+vec3 placeBefore(uint i) {
+    if (blade.isCarried == 0u) return PLACE(i);
+    const vec4 then = BEFORE(i);
+    return then.w > 0.0 ? then.xyz : PLACE(i);
+}
 
 const float skinReach = 2.5; // of what goes with a particle [cells]
 

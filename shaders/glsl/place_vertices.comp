@@ -6,20 +6,15 @@
 #include "link_masks.glsl"
 #include "kuhn.glsl"
 
-layout(std430, binding = 0) readonly buffer SavedLinks { uint savedLinks[]; };
-layout(std430, binding = 1) readonly buffer Places { vec4 places[]; };
-layout(std430, binding = 2) readonly buffer Rest { vec4 rest[]; };
-layout(std430, binding = 3) readonly buffer Hung { HungVertex hung[]; };
-layout(std430, binding = 4) readonly buffer Partitions { uint partitions[]; }; // before this step
-layout(std430, binding = 5) readonly buffer Counts { uint counts[]; };
-layout(std430, binding = 6) readonly buffer Listed { uint listed[]; };
-layout(std430, binding = 7) buffer Placed { PlacedVertex placed[]; };
-layout(std430, binding = 8) readonly buffer PulledPlaces { vec4 pulledPlaces[]; };
-layout(std430, binding = 9) readonly buffer PlacesBefore { vec4 before[]; };
-layout(std430, binding = 10) readonly buffer Blade { BladeHead blade; };
-
-#define PLACE(i) pulledPlaces[i].xyz
+#include "blade_places.glsl"
 #include "before_cut.glsl"
+#define HUNG_BINDING 6
+#include "hung_vertex.glsl"
+layout(std430, binding = 7) readonly buffer Partitions { uint partitions[]; }; // before this step
+layout(std430, binding = 8) readonly buffer Counts { uint counts[]; };
+layout(std430, binding = 9) readonly buffer Listed { uint listed[]; };
+layout(std430, binding = 10) buffer Placed { PlacedVertex placed[]; };
+
 #include "near_blade.glsl"
 
 // Cells that were whole hang together.
@@ -30,11 +25,13 @@ vec3 placeNow(HungVertex vertex) {
 }
 
 void main() {
+    readBlade();
     const uint count = counts[SKIN_LISTS * push.run + SKIN_VERTICES], item = itemIndex(count);
     if (item >= count) return;
     const uint v = listed[push.first + item];
-    const uint anchor = hung[v].anchor;
-    const vec3 x = placeNow(hung[v]);
+    const HungVertex vertex = hungAt(v);
+    const uint anchor = vertex.anchor;
+    const vec3 x = placeNow(vertex);
     const vec4 last = placed[v].now;
     // what has only now come near goes as its particle does: nobody has asked about it before
     const bool isOnItsWay = blade.isCarried != 0u && last.w > 0.0;

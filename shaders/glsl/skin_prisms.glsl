@@ -9,15 +9,7 @@
 
 const uint skinPoints = 0xe3fu, firstCenter = 9u;
 
-uint linkOf(SkinPrism prism, uint n) { return bitfieldExtract(prism.links, int(4u * n), 4); }
-
-// The lower end of the link below an edge.
-uint lowEnd(SkinPrism prism, uint n) { return prism.anchors[linkOf(prism, n) < 8u ? n : (n + 1u) % 3u]; }
-
-bool areLinked(uint word, uint link) {
-    const ivec3 d = cornerOf(int(link & 7u));
-    return isAlive(word, d.x, d.y, d.z);
-}
+#include "prism_links.glsl"
 
 // Whether one particle or a live link is below edge n.
 bool isHeld(SkinPrism prism, uint n) {

@@ -8,21 +8,14 @@
 
 #include "skin_material.glsl"
 
+#define HUNG_BINDING 0
+#include "hung_vertex.glsl"
 #ifdef TEXELS
-layout(binding = 0) uniform usamplerBuffer hung; // HungVertex
 layout(binding = 7) uniform samplerBuffer moved;
 #define MOVED(v) texelFetch(moved, int(v))
-HungVertex hungAt(uint v) {
-    const int h = int(4u * v);
-    const uvec4 words = texelFetch(hung, h + 3);
-    return HungVertex(uintBitsToFloat(texelFetch(hung, h)), uintBitsToFloat(texelFetch(hung, h + 1)), uintBitsToFloat(texelFetch(hung, h + 2)),
-                      words.x, words.y, words.z, words.w);
-}
 #else
-layout(std430, binding = 0) readonly buffer Hung { HungVertex hung[]; };
 layout(std430, binding = 7) readonly buffer Moved { vec4 moved[]; };
 #define MOVED(v) moved[v]
-HungVertex hungAt(uint v) { return hung[v]; }
 #endif
 layout(std430, binding = 8) readonly buffer Counts { uint counts[]; };
 layout(std430, binding = 9) readonly buffer Listed { uint listed[]; };

@@ -63,8 +63,8 @@ void addBlade(ProgramBuilder& program, const Cut& cut) {
     for (const Run& run : cut.runs)
         program.dispatchIndirect(cut.usesTexels ? k::cutLinks : k::cutLinksLoads,
                                  {cut.nearArguments, run.push.run, run.push.count},
-                                 {cut.bladePlaces, cut.placesBefore, buffers.links, buffers.hits,
-                                  buffers.dirty, cut.blade, cut.points, cut.work, cut.nearCounts, cut.nears},
+                                 {cut.bladePlaces, cut.placesBefore, cut.blade, cut.points, buffers.links,
+                                  buffers.hits, buffers.dirty, cut.work, cut.nearCounts, cut.nears},
                                  run.push);
 }
 

@@ -39,13 +39,13 @@ void addLists(ProgramBuilder& program, const CutSurface& surface, BufferId blade
     const HungSurface& hung = surface.hung;
     program.fill(hung.counts, 0);
     for (const HungRange& range : hung.ranges)
-        program.dispatch(k::listPrisms, range.slots.count,
-                         {bladePlaces, placesBefore, blade, status, hung.prisms, hung.slots, hung.hanging,
+        program.dispatch(surface.usesTexels ? k::listPrisms : k::listPrismsLoads, range.slots.count,
+                         {bladePlaces, placesBefore, blade, hung.slots, hung.hanging, hung.prisms, status,
                           cutting.dirty, hung.counts, hung.nears, hung.parted, hung.slotFlags},
                          range.slots);
     for (const HungRange& range : hung.ranges)
-        program.dispatch(k::listVertices, range.slots.count,
-                         {bladePlaces, placesBefore, blade, status, hung.slots, hung.hanging, hung.slotFlags,
+        program.dispatch(surface.usesTexels ? k::listVertices : k::listVerticesLoads, range.slots.count,
+                         {bladePlaces, placesBefore, blade, hung.slots, hung.hanging, status, hung.slotFlags,
                           hung.counts, hung.listed, hung.placed},
                          range.slots);
     addPlan(program, hung);
@@ -119,21 +119,25 @@ void addSkinHits(ProgramBuilder& program, const CutSurface& surface, BufferId bl
     const HungSurface& hung = surface.hung;
     if (hung.prismCount == 0) return;
     addLists(program, surface, bladePlaces, placesBefore, blade);
+    const bool usesTexels = surface.usesTexels;
     for (const HungRange& range : hung.ranges)
-        program.dispatchIndirect(k::placeVertices, listOf(hung, range.vertices, SKIN_VERTICES),
-                                 {cutting.savedLinks, cutting.places, surface.rest, hung.vertices,
-                                  surface.partitions, hung.counts, hung.listed, hung.placed, bladePlaces,
-                                  placesBefore, blade},
+        program.dispatchIndirect(usesTexels ? k::placeVertices : k::placeVerticesLoads,
+                                 listOf(hung, range.vertices, SKIN_VERTICES),
+                                 {bladePlaces, placesBefore, blade, cutting.savedLinks, cutting.places,
+                                  surface.rest, hung.vertices, surface.partitions, hung.counts, hung.listed,
+                                  hung.placed},
                                  range.vertices);
     for (const HungRange& range : hung.ranges)
-        program.dispatchIndirect(k::cutSkin, listOf(hung, range.prisms, SKIN_NEAR),
-                                 {bladePlaces, placesBefore, cutting.links, hung.hits, blade, points,
-                                  cutting.savedLinks, hung.prisms, hung.counts, hung.nears, hung.placed},
+        program.dispatchIndirect(usesTexels ? k::cutSkin : k::cutSkinLoads,
+                                 listOf(hung, range.prisms, SKIN_NEAR),
+                                 {bladePlaces, placesBefore, blade, cutting.savedLinks, points, hung.prisms,
+                                  hung.placed, hung.hits, hung.counts, hung.nears},
                                  range.prisms);
     for (const HungRange& range : hung.ranges)
-        program.dispatchIndirect(k::moveRims, listOf(hung, range.vertices, SKIN_VERTICES),
-                                 {bladePlaces, placesBefore, cutting.links, hung.moved, blade, points,
-                                  cutting.savedLinks, cutting.places, surface.rest, hung.vertices, hung.rims,
+        program.dispatchIndirect(usesTexels ? k::moveRims : k::moveRimsLoads,
+                                 listOf(hung, range.vertices, SKIN_VERTICES),
+                                 {bladePlaces, placesBefore, blade, cutting.savedLinks, cutting.places,
+                                  surface.rest, hung.vertices, points, cutting.links, hung.moved, hung.rims,
                                   program.program().status, hung.counts, hung.listed, hung.placed},
                                  range.vertices);
 }
