@@ -19,9 +19,15 @@ layout(std430, binding = 8) buffer Counts { uint counts[]; };            // SKIN
 layout(std430, binding = 9) writeonly buffer Nears { uint nears[]; };    // of a body from its first prism on
 layout(std430, binding = 10) writeonly buffer Parted { uint parted[]; }; // likewise
 layout(std430, binding = 11) buffer Flags { uint flags[]; };             // of slots
+#ifdef TEXELS
+layout(binding = 12) uniform samplerBuffer points;
+#define POINT(n) texelFetch(points, int(n)).xyz
+#else
+layout(std430, binding = 12) readonly buffer Points { vec4 points[]; };
+#endif
 layout(push_constant) uniform Push { SkinSlotsPush push; };
 
-#include "near_blade.glsl"
+#include "near_skin.glsl"
 #include "dirty.glsl"
 
 void listNear(uint i) {

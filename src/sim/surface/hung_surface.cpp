@@ -33,7 +33,7 @@ void addPlan(ProgramBuilder& program, const HungSurface& hung) {
 
 // Who the blade may meet, and where links have died: the passes that follow go there alone.
 void addLists(ProgramBuilder& program, const CutSurface& surface, BufferId bladePlaces, BufferId placesBefore,
-              BufferId blade) {
+              BufferId blade, BufferId points) {
     const CuttingBuffers& cutting = program.program().cutting;
     const BufferId status = program.program().status;
     const HungSurface& hung = surface.hung;
@@ -41,12 +41,12 @@ void addLists(ProgramBuilder& program, const CutSurface& surface, BufferId blade
     for (const HungRange& range : hung.ranges)
         program.dispatch(surface.usesTexels ? k::listPrisms : k::listPrismsLoads, range.slots.count,
                          {bladePlaces, placesBefore, blade, hung.slots, hung.hanging, hung.prisms, status,
-                          cutting.dirty, hung.counts, hung.nears, hung.parted, hung.slotFlags},
+                          cutting.dirty, hung.counts, hung.nears, hung.parted, hung.slotFlags, points},
                          range.slots);
     for (const HungRange& range : hung.ranges)
         program.dispatch(surface.usesTexels ? k::listVertices : k::listVerticesLoads, range.slots.count,
                          {bladePlaces, placesBefore, blade, hung.slots, hung.hanging, status, hung.slotFlags,
-                          hung.counts, hung.listed, hung.placed},
+                          hung.counts, hung.listed, hung.placed, points},
                          range.slots);
     addPlan(program, hung);
 }
@@ -118,7 +118,7 @@ void addSkinHits(ProgramBuilder& program, const CutSurface& surface, BufferId bl
     const CuttingBuffers& cutting = program.program().cutting;
     const HungSurface& hung = surface.hung;
     if (hung.prismCount == 0) return;
-    addLists(program, surface, bladePlaces, placesBefore, blade);
+    addLists(program, surface, bladePlaces, placesBefore, blade, points);
     const bool usesTexels = surface.usesTexels;
     for (const HungRange& range : hung.ranges)
         program.dispatchIndirect(usesTexels ? k::placeVertices : k::placeVerticesLoads,
