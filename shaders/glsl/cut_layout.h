@@ -137,7 +137,8 @@ struct Gradient {
 
 // A triangle of a skin that is an outer face of a cell: the cell's slot and bit of SurfaceCounts::pieces, and the triangle.
 struct SkinFace {
-    uint cell, bit, triangle;
+    uint item; // 16 times the cell, and the bit: there are fewer than 2^28 cells, each of which has 16 bytes of one buffer
+    uint triangle;
     uint mixed; // the triangle in a mixed skin
     uint whole; // the whole triangle that it is a part of, or NO_WHOLE
 };

@@ -4,10 +4,14 @@
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
-layout(std430, binding = 0) readonly buffer Counts { SurfaceCounts counts[]; };
-layout(std430, binding = 1) readonly buffer State { SurfaceState state; };
-layout(std430, binding = 2) readonly buffer Faces { SkinFace faces[]; };
-layout(std430, binding = 3) readonly buffer AllIndices { uint allIndices[]; }; // of the uncut skins
+#include "skin_faces.glsl"
+#ifdef TEXELS
+layout(binding = 3) uniform usamplerBuffer allIndices; // of the uncut skins
+#define INDEX(n) texelFetch(allIndices, int(n)).x
+#else
+layout(std430, binding = 3) readonly buffer AllIndices { uint allIndices[]; };
+#define INDEX(n) allIndices[n]
+#endif
 layout(std430, binding = 4) writeonly buffer Indices { uint indices[]; };
 #ifdef MIXED
 layout(std430, binding = 5) readonly buffer States { uint states[]; }; // of whole triangles
@@ -19,16 +23,16 @@ layout(push_constant) uniform Push { CountPush push; };
 void main() {
     const uint i = itemIndex(push.count);
     if (i >= push.count) return;
-    const SkinFace face = faces[i];
-    const bool isHidden = state.missing == 0u && (counts[face.cell].pieces >> face.bit & 1u) != 0u;
-    for (uint n = 0u; n < 3u; ++n) indices[3u * face.triangle + n] = allIndices[3u * face.triangle + (isHidden ? 0u : n)];
+    const SkinFace face = faceAt(i);
+    const uvec3 corners = uvec3(INDEX(3u * face.triangle), INDEX(3u * face.triangle + 1u), INDEX(3u * face.triangle + 2u));
+    const bool isHidden = isInPieces(face);
+    for (uint n = 0u; n < 3u; ++n) indices[3u * face.triangle + n] = isHidden ? corners.x : corners[n];
 #ifdef MIXED
     const uint whole = face.whole == NO_WHOLE ? WHOLE_PARTED : states[face.whole];
     const bool isPart = whole == WHOLE_PARTED || whole == WHOLE_MIXED;
     for (uint n = 0u; n < 3u; ++n) {
-        const uint vertex = allIndices[3u * face.triangle + n];
-        mixedIndices[3u * face.mixed + n] = isPart && !isHidden ? vertex : 0u; // one vertex for all
-        if (whole != WHOLE_ALONE) atomicMax(shown[vertex], isPart ? VERTEX_SHOWN : VERTEX_PLACED); // pieces of what is hidden go with it, too
+        mixedIndices[3u * face.mixed + n] = isPart && !isHidden ? corners[n] : 0u; // one vertex for all
+        if (whole != WHOLE_ALONE) atomicMax(shown[corners[n]], isPart ? VERTEX_SHOWN : VERTEX_PLACED); // pieces of what is hidden go with it, too
     }
 #endif
 }

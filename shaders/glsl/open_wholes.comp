@@ -4,24 +4,33 @@
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
-layout(std430, binding = 0) readonly buffer Counts { SurfaceCounts counts[]; };
-layout(std430, binding = 1) readonly buffer State { SurfaceState state; };
-layout(std430, binding = 2) readonly buffer Faces { SkinFace faces[]; };
+#include "skin_faces.glsl"
+#ifdef TEXELS
+layout(binding = 3) uniform usamplerBuffer prisms; // SkinPrism
+layout(binding = 4) uniform usamplerBuffer hung;   // HungVertex
+layout(binding = 5) uniform samplerBuffer moved;
+layout(binding = 6) uniform usamplerBuffer partitions;
+#define VERTICES(p) texelFetch(prisms, int(3u * (p))).xyz
+bool isBesideCut(uint v) {
+    return texelFetch(partitions, int(texelFetch(hung, int(4u * v + 3u)).y)).x != 0u || texelFetch(moved, int(v)).w == VERTEX_MOVED;
+}
+#else
 layout(std430, binding = 3) readonly buffer Prisms { SkinPrism prisms[]; };
 layout(std430, binding = 4) readonly buffer Hung { HungVertex hung[]; };
 layout(std430, binding = 5) readonly buffer Moved { vec4 moved[]; };
 layout(std430, binding = 6) readonly buffer Partitions { uint partitions[]; };
+#define VERTICES(p) uvec3(prisms[p].vertices[0], prisms[p].vertices[1], prisms[p].vertices[2])
+bool isBesideCut(uint v) { return partitions[hung[v].cell] != 0u || moved[v].w == VERTEX_MOVED; }
+#endif
 layout(std430, binding = 7) writeonly buffer States { uint states[]; }; // of whole triangles
 layout(push_constant) uniform Push { PrismPush push; };
 
 void main() {
     const uint i = itemIndex(push.count);
-    if (i >= push.count || faces[i].whole == NO_WHOLE) return;
-    const uint cell = faces[i].cell; // an item of the surface: a prism
-    bool isParted = state.missing == 0u && counts[cell].pieces != 0u;
-    for (uint n = 0u; n < 3u; ++n) {
-        const uint v = prisms[cell - push.first].vertices[n];
-        isParted = isParted || partitions[hung[v].cell] != 0u || moved[v].w == VERTEX_MOVED;
-    }
-    if (isParted) states[faces[i].whole] = WHOLE_PARTED;
+    if (i >= push.count) return;
+    const SkinFace face = faceAt(i);
+    if (face.whole == NO_WHOLE) return;
+    const uvec3 corners = VERTICES(cellOf(face) - push.first); // its item of the surface is a prism
+    const bool isParted = state.missing == 0u && PIECES(cellOf(face)) != 0u;
+    if (isParted || isBesideCut(corners.x) || isBesideCut(corners.y) || isBesideCut(corners.z)) states[face.whole] = WHOLE_PARTED;
 }

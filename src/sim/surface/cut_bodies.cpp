@@ -63,8 +63,7 @@ private:
         const auto firstWhole = static_cast<std::uint32_t>(bodies_.wholes.size());
         for (std::uint32_t t = 0; t < prisms; ++t) // prisms come behind all slots
             bodies_.faces.push_back(
-                {.cell = static_cast<std::uint32_t>(layout_.count) + firstPrism + t,
-                 .bit = 0,
+                {.item = 16 * (static_cast<std::uint32_t>(layout_.count) + firstPrism + t),
                  .triangle = place.firstTriangle + t,
                  .mixed = 0,
                  .whole = skin.wholeOf.empty() ? NO_WHOLE : firstWhole + skin.wholeOf[t]});

@@ -43,9 +43,9 @@ public:
         const bool hasBelow = below[axis]-- > 0 && isFilled(below), hasAbove = isFilled(nodes[0]);
         if (hasBelow == hasAbove) return std::nullopt;
         if (hasAbove) // the low face of the cell
-            return layout::SkinFace{slot(nodes[0]), 2 * tetrahedron(*middle, *high) + 1, triangle, 0,
+            return layout::SkinFace{16 * slot(nodes[0]) + 2 * tetrahedron(*middle, *high) + 1, triangle, 0,
                                     NO_WHOLE};
-        return layout::SkinFace{slot(below), 2 * tetrahedron(across, across | *middle), triangle, 0,
+        return layout::SkinFace{16 * slot(below) + 2 * tetrahedron(across, across | *middle), triangle, 0,
                                 NO_WHOLE};
     }
 
@@ -96,7 +96,7 @@ latticeFaces(const Skin& skin, const Grid& grid, const lattice::Box& box, std::u
     if (skin.particles.empty() || lattice::isSheet(grid)) return std::nullopt;
     const Faces all(grid, box);
     std::vector<layout::SkinFace> faces;
-    std::set<std::pair<std::uint32_t, std::uint32_t>> seen;
+    std::set<std::uint32_t> seen;
     for (const auto& triangle : skin.triangles) {
         std::array<Node, 3> nodes;
         for (std::size_t n = 0; n < 3; ++n) {
@@ -105,7 +105,7 @@ latticeFaces(const Skin& skin, const Grid& grid, const lattice::Box& box, std::u
             nodes[n] = lattice::coordinates(grid, grid.node[index]);
         }
         const auto face = all.face(nodes, firstTriangle + static_cast<std::uint32_t>(faces.size()));
-        if (!face || !seen.insert({face->cell, face->bit}).second) return std::nullopt;
+        if (!face || !seen.insert(face->item).second) return std::nullopt;
         faces.push_back(*face);
     }
     if (faces.size() != 2 * all.outerFaces()) return std::nullopt;

@@ -125,7 +125,7 @@ void addFacePasses(ProgramBuilder& program, const CutSurface& surface) {
     const BufferId state = built.cutSurface.state;
     const layout::CountPush faces{surface.faces}, wholes{surface.wholeCount};
     if (surface.wholeCount == 0) {
-        program.dispatch(k::hideFaces, faces.count,
+        program.dispatch(surface.usesTexels ? k::hideFaces : k::hideFacesLoads, faces.count,
                          {surface.counts, state, surface.skinFaces, surface.allIndices, built.skinIndices},
                          faces);
         return;
@@ -133,7 +133,7 @@ void addFacePasses(ProgramBuilder& program, const CutSurface& surface) {
     program.fill(surface.wholeStates, 0);
     program.fill(surface.wholeMarks, 0);
     program.copy(surface.shownAtFirst, built.shownVertices);
-    program.dispatch(k::openWholes, faces.count,
+    program.dispatch(surface.usesTexels ? k::openWholes : k::openWholesLoads, faces.count,
                      {surface.counts, state, surface.skinFaces, surface.hung.prisms, surface.hung.vertices,
                       surface.hung.moved, surface.partitions, surface.wholeStates},
                      layout::PrismPush{.first = surface.slots, .count = faces.count});
@@ -146,7 +146,7 @@ void addFacePasses(ProgramBuilder& program, const CutSurface& surface) {
     program.dispatch(k::reachWholes, wholes.count,
                      {surface.wholes, surface.hung.vertices, built.shownVertices, surface.wholeStates},
                      wholes);
-    program.dispatch(k::hideFacesMixed, faces.count,
+    program.dispatch(surface.usesTexels ? k::hideFacesMixed : k::hideFacesMixedLoads, faces.count,
                      {surface.counts, state, surface.skinFaces, surface.allIndices, built.skinIndices,
                       surface.wholeStates, built.mixedIndices, built.shownVertices},
                      faces);
