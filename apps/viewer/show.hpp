@@ -80,6 +80,8 @@ private:
         std::optional<Question> question; // of the tools
         std::unique_ptr<Shot> screenshot;
         std::uint64_t screenshotStep = 0;
+        /// Whether it brings a copy of the state.
+        bool isAsked() const { return isProbed || look || question || isMeasured || isInspected; }
     };
 
     enum class Shown { nothing, moving, still };
@@ -138,6 +140,7 @@ private:
     void makeSurfaceRoom();
     void warnOfSurface();
     bool isStrainDue(std::uint32_t steps);
+    bool askProbe(InFlight& flight);
     void recordProbe(const Presenter::Frame& frame);
     void inspect(const Presenter::Frame& frame, const Ray& ray);
     Overlay recordLayers(const Presenter::Frame& frame);

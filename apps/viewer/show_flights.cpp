@@ -53,7 +53,13 @@ void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
         if (beside_ && !isBesideOut_)
             beside_->recordStep(frame.commands, stage_, hands, frame.slot, step == 0);
     }
+    drawn_ = backstage_.ready({screen_.layers(), inspector_.isOn()});
+    const bool isLooked =
+        askProbe(flight); // at all triangles, where they are: also at those that are not drawn
+    stage_.recordSkin(frame.commands, isLooked ? sim::Overlap::none : drawn_.layers.overlap());
     recordProbe(frame);
+    if (beside_)
+        beside_->recordPicture(frame.commands, frame.slot, flight.isMeasured, drawn_.layers.overlap());
 }
 
 // What is on its way belongs to a state that is no more: nobody need look at it, nor cut it again.
@@ -76,22 +82,24 @@ bool Show::isStrainDue(std::uint32_t steps) {
     return isDue;
 }
 
-// One copy is enough for all that is in flight: a question is asked again until it is answered.
-void Show::recordProbe(const Presenter::Frame& frame) {
-    InFlight& flight = inFlight_[frame.slot];
-    const auto isAsked = [](const InFlight& other) {
-        return other.isProbed || other.look || other.question || other.isMeasured || other.isInspected;
-    };
-    if (std::ranges::any_of(inFlight_, isAsked)) return;
+// One copy is enough for all that is in flight: a question is asked again until it is answered. True where it
+// is about what a ray meets.
+bool Show::askProbe(InFlight& flight) {
+    if (std::ranges::any_of(inFlight_, &InFlight::isAsked)) return false;
     flight.isProbed = std::exchange(wantsProbe_, false);
     flight.look = std::exchange(wantsLook_, std::nullopt);
     if (!replay_) flight.question = tools_.question(); // a replay has its answers
     flight.isMeasured = isStrainDue(flight.steps);
-    const Ray ray = rayThrough(controller_.camera, pointer_);
-    flight.isInspected = inspector_.isDue(ray);
-    if (!isAsked(flight)) return;
+    flight.isInspected = inspector_.isDue(rayThrough(controller_.camera, pointer_));
+    return flight.look || flight.question || flight.isInspected;
+}
+
+// After skins were.
+void Show::recordProbe(const Presenter::Frame& frame) {
+    const InFlight& flight = inFlight_[frame.slot];
+    if (!flight.isAsked()) return;
     probe_->record(frame.commands);
-    if (flight.isInspected) inspect(frame, ray);
+    if (flight.isInspected) inspect(frame, rayThrough(controller_.camera, pointer_));
 }
 
 void Show::inspect(const Presenter::Frame& frame, const Ray& ray) {
@@ -99,15 +107,10 @@ void Show::inspect(const Presenter::Frame& frame, const Ray& ray) {
     inspector_.record(frame.commands, frame.slot, ray, backstage_.inspection().counter());
 }
 
-// Skins, and what is there of what is wanted over them.
+// What is there of what is wanted.
 Overlay Show::recordLayers(const Presenter::Frame& frame) {
     Overlay overlay = tools_.overlay();
-    drawn_ = backstage_.ready({screen_.layers(), inspector_.isOn()});
     const Layers& layers = overlay.layers = drawn_.layers;
-    stage_.recordSkin(frame.commands, layers.overlap());
-    if (beside_)
-        beside_->recordPicture(frame.commands, frame.slot, inFlight_[frame.slot].isMeasured,
-                               layers.overlap());
     if (!layers.needsBuffers()) return overlay;
     const Inspection& inspection = backstage_.inspection();
     inspection.record(frame.commands, layers, frame.slot);

@@ -53,7 +53,8 @@ void warmUp(const vk::Device& device, PreparedShow& show, VkFormat format, const
     VkCommandBuffer commands = queue.begin();
     show.stage.recordReset(commands);
     show.stage.recordStep(commands, nullptr, {}, {blade.from, blade.to});
-    show.stage.recordSkin(commands);
+    for (const sim::Overlap overlap : {sim::Overlap::none, sim::Overlap::some})
+        show.stage.recordSkin(commands, overlap);
     queue.wait(queue.submit(commands));
     for (const float scale : PictureBudget::scales)
         draw(device, queue, show.moving, format, scale, camera, show.stage);

@@ -2,13 +2,14 @@
 #ifdef TEXELS
 layout(binding = 0) uniform samplerBuffer pulledPlaces;
 layout(binding = 1) uniform samplerBuffer before;
-layout(binding = 2) uniform samplerBuffer bladeHead; // BladeHead
+layout(binding = 2) uniform usamplerBuffer bladeHead; // BladeHead
 #define PLACE(i) texelFetch(pulledPlaces, int(i)).xyz
 #define BEFORE(i) texelFetch(before, int(i))
 BladeHead blade;
 void readBlade() {
-    const uvec4 words = floatBitsToUint(texelFetch(bladeHead, 4));
-    blade = BladeHead(texelFetch(bladeHead, 0), texelFetch(bladeHead, 1), texelFetch(bladeHead, 2), texelFetch(bladeHead, 3), words.x, words.y, 0u, 0u);
+    const uvec4 words = texelFetch(bladeHead, 4);
+    blade = BladeHead(uintBitsToFloat(texelFetch(bladeHead, 0)), uintBitsToFloat(texelFetch(bladeHead, 1)), uintBitsToFloat(texelFetch(bladeHead, 2)),
+                      uintBitsToFloat(texelFetch(bladeHead, 3)), words.x, words.y, 0u, 0u);
 }
 #else
 layout(std430, binding = 0) readonly buffer PulledPlaces { vec4 pulledPlaces[]; };

@@ -1,4 +1,4 @@
-// A vertex of a skin that hangs, and where it is in a step with a blade. Whoever includes this says on which bindings those are.
+// A vertex of a skin that hangs. Whoever includes this says on which binding they are.
 #ifdef TEXELS
 layout(binding = HUNG_BINDING) uniform usamplerBuffer hung;
 HungVertex hungAt(uint v) {

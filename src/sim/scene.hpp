@@ -283,8 +283,9 @@ enum class Solver { jacobi, split, gaussSeidel };
 /// (tune() measures). Only usesGrids changes rounding, because it changes the order in which links are
 /// summed.
 struct Forms {
-    bool usesTexels = true;    ///< fetch positions through the texture path instead of storage loads
-    bool usesGrids = true;     ///< compute the neighbours of bodies on a grid instead of listing them
+    bool usesTexels =
+        true;              ///< fetch positions, skins and cuts through the texture path, not by storage loads
+    bool usesGrids = true; ///< compute the neighbours of bodies on a grid instead of listing them
     std::uint32_t columns = 2; ///< of a lattice, marched by one invocation in x and in y: 1 or 2
     std::uint32_t chunk = 16;  ///< slices marched at most, 1..65535
     /// Bytes of shared memory in which a work group may keep a small body on a grid through all substeps of a

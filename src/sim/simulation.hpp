@@ -143,7 +143,7 @@ struct SavedState {
 };
 
 /// What recordSkin() makes of skins that were split so that they may be cut: all of their triangles, or those
-/// that are to be drawn, which are fewer while nothing is cut (drawnSkins()).
+/// that are to be drawn (drawnSkins()), which are fewer.
 enum class SkinDetail { all, drawn };
 
 /// Whether some triangles of a skin may be drawn in two forms, one over the other, so that there are fewer of
@@ -282,10 +282,10 @@ public:
     vk::BufferView skinVertices() const noexcept;
     vk::BufferView skinIndices() const noexcept;
     const std::vector<SkinRange>& skins() const noexcept;
-    /// What to draw of the skins after recordSkin(), with either detail: 32-bit indices into skinVertices(),
-    /// and the range of each skin in them. Valid for what was recorded until then; another step, reset or
-    /// state may change it. With Overlap::some, after a cut, Skin::wholeTriangles away from it and
-    /// `triangles` beside it, where the scene has no sheet that may be cut; vertices as with Overlap::none.
+    /// What to draw of the skins after recordSkin(), with SkinDetail::all or the same overlap: 32-bit indices
+    /// into skinVertices(), and the range of each skin in them. Valid for what was recorded until then;
+    /// another step, reset or state may change it. With Overlap::some, after a cut, Skin::wholeTriangles away
+    /// from it and `triangles` beside it, where the scene has no sheet that may be cut.
     struct DrawnSkins {
         vk::BufferView indices;
         std::span<const SkinRange> ranges;

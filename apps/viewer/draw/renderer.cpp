@@ -40,7 +40,7 @@ Quality reducedQuality() {
             .keepsBackdrop = true,
             .mayEnlarge = true,
             .leavesBacks = true,
-            .lightsInTurns = true};
+            .floorEvery = 2};
 }
 
 bool isSoftware(const vk::Device& device) {
@@ -126,9 +126,7 @@ void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, Canvas& canv
     vk::Commands labels(device_, commands);
     labels.beginLabel("light maps");
     const bool isPart = enlarging && !enlarging->isWhole(); // the other has other bodies
-    const bool isAll = isPart || pictures_ == 0 || !quality_.lightsInTurns;
-    recordMaps(commands, simulation, overlay, {isAll || pictures_ % 2 == 1, isAll || pictures_ % 2 == 0});
-    if (!isPart) ++pictures_;
+    recordMaps(commands, simulation, overlay, isPart || pictures_++ % quality_.floorEvery == 0);
     labels.endLabel();
     if (isOpened) {
         labels.beginLabel("section");
@@ -161,19 +159,17 @@ void Renderer::drawShades(VkCommandBuffer commands, std::size_t ofSkins, std::si
 }
 
 void Renderer::recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation, const Overlay& overlay,
-                          const DueMaps& due) const noexcept {
+                          bool isFloorDue) const noexcept {
     const vk::DeviceFunctions& functions = device_.functions();
     const std::array far{VkClearValue{.depthStencil = {1, 0}}};
     const std::array open{VkClearValue{.color = {{1, 1, 1, 1}}}};
     const auto beginMap = [&](const LightMap& map, std::span<const VkClearValue> clear) {
         begin(commands, map.pass, map.framebuffer.handle(), map.image.extent(), clear);
     };
-    if (due.hasShadow) {
-        beginMap(maps_.shadow, far);
-        drawShades(commands, shadowPipeline, ballShadowPipeline, simulation, overlay);
-        functions.vkCmdEndRenderPass(commands);
-    }
-    if (!due.hasFloor) return;
+    beginMap(maps_.shadow, far);
+    drawShades(commands, shadowPipeline, ballShadowPipeline, simulation, overlay);
+    functions.vkCmdEndRenderPass(commands);
+    if (!isFloorDue) return;
     // Without a ground the other two are only cleared: the shaders' bindings stay readable.
     beginMap(maps_.plan, far);
     if (light_.ground) drawShades(commands, planPipeline, ballPlanPipeline, simulation, overlay);

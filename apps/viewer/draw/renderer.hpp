@@ -22,8 +22,7 @@ struct Quality {
     bool mayEnlarge = false;    ///< pictures may be drawn smaller than they are; needs one sample
     /// Backs of skins that enclose something are drawn where the camera may be inside alone, or a section is.
     bool leavesBacks = false;
-    /// Shadows are made for one picture and the floor's light for the next: the other is of the one before.
-    bool lightsInTurns = false;
+    std::uint32_t floorEvery = 1; ///< pictures: those between have the floor's light of an earlier one
 };
 
 /// For moving pictures in a window on a software device: smaller maps, fewer taps, one sample.
@@ -143,11 +142,8 @@ private:
     bool isOpened(std::size_t index) const noexcept;
     const RenderPass& countsPass(Additions& to) const;
     const RenderPass& passOf(const Canvas& canvas) const noexcept;
-    struct DueMaps {
-        bool hasShadow = true, hasFloor = true;
-    };
     void recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation, const Overlay& overlay,
-                    const DueMaps& due) const noexcept;
+                    bool isFloorDue) const noexcept;
     void drawShades(VkCommandBuffer commands, std::size_t ofSkins, std::size_t ofBalls,
                     const sim::Simulation& simulation, const Overlay& overlay) const noexcept;
     void recordCounts(VkCommandBuffer commands, const Canvas& canvas, const sim::Simulation& simulation,

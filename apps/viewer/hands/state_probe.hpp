@@ -20,7 +20,8 @@ public:
 
     /// Velocities too, in the same commands as record(), where the simulation has some.
     void recordVelocities(VkCommandBuffer commands) const noexcept;
-    /// After recordSkin() of the simulation, if there are skins.
+    /// After recordSkin() of the simulation with Overlap::none, if there are skins and what is asked is what
+    /// a ray meets.
     void record(VkCommandBuffer commands) noexcept;
 
     /// The box around all finite positions of what is there [m]; empty where there is none. Of this and what

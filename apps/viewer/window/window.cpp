@@ -52,17 +52,18 @@ struct Window::State {
     Vector2 cursor = Vector2::Zero();        // screen coordinates
     int x = 0, y = 0, width = 0, height = 0; // of the window, but for full screen
     // As events have them: to ask takes a way to the display server and back, several times a picture.
-    int wide = 0, high = 0, pixelsWide = 0, pixelsHigh = 0; // as it is
+    int nowWidth = 0, nowHeight = 0, pixelsWide = 0, pixelsHigh = 0;
     bool isIconified = false;
     Farewell farewell;
 
     static State& of(GLFWwindow* window) { return *static_cast<State*>(glfwGetWindowUserPointer(window)); }
 
-    float windowHeight() const { return static_cast<float>(std::max(high, 1)); }
+    float windowHeight() const { return static_cast<float>(std::max(nowHeight, 1)); }
 
     // From the middle, in window heights.
     Vector2 pointer() const {
-        return (cursor - 0.5f * Vector2(static_cast<float>(wide), static_cast<float>(high))) / windowHeight();
+        return (cursor - 0.5f * Vector2(static_cast<float>(nowWidth), static_cast<float>(nowHeight))) /
+               windowHeight();
     }
 
     // From the upper left corner of the picture.
@@ -188,8 +189,8 @@ struct Window::State {
         });
         glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { of(w).input.needsRedraw = true; });
         glfwSetWindowSizeCallback(window, [](GLFWwindow* w, int across, int down) {
-            of(w).wide = across;
-            of(w).high = down;
+            of(w).nowWidth = across;
+            of(w).nowHeight = down;
             if (glfwGetWindowMonitor(w) != nullptr) return;
             of(w).width = across;
             of(w).height = down;
@@ -205,7 +206,7 @@ struct Window::State {
     }
 
     void measure() {
-        glfwGetWindowSize(window, &wide, &high);
+        glfwGetWindowSize(window, &nowWidth, &nowHeight);
         glfwGetFramebufferSize(window, &pixelsWide, &pixelsHigh);
         isIconified = glfwGetWindowAttrib(window, GLFW_ICONIFIED) == GLFW_TRUE;
     }
@@ -227,8 +228,8 @@ Window::Window(VkExtent2D size) : state_(std::make_unique<State>()) {
                            "cannot open a window: " + reason + ": use --headless --frames N --out DIR");
     }
     state_->listen();
-    state_->width = state_->wide;
-    state_->height = state_->high;
+    state_->width = state_->nowWidth;
+    state_->height = state_->nowHeight;
 }
 
 Window::~Window() {

@@ -16,12 +16,13 @@ struct VertexFans {
 VertexFans uploadFans(ProgramBuilder& program, const std::vector<std::uint32_t>& indices,
                       std::uint32_t vertexCount, const std::string& name);
 
-/// Appends the skin passes, and those of whole skins where some were split, and sets the program's skin
-/// buffers; nothing where `skins` is empty. Skins lie
-/// behind one another in one vertex and one index buffer, in the order of the scene.
+/// Appends the skin passes, those of whole skins where some were split, and those of mixed skins where some
+/// are mixed, and sets the program's skin buffers; nothing where `skins` is empty. Skins lie behind one
+/// another in one vertex and one index buffer, in the order of the scene. `usesTexels` as Forms has it.
 void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins, bool usesTexels);
 
-/// Smooth normals of the vertices that `form` is about, in `count` invocations.
+/// Smooth normals of the vertices that `form` is about: skin_normals.comp, fetching and loading. Behind the
+/// buffers of that come `more`, those of a variant.
 struct NormalForm {
     const vk::ShaderCode *texels, *loads;
 };

@@ -206,6 +206,7 @@ TEST(CutFuzz, RandomStrokesThroughTwentyBodiesLeaveAllAsItMustBe) {
                         only = setting("SINEW_BODY", every);
     const std::vector<Scene> scenes = bodies();
     ASSERT_EQ(scenes.size(), 20u);
+    ASSERT_LE(only, every) << "SINEW_BODY";
     for (std::uint32_t b = 0; b < scenes.size(); ++b)
         if (only == every ? all > 0 || b % 5 == 2 : b == only)
             cutAtRandom(scenes[b], 1000 * seed + b, b % 2 == 1, all > 0 ? all : 6);

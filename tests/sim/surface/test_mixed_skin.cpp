@@ -5,7 +5,9 @@
 #include "mesh/to_scene.hpp"
 #include "sim/bodies.hpp"
 #include "sim/cutting/cut_body.hpp"
+#include "sim/hash.hpp"
 #include "sim/scenes.hpp"
+#include "sim/surface/closed_surface.hpp"
 #include "sim/surface/rest_normals.hpp"
 
 #include <gtest/gtest.h>
@@ -361,17 +363,17 @@ TEST(MixedSkin, LeavesOtherSkinsAsTheyAre) {
         ASSERT_TRUE(!isThere(whole) || std::ranges::min(whole) >= scene.skins[0].vertexCount());
 }
 
-// While a body gapes, and in the middle of a slow stroke.
-TEST(MixedSkin, IsMadeWhereItIsDrawnAlone) {
-    Scene scene = organScene();
-    scene.gravity = {0, -9.81f, 0};
-    CutBody body(scene);
+namespace {
+
+// Strokes through the organ while it falls apart: a fast one, a slow one carried with it over some steps, and
+// one more after the topology before was put back. `look` is called after each of them.
+template <typename Look> void cutInManyWays(CutBody& body, const Look& look) {
     test::Runner& runner = body.runner();
     const vk::Buffer uncut = runner.saveTopology();
     ASSERT_GT(body.cut(sweepOf({{0.03, 0, 0}, Vector3d(1, 0.2, 0.1).normalized()}, reach)).linksCutInAll, 0u);
-    expectMadeWhereDrawn(runner, "after a cut");
+    look("after a cut");
     runner.run(10);
-    expectMadeWhereDrawn(runner, "ten steps later");
+    look("ten steps later");
     const Vector3d along = 0.15 * Vector3d::UnitZ();
     for (int s = 0; s < 8; ++s) {
         const Vector3d top(-0.05, 0.2 - 0.04 * s, 0);
@@ -382,10 +384,42 @@ TEST(MixedSkin, IsMadeWhereItIsDrawnAlone) {
         }
         slow.isCarried = s > 0;
         body.cut(slow);
-        if (s % 3 == 1) expectMadeWhereDrawn(runner, "in a slow stroke");
+        if (s % 3 == 1) look("in a slow stroke");
     }
     runner.loadTopology(uncut);
-    expectMadeWhereDrawn(runner, "undone");
-    body.cut(sweepOf({{0, 0, 0}, Vector3d::UnitY()}, reach));
-    expectMadeWhereDrawn(runner, "cut again");
+    look("undone");
+    body.cut(sweepOf({{0, 0, 0}, Vector3d(0.3, 1, 0.4).normalized()}, reach));
+    look("cut again");
+}
+
+Scene fallingOrgan() {
+    Scene scene = organScene();
+    scene.gravity = {0, -9.81f, 0};
+    return scene;
+}
+
+} // namespace
+
+// While a body gapes, and in the middle of a slow stroke.
+TEST(MixedSkin, IsMadeWhereItIsDrawnAlone) {
+    for (const bool usesTexels : {true, false}) {
+        CutBody body(fallingOrgan(), {.substeps = 2, .forms = {.usesTexels = usesTexels}});
+        cutInManyWays(body, [&](const char* when) { expectMadeWhereDrawn(body.runner(), when); });
+    }
+}
+
+// Kernels of skins and of blades fetch texels, or load.
+TEST(MixedSkin, AndSurfaceOfCutsHaveTheSameBitsInBothForms) {
+    std::vector<std::uint64_t> hashes[2];
+    for (const bool usesTexels : {true, false}) {
+        CutBody body(fallingOrgan(), {.substeps = 2, .forms = {.usesTexels = usesTexels}});
+        cutInManyWays(body, [&](const char*) {
+            hashes[usesTexels ? 1 : 0].push_back(test::ClosedSurface(body).hash());
+            const auto bits = test::queue().download<std::byte>(
+                body.runner().simulation().drawnSkins(Overlap::some).indices);
+            hashes[usesTexels ? 1 : 0].push_back(fnv1a(bits));
+        });
+    }
+    EXPECT_EQ(hashes[0].size(), 14u);
+    EXPECT_EQ(hashes[0], hashes[1]);
 }
