@@ -43,6 +43,14 @@ public:
             probe.record(commands);
         });
     }
+    // As pictures are made in which nobody asks, but `isAsked` too early.
+    void show(int steps, bool isAsked) {
+        run([&](VkCommandBuffer commands) {
+            for (int i = 0; i < steps; ++i) stage.recordStep(commands);
+            stage.recordSkin(commands, sim::Overlap::some);
+            if (isAsked) probe.record(commands);
+        });
+    }
     // All parts of the skin where they are.
     SeenState parts() {
         run([&](VkCommandBuffer commands) {
@@ -111,6 +119,36 @@ TEST(StateProbe, MeetsAMeshWhereItIsDrawnUntilItIsCut) {
     }
     EXPECT_GT(count, 20u);
     EXPECT_GT(others, 20u) << "all parts are where they are anyway: this shows nothing";
+}
+
+// Away from a cut parts are not drawn, and not made unless somebody asks.
+TEST(StateProbe, MeetsAMeshWhereItIsDrawnOnceItIsCut) {
+    ProbedOrgan organ(speed, 20);
+    organ.step(1, true);
+    organ.show(3, true);
+    std::vector<Ray> rays;
+    for (float x = -0.5f; x < 0.51f; x += 0.03f)
+        for (float z = -0.2f; z < 0.21f; z += 0.03f)
+            rays.push_back({organ.middle() + Vector3(x, 5, z), {0, -1, 0}});
+    std::vector<std::optional<Pick>> early, met;
+    const SeenState unmade = organ.probe.seen();
+    for (const Ray& ray : rays) early.push_back(organ.at(ray, unmade));
+    organ.step(0);
+    const SeenState seen = organ.probe.seen();
+    ASSERT_FALSE(seen.isWhole);
+    for (const Ray& ray : rays) met.push_back(organ.at(ray, seen));
+    const SeenState parts = organ.parts();
+    std::size_t count = 0, others = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const auto expected = organ.at(rays[i], parts);
+        ASSERT_EQ(met[i].has_value(), expected.has_value());
+        if (!met[i]) continue;
+        ++count;
+        EXPECT_LT((met[i]->point - expected->point).norm(), 1e-4f);
+        others += !early[i] || std::abs(early[i]->distance - met[i]->distance) > 1e-3f ? 1 : 0;
+    }
+    EXPECT_GT(count, 20u);
+    EXPECT_GT(others, 10u) << "all parts are where they are anyway: this shows nothing";
 }
 
 // Across the gap, from between the halves.
