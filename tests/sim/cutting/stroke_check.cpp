@@ -49,10 +49,13 @@ bool leadsThrough(const BladePart& part, const Vector3d& from, const Vector3d& t
     const double above = normal.dot(from - a), below = normal.dot(to - a);
     if (std::min(std::abs(above), std::abs(below)) < margin || (above > 0) == (below > 0)) return false;
     const Vector3d x = from + above / (above - below) * (to - from);
+    // The blade is moved by a thousandth of a cell (BLADE_SHIFT_X ...): where a link meets it at a small
+    // angle, by so much more along it.
+    const double within = margin * (to - from).norm() / std::abs(above - below);
     for (std::size_t n = 0; n < 3; ++n) {
         const Vector3d edge = part.corners[(n + 1) % 3] - part.corners[n];
         const double inside = normal.dot(edge.normalized().cross(x - part.corners[n]));
-        if (!(inside >= (part.isOpen[n] ? margin : 0))) return false; // false for an edge without length
+        if (!(inside >= (part.isOpen[n] ? within : 0))) return false; // false for an edge without length
     }
     return true;
 }
