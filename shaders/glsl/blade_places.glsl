@@ -1,9 +1,9 @@
 // The blade of a step, where particles are for it and where they were, from bindings 0 to 2. Whoever includes this calls readBlade() first.
 #ifdef TEXELS
-layout(binding = 0) uniform samplerBuffer pulledPlaces;
+layout(binding = 0) uniform samplerBuffer bladePlaces; // of slots
 layout(binding = 1) uniform samplerBuffer before;
 layout(binding = 2) uniform usamplerBuffer bladeHead; // BladeHead
-#define PLACE(i) texelFetch(pulledPlaces, int(i)).xyz
+#define PLACE(i) texelFetch(bladePlaces, int(i)).xyz
 #define BEFORE(i) texelFetch(before, int(i))
 BladeHead blade;
 void readBlade() {
@@ -12,9 +12,17 @@ void readBlade() {
                       uintBitsToFloat(texelFetch(bladeHead, 3)), words.x, words.y, 0u, 0u);
 }
 #else
-layout(std430, binding = 0) readonly buffer PulledPlaces { vec4 pulledPlaces[]; };
+layout(std430, binding = 0) readonly buffer BladePlaces { vec4 bladePlaces[]; }; // of slots
 layout(std430, binding = 1) readonly buffer PlacesBefore { vec4 before[]; };
 layout(std430, binding = 2) readonly buffer Blade { BladeHead blade; };
-#define PLACE(i) pulledPlaces[i].xyz
+#define PLACE(i) bladePlaces[i].xyz
+#define BEFORE(i) before[i]
 void readBlade() {}
 #endif
+
+// Where the particle of a slot was when the edge was where it now begins.
+vec3 placeBefore(uint i) {
+    if (blade.isCarried == 0u) return PLACE(i);
+    const vec4 then = BEFORE(i);
+    return then.w > 0.0 ? then.xyz : PLACE(i);
+}

@@ -1,11 +1,5 @@
 // Part of the kernels that find what the blade of a step meets: the edges of its strip, from where they were to where they are, against a
-// link that has gone from where it was when they were there. Whoever includes this has the buffers of cut_links, and PLACE(i), where a
-// slot's particle is; or says what POINT(n) is, of the blade.
-#ifndef POINT
-#define POINT(n) points[n].xyz
-#endif
-
-#include "near_blade.glsl"
+// link that has gone from where it was when they were there. Whoever includes this has blade_places.glsl, blade_points.glsl and blade_hit.glsl.
 
 // How far along a way, and what the blade's surface is normal to there, as who went that way has seen it. [not of unit length]
 struct Meeting {

@@ -8,12 +8,8 @@
 #include "blade_hit.glsl"
 
 #include "blade_places.glsl"
-#ifdef TEXELS
-layout(binding = 3) uniform samplerBuffer points;
-#define POINT(n) texelFetch(points, int(n)).xyz
-#else
-layout(std430, binding = 3) readonly buffer Points { vec4 points[]; };
-#endif
+#define POINTS_BINDING 3
+#include "blade_points.glsl"
 layout(std430, binding = 4) buffer Links { uint links[]; };
 layout(std430, binding = 5) buffer Hits { LinkHits hits[]; };
 layout(std430, binding = 6) buffer Dirty { uint dirty[]; };

@@ -10,28 +10,23 @@
 
 #include "blade_places.glsl"
 #include "saved_links.glsl"
+#define POINTS_BINDING 4
+#include "blade_points.glsl"
+#define PRISM_BINDING 5
+#include "skin_prism.glsl"
 #ifdef TEXELS
-layout(binding = 4) uniform samplerBuffer points;
-layout(binding = 5) uniform usamplerBuffer prisms; // SkinPrism
-layout(binding = 6) uniform samplerBuffer placed;  // PlacedVertex (place_vertices)
-#define POINT(n) texelFetch(points, int(n)).xyz
-SkinPrism prismAt(uint i) {
-    const uvec4 a = texelFetch(prisms, int(3u * i)), b = texelFetch(prisms, int(3u * i + 1u)), c = texelFetch(prisms, int(3u * i + 2u));
-    return SkinPrism(uint[3](a.x, a.y, a.z), uint[3](a.w, b.x, b.y), uint[3](b.z, b.w, c.x), c.y, c.z, c.w);
-}
+layout(binding = 6) uniform samplerBuffer placed; // PlacedVertex (place_vertices)
 PlacedVertex placedAt(uint v) { return PlacedVertex(texelFetch(placed, int(2u * v)), texelFetch(placed, int(2u * v + 1u))); }
 #else
-layout(std430, binding = 4) readonly buffer Points { vec4 points[]; };
-layout(std430, binding = 5) readonly buffer Prisms { SkinPrism prisms[]; };
 layout(std430, binding = 6) readonly buffer Placed { PlacedVertex placed[]; }; // (place_vertices)
-SkinPrism prismAt(uint i) { return prisms[i]; }
 PlacedVertex placedAt(uint v) { return placed[v]; }
 #endif
 layout(std430, binding = 7) buffer SkinHits { uint skinHits[]; }; // of each prism: byte n for its edge n, in 1/255; 0 = none
 layout(std430, binding = 8) readonly buffer Counts { uint counts[]; };
 layout(std430, binding = 9) readonly buffer Nears { uint nears[]; }; // prisms (list_prisms)
 
-#include "blade_skin.glsl"
+#include "near_skin.glsl"
+#include "blade_sweep.glsl"
 #include "prism_links.glsl"
 
 void main() {

@@ -1,4 +1,4 @@
-// A vertex of a skin that hangs. Whoever includes this says on which binding they are.
+// The vertices of skins that hang, from HUNG_BINDING.
 #ifdef TEXELS
 layout(binding = HUNG_BINDING) uniform usamplerBuffer hung;
 HungVertex hungAt(uint v) {

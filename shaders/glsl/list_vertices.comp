@@ -11,12 +11,8 @@ layout(std430, binding = 6) buffer Flags { uint flags[]; }; // of slots
 layout(std430, binding = 7) buffer Counts { uint counts[]; };
 layout(std430, binding = 8) writeonly buffer Listed { uint listed[]; }; // of a body from its first vertex on
 layout(std430, binding = 9) writeonly buffer Placed { PlacedVertex placed[]; };
-#ifdef TEXELS
-layout(binding = 10) uniform samplerBuffer points;
-#define POINT(n) texelFetch(points, int(n)).xyz
-#else
-layout(std430, binding = 10) readonly buffer Points { vec4 points[]; };
-#endif
+#define POINTS_BINDING 10
+#include "blade_points.glsl"
 layout(push_constant) uniform Push { SkinSlotsPush push; };
 
 #include "near_skin.glsl"

@@ -12,12 +12,8 @@
 #include "before_cut.glsl"
 #define HUNG_BINDING 6
 #include "hung_vertex.glsl"
-#ifdef TEXELS
-layout(binding = 7) uniform samplerBuffer points;
-#define POINT(n) texelFetch(points, int(n)).xyz
-#else
-layout(std430, binding = 7) readonly buffer Points { vec4 points[]; };
-#endif
+#define POINTS_BINDING 7
+#include "blade_points.glsl"
 layout(std430, binding = 8) readonly buffer Links { uint links[]; };
 layout(std430, binding = 9) buffer Moved { vec4 moved[]; };
 layout(std430, binding = 10) buffer Rims { uint rims[]; };
@@ -26,7 +22,8 @@ layout(std430, binding = 12) readonly buffer Counts { uint counts[]; };
 layout(std430, binding = 13) readonly buffer Listed { uint listed[]; }; // vertices (list_vertices)
 layout(std430, binding = 14) readonly buffer Placed { PlacedVertex placed[]; }; // likewise (place_vertices)
 
-#include "blade_skin.glsl"
+#include "near_skin.glsl"
+#include "blade_sweep.glsl"
 
 const float mostWay = 1.5;      // [cells]
 const float leastVolume = 1e-3; // of its own at rest: flatter material does not say where it was

@@ -1,9 +1,5 @@
-// Part of the kernels that find which slots of a skin the blade of a step may meet. Whoever includes this has what near_blade.glsl wants, and
-// POINT(n), of the blade.
-#include "near_blade.glsl"
-#ifndef POINT
-#define POINT(n) points[n].xyz
-#endif
+// Part of the kernels that find which slots of a skin the blade of a step may meet. Whoever includes this has blade_places.glsl and
+// blade_points.glsl.
 
 const float skinReach = 2.5; // of what goes with a particle, along an axis [cells]
 

@@ -5,32 +5,29 @@
 #include "kernel.glsl"
 
 #include "skin_faces.glsl"
+#define PRISM_BINDING 3
+#include "skin_prism.glsl"
+#define HUNG_BINDING 4
+#include "hung_vertex.glsl"
+#define MOVED_BINDING 5
+#include "moved_vertex.glsl"
 #ifdef TEXELS
-layout(binding = 3) uniform usamplerBuffer prisms; // SkinPrism
-layout(binding = 4) uniform usamplerBuffer hung;   // HungVertex
-layout(binding = 5) uniform samplerBuffer moved;
 layout(binding = 6) uniform usamplerBuffer partitions;
-#define VERTICES(p) texelFetch(prisms, int(3u * (p))).xyz
-bool isBesideCut(uint v) {
-    return texelFetch(partitions, int(texelFetch(hung, int(4u * v + 3u)).y)).x != 0u || texelFetch(moved, int(v)).w == VERTEX_MOVED;
-}
+#define PARTITION(cell) texelFetch(partitions, int(cell)).x
 #else
-layout(std430, binding = 3) readonly buffer Prisms { SkinPrism prisms[]; };
-layout(std430, binding = 4) readonly buffer Hung { HungVertex hung[]; };
-layout(std430, binding = 5) readonly buffer Moved { vec4 moved[]; };
 layout(std430, binding = 6) readonly buffer Partitions { uint partitions[]; };
-#define VERTICES(p) uvec3(prisms[p].vertices[0], prisms[p].vertices[1], prisms[p].vertices[2])
-bool isBesideCut(uint v) { return partitions[hung[v].cell] != 0u || moved[v].w == VERTEX_MOVED; }
+#define PARTITION(cell) partitions[cell]
 #endif
 layout(std430, binding = 7) writeonly buffer States { uint states[]; }; // of whole triangles
 layout(push_constant) uniform Push { PrismPush push; };
+
+bool isBesideCut(uint v) { return PARTITION(hungAt(v).cell) != 0u || MOVED(v).w == VERTEX_MOVED; }
 
 void main() {
     const uint i = itemIndex(push.count);
     if (i >= push.count) return;
     const SkinFace face = faceAt(i);
     if (face.whole == NO_WHOLE) return;
-    const uvec3 corners = VERTICES(cellOf(face) - push.first); // its item of the surface is a prism
-    const bool isParted = state.missing == 0u && PIECES(cellOf(face)) != 0u;
-    if (isParted || isBesideCut(corners.x) || isBesideCut(corners.y) || isBesideCut(corners.z)) states[face.whole] = WHOLE_PARTED;
+    const uint corners[3] = prismAt(cellOf(face) - push.first).vertices; // its item of the surface is a prism
+    if (isInPieces(face) || isBesideCut(corners[0]) || isBesideCut(corners[1]) || isBesideCut(corners[2])) states[face.whole] = WHOLE_PARTED;
 }

@@ -15,8 +15,6 @@ layout(std430, binding = 8) readonly buffer Counts { uint counts[]; };
 layout(std430, binding = 9) readonly buffer Listed { uint listed[]; };
 layout(std430, binding = 10) buffer Placed { PlacedVertex placed[]; };
 
-#include "near_blade.glsl"
-
 // Cells that were whole hang together.
 vec3 placeNow(HungVertex vertex) {
     uint held = 255u;

@@ -23,17 +23,15 @@ layout(std430, binding = 9) writeonly buffer Turns { Gradient turns[]; }; // of 
 #ifdef HUNG
 #ifdef TEXELS
 layout(binding = 10) uniform samplerBuffer skinVertices; // SkinVertex
-layout(binding = 11) uniform usamplerBuffer hung;        // HungVertex
-layout(binding = 12) uniform samplerBuffer moved;
-#define MOVED(v) texelFetch(moved, int(v))
-#define HUNG_REST(v) uintBitsToFloat(texelFetch(hung, int(4u * (v))))
-#define SKIN_PLACE(v) texelFetch(skinVertices, int(2u * texelFetch(hung, int(4u * (v) + 3u)).x)).xyz
+#define SKIN_PLACE(v) texelFetch(skinVertices, int(2u * (v))).xyz
 #else
 layout(std430, binding = 10) readonly buffer SkinVertices { SkinVertex skinVertices[]; };
-layout(std430, binding = 11) readonly buffer Hung { HungVertex hung[]; };
-layout(std430, binding = 12) readonly buffer Moved { vec4 moved[]; };
-#define SKIN_PLACE(v) skinVertices[hung[v].vertex].position.xyz
+#define SKIN_PLACE(v) skinVertices[v].position.xyz
 #endif
+#define HUNG_BINDING 11
+#include "hung_vertex.glsl"
+#define MOVED_BINDING 12
+#include "moved_vertex.glsl"
 layout(std430, binding = 13) readonly buffer Grids { SkinGrid grids[]; }; // by skin
 #endif
 layout(push_constant) uniform Push { CountPush push; };
@@ -47,7 +45,7 @@ layout(push_constant) uniform Push { CountPush push; };
 vec3 rimPlace(vec3 point, Nearby nearby, uint end, uint other) {
     const vec3 from = restOf(end).xyz;
     const float part = min(1.0, length(point - from) / max(length(restOf(other).xyz - from), 1e-30));
-    return nearby.place + (1.0 - part) * (SKIN_PLACE(end) - nearby.end);
+    return nearby.place + (1.0 - part) * (SKIN_PLACE(hungAt(end).vertex) - nearby.end);
 }
 #endif
 

@@ -10,13 +10,8 @@
 
 #define HUNG_BINDING 0
 #include "hung_vertex.glsl"
-#ifdef TEXELS
-layout(binding = 7) uniform samplerBuffer moved;
-#define MOVED(v) texelFetch(moved, int(v))
-#else
-layout(std430, binding = 7) readonly buffer Moved { vec4 moved[]; };
-#define MOVED(v) moved[v]
-#endif
+#define MOVED_BINDING 7
+#include "moved_vertex.glsl"
 layout(std430, binding = 8) readonly buffer Counts { uint counts[]; };
 layout(std430, binding = 9) readonly buffer Listed { uint listed[]; };
 layout(std430, binding = 10) writeonly buffer Vertices { SkinVertex vertices[]; };

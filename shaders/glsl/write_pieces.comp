@@ -10,12 +10,14 @@ layout(std430, binding = 0) readonly buffer Listed { uint listed[]; }; // how ma
 layout(std430, binding = 1) readonly buffer Owned { uvec4 owned[]; };
 layout(std430, binding = 2) readonly buffer Links { uint links[]; };
 layout(std430, binding = 3) readonly buffer Prisms { SkinPrism prisms[]; };
-layout(std430, binding = 4) readonly buffer Hung { HungVertex hung[]; };
+#define HUNG_BINDING 4
+#include "hung_vertex.glsl"
 layout(std430, binding = 5) readonly buffer Starts { uvec2 starts[]; };
 layout(std430, binding = 6) readonly buffer State { SurfaceState state; };
 layout(std430, binding = 7) buffer Vertices { CutVertex vertices[]; };
 layout(std430, binding = 8) writeonly buffer Indices { uint indices[]; };
-layout(std430, binding = 9) readonly buffer Moved { vec4 moved[]; };
+#define MOVED_BINDING 9
+#include "moved_vertex.glsl"
 layout(push_constant) uniform Push { PrismPush push; };
 
 #include "skin_prisms.glsl"

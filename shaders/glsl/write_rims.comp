@@ -10,10 +10,12 @@ layout(std430, binding = 0) readonly buffer Listed { uint listed[]; }; // how ma
 layout(std430, binding = 1) readonly buffer Owned { uvec4 owned[]; };
 layout(std430, binding = 2) readonly buffer Links { uint links[]; };
 layout(std430, binding = 3) readonly buffer Prisms { SkinPrism prisms[]; };
-layout(std430, binding = 4) readonly buffer Hung { HungVertex hung[]; };
+#define HUNG_BINDING 4
+#include "hung_vertex.glsl"
 layout(std430, binding = 5) readonly buffer SkinHits { uint skinHits[]; };
 layout(std430, binding = 6) writeonly buffer Vertices { CutVertex vertices[]; };
-layout(std430, binding = 7) readonly buffer Moved { vec4 moved[]; };
+#define MOVED_BINDING 7
+#include "moved_vertex.glsl"
 layout(push_constant) uniform Push { PrismPush push; };
 
 #include "skin_prisms.glsl"
