@@ -1,10 +1,13 @@
 // planBarriers against a brute-force oracle: on random lists of passes and on the programs of real scenes.
+#include "mesh/generate.hpp"
+#include "mesh/to_scene.hpp"
 #include "sim/compile.hpp"
 #include "sim/scenes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bitset>
 #include <random>
 
 using namespace sinew;
@@ -12,24 +15,24 @@ using namespace sinew::sim;
 
 namespace {
 
-// What a pass reads and writes, a bit a buffer; at most 64 buffers.
+// What a pass reads and writes, a bit a buffer.
+constexpr std::size_t mostBuffers = 256;
 struct Footprint {
-    std::uint64_t reads = 0, writes = 0;
+    std::bitset<mostBuffers> reads, writes;
 };
 
 Footprint footprint(const Pass& pass) {
     Footprint result;
     for (const BufferUse& use : pass.uses) {
-        const std::uint64_t bit = std::uint64_t{1} << use.buffer.index;
-        if (use.access != vk::Access::write) result.reads |= bit;
-        if (use.access != vk::Access::read) result.writes |= bit;
+        if (use.access != vk::Access::write) result.reads.set(use.buffer.index);
+        if (use.access != vk::Access::read) result.writes.set(use.buffer.index);
     }
     return result;
 }
 
 // Read after write, write after write, write after read.
 bool conflict(const Footprint& first, const Footprint& second) {
-    return ((first.writes & (second.reads | second.writes)) | (first.reads & second.writes)) != 0;
+    return ((first.writes & (second.reads | second.writes)) | (first.reads & second.writes)).any();
 }
 
 // Whether two passes of a run without a barrier inside depend on each other.
@@ -133,10 +136,27 @@ TEST(Barriers, AreSafeAndNeededInTheProgramsOfAllScenes) {
                 const Settings settings{.solver = solver, .substeps = substeps, .iterations = 3};
                 const StepProgram program = compile(named.scene, settings);
                 SCOPED_TRACE(named.name + " " + solverName(solver) + " x" + std::to_string(substeps));
-                ASSERT_LE(program.buffers.size(), 64u);
+                ASSERT_LE(program.buffers.size(), mostBuffers);
                 ASSERT_NO_FATAL_FAILURE(expectSafeAndNeeded(program.step));
                 ASSERT_NO_FATAL_FAILURE(expectSafeAndNeeded(program.skin));
             }
+        }
+    }
+}
+
+// Of a mesh that may be cut: a step with a blade, and all lists of its skin.
+TEST(Barriers, AreSafeAndNeededWhereAMeshIsCut) {
+    Scene scene;
+    mesh::MeshBody body{.name = "sphere", .youngModulus = 1e5f, .isCuttable = true};
+    body.voxels.resolution = 6;
+    mesh::addMesh(scene, mesh::generate("sphere", 12), body);
+    for (const bool usesTexels : {true, false}) {
+        const StepProgram program = compile(scene, {.substeps = 2, .forms = {.usesTexels = usesTexels}});
+        ASSERT_LE(program.buffers.size(), mostBuffers);
+        for (const std::vector<Pass>* list :
+             {&program.step, &program.skin, &program.wholeSkin, &program.mixedSkin}) {
+            ASSERT_FALSE(list->empty());
+            ASSERT_NO_FATAL_FAILURE(expectSafeAndNeeded(*list));
         }
     }
 }
@@ -150,7 +170,7 @@ TEST(Barriers, AreSafeAndNeededWhereParticlesTouch) {
         scene.planes = {{.restitution = friction}};
         const StepProgram program = compile(scene, {.substeps = 3});
         SCOPED_TRACE(friction);
-        ASSERT_LE(program.buffers.size(), 64u);
+        ASSERT_LE(program.buffers.size(), mostBuffers);
         ASSERT_NO_FATAL_FAILURE(expectSafeAndNeeded(program.step));
     }
 }

@@ -6,6 +6,8 @@
 #include "viewer/hands/inspection.hpp"
 #include "viewer/hands/state_probe.hpp"
 
+#include "mesh/generate.hpp"
+#include "mesh/to_scene.hpp"
 #include "sim/bodies.hpp"
 #include "sim/colliders.hpp"
 #include "support/device.hpp"
@@ -387,11 +389,11 @@ struct LayerShot : Shot {
         offscreen.prepare(layers);
         inspection.prepare(layers);
     }
-    Picture take(float range = 0, const sim::Blade& blade = {}) {
+    Picture take(float range = 0, const sim::Blade& blade = {}, sim::Overlap overlap = sim::Overlap::none) {
         VkCommandBuffer commands = test::queue().begin();
         if (stage.steps() == 0) stage.recordReset(commands);
         if (!blade.from.empty()) stage.recordStep(commands, nullptr, {}, blade);
-        stage.recordSkin(commands);
+        stage.recordSkin(commands, overlap);
         inspection.record(commands, layers, 0);
         offscreen.record(commands, camera, stage.simulation(),
                          {.layers = layers, .buffers = inspection.buffers(layers, range)});
@@ -454,6 +456,29 @@ TEST(Layers, ColorTheSkinOfACutSheetAsWell) {
     for (const float x : {-0.2f, 0.02f, 0.11f, 0.3f}) {
         const Color color = colorAt(cut, shot.camera, {x, 0, 0.05f});
         EXPECT_GT(color[2], color[0] + 20) << "no strain, and not grey, at " << x;
+    }
+}
+
+// Of a mesh that was cut only what a layer draws is made: with not a number everywhere before, pictures are
+// as if all were made.
+TEST(Layers, HaveMadeWhatTheyDrawOnceAMeshIsCut) {
+    constexpr std::uint32_t poison = 0x7fc12345; // not a number
+    sim::Scene scene{.name = "organ", .gravity = {0, 0, 0}};
+    mesh::MeshBody body{.name = "organ", .youngModulus = 1e5f, .isCuttable = true};
+    body.voxels.resolution = 12;
+    mesh::addMesh(scene, mesh::generate("organ", 32), body);
+    const std::array<sim::Vec3, 2> from{{{0, 1, -1}, {0, 1, 1}}}, to{{{0, -1, -1}, {0, -1, 1}}};
+    for (const Layers& layers :
+         {Layers{}, Layers{.skin = SkinLook::glass}, Layers{.hasWires = true}, Layers{.section = Section{}},
+          Layers{.map = ColorMap::strain}, Layers{.skin = SkinLook::hidden, .hasBalls = true}}) {
+        LayerShot shot(scene, layers);
+        const Picture expected = shot.take(0.1f, {.from = from, .to = to});
+        const VkCommandBuffer commands = test::queue().begin();
+        vk::Commands(test::device(), commands).fill(shot.stage.simulation().skinVertices(), poison);
+        test::queue().wait(test::queue().submit(commands));
+        EXPECT_EQ(largestDifference(shot.take(0.1f, {}, layers.overlap()), expected), 0)
+            << "skin " << static_cast<int>(layers.skin) << (layers.hasWires ? ", wires" : "")
+            << (layers.section ? ", section" : "");
     }
 }
 
