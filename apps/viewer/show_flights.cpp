@@ -54,8 +54,7 @@ void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
             beside_->recordStep(frame.commands, stage_, hands, frame.slot, step == 0);
     }
     drawn_ = backstage_.ready({screen_.layers(), inspector_.isOn()});
-    const bool isLooked =
-        askProbe(flight); // at all triangles, where they are: also at those that are not drawn
+    const bool isLooked = askProbe(flight); // what a ray meets is asked of all triangles, drawn or not
     stage_.recordSkin(frame.commands, isLooked ? sim::Overlap::none : drawn_.layers.overlap());
     recordProbe(frame);
     if (beside_)
