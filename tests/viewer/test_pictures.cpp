@@ -1,91 +1,19 @@
 // Pictures of small scenes, drawn under core, synchronisation and queue-submit validation (support/device.hpp
 // makes every message a failure).
+#include "scene_shot.hpp"
 #include "viewer/draw/collider_meshes.hpp"
-#include "viewer/draw/offscreen.hpp"
-#include "viewer/draw/stage.hpp"
-#include "viewer/hands/inspection.hpp"
 #include "viewer/hands/state_probe.hpp"
 
-#include "mesh/generate.hpp"
-#include "mesh/to_scene.hpp"
-#include "sim/bodies.hpp"
 #include "sim/colliders.hpp"
-#include "support/device.hpp"
 
 #include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
 
 namespace sinew::viewer {
 namespace {
 
-constexpr VkExtent2D extent{320, 200};
-constexpr float aspect = 1.6f;
-constexpr Quality quick{.shadowSize = 512, .floorSize = 256, .shadowTaps = 16, .skyTaps = 24};
-
-sim::Scene block(float height, bool hasGround) {
-    sim::Scene scene;
-    const sim::Lattice lattice{.origin = {-0.2f, height, -0.2f}, .cells = {4, 4, 4}, .spacing = 0.1f};
-    const sim::LatticeCorners corners = sim::addLattice(scene, lattice);
-    sim::addLatticeSkin(scene, lattice, corners, {0.70f, 0.12f, 0.10f});
-    if (hasGround) scene.planes.push_back({});
-    return scene;
-}
-
-// A scene with its picture taken after some steps.
-struct Shot {
-    Shot(const sim::Scene& scene, Camera view, const Quality& quality = quick, float scale = 1)
-        : camera(view), light(lightFor(scene, view)), stage(test::device(), scene, {}),
-          offscreen(test::device(), extent, light, quality, scale) {}
-
-    Picture take(int steps = 0, const Overlay& overlay = {}) {
-        VkCommandBuffer commands = test::queue().begin();
-        if (stage.steps() == 0) stage.recordReset(commands);
-        for (int i = 0; i < steps; ++i) stage.recordStep(commands);
-        stage.recordSkin(commands);
-        offscreen.record(commands, camera, stage.simulation(), overlay);
-        test::queue().wait(test::queue().submit(commands));
-        return offscreen.read();
-    }
-
-    Camera camera;
-    StageLight light;
-    Stage stage;
-    Offscreen offscreen;
-};
-
-Camera viewOf(const sim::Scene& scene) {
-    Camera camera;
-    camera.elevation = 0.5f;
-    return framing(camera, stageBounds(scene), aspect);
-}
-
-using Color = std::array<int, 3>;
-
-// The pixel that shows a place.
-Color colorAt(const Picture& picture, const Camera& camera, const Vector3& place) {
-    const Eigen::Vector4f clip = clipMatrix(camera, aspect, 100) * place.homogeneous();
-    const auto pixel = [](float ndc, std::uint32_t size) {
-        return static_cast<std::uint32_t>(std::lround((0.5f * ndc + 0.5f) * static_cast<float>(size) - 0.5f));
-    };
-    const std::uint32_t x = pixel(clip.x() / clip.w(), picture.width),
-                        y = pixel(clip.y() / clip.w(), picture.height);
-    const std::uint8_t* at = &picture.pixels.at(4 * (std::size_t{y} * picture.width + x));
-    return {at[0], at[1], at[2]};
-}
-
-int brightness(const Color& color) {
-    return color[0] + color[1] + color[2];
-}
-
-int redness(const Color& color) {
-    return color[0] - std::max(color[1], color[2]);
-}
-
 TEST(Picture, ShowsTheBodyInItsColorInFrontOfAQuietBackground) {
     const sim::Scene scene = block(0, true);
-    Shot shot(scene, viewOf(scene));
+    SceneShot shot(scene, viewOf(scene));
     const Picture picture = shot.take();
     EXPECT_GT(redness(colorAt(picture, shot.camera, {0, 0.4f, 0})), 60) << "top of the block";
     EXPECT_GT(redness(colorAt(picture, shot.camera, {0, 0.2f, 0.2f})), 40) << "its front";
@@ -106,7 +34,7 @@ TEST(Picture, ShowsABodyWithoutASkinAsLitBallsThatCastShadows) {
     const sim::Scene scene = ballAt(0.3f);
     Camera camera = viewOf(scene);
     camera.distance *= 2;
-    Shot shot(scene, camera);
+    SceneShot shot(scene, camera);
     const Picture picture = shot.take();
     EXPECT_GT(redness(colorAt(picture, camera, {0, 0.6f, 0})), 40) << "its top";
     const Vector3 toLight = 0.3f * shot.light.toLight + Vector3(0, 0.3f, 0),
@@ -117,7 +45,7 @@ TEST(Picture, ShowsABodyWithoutASkinAsLitBallsThatCastShadows) {
     EXPECT_LT(brightness(colorAt(picture, camera, -0.35f * level)),
               0.75f * static_cast<float>(brightness(colorAt(picture, camera, 1.2f * level))));
     const sim::Scene high = ballAt(1.3f);
-    Shot falling(high, viewOf(high));
+    SceneShot falling(high, viewOf(high));
     const Vector3 start(0, 1.4f, 0);
     EXPECT_GT(redness(colorAt(falling.take(), falling.camera, start)), 40);
     for (int i = 0; i < 6; ++i) falling.take(4);
@@ -128,7 +56,7 @@ TEST(Picture, IsDarkerOnTheGroundBesideTheBodyThanFarFromIt) {
     const sim::Scene scene = block(0, true);
     Camera camera = viewOf(scene);
     camera.distance *= 2;
-    Shot shot(scene, camera);
+    SceneShot shot(scene, camera);
     const Picture picture = shot.take();
     const Vector3 away = Vector3(-shot.light.toLight.x(), 0, -shot.light.toLight.z()).normalized();
     const Color shadow = colorAt(picture, camera, 0.36f * away);
@@ -143,7 +71,7 @@ TEST(Picture, DarkensTheGroundUnderABodyThatComesNear) {
         Camera camera;
         camera.elevation = 0.3f;
         camera.distance = 3;
-        Shot shot(scene, camera);
+        SceneShot shot(scene, camera);
         return brightness(colorAt(shot.take(), camera, {0, 0, 0}));
     };
     EXPECT_LT(under(0.12f) + 30, under(1.0f));
@@ -151,7 +79,7 @@ TEST(Picture, DarkensTheGroundUnderABodyThatComesNear) {
 
 TEST(Picture, WithoutAPlaneHasNoGround) {
     const sim::Scene scene = block(0, false);
-    Shot shot(scene, viewOf(scene));
+    SceneShot shot(scene, viewOf(scene));
     const Picture picture = shot.take();
     const Vector3 away = Vector3(-shot.light.toLight.x(), 0, -shot.light.toLight.z()).normalized();
     const int beside = brightness(colorAt(picture, shot.camera, 0.36f * away));
@@ -162,7 +90,7 @@ TEST(Picture, WithoutAPlaneHasNoGround) {
 
 TEST(Picture, FollowsTheSimulation) {
     const sim::Scene scene = block(0.5f, true);
-    Shot shot(scene, viewOf(scene));
+    SceneShot shot(scene, viewOf(scene));
     const Vector3 start(0, 0.9f, 0.1f), landed(0, 0.1f, 0.2f);
     const Picture before = shot.take();
     EXPECT_GT(redness(colorAt(before, shot.camera, start)), 40);
@@ -180,7 +108,7 @@ TEST(Picture, ShowsACollidersColorWhereItsPathHasLedIt) {
                         .path = {{0, {{-0.6f, 0.7f, 0}}}, {0.25f, {{0.6f, 0.7f, 0}}}},
                         .color = {0.8f, 0.05f, 0.05f}}};
     scene.gravity = {0, 0, 0};
-    Shot shot(scene, viewOf(scene));
+    SceneShot shot(scene, viewOf(scene));
     const Vector3 left(-0.6f, 0.7f, 0.15f), right(0.6f, 0.7f, 0.15f);
     const Picture before = shot.take();
     EXPECT_GT(redness(colorAt(before, shot.camera, left)), 60);
@@ -220,7 +148,7 @@ TEST(ColliderMesh, IsTheSurfaceOfItsShape) {
 
 TEST(Picture, IsTheSameTwice) {
     const sim::Scene scene = block(0.1f, true);
-    Shot shot(scene, viewOf(scene));
+    SceneShot shot(scene, viewOf(scene));
     EXPECT_EQ(shot.take().pixels, shot.take().pixels);
 }
 
@@ -228,7 +156,7 @@ TEST(Picture, HasSmoothEdgesWithFourSamples) {
     const sim::Scene scene = block(0.3f, true);
     Quality coarse = quick;
     coarse.samples = VK_SAMPLE_COUNT_1_BIT;
-    Shot smooth(scene, viewOf(scene)), jagged(scene, viewOf(scene), coarse);
+    SceneShot smooth(scene, viewOf(scene)), jagged(scene, viewOf(scene), coarse);
     const Picture a = smooth.take(), b = jagged.take();
     // Pixels between body and background: neither red nor grey.
     const auto between = [](const Picture& picture) {
@@ -242,14 +170,6 @@ TEST(Picture, HasSmoothEdgesWithFourSamples) {
     EXPECT_GT(between(a), 2 * between(b) + 50);
 }
 
-int largestDifference(const Picture& a, const Picture& b) {
-    EXPECT_EQ(a.pixels.size(), b.pixels.size());
-    int largest = 0;
-    for (std::size_t i = 0; i < a.pixels.size(); ++i)
-        largest = std::max(largest, std::abs(int{a.pixels[i]} - int{b.pixels[i]}));
-    return largest;
-}
-
 // While the camera rests, goes elsewhere and rests there, over a floor and without one.
 TEST(Picture, IsTheSameWithABackdropThatIsKept) {
     for (const VkSampleCountFlagBits samples : {VK_SAMPLE_COUNT_1_BIT, VK_SAMPLE_COUNT_4_BIT})
@@ -258,7 +178,7 @@ TEST(Picture, IsTheSameWithABackdropThatIsKept) {
             Quality drawn = quick, kept = quick;
             drawn.samples = kept.samples = samples;
             kept.keepsBackdrop = true;
-            Shot every(scene, viewOf(scene), drawn), once(scene, viewOf(scene), kept);
+            SceneShot every(scene, viewOf(scene), drawn), once(scene, viewOf(scene), kept);
             std::vector<Picture> pictures;
             for (int picture = 0; picture < 8; ++picture) {
                 if (picture == 4) every.camera = once.camera = orbited(every.camera, {0.1f, -0.05f});
@@ -283,7 +203,7 @@ TEST(Picture, IsLikeItselfWhereItIsDrawnSmallerAndEnlarged) {
     Quality quality = quick;
     quality.samples = VK_SAMPLE_COUNT_1_BIT;
     quality.keepsBackdrop = quality.mayEnlarge = true;
-    Shot full(scene, viewOf(scene), quality), same(scene, viewOf(scene), quality, 0.99999f),
+    SceneShot full(scene, viewOf(scene), quality), same(scene, viewOf(scene), quality, 0.99999f),
         half(scene, viewOf(scene), quality, 0.5f), tiny(scene, viewOf(scene), quality, 0.1f);
     for (int picture = 0; picture < 4; ++picture) {
         const Picture wanted = full.take(), small = half.take();
@@ -329,7 +249,7 @@ TEST(Picture, IsTheSameWithoutTheBacksThatNobodySees) {
     within.distance = 0.1f;
     for (const sim::Scene& shown : {scene, turned})
         for (const Camera& camera : {viewOf(scene), within}) {
-            Shot all(shown, camera), some(shown, camera, less);
+            SceneShot all(shown, camera), some(shown, camera, less);
             EXPECT_EQ(largestDifference(all.take(2), some.take(2)), 0);
         }
 }
@@ -338,7 +258,7 @@ TEST(Picture, HasTheLightOfTheFloorEverySecondTimeWhereThatIsEnough) {
     Quality rarely = quick;
     rarely.floorEvery = 2;
     const sim::Scene scene = block(0.3f, true);
-    Shot always(scene, viewOf(scene)), seldom(scene, viewOf(scene), rarely);
+    SceneShot always(scene, viewOf(scene)), seldom(scene, viewOf(scene), rarely);
     for (int picture = 0; picture < 6; ++picture) {
         const int largest = largestDifference(always.take(2), seldom.take(2));
         if (picture % 2 == 0)
@@ -352,7 +272,7 @@ TEST(Picture, HasTheLightOfTheFloorEverySecondTimeWhereThatIsEnough) {
 TEST(Picture, ShowsBacksWhereNoFrontHidesThem) {
     sim::Scene scene = block(0.3f, true), turned = scene;
     for (auto& triangle : turned.skins.front().triangles) std::swap(triangle[1], triangle[2]);
-    Shot plain(scene, viewOf(scene)), inverted(turned, viewOf(scene));
+    SceneShot plain(scene, viewOf(scene)), inverted(turned, viewOf(scene));
     const Vector3 top{0, 0.7f, 0};
     const Color shown = colorAt(inverted.take(), inverted.camera, top);
     EXPECT_GT(redness(shown), 60);
@@ -367,7 +287,7 @@ TEST(Picture, LightsBothSidesOfCloth) {
             {.origin = {-0.5f, 0, -0.5f}, .size = {9, 9}, .spacing = 0.125f, .color = {0.7f, 0.1f, 0.1f}});
         Camera camera;
         camera.elevation = side;
-        Shot shot(scene, camera);
+        SceneShot shot(scene, camera);
         return colorAt(shot.take(), camera, {0, 0, 0});
     };
     EXPECT_GT(redness(seen(1.0f)), 40) << "from above";
@@ -378,152 +298,8 @@ TEST(Picture, OfASceneWithoutSkinsIsAnEmptyStage) {
     sim::Scene scene;
     scene.particles.push_back({.position = {0, 1, 0}});
     scene.planes.push_back({});
-    Shot shot(scene, viewOf(scene));
+    SceneShot shot(scene, viewOf(scene));
     EXPECT_LT(redness(colorAt(shot.take(), shot.camera, {0, 0.5f, 0})), 25);
-}
-
-// A scene with layers on, and the range of a map at once.
-struct LayerShot : Shot {
-    LayerShot(const sim::Scene& scene, const Layers& on)
-        : Shot(scene, viewOf(scene)), layers(on), inspection(test::device(), stage, 1) {
-        offscreen.prepare(layers);
-        inspection.prepare(layers);
-    }
-    Picture take(float range = 0, const sim::Blade& blade = {}, sim::Overlap overlap = sim::Overlap::none) {
-        VkCommandBuffer commands = test::queue().begin();
-        if (stage.steps() == 0) stage.recordReset(commands);
-        if (!blade.from.empty()) stage.recordStep(commands, nullptr, {}, blade);
-        stage.recordSkin(commands, overlap);
-        inspection.record(commands, layers, 0);
-        offscreen.record(commands, camera, stage.simulation(),
-                         {.layers = layers, .buffers = inspection.buffers(layers, range)});
-        test::queue().wait(test::queue().submit(commands));
-        return offscreen.read();
-    }
-    Layers layers;
-    Inspection inspection;
-};
-
-sim::Scene stretchedBlock(float stretch) {
-    sim::Scene scene = block(0.1f, true);
-    for (sim::DistanceConstraint& link : scene.distances) link.restLength /= 1 + stretch;
-    for (float& length : scene.grids[0].restLength) length /= 1 + stretch;
-    return scene;
-}
-
-const Vector3 front(0, 0.3f, 0.2f);
-
-TEST(Layers, ColorSkinsByTheirStrain) {
-    constexpr float range = 0.1f;
-    std::array<Color, 3> seen;
-    for (std::size_t i = 0; i < 3; ++i) {
-        LayerShot shot(stretchedBlock(0.5f * range * static_cast<float>(i)), {.map = ColorMap::strain});
-        seen[i] = colorAt(shot.take(range), shot.camera, front);
-    }
-    EXPECT_GT(seen[0][2], seen[0][0]) << "blue without strain";
-    EXPECT_GT(brightness(seen[1]), brightness(seen[0]) + 40);
-    EXPECT_GT(brightness(seen[2]), brightness(seen[1]) + 40);
-    EXPECT_GT(seen[2][0], seen[2][2] + 20) << "yellow at the end of the range";
-    LayerShot unknown(stretchedBlock(range), {.map = ColorMap::strain});
-    const Color grey = colorAt(unknown.take(), unknown.camera, front);
-    EXPECT_LT(std::abs(grey[0] - grey[2]), 12) << "no range is known yet";
-}
-
-TEST(Layers, ColorTheSurfaceOfCutsAsWell) {
-    sim::Scene scene = stretchedBlock(0);
-    scene.gravity = {0, 0, 0};
-    scene.grids[0].isCuttable = true;
-    const std::array<sim::Vec3, 2> from{{{0.01f, 1, -1}, {0.01f, 1, 1}}},
-        to{{{0.01f, -1, -1}, {0.01f, -1, 1}}};
-    LayerShot shot(scene, {.map = ColorMap::strain});
-    const Picture cut = shot.take(0.1f, {.from = from, .to = to});
-    for (const float x : {-0.05f, 0.05f}) { // cells along the cut are drawn by its surface
-        const Color color = colorAt(cut, shot.camera, {x, 0.3f, 0.2f});
-        EXPECT_GT(color[2], color[0]) << x;
-    }
-}
-
-TEST(Layers, ColorTheSkinOfACutSheetAsWell) {
-    sim::Scene scene;
-    sim::addCloth(scene,
-                  {.origin = {-0.5f, 0, -0.5f}, .size = {9, 9}, .spacing = 0.125f, .isCuttable = true});
-    scene.gravity = {0, 0, 0};
-    const std::array<sim::Vec3, 2> from{{{0.06f, 1, -1}, {0.06f, 1, 1}}},
-        to{{{0.06f, -1, -1}, {0.06f, -1, 1}}};
-    LayerShot shot(scene, {.map = ColorMap::strain});
-    const Picture cut = shot.take(0.1f, {.from = from, .to = to});
-    EXPECT_GT(shot.stage.simulation().status(1).linksCut, 0u);
-    for (const float x : {-0.2f, 0.02f, 0.11f, 0.3f}) {
-        const Color color = colorAt(cut, shot.camera, {x, 0, 0.05f});
-        EXPECT_GT(color[2], color[0] + 20) << "no strain, and not grey, at " << x;
-    }
-}
-
-// Of a mesh that was cut only what a layer draws is made: with not a number everywhere before, pictures are
-// as if all were made.
-TEST(Layers, HaveMadeWhatTheyDrawOnceAMeshIsCut) {
-    constexpr std::uint32_t poison = 0x7fc12345; // not a number
-    sim::Scene scene{.name = "organ", .gravity = {0, 0, 0}};
-    mesh::MeshBody body{.name = "organ", .youngModulus = 1e5f, .isCuttable = true};
-    body.voxels.resolution = 12;
-    mesh::addMesh(scene, mesh::generate("organ", 32), body);
-    const std::array<sim::Vec3, 2> from{{{0, 1, -1}, {0, 1, 1}}}, to{{{0, -1, -1}, {0, -1, 1}}};
-    for (const Layers& layers :
-         {Layers{}, Layers{.skin = SkinLook::glass}, Layers{.hasWires = true}, Layers{.section = Section{}},
-          Layers{.map = ColorMap::strain}, Layers{.skin = SkinLook::hidden, .hasBalls = true}}) {
-        LayerShot shot(scene, layers);
-        const Picture expected = shot.take(0.1f, {.from = from, .to = to});
-        const VkCommandBuffer commands = test::queue().begin();
-        vk::Commands(test::device(), commands).fill(shot.stage.simulation().skinVertices(), poison);
-        test::queue().wait(test::queue().submit(commands));
-        EXPECT_EQ(largestDifference(shot.take(0.1f, {}, layers.overlap()), expected), 0)
-            << "skin " << static_cast<int>(layers.skin) << (layers.hasWires ? ", wires" : "")
-            << (layers.section ? ", section" : "");
-    }
-}
-
-TEST(Layers, ShowParticlesInAHiddenAndThroughATranslucentSkin) {
-    const sim::Scene scene = block(0.1f, true);
-    const auto seen = [&](const Layers& layers) {
-        LayerShot shot(scene, layers);
-        return shot.take();
-    };
-    const Camera camera = viewOf(scene);
-    const Vector3 between(0.05f, 0.35f, 0.2f); // four balls around it
-    const Picture solid = seen({}), hidden = seen({.skin = SkinLook::hidden}),
-                  glass = seen({.skin = SkinLook::glass}),
-                  balls = seen({.skin = SkinLook::hidden, .hasBalls = true});
-    EXPECT_LT(redness(colorAt(hidden, camera, between)), 25) << "nothing is left";
-    const int through = redness(colorAt(glass, camera, between));
-    EXPECT_GT(through, redness(colorAt(hidden, camera, between)));
-    EXPECT_LT(through, redness(colorAt(solid, camera, between)));
-    EXPECT_GT(redness(colorAt(balls, camera, {0, 0.3f, 0.22f})),
-              redness(colorAt(hidden, camera, {0, 0.3f, 0.22f})) + 20)
-        << "a particle";
-}
-
-TEST(Layers, DrawEdgesOverASkin) {
-    const sim::Scene scene = block(0.1f, true);
-    LayerShot with(scene, {.hasWires = true}), without(scene, {});
-    const Picture a = with.take(), b = without.take();
-    std::size_t darker = 0, other = 0;
-    for (std::size_t i = 0; i < a.pixels.size(); i += 4) {
-        const int change = a.pixels[i] - b.pixels[i];
-        darker += change < -30;
-        other += change > 30;
-    }
-    EXPECT_GT(darker, 300u);
-    EXPECT_EQ(other, 0u);
-}
-
-TEST(Layers, MarkContactsThroughTheBody) {
-    const sim::Scene scene = block(0, true);
-    LayerShot with(scene, {.hasContacts = true}), without(scene, {});
-    const Picture a = with.take(), b = without.take();
-    EXPECT_EQ(with.inspection.contacts(0), 25u);
-    const Vector3 hidden(0, 0, 0);
-    EXPECT_NE(colorAt(a, with.camera, hidden), colorAt(b, with.camera, hidden))
-        << "in the middle, below the body";
 }
 
 TEST(StateProbe, FindsTheBodyWhereItIsNow) {
@@ -548,7 +324,7 @@ TEST(StateProbe, FindsTheBodyWhereItIsNow) {
 
 TEST(Picture, ShowsTheHandAndItsRope) {
     const sim::Scene scene = block(0, true);
-    Shot shot(scene, viewOf(scene));
+    SceneShot shot(scene, viewOf(scene));
     const Picture without = shot.take();
     const Vector3 hand(0.35f, 0.5f, 0.2f);
     const sim::Vec3& at = scene.particles[124].position;

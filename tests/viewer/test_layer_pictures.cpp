@@ -1,0 +1,158 @@
+// Pictures of layers, drawn under validation as those of test_pictures.
+#include "scene_shot.hpp"
+#include "viewer/hands/inspection.hpp"
+
+#include "mesh/generate.hpp"
+#include "mesh/to_scene.hpp"
+
+#include <gtest/gtest.h>
+
+namespace sinew::viewer {
+namespace {
+
+// A scene with layers on, and the range of a map at once.
+struct LayerShot : SceneShot {
+    LayerShot(const sim::Scene& scene, const Layers& on)
+        : SceneShot(scene, viewOf(scene)), layers(on), inspection(test::device(), stage, 1) {
+        offscreen.prepare(layers);
+        inspection.prepare(layers);
+    }
+    Picture take(float range = 0, const sim::Blade& blade = {}, sim::Overlap overlap = sim::Overlap::none) {
+        VkCommandBuffer commands = test::queue().begin();
+        if (stage.steps() == 0) stage.recordReset(commands);
+        if (!blade.from.empty()) stage.recordStep(commands, nullptr, {}, blade);
+        stage.recordSkin(commands, overlap);
+        inspection.record(commands, layers, 0);
+        offscreen.record(commands, camera, stage.simulation(),
+                         {.layers = layers, .buffers = inspection.buffers(layers, range)});
+        test::queue().wait(test::queue().submit(commands));
+        return offscreen.read();
+    }
+    Layers layers;
+    Inspection inspection;
+};
+
+sim::Scene stretchedBlock(float stretch) {
+    sim::Scene scene = block(0.1f, true);
+    for (sim::DistanceConstraint& link : scene.distances) link.restLength /= 1 + stretch;
+    for (float& length : scene.grids[0].restLength) length /= 1 + stretch;
+    return scene;
+}
+
+const Vector3 front(0, 0.3f, 0.2f);
+
+TEST(Layers, ColorSkinsByTheirStrain) {
+    constexpr float range = 0.1f;
+    std::array<Color, 3> seen;
+    for (std::size_t i = 0; i < 3; ++i) {
+        LayerShot shot(stretchedBlock(0.5f * range * static_cast<float>(i)), {.map = ColorMap::strain});
+        seen[i] = colorAt(shot.take(range), shot.camera, front);
+    }
+    EXPECT_GT(seen[0][2], seen[0][0]) << "blue without strain";
+    EXPECT_GT(brightness(seen[1]), brightness(seen[0]) + 40);
+    EXPECT_GT(brightness(seen[2]), brightness(seen[1]) + 40);
+    EXPECT_GT(seen[2][0], seen[2][2] + 20) << "yellow at the end of the range";
+    LayerShot unknown(stretchedBlock(range), {.map = ColorMap::strain});
+    const Color grey = colorAt(unknown.take(), unknown.camera, front);
+    EXPECT_LT(std::abs(grey[0] - grey[2]), 12) << "no range is known yet";
+}
+
+TEST(Layers, ColorTheSurfaceOfCutsAsWell) {
+    sim::Scene scene = stretchedBlock(0);
+    scene.gravity = {0, 0, 0};
+    scene.grids[0].isCuttable = true;
+    const std::array<sim::Vec3, 2> from{{{0.01f, 1, -1}, {0.01f, 1, 1}}},
+        to{{{0.01f, -1, -1}, {0.01f, -1, 1}}};
+    LayerShot shot(scene, {.map = ColorMap::strain});
+    const Picture cut = shot.take(0.1f, {.from = from, .to = to});
+    for (const float x : {-0.05f, 0.05f}) { // cells along the cut are drawn by its surface
+        const Color color = colorAt(cut, shot.camera, {x, 0.3f, 0.2f});
+        EXPECT_GT(color[2], color[0]) << x;
+    }
+}
+
+TEST(Layers, ColorTheSkinOfACutSheetAsWell) {
+    sim::Scene scene;
+    sim::addCloth(scene,
+                  {.origin = {-0.5f, 0, -0.5f}, .size = {9, 9}, .spacing = 0.125f, .isCuttable = true});
+    scene.gravity = {0, 0, 0};
+    const std::array<sim::Vec3, 2> from{{{0.06f, 1, -1}, {0.06f, 1, 1}}},
+        to{{{0.06f, -1, -1}, {0.06f, -1, 1}}};
+    LayerShot shot(scene, {.map = ColorMap::strain});
+    const Picture cut = shot.take(0.1f, {.from = from, .to = to});
+    EXPECT_GT(shot.stage.simulation().status(1).linksCut, 0u);
+    for (const float x : {-0.2f, 0.02f, 0.11f, 0.3f}) {
+        const Color color = colorAt(cut, shot.camera, {x, 0, 0.05f});
+        EXPECT_GT(color[2], color[0] + 20) << "no strain, and not grey, at " << x;
+    }
+}
+
+// Of a mesh that was cut only what a layer draws is made: with not a number everywhere before, pictures are
+// as if all were made.
+TEST(Layers, HaveMadeWhatTheyDrawOnceAMeshIsCut) {
+    constexpr std::uint32_t poison = 0x7fc12345; // not a number
+    sim::Scene scene{.name = "organ", .gravity = {0, 0, 0}};
+    mesh::MeshBody body{.name = "organ", .youngModulus = 1e5f, .isCuttable = true};
+    body.voxels.resolution = 12;
+    mesh::addMesh(scene, mesh::generate("organ", 32), body);
+    const std::array<sim::Vec3, 2> from{{{0, 1, -1}, {0, 1, 1}}}, to{{{0, -1, -1}, {0, -1, 1}}};
+    for (const Layers& layers :
+         {Layers{}, Layers{.skin = SkinLook::glass}, Layers{.hasWires = true}, Layers{.section = Section{}},
+          Layers{.map = ColorMap::strain}, Layers{.skin = SkinLook::hidden, .hasBalls = true}}) {
+        LayerShot shot(scene, layers);
+        const Picture expected = shot.take(0.1f, {.from = from, .to = to});
+        const VkCommandBuffer commands = test::queue().begin();
+        vk::Commands(test::device(), commands).fill(shot.stage.simulation().skinVertices(), poison);
+        test::queue().wait(test::queue().submit(commands));
+        EXPECT_EQ(largestDifference(shot.take(0.1f, {}, layers.overlap()), expected), 0)
+            << "skin " << static_cast<int>(layers.skin) << (layers.hasWires ? ", wires" : "")
+            << (layers.section ? ", section" : "");
+    }
+}
+
+TEST(Layers, ShowParticlesInAHiddenAndThroughATranslucentSkin) {
+    const sim::Scene scene = block(0.1f, true);
+    const auto seen = [&](const Layers& layers) {
+        LayerShot shot(scene, layers);
+        return shot.take();
+    };
+    const Camera camera = viewOf(scene);
+    const Vector3 between(0.05f, 0.35f, 0.2f); // four balls around it
+    const Picture solid = seen({}), hidden = seen({.skin = SkinLook::hidden}),
+                  glass = seen({.skin = SkinLook::glass}),
+                  balls = seen({.skin = SkinLook::hidden, .hasBalls = true});
+    EXPECT_LT(redness(colorAt(hidden, camera, between)), 25) << "nothing is left";
+    const int through = redness(colorAt(glass, camera, between));
+    EXPECT_GT(through, redness(colorAt(hidden, camera, between)));
+    EXPECT_LT(through, redness(colorAt(solid, camera, between)));
+    EXPECT_GT(redness(colorAt(balls, camera, {0, 0.3f, 0.22f})),
+              redness(colorAt(hidden, camera, {0, 0.3f, 0.22f})) + 20)
+        << "a particle";
+}
+
+TEST(Layers, DrawEdgesOverASkin) {
+    const sim::Scene scene = block(0.1f, true);
+    LayerShot with(scene, {.hasWires = true}), without(scene, {});
+    const Picture a = with.take(), b = without.take();
+    std::size_t darker = 0, other = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); i += 4) {
+        const int change = a.pixels[i] - b.pixels[i];
+        darker += change < -30;
+        other += change > 30;
+    }
+    EXPECT_GT(darker, 300u);
+    EXPECT_EQ(other, 0u);
+}
+
+TEST(Layers, MarkContactsThroughTheBody) {
+    const sim::Scene scene = block(0, true);
+    LayerShot with(scene, {.hasContacts = true}), without(scene, {});
+    const Picture a = with.take(), b = without.take();
+    EXPECT_EQ(with.inspection.contacts(0), 25u);
+    const Vector3 hidden(0, 0, 0);
+    EXPECT_NE(colorAt(a, with.camera, hidden), colorAt(b, with.camera, hidden))
+        << "in the middle, below the body";
+}
+
+} // namespace
+} // namespace sinew::viewer
