@@ -1,6 +1,7 @@
 // ms of processor time of a step without a blade, in a body that may be cut and in one that may not, and of
-// what a blade adds: through the body and beside it, and what the surface of that cut does. With
-// LP_NUM_THREADS=0 a software device computes on one thread and steadily.
+// what a blade adds: through the body and beside it, and what the surface of that cut does; and by the clock
+// of the device what opens such a step (where particles are, the test of links, masks and rule K), which is
+// what links cost. With LP_NUM_THREADS=0 a software device computes on one thread and steadily.
 #include "sim/bodies.hpp"
 #include "sim/simulation.hpp"
 #include "vk/loader.hpp"
@@ -29,20 +30,29 @@ Scene cube(std::uint32_t side, bool hasBodyDiagonals, bool isCuttable, bool hasS
     return scene;
 }
 
+struct Costs {
+    double step = 1e9, opening = 1e9; ///< [ms of processor time], [ms by the clock]
+};
+
 // The shortest of some steps, each from the scene's state.
-double shortest(const vk::Device& device, vk::Queue& queue, const Scene& scene, std::uint32_t substeps,
-                const Blade& blade) {
+Costs shortest(const vk::Device& device, vk::Queue& queue, const Scene& scene, std::uint32_t substeps,
+               const Blade& blade) {
     Simulation simulation(device, scene, {.substeps = substeps, .publishesVelocities = false});
-    double best = 1e9;
+    const std::vector<std::string> phases = simulation.phases();
+    const auto cut = static_cast<std::size_t>(std::ranges::find(phases, "cut") - phases.begin());
+    vk::Timestamps times(device, static_cast<std::uint32_t>(phases.size()));
+    Costs best;
     for (int run = 0; run < 9; ++run) {
         VkCommandBuffer commands = queue.begin();
         simulation.recordReset(commands);
         queue.wait(queue.submit(commands));
         commands = queue.begin();
-        simulation.record(commands, {.blade = blade});
+        simulation.record(commands, {.blade = blade}, &times);
         const std::clock_t start = std::clock();
         queue.wait(queue.submit(commands));
-        best = std::min(best, 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+        best.step = std::min(best.step, 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+        const std::vector<double> spans = times.milliseconds();
+        if (cut < spans.size()) best.opening = std::min(best.opening, spans[cut]);
     }
     return best;
 }
@@ -62,18 +72,20 @@ int main() {
             const float x = 0.4871f * spacing * static_cast<float>(side);
             const Vec3 from[] = {{x, -1, -1}, {x, -1, 2}}, to[] = {{x + 0.01f, 2, -1}, {x, 2, 2}},
                        fromBeside[] = {{-x, -1, -1}, {-x, -1, 2}}, toBeside[] = {{-x, 2, -1}, {-x, 2, 2}};
-            const double one = shortest(device, queue, scene, 1, {}),
-                         many = shortest(device, queue, scene, 33, {}),
-                         onePlain = shortest(device, queue, plain, 1, {}),
-                         manyPlain = shortest(device, queue, plain, 33, {}),
-                         through = shortest(device, queue, scene, 1, {.from = from, .to = to}),
-                         beside = shortest(device, queue, scene, 1, {.from = fromBeside, .to = toBeside}),
-                         surface = shortest(device, queue, skinned, 1, {.from = from, .to = to});
+            const Costs one = shortest(device, queue, scene, 1, {}),
+                        many = shortest(device, queue, scene, 33, {}),
+                        onePlain = shortest(device, queue, plain, 1, {}),
+                        manyPlain = shortest(device, queue, plain, 33, {}),
+                        through = shortest(device, queue, scene, 1, {.from = from, .to = to}),
+                        beside = shortest(device, queue, scene, 1, {.from = fromBeside, .to = toBeside}),
+                        surface = shortest(device, queue, skinned, 1, {.from = from, .to = to});
             std::printf("%2u^3, %d neighbours, %.0f links: substep %.3f ms, uncuttable %.3f ms; a blade "
-                        "through it adds "
-                        "%.3f ms = %.2f ns a link, beside it %.3f ms = %.2f ns; its surface %.3f ms\n",
-                        side, hasBodyDiagonals ? 26 : 18, links, (many - one) / 32,
-                        (manyPlain - onePlain) / 32, through - one, 1e6 * (through - one) / links,
-                        beside - one, 1e6 * (beside - one) / links, surface - through);
+                        "through it adds %.3f ms = %.2f ns a link, beside it %.3f ms = %.2f ns; its surface "
+                        "%.3f ms; links and masks by the clock %.2f ns a link, beside it %.2f\n",
+                        side, hasBodyDiagonals ? 26 : 18, links, (many.step - one.step) / 32,
+                        (manyPlain.step - onePlain.step) / 32, through.step - one.step,
+                        1e6 * (through.step - one.step) / links, beside.step - one.step,
+                        1e6 * (beside.step - one.step) / links, surface.step - through.step,
+                        1e6 * through.opening / links, 1e6 * beside.opening / links);
         }
 }
