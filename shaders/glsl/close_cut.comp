@@ -4,9 +4,18 @@
 #include "cut.glsl"
 #include "link_masks.glsl"
 
-layout(std430, binding = 0) buffer Links { uint links[]; };
-layout(std430, binding = 1) readonly buffer SavedLinks { uint savedLinks[]; };
-layout(std430, binding = 2) readonly buffer Places { vec4 places[]; };
+#ifdef TEXELS
+layout(binding = 0) uniform usamplerBuffer savedLinks;
+layout(binding = 1) uniform samplerBuffer places;
+#define SAVED(i) texelFetch(savedLinks, int(i)).x
+#define PLACE(i) texelFetch(places, int(i))
+#else
+layout(std430, binding = 0) readonly buffer SavedLinks { uint savedLinks[]; };
+layout(std430, binding = 1) readonly buffer Places { vec4 places[]; };
+#define SAVED(i) savedLinks[i]
+#define PLACE(i) places[i]
+#endif
+layout(std430, binding = 2) buffer Links { uint links[]; };
 layout(std430, binding = 3) writeonly buffer PlacesBefore { vec4 before[]; };
 layout(std430, binding = 4) readonly buffer Status { StatusWords status; };
 layout(std430, binding = 5) buffer Work { CutWork work; };
@@ -17,10 +26,10 @@ void main() {
     if (item >= push.count) return;
     const uint i = push.first + item;
     if (!isFinished(status)) {
-        links[i] = savedLinks[i];
+        links[i] = SAVED(i);
         return;
     }
-    if (blade.quads > 0u) before[i] = places[i]; // strokes go on over steps without a blade; a ray has no way
-    const uint cut = savedLinks[i] & ~links[i] & OWNED_MASK & push.stiffLinks;
+    if (blade.quads > 0u) before[i] = PLACE(i); // strokes go on over steps without a blade; a ray has no way
+    const uint cut = SAVED(i) & ~links[i] & OWNED_MASK & push.stiffLinks;
     if (cut != 0u) atomicAdd(work.cut, uint(bitCount(cut)));
 }

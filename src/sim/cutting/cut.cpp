@@ -82,10 +82,11 @@ void addOpening(ProgramBuilder& program, Cut& cut, const ParticleBuffers& partic
     const CuttingBuffers& buffers = cut.buffers;
     program.updateBlade(cut.blade, cut.points);
     program.fill(cut.work, 0);
+    program.copy(buffers.links, buffers.savedLinks); // what an undone step goes back to
     for (const Run& run : cut.runs)
-        program.dispatch(k::openCut, run.push.count,
-                         {particles.positions, particles.velocities, particles.step, buffers.links,
-                          buffers.savedLinks, buffers.places, cut.placesBefore, cut.work},
+        program.dispatch(cut.usesTexels ? k::openCut : k::openCutLoads, run.push.count,
+                         {particles.positions, particles.velocities, cut.placesBefore, particles.step,
+                          buffers.places, cut.work},
                          run.push);
     if (cut.surface)
         cut.bladePlaces = surface::addPulling(program, *cut.surface, cut.placesBefore, cut.work, cut.blade);
@@ -154,8 +155,8 @@ void addClosing(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& 
     if (cut.surface)
         surface::addSkinHits(program, *cut.surface, cut.bladePlaces, cut.placesBefore, cut.blade, cut.points);
     for (const Run& run : cut.runs)
-        program.dispatch(k::closeCut, run.push.count,
-                         {buffers.links, buffers.savedLinks, cut.bladePlaces, cut.placesBefore,
+        program.dispatch(cut.usesTexels ? k::closeCut : k::closeCutLoads, run.push.count,
+                         {buffers.savedLinks, cut.bladePlaces, buffers.links, cut.placesBefore,
                           program.program().status, cut.work, cut.blade},
                          run.push);
     addWholeCells(program, cut); // those that an undone step has given back
