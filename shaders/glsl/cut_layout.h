@@ -155,6 +155,12 @@ struct WholeTriangle {
 #define WHOLE_PARTED 2u // its parts alone
 #define WHOLE_BESIDE 3u // alone, but normals of parts around it come from its parts, too
 
+// Words with a bit for each of MIXED_WORD triangles of a mixed skin, which begins with a whole one.
+struct MixedWords {
+    uint first, count;
+};
+#define MIXED_WORD 32u
+
 // What drawing a mixed skin takes of a vertex.
 #define VERTEX_UNSEEN 0u
 #define VERTEX_PLACED 1u // its place: normals beside it come from it, or it is a corner of a whole triangle

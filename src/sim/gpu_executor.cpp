@@ -30,7 +30,7 @@ std::vector<vk::Buffer> makeBuffers(const vk::Device& device, const StepProgram&
         if (id == program.skinVertices || id == program.positions || id == program.cutting.pieces ||
             id == cut.vertices || id == cut.rest)
             usage |= VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
-        if (holdsArguments[b] || id == cut.draws || id == program.pieceDraws)
+        if (holdsArguments[b] || id == cut.draws || id == program.pieceDraws || id == program.mixedDraws)
             usage |= VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
         if (id == program.skinIndices || id == program.wholeIndices || id == program.mixedIndices ||
             id == cut.indices)

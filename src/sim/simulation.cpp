@@ -113,7 +113,8 @@ Simulation::DrawnSkins Simulation::drawnSkins(Overlap overlap) const noexcept {
     const vk::BufferView whole = view(state_->program.wholeIndices);
     if (state_->isUncut && whole.size > 0) return {whole, state_->wholeSkins, true};
     const vk::BufferView mixed = view(state_->program.mixedIndices);
-    if (overlap == Overlap::some && mixed.size > 0) return {mixed, state_->mixedSkins};
+    if (overlap == Overlap::some && mixed.size > 0)
+        return {mixed, state_->mixedSkins, false, view(state_->program.mixedDraws)};
     return {skinIndices(), state_->skins};
 }
 CutSurface Simulation::cutSurface() const noexcept {

@@ -285,11 +285,15 @@ public:
     /// What to draw of the skins after recordSkin(), with SkinDetail::all or the same overlap: 32-bit indices
     /// into skinVertices(), and the range of each skin in them. Valid for what was recorded until then;
     /// another step, reset or state may change it. With Overlap::some, after a cut, Skin::wholeTriangles away
-    /// from it and `triangles` beside it, where the scene has no sheet that may be cut.
+    /// from it and `triangles` beside it, where the scene has no sheet that may be cut: how many, the device
+    /// knows.
     struct DrawnSkins {
         vk::BufferView indices;
         std::span<const SkinRange> ranges;
         bool areWhole = false; ///< Skin::wholeTriangles, where a skin has some
+        /// If not empty, one VkDrawIndexedIndirectCommand a skin, stride 20: what there is in its range, from
+        /// where that begins.
+        vk::BufferView draws = {};
     };
     DrawnSkins drawnSkins(Overlap overlap = Overlap::none) const noexcept;
     CutSurface cutSurface() const noexcept;

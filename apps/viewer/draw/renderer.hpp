@@ -194,6 +194,8 @@ private:
                   const sim::Vec3& color, float ball) const noexcept;
     void bindMesh(VkCommandBuffer commands, const vk::BufferView& vertices,
                   const vk::BufferView& indices) const noexcept;
+    void drawIndirect(VkCommandBuffer commands, const vk::BufferView& draws,
+                      std::size_t which) const noexcept;
     void push(VkCommandBuffer commands, const layout::SkinPush& values) const noexcept;
     void push(VkCommandBuffer commands, const sim::Vec3& color, float gloss, const sim::Pose& pose,
               float scale = 1) const noexcept;

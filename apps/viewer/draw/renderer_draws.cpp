@@ -40,6 +40,13 @@ void Renderer::bindMesh(VkCommandBuffer commands, const vk::BufferView& vertices
     functions.vkCmdBindIndexBuffer(commands, indices.buffer, indices.offset, VK_INDEX_TYPE_UINT32);
 }
 
+// What there is of it, the device alone knows.
+void Renderer::drawIndirect(VkCommandBuffer commands, const vk::BufferView& draws,
+                            std::size_t which) const noexcept {
+    device_.functions().vkCmdDrawIndexedIndirect(commands, draws.buffer, draws.offset + which * draws.stride,
+                                                 1, static_cast<std::uint32_t>(draws.stride));
+}
+
 void Renderer::push(VkCommandBuffer commands, const sim::Vec3& color, float gloss, const sim::Pose& pose,
                     float scale) const noexcept {
     const sim::Vec3& x = pose.position;
@@ -117,10 +124,11 @@ void Renderer::drawSkins(VkCommandBuffer commands, std::size_t pipeline, const s
         if (pipeline == skinBacksPipeline && leavesBacks_ && light_.isOutward[i]) continue;
         const sim::SkinRange& skin = drawn.ranges[i];
         push(commands, values.size > 0 ? sim::Vec3{buffers.range} : skin.color, light_.gloss[i], {});
-        functions.vkCmdDrawIndexed(commands, skin.indexCount, 1, skin.firstIndex, 0, 0);
-        if (pieces.size > 0)
-            functions.vkCmdDrawIndexedIndirect(commands, pieces.buffer, pieces.offset + i * pieces.stride, 1,
-                                               static_cast<std::uint32_t>(pieces.stride));
+        if (drawn.draws.size > 0)
+            drawIndirect(commands, drawn.draws, i);
+        else
+            functions.vkCmdDrawIndexed(commands, skin.indexCount, 1, skin.firstIndex, 0, 0);
+        if (pieces.size > 0) drawIndirect(commands, pieces, i);
     }
 }
 
@@ -149,7 +157,6 @@ void Renderer::drawHand(VkCommandBuffer commands, const sim::Simulation& simulat
     hand_.draw(commands, simulation.positions(), removedParticles(simulation), hand.particle);
 }
 
-// Both draws come from the device, which alone knows how much there is.
 void Renderer::drawCuts(VkCommandBuffer commands, std::size_t ofInside, std::size_t ofClipped,
                         const sim::Simulation& simulation, const LayerBuffers& buffers) const noexcept {
     const sim::CutSurface surface = simulation.cutSurface();
@@ -164,9 +171,7 @@ void Renderer::drawCuts(VkCommandBuffer commands, std::size_t ofInside, std::siz
     for (const std::size_t draw : {std::size_t{0}, std::size_t{1}}) {
         bind(commands, draw == 0 ? ofInside : ofClipped);
         push(commands, {buffers.range}, 0, {});
-        functions.vkCmdDrawIndexedIndirect(commands, surface.draws.buffer,
-                                           surface.draws.offset + draw * surface.draws.stride, 1,
-                                           static_cast<std::uint32_t>(surface.draws.stride));
+        drawIndirect(commands, surface.draws, draw);
     }
 }
 

@@ -138,7 +138,7 @@ CrumbSkins addStretched(ProgramBuilder& program, const Scene& scene, const Cut& 
                           static_cast<std::uint32_t>(stretched.triangles.size())});
     };
     add(all, built.skinIndices);
-    if (!mixed.triangles.empty()) add(mixed, built.mixedIndices);
+    if (!mixed.triangles.empty()) add(mixed, built.mixedTriangles);
     return result;
 }
 

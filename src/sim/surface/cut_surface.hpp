@@ -69,6 +69,9 @@ struct CutSurface {
     BufferId wholeIndices;            ///< what their normals come from,
     VertexFans wholeFans;             ///< with these
     std::uint32_t wholeVertices = 0;  ///< of all skins, that have such a normal
+    BufferId mixedWords;              ///< by skin: layout::MixedWords
+    BufferId drawnWords, drawnStarts; ///< by word: which of its triangles are drawn; where those go
+    std::uint32_t words = 0, skinCount = 0;
     std::vector<std::uint32_t> skins; ///< that are clipped
 };
 

@@ -1,4 +1,4 @@
-// One index buffer for all mixed skins: of each, its whole triangles and then its parts.
+// One list for all mixed skins: of each, its whole triangles and then its parts, from a whole word on.
 #include "sim/surface/mixed_skin.hpp"
 
 #include "kernels.hpp"
@@ -19,6 +19,8 @@ struct Layout {
     std::vector<std::uint32_t> indices;
     std::vector<std::uint32_t> wholes, parts; // by skin: triangles before them in the buffer
     std::vector<StepProgram::IndexRange> ranges;
+    std::vector<layout::MixedWords> words;
+    std::vector<layout::DrawArguments> draws; // before the first cut
 };
 
 class Joiner {
@@ -26,12 +28,17 @@ public:
     void add(const Skin& skin, bool isMixed) {
         const auto first = static_cast<std::uint32_t>(layout_.indices.size());
         layout_.wholes.push_back(first / 3);
+        const std::size_t drawn = isMixed ? skin.wholeTriangles.size() : skin.triangles.size();
+        layout_.draws.push_back({static_cast<std::uint32_t>(3 * drawn), 1, first, 0, 0});
         if (isMixed)
             for (const Triangle& triangle : skin.wholeTriangles) append(triangle);
         layout_.parts.push_back(static_cast<std::uint32_t>(layout_.indices.size() / 3));
         for (const Triangle& triangle : skin.triangles)
             append(isMixed ? Triangle{} : triangle); // parts are drawn when something is cut
-        layout_.ranges.push_back({first, static_cast<std::uint32_t>(layout_.indices.size()) - first});
+        while (layout_.indices.size() % (3 * MIXED_WORD) != 0) append({});
+        const auto count = static_cast<std::uint32_t>(layout_.indices.size()) - first;
+        layout_.ranges.push_back({first, count});
+        layout_.words.push_back({first / (3 * MIXED_WORD), count / (3 * MIXED_WORD)});
         firstVertex_ += static_cast<std::uint32_t>(skin.vertexCount());
     }
     Layout finish() { return std::move(layout_); }
@@ -77,6 +84,21 @@ std::vector<std::uint32_t> shownAtFirst(const Scene& scene, const CutBodies& bod
     return shown;
 }
 
+void uploadMixed(ProgramBuilder& program, CutSurface& surface, const Layout& layout) {
+    StepProgram& built = program.program();
+    built.mixedTriangles = program.upload("skin.mixed_triangles", layout.indices);
+    built.mixedIndices = program.upload("skin.mixed_indices", layout.indices);
+    built.mixedDraws = program.upload("skin.mixed_draws", layout.draws);
+    built.mixedRanges = layout.ranges;
+    surface.skinCount = static_cast<std::uint32_t>(layout.words.size());
+    surface.words = static_cast<std::uint32_t>(layout.indices.size() / (3 * MIXED_WORD));
+    surface.mixedWords = program.upload("surface.mixed_words", layout.words);
+    surface.drawnWords = program.scratch<std::uint32_t>("surface.drawn_words", surface.words);
+    surface.drawnStarts = program.scratch<std::uint32_t>("surface.drawn_starts", surface.words);
+    // A step with a cut makes all of the triangles anew, so an undo need not bring them.
+    program.carry(built.mixedTriangles, built.mixedTriangles);
+}
+
 void uploadWholes(ProgramBuilder& program, CutSurface& surface, const CutBodies& bodies) {
     std::vector<std::uint32_t> indices;
     for (const layout::WholeTriangle& whole : bodies.wholes)
@@ -84,6 +106,22 @@ void uploadWholes(ProgramBuilder& program, CutSurface& surface, const CutBodies&
     surface.wholeVertices = std::ranges::max(indices) + 1;
     surface.wholeIndices = program.upload("surface.whole_indices", indices);
     surface.wholeFans = uploadFans(program, indices, surface.wholeVertices, "surface.whole");
+}
+
+// What is drawn, without what is not: to draw points takes a device almost as long.
+void addPacking(ProgramBuilder& program, const CutSurface& surface) {
+    const StepProgram& built = program.program();
+    const bool usesTexels = surface.usesTexels;
+    program.dispatch(usesTexels ? k::markDrawn : k::markDrawnLoads, surface.words,
+                     {built.mixedTriangles, surface.drawnWords}, layout::CountPush{surface.words});
+    const std::uint32_t lanes = surface.skinCount * GROUP_ITEMS;
+    program.dispatch(k::scanDrawn, lanes,
+                     {surface.mixedWords, surface.drawnWords, surface.drawnStarts, built.mixedDraws},
+                     layout::CountPush{lanes});
+    const std::uint32_t triangles = surface.words * MIXED_WORD;
+    program.dispatch(usesTexels ? k::packDrawn : k::packDrawnLoads, triangles,
+                     {built.mixedTriangles, surface.drawnWords, surface.drawnStarts, built.mixedIndices},
+                     layout::CountPush{triangles});
 }
 
 } // namespace
@@ -94,10 +132,9 @@ void addMixedSkins(ProgramBuilder& program, CutSurface& surface, const Scene& sc
     Joiner joiner;
     for (std::uint32_t s = 0; s < scene.skins.size(); ++s)
         joiner.add(scene.skins[s], std::ranges::count(bodies.mixed, s) > 0);
-    Layout layout = joiner.finish();
+    const Layout layout = joiner.finish();
     place(scene, layout, bodies);
-    built.mixedIndices = program.upload("skin.mixed_indices", layout.indices);
-    built.mixedRanges = std::move(layout.ranges);
+    uploadMixed(program, surface, layout);
     surface.wholeCount = static_cast<std::uint32_t>(bodies.wholes.size());
     surface.wholes = program.upload("surface.wholes", bodies.wholes);
     surface.wholeStates = program.scratch<std::uint32_t>("surface.whole_states", surface.wholeCount);
@@ -105,7 +142,8 @@ void addMixedSkins(ProgramBuilder& program, CutSurface& surface, const Scene& sc
     const std::vector<std::uint32_t> shown = shownAtFirst(scene, bodies);
     built.shownVertices = program.upload("skin.shown_vertices", shown);
     surface.shownAtFirst = program.upload("skin.shown_at_first", shown);
-    for (const BufferId buffer : {built.mixedIndices, surface.wholeMarks, built.shownVertices}) {
+    for (const BufferId buffer :
+         {built.mixedIndices, built.mixedDraws, surface.wholeMarks, built.shownVertices}) {
         built.cutting.topology.push_back(buffer);
         program.carry(buffer, buffer);
     }
@@ -141,15 +179,16 @@ void addFacePasses(ProgramBuilder& program, const CutSurface& surface) {
                      wholes);
     program.dispatch(k::drawWholes, wholes.count,
                      {surface.wholes, surface.wholeMarks, surface.hung.vertices, surface.wholeStates,
-                      built.mixedIndices, built.shownVertices},
+                      built.mixedTriangles, built.shownVertices},
                      wholes);
     program.dispatch(k::reachWholes, wholes.count,
                      {surface.wholes, surface.hung.vertices, built.shownVertices, surface.wholeStates},
                      wholes);
     program.dispatch(surface.usesTexels ? k::hideFacesMixed : k::hideFacesMixedLoads, faces.count,
                      {surface.counts, state, surface.skinFaces, surface.allIndices, built.skinIndices,
-                      surface.wholeStates, built.mixedIndices, built.shownVertices},
+                      surface.wholeStates, built.mixedTriangles, built.shownVertices},
                      faces);
+    addPacking(program, surface);
 }
 
 } // namespace sinew::sim::surface
