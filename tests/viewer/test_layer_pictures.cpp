@@ -12,8 +12,8 @@ namespace {
 
 // A scene with layers on, and the range of a map at once.
 struct LayerShot : SceneShot {
-    LayerShot(const sim::Scene& scene, const Layers& on)
-        : SceneShot(scene, viewOf(scene)), layers(on), inspection(test::device(), stage, 1) {
+    LayerShot(const sim::Scene& scene, const Layers& on, const Quality& quality = quick)
+        : SceneShot(scene, viewOf(scene), quality), layers(on), inspection(test::device(), stage, 1) {
         offscreen.prepare(layers);
         inspection.prepare(layers);
     }
@@ -87,15 +87,21 @@ TEST(Layers, ColorTheSkinOfACutSheetAsWell) {
     }
 }
 
-// Of a mesh that was cut only what a layer draws is made: with not a number everywhere before, pictures are
-// as if all were made.
-TEST(Layers, HaveMadeWhatTheyDrawOnceAMeshIsCut) {
-    constexpr std::uint32_t poison = 0x7fc12345; // not a number
+sim::Scene smallOrgan() {
     sim::Scene scene{.name = "organ", .gravity = {0, 0, 0}};
     mesh::MeshBody body{.name = "organ", .youngModulus = 1e5f, .isCuttable = true};
     body.voxels.resolution = 12;
     mesh::addMesh(scene, mesh::generate("organ", 32), body);
-    const std::array<sim::Vec3, 2> from{{{0, 1, -1}, {0, 1, 1}}}, to{{{0, -1, -1}, {0, -1, 1}}};
+    return scene;
+}
+
+constexpr std::array<sim::Vec3, 2> from{{{0, 1, -1}, {0, 1, 1}}}, to{{{0, -1, -1}, {0, -1, 1}}};
+
+// Of a mesh that was cut only what a layer draws is made: with not a number everywhere before, pictures are
+// as if all were made.
+TEST(Layers, HaveMadeWhatTheyDrawOnceAMeshIsCut) {
+    constexpr std::uint32_t poison = 0x7fc12345; // not a number
+    const sim::Scene scene = smallOrgan();
     for (const Layers& layers :
          {Layers{}, Layers{.skin = SkinLook::glass}, Layers{.hasWires = true}, Layers{.section = Section{}},
           Layers{.map = ColorMap::strain}, Layers{.skin = SkinLook::hidden, .hasBalls = true}}) {
@@ -108,6 +114,22 @@ TEST(Layers, HaveMadeWhatTheyDrawOnceAMeshIsCut) {
             << "skin " << static_cast<int>(layers.skin) << (layers.hasWires ? ", wires" : "")
             << (layers.section ? ", section" : "");
     }
+}
+
+// A light meets the faces of a solid first that look towards it, once it is in two, too.
+TEST(Layers, ThrowTheSameShadowsWithoutFacesThatLookAway) {
+    sim::Scene scene = smallOrgan();
+    scene.gravity = {0, -9.81f, 0};
+    scene.planes.push_back({.offset = -0.6f});
+    Quality less = quick;
+    less.leavesBacks = true;
+    const auto fallen = [&](const Quality& quality) {
+        LayerShot shot(scene, {}, quality);
+        shot.take(0, {.from = from, .to = to});
+        EXPECT_EQ(shot.stage.simulation().status(1).pieces, 2u);
+        return static_cast<SceneShot&>(shot).take(30);
+    };
+    EXPECT_EQ(largestDifference(fallen(quick), fallen(less)), 0);
 }
 
 TEST(Layers, ShowParticlesInAHiddenAndThroughATranslucentSkin) {

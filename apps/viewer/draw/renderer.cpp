@@ -144,18 +144,21 @@ void Renderer::record(VkCommandBuffer commands, std::uint32_t slot, Canvas& canv
     labels.endLabel();
 }
 
-// Under a translucent skin balls throw the shadows, where there are some.
-void Renderer::drawShades(VkCommandBuffer commands, std::size_t ofSkins, std::size_t ofBalls,
-                          const sim::Simulation& simulation, const Overlay& overlay) const noexcept {
+// Under a translucent skin balls throw the shadows, where there are some. A ray of light that meets a solid
+// meets a face first that looks towards the light: the others change nothing, and are half of what is drawn.
+void Renderer::drawShades(VkCommandBuffer commands, const Shades& shades, const sim::Simulation& simulation,
+                          const Overlay& overlay) const noexcept {
     const Layers& layers = overlay.layers;
     const bool hasSkins =
         layers.skin == SkinLook::solid || (layers.skin == SkinLook::glass && !layers.hasBalls);
-    const std::size_t ofOpened = opened(ofSkins, layers);
-    if (hasSkins) drawSkins(commands, ofOpened, simulation);
-    if (hasSkins) drawCuts(commands, ofOpened, ofOpened, simulation);
-    drawColliders(commands, ofSkins, simulation);
-    drawPokes(commands, ofSkins, simulation);
-    drawBalls(commands, opened(ofBalls, layers), simulation, overlay);
+    const std::size_t ofAll = opened(shades.all, layers);
+    const std::size_t ofSolids = quality_.leavesBacks && !layers.section ? shades.facing : ofAll;
+    const std::size_t ofCuts = light_.areSolidsOutward() ? ofSolids : ofAll;
+    if (hasSkins) drawSkins(commands, {ofAll, ofSolids}, simulation);
+    if (hasSkins) drawCuts(commands, ofCuts, ofCuts, simulation);
+    drawColliders(commands, shades.all, simulation);
+    drawPokes(commands, shades.all, simulation);
+    drawBalls(commands, opened(shades.balls, layers), simulation, overlay);
 }
 
 void Renderer::recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation, const Overlay& overlay,
@@ -167,12 +170,13 @@ void Renderer::recordMaps(VkCommandBuffer commands, const sim::Simulation& simul
         begin(commands, map.pass, map.framebuffer.handle(), map.image.extent(), clear);
     };
     beginMap(maps_.shadow, far);
-    drawShades(commands, shadowPipeline, ballShadowPipeline, simulation, overlay);
+    drawShades(commands, {shadowPipeline, shadowFacingPipeline, ballShadowPipeline}, simulation, overlay);
     functions.vkCmdEndRenderPass(commands);
     if (!isFloorDue) return;
     // Without a ground the other two are only cleared: the shaders' bindings stay readable.
     beginMap(maps_.plan, far);
-    if (light_.ground) drawShades(commands, planPipeline, ballPlanPipeline, simulation, overlay);
+    if (light_.ground)
+        drawShades(commands, {planPipeline, planFacingPipeline, ballPlanPipeline}, simulation, overlay);
     functions.vkCmdEndRenderPass(commands);
     beginMap(maps_.floor, open);
     if (light_.ground) {

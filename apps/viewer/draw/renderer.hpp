@@ -144,8 +144,12 @@ private:
     const RenderPass& passOf(const Canvas& canvas) const noexcept;
     void recordMaps(VkCommandBuffer commands, const sim::Simulation& simulation, const Overlay& overlay,
                     bool isFloorDue) const noexcept;
-    void drawShades(VkCommandBuffer commands, std::size_t ofSkins, std::size_t ofBalls,
-                    const sim::Simulation& simulation, const Overlay& overlay) const noexcept;
+    /// Pipelines of a map: of all faces, of those that face the light, and of balls.
+    struct Shades {
+        std::size_t all, facing, balls;
+    };
+    void drawShades(VkCommandBuffer commands, const Shades& shades, const sim::Simulation& simulation,
+                    const Overlay& overlay) const noexcept;
     void recordCounts(VkCommandBuffer commands, const Canvas& canvas, const sim::Simulation& simulation,
                       const Overlay& overlay) const noexcept;
     void drawCap(VkCommandBuffer commands, const Canvas& canvas, const Layers& layers) const noexcept;
@@ -175,7 +179,13 @@ private:
     void begin(VkCommandBuffer commands, const RenderPass& pass, VkFramebuffer framebuffer, VkExtent2D extent,
                std::span<const VkClearValue> clear) const noexcept;
     void bind(VkCommandBuffer commands, std::size_t pipeline) const noexcept;
-    void drawSkins(VkCommandBuffer commands, std::size_t pipeline, const sim::Simulation& simulation,
+    /// Pipelines: of any skin, and of those that enclose something and face outwards.
+    struct OfSkins {
+        OfSkins(std::size_t one) : any(one), solids(one) {}
+        OfSkins(std::size_t ofAny, std::size_t ofSolids) : any(ofAny), solids(ofSolids) {}
+        std::size_t any, solids;
+    };
+    void drawSkins(VkCommandBuffer commands, OfSkins pipelines, const sim::Simulation& simulation,
                    const LayerBuffers& buffers = {}) const noexcept;
     void drawThings(VkCommandBuffer commands, const sim::Simulation& simulation, const Layers& layers,
                     std::size_t pipeline) const noexcept;
@@ -220,6 +230,8 @@ private:
     enum PipelineIndex : std::size_t {
         shadowPipeline,
         planPipeline,
+        shadowFacingPipeline, // of what a light meets first: faces that look towards it
+        planFacingPipeline,
         floorPipeline,
         skinPipeline,
         skinBacksPipeline,

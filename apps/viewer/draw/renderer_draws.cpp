@@ -106,12 +106,14 @@ void Renderer::drawPokes(VkCommandBuffer commands, std::size_t pipeline,
     }
 }
 
-void Renderer::drawSkins(VkCommandBuffer commands, std::size_t pipeline, const sim::Simulation& simulation,
+void Renderer::drawSkins(VkCommandBuffer commands, OfSkins pipelines, const sim::Simulation& simulation,
                          const LayerBuffers& buffers) const noexcept {
     if (simulation.skins().empty()) return;
     const vk::DeviceFunctions& functions = device_.functions();
     const vk::BufferView& values = buffers.skins;
-    bind(commands, pipeline);
+    const std::size_t pipeline = pipelines.any;
+    std::size_t bound = pipeline;
+    bind(commands, bound);
     const bool isOneLayer =
         isAnyOf(pipeline % pipelineCount, {skinGlassPipeline, wiresPipeline, skinCountPipeline});
     const sim::Simulation::DrawnSkins drawn =
@@ -122,6 +124,8 @@ void Renderer::drawSkins(VkCommandBuffer commands, std::size_t pipeline, const s
     for (std::size_t i = 0; i < simulation.skins().size(); ++i) {
         if (pipeline == skinCountPipeline && !light_.isClosed[i]) continue; // it encloses nothing
         if (pipeline == skinBacksPipeline && leavesBacks_ && light_.isOutward[i]) continue;
+        const std::size_t own = light_.isOutward[i] ? pipelines.solids : pipelines.any;
+        if (own != bound) bind(commands, bound = own);
         const sim::SkinRange& skin = drawn.ranges[i];
         push(commands, values.size > 0 ? sim::Vec3{buffers.range} : skin.color, light_.gloss[i], {});
         if (drawn.draws.size > 0)

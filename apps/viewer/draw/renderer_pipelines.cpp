@@ -41,6 +41,7 @@ void Renderer::addDepths(Additions& to, std::size_t ofShadow, std::size_t ofPlan
     each.pass = maps_.shadow.pass.handle();
     addPipeline(to, ofShadow, each);
     each.name = "picture.plan." + request.name;
+    if (request.faces == Faces::fronts) each.faces = Faces::backs; // its picture is seen in a mirror
     each.pass = maps_.plan.pass.handle();
     each.constants = plan;
     addPipeline(to, ofPlan, each);
@@ -57,6 +58,11 @@ void Renderer::add(Additions additions) {
 void Renderer::makeMaps(Additions& to) const {
     addDepths(to, shadowPipeline, planPipeline,
               {.name = "skin", .vertex = &shaders::depthVert, .input = Input::positions});
+    addDepths(to, shadowFacingPipeline, planFacingPipeline,
+              {.name = "skin_facing",
+               .vertex = &shaders::depthVert,
+               .input = Input::positions,
+               .faces = Faces::fronts});
     addPipeline(to, floorPipeline,
                 {.name = "picture.floor",
                  .vertex = &shaders::screenVert,

@@ -85,6 +85,11 @@ float gridSpacing(float size) {
     return decade * (wanted < 2 * decade ? 1.0f : wanted < 5 * decade ? 2.0f : 5.0f);
 }
 
+bool StageLight::areSolidsOutward() const {
+    return std::ranges::equal(isClosed, isOutward,
+                              [](bool closed, bool outward) { return !closed || outward; });
+}
+
 layout::FrameParams frameParams(const StageLight& light, const Camera& camera, float aspect,
                                 const std::optional<Section>& section) {
     const Vector3 center = light.bounds.center(), at = eye(camera);

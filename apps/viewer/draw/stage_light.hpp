@@ -21,6 +21,8 @@ struct StageLight {
     bool showsSleep = false;              ///< bodies that sleep are paler
     std::vector<sim::Collider> colliders; ///< drawn where the simulation has them
 
+    /// Whether triangles of all skins that enclose something face outwards, as those of their cuts do.
+    bool areSolidsOutward() const;
     float radius() const { return 0.5f * bounds.diagonal().norm(); }
 };
 
