@@ -13,6 +13,7 @@ namespace sinew::viewer {
 namespace {
 
 constexpr std::chrono::seconds warningStays{12}, notePasses{4};
+constexpr std::chrono::milliseconds panelsStay{150};
 
 // What came in several polls before one picture.
 void merge(PanelInput& all, const PanelInput& next) {
@@ -130,7 +131,7 @@ void Screen::feed(const PanelInput& input) {
     merge(input_, input);
 }
 
-Wishes Screen::drawPanels(const Presenter::Frame& frame, const SceneFacts& scene, Facts facts) {
+Wishes Screen::drawPanels(const Presenter::Frame& frame, const SceneFacts& scene, Facts facts, bool areDue) {
     const auto now = Clock::now();
     const double seconds = std::chrono::duration<double>(now - std::exchange(lastPicture_, now)).count();
     facts.isVsync = isVsync_;
@@ -143,7 +144,10 @@ Wishes Screen::drawPanels(const Presenter::Frame& frame, const SceneFacts& scene
     input_.isDown = input.isDown;
     input_.modifiers = input.modifiers;
     Wishes wishes = panels_.build(scene, facts, input, place_->presenter.extent(), seconds);
-    place_->painter.record(frame.commands, frame.slot, frame.image, panels_.drawn());
+    const bool areOld = now - panelsDrawn_ >= panelsStay;
+    if (areDue || areOld) panelsDrawn_ = now;
+    place_->painter.record(frame.commands, frame.slot, frame.image, panels_.drawn(),
+                           areDue || areOld ? PanelPainter::Panels::anew : PanelPainter::Panels::asKept);
     return wishes;
 }
 

@@ -58,8 +58,10 @@ public:
     /// Input for the next drawPanels(), with what earlier pictures have not seen.
     void feed(const PanelInput& input);
     /// Lays the panels out and draws them over the frame's picture, which must be in PRESENT_SRC_KHR layout.
-    /// What they say of the window and its messages is filled in. Throws vk::Error.
-    Wishes drawPanels(const Presenter::Frame& frame, const SceneFacts& scene, Facts facts);
+    /// What they say of the window and its messages is filled in. Unless they are due they may look as in
+    /// the picture before: figures change ten times a second, which is as fast as they can be read. Throws
+    /// vk::Error.
+    Wishes drawPanels(const Presenter::Frame& frame, const SceneFacts& scene, Facts facts, bool areDue);
 
     /// Says something in the window for a while, and in a line on stderr: "warning: <text>".
     void warn(const std::string& text);
@@ -87,7 +89,7 @@ private:
     Layers layers_;
     std::optional<BesideShape> beside_;
     float ownScale_, windowScale_; // of texts: as chosen, and as the display wants them
-    Clock::time_point lastPicture_ = Clock::now();
+    Clock::time_point lastPicture_ = Clock::now(), panelsDrawn_{};
     VkExtent2D pixels_{};
     bool isVsync_, isNoticeNew_ = false;
 };

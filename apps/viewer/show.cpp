@@ -127,7 +127,8 @@ void Show::turn() {
     const bool hasMoved = input.pointer != std::exchange(pointer_, input.pointer);
     const bool isUsed = hasMoved || !input.presses.empty();
     // Panels change over a still scene without taking its quality away.
-    if (input.panels.isTouched || (hasMoved && inspector_.isOn())) panelsDue_ = picturesOfATouch;
+    if (input.panels.isTouched || !input.presses.empty() || (hasMoved && inspector_.isOn()))
+        panelsDue_ = picturesOfATouch;
     if (!replay_ && tools_.lendBlade(input.held == Action::blade, isUsed)) input.needsRedraw = true;
     const Wishes wishes = std::exchange(wishes_, {});
     grant(wishes, input);
@@ -165,6 +166,7 @@ void Show::play() {
     if (!isChanged && shown_ == Shown::still && panelsDue_ == 0) return;
     const bool isLast = !isChanged && (shown_ == Shown::still ||
                                        now - lastChange_ >= std::chrono::duration<double>(stillAfter));
+    arePanelsDue_ = isLast || panelsDue_ > 0;
     panelsDue_ -= std::min(panelsDue_, 1u);
     shown_ = isLast ? Shown::still : Shown::moving;
     gauges_.frame(elapsed, plan.steps);
@@ -294,7 +296,7 @@ bool Show::isOfCut(bool isCutting) {
 }
 
 void Show::drawPanels(const Presenter::Frame& frame, std::optional<float> reduced) {
-    wishes_ = screen_.drawPanels(frame, sceneFacts_, facts(reduced));
+    wishes_ = screen_.drawPanels(frame, sceneFacts_, facts(reduced), arePanelsDue_);
     if (!wishes_.isEmpty()) panelsDue_ = picturesOfATouch;
 }
 

@@ -217,6 +217,7 @@ private:
     std::size_t inputSaved_ = 0;       // events of the log that some file has, or a reset has made
     std::uint32_t surfaceMissing_ = 0; // Status::cutSurfaceMissing of the newest settled step
     std::uint32_t panelsDue_ = 0;      // pictures until the panels look as they should
+    bool arePanelsDue_ = true;         // in the picture that is recorded
     std::uint32_t cutFrames_ = 0;      // pictures that may still wait for a cut
     std::optional<Clock::time_point> makingSince_; // nobody has been told
     std::size_t pipelines_ = 0;                    // of this thread, that were counted

@@ -55,7 +55,7 @@ struct Table {
         stage.recordReset(commands);
         stage.recordSkin(commands);
         offscreen.recordPicture(commands, camera, stage.simulation());
-        if (withPanels) painter.record(commands, slot, 0, panels.drawn());
+        if (withPanels) painter.record(commands, slot, 0, panels.drawn(), which);
         offscreen.recordCopy(commands);
         test::queue().wait(test::queue().submit(commands));
         return offscreen.read();
@@ -67,6 +67,7 @@ struct Table {
     Offscreen offscreen;
     Panels panels{1};
     PanelPainter painter;
+    PanelPainter::Panels which = PanelPainter::Panels::anew;
     SceneFacts facts{.name = "ball", .device = "a device", .driver = "a driver", .isSoftware = true};
     Facts changing;
 };
@@ -119,6 +120,77 @@ TEST(PanelPainter, TakesAnySlotAndMoreTrianglesThanBefore) {
     const Picture first = table.take(true, 0), second = table.take(true, 1);
     EXPECT_LT(mean(first, 300, 480), mean(few, 300, 480) - 0.2) << "help stands in the middle";
     EXPECT_EQ(first.pixels, second.pixels);
+}
+
+TEST(PanelPainter, ShowsThemAsTheyWereUntilTheyAreDueOrCannotBe) {
+    Table table;
+    const Picture before = table.take(true, 0);
+    table.changing.notice = "something happened";
+    table.which = PanelPainter::Panels::asKept;
+    EXPECT_EQ(table.take(true, 1).pixels, before.pixels);
+    table.which = PanelPainter::Panels::anew;
+    const Picture after = table.take(true, 0);
+    EXPECT_NE(after.pixels, before.pixels);
+    table.changing.notice.clear();
+    table.which = PanelPainter::Panels::asKept;
+    EXPECT_EQ(table.take(true, 1).pixels, after.pixels);
+    table.painter.setAtlas(table.panels.atlas());
+    EXPECT_EQ(table.take(true, 0).pixels, before.pixels) << "other glyphs";
+    table.changing.notice = "something happened";
+    table.painter.setPictures(extent, std::array{table.offscreen.view()});
+    EXPECT_EQ(table.take(true, 1).pixels, after.pixels) << "other pictures";
+}
+
+// Every pixel that differs is in one of the rectangles, and no pixel is in two.
+TEST(PanelPainter, KnowsWhereItHasDrawn) {
+    Table table;
+    table.panels.toggle();
+    table.panels.toggleHelp();
+    table.changing.notice = "something happened";
+    const Picture without = table.take(false), with = table.take(true);
+    const PanelCover cover = coverOf(table.panels.drawn(), extent);
+    std::vector<int> count(std::size_t{extent.width} * extent.height);
+    std::size_t ofAreas = 0, all = 0;
+    const auto mark = [&](const VkRect2D& part) {
+        EXPECT_LE(static_cast<std::uint32_t>(part.offset.x) + part.extent.width, extent.width);
+        EXPECT_LE(static_cast<std::uint32_t>(part.offset.y) + part.extent.height, extent.height);
+        for (std::uint32_t row = 0; row < part.extent.height; ++row)
+            for (std::uint32_t column = 0; column < part.extent.width; ++column)
+                ++count[(static_cast<std::uint32_t>(part.offset.y) + row) * extent.width +
+                        static_cast<std::uint32_t>(part.offset.x) + column];
+        return std::size_t{part.extent.width} * part.extent.height;
+    };
+    for (const VkRect2D& area : cover.areas) ofAreas += mark(area);
+    all = ofAreas;
+    for (const VkRect2D& part : cover.parts) all += mark(part);
+    for (std::size_t p = 0; p < count.size(); ++p) {
+        ASSERT_LE(count[p], 1) << p;
+        const auto isSame = std::equal(&with.pixels[4 * p], &with.pixels[4 * p] + 4, &without.pixels[4 * p]);
+        ASSERT_TRUE(isSame || count[p] == 1) << p % extent.width << ' ' << p / extent.width;
+    }
+    EXPECT_GT(ofAreas, std::size_t{200} * 300) << "the panel at the side hides what is behind it";
+    EXPECT_LT(all, count.size()) << "and not everything is hidden";
+}
+
+TEST(PanelPainter, KnowsOfAreasOverOneAnother) {
+    Table table;
+    table.takeDrawn([] {
+        ImDrawList& list = *ImGui::GetBackgroundDrawList();
+        list.PushTextureID(reinterpret_cast<ImTextureID>(areaTexture));
+        list.AddRectFilled({20, 20}, {120.5f, 60}, IM_COL32(200, 40, 30, 120));
+        list.AddRectFilled({100, 40}, {200, 80}, IM_COL32(200, 40, 30, 120));
+        list.PopTextureID();
+        list.AddRectFilled({10, 30}, {150, 50}, IM_COL32(0, 0, 0, 120));
+    });
+    const PanelCover cover = coverOf(table.panels.drawn(), extent);
+    const auto sum = [](std::span<const VkRect2D> some) {
+        std::size_t pixels = 0;
+        for (const VkRect2D& one : some) pixels += std::size_t{one.extent.width} * one.extent.height;
+        return pixels;
+    };
+    EXPECT_EQ(sum(cover.areas), 100u * 40 + 100u * 40 - 20u * 20);
+    const std::size_t joined = 190u * 60; // from the left end of what is no area to the right end of all
+    EXPECT_EQ(sum(cover.parts), joined - sum(cover.areas));
 }
 
 // Both pictures of the sheet, each as large as it is, beside each other.

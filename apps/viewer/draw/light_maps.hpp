@@ -3,6 +3,7 @@
 #pragma once
 
 #include "viewer/draw/render_pass.hpp"
+#include "viewer/draw/sampler.hpp"
 
 namespace sinew::viewer {
 
@@ -18,28 +19,22 @@ class LightMaps {
 public:
     /// `shadowSize` and `floorSize` in pixels a side; the plan map is as large as the floor map.
     LightMaps(const vk::Device& device, std::uint32_t shadowSize, std::uint32_t floorSize);
-    LightMaps(const LightMaps&) = delete;
-    LightMaps& operator=(const LightMaps&) = delete;
-    ~LightMaps();
 
-    VkSampler comparing() const noexcept { return comparing_; }
-    VkSampler nearest() const noexcept { return nearest_; }
-    VkSampler smooth() const noexcept { return smooth_; }
-    VkSampler stretching() const noexcept { return stretching_; } ///< as smooth(), of edges that go on
+    VkSampler comparing() const noexcept { return comparing_.handle(); }
+    VkSampler nearest() const noexcept { return nearest_.handle(); }
+    VkSampler smooth() const noexcept { return smooth_.handle(); }
+    VkSampler stretching() const noexcept {
+        return stretching_.handle();
+    } ///< as smooth(), of edges that go on
 
 private:
-    void release() noexcept;
-    VkSampler makeSampler(VkFilter filter, bool isComparing, VkSamplerAddressMode beyond,
-                          const std::string& name);
-    const vk::Device& device_;
     VkFormat depthFormat_;
 
 public:
     LightMap shadow, plan, floor;
 
 private:
-    VkSampler comparing_ = VK_NULL_HANDLE, nearest_ = VK_NULL_HANDLE, smooth_ = VK_NULL_HANDLE,
-              stretching_ = VK_NULL_HANDLE;
+    Sampler comparing_, nearest_, smooth_, stretching_;
 };
 
 } // namespace sinew::viewer

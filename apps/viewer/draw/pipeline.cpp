@@ -175,7 +175,20 @@ constexpr VkPipelineColorBlendAttachmentState summed{.blendEnable = VK_TRUE,
                                                      .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
                                                      .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
                                                      .colorWriteMask = allComponents};
-constexpr std::array blends{&opaque, &blended, &summed}; // in the order of PipelineRequest::Blend
+constexpr VkPipelineColorBlendAttachmentState ofAlpha(VkBlendFactor source, VkBlendFactor sourceAlpha,
+                                                      VkBlendFactor alpha) {
+    VkPipelineColorBlendAttachmentState state = blended;
+    state.srcColorBlendFactor = source;
+    state.srcAlphaBlendFactor = sourceAlpha;
+    state.dstAlphaBlendFactor = alpha;
+    return state;
+}
+constexpr VkPipelineColorBlendAttachmentState laid =
+    ofAlpha(VK_BLEND_FACTOR_SRC_ALPHA, VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA);
+constexpr VkPipelineColorBlendAttachmentState overTimesAlpha =
+    ofAlpha(VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_ZERO, VK_BLEND_FACTOR_ONE);
+constexpr std::array blends{&opaque, &blended, &summed, &laid,
+                            &overTimesAlpha}; // in the order of PipelineRequest::Blend
 
 VkPipeline create(const vk::Device& device, const PipelineRequest& request,
                   std::span<const VkPipelineShaderStageCreateInfo> stages) {

@@ -47,9 +47,11 @@ struct PipelineRequest {
         all,
         fronts,
         backs
-    } faces = Faces::all;                                     ///< fronts are counter-clockwise in the picture
-    bool hasEdgesAlone = false;                               ///< of triangles; only where drawsEdges()
-    enum class Blend { none, over, sum } blend = Blend::none; ///< over what is there by alpha, or added to it
+    } faces = Faces::all;       ///< fronts are counter-clockwise in the picture
+    bool hasEdgesAlone = false; ///< of triangles; only where drawsEdges()
+    /// Over what is there by alpha; or added to it; or over it in an image that is put over another later:
+    /// laid, which keeps colors times alpha; or over it with such colors.
+    enum class Blend { none, over, sum, laid, overTimesAlpha } blend = Blend::none;
     std::span<const vk::SpecialisationConstant> constants; ///< of both stages; ids a shader lacks are ignored
 };
 

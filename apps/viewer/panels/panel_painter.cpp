@@ -1,4 +1,5 @@
-// Triangles of all panels go into two buffers a slot, which grow and never shrink.
+// Triangles of all panels go into two buffers a slot, which grow and never shrink, and from there into an
+// image, of which pictures get those parts in which something is.
 #include "viewer/panels/panel_painter.hpp"
 
 #include "viewer/panel.h"
@@ -26,8 +27,13 @@ constexpr VkDescriptorSetLayoutBinding bufferBinding(std::uint32_t binding) {
             .descriptorCount = 1,
             .stageFlags = VK_SHADER_STAGE_FRAGMENT_BIT};
 }
-constexpr std::uint32_t ofAtlas = 0, ofSheet = 1;
-constexpr std::array textures{bufferBinding(ofAtlas), bufferBinding(ofSheet)};
+constexpr std::uint32_t ofAtlas = 0, ofSheet = 1, ofKept = 2;
+constexpr std::array textures{
+    bufferBinding(ofAtlas), bufferBinding(ofSheet),
+    VkDescriptorSetLayoutBinding{.binding = ofKept,
+                                 .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                 .descriptorCount = 1,
+                                 .stageFlags = VK_SHADER_STAGE_FRAGMENT_BIT}};
 
 // Whether the picture encodes what is written, as sRGB (panel.vert, panel_picture.frag).
 std::array<vk::SpecialisationConstant, 1> srgbConstant(VkFormat format) {
@@ -39,7 +45,7 @@ using Blend = PipelineRequest::Blend;
 
 Pipeline makePipeline(const vk::Device& device, const char* name, const vk::ShaderCode& fragment,
                       const SetLayout& set, const RenderPass& pass, VkFormat format,
-                      Blend blend = Blend::over) {
+                      Blend blend = Blend::laid) {
     const auto constants = srgbConstant(format);
     return {device,
             {.name = name,
@@ -63,15 +69,38 @@ void grow(std::optional<vk::Buffer>& buffer, const vk::Device& device, const cha
                                              .usage = usage});
 }
 
+Pipeline makeShowing(const vk::Device& device, const char* name, const SetLayout& set, const RenderPass& pass,
+                     Blend blend) {
+    return {device,
+            {.name = name,
+             .vertex = &shaders::enlargeVert,
+             .fragment = &shaders::panelKeptFrag,
+             .layout = set.handle(),
+             .pass = pass.handle(),
+             .blend = blend}};
+}
+
 } // namespace
+
+PanelPainter::Kept::Kept(const vk::Device& device, const RenderPass& pass, VkFormat format, VkExtent2D extent)
+    : image(device, {.name = "panels.kept",
+                     .extent = extent,
+                     .format = format,
+                     .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT}),
+      framebuffer(device, pass.handle(), std::array{image.view()}, extent, "panels.kept") {}
 
 PanelPainter::PanelPainter(const vk::Device& device, VkFormat format, VkImageLayout finalLayout,
                            std::uint32_t slots)
-    : device_(device), pass_(RenderPass::over(device, format, finalLayout)),
+    : device_(device), format_(format), pass_(RenderPass::over(device, format, finalLayout)),
+      keptPass_(RenderPass::colorMap(device, format, "panels.kept")),
       set_(device, "panels", textures, sizeof(layout::PanelPush), 1),
-      glyphs_(makePipeline(device, "panels", shaders::panelFrag, set_, pass_, format)),
-      pictures_(makePipeline(device, "panels.pictures", shaders::panelPictureFrag, set_, pass_, format)),
-      areas_(makePipeline(device, "panels.areas", shaders::panelAreaFrag, set_, pass_, format, Blend::none)),
+      glyphs_(makePipeline(device, "panels", shaders::panelFrag, set_, keptPass_, format)),
+      pictures_(makePipeline(device, "panels.pictures", shaders::panelPictureFrag, set_, keptPass_, format)),
+      areas_(
+          makePipeline(device, "panels.areas", shaders::panelAreaFrag, set_, keptPass_, format, Blend::none)),
+      laysOver_(makeShowing(device, "panels.lays_over", set_, pass_, Blend::overTimesAlpha)),
+      covers_(makeShowing(device, "panels.covers", set_, pass_, Blend::none)),
+      sampler_(device, {.name = "panels.kept", .beyond = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE}),
       slots_(slots) {}
 
 void PanelPainter::write(std::uint32_t binding, const vk::BufferView& view) const noexcept {
@@ -94,9 +123,11 @@ void PanelPainter::setAtlas(const GlyphAtlas& atlas) {
                                               .kind = vk::MemoryKind::upload});
     std::memcpy(atlas_->mapped(), atlas.coverage.data(), atlas.coverage.size() / 4 * 4);
     write(ofAtlas, atlas_->view());
+    if (kept_) kept_->isDrawn = false;
 }
 
 void PanelPainter::setSheet(const PictureSheet& sheet) {
+    if (kept_) kept_->isDrawn = false;
     const auto count = static_cast<std::uint32_t>(sheet.has().size());
     sheetSize_ = {PictureSheet::extent.width, PictureSheet::extent.height * count};
     if (count == 0) return sheet_.reset();
@@ -120,6 +151,16 @@ void PanelPainter::setPictures(VkExtent2D extent, std::span<const VkImageView> p
     for (const VkImageView picture : pictures)
         framebuffers_.emplace_back(device_, pass_.handle(), std::array{picture}, extent,
                                    "panels.framebuffer");
+    kept_.emplace(device_, keptPass_, format_, extent);
+    const VkDescriptorImageInfo image{sampler_.handle(), kept_->image.view(),
+                                      VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                     .dstSet = set_.set(0),
+                                     .dstBinding = ofKept,
+                                     .descriptorCount = 1,
+                                     .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                     .pImageInfo = &image};
+    device_.functions().vkUpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
 }
 
 void PanelPainter::upload(Slot& slot, const ImDrawData& drawn) {
@@ -138,11 +179,15 @@ void PanelPainter::upload(Slot& slot, const ImDrawData& drawn) {
     }
 }
 
-void PanelPainter::begin(VkCommandBuffer commands, std::size_t picture) const noexcept {
+void PanelPainter::begin(VkCommandBuffer commands, const RenderPass& pass,
+                         VkFramebuffer framebuffer) const noexcept {
+    constexpr VkClearValue clear{}; // nothing, and all of it is seen through
     const VkRenderPassBeginInfo info{.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
-                                     .renderPass = pass_.handle(),
-                                     .framebuffer = framebuffers_[picture].handle(),
-                                     .renderArea = {{0, 0}, extent_}};
+                                     .renderPass = pass.handle(),
+                                     .framebuffer = framebuffer,
+                                     .renderArea = {{0, 0}, extent_},
+                                     .clearValueCount = 1,
+                                     .pClearValues = &clear};
     const VkViewport viewport{0, 0, static_cast<float>(extent_.width), static_cast<float>(extent_.height),
                               0, 1};
     device_.functions().vkCmdBeginRenderPass(commands, &info, VK_SUBPASS_CONTENTS_INLINE);
@@ -195,12 +240,10 @@ void PanelPainter::drawList(VkCommandBuffer commands, const ImDrawList& list, st
     }
 }
 
-void PanelPainter::record(VkCommandBuffer commands, std::uint32_t slot, std::size_t picture,
-                          const ImDrawData& drawn) {
-    if (drawn.TotalVtxCount == 0 || !atlas_) return;
-    upload(slots_[slot], drawn);
-    begin(commands, picture);
-    bind(commands, slots_[slot]);
+void PanelPainter::draw(VkCommandBuffer commands, Slot& slot, const ImDrawData& drawn) {
+    upload(slot, drawn);
+    begin(commands, keptPass_, kept_->framebuffer.handle());
+    bind(commands, slot);
     std::uint32_t vertex = 0, index = 0;
     for (int i = 0; i < drawn.CmdListsCount; ++i) {
         const ImDrawList& list = *drawn.CmdLists[i];
@@ -209,6 +252,33 @@ void PanelPainter::record(VkCommandBuffer commands, std::uint32_t slot, std::siz
         index += static_cast<std::uint32_t>(list.IdxBuffer.Size);
     }
     device_.functions().vkCmdEndRenderPass(commands);
+    kept_->isDrawn = true;
+    kept_->cover = coverOf(drawn, extent_);
+}
+
+void PanelPainter::show(VkCommandBuffer commands, const Pipeline& pipeline,
+                        std::span<const VkRect2D> parts) const noexcept {
+    const vk::DeviceFunctions& functions = device_.functions();
+    functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle());
+    for (const VkRect2D& part : parts) {
+        functions.vkCmdSetScissor(commands, 0, 1, &part);
+        functions.vkCmdDraw(commands, 3, 1, 0, 0);
+    }
+}
+
+void PanelPainter::showKept(VkCommandBuffer commands, std::size_t picture) const noexcept {
+    begin(commands, pass_, framebuffers_[picture].handle());
+    set_.bind(commands, 0);
+    show(commands, covers_, kept_->cover.areas);
+    show(commands, laysOver_, kept_->cover.parts);
+    device_.functions().vkCmdEndRenderPass(commands);
+}
+
+void PanelPainter::record(VkCommandBuffer commands, std::uint32_t slot, std::size_t picture,
+                          const ImDrawData& drawn, Panels which) {
+    if (drawn.TotalVtxCount == 0 || !atlas_) return;
+    if (which == Panels::anew || !kept_->isDrawn) draw(commands, slots_[slot], drawn);
+    showKept(commands, picture);
 }
 
 } // namespace sinew::viewer

@@ -6,14 +6,15 @@
 #include "viewer/draw/geometry.hpp"
 #include "viewer/draw/pipeline.hpp"
 #include "viewer/draw/render_pass.hpp"
+#include "viewer/draw/sampler.hpp"
 #include "viewer/draw/set_layout.hpp"
+#include "viewer/panels/panel_cover.hpp"
 #include "viewer/panels/picture_sheet.hpp"
 #include "vk/buffer.hpp"
 
 #include <optional>
 #include <vector>
 
-struct ImDrawData;
 struct ImDrawList;
 
 namespace sinew::viewer {
@@ -24,10 +25,6 @@ struct GlyphAtlas {
     Vector2 full = Vector2::Zero();      ///< a place that is covered whole: what is no glyph has it [texels]
     std::vector<std::uint8_t> coverage;
 };
-
-/// As ImDrawCmd::TextureId: areas that hide what is behind them, whatever their alpha, and are not mixed with
-/// it.
-inline constexpr std::size_t areaTexture = 2;
 
 /// Must not outlive its Device, which must not move.
 class PanelPainter {
@@ -48,17 +45,34 @@ public:
     /// drawn into the old ones must be finished.
     void setPictures(VkExtent2D extent, std::span<const VkImageView> pictures);
 
+    enum class Panels {
+        anew,  ///< as they are in `drawn`
+        asKept ///< as they were drawn last, where they were since setPictures(), setAtlas() and setSheet()
+    };
     /// Draws over a picture in its final layout and leaves it there. `commands` must be recording,
     /// outside a render pass; the slot's previous picture must be finished. Throws vk::Error where there is
     /// no memory for more triangles than ever before.
-    void record(VkCommandBuffer commands, std::uint32_t slot, std::size_t picture, const ImDrawData& drawn);
+    void record(VkCommandBuffer commands, std::uint32_t slot, std::size_t picture, const ImDrawData& drawn,
+                Panels which = Panels::anew);
 
 private:
     struct Slot {
         std::optional<vk::Buffer> vertices, indices;
     };
+    /// Where panels are drawn by themselves: most pictures show them as the one before did.
+    struct Kept {
+        Kept(const vk::Device& device, const RenderPass& pass, VkFormat format, VkExtent2D extent);
+        Image image;
+        Framebuffer framebuffer;
+        bool isDrawn = false;
+        PanelCover cover;
+    };
     void upload(Slot& slot, const ImDrawData& drawn);
-    void begin(VkCommandBuffer commands, std::size_t picture) const noexcept;
+    void draw(VkCommandBuffer commands, Slot& slot, const ImDrawData& drawn);
+    void showKept(VkCommandBuffer commands, std::size_t picture) const noexcept;
+    void show(VkCommandBuffer commands, const Pipeline& pipeline,
+              std::span<const VkRect2D> parts) const noexcept;
+    void begin(VkCommandBuffer commands, const RenderPass& pass, VkFramebuffer framebuffer) const noexcept;
     void bind(VkCommandBuffer commands, const Slot& slot) const noexcept;
     void use(VkCommandBuffer commands, std::size_t texture) const noexcept;
     void drawList(VkCommandBuffer commands, const ImDrawList& list, std::uint32_t firstVertex,
@@ -66,9 +80,12 @@ private:
     void write(std::uint32_t binding, const vk::BufferView& view) const noexcept;
 
     const vk::Device& device_;
-    RenderPass pass_;
+    VkFormat format_;
+    RenderPass pass_, keptPass_;
     SetLayout set_;
-    Pipeline glyphs_, pictures_, areas_;
+    Pipeline glyphs_, pictures_, areas_, laysOver_, covers_;
+    Sampler sampler_;
+    std::optional<Kept> kept_;
     std::optional<vk::Buffer> atlas_, sheet_;
     VkExtent2D atlasSize_{}, sheetSize_{}, extent_{};
     Vector2 full_ = Vector2::Zero();

@@ -1,0 +1,31 @@
+// How shaders read an image.
+#pragma once
+
+#include "vk/device.hpp"
+
+#include <string>
+
+namespace sinew::viewer {
+
+/// A VkSampler without levels. Movable. Must not outlive its Device.
+class Sampler {
+public:
+    struct Request {
+        std::string name;
+        VkFilter filter = VK_FILTER_NEAREST;
+        VkSamplerAddressMode beyond = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER; ///< the border is 1
+        bool isComparing = false; ///< 1 where the reference is at most what is there
+    };
+    Sampler(const vk::Device& device, const Request& request);
+    Sampler(Sampler&& other) noexcept;
+    Sampler& operator=(Sampler&&) = delete;
+    ~Sampler();
+
+    VkSampler handle() const noexcept { return sampler_; }
+
+private:
+    const vk::Device* device_ = nullptr;
+    VkSampler sampler_ = VK_NULL_HANDLE;
+};
+
+} // namespace sinew::viewer
