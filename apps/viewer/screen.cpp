@@ -147,7 +147,7 @@ Wishes Screen::drawPanels(const Presenter::Frame& frame, const SceneFacts& scene
     const bool areOld = now - panelsDrawn_ >= panelsStay;
     if (areDue || areOld) panelsDrawn_ = now;
     place_->painter.record(frame.commands, frame.slot, frame.image, panels_.drawn(),
-                           areDue || areOld ? PanelPainter::Panels::anew : PanelPainter::Panels::asKept);
+                           areDue || areOld ? PanelPainter::Draw::anew : PanelPainter::Draw::asKept);
     return wishes;
 }
 

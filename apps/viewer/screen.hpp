@@ -59,7 +59,7 @@ public:
     void feed(const PanelInput& input);
     /// Lays the panels out and draws them over the frame's picture, which must be in PRESENT_SRC_KHR layout.
     /// What they say of the window and its messages is filled in. Unless they are due they may look as in
-    /// the picture before: figures change ten times a second, which is as fast as they can be read. Throws
+    /// the picture before: figures change seven times a second, which is as fast as they can be read. Throws
     /// vk::Error.
     Wishes drawPanels(const Presenter::Frame& frame, const SceneFacts& scene, Facts facts, bool areDue);
 

@@ -127,9 +127,10 @@ void Show::turn() {
     const bool hasMoved = input.pointer != std::exchange(pointer_, input.pointer);
     const bool isUsed = hasMoved || !input.presses.empty();
     // Panels change over a still scene without taking its quality away.
-    if (input.panels.isTouched || !input.presses.empty() || (hasMoved && inspector_.isOn()))
-        panelsDue_ = picturesOfATouch;
-    if (!replay_ && tools_.lendBlade(input.held == Action::blade, isUsed)) input.needsRedraw = true;
+    const bool isBladeLent = !replay_ && tools_.lendBlade(input.held == Action::blade, isUsed);
+    if (isBladeLent) input.needsRedraw = true;
+    const bool areAsked = !input.actions.empty() || !input.presses.empty() || isBladeLent;
+    if (input.panels.isTouched || areAsked || (hasMoved && inspector_.isOn())) panelsDue_ = picturesOfATouch;
     const Wishes wishes = std::exchange(wishes_, {});
     grant(wishes, input);
     handle(input);

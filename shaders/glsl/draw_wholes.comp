@@ -7,7 +7,7 @@ layout(std430, binding = 0) readonly buffer Wholes { WholeTriangle wholes[]; };
 layout(std430, binding = 1) readonly buffer Marks { uint marks[]; };
 layout(std430, binding = 2) readonly buffer Hung { HungVertex hung[]; };
 layout(std430, binding = 3) buffer States { uint states[]; };
-layout(std430, binding = 4) writeonly buffer Indices { uint indices[]; };
+layout(std430, binding = 4) writeonly buffer MixedTriangles { uint mixedTriangles[]; };
 layout(std430, binding = 5) writeonly buffer Shown { uint shown[]; };
 layout(push_constant) uniform Push { CountPush push; };
 
@@ -20,7 +20,7 @@ void main() {
     if (!isParted) states[i] = isBeside ? WHOLE_MIXED : WHOLE_ALONE;
     for (uint n = 0u; n < 3u; ++n) {
         const uint corner = hung[whole.vertices[n]].vertex;
-        indices[3u * whole.mixed + n] = isParted ? 0u : corner;
+        mixedTriangles[3u * whole.mixed + n] = isParted ? 0u : corner;
         if (isParted || isBeside) shown[corner] = VERTEX_SHOWN;
     }
 }

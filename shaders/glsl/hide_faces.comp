@@ -1,5 +1,5 @@
 #version 460
-// The surface of a cut, last pass: triangles of a skin of which pieces are drawn instead shrink to a point. In a mixed skin so do those that
+// The surface of a cut, last pass but for what packs a mixed skin: triangles of a skin of which pieces are drawn instead shrink to a point. In a mixed skin so do those that
 // whole triangles stand for, and it is known which vertices are seen.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
@@ -15,7 +15,7 @@ layout(std430, binding = 3) readonly buffer AllIndices { uint allIndices[]; };
 layout(std430, binding = 4) writeonly buffer Indices { uint indices[]; };
 #ifdef MIXED
 layout(std430, binding = 5) readonly buffer States { uint states[]; }; // of whole triangles
-layout(std430, binding = 6) writeonly buffer MixedIndices { uint mixedIndices[]; };
+layout(std430, binding = 6) writeonly buffer MixedTriangles { uint mixedTriangles[]; };
 layout(std430, binding = 7) buffer Shown { uint shown[]; };
 #endif
 layout(push_constant) uniform Push { CountPush push; };
@@ -31,7 +31,7 @@ void main() {
     const uint whole = face.whole == NO_WHOLE ? WHOLE_PARTED : states[face.whole];
     const bool isPart = whole == WHOLE_PARTED || whole == WHOLE_MIXED;
     for (uint n = 0u; n < 3u; ++n) {
-        mixedIndices[3u * face.mixed + n] = isPart && !isHidden ? corners[n] : 0u; // one vertex for all
+        mixedTriangles[3u * face.mixed + n] = isPart && !isHidden ? corners[n] : 0u; // one vertex for all
         if (whole != WHOLE_ALONE) atomicMax(shown[corners[n]], isPart ? VERTEX_SHOWN : VERTEX_PLACED); // pieces of what is hidden go with it, too
     }
 #endif

@@ -230,14 +230,15 @@ struct StepProgram {
     BufferId parameters, status, positions, velocities; ///< the public ones; velocities may be invalid
     BufferId skinVertices, skinIndices;                 ///< invalid without skins
     BufferId wholeIndices;                              ///< Skin::wholeTriangles, or triangles, of all skins
-    BufferId mixedTriangles; ///< of both, once something is cut: those that are not drawn are points
-    BufferId mixedIndices;   ///< the others, in that order; invalid where no skin is split, as the next two
-    BufferId mixedDraws;     ///< likewise, by skin: layout::DrawArguments
-    BufferId shownVertices; ///< likewise, by vertex of all skins: what drawing those takes (VERTEX_SHOWN ...)
+    // Once something is cut; invalid where no skin is split.
+    BufferId mixedTriangles; ///< of both: those that are not drawn are points
+    BufferId mixedIndices;   ///< the others, in that order
+    BufferId mixedDraws;     ///< of these, by skin: layout::DrawArguments
+    BufferId shownVertices;  ///< by vertex of all skins: what drawing those takes (VERTEX_SHOWN ...)
     struct IndexRange {
         std::uint32_t first = 0, count = 0;
     };
-    std::vector<IndexRange> mixedRanges; ///< by skin: room in the last three
+    std::vector<IndexRange> mixedRanges; ///< by skin: room in mixedTriangles and mixedIndices
     ContactBuffers contacts;
     std::vector<GridBuffers> grids; ///< by kind of contact that is looked for in one
     SleepBuffers sleep;

@@ -291,8 +291,8 @@ public:
         vk::BufferView indices;
         std::span<const SkinRange> ranges;
         bool areWhole = false; ///< Skin::wholeTriangles, where a skin has some
-        /// If not empty, one VkDrawIndexedIndirectCommand a skin, stride 20: what there is in its range, from
-        /// where that begins.
+        /// If not empty, one VkDrawIndexedIndirectCommand a skin, stride 20, to be drawn in place of its
+        /// range, which is room: it begins there, and behind its end stands what was drawn before.
         vk::BufferView draws = {};
     };
     DrawnSkins drawnSkins(Overlap overlap = Overlap::none) const noexcept;

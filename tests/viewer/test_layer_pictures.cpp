@@ -125,6 +125,7 @@ TEST(Layers, ThrowTheSameShadowsWithoutFacesThatLookAway) {
     less.leavesBacks = true;
     const auto fallen = [&](const Quality& quality) {
         LayerShot shot(scene, {}, quality);
+        EXPECT_TRUE(shot.light.areSolidsOutward());
         shot.take(0, {.from = from, .to = to});
         EXPECT_EQ(shot.stage.simulation().status(1).pieces, 2u);
         return static_cast<SceneShot&>(shot).take(30);

@@ -67,7 +67,7 @@ struct Table {
     Offscreen offscreen;
     Panels panels{1};
     PanelPainter painter;
-    PanelPainter::Panels which = PanelPainter::Panels::anew;
+    PanelPainter::Draw which = PanelPainter::Draw::anew;
     SceneFacts facts{.name = "ball", .device = "a device", .driver = "a driver", .isSoftware = true};
     Facts changing;
 };
@@ -126,13 +126,13 @@ TEST(PanelPainter, ShowsThemAsTheyWereUntilTheyAreDueOrCannotBe) {
     Table table;
     const Picture before = table.take(true, 0);
     table.changing.notice = "something happened";
-    table.which = PanelPainter::Panels::asKept;
+    table.which = PanelPainter::Draw::asKept;
     EXPECT_EQ(table.take(true, 1).pixels, before.pixels);
-    table.which = PanelPainter::Panels::anew;
+    table.which = PanelPainter::Draw::anew;
     const Picture after = table.take(true, 0);
     EXPECT_NE(after.pixels, before.pixels);
     table.changing.notice.clear();
-    table.which = PanelPainter::Panels::asKept;
+    table.which = PanelPainter::Draw::asKept;
     EXPECT_EQ(table.take(true, 1).pixels, after.pixels);
     table.painter.setAtlas(table.panels.atlas());
     EXPECT_EQ(table.take(true, 0).pixels, before.pixels) << "other glyphs";

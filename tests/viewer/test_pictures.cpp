@@ -254,6 +254,37 @@ TEST(Picture, IsTheSameWithoutTheBacksThatNobodySees) {
         }
 }
 
+// The volume that the maps cover is that of the scene as it was opened: a hand may lift a body half out of
+// it, or out of it.
+TEST(Picture, HasTheShadowOfABodyThatWasLiftedTowardsTheLight) {
+    Quality less = quick;
+    less.leavesBacks = true;
+    const sim::Scene opened = block(0.1f, true);
+    const Camera camera = viewOf(opened);
+    const auto lifted = [&](float height, const Quality& quality) {
+        const sim::Scene scene = block(height, true);
+        SceneShot shot(opened, camera, quality);
+        Stage stage(test::device(), scene, {});
+        const VkCommandBuffer commands = test::queue().begin();
+        stage.recordReset(commands);
+        stage.recordSkin(commands);
+        shot.offscreen.record(commands, camera, stage.simulation(), {});
+        test::queue().wait(test::queue().submit(commands));
+        return shot.offscreen.read();
+    };
+    const Picture high = lifted(100, less);
+    std::size_t heights = 0;
+    for (const float height : {0.3f, 0.5f, 0.6f, 0.7f, 0.8f}) {
+        const Picture all = lifted(height, quick), some = lifted(height, less);
+        EXPECT_LE(largestDifference(all, some), 16) << height; // what is out of it is flat in the map
+        const auto isDarker = [&](std::size_t p) { return all.pixels[p] + 40 < high.pixels[p]; };
+        std::size_t dark = 0;
+        for (std::size_t p = 0; p < all.pixels.size(); p += 4) dark += isDarker(p) && isDarker(p + 1) ? 1 : 0;
+        heights += dark > 100 ? 1 : 0;
+    }
+    EXPECT_EQ(heights, 5u) << "of 5 with a shadow, or a body in its own";
+}
+
 TEST(Picture, HasTheLightOfTheFloorEverySecondTimeWhereThatIsEnough) {
     Quality rarely = quick;
     rarely.floorEvery = 2;

@@ -23,9 +23,8 @@ public:
     VkSampler comparing() const noexcept { return comparing_.handle(); }
     VkSampler nearest() const noexcept { return nearest_.handle(); }
     VkSampler smooth() const noexcept { return smooth_.handle(); }
-    VkSampler stretching() const noexcept {
-        return stretching_.handle();
-    } ///< as smooth(), of edges that go on
+    /// As smooth(), of edges that go on.
+    VkSampler stretching() const noexcept { return stretching_.handle(); }
 
 private:
     VkFormat depthFormat_;

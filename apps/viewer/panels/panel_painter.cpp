@@ -275,9 +275,9 @@ void PanelPainter::showKept(VkCommandBuffer commands, std::size_t picture) const
 }
 
 void PanelPainter::record(VkCommandBuffer commands, std::uint32_t slot, std::size_t picture,
-                          const ImDrawData& drawn, Panels which) {
+                          const ImDrawData& drawn, Draw which) {
     if (drawn.TotalVtxCount == 0 || !atlas_) return;
-    if (which == Panels::anew || !kept_->isDrawn) draw(commands, slots_[slot], drawn);
+    if (which == Draw::anew || !kept_->isDrawn) draw(commands, slots_[slot], drawn);
     showKept(commands, picture);
 }
 

@@ -45,7 +45,7 @@ public:
     /// drawn into the old ones must be finished.
     void setPictures(VkExtent2D extent, std::span<const VkImageView> pictures);
 
-    enum class Panels {
+    enum class Draw {
         anew,  ///< as they are in `drawn`
         asKept ///< as they were drawn last, where they were since setPictures(), setAtlas() and setSheet()
     };
@@ -53,7 +53,7 @@ public:
     /// outside a render pass; the slot's previous picture must be finished. Throws vk::Error where there is
     /// no memory for more triangles than ever before.
     void record(VkCommandBuffer commands, std::uint32_t slot, std::size_t picture, const ImDrawData& drawn,
-                Panels which = Panels::anew);
+                Draw which = Draw::anew);
 
 private:
     struct Slot {

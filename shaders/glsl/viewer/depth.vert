@@ -16,4 +16,5 @@ void main() {
 #endif
     worldPosition = rotated(push.rotation, push.scale.x * position.xyz) + push.position.xyz;
     gl_Position = (isPlan ? frame.planFromWorld : frame.shadowFromWorld) * vec4(worldPosition, 1.0);
+    gl_Position.z = max(gl_Position.z, 0.0); // what was lifted out of the volume throws a shadow, what is below the floor touches it
 }

@@ -77,7 +77,6 @@ void addCrumbRemoval(ProgramBuilder& program, const Cut& cut, const ParticleBuff
         add(k::leaveContacts, {cut.particles, buffers.pieces, grid.radii, grid.bounds});
     if (particles.grabs) add(k::dropCrumbs, {cut.particles, buffers.pieces, particles.grabs->bodies});
     if (particles.sleep) add(k::restCrumbs, {cut.particles, buffers.pieces, particles.sleep->limits});
-    addTriangleHiding(program, cut.crumbSkins);
 }
 
 void letCrumbsLeave(ProgramBuilder& program, BufferId radii, const collision::hash_grid::Grid& grid) {

@@ -161,6 +161,9 @@ void addClosing(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& 
                          run.push);
     addWholeCells(program, cut); // those that an undone step has given back
     addFindingPieces(program, cut, particles);
+    program.beginSurface();
+    addTriangleHiding(program, cut.crumbSkins); // before what is drawn is packed
+    program.endSurface();
     if (cut.surface) surface::addCutSurfacePasses(program, *cut.surface, cut.blade);
     if (cut.sheets) surface::addSheetPasses(program, *cut.sheets, !cut.surface);
 }

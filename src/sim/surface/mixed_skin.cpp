@@ -95,7 +95,7 @@ void uploadMixed(ProgramBuilder& program, CutSurface& surface, const Layout& lay
     surface.mixedWords = program.upload("surface.mixed_words", layout.words);
     surface.drawnWords = program.scratch<std::uint32_t>("surface.drawn_words", surface.words);
     surface.drawnStarts = program.scratch<std::uint32_t>("surface.drawn_starts", surface.words);
-    // A step with a cut makes all of the triangles anew, so an undo need not bring them.
+    // Made anew by passes of the surface alone, so an undo need not bring them.
     program.carry(built.mixedTriangles, built.mixedTriangles);
 }
 

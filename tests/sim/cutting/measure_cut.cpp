@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
+#include <limits>
 
 using namespace sinew;
 using namespace sinew::sim;
@@ -31,7 +32,9 @@ Scene cube(std::uint32_t side, bool hasBodyDiagonals, bool isCuttable, bool hasS
 }
 
 struct Costs {
-    double step = 1e9, opening = 1e9; ///< [ms of processor time], [ms by the clock]
+    double step = 1e9;                                        ///< [ms of processor time]
+    double opening = std::numeric_limits<double>::infinity(); ///< [ms by the clock of the device]; infinite
+                                                              ///< where it has none
 };
 
 // The shortest of some steps, each from the scene's state.
