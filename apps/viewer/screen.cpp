@@ -13,7 +13,8 @@ namespace sinew::viewer {
 namespace {
 
 constexpr std::chrono::seconds warningStays{12}, notePasses{4};
-constexpr std::chrono::milliseconds panelsStay{150};
+constexpr std::chrono::milliseconds panelsStay{100};
+constexpr std::uint32_t picturesOfPanels = 5; // to draw them anew takes a software device four times as long
 
 // What came in several polls before one picture.
 void merge(PanelInput& all, const PanelInput& next) {
@@ -144,8 +145,11 @@ Wishes Screen::drawPanels(const Presenter::Frame& frame, const SceneFacts& scene
     input_.isDown = input.isDown;
     input_.modifiers = input.modifiers;
     Wishes wishes = panels_.build(scene, facts, input, place_->presenter.extent(), seconds);
-    const bool areOld = now - panelsDrawn_ >= panelsStay;
-    if (areDue || areOld) panelsDrawn_ = now;
+    const bool areOld = ++picturesOfPanels_ >= picturesOfPanels && now - panelsDrawn_ >= panelsStay;
+    if (areDue || areOld) {
+        panelsDrawn_ = now;
+        picturesOfPanels_ = 0;
+    }
     place_->painter.record(frame.commands, frame.slot, frame.image, panels_.drawn(),
                            areDue || areOld ? PanelPainter::Draw::anew : PanelPainter::Draw::asKept);
     return wishes;

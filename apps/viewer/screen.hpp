@@ -59,8 +59,8 @@ public:
     void feed(const PanelInput& input);
     /// Lays the panels out and draws them over the frame's picture, which must be in PRESENT_SRC_KHR layout.
     /// What they say of the window and its messages is filled in. Unless they are due they may look as in
-    /// the picture before: figures change seven times a second, which is as fast as they can be read. Throws
-    /// vk::Error.
+    /// the picture before: figures change ten times a second at most, which is as fast as they can be read,
+    /// and in one picture of five. Throws vk::Error.
     Wishes drawPanels(const Presenter::Frame& frame, const SceneFacts& scene, Facts facts, bool areDue);
 
     /// Says something in the window for a while, and in a line on stderr: "warning: <text>".
@@ -90,6 +90,7 @@ private:
     std::optional<BesideShape> beside_;
     float ownScale_, windowScale_; // of texts: as chosen, and as the display wants them
     Clock::time_point lastPicture_ = Clock::now(), panelsDrawn_{};
+    std::uint32_t picturesOfPanels_ = 0; // since then
     VkExtent2D pixels_{};
     bool isVsync_, isNoticeNew_ = false;
 };
