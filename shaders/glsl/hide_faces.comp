@@ -1,6 +1,6 @@
 #version 460
-// The surface of a cut, last pass but for what packs a mixed skin: triangles of a skin of which pieces are drawn instead shrink to a point. In a mixed skin so do those that
-// whole triangles stand for, and it is known which vertices are seen.
+// The surface of a cut: triangles of a skin of which pieces are drawn instead shrink to a point. In a mixed skin so do those that whole
+// triangles stand for, and it is known which vertices are seen.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

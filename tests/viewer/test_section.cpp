@@ -1,16 +1,11 @@
 // The plane that opens bodies: where it lies, what is seen of them, and what hands find there. Pictures are
 // drawn under validation (support/device.hpp).
-#include "viewer/draw/offscreen.hpp"
-#include "viewer/draw/stage.hpp"
+#include "scene_shot.hpp"
 #include "viewer/hands/inspection.hpp"
 #include "viewer/hands/pick.hpp"
 
-#include "sim/bodies.hpp"
-#include "support/device.hpp"
-
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdlib>
 
 namespace sinew::viewer {
@@ -18,8 +13,6 @@ namespace {
 
 const Camera fromFront{.distance = 3, .azimuth = 0, .elevation = 0};
 const Box unit(Vector3(-0.5f, -0.5f, -0.5f), Vector3(0.5f, 0.5f, 0.5f));
-constexpr VkExtent2D extent{320, 200};
-constexpr float aspect = 1.6f;
 
 // Each 0.4 m wide, one behind the other along z, the nearest around the origin.
 sim::Scene blocks(std::initializer_list<float> depths) {
@@ -74,17 +67,6 @@ struct Shot {
     inline static int count = 0;
 };
 
-using Color = std::array<int, 3>;
-Color colorAt(const Picture& picture, const Camera& camera, const Vector3& place) {
-    const Eigen::Vector4f clip = clipMatrix(camera, aspect, 100) * place.homogeneous();
-    const auto pixel = [](float ndc, std::uint32_t size) {
-        return static_cast<std::uint32_t>(std::lround((0.5f * ndc + 0.5f) * static_cast<float>(size) - 0.5f));
-    };
-    const std::uint32_t x = pixel(clip.x() / clip.w(), picture.width),
-                        y = pixel(clip.y() / clip.w(), picture.height);
-    const std::uint8_t* at = &picture.pixels.at(4 * (std::size_t{y} * picture.width + x));
-    return {at[0], at[1], at[2]};
-}
 bool isGreen(const Color& color) {
     return color[1] > color[0] + 20 && color[1] > color[2] + 20;
 }

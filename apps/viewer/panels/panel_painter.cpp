@@ -103,15 +103,21 @@ PanelPainter::PanelPainter(const vk::Device& device, VkFormat format, VkImageLay
       sampler_(device, {.name = "panels.kept", .beyond = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE}),
       slots_(slots) {}
 
-void PanelPainter::write(std::uint32_t binding, const vk::BufferView& view) const noexcept {
-    const VkDescriptorBufferInfo buffer{view.buffer, view.offset, view.size};
+void PanelPainter::write(std::uint32_t binding, const VkDescriptorBufferInfo* buffer,
+                         const VkDescriptorImageInfo* image) const noexcept {
     const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                                      .dstSet = set_.set(0),
                                      .dstBinding = binding,
                                      .descriptorCount = 1,
-                                     .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                     .pBufferInfo = &buffer};
+                                     .descriptorType = textures[binding].descriptorType,
+                                     .pImageInfo = image,
+                                     .pBufferInfo = buffer};
     device_.functions().vkUpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
+}
+
+void PanelPainter::write(std::uint32_t binding, const vk::BufferView& view) const noexcept {
+    const VkDescriptorBufferInfo buffer{view.buffer, view.offset, view.size};
+    write(binding, &buffer, nullptr);
 }
 
 void PanelPainter::setAtlas(const GlyphAtlas& atlas) {
@@ -154,13 +160,7 @@ void PanelPainter::setPictures(VkExtent2D extent, std::span<const VkImageView> p
     kept_.emplace(device_, keptPass_, format_, extent);
     const VkDescriptorImageInfo image{sampler_.handle(), kept_->image.view(),
                                       VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-    const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                     .dstSet = set_.set(0),
-                                     .dstBinding = ofKept,
-                                     .descriptorCount = 1,
-                                     .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                                     .pImageInfo = &image};
-    device_.functions().vkUpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
+    write(ofKept, nullptr, &image);
 }
 
 void PanelPainter::upload(Slot& slot, const ImDrawData& drawn) {

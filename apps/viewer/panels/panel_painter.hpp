@@ -78,6 +78,8 @@ private:
     void drawList(VkCommandBuffer commands, const ImDrawList& list, std::uint32_t firstVertex,
                   std::uint32_t firstIndex) const noexcept;
     void write(std::uint32_t binding, const vk::BufferView& view) const noexcept;
+    void write(std::uint32_t binding, const VkDescriptorBufferInfo* buffer,
+               const VkDescriptorImageInfo* image) const noexcept;
 
     const vk::Device& device_;
     VkFormat format_;

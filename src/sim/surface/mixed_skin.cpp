@@ -95,8 +95,7 @@ void uploadMixed(ProgramBuilder& program, CutSurface& surface, const Layout& lay
     surface.mixedWords = program.upload("surface.mixed_words", layout.words);
     surface.drawnWords = program.scratch<std::uint32_t>("surface.drawn_words", surface.words);
     surface.drawnStarts = program.scratch<std::uint32_t>("surface.drawn_starts", surface.words);
-    // Made anew by passes of the surface alone, so an undo need not bring them.
-    program.carry(built.mixedTriangles, built.mixedTriangles);
+    // Passes of the surface make the triangles anew from nothing but the topology, so they are no part of it.
 }
 
 void uploadWholes(ProgramBuilder& program, CutSurface& surface, const CutBodies& bodies) {
