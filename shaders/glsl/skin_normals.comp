@@ -1,7 +1,6 @@
 #version 460
 // Smooth vertex normals of the deformed skin: those of a vertex's triangles by their angles there (Thuermer and Wuethrich 1998),
-// so that they stay as they are where flat ones are split, gathered in fixed order. Triangles of which one side is much shorter
-// than the other count less: slivers of a split skin say little of where it faces.
+// so that they stay as they are where flat ones are split, gathered in fixed order. Triangles that rounding may turn over hardly count.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -55,6 +54,7 @@ void main() {
     if (fan.y == 0u) return;
 #endif
     const vec3 here = VERTEX(i);
+    const float blur = 4e-12 * dot(here, here) + 1e-37; // [m^2]: sides as short as some thirty steps of float32 at this place
     vec3 sum = vec3(0.0);
     for (uint s = 0u; s < fan.y; ++s) {
         const uint t = 3u * TRIANGLE(fan.x + s);
@@ -63,8 +63,7 @@ void main() {
         const vec3 u = VERTEX(next) - here, v = VERTEX(last) - here;
         const vec3 across = cross(u, v);
         const float twice = length(across); // the area
-        const float evenness = min(dot(u, u), dot(v, v)) / max(dot(u, u), dot(v, v));
-        const float weight = atan(twice, dot(u, v)) * evenness / (evenness + 0.01);
+        const float shorter = min(dot(u, u), dot(v, v)), weight = atan(twice, dot(u, v)) * shorter / (shorter + blur);
         sum += twice > 0.0 ? weight / twice * across : vec3(0.0);
     }
     const float size = length(sum);

@@ -1,6 +1,6 @@
 // Splits the skin of a body that may be cut, so that it hangs on the body's lattice: every triangle lies in
-// one cell, and the nodes that its corners go with are corners of one of the six tetrahedra of that cell.
-// Private to src/mesh: its vectors are Eigen's.
+// one cell, give or take a hundredth of one, and the nodes that its corners go with are corners of one of the
+// six tetrahedra of that cell. Private to src/mesh: its vectors are Eigen's.
 #pragma once
 
 #include "mesh/vector3.hpp"
