@@ -1,6 +1,9 @@
 // Part of the kernels that cut: which slot an item stands for.
 #include "kernel.glsl"
-layout(push_constant) uniform Push { CutPush push; };
+#ifndef CUT_PUSH
+#define CUT_PUSH CutPush
+#endif
+layout(push_constant) uniform Push { CUT_PUSH push; };
 
 // Of an uncut body, in the unit in which pieces are weighed.
 #define WHOLE_PIECE 1073741824.0

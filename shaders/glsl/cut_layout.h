@@ -21,8 +21,7 @@ struct BladeHead {
 struct CutWork {
     uint farthest; // bits of a float: the longest way of a particle since the last blade [m]
     uint cut;      // links
-    uint changed;  // 1 where labels of pieces were not yet the same at both ends of a link
-    uint unused0;
+    uint unused0, unused1;
 };
 
 // What is known after it.
@@ -77,8 +76,16 @@ struct CrumbTriangle {
 };
 
 struct PiecesPush {
-    uint isFirst; // of the dispatches that say whether labels are still to change
-    uint runs;    // of slots; argument r is for all rounds of run r, runs + r for its count, 2 runs + r for what is made of them
+    uint runs;   // of slots; argument r is for what begins with the slots of run r, runs + r for its count, 2 runs + r for what is made of them
+    uint rounds; // of finding pieces
+};
+
+// Of a run, in a round.
+struct RoundPush {
+    uint first, count; // as CutPush has them
+    uint rowStride, sliceStride;
+    uint stiffLinks;
+    uint next, runs; // arguments of the round that follows, if any, and how many
 };
 
 // The surface of cuts. Slots that one invocation adds up.

@@ -1,14 +1,17 @@
 #version 460
 // Connected components, first half of a round: where the ends of a link have two labels, the higher hangs on the lower, on the
-// lowest where there are several. Labels only become smaller: all end with the lowest slot of their piece, whatever the order.
+// lowest where there are several. Labels only become smaller: all end with the lowest slot of their piece, whatever the order. Where
+// some still differed there is another round.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#define CUT_PUSH RoundPush
 #include "cut.glsl"
 #include "link_masks.glsl"
 
 layout(std430, binding = 0) readonly buffer Links { uint links[]; };
 layout(std430, binding = 1) buffer Labels { uint labels[]; };
-layout(std430, binding = 2) buffer Work { CutWork work; };
+layout(std430, binding = 2) readonly buffer Groups { uint groups[]; }; // of every run
+layout(std430, binding = 3) writeonly buffer Arguments { DispatchArguments arguments[]; };
 
 void main() {
     const uint item = itemIndex(push.count);
@@ -24,5 +27,5 @@ void main() {
     if (differ == 0u) return;
     [[unroll]] for (int k = 0; k < OWNED_LINKS; ++k)
         if ((differ >> k & 1u) != 0u) atomicMin(labels[max(own, others[k])], min(own, others[k]));
-    work.changed = 1u;
+    for (uint r = 0u; r < push.runs; ++r) arguments[push.next + r].groupsX = groups[r];
 }

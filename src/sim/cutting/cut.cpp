@@ -101,12 +101,6 @@ void addOpening(ProgramBuilder& program, Cut& cut, const ParticleBuffers& partic
     addWaking(program, cut, particles);
 }
 
-void addPlan(ProgramBuilder& program, const Cut& cut, bool isFirst) {
-    program.dispatch(k::planPieces, 1,
-                     {cut.work, cut.buffers.counts, cut.groups, cut.arguments, cut.buffers.listedCounts},
-                     layout::PiecesPush{isFirst, static_cast<std::uint32_t>(cut.runs.size())});
-}
-
 // `items` of every run, as many as the arguments from `first` on say.
 template <typename Items>
 void addIndirect(ProgramBuilder& program, const Cut& cut, const vk::ShaderCode& code, std::uint32_t first,
@@ -132,19 +126,41 @@ void addParting(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& 
                 slots);
 }
 
+// Of finding pieces: nothing runs where the one before has changed no label.
+void addRound(ProgramBuilder& program, const Cut& cut, std::uint32_t round) {
+    const auto runs = static_cast<std::uint32_t>(cut.runs.size());
+    const BufferId own = cut.roundArguments[round % 2], others = cut.roundArguments[(round + 1) % 2];
+    const std::uint32_t first = round / 2 * runs;
+    for (std::uint32_t r = 0; r < runs; ++r) {
+        const layout::CutPush& push = cut.runs[r].push;
+        program.dispatchIndirect(k::hookPieces, {own, first + r, push.count},
+                                 {cut.buffers.links, cut.labels, cut.groups, others},
+                                 layout::RoundPush{.first = push.first,
+                                                   .count = push.count,
+                                                   .rowStride = push.rowStride,
+                                                   .sliceStride = push.sliceStride,
+                                                   .stiffLinks = push.stiffLinks,
+                                                   .next = (round + 1) / 2 * runs,
+                                                   .runs = runs});
+    }
+    for (std::uint32_t r = 0; r < runs; ++r)
+        program.dispatchIndirect(k::jumpPieces, {own, first + r, cut.runs[r].push.count}, {cut.labels},
+                                 cut.runs[r].push);
+}
+
 void addFindingPieces(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& particles) {
     const CuttingBuffers& buffers = cut.buffers;
     const auto slots = [](const Run& run) { return run.push.count; };
-    addPlan(program, cut, true);
+    const auto runs = static_cast<std::uint32_t>(cut.runs.size());
+    program.dispatch(k::planPieces, cut.rounds * runs,
+                     {cut.work, buffers.counts, cut.groups, cut.arguments, buffers.listedCounts,
+                      cut.roundArguments[0], cut.roundArguments[1]},
+                     layout::PiecesPush{runs, cut.rounds});
     addIndirect(program, cut, k::startPieces, 0,
                 {cut.labels, cut.particles, buffers.pieceSizes, buffers.links}, slots);
     addIndirect(program, cut, k::jumpPieces, 0, {cut.labels}, slots);
-    for (std::uint32_t round = 0; round < cut.rounds; ++round) {
-        addIndirect(program, cut, k::hookPieces, 0, {buffers.links, cut.labels, cut.work}, slots);
-        addIndirect(program, cut, k::jumpPieces, 0, {cut.labels}, slots);
-        addPlan(program, cut, false);
-    }
-    addIndirect(program, cut, k::countPieces, static_cast<std::uint32_t>(cut.runs.size()),
+    for (std::uint32_t round = 0; round < cut.rounds; ++round) addRound(program, cut, round);
+    addIndirect(program, cut, k::countPieces, runs,
                 {cut.labels, cut.particles, buffers.pieces, buffers.pieceSizes, buffers.counts}, chunksOf);
     addParting(program, cut, particles);
     addCrumbRemoval(program, cut, particles);

@@ -140,6 +140,9 @@ void addPieces(ProgramBuilder& program, Cut& cut, Initial& initial, std::size_t 
     cut.particles = cut.buffers.particles = program.upload("pieces.particles", initial.particles);
     cut.groups = program.upload("pieces.groups", groups);
     cut.arguments = program.scratch<layout::DispatchArguments>("pieces.arguments", 4 * std::uint64_t{runs});
+    for (BufferId& rounds : cut.roundArguments) // the last one asks for one more, which never comes
+        rounds = program.scratch<layout::DispatchArguments>("pieces.rounds",
+                                                            (cut.rounds / 2 + 1) * std::uint64_t{runs});
     cut.buffers.pieces = program.upload("pieces", pieces.ofParticles);
     cut.buffers.pieceSizes = program.upload("pieces.sizes", pieces.sizes);
     cut.buffers.counts = program.upload("cut.counts", std::vector{layout::CutCounts{.links = 0,

@@ -5,6 +5,8 @@
 #include "sim/compile.hpp"
 #include "sim/cutting/crumb_skins.hpp"
 
+#include <array>
+
 namespace sinew::sim::surface {
 struct CutSurface;
 struct SheetPieces;
@@ -29,8 +31,9 @@ struct Cut {
     BufferId nears, nearCounts, nearArguments; // nodes near the blade, as CuttingBuffers::listed
     BufferId bladePlaces; // by slot: where particles are for the blade, buffers.places but for some
     BufferId labels, particles, arguments, groups; // of pieces
-    BufferId uncutBodies, weights;                 // likewise, where hands may hold some
-    BufferId crumbParticles;                       // CrumbParticle; where crumbs are removed
+    std::array<BufferId, 2> roundArguments; // of even and of odd rounds, by run: no pass writes its own
+    BufferId uncutBodies, weights;          // likewise, where hands may hold some
+    BufferId crumbParticles;                // CrumbParticle; where crumbs are removed
     CrumbSkins crumbSkins;
     std::shared_ptr<surface::CutSurface> surface; // none where no skin is clipped
     std::shared_ptr<surface::SheetPieces> sheets; // likewise
