@@ -9,6 +9,7 @@
 #include "vk/check.hpp"
 #include "vk/loader.hpp"
 
+#include <chrono>
 #include <cstdio>
 #include <functional>
 #include <stdexcept>
@@ -28,23 +29,36 @@ void tell(const Opening& opening, Screen& screen) {
     if (!opening.loaded.warnings.empty()) screen.tell(opening.loaded.warnings.front());
 }
 
-// On show next. Its device is another one, so that whatever is wrong with it leaves what is on show as it is.
-void change(std::unique_ptr<vk::Device>& device, std::unique_ptr<Show>& show,
-            std::unique_ptr<Opening> opening, Screen& screen, Library& library, const Devices& devices) {
-    std::unique_ptr<vk::Device> nextDevice = std::move(opening->device);
+// What plays, and the device that it plays on.
+struct Playing {
+    std::unique_ptr<vk::Device>& device;
+    std::unique_ptr<Show>& show;
+};
+
+// On show next. Its device is another one, so that whatever is wrong with it, which is thrown, leaves what is
+// on show as it is.
+void put(std::unique_ptr<Opening> opening, const Playing& playing, Screen& screen, Library& library,
+         const Devices& devices) {
+    std::unique_ptr<vk::Device> device = std::move(opening->device);
     std::unique_ptr<Opening> next = std::move(opening);
-    const std::string name = next->loaded.scene.name;
     const bool goesOn = next->again.has_value();
+    say(*next, *device);
+    tell(*next, screen);
+    std::unique_ptr<Place> place = std::move(next->place);
+    auto show = std::make_unique<Show>(screen, library, devices, *device, std::move(next));
+    if (goesOn) show->takeOver(*playing.show);
+    place = screen.moveTo(std::move(place)); // on the device that goes now
+    place.reset();
+    playing.show = std::move(show);
+    playing.device = std::move(device);
+}
+
+// What cannot be shown leaves all as it is.
+void change(std::unique_ptr<Opening> opening, const Playing& playing, Screen& screen, Library& library,
+            const Devices& devices) {
+    const std::string name = opening->loaded.scene.name;
     try {
-        say(*next, *nextDevice);
-        tell(*next, screen);
-        std::unique_ptr<Place> place = std::move(next->place);
-        auto nextShow = std::make_unique<Show>(screen, library, devices, *nextDevice, std::move(next));
-        if (goesOn) nextShow->takeOver(*show);
-        place = screen.moveTo(std::move(place)); // on the device that goes now
-        place.reset();
-        show = std::move(nextShow);
-        device = std::move(nextDevice);
+        put(std::move(opening), playing, screen, library, devices);
     } catch (const std::exception& error) {
         library.putBack();
         screen.warn("cannot show " + name + ": " + error.what());
@@ -120,6 +134,8 @@ public:
         if (!said_) said_ = keep_();
         return *said_;
     }
+    /// The program goes on: it may end another time.
+    void renew() { said_.reset(); }
 
 private:
     Window& window_;
@@ -150,13 +166,86 @@ public:
             device_ =
                 std::make_shared<vk::Device>(vk::Device::create(loader_->getInstanceProcAddr(), request_));
         }
-        return drawPreview(*device_, scene, stop);
+        try {
+            return drawPreview(*device_, scene, stop);
+        } catch (const vk::Error& error) {
+            if (error.failure() == vk::Failure::deviceLost) device_.reset(); // the next has another one
+            throw;
+        }
     }
 
 private:
     vk::DeviceRequest request_;
     std::shared_ptr<vk::Loader> loader_; // shared as std::function wants to be copied
     std::shared_ptr<vk::Device> device_;
+};
+
+// A device that is lost again as soon as that is no better than none.
+constexpr std::chrono::seconds betweenLosses{10};
+
+// After the device was lost: what was on show from its beginning, on the same device opened anew or on
+// another one. Throws what is wrong with the last of them.
+void beginAnew(const Options& shown, const Playing& playing, Screen& screen, Library& library,
+               const Devices& devices) {
+    const auto begin = [&](const std::string& request) {
+        auto next = std::make_unique<Opening>(open(shown, aspectOf(screen.window().pixels())));
+        next->device = devices.open(request);
+        next->camera = playing.show->camera();
+        prepare(*next, *next->device, screen.window());
+        put(std::move(next), playing, screen, library, devices);
+    };
+    std::vector<std::string> others;
+    for (std::size_t d = 0; d < devices.list().size(); ++d) others.push_back(requestFor(devices.list(), d));
+    for (std::size_t tried = 0;; ++tried) try {
+            return begin(tried == 0 ? shown.device : others[tried - 1]);
+        } catch (const vk::Error&) {
+            if (tried == others.size()) throw;
+        }
+}
+
+// Plays until the window is closed, on another device where one is lost.
+class MainLoop {
+public:
+    MainLoop(const Playing& playing, Screen& screen, Library& library, const Devices& devices,
+             Keeping& keeping)
+        : playing_(playing), screen_(screen), library_(library), devices_(devices), keeping_(keeping) {}
+
+    void run() {
+        for (bool isOver = false; !isOver;) try {
+                auto next = playing_.show->run();
+                isOver = !next;
+                if (next) change(std::move(next), playing_, screen_, library_, devices_);
+            } catch (const vk::Error& error) {
+                playing_.show->finishFilm();
+                const std::string kept = keeping_();
+                if (!goesOnAfter(error, kept)) throwAgain(kept);
+            } catch (...) {
+                playing_.show->finishFilm();
+                throwAgain(keeping_());
+            }
+    }
+
+private:
+    bool goesOnAfter(const vk::Error& error, const std::string& kept) {
+        const auto now = std::chrono::steady_clock::now();
+        if (error.failure() != vk::Failure::deviceLost || now - lost_ < betweenLosses) return false;
+        try {
+            beginAnew(library_.shown(), playing_, screen_, library_, devices_);
+        } catch (const std::exception&) { // the first error is the one to be told
+            return false;
+        }
+        lost_ = std::chrono::steady_clock::now();
+        keeping_.renew();
+        screen_.warn(error.what() + (": the scene begins anew" + kept));
+        return true;
+    }
+
+    Playing playing_;
+    Screen& screen_;
+    Library& library_;
+    const Devices& devices_;
+    Keeping& keeping_;
+    std::chrono::steady_clock::time_point lost_; // the newest time
 };
 
 // Until the window is closed. What is declared later is gone earlier.
@@ -197,12 +286,7 @@ void play(std::unique_ptr<Opening> opening, const Options& options, const Prefer
         keepSettings();
         return show->keepInput(preferencesFile().parent_path());
     });
-    try {
-        while (auto next = show->run()) change(device, show, std::move(next), screen, library, devices);
-    } catch (...) { // a lost device
-        show->finishFilm();
-        throwAgain(keeping());
-    }
+    MainLoop({device, show}, screen, library, devices, keeping).run();
     if (options.isTimed) screen.timing().printTable();
     keepSettings();
     window.hide(); // threads end in their time

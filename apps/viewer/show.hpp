@@ -47,6 +47,9 @@ public:
     /// it returns; it may then be called again. Throws vk::Error.
     std::unique_ptr<Opening> run();
 
+    /// Where it is looked at from.
+    const Camera& camera() const { return controller_.camera; }
+
     /// For when the program ends before its user wants it to: writes what hands did since the reset, as far
     /// as no file has it, to the current folder or else to `otherwise`, and says how to have it again, for
     /// the end of a line. Empty where there is nothing to keep. Asks nothing of device and window.

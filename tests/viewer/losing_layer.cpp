@@ -1,11 +1,12 @@
 // A Vulkan layer whose devices are lost as soon as the file that SINEW_LOSE_DEVICES names is there: they take
-// no more work, and waits fail.
+// no more work, and waits fail. Where there is something in the file, those that are made afterwards are not.
 #include <vulkan/vk_layer.h>
 
 #include <cstdlib>
 #include <cstring>
 #include <map>
 #include <mutex>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace {
@@ -15,6 +16,7 @@ struct Next {
     PFN_vkGetDeviceProcAddr device = nullptr;
     VkInstance handle = VK_NULL_HANDLE; // of an instance
     VkDevice owner = VK_NULL_HANDLE;    // of a device
+    bool isSpared = false;              // likewise
 };
 
 // Everything that is dispatched begins with a pointer to its instance's or device's table.
@@ -31,9 +33,22 @@ Next nextOf(const std::map<void*, Next>& all, void* key) {
     return found == all.end() ? Next{} : found->second;
 }
 
-bool areLost() {
-    const char* file = std::getenv("SINEW_LOSE_DEVICES");
-    return file != nullptr && access(file, F_OK) == 0;
+const char* lossFile() {
+    return std::getenv("SINEW_LOSE_DEVICES");
+}
+
+bool isThere() {
+    return lossFile() != nullptr && access(lossFile(), F_OK) == 0;
+}
+
+bool sparesOthers() {
+    struct stat file {};
+    return lossFile() != nullptr && stat(lossFile(), &file) == 0 && file.st_size > 0;
+}
+
+// Of a device or one of its queues.
+template <typename Handle> bool isLost(Handle handle) {
+    return isThere() && !(sparesOthers() && nextOf(devices, keyOf(handle)).isSpared);
 }
 
 template <typename Function, typename Handle> Function down(Handle handle, const char* name) {
@@ -76,6 +91,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkD
     const VkResult result = call(physical, create, allocator, device);
     if (result != VK_SUCCESS) return result;
     next.owner = *device;
+    next.isSpared = sparesOthers();
     const std::lock_guard lock(mutex);
     devices[keyOf(*device)] = next;
     return result;
@@ -83,24 +99,24 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkD
 
 VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, std::uint32_t count, const VkSubmitInfo* infos,
                                       VkFence fence) {
-    if (areLost()) return VK_ERROR_DEVICE_LOST;
+    if (isLost(queue)) return VK_ERROR_DEVICE_LOST;
     return down<PFN_vkQueueSubmit>(queue, "vkQueueSubmit")(queue, count, infos, fence);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL waitIdle(VkQueue queue) {
     const VkResult result = down<PFN_vkQueueWaitIdle>(queue, "vkQueueWaitIdle")(queue);
-    return areLost() ? VK_ERROR_DEVICE_LOST : result;
+    return isLost(queue) ? VK_ERROR_DEVICE_LOST : result;
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL waitForFences(VkDevice device, std::uint32_t count, const VkFence* fences,
                                              VkBool32 all, std::uint64_t timeout) {
-    if (areLost()) return VK_ERROR_DEVICE_LOST;
+    if (isLost(device)) return VK_ERROR_DEVICE_LOST;
     return down<PFN_vkWaitForFences>(device, "vkWaitForFences")(device, count, fences, all, timeout);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL waitSemaphores(VkDevice device, const VkSemaphoreWaitInfo* info,
                                               std::uint64_t timeout) {
-    if (areLost()) return VK_ERROR_DEVICE_LOST;
+    if (isLost(device)) return VK_ERROR_DEVICE_LOST;
     return down<PFN_vkWaitSemaphores>(device, "vkWaitSemaphores")(device, info, timeout);
 }
 

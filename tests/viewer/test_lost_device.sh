@@ -43,6 +43,34 @@ rm lost
 "$player" --headless --replay "$input" >replay.out 2>replay.err || fail "the replay failed: $(cat replay.err)"
 grep -q '^state hash' replay.out || fail "the replay came to nothing"
 
+echo "lost device: the window goes on with another one"
+start
+cutDown 320 100 420
+[[ $(title) == *pieces* ]] || fail "nothing is cut"
+window_before=$window
+echo others >lost
+for _ in {1..300}; do [[ -s viewer.err ]] && break; sleep 0.1; done
+awaitTitle fps
+[[ $(wc -l <viewer.err) == 1 ]] || fail "not one line"
+input=$(sed -n 's/^warning: .*VK_ERROR_DEVICE_LOST.*: the scene begins anew: --replay \(.*\) does again what hands did$/\1/p' viewer.err)
+grep -q '^press ' "$input" || fail "what hands did is not kept"
+[[ $(title) != *pieces* ]] || fail "it does not begin anew"
+[[ $(xdotool search --name '^Sinew' | head -n 1) == "$window_before" ]] || fail "it is another window"
+keys space
+awaitTitle paused
+awaitStill after.png
+[[ $(convert after.png -unique-colors -format '%w' info:) -gt 500 ]] || fail "nothing is drawn"
+keys space
+awaitTitle fps
+cutDown 320 100 420
+: >lost # now that as well
+for _ in {1..300}; do kill -0 "$running" 2>/dev/null || break; sleep 0.1; done
+! kill -0 "$running" 2>/dev/null || fail "the viewer does not end"
+code=0
+wait "$running" || code=$?
+[[ $code == 5 && $(grep -c '^error: .*VK_ERROR_DEVICE_LOST' viewer.err) == 1 ]] || fail "exit code $code after both were lost"
+rm lost
+
 echo "lost device: without a window"
 "$folder/start" "$scene" --headless --frames 1000000 --every 5 --size 64x64 --out film --video film.mp4 >viewer.out 2>viewer.err &
 running=$!
