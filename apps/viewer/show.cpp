@@ -301,6 +301,14 @@ void Show::drawPanels(const Presenter::Frame& frame, std::optional<float> reduce
     if (!wishes_.isEmpty()) panelsDue_ = picturesOfATouch;
 }
 
+// With what tools and playback have of them.
+Knobs Show::shownKnobs() const {
+    Knobs knobs = knobs_;
+    knobs.bladeDepth = tools_.depth();
+    knobs.pace = static_cast<float>(controller_.playback.pace());
+    return knobs;
+}
+
 Facts Show::facts(std::optional<float> reduced) const {
     Facts facts = gauges_.facts(stage_);
     facts.isPaused = controller_.playback.isPaused();
@@ -335,11 +343,9 @@ Facts Show::facts(std::optional<float> reduced) const {
     facts.isInspecting = inspector_.isOn();
     facts.found = inspector_.found();
     facts.isRecording = recording_.has_value();
-    facts.knobs = knobs_;
-    facts.knobs.bladeDepth = tools_.depth();
+    facts.knobs = shownKnobs();
     facts.bladeDepths = {tools_.depths().least, tools_.depths().most};
     facts.pace = controller_.playback.pace();
-    facts.knobs.pace = static_cast<float>(facts.pace);
     return facts;
 }
 

@@ -50,9 +50,10 @@ public:
     /// Where it is looked at from.
     const Camera& camera() const { return controller_.camera; }
 
-    /// For when the program ends before its user wants it to: writes what hands did since the reset, as far
-    /// as no file has it, to the current folder or else to `otherwise`, and says how to have it again, for
-    /// the end of a line. Empty where there is nothing to keep. Asks nothing of device and window.
+    /// For when the program, or what hands did, ends before its user wants it to: writes what hands did since
+    /// the reset, as far as no file has it, to the current folder or else to `otherwise`, and says how to
+    /// have it again, for the end of a line. Empty where there is nothing to keep. Asks nothing of device and
+    /// window.
     std::string keepInput(const std::filesystem::path& otherwise) const;
     /// Likewise: a film that is being made ends with the pictures that it has.
     void finishFilm();
@@ -94,6 +95,7 @@ private:
     void handle(const Input& input);
     void grant(const Wishes& wishes, Input& input);
     void turnKnobs(const Knobs& knobs);
+    Knobs shownKnobs() const;
     void turnMaterial(const Knobs& knobs);
     void takeTurn();
     void takeGrowth();

@@ -1,4 +1,5 @@
 // What keys, the pointer and the panels ask of a scene on show.
+#include "viewer/panels/knob_keys.hpp"
 #include "viewer/show.hpp"
 
 #include <utility>
@@ -163,7 +164,11 @@ void Show::handle(Action action) {
         screen_.window().close();
         break;
     default:
-        switchLayer(action);
+        if (const auto turned = turnedBy(action, shownKnobs())) {
+            turnKnobs(turned->knobs);
+            screen_.tell(turned->said);
+        } else
+            switchLayer(action);
     }
 }
 

@@ -1,4 +1,5 @@
 // What hands did, saved and played again in the window; states that are saved.
+#include "viewer/panels/knob_keys.hpp"
 #include "viewer/show.hpp"
 
 #include "app/guard.hpp"
@@ -141,6 +142,10 @@ void Show::compareReplay() {
 // While it plays, hands are those of the log.
 bool Show::isOfReplay(Action action) {
     if (!replay_) return false;
+    if (turnedBy(action, knobs_)) { // a replay has the hands
+        screen_.tell("a replay plays: " + std::string(keyOf(Action::drop)) + " ends it");
+        return true;
+    }
     switch (action) {
     case Action::drop:
         replay_.reset();

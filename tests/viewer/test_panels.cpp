@@ -1,4 +1,5 @@
 // The panels without a device: what a pointer does in them, and what belongs to them.
+#include "viewer/panels/knob_keys.hpp"
 #include "viewer/panels/panel_parts.hpp"
 #include "viewer/panels/panels.hpp"
 
@@ -266,10 +267,12 @@ TEST_F(PanelsTest, AskForPicturesOfScenesThatAreSeenInTheList) {
     EXPECT_EQ(*wishes.previews, (std::vector<std::size_t>{0, 2})) << "what has one, or no place for one";
 }
 
+// Or a slider.
 TEST_F(PanelsTest, HaveAButtonForEveryActionThatAKeyDoes) {
     for (const Binding& binding : bindings()) {
         const bool isKey = binding.trigger.kind == Trigger::Kind::key;
-        EXPECT_TRUE(!isKey || actionsOfButtons().contains(binding.action)) << binding.shown;
+        const bool hasSlider = turnedBy(binding.action, {}).has_value();
+        EXPECT_TRUE(!isKey || hasSlider || actionsOfButtons().contains(binding.action)) << binding.shown;
     }
     facts.cuts = {"at 1.00 s", "at 2.00 s"};
     facts.undos = 1;
@@ -482,6 +485,48 @@ TEST(Curve, KeepsTheNewestValues) {
     EXPECT_EQ(curve.at(0), 3);
     EXPECT_EQ(curve.newest(), static_cast<float>(Curve::length + 2));
     EXPECT_EQ(curve.median(), 3 + static_cast<float>((Curve::length - 1) / 2));
+}
+
+TEST(KnobKeys, TurnWhatTheSlidersTurn) {
+    const Knobs file{.gravity = 9.81f, .bodies = {1, 1}};
+    const auto expect = [](Action action, const Knobs& before, const Knobs& after, const char* said) {
+        const auto turned = turnedBy(action, before);
+        ASSERT_TRUE(turned) << said;
+        EXPECT_EQ(turned->knobs, after) << said;
+        EXPECT_EQ(turned->said, said);
+    };
+    const auto with = [&](auto&& set) {
+        Knobs knobs = file;
+        set(knobs);
+        return knobs;
+    };
+    const Knobs stiff = with([](Knobs& k) { k.stiffness = 2; });
+    expect(Action::stiffer, turnedBy(Action::stiffer, file)->knobs, stiff, "stiffness x 2");
+    expect(Action::moreDamping, file, with([](Knobs& k) { k.damping = 0.5f; }), "damping 0.50 1/s");
+    expect(Action::moreFriction, file, with([](Knobs& k) { k.friction = 0.1f; }), "friction 0.10");
+    expect(Action::lessGravity, file, with([](Knobs& k) { k.gravity = 9.5f; }), "gravity 9.50 m/s\u00b2");
+    const Knobs second = with([](Knobs& k) { k.body = 1; });
+    expect(Action::softer, turnedBy(Action::stiffer, second)->knobs, second, "stiffness of this body x 1");
+}
+
+TEST(KnobKeys, StayWithinReasonAndLeaveOtherActionsAlone) {
+    const auto pressed = [](Action action) {
+        Knobs knobs{.bodies = {1}};
+        for (int n = 0; n < 3000; ++n) knobs = turnedBy(action, knobs)->knobs;
+        return knobs;
+    };
+    EXPECT_EQ(pressed(Action::stiffer).stiffness, 1e4f);
+    EXPECT_EQ(pressed(Action::softer).stiffness, 1e-4f);
+    EXPECT_EQ(pressed(Action::moreDamping).damping, 100);
+    EXPECT_EQ(pressed(Action::lessDamping).damping, 0);
+    EXPECT_EQ(pressed(Action::moreFriction).friction, 10);
+    EXPECT_EQ(pressed(Action::lessFriction).friction, 0);
+    EXPECT_EQ(pressed(Action::moreGravity).gravity, 1000);
+    EXPECT_EQ(pressed(Action::lessGravity).gravity, 0);
+    for (const Binding& binding : bindings())
+        if (binding.action < Action::stiffer || binding.action > Action::lessGravity) {
+            EXPECT_FALSE(turnedBy(binding.action, {})) << binding.shown;
+        }
 }
 
 } // namespace

@@ -30,7 +30,7 @@ END
 printf 'name = \n' >played/broken.toml
 printf 'v 0 0 0\nf 1 2 3\n' >played/broken.obj
 
-keyNames=(space p period comma F7 r c Escape n s 1 2 3 4 5 6 m i f Home Prior Next F1 F8 F9 F11 F12 v h Tab ctrl+s ctrl+z ctrl+shift+z ctrl+plus
+keyNames=(k shift+k d shift+d t shift+t g shift+g space p period comma F7 r c Escape n s 1 2 3 4 5 6 m i f Home Prior Next F1 F8 F9 F11 F12 v h Tab ctrl+s ctrl+z ctrl+shift+z ctrl+plus
     ctrl+minus a b d e g j k l o t u w x y z 0 7 8 9 Return BackSpace Delete Left Right Up Down comma minus plus ctrl+a ctrl+c)
 roll() { rolled=$((RANDOM % $1)); }
 place() { # somewhere in the window, or a little beside it

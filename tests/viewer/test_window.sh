@@ -208,6 +208,8 @@ done
 (($(inside undone.png) < 50)) || fail "the inside is still seen: $(inside undone.png) pixels of it"
 for ((redo = 0; redo < strokes; ++redo)); do keys ctrl+shift+z; sleep 1; done
 awaitTitle 'pieces'
+for knob in k k d t shift+g; do keys $knob; done # the log below has them
+sleep 1
 keys space
 awaitTitle paused
 
@@ -216,6 +218,7 @@ keys F8
 for _ in {1..100}; do grep -q '^input: ' viewer.out && break; sleep 0.1; done
 hash=$(sed -n 's/^input: .*\(state hash .* steps\)$/\1/p' viewer.out)
 [[ -n $hash ]] || fail "F8 saved no input"
+grep -q '^material 2 1 0\.6' block-*.input && grep -q '^gravity 9\.5' block-*.input || fail "keys turned no knobs: $(grep '^material\|^gravity' block-*.input)"
 "$viewer" --headless --replay block-*.input >replay.out 2>replay.err || fail "the replay failed: $(cat replay.err)"
 grep -q "^$hash, as recorded$" replay.out || fail "the replay came to $(cat replay.out), not to $hash"
 more=$(($(sed 's/.* after \([0-9]*\) steps/\1/' <<<"$hash") + 7))

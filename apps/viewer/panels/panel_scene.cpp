@@ -1,4 +1,5 @@
 // Which scene is on show, and what can be turned in it.
+#include "viewer/panels/knob_keys.hpp"
 #include "viewer/panels/panel_parts.hpp"
 #include "viewer/panels/panels.hpp"
 #include "viewer/panels/picture_sheet.hpp"
@@ -43,15 +44,6 @@ void bodyCombo(const SceneFacts& scene, int& body) {
         ImGui::PopID();
     }
     ImGui::EndCombo();
-}
-
-// What was typed within reason; what nobody has touched stays as the file has it.
-void limitMaterial(Knobs& turned) {
-    constexpr float least = 1e-4f, most = 1e4f, mostDamping = 100, mostFriction = 10;
-    turned.stiffness = std::clamp(turned.stiffness, least, most);
-    for (float& factor : turned.bodies) factor = std::clamp(factor, least, most);
-    turned.damping = std::clamp(turned.damping, 0.0f, mostDamping);
-    turned.friction = std::clamp(turned.friction, 0.0f, mostFriction);
 }
 
 bool materialKnobs(const SceneFacts& scene, Knobs& turned) {
@@ -198,7 +190,7 @@ void knobs(const SceneFacts& scene, const Facts& facts, Wishes& wishes) {
         isTurned = true;
     }
     turned.substeps = std::clamp(turned.substeps, 0, mostSubsteps);
-    turned.gravity = std::clamp(turned.gravity, 0.0f, 1000.0f); // typed
+    limitGravity(turned); // typed
     turned.pace = std::clamp(turned.pace, 0.01f, 1.0f);
     if (isTurned && turned != facts.knobs) wishes.knobs = turned;
 }
