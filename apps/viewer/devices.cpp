@@ -52,4 +52,10 @@ const std::vector<vk::DeviceDescription>& Devices::list() const {
     return found_;
 }
 
+const std::vector<vk::DeviceDescription>& Devices::all() const {
+    list();
+    if (search_.valid()) search_.wait();
+    return list();
+}
+
 } // namespace sinew::viewer

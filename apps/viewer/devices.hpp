@@ -31,6 +31,9 @@ public:
     /// looks from the first call on. The thread that made this.
     const std::vector<vk::DeviceDescription>& list() const;
 
+    /// The same, after waiting for that thread.
+    const std::vector<vk::DeviceDescription>& all() const;
+
 private:
     void search() const;
 

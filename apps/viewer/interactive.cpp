@@ -12,6 +12,7 @@
 #include <chrono>
 #include <cstdio>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 
 namespace sinew::viewer {
@@ -118,7 +119,8 @@ Preferences leftBy(const Screen& screen, const Library& library, const Options& 
     return left;
 }
 
-// What is kept when something else than its user ends the program, once, and what is said of it.
+// What is kept when something else than its user ends the program, or what hands did in it, once, and what is
+// said of it.
 class Keeping {
 public:
     Keeping(Window& window, std::function<std::string()> keep) : window_(window), keep_(std::move(keep)) {
@@ -193,13 +195,14 @@ void beginAnew(const Options& shown, const Playing& playing, Screen& screen, Lib
         next->camera = playing.show->camera();
         prepare(*next, *next->device, screen.window());
         put(std::move(next), playing, screen, library, devices);
+        library.moveTo(request);
     };
-    std::vector<std::string> others;
-    for (std::size_t d = 0; d < devices.list().size(); ++d) others.push_back(requestFor(devices.list(), d));
-    for (std::size_t tried = 0;; ++tried) try {
-            return begin(tried == 0 ? shown.device : others[tried - 1]);
+    std::vector<std::string> requests{shown.device};
+    for (std::size_t d = 0; d < devices.all().size(); ++d) requests.push_back(requestFor(devices.all(), d));
+    for (std::size_t r = 0; r < requests.size(); ++r) try {
+            return begin(requests[r]);
         } catch (const vk::Error&) {
-            if (tried == others.size()) throw;
+            if (r + 1 == requests.size()) throw;
         }
 }
 
@@ -227,16 +230,18 @@ public:
 
 private:
     bool goesOnAfter(const vk::Error& error, const std::string& kept) {
-        const auto now = std::chrono::steady_clock::now();
-        if (error.failure() != vk::Failure::deviceLost || now - lost_ < betweenLosses) return false;
+        const bool isAgain = lost_ && std::chrono::steady_clock::now() - *lost_ < betweenLosses;
+        const bool isEnding = screen_.window().isClosing() || app::isInterrupted();
+        if (error.failure() != vk::Failure::deviceLost || isAgain || isEnding) return false;
         try {
-            beginAnew(library_.shown(), playing_, screen_, library_, devices_);
+            beginAnew(Options(library_.shown()), playing_, screen_, library_, devices_);
         } catch (const std::exception&) { // the first error is the one to be told
             return false;
         }
         lost_ = std::chrono::steady_clock::now();
         keeping_.renew();
-        screen_.warn(error.what() + (": the scene begins anew" + kept));
+        screen_.warn(error.what() +
+                     (": the scene begins anew on " + playing_.device->description().name + kept));
         return true;
     }
 
@@ -245,7 +250,7 @@ private:
     Library& library_;
     const Devices& devices_;
     Keeping& keeping_;
-    std::chrono::steady_clock::time_point lost_; // the newest time
+    std::optional<std::chrono::steady_clock::time_point> lost_; // the newest time
 };
 
 // Until the window is closed. What is declared later is gone earlier.

@@ -94,6 +94,10 @@ void Library::reopenOn(const std::string& device, const Again& again, float aspe
     begin(std::move(request), aspect);
 }
 
+void Library::moveTo(const std::string& device) {
+    shown_->options.device = options_.device = device;
+}
+
 void Library::playAgain(const InputFile& input, float aspect) {
     begin({shown_->options, shown_->name, std::nullopt, input}, aspect);
 }

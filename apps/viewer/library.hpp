@@ -47,6 +47,9 @@ public:
     /// The scene on show once more, and from then on all of them, on another device.
     void reopenOn(const std::string& device, const Again& again, float aspect);
 
+    /// What is on show plays on that device from here on, and what is opened next is to, too.
+    void moveTo(const std::string& device);
+
     /// The state on show once more, to begin a log anew that begins from it.
     void playAgain(const InputFile& input, float aspect);
 

@@ -85,7 +85,7 @@ struct RoundPush {
     uint first, count; // as CutPush has them
     uint rowStride, sliceStride;
     uint stiffLinks;
-    uint next, runs; // arguments of the round that follows, if any, and how many
+    uint next, groups; // arguments of the round that follows, and what to write there
 };
 
 // The surface of cuts. Slots that one invocation adds up.

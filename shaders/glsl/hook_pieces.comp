@@ -10,8 +10,7 @@
 
 layout(std430, binding = 0) readonly buffer Links { uint links[]; };
 layout(std430, binding = 1) buffer Labels { uint labels[]; };
-layout(std430, binding = 2) readonly buffer Groups { uint groups[]; }; // of every run
-layout(std430, binding = 3) writeonly buffer Arguments { DispatchArguments arguments[]; };
+layout(std430, binding = 2) writeonly buffer Arguments { DispatchArguments arguments[]; };
 
 void main() {
     const uint item = itemIndex(push.count);
@@ -27,5 +26,5 @@ void main() {
     if (differ == 0u) return;
     [[unroll]] for (int k = 0; k < OWNED_LINKS; ++k)
         if ((differ >> k & 1u) != 0u) atomicMin(labels[max(own, others[k])], min(own, others[k]));
-    for (uint r = 0u; r < push.runs; ++r) arguments[push.next + r].groupsX = groups[r];
+    arguments[push.next].groupsX = push.groups;
 }

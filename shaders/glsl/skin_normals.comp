@@ -1,6 +1,7 @@
 #version 460
 // Smooth vertex normals of the deformed skin: those of a vertex's triangles by their angles there (Thuermer and Wuethrich 1998),
-// so that they stay as they are where flat ones are split, gathered in fixed order. Triangles that rounding may turn over hardly count.
+// so that they stay as they are where flat ones are split, gathered in fixed order. Triangles so flat that rounding
+// may turn them over hardly count.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -54,7 +55,7 @@ void main() {
     if (fan.y == 0u) return;
 #endif
     const vec3 here = VERTEX(i);
-    const float blur = 4e-12 * dot(here, here) + 1e-37; // [m^2]: sides as short as some thirty steps of float32 at this place
+    const float blur = 4e-12 * dot(here, here) + 1e-37; // [m^2]: heights of some thirty steps of float32 at this place
     vec3 sum = vec3(0.0);
     for (uint s = 0u; s < fan.y; ++s) {
         const uint t = 3u * TRIANGLE(fan.x + s);
@@ -63,7 +64,8 @@ void main() {
         const vec3 u = VERTEX(next) - here, v = VERTEX(last) - here;
         const vec3 across = cross(u, v);
         const float twice = length(across); // the area
-        const float shorter = min(dot(u, u), dot(v, v)), weight = atan(twice, dot(u, v)) * shorter / (shorter + blur);
+        const float longest = max(max(dot(u, u), dot(v, v)), dot(v - u, v - u)), height = twice * twice / max(longest, 1e-37); // squared
+        const float weight = atan(twice, dot(u, v)) * height / (height + blur);
         sum += twice > 0.0 ? weight / twice * across : vec3(0.0);
     }
     const float size = length(sum);

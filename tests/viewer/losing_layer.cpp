@@ -1,22 +1,25 @@
 // A Vulkan layer whose devices are lost as soon as the file that SINEW_LOSE_DEVICES names is there: they take
-// no more work, and waits fail. Where there is something in the file, those that are made afterwards are not.
+// no more work, and waits fail. Where that file says a number, so many of those that are made afterwards are
+// lost from the beginning, and those that follow only once the file says something else.
 #include <vulkan/vk_layer.h>
 
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <mutex>
-#include <sys/stat.h>
-#include <unistd.h>
+#include <optional>
+#include <string>
 
 namespace {
 
 struct Next {
     PFN_vkGetInstanceProcAddr instance = nullptr;
     PFN_vkGetDeviceProcAddr device = nullptr;
-    VkInstance handle = VK_NULL_HANDLE; // of an instance
-    VkDevice owner = VK_NULL_HANDLE;    // of a device
-    bool isSpared = false;              // likewise
+    VkInstance handle = VK_NULL_HANDLE;  // of an instance
+    VkDevice owner = VK_NULL_HANDLE;     // of a device
+    std::optional<std::string> sparedBy; // likewise: what the file said
 };
 
 // Everything that is dispatched begins with a pointer to its instance's or device's table.
@@ -26,6 +29,7 @@ template <typename Handle> void* keyOf(Handle handle) {
 
 std::mutex mutex;
 std::map<void*, Next> instances, devices;
+std::map<std::string, int> madeUnder; // devices, by what the file said
 
 Next nextOf(const std::map<void*, Next>& all, void* key) {
     const std::lock_guard lock(mutex);
@@ -37,18 +41,17 @@ const char* lossFile() {
     return std::getenv("SINEW_LOSE_DEVICES");
 }
 
-bool isThere() {
-    return lossFile() != nullptr && access(lossFile(), F_OK) == 0;
-}
-
-bool sparesOthers() {
-    struct stat file {};
-    return lossFile() != nullptr && stat(lossFile(), &file) == 0 && file.st_size > 0;
+// What it says; nothing where there is none.
+std::optional<std::string> loss() {
+    std::ifstream file(lossFile() != nullptr ? lossFile() : "");
+    if (!file) return std::nullopt;
+    return std::string(std::istreambuf_iterator<char>(file), {});
 }
 
 // Of a device or one of its queues.
 template <typename Handle> bool isLost(Handle handle) {
-    return isThere() && !(sparesOthers() && nextOf(devices, keyOf(handle)).isSpared);
+    const std::optional<std::string> said = loss();
+    return said && (said->empty() || nextOf(devices, keyOf(handle)).sparedBy != said);
 }
 
 template <typename Function, typename Handle> Function down(Handle handle, const char* name) {
@@ -91,8 +94,9 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkD
     const VkResult result = call(physical, create, allocator, device);
     if (result != VK_SUCCESS) return result;
     next.owner = *device;
-    next.isSpared = sparesOthers();
+    const std::optional<std::string> said = loss();
     const std::lock_guard lock(mutex);
+    if (said && !said->empty() && ++madeUnder[*said] > std::atoi(said->c_str())) next.sparedBy = said;
     devices[keyOf(*device)] = next;
     return result;
 }

@@ -126,7 +126,7 @@ void addParting(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& 
                 slots);
 }
 
-// Of finding pieces: nothing runs where the one before has changed no label.
+// Of finding pieces: of a run where the one before has changed some of its labels.
 void addRound(ProgramBuilder& program, const Cut& cut, std::uint32_t round) {
     const auto runs = static_cast<std::uint32_t>(cut.runs.size());
     const BufferId own = cut.roundArguments[round % 2], others = cut.roundArguments[(round + 1) % 2];
@@ -134,14 +134,14 @@ void addRound(ProgramBuilder& program, const Cut& cut, std::uint32_t round) {
     for (std::uint32_t r = 0; r < runs; ++r) {
         const layout::CutPush& push = cut.runs[r].push;
         program.dispatchIndirect(k::hookPieces, {own, first + r, push.count},
-                                 {cut.buffers.links, cut.labels, cut.groups, others},
+                                 {cut.buffers.links, cut.labels, others},
                                  layout::RoundPush{.first = push.first,
                                                    .count = push.count,
                                                    .rowStride = push.rowStride,
                                                    .sliceStride = push.sliceStride,
                                                    .stiffLinks = push.stiffLinks,
-                                                   .next = (round + 1) / 2 * runs,
-                                                   .runs = runs});
+                                                   .next = (round + 1) / 2 * runs + r,
+                                                   .groups = groupsOf(push.count)});
     }
     for (std::uint32_t r = 0; r < runs; ++r)
         program.dispatchIndirect(k::jumpPieces, {own, first + r, cut.runs[r].push.count}, {cut.labels},

@@ -122,10 +122,6 @@ Initial readGrids(const Scene& scene, const Placed& placed, const StateLayout& l
     return initial;
 }
 
-std::uint32_t groupsOf(std::uint32_t items) {
-    return (items - 1) / GROUP_ITEMS + 1;
-}
-
 void addPieces(ProgramBuilder& program, Cut& cut, Initial& initial, std::size_t particles) {
     const lattice::Pieces pieces = initial.pieces.finish(initial.particles, particles);
     const auto runs = static_cast<std::uint32_t>(cut.runs.size());

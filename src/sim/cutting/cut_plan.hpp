@@ -42,6 +42,11 @@ struct Cut {
     std::uint32_t rounds = 0;
 };
 
+/// Of an indirect dispatch over so many items, one at least.
+inline std::uint32_t groupsOf(std::uint32_t items) {
+    return (items - 1) / GROUP_ITEMS + 1;
+}
+
 /// Items of a run's kernels that take a chunk of slots each.
 inline std::uint32_t chunksOf(const Run& run) {
     return (run.push.count - 1) / PIECE_CHUNK + 1;

@@ -17,8 +17,9 @@ void add(const Triangle& triangle, std::span<const Point> rest, std::vector<Poin
         const Point across{u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
         const double twice = std::sqrt(dot(across, across)); // the area
         if (twice == 0) continue;
-        const double shorter = std::min(dot(u, u), dot(v, v)), blur = 4e-12 * dot(here, here);
-        const double weight = std::atan2(twice, dot(u, v)) * shorter / (shorter + blur) / twice;
+        const double longest = std::max({dot(u, u), dot(v, v), dot(v - u, v - u)});
+        const double height = twice * twice / longest, blur = 4e-12 * dot(here, here); // squared
+        const double weight = std::atan2(twice, dot(u, v)) * height / (height + blur) / twice;
         Point& sum = sums[triangle[n]];
         sum = {sum.x + weight * across.x, sum.y + weight * across.y, sum.z + weight * across.z};
     }

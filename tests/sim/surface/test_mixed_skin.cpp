@@ -286,6 +286,29 @@ TEST(MixedSkin, HasTheNormalsAtRestThatTheDeviceMakes) {
     }
 }
 
+// Corners of whole triangles have the normals of these, whatever becomes of the parts.
+TEST(MixedSkin, HasTheNormalsOfItsWholeTrianglesAtTheirCorners) {
+    const Scene scene = organScene();
+    test::Runner runner(scene, {.substeps = 2});
+    std::vector<surface::Point> rest, bent;
+    for (const auto& vertex : drawnBy(runner, SkinDetail::all))
+        rest.push_back(surface::pointOf(vertex.position));
+    Skin skin = scene.skins[0];
+    std::set<std::uint32_t> corners;
+    for (const auto& whole : skin.wholeTriangles) corners.insert(whole.begin(), whole.end());
+    for (std::uint32_t v = 0; v < rest.size(); ++v)
+        bent.push_back(corners.contains(v) ? rest[v]
+                                           : surface::Point{rest[v].x + 0.003, rest[v].y, rest[v].z});
+    const auto turned = [&] {
+        const auto before = surface::restNormals(skin, rest), after = surface::restNormals(skin, bent);
+        return std::ranges::count_if(
+            corners, [&](std::uint32_t v) { return surface::dot(before[v], after[v]) < 1 - 1e-5; });
+    };
+    EXPECT_EQ(turned(), 0);
+    skin.wholeOf.clear(); // its parts alone
+    EXPECT_GT(2 * turned(), std::ssize(corners));
+}
+
 TEST(MixedSkin, OfSeveralBodiesIsOneBehindTheOther) {
     const Sweep sweep = sweepOf({{0.03, 0, 0}, Vector3d::UnitX()}, reach);
     CutBody alone(organScene());

@@ -223,8 +223,6 @@ TEST(Rims, AreWhereTheyWereBesideNicks) {
     EXPECT_GT(rims, 100u);
 }
 
-// A vertex whose triangles are folded upon each other faces no way: a blade between it and its particle
-// leaves it at a place all the same.
 namespace {
 
 // Draws all triangles around a few vertices together to a point each, where they lie in one cell.
@@ -247,6 +245,8 @@ void fold(Skin& skin, int most) {
 
 } // namespace
 
+// A vertex whose triangles are folded upon each other faces no way: a blade between it and its particle
+// leaves it at a place all the same.
 TEST(Rims, AreSomewhereWhereTheSkinFacesNoWay) {
     Scene scene{.name = "knot", .gravity = {0, 0, 0}};
     mesh::MeshBody knot{.name = "knot", .youngModulus = 1e5f, .isCuttable = true};
