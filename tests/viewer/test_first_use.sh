@@ -92,7 +92,7 @@ done
 grep -q '^warning: not beside: .*solver gauss_seidel has no form for' viewer.err || fail "what gauss_seidel has no form for is not refused"
 (($(wc -l <viewer.err) == 1)) || fail "more was said on stderr"
 : >viewer.err
-keys ctrl+q
+quit
 awaitEnd 0
 (($(grep -c 'pipelines made while keys waited: 0$' viewer.out) == 1)) || fail "the window's thread made pipelines: $(grep pipelines viewer.out)"
 grep -q 'pipelines made while keys waited: [^0]' viewer.out && fail "the window's thread made pipelines: $(grep pipelines viewer.out)"
@@ -121,7 +121,7 @@ for _ in {1..100}; do
     sleep 0.3
 done
 [[ $(line whole.png) == 0 ]] || fail "B does not end it"
-keys ctrl+q
+quit
 awaitEnd 0
 (($(grep -c 'pipelines made while keys waited: 0$' viewer.out) == 1)) || fail "the window's thread made pipelines: $(grep pipelines viewer.out)"
 echo passed

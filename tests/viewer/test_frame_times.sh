@@ -48,7 +48,7 @@ agree first.out "frame [ms]" "frame in a cut [ms]" "thread of the window" "step,
     "panels, on the device" "input to picture, at most" "input to picture [pictures"
 frames() { awk '$1 " " $2 == "frame [ms]" { n = $(NF - 3) } END { print n }' "$1"; }
 sleep 1
-keys ctrl+q
+quit
 awaitEnd 0
 (($(grep -c '^frame times' viewer.out) == 2)) || fail "there is no table at the end"
 agree viewer.out "frame [ms]"

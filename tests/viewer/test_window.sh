@@ -260,7 +260,7 @@ keys F11
 sleep 0.5
 keys F11
 awaitTitle fps
-keys ctrl+q
+quit
 awaitEnd 0
 uncut=$scene
 scene=$(echo block-*.state)
@@ -281,7 +281,7 @@ hash=$(sed -n 's/^input: .*\(state hash .* steps\)$/\1/p' viewer.out)
 [[ -n $hash ]] || fail "F8 saved no input of a state"
 log=$(echo block-*.input)
 grep -q '^press ' "$log" || fail "what hands did is not in the log"
-keys ctrl+q
+quit
 awaitEnd 0
 "$viewer" --headless --replay "$log" >replay.out 2>replay.err || fail "the replay failed: $(cat replay.err)"
 grep -q "^$hash, as recorded$" replay.out || fail "from a state the replay came to $(cat replay.out), not to $hash"
@@ -292,14 +292,14 @@ played() { # TIMES
 }
 start --replay "$log"
 played 1
-keys ctrl+q
+quit
 awaitEnd 0
 start --replay "$log"
 keys r # begins it again
 for _ in {1..300}; do (($(grep -c ' particles, ' viewer.out) >= 2)) && break; sleep 0.1; done
 (($(grep -c ' particles, ' viewer.out) >= 2)) || fail "R does not begin a replay from a state again"
 played 1
-keys ctrl+q
+quit
 awaitEnd 0
 cp "$state" kept.state
 sed 's/^from [0-9a-f]*/from 123/' "$log" >other.input
@@ -320,7 +320,7 @@ awaitTitle 'pieces'
 keys r
 for _ in {1..100}; do [[ $(title) != *pieces* ]] && break; sleep 0.1; done
 [[ $(title) != *pieces* ]] || fail "a reset does not lead from a state to the start of its scene"
-keys ctrl+q
+quit
 awaitEnd 0
 scene=$uncut
 
@@ -361,7 +361,7 @@ awaitTitle 'block'
 keys Tab # the panels that it was typed into
 keys Prior
 awaitTitle 'other'
-keys ctrl+q
+quit
 code=0
 wait "$running" || code=$?
 [[ $code == 0 ]] || fail "exit code $code, expected 0"
@@ -399,7 +399,7 @@ for _ in {1..200}; do [[ -n $(find . -name '*.mp4*.part' -size +1000k) ]] && bre
 keys F9
 for _ in {1..200}; do grep -q ' pictures in other-.*\.mp4$' viewer.out && break; sleep 0.1; done
 grep -q ' pictures in other-.*\.mp4$' viewer.out || fail "there is no film after the one that failed"
-keys ctrl+q
+quit
 code=0
 wait "$running" || code=$?
 [[ $code == 0 && $(wc -l <viewer.err) == 1 ]] || fail "exit code $code, or more than one line, after an encoder that ended"
@@ -417,13 +417,13 @@ keys Tab
 extent=$screen awaitStill bare.png
 same whole.png bare.png && fail "--panels shows none" # nor did the run before, in its small window
 keys Tab
-keys ctrl+q
+quit
 awaitEnd 0
 diff <(grep -v '^scene' before.conf) <(grep -v '^scene' config/sinew/viewer.conf) >/dev/null || fail "what the command line said is remembered: $(cat config/sinew/viewer.conf)"
 start --vsync
 keys v ctrl+plus # chosen now
 sleep 1
-keys ctrl+q
+quit
 awaitEnd 0
 grep -q '^vsync = false' config/sinew/viewer.conf || fail "what V chose is not remembered"
 grep -q '^scale = 1\.125' config/sinew/viewer.conf || fail "what Ctrl + plus chose is not remembered"

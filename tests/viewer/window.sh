@@ -50,6 +50,14 @@ awaitTitle() { # PATTERN
     fail "the title never showed $1: $(title)"
 }
 keys() { xdotool key --window "$window" "$@"; }
+quit() { # by its key, again where that was missed: why a window misses one now and then is not known
+    for _ in {1..10}; do
+        keys ctrl+q 2>/dev/null || true # its window may be gone
+        for _ in {1..50}; do kill -0 "$running" 2>/dev/null || return 0; sleep 0.1; done
+        echo "Ctrl + Q once more"
+    done
+    fail "Ctrl + Q does not end it"
+}
 shoot() { import -silent -window root -crop "$extent+0+0" +repage "$1"; } # as large as the window, which stands in the corner
 awaitStill() { # FILE: a picture that stays; a paused software device draws its last one in full quality
     shoot "$1"
