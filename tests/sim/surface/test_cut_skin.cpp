@@ -167,13 +167,8 @@ TEST(CutSkin, HasNoPartsWithoutExtent) {
     std::vector<Vector3d> rest;
     for (const CellEmbedding& cell : skin.cells) {
         Vector3d x = Vector3d::Zero();
-        const Vector3d t = test::toVector(cell.weights);
-        for (std::size_t k = 0; k < 8; ++k) {
-            double share = 1;
-            for (Eigen::Index axis = 0; axis < 3; ++axis)
-                share *= (k >> axis & 1) != 0 ? t[axis] : 1 - t[axis];
-            x += share * test::toVector(scene.particles[cell.particles[k]].position);
-        }
+        for (std::size_t k = 0; k < 8; ++k)
+            x += double{cell.share(k)} * test::toVector(scene.particles[cell.particles[k]].position);
         rest.push_back(x);
     }
     double shortest = 1;
