@@ -53,7 +53,7 @@ keys() { xdotool key --window "$window" "$@"; }
 quit() { # by its key, once more where that was missed: why a window misses one now and then is not known
     for _ in {1..2}; do
         keys ctrl+q 2>/dev/null || true # its window may be gone
-        for _ in {1..300}; do kill -0 "$running" 2>/dev/null || return 0; sleep 0.1; done
+        for _ in {1..100}; do kill -0 "$running" 2>/dev/null || return 0; sleep 0.1; done
         echo "Ctrl + Q once more"
     done
     fail "Ctrl + Q does not end it"
