@@ -162,6 +162,13 @@ struct WholeTriangle {
 #define WHOLE_PARTED 2u // its parts alone
 #define WHOLE_BESIDE 3u // alone, but normals of parts around it come from its parts, too
 
+// A vertex that only parts of whole triangles have: where it lies in one of them.
+struct PartVertex {
+    uint vertex;     // HungVertex
+    uint whole;      // WholeTriangle
+    float shares[2]; // barycentric, of its second and third corner
+};
+
 // Words with a bit for each of MIXED_WORD triangles of a mixed skin, which begins with a whole one.
 struct MixedWords {
     uint first, count;
@@ -201,7 +208,7 @@ struct SkinPrism {
 struct HungVertex {
     vec4 rest;    // [m]; w = index of the skin
     vec4 weights; // in its cell; w = links of its anchor, uncut
-    vec4 normal;  // at rest; w = spacing of the grid [m]
+    vec4 normal;  // at rest, as it is lit; w = spacing of the grid [m]
     uint vertex;  // of all skins
     uint cell, anchor; // slots
     uint corner;  // of the cell, that the anchor is

@@ -235,6 +235,10 @@ struct CellVertex {
     uint corners[8];
 };
 
+// Squared heights of triangles, by the squared place of a vertex, that some thirty steps of float32 make there: flatter ones may be
+// turned over by rounding, and hardly count in normals.
+#define NORMAL_BLUR 4e-12
+
 struct SkinVertex {
     vec4 position; // xyz [m], w = 0 where nothing moves that carries the vertex, else 1
     vec4 normal;   // xyz unit length

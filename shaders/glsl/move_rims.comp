@@ -21,6 +21,7 @@ layout(std430, binding = 11) readonly buffer Status { StatusWords status; };
 layout(std430, binding = 12) readonly buffer Counts { uint counts[]; };
 layout(std430, binding = 13) readonly buffer Listed { uint listed[]; }; // vertices (list_vertices)
 layout(std430, binding = 14) readonly buffer Placed { PlacedVertex placed[]; }; // likewise (place_vertices)
+layout(std430, binding = 15) readonly buffer Planes { vec4 planes[]; };         // of the skin
 
 #include "near_skin.glsl"
 #include "blade_sweep.glsl"
@@ -30,7 +31,7 @@ const float leastVolume = 1e-3; // of its own at rest: flatter material does not
 const float leastTangent = 0.2; // of the normal of a blade along the skin, squared: flatter ones shave
 
 // Where the blade that meets the way to its particle lets the vertex be, at rest; w = 0 where it does not.
-vec4 behindBlade(HungVertex self, PlacedVertex vertex) {
+vec4 behindBlade(HungVertex self, PlacedVertex vertex, vec3 plane) {
     const uint i = self.anchor;
     const vec3 x = vertex.now.xyz;
     const Meeting meeting = stripMeeting(Ends(vertex.before.xyz, placeBefore(i), x, PLACE(i)));
@@ -39,7 +40,7 @@ vec4 behindBlade(HungVertex self, PlacedVertex vertex) {
     const mat3 turn = gradientAt(i);
     if (!(abs(determinant(turn)) > leastVolume)) return vec4(0.0);
     const vec3 n = meeting.normal / size;
-    const vec3 skin = cofactor(turn) * self.normal.xyz; // zero where its triangles are all folded upon each other
+    const vec3 skin = cofactor(turn) * plane; // zero where its triangles are all folded upon each other
     const float area = dot(skin, skin);
     vec3 way = area > 0.0 ? n - dot(n, skin) / area * skin : n;
     if (dot(way, way) < leastTangent) way = n;
@@ -59,7 +60,7 @@ void main() {
     if (to.w == VERTEX_MOVED || !isNear && to.w == 0.0) return;
     if (blade.isCarried == 0u) to = vec4(0.0);
     if (isNear && (rims[v] == 0u || blade.isCarried != 0u)) { // beside an older cut what a stroke begins with leaves the rim where it is
-        const vec4 behind = behindBlade(self, placed[v]);
+        const vec4 behind = behindBlade(self, placed[v], planes[v].xyz);
         if (behind.w > 0.0) to = to.w == 0.0 ? behind : vec4(0.0); // else it came back
     }
     if (to.w > 0.0 && bitCount(links[self.anchor]) < int(self.weights.w)) {

@@ -1,7 +1,6 @@
 #version 460
 // Smooth vertex normals of the deformed skin: those of a vertex's triangles by their angles there (Thuermer and Wuethrich 1998),
-// so that they stay as they are where flat ones are split, gathered in fixed order. Triangles so flat that rounding
-// may turn them over hardly count.
+// so that they stay as they are where flat ones are split, gathered in fixed order.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -55,7 +54,7 @@ void main() {
     if (fan.y == 0u) return;
 #endif
     const vec3 here = VERTEX(i);
-    const float blur = 4e-12 * dot(here, here) + 1e-37; // [m^2]: heights of some thirty steps of float32 at this place
+    const float blur = NORMAL_BLUR * dot(here, here) + 1e-37; // [m^2]
     vec3 sum = vec3(0.0);
     for (uint s = 0u; s < fan.y; ++s) {
         const uint t = 3u * TRIANGLE(fan.x + s);

@@ -377,6 +377,7 @@ public:
     void beginSkin() { skinList_ = &StepProgram::skin; }
     void beginWholeSkin() { skinList_ = &StepProgram::wholeSkin; }
     void beginMixedSkin() { skinList_ = &StepProgram::mixedSkin; }
+    bool isOfMixedSkin() const { return skinList_ == &StepProgram::mixedSkin; }
     /// Passes from here on, until endSettling(), belong to StepProgram::settle; no gate changes them.
     void beginSettling() { isSettling_ = true; }
     void endSettling() { isSettling_ = false; }

@@ -71,9 +71,13 @@ private:
             bodies_.mixed.push_back(place.index);
             for (const auto& [a, b, c] : skin.wholeTriangles)
                 bodies_.wholes.push_back({{firstHung + a, firstHung + b, firstHung + c}, 0});
+            for (const layout::PartVertex& part : complex->parts)
+                bodies_.parts.push_back(
+                    {firstHung + part.vertex, firstWhole + part.whole, {part.shares[0], part.shares[1]}});
         }
         bodies_.prisms.insert(bodies_.prisms.end(), complex->prisms.begin(), complex->prisms.end());
         bodies_.vertices.insert(bodies_.vertices.end(), complex->vertices.begin(), complex->vertices.end());
+        bodies_.planes.insert(bodies_.planes.end(), complex->planes.begin(), complex->planes.end());
         std::ranges::copy(complex->words, bodies_.complex.begin() + box.origin);
         Pulled pulled = pullAnchors(scene_, grid, box, *complex);
         unfoldAnchors(scene_, grid, box, *complex, pulled);

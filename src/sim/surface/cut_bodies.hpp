@@ -23,14 +23,17 @@ struct CutBodies {
     std::vector<layout::vec4> pulled;    ///< the same as blades see it; empty where that is no different
     std::vector<layout::SkinPrism> prisms;
     std::vector<layout::HungVertex> vertices;
+    std::vector<layout::vec4>
+        planes; ///< of these: normals of the triangles around, along which they may move
     std::vector<layout::WholeTriangle> wholes;
-    std::vector<std::uint32_t> mixed;    ///< skins that these are of, in their order
-    std::vector<layout::SkinSlot> slots; ///< that these go with
-    std::vector<std::uint32_t> hanging;  ///< what hangs there
-    std::vector<HungRange> ranges;       ///< of bodies with prisms
-    double cells = 0;                    ///< of all bodies whose skin is clipped; 0 = there are none
-    std::uint32_t room = 0;              ///< Settings::cutSurfaceRoom
-    std::vector<std::uint32_t> skins;    ///< that are clipped
+    std::vector<layout::PartVertex> parts; ///< that are no corners of these
+    std::vector<std::uint32_t> mixed;      ///< skins that these are of, in their order
+    std::vector<layout::SkinSlot> slots;   ///< that these go with
+    std::vector<std::uint32_t> hanging;    ///< what hangs there
+    std::vector<HungRange> ranges;         ///< of bodies with prisms
+    double cells = 0;                      ///< of all bodies whose skin is clipped; 0 = there are none
+    std::uint32_t room = 0;                ///< Settings::cutSurfaceRoom
+    std::vector<std::uint32_t> skins;      ///< that are clipped
 };
 
 /// Of those bodies that may be cut and whose skin can be clipped; the others are left out. `runs` are those

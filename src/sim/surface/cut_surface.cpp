@@ -77,6 +77,7 @@ void addDrawing(ProgramBuilder& program, const CutSurface& surface) {
     if (surface.hung.prismCount == 0) addGradients(program, surface);
     addWholeNormals(program, surface);
     addRimNormals(program, surface);
+    addPartNormals(program, surface);
     const IndirectItems points{surface.arguments, surface.push.runs + SURFACE_POINTS, surface.push.room};
     const IndirectItems outside{surface.arguments, surface.push.runs + SURFACE_OUTSIDE, surface.push.room};
     const layout::CountPush room{surface.push.room};

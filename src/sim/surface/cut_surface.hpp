@@ -40,6 +40,7 @@ struct HungSurface {
     std::vector<HungRange> ranges;
     std::uint32_t prismCount = 0, vertexCount = 0;
     BufferId prisms, vertices;
+    BufferId planes;                    ///< by vertex: the normal of the triangles around it
     BufferId hits;                      ///< by prism: where its edges were cut
     BufferId rims;                      ///< by vertex: whether a triangle around is drawn in pieces
     BufferId moved;                     ///< by vertex: where it has moved to beside a cut [m]
@@ -64,6 +65,8 @@ struct CutSurface {
     HungSurface hung;
     std::uint32_t wholeCount = 0;     ///< triangles of mixed skins; 0 = there are none
     BufferId wholes, wholeStates;     ///< these; WHOLE_ALONE ...
+    std::uint32_t partCount = 0;      ///< vertices that only their parts have
+    BufferId partVertices;            ///< these
     BufferId wholeMarks;              ///< by vertex that hangs: 1 = a corner of one that its parts stand for
     BufferId shownAtFirst;            ///< StepProgram::shownVertices while nothing is cut
     BufferId wholeIndices;            ///< what their normals come from,

@@ -72,6 +72,7 @@ void addHungBuffers(ProgramBuilder& program, CutSurface& surface, const CutBodie
     hung.vertexCount = static_cast<std::uint32_t>(bodies.vertices.size());
     hung.prisms = program.upload("surface.prisms", bodies.prisms);
     hung.vertices = program.upload("surface.hung_vertices", bodies.vertices);
+    hung.planes = program.upload("surface.planes", bodies.planes);
     hung.hits = program.scratch<std::uint32_t>("surface.skin_hits", hung.prismCount);
     hung.rims = program.scratch<std::uint32_t>("surface.rims", hung.vertexCount);
     hung.moved = program.scratch<layout::vec4>("surface.moved", hung.vertexCount);
@@ -134,12 +135,12 @@ void addSkinHits(ProgramBuilder& program, const CutSurface& surface, BufferId bl
                                   hung.placed, hung.hits, hung.counts, hung.nears},
                                  range.prisms);
     for (const HungRange& range : hung.ranges)
-        program.dispatchIndirect(usesTexels ? k::moveRims : k::moveRimsLoads,
-                                 listOf(hung, range.vertices, SKIN_VERTICES),
-                                 {bladePlaces, placesBefore, blade, cutting.savedLinks, cutting.places,
-                                  surface.rest, hung.vertices, points, cutting.links, hung.moved, hung.rims,
-                                  program.program().status, hung.counts, hung.listed, hung.placed},
-                                 range.vertices);
+        program.dispatchIndirect(
+            usesTexels ? k::moveRims : k::moveRimsLoads, listOf(hung, range.vertices, SKIN_VERTICES),
+            {bladePlaces, placesBefore, blade, cutting.savedLinks, cutting.places, surface.rest,
+             hung.vertices, points, cutting.links, hung.moved, hung.rims, program.program().status,
+             hung.counts, hung.listed, hung.placed, hung.planes},
+            range.vertices);
 }
 
 void addPrismParting(ProgramBuilder& program, const CutSurface& surface) {
@@ -197,9 +198,15 @@ void addSplitVertices(ProgramBuilder& program, const CutSurface& surface) {
 void addRimNormals(ProgramBuilder& program, const CutSurface& surface) {
     const HungSurface& hung = surface.hung;
     if (hung.prismCount == 0) return;
-    program.dispatchIndirect(k::turnRims,
-                             {surface.arguments, surface.push.runs + SURFACE_HUNG, hung.vertexCount},
-                             {hung.rims, hung.vertices, surface.gradients, program.program().skinVertices},
+    const StepProgram& built = program.program();
+    std::vector<BufferId> buffers{
+        hung.rims,       built.cutting.links, surface.rest, surface.source.particles,
+        built.positions, surface.gradients,   surface.near, hung.vertices,
+        hung.grids,      built.skinVertices};
+    const bool isMixed = surface.wholeCount > 0;
+    if (isMixed) buffers.push_back(surface.wholeMarks);
+    program.dispatchIndirect(isMixed ? k::turnRimsMixed : k::turnRims,
+                             {surface.arguments, surface.push.runs + SURFACE_HUNG, hung.vertexCount}, buffers,
                              pushOf(surface, hung.vertexCount));
 }
 

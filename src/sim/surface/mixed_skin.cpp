@@ -141,12 +141,14 @@ void addMixedSkins(ProgramBuilder& program, CutSurface& surface, const Scene& sc
     const std::vector<std::uint32_t> shown = shownAtFirst(scene, bodies);
     built.shownVertices = program.upload("skin.shown_vertices", shown);
     surface.shownAtFirst = program.upload("skin.shown_at_first", shown);
-    for (const BufferId buffer :
-         {built.mixedIndices, built.mixedDraws, surface.wholeMarks, built.shownVertices}) {
+    for (const BufferId buffer : {built.mixedIndices, built.mixedDraws, surface.wholeStates,
+                                  surface.wholeMarks, built.shownVertices}) {
         built.cutting.topology.push_back(buffer);
         program.carry(buffer, buffer);
     }
     uploadWholes(program, surface, bodies);
+    surface.partCount = static_cast<std::uint32_t>(bodies.parts.size());
+    if (surface.partCount > 0) surface.partVertices = program.upload("surface.part_vertices", bodies.parts);
 }
 
 void addWholeNormals(ProgramBuilder& program, const CutSurface& surface) {
@@ -155,6 +157,20 @@ void addWholeNormals(ProgramBuilder& program, const CutSurface& surface) {
     addNormals(program, {&k::skinNormalsWhole, &k::skinNormalsWholeLoads}, surface.usesTexels,
                surface.wholeIndices, surface.wholeFans, {surface.hung.vertices, surface.wholeMarks},
                layout::WholePush{.count = hung, .vertices = surface.wholeVertices});
+}
+
+void addPartNormals(ProgramBuilder& program, const CutSurface& surface) {
+    if (surface.partCount == 0) return;
+    const StepProgram& built = program.program();
+    std::vector<BufferId> buffers{
+        surface.partVertices, built.cutting.links, surface.rest,   surface.source.particles,
+        built.positions,      surface.gradients,   surface.near,   surface.hung.vertices,
+        surface.hung.grids,   built.skinVertices,  surface.wholes, surface.wholeStates,
+        surface.hung.rims};
+    const bool isMixed = program.isOfMixedSkin();
+    if (isMixed) buffers.push_back(built.shownVertices);
+    program.dispatch(isMixed ? k::lightPartsShown : k::lightParts, surface.partCount, buffers,
+                     layout::CountPush{surface.partCount});
 }
 
 void addFacePasses(ProgramBuilder& program, const CutSurface& surface) {

@@ -22,6 +22,9 @@ void addMixedSkins(ProgramBuilder& program, CutSurface& surface, const Scene& sc
 /// normal that it has while nothing is cut.
 void addWholeNormals(ProgramBuilder& program, const CutSurface& surface);
 
+/// When those of the corners are there, which they lie between: of vertices that only parts have.
+void addPartNormals(ProgramBuilder& program, const CutSurface& surface);
+
 /// When a step with a cut came to its end, in place of hide_faces alone: what pieces do not stand for.
 void addFacePasses(ProgramBuilder& program, const CutSurface& surface);
 

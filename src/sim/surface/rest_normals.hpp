@@ -1,16 +1,29 @@
 // Normals of a skin at rest, in the words of skin_normals.comp: a vertex beside a cut has this one, turned
-// with the material, where others have theirs from the triangles around them, and the two must meet.
+// with the material, where others have theirs from the triangles around them, and the two must meet. Within
+// a whole triangle of a mixed skin they go over from corner to corner, as they do where it is drawn.
 #pragma once
 
 #include "sim/surface/point.hpp"
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace sinew::sim::surface {
 
 /// By vertex, of length one, or zero where no triangle says anything: those of its triangles by their angles
-/// there, of corners of whole triangles (of mixed skins) those of these. `rest` is where the vertices are.
-std::vector<Point> restNormals(const Skin& skin, std::span<const Point> rest);
+/// there. `rest` is where the vertices are.
+std::vector<Point> restNormals(std::span<const std::array<std::uint32_t, 3>> triangles,
+                               std::span<const Point> rest);
+
+/// Vertices that are no corners of whole triangles, by their index: in a triangle whose parts have them,
+/// whose index it is. Empty where the skin is not mixed.
+std::vector<layout::PartVertex> partVertices(const Skin& skin, std::span<const Point> rest);
+
+/// Of a mixed skin as it is lit: corners of whole triangles have the normals of these, and vertices of parts
+/// (`parts`, as above) what those are in between. Of another skin those of its triangles.
+std::vector<Point> litNormals(const Skin& skin, std::span<const layout::PartVertex> parts,
+                              std::span<const Point> rest);
 
 } // namespace sinew::sim::surface

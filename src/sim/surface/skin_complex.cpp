@@ -100,9 +100,12 @@ private:
     void addNormals() {
         std::vector<Point> rest;
         for (const layout::HungVertex& vertex : complex_.vertices) rest.push_back(pointOf(vertex.rest));
-        const std::vector<Point> normals = restNormals(skin_, rest);
-        for (std::size_t v = 0; v < normals.size(); ++v) {
-            const Vec3 normal = toVec3(normals[v]);
+        complex_.parts = partVertices(skin_, rest);
+        const std::vector<Point> flat = restNormals(skin_.triangles, rest),
+                                 lit = litNormals(skin_, complex_.parts, rest);
+        for (std::size_t v = 0; v < rest.size(); ++v) {
+            const Vec3 across = toVec3(flat[v]), normal = toVec3(lit[v]);
+            complex_.planes.push_back({across.x, across.y, across.z, 0});
             complex_.vertices[v].normal = {normal.x, normal.y, normal.z, grid_.restLength[0]};
         }
     }

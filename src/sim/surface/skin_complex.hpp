@@ -22,6 +22,8 @@ struct SkinComplex {
     std::uint32_t skin = 0, firstHung = 0;    ///< index of the skin; of `vertices`
     std::vector<layout::SkinPrism> prisms;    ///< of the skin's triangles, in their order
     std::vector<layout::HungVertex> vertices; ///< of the skin, in their order
+    std::vector<layout::vec4> planes;         ///< likewise: normals of the parts around
+    std::vector<layout::PartVertex> parts;    ///< of a mixed skin; indices in the skin
     std::vector<std::uint32_t> words;         ///< of slots from the box's origin on, as COMPLEX_FACES says
 };
 

@@ -5,6 +5,7 @@
 #include "mesh/to_scene.hpp"
 #include "sim/scenes.hpp"
 #include "sim/surface/closed_surface.hpp"
+#include "sim/surface/rest_normals.hpp"
 
 #include <gtest/gtest.h>
 
@@ -258,9 +259,13 @@ TEST(Rims, AreSomewhereWhereTheSkinFacesNoWay) {
     const auto hung =
         test::queue().download<layout::HungVertex>(simulation.view(simulation.program().cutSurface.hung));
     const auto at = [](const layout::vec4& x) -> Vector3d { return {double{x.x}, double{x.y}, double{x.z}}; };
+    std::vector<surface::Point> rest;
+    for (const layout::HungVertex& vertex : hung) rest.push_back(surface::pointOf(vertex.rest));
+    const std::vector<surface::Point> planes = surface::restNormals(scene.skins[0].triangles, rest);
     std::size_t folded = 0;
-    for (const layout::HungVertex& vertex : hung) {
-        if (at(vertex.normal).norm() > 0) continue;
+    for (std::size_t v = 0; v < hung.size(); ++v) {
+        if (surface::dot(planes[v], planes[v]) > 0) continue;
+        const layout::HungVertex& vertex = hung[v];
         ++folded;
         for (const Vector3d axis : {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()})
             for (const double way : {-0.2, 0.2}) {
