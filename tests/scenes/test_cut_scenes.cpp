@@ -5,6 +5,7 @@
 // SINEW_FULL=1 in the environment plays scenes as they are.
 #include "scenes/blades.hpp"
 #include "sim/cutting/stroke_check.hpp"
+#include "sim/cutting/swept_area.hpp"
 #include "support/full.hpp"
 
 #include <gtest/gtest.h>
@@ -75,6 +76,21 @@ bool hasContacts(const sim::Scene& scene) {
            std::ranges::any_of(scene.particles, [](const sim::Particle& one) { return one.radius > 0; });
 }
 
+// A particle alone cannot be cut: of what is crumbs a blade's way says nothing.
+constexpr std::uint32_t mostPieces = 10;
+
+// A cut that ends inside of a body ends between particles.
+void checkArea(const test::CutArea& cut, double cell, const std::string& what) {
+    EXPECT_LE(std::abs(cut.inside - cut.swept), 0.05 * cut.swept + 2 * cell * cut.front) << what;
+    if (!isFull()) return;
+    std::printf("%s: inside %.5f m^2, %+.1f %% of what the blade swept", what.c_str(), cut.inside,
+                100 * (cut.inside / cut.swept - 1));
+    if (cut.front > 0)
+        std::printf(": %+.2f cells at %.2f m of an end inside",
+                    (cut.inside - cut.swept) / (2 * cell * cut.front), cut.front);
+    std::printf("\n");
+}
+
 class CutScenes : public testing::TestWithParam<std::string> {};
 
 } // namespace
@@ -95,6 +111,7 @@ TEST_P(CutScenes, HoldAfterEveryStroke) {
         done = step + 1;
         const sim::Blade blade = blades.at(step);
         const std::string what = GetParam() + ", step " + std::to_string(step);
+        const vk::Buffer before = check.body().runner().saveTopology();
         last = check.stroke(blade, what);
         check.checkSurface(last, what);
         volumeError = std::max(volumeError, std::abs(last.volumeError));
@@ -104,6 +121,8 @@ TEST_P(CutScenes, HoldAfterEveryStroke) {
                         "triangles, volume %+.1e\n",
                         static_cast<unsigned>(step), last.status.linksCut, last.status.pieces, last.triangles,
                         last.openEdges, last.crowdedEdges, last.volumeError);
+        if (!blade.from.empty() && !blade.isCarried && last.triangles > 0 && last.status.pieces <= mostPieces)
+            checkArea(test::cutArea(check.body(), before, blade), check.body().spacing(), what);
         ASSERT_FALSE(HasFailure()); // what follows would only repeat it
     }
     EXPECT_GT(looked, 0u) << "nothing was cut";

@@ -149,9 +149,16 @@ std::vector<Vector3d> CutBody::bladePlaces() const {
     const StepProgram& program = runner_.simulation().program();
     const auto pulled =
         std::ranges::find(program.buffers, std::string("surface.pulled_places"), &BufferSpec::label);
-    const BufferId buffer = pulled == program.buffers.end()
-                                ? program.cutting.places
-                                : BufferId{static_cast<std::uint32_t>(pulled - program.buffers.begin())};
+    return placesIn(pulled == program.buffers.end()
+                        ? program.cutting.places
+                        : BufferId{static_cast<std::uint32_t>(pulled - program.buffers.begin())});
+}
+
+std::vector<Vector3d> CutBody::placesAtCut() const {
+    return placesIn(runner_.simulation().program().cutting.places);
+}
+
+std::vector<Vector3d> CutBody::placesIn(BufferId buffer) const {
     const auto places = queue().download<std::array<float, 4>>(runner_.simulation().view(buffer));
     std::vector<Vector3d> result;
     for (const std::uint32_t slot : slots_) {

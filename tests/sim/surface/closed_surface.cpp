@@ -157,13 +157,21 @@ double ClosedSurface::volume() const {
     return sum;
 }
 
-double ClosedSurface::area(Part part) const {
+double ClosedSurface::areaOf(Part part, const std::vector<Vector3d>& places) const {
     double sum = 0;
     for (const Triangle& t : triangles_) {
-        const Vector3d a = rest_[t.points[0]];
-        if (t.part == part) sum += (rest_[t.points[1]] - a).cross(rest_[t.points[2]] - a).norm() / 2;
+        const Vector3d a = places[t.points[0]];
+        if (t.part == part) sum += (places[t.points[1]] - a).cross(places[t.points[2]] - a).norm() / 2;
     }
     return sum;
+}
+
+double ClosedSurface::area(Part part) const {
+    return areaOf(part, rest_);
+}
+
+double ClosedSurface::drawnArea(Part part) const {
+    return areaOf(part, drawn_);
 }
 
 // The sum over triangles of what the segments in them enclose.

@@ -33,7 +33,8 @@ public:
     /// counted alone.
     std::vector<double> volumes(double cell) const;
     double volume() const;
-    double area(Part part) const; ///< at rest
+    double area(Part part) const;      ///< at rest
+    double drawnArea(Part part) const; ///< where it is drawn
     /// Section by a plane of what is enclosed at rest, where nothing is cut.
     struct Section {
         double area = 0, rim = 0; ///< length of its outline
@@ -44,6 +45,7 @@ public:
     std::uint64_t hash() const; ///< over the bits of all buffers
 
 private:
+    double areaOf(Part part, const std::vector<Eigen::Vector3d>& places) const;
     std::uint32_t pointOf(std::uint32_t key, const Eigen::Vector3d& rest, const Eigen::Vector3d& drawn);
     std::map<std::uint32_t, Eigen::Vector3d> movedVertices(CutBody& body);
     void addSkin(CutBody& body);
