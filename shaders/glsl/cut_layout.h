@@ -160,7 +160,6 @@ struct WholeTriangle {
 #define WHOLE_ALONE 0u
 #define WHOLE_MIXED 1u  // with its parts
 #define WHOLE_PARTED 2u // its parts alone
-#define WHOLE_BESIDE 3u // alone, but normals of parts around it come from its parts, too
 
 // A vertex that only parts of whole triangles have: where it lies in one of them.
 struct PartVertex {
@@ -175,10 +174,10 @@ struct MixedWords {
 };
 #define MIXED_WORD 32u
 
-// What drawing a mixed skin takes of a vertex.
-#define VERTEX_UNSEEN 0u
-#define VERTEX_PLACED 1u // its place: normals beside it come from it, or it is a corner of a whole triangle
-#define VERTEX_SHOWN 2u  // and its normal among parts
+// What drawing a mixed skin takes of a vertex, in bits.
+#define VERTEX_PLACED 1u  // its place
+#define VERTEX_SHOWN 2u   // and its normal as one of parts: that of its triangles,
+#define VERTEX_OF_PARTS 4u // or, as only parts have it, that between the corners of a whole one (light_parts)
 
 struct WholePush {
     uint count;    // vertices that hang

@@ -21,6 +21,6 @@ void main() {
     for (uint n = 0u; n < 3u; ++n) {
         const uint corner = hung[whole.vertices[n]].vertex;
         mixedTriangles[3u * whole.mixed + n] = isParted ? 0u : corner;
-        if (isParted || isBeside) shown[corner] = VERTEX_SHOWN;
+        if (isParted || isBeside) shown[corner] = VERTEX_PLACED | VERTEX_SHOWN;
     }
 }

@@ -32,7 +32,7 @@ void main() {
     const bool isPart = whole == WHOLE_PARTED || whole == WHOLE_MIXED;
     for (uint n = 0u; n < 3u; ++n) {
         mixedTriangles[3u * face.mixed + n] = isPart && !isHidden ? corners[n] : 0u; // one vertex for all
-        if (whole != WHOLE_ALONE) atomicMax(shown[corners[n]], isPart ? VERTEX_SHOWN : VERTEX_PLACED); // pieces of what is hidden go with it, too
+        if (isPart) atomicOr(shown[corners[n]], VERTEX_PLACED | VERTEX_SHOWN); // pieces of what is hidden go with it, too
     }
 #endif
 }

@@ -30,7 +30,7 @@ void main() {
     if (rims[part.vertex] != 0u) return; // turn_rims has it
     const HungVertex vertex = hungAt(part.vertex);
 #ifdef SHOWN
-    if (shown[vertex.vertex] != VERTEX_SHOWN) return;
+    if ((shown[vertex.vertex] & VERTEX_SHOWN) == 0u) return;
 #endif
     const WholeTriangle whole = wholes[part.whole];
     const float b = part.shares[0], c = part.shares[1];

@@ -38,6 +38,7 @@ void main() {
     if (lane > 0u) return;
     const uint needed = max(total.y + total.z, total.x + 3u * total.z);
     const uint fits = needed <= push.room ? 1u : 0u;
+    const uint isCut = min(total.x, 1u); // its skins are drawn without the surface, too
     total *= fits;
     // there may be room by now for what there was none; and rims move in other steps than links die in
     const bool isWritten = counts.linksOfStep > 0u || state.missing > 0u || blade.quads > 0u;
@@ -45,10 +46,10 @@ void main() {
     counts.missing = fits == 0u ? needed : 0u;
     draws[0] = DrawArguments(3u * total.y, 1u, 0u, 0, 0u);
     draws[1] = DrawArguments(3u * total.z, 1u, 3u * total.y, 0, 0u);
-    for (uint r = 0u; r < push.runs; ++r) arguments[r] = DispatchArguments(min(total.x, 1u) * groups[r], 1u, 1u, 0u);
+    for (uint r = 0u; r < push.runs; ++r) arguments[r] = DispatchArguments(isCut * groups[r], 1u, 1u, 0u);
     listed[0] = total.w;
     arguments[push.runs + SURFACE_LISTED] = DispatchArguments(isWritten ? groupsOf(total.w) : 0u, 1u, 1u, 0u);
-    arguments[push.runs + SURFACE_HUNG] = DispatchArguments(min(total.x, 1u) * groupsOf(push.hung), 1u, 1u, 0u);
+    arguments[push.runs + SURFACE_HUNG] = DispatchArguments(isCut * groupsOf(push.hung), 1u, 1u, 0u);
     arguments[push.runs + SURFACE_VERTICES] = DispatchArguments(groupsOf(total.x + 3u * total.z), 1u, 1u, 0u);
     arguments[push.runs + SURFACE_POINTS] = DispatchArguments(groupsOf(total.x), 1u, 1u, 0u);
     arguments[push.runs + SURFACE_OUTSIDE] = DispatchArguments(groupsOf(3u * total.z), 1u, 1u, 0u);

@@ -27,7 +27,7 @@ void main() {
     const uint i = itemIndex(push.count);
     if (i >= push.count) return;
 #ifdef SHOWN
-    if (shown[push.firstVertex + i] == VERTEX_UNSEEN) return;
+    if ((shown[push.firstVertex + i] & VERTEX_PLACED) == 0u) return;
 #endif
     const CellVertex cell = cellAt(i);
     const vec3 t = cell.weights.xyz;

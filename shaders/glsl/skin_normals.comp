@@ -47,7 +47,7 @@ void main() {
     const uint i = item;
 #endif
 #ifdef SHOWN
-    if (shown[i] != VERTEX_SHOWN) return;
+    if ((shown[i] & (VERTEX_SHOWN | VERTEX_OF_PARTS)) != VERTEX_SHOWN) return;
 #endif
     const uvec2 fan = FAN(i);
 #ifdef WHOLE

@@ -1,5 +1,6 @@
 #version 460
-// Normals of skins beside a cut. In mixed skins also of corners of whole triangles that their parts stand for.
+// Normals of skins beside a cut. In mixed skins also of corners of whole triangles that their parts stand for, as far as it is known how
+// the material has turned: corners beyond that have the normal of their triangles, none of which a rim draws together.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

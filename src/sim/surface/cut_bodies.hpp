@@ -23,8 +23,7 @@ struct CutBodies {
     std::vector<layout::vec4> pulled;    ///< the same as blades see it; empty where that is no different
     std::vector<layout::SkinPrism> prisms;
     std::vector<layout::HungVertex> vertices;
-    std::vector<layout::vec4>
-        planes; ///< of these: normals of the triangles around, along which they may move
+    std::vector<layout::vec4> planes; ///< of these: normals of the triangles around
     std::vector<layout::WholeTriangle> wholes;
     std::vector<layout::PartVertex> parts; ///< that are no corners of these
     std::vector<std::uint32_t> mixed;      ///< skins that these are of, in their order

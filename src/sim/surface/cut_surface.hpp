@@ -12,8 +12,9 @@
 // (skin triangles that pieces stand for).
 //
 // Items of the surface are slots, and prisms behind them. When somebody draws: find_gradients (how the
-// material around particles near a cut has turned and strained), skin_normals_whole (of mixed skins, away
-// from cuts), skin_cut (points and their normals), skin_pieces (corners of pieces, at the points).
+// material around particles near a cut has turned and strained), normals of skins that hang and of mixed ones
+// (hung_surface, mixed_skin), skin_cut (points and their normals), skin_pieces (corners of pieces, at the
+// points).
 //
 // Nothing is appended by a counter: the same cut makes the same bits in any order.
 #pragma once
@@ -74,8 +75,8 @@ struct CutSurface {
     std::uint32_t wholeVertices = 0;  ///< of all skins, that have such a normal
     BufferId mixedWords;              ///< by skin: layout::MixedWords
     BufferId drawnWords, drawnStarts; ///< by word: which of its triangles are drawn; where those go
-    std::uint32_t words = 0, skinCount = 0;
-    std::vector<std::uint32_t> skins; ///< that are clipped
+    std::uint32_t words = 0, skinCount = 0; ///< 0 = none is drawn mixed
+    std::vector<std::uint32_t> skins;       ///< that are clipped
 };
 
 /// Buffers, and the skin's indices, which cuts change. After those of StepProgram::cutting, to whose topology

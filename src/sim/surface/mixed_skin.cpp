@@ -76,7 +76,8 @@ std::vector<std::uint32_t> shownAtFirst(const Scene& scene, const CutBodies& bod
         const Skin& skin = scene.skins[s];
         const std::size_t first = shown.size();
         const bool isMixed = std::ranges::count(bodies.mixed, s) > 0;
-        shown.insert(shown.end(), skin.vertexCount(), isMixed ? VERTEX_UNSEEN : VERTEX_SHOWN);
+        shown.insert(shown.end(), skin.vertexCount(),
+                     isMixed ? VERTEX_OF_PARTS : VERTEX_PLACED | VERTEX_SHOWN);
         if (!isMixed) continue;
         for (const Triangle& whole : skin.wholeTriangles)
             for (const std::uint32_t corner : whole) shown[first + corner] = VERTEX_PLACED;
@@ -123,26 +124,35 @@ void addPacking(ProgramBuilder& program, const CutSurface& surface) {
                      layout::CountPush{triangles});
 }
 
-} // namespace
-
-void addMixedSkins(ProgramBuilder& program, CutSurface& surface, const Scene& scene, CutBodies& bodies) {
-    StepProgram& built = program.program();
-    if (bodies.wholes.empty() || built.pieceDraws != BufferId{}) return; // those draw from skinIndices
+// What is drawn.
+void addMixedTriangles(ProgramBuilder& program, CutSurface& surface, const Scene& scene, CutBodies& bodies) {
     Joiner joiner;
     for (std::uint32_t s = 0; s < scene.skins.size(); ++s)
         joiner.add(scene.skins[s], std::ranges::count(bodies.mixed, s) > 0);
     const Layout layout = joiner.finish();
     place(scene, layout, bodies);
     uploadMixed(program, surface, layout);
+    const std::vector<std::uint32_t> shown = shownAtFirst(scene, bodies);
+    program.program().shownVertices = program.upload("skin.shown_vertices", shown);
+    surface.shownAtFirst = program.upload("skin.shown_at_first", shown);
+}
+
+} // namespace
+
+void addMixedSkins(ProgramBuilder& program, CutSurface& surface, const Scene& scene, CutBodies& bodies) {
+    StepProgram& built = program.program();
+    if (bodies.wholes.empty()) return;
+    std::vector<BufferId> topology;
+    if (built.pieceDraws == BufferId{}) { // else those draw from skinIndices
+        addMixedTriangles(program, surface, scene, bodies);
+        topology = {built.mixedIndices, built.mixedDraws, built.shownVertices};
+    }
     surface.wholeCount = static_cast<std::uint32_t>(bodies.wholes.size());
     surface.wholes = program.upload("surface.wholes", bodies.wholes);
     surface.wholeStates = program.scratch<std::uint32_t>("surface.whole_states", surface.wholeCount);
     surface.wholeMarks = program.scratch<std::uint32_t>("surface.whole_marks", bodies.vertices.size());
-    const std::vector<std::uint32_t> shown = shownAtFirst(scene, bodies);
-    built.shownVertices = program.upload("skin.shown_vertices", shown);
-    surface.shownAtFirst = program.upload("skin.shown_at_first", shown);
-    for (const BufferId buffer : {built.mixedIndices, built.mixedDraws, surface.wholeStates,
-                                  surface.wholeMarks, built.shownVertices}) {
+    topology.insert(topology.end(), {surface.wholeStates, surface.wholeMarks});
+    for (const BufferId buffer : topology) {
         built.cutting.topology.push_back(buffer);
         program.carry(buffer, buffer);
     }
@@ -177,27 +187,26 @@ void addFacePasses(ProgramBuilder& program, const CutSurface& surface) {
     const StepProgram& built = program.program();
     const BufferId state = built.cutSurface.state;
     const layout::CountPush faces{surface.faces}, wholes{surface.wholeCount};
-    if (surface.wholeCount == 0) {
+    if (surface.wholeCount > 0) {
+        program.fill(surface.wholeStates, 0);
+        program.fill(surface.wholeMarks, 0);
+        program.dispatch(surface.usesTexels ? k::openWholes : k::openWholesLoads, faces.count,
+                         {surface.counts, state, surface.skinFaces, surface.hung.prisms,
+                          surface.hung.vertices, surface.hung.moved, surface.partitions, surface.wholeStates},
+                         layout::PrismPush{.first = surface.slots, .count = faces.count});
+        program.dispatch(k::markWholes, wholes.count,
+                         {surface.wholes, surface.wholeStates, surface.wholeMarks}, wholes);
+    }
+    if (surface.words == 0) {
         program.dispatch(surface.usesTexels ? k::hideFaces : k::hideFacesLoads, faces.count,
                          {surface.counts, state, surface.skinFaces, surface.allIndices, built.skinIndices},
                          faces);
         return;
     }
-    program.fill(surface.wholeStates, 0);
-    program.fill(surface.wholeMarks, 0);
     program.copy(surface.shownAtFirst, built.shownVertices);
-    program.dispatch(surface.usesTexels ? k::openWholes : k::openWholesLoads, faces.count,
-                     {surface.counts, state, surface.skinFaces, surface.hung.prisms, surface.hung.vertices,
-                      surface.hung.moved, surface.partitions, surface.wholeStates},
-                     layout::PrismPush{.first = surface.slots, .count = faces.count});
-    program.dispatch(k::markWholes, wholes.count, {surface.wholes, surface.wholeStates, surface.wholeMarks},
-                     wholes);
     program.dispatch(k::drawWholes, wholes.count,
                      {surface.wholes, surface.wholeMarks, surface.hung.vertices, surface.wholeStates,
                       built.mixedTriangles, built.shownVertices},
-                     wholes);
-    program.dispatch(k::reachWholes, wholes.count,
-                     {surface.wholes, surface.hung.vertices, built.shownVertices, surface.wholeStates},
                      wholes);
     program.dispatch(surface.usesTexels ? k::hideFacesMixed : k::hideFacesMixedLoads, faces.count,
                      {surface.counts, state, surface.skinFaces, surface.allIndices, built.skinIndices,

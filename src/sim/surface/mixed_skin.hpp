@@ -5,9 +5,10 @@
 //
 // Parts stand for a whole triangle where a blade took some of them, or moved what they hang on. In a step
 // with a cut: open_wholes (which these are), mark_wholes (their corners), draw_wholes (those, and those
-// around them), reach_wholes (those around these), hide_faces (parts); and of all that, one behind another,
-// what is drawn: mark_drawn, scan_drawn, pack_drawn. Of vertices that are in no triangle
-// that is drawn neither places nor normals are made when somebody draws (StepProgram::shownVertices).
+// around them), hide_faces (parts); and of all that, one behind another, what is drawn: mark_drawn,
+// scan_drawn, pack_drawn. Of vertices that are in no triangle that is drawn neither places nor normals are
+// made when somebody draws (StepProgram::shownVertices). Then skin_normals_whole (of corners of whole
+// triangles alone) and light_parts (of vertices that only parts have).
 #pragma once
 
 #include "sim/surface/cut_surface.hpp"
@@ -16,6 +17,7 @@ namespace sinew::sim::surface {
 
 /// Buffers, if any skin in `bodies` says what its triangles are parts of; gives faces and whole triangles
 /// their places in StepProgram::mixedTriangles, which are those of all skins. Part of the topology of cuts.
+/// Where a scene has sheets that are cut all is drawn of parts, and what is here lights them.
 void addMixedSkins(ProgramBuilder& program, CutSurface& surface, const Scene& scene, CutBodies& bodies);
 
 /// When somebody draws, after normals are made: where all triangles around a vertex are whole it has the

@@ -29,9 +29,9 @@ void add(const Triangle& triangle, std::span<const Point> rest, std::vector<Poin
     }
 }
 
-void scale(Point& sum) {
-    const double size = std::sqrt(dot(sum, sum)), scale = size > 0 ? 1 / size : 0;
-    sum = {scale * sum.x, scale * sum.y, scale * sum.z};
+void normalise(Point& sum) {
+    const double size = std::sqrt(dot(sum, sum)), share = size > 0 ? 1 / size : 0;
+    sum = {share * sum.x, share * sum.y, share * sum.z};
 }
 
 // Barycentric coordinates of the second and the third corner; of the middle where there is no area.
@@ -50,7 +50,7 @@ std::array<float, 2> sharesAt(const Point& x, const Triangle& whole, std::span<c
 std::vector<Point> restNormals(std::span<const Triangle> triangles, std::span<const Point> rest) {
     std::vector<Point> sums(rest.size());
     for (const Triangle& triangle : triangles) add(triangle, rest, sums);
-    std::ranges::for_each(sums, scale);
+    std::ranges::for_each(sums, normalise);
     return sums;
 }
 
@@ -82,7 +82,7 @@ std::vector<Point> litNormals(const Skin& skin, std::span<const layout::PartVert
         Point& sum = normals[part.vertex];
         sum = {ofA * a.x + ofB * b.x + ofC * c.x, ofA * a.y + ofB * b.y + ofC * c.y,
                ofA * a.z + ofB * b.z + ofC * c.z};
-        scale(sum);
+        normalise(sum);
     }
     return normals;
 }

@@ -65,7 +65,7 @@ public:
 
     /// Where the newest blade saw each particle [m]: those outside of the skin of a mesh just below it.
     std::vector<Eigen::Vector3d> bladePlaces() const;
-    /// Where those were [m].
+    /// Where all particles themselves were then [m].
     std::vector<Eigen::Vector3d> placesAtCut() const;
 
     std::uint32_t particleAt(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
@@ -77,7 +77,7 @@ public:
 
 private:
     std::vector<std::uint32_t> download(sim::BufferId buffer) const;
-    std::vector<Eigen::Vector3d> placesIn(sim::BufferId buffer) const; // by slot
+    std::vector<Eigen::Vector3d> placesIn(sim::BufferId buffer) const; // which is by slot
     std::uint32_t neighbour(std::uint32_t slot, std::uint32_t bit) const;
     bool isLoose(const LiveLink& link, const std::vector<std::uint32_t>& masks) const;
 

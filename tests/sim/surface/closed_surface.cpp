@@ -196,21 +196,27 @@ ClosedSurface::Section ClosedSurface::section(const CutPlane& plane) const {
     return section;
 }
 
-double ClosedSurface::lengthInside(const Vector3d& point, const Vector3d& direction) const {
-    std::vector<double> met; // along the line
-    for (const auto& triangle : triangles_) {
-        const Vector3d &a = rest_[triangle.points[0]], ab = rest_[triangle.points[1]] - a,
-                       ac = rest_[triangle.points[2]] - a, p = direction.cross(ac), from = point - a,
-                       q = from.cross(ab);
+// What the line enters and leaves, also before it begins: the surface need not be of one part.
+ClosedSurface::Chord ClosedSurface::chord(const Vector3d& from, const Vector3d& to,
+                                          const std::vector<Vector3d>& places) const {
+    const Vector3d way = to - from;
+    double share = 0;
+    int atStart = 0, atEnd = 0; // windings
+    for (const Triangle& triangle : triangles_) {
+        const Vector3d &a = places[triangle.points[0]], ab = places[triangle.points[1]] - a,
+                       ac = places[triangle.points[2]] - a, p = way.cross(ac), start = from - a,
+                       q = start.cross(ab);
         const double volume = ab.dot(p);
         if (volume == 0) continue;
-        const double u = from.dot(p) / volume, v = direction.dot(q) / volume;
-        if (u >= 0 && v >= 0 && u + v <= 1) met.push_back(ac.dot(q) / volume);
+        const double u = start.dot(p) / volume, v = way.dot(q) / volume;
+        if (!(u >= 0 && v >= 0 && u + v <= 1)) continue;
+        const double at = ac.dot(q) / volume;
+        const int turn = volume > 0 ? 1 : -1; // against the normal: it enters
+        share += turn * (1 - std::clamp(at, 0.0, 1.0));
+        atStart += at < 0 ? turn : 0;
+        atEnd += at < 1 ? turn : 0;
     }
-    std::ranges::sort(met);
-    double length = 0;
-    for (std::size_t i = 0; i + 1 < met.size(); i += 2) length += met[i + 1] - met[i];
-    return length;
+    return {share * way.norm(), atStart > 0, atEnd > 0};
 }
 
 std::uint64_t ClosedSurface::hash() const {

@@ -40,8 +40,14 @@ public:
         double area = 0, rim = 0; ///< length of its outline
     };
     Section section(const CutPlane& plane) const;
-    /// How long a straight line is inside of it, likewise.
-    double lengthInside(const Eigen::Vector3d& point, const Eigen::Vector3d& direction) const;
+    /// What is inside of it of a straight line.
+    struct Chord {
+        double length = 0;
+        bool isFromInside = false, isToInside = false; ///< its ends
+    };
+    /// Between points of `places`, which are rest() or drawn().
+    Chord chord(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                const std::vector<Eigen::Vector3d>& places) const;
     std::uint64_t hash() const; ///< over the bits of all buffers
 
 private:

@@ -132,7 +132,8 @@ double lengthBetween(const ClosedSurface& uncut, const CutPlane& a, const CutPla
     Eigen::Matrix3d rows;
     rows << a.normal.transpose(), b.normal.transpose(), along.transpose();
     const Vector3d point = rows.inverse() * Vector3d(a.normal.dot(a.point), b.normal.dot(b.point), 0);
-    return uncut.lengthInside(point, along.normalized());
+    const Vector3d way = 10 * along.normalized(); // [m]: farther than any body
+    return uncut.chord(point - way, point + way, uncut.rest()).length;
 }
 
 // One after another through the same body. Cuts nearer than a cell share cells, so where they cross up to a

@@ -8,127 +8,44 @@
 #include "sim/hash.hpp"
 #include "sim/scenes.hpp"
 #include "sim/surface/closed_surface.hpp"
-#include "sim/surface/rest_normals.hpp"
+#include "sim/surface/mixed_skins.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 
 #include <bit>
-#include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <map>
-#include <numbers>
 #include <numeric>
 #include <set>
 
 using namespace sinew;
 using namespace sinew::sim;
 using Eigen::Vector3d;
+using test::addBody;
+using test::addOrgan;
 using test::CutBody;
 using test::CutPlane;
+using test::download;
+using test::drawnBy;
+using test::drawnOf;
+using test::isThere;
+using test::Mixed;
+using test::normalOf;
+using test::organScene;
+using test::placeOf;
+using test::reach;
 using test::Sweep;
 using test::sweepOf;
+using test::Triangle;
 
 namespace {
 
-using Triangle = std::array<std::uint32_t, 3>;
-
-constexpr double reach = 3;
-
-void addBody(Scene& scene, const mesh::TriangleMesh& mesh) {
-    mesh::MeshBody body{.name = "body", .youngModulus = 1e5f, .isCuttable = true};
-    body.voxels.resolution = 14;
-    mesh::addMesh(scene, mesh, body);
-}
-
-void addOrgan(Scene& scene) {
-    addBody(scene, mesh::generate("organ", 49));
-}
-
-Scene organScene() {
-    Scene scene{.name = "organ", .gravity = {0, 0, 0}};
-    addOrgan(scene);
-    return scene;
-}
-
-bool isThere(const Triangle& triangle) {
-    return triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0];
-}
-
-std::vector<Triangle> download(const vk::BufferView& indices) {
-    return test::queue().download<Triangle>(indices);
-}
-
-// Every triangle that is drawn of mixed skins, by skin.
-std::vector<std::vector<Triangle>> drawnOf(const Simulation& simulation) {
-    const Simulation::DrawnSkins drawn = simulation.drawnSkins(Overlap::some);
-    EXPECT_FALSE(drawn.areWhole);
-    const std::vector<Triangle> all = download(drawn.indices);
-    const auto draws = test::queue().download<layout::DrawArguments>(drawn.draws);
-    EXPECT_EQ(draws.size(), drawn.ranges.size());
-    std::vector<std::vector<Triangle>> result;
-    for (std::size_t s = 0; s < draws.size(); ++s) {
-        EXPECT_EQ(draws[s].firstIndex, drawn.ranges[s].firstIndex);
-        EXPECT_LE(draws[s].indexCount, drawn.ranges[s].indexCount);
-        EXPECT_EQ(draws[s].instanceCount, 1u);
-        EXPECT_EQ(draws[s].vertexOffset, 0);
-        const auto first = all.begin() + draws[s].firstIndex / 3;
-        result.emplace_back(first, first + draws[s].indexCount / 3);
-        EXPECT_TRUE(std::ranges::all_of(result.back(), isThere)) << "what is not drawn is not met";
-    }
-    return result;
-}
-
-// Those of `all`, in its order, that are next in what is drawn, and points for the others.
-std::vector<Triangle> take(const std::vector<Triangle>& all, std::span<const Triangle>& drawn) {
-    std::vector<Triangle> result(all.size());
-    for (std::size_t t = 0; t < all.size() && !drawn.empty(); ++t) {
-        if (drawn.front() != all[t]) continue;
-        result[t] = all[t];
-        drawn = drawn.subspan(1);
-    }
-    return result;
-}
-
-// What is drawn of the last skin, whose vertices begin with `firstVertex`, with either form of overlap.
-struct Mixed {
-    Mixed(const Simulation& simulation, const Skin& skin, std::uint32_t firstVertex = 0) {
-        const auto placed = [&](std::vector<Triangle> triangles) {
-            for (Triangle& triangle : triangles)
-                for (std::uint32_t& corner : triangle) corner += firstVertex;
-            return triangles;
-        };
-        const std::vector<Triangle> all = drawnOf(simulation).back();
-        std::span<const Triangle> drawn(all);
-        wholes = take(placed(skin.wholeTriangles), drawn);
-        parts = take(placed(skin.triangles), drawn);
-        EXPECT_TRUE(drawn.empty()) << drawn.size() << " are in no order, or are nothing of the skin";
-        const std::vector<Triangle> full = download(simulation.skinIndices());
-        left.assign(full.end() - static_cast<std::ptrdiff_t>(skin.triangles.size()), full.end());
-        for (std::size_t t = 0; t < parts.size(); ++t) partsOf[skin.wholeOf[t]].push_back(t);
-    }
-    // Those of a whole triangle that no pieces stand for.
-    bool hasAllParts(std::uint32_t whole) const {
-        for (const std::size_t t : partsOf.at(whole))
-            if (isThere(left[t]) && parts[t] != left[t]) return false;
-        return true;
-    }
-    std::size_t count() const {
-        return static_cast<std::size_t>(std::ranges::count_if(wholes, isThere) +
-                                        std::ranges::count_if(parts, isThere));
-    }
-    std::vector<Triangle> wholes, parts, left; // left: as they are without overlap
-    std::map<std::uint32_t, std::vector<std::size_t>> partsOf;
-};
-
-std::vector<layout::SkinVertex> drawnBy(test::Runner& runner, SkinDetail detail,
-                                        Overlap overlap = Overlap::none) {
-    const VkCommandBuffer commands = test::queue().begin();
-    runner.simulation().recordSkin(commands, detail, overlap);
-    test::queue().wait(test::queue().submit(commands));
-    return test::queue().download<layout::SkinVertex>(runner.simulation().skinVertices());
+std::vector<Vector3d> verticesOf(test::Runner& runner) {
+    std::vector<Vector3d> places;
+    for (const auto& vertex : drawnBy(runner, SkinDetail::all)) places.push_back(placeOf(vertex));
+    return places;
 }
 
 // Of what is drawn with an overlap everything, and of the rest less, is as if all were made.
@@ -156,20 +73,6 @@ void expectMadeWhereDrawn(test::Runner& runner, const std::string& when) {
         return std::bit_cast<std::uint32_t>(vertex.position.x) == poison;
     });
     EXPECT_GT(unseen, static_cast<std::ptrdiff_t>(some.size() / 4)) << "of " << some.size();
-}
-
-Vector3d normalOf(const layout::SkinVertex& vertex) {
-    return {double{vertex.normal.x}, double{vertex.normal.y}, double{vertex.normal.z}};
-}
-
-Vector3d placeOf(const layout::SkinVertex& vertex) {
-    return {double{vertex.position.x}, double{vertex.position.y}, double{vertex.position.z}};
-}
-
-std::vector<Vector3d> verticesOf(test::Runner& runner) {
-    std::vector<Vector3d> places;
-    for (const auto& vertex : drawnBy(runner, SkinDetail::all)) places.push_back(placeOf(vertex));
-    return places;
 }
 
 Vector3d areaOf(const Triangle& triangle, const std::vector<Vector3d>& places) {
@@ -242,113 +145,6 @@ TEST(MixedSkin, IsWholeAwayFromACutAndItsPartsBesideIt) {
     const Mixed undone(body.runner().simulation(), skin);
     EXPECT_EQ(undone.wholes, skin.wholeTriangles);
     EXPECT_EQ(undone.count(), skin.wholeTriangles.size());
-}
-
-// Not as parts, of which there are more, would have it: nobody sees a cut elsewhere.
-TEST(MixedSkin, IsLitAwayFromACutAsBefore) {
-    const Scene scene = organScene();
-    const Skin& skin = scene.skins[0];
-    CutBody body(scene);
-    body.runner().run(1);
-    const auto before = drawnBy(body.runner(), SkinDetail::drawn);
-    const CutPlane plane{{0, 0, 0}, Vector3d::UnitX()};
-    body.cut(sweepOf(plane, reach));
-    const auto after = drawnBy(body.runner(), SkinDetail::drawn);
-    const Mixed mixed(body.runner().simulation(), skin);
-    std::set<std::uint32_t> beside;
-    for (std::uint32_t w = 0; w < mixed.wholes.size(); ++w)
-        if (!isThere(mixed.wholes[w]))
-            beside.insert(skin.wholeTriangles[w].begin(), skin.wholeTriangles[w].end());
-    std::size_t same = 0;
-    for (const Triangle& triangle : skin.wholeTriangles)
-        for (const std::uint32_t v : triangle) {
-            const double alike = normalOf(before[v]).dot(normalOf(after[v]));
-            ASSERT_GT(alike, beside.contains(v) ? 0.7 : 1 - 1e-6) << v;
-            same += beside.contains(v) ? 0 : 1;
-        }
-    EXPECT_GT(same, skin.wholeTriangles.size());
-    EXPECT_GT(beside.size(), 50u);
-}
-
-namespace {
-
-std::vector<surface::Point> pointsOf(const std::vector<layout::SkinVertex>& vertices) {
-    std::vector<surface::Point> points;
-    for (const auto& vertex : vertices) points.push_back(surface::pointOf(vertex.position));
-    return points;
-}
-
-// As it is lit at rest, by vertex.
-std::vector<Vector3d> litNormals(const Skin& skin, const std::vector<surface::Point>& rest) {
-    std::vector<Vector3d> normals;
-    for (const auto& n : surface::litNormals(skin, surface::partVertices(skin, rest), rest))
-        normals.emplace_back(n.x, n.y, n.z);
-    return normals;
-}
-
-} // namespace
-
-// Or a rim would be lit as no skin beside it is.
-TEST(MixedSkin, HasTheNormalsAtRestThatTheDeviceMakes) {
-    const Scene scene = organScene();
-    test::Runner runner(scene, {.substeps = 2});
-    const auto vertices = drawnBy(runner, SkinDetail::all);
-    const std::vector<Vector3d> normals = litNormals(scene.skins[0], pointsOf(vertices));
-    for (std::size_t v = 0; v < vertices.size(); ++v)
-        ASSERT_GT(normalOf(vertices[v]).dot(normals[v]), 1 - 1e-5) << v;
-}
-
-// What only parts have is lit as the whole triangle, in which it lies, is there: not as flat.
-TEST(MixedSkin, IsLitByItsPartsAsByWhatTheyArePartsOf) {
-    const Scene scene = organScene();
-    const Skin& skin = scene.skins[0];
-    test::Runner runner(scene, {.substeps = 2});
-    const std::vector<surface::Point> rest = pointsOf(drawnBy(runner, SkinDetail::all));
-    const std::vector<Vector3d> lit = litNormals(skin, rest);
-    const std::vector<layout::PartVertex> parts = surface::partVertices(skin, rest);
-    ASSERT_GT(parts.size(), skin.wholeTriangles.size() / 2);
-    std::size_t flat = 0;
-    for (const layout::PartVertex& part : parts) {
-        const Triangle& whole = skin.wholeTriangles[part.whole];
-        Vector3d place = Vector3d::Zero(), normal = Vector3d::Zero(), corners[3];
-        const double ofB = double{part.shares[0]}, ofC = double{part.shares[1]};
-        for (std::size_t n = 0; n < 3; ++n) {
-            const double share = n == 0 ? 1 - ofB - ofC : n == 1 ? ofB : ofC;
-            const surface::Point& x = rest[whole[n]];
-            corners[n] = {x.x, x.y, x.z};
-            place += share * corners[n];
-            normal += share * lit[whole[n]];
-        }
-        const surface::Point& x = rest[part.vertex];
-        ASSERT_LT((place - Vector3d(x.x, x.y, x.z)).norm(), 1e-5) << "it lies elsewhere in the triangle";
-        ASSERT_GT(normal.normalized().dot(lit[part.vertex]), 1 - 1e-6);
-        const Vector3d across = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
-        flat += across.dot(lit[part.vertex]) > 1 - 1e-7 ? 1 : 0;
-    }
-    EXPECT_LT(flat, parts.size() / 4) << "of " << parts.size();
-}
-
-// Nothing has moved when a body at rest is cut: all that is drawn of its skin has the normal that it had,
-// beside the cut and away from it, on rims and in pieces, whatever folds lie upon each other there.
-TEST(MixedSkin, IsLitBesideACutAsBefore) {
-    const Scene scene = organScene();
-    CutBody body(scene);
-    const std::vector<Vector3d> lit =
-        litNormals(scene.skins[0], pointsOf(drawnBy(body.runner(), SkinDetail::all)));
-    for (const double x : {0.031, -0.06}) {
-        const CutPlane plane{{x, 0, 0}, Vector3d(1, 0.3, 0.2).normalized()};
-        ASSERT_GT(body.cut(sweepOf(plane, reach)).linksCutInAll, 0u);
-        const auto vertices = drawnBy(body.runner(), SkinDetail::drawn, Overlap::some);
-        double least = 1;
-        std::set<std::uint32_t> seen;
-        const std::vector<Triangle> drawn = drawnOf(body.runner().simulation()).back();
-        for (const Triangle& triangle : drawn) seen.insert(triangle.begin(), triangle.end());
-        for (const std::uint32_t v : seen) least = std::min(least, normalOf(vertices[v]).dot(lit[v]));
-        std::printf("normals of %zu vertices: %.3f degrees off at most\n", seen.size(),
-                    std::acos(std::min(least, 1.0)) * 180 / std::numbers::pi);
-        EXPECT_GT(least, 1 - 1e-4);
-        EXPECT_GT(seen.size(), 1000u);
-    }
 }
 
 TEST(MixedSkin, OfSeveralBodiesIsOneBehindTheOther) {
