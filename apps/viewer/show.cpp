@@ -117,7 +117,8 @@ void Show::turn() {
     const bool isIdle = isHidden_ || (shown_ == Shown::still && panelsDue_ == 0);
     const bool isBusy = backstage_.isBusy();        // pictures wait for it, hands do not
     if (!isBusy) screen_.presenter().waitForSlot(); // the next picture has what came until it can be drawn
-    const bool isMaking = backstage_.isMaking() || stage_.isGrowing() || besideMaking_.valid();
+    const bool isMaking =
+        backstage_.isMaking() || stage_.isGrowing() || stage_.wantsShape() || besideMaking_.valid();
     screen_.timing().beforeInput(isIdle);
     Input input = screen_.window().poll(isBusy || (isIdle && isMaking) ? rehearsalWait
                                         : isIdle                       ? idleWait
@@ -186,7 +187,8 @@ void Show::goOn() {
         if (inspector_.isOn()) inspector_.toggle();
         screen_.warn(error.what());
     }
-    const bool isMaking = backstage_.isMaking() || stage_.lacksContactRoom() || besideMaking_.valid();
+    const bool isMaking =
+        backstage_.isMaking() || stage_.lacksContactRoom() || stage_.wantsShape() || besideMaking_.valid();
     if (!isMaking) isMakingSaid_ = false;
     if (!isMaking) return makingSince_.reset();
     if (!makingSince_) makingSince_ = Clock::now();
@@ -240,9 +242,10 @@ void Show::draw(Plan plan, View& view) {
     screen_.presenter().waitForSlot();
     settle(screen_.presenter().nextSlot());
     if (surfaceMissing_ > 0) makeSurfaceRoom();
-    if (stage_.wantsShape()) reshape();
+    if (stage_.wantsShape() && stage_.isShapeMade()) reshape();
     if (isDiverged_ && !plan.isReset) plan.steps = 0; // keeps the last finite picture
-    if (stage_.lacksContactRoom()) plan.steps = 0;    // since settle()
+    if (stage_.lacksContactRoom() || stage_.wantsShape())
+        plan.steps = 0; // since settle(), and until it is there
     const std::optional<Presenter::Frame> frame = screen_.presenter().begin();
     if (!frame) {
         if (plan.isReset) controller_.playback.reset();

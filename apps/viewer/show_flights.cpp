@@ -233,6 +233,7 @@ void Show::makeSurfaceRoom() {
 // A simulation with more room goes on, once no picture is on its way any more.
 void Show::takeGrowth() {
     if (!stage_.isGrowing() || backstage_.isMaking()) return; // layers that are being made first
+    if (stage_.wantsShape()) return;                          // which goes on without it
     const Stage::Growth growth = stage_.askGrowth();
     if (growth == Stage::Growth::none && std::exchange(isSurfaceGrowing_, false)) warnOfSurface();
     if (growth != Stage::Growth::made) return;

@@ -84,7 +84,7 @@ void Show::takeOver(const Show& before) {
     if (material != stage_.material()) stage_.turn(material); // turned meanwhile
 }
 
-// Of a replay: it may wait.
+// Of a replay, once the other simulation has been made.
 void Show::reshape() {
     settleAll();
     backstage_.forget(); // of the simulation that goes

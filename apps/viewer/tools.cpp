@@ -305,6 +305,8 @@ void Tools::putAway(Stage& stage) {
     const sim::Settings &now = stage.settings(), &first = stage.madeWith();
     if (now.solver != first.solver || now.substeps != first.substeps)
         stage.wantShape(first.solver, first.substeps);
+    else
+        stage.keepShape();
 }
 
 void Tools::forget() {

@@ -79,8 +79,12 @@ void GrowingSimulation::goOnIn(std::unique_ptr<sim::Simulation> next, const sim:
 }
 
 void GrowingSimulation::replace(const sim::Settings& settings, vk::Queue& queue, const Bring& bring) {
+    replaceBy(std::make_unique<sim::Simulation>(device_, scene_, settings), settings, queue, bring);
+}
+
+void GrowingSimulation::replaceBy(std::unique_ptr<sim::Simulation> next, const sim::Settings& settings,
+                                  vk::Queue& queue, const Bring& bring) {
     queue.waitIdle();
-    auto next = std::make_unique<sim::Simulation>(device_, scene_, settings);
     if (bring) bring(*simulation_, queue, *next, queue);
     const VkCommandBuffer commands = queue.begin();
     next->recordTakeOver(commands, *simulation_);

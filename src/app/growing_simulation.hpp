@@ -74,6 +74,9 @@ public:
     /// differ from settings() as Simulation::recordTakeOver allows. Waits for `queue`, in which all was
     /// submitted. Throws as sim::Simulation, and nothing has changed then.
     void replace(const sim::Settings& settings, vk::Queue& queue, const Bring& bring = {});
+    /// The same in `next`, which was made of that scene and of `settings` on device().
+    void replaceBy(std::unique_ptr<sim::Simulation> next, const sim::Settings& settings, vk::Queue& queue,
+                   const Bring& bring = {});
 
     /// Goes on after the newest step in a simulation with at least those rooms of `roomy`, where there is
     /// less. As replace().

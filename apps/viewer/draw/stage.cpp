@@ -107,28 +107,59 @@ void Stage::turnNow(const sim::Material& material) {
     refused_ = material;
 }
 
+void Stage::wantShape(sim::Solver solver, std::uint32_t substeps) {
+    reshaping_.reset();
+    shape_ = Shape{solver, substeps};
+}
+
+void Stage::keepShape() {
+    reshaping_.reset();
+    shape_.reset();
+}
+
+std::future<std::unique_ptr<sim::Simulation>> Stage::make(const sim::Settings& settings,
+                                                          const sim::Material& material) const {
+    return std::async(std::launch::async, [this, settings, material] {
+        const sim::Scene scene = sim::withMaterial(given_, material);
+        return std::make_unique<sim::Simulation>(growing_.device(), scene, settings);
+    });
+}
+
+void Stage::beginShape() {
+    sim::Settings settings = growing_.settings();
+    if (shape_) {
+        settings.solver = shape_->solver;
+        settings.substeps = shape_->substeps;
+    }
+    const sim::Material material = refused_ ? *refused_ : ready_ ? ready_->material : material_;
+    reshaping_.emplace(Reshaping{settings, material, make(settings, material)});
+}
+
+bool Stage::isShapeMade() {
+    if (!wantsShape()) return false;
+    if (!reshaping_) beginShape();
+    return reshaping_->making.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
 void Stage::reshape(vk::Queue& queue, const app::Bring& bring) {
     if (!wantsShape()) return;
     growth_.reset(); // of the other solver: what still lacks room says so again
     wantedRoom_.reset();
-    const std::optional<Shape> shape = std::exchange(shape_, std::nullopt);
-    const std::optional<sim::Material> refused = std::exchange(refused_, std::nullopt);
-    sim::Settings settings = growing_.settings();
-    if (shape) {
-        settings.solver = shape->solver;
-        settings.substeps = shape->substeps;
-    }
-    const sim::Material material = refused ? *refused : ready_ ? ready_->material : material_;
+    if (!reshaping_) beginShape();
+    Reshaping next = *std::exchange(reshaping_, std::nullopt);
+    shape_.reset();
+    refused_.reset();
     ready_.reset();
-    sim::Scene before = std::exchange(scene_, sim::withMaterial(given_, material));
+    std::unique_ptr<sim::Simulation> made = next.making.get();
+    sim::Scene before = std::exchange(scene_, sim::withMaterial(given_, next.material));
     try {
-        growing_.replace(settings, queue, bring);
+        growing_.replaceBy(std::move(made), next.settings, queue, bring);
     } catch (...) {
         scene_ = std::move(before);
         throw;
     }
-    stiffness_ = sim::inspectStiffness(scene_, settings);
-    material_ = material;
+    stiffness_ = sim::inspectStiffness(scene_, next.settings);
+    material_ = next.material;
 }
 
 void Stage::takeOver(const Stage& from, const app::Bring& bring) {
@@ -228,11 +259,7 @@ bool Stage::makeSurfaceRoom(std::uint32_t needed, vk::Queue& queue, const app::B
 
 // Of the scene as it was given, which never changes: what is on show may be turned meanwhile.
 void Stage::beginGrowth(const sim::Settings& settings, bool isOfContacts) {
-    auto making = std::async(std::launch::async, [this, settings, material = material_] {
-        const sim::Scene scene = sim::withMaterial(given_, material);
-        return std::make_unique<sim::Simulation>(growing_.device(), scene, settings);
-    });
-    growth_.emplace(Growing{settings, isOfContacts, material_, std::move(making), nullptr});
+    growth_.emplace(Growing{settings, isOfContacts, material_, make(settings, material_), nullptr});
 }
 
 bool Stage::beginRoom(std::uint64_t step) {

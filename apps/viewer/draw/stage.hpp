@@ -78,12 +78,18 @@ public:
     /// Of the scene as it is.
     const sim::StiffnessReport& stiffness() const noexcept { return stiffness_; }
 
-    /// Another solver and number of substeps, at reshape().
-    void wantShape(sim::Solver solver, std::uint32_t substeps) { shape_ = Shape{solver, substeps}; }
+    /// Another solver and number of substeps, at reshape(), in place of what was wanted before. For replays:
+    /// no step may be recorded before that.
+    void wantShape(sim::Solver solver, std::uint32_t substeps);
+    /// None after all. What has begun is waited for.
+    void keepShape();
     bool wantsShape() const noexcept { return shape_ || refused_; }
-    /// Goes on after the newest step in another simulation(), as wanted: for replays, since it waits, for
-    /// pipelines, too, and for `queue`, in which all was submitted. Throws as sim::Simulation: all is then as
-    /// it was, and nothing wanted any more.
+    /// Whether the simulation that is wanted has been made, in a thread of its own, which begins with the
+    /// first time that somebody asks.
+    bool isShapeMade();
+    /// Goes on after the newest step in another simulation(), as wanted. Waits for `queue`, in which all was
+    /// submitted, and for what has not been made yet. Throws as sim::Simulation: all is then as it was, and
+    /// nothing wanted any more.
     void reshape(vk::Queue& queue, const app::Bring& bring = {});
 
     /// Goes on where `from` stands, a stage of the same scene that may have another material, solver, number
@@ -161,6 +167,11 @@ private:
         sim::Solver solver;
         std::uint32_t substeps;
     };
+    struct Reshaping {
+        sim::Settings settings;
+        sim::Material material;
+        std::future<std::unique_ptr<sim::Simulation>> making;
+    };
     struct Growing {
         sim::Settings settings;
         bool isOfContacts;
@@ -171,6 +182,9 @@ private:
     Turned prepare(const sim::Material& material) const;
     void beginTurn();
     void awaitTurn();
+    std::future<std::unique_ptr<sim::Simulation>> make(const sim::Settings& settings,
+                                                       const sim::Material& material) const;
+    void beginShape();
     void beginGrowth(const sim::Settings& settings, bool isOfContacts);
     void beginWanted();
     void goBackBefore(std::uint64_t step) noexcept;
@@ -191,6 +205,7 @@ private:
     std::deque<Recorded> recorded_;        // that the device may still copy from
     std::future<Turned> turning_;          // refers to what stands before it, as the next
     std::optional<Growing> growth_;
+    std::optional<Reshaping> reshaping_;
     std::optional<std::uint32_t> wantedRoom_; // for contacts, after the growth that there is
 };
 
