@@ -2,7 +2,7 @@
 // and in steps in which something tears, looked at (sim/cutting/stroke_check). Scenes are found in their
 // folder, so that a new one is held to it as well. So that it takes seconds, voxels are coarser, substeps and
 // strokes few, and where something touches nobody waits between strokes for bodies to come to rest:
-// SINEW_FULL=1 in the environment plays scenes as they are.
+// SINEW_FULL=1 in the environment plays scenes as they are, but that what is looked at wakes.
 #include "scenes/blades.hpp"
 #include "sim/cutting/stroke_check.hpp"
 #include "sim/cutting/swept_area.hpp"
