@@ -154,6 +154,8 @@ void Show::play() {
     takeGrowth();
     if (!backstage_.isBusy()) tendBeside();
     if (backstage_.isBusy()) return;
+    if (stage_.wantsShape() && stage_.isShapeMade()) reshape();
+    dropReplay();
     isHidden_ = !prepareSwapchain();
     const auto now = Clock::now();
     const double elapsed = std::chrono::duration<double>(now - std::exchange(lastTurn_, now)).count();
@@ -208,9 +210,9 @@ void Show::countPipelines() {
 Plan Show::plan(double elapsed) {
     const bool isOneByOne = recording_ || replay_;
     const std::uint32_t most = isOneByOne ? 1 : budget_.steps(Playback::maxSteps);
-    Plan plan =
-        controller_.playback.plan(elapsed, stage_.lacksContactRoom() ? 0 : most); // until there is more
-    if (recording_ && !controller_.playback.isPaused() && !plan.isReset) plan.steps = 1;
+    const bool isWaiting = stage_.lacksContactRoom() || stage_.wantsShape(); // until that is there
+    Plan plan = controller_.playback.plan(elapsed, isWaiting ? 0 : most);
+    if (recording_ && !isWaiting && !controller_.playback.isPaused() && !plan.isReset) plan.steps = 1;
     if (plan.isReset && replay_ && from_) { // the state is put in anew, beside what plays
         if (mayOpen()) library_.playAgain(replay_->file(), pictureAspect());
         plan.isReset = false;
@@ -242,10 +244,8 @@ void Show::draw(Plan plan, View& view) {
     screen_.presenter().waitForSlot();
     settle(screen_.presenter().nextSlot());
     if (surfaceMissing_ > 0) makeSurfaceRoom();
-    if (stage_.wantsShape() && stage_.isShapeMade()) reshape();
     if (isDiverged_ && !plan.isReset) plan.steps = 0; // keeps the last finite picture
-    if (stage_.lacksContactRoom() || stage_.wantsShape())
-        plan.steps = 0; // since settle(), and until it is there
+    if (stage_.lacksContactRoom()) plan.steps = 0;    // since settle()
     const std::optional<Presenter::Frame> frame = screen_.presenter().begin();
     if (!frame) {
         if (plan.isReset) controller_.playback.reset();

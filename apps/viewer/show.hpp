@@ -119,6 +119,7 @@ private:
     std::string sceneName() const;
     bool playInput(const Presenter::Frame& frame);
     void endReplay();
+    void dropReplay();
     void compareReplay();
     bool isOfReplay(Action action);
     void toggleRecording();
@@ -227,6 +228,7 @@ private:
     std::optional<Clock::time_point> makingSince_; // nobody has been told
     std::size_t pipelines_ = 0;                    // of this thread, that were counted
     std::optional<SavedOrigin> from_;              // until the reset
+    bool isDropped_ = false;                       // the replay, by hand
     bool isBroken_ = false;                        // has diverged, likewise
     bool isHidden_ = false, isDiverged_ = false, isSurfaceMissing_ = false, isCut_ = false,
          isRefused_ = false, wantsScreenshot_ = false, wantsProbe_ = false, isInputDue_ = false,

@@ -33,7 +33,7 @@ void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
         forgetFlights();
         isDiverged_ = isBroken_ = false;
     }
-    if (!stage_.lacksContactRoom() &&
+    if (!stage_.lacksContactRoom() && !stage_.wantsShape() &&
         tools_.recordHistory(frame.commands, stage_)) { // else later, from where steps go on
         forgetFlights();
         isDiverged_ = false;
@@ -273,8 +273,11 @@ void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
     const std::uint64_t newest = stage_.steps();
     if (!stage_.beginRoom(step)) return stop(app::tooCrowded(step));
     isBesideOut_ = true; // it has taken those steps
-    if (std::exchange(replay_, std::nullopt))
+    if (std::exchange(replay_, std::nullopt)) {
+        isBroken_ = isBroken_ || stage_.wantsShape(); // which stands in the log already
+        stage_.keepShape();
         screen_.warn("the replay ends here: contacts need more room than when it was recorded");
+    }
     std::vector<Sweep> sweeps = undone.sweeps;
     for (const InFlight& later : inFlight_) // at most one has some
         sweeps.insert(sweeps.end(), later.sweeps.begin(), later.sweeps.end());

@@ -139,6 +139,16 @@ void Show::compareReplay() {
     screen_.tell("the replay is over: " + text);
 }
 
+// As soon as there is no simulation that is about to go, which hands must not reach.
+void Show::dropReplay() {
+    if (!isDropped_ || stage_.wantsShape()) return;
+    isDropped_ = false;
+    if (!replay_) return;
+    replay_.reset();
+    tools_.clear();
+    screen_.tell("the replay was ended");
+}
+
 // While it plays, hands are those of the log.
 bool Show::isOfReplay(Action action) {
     if (!replay_) return false;
@@ -148,9 +158,7 @@ bool Show::isOfReplay(Action action) {
     }
     switch (action) {
     case Action::drop:
-        replay_.reset();
-        tools_.clear();
-        screen_.tell("the replay was ended");
+        isDropped_ = true;
         return true;
     case Action::blade:
     case Action::poke:

@@ -83,6 +83,7 @@ grep -q '^solve split 16$' block-*.input || fail "the input does not say where a
 grep -q '^solve split 17$' block-*.input || fail "the input does not say where the substeps changed"
 "$viewer" --headless --replay block-*.input >replay.out 2>replay.err || fail "the replay failed: $(cat replay.err)"
 grep -q "^$hash, as recorded$" replay.out || fail "the replay came to $(cat replay.out), not to $hash"
+log=$(echo block-*.input)
 keys space
 awaitTitle fps
 xdotool mousemove 750 500 click --repeat 40 --delay 20 4
@@ -100,4 +101,32 @@ grep -q '^warning: no usable Vulkan device is called "1"' viewer.err || fail "no
 awaitTitle fps
 quit
 awaitEnd 0
+
+echo "devices: a replay in the window goes to other substeps, too: to its end, with a pause on the way, and until it is dropped"
+scene=
+played() {
+    for _ in {1..900}; do grep -q "^$hash, as recorded$" viewer.out && return; sleep 0.1; done
+    fail "the replay in the window did not come to $hash"
+}
+start --replay "$log"
+played
+quit
+awaitEnd 0
+start --replay "$log"
+sleep 2
+keys space
+sleep 1
+keys r # from its beginning
+keys space
+played
+quit
+awaitEnd 0
+start --replay "$log"
+sleep 2
+keys Escape
+keys period
+sleep 1
+quit
+awaitEnd 0
+! grep -q "as recorded" viewer.out || fail "a replay that was dropped is compared: $(cat viewer.out)"
 echo "passed"

@@ -347,6 +347,41 @@ TEST(StageReshape, ThatCannotBeHadLeavesAllAsItIs) {
     EXPECT_NE(played.hash(), hash);
 }
 
+// In a thread of its own: whoever waits for it goes on with pictures, and may want another one meanwhile.
+TEST(StageReshape, IsMadeBesideWhatPlays) {
+    const auto isMade = [](Stage& stage) {
+        for (int n = 0; n < 3000 && !stage.isShapeMade(); ++n)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        return stage.isShapeMade();
+    };
+    Played waiting, polling;
+    EXPECT_FALSE(polling.stage.isShapeMade()) << "nobody has asked for one";
+    for (Played* played : {&waiting, &polling}) {
+        played->turn({}, 5);
+        played->stage.wantShape(sim::Solver::split, 8);
+    }
+    waiting.stage.reshape(test::queue());
+    ASSERT_TRUE(isMade(polling.stage));
+    EXPECT_EQ(polling.stage.settings().substeps, 4u) << "it is not taken by itself";
+    polling.stage.reshape(test::queue());
+    EXPECT_EQ(polling.stage.settings().substeps, 8u);
+    EXPECT_FALSE(polling.stage.wantsShape());
+    EXPECT_EQ(polling.hash(), waiting.hash());
+    polling.stage.wantShape(sim::Solver::split, 12);
+    EXPECT_TRUE(isMade(polling.stage));
+    polling.stage.keepShape();
+    EXPECT_FALSE(polling.stage.wantsShape());
+    polling.stage.reshape(test::queue());
+    EXPECT_EQ(polling.stage.settings().substeps, 8u);
+    polling.stage.wantShape(sim::Solver::split, 12);
+    EXPECT_TRUE(isMade(polling.stage));
+    polling.stage.wantShape(sim::Solver::split, 6);
+    polling.stage.reshape(test::queue());
+    EXPECT_EQ(polling.stage.settings().substeps, 6u) << "the one that was wanted last";
+    polling.run([&](VkCommandBuffer commands) { polling.stage.recordStep(commands); });
+    EXPECT_EQ(polling.stage.simulation().status(polling.stage.steps()).nonFinite, 0u);
+}
+
 // The replay begins again with what its scene was opened with.
 TEST(StageReshape, IsTakenBackAtTheBeginningOfAReplay) {
     Played first(jacobi), second(changed(jacobi, "12", "7"), damped);

@@ -108,7 +108,9 @@ void Stage::turnNow(const sim::Material& material) {
 }
 
 void Stage::wantShape(sim::Solver solver, std::uint32_t substeps) {
-    reshaping_.reset();
+    const bool isBegun = reshaping_ && !refused_ && reshaping_->settings.solver == solver &&
+                         reshaping_->settings.substeps == substeps && reshaping_->material == material_;
+    if (!isBegun) reshaping_.reset();
     shape_ = Shape{solver, substeps};
 }
 
@@ -150,6 +152,7 @@ void Stage::reshape(vk::Queue& queue, const app::Bring& bring) {
     shape_.reset();
     refused_.reset();
     ready_.reset();
+    awaitTurn(); // it is prepared for the simulation that goes
     std::unique_ptr<sim::Simulation> made = next.making.get();
     sim::Scene before = std::exchange(scene_, sim::withMaterial(given_, next.material));
     try {

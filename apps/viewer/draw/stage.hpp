@@ -81,7 +81,7 @@ public:
     /// Another solver and number of substeps, at reshape(), in place of what was wanted before. For replays:
     /// no step may be recorded before that.
     void wantShape(sim::Solver solver, std::uint32_t substeps);
-    /// None after all. What has begun is waited for.
+    /// None after all. What has begun to be made is waited for, as where another shape is wanted meanwhile.
     void keepShape();
     bool wantsShape() const noexcept { return shape_ || refused_; }
     /// Whether the simulation that is wanted has been made, in a thread of its own, which begins with the
