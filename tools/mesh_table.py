@@ -122,6 +122,8 @@ def from_off(path, folder):
         vertices, count = int(words[0]), int(words[1])
         per = {"OFF": 3, "NOFF": 6, "COFF": 7}[keyword]
         at, points, faces = 3, [], []
+        if per * vertices + count > len(words):  # counts that are out of proportion
+            return None
         for _ in range(vertices):
             points.append(tuple(float(w) for w in words[at:at + 3]))
             at += per
