@@ -33,30 +33,45 @@ void addWay(const ClosedSurface& before, const sim::Blade& blade, CutArea& cut) 
     }
 }
 
-// Draws a body where its newest blade saw it.
-void putWhereCut(CutBody& body) {
-    const sim::Simulation& simulation = body.runner().simulation();
-    const vk::BufferView view = simulation.view(simulation.program().positions);
-    auto positions = queue().download<sim::layout::vec4>(view);
-    const std::vector<Vector3d> places = body.placesAtCut();
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const sim::Vec3 x = toFloats(places[i]);
-        positions[i] = {x.x, x.y, x.z, positions[i].w};
+// Draws a body where its newest blade saw it. Not by way of a saved state, which may be longer than a buffer
+// of the device.
+class AtCut {
+public:
+    explicit AtCut(CutBody& body)
+        : positions_(body.runner().simulation().view(body.runner().simulation().program().positions)),
+          kept_(queue().download<sim::layout::vec4>(positions_)) {
+        std::vector<sim::layout::vec4> moved = kept_;
+        const std::vector<Vector3d> places = body.placesAtCut();
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const sim::Vec3 x = toFloats(places[i]);
+            moved[i] = {x.x, x.y, x.z, kept_[i].w};
+        }
+        upload(moved);
     }
-    queue().upload(view, positions.data(), positions.size() * sizeof(sim::layout::vec4));
-}
+    ~AtCut() { upload(kept_); }
+    AtCut(const AtCut&) = delete;
+    AtCut& operator=(const AtCut&) = delete;
+
+private:
+    void upload(const std::vector<sim::layout::vec4>& positions) const {
+        queue().upload(positions_, positions.data(), positions.size() * sizeof(sim::layout::vec4));
+    }
+
+    vk::BufferView positions_;
+    std::vector<sim::layout::vec4> kept_;
+};
 
 } // namespace
 
 CutArea cutArea(CutBody& body, const vk::Buffer& before, const sim::Blade& blade) {
-    const Runner::Saved now = body.runner().save();
-    putWhereCut(body);
+    const AtCut atCut(body);
+    const vk::Buffer after = body.runner().saveTopology();
     CutArea cut{.inside = ClosedSurface(body).drawnArea(ClosedSurface::Part::inside)};
     body.runner().loadTopology(before);
     const ClosedSurface uncut(body);
     addWay(uncut, blade, cut);
     cut.inside -= uncut.drawnArea(ClosedSurface::Part::inside);
-    body.runner().load(now);
+    body.runner().loadTopology(after);
     return cut;
 }
 
