@@ -15,20 +15,8 @@
 
 using namespace sinew;
 using namespace sinew::sim;
+using namespace sinew::test;
 using Eigen::Vector3d;
-using test::CutBody;
-using test::CutPlane;
-using test::download;
-using test::drawnBy;
-using test::drawnOf;
-using test::isThere;
-using test::Mixed;
-using test::normalOf;
-using test::organScene;
-using test::placeOf;
-using test::reach;
-using test::sweepOf;
-using test::Triangle;
 
 // Not as parts, of which there are more, would have it: nobody sees a cut elsewhere.
 TEST(MixedSkin, IsLitAwayFromACutAsBefore) {

@@ -22,23 +22,8 @@
 
 using namespace sinew;
 using namespace sinew::sim;
+using namespace sinew::test;
 using Eigen::Vector3d;
-using test::addBody;
-using test::addOrgan;
-using test::CutBody;
-using test::CutPlane;
-using test::download;
-using test::drawnBy;
-using test::drawnOf;
-using test::isThere;
-using test::Mixed;
-using test::normalOf;
-using test::organScene;
-using test::placeOf;
-using test::reach;
-using test::Sweep;
-using test::sweepOf;
-using test::Triangle;
 
 namespace {
 
