@@ -175,8 +175,8 @@ struct MixedWords {
 #define MIXED_WORD 32u
 
 // What drawing a mixed skin takes of a vertex, in bits.
-#define VERTEX_PLACED 1u  // its place
-#define VERTEX_SHOWN 2u   // and its normal as one of parts: that of its triangles,
+#define VERTEX_PLACED 1u   // its place
+#define VERTEX_SHOWN 2u    // and its normal as one of parts: that of its triangles,
 #define VERTEX_OF_PARTS 4u // or, as only parts have it, that between the corners of a whole one (light_parts)
 
 struct WholePush {
