@@ -15,7 +15,9 @@ constexpr std::uint32_t cuttableColumns = 2; // of the kernels for lattices that
 // Columns of a block in x and in y.
 std::array<std::uint32_t, 2> blockOf(const Grid& grid, std::uint32_t columns) {
     if (grid.isCuttable) columns = cuttableColumns;
-    return isSheet(grid) ? std::array{sheetColumns, 1u} : std::array{columns, columns};
+    if (isSheet(grid)) return {sheetColumns, 1};
+    if (hasCellVolumes(grid)) return {columns, 1}; // with 2 x 2 a GPU runs out of registers
+    return {columns, columns};
 }
 
 bool isFull(const Grid& grid) {
