@@ -1,16 +1,40 @@
 #!/usr/bin/env bash
-# tools/test.sh [ctest options]: installs what is missing, builds everything and runs every test, on lavapipe.
+# tools/test.sh [--clang | --sanitize] [ctest options]: installs what is missing, builds everything and runs every test, on lavapipe.
+#   --clang     builds with clang++ in build/clang
+#   --sanitize  builds and runs every test under AddressSanitizer and UndefinedBehaviorSanitizer (build/asan), then the
+#               programs that start threads under ThreadSanitizer (build/tsan); takes about two hours on two cores
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . tools/packages.sh
 
+mode=release
+case ${1:-} in
+    --clang) mode=clang; shift; test_packages+=(clang) ;;
+    --sanitize) mode=asan; shift ;;
+esac
 need "${build_packages[@]}" "${test_packages[@]}"
 echo "checking layers and format"
 python3 tools/check_layers.py
 find src apps tools tests \( -name '*.cpp' -o -name '*.hpp' \) -print0 | xargs -0 clang-format --dry-run --Werror
-echo "building (build/release)"
-build release
-echo "testing"
 # on the software device, whatever else the machine has
 for icd in /usr/share/vulkan/icd.d/lvp_icd.*.json; do export VK_ICD_FILENAMES=$icd; done
-ctest --preset release --output-on-failure -j2 "$@"
+
+# tests PRESET [ctest options]: builds everything and runs the tests.
+tests() {
+    local preset=$1
+    shift
+    echo "building (build/$preset)"
+    build "$preset"
+    echo "testing"
+    ctest --preset "$preset" --output-on-failure -j2 "$@"
+}
+
+if [[ $mode != asan ]]; then
+    tests "$mode" "$@"
+    exit
+fi
+export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=1} UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
+export LSAN_OPTIONS=suppressions=$PWD/tools/sanitize/leaks.txt
+export TSAN_OPTIONS=suppressions=$PWD/tools/sanitize/races.txt:ignore_noninstrumented_modules=1
+tests asan "$@"
+tests tsan -R "$(<tools/sanitize/threaded.txt)" "$@"

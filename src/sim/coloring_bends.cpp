@@ -85,8 +85,8 @@ Coloring colorBends(const Scene& scene, std::span<const float> inverseMass) {
         directions.resize(sorted.size(), bends.front());
     }
     const Colors plain = firstFit(scene, inverseMass, inScene, std::vector<std::uint32_t>(inScene.size(), 0));
-    constexpr std::size_t mostDirections = 16; // more are no grid
-    if (byDirection.size() > mostDirections) return toColoring(inScene, plain);
+    constexpr std::size_t mostBendDirections = 16; // more are no grid
+    if (byDirection.size() > mostBendDirections) return toColoring(inScene, plain);
     const Colors directed = firstFit(scene, inverseMass, sorted, directions);
     return directed.count <= plain.count ? toColoring(sorted, directed) : toColoring(inScene, plain);
 }

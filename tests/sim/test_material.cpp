@@ -12,7 +12,6 @@ using namespace sinew::sim;
 
 namespace {
 
-constexpr float dt = 1.0f / 60;
 constexpr Solver everySolver[] = {Solver::split, Solver::jacobi, Solver::gaussSeidel};
 
 Settings settingsOf(Solver solver, std::uint32_t substeps = 8) {

@@ -196,7 +196,9 @@ TEST(References, RefuseByNameWhatTheyLeaveOut) {
              s.tethers = {{1, 0, 0.5f}};
          })},
         {"internal damping", with([](Scene& s) { s.dampingTime = 0.01f; })}};
-    for (const auto& [name, scene] : scenes) {
+    for (const auto& named : scenes) {
+        const char* name = named.first;
+        const Scene& scene = named.second;
         SCOPED_TRACE(name);
         State state = reference::initialState(scene);
         const auto isRefused = [&](const std::string& sentence) {

@@ -105,12 +105,12 @@ void Renderer::makeCounts(Additions& to) const {
         request.input = input;
         addPipeline(to, index, request);
     };
-    using Input = PipelineRequest::Input;
-    add(skinCountPipeline, "skins", shaders::skinVert, shaders::skinCountFrag, Input::positionsAndNormals);
-    add(cutCountPipeline, "cuts", shaders::cutVert, shaders::cutCountFrag, Input::cuts);
-    add(ballCountPipeline, "balls", shaders::ballVert, shaders::ballCountFrag, Input::balls);
+    using In = PipelineRequest::Input;
+    add(skinCountPipeline, "skins", shaders::skinVert, shaders::skinCountFrag, In::positionsAndNormals);
+    add(cutCountPipeline, "cuts", shaders::cutVert, shaders::cutCountFrag, In::cuts);
+    add(ballCountPipeline, "balls", shaders::ballVert, shaders::ballCountFrag, In::balls);
     add(ballValuesCountPipeline, "ball_values", shaders::ballValuesVert, shaders::ballValuesCountFrag,
-        Input::ballValues);
+        In::ballValues);
     addLit(to, capPipeline,
            {.name = "section_cap",
             .vertex = &shaders::screenVert,

@@ -126,10 +126,10 @@ layout::FrameParams frameParams(const StageLight& light, const Camera& camera, f
         const sim::Vec3& color = light.skins[i];
         params.skins[i] = {color.x, color.y, color.z, light.gloss[i]};
     }
-    const auto colors = mapColors();
+    const auto valueColors = mapColors();
     static_assert(mapColorCount == MAP_COLORS);
     for (std::size_t i = 0; i < mapColorCount; ++i)
-        params.mapColors[i] = {colors[i][0], colors[i][1], colors[i][2], 1};
+        params.mapColors[i] = {valueColors[i][0], valueColors[i][1], valueColors[i][2], 1};
     return params;
 }
 

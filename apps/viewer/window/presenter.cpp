@@ -84,7 +84,7 @@ void Presenter::chooseFormat() {
     std::array wanted{VK_FORMAT_B8G8R8A8_SRGB, VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_B8G8R8A8_UNORM,
                       VK_FORMAT_R8G8B8A8_UNORM};
     // There what is blended or copied is decoded and encoded by arithmetic; shaders encode but once.
-    if (isSoftware(device_)) std::ranges::rotate(wanted, wanted.begin() + 2);
+    if (isSoftware(device_)) std::rotate(wanted.begin(), wanted.begin() + 2, wanted.end());
     for (const VkFormat one : wanted)
         for (const VkSurfaceFormatKHR& format : formats)
             if (format_.format == VK_FORMAT_UNDEFINED && format.format == one &&

@@ -22,7 +22,6 @@ using sinew::test::gapOf;
 namespace {
 
 constexpr double g = 9.81;
-constexpr float frame = 1.0f / 60;
 
 class Collided : public testing::TestWithParam<Solver> {
 protected:
