@@ -53,11 +53,7 @@ public:
 private:
     void addVertex(std::string_view line, std::size_t number) {
         result_ += 'v';
-        for (int axis = 0; axis < 3; ++axis) {
-            const std::string_view word = takeWord(line);
-            checkCoordinate(word, number);
-            (result_ += ' ') += word;
-        }
+        for (int axis = 0; axis < 3; ++axis) appendNumber(result_, checkCoordinate(takeWord(line), number));
         result_ += '\n';
         ++vertices_;
     }

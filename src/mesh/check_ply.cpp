@@ -5,7 +5,10 @@
 #include "mesh/text_scanner.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace sinew::mesh {
@@ -34,6 +37,7 @@ struct Element {
     std::vector<Property> properties;
     bool isVertex() const { return name == "vertex"; }
     bool isFace() const { return name == "face"; }
+    bool isStrips() const { return name == "tristrips"; }
     std::uint64_t leastBytes(Encoding encoding) const {
         std::uint64_t bytes = 0;
         for (const Property& property : properties)
@@ -142,6 +146,7 @@ const Element* find(const Header& header, bool (Element::*is)() const) {
 
 void checkHeader(const Header& header, const ImportLimits& limits) {
     const Element *vertices = find(header, &Element::isVertex), *faces = find(header, &Element::isFace);
+    if (faces == nullptr) faces = find(header, &Element::isStrips);
     if (vertices == nullptr || std::ranges::count_if(vertices->properties, isCoordinate) != 3)
         refuse(header.lines, "the header names no vertices with x, y and z: export the mesh again");
     if (faces == nullptr || faces->count == 0) checkTriangleCount(0, limits);
@@ -156,7 +161,7 @@ void checkHeader(const Header& header, const ImportLimits& limits) {
                                      std::to_string(header.body.size()) + " bytes: check the header");
         left -= element.count * least;
     }
-    if (faces->count > limits.triangles) checkTriangleCount(faces->count, limits);
+    if (faces->isFace() && faces->count > limits.triangles) checkTriangleCount(faces->count, limits);
 }
 
 /// Where values come from, in order: a body of either kind. Errors name the line or the element.
@@ -224,51 +229,133 @@ private:
     std::uint64_t item_ = 0;
 };
 
-/// Reads one list. Returns its length.
-std::uint64_t walkList(Values& values, const Property& property, std::uint64_t vertices) {
+/// Gets all vertices and faces in order; those of strips as triangles.
+class Reader {
+public:
+    explicit Reader(const ImportLimits& limits) : limits_(limits) {}
+    virtual ~Reader() = default;
+
+    virtual void vertex(const std::array<double, 3>&) {}
+    virtual void face(std::span<const std::uint64_t>) {}
+
+    void count(std::uint64_t triangles) {
+        triangles_ += triangles;
+        if (triangles_ > limits_.triangles) checkTriangleCount(triangles_, limits_);
+    }
+    std::uint64_t triangles() const { return triangles_; }
+
+private:
+    const ImportLimits& limits_;
+    std::uint64_t triangles_ = 0;
+};
+
+/// Writes them as an OBJ.
+class ObjWriter : public Reader {
+public:
+    using Reader::Reader;
+
+    void vertex(const std::array<double, 3>& x) override {
+        text_ += 'v';
+        for (const double value : x) appendNumber(text_, value);
+        text_ += '\n';
+    }
+    void face(std::span<const std::uint64_t> corners) override {
+        text_ += 'f';
+        for (const std::uint64_t corner : corners) (text_ += ' ') += std::to_string(corner + 1);
+        text_ += '\n';
+    }
+    std::string take() { return std::move(text_); }
+
+private:
+    std::string text_;
+};
+
+constexpr double stripEnd = -1; // an index that ends a strip within its list
+
+/// Reads one list; one of indices into `indices`, its strips ended by nullopt.
+void walkList(Values& values, const Property& property, bool isStrips, std::uint64_t vertices,
+              std::vector<std::optional<std::uint64_t>>& indices) {
     const double length = values.next(property.countType);
     if (!(length >= 0) || length != std::floor(length) || length > static_cast<double>(values.left()))
         values.refuseShort();
     const bool isChecked = isIndexList(property);
+    if (isChecked) indices.clear();
     for (double i = 0; i < length; ++i) {
         const double index = values.next(property.type);
-        if (isChecked && !(index >= 0 && index < static_cast<double>(vertices) && index == std::floor(index)))
+        if (!isChecked) continue;
+        if (isStrips && index == stripEnd) {
+            indices.emplace_back();
+            continue;
+        }
+        if (!(index >= 0 && index < static_cast<double>(vertices) && index == std::floor(index)))
             throw Refusal(values.where(), "a face names a vertex that does not exist: export the mesh again");
+        indices.emplace_back(static_cast<std::uint64_t>(index));
     }
-    return static_cast<std::uint64_t>(length);
 }
 
-/// Reads all items of an element. Returns the number of triangles in them.
-std::uint64_t walk(Values& values, const Element& element, std::uint64_t vertices,
-                   const ImportLimits& limits) {
-    std::uint64_t triangles = 0;
+void readFace(std::span<const std::optional<std::uint64_t>> indices, Reader& reader) {
+    if (indices.size() < 3) return;
+    std::vector<std::uint64_t> corners;
+    for (const auto& index : indices) corners.push_back(*index);
+    reader.count(corners.size() - 2);
+    reader.face(corners);
+}
+
+/// Every second triangle of a strip is turned the other way round; those without area are its bridges.
+void readStrips(std::span<const std::optional<std::uint64_t>> indices, Reader& reader) {
+    std::size_t start = 0;
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        if (!indices[i]) start = i + 1;
+        if (i < start + 2) continue;
+        std::array<std::uint64_t, 3> corners{*indices[i - 2], *indices[i - 1], *indices[i]};
+        if ((i - start) % 2 == 1) std::swap(corners[0], corners[1]);
+        if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
+        reader.count(1);
+        reader.face(corners);
+    }
+}
+
+/// Reads all items of an element.
+void walk(Values& values, const Element& element, std::uint64_t vertices, Reader& reader) {
+    std::vector<std::optional<std::uint64_t>> indices;
     for (std::uint64_t item = 0; item < element.count; ++item) {
         values.beginItem(element, item);
+        std::array<double, 3> x{};
         for (const Property& property : element.properties) {
             if (property.isList()) {
-                const std::uint64_t length = walkList(values, property, vertices);
-                triangles += element.isFace() && isIndexList(property) && length > 2 ? length - 2 : 0;
+                walkList(values, property, element.isStrips(), vertices, indices);
                 continue;
             }
             const double value = values.next(property.type);
-            if (element.isVertex() && isCoordinate(property) && !(std::abs(value) <= largestCoordinate))
-                checkCoordinate(value, values.where());
+            if (!element.isVertex() || !isCoordinate(property)) continue;
+            if (!(std::abs(value) <= largestCoordinate)) checkCoordinate(value, values.where());
+            x[static_cast<std::size_t>(property.name.front() - 'x')] = value;
         }
-        if (triangles > limits.triangles) checkTriangleCount(triangles, limits);
+        if (element.isVertex()) reader.vertex(x);
+        if (element.isFace()) readFace(indices, reader);
+        if (element.isStrips()) readStrips(indices, reader);
     }
-    return triangles;
+}
+
+void read(const Header& header, Reader& reader) {
+    const std::uint64_t vertices = find(header, &Element::isVertex)->count;
+    Values values(header);
+    for (const Element& element : header.elements) walk(values, element, vertices, reader);
 }
 
 } // namespace
 
-void checkPly(std::string_view bytes, const ImportLimits& limits) {
+std::string checkPly(std::string_view bytes, const ImportLimits& limits) {
     const Header header = parseHeader(bytes);
     checkHeader(header, limits);
-    const std::uint64_t vertices = find(header, &Element::isVertex)->count;
-    Values values(header);
-    std::uint64_t triangles = 0;
-    for (const Element& element : header.elements) triangles += walk(values, element, vertices, limits);
-    checkTriangleCount(triangles, limits);
+    const bool isReadByAssimp =
+        header.encoding != Encoding::ascii && find(header, &Element::isStrips) == nullptr;
+    Reader counter(limits);
+    ObjWriter writer(limits);
+    Reader& reader = isReadByAssimp ? counter : writer;
+    read(header, reader);
+    checkTriangleCount(reader.triangles(), limits);
+    return writer.take();
 }
 
 } // namespace sinew::mesh

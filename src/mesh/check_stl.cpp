@@ -23,7 +23,7 @@ std::string reduceTextStl(std::string_view bytes, const ImportLimits& limits) {
     bool isEnded = false;
     for (std::string_view line; lines.next(line);) {
         const std::string_view word = takeWord(line);
-        isEnded = isEnded || word == "endsolid";
+        isEnded = isEnded || word == "endsolid" || (word == "end" && takeWord(line) == "solid");
         if (word == "facet") {
             if (vertices != 3 * facets++)
                 throw Refusal(std::to_string(lines.number()),
@@ -34,11 +34,8 @@ std::string reduceTextStl(std::string_view bytes, const ImportLimits& limits) {
                 throw Refusal(std::to_string(lines.number()),
                               "a vertex lies outside a facet of 3: export the mesh again");
             result += "vertex";
-            for (int axis = 0; axis < 3; ++axis) {
-                const std::string_view coordinate = takeWord(line);
-                checkCoordinate(coordinate, lines.number());
-                (result += ' ') += coordinate;
-            }
+            for (int axis = 0; axis < 3; ++axis)
+                appendNumber(result, checkCoordinate(takeWord(line), lines.number()));
             result += vertices == 3 * facets ? "\nendloop\nendfacet\n" : "\n";
         }
     }

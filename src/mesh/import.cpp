@@ -114,9 +114,10 @@ std::vector<float> checkAndRead(Format format, std::string_view bytes, const Imp
     case Format::stl:
         return isTextStl(bytes) ? readTriangles(format, reduceTextStl(bytes, limits), limits)
                                 : readTriangles(format, checkBinaryStl(bytes, limits), limits);
-    case Format::ply:
-        checkPly(bytes, limits);
-        return readTriangles(format, bytes, limits);
+    case Format::ply: {
+        const std::string obj = checkPly(bytes, limits);
+        return obj.empty() ? readTriangles(format, bytes, limits) : readTriangles(Format::obj, obj, limits);
+    }
     case Format::glb:
         return readTriangles(format, bytes, limits, checkGlb(bytes, limits));
     case Format::gltf:

@@ -4,6 +4,8 @@
 #include "mesh/text_scanner.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cstring>
 
 namespace sinew::mesh {
@@ -49,7 +51,7 @@ void checkCoordinate(double value, const std::string& where) {
         throw Refusal(where, "a coordinate lies beyond 1e9 m: check the unit of the mesh");
 }
 
-void checkCoordinate(std::string_view word, std::size_t line) {
+double checkCoordinate(std::string_view word, std::size_t line) {
     const std::optional<double> value = toNumber(word);
     if (!value)
         throw Refusal(std::to_string(line), word.empty()
@@ -57,6 +59,13 @@ void checkCoordinate(std::string_view word, std::size_t line) {
                                                 : "a coordinate is not a number: export the mesh again");
     if (!std::isfinite(*value) || std::abs(*value) > largestCoordinate)
         checkCoordinate(*value, std::to_string(line));
+    return *value;
+}
+
+void appendNumber(std::string& text, double value) {
+    std::array<char, 32> digits; // of a double at most 24
+    const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+    (text += ' ').append(digits.data(), end);
 }
 
 void checkTriangleCount(std::uint64_t count, const ImportLimits& limits) {

@@ -27,8 +27,11 @@ constexpr double largestCoordinate = 1e9;
 /// Throws Refusal unless the value is usable as a coordinate.
 void checkCoordinate(double value, const std::string& where);
 
-/// Throws Refusal unless the word is a number usable as a coordinate.
-void checkCoordinate(std::string_view word, std::size_t line);
+/// The word as a coordinate. Throws Refusal unless it is a number usable as one.
+double checkCoordinate(std::string_view word, std::size_t line);
+
+/// Appends a blank and the number in digits that assimp reads right: "-.5" it takes for an end of the line.
+void appendNumber(std::string& text, double value);
 
 /// Throws Refusal where there are no triangles, or more than the limit.
 void checkTriangleCount(std::uint64_t count, const ImportLimits& limits);
@@ -48,8 +51,10 @@ bool isTextStl(std::string_view bytes);
 std::string reduceTextStl(std::string_view bytes, const ImportLimits& limits);
 std::string_view checkBinaryStl(std::string_view bytes, const ImportLimits& limits);
 
-/// Checks header, sizes, coordinates and indices of PLY.
-void checkPly(std::string_view bytes, const ImportLimits& limits);
+/// Checks header, sizes, coordinates and indices of PLY. Returns what to read in place of a file that assimp
+/// would misread, one of text (numbers such as "-.5") or with triangle strips: an OBJ of the same faces.
+/// Empty: the file.
+std::string checkPly(std::string_view bytes, const ImportLimits& limits);
 
 /// Checks chunks and JSON of GLB, the JSON of glTF: version 2, sizes, nesting, no buffer outside the file.
 /// Both return the number of triangles that the meshes announce: assimp drops those with an index out of

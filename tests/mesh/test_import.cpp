@@ -82,6 +82,71 @@ TEST(Import, ReadsEveryFormat) {
         expectSame(import(folder.write(sample.name, sample.bytes)), organ, sample.name);
 }
 
+TEST(Import, ReadsNumbersAsCDoes) {
+    const Folder folder;
+    for (const std::string number :
+         {"-.5", ".5", "+.5", "5.e-1", "-5.E-1", "-.5e0", "+0.5", "-50e-2", "1e-7"}) {
+        SCOPED_TRACE(number);
+        const float value = std::strtof(number.c_str(), nullptr);
+        const std::string x = number + " " + number + " " + number + "\n";
+        const auto expectValue = [&](const std::string& name, const std::string& bytes) {
+            const TriangleMesh mesh = import(folder.write(name, bytes));
+            ASSERT_EQ(mesh.positions.size(), 4u) << name;
+            EXPECT_EQ(std::ranges::count_if(
+                          mesh.positions, [&](const auto& one) { return one.x == value && one.z == value; }),
+                      1)
+                << name;
+        };
+        expectValue("a.obj", "v " + x + "v 3 0 0\nv 0 3 0\nv 0 0 3\nf 1 2 3\nf 2 3 4\n");
+        expectValue("a.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                             "property float z\nelement face 2\nproperty list uchar int vertex_indices\n"
+                             "end_header\n" +
+                                 x + "3 0 0\n0 3 0\n0 0 3\n3 0 1 2\n3 1 2 3\n");
+        const std::string rest = "vertex 3 0 0\nvertex 0 3 0\n";
+        expectValue("a.stl", "solid a\nfacet normal 0 0 0\nouter loop\nvertex " + x + rest +
+                                 "endloop\nendfacet\nfacet normal 0 0 0\nouter loop\nvertex 0 0 3\n" + rest +
+                                 "endloop\nendfacet\nendsolid a\n");
+    }
+}
+
+TEST(Import, ReadsATextStlThatEndsInTwoWords) {
+    const Folder folder;
+    const TriangleMesh organ = generate("organ", 8);
+    std::string text = stlText(organ);
+    const std::size_t end = text.rfind("endsolid");
+    ASSERT_NE(end, text.npos);
+    text.replace(end, 8, "end solid");
+    expectSame(import(folder.write("a.stl", text)), organ, "end solid");
+    text.resize(text.rfind("end solid")); // and is still told from one that was cut short
+    EXPECT_NE(complaint(folder.write("a.stl", text)).find("ends too early"), std::string::npos);
+}
+
+// A tetrahedron is one strip around all of it; here with a bridge without area, and as two strips of a list.
+TEST(Import, ReadsTriangleStrips) {
+    const Folder folder;
+    const auto strips = [](const std::string& list) {
+        return "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float "
+               "z\n"
+               "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+               "0 0 0\n1 0 0\n0 1 0\n0 0 1\n" +
+               list + "\n";
+    };
+    for (const std::string list : {"6 0 1 2 3 0 1", "7 0 1 2 3 3 1 0", "9 0 1 2 3 -1 2 3 0 1"}) {
+        SCOPED_TRACE(list);
+        const MeshReport report = inspect(import(folder.write("a.ply", strips(list))));
+        EXPECT_EQ(report.defects.nonManifoldEdges, 0u);
+        if (list[0] == '7') continue; // leaves one face open
+        EXPECT_EQ(report.defects.boundaryEdges, 0u);
+        EXPECT_NEAR(std::abs(report.volume), 1.0 / 6, 1e-6) << "all faces are turned the same way";
+    }
+    EXPECT_EQ(import(folder.write("a.ply", strips("6 0 1 2 3 0 1"))).triangles.size(), 4u);
+    EXPECT_NE(complaint(folder.write("a.ply", strips("4 0 1 2 4"))).find("does not exist"),
+              std::string::npos);
+    EXPECT_NE(complaint(folder.write("a.ply", strips("4 0 1 2 -2"))).find("does not exist"),
+              std::string::npos);
+    EXPECT_NE(complaint(folder.write("a.ply", strips("2 0 1"))).find("no faces"), std::string::npos);
+}
+
 TEST(Import, ReadsWhatWasExported) {
     const Folder folder;
     const TriangleMesh knot = generate("torus_knot", 12);
