@@ -75,7 +75,7 @@ Opening look(const Options& asked, float aspect) {
                                            : scenes::load(options.scene, options.overrides);
     if (opening.run) {
         opening.loaded.settings = app::withRun(opening.loaded.settings, *opening.run);
-        addHands(opening.loaded.settings);
+        app::addHands(opening.loaded.settings);
     }
     opening.bladeDepth = options.bladeDepth;
     opening.camera = firstView(opening.loaded, aspect);
@@ -87,11 +87,6 @@ Opening look(const Options& asked, float aspect) {
 
 sim::Material firstMaterial(const Opening& opening) {
     return opening.again ? opening.again->material : opening.run ? opening.run->material : sim::Material{};
-}
-
-void addHands(sim::Settings& settings) {
-    settings.grabs = sim::ranges::mostGrabs;
-    settings.pokes = 1;
 }
 
 vk::DeviceRequest deviceRequest(const Options& options, std::atomic<std::size_t>& messages) {

@@ -53,9 +53,6 @@ Opening look(const Options& options, float aspect);
 /// What the scene is to be of from the start: of what it goes on from.
 sim::Material firstMaterial(const Opening& opening);
 
-/// For the pointer and its pins, and a sphere: what holds and pushes nothing costs nothing.
-void addHands(sim::Settings& settings);
-
 /// Asks for a device that draws, and for validation where the options do; each message goes to stderr and is
 /// counted in `messages`, which must outlive the device and is counted up in any thread.
 vk::DeviceRequest deviceRequest(const Options& options, std::atomic<std::size_t>& messages);

@@ -105,7 +105,7 @@ void prepareForReplay(Opening& opening, const InputFile& file) {
                                               ": what was opened is another one: open the file that was "
                                               "loaded then");
     sim::Settings& settings = opening.loaded.settings;
-    addHands(settings);
+    app::addHands(settings);
     if (!file.from) settings = app::withRoomOf(settings, roomOf(file));
     opening.bladeDepth.reset(); // the log has its own
 }

@@ -4,6 +4,7 @@
 #include "app/guard.hpp"
 #include "mesh/export.hpp"
 #include "sim/hash.hpp"
+#include "sim/ranges.hpp"
 #include "vk/commands.hpp"
 
 #include <algorithm>
@@ -177,6 +178,11 @@ sim::Settings withRun(sim::Settings settings, const SavedRun& run) {
     settings.cutSurfaceRoom = run.settings.cutSurfaceRoom;
     settings.forms = run.settings.forms;
     return settings;
+}
+
+void addHands(sim::Settings& settings) {
+    settings.grabs = sim::ranges::mostGrabs;
+    settings.pokes = 1;
 }
 
 void writeRun(const std::filesystem::path& file, const SavedRun& run) {

@@ -89,6 +89,35 @@ TEST_F(Run, TracesEnergyOverlapAndSleepOverTime) {
     expectOneError(run({"run", "balls.toml", "--frames", "1", "--trace", "none/trace.csv"}), 6, "none");
 }
 
+// A box falls while a blade goes through it.
+TEST_F(Run, GoesOnFromASavedStateToTheSameBits) {
+    write("cut.toml",
+          box + "cuttable = true\nyoung_modulus = 1e5\n[solver]\nsubsteps = 8\n[[plane]]\n"
+                "[[blade]]\ntimes = [0.05, 0.45]\n"
+                "edges = [[[-0.5, 0.23, -0.5], [-0.5, 0.23, 0.5]], [[0.5, 0.23, -0.5], [0.5, 0.23, 0.5]]]\n");
+    const json whole = report({"cut.toml", "--frames", "40"});
+    report({"cut.toml", "--frames", "15", "--save", "half.state"});
+    const json rest = report({"half.state", "--frames", "25", "--save", "end.state"});
+    EXPECT_EQ(rest["state_hash"], whole["state_hash"]);
+    EXPECT_EQ(rest["cut"]["links"], whole["cut"]["links"]) << "the blade goes on where it was";
+    EXPECT_GT(rest["cut"]["links"], 0);
+    EXPECT_EQ(rest["scene"], whole["scene"]);
+    const json later = report({"end.state", "--frames", "1"}); // saved of what went on from one
+    EXPECT_EQ(later["state_hash"], report({"cut.toml", "--frames", "41"})["state_hash"]);
+}
+
+TEST_F(Run, RefusesAStateThatItCannotGoOnFrom) {
+    write("scene.toml", sheet);
+    report({"scene.toml", "--frames", "2", "--save", "sheet.state"});
+    expectOneError(run({"run", "scene.toml", "--frames", "1", "--save", "none/sheet.state"}), 6, "none");
+    EXPECT_EQ(run({"run", "scene.toml", "--frames", "1", "--save", "sheet.txt"}).code, 2);
+    expectOneError(run({"run", "sheet.state", "--frames", "1", "--solver", "jacobi"}), 3,
+                   "another simulation");
+    expectOneError(run({"run", "nothing.state", "--frames", "1"}), 3, "nothing.state");
+    write("scene.toml", box); // the scene has changed since then
+    expectOneError(run({"run", "sheet.state", "--frames", "1"}), 3, "has the scene");
+}
+
 TEST_F(Run, ReportHasEveryDocumentedField) {
     write("scene.toml", sheet);
     const json report = this->report({"scene.toml", "--frames", "3"});

@@ -47,7 +47,7 @@ std::filesystem::path temporary(const std::string& name) {
 
 // As in the window.
 Opening withHands(Opening opening) {
-    addHands(opening.loaded.settings);
+    app::addHands(opening.loaded.settings);
     return opening;
 }
 

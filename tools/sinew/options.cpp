@@ -2,6 +2,7 @@
 #include "sinew/options.hpp"
 
 #include "sim/compile.hpp"
+#include "sim/material.hpp"
 #include "sim/ranges.hpp"
 
 #include <CLI/CLI.hpp>
@@ -21,6 +22,10 @@ std::string checkSubsteps(const std::string& text) {
     if (text == "auto") return {};
     const std::string complaint = within(sim::ranges::substeps)(text);
     return complaint.empty() ? "" : "is " + text + ", must be " + toText(sim::ranges::substeps) + ", or auto";
+}
+
+void warn(const scenes::LoadedScene& loaded) {
+    for (const std::string& warning : loaded.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
 }
 
 } // namespace
@@ -62,8 +67,27 @@ void addDeviceOptions(CLI::App& command, DeviceOptions& options) {
 
 scenes::LoadedScene loadScene(const SceneOptions& options) {
     scenes::LoadedScene loaded = scenes::load(options.file, options.overrides);
-    for (const std::string& warning : loaded.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    warn(loaded);
     return loaded;
+}
+
+Start loadStart(const SceneOptions& options) {
+    if (!app::isRunFile(options.file))
+        return {loadScene(options), std::filesystem::absolute(options.file).lexically_normal().string(), {}};
+    Start start{{}, {}, app::readRun(options.file)};
+    const app::SavedRun& run = *start.run;
+    start.scene = run.scene;
+    scenes::Overrides overrides = options.overrides;
+    if (!overrides.solver) overrides.solver = sim::solverName(run.settings.solver);
+    if (!overrides.substeps) overrides.substeps = run.settings.substeps;
+    start.loaded = run.scene.starts_with('/') ? scenes::load(run.scene, overrides)
+                                              : scenes::loadBuiltIn(run.scene, overrides);
+    warn(start.loaded);
+    start.loaded.scene = sim::withMaterial(std::move(start.loaded.scene), run.material);
+    start.loaded.scene.gravity = run.gravity;
+    start.loaded.settings = app::withRun(start.loaded.settings, run);
+    app::addHands(start.loaded.settings);
+    return start;
 }
 
 } // namespace sinew::tools

@@ -1,8 +1,10 @@
 // Options that several commands share.
 #pragma once
 
+#include "app/state_file.hpp"
 #include "scenes/load.hpp"
 
+#include <optional>
 #include <string>
 
 namespace CLI {
@@ -18,6 +20,18 @@ struct SceneOptions {
 
 /// SCENE|MESH, --solver, --substeps, --iterations, --voxel, --reversed.
 void addSceneOptions(CLI::App& command, SceneOptions& options);
+
+/// A scene to simulate, and the state that it begins in.
+struct Start {
+    scenes::LoadedScene loaded;
+    std::string scene;                ///< absolute path, or the name of a built-in scene
+    std::optional<app::SavedRun> run; ///< nothing: the scene's own state
+};
+
+/// As loadScene; `options.file` may also be a saved state. The scene is then the one that the state was saved
+/// of, with the material and gravity that it had, and its solver and substeps where `options` asks for no
+/// others. Throws app::Failure (badInput) where there is no such state.
+Start loadStart(const SceneOptions& options);
 
 struct DeviceOptions {
     std::string device;

@@ -23,7 +23,7 @@ struct RunOptions {
     DeviceOptions device;
     std::uint64_t frames = 240;
     std::uint64_t traceEvery = 10;
-    std::optional<std::string> folder, json, trace;
+    std::optional<std::string> folder, json, trace, save;
 };
 
 std::vector<mesh::ParticleState> particleStates(const State& state) {
@@ -99,6 +99,18 @@ void warnAboutRun(const RunRecord& record, std::vector<std::string>& warnings) {
              " triangles, for which the device has no room: skins are written uncut, take coarser voxels");
 }
 
+/// As the viewer saves it, from the view of `start` if it has one.
+void writeState(const std::string& file, const Start& start, Runner& runner) {
+    app::SavedRun run = runner.save();
+    run.scene = start.scene;
+    run.gravity = start.loaded.scene.gravity;
+    if (start.run) {
+        run.material = start.run->material;
+        run.view = start.run->view;
+    }
+    app::writeRun(file, run);
+}
+
 /// The exit code of a run whose outputs are written.
 int conclude(const RunRecord& record) {
     if (record.divergence && record.divergence->isCrowded)
@@ -121,16 +133,20 @@ int run(const RunOptions& options) {
     app::catchSignals();
     // Before anything costs time: an output that cannot be written is known now.
     std::optional<OutputFolder> folder;
-    std::optional<TextOutput> json, traceOutput;
+    std::optional<TextOutput> json, traceOutput, state;
     if (options.json) json.emplace(*options.json);
     if (options.trace) traceOutput.emplace(*options.trace);
-    scenes::LoadedScene loaded = loadScene(options.scene);
+    if (options.save) state.emplace(*options.save);
+    Start start = loadStart(options.scene);
+    scenes::LoadedScene& loaded = start.loaded;
+    if (options.save) app::addHands(loaded.settings);
     if (options.folder) folder.emplace(*options.folder);
     Session session(options.device);
     constexpr std::uint64_t worthTuning = 100; // frames: below, measuring forms costs more than it gains
-    if (options.frames >= worthTuning)
+    if (options.frames >= worthTuning && !start.run)
         loaded.settings = sim::tuned(session.device, session.queue, loaded.scene, loaded.settings);
     Runner runner(session, loaded.scene, loaded.settings, {loaded.blades, loaded.scene.dt});
+    if (start.run) runner.load(*start.run);
     std::vector<Sample> samples;
     const RunRecord record = simulate(options, loaded, session, runner, samples);
     for (const std::string& message : record.validationMessages)
@@ -138,6 +154,7 @@ int run(const RunOptions& options) {
     warnAboutRun(record, loaded.warnings);
 
     const std::string report = toJson(record);
+    if (options.save) writeState(*options.save, start, runner);
     if (folder) writeFolder(folder->path(), record, report);
     if (json) json->write(report);
     if (traceOutput) traceOutput->write(toCsv(samples));
@@ -160,6 +177,13 @@ void addRun(CLI::App& app, Chosen& chosen) {
         "--out", options->folder,
         "folder for report.json, state.ply, and an OBJ, a PLY and a GLB of every skin at the end");
     command.add_option("--json", options->json, "file for the report, or - for the standard output");
+    command
+        .add_option("--save", options->save,
+                    "file for the state at the end, FILE.state: `sinew run FILE.state` and sinew-viewer go "
+                    "on from it")
+        ->check([](const std::string& file) {
+            return app::isRunFile(file) ? std::string() : file + ": the name of a state ends in .state";
+        });
     command.add_option("--trace", options->trace,
                        "file for energy, overlap and sleep over time as CSV, or - for the standard output");
     command.add_option("--trace-every", options->traceEvery, "steps between two lines of it")

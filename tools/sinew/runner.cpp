@@ -47,13 +47,24 @@ Runner::Runner(Session& session, const sim::Scene& scene, const sim::Settings& s
 void Runner::restart() {
     submitReset();
     session_.queue.waitIdle();
-    done_ = slowed_ = timed_ = recorded_ = 0;
+    done_ = slowed_ = timed_ = recorded_ = played_ = 0;
     surfaceMissing_ = 0;
     recordSum_ = 0;
     divergence_.reset();
     frameMs_.clear();
     deviceMs_.clear();
     std::ranges::fill(phaseSums_, 0.0);
+}
+
+app::SavedRun Runner::save() {
+    app::SavedRun run = app::saveRun(session_.device, growing_, session_.queue);
+    run.played = played_ + done_;
+    return run;
+}
+
+void Runner::load(const app::SavedRun& run) {
+    app::loadRun(session_.device, growing_, run, session_.queue);
+    played_ = run.played;
 }
 
 void Runner::submitReset() {
@@ -71,7 +82,7 @@ void Runner::submitStep(std::uint64_t frame) {
                                   .gravity = scene_.gravity,
                                   .frame = frame,
                                   .anchors = {},
-                                  .blade = blades_.at(frame)},
+                                  .blade = blades_.at(played_ + frame)},
                                  &timestamps_[slot]);
     submitted_[slot] = session_.queue.submit(commands);
     recordSum_ += nowMs() - start;

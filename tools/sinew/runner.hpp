@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/growing_simulation.hpp"
+#include "app/state_file.hpp"
 #include "mesh/export_gltf.hpp"
 #include "scenes/blades.hpp"
 #include "sinew/measure.hpp"
@@ -49,6 +50,13 @@ public:
     /// Back to the scene's state and to no steps and no times.
     void restart();
 
+    /// The newest finite state. Scene, material and gravity of it are the caller's to fill in. Waits for the
+    /// queue.
+    app::SavedRun save();
+    /// Goes on from a state instead of the scene's: scripted blades too. Throws app::Failure (badInput) where
+    /// the state is of another simulation. Waits for the queue.
+    void load(const app::SavedRun& run);
+
     std::uint64_t steps() const { return done_; } ///< with a finite state
     const std::optional<Divergence>& divergence() const { return divergence_; }
     std::uint64_t slowed() const { return slowed_; } ///< sum of Status::slowed over those steps
@@ -88,6 +96,7 @@ private:
     std::vector<vk::Timestamps> timestamps_;                                 // one a step in flight
     std::array<std::uint64_t, sim::Simulation::framesInFlight> submitted_{}; // timeline values
     std::uint64_t done_ = 0, slowed_ = 0;
+    std::uint64_t played_ = 0; // steps before the first, of the state that it goes on from
     std::optional<Divergence> divergence_;
     std::vector<double> frameMs_, deviceMs_, phaseSums_;
     double recordSum_ = 0, lastEnd_ = 0; // [ms]
