@@ -14,6 +14,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 namespace sinew::scenes {
 
@@ -108,17 +110,88 @@ void leaveWhole(const Overrides& overrides, LoadedScene& loaded) {
     loaded.warnings.push_back("nothing can be cut with solver " + *overrides.solver + ": use split");
 }
 
-void warnAboutSize(const sim::Body& body, LoadedScene& loaded) {
+// Whether a link of the scene holds each particle.
+std::vector<bool> linkedParticles(const sim::Scene& scene) {
+    std::vector<bool> isLinked(scene.particles.size());
+    for (const sim::DistanceConstraint& link : scene.distances) isLinked[link.a] = isLinked[link.b] = true;
+    return isLinked;
+}
+
+// The longest edge of the box around a linked body, radii included. Free particles are bodies of their own:
+// the largest diameter of them [m].
+double sizeOf(const sim::Body& body, const sim::Scene& scene, const std::vector<bool>& isLinked) {
     sim::Vec3 low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
-    for (std::uint32_t i = body.firstParticle; i < body.firstParticle + body.particleCount; ++i)
+    double diameter = 0;
+    bool isWhole = false;
+    for (std::uint32_t i = body.firstParticle; i < body.firstParticle + body.particleCount; ++i) {
+        const sim::Particle& particle = scene.particles[i];
+        diameter = std::max(diameter, 2 * double{particle.radius});
+        isWhole = isWhole || isLinked[i];
         for (float sim::Vec3::*axis : {&sim::Vec3::x, &sim::Vec3::y, &sim::Vec3::z}) {
-            const float value = loaded.scene.particles[i].position.*axis;
+            const float value = particle.position.*axis;
             low.*axis = std::min(low.*axis, value);
             high.*axis = std::max(high.*axis, value);
         }
-    const double longest = double{std::max({high.x - low.x, high.y - low.y, high.z - low.z})};
-    const char* odd = longest > 1000 ? "larger than 1 km" : longest < 1e-4 ? "smaller than 0.1 mm" : nullptr;
-    if (odd) loaded.warnings.push_back("body \"" + body.name + "\" is " + odd + ": lengths are in metres");
+    }
+    if (!isWhole) return diameter;
+    return double{std::max({high.x - low.x, high.y - low.y, high.z - low.z})} + diameter;
+}
+
+// Free particles without a radius have no size.
+void warnAboutSizes(LoadedScene& loaded) {
+    const std::vector<bool> isLinked = linkedParticles(loaded.scene);
+    for (const sim::Body& body : loaded.scene.bodies) {
+        const double size = sizeOf(body, loaded.scene, isLinked);
+        const char* odd = size > 1000 ? "larger than 1 km" : size < 1e-4 ? "smaller than 0.1 mm" : nullptr;
+        if (odd && size > 0)
+            loaded.warnings.push_back("body \"" + body.name + "\" is " + odd + ": lengths are in metres");
+    }
+}
+
+// The shortest link or diameter of a scene [m]; infinite where it has neither.
+double finestLength(const sim::Scene& scene) {
+    double finest = INFINITY;
+    for (const sim::DistanceConstraint& link : scene.distances)
+        if (link.restLength > 0) finest = std::min(finest, double{link.restLength});
+    for (const sim::Particle& particle : scene.particles)
+        if (particle.radius > 0) finest = std::min(finest, 2 * double{particle.radius});
+    return finest;
+}
+
+// The distance between float32 numbers at the particle that is farthest from the origin [m].
+struct Rounding {
+    double distance = 0, step = 0;
+};
+Rounding roundingOf(const sim::Scene& scene) {
+    float farthest = 0;
+    for (const sim::Particle& particle : scene.particles)
+        if (particle.inverseMass > 0)
+            for (const float value : {particle.position.x, particle.position.y, particle.position.z})
+                farthest = std::max(farthest, std::abs(value));
+    return {double{farthest}, double{std::nextafter(farthest, INFINITY) - farthest}};
+}
+
+// A length or a speed in thousandths of its unit, with two digits or as a whole number.
+std::string thousandths(double value) {
+    if (value >= 0.1) return std::to_string(std::lround(1000 * value));
+    std::ostringstream text;
+    text << std::setprecision(2) << 1000 * value;
+    return text.str();
+}
+
+// Positions are float32: far from the origin they are coarse against the spacing of particles, and a substep
+// moves what is slow by a whole step of them or not at all.
+void warnAboutRounding(LoadedScene& loaded) {
+    const Rounding rounding = roundingOf(loaded.scene);
+    const double speed = rounding.step * loaded.settings.substeps / double{loaded.scene.dt};
+    const double finest = finestLength(loaded.scene);
+    const double slow = std::isfinite(finest) ? std::max(0.01, 0.1 * finest) : 0.01; // [m/s]
+    if (rounding.step < 1e-3 * finest && speed < slow) return;
+    loaded.warnings.push_back(
+        "positions are rounded to " + thousandths(rounding.step) + " mm at " +
+        std::to_string(std::lround(rounding.distance)) + " m from the origin, which is " +
+        thousandths(speed) + " mm/s with " + std::to_string(loaded.settings.substeps) +
+        " substeps: slower motion is not exact, place bodies nearer to each other or take fewer substeps");
 }
 
 // A few links on light corners are no news; half of a body being too soft is. Below what averaging leaves of
@@ -194,7 +267,8 @@ LoadedScene read(const std::string& text, const Source& source, const Overrides&
     requireValid(loaded, source.file);
     loaded.substeps = sim::chooseSubsteps(loaded.scene, loaded.settings);
     loaded.settings.substeps = loaded.substeps.substeps;
-    for (const sim::Body& body : loaded.scene.bodies) warnAboutSize(body, loaded);
+    warnAboutSizes(loaded);
+    warnAboutRounding(loaded);
     warnAboutSolver(loaded);
     return loaded;
 }

@@ -348,6 +348,37 @@ TEST_F(Load, WarnsOfOddSizes) {
     EXPECT_EQ(warnings("9e-5")[0], "body \"cloth\" is smaller than 0.1 mm: lengths are in metres");
 }
 
+TEST_F(Load, MeasuresFreeParticlesByTheirDiameter) {
+    const auto warnings = [&](const std::string& particles) {
+        return load("[[particles]]\n" + particles).warnings;
+    };
+    EXPECT_TRUE(warnings("count = [1, 1, 1]\nradius = 0.05\n").empty());
+    const std::string small = "body \"particles\" is smaller than 0.1 mm: lengths are in metres";
+    EXPECT_EQ(warnings("count = [2, 1, 1]\nspacing = 0.001\nradius = 1e-5\n"), std::vector{small});
+    EXPECT_EQ(warnings("count = [1, 1, 1]\nradius = 4e-5\n"), std::vector{small});
+    EXPECT_TRUE(warnings("count = [1, 1, 1]\nradius = 6e-5\n").empty());
+    const std::vector<std::string> scattered = warnings("count = [1, 10, 1]\nspacing = 150\nradius = 0.05\n");
+    ASSERT_EQ(scattered.size(), 1u); // rounded, but none of them is large
+    EXPECT_TRUE(scattered[0].starts_with("positions are rounded to 0.061 mm at 675 m")) << scattered[0];
+}
+
+TEST_F(Load, WarnsWherePositionsAreTooCoarse) {
+    const auto warnings = [&](const std::string& x, const std::string& substeps) {
+        const std::string box = "[[box]]\nparticles = [3, 3, 3]\nspacing = 0.05\ncenter = [";
+        return load("[solver]\nsubsteps = " + substeps + "\n" + box + "0, 0, 0]\n" + box + x + ", 0, 0]\n")
+            .warnings;
+    };
+    EXPECT_TRUE(warnings("15", "16").empty()); // 0.9 mm/s
+    EXPECT_EQ(warnings("1000", "10"),
+              std::vector<std::string>{
+                  "positions are rounded to 0.061 mm at 1000 m from the origin, which is 37 mm/s with 10 "
+                  "substeps: slower motion is not exact, place bodies nearer to each other or take fewer "
+                  "substeps"});
+    EXPECT_EQ(warnings("20000", "10").size(), 1u);
+    EXPECT_EQ(warnings("900000", "10").size(), 1u);
+    EXPECT_EQ(warnings("15", "256").size(), 1u); // 15 mm/s
+}
+
 TEST_F(Load, SaysHowManySubstepsAStiffBodyNeeds) {
     const std::string box = "[solver]\nsubsteps = 32\n[[box]]\nparticles = [4, 4, 4]\nspacing = 0.02\ncenter "
                             "= [0, 1, 0]\nyoung_modulus = 2e7\n";
