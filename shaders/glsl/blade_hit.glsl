@@ -10,6 +10,7 @@
 // the material does meanwhile, for all expressions are the same bit for bit.
 // Where particles lie in the blade's way exactly, as those of a lattice at rest like to, rounding would say now this and now that:
 // so the blade is moved by a thousandth of a cell, always to the same side, which is that of no plane or row of a lattice.
+#include "math.glsl"
 
 const float never = 2.0;
 const vec3 bladeShift = vec3(BLADE_SHIFT_X, BLADE_SHIFT_Y, BLADE_SHIFT_Z);
@@ -19,8 +20,7 @@ struct Ends {
 };
 
 float volumeOf(vec3 a, vec3 b, vec3 c) {
-    precise const float volume = dot(cross(a, b), c);
-    return volume;
+    return dot3(cross3(a, b), c);
 }
 
 // Where on the link two triangles meet. A number for each of their six corners, to be taken with a sign: the determinant of the other
@@ -30,7 +30,8 @@ float meetingOf(vec3 link, vec3 linkSigns, vec3 edge, vec3 edgeSigns, vec3 isB) 
     const bvec3 e = notEqual(greaterThanEqual(edge, vec3(0.0)), lessThan(edgeSigns, vec3(0.0)));
     if (l.x != l.y || l.y != l.z || e.x != e.y || e.y != e.z || l.x == e.x) return never;
     const vec3 weights = abs(link);
-    return dot(weights, isB) / max(weights.x + weights.y + weights.z, 1e-37);
+    precise const float all = weights.x + weights.y + weights.z;
+    return dot3(weights, isB) / max(all, 1e-37);
 }
 
 // How far along the link.
@@ -45,7 +46,8 @@ float edgeHit(Ends x, vec3 e0, vec3 g0, vec3 e1, vec3 g1) {
     const float x1 = volumeOf(l0, ae0, bg1), x2 = volumeOf(l1, ae0, ag1);             // from e to g meanwhile
     const float e1_ = volumeOf(l0, ae0, be1), e2 = volumeOf(l1, ae0, ae1);            // the way of e
     const float g1_ = volumeOf(l0, ag0, bg1), g2 = volumeOf(l1, ag0, ag1);            // of g
-    const float m1 = volumeOf(g0 - e0, l1, ag1), m2 = volumeOf(l0, ae0, e1 - g1);
+    precise const vec3 eg0 = g0 - e0, ge1 = e1 - g1;
+    const float m1 = volumeOf(eg0, l1, ag1), m2 = volumeOf(l0, ae0, ge1);
     const float n1 = volumeOf(ae0, ag0, l1), n2 = volumeOf(l0, bg1, be1);
     const vec3 first = vec3(0.0, 1.0, 1.0), second = vec3(0.0, 0.0, 1.0);
     return min(min(meetingOf(vec3(b1, d1, s0), vec3(1, -1, -1), vec3(g1_, x1, s0), vec3(1, -1, 1), first),
@@ -57,12 +59,13 @@ float edgeHit(Ends x, vec3 e0, vec3 g0, vec3 e1, vec3 g1) {
 // The nearest points of two segments, a to b and p to q [Ericson 2005, 5.1.9]: how far along the first, where they are nearer than
 // `radius`.
 float rayHit(vec3 a, vec3 b, vec3 p, vec3 q, float radius) {
-    const vec3 d = b - a, e = q - p, r = a - p;
-    const float dd = max(dot(d, d), 1e-30), ee = max(dot(e, e), 1e-30), de = dot(d, e), er = dot(e, r), dr = dot(d, r);
-    const float apart = dd * ee - de * de;
-    float s = apart > 1e-12 * dd * ee ? clamp((de * er - dr * ee) / apart, 0.0, 1.0) : 0.0;
-    const float t = clamp((de * s + er) / ee, 0.0, 1.0);
+    precise const vec3 d = b - a, e = q - p, r = a - p;
+    const float dd = max(dot3(d, d), 1e-30), ee = max(dot3(e, e), 1e-30), de = dot3(d, e), er = dot3(e, r), dr = dot3(d, r);
+    precise const float apart = dd * ee - de * de, least = 1e-12 * dd * ee, ahead = (de * er - dr * ee) / apart;
+    precise float s = apart > least ? clamp(ahead, 0.0, 1.0) : 0.0;
+    precise const float t = clamp((de * s + er) / ee, 0.0, 1.0);
     s = clamp((de * t - dr) / dd, 0.0, 1.0);
-    const vec3 between = r + s * d - t * e;
-    return dot(between, between) < radius * radius ? s : never;
+    precise const vec3 between = r + s * d - t * e;
+    precise const float most = radius * radius;
+    return dot3(between, between) < most ? s : never;
 }

@@ -9,17 +9,17 @@ struct Meeting {
 
 vec3 normalOf(Ends x, float at, vec3 e0, vec3 g0, vec3 e1, vec3 g1) {
     const vec3 place = mix(x.a1, x.b1, at), edge = g1 - e1;
-    const float share = clamp(dot(place - e1, edge) / max(dot(edge, edge), 1e-30), 0.0, 1.0);
-    return cross(edge, mix(e1 - e0, g1 - g0, share) - mix(x.a1 - x.a0, x.b1 - x.b0, at));
+    const float share = clamp(dot3(place - e1, edge) / max(dot3(edge, edge), 1e-30), 0.0, 1.0);
+    return cross3(edge, mix(e1 - e0, g1 - g0, share) - mix(x.a1 - x.a0, x.b1 - x.b0, at));
 }
 
 Meeting stripMeeting(Ends x) {
     const vec3 low = min(min(x.a0, x.b0), min(x.a1, x.b1)), high = max(max(x.a0, x.b0), max(x.a1, x.b1));
-    const vec3 shift = push.spacing * bladeShift;
+    precise const vec3 shift = push.spacing * bladeShift;
     Meeting nearest = Meeting(never, vec3(0.0));
-    vec3 e0 = POINT(0u) + shift, e1 = POINT(1u) + shift;
+    precise vec3 e0 = POINT(0u) + shift, e1 = POINT(1u) + shift;
     for (uint q = 1u; q <= blade.quads; ++q) {
-        const vec3 g0 = POINT(2u * q) + shift, g1 = POINT(2u * q + 1u) + shift;
+        precise const vec3 g0 = POINT(2u * q) + shift, g1 = POINT(2u * q + 1u) + shift;
         if (all(lessThanEqual(min(min(e0, g0), min(e1, g1)), high)) && all(greaterThanEqual(max(max(e0, g0), max(e1, g1)), low))) {
             const float at = edgeHit(x, e0, g0, e1, g1);
             if (at < nearest.at) nearest = Meeting(at, normalOf(x, at, e0, g0, e1, g1));

@@ -15,7 +15,7 @@ layout(push_constant) uniform Push { GridPush push; };
 void main() {
     const uint i = itemIndex(push.count);
     const vec3 v = velocities[i].xyz;
-    const float way = length(step.h * v);
+    const float way = wayOf(step.h, v);
     if (!isHurrying(radii[i], way, push.quiet, push.most)) return;
     const vec3 change = (0.999 * max(push.most - radii[i], push.quiet) / way - 1.0) * v;
     velocities[i].xyz = v + change;

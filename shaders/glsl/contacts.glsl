@@ -1,10 +1,12 @@
 // What the passes of a contact between two particles share: when they touch, and along which direction. Both ends of a pair
 // compute equal bits, or exactly opposite ones.
 
+#include "math.glsl"
+
 // d = x_i - x_j. Of a pair in a list; the sign of |d| - reach, without a root.
 // Exact: passes that disagreed about it would divide a particle among fewer contacts than it has.
 bool touches(vec3 d, float reach) {
-    precise float left = reach * reach - dot(d, d);
+    precise float left = reach * reach - dot3(d, d);
     return left > 0.0;
 }
 
@@ -45,13 +47,14 @@ struct Meeting {
 const float never = 2.0;
 
 Meeting meetingOf(vec3 d, vec3 way, float reach) {
-    const vec3 start = d - way;
-    precise float a = dot(way, way), b = dot(start, way), c = dot(start, start) - reach * reach;
-    precise float root = b * b - a * c;
-    if (!(a > 0.25 * reach * reach) || b >= 0.0 || c <= 0.0 || root < 0.0) return Meeting(never, d);
+    precise const vec3 start = d - way;
+    precise const float a = dot3(way, way), b = dot3(start, way), c = dot3(start, start) - reach * reach;
+    precise const float root = b * b - a * c, least = 0.25 * reach * reach;
+    if (!(a > least) || b >= 0.0 || c <= 0.0 || root < 0.0) return Meeting(never, d);
     precise float t = c / (sqrt(root) - b);
     if (t > 1.0) return Meeting(never, d);
-    return Meeting(t, start + t * way);
+    precise const vec3 at = start + t * way;
+    return Meeting(t, at);
 }
 
 // A contact in a substep with fast particles. Of several that a particle meets on its way only the first are real, those

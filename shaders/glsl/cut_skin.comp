@@ -46,7 +46,7 @@ void main() {
         if (isNear && (isWhole || hit == 0u)) {
             const PlacedVertex a = placedAt(prism.vertices[n]), b = placedAt(prism.vertices[next]);
             const float at = hitOf(Ends(a.before.xyz, b.before.xyz, a.now.xyz, b.now.xyz));
-            if (at <= 1.0) hit = uint(round(255.0 * clamp(at, 0.02, 0.98)));
+            if (at <= 1.0) hit = uint(roundEven(255.0 * clamp(at, 0.02, 0.98)));
         }
         hits = bitfieldInsert(hits, hit, int(8u * n), 8);
     }

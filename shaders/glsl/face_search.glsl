@@ -1,6 +1,7 @@
 // What finding pairs of a point and a face shares: the buffers, and the test. A pair is listed where the two are nearer than
 // touching, a margin, and what both move in this substep: so nothing that meets on the way is missed, however fast.
 #include "kernel.glsl"
+#include "math.glsl"
 #include "triangle.glsl"
 
 #ifdef TEXELS

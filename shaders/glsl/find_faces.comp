@@ -29,10 +29,8 @@ layout(std430, binding = 16) writeonly buffer Wide { uint wide[]; };
 #include "face_cells.glsl"
 #include "grid_rows.glsl"
 
-float wayOf(uint i) { return step.h * length(VELOCITY(i).xyz); }
-
 bool isNearby(Searched face, uint i, vec3 x, bool isApart) {
-    const float size = RADIUS(i) + wayOf(i), reach = face.reach + size;
+    const float size = sizeOf(RADIUS(i), step.h, VELOCITY(i).xyz), reach = face.reach + size;
     return isInBox(face, x, reach) && (size <= push.most) != isApart && isNear(face, i, x, reach);
 }
 

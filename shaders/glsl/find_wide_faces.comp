@@ -13,7 +13,7 @@ void main() {
     const uint i = itemIndex(push.points);
     if (RADIUS(i) < 0.0) return;
     const vec3 x = POSITION(i).xyz;
-    const float size = RADIUS(i) + step.h * length(VELOCITY(i).xyz);
+    const float size = sizeOf(RADIUS(i), step.h, VELOCITY(i).xyz);
     const uint all = push.large + points.wide;
     if (all > FACE_MOST_WIDE) atomicMax(status.candidates, push.limit + 1u); // more than can be done: said, not lost
     for (uint l = 0u; l < min(all, FACE_MOST_WIDE); ++l) {

@@ -6,6 +6,8 @@
 // share slots never give a particle twice. Built on integer atomics alone. Inside a cell particles stand in any order: who
 // depends on an order sorts what it finds.
 
+#include "math.glsl"
+
 // Integers in the order of the floats they stand for.
 uint keyOf(float value) {
     const uint bits = floatBitsToUint(value);
@@ -26,18 +28,24 @@ struct Frame {
 Frame frameOf(GridBounds bounds, uint cells, float edge) {
     Frame frame;
     frame.low = vec3(valueOf(bounds.lowX), valueOf(bounds.lowY), valueOf(bounds.lowZ));
-    const vec3 extent = vec3(valueOf(bounds.highX), valueOf(bounds.highY), valueOf(bounds.highZ)) - frame.low;
+    precise const vec3 extent = vec3(valueOf(bounds.highX), valueOf(bounds.highY), valueOf(bounds.highZ)) - frame.low;
     const float longest = max(extent.x, max(extent.y, extent.z));
-    frame.perLength = 1.0 / (1.015625 * edge + longest / 1048576.0);
+    precise const float perLength = 1.0 / (1.015625 * edge + longest / 1048576.0);
+    frame.perLength = perLength;
     frame.mask = cells - 1u;
-    const vec3 size = floor(extent * frame.perLength) + 3.0; // with an empty cell at every end: nobody finds others there
-    const bool isDense = size.x * size.y * size.z <= float(cells);
-    frame.strideY = isDense ? uint(size.x) : uint(0.75487767 * float(cells)) | 1u;
-    frame.strideZ = isDense ? uint(size.x) * uint(size.y) : uint(0.56984029 * float(cells)) | 1u;
+    precise const vec3 size = floor(extent * perLength) + 3.0; // with an empty cell at every end: nobody finds others there
+    precise const float all = size.x * size.y * size.z;
+    const bool isDense = all <= float(cells);
+    precise const float spreadY = 0.75487767 * float(cells), spreadZ = 0.56984029 * float(cells);
+    frame.strideY = isDense ? uint(size.x) : uint(spreadY) | 1u;
+    frame.strideZ = isDense ? uint(size.x) * uint(size.y) : uint(spreadZ) | 1u;
     return frame;
 }
 
-ivec3 cellOf(vec3 x, Frame frame) { return ivec3(floor((x - frame.low) * frame.perLength)); }
+ivec3 cellOf(vec3 x, Frame frame) {
+    precise const vec3 place = (x - frame.low) * frame.perLength;
+    return ivec3(floor(place));
+}
 
 uint slotOf(ivec3 cell, Frame frame) {
     return uint(cell.x) + uint(cell.y) * frame.strideY + uint(cell.z) * frame.strideZ & frame.mask;
@@ -46,8 +54,15 @@ uint slotOf(ivec3 cell, Frame frame) {
 // A radius below 0 marks a slot of the state that holds no particle.
 bool isInGrid(float radius, float most) { return radius >= 0.0 && radius <= most; }
 
+// How far something with velocity v goes in a substep of length h.
+float wayOf(float h, vec3 v) {
+    precise const vec3 way = h * v;
+    return length3(way);
+}
+
 // Whether a particle of the grid moves so far in a substep that the cells around its end do not hold all that it may have
 // met: it is then searched one by one, like a large one. Way x substep length; `quiet` as in GridPush.
 bool isHurrying(float radius, float way, float quiet, float most) {
-    return isInGrid(radius, most) && way > quiet && radius + way > most;
+    precise const float size = radius + way;
+    return isInGrid(radius, most) && way > quiet && size > most;
 }

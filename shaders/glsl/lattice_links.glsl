@@ -2,8 +2,8 @@
 
 vec3 latticeLink(vec4 a, vec4 b, float stiffness, int dx, int dy, int dz, float hh) {
     const int kind = abs(dx) + abs(dy) + abs(dz) - 1; // edge, face diagonal, body diagonal
-    const float clamped = min(push.units[kind] * hh, push.shares[kind] * min(a.w, b.w));
-    return linkImpulse(a.xyz, b.xyz, push.restLengths[kind], stiffness * clamped);
+    precise const float clamped = stiffness * min(push.units[kind] * hh, push.shares[kind] * min(a.w, b.w));
+    return linkImpulse(a.xyz, b.xyz, push.restLengths[kind], clamped);
 }
 
 bool isLink(int dx, int dy, int dz) {

@@ -7,7 +7,7 @@ struct Searched {
     float way, thickness; // way of the faster end in this substep [m]
 };
 
-float wayOf(uint e) { return step.h * length(SPEED(e).xyz); }
+float wayOf(uint e) { return sizeOf(0.0, step.h, SPEED(e).xyz); }
 
 Searched searchedOf(uint e) {
     const ContactEdge edge = edgeAt(e);
@@ -15,7 +15,10 @@ Searched searchedOf(uint e) {
     return Searched(e, edge, middles[e].xyz, a, POSITION(edge.b).xyz - a, wayOf(e), THICKNESS(e));
 }
 
-bool isApart(ContactEdge edge, float way) { return !(edge.radius + way <= push.most); } // as part_points has it
+bool isApart(ContactEdge edge, float way) { // as part_points has it
+    precise const float size = edge.radius + way;
+    return !(size <= push.most);
+}
 
 #include "excluded.glsl"
 

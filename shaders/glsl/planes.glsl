@@ -1,5 +1,6 @@
 // Boundary planes as temporary constraints: C = n . x - offset - contactOffset >= 0, found active anew each substep.
 // Projected exactly and one after another inside the particle (contacts: 0.4); a correction c of x adds c / h to v.
+#include "math.glsl"
 layout(constant_id = 2) const uint planeCount = 1; // at most 32
 
 // Where a particle is in a substep.
@@ -14,16 +15,15 @@ struct Motion {
 // friction x depth.
 bool projectOntoPlane(PlaneCollider plane, float contactOffset, float h, inout Motion motion) {
     const vec3 n = plane.normalOffset.xyz;
-    const float depth = plane.normalOffset.w + contactOffset - dot(n, motion.x);
+    precise const float depth = plane.normalOffset.w + contactOffset - dot3(n, motion.x);
     if (depth <= 0.0) return false;
-    const vec3 tangential = motion.displacement - dot(n, motion.displacement) * n;
-    const float slip = length(tangential);
-    const float friction = slip <= plane.staticFriction * depth ? plane.staticFriction : plane.friction;
-    const float held = slip > 0.0 ? min(1.0, friction * depth / slip) : 0.0;
-    const vec3 correction = depth * n - held * tangential;
-    motion.x += correction;
-    motion.v += correction / h;
-    motion.displacement += correction;
+    precise const vec3 tangential = motion.displacement - dot3(n, motion.displacement) * n;
+    precise const float slip = length3(tangential), most = plane.staticFriction * depth;
+    const float friction = slip <= most ? plane.staticFriction : plane.friction;
+    precise const float held = slip > 0.0 ? min(1.0, friction * depth / slip) : 0.0;
+    precise const vec3 correction = depth * n - held * tangential;
+    precise const vec3 x = motion.x + correction, v = motion.v + correction / h, way = motion.displacement + correction;
+    motion = Motion(x, v, way);
     return true;
 }
 
@@ -31,7 +31,8 @@ bool projectOntoPlane(PlaneCollider plane, float contactOffset, float h, inout M
 // or resting contacts would tremble.
 vec3 rebound(PlaneCollider plane, float restSpeed, vec3 velocityBefore, vec3 v) {
     const vec3 n = plane.normalOffset.xyz;
-    const float before = dot(n, velocityBefore);
+    const float before = dot3(n, velocityBefore);
     if (before >= -restSpeed) return vec3(0.0);
-    return max(0.0, -plane.restitution * before - dot(n, v)) * n;
+    precise const vec3 change = max(0.0, -plane.restitution * before - dot3(n, v)) * n;
+    return change;
 }

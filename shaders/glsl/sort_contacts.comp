@@ -36,7 +36,7 @@ void main() {
         }
         for (uint s = 0u; s < n; ++s) {
             const uint other = CANDIDATE(s * push.row + i);
-            [[unroll]] for (uint b = 0u; b < BLOCK; ++b) rank[b] += other < mine[b] ? 1u : 0u;
+            [[unroll]] for (uint b = 0u; b < BLOCK; ++b) rank[b] += other < mine[b] || other == mine[b] && s < first + b ? 1u : 0u;
         }
         [[unroll]] for (uint b = 0u; b < BLOCK; ++b)
             if (first + b < n)

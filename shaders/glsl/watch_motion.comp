@@ -41,5 +41,6 @@ void main() {
     if (radii[i] < 0.0) return; // in no list, such as crumbs that fall for ever
     if (!(farthest <= push.slack * push.slack)) // what is no number has gone far
         atomicMax(bounds.moved, floatBitsToUint(min(sqrt(farthest), 1e30)));
-    if (dot(way, way) > push.quiet * push.quiet) watchFast(i, length(way));
+    const float far = wayOf(step.h, VELOCITY(i).xyz); // as find_contacts and cap_speeds have it
+    if (far > push.quiet) watchFast(i, far);
 }

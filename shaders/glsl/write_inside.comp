@@ -38,7 +38,7 @@ void writeTriangle(uint first) {
     const uint corners[3] = uint[3](indexOf(noted[first]), indexOf(noted[first + 1u]), indexOf(noted[first + 2u]));
     const vec3 at = vertices[corners[0]].rest.xyz;
     const vec3 area = 0.5 * cross(vertices[corners[1]].rest.xyz - at, vertices[corners[2]].rest.xyz - at);
-    const ivec3 normal = ivec3(round(area * (SURFACE_NORMAL / (push.spacing * push.spacing))));
+    const ivec3 normal = ivec3(roundEven(area * (SURFACE_NORMAL / (push.spacing * push.spacing))));
     [[dont_unroll]] for (int n = 0; n < 3; ++n) {
         indices[3u * next + uint(n)] = corners[n];
         [[dont_unroll]] for (int axis = 0; axis < 3; ++axis) atomicAdd(vertices[corners[n]].normal[axis], normal[axis]);

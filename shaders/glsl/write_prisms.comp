@@ -27,7 +27,7 @@ void triangle(uint a, uint b, uint c) {
     const uint corners[3] = uint[3](a, b, c);
     const vec3 at = vertices[a].rest.xyz;
     const vec3 area = 0.5 * cross(vertices[b].rest.xyz - at, vertices[c].rest.xyz - at);
-    const ivec3 normal = ivec3(round(area * areaToUnit));
+    const ivec3 normal = ivec3(roundEven(area * areaToUnit));
     [[dont_unroll]] for (int n = 0; n < 3; ++n) {
         indices[3u * next + uint(n)] = corners[n];
         [[dont_unroll]] for (int axis = 0; axis < 3; ++axis) atomicAdd(vertices[corners[n]].normal[axis], normal[axis]);

@@ -1,0 +1,110 @@
+// Functions in kernels of which the result must be the same bits wherever it is computed: predicates that
+// several kernels ask, signs of determinants, and all that forms of one step have in common. A compiler may
+// fuse a product and a sum that are not decorated with NoContraction, and compute dot products and the like
+// as it wants. This is read out of the SPIR-V of every kernel in the build.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <vector>
+
+namespace sinew::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Names as the compiler mangles them, up to where they differ from others.
+const std::vector<std::string> exactFunctions{
+    "dot3(",        "cross3(",          "length3(",      "sizeOf(",                  // math.glsl
+    "wayOf(f1;vf3", "frameOf(",         "cellOf(",       "isHurrying(",              // hash grids
+    "isApart(",     "touches(",         "meetingOf(vf3", "volumeOf(",    "edgeHit(", // contacts, blades
+    "rayHit(",      "hitOf(",           "linkImpulse(",  "latticeLink(", "advance(", // forms of `split`
+    "rebound(",     "projectOntoPlane("};
+
+constexpr std::uint32_t opName = 5, opExtInst = 12, opFunction = 54, opDecorate = 71, noContraction = 42,
+                        opDot = 148;
+
+// Of floats, and what may be fused: OpFAdd, OpFSub, OpFMul, and products with vectors and matrices.
+bool mayBeFused(std::uint32_t op) {
+    return op == 129 || op == 131 || op == 133 || (op >= 142 && op <= 147);
+}
+
+// Instructions of GLSL.std.450 that are made of products and sums: FMix, SmoothStep, Length, Distance, Cross,
+// Normalize, FaceForward, Reflect.
+bool isLoose(std::uint32_t extended) {
+    return std::set<std::uint32_t>{46, 49, 66, 67, 68, 69, 70, 71}.contains(extended);
+}
+
+std::vector<std::uint32_t> wordsOf(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    const std::string bytes(std::istreambuf_iterator<char>(stream), {});
+    std::vector<std::uint32_t> words(bytes.size() / 4);
+    std::memcpy(words.data(), bytes.data(), words.size() * 4);
+    return words;
+}
+
+struct Inexact {
+    std::set<std::string> functions;  ///< all that the module has
+    std::map<std::string, int> loose; ///< instructions that are not exact, by function
+};
+
+Inexact inspect(const std::vector<std::uint32_t>& words) {
+    Inexact result;
+    std::map<std::uint32_t, std::string> names;
+    std::set<std::uint32_t> decorated;
+    std::string function;
+    for (std::size_t at = 5; at < words.size(); at += words[at] >> 16) {
+        const std::uint32_t op = words[at] & 0xffff, *operands = &words[at + 1];
+        if (op == opName) names[operands[0]] = reinterpret_cast<const char*>(operands + 1);
+        if (op == opDecorate && operands[1] == noContraction) decorated.insert(operands[0]);
+        if (op == opFunction) result.functions.insert(function = names[operands[1]]);
+        const bool isFused = mayBeFused(op) && !decorated.contains(operands[1]);
+        if (isFused || op == opDot || (op == opExtInst && isLoose(operands[3]))) ++result.loose[function];
+    }
+    return result;
+}
+
+std::vector<fs::path> kernelsIn(const fs::path& folder) {
+    std::vector<fs::path> files;
+    for (const fs::directory_entry& file : fs::recursive_directory_iterator(folder))
+        if (file.path().string().ends_with(".comp.spv")) files.push_back(file.path());
+    return files;
+}
+
+} // namespace
+
+TEST(ExactKernels, LeaveACompilerNothingToFuseWhereBitsMustAgree) {
+    const std::vector<fs::path> kernels = kernelsIn(KERNEL_FOLDER);
+    if (kernels.size() < 300) GTEST_SKIP() << "the kernels of src/sim are not built here";
+    std::set<std::string> found;
+    for (const fs::path& kernel : kernels) {
+        const Inexact inexact = inspect(wordsOf(kernel));
+        for (const std::string& exact : exactFunctions)
+            for (const std::string& function : inexact.functions) {
+                if (!function.starts_with(exact)) continue;
+                found.insert(exact);
+                EXPECT_FALSE(inexact.loose.contains(function)) << kernel.filename() << ": " << function;
+            }
+    }
+    EXPECT_EQ(found.size(), exactFunctions.size()); // a promise about nothing
+}
+
+TEST(ExactKernels, AreToldFromLooseOnes) {
+    const Inexact inexact = inspect(wordsOf(fs::path(EXACT_FOLDER) / "loose_and_exact.comp.spv"));
+    const auto looseIn = [&](const std::string& name) {
+        int count = 0;
+        for (const auto& [function, loose] : inexact.loose)
+            if (function.starts_with(name)) count += loose;
+        return count;
+    };
+    EXPECT_EQ(looseIn("fused("), 2); // a product, a sum
+    EXPECT_EQ(looseIn("exact("), 0);
+    EXPECT_EQ(looseIn("dotted("), 1); // `precise` does not reach it
+    EXPECT_EQ(looseIn("crossed("), 1);
+}
+
+} // namespace sinew::test
