@@ -52,18 +52,6 @@ std::vector<VkPhysicalDevice> physicalDevices(const Instance& instance) {
     return devices;
 }
 
-bool hasExtension(const InstanceFunctions& functions, VkPhysicalDevice physical, const std::string& wanted) {
-    constexpr const char* call = "vkEnumerateDeviceExtensionProperties";
-    std::uint32_t count = 0;
-    check(functions.vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr), call, wanted);
-    std::vector<VkExtensionProperties> extensions(count);
-    check(functions.vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data()), call,
-          wanted);
-    return std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties& extension) {
-        return wanted == extension.extensionName;
-    });
-}
-
 /// A family with graphics and compute if there is one; without a window compute alone will do.
 std::optional<std::uint32_t> findQueueFamily(const Instance& instance, VkPhysicalDevice physical,
                                              const DeviceRequest& request) {
@@ -144,6 +132,18 @@ std::string listOf(std::span<const Candidate> candidates) {
 }
 
 } // namespace
+
+bool hasExtension(const InstanceFunctions& functions, VkPhysicalDevice physical, const std::string& wanted) {
+    constexpr const char* call = "vkEnumerateDeviceExtensionProperties";
+    std::uint32_t count = 0;
+    check(functions.vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr), call, wanted);
+    std::vector<VkExtensionProperties> extensions(count);
+    check(functions.vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data()), call,
+          wanted);
+    return std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties& extension) {
+        return wanted == extension.extensionName;
+    });
+}
 
 DeviceDescription describeDevice(const InstanceFunctions& functions, VkPhysicalDevice physical) {
     VkPhysicalDeviceProperties properties;

@@ -11,6 +11,8 @@ struct Candidate {
     DeviceDescription description;
 };
 
+bool hasExtension(const InstanceFunctions& functions, VkPhysicalDevice physical, const std::string& wanted);
+
 /// Index 0 and nothing missing.
 DeviceDescription describeDevice(const InstanceFunctions& functions, VkPhysicalDevice physical);
 

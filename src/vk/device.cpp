@@ -43,6 +43,8 @@ struct Device::State {
 
 namespace {
 
+constexpr const char* portabilitySubset = "VK_KHR_portability_subset"; // named in vulkan_beta.h
+
 Limits readLimits(const InstanceFunctions& functions, VkPhysicalDevice physical,
                   const VkQueueFamilyProperties& family) {
     VkPhysicalDeviceProperties properties;
@@ -95,6 +97,8 @@ VkDevice createDevice(const InstanceFunctions& functions, const Candidate& chose
                                         .pQueuePriorities = &priority};
     std::vector<const char*> extensions;
     for (const std::string& extension : request.deviceExtensions) extensions.push_back(extension.c_str());
+    if (hasExtension(functions, chosen.physical, portabilitySubset)) // Vulkan demands it where it is there
+        extensions.push_back(portabilitySubset);
     const VkPhysicalDeviceFeatures drawn{.fillModeNonSolid = canDrawEdges(functions, chosen.physical)};
     const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                   .pNext = &features,

@@ -4,6 +4,7 @@
 #include "vk/check.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 namespace sinew::vk {
 
@@ -83,6 +84,14 @@ VkDebugUtilsMessengerCreateInfoEXT messengerInfo(Messages& messages) noexcept {
             .pUserData = &messages};
 }
 
+// Devices that lack a part of Vulkan, as those of MoltenVK, are listed where an instance asks for them.
+VkInstanceCreateFlags flagsWith(const std::vector<const char*>& extensions) {
+    const bool asks = std::ranges::any_of(extensions, [](const char* extension) {
+        return std::string_view(extension) == VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME;
+    });
+    return asks ? VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR : 0;
+}
+
 VkInstance createInstance(const GlobalFunctions& functions, const std::vector<const char*>& extensions,
                           bool hasValidation, Messages& messages) {
     const VkDebugUtilsMessengerCreateInfoEXT messenger = messengerInfo(messages);
@@ -98,6 +107,7 @@ VkInstance createInstance(const GlobalFunctions& functions, const std::vector<co
                                         .apiVersion = VK_API_VERSION_1_2};
     const VkInstanceCreateInfo info{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
                                     .pNext = hasValidation ? &features : nullptr,
+                                    .flags = flagsWith(extensions),
                                     .pApplicationInfo = &application,
                                     .enabledLayerCount = hasValidation ? 1u : 0u,
                                     .ppEnabledLayerNames = &validationLayer,
@@ -136,6 +146,8 @@ Instance::Instance(PFN_vkGetInstanceProcAddr getInstanceProcAddr, const DeviceRe
     }
     hasDebugUtils_ = hasExtension(global, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     if (hasDebugUtils_) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    if (hasExtension(global, VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME))
+        extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
     const bool hasValidation = request.hasValidation;
     if (hasValidation && (!hasLayer(global, validationLayer) || !hasDebugUtils_))
         throw Error(Failure::noDevice, std::string("cannot validate: ") + validationLayer +

@@ -9,19 +9,40 @@
 
 namespace sinew::vk {
 
-Loader::Loader(const std::string& library) : library_(dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL)) {
-    if (library_ == nullptr) {
+namespace {
+
+constexpr const char* usualNames[] = {"libvulkan.so.1", "libvulkan.so", "libvulkan.1.dylib",
+                                      "libMoltenVK.dylib"};
+
+struct Opened {
+    void* library;
+    std::string name;
+};
+
+// Throws with the reason of the first name.
+Opened open(const std::string& library) {
+    std::string complaint;
+    for (const char* usual : usualNames) {
+        const std::string name = library.empty() ? usual : library;
+        if (void* opened = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL)) return {opened, name};
         const char* reason = dlerror();
-        throw Error(Failure::noDevice,
-                    "cannot open the Vulkan loader " + library + ": " +
-                        (reason != nullptr ? reason : "unknown reason") +
-                        ": install libvulkan1 and mesa-vulkan-drivers or your GPU's driver");
+        if (complaint.empty()) complaint = name + ": " + (reason != nullptr ? reason : "unknown reason");
+        if (!library.empty()) break;
     }
+    throw Error(Failure::noDevice, "cannot open the Vulkan loader " + complaint +
+                                       ": install libvulkan1 and mesa-vulkan-drivers or your GPU's driver");
+}
+
+} // namespace
+
+Loader::Loader(const std::string& library) {
+    const Opened opened = open(library);
+    library_ = opened.library;
     getInstanceProcAddr_ =
         reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library_, "vkGetInstanceProcAddr"));
     if (getInstanceProcAddr_ == nullptr) {
         dlclose(std::exchange(library_, nullptr));
-        throw Error(Failure::noDevice, library + " is no Vulkan loader: it lacks vkGetInstanceProcAddr");
+        throw Error(Failure::noDevice, opened.name + " is no Vulkan loader: it lacks vkGetInstanceProcAddr");
     }
 }
 

@@ -11,8 +11,9 @@ namespace sinew::vk {
 /// Keeps libvulkan open; must outlive every Device made through it.
 class Loader {
 public:
-    /// Opens `library` with dlopen. Throws Error(noDevice) naming the library and the reason.
-    explicit Loader(const std::string& library = "libvulkan.so.1");
+    /// Opens `library` with dlopen; without a name the first that there is of libvulkan.so.1, libvulkan.so,
+    /// libvulkan.1.dylib and libMoltenVK.dylib. Throws Error(noDevice) naming the library and the reason.
+    explicit Loader(const std::string& library = "");
     ~Loader();
     Loader(const Loader&) = delete;
     Loader& operator=(const Loader&) = delete;

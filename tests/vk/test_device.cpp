@@ -8,8 +8,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <string_view>
+#include <vector>
 
 namespace sinew::test {
 
@@ -177,6 +180,11 @@ VkResult VKAPI_CALL oldVersion(std::uint32_t* version) {
 class ReplacedLoader {
 public:
     void replace(const char* name, PFN_vkVoidFunction function) { host_.replace(name, function); }
+    /// The same, with what was there before in `original`.
+    template <typename Function> void wrap(const char* name, Function& original, Function replacement) {
+        original = reinterpret_cast<Function>(host_.original(name));
+        replace(name, reinterpret_cast<PFN_vkVoidFunction>(replacement));
+    }
     PFN_vkGetInstanceProcAddr entry() const { return host_.handles().getInstanceProcAddr; }
 
 private:
@@ -184,6 +192,63 @@ private:
 };
 
 } // namespace
+
+namespace {
+
+// A device that does a part of Vulkan only, and what was asked of its driver.
+struct PortabilityDriver {
+    PFN_vkCreateInstance createInstance = nullptr;
+    PFN_vkEnumerateDeviceExtensionProperties extensions = nullptr;
+    PFN_vkCreateDevice createDevice = nullptr;
+    VkInstanceCreateFlags flags = 0;
+    bool hasEnabledSubset = false;
+};
+PortabilityDriver portability;
+constexpr const char* subset = "VK_KHR_portability_subset";
+
+VkResult VKAPI_CALL keepFlags(const VkInstanceCreateInfo* info, const VkAllocationCallbacks* allocator,
+                              VkInstance* instance) {
+    portability.flags = info->flags;
+    return portability.createInstance(info, allocator, instance);
+}
+
+VkResult VKAPI_CALL addSubset(VkPhysicalDevice device, const char* layer, std::uint32_t* count,
+                              VkExtensionProperties* properties) {
+    const std::uint32_t room = *count;
+    if (properties != nullptr) --*count;
+    const VkResult result = portability.extensions(device, layer, count, properties);
+    if (properties != nullptr && *count < room) {
+        properties[*count] = {};
+        std::copy_n(subset, std::string_view(subset).size(), properties[*count].extensionName);
+    }
+    ++*count;
+    return result;
+}
+
+VkResult VKAPI_CALL takeSubset(VkPhysicalDevice physical, const VkDeviceCreateInfo* info,
+                               const VkAllocationCallbacks* allocator, VkDevice* device) {
+    std::vector<const char*> names(info->ppEnabledExtensionNames,
+                                   info->ppEnabledExtensionNames + info->enabledExtensionCount);
+    portability.hasEnabledSubset =
+        std::erase_if(names, [](const char* name) { return std::string_view(name) == subset; }) == 1;
+    VkDeviceCreateInfo without = *info;
+    without.enabledExtensionCount = static_cast<std::uint32_t>(names.size());
+    without.ppEnabledExtensionNames = names.data();
+    return portability.createDevice(physical, &without, allocator, device);
+}
+
+} // namespace
+
+TEST(Device, OfMoltenVkIsListedAndToldThatItsSubsetWillDo) {
+    ReplacedLoader loader;
+    portability = {};
+    loader.wrap("vkCreateInstance", portability.createInstance, &keepFlags);
+    loader.wrap("vkEnumerateDeviceExtensionProperties", portability.extensions, &addSubset);
+    loader.wrap("vkCreateDevice", portability.createDevice, &takeSubset);
+    const vk::Device created = vk::Device::create(loader.entry(), {});
+    EXPECT_NE(portability.flags & VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR, 0u);
+    EXPECT_TRUE(portability.hasEnabledSubset);
+}
 
 TEST(Device, WithADriverThatFindsNoGpuSaysWhatToInstall) {
     ReplacedLoader loader;
@@ -205,6 +270,10 @@ TEST(Device, NeedsALoaderOfVulkan12) {
     loader.replace("vkEnumerateInstanceVersion", reinterpret_cast<PFN_vkVoidFunction>(&oldVersion));
     expectPart(noDeviceComplaint([&] { vk::Device::create(loader.entry(), {}); }), "older than 1.2");
     expectPart(noDeviceComplaint([] { vk::Device::create(nullptr, {}); }), "no loader");
+}
+
+TEST(Loader, OpensWhatThereIsWithoutAName) {
+    EXPECT_NE(vk::Loader().getInstanceProcAddr(), nullptr);
 }
 
 TEST(Loader, NamesTheLibraryItCannotOpen) {
