@@ -58,7 +58,7 @@ Inexact inspect(const std::vector<std::uint32_t>& words) {
     std::set<std::uint32_t> decorated;
     std::string function;
     for (std::size_t at = 5; at < words.size(); at += words[at] >> 16) {
-        const std::uint32_t op = words[at] & 0xffff, *operands = &words[at + 1];
+        const std::uint32_t op = words[at] & 0xffff, *operands = words.data() + at + 1;
         if (op == opName) names[operands[0]] = reinterpret_cast<const char*>(operands + 1);
         if (op == opDecorate && operands[1] == noContraction) decorated.insert(operands[0]);
         if (op == opFunction) result.functions.insert(function = names[operands[1]]);
