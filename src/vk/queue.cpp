@@ -54,7 +54,7 @@ Queue::Queue(const Device& device) : device_(device) {
 }
 
 Queue::~Queue() {
-    device_.functions().vkQueueWaitIdle(queue_); // of a lost device it returns at once
+    drain();
     release();
 }
 
@@ -120,6 +120,10 @@ void Queue::wait(std::uint64_t value) {
 
 void Queue::waitIdle() {
     check(device_.functions().vkQueueWaitIdle(queue_), "vkQueueWaitIdle", "the queue");
+}
+
+void Queue::drain() noexcept {
+    device_.functions().vkQueueWaitIdle(queue_); // of a lost device it returns at once
 }
 
 void Queue::transfer(const BufferView& from, const BufferView& to) {

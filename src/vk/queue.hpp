@@ -28,6 +28,8 @@ public:
     /// even then nothing is left in flight.
     void wait(std::uint64_t value);
     void waitIdle();
+    /// The same for destructors: throws nothing. A lost device has nothing in flight.
+    void drain() noexcept;
     VkQueue handle() const noexcept { return queue_; }
     /// The semaphore and the value of the newest submission, for a presenter that must order after it.
     VkSemaphore timeline() const noexcept { return timeline_; }
@@ -56,6 +58,19 @@ private:
     VkSemaphore timeline_ = VK_NULL_HANDLE;
     std::uint64_t submitted_ = 0;
     std::vector<Submission> submissions_; ///< in order of value; the front ones may have finished
+};
+
+/// Waits for all submissions to a queue as it goes. Declare it after the buffers, pipelines and queries that
+/// the submissions use: these then outlive them, also where an exception leaves the scope or the constructor.
+class Drain {
+public:
+    explicit Drain(Queue& queue) noexcept : queue_(queue) {}
+    ~Drain() { queue_.drain(); }
+    Drain(const Drain&) = delete;
+    Drain& operator=(const Drain&) = delete;
+
+private:
+    Queue& queue_;
 };
 
 } // namespace sinew::vk

@@ -1,7 +1,7 @@
 // Every fallible Vulkan call is made to fail in turn: each time there is a vk::Error, nothing leaks, and the
 // next try works.
 #include "support/device.hpp"
-#include "support/host_device.hpp"
+#include "support/faults.hpp"
 #include "test_kernels.hpp"
 
 #include "vk/check.hpp"
@@ -9,41 +9,9 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 namespace sinew::test {
 
 namespace {
-
-constexpr int never = std::numeric_limits<int>::max();
-
-// Vulkan's entry points carry no user pointer.
-struct Fault {
-    int callsToGo = never; ///< succeed before the one that fails
-    VkResult result = VK_SUCCESS;
-    std::string struck; ///< the call that failed
-};
-Fault fault;
-
-template <int Number, typename Function> struct Failing;
-template <int Number, typename... Arguments> struct Failing<Number, VkResult(VKAPI_PTR*)(Arguments...)> {
-    static inline VkResult(VKAPI_PTR* original)(Arguments...) = nullptr;
-    static inline const char* name = nullptr;
-    static VkResult VKAPI_CALL call(Arguments... arguments) {
-        if (fault.callsToGo-- != 0) return original(arguments...);
-        fault.struck = name;
-        return fault.result;
-    }
-};
-
-template <int Number, typename Function> void makeFallible(HostDevice& host, const char* name) {
-    using Replaced = Failing<Number, Function>;
-    Replaced::original = reinterpret_cast<Function>(host.original(name));
-    Replaced::name = name;
-    host.replace(name, reinterpret_cast<PFN_vkVoidFunction>(&Replaced::call));
-}
-
-#define FALLIBLE(name) makeFallible<__COUNTER__, PFN_##name>(host, #name)
 
 void makeSetUpFallible(HostDevice& host) {
     FALLIBLE(vkCreateInstance);

@@ -33,7 +33,7 @@ std::string bodyOf(const sim::Scene& scene, std::uint32_t particle) {
 Runner::Runner(Session& session, const sim::Scene& scene, const sim::Settings& settings,
                scenes::ScriptedBlades blades)
     : session_(session), scene_(scene), settings_(settings), blades_(std::move(blades)),
-      growing_(session.device, scene, settings) {
+      growing_(session.device, scene, settings), drain_(session.queue) {
     const auto phases = static_cast<std::uint32_t>(simulation().phases().size());
     for (std::uint32_t i = 0; i < sim::Simulation::framesInFlight; ++i)
         timestamps_.emplace_back(session.device, phases);

@@ -103,6 +103,7 @@ private:
     std::uint64_t recorded_ = 0, timed_ = 0;
     CutFigures cuts_;
     std::uint32_t surfaceMissing_ = 0;
+    vk::Drain drain_; // last: steps may be in flight when an exception destroys the rest
 };
 
 } // namespace sinew::tools

@@ -16,4 +16,7 @@ vk::Device create(const vk::Loader& loader, const DeviceOptions& options) {
 Session::Session(const DeviceOptions& options)
     : device(create(loader, options)), queue(device), kept(device) {}
 
+Session::Session(PFN_vkGetInstanceProcAddr getInstanceProcAddr, const vk::DeviceRequest& request)
+    : device(vk::Device::create(getInstanceProcAddr, request)), queue(device), kept(device) {}
+
 } // namespace sinew::tools
