@@ -434,13 +434,16 @@ int runHeadless(const Options& asked, std::atomic<std::size_t>& messages) {
         recorder.printTimes();
         recorder.printBeside();
     } catch (const app::Failure& failure) {
+        const app::Writing writing;
         if (failure.code() == app::diverged) // what was drawn before is whole and stays
             outputs.finish();
         throw;
     } catch (const vk::Error&) { // likewise: encoders and files need no device
+        const app::Writing writing;
         outputs.finish();
         throw;
     }
+    const app::Writing writing;
     outputs.finish();
     return app::isInterrupted() ? app::interrupted : app::done;
 }

@@ -75,6 +75,7 @@ std::unique_ptr<Opening> Show::run() {
         next = takeOpened();
     }
     settleAll();
+    const app::Writing writing;
     stopRecording();
     reportFiles(PictureWriter::Wait::yes);
     if (next && !next->again) screen_.layers().section.reset(); // it was of this scene

@@ -10,15 +10,34 @@
 #include <cstdio>
 #include <new>
 
+#include <sys/time.h>
+#include <unistd.h>
+
 namespace sinew::app {
 
 namespace {
 
-// Written by the handler: the one thing a signal handler may do portably.
-volatile std::sig_atomic_t interruptions = 0;
+constexpr itimerval patience{.it_interval = {}, .it_value = {.tv_sec = 1, .tv_usec = 800'000}};
+
+volatile std::sig_atomic_t interruptions = 0, writings = 0;
+
+// In handlers: setitimer is a system call and nothing else.
+void beginToWait() {
+    setitimer(ITIMER_REAL, &patience, nullptr);
+}
 
 extern "C" void countInterruption(int) {
     interruptions = 1;
+    beginToWait();
+}
+
+// Neither destructors nor threads: they may wait for the device.
+extern "C" void leave(int) {
+    if (writings != 0) return;
+    constexpr char line[] = "error: interrupted: what was under way did not end within 2 s: nothing more was "
+                            "written\n";
+    [[maybe_unused]] const auto written = write(STDERR_FILENO, line, sizeof line - 1);
+    _exit(interrupted);
 }
 
 bool isIgnored(int signal) {
@@ -82,7 +101,13 @@ int guarded(const std::function<int()>& body) noexcept {
 }
 
 void catchSignals() {
+    constexpr itimerval none{};
+    setitimer(ITIMER_REAL, &none, nullptr);
     interruptions = 0;
+    struct sigaction ending {};
+    ending.sa_handler = leave;
+    ending.sa_flags = SA_RESTART;
+    sigaction(SIGALRM, &ending, nullptr);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
         if (signal == SIGHUP && isIgnored(signal)) continue; // nohup: the run outlives its terminal
         struct sigaction action {};
@@ -95,6 +120,15 @@ void catchSignals() {
 
 bool isInterrupted() noexcept {
     return interruptions != 0;
+}
+
+Writing::Writing() noexcept {
+    writings = 1;
+}
+
+Writing::~Writing() {
+    writings = 0;
+    if (isInterrupted()) beginToWait();
 }
 
 } // namespace sinew::app

@@ -39,7 +39,19 @@ int report(ExitCode code, std::string message) noexcept;
 
 /// Asks SIGINT, SIGTERM, SIGHUP and SIGPIPE to set a flag instead of ending the process; SIGHUP unless it is
 /// ignored.
+/// A program that has not come to its end, or begun to write its outputs (Writing), 2 s later is ended then,
+/// with a line on stderr and exit code 130: a device or a long computation may not come back before.
 void catchSignals();
 bool isInterrupted() noexcept;
+
+/// While it lives, a program that was asked to end takes the time that its outputs need. For the thread that
+/// writes them; what it writes is all there, so nothing else is to be waited for. Not to be nested.
+class Writing {
+public:
+    Writing() noexcept;
+    ~Writing();
+    Writing(const Writing&) = delete;
+    Writing& operator=(const Writing&) = delete;
+};
 
 } // namespace sinew::app

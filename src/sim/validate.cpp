@@ -2,6 +2,7 @@
 #include "sim/validate.hpp"
 
 #include "sim/collision/check_colliders.hpp"
+#include "sim/collision/crowding.hpp"
 #include "sim/collision/face_contacts.hpp"
 #include "sim/collision/particle_contacts.hpp"
 #include "sim/coloring.hpp"
@@ -533,6 +534,7 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings) 
         checkSkin(scene.skins[i], element("skin", i), scene.particles.size(), complaints);
     if (complaints.isEmpty()) checkCutting(scene, settings, complaints);
     if (complaints.isEmpty()) checkCellVolumes(scene, settings, complaints);
+    if (complaints.isEmpty()) collision::checkCrowding(scene, complaints);
     if (complaints.isEmpty()) checkChosenSweeps(scene, settings, complaints);
     if (complaints.isEmpty()) checkColors(scene, settings, complaints);
     return complaints.finish();

@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <new>
 
 using namespace sinew;
@@ -67,6 +69,7 @@ TEST(Signals, SetAFlagAndLetTheProcessGoOn) {
         std::raise(signal);
         EXPECT_TRUE(app::isInterrupted());
     }
+    app::catchSignals(); // the process is not to be ended
 }
 
 // As under nohup.
@@ -86,4 +89,50 @@ TEST(Signals, EndTheProcessTheSecondTime) {
             std::raise(SIGINT);
         },
         testing::KilledBySignal(SIGINT), "");
+}
+
+namespace {
+
+// Goes on for so long without a look at signals [s].
+void workFor(double seconds) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    while (std::chrono::steady_clock::now() < end) {
+    }
+}
+
+} // namespace
+
+TEST(Signals, EndWhatDoesNotComeToAnEndWithinTwoSeconds) {
+    EXPECT_EXIT(
+        {
+            app::catchSignals();
+            std::raise(SIGTERM);
+            workFor(30);
+        },
+        testing::ExitedWithCode(130), "error: interrupted: .* did not end within 2 s");
+}
+
+TEST(Signals, LetOutputsBeWrittenForAsLongAsTheyTake) {
+    EXPECT_EXIT(
+        {
+            app::catchSignals();
+            const app::Writing writing;
+            std::raise(SIGTERM);
+            workFor(2.5);
+            std::_Exit(7);
+        },
+        testing::ExitedWithCode(7), "^$");
+}
+
+TEST(Signals, EndWhatTakesLongOnceOutputsAreWritten) {
+    EXPECT_EXIT(
+        {
+            app::catchSignals();
+            {
+                const app::Writing writing;
+                std::raise(SIGTERM);
+            }
+            workFor(30);
+        },
+        testing::ExitedWithCode(130), "did not end within 2 s");
 }

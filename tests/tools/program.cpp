@@ -53,13 +53,18 @@ Program::~Program() {
 
 Outcome Program::run(const std::vector<std::string>& arguments, const Environment& environment,
                      const fs::path& signalWhen) const {
-    const fs::path out = folder_.string() + ".out", error = folder_.string() + ".error";
+    const fs::path out = folder_.string() + ".out", error = errorFile();
+    fs::remove(error);
+    const auto isThere = [&](const fs::path& file) {
+        std::error_code none;
+        return fs::exists(file, none) && (file != error || fs::file_size(file, none) > 0);
+    };
     const pid_t child = ::fork();
     if (child == 0) become(arguments, environment, folder_, out, error);
     int status = 0;
     pid_t ended = 0;
     if (!signalWhen.empty()) {
-        while (!fs::exists(folder_ / signalWhen) && ended == 0) {
+        while (!isThere(folder_ / signalWhen) && ended == 0) {
             ::usleep(10'000);
             ended = ::waitpid(child, &status, WNOHANG);
         }

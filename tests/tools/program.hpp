@@ -24,7 +24,8 @@ protected:
     Program();
     ~Program() override;
 
-    /// Waits for the end. Sends SIGINT a moment after the file `signalWhen` exists, where one is named.
+    /// Waits for the end. Sends SIGINT a moment after the file `signalWhen` exists, where one is named;
+    /// errorFile() exists as soon as something is in it.
     Outcome run(const std::vector<std::string>& arguments, const Environment& environment = {},
                 const std::filesystem::path& signalWhen = {}) const;
     /// `run SCENE --json -` and more; fails the test unless it ends with `code`.
@@ -34,6 +35,9 @@ protected:
     std::filesystem::path write(const std::string& name, const std::string& text) const;
     /// Names of all files below the folder, without the folder.
     std::vector<std::string> files() const;
+
+    /// The program's standard error: its progress, every 5 s.
+    std::filesystem::path errorFile() const { return folder_.string() + ".error"; }
 
     std::filesystem::path folder_;
 };

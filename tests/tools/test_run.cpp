@@ -4,6 +4,7 @@
 #include "mesh/export.hpp"
 #include "mesh/import.hpp"
 
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <set>
@@ -423,8 +424,7 @@ TEST_F(Run, TimesTheStepThatDivergesBeItTheFirst) {
 TEST_F(Run, AnInterruptedRunWritesWholeOutputs) {
     write("scene.toml", sheet);
     const Outcome outcome =
-        run({"run", "scene.toml", "--frames", "1000000000", "--out", "out", "--json", "-"}, {},
-            "out/.sinew-lock");
+        run({"run", "scene.toml", "--frames", "1000000000", "--out", "out", "--json", "-"}, {}, errorFile());
     EXPECT_EQ(outcome.code, 130) << outcome.error;
     const json report = json::parse(outcome.out, nullptr, false);
     ASSERT_FALSE(report.is_discarded()) << outcome.out;
@@ -432,6 +432,50 @@ TEST_F(Run, AnInterruptedRunWritesWholeOutputs) {
     EXPECT_LT(report["frames"], report["frames_wanted"]);
     EXPECT_EQ(files(), (std::vector<std::string>{"out/report.json", "out/sheet.glb", "out/sheet.obj",
                                                  "out/sheet.ply", "out/state.ply", "scene.toml"}));
+}
+
+// A step of this scene takes a software device minutes.
+TEST_F(Run, ARunWhoseStepTakesLongEndsWithinSecondsOfASignal) {
+    write("scene.toml", "[[box]]\nparticles = [60, 60, 60]\nspacing = 0.01\ncenter = [0, 1, 0]\n"
+                        "[solver]\nsubsteps = 1000\n");
+    const auto start = std::chrono::steady_clock::now();
+    const Outcome outcome =
+        run({"run", "scene.toml", "--frames", "90", "--out", "out", "--json", "report.json"}, {},
+            "out/.sinew-lock");
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    EXPECT_EQ(outcome.code, 130);
+    if (outcome.error.empty()) GTEST_SKIP() << "this device takes no time for such steps";
+    EXPECT_EQ(outcome.error, "error: interrupted: what was under way did not end within 2 s: nothing more "
+                             "was written\n");
+    EXPECT_LT(taken.count(), 60) << "most of it to load the scene";
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "report.json"));
+}
+
+TEST_F(Run, BodiesInOneSpotAreRefusedWithTheirNames) {
+    const auto spot = [&](const std::string& scene, const std::string& why) {
+        write("scene.toml", scene + "[[plane]]\n");
+        expectOneError(run({"run", "scene.toml", "--frames", "5"}), 3, why);
+    };
+    const auto repeated = [](const std::string& body) {
+        std::string scene;
+        for (int n = 0; n < 300; ++n) scene += body;
+        return scene;
+    };
+    spot(
+        "[[box]]\nparticles = [2, 2, 2]\nspacing = 0.02\ncenter = [0, 0.5, 0]\ncollides = true\n"
+        "copies = [10, 10, 4]\npitch = [1e-6, 1e-6, 1e-6]\n",
+        "bodies \"box 1\" and \"box 2\" and 398 more overlap: they have 400 particles that touch each other");
+    spot(repeated("[[particles]]\nradius = 0.01\ncount = [1, 1, 1]\n"),
+         "300 particles that touch each other");
+    spot(repeated("[[cloth]]\nsize = [4, 4]\nspacing = 0.05\nthickness = 0.02\n"),
+         "300 particles that touch each other");
+}
+
+// What is wide beside its own spacing is near itself at rest, and no crowd.
+TEST_F(Run, AThickClothOfFineMeshIsNoCrowd) {
+    write("scene.toml", "[[cloth]]\nsize = [24, 24]\nspacing = 0.001\nthickness = 0.02\n");
+    const Outcome outcome = run({"describe", "scene.toml"});
+    EXPECT_EQ(outcome.code, 0) << outcome.error;
 }
 
 TEST_F(Run, ValidationHasNothingToSayAboutTheShippedScenes) {

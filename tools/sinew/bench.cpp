@@ -217,6 +217,7 @@ int bench(const BenchOptions& options) {
     Session session(options.device);
     if (options.hasKernels) {
         const Json report{{"schema", reportSchema}, {"kernels", measureKernels(session)}};
+        const app::Writing writing;
         if (json) json->write(dump(report));
         if (options.json != "-") TextOutput("-").write(kernelsTable(report["kernels"]));
         return app::isInterrupted() ? app::interrupted : app::done;
@@ -231,6 +232,7 @@ int bench(const BenchOptions& options) {
     if ((options.scene == "all" || options.scene == "clutter") && !app::isInterrupted())
         clutter = measureClutter(session, options.seconds, options.hasPeers);
     if (options.hasPeers) report["peers"] = comparePeers(options.scene, session);
+    const app::Writing writing;
     std::string text = report["rows"].empty() ? std::string() : table(report["rows"]);
     if (!clutter.empty()) text += clutterTable(clutter);
     if (options.hasPeers && !report["peers"].empty()) text += peersTable(report["peers"]);

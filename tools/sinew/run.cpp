@@ -50,18 +50,20 @@ void writeFolder(const std::filesystem::path& folder, const RunRecord& record, c
     mesh::writeWhole(folder / "report.json", [&](std::ostream& stream) { stream << report; });
 }
 
+void step(const RunOptions& options, const scenes::LoadedScene& loaded, Runner& runner,
+          std::vector<Sample>& samples) {
+    app::Progress progress(options.frames, stderr);
+    const auto update = [&](std::uint64_t done) { progress.update(done); };
+    if (options.trace)
+        samples = trace(runner, loaded.scene, options.frames, options.traceEvery, update);
+    else
+        runner.advance(options.frames, sim::Simulation::framesInFlight, update);
+    progress.finish();
+}
+
 /// What the device says about itself stays in `session`; everything else is copied out.
-RunRecord simulate(const RunOptions& options, const scenes::LoadedScene& loaded, Session& session,
-                   Runner& runner, std::vector<Sample>& samples) {
-    {
-        app::Progress progress(options.frames, stderr);
-        const auto update = [&](std::uint64_t done) { progress.update(done); };
-        if (options.trace)
-            samples = trace(runner, loaded.scene, options.frames, options.traceEvery, update);
-        else
-            runner.advance(options.frames, sim::Simulation::framesInFlight, update);
-        progress.finish();
-    }
+RunRecord recordOf(const RunOptions& options, const scenes::LoadedScene& loaded, Session& session,
+                   Runner& runner) {
     return {.loaded = loaded,
             .program = runner.simulation().program(),
             .device = session.device.description(),
@@ -148,7 +150,9 @@ int run(const RunOptions& options) {
     Runner runner(session, loaded.scene, loaded.settings, {loaded.blades, loaded.scene.dt});
     if (start.run) runner.load(*start.run);
     std::vector<Sample> samples;
-    const RunRecord record = simulate(options, loaded, session, runner, samples);
+    step(options, loaded, runner, samples);
+    const app::Writing writing;
+    const RunRecord record = recordOf(options, loaded, session, runner);
     for (const std::string& message : record.validationMessages)
         std::fprintf(stderr, "validation: %s\n", message.c_str());
     warnAboutRun(record, loaded.warnings);

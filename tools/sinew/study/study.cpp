@@ -80,6 +80,7 @@ int runStudy(const StudyOptions& options) {
         if (!app::isInterrupted())
             record.scenes.push_back(study::study(session, scene, options.points, store));
     record.isComplete = !app::isInterrupted();
+    const app::Writing writing;
     writeAll(folder.path(), record);
     TextOutput("-").write(toText(record) +
                           fmt::format("page: {}\n", (folder.path() / "study.html").string()));
