@@ -10,7 +10,7 @@ namespace sinew::sim {
 /// links.
 struct ClothSheet {
     std::string name = "cloth";
-    Vec3 origin;                               ///< position of particle (0, 0) [m]
+    Vec3 origin{};                             ///< position of particle (0, 0) [m]
     Vec3 right{1, 0, 0}, down{0, 0, 1};        ///< unit directions of a row and of a column
     std::array<std::uint32_t, 2> size{64, 64}; ///< particles along right and down, each >= 2
     float spacing = 1.0f / 63;                 ///< [m]
@@ -25,12 +25,12 @@ struct ClothSheet {
     /// Of the sheet where it touches particles, faces and itself: particles get half of it as radius and
     /// contact offset, triangles as thickness. Best below `spacing`. 0 = touches nothing but planes. [m]
     float thickness = 0;
-    std::uint32_t tethers = 0;         ///< of a particle, to the nearest pinned ones
-    float radius = 0;                  ///< of a particle that others touch [m], at most half of the spacing
-    std::vector<std::uint32_t> pinned; ///< particles (row-major within the sheet) held where they are
-    bool isCuttable = false;           ///< Grid::isCuttable
-    float tearStrain = 0;              ///< Grid::tearStrain
-    std::uint32_t tearsPerStep = 16;   ///< Grid::tearsPerStep
+    std::uint32_t tethers = 0;           ///< of a particle, to the nearest pinned ones
+    float radius = 0;                    ///< of a particle that others touch [m], at most half of the spacing
+    std::vector<std::uint32_t> pinned{}; ///< particles (row-major within the sheet) held where they are
+    bool isCuttable = false;             ///< Grid::isCuttable
+    float tearStrain = 0;                ///< Grid::tearStrain
+    std::uint32_t tearsPerStep = 16;     ///< Grid::tearsPerStep
     Vec3 color{0.16f, 0.34f, 0.58f};
 };
 
@@ -42,11 +42,11 @@ std::uint32_t addCloth(Scene& scene, const ClothSheet& sheet);
 /// touch faces that move.
 struct MeshCollider {
     std::string name = "collider";
-    std::vector<Vec3> vertices; ///< [m]
-    std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::vector<Vec3> vertices{}; ///< [m]
+    std::vector<std::array<std::uint32_t, 3>> triangles{};
     float thickness = 0; ///< what particles keep from it beside their radius [m]
-    Pose pose;           ///< where the frame that `path` moves is while vertices are where they are given
-    std::vector<Keyframe> path; ///< as a collider's; empty = never moves
+    Pose pose{};         ///< where the frame that `path` moves is while vertices are where they are given
+    std::vector<Keyframe> path{}; ///< as a collider's; empty = never moves
     PathEnd pathEnd = PathEnd::hold;
     Vec3 color{0.55f, 0.53f, 0.5f};
 };
@@ -59,14 +59,14 @@ std::uint32_t addMeshCollider(Scene& scene, const MeshCollider& mesh);
 /// Equal masses in a straight line, each linked to the next.
 struct Chain {
     std::string name = "chain";
-    Vec3 origin;                       ///< position of the first particle [m]
-    Vec3 direction{0, -1, 0};          ///< unit direction from the first to the last
-    std::uint32_t particles = 100;     ///< >= 2
-    float length = 1;                  ///< from the first to the last [m]
-    float mass = 0.1f;                 ///< of all particles, were the last like the others [kg]
-    float endMass = 0;                 ///< of the last particle [kg]; 0 = like the others
-    float compliance = 0;              ///< of a link [m/N]
-    std::vector<std::uint32_t> pinned; ///< particles (counted from the first) held where they are
+    Vec3 origin{};                       ///< position of the first particle [m]
+    Vec3 direction{0, -1, 0};            ///< unit direction from the first to the last
+    std::uint32_t particles = 100;       ///< >= 2
+    float length = 1;                    ///< from the first to the last [m]
+    float mass = 0.1f;                   ///< of all particles, were the last like the others [kg]
+    float endMass = 0;                   ///< of the last particle [kg]; 0 = like the others
+    float compliance = 0;                ///< of a link [m/N]
+    std::vector<std::uint32_t> pinned{}; ///< particles (counted from the first) held where they are
 };
 
 /// Appends particles, constraints and a body, and no skin: a line has no surface. Returns the index of the
@@ -112,10 +112,10 @@ Attachment makeDrag(const Scene& scene, std::uint32_t particle, float mass, cons
 /// and mu = E / (2 (1 + nu)) scales the links.
 struct Lattice {
     std::string name = "lattice";
-    Vec3 origin;                                 ///< position of grid corner (0, 0, 0) [m]
+    Vec3 origin{};                               ///< position of grid corner (0, 0, 0) [m]
     std::array<std::uint32_t, 3> cells{1, 1, 1}; ///< grid size in cells
     float spacing = 0.1f;                        ///< edge of a cell [m]
-    std::vector<float> fill;   ///< share of each cell that is material, 0 = empty; x fastest; empty = all 1
+    std::vector<float> fill{}; ///< share of each cell that is material, 0 = empty; x fastest; empty = all 1
     float youngModulus = 1e5f; ///< [Pa]
     /// 0.25 to 0.49. Links alone give 1/4; above it cells resist a change of volume, and substeps that have
     /// all of the stiffness become shorter, about as (1 - 2 nu)^-1/2.
@@ -139,7 +139,7 @@ struct Lattice {
 struct LatticeCorners {
     static constexpr std::uint32_t noParticle = 0xffffffffu;
     std::array<std::uint32_t, 3> cells{};
-    std::vector<std::uint32_t> particle;
+    std::vector<std::uint32_t> particle{};
     std::uint32_t at(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
         return particle[i + (cells[0] + 1) * (j + (cells[1] + 1) * std::size_t{k})];
     }
@@ -169,16 +169,16 @@ std::vector<std::uint32_t> gridsWithHoles(const Scene& scene);
 /// keep their radius from colliders too.
 struct LooseParticles {
     std::string name = "particles";
-    Vec3 center;                                    ///< of the rows or the cuboid [m]
+    Vec3 center{};                                  ///< of the rows or the cuboid [m]
     std::array<std::uint32_t, 3> count{10, 10, 10}; ///< along x, y and z
     float spacing = 0;                              ///< of rows [m]; 0 = as near as they may be
     float jitter = 0;         ///< how far a particle may be off its place along each axis [m]
     std::uint32_t random = 0; ///< more than 0: instead of rows so many in a cuboid, none overlapping
-    Vec3 size;                ///< of the cuboid that holds their balls [m]
+    Vec3 size{};              ///< of the cuboid that holds their balls [m]
     std::uint32_t seed = 1;   ///< of jitter and random places: the same particles on every machine
     float radius = 0.05f;     ///< [m], above 0
     float mass = 1;           ///< of each [kg]
-    Vec3 velocity;            ///< [m/s]
+    Vec3 velocity{};          ///< [m/s]
     Vec3 color{0.62f, 0.62f, 0.60f};
 };
 

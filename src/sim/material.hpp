@@ -14,11 +14,11 @@ struct Material {
     /// Factor on Young's modulus, above 0: on the stiffness of links and bends, and on the pressures of
     /// cells. What is rigid stays so, and attachments are the host's.
     float stiffness = 1;
-    std::vector<float> bodies;    ///< further factors, by Scene::bodies; those left out are 1
-    std::optional<float> damping; ///< in the place of Scene::damping [1/s]
+    std::vector<float> bodies{};    ///< further factors, by Scene::bodies; those left out are 1
+    std::optional<float> damping{}; ///< in the place of Scene::damping [1/s]
     /// In the place of the friction of planes, colliders, particles and faces, static friction included;
     /// pokes keep their own.
-    std::optional<float> friction;
+    std::optional<float> friction{};
     bool operator==(const Material&) const = default;
 };
 

@@ -16,6 +16,9 @@
 #include <type_traits>
 #include <vector>
 
+#pragma push_macro("interface") // windows.h defines it
+#undef interface
+
 namespace sinew::sim {
 
 struct BufferId {
@@ -416,3 +419,5 @@ private:
 };
 
 } // namespace sinew::sim
+
+#pragma pop_macro("interface")

@@ -22,14 +22,14 @@ struct Quaternion {
 
 /// Where a rigid thing is: its point s is at position + rotation s.
 struct Pose {
-    Vec3 position; ///< of its middle [m]
-    Quaternion rotation;
+    Vec3 position{}; ///< of its middle [m]
+    Quaternion rotation{};
 };
 
 /// A point mass.
 struct Particle {
-    Vec3 position;         ///< [m]
-    Vec3 velocity;         ///< [m/s]
+    Vec3 position{};       ///< [m]
+    Vec3 velocity{};       ///< [m/s]
     float inverseMass = 1; ///< [1/kg]; 0 = never moves
     float contactOffset =
         0; ///< [m] distance kept from colliders; negative where the particle lies outside its skin
@@ -97,7 +97,7 @@ struct BendConstraint {
 struct Attachment {
     static constexpr float unlimited = 3.402823466e38f;
     std::uint32_t particle = 0;
-    Vec3 anchor;                ///< where the point is at first [m]
+    Vec3 anchor{};              ///< where the point is at first [m]
     float compliance = 0;       ///< [m/N]; 0 = the particle is where the point is
     float maxForce = unlimited; ///< of the spring [N]
     float maxSpeed = unlimited; ///< with which the point follows its target [m/s]
@@ -130,7 +130,7 @@ struct Plane {
 /// half a turn and more need a keyframe in between.
 struct Keyframe {
     float time = 0; ///< since the simulation began [s]
-    Pose pose;
+    Pose pose{};
 };
 
 enum class ColliderShape { sphere, capsule, box };
@@ -152,8 +152,8 @@ struct Collider {
     float friction = 0;       ///< Coulomb coefficient of what slides, >= 0
     float staticFriction = 0; ///< of what does not slide yet; less than `friction` is as much
     float restitution = 0;    ///< 0 (no rebound) to 1 (elastic)
-    Pose pose;                ///< where it stands, if it has no path
-    std::vector<Keyframe> path; ///< times ascending; before the first it stays where that is
+    Pose pose{};              ///< where it stands, if it has no path
+    std::vector<Keyframe> path{}; ///< times ascending; before the first it stays where that is
     PathEnd pathEnd = PathEnd::hold;
     Vec3 color{0.45f, 0.45f, 0.48f}; ///< linear RGB, for whoever draws it
 };
@@ -320,7 +320,7 @@ struct Settings {
     bool sleeps = false;
     std::uint32_t grabs = 0; ///< hands that may hold something at a time (Step::grabs), 0..8; 0 = no passes
     std::uint32_t pokes = 0; ///< rigid things that the host may move at a time (Step::pokes), 0..8; 0 = none
-    Forms forms;
+    Forms forms{};
     /// False saves 16 bytes a particle: there is no buffer of public velocities, and a step that is undone
     /// leaves what it holds at rest.
     bool publishesVelocities = true;

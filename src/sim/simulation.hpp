@@ -11,6 +11,9 @@
 #include <string>
 #include <vector>
 
+#pragma push_macro("Status") // Xlib defines it; after that header use the name StepStatus
+#undef Status
+
 namespace sinew::sim {
 
 struct StepProgram;
@@ -24,7 +27,7 @@ struct BufferId;
 struct Grab {
     std::uint32_t particle = 0;
     float radius = 0;            ///< [m] at first, around the particle; 0 = it alone
-    Vec3 target;                 ///< of the held point at the end of the step [m]
+    Vec3 target{};               ///< of the held point at the end of the step [m]
     float stiffness = 400;       ///< [1/s^2]; acceleration over distance
     float damping = 40;          ///< [1/s]; acceleration over speed; critical at 2 sqrt(stiffness)
     float maxAcceleration = 100; ///< [m/s^2]
@@ -43,13 +46,13 @@ struct Poke {
     Vec3 halfExtents{};
     float friction = 0.3f;    ///< Coulomb coefficient of what slides, >= 0
     float staticFriction = 0; ///< of what does not slide yet; less than `friction` is as much
-    Pose pose;                ///< where it shall be at the end of the step; the rotation has unit length
+    Pose pose{};              ///< where it shall be at the end of the step; the rotation has unit length
     float maxSpeed = 10;      ///< of any of its points on the way there [m/s]
 };
 
 /// Where a poke has come to.
 struct PokeState {
-    Poke poke; ///< as it was when it was last there, its pose that at the end of that step
+    Poke poke{}; ///< as it was when it was last there, its pose that at the end of that step
     bool isThere = false;
     std::uint32_t changes = 0; ///< how often it came, left, or took another shape
 };
@@ -59,7 +62,7 @@ struct PokeState {
 /// cut (Grid::isCuttable) where these are as the step begins, and it may end inside of a body. Both [m],
 /// equally many points, 2 to ranges::mostBladePoints; anything else is no blade.
 struct Blade {
-    std::span<const Vec3> from, to;
+    std::span<const Vec3> from{}, to{};
     /// `from` is where the last blade's `to` was, and goes on from there wherever the material has moved
     /// since: a stroke over several steps then leaves no link between its sweeps. False begins a stroke.
     bool isCarried = false;
@@ -68,7 +71,7 @@ struct Blade {
 /// Cuts every link that comes nearer than `radius` to a segment, as a pointer's ray of a certain depth: the
 /// plain cut, without a surface. [m]; radius 0 = none.
 struct RayCut {
-    Vec3 from, to;
+    Vec3 from{}, to{};
     float radius = 0;
 };
 
@@ -81,19 +84,19 @@ struct Step {
     /// Where the points of the scene's attachments are at the end of the step [m], in their order; the points
     /// move there evenly, but not faster than Attachment::maxSpeed. Those left out stay. Read by record()
     /// only.
-    std::span<const Vec3> anchors;
+    std::span<const Vec3> anchors{};
     /// What hand 0, 1, ... holds in this step, at most Settings::grabs; one that is not listed, or whose
     /// numbers are not finite, lets go. A hand that held another particle, or nothing, takes hold. Read by
     /// record() only.
-    std::span<const Grab> grabs;
+    std::span<const Grab> grabs{};
     /// Poke 0, 1, ..., at most Settings::pokes; one that is not listed, or whose numbers are not finite or no
     /// sizes, is not there and touches nothing. Read by record() only.
-    std::span<const Poke> pokes;
+    std::span<const Poke> pokes{};
     /// Wakes all that sleeps (Settings::sleeps). Not needed for what a step itself says: another gravity or
     /// dt wakes all, an anchor, a collider or a poke that moves wakes what it holds or comes near.
     bool wakes = false;
-    Blade blade; ///< read by record() only; repeat it where the step was undone
-    RayCut ray;
+    Blade blade{}; ///< read by record() only; repeat it where the step was undone
+    RayCut ray{};
 };
 
 /// What a finished step found out about itself.
@@ -124,19 +127,21 @@ struct Status {
     std::uint32_t cutSurfaceMissing = 0;
 };
 
+using StepStatus = Status;
+
 /// A range of the skin buffers that is one Skin of the scene.
 struct SkinRange {
-    std::string name;
-    Vec3 color;
+    std::string name{};
+    Vec3 color{};
     std::uint32_t firstIndex = 0, indexCount = 0;
 };
 
 /// What the host has of a state between steps, beside what recordSaveState() copies.
 struct SavedState {
-    float h = 0;               ///< substep of the step before [s]; 0 = none was taken
-    double colliderTime = 0;   ///< how far colliders have gone along their paths [s]
-    std::vector<Vec3> anchors; ///< of the scene's attachments [m]
-    std::vector<PokeState> pokes;
+    float h = 0;                 ///< substep of the step before [s]; 0 = none was taken
+    double colliderTime = 0;     ///< how far colliders have gone along their paths [s]
+    std::vector<Vec3> anchors{}; ///< of the scene's attachments [m]
+    std::vector<PokeState> pokes{};
     bool hasNewTopology = false; ///< recordLoadTopology() since the last step
     std::uint32_t changes = 0;   ///< recordChange() before it
     bool isUncut = false;        ///< nothing can have been cut since the reset
@@ -156,16 +161,16 @@ enum class Overlap { none, some };
 /// empty where no skin is clipped: bodies that may be cut have such a surface where their skin is the outer
 /// faces of their cells (addLatticeSkin), or a closed mesh with Skin::anchors (mesh::addMesh).
 struct CutSurface {
-    vk::BufferView vertices; ///< layout::SkinVertex (position, normal; stride 32)
+    vk::BufferView vertices{}; ///< layout::SkinVertex (position, normal; stride 32)
     /// layout::CutVertex of each (stride 64), of which the first vec4 is for a solid texture: where the point
     /// is in the body as the scene was loaded [m], w = index of the skin that it belongs to.
-    vk::BufferView rest;
-    vk::BufferView indices; ///< 32 bits, of triangles
+    vk::BufferView rest{};
+    vk::BufferView indices{}; ///< 32 bits, of triangles
     /// Two VkDrawIndexedIndirectCommand, stride 20: the inside, then the pieces of skins. Both draw nothing
     /// while nothing is cut.
-    vk::BufferView draws;
-    vk::BufferView counts;    ///< one layout::SurfaceState: how much of the buffers above there is
-    vk::BufferView particles; ///< 32 bits: of each slot (CutVertex::corners) the particle in it
+    vk::BufferView draws{};
+    vk::BufferView counts{};    ///< one layout::SurfaceState: how much of the buffers above there is
+    vk::BufferView particles{}; ///< 32 bits: of each slot (CutVertex::corners) the particle in it
 };
 
 /// Another material for a simulation, ready to be copied (Simulation::prepareChange). Holds buffers of the
@@ -288,8 +293,8 @@ public:
     /// from it and `triangles` beside it, where the scene has no sheet that may be cut: how many, the device
     /// knows.
     struct DrawnSkins {
-        vk::BufferView indices;
-        std::span<const SkinRange> ranges;
+        vk::BufferView indices{};
+        std::span<const SkinRange> ranges{};
         bool areWhole = false; ///< Skin::wholeTriangles, where a skin has some
         /// If not empty, one VkDrawIndexedIndirectCommand a skin, stride 20, to be drawn in place of its
         /// range, which is room: it begins there, and behind its end stands what was drawn before.
@@ -322,3 +327,5 @@ private:
 };
 
 } // namespace sinew::sim
+
+#pragma pop_macro("Status")

@@ -13,7 +13,7 @@ struct BufferView {
 };
 
 struct BufferRequest {
-    std::string name;
+    std::string name{};
     VkDeviceSize count = 0;   ///< elements; at least one is allocated so that a binding is never empty
     std::uint32_t stride = 0; ///< [B]; 4-byte multiple
     MemoryKind kind = MemoryKind::device;

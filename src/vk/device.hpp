@@ -33,8 +33,8 @@ struct BufferAllocation {
 /// bound buffer, or throws vk::Error. Both are called at set-up and tear-down only, from the thread that does
 /// so, one call at a time.
 struct BufferHook {
-    std::function<BufferAllocation(const VkBufferCreateInfo&, MemoryKind, const char* name)> create;
-    std::function<void(const BufferAllocation&)> destroy;
+    std::function<BufferAllocation(const VkBufferCreateInfo&, MemoryKind, const char* name)> create{};
+    std::function<void(const BufferAllocation&)> destroy{};
 };
 
 /// Handles a host engine made. Everything must outlive the Device; nothing here is destroyed by Sinew.
@@ -47,30 +47,31 @@ struct HostDevice {
     std::uint32_t queueFamily = 0; ///< where the recorded steps will be submitted; needs compute
     std::span<const char* const>
         enabledInstanceExtensions; ///< names and labels need VK_EXT_debug_utils in here
-    BufferHook buffers;            ///< both empty = Sinew's block allocator
+    BufferHook buffers{};          ///< both empty = Sinew's block allocator
 };
 
 /// What a program without an engine asks of its device.
 struct DeviceRequest {
-    std::string device;         ///< index as `sinew devices` prints it, or part of a name; empty = best
+    std::string device{};       ///< index as `sinew devices` prints it, or part of a name; empty = best
     bool hasValidation = false; ///< VK_LAYER_KHRONOS_validation: core, synchronisation, queue submit
     std::vector<std::string> instanceExtensions,
         deviceExtensions; ///< required (a window's); missing = Error(noDevice)
     /// Says whether a queue family of a device will do beyond graphics + compute (a window asks for present
     /// support).
-    std::function<bool(VkInstance, VkPhysicalDevice, std::uint32_t family)> canUseFamily;
+    std::function<bool(VkInstance, VkPhysicalDevice, std::uint32_t family)> canUseFamily{};
     /// Gets each validation message as it comes, those of the device's destruction (leaks) included. Called
     /// from within Vulkan calls, in their thread; must not throw or call Vulkan.
-    std::function<void(const std::string&)> onValidationMessage;
+    std::function<void(const std::string&)> onValidationMessage{};
 };
 
 /// One physical device in the words of `sinew devices`.
 struct DeviceDescription {
     std::uint32_t index = 0;
-    std::string name, driver, type; ///< type: "discrete GPU", "integrated GPU", "virtual GPU", "software"
+    std::string name{}, driver{},
+        type{}; ///< type: "discrete GPU", "integrated GPU", "virtual GPU", "software"
     std::uint32_t apiVersion = 0;
-    std::vector<std::string> missing; ///< sentences; empty = usable
-    bool isChosen = false;            ///< the one `create` would take for this request
+    std::vector<std::string> missing{}; ///< sentences; empty = usable
+    bool isChosen = false;              ///< the one `create` would take for this request
 };
 
 /// Limits the core checks against, read once.

@@ -5,6 +5,9 @@
 #include "vk/buffer.hpp"
 #include "vk/spirv.hpp"
 
+#pragma push_macro("interface") // windows.h defines it
+#undef interface
+
 namespace sinew::vk {
 
 struct SpecialisationConstant {
@@ -45,7 +48,7 @@ private:
 /// The buffers one dispatch binds, in binding order.
 struct BindingRequest {
     const Kernel* kernel = nullptr;
-    std::vector<BufferView> buffers;
+    std::vector<BufferView> buffers{};
 };
 
 /// A descriptor pool made once for a known list of requests; sets are written at construction and never
@@ -73,3 +76,5 @@ private:
 };
 
 } // namespace sinew::vk
+
+#pragma pop_macro("interface")

@@ -1,4 +1,5 @@
-// The README's embedding example, compiled and run by the tests; README.md quotes it from "#include" on.
+// The README's embedding example, compiled and run by the tests. README.md quotes all that follows the
+// pragma.
 #pragma once
 
 #include "sim/bodies.hpp"
