@@ -24,7 +24,7 @@ endfunction()
 
 # Files that use the same templates of libraries, compiled as one: what each would instantiate and optimise for itself (JSON
 # above all) is done once, and headers are parsed once. An edit then costs its group. Off, every file stands alone.
-option(SINEW_TOGETHER "Compile groups of files together" ${SINEW_PRECOMPILE})
+option(SINEW_TOGETHER "Compile groups of files together" ON)
 
 # sinew_compile_together(<target> <group> <files, of which no two define one name for themselves>...)
 function(sinew_compile_together target group)

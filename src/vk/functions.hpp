@@ -3,9 +3,6 @@
 // function is named.
 #pragma once
 
-#ifndef VK_NO_PROTOTYPES
-#define VK_NO_PROTOTYPES
-#endif
 #include <vulkan/vulkan_core.h>
 
 namespace sinew::vk {
