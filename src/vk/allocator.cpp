@@ -129,14 +129,16 @@ Placement BlockAllocator::place(const VkMemoryRequirements& need, MemoryKind kin
         const bool isShared = need.size <= blockSize / 2;
         if (const auto found = isShared ? placeInBlocks(need, type) : std::nullopt) return *found;
         result = isShared ? addBlock(type, blockSize) : VK_ERROR_OUT_OF_DEVICE_MEMORY;
-        if (result != VK_SUCCESS) result = addBlock(type, need.size);
+        if (result != VK_SUCCESS && result != VK_ERROR_DEVICE_LOST) result = addBlock(type, need.size);
+        if (result == VK_ERROR_DEVICE_LOST) break;
         if (result == VK_SUCCESS) {
             const auto block = std::prev(blocks_.end());
             return {block, block->free.take(need.size, need.alignment).value(), need.size};
         }
     }
-    throw Error(Failure::outOfMemory, "buffer " + name + ": no memory for " + std::to_string(need.size) +
-                                          " bytes: " + resultName(result));
+    const Failure failure = result == VK_ERROR_DEVICE_LOST ? Failure::deviceLost : Failure::outOfMemory;
+    throw Error(failure, "buffer " + name + ": no memory for " + std::to_string(need.size) +
+                             " bytes: " + resultName(result));
 }
 
 std::optional<Placement> BlockAllocator::placeInBlocks(const VkMemoryRequirements& need, std::uint32_t type) {
