@@ -27,8 +27,8 @@ std::vector<vk::Buffer> makeBuffers(const vk::Device& device, const StepProgram&
         VkBufferUsageFlags usage = 0;
         const CutSurfaceBuffers& cut = program.cutSurface;
         const BufferId id{b};
-        if (id == program.skinVertices || id == program.positions || id == program.cutting.pieces ||
-            id == cut.vertices || id == cut.rest)
+        if (id == program.skinVertices || id == program.positions || id == program.velocities ||
+            id == program.cutting.pieces || id == cut.vertices || id == cut.rest)
             usage |= VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
         if (holdsArguments[b] || id == cut.draws || id == program.pieceDraws || id == program.mixedDraws)
             usage |= VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;

@@ -46,11 +46,25 @@ TEST(Embedding, StepsInAForeignDeviceWithoutAMessage) {
     EXPECT_GE(positions.front()[1], -0.1f - 1e-5f);
 }
 
+TEST(Embedding, PublicStateMayBeBoundAsVertices) {
+    HostDevice host;
+    const auto bind = reinterpret_cast<PFN_vkCmdBindVertexBuffers>(host.original("vkCmdBindVertexBuffers"));
+    {
+        SoftBodies bodies(host.handles());
+        host.submit([&](VkCommandBuffer commands) {
+            bodies.recordFrame(commands, 0);
+            for (const vk::BufferView& view : {bodies.simulation.positions(), bodies.simulation.velocities()})
+                bind(commands, 0, 1, &view.buffer, &view.offset);
+        });
+    }
+    EXPECT_EQ(host.finish(), std::vector<std::string>{});
+}
+
 TEST(Embedding, IsQuotedByTheReadme) {
     const std::string example = read(SINEW_SOURCE_FOLDER "/tests/embedding/soft_bodies.hpp");
-    const std::string quoted = example.substr(example.find("#include"));
-    EXPECT_NE(read(SINEW_SOURCE_FOLDER "/README.md").find(quoted), std::string::npos)
-        << "README.md must quote tests/embedding/soft_bodies.hpp from its first include on";
+    const std::string quoted = example.substr(example.find("\n#include") + 1);
+    EXPECT_NE(read(SINEW_SOURCE_FOLDER "/README.md").find("```cpp\n" + quoted + "```\n"), std::string::npos)
+        << "README.md must quote tests/embedding/soft_bodies.hpp from its first include on, and nothing else";
 }
 
 } // namespace
