@@ -12,6 +12,7 @@ struct MeshBody {
     float youngModulus = 2e4f;     ///< [Pa]
     float poissonRatio = 0.25f;    ///< 0.25 to 0.49
     float recovery = 0;            ///< sim::Lattice::recovery
+    bool mayLackRecovery = false;  ///< sim::Lattice::mayLackRecovery
     float density = 1000;          ///< [kg/m^3]
     bool touchesParticles = false; ///< each particle has a radius of half a voxel
     /// sim::Grid::isCuttable. The skin of a closed mesh is split along the cells, into three to seven times
@@ -23,10 +24,10 @@ struct MeshBody {
 };
 
 /// Appends particles on the corners of the filled cells, links, a body (restVolume = the mesh's volume if
-/// closed, else the filled volume) and the skin: every vertex in the cell that holds it. Corners outside the
-/// surface get a negative contact offset (minus their distance to it), so that the skin, not the hull of
-/// cells, rests on a plane. Returns the grid for reports. Throws std::invalid_argument where the mesh is
-/// empty.
+/// closed and no parts of it overlap, else the filled volume) and the skin: every vertex in the cell that
+/// holds it. Corners outside the surface get a negative contact offset (minus their distance to it), so that
+/// the skin, not the hull of cells, rests on a plane. Returns the grid for reports. Throws
+/// std::invalid_argument where the mesh is empty.
 VoxelGrid addMesh(sim::Scene& scene, const TriangleMesh& mesh, const MeshBody& body);
 
 } // namespace sinew::mesh

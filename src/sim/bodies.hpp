@@ -125,13 +125,14 @@ struct Lattice {
     /// but no substeps, and does nothing to a cell of more than half of its volume; a smaller threshold
     /// leaves crumpled bodies at rest there.
     float recovery = 0;
+    bool mayLackRecovery = false;    ///< a body that gets no grid then has none, and that is no error
     float density = 1000;            ///< [kg/m^3]
     float radius = 0;                ///< of a particle that others touch [m], at most half of the spacing
     bool hasBodyDiagonals = false;   ///< 26 neighbours instead of 18
     bool isCuttable = false;         ///< Grid::isCuttable
     float tearStrain = 0;            ///< Grid::tearStrain
     std::uint32_t tearsPerStep = 16; ///< Grid::tearsPerStep
-    float restVolume = 0;            ///< of the body [m^3]; 0 = sum of fill x cell volume
+    float restVolume = 0;            ///< of the body [m^3], by which it weighs; 0 = sum of fill x cell volume
 };
 
 /// What addLattice made: the particle on each grid corner, or noParticle. Corner (i, j, k) is at
@@ -145,12 +146,12 @@ struct LatticeCorners {
     }
 };
 
-/// Appends particles, constraints, a body and a grid; adds no skin. Mass follows the fill as given, stiffness
-/// the fill in steps of 1/15; cells with a fill below 1/8 count as 1/8 (a sliver keeps about the stiffness to
-/// mass ratio of the body and so asks for hardly more substeps). So far from the origin that float32 rounds
-/// positions by 1e-4 of the spacing, the links have the lengths that are stored and the body gets no grid.
-/// Throws std::invalid_argument for values out of range and std::domain_error where a body without a grid
-/// would need the volumes of its cells or be cuttable.
+/// Appends particles, constraints, a body and a grid; adds no skin. The particles weigh density times the
+/// body's volume together. Shares of it follow the fill as given, but a filled cell counts as 1/8 at least
+/// among those around a corner; stiffness follows the fill in steps of 1/15, 2/15 at least. So far from the
+/// origin that float32 rounds positions by 1e-4 of the spacing, the links have the lengths that are stored
+/// and the body gets no grid. Throws std::invalid_argument for values out of range and std::domain_error
+/// where a body without a grid would need the volumes of its cells or be cuttable.
 LatticeCorners addLattice(Scene& scene, const Lattice& lattice);
 
 /// Skins the boundary faces of a lattice (for bodies without a mesh of their own), creased at its edges.

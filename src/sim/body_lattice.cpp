@@ -24,6 +24,7 @@ namespace {
 using Index3 = std::array<std::int32_t, 3>;
 
 constexpr std::uint8_t fullCell = 15, smallestFill = 2; // in 1/15
+constexpr double leastShare = 0.125;                    // of a cell's mass that its corners have
 
 /// One of each pair of opposite directions, the one that leads to the higher grid index: 3 edges, 6 face
 /// diagonals, 4 body diagonals.
@@ -74,17 +75,18 @@ public:
         return fill_[indexOf(cell)];
     }
 
-    /// Mean over the eight cells around `corner` of what they weigh, by the weight of a full one: the fill as
-    /// given, but no less than a sliver's stiffness stands for.
+    /// Mean over the eight cells around `corner` of the fill as given, but of each filled cell no less than
+    /// leastShare: stiffness has such a floor too, and a lighter node would need shorter substeps.
     double massShare(Index3 corner) const {
-        double sum = 0;
+        double given = 0;
+        int filled = 0;
         for (int side = 0; side < 8; ++side) {
             const Index3 cell{corner[0] - (side & 1), corner[1] - (side >> 1 & 1), corner[2] - (side >> 2)};
             if (fill(cell) == 0) continue;
-            const double given = lattice_.fill.empty() ? 1 : double{lattice_.fill[indexOf(cell)]};
-            sum += std::max(given, 0.125);
+            given += lattice_.fill.empty() ? 1 : double{lattice_.fill[indexOf(cell)]};
+            ++filled;
         }
-        return sum / 8;
+        return std::max(given, leastShare * filled) / 8;
     }
 
     /// Mean fill of the cells that hold the link from `corner` in `direction`.
@@ -156,11 +158,33 @@ float along(float origin, float spacing, std::int32_t index) {
     return static_cast<float>(double{origin} + double{spacing} * index);
 }
 
+/// Volume of the body at rest [m^3].
+double volumeOf(const Lattice& lattice) {
+    if (lattice.restVolume > 0) return double{lattice.restVolume};
+    double cells = lattice.fill.empty() ? static_cast<double>(cellCount(lattice)) : 0;
+    for (const float fill : lattice.fill) cells += double{fill};
+    return cells * std::pow(double{lattice.spacing}, 3);
+}
+
+/// Mass of every corner [kg], 0 where no cell is filled: shares of density times volume of the body. Fills
+/// are samples and shares have a floor, so that their sum alone would not be the mass of the body.
+std::vector<double> cornerMasses(const Lattice& lattice, const Cells& cells) {
+    std::vector<double> masses;
+    double shares = 0;
+    forEachCorner(lattice.cells, [&](Index3 corner) {
+        masses.push_back(cells.massShare(corner));
+        shares += masses.back();
+    });
+    const double unit = double{lattice.density} * (volumeOf(lattice) / shares);
+    for (double& mass : masses) mass *= unit;
+    return masses;
+}
+
 std::vector<std::uint32_t> addParticles(Scene& scene, const Lattice& lattice, const Cells& cells) {
-    const double cellMass = double{lattice.density} * std::pow(double{lattice.spacing}, 3);
+    const std::vector<double> masses = cornerMasses(lattice, cells);
     std::vector<std::uint32_t> particle;
     forEachCorner(lattice.cells, [&](Index3 corner) {
-        const double mass = cellMass * cells.massShare(corner);
+        const double mass = masses[particle.size()];
         particle.push_back(mass > 0 ? static_cast<std::uint32_t>(scene.particles.size())
                                     : LatticeCorners::noParticle);
         if (mass > 0)
@@ -259,12 +283,6 @@ void addGrid(Scene& scene, const Lattice& lattice, const Cells& cells, const Lat
     scene.grids.push_back(std::move(grid));
 }
 
-float filledVolume(const Lattice& lattice) {
-    double cells = lattice.fill.empty() ? static_cast<double>(cellCount(lattice)) : 0;
-    for (const float fill : lattice.fill) cells += double{fill};
-    return static_cast<float>(cells * std::pow(double{lattice.spacing}, 3));
-}
-
 /// Corners of the face of `cell` on the side `isHigh` of `axis`, counter-clockwise seen from outside.
 std::array<Index3, 4> faceCorners(Index3 cell, std::size_t axis, bool isHigh) {
     const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -288,11 +306,12 @@ LatticeCorners addLattice(Scene& scene, const Lattice& lattice) {
     const std::size_t firstDistance = scene.distances.size();
     if (addLinks(scene, lattice, cells, corners, kinds))
         addGrid(scene, lattice, cells, corners, kinds, first, firstDistance);
-    else if (lattice.poissonRatio > 0.25f || lattice.recovery > 0 || lattice.isCuttable)
+    else if (lattice.poissonRatio > 0.25f || (lattice.recovery > 0 && !lattice.mayLackRecovery) ||
+             lattice.isCuttable)
         throw std::domain_error("lattice \"" + lattice.name +
                                 "\" is so far from the origin that rounding distorts its cells");
     scene.bodies.push_back({lattice.name, first, static_cast<std::uint32_t>(scene.particles.size()) - first,
-                            lattice.restVolume > 0 ? lattice.restVolume : filledVolume(lattice)});
+                            static_cast<float>(volumeOf(lattice))});
     return corners;
 }
 

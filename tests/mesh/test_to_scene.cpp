@@ -4,11 +4,13 @@
 #include "mesh/generate.hpp"
 #include "meshes.hpp"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 using namespace sinew;
 using namespace sinew::mesh;
@@ -43,6 +45,37 @@ double massOf(const sim::Scene& scene) {
     double mass = 0;
     for (const sim::Particle& particle : scene.particles) mass += 1 / double{particle.inverseMass};
     return mass;
+}
+
+TriangleMesh inverted(TriangleMesh mesh) {
+    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+    return mesh;
+}
+
+/// About the axes x and z.
+TriangleMesh turned(TriangleMesh mesh, double degrees) {
+    const double angle = degrees * std::numbers::pi / 180;
+    const Eigen::Matrix3d turn =
+        (Eigen::AngleAxisd(angle, Vector3::UnitZ()) * Eigen::AngleAxisd(0.7 * angle, Vector3::UnitX()))
+            .toRotationMatrix();
+    for (sim::Vec3& p : mesh.positions) p = toVec3(turn * toVector(p));
+    return mesh;
+}
+
+/// A torus around the axis y.
+TriangleMesh ring(double radius, double tube) {
+    constexpr std::uint32_t around = 48, across = 12;
+    TriangleMesh mesh{.name = "ring"};
+    const auto vertex = [](std::uint32_t i, std::uint32_t j) { return i % around * across + j % across; };
+    for (std::uint32_t i = 0; i < around; ++i)
+        for (std::uint32_t j = 0; j < across; ++j) {
+            const double u = 2 * std::numbers::pi * i / around, v = 2 * std::numbers::pi * j / across;
+            const double r = radius + tube * std::cos(v);
+            mesh.positions.push_back(toVec3({r * std::cos(u), tube * std::sin(v), r * std::sin(u)}));
+            mesh.triangles.push_back({vertex(i, j), vertex(i, j + 1), vertex(i + 1, j)});
+            mesh.triangles.push_back({vertex(i + 1, j), vertex(i, j + 1), vertex(i + 1, j + 1)});
+        }
+    return mesh;
 }
 
 } // namespace
@@ -111,15 +144,53 @@ TEST(AddMesh, FindsCellsForVerticesOnTheirBorders) {
 }
 
 TEST(AddMesh, WeighsTheVolumeTimesTheDensity) {
+    const TriangleMesh ball = generate("sphere", 32);
+    TriangleMesh hollow = joined(ball, inverted(scaled(ball, 0.95f)));
+    const std::pair<const char*, TriangleMesh> meshes[]{
+        {"ball", ball},
+        {"hollow ball", std::move(hollow)},
+        {"tube", generate("tube", 40)},
+        {"slab with a hole", generate("slab_with_hole", 40)},
+        {"thin ring", ring(0.15, 0.004)},
+        {"plate of 6 mm", box({-0.2f, -0.003f, -0.2f}, {0.2f, 0.003f, 0.2f})},
+        {"sheet of 0.2 mm", box({-0.2f, -0.0001f, -0.2f}, {0.2f, 0.0001f, 0.2f})}};
+    for (const auto& [name, mesh] : meshes)
+        for (const std::uint32_t resolution : {1u, 6u, 13u, 24u, 40u})
+            for (const double degrees : {0.0, 17.0, 45.0}) {
+                MeshBody wanted = body(resolution);
+                wanted.density = 500;
+                sim::Scene scene;
+                const TriangleMesh placed = turned(mesh, degrees);
+                addMesh(scene, placed, wanted);
+                EXPECT_NEAR(massOf(scene) / (500 * inspect(placed).volume), 1, 1e-4)
+                    << name << " of " << resolution << " voxels, turned by " << degrees;
+            }
+}
+
+TEST(AddMesh, WeighsWhatPartsShareOnce) {
+    const TriangleMesh ball = generate("sphere", 32);
     sim::Scene scene;
-    MeshBody wanted = body(24);
-    wanted.density = 500;
-    const VoxelGrid grid = addMesh(scene, generate("sphere", 64), wanted);
-    double cells = 0; // slivers count as an eighth of a cell
-    for (std::size_t i = 0; i < grid.voxels.size(); ++i)
-        cells += grid.voxels[i] == Voxel::empty ? 0 : std::max(0.125, double{grid.fill[i]});
-    EXPECT_NEAR(massOf(scene) / (500 * cells * std::pow(double{grid.spacing}, 3)), 1, 1e-5);
-    EXPECT_NEAR(massOf(scene) / (500 * 4 * std::numbers::pi / 3 * std::pow(0.15, 3)), 1, 0.03);
+    addMesh(scene, joined(ball, moved(ball, {0.15f, 0, 0})), body(40));
+    const double r = 0.15, lens = 5 * std::numbers::pi * std::pow(r, 3) / 12; // of centres r apart
+    EXPECT_NEAR(massOf(scene) / (1000 * (8 * std::numbers::pi * std::pow(r, 3) / 3 - lens)), 1, 0.01);
+}
+
+// Stability: a node without enough mass for the stiffness of its cells would need shorter substeps.
+TEST(AddMesh, LeavesNoNodeMuchLighterThanItsLinksAreWeak) {
+    for (const double degrees : {0.0, 17.0, 45.0}) {
+        sim::Scene scene;
+        addMesh(scene, turned(box({-0.2f, -0.003f, -0.2f}, {0.2f, 0.003f, 0.2f}), degrees), body(24));
+        std::vector<double> stiffness(scene.particles.size());
+        for (const sim::DistanceConstraint& link : scene.distances)
+            for (const std::uint32_t end : {link.a, link.b}) stiffness[end] += 1 / double{link.compliance};
+        double least = 1e30, mean = 0;
+        for (std::size_t i = 0; i < stiffness.size(); ++i) {
+            const double ratio = 1 / (double{scene.particles[i].inverseMass} * stiffness[i]);
+            least = std::min(least, ratio);
+            mean += ratio / static_cast<double>(stiffness.size());
+        }
+        EXPECT_GT(least, 0.4 * mean) << degrees;
+    }
 }
 
 TEST(AddMesh, KnowsItsRestVolume) {

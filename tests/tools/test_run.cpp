@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -303,6 +304,49 @@ TEST_F(Run, LeavesOutCrumbsAndSaysHowManyThereAre) {
         EXPECT_TRUE(defects.isClosed()) << name;
         EXPECT_NEAR(left.volume, 0.064 - 0.15 * 0.15 * 0.15 / 6, 1e-5) << name;
     }
+}
+
+// Links that a cut has parted say nothing of how a body is stretched.
+TEST_F(Run, CountsNoCutLinkAsStrain) {
+    const std::string blade = "[[blade]]\ntimes = [0, 0.01]\nedges = [[[0.06, 2, -2], [0.06, 2, 2]], "
+                              "[[0.06, -2, -2], [0.06, -2, 2]]]\n";
+    const std::string head = "dt = 0.01\n[solver]\nsubsteps = 16\n[[plane]]\nfriction = 0\n"
+                             "normal = [0.6, 0.8, 0]\noffset = -0.3\n[[plane]]\nfriction = 0\n"
+                             "normal = [-0.6, 0.8, 0]\noffset = -0.3\n";
+    const std::map<std::string, std::string> bodies{
+        {"box", "[[box]]\nparticles = [6, 5, 5]\nspacing = 0.1\ncenter = [0, 0.1, 0]\n"
+                "young_modulus = 1e6\ncuttable = true\n"},
+        {"mesh", "[[mesh]]\ngenerate = \"sphere\"\ndetail = 16\nsize = 0.5\nresolution = 8\n"
+                 "center = [0, 0.1, 0]\nyoung_modulus = 1e6\ncuttable = true\n"},
+        {"cloth", "[[cloth]]\nsize = [14, 10]\nspacing = 0.05\norigin = [-0.3, 0.1, -0.2]\n"
+                  "skip_stiffness = 10\ncuttable = true\n"}};
+    for (const auto& [name, body] : bodies) {
+        write("cut.toml", head + body + blade);
+        const json cut = report({"cut.toml", "--frames", "25"});
+        EXPECT_EQ(cut["cut"]["pieces"], 2) << name;
+        EXPECT_LT(cut["error"]["strain_rms"].get<double>(), 0.02)
+            << name << "; with links that are cut 0.03 to 0.35";
+    }
+}
+
+TEST_F(Run, CountsThePiecesThatItsMeshesShow) {
+    for (const char* at : {"0.1055", "0.02", "-0.13", "0.142"})
+        for (const char* resolution : {"8", "13"}) {
+            write("cut.toml",
+                  std::string("gravity = [0, 0, 0]\n[[mesh]]\nname = \"ball\"\ngenerate = \"sphere\"\n"
+                              "detail = 32\nsize = 0.3\ncenter = [0, 0, 0]\ncuttable = true\n"
+                              "resolution = ") +
+                      resolution + "\n[[blade]]\ntimes = [0, 0.0166667]\nedges = [[[" + at + ", 1, -1], [" +
+                      at + ", 1, 1]], [[" + at + ", -1, -1], [" + at + ", -1, 1]]]\n");
+            const Outcome outcome = run({"run", "cut.toml", "--frames", "4", "--out", "out"});
+            ASSERT_EQ(outcome.code, 0) << outcome.error;
+            const json cut = json::parse(textOf(folder_ / "out/report.json"))["cut"];
+            EXPECT_EQ(cut["pieces"], 2) << at << ", " << resolution;
+            EXPECT_EQ(gltfOf(folder_ / "out/ball.glb")["meshes"].size(), 2u) << at << ", " << resolution;
+            EXPECT_NE(textOf(folder_ / "out/ball.obj").find("\no ball 2\n"), std::string::npos);
+            EXPECT_EQ(outcome.out.find("fragments") == std::string::npos, cut["fragments"] == 0)
+                << outcome.out;
+        }
 }
 
 // A cube that is cut in two as it lands and spreads: the skin is clipped along the cut and closed by the

@@ -5,6 +5,7 @@
 #include "sim/compile.hpp"
 
 #include <algorithm>
+#include <set>
 
 namespace sinew::tools {
 
@@ -137,6 +138,20 @@ Drawn downloadDrawn(vk::Queue& queue, const sim::Simulation& simulation, const s
 void eachTriangle(const sim::Scene& scene, std::size_t index, const Drawn& drawn,
                   const std::function<void(const DrawnTriangle&)>& use) {
     Walk(scene, index, drawn, use);
+}
+
+std::size_t piecesWithSurface(const sim::Scene& scene, const Drawn& drawn) {
+    if (drawn.pieces.empty()) return 0;
+    std::set<std::uint32_t> pieces;
+    for (std::size_t s = 0; s < scene.skins.size(); ++s) {
+        eachTriangle(scene, s, drawn, [&](const DrawnTriangle& triangle) { pieces.insert(triangle.piece); });
+        if (pieces.erase(NO_PARTICLE) == 0) continue;
+        for (const sim::CellEmbedding& cell : scene.skins[s].cells) // not clipped
+            for (const std::uint32_t particle : cell.particles) pieces.insert(drawn.pieces[particle]);
+        pieces.erase(NO_PARTICLE);
+        pieces.erase(REMOVED_PIECE);
+    }
+    return pieces.size();
 }
 
 bool isCut(std::size_t index, const Drawn& drawn) {

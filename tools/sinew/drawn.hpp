@@ -42,6 +42,10 @@ struct DrawnTriangle {
 void eachTriangle(const sim::Scene& scene, std::size_t index, const Drawn& drawn,
                   const std::function<void(const DrawnTriangle&)>& use);
 
+/// How many pieces of bodies that may be cut have a surface, as meshes count them: others are fragments, of
+/// particles that stand outside the body's skin. Of a skin that no cut clips, those that it hangs on.
+std::size_t piecesWithSurface(const sim::Scene& scene, const Drawn& drawn);
+
 /// Whether something else is drawn of that skin than the skin itself.
 bool isCut(std::size_t index, const Drawn& drawn);
 

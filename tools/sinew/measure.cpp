@@ -34,8 +34,9 @@ Point sum(const Point& a, const Point& b, double scale) {
 void measureStrain(const sim::Scene& scene, const State& state, Errors& errors) {
     double squares = 0, largest = 0;
     std::size_t count = 0;
-    for (const sim::DistanceConstraint& d : scene.distances) {
-        if (d.restLength == 0 || !state.has(d.a) || !state.has(d.b)) continue;
+    for (std::size_t i = 0; i < scene.distances.size(); ++i) {
+        const sim::DistanceConstraint& d = scene.distances[i];
+        if (d.restLength == 0 || !state.holds(i) || !state.has(d.a) || !state.has(d.b)) continue;
         const Point edge = sum(pointOf(state.positions[d.b]), pointOf(state.positions[d.a]), -1);
         const double strain = length(edge) / double{d.restLength} - 1;
         squares += strain * strain;

@@ -16,13 +16,17 @@ struct State {
     /// Likewise: of a crumb (sim::Scene::crumbs); empty where nothing can be cut. Figures leave them out, but
     /// for momentum.
     std::vector<bool> isRemoved = {};
+    /// By distance constraint of the scene; empty where nothing can be cut.
+    std::vector<bool> isCut = {};
     bool has(std::size_t particle) const { return isRemoved.empty() || !isRemoved[particle]; }
+    /// Whether a distance constraint still holds its two particles.
+    bool holds(std::size_t distance) const { return isCut.empty() || !isCut[distance]; }
 };
 
 /// Empty where a figure has no meaning for the scene.
 struct Errors {
     std::optional<double> strainRms,
-        strainMax;                ///< (length - restLength) / restLength over distance constraints
+        strainMax; ///< (length - restLength) / restLength over distance constraints that are not cut
     std::optional<double> volume; ///< relative change of the closed skin that changed most, with its sign
     std::optional<double>
         momentum; ///< change across gravity over sum m |v|; only where nothing holds a particle

@@ -4,6 +4,7 @@
 
 #include "app/guard.hpp"
 #include "sim/compile.hpp"
+#include "sinew/cut_links.hpp"
 #include "sinew/cut_mesh.hpp"
 #include "sinew/skin_mesh.hpp"
 
@@ -180,6 +181,10 @@ State Runner::readState() {
     if (simulation().pieces().size > 0)
         for (const std::uint32_t piece : session_.queue.download<std::uint32_t>(simulation().pieces()))
             state.isRemoved.push_back(piece == REMOVED_PIECE);
+    const sim::BufferId links = simulation().program().cutting.links;
+    if (links != sim::BufferId{})
+        state.isCut = cutLinks(scene_, sim::stateLayout(scene_, settings_).slot,
+                               session_.queue.download<std::uint32_t>(simulation().view(links)));
     if (!settings_.sleeps) return state;
     const std::vector<float> inverseMass = sim::inverseMasses(scene_); // the device has 0 for what sleeps
     for (std::size_t i = 0; i < inverseMass.size(); ++i) {
@@ -196,6 +201,7 @@ SkinMeshes Runner::readSkins() {
     growing_.simulation().recordSkin(commands);
     session_.queue.wait(session_.queue.submit(commands));
     const Drawn drawn = downloadDrawn(session_.queue, simulation(), scene_, settings_);
+    meshes.piecesWithSurface = piecesWithSurface(scene_, drawn);
     std::size_t first = 0;
     for (std::size_t s = 0; s < scene_.skins.size(); ++s) {
         const sim::Skin& skin = scene_.skins[s];

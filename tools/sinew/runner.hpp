@@ -25,6 +25,7 @@ struct SkinMeshes {
     std::vector<mesh::TriangleMesh> whole;
     std::vector<std::vector<mesh::TriangleMesh>> pieces; ///< the same; one each where nothing is cut
     std::vector<std::vector<mesh::ShadedMesh>> shaded;   ///< likewise, with normals
+    std::size_t piecesWithSurface = 0;                   ///< of bodies that may be cut
 };
 
 /// What sim::Status says of bodies that may be cut.

@@ -4,6 +4,7 @@
 #include "layout.h"
 #include "sim/coloring.hpp"
 #include "sim/compile.hpp"
+#include "sim/lattice/link_bits.hpp"
 #include "viewer/draw/mesh_buffer.hpp"
 #include "viewer/draw/removed.hpp"
 #include "viewer/draw/value_maps.hpp"
@@ -32,7 +33,7 @@ std::string noteOf(sim::Solver solver, std::size_t classes) {
 
 layout::LineLink lineOf(const sim::Scene& scene, std::uint32_t d, std::span<const std::uint32_t> slots) {
     const sim::DistanceConstraint& link = scene.distances[d];
-    const LinkBits bits = linkBits(scene, d);
+    const sim::lattice::LinkBits bits = sim::lattice::linkBits(scene, d);
     return {link.a,
             link.b,
             bits.ofA != 0 ? slots[link.a] : 0,

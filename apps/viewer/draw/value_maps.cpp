@@ -3,7 +3,7 @@
 
 #include "layout.h"
 #include "sim/compile.hpp"
-#include "sim/lattice/link_masks.hpp"
+#include "sim/lattice/link_bits.hpp"
 #include "viewer/draw/mesh_buffer.hpp"
 #include "viewer/draw/removed.hpp"
 #include "viewer_shaders.hpp"
@@ -21,43 +21,6 @@ namespace {
 
 // Cuts and sheets have theirs after these.
 enum SetIndex : std::size_t { strainSet, speedSet, sleepSet, skinSet, firstOther };
-
-// The bit of a link that leads so many steps along x, y and z; none where that is no neighbour.
-std::optional<std::uint32_t> bitOf(const std::array<int, 3>& step) {
-    for (std::uint32_t bit = 0; bit < sim::lattice::directionCount; ++bit)
-        if (sim::lattice::directionOf(bit) == step) return bit;
-    return std::nullopt;
-}
-
-std::array<int, 3> nodeOf(const sim::Grid& grid, std::uint32_t particle) {
-    const std::uint32_t node = grid.node[particle - grid.firstParticle];
-    return {static_cast<int>(node % grid.nodes[0]), static_cast<int>(node / grid.nodes[0] % grid.nodes[1]),
-            static_cast<int>(node / grid.nodes[0] / grid.nodes[1])};
-}
-
-// That may be cut and has both ends of a link, which need not be one of its own.
-const sim::Grid* gridOf(const sim::Scene& scene, const sim::DistanceConstraint& link) {
-    const auto holds = [&](const sim::Grid& grid) {
-        const std::size_t count = grid.node.size();
-        return grid.isCuttable && link.a - grid.firstParticle < count && link.b - grid.firstParticle < count;
-    };
-    const auto grid = std::ranges::find_if(scene.grids, holds);
-    return grid == scene.grids.end() ? nullptr : &*grid;
-}
-
-// What stands in the middle of such a way; none where no particle does.
-std::optional<std::uint32_t> particleBetween(const sim::Grid& grid, const std::array<int, 3>& a,
-                                             const std::array<int, 3>& b) {
-    std::array<std::uint32_t, 3> middle{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        if ((a[axis] + b[axis]) % 2 != 0) return std::nullopt;
-        middle[axis] = static_cast<std::uint32_t>((a[axis] + b[axis]) / 2);
-    }
-    const std::uint32_t node = middle[0] + grid.nodes[0] * (middle[1] + grid.nodes[1] * middle[2]);
-    const auto found = std::ranges::lower_bound(grid.node, node);
-    if (found == grid.node.end() || *found != node) return std::nullopt;
-    return grid.firstParticle + static_cast<std::uint32_t>(found - grid.node.begin());
-}
 
 template <typename T> std::vector<T> atLeastOne(std::vector<T> elements) {
     if (elements.empty()) elements.emplace_back();
@@ -81,27 +44,6 @@ std::uint32_t elements(const vk::BufferView& view) {
 
 } // namespace
 
-LinkBits linkBits(const sim::Scene& scene, std::size_t distance) {
-    const sim::DistanceConstraint& link = scene.distances[distance];
-    const sim::Grid* grid = gridOf(scene, link);
-    LinkBits bits{.isCounted = link.restLength > 0};
-    if (grid == nullptr) return bits;
-    const std::array<int, 3> a = nodeOf(*grid, link.a), b = nodeOf(*grid, link.b);
-    const std::array<int, 3> way{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-    if (const auto bit = bitOf(way)) {
-        bits.ofA = 1u << *bit;
-        bits.ofB = 1u << (sim::lattice::directionCount - 1 - *bit);
-        return bits;
-    }
-    bits.isCounted = false;
-    const auto over = particleBetween(*grid, a, b);
-    const auto half = bitOf({way[0] / 2, way[1] / 2, way[2] / 2});
-    if (!over || !half) return bits;
-    bits.over = *over;
-    bits.ofA = bits.ofOver = 1u << *half;
-    return bits;
-}
-
 std::vector<std::uint32_t> particlesBySlot(const sim::StateLayout& state) {
     std::vector<std::uint32_t> particles(state.count, NO_PARTICLE);
     for (std::size_t i = 0; i < state.slot.size(); ++i)
@@ -112,10 +54,10 @@ std::vector<std::uint32_t> particlesBySlot(const sim::StateLayout& state) {
 LinkTable linkTable(const sim::Scene& scene, std::span<const std::uint32_t> slots) {
     LinkTable table;
     table.linksOf.resize(scene.particles.size());
-    std::vector<LinkBits> links;
+    std::vector<sim::lattice::LinkBits> links;
     for (std::size_t d = 0; d < scene.distances.size(); ++d) {
         const sim::DistanceConstraint& constraint = scene.distances[d];
-        links.push_back(linkBits(scene, d));
+        links.push_back(sim::lattice::linkBits(scene, d));
         if (!links.back().isCounted) continue;
         ++table.linksOf[constraint.a].count;
         ++table.linksOf[constraint.b].count;

@@ -18,17 +18,6 @@ namespace sinew::viewer {
 /// Which particle a slot of the solver's state holds, or NO_PARTICLE.
 std::vector<std::uint32_t> particlesBySlot(const sim::StateLayout& state);
 
-/// The bits of a link in the words of live links of its ends; 0 where nothing can cut it. One that leads two
-/// nodes far is cut with either of those that lead over the particle between, of which ofA and ofOver are the
-/// bits.
-struct LinkBits {
-    std::uint32_t ofA = 0, ofB = 0;
-    std::uint32_t over = 0, ofOver = 0;
-    bool isCounted = true; ///< whether its strain says something of it alone
-};
-/// Of Scene::distances.
-LinkBits linkBits(const sim::Scene& scene, std::size_t distance);
-
 /// The links of every particle, by which a kernel finds their strain. `slots`: of the particles in the
 /// solver's state.
 struct LinkTable {
