@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace sinew::sim {
 
@@ -83,6 +84,13 @@ Pose between(const Pose& a, const Pose& b, double part) noexcept {
     return {{weighted(1 - part, from.x, part, to.x), weighted(1 - part, from.y, part, to.y),
              weighted(1 - part, from.z, part, to.z)},
             between(a.rotation, b.rotation, part)};
+}
+
+std::vector<std::uint32_t> particlesOf(const DrivenBody& body) {
+    std::vector<std::uint32_t> all(body.particleCount);
+    std::iota(all.begin(), all.end(), body.firstParticle);
+    all.insert(all.end(), body.particles.begin(), body.particles.end());
+    return all;
 }
 
 bool isMoving(const Collider& collider) {

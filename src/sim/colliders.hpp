@@ -8,6 +8,9 @@ namespace sinew::sim {
 
 struct Poke;
 
+/// All particles of a driven body: those of its range, then the listed ones.
+std::vector<std::uint32_t> particlesOf(const DrivenBody& body);
+
 /// Whether its path leads anywhere.
 bool isMoving(const Collider& collider);
 bool isMoving(const DrivenBody& body);

@@ -159,12 +159,13 @@ struct Collider {
 };
 
 /// Particles that go along a path as one rigid thing, whatever they meet: a mesh that moves
-/// (addMeshCollider), or what others hang on. Each is held: its inverse mass is 0 or a FixedConstraint has
-/// it. The scene has them where they are when the simulation begins. For `split` alone.
+/// (addMeshCollider), or what others hang on (drive() of holds.hpp). Each is held: its inverse mass is 0 or a
+/// FixedConstraint has it. The scene has them where they are when the simulation begins. For `split` alone.
 struct DrivenBody {
     std::uint32_t firstParticle = 0, particleCount = 0;
     std::vector<Keyframe> path; ///< as a collider's; of a frame that they keep their places in
     PathEnd pathEnd = PathEnd::hold;
+    std::vector<std::uint32_t> particles = {}; ///< further ones, in any order
 };
 
 /// Particles on the nodes of a regular grid, linked to their neighbours by distance constraints: a body whose

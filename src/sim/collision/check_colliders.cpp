@@ -1,6 +1,8 @@
 // Sizes, poses and paths of colliders and driven bodies.
 #include "sim/collision/check_colliders.hpp"
 
+#include "sim/colliders.hpp"
+
 namespace sinew::sim::collision {
 
 namespace {
@@ -96,7 +98,11 @@ void checkDriven(const Scene& scene, const std::vector<bool>& isHeld, Complaints
             complaints.add(name, "ends with particle " + number(end) + " of " + number(isHeld.size()));
             continue;
         }
-        for (std::uint32_t i = body.firstParticle; i < end; ++i) {
+        for (const std::uint32_t i : particlesOf(body)) {
+            if (i >= isHeld.size()) {
+                complaints.add(name, "has particle " + number(i) + " of " + number(isHeld.size()));
+                break;
+            }
             if (isHeld[i] && !isDriven[i]) {
                 isDriven[i] = true;
                 continue;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace sinew::sim::collision::colliders {
 
@@ -51,16 +52,26 @@ void addPoses(ProgramBuilder& program, const Scene& scene, std::uint32_t substep
     program.program().pokes.placed = groupsOf(items);
 }
 
-// A ball around all of a driven body that anybody may touch, for who asks what is near it (sleep).
+constexpr float mostStretch = 2; // of a link from what is driven to what rests on it
+
+// A ball around all of a driven body that anybody may touch or is linked to, for who asks what is near it
+// (sleep).
 layout::Collider ballAround(const DrivenBody& body, const Scene& scene) {
     float widest = 0, thickest = 0;
     double farthest = 0;
     for (const Particle& particle : scene.particles) widest = std::max(widest, particle.radius);
     for (const Face& face : scene.faces) thickest = std::max(thickest, face.thickness);
     const Pose pose = poseAt(body, 0);
-    for (std::uint32_t i = 0; i < body.particleCount; ++i) {
-        const Vec3 local = toLocal(pose, scene.particles[body.firstParticle + i].position);
-        farthest = std::max(farthest, std::hypot(double{local.x}, double{local.y}, double{local.z}));
+    std::vector<float> reach(scene.particles.size(), -1); // of what hangs on a driven particle
+    for (const std::uint32_t particle : particlesOf(body)) reach[particle] = 0;
+    for (const DistanceConstraint& link : scene.distances)
+        for (const auto& [held, other] : {std::pair{link.a, link.b}, std::pair{link.b, link.a}})
+            if (reach[held] >= 0 && reach[other] < 0)
+                reach[held] = std::max(reach[held], mostStretch * link.restLength);
+    for (const std::uint32_t particle : particlesOf(body)) {
+        const Vec3 local = toLocal(pose, scene.particles[particle].position);
+        farthest = std::max(farthest, std::hypot(double{local.x}, double{local.y}, double{local.z}) +
+                                          double{reach[particle]});
     }
     layout::Collider ball{};
     ball.core.w = static_cast<float>(farthest) + 2 * widest + thickest;

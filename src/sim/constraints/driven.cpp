@@ -14,7 +14,7 @@ template <typename Visit> void forDriven(const Scene& scene, const Visit& visit)
         const DrivenBody& body = scene.driven[b];
         if (!isMoving(body)) continue;
         const Pose pose = poseAt(body, 0);
-        for (std::uint32_t i = 0; i < body.particleCount; ++i) visit(b, pose, body.firstParticle + i);
+        for (const std::uint32_t particle : particlesOf(body)) visit(b, pose, particle);
     }
 }
 
