@@ -27,13 +27,6 @@ double dot(sim::Vec3 a, sim::Vec3 b) {
     return double{a.x} * double{b.x} + double{a.y} * double{b.y} + double{a.z} * double{b.z};
 }
 
-void requireUnit(const Section& section, const char* key) {
-    const sim::Vec3 direction = section.vector(key);
-    const double length = std::sqrt(dot(direction, direction));
-    if (!sim::ranges::normalLength.holds(length))
-        section.fail(key, "has length " + std::to_string(length), "give a direction of length 1");
-}
-
 struct NamedPins {
     std::string_view name;
     bool (*holds)(std::uint32_t column, std::uint32_t row, std::uint32_t columns, std::uint32_t rows);
@@ -220,6 +213,13 @@ bool tooNear(const sim::LooseParticles& particles) {
 
 } // namespace
 
+void requireUnit(const Section& section, const char* key) {
+    const sim::Vec3 direction = section.vector(key);
+    const double length = std::sqrt(dot(direction, direction));
+    if (!sim::ranges::normalLength.holds(length))
+        section.fail(key, "has length " + std::to_string(length), "give a direction of length 1");
+}
+
 float tearStrainOf(const Section& body) {
     if (body.number("tear") > 0 && !body.flag("cuttable"))
         body.fail("tear", "is given, but the body may not be cut", "add cuttable = true");
@@ -326,7 +326,6 @@ void addParticles(LoadedScene& loaded, const Section& section) {
                                   .size = isRandom ? section.vector("size") : sim::Vec3{},
                                   .seed = section.count("seed"),
                                   .radius = section.number("radius"),
-                                  .velocity = section.vector("velocity"),
                                   .color = section.vector("color")};
     particles.mass = section.has("mass") ? section.number("mass") : massOfBall(section);
     if (!sim::ranges::inverseMass.holds(1 / double{particles.mass}) || !(particles.mass > 0))

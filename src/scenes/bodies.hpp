@@ -16,6 +16,9 @@ struct Source {
     std::optional<std::filesystem::path> meshArgument; ///< the mesh of the command line
 };
 
+/// Fails where the value of `key` has not length 1.
+void requireUnit(const Section& section, const char* key);
+
 /// As sim::Grid has it; 0 = never tears.
 float tearStrainOf(const Section& body);
 
@@ -28,7 +31,18 @@ void addMesh(LoadedScene& loaded, const Section& mesh, const Source& source, std
 void addParticles(LoadedScene& loaded, const Section& particles);
 /// What never moves: after the bodies that do.
 void addMeshCollider(LoadedScene& loaded, const Section& section, const Source& source);
+/// The triangles of a table with `file` or `generate`, where its other keys place them.
+struct PlacedMesh {
+    mesh::TriangleMesh mesh;
+    sim::Vec3 middle; ///< of its bounding box [m]
+    std::string file; ///< as reports show it
+};
+PlacedMesh placedMesh(const Section& section, const Source& source, const std::array<double, 3>& origin);
+/// All [[hold]] of a file: after the bodies that move, before those that do not.
+void addHolds(LoadedScene& loaded, const Section& top, const Source& source);
 void addPlane(LoadedScene& loaded, const Section& plane);
 void addCollider(LoadedScene& loaded, const Section& collider);
+/// `shape` of a table, if it is a sphere, a capsule or a box; else fails with these and `others` as choices.
+void readShape(const Section& section, sim::Collider& collider, const std::string& others = "");
 
 } // namespace sinew::scenes

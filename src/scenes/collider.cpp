@@ -18,11 +18,14 @@ void refuse(const Section& section, const char* name, const std::string& shape) 
     if (section.has(name)) section.fail(name, "is given", "a " + shape + " has none: remove it");
 }
 
-void readShape(const Section& section, sim::Collider& collider) {
+} // namespace
+
+void readShape(const Section& section, sim::Collider& collider, const std::string& others) {
     const std::string shape = section.text("shape");
     const bool isSphere = shape == "sphere", isCapsule = shape == "capsule", isBox = shape == "box";
     if (!isSphere && !isCapsule && !isBox)
-        section.fail("shape", "is \"" + shape.substr(0, 64) + "\"", "possible are sphere, capsule, box");
+        section.fail("shape", "is \"" + shape.substr(0, 64) + "\"",
+                     "possible are sphere, capsule, box" + others);
     (isBox ? refuse : require)(section, "radius", shape);
     (isCapsule ? require : refuse)(section, "length", shape);
     (isBox ? require : refuse)(section, "size", shape);
@@ -35,8 +38,6 @@ void readShape(const Section& section, sim::Collider& collider) {
     const sim::Vec3 size = section.vector("size");
     collider.halfExtents = {size.x / 2, size.y / 2, size.z / 2};
 }
-
-} // namespace
 
 void addCollider(LoadedScene& loaded, const Section& section) {
     sim::Collider collider{

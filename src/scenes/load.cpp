@@ -6,9 +6,11 @@
 #include "scenes/bodies.hpp"
 #include "scenes/built_in.hpp"
 #include "scenes/origin.hpp"
+#include "scenes/path.hpp"
 #include "scenes/surface.hpp"
 #include "sim/compile.hpp"
 #include "sim/ranges.hpp"
+#include "sim/start.hpp"
 #include "sim/substeps.hpp"
 #include "sim/validate.hpp"
 
@@ -81,15 +83,31 @@ void apply(const Overrides& overrides, LoadedScene& loaded) {
     settings.isReversed = overrides.isReversed;
 }
 
+// The bodies of all tables [[list]], each as its table says that it begins. Meshes are turned before they are
+// filled with voxels.
+template <typename Add>
+void addBodies(LoadedScene& loaded, const Section& top, std::string_view list, const Add& add) {
+    for (const Section& section : top.list(list)) {
+        const std::size_t first = loaded.scene.bodies.size();
+        add(section);
+        const bool isTurned = list == "mesh";
+        sim::start(loaded.scene, first,
+                   {.velocity = section.vector("velocity"),
+                    .spin = section.vector("spin"),
+                    .rotation = isTurned ? sim::Quaternion{} : rotationOf(section)});
+    }
+}
+
 void readBodies(LoadedScene& loaded, const Section& top, const Source& source, std::optional<float> voxel) {
-    for (const Section& cloth : top.list("cloth")) addCloth(loaded, cloth);
-    for (const Section& chain : top.list("chain")) addChain(loaded, chain);
     FaceChoices faces;
-    for (const Section& box : top.list("box")) addBox(loaded, box, faces);
-    for (const Section& mesh : top.list("mesh")) addMesh(loaded, mesh, source, voxel, faces);
-    for (const Section& particles : top.list("particles")) addParticles(loaded, particles);
+    addBodies(loaded, top, "cloth", [&](const Section& cloth) { addCloth(loaded, cloth); });
+    addBodies(loaded, top, "chain", [&](const Section& chain) { addChain(loaded, chain); });
+    addBodies(loaded, top, "box", [&](const Section& box) { addBox(loaded, box, faces); });
+    addBodies(loaded, top, "mesh", [&](const Section& mesh) { addMesh(loaded, mesh, source, voxel, faces); });
+    addBodies(loaded, top, "particles", [&](const Section& balls) { addParticles(loaded, balls); });
     if (loaded.scene.bodies.empty())
         fail(source.file, "has no body", "add [[cloth]], [[chain]], [[box]], [[mesh]] or [[particles]]");
+    addHolds(loaded, top, source);
     faces.settle(loaded);
     for (const Section& mesh : top.list("mesh_collider")) addMeshCollider(loaded, mesh, source);
     for (const Section& plane : top.list("plane")) addPlane(loaded, plane);

@@ -176,15 +176,21 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
     loaded.meshes.push_back(std::move(summary));
 }
 
-void addMeshCollider(LoadedScene& loaded, const Section& section, const Source& source) {
-    section.requireOneOf("file", "generate");
+PlacedMesh placedMesh(const Section& section, const Source& source, const std::array<double, 3>& origin) {
     Found found = section.has("file") ? import(section, source) : generate(section);
     if (found.mesh.triangles.empty()) section.fail("file", "has no triangles", "check the mesh");
+    const sim::Vec3 middle = place(found.mesh, section, origin);
+    return {std::move(found.mesh), middle, found.file};
+}
+
+void addMeshCollider(LoadedScene& loaded, const Section& section, const Source& source) {
+    section.requireOneOf("file", "generate");
+    const PlacedMesh found = placedMesh(section, source, loaded.origin);
     if (loaded.scene.particles.size() + found.mesh.positions.size() > mostParticles)
         section.fail(section.has("file") ? "file" : "detail",
                      "makes more than " + std::to_string(mostParticles) + " particles",
                      "take a coarser mesh");
-    const sim::Pose pose{place(found.mesh, section, loaded.origin), rotationOf(section)};
+    const sim::Pose pose{found.middle, rotationOf(section)};
     Path path = readPath(section, loaded.origin, pose);
     const std::size_t first = loaded.scene.particles.size();
     sim::addMeshCollider(loaded.scene, {.name = section.has("name") ? section.text("name")

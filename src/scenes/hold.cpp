@@ -1,0 +1,176 @@
+// [[hold]].
+#include "scenes/bodies.hpp"
+#include "scenes/origin.hpp"
+#include "scenes/path.hpp"
+
+#include "mesh/triangle_tree.hpp"
+#include "sim/holds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+namespace sinew::scenes {
+
+namespace {
+
+/// Where a hold takes particles, and the frame that its path moves.
+struct Place {
+    sim::Gap gap;
+    sim::Pose pose;
+};
+
+struct ShapeKey {
+    const char *name, *shape;
+    bool isNeeded;
+};
+constexpr ShapeKey shapeKeys[] = {{"normal", "half_space", true},
+                                  {"offset", "half_space", false},
+                                  {"file", "mesh", true},
+                                  {"within", "mesh", true}};
+
+void checkShapeKeys(const Section& hold, const std::string& shape) {
+    for (const ShapeKey& key : shapeKeys) {
+        if (shape == key.shape && key.isNeeded && !hold.has(key.name))
+            hold.fail(key.name, "is missing", "a " + shape + " needs it");
+        if (shape != key.shape && hold.has(key.name))
+            hold.fail(key.name, "is given", "a " + shape.substr(0, 64) + " has none: remove it");
+    }
+    const bool isOther = shape == "half_space" || shape == "mesh";
+    for (const char* key : {"radius", "length", "size"})
+        if (isOther && hold.has(key)) hold.fail(key, "is given", "a " + shape + " has none: remove it");
+    if (shape == "half_space" && hold.has("rotation"))
+        hold.fail("rotation", "is given", "a half_space is turned by its normal: remove it");
+}
+
+sim::Gap nearMesh(const mesh::TriangleMesh& mesh, float within) {
+    std::vector<mesh::Vector3> positions;
+    for (const sim::Vec3& x : mesh.positions) positions.push_back(mesh::toVector(x));
+    const auto tree = std::make_shared<const mesh::TriangleTree>(positions, mesh.triangles);
+    return [tree, within](const sim::Vec3& x) {
+        const mesh::Vector3 point = mesh::toVector(x);
+        const double distance = tree->distance(point);
+        const bool isInside = std::abs(tree->windingNumber(point)) > 0.5;
+        return (isInside ? -distance : distance) - double{within};
+    };
+}
+
+Place placeOf(const Section& hold, const Source& source, const std::array<double, 3>& origin) {
+    const std::string shape = hold.text("shape");
+    checkShapeKeys(hold, shape);
+    if (shape == "mesh") {
+        const PlacedMesh found = placedMesh(hold, source, origin);
+        return {nearMesh(found.mesh, hold.number("within")), {found.middle, rotationOf(hold)}};
+    }
+    const sim::Pose pose{localPoint(hold, "center", origin), rotationOf(hold)};
+    if (shape == "half_space") {
+        requireUnit(hold, "normal");
+        return {
+            sim::insideOf(sim::Plane{.normal = hold.vector("normal"), .offset = localOffset(hold, origin)}),
+            pose};
+    }
+    sim::Collider collider{.pose = pose, .path = {}};
+    readShape(hold, collider, ", half_space, mesh");
+    return {sim::insideOf(collider), pose};
+}
+
+/// Whether a body is called so, or is one of the copies of a box that is.
+bool isNamed(const sim::Body& body, const std::string& name) {
+    if (!body.name.starts_with(name)) return false;
+    const std::string rest = body.name.substr(name.size());
+    return rest.empty() ||
+           (rest.size() > 1 && rest[0] == ' ' &&
+            std::all_of(rest.begin() + 1, rest.end(), [](char c) { return c >= '0' && c <= '9'; }));
+}
+
+/// Indices of the bodies that a hold names.
+std::vector<std::size_t> bodiesOf(const Section& hold, const std::vector<sim::Body>& bodies) {
+    std::vector<std::size_t> all;
+    const std::vector<std::string> names = hold.names("bodies");
+    if (hold.has("bodies") && names.empty())
+        hold.fail("bodies", "names no body", "name some, or leave the key out: then all are meant");
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        if (names.empty() ||
+            std::ranges::any_of(names, [&](const std::string& name) { return isNamed(bodies[b], name); }))
+            all.push_back(b);
+    for (const std::string& name : names) {
+        if (std::ranges::any_of(bodies, [&](const sim::Body& body) { return isNamed(body, name); })) continue;
+        const auto nearest = std::ranges::min_element(bodies, {}, [&](const sim::Body& body) {
+            return editDistance(name.substr(0, 64), body.name.substr(0, 64));
+        });
+        hold.fail("bodies", "names \"" + name.substr(0, 64) + "\", which no body is called",
+                  "did you mean \"" + nearest->name + "\"?");
+    }
+    return all;
+}
+
+std::string lengthText(double length) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g m", length);
+    return text;
+}
+
+struct Taken {
+    std::vector<std::uint32_t> particles;
+    double gap = INFINITY; ///< of the nearest particle [m]
+    std::string nearest;   ///< the body that it is of
+};
+
+Taken take(LoadedScene& loaded, const Section& hold, const sim::Gap& gap) {
+    Taken taken;
+    for (const std::size_t b : bodiesOf(hold, loaded.scene.bodies)) {
+        const sim::Body& body = loaded.scene.bodies[b];
+        const sim::Selection found = sim::select(loaded.scene, body, gap);
+        taken.particles.insert(taken.particles.end(), found.particles.begin(), found.particles.end());
+        if (found.particles.empty() && hold.has("bodies"))
+            loaded.warnings.push_back("hold \"" + hold.text("name") + "\" takes no particle of body \"" +
+                                      body.name + "\", the nearest is " + lengthText(found.gap) +
+                                      " outside of its " + hold.text("shape"));
+        if (found.gap >= taken.gap) continue;
+        taken.gap = found.gap;
+        taken.nearest = body.name;
+    }
+    return taken;
+}
+
+constexpr std::size_t nobody = ~std::size_t{0};
+
+void addHold(LoadedScene& loaded, const Section& hold, const Source& source,
+             std::vector<std::string>& drivers, std::vector<std::size_t>& driverOf) {
+    const Place place = placeOf(hold, source, loaded.origin);
+    Taken taken = take(loaded, hold, place.gap);
+    const std::string name = hold.text("name"), shape = hold.text("shape");
+    if (taken.particles.empty())
+        hold.fail("shape",
+                  "of hold \"" + name + "\" takes no particle: the nearest, of body \"" + taken.nearest +
+                      "\", is " + lengthText(taken.gap) + " outside of this " + shape,
+                  "move it there, or make it larger");
+    Path path = readPath(hold, loaded.origin, place.pose);
+    if (path.keyframes.empty()) {
+        sim::hold(loaded.scene, taken.particles);
+        return;
+    }
+    if (path.keyframes.size() == 1)
+        hold.fail("keyframe", "is one alone, which leads nowhere", "give at least two, or none");
+    for (const std::uint32_t particle : taken.particles) {
+        if (driverOf[particle] != nobody)
+            hold.fail("shape",
+                      "of hold \"" + name + "\" takes particles that hold \"" + drivers[driverOf[particle]] +
+                          "\" takes along its path",
+                      "leave them to one of the two");
+        driverOf[particle] = drivers.size();
+    }
+    drivers.push_back(name);
+    sim::drive(loaded.scene, std::move(taken.particles), std::move(path.keyframes), path.end);
+}
+
+} // namespace
+
+void addHolds(LoadedScene& loaded, const Section& top, const Source& source) {
+    std::vector<std::string> drivers;
+    std::vector<std::size_t> driverOf(loaded.scene.particles.size(), nobody);
+    for (const Section& hold : top.list("hold")) addHold(loaded, hold, source, drivers, driverOf);
+}
+
+} // namespace sinew::scenes
