@@ -92,7 +92,6 @@ sim::Lattice makeLattice(const VoxelGrid& grid, const MeshBody& body, double vol
                          .youngModulus = body.youngModulus,
                          .poissonRatio = body.poissonRatio,
                          .recovery = body.recovery,
-                         .mayLackRecovery = body.mayLackRecovery,
                          .density = body.density,
                          .radius = body.touchesParticles ? grid.spacing / 2 : 0,
                          .isCuttable = body.isCuttable,

@@ -12,7 +12,6 @@ struct MeshBody {
     float youngModulus = 2e4f;     ///< [Pa]
     float poissonRatio = 0.25f;    ///< 0.25 to 0.49
     float recovery = 0;            ///< sim::Lattice::recovery
-    bool mayLackRecovery = false;  ///< sim::Lattice::mayLackRecovery
     float density = 1000;          ///< [kg/m^3]
     bool touchesParticles = false; ///< each particle has a radius of half a voxel
     /// sim::Grid::isCuttable. The skin of a closed mesh is split along the cells, into three to seven times

@@ -125,7 +125,6 @@ struct Lattice {
     /// but no substeps, and does nothing to a cell of more than half of its volume; a smaller threshold
     /// leaves crumpled bodies at rest there.
     float recovery = 0;
-    bool mayLackRecovery = false;    ///< a body that gets no grid then has none, and that is no error
     float density = 1000;            ///< [kg/m^3]
     float radius = 0;                ///< of a particle that others touch [m], at most half of the spacing
     bool hasBodyDiagonals = false;   ///< 26 neighbours instead of 18

@@ -306,8 +306,7 @@ LatticeCorners addLattice(Scene& scene, const Lattice& lattice) {
     const std::size_t firstDistance = scene.distances.size();
     if (addLinks(scene, lattice, cells, corners, kinds))
         addGrid(scene, lattice, cells, corners, kinds, first, firstDistance);
-    else if (lattice.poissonRatio > 0.25f || (lattice.recovery > 0 && !lattice.mayLackRecovery) ||
-             lattice.isCuttable)
+    else if (lattice.poissonRatio > 0.25f || lattice.recovery > 0 || lattice.isCuttable)
         throw std::domain_error("lattice \"" + lattice.name +
                                 "\" is so far from the origin that rounding distorts its cells");
     scene.bodies.push_back({lattice.name, first, static_cast<std::uint32_t>(scene.particles.size()) - first,
