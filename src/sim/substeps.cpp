@@ -193,7 +193,7 @@ SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings) {
     if (settings.substeps > 0) return {settings.substeps, settings.substeps, SubstepReason::asked};
     if (hasOnlyFreeParticles(scene)) return {1, 1, SubstepReason::fewest};
     // The shares of `split` depend on h a little, so that this is the fixed point of a few rounds.
-    const Load load = loadOf(scene);
+    const Load load = loadOf(scene, double{settings.tolerance});
     const std::uint32_t fewest = fewestFor(scene);
     const double ofContacts =
         canTouch(scene)

@@ -49,10 +49,9 @@ struct SubstepChoice {
 /// - every elastic link has k_eff >= (1 - tolerance) k; where the s_m of `jacobi` alone is below 1 -
 /// tolerance,
 ///   which no substep changes, k_eff >= (1 - tolerance) s_m k, and toText() says so,
-/// - every rigid link stretches by at most tolerance x its length under the weight of what hangs together
-/// with it,
-///   shared by the links that end on a particle that never moves (bodies that hang on nothing ask for
-///   nothing),
+/// - every rigid link stretches by at most tolerance x its length under the weight that hangs on it: on
+///   particles that never move, on attachments, or on colliders below it (stiffness/tensions.hpp; bodies that
+///   hang on nothing ask for nothing),
 /// - `split` is stable with the whole of dampingTime,
 /// - what may rest on particles or faces presses them in by at most 1 % of a radius (collision/loads.hpp),
 ///   and there are ranges::fewestTouching where particles may touch each other or faces,

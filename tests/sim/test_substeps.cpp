@@ -206,6 +206,79 @@ TEST(Substeps, HoldWhatHangsOnRigidLinks) {
     }
 }
 
+namespace {
+
+// The largest strain of a link of a rigid body, at the chosen number of substeps, 4 s after it is let go.
+double strainAtRest(Scene scene) {
+    scene.damping = 2;
+    test::Runner runner(scene, {});
+    EXPECT_EQ(runner.run(static_cast<int>(4 / double{scene.dt})).nonFinite, 0u);
+    const auto x = runner.positions();
+    double most = 0;
+    for (const DistanceConstraint& c : scene.distances)
+        most = std::max(most, (x[c.a] - x[c.b]).norm() / double{c.restLength} - 1);
+    return most;
+}
+
+Scene rigidChain(std::uint32_t count) {
+    Scene scene;
+    for (std::uint32_t i = 0; i < count; ++i)
+        scene.particles.push_back(
+            {.position = {static_cast<float>(i) / static_cast<float>(count - 1) - 0.5f, 1.11f, 0},
+             .inverseMass = static_cast<float>(count) / 0.5f});
+    for (std::uint32_t i = 0; i + 1 < count; ++i)
+        scene.distances.push_back({.a = i, .b = i + 1, .restLength = 1 / static_cast<float>(count - 1)});
+    return scene;
+}
+
+Scene rigidCloth() {
+    Scene scene;
+    addCloth(scene, {.origin = {0, 1, 0},
+                     .down = {0, -1, 0},
+                     .size = {31, 31},
+                     .spacing = 1 / 30.0f,
+                     .areaDensity = 0.3f});
+    return scene;
+}
+
+} // namespace
+
+TEST(Substeps, HoldRigidChainsThatACapsuleCarries) {
+    for (const std::uint32_t count : {21u, 51u, 101u}) {
+        Scene scene = rigidChain(count);
+        const float half = std::sqrt(0.5f);
+        scene.colliders = {{.shape = ColliderShape::capsule,
+                            .radius = 0.1f,
+                            .halfLength = 1,
+                            .friction = 0.5f,
+                            .pose = {{0, 1, 0}, {half, 0, 0, half}}}};
+        EXPECT_LE(strainAtRest(scene), 0.05) << count;
+        scene.colliders[0].pose.position.x = 5;
+        EXPECT_EQ(chooseSubsteps(scene, {}).substeps, 4u) << "beside it nothing carries";
+    }
+}
+
+TEST(Substeps, HoldChainsBetweenTwoPins) {
+    for (const std::uint32_t count : {3u, 11u, 51u}) {
+        Scene scene = rigidChain(count);
+        scene.fixed = {{0}, {count - 1}};
+        EXPECT_LE(strainAtRest(scene), 0.05) << count;
+    }
+}
+
+TEST(Substeps, HoldTheWorstLinkOfRigidSheets) {
+    Scene edges = rigidCloth(), row = edges, pin = edges;
+    for (std::uint32_t i = 0; i < 31; ++i) {
+        row.fixed.push_back({i});
+        edges.fixed.push_back({i});
+        if (i > 0) edges.fixed.push_back({31 * i});
+    }
+    pin.fixed = {{15}};
+    EXPECT_LE(strainAtRest(edges), 0.05);
+    EXPECT_LE(strainAtRest(row), 0.05);
+    EXPECT_LE(strainAtRest(pin), 0.05);
+}
+
 TEST(Substeps, StayBetweenTheirLimitsAndSaySo) {
     Scene stiff = dampedChain(5, 1e-10f), soft = dampedChain(5, 10);
     EXPECT_EQ(chooseSubsteps(stiff, {}).substeps, 256u);

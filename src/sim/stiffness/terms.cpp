@@ -2,6 +2,7 @@
 #include "sim/stiffness/terms.hpp"
 
 #include "sim/compile.hpp"
+#include "sim/stiffness/tensions.hpp"
 
 #include <cmath>
 #include <numeric>
@@ -20,28 +21,6 @@ std::vector<std::uint32_t> componentsOf(const Scene& scene) {
     return parent;
 }
 
-namespace {
-
-// The weight on one of the links that a particle's body hangs on [N]; 0 for bodies that hang on nothing.
-std::vector<double> hangingWeights(const Scene& scene, const std::vector<float>& inverseMass) {
-    const std::vector<std::uint32_t> component = componentsOf(scene);
-    std::vector<double> mass(component.size(), 0), holding(component.size(), 0);
-    for (std::size_t i = 0; i < component.size(); ++i)
-        if (inverseMass[i] > 0) mass[component[i]] += 1 / double{inverseMass[i]};
-    for (const DistanceConstraint& c : scene.distances)
-        if ((inverseMass[c.a] == 0) != (inverseMass[c.b] == 0)) ++holding[component[c.a]];
-    const Vec3& g = scene.gravity;
-    const double gravity = std::hypot(double{g.x}, double{g.y}, double{g.z});
-    std::vector<double> weights(component.size(), 0);
-    for (std::size_t i = 0; i < component.size(); ++i) {
-        const std::uint32_t body = component[i];
-        if (holding[body] > 0) weights[i] = gravity * mass[body] / holding[body];
-    }
-    return weights;
-}
-
-} // namespace
-
 double clampOfLink(const solvers::Shares& shares, const Scene& scene, std::size_t link) {
     const DistanceConstraint& c = scene.distances[link];
     return double{shares.ofLinks[link]} * double{std::min(shares.times[c.a], shares.times[c.b])};
@@ -58,8 +37,8 @@ double shareAfter(const Settings& settings, std::uint32_t mostConstraints) {
     return 1 - std::pow(1 - share, settings.iterations);
 }
 
-Load loadOf(const Scene& scene) {
-    Load load{.inverseMass = inverseMasses(scene), .links = {}, .bends = {}, .weights = {}};
+Load loadOf(const Scene& scene, double tolerance) {
+    Load load{.inverseMass = inverseMasses(scene), .links = {}, .bends = {}, .tensions = {}};
     load.links.assign(scene.particles.size(), 0);
     load.bends.assign(scene.particles.size(), 0);
     bool hasRigid = false;
@@ -69,7 +48,8 @@ Load loadOf(const Scene& scene) {
     }
     for (const BendConstraint& c : scene.bends)
         if (canMove(load, {c.a, c.b, c.c})) ++load.bends[c.a], ++load.bends[c.b], ++load.bends[c.c];
-    if (hasRigid) load.weights = hangingWeights(scene, load.inverseMass);
+    load.tensions = hasRigid && tolerance > 0 ? tensionsOf(scene, load.inverseMass, tolerance)
+                                              : std::vector<double>(scene.distances.size(), 0.0);
     return load;
 }
 

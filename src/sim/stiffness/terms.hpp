@@ -26,7 +26,7 @@ struct Term {
 struct Load {
     std::vector<float> inverseMass;
     std::vector<std::uint32_t> links, bends; // that can move
-    std::vector<double> weights;             // on one of the links that its body hangs on [N]
+    std::vector<double> tensions;            // of each link, from the weight of its body [N]
     std::uint32_t mostConstraints(std::initializer_list<std::uint32_t> ends) const {
         std::uint32_t most = 0;
         for (const std::uint32_t end : ends) most = std::max(most, links[end] + bends[end]);
@@ -34,7 +34,8 @@ struct Load {
     }
 };
 
-Load loadOf(const Scene& scene);
+// The tensions are 0 without a tolerance: they cost a walk over the scene.
+Load loadOf(const Scene& scene, double tolerance = 0);
 
 // Of each particle, which ones hang together by links.
 std::vector<std::uint32_t> componentsOf(const Scene& scene);
@@ -77,7 +78,7 @@ struct Terms {
             if (!term.isRigid)
                 term.stiffness = 1 / double{c.compliance};
             else if (c.restLength > 0)
-                term.stiffness = load.weights[c.a] / (double{settings.tolerance} * double{c.restLength});
+                term.stiffness = load.tensions[i] / (double{settings.tolerance} * double{c.restLength});
             visit(term);
         }
     }

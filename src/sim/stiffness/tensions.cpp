@@ -1,0 +1,233 @@
+// Weight flows down the distance to what holds a body: one walk over the particles, farthest first.
+#include "sim/stiffness/tensions.hpp"
+
+#include "sim/colliders.hpp"
+#include "sim/collision/vectors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <utility>
+
+namespace sinew::sim::stiffness {
+
+namespace {
+
+using collision::minus;
+using collision::toVector;
+using collision::Vector;
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr std::uint32_t nobody = ~0u;
+constexpr double alongTheWay = 0.99;  // of a link's length, what it leads nearer to what holds
+constexpr double steepest = 0.5;      // sine of the slope on which friction still holds
+constexpr std::size_t mostTimes = 32; // of keyframes that are looked at
+
+// The links of each particle.
+struct Neighbours {
+    std::vector<std::uint32_t> first, link;
+
+    explicit Neighbours(const Scene& scene) : first(scene.particles.size() + 1, 0) {
+        for (const DistanceConstraint& c : scene.distances) ++first[c.a + 1], ++first[c.b + 1];
+        for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
+        link.resize(first.back());
+        std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+        for (std::uint32_t k = 0; k < scene.distances.size(); ++k)
+            link[next[scene.distances[k].a]++] = link[next[scene.distances[k].b]++] = k;
+    }
+    std::span<const std::uint32_t> of(std::uint32_t i) const {
+        return std::span(link).subspan(first[i], first[i + 1] - first[i]);
+    }
+};
+
+std::uint32_t otherEnd(const DistanceConstraint& c, std::uint32_t end) {
+    return c.a == end ? c.b : c.a;
+}
+
+// The ways along the links from each particle to the nearest that is held.
+struct Ways {
+    std::vector<double> length;       // [m]
+    std::vector<std::uint32_t> root;  // the particle that is held; nobody = hangs on nothing
+    std::vector<std::uint32_t> order; // nearest first
+};
+
+Ways waysTo(const Scene& scene, const Neighbours& neighbours, const std::vector<bool>& isHeld) {
+    using Item = std::pair<double, std::uint32_t>;
+    std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
+    const std::size_t count = scene.particles.size();
+    Ways ways{.length = std::vector(count, infinite), .root = std::vector(count, nobody), .order = {}};
+    for (std::uint32_t i = 0; i < count; ++i)
+        if (isHeld[i]) queue.push({ways.length[i] = 0, ways.root[i] = i});
+    while (!queue.empty()) {
+        const auto [length, i] = queue.top();
+        queue.pop();
+        if (length > ways.length[i]) continue;
+        ways.order.push_back(i);
+        for (const std::uint32_t k : neighbours.of(i)) {
+            const DistanceConstraint& c = scene.distances[k];
+            const std::uint32_t other = otherEnd(c, i);
+            const double farther = length + double{c.restLength};
+            if (farther >= ways.length[other]) continue;
+            ways.length[other] = farther;
+            ways.root[other] = ways.root[i];
+            queue.push({farther, other});
+        }
+    }
+    return ways;
+}
+
+double along(const Vector& v, const Vector& down) {
+    return collision::dot(v, down);
+}
+double acrossLength(const Vector& v, const Vector& down) {
+    const double depth = along(v, down);
+    return std::sqrt(std::max(0.0, collision::dot(v, v) - depth * depth));
+}
+
+// Tension over load of a span across gravity that is `way` long between holds `apart` from each other. A load
+// in its middle makes the shallowest slope.
+double steepness(double way, double apart, double tolerance) {
+    if (apart <= 0) return 1;
+    const double excess = std::max(way * (1 + tolerance) / apart - 1, tolerance);
+    return std::sqrt(1 + 1 / (excess * (2 + excess)));
+}
+
+// Of each particle, of the spans that end in it.
+std::vector<double> spansOf(const Scene& scene, const Ways& ways, const Vector& down, double tolerance) {
+    std::vector<double> spans(scene.particles.size(), 1);
+    for (const DistanceConstraint& c : scene.distances) {
+        const std::uint32_t a = ways.root[c.a], b = ways.root[c.b];
+        if (a == b || a == nobody || b == nobody || (a == c.a && b == c.b)) continue;
+        const Vector apart =
+            minus(toVector(scene.particles[a].position), toVector(scene.particles[b].position));
+        const double way = ways.length[c.a] + double{c.restLength} + ways.length[c.b];
+        const double span = steepness(way, acrossLength(apart, down), tolerance);
+        for (const std::uint32_t end : {c.a, c.b}) spans[end] = std::max(spans[end], span);
+    }
+    return spans;
+}
+
+// A body's weight, handed from particle to particle.
+struct Flow {
+    const Scene& scene;
+    std::span<const float> inverseMass;
+    const Neighbours& neighbours;
+    Vector down{};
+    double gravity = 0, tolerance = 0;
+    std::vector<double> tensions = std::vector<double>(scene.distances.size(), 0.0);
+
+    // Slanted links go slack as a sheet that hangs grows narrow: those along the way bear it, longer ones
+    // more.
+    double partOf(const Ways& ways, std::uint32_t from, const DistanceConstraint& c) const {
+        const double drop = ways.length[from] - ways.length[otherEnd(c, from)];
+        return drop > alongTheWay * double{c.restLength} ? drop : 0;
+    }
+
+    void run(const std::vector<bool>& isHeld) {
+        const Ways ways = waysTo(scene, neighbours, isHeld);
+        std::vector<double> spans = spansOf(scene, ways, down, tolerance);
+        std::vector<double> loads(scene.particles.size(), 0);
+        for (auto i = ways.order.rbegin(); i != ways.order.rend(); ++i) {
+            if (isHeld[*i]) break; // these are the nearest of all
+            if (inverseMass[*i] > 0) loads[*i] += gravity / double{inverseMass[*i]};
+            double sum = 0;
+            for (const std::uint32_t k : neighbours.of(*i)) sum += partOf(ways, *i, scene.distances[k]);
+            if (sum == 0) continue;
+            for (const std::uint32_t k : neighbours.of(*i)) {
+                const DistanceConstraint& c = scene.distances[k];
+                const double part = partOf(ways, *i, c);
+                if (part == 0) continue;
+                const std::uint32_t other = otherEnd(c, *i);
+                const double load = loads[*i] * part / sum,
+                             slope = (ways.length[*i] - ways.length[other]) / double{c.restLength};
+                loads[other] += load;
+                spans[other] = std::max(spans[other], spans[*i]);
+                tensions[k] = std::max(tensions[k], load / slope * spans[*i]);
+            }
+        }
+    }
+};
+
+// In the frame of a collider: whether a ray from `from` along `down` meets it, on a round one where it is not
+// steep.
+bool isBelow(const Collider& collider, double kept, const Vector& from, const Vector& down) {
+    if (collider.shape == ColliderShape::box) {
+        const Vector half = toVector(collider.halfExtents);
+        double enters = -infinite, leaves = infinite;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double reach = half[k] + kept;
+            if (down[k] == 0 && std::abs(from[k]) > reach) return false;
+            if (down[k] == 0) continue;
+            const auto [first, last] = std::minmax((-reach - from[k]) / down[k], (reach - from[k]) / down[k]);
+            enters = std::max(enters, first);
+            leaves = std::min(leaves, last);
+        }
+        return enters <= leaves && leaves >= 0;
+    }
+    // the point of the capsule's axis that is nearest to the ray's line
+    const double half = collider.shape == ColliderShape::capsule ? double{collider.halfLength} : 0;
+    const double flat = 1 - down[1] * down[1];
+    const double height = from[1] - along(from, down) * down[1];
+    const double y = flat > 1e-12 ? std::clamp(height / flat, -half, half) : (down[1] < 0 ? -half : half);
+    const Vector toAxis{-from[0], y - from[1], -from[2]};
+    const double reach = double{collider.radius} + kept;
+    return acrossLength(toAxis, down) <= steepest * reach && along(toAxis, down) >= -reach;
+}
+
+void addCarried(const Scene& scene, double time, const Vector& down, std::vector<bool>& isHeld) {
+    for (const Collider& collider : scene.colliders) {
+        const Pose pose = poseAt(collider, time);
+        const Vec3 axis{static_cast<float>(down[0]), static_cast<float>(down[1]),
+                        static_cast<float>(down[2])};
+        const Vector localDown = toVector(toLocal({.position = {}, .rotation = pose.rotation}, axis));
+        for (std::size_t i = 0; i < isHeld.size(); ++i) {
+            const Particle& particle = scene.particles[i];
+            const Vector from = toVector(toLocal(pose, particle.position));
+            const double kept = double{collider.margin} + double{particle.contactOffset};
+            if (isBelow(collider, kept, from, localDown)) isHeld[i] = true;
+        }
+    }
+}
+
+// At which colliders may begin to carry something.
+std::vector<double> timesOf(const Scene& scene) {
+    std::vector<double> times{0};
+    for (const Collider& collider : scene.colliders)
+        for (const Keyframe& key : collider.path) times.push_back(double{key.time});
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    if (times.size() <= mostTimes) return times;
+    std::vector<double> some;
+    for (std::size_t k = 0; k < mostTimes; ++k)
+        some.push_back(times[k * (times.size() - 1) / (mostTimes - 1)]);
+    return some;
+}
+
+} // namespace
+
+std::vector<double> tensionsOf(const Scene& scene, std::span<const float> inverseMass, double tolerance) {
+    const Vector g = toVector(scene.gravity);
+    const double gravity = std::sqrt(collision::dot(g, g));
+    if (gravity == 0) return std::vector<double>(scene.distances.size(), 0.0);
+    const Neighbours neighbours(scene);
+    Flow flow{.scene = scene,
+              .inverseMass = inverseMass,
+              .neighbours = neighbours,
+              .down = {g[0] / gravity, g[1] / gravity, g[2] / gravity},
+              .gravity = gravity,
+              .tolerance = tolerance};
+    std::vector<bool> isHeld(scene.particles.size());
+    for (std::size_t i = 0; i < isHeld.size(); ++i) isHeld[i] = inverseMass[i] == 0;
+    for (const Attachment& attachment : scene.attachments) isHeld[attachment.particle] = true;
+    flow.run(isHeld);
+    if (scene.colliders.empty()) return std::move(flow.tensions);
+    for (const double time : timesOf(scene)) {
+        std::vector<bool> isCarried = isHeld;
+        addCarried(scene, time, flow.down, isCarried);
+        if (isCarried != isHeld) flow.run(isCarried);
+    }
+    return std::move(flow.tensions);
+}
+
+} // namespace sinew::sim::stiffness

@@ -1,0 +1,19 @@
+// The tension that the weight of a body may put on each of its links.
+#pragma once
+
+#include "sim/scene.hpp"
+
+#include <span>
+#include <vector>
+
+namespace sinew::sim::stiffness {
+
+/// The tension of each distance constraint at rest [N]; 0 where nothing hangs on it. A body is held by its
+/// particles that never move, by its attachments, and by colliders that are below it (along gravity, at the
+/// times of their keyframes). Each particle hands its weight, and what it was handed, to its neighbours that
+/// are nearer to what holds the body, by links that lead straight there. A span
+/// between two holds pulls at a slope: with the sag of a link stretched by `tolerance`, if it has no slack.
+/// The result is the largest of the times.
+std::vector<double> tensionsOf(const Scene& scene, std::span<const float> inverseMass, double tolerance);
+
+} // namespace sinew::sim::stiffness
