@@ -86,7 +86,28 @@ TEST_F(Outputs, NoticeAFullDisk) {
 TEST(FileName, KeepsNoPathsAndNoSpecialCharacters) {
     EXPECT_EQ(tools::fileName("organ-2"), "organ-2");
     EXPECT_EQ(tools::fileName("../etc/passwd"), "___etc_passwd");
-    EXPECT_EQ(tools::fileName("Herz \xc3\xa4\n"), "Herz____");
+    EXPECT_EQ(tools::fileName("Herz \xc3\xa4\n"), "Herz_\xc3\xa4_");
     EXPECT_EQ(tools::fileName(""), "body");
     EXPECT_EQ(tools::fileName(std::string(1000, 'x')).size(), 64u);
+}
+
+TEST(FileName, KeepsLettersOfEveryScript) {
+    for (const char* name : {"\xd0\xbf\xd0\xb5\xd1\x87\xd0\xb5\xd0\xbd\xd1\x8c", "\xe8\x82\x9d\xe8\x87\x93",
+                             "\xce\xb1-\xce\xb2", "\xf0\x9f\xab\x80"})
+        EXPECT_EQ(tools::fileName(name), name);
+}
+
+TEST(FileName, ReplacesWhatIsNoUtf8AndWhatTurnsTextAround) {
+    EXPECT_EQ(tools::fileName("a\xff\xc3z"), "a__z");      // no start, and no continuation
+    EXPECT_EQ(tools::fileName("a\xc0\xafz"), "a__z");      // "/" in two bytes
+    EXPECT_EQ(tools::fileName("a\xed\xa0\x80z"), "a___z"); // half of a surrogate pair
+    EXPECT_EQ(tools::fileName("a\xe2\x80\xaez"), "a___z"); // right-to-left override
+    EXPECT_EQ(tools::fileName("a\xc2\x85z"), "a__z");      // a control
+    EXPECT_EQ(tools::fileName("a\xe8\x82"), "a__");        // cut off
+}
+
+TEST(FileName, EndsBetweenLetters) {
+    std::string name;
+    for (int i = 0; i < 40; ++i) name += "\xe8\x82\x9d"; // 3 bytes each: 21 of them in 64
+    EXPECT_EQ(tools::fileName(name), name.substr(0, 63));
 }

@@ -4,11 +4,15 @@
 #include "app/guard.hpp"
 #include "mesh/export.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <memory>
 #include <ostream>
+#include <string_view>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -44,6 +48,28 @@ void writeSpecial(const std::string& file, const std::string& text) {
     const auto close = [](std::FILE* open) { std::fclose(open); };
     const std::unique_ptr<std::FILE, decltype(close)> owner(stream, close);
     writeTo(stream, text, file);
+}
+
+/// Bytes of the first character of `text`, which is UTF-8, where a file name may hold it; else 0. Beyond
+/// ASCII that is every character but controls and the marks of U+2000 to U+206F, which turn text around or
+/// show nothing.
+std::size_t lengthOfLetter(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    if (byte(0) < 0x80) {
+        const char c = text[0];
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ? 1 : 0;
+    }
+    const std::size_t length = byte(0) >= 0xF0 ? 4 : byte(0) >= 0xE0 ? 3 : 2;
+    if (byte(0) < 0xC2 || byte(0) > 0xF4 || text.size() < length) return 0;
+    std::uint32_t code = byte(0) & (0x7Fu >> length);
+    for (std::size_t i = 1; i < length; ++i) {
+        if ((byte(i) & 0xC0) != 0x80) return 0;
+        code = code << 6 | (byte(i) & 0x3Fu);
+    }
+    constexpr std::array<std::uint32_t, 5> least{0, 0, 0x80, 0x800, 0x10000};
+    const bool isEncoded = code >= least[length] && code <= 0x10FFFF && (code < 0xD800 || code > 0xDFFF);
+    const bool isMark = code < 0xA1 || (code >= 0x2000 && code <= 0x206F) || code == 0xFEFF || code == 0x3000;
+    return isEncoded && !isMark ? length : 0;
 }
 
 } // namespace
@@ -90,11 +116,14 @@ OutputFolder::~OutputFolder() {
 }
 
 std::string fileName(const std::string& name) {
-    std::string result = name.substr(0, 64);
-    for (char& c : result) {
-        const bool isPlain =
-            (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
-        if (!isPlain) c = '_';
+    constexpr std::size_t mostBytes = 64;
+    std::string result;
+    for (std::string_view rest = name; !rest.empty();) {
+        const std::size_t bytes = lengthOfLetter(rest);
+        const std::string_view kept = bytes > 0 ? rest.substr(0, bytes) : std::string_view("_");
+        if (result.size() + kept.size() > mostBytes) break;
+        result += kept;
+        rest.remove_prefix(std::max<std::size_t>(bytes, 1));
     }
     return result.empty() ? "body" : result;
 }

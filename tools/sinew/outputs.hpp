@@ -35,7 +35,8 @@ private:
     int lock_ = -1;
 };
 
-/// A name from a scene as a file name: letters, digits, '-' and '_'; whatever else becomes '_'. Never empty.
+/// A name from a scene as a file name of at most 64 bytes: letters of every script, digits, '-' and '_' in
+/// UTF-8; whatever else becomes '_'. Never empty.
 std::string fileName(const std::string& name);
 
 } // namespace sinew::tools
