@@ -114,8 +114,8 @@ void warn(const MeshSummary& summary, std::vector<std::string>& warnings) {
                            " edges with three or more triangles; its volume may be wrong");
     if (summary.voxels.doubtful > 0)
         warnings.push_back(name + ": " + std::to_string(summary.voxels.doubtful) + " of " +
-                           std::to_string(summary.voxels.hullCount + summary.voxels.coreCount) +
-                           " voxels are doubtful");
+                           std::to_string(summary.voxels.voxels.size()) +
+                           " cells of its grid are doubtful: winding numbers decided");
 }
 
 } // namespace

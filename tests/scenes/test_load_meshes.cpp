@@ -79,6 +79,21 @@ TEST_F(Load, CountsTheEdgesOfAnOpenMesh) {
     EXPECT_EQ(loaded.warnings[0].find("mesh open.obj is open: 3 boundary edges"), 0u) << loaded.warnings[0];
 }
 
+TEST_F(Load, CountsNoMoreDoubtfulCellsThanItLookedAt) {
+    mesh::TriangleMesh corner = tetrahedron(1);
+    corner.triangles.resize(2);
+    mesh::exportObj(folder_ / "corner.obj", corner);
+    const scenes::LoadedScene loaded = scenes::load(folder_ / "corner.obj");
+    const mesh::VoxelGrid& grid = loaded.meshes.at(0).voxels;
+    ASSERT_GT(grid.doubtful, grid.hullCount + grid.coreCount) << "empty cells are doubtful too";
+    const std::string count = std::to_string(grid.doubtful) + " of " + std::to_string(grid.voxels.size()) +
+                              " cells of its grid are doubtful";
+    EXPECT_EQ(std::ranges::count_if(loaded.warnings,
+                                    [&](const std::string& text) { return text.find(count) != text.npos; }),
+              1);
+    EXPECT_LE(grid.doubtful, grid.voxels.size());
+}
+
 TEST_F(Load, CountsTheEdgesOfAMeshThatIsNotManifold) {
     mesh::TriangleMesh fin = tetrahedron(1);
     fin.positions.push_back({-1, -1, 0.5f});

@@ -144,9 +144,10 @@ std::string toText(const Findings& found) {
                             defects.nonManifoldEdges);
     text += fmt::format("  defects   {} flipped edges, {} degenerate and {} duplicate triangles dropped\n",
                         defects.flippedEdges, defects.degenerateTriangles, defects.duplicateTriangles);
-    text += fmt::format("  voxels    {} hull + {} core of {} x {} x {}, edge {:.4g} m, {} doubtful\n",
-                        grid.hullCount, grid.coreCount, grid.cells[0], grid.cells[1], grid.cells[2],
-                        grid.spacing, grid.doubtful);
+    text +=
+        fmt::format("  voxels    {} hull + {} core of {} x {} x {}, edge {:.4g} m, {} of {} cells doubtful\n",
+                    grid.hullCount, grid.coreCount, grid.cells[0], grid.cells[1], grid.cells[2], grid.spacing,
+                    grid.doubtful, grid.voxels.size());
     text +=
         fmt::format("  filled    {:.4g} m^3, {} particles\n", grid.filledVolume, mesh::particleCount(grid));
     return text + fmt::format("  filled by {}, {:.1f} MiB: {:.0f} bytes a cell\n", found.filledBy,
