@@ -109,7 +109,8 @@ TEST(Faults, OutOfMemoryInAnySetUpCallIsAnErrorAndLeaksNothing) {
 TEST(Faults, ADeviceThatIsLostWhileMemoryIsTakenIsSaidToBeLost) {
     HostDevice host;
     FALLIBLE(vkAllocateMemory);
-    EXPECT_GE(sweep(host, VK_ERROR_DEVICE_LOST, vk::Failure::deviceLost).size(), 2u);
+    EXPECT_GE(sweep(host, VK_ERROR_DEVICE_LOST, vk::Failure::deviceLost).size(), 1u)
+        << "a block of each kind";
 }
 
 TEST(Faults, ALostDeviceInAnySubmissionCallIsAnErrorAndLeaksNothing) {
