@@ -78,15 +78,14 @@ public:
     /// Mean over the eight cells around `corner` of the fill as given, but of each filled cell no less than
     /// leastShare: stiffness has such a floor too, and a lighter node would need shorter substeps.
     double massShare(Index3 corner) const {
-        double given = 0;
-        int filled = 0;
+        double sum = 0;
         for (int side = 0; side < 8; ++side) {
             const Index3 cell{corner[0] - (side & 1), corner[1] - (side >> 1 & 1), corner[2] - (side >> 2)};
             if (fill(cell) == 0) continue;
-            given += lattice_.fill.empty() ? 1 : double{lattice_.fill[indexOf(cell)]};
-            ++filled;
+            const double given = lattice_.fill.empty() ? 1 : double{lattice_.fill[indexOf(cell)]};
+            sum += std::max(given, leastShare);
         }
-        return std::max(given, leastShare * filled) / 8;
+        return sum / 8;
     }
 
     /// Mean fill of the cells that hold the link from `corner` in `direction`.
