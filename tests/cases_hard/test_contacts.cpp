@@ -3,6 +3,7 @@
 #include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/scenes.hpp"
+#include "sim/validate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -171,17 +172,15 @@ TEST(HardContacts, Case15MoreFastParticlesThanThereIsRoomForAreSlowedDownAndCoun
 
 // A start that no room is enough for: said in the first step, and undone, every time; no run-away search on
 // the host.
+// Those that meet while it runs are counted by ContactLists and undo their step.
 TEST(HardContacts, Case25TenThousandCoincidentParticlesAreSaidToBeTooMany) {
     Scene scene;
     scene.particles.assign(10'000, ballAt({0.1f, 0.2f, 0.3f}));
-    for (const bool isReversed : {false, true}) {
-        Runner runner(scene, {.substeps = 2, .contactRoom = 4, .isReversed = isReversed});
-        const std::uint64_t before = runner.stateHash();
-        for (int step = 0; step < 2; ++step) {
-            EXPECT_EQ(runner.run(1).contactRoom, 257u);
-            EXPECT_EQ(runner.stateHash(), before);
-        }
-    }
+    const std::vector<std::string> complaints = validate(scene, {.substeps = 2, .contactRoom = 4});
+    ASSERT_EQ(complaints.size(), 1u);
+    EXPECT_NE(complaints[0].find("10000 particles that touch each other at (0.1, 0.2, 0.3) m"),
+              std::string::npos)
+        << complaints[0];
 }
 
 TEST(HardContacts, Case25TwoHundredCoincidentParticlesPartRepeatably) {
