@@ -105,8 +105,8 @@ sim::Lattice makeLattice(const VoxelGrid& grid, const MeshBody& body, double vol
     return lattice;
 }
 
-/// Of a closed mesh [m^3]. Samples of a cell are off by an eighth of a cell at most beside a surface: where
-/// the mesh is farther off, parts of it overlap or cancel each other, and what is filled counts.
+/// Volume of a closed mesh [m^3]. Samples of a cell are off by an eighth of a cell at most beside a surface:
+/// where the mesh is farther off, parts of it overlap or cancel each other, and what is filled counts.
 double volumeOf(const TriangleMesh& mesh, const VoxelGrid& grid) {
     const MeshReport report = measure(mesh);
     const bool isOff = std::abs(report.volume - grid.filledVolume) > report.area * double{grid.spacing} / 4;

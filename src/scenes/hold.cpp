@@ -15,7 +15,7 @@ namespace sinew::scenes {
 
 namespace {
 
-/// Where a hold takes particles, and the frame that its path moves.
+/// The shape in which a hold takes particles, and the frame that its path moves.
 struct Place {
     sim::Gap gap;
     sim::Pose pose;

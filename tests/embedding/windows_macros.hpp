@@ -1,4 +1,4 @@
-// What <windows.h> defines and C++ programs trip over.
+// Macros of <windows.h> that C++ programs trip over.
 #pragma once
 
 #define interface struct

@@ -1,4 +1,4 @@
-// What <X11/Xlib.h> and <X11/X.h> define beside functions, for machines without them.
+// Macros of <X11/Xlib.h> and <X11/X.h>, for machines without these headers.
 #pragma once
 
 #define Status int

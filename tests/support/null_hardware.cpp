@@ -113,7 +113,7 @@ private:
     std::optional<std::string> before_;
 };
 
-/// Where a driver's description is, or an empty path.
+/// Path of a driver's description, or an empty path.
 std::string findDriver() {
     for (const char* folder :
          {"/usr/share/vulkan/icd.d", "/usr/local/share/vulkan/icd.d", "/etc/vulkan/icd.d"}) {

@@ -13,7 +13,7 @@
 
 namespace sinew::test {
 
-/// What the driver says about a compute pipeline.
+/// Figures that the driver gives about a compute pipeline.
 struct PipelineFacts {
     std::string kernel;                              ///< the debug name that Sinew gave it
     std::vector<std::uint32_t> constants;            ///< values of its specialisation constants

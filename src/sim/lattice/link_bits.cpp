@@ -32,7 +32,7 @@ const Grid* gridOf(const Scene& scene, const DistanceConstraint& link) {
     return grid == scene.grids.end() ? nullptr : &*grid;
 }
 
-// What stands in the middle of such a way; none where no particle does.
+// The particle in the middle of such a way; none if there is no particle.
 std::optional<std::uint32_t> particleBetween(const Grid& grid, const std::array<int, 3>& a,
                                              const std::array<int, 3>& b) {
     std::array<std::uint32_t, 3> middle{};

@@ -1,4 +1,4 @@
-// Where the device keeps whether a link of the scene is alive (CuttingBuffers::links).
+// The place on the device of the bit that says whether a link of the scene is alive (CuttingBuffers::links).
 #pragma once
 
 #include "sim/scene.hpp"
@@ -13,7 +13,7 @@ struct LinkBits {
     std::uint32_t over = 0, ofOver = 0;
     bool isCounted = true; ///< whether its strain says something of it alone
 };
-/// Of Scene::distances.
+/// Indices into Scene::distances.
 LinkBits linkBits(const Scene& scene, std::size_t distance);
 
 } // namespace sinew::sim::lattice

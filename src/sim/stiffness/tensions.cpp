@@ -93,7 +93,7 @@ double steepness(double way, double apart, double tolerance) {
     return std::sqrt(1 + 1 / (excess * (2 + excess)));
 }
 
-// Of each particle, of the spans that end in it.
+// Per particle, the spans that end in it.
 std::vector<double> spansOf(const Scene& scene, const Ways& ways, const Vector& down, double tolerance) {
     std::vector<double> spans(scene.particles.size(), 1);
     for (const DistanceConstraint& c : scene.distances) {
