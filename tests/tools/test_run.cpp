@@ -515,7 +515,7 @@ TEST_F(Run, BodiesInOneSpotAreRefusedWithTheirNames) {
          "300 particles that touch each other");
 }
 
-// What is wide beside its own spacing is near itself at rest, and no crowd.
+// A sheet that is thick beside its own spacing is near itself at rest, and no crowd.
 TEST_F(Run, AThickClothOfFineMeshIsNoCrowd) {
     write("scene.toml", "[[cloth]]\nsize = [24, 24]\nspacing = 0.001\nthickness = 0.02\n");
     const Outcome outcome = run({"describe", "scene.toml"});

@@ -28,7 +28,7 @@ const std::vector<std::string> exactFunctions{
 constexpr std::uint32_t opName = 5, opExtInst = 12, opFunction = 54, opDecorate = 71, noContraction = 42,
                         opDot = 148;
 
-// Of floats, and what may be fused: OpFAdd, OpFSub, OpFMul, and products with vectors and matrices.
+// Operations on floats that may be fused: OpFAdd, OpFSub, OpFMul, and products with vectors and matrices.
 bool mayBeFused(std::uint32_t op) {
     return op == 129 || op == 131 || op == 133 || (op >= 142 && op <= 147);
 }

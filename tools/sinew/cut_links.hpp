@@ -1,4 +1,4 @@
-// Which links of a scene a cut has parted, from what the device has of bodies that may be cut.
+// The links of a scene that a cut has parted, read from the device's link masks.
 #pragma once
 
 #include "sim/scene.hpp"

@@ -17,7 +17,7 @@ struct Session {
 
     /// Throws vk::Error. Call before threads start: validation sets an environment variable.
     explicit Session(const DeviceOptions& options);
-    /// Of the Vulkan that `getInstanceProcAddr` leads to; `request` says the rest.
+    /// A session on the Vulkan that `getInstanceProcAddr` leads to; `request` says the rest.
     Session(PFN_vkGetInstanceProcAddr getInstanceProcAddr, const vk::DeviceRequest& request);
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
