@@ -62,6 +62,7 @@ Opening::~Opening() = default;
 
 Opening open(const Options& options, float aspect) {
     Opening opening = look(options, aspect);
+    for (const std::string& note : opening.loaded.notes) std::fprintf(stderr, "%s\n", note.c_str());
     for (const std::string& warning : opening.loaded.warnings)
         std::fprintf(stderr, "warning: %s\n", warning.c_str());
     return opening;

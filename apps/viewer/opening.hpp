@@ -42,9 +42,9 @@ struct Opening {
     std::unique_ptr<PreparedShow> prepared;
 };
 
-/// Loads the scene, or that of a saved state, prints its warnings to stderr and looks at it: from where the
-/// file or the state says, or with every body in a picture `aspect` wide. Throws as scenes::load and
-/// app::readRun.
+/// Loads the scene, or that of a saved state, prints its notes and warnings to stderr and looks at it: from
+/// where the file or the state says, or with every body in a picture `aspect` wide. Throws as scenes::load
+/// and app::readRun.
 Opening open(const Options& options, float aspect);
 
 /// The same without a word on stderr.

@@ -47,6 +47,8 @@ struct LoadedScene {
     std::vector<MeshSummary> meshes;
     std::vector<BladeMotion> blades;   ///< no two of them in one step; ScriptedBlades plays them
     std::vector<std::string> warnings; ///< sentences, such as "mesh bunny.obj is open: 72 boundary edges ..."
+    /// Lines that ask for nothing, such as the size and mass of each mesh.
+    std::vector<std::string> notes;
 };
 
 /// What the command line says over the file.

@@ -57,7 +57,7 @@ constexpr const char* reportFields[] = {"schema",        "scene",
                                         "divergence",    "overflow",
                                         "state_hash",    "peak_memory_mib",
                                         "validation",    "validation_messages",
-                                        "warnings"};
+                                        "warnings",      "notes"};
 
 } // namespace
 

@@ -24,7 +24,8 @@ std::string checkSubsteps(const std::string& text) {
     return complaint.empty() ? "" : "is " + text + ", must be " + toText(sim::ranges::substeps) + ", or auto";
 }
 
-void warn(const scenes::LoadedScene& loaded) {
+void sayNews(const scenes::LoadedScene& loaded) {
+    for (const std::string& note : loaded.notes) std::fprintf(stderr, "%s\n", note.c_str());
     for (const std::string& warning : loaded.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
 }
 
@@ -67,7 +68,7 @@ void addDeviceOptions(CLI::App& command, DeviceOptions& options) {
 
 scenes::LoadedScene loadScene(const SceneOptions& options) {
     scenes::LoadedScene loaded = scenes::load(options.file, options.overrides);
-    warn(loaded);
+    sayNews(loaded);
     return loaded;
 }
 
@@ -82,7 +83,7 @@ Start loadStart(const SceneOptions& options) {
     if (!overrides.substeps) overrides.substeps = run.settings.substeps;
     start.loaded = run.scene.starts_with('/') ? scenes::load(run.scene, overrides)
                                               : scenes::loadBuiltIn(run.scene, overrides);
-    warn(start.loaded);
+    sayNews(start.loaded);
     start.loaded.scene = sim::withMaterial(std::move(start.loaded.scene), run.material);
     start.loaded.scene.gravity = run.gravity;
     start.loaded.settings = app::withRun(start.loaded.settings, run);

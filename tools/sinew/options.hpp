@@ -41,7 +41,7 @@ struct DeviceOptions {
 /// --device, --validation.
 void addDeviceOptions(CLI::App& command, DeviceOptions& options);
 
-/// Loads the scene and prints its warnings to stderr.
+/// Loads the scene and prints its notes and warnings to stderr.
 scenes::LoadedScene loadScene(const SceneOptions& options);
 
 } // namespace sinew::tools

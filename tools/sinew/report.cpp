@@ -222,6 +222,7 @@ std::string toJson(const RunRecord& record) {
     json["validation"] = record.hasValidation;
     json["validation_messages"] = record.validationMessages;
     json["warnings"] = record.loaded.warnings;
+    json["notes"] = record.loaded.notes;
     return dump(json);
 }
 
