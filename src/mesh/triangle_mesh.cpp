@@ -73,13 +73,24 @@ void countEdges(const std::vector<Triangle>& triangles, MeshDefects& defects) {
     });
 }
 
+void keepTriangles(TriangleMesh& mesh, const std::vector<bool>& isKept) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < isKept.size(); ++i) {
+        if (!isKept[i]) continue;
+        if (!mesh.objects.empty()) mesh.objects[kept] = mesh.objects[i];
+        mesh.triangles[kept++] = mesh.triangles[i];
+    }
+    mesh.triangles.resize(kept);
+    if (!mesh.objects.empty()) mesh.objects.resize(kept);
+}
+
 /// Drops vertices no triangle uses.
 TriangleMesh compacted(const TriangleMesh& mesh) {
     constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> number(mesh.positions.size(), unused);
     for (const Triangle& triangle : mesh.triangles)
         for (const std::uint32_t vertex : triangle) number[vertex] = 0;
-    TriangleMesh result{.name = mesh.name};
+    TriangleMesh result{.name = mesh.name, .objects = mesh.objects, .objectNames = mesh.objectNames};
     for (std::size_t vertex = 0; vertex < number.size(); ++vertex)
         if (number[vertex] != unused) {
             number[vertex] = static_cast<std::uint32_t>(result.positions.size());
@@ -95,23 +106,27 @@ TriangleMesh compacted(const TriangleMesh& mesh) {
 
 TriangleMesh weld(const TriangleMesh& mesh, MeshDefects& defects) {
     defects = {};
-    TriangleMesh joined{.name = mesh.name, .positions = mesh.positions};
+    TriangleMesh joined = mesh;
     const std::vector<std::uint32_t> twins = findTwins(mesh.positions);
-    for (const auto& [a, b, c] : mesh.triangles) {
-        const Triangle triangle{twins[a], twins[b], twins[c]};
-        if (isDegenerate(joined, triangle))
-            ++defects.degenerateTriangles;
-        else
-            joined.triangles.push_back(triangle);
+    std::vector<bool> isKept(joined.triangles.size());
+    for (std::size_t i = 0; i < isKept.size(); ++i) {
+        for (std::uint32_t& vertex : joined.triangles[i]) vertex = twins[vertex];
+        isKept[i] = !isDegenerate(joined, joined.triangles[i]);
     }
-    const std::vector<bool> isDuplicate = findDuplicates(joined.triangles);
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < isDuplicate.size(); ++i)
-        if (!isDuplicate[i]) joined.triangles[kept++] = joined.triangles[i];
-    defects.duplicateTriangles = joined.triangles.size() - kept;
-    joined.triangles.resize(kept);
+    defects.degenerateTriangles = static_cast<std::size_t>(std::ranges::count(isKept, false));
+    keepTriangles(joined, isKept);
+    std::vector<bool> isUnique = findDuplicates(joined.triangles);
+    isUnique.flip();
+    defects.duplicateTriangles = static_cast<std::size_t>(std::ranges::count(isUnique, false));
+    keepTriangles(joined, isUnique);
     countEdges(joined.triangles, defects);
     return compacted(joined);
+}
+
+TriangleMesh keep(const TriangleMesh& mesh, const std::vector<bool>& isKept) {
+    TriangleMesh kept = mesh;
+    keepTriangles(kept, isKept);
+    return compacted(kept);
 }
 
 MeshReport measure(const TriangleMesh& mesh) {

@@ -7,10 +7,16 @@ namespace sinew::mesh {
 
 using sim::Vec3;
 
+constexpr std::uint32_t noObject = 0xffffffff; ///< in TriangleMesh::objects
+
 struct TriangleMesh {
     std::string name;
     std::vector<Vec3> positions;                         ///< [m]
     std::vector<std::array<std::uint32_t, 3>> triangles; ///< counter-clockwise seen from outside
+    /// For each triangle the index of its object in `objectNames`, or noObject; empty where no object has a
+    /// name.
+    std::vector<std::uint32_t> objects = {};
+    std::vector<std::string> objectNames = {}; ///< as the file gives them, no two equal
 };
 
 /// Topology and quality of a mesh after identical vertices were joined.
@@ -37,6 +43,9 @@ MeshReport inspect(const TriangleMesh& mesh);
 /// way round) and vertices that no triangle uses. Sets `defects` to what was found. Keeps the order of what
 /// stays, so that a second weld changes nothing.
 TriangleMesh weld(const TriangleMesh& mesh, MeshDefects& defects);
+
+/// The triangles marked true, their objects, and the vertices that they use, all in the order of `mesh`.
+TriangleMesh keep(const TriangleMesh& mesh, const std::vector<bool>& isKept);
 
 /// Turns triangles so that neighbours run the same way round: each connected part the way most of its area
 /// already did, then all of them together so that the volume is not negative. Expects a welded mesh.

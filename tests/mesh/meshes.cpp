@@ -37,7 +37,7 @@ TriangleMesh joined(const TriangleMesh& a, const TriangleMesh& b) {
 }
 
 TriangleMesh unwelded(const TriangleMesh& mesh) {
-    TriangleMesh result{.name = mesh.name};
+    TriangleMesh result{.name = mesh.name, .objects = mesh.objects, .objectNames = mesh.objectNames};
     for (const auto& triangle : mesh.triangles) {
         const auto first = static_cast<std::uint32_t>(result.positions.size());
         for (const std::uint32_t vertex : triangle) result.positions.push_back(mesh.positions[vertex]);

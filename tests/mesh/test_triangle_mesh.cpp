@@ -216,3 +216,39 @@ TEST(SplitCrowdedEdges, LeavesAloneWhatIsOpenOrClosedAlready) {
     TriangleMesh none;
     EXPECT_EQ(splitCrowdedEdges(none), 0u);
 }
+
+// Two boxes that share a face's triangles as duplicates, with a triangle without area between them.
+TEST(Weld, KeepsTheObjectOfEachTriangle) {
+    TriangleMesh two = joined(box({0, 0, 0}, {1, 1, 1}), box({3, 0, 0}, {4, 1, 1}));
+    two.objectNames = {"left", "right"};
+    two.objects.assign(24, 0);
+    std::fill(two.objects.begin() + 12, two.objects.end(), 1u);
+    two.objects[13] = noObject;
+    two.triangles.insert(two.triangles.begin() + 3, {0, 0, 1});
+    two.objects.insert(two.objects.begin() + 3, 1u);
+    two.triangles.insert(two.triangles.begin() + 8, two.triangles[0]);
+    two.objects.insert(two.objects.begin() + 8, 1u);
+    MeshDefects defects;
+    const TriangleMesh welded = orient(weld(unwelded(two), defects));
+    ASSERT_EQ(welded.triangles.size(), 24u);
+    ASSERT_EQ(welded.objects.size(), 24u);
+    EXPECT_EQ(welded.objectNames, two.objectNames);
+    for (std::size_t i = 0; i < 24; ++i) {
+        const bool isRight = welded.positions[welded.triangles[i][0]].x > 2;
+        EXPECT_EQ(welded.objects[i], i == 13 ? noObject : isRight ? 1u : 0u) << i;
+    }
+}
+
+TEST(Keep, DropsTrianglesWithTheirObjectsAndVertices) {
+    TriangleMesh two = joined(box({0, 0, 0}, {1, 1, 1}), box({3, 0, 0}, {4, 1, 1}));
+    two.objectNames = {"left", "right"};
+    two.objects.assign(24, 0);
+    std::fill(two.objects.begin() + 12, two.objects.end(), 1u);
+    std::vector<bool> isRight(24);
+    std::fill(isRight.begin() + 12, isRight.end(), true);
+    const TriangleMesh right = keep(two, isRight);
+    EXPECT_EQ(right.positions.size(), 8u);
+    EXPECT_EQ(right.objects, std::vector<std::uint32_t>(12, 1));
+    EXPECT_EQ(inspect(right).low.x, 3);
+    EXPECT_NEAR(inspect(right).volume, 1, 1e-6);
+}
