@@ -4,14 +4,13 @@
 
 #include "mesh/generate.hpp"
 #include "mesh/import.hpp"
+#include "scenes/mesh_notes.hpp"
 #include "scenes/path.hpp"
+#include "scenes/place_mesh.hpp"
 #include "scenes/surface.hpp"
 #include "sim/bodies.hpp"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
-#include <numbers>
 
 namespace sinew::scenes {
 
@@ -72,52 +71,6 @@ Found generate(const Section& section) {
     return found;
 }
 
-Eigen::Vector3d toEigen(sim::Vec3 v) {
-    return {double{v.x}, double{v.y}, double{v.z}};
-}
-
-/// Scales, then turns about the middle of the bounding box, then moves that middle. Returns where it then is.
-sim::Vec3 place(mesh::TriangleMesh& mesh, const Section& section, const std::array<double, 3>& origin) {
-    const mesh::MeshReport report = mesh::inspect(mesh);
-    const Eigen::Vector3d low = toEigen(report.low), high = toEigen(report.high), middle = (low + high) / 2;
-    const double longest = (high - low).maxCoeff();
-    if (!(longest > 0))
-        section.fail(section.has("file") ? "file" : "generate", "has no extent", "check the mesh");
-    const double scale = section.has("size") ? double{section.number("size")} / longest : 1;
-    const Eigen::Vector3d angles = toEigen(section.vector("rotation")) * (std::numbers::pi / 180);
-    const Eigen::Matrix3d turn = (Eigen::AngleAxisd(angles.z(), Eigen::Vector3d::UnitZ()) *
-                                  Eigen::AngleAxisd(angles.y(), Eigen::Vector3d::UnitY()) *
-                                  Eigen::AngleAxisd(angles.x(), Eigen::Vector3d::UnitX()))
-                                     .toRotationMatrix();
-    const auto world = [&] {
-        const auto point = section.point("center");
-        return Eigen::Vector3d(point[0], point[1], point[2]);
-    };
-    const Eigen::Vector3d center =
-        (section.has("center") ? world() : middle) - Eigen::Vector3d(origin[0], origin[1], origin[2]);
-    for (sim::Vec3& position : mesh.positions) {
-        const Eigen::Vector3d placed = turn * (toEigen(position) - middle) * scale + center;
-        position = {static_cast<float>(placed.x()), static_cast<float>(placed.y()),
-                    static_cast<float>(placed.z())};
-    }
-    return {static_cast<float>(center.x()), static_cast<float>(center.y()), static_cast<float>(center.z())};
-}
-
-void warn(const MeshSummary& summary, std::vector<std::string>& warnings) {
-    const mesh::MeshDefects& defects = summary.surface.defects;
-    const std::string name = "mesh " + summary.file;
-    if (defects.boundaryEdges > 0)
-        warnings.push_back(name + " is open: " + std::to_string(defects.boundaryEdges) +
-                           " boundary edges; what is inside was decided by winding numbers");
-    if (defects.nonManifoldEdges > 0)
-        warnings.push_back(name + " is not manifold: " + std::to_string(defects.nonManifoldEdges) +
-                           " edges with three or more triangles; its volume may be wrong");
-    if (summary.voxels.doubtful > 0)
-        warnings.push_back(name + ": " + std::to_string(summary.voxels.doubtful) + " of " +
-                           std::to_string(summary.voxels.voxels.size()) +
-                           " cells of its grid are doubtful: winding numbers decided");
-}
-
 } // namespace
 
 void addMesh(LoadedScene& loaded, const Section& section, const Source& source, std::optional<float> voxel,
@@ -168,7 +121,10 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
     }
     addSurface(loaded, section, first);
     faces.add(loaded, section, firstGrid);
-    warn(summary, loaded.warnings);
+    const double mass = double{body.density} * double{loaded.scene.bodies.back().restVolume};
+    noteSize(loaded, "mesh " + found.file, section, summary.surface,
+             ", " + massText(mass) + ", " + voxelText(summary.voxels));
+    warnOfDefects(summary, loaded.warnings);
     if (body.isCuttable && loaded.scene.skins.back().anchors.empty())
         loaded.warnings.push_back(
             "mesh " + summary.file +
@@ -190,6 +146,8 @@ void addMeshCollider(LoadedScene& loaded, const Section& section, const Source& 
         section.fail(section.has("file") ? "file" : "detail",
                      "makes more than " + std::to_string(mostParticles) + " particles",
                      "take a coarser mesh");
+    noteSize(loaded, "mesh collider " + found.file, section, mesh::inspect(found.mesh),
+             ", " + std::to_string(found.mesh.triangles.size()) + " triangles");
     const sim::Pose pose{found.middle, rotationOf(section)};
     Path path = readPath(section, loaded.origin, pose);
     const std::size_t first = loaded.scene.particles.size();

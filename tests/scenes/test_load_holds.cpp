@@ -25,13 +25,16 @@ TEST_F(LoadHolds, TakeTheSameParticlesAsAClampByAnyShapeAroundThem) {
     const auto clamped = fixedOf(load(beam + "clamped = [\"low_x\"]\n"));
     ASSERT_EQ(clamped.size(), 9u);
     write("wall.obj", "v 0 -1 -1\nv 0 2 -1\nv 0 -1 2\nf 1 2 3\n");
+    write("wall_mm.obj", "v -1000 -500 -500\nv -1000 1000 -500\nv -1000 -500 1000\nf 1 2 3\n");
     for (const char* shape :
          {"shape = \"half_space\"\nnormal = [-1, 0, 0]\noffset = -0.01\n",
           "shape = \"box\"\ncenter = [0, 0.1, 0.1]\nsize = [0.1, 0.3, 0.3]\n",
           "shape = \"box\"\ncenter = [0, 0.1, 0.1]\nsize = [0.3, 0.1, 0.3]\nrotation = [0, 0, 90]\n",
           "shape = \"sphere\"\ncenter = [-0.4, 0.1, 0.1]\nradius = 0.45\n",
           "shape = \"capsule\"\ncenter = [-0.3, 0.1, 0.1]\nlength = 0.2\nradius = 0.38\n",
-          "shape = \"mesh\"\nfile = \"wall.obj\"\nwithin = 0.05\n"})
+          "shape = \"mesh\"\nfile = \"wall.obj\"\nwithin = 0.05\n",
+          "shape = \"mesh\"\nfile = \"wall_mm.obj\"\nwithin = 0.05\nunit = \"mm\"\nscale = 2\n"
+          "translation = [2, 0, 0]\n"})
         EXPECT_EQ(fixedOf(load(beam + "[[hold]]\n" + shape)), clamped) << shape;
 }
 
@@ -78,6 +81,10 @@ TEST_F(LoadHolds, WithKeysOfAnotherShapeAreRefused) {
     expectError(head + "\"mesh\"\nwithin = 1\n", "scene.toml:6: hold[0].file is missing: a mesh needs it");
     expectError(head + "\"sphere\"\nradius = 1\nwithin = 1\n",
                 "scene.toml:9: hold[0].within is given: a sphere has none: remove it");
+    for (const std::string key : {"unit = \"mm\"", "scale = 2", "translation = [0, 0, 0]"})
+        expectError(head + "\"sphere\"\nradius = 1\n" + key + "\n",
+                    "scene.toml:9: hold[0]." + key.substr(0, key.find(' ')) +
+                        " is given: a sphere has none: remove it");
     expectError(head + "\"half_space\"\nnormal = [0, 1, 0]\nradius = 1\n",
                 "scene.toml:9: hold[0].radius is given: a half_space has none: remove it");
     expectError(head + "\"half_space\"\nnormal = [0, 0.5, 0]\n",

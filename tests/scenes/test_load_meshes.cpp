@@ -11,6 +11,19 @@ namespace {
 
 class Load : public test::LoadFixture {};
 
+constexpr auto tetrahedronScene = "[[mesh]]\nfile = \"m.obj\"\nresolution = 4\n";
+
+double width(const scenes::LoadedScene& loaded) {
+    const mesh::MeshReport& surface = loaded.meshes.at(0).surface;
+    return double{surface.high.x} - double{surface.low.x};
+}
+
+/// How many lines hold a text.
+std::ptrdiff_t count(const std::vector<std::string>& lines, const std::string& text) {
+    return std::ranges::count_if(lines,
+                                 [&](const std::string& line) { return line.find(text) != line.npos; });
+}
+
 } // namespace
 
 TEST_F(Load, DropsTheMeshOfTheCommandLine) {
@@ -153,4 +166,105 @@ TEST_F(Load, GeneratesShapesByName) {
     expectError("[[mesh]]\ngenerate = \"sphere\"\nparticles = 7\n", "scene.toml:3: mesh[0].particles");
     expectError("[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\nvoxel = 1e-4\n",
                 "scene.toml:5: mesh[0].voxel is too small");
+}
+
+TEST_F(Load, ReadsAMeshInItsUnit) {
+    mesh::exportObj(folder_ / "m.obj", tetrahedron(200));
+    const std::string scene = tetrahedronScene;
+    struct Unit {
+        const char* keys;
+        double metres;
+    };
+    for (const auto& [keys, metres] :
+         {Unit{"", 1}, Unit{"unit = \"m\"\n", 1}, Unit{"unit = \"um\"\n", 1e-6},
+          Unit{"unit = \"mm\"\n", 1e-3}, Unit{"unit = \"cm\"\n", 1e-2}, Unit{"unit = \"in\"\n", 0.0254},
+          Unit{"unit = \"ft\"\n", 0.3048}, Unit{"scale = 0.005\n", 0.005},
+          Unit{"unit = \"mm\"\nscale = 2.5\n", 2.5e-3}}) {
+        SCOPED_TRACE(keys);
+        const scenes::LoadedScene loaded = load(scene + keys);
+        EXPECT_NEAR(width(loaded), 200 * metres, 2e-6 * 200 * metres);
+        EXPECT_NEAR(double{loaded.meshes[0].surface.low.y}, 0, 1e-6 * 200 * metres) << "its origin stays";
+        EXPECT_NEAR(double{loaded.scene.bodies[0].restVolume}, std::pow(200 * metres, 3) / 6,
+                    1e-4 * std::pow(200 * metres, 3));
+    }
+    const scenes::LoadedScene centered = load(scene + "unit = \"mm\"\ncenter = [1, 2, 3]\n");
+    EXPECT_NEAR(double{centered.meshes[0].surface.high.y}, 2.1, 1e-6);
+    EXPECT_NEAR(width(centered), 0.2, 1e-6);
+}
+
+// Two organs in millimetres, whose corners touch at (30, 40, 50) of their file.
+TEST_F(Load, KeepsMeshesOfOneFileSystemTogether) {
+    mesh::TriangleMesh first = tetrahedron(100), second = tetrahedron(60);
+    for (sim::Vec3& x : first.positions) x = {30 + x.x, 40 + x.y, 50 + x.z};
+    for (sim::Vec3& x : second.positions) x = {30 - x.x, 40 - x.y, 50 - x.z};
+    mesh::exportObj(folder_ / "a.obj", first);
+    mesh::exportObj(folder_ / "b.obj", second);
+    const std::string where =
+        "unit = \"mm\"\nresolution = 4\nrotation = [0, 0, 90]\ntranslation = [0.5, 0.25, -0.05]\n";
+    const scenes::LoadedScene loaded =
+        load("[[mesh]]\nfile = \"a.obj\"\n" + where + "[[mesh]]\nfile = \"b.obj\"\n" + where +
+             "[[mesh_collider]]\nfile = \"b.obj\"\nunit = \"mm\"\nrotation = [0, 0, 90]\n"
+             "translation = [0.5, 0.25, -0.05]\n");
+    ASSERT_EQ(loaded.meshes.size(), 2u);
+    const mesh::MeshReport &a = loaded.meshes[0].surface, &b = loaded.meshes[1].surface;
+    // (x, y, z) becomes (-y, x, z), then moves
+    EXPECT_NEAR(double{a.high.x}, 0.5 - 0.04, 1e-6);
+    EXPECT_NEAR(double{a.low.y}, 0.25 + 0.03, 1e-6);
+    EXPECT_NEAR(double{a.low.z}, 0, 1e-6);
+    EXPECT_NEAR(double{b.low.x}, 0.5 - 0.04, 1e-6);
+    EXPECT_NEAR(double{b.high.y}, 0.25 + 0.03, 1e-6);
+    EXPECT_NEAR(double{b.high.z}, 0, 1e-6);
+    sim::Vec3 low{9, 9, 9};
+    for (std::size_t i = loaded.scene.bodies[2].firstParticle; i < loaded.scene.particles.size(); ++i)
+        low.x = std::min(low.x, loaded.scene.particles[i].position.x);
+    EXPECT_NEAR(double{low.x}, double{b.low.x}, 1e-6) << "a collider goes to the same place";
+}
+
+TEST_F(Load, RefusesAMeshThatIsPlacedTwice) {
+    mesh::exportObj(folder_ / "m.obj", tetrahedron(1));
+    const std::string scene = tetrahedronScene;
+    expectError(scene + "unit = \"parsec\"\n",
+                "scene.toml:4: mesh[0].unit is no unit: \"parsec\": possible are um, mm, cm, m, in, ft");
+    expectError(scene + "unit = 3\n",
+                "scene.toml:4: mesh[0].unit is the whole number 3: write text in quotes");
+    expectError(scene + "unit = \"mm\"\nsize = 1\n",
+                "scene.toml:4: mesh[0].unit is given beside size: give size, or unit and scale");
+    expectError(scene + "size = 1\nscale = 2\n",
+                "scene.toml:5: mesh[0].scale is given beside size: give size, or unit and scale");
+    expectError(scene + "center = [0, 0, 0]\ntranslation = [0, 0, 0]\n",
+                "scene.toml:5: mesh[0].translation is given beside center: give one of them");
+    for (const char* scale : {"0", "-1", "1e9"})
+        expectError(scene + "scale = " + scale + "\n", "scene.toml:4: mesh[0].scale is ");
+    expectError(
+        "[[mesh]]\ngenerate = \"sphere\"\nunit = \"mm\"\n",
+        "scene.toml:3: mesh[0].unit is given, but a generated shape has none: remove it, or give scale");
+    EXPECT_NEAR(width(load("[[mesh]]\ngenerate = \"sphere\"\ndetail = 16\nresolution = 4\nscale = 0.01\n")),
+                0.01 * width(load("[[mesh]]\ngenerate = \"sphere\"\ndetail = 16\nresolution = 4\n")), 1e-6);
+    expectError(smallCloth + "[[mesh_collider]]\nfile = \"m.obj\"\nunit = \"miles\"\n",
+                "scene.toml:6: mesh_collider[0].unit is no unit");
+}
+
+TEST_F(Load, NotesHowLargeAMeshIsAndWarnsOfAnotherUnit) {
+    mesh::exportObj(folder_ / "m.obj", tetrahedron(190));
+    const std::string scene = tetrahedronScene;
+    const scenes::LoadedScene right = load(scene + "unit = \"mm\"\ndensity = 1000\n");
+    EXPECT_EQ(right.warnings, std::vector<std::string>{});
+    ASSERT_EQ(right.notes.size(), 1u);
+    EXPECT_EQ(right.notes[0], "mesh m.obj: 0.19 x 0.19 x 0.19 m, 1.14 kg, 4 x 4 x 4 voxels of 48 mm");
+    const auto warned = [&](const std::string& keys) { return load(scene + keys).warnings; };
+    EXPECT_EQ(count(warned(""), "mesh m.obj is 190 m long: if the file is in millimetres, say unit = \"mm\""),
+              1);
+    EXPECT_EQ(count(warned("scale = 0.1\n"), "mesh m.obj is 19 m long: if"), 1);
+    EXPECT_EQ(count(warned("unit = \"um\"\n"),
+                    "mesh m.obj is 0.19 mm long: if the file is in millimetres, say unit = \"mm\""),
+              1);
+    EXPECT_EQ(count(warned("unit = \"mm\"\nscale = 1e-3\n"), "is 0.19 mm long: if the file is in metres"), 1);
+    EXPECT_EQ(count(warned("scale = 1e-6\n"), "is 0.19 mm long: check its unit and scale"), 1);
+    EXPECT_EQ(count(warned("size = 12\n"), "long"), 0) << "in metres, as the scene says";
+    for (const char* keys : {"scale = 0.0526\n", "unit = \"mm\"\nscale = 0.00527\n"}) // 9.99 m, 1.001 mm
+        EXPECT_EQ(count(warned(keys), "long"), 0) << keys;
+
+    const scenes::LoadedScene wall = load(smallCloth + "[[mesh_collider]]\nfile = \"m.obj\"\n");
+    EXPECT_EQ(count(wall.notes, "mesh collider m.obj: 190 x 190 x 190 m, 4 triangles"), 1);
+    EXPECT_EQ(count(wall.warnings, "mesh collider m.obj is 190 m long: if the file is in millimetres"), 1);
 }

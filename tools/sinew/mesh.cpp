@@ -4,6 +4,7 @@
 #include "mesh/gpu/voxelise.hpp"
 #include "mesh/import.hpp"
 #include "mesh/voxelise.hpp"
+#include "scenes/place_mesh.hpp"
 #include "sinew/commands.hpp"
 #include "sinew/json.hpp"
 #include "sinew/outputs.hpp"
@@ -14,6 +15,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -23,6 +25,8 @@ namespace {
 
 struct MeshOptions {
     std::string file;
+    std::string unit = "m";
+    float scale = 1;
     float voxel = 0; // [m]; 0 = by resolution
     std::uint32_t resolution = 24;
     std::optional<std::uint32_t> particles; // at most; instead of the two above
@@ -86,6 +90,10 @@ Findings inspect(const MeshOptions& options) {
     Findings found{.file = options.file};
     mesh::MeshDefects defects;
     found.mesh = mesh::importMesh(options.file, defects);
+    const double factor = scenes::findUnit(options.unit)->metres * double{options.scale};
+    for (mesh::Vec3& position : found.mesh.positions)
+        for (float mesh::Vec3::*axis : {&mesh::Vec3::x, &mesh::Vec3::y, &mesh::Vec3::z})
+            position.*axis = static_cast<float>(factor * double{position.*axis});
     found.surface = mesh::inspect(found.mesh);
     found.surface.defects = defects;
     try {
@@ -155,12 +163,22 @@ std::string toText(const Findings& found) {
                               static_cast<double>(found.bytes()) / static_cast<double>(grid.voxels.size()));
 }
 
+// One that has another unit, as it seems.
+std::string oddSize(const MeshOptions& options, const mesh::MeshReport& surface) {
+    const double longest = std::max({double{surface.high.x} - double{surface.low.x},
+                                     double{surface.high.y} - double{surface.low.y},
+                                     double{surface.high.z} - double{surface.low.z}});
+    return scenes::oddSize(longest, *scenes::findUnit(options.unit));
+}
+
 int report(const MeshOptions& options) {
     std::optional<TextOutput> json;
     if (options.json) json.emplace(*options.json);
     const Findings found = inspect(options);
     for (const std::string& message : found.validationMessages)
         std::fprintf(stderr, "validation: %s\n", message.c_str());
+    if (const std::string odd = oddSize(options, found.surface); !odd.empty())
+        std::fprintf(stderr, "warning: %s %s\n", options.file.c_str(), odd.c_str());
     if (json) json->write(toJson(found));
     if (options.json != "-") TextOutput("-").write(toText(found));
     return 0;
@@ -173,8 +191,15 @@ void addMesh(CLI::App& app, Chosen& chosen) {
         "mesh", "import a mesh, fill it with voxels, report counts, volumes and defects; needs no device");
     const auto options = std::make_shared<MeshOptions>();
     command.add_option("FILE", options->file, "OBJ, STL, PLY, glTF or GLB; its content decides")->required();
-    CLI::Option* voxel =
-        command.add_option("--voxel", options->voxel, "edge of a voxel, in the units of the file");
+    command.add_option("--unit", options->unit, "of the coordinates in the file: " + scenes::unitNames())
+        ->check([](const std::string& name) {
+            return scenes::findUnit(name) ? "" : name + " is no unit: possible are " + scenes::unitNames();
+        })
+        ->capture_default_str();
+    command.add_option("--scale", options->scale, "factor on the coordinates, beside --unit")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    CLI::Option* voxel = command.add_option("--voxel", options->voxel, "edge of a voxel [m]");
     voxel->check(CLI::PositiveNumber);
     command.add_option("--resolution", options->resolution, "voxels along the longest side")
         ->check(CLI::Range(1, 512))

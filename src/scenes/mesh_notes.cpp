@@ -1,0 +1,61 @@
+// Texts alone; what they say is measured elsewhere.
+#include "scenes/mesh_notes.hpp"
+
+#include "scenes/place_mesh.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace sinew::scenes {
+
+namespace {
+
+std::string text(const char* format, double value) {
+    char buffer[48];
+    std::snprintf(buffer, sizeof buffer, format, value);
+    return buffer;
+}
+
+} // namespace
+
+std::string lengthWithUnit(double metres) {
+    return metres < 0.1 ? text("%.3g mm", 1000 * metres) : text("%.3g m", metres);
+}
+
+std::string massText(double kilograms) {
+    return text("%.3g kg", kilograms);
+}
+
+std::string voxelText(const mesh::VoxelGrid& grid) {
+    return std::to_string(grid.cells[0]) + " x " + std::to_string(grid.cells[1]) + " x " +
+           std::to_string(grid.cells[2]) + " voxels of " + lengthWithUnit(double{grid.spacing});
+}
+
+void noteSize(LoadedScene& loaded, const std::string& name, const Section& section,
+              const mesh::MeshReport& surface, const std::string& more) {
+    const auto along = [&](float sim::Vec3::*axis) {
+        return double{surface.high.*axis} - double{surface.low.*axis};
+    };
+    const double x = along(&sim::Vec3::x), y = along(&sim::Vec3::y), z = along(&sim::Vec3::z);
+    loaded.notes.push_back(name + ": " + text("%.3g x ", x) + text("%.3g x ", y) + text("%.3g m", z) + more);
+    if (section.has("size") || !section.has("file")) return; // in metres, as the scene says
+    const std::string odd = oddSize(std::max({x, y, z}), *findUnit(section.text("unit")));
+    if (!odd.empty()) loaded.warnings.push_back(name + " " + odd);
+}
+
+void warnOfDefects(const MeshSummary& summary, std::vector<std::string>& warnings) {
+    const mesh::MeshDefects& defects = summary.surface.defects;
+    const std::string name = "mesh " + summary.file;
+    if (defects.boundaryEdges > 0)
+        warnings.push_back(name + " is open: " + std::to_string(defects.boundaryEdges) +
+                           " boundary edges; what is inside was decided by winding numbers");
+    if (defects.nonManifoldEdges > 0)
+        warnings.push_back(name + " is not manifold: " + std::to_string(defects.nonManifoldEdges) +
+                           " edges with three or more triangles; its volume may be wrong");
+    if (summary.voxels.doubtful > 0)
+        warnings.push_back(name + ": " + std::to_string(summary.voxels.doubtful) + " of " +
+                           std::to_string(summary.voxels.voxels.size()) +
+                           " cells of its grid are doubtful: winding numbers decided");
+}
+
+} // namespace sinew::scenes

@@ -1,0 +1,24 @@
+// Notes and warnings about the meshes of a scene.
+#pragma once
+
+#include "scenes/load.hpp"
+#include "scenes/section.hpp"
+
+namespace sinew::scenes {
+
+/// A length with the unit that suits it: "8.9 mm", "1.2 m".
+std::string lengthWithUnit(double metres);
+/// "1.43 kg".
+std::string massText(double kilograms);
+/// "24 x 21 x 14 voxels of 8.9 mm".
+std::string voxelText(const mesh::VoxelGrid& grid);
+
+/// Notes how large a mesh is, "mesh liver.obj: 0.21 x 0.18 x 0.12 m" and `more`, and warns where it seems to
+/// have another unit than its section says.
+void noteSize(LoadedScene& loaded, const std::string& name, const Section& section,
+              const mesh::MeshReport& surface, const std::string& more);
+
+/// Warns of what makes the inside of a mesh uncertain.
+void warnOfDefects(const MeshSummary& summary, std::vector<std::string>& warnings);
+
+} // namespace sinew::scenes
