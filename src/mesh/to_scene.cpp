@@ -6,6 +6,7 @@
 #include "mesh/place_grid.hpp"
 #include "mesh/split_skin.hpp"
 #include "mesh/topology.hpp"
+#include "mesh/wrap.hpp"
 #include "sim/bodies.hpp"
 
 #include <algorithm>
@@ -113,7 +114,7 @@ double volumeOf(const TriangleMesh& mesh, const VoxelGrid& grid) {
     return isOff ? grid.filledVolume : report.volume;
 }
 
-/// Every vertex into its cell; of a skin that is clipped also to the particle that it goes with.
+/// Every vertex into its cell; a vertex of a skin that is clipped also gets the particle that it goes with.
 void hang(sim::Skin& skin, std::vector<Vector3> positions, const VoxelGrid& grid,
           const sim::LatticeCorners& corners, bool isClipped) {
     if (isClipped) {
@@ -138,22 +139,78 @@ void hang(sim::Skin& skin, std::vector<Vector3> positions, const VoxelGrid& grid
     for (const Vector3& position : positions) skin.cells.push_back(embed(grid, corners, position));
 }
 
+/// A welded and oriented mesh with the voxels that it fills.
+struct Filled {
+    TriangleMesh mesh;
+    bool isClosed = false;
+    VoxelGrid grid;
+};
+
+Filled fillVoxels(const TriangleMesh& mesh, const MeshBody& body) {
+    Filled filled;
+    MeshDefects defects;
+    filled.mesh = orient(weld(mesh, defects));
+    filled.isClosed = defects.isClosed();
+    if (filled.mesh.triangles.empty())
+        throw std::invalid_argument("addMesh: mesh \"" + body.name + "\" has no triangles");
+    filled.grid = body.mostParticles > 0
+                      ? voxeliseWithin(body.mostParticles, filled.mesh, body.voxels, voxelise)
+                      : voxelise(filled.mesh, body.voxels);
+    return filled;
+}
+
+sim::Lattice latticeOf(const Filled& filled, const MeshBody& body) {
+    return makeLattice(filled.grid, body,
+                       filled.isClosed ? volumeOf(filled.mesh, filled.grid) : filled.grid.filledVolume);
+}
+
+void addSkin(sim::Scene& scene, const Filled& filled, const sim::LatticeCorners& corners,
+             const MeshBody& body) {
+    scene.skins.push_back({.name = body.name, .triangles = filled.mesh.triangles, .color = body.color});
+    hang(scene.skins.back(), toCellUnits(filled.mesh, filled.grid), filled.grid, corners,
+         body.isCuttable && filled.isClosed);
+}
+
+/// Whether the mesh, as the skin of these voxels, shows the inside along cuts.
+bool showsInside(const Filled& filled, const MeshBody& body) {
+    if (!filled.isClosed) return false;
+    sim::Scene alone;
+    addSkin(alone, filled, addLattice(alone, latticeOf(filled, body)), body);
+    return sim::showsInside(alone, 0, 0);
+}
+
+/// As volumeOf(): the voxels and the surface that is to stand for them must enclose the same.
+bool encloses(const TriangleMesh& surface, const VoxelGrid& grid) {
+    const MeshReport report = measure(surface);
+    return !surface.triangles.empty() &&
+           std::abs(report.volume - grid.filledVolume) < report.area * double{grid.spacing} / 4;
+}
+
 } // namespace
 
-VoxelGrid addMesh(sim::Scene& scene, const TriangleMesh& mesh, const MeshBody& body) {
-    MeshDefects defects;
-    const TriangleMesh clean = orient(weld(mesh, defects));
-    if (clean.triangles.empty())
-        throw std::invalid_argument("addMesh: mesh \"" + body.name + "\" has no triangles");
-    VoxelGrid grid = body.mostParticles > 0 ? voxeliseWithin(body.mostParticles, clean, body.voxels, voxelise)
-                                            : voxelise(clean, body.voxels);
-    const double volume = defects.isClosed() ? volumeOf(clean, grid) : grid.filledVolume;
-    const sim::LatticeCorners corners = addLattice(scene, makeLattice(grid, body, volume));
-    setContactOffsets(scene, corners, grid, clean);
-
-    scene.skins.push_back({.name = body.name, .triangles = clean.triangles, .color = body.color});
-    hang(scene.skins.back(), toCellUnits(clean, grid), grid, corners, body.isCuttable && defects.isClosed());
-    return grid;
+AddedMesh addMesh(sim::Scene& scene, const TriangleMesh& mesh, const MeshBody& body) {
+    Filled filled = fillVoxels(mesh, body);
+    Shown shown = Shown::mesh;
+    if (body.isCuttable && !showsInside(filled, body)) {
+        shown = Shown::voxels;
+        const TriangleMesh wrapped = wrap(filled.mesh, filled.grid);
+        if (encloses(wrapped, filled.grid)) {
+            Filled again = fillVoxels(wrapped, body);
+            if (showsInside(again, body)) {
+                again.grid.doubtful = filled.grid.doubtful; // the wrapped mesh leaves no doubt
+                filled = std::move(again);
+                shown = Shown::wrapped;
+            }
+        }
+    }
+    const sim::Lattice lattice = latticeOf(filled, body);
+    const sim::LatticeCorners corners = addLattice(scene, lattice);
+    setContactOffsets(scene, corners, filled.grid, filled.mesh);
+    if (shown == Shown::voxels)
+        addLatticeSkin(scene, lattice, corners, body.color);
+    else
+        addSkin(scene, filled, corners, body);
+    return {std::move(filled.grid), shown};
 }
 
 } // namespace sinew::mesh

@@ -14,19 +14,32 @@ struct MeshBody {
     float recovery = 0;            ///< sim::Lattice::recovery
     float density = 1000;          ///< [kg/m^3]
     bool touchesParticles = false; ///< each particle has a radius of half a voxel
-    /// sim::Grid::isCuttable. The skin of a closed mesh is split along the cells, into three to seven times
-    /// as many triangles, and has sim::Skin::anchors: it is clipped along cuts.
+    /// sim::Grid::isCuttable. The skin is split along the cells, into three to seven times as many triangles,
+    /// and has sim::Skin::anchors: it is clipped along cuts and shows the inside.
     bool isCuttable = false;
     float tearStrain = 0;            ///< sim::Grid::tearStrain
     std::uint32_t tearsPerStep = 16; ///< sim::Grid::tearsPerStep
     Vec3 color{0.78f, 0.36f, 0.32f};
 };
 
+/// The surface that a body shows. Only a closed one that the voxels can carry has an inside to show along
+/// cuts, so a cuttable body takes the first of these that does.
+enum class Shown {
+    mesh,    ///< the mesh as it came
+    wrapped, ///< wrap(): the mesh is open, passes through itself or is too thin in places
+    voxels,  ///< the outer faces of its voxels: it encloses nothing, or is too thin everywhere
+};
+
+struct AddedMesh {
+    VoxelGrid voxels;
+    Shown shown = Shown::mesh;
+};
+
 /// Appends particles on the corners of the filled cells, links, a body (restVolume = the mesh's volume if
 /// closed and no parts of it overlap, else the filled volume) and the skin: every vertex in the cell that
 /// holds it. Corners outside the surface get a negative contact offset (minus their distance to it), so that
-/// the skin, not the hull of cells, rests on a plane. Returns the grid for reports. Throws
-/// std::invalid_argument where the mesh is empty.
-VoxelGrid addMesh(sim::Scene& scene, const TriangleMesh& mesh, const MeshBody& body);
+/// the skin, not the hull of cells, rests on a plane. Returns what reports tell. Throws std::invalid_argument
+/// where the mesh is empty.
+AddedMesh addMesh(sim::Scene& scene, const TriangleMesh& mesh, const MeshBody& body);
 
 } // namespace sinew::mesh

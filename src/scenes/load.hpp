@@ -27,6 +27,7 @@ struct MeshSummary {
     std::string body, file;
     mesh::MeshReport surface;
     mesh::VoxelGrid voxels;
+    mesh::Shown shown = mesh::Shown::mesh;
 };
 
 /// The edge of a blade, a poly-line, at certain times; in between it moves straight.

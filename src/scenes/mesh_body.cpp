@@ -109,7 +109,9 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
         body.mostParticles = std::min<std::size_t>(section.count("particles"), body.voxels.maxCells);
     const std::size_t first = loaded.scene.particles.size(), firstGrid = loaded.scene.grids.size();
     try {
-        summary.voxels = mesh::addMesh(loaded.scene, found.mesh, body);
+        mesh::AddedMesh added = mesh::addMesh(loaded.scene, found.mesh, body);
+        summary.voxels = std::move(added.voxels);
+        summary.shown = added.shown;
     } catch (const std::length_error& error) {
         section.fail("voxel", std::string("is too small for this mesh (") + error.what() + ")",
                      "give larger voxels");
@@ -125,10 +127,6 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
     noteSize(loaded, "mesh " + found.file, section, summary.surface,
              ", " + massText(mass) + ", " + voxelText(summary.voxels));
     warnOfDefects(summary, loaded.warnings);
-    if (body.isCuttable && loaded.scene.skins.back().anchors.empty())
-        loaded.warnings.push_back(
-            "mesh " + summary.file +
-            " is open, or too thin for its voxels: cuts stretch its skin and show no inside");
     loaded.meshes.push_back(std::move(summary));
 }
 

@@ -56,6 +56,17 @@ void warnOfDefects(const MeshSummary& summary, std::vector<std::string>& warning
         warnings.push_back(name + ": " + std::to_string(summary.voxels.doubtful) + " of " +
                            std::to_string(summary.voxels.voxels.size()) +
                            " cells of its grid are doubtful: winding numbers decided");
+    const std::string why =
+        defects.isClosed() ? " passes through itself or is too thin for its voxels" : " stays open";
+    if (summary.shown == mesh::Shown::wrapped)
+        warnings.push_back(
+            name + why +
+            ": a closed surface half a voxel fine is shown in its place, so that cuts show the "
+            "inside; finer voxels follow the mesh more closely");
+    if (summary.shown == mesh::Shown::voxels)
+        warnings.push_back(name + why +
+                           ": the faces of its voxels are shown in its place, so that cuts show the inside; "
+                           "finer voxels may do without, and cuttable = false shows the mesh");
 }
 
 } // namespace sinew::scenes

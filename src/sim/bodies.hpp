@@ -156,6 +156,10 @@ LatticeCorners addLattice(Scene& scene, const Lattice& lattice);
 /// Skins the boundary faces of a lattice (for bodies without a mesh of their own), creased at its edges.
 void addLatticeSkin(Scene& scene, const Lattice& lattice, const LatticeCorners& corners, Vec3 color);
 
+/// Whether `skin` of the scene is clipped along cuts of the body that `grid` is of, and closed with its
+/// inside; else it stretches over them. Both are indices.
+bool showsInside(const Scene& scene, std::size_t skin, std::size_t grid);
+
 /// Appends the outer faces of a voxel body that `grid` is of as triangles between its particles, solid and as
 /// thick as these are wide: what is too small for the voxels then stays outside. They go where a blade parts
 /// their corners; what it lays open is touched by particles alone.

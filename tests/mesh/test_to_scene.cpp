@@ -3,6 +3,7 @@
 
 #include "mesh/generate.hpp"
 #include "meshes.hpp"
+#include "sim/bodies.hpp"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -199,13 +200,13 @@ TEST(AddMesh, KnowsItsRestVolume) {
     addMesh(scene, organ, body(20));
     EXPECT_NEAR(double{scene.bodies[0].restVolume} / inspect(organ).volume, 1, 1e-6);
     EXPECT_EQ(scene.bodies[0].name, "thing");
-    const VoxelGrid grid = addMesh(scene, openedAbove(organ, 0.05f), body(20));
+    const VoxelGrid grid = addMesh(scene, openedAbove(organ, 0.05f), body(20)).voxels;
     EXPECT_NEAR(double{scene.bodies[1].restVolume} / grid.filledVolume, 1, 1e-6);
 }
 
 TEST(AddMesh, LetsTheSkinRestOnAPlaneNotTheHull) {
     sim::Scene scene;
-    const VoxelGrid grid = addMesh(scene, generate("sphere", 64), body(12));
+    const VoxelGrid grid = addMesh(scene, generate("sphere", 64), body(12)).voxels;
     double farthest = 0, highest = -1;
     for (const sim::Particle& particle : scene.particles) {
         const double outside = toVector(particle.position).norm() - 0.15;
@@ -257,4 +258,108 @@ TEST(AddMesh, RefusesAnEmptyMesh) {
     sim::Scene scene;
     EXPECT_THROW(addMesh(scene, {}, body(8)), std::invalid_argument);
     EXPECT_TRUE(scene.particles.empty());
+}
+
+// Only a closed surface that the voxels can carry has an inside to show along cuts.
+namespace {
+
+struct Cuttable {
+    sim::Scene scene;
+    AddedMesh added;
+    explicit Cuttable(const TriangleMesh& mesh, std::uint32_t resolution = 20, bool isCuttable = true) {
+        MeshBody cuttable = body(resolution);
+        cuttable.isCuttable = isCuttable;
+        added = addMesh(scene, mesh, cuttable);
+    }
+    bool showsInside() const { return sim::showsInside(scene, 0, 0); }
+    /// The skin as it lies at rest.
+    TriangleMesh skin() const {
+        TriangleMesh mesh{.triangles = scene.skins[0].triangles};
+        const std::vector<Vector3> particles = positionsOf(scene);
+        for (const sim::CellEmbedding& cell : scene.skins[0].cells)
+            mesh.positions.push_back(toVec3(skinned(cell, particles)));
+        return mesh;
+    }
+};
+
+/// Without the triangles whose number is divisible by `step`.
+TriangleMesh withHoles(TriangleMesh mesh, std::size_t step) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+        if (i % step != 0) mesh.triangles[kept++] = mesh.triangles[i];
+    mesh.triangles.resize(kept);
+    return mesh;
+}
+
+double farthestFrom(const TriangleMesh& surface, const TriangleMesh& of) {
+    double farthest = 0;
+    for (const float distance : signedDistance(surface, of.positions))
+        farthest = std::max(farthest, std::abs(double{distance}));
+    return farthest;
+}
+
+} // namespace
+
+TEST(AddMesh, ShowsTheMeshItselfWhereThatHasAnInside) {
+    for (const char* shape : {"sphere", "organ", "tube"}) {
+        const Cuttable body(generate(shape, 40));
+        EXPECT_EQ(body.added.shown, Shown::mesh) << shape;
+        EXPECT_TRUE(body.showsInside()) << shape;
+    }
+}
+
+TEST(AddMesh, WrapsAnOpenMeshThatMayBeCut) {
+    const TriangleMesh organ = generate("organ", 40);
+    const double volume = inspect(organ).volume;
+    const std::vector<TriangleMesh> broken{openedAbove(organ, 0.05f), withHoles(organ, 20),
+                                           withHoles(organ, 7), withFlipped(withHoles(organ, 15), 3)};
+    for (std::size_t i = 0; i < broken.size(); ++i) {
+        const Cuttable body(broken[i]);
+        EXPECT_EQ(body.added.shown, Shown::wrapped) << i;
+        EXPECT_TRUE(body.showsInside()) << i;
+        const MeshReport skin = inspect(body.skin());
+        EXPECT_TRUE(skin.defects.isClosed()) << i;
+        EXPECT_EQ(skin.defects.flippedEdges, 0u) << i;
+        EXPECT_NEAR(skin.volume / voxelise(broken[i], {.resolution = 20}).filledVolume, 1, 0.02) << i;
+        EXPECT_NEAR(double{body.scene.bodies[0].restVolume} / skin.volume, 1, 1e-3) << i;
+        if (i > 0) { // of the first, nobody knows what lies above the opening
+            EXPECT_NEAR(skin.volume / volume, 1, 0.02) << i;
+            EXPECT_LT(farthestFrom(organ, body.skin()), 0.5 * double{body.added.voxels.spacing}) << i;
+        }
+    }
+}
+
+TEST(AddMesh, WrapsPartsThatPassThroughEachOtherIntoOne) {
+    const TriangleMesh sphere = generate("sphere", 40);
+    const TriangleMesh pair = joined(sphere, moved(sphere, {0.1f, 0, 0}));
+    const Cuttable body(pair, 24);
+    EXPECT_EQ(body.added.shown, Shown::wrapped);
+    EXPECT_TRUE(body.showsInside());
+    const double r = 0.15, d = 0.1; // two balls less the lens that they share
+    const double ball = 4.0 / 3 * std::numbers::pi * r * r * r,
+                 lens = std::numbers::pi * (4 * r + d) * (2 * r - d) * (2 * r - d) / 12;
+    EXPECT_NEAR(inspect(body.skin()).volume / (2 * ball - lens), 1, 0.02);
+}
+
+TEST(AddMesh, ShowsVoxelsWhereNothingIsEnclosed) {
+    TriangleMesh sheet = box({0, 0, 0}, {1, 1, 1}); // two triangles in one plane
+    sheet.triangles.resize(2);
+    const Cuttable body(sheet, 12);
+    EXPECT_EQ(body.added.shown, Shown::voxels);
+    EXPECT_TRUE(body.showsInside());
+    EXPECT_TRUE(body.scene.skins[0].cells.empty());
+}
+
+TEST(AddMesh, ShowsAnInsideOfEveryThickness) {
+    for (const float thickness : {0.002f, 0.02f, 0.04f, 0.06f, 0.1f, 0.15f})
+        for (const double degrees : {0.0, 20.0})
+            EXPECT_TRUE(Cuttable(turned(box({0, 0, 0}, {1, thickness, 0.7f}), degrees), 20).showsInside())
+                << thickness << ", turned by " << degrees;
+}
+
+TEST(AddMesh, LeavesAnOpenMeshAsItCameWhereNothingIsCut) {
+    const TriangleMesh open = openedAbove(generate("organ", 40), 0.05f);
+    const Cuttable body(open, 20, false);
+    EXPECT_EQ(body.added.shown, Shown::mesh);
+    EXPECT_EQ(body.scene.skins[0].triangles.size(), open.triangles.size());
 }

@@ -68,6 +68,17 @@ Json bodiesJson(const sim::Scene& scene) {
     return bodies;
 }
 
+const char* nameOf(mesh::Shown shown) {
+    switch (shown) {
+    case mesh::Shown::wrapped:
+        return "wrapped";
+    case mesh::Shown::voxels:
+        return "voxels";
+    default:
+        return "mesh";
+    }
+}
+
 Json meshesJson(const std::vector<scenes::MeshSummary>& summaries) {
     Json meshes = Json::array();
     for (const scenes::MeshSummary& mesh : summaries)
@@ -77,7 +88,8 @@ Json meshesJson(const std::vector<scenes::MeshSummary>& summaries) {
                           {"non_manifold_edges", mesh.surface.defects.nonManifoldEdges},
                           {"hull_voxels", mesh.voxels.hullCount},
                           {"core_voxels", mesh.voxels.coreCount},
-                          {"doubtful_voxels", mesh.voxels.doubtful}});
+                          {"doubtful_voxels", mesh.voxels.doubtful},
+                          {"shown", nameOf(mesh.shown)}});
     return meshes;
 }
 

@@ -1,6 +1,7 @@
 // Reads grids and their skins; of each grid the first that can be clipped.
 #include "sim/surface/cut_bodies.hpp"
 
+#include "sim/bodies.hpp"
 #include "sim/lattice/batches.hpp"
 #include "sim/surface/lattice_faces.hpp"
 #include "sim/surface/skin_complex.hpp"
@@ -136,3 +137,16 @@ CutBodies readCutBodies(const Scene& scene, const Settings& settings, const Stat
 }
 
 } // namespace sinew::sim::surface
+
+namespace sinew::sim {
+
+bool showsInside(const Scene& scene, std::size_t skin, std::size_t grid) {
+    const Grid& of = scene.grids[grid];
+    const lattice::Box box = lattice::place(of, 0);
+    return scene.skins[skin].anchors.empty()
+               ? surface::latticeFaces(scene.skins[skin], of, box, 0).has_value()
+               : surface::hangSkin(scene, of, box, {.index = static_cast<std::uint32_t>(skin)}, 0, 0)
+                     .has_value();
+}
+
+} // namespace sinew::sim

@@ -1,0 +1,135 @@
+// The surface is a net around samples that lie inside (mesh/surface_nets), placed by their distances from the
+// mesh. All lengths are in cells of the grid.
+#include "mesh/wrap.hpp"
+
+#include "mesh/inside.hpp"
+#include "mesh/place_grid.hpp"
+#include "mesh/surface_nets.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sinew::mesh {
+namespace {
+
+using Index3 = std::array<std::uint32_t, 3>;
+
+constexpr std::uint32_t perCell = 2;    ///< samples along an edge of a cell
+constexpr double apart = 1.0 / perCell; ///< from a sample to the next
+constexpr double farAway = 2;           ///< stands for the distance of samples that no surface is near to
+
+/// Signed distances at the samples of a grid, negative inside, and outside in one layer more on each side.
+class Field {
+public:
+    Field(const TriangleMesh& mesh, const VoxelGrid& grid)
+        : positions_(toCellUnits(mesh, grid)), tree_(positions_, mesh.triangles) {
+        for (std::size_t axis = 0; axis < 3; ++axis) count_[axis] = perCell * grid.cells[axis] + 2;
+        const Inside inside(positions_, mesh.triangles, tree_, grid.cells, perCell);
+        values_.assign(std::size_t{count_[0]} * count_[1] * count_[2], farAway);
+        forEach([&](const Index3& at) {
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                if (at[axis] == 0 || at[axis] + 1 == count_[axis]) return;
+            if (inside({at[0] - 1, at[1] - 1, at[2] - 1}).isInside) values_[index(at)] = -farAway;
+        });
+        measureNearSurface();
+    }
+
+    bool isEmpty() const {
+        return std::ranges::none_of(values_, [](double value) { return value < 0; });
+    }
+
+    Eigen::AlignedBox3d box() const {
+        return {placeOf({0, 0, 0}), placeOf({count_[0] - 1, count_[1] - 1, count_[2] - 1})};
+    }
+
+    /// Between samples by their shares; constant beyond the last ones.
+    double operator()(const Vector3& x) const {
+        Index3 low{};
+        Vector3 share;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto n = static_cast<Eigen::Index>(axis);
+            const double most = count_[axis] - 1;
+            const double place = std::clamp((x[n] - placeOf({0, 0, 0})[n]) / apart, 0.0, most);
+            low[axis] = std::min(static_cast<std::uint32_t>(place), count_[axis] - 2);
+            share[n] = place - low[axis];
+        }
+        double sum = 0;
+        for (unsigned corner = 0; corner < 8; ++corner) {
+            double weight = 1;
+            Index3 at = low;
+            for (unsigned axis = 0; axis < 3; ++axis) {
+                const bool isHigh = (corner >> axis & 1) != 0;
+                at[axis] += isHigh ? 1 : 0;
+                weight *= isHigh ? share[axis] : 1 - share[axis];
+            }
+            sum += weight * values_[index(at)];
+        }
+        return sum;
+    }
+
+private:
+    std::size_t index(const Index3& at) const {
+        return at[0] + count_[0] * (at[1] + std::size_t{count_[1]} * at[2]);
+    }
+    Vector3 placeOf(const Index3& at) const {
+        return apart * (Vector3(at[0], at[1], at[2]) - Vector3::Constant(0.5));
+    }
+
+    template <typename Visit> void forEach(const Visit& visit) const {
+        for (std::uint32_t k = 0; k < count_[2]; ++k)
+            for (std::uint32_t j = 0; j < count_[1]; ++j)
+                for (std::uint32_t i = 0; i < count_[0]; ++i) visit(Index3{i, j, k});
+    }
+
+    /// Calls visit(index) for a sample and its 26 neighbours.
+    template <typename Visit> void forAround(const Index3& at, const Visit& visit) const {
+        const auto low = [&](std::size_t axis) { return at[axis] - (at[axis] > 0 ? 1u : 0u); };
+        const auto high = [&](std::size_t axis) { return std::min(at[axis] + 1, count_[axis] - 1); };
+        for (std::uint32_t k = low(2); k <= high(2); ++k)
+            for (std::uint32_t j = low(1); j <= high(1); ++j)
+                for (std::uint32_t i = low(0); i <= high(0); ++i) visit(index({i, j, k}));
+    }
+
+    /// Distances of samples that have a neighbour on the other side, and of all around those.
+    void measureNearSurface() {
+        std::vector<bool> isNear(values_.size());
+        forEach([&](const Index3& at) {
+            bool isBeside = false;
+            forAround(at, [&](std::size_t other) {
+                isBeside = isBeside || (values_[other] < 0) != (values_[index(at)] < 0);
+            });
+            if (isBeside) forAround(at, [&](std::size_t other) { isNear[other] = true; });
+        });
+        forEach([&](const Index3& at) {
+            double& value = values_[index(at)];
+            if (isNear[index(at)]) value = std::copysign(std::max(distance(placeOf(at)), 1e-6), value);
+        });
+    }
+
+    /// In a hole the surface is far: there the winding number, which falls from 1 to 0 across it, says how
+    /// far its middle is.
+    double distance(const Vector3& x) const {
+        const double fromMesh = tree_.distance(x);
+        if (fromMesh < apart) return fromMesh;
+        return std::min(fromMesh, farAway * std::abs(0.5 - std::abs(tree_.windingNumber(x))));
+    }
+
+    std::vector<Vector3> positions_;
+    TriangleTree tree_;
+    Index3 count_{};
+    std::vector<double> values_;
+};
+
+} // namespace
+
+TriangleMesh wrap(const TriangleMesh& mesh, const VoxelGrid& grid) {
+    const Field field(mesh, grid);
+    if (field.isEmpty()) return {.name = mesh.name};
+    TriangleMesh result = isosurface(std::cref(field), field.box(), apart);
+    result.name = mesh.name;
+    for (Vec3& position : result.positions)
+        position = toVec3(toVector(grid.origin) + double{grid.spacing} * toVector(position));
+    return result;
+}
+
+} // namespace sinew::mesh
