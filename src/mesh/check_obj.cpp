@@ -36,7 +36,8 @@ class ObjReducer {
 public:
     explicit ObjReducer(const ImportLimits& limits) : limits_(limits) {}
 
-    std::string reduce(std::string_view bytes) {
+    Reduced reduce(std::string_view bytes) {
+        const std::string_view nameWord = wordOfObjects(bytes);
         JoinedLines lines(bytes);
         for (std::string_view line; lines.next(line);) {
             const std::string_view word = takeWord(line);
@@ -44,13 +45,33 @@ public:
                 addVertex(line, lines.number());
             else if (word == "f")
                 addFace(line, lines.number());
+            else if (word == nameWord)
+                object_ = reduced_.names.add(line);
         }
         if (highest_ > vertices_) refuseIndex(highestLine_);
         checkTriangleCount(triangles_, limits_);
-        return std::move(result_);
+        return std::move(reduced_);
     }
 
 private:
+    static bool hasObjects(std::string_view bytes) {
+        JoinedLines lines(bytes);
+        for (std::string_view line; lines.next(line);)
+            if (takeWord(line) == "o") return true;
+        return false;
+    }
+
+    static std::string_view wordOfObjects(std::string_view bytes) { return hasObjects(bytes) ? "o" : "g"; }
+
+    /// Begins a run where the object is another than that of the face before. Assimp is slow with many
+    /// objects: beyond the limit one run takes the rest, and has no name.
+    void beginRun() {
+        std::vector<std::uint32_t>& runs = reduced_.objects;
+        if (runs.size() > mostObjects || object_ == (runs.empty() ? noObject : runs.back())) return;
+        runs.push_back(runs.size() == mostObjects ? noObject : object_);
+        result_ += "o " + std::to_string(runs.size() - 1) + '\n';
+    }
+
     void addVertex(std::string_view line, std::size_t number) {
         result_ += 'v';
         for (int axis = 0; axis < 3; ++axis) appendNumber(result_, checkCoordinate(takeWord(line), number));
@@ -60,6 +81,7 @@ private:
 
     void addFace(std::string_view line, std::size_t number) {
         std::uint64_t corners = 0;
+        beginRun();
         result_ += 'f';
         for (std::string_view word = takeWord(line); !word.empty(); word = takeWord(line), ++corners) {
             const auto index = toInteger<std::int64_t>(word.substr(0, word.find('/')));
@@ -87,14 +109,16 @@ private:
     }
 
     const ImportLimits& limits_;
-    std::string result_;
+    Reduced reduced_;
+    std::string& result_ = reduced_.text;
+    std::uint32_t object_ = noObject; ///< of the faces to come
     std::uint64_t vertices_ = 0, triangles_ = 0, highest_ = 0;
     std::size_t highestLine_ = 0;
 };
 
 } // namespace
 
-std::string reduceObj(std::string_view bytes, const ImportLimits& limits) {
+Reduced reduceObj(std::string_view bytes, const ImportLimits& limits) {
     return ObjReducer(limits).reduce(bytes);
 }
 

@@ -16,18 +16,22 @@ bool isTextStl(std::string_view bytes) {
            bytes.size() != headBytes + triangleBytes * std::uint64_t{readUint32(bytes, headBytes - 4)};
 }
 
-std::string reduceTextStl(std::string_view bytes, const ImportLimits& limits) {
-    std::string result = "solid mesh\n";
+Reduced reduceTextStl(std::string_view bytes, const ImportLimits& limits) {
+    Reduced reduced{.text = "solid mesh\n"};
+    std::string& result = reduced.text;
+    std::uint32_t object = noObject;
     LineScanner lines(bytes);
     std::uint64_t facets = 0, vertices = 0;
     bool isEnded = false;
     for (std::string_view line; lines.next(line);) {
         const std::string_view word = takeWord(line);
+        if (word == "solid") object = reduced.names.add(line);
         isEnded = isEnded || word == "endsolid" || (word == "end" && takeWord(line) == "solid");
         if (word == "facet") {
             if (vertices != 3 * facets++)
                 throw Refusal(std::to_string(lines.number()),
                               "the facet before has no 3 vertices: export the mesh again");
+            reduced.objects.push_back(object);
             result += "facet normal 0 0 0\nouter loop\n";
         } else if (word == "vertex") {
             if (++vertices > 3 * facets)
@@ -42,7 +46,8 @@ std::string reduceTextStl(std::string_view bytes, const ImportLimits& limits) {
     if (vertices != 3 * facets || !isEnded)
         throw Refusal(std::to_string(lines.number()), "the file ends too early: export the mesh again");
     checkTriangleCount(facets, limits);
-    return result += "endsolid mesh\n";
+    result += "endsolid mesh\n";
+    return reduced;
 }
 
 std::string_view checkBinaryStl(std::string_view bytes, const ImportLimits& limits) {

@@ -5,6 +5,7 @@
 #include "mesh/import_assimp.hpp"
 #include "mesh/import_checks.hpp"
 #include "mesh/sandbox.hpp"
+#include "mesh/text_scanner.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -106,36 +107,110 @@ std::string_view withoutMark(std::string_view bytes) {
     return bytes.substr(bytes.starts_with(mark) ? mark.size() : 0);
 }
 
+/// Without objects.
+Soup nameless(Soup soup) {
+    soup.objects.clear();
+    soup.names.clear();
+    return soup;
+}
+
+/// With `names` in the place of the names of nodes: `of` tells the object of a node, by its number.
+template <typename Of> Soup named(Soup soup, const ObjectNames& names, const Of& of) {
+    if (names.all().empty()) return nameless(std::move(soup));
+    for (std::uint32_t& object : soup.objects) object = of(object);
+    soup.names = names.all();
+    return soup;
+}
+
+Soup readObj(const Reduced& obj, const ImportLimits& limits) {
+    Soup soup = readTriangles(Format::obj, obj.text, limits);
+    std::vector<std::uint32_t> objects; // of the nodes: each is called by the number of a run
+    for (const std::string& name : soup.names) {
+        const auto run = toInteger<std::size_t>(name);
+        objects.push_back(run && *run < obj.objects.size() ? obj.objects[*run] : noObject);
+    }
+    return named(std::move(soup), obj.names, [&](std::uint32_t node) { return objects[node]; });
+}
+
+Soup readTextStl(const Reduced& stl, const ImportLimits& limits) {
+    Soup soup = readTriangles(Format::stl, stl.text, limits);
+    if (soup.objects.size() != stl.objects.size()) return nameless(std::move(soup));
+    soup.objects = stl.objects;
+    return named(std::move(soup), stl.names, [](std::uint32_t object) { return object; });
+}
+
+/// By the names of the nodes themselves.
+Soup withNodeNames(Soup soup) {
+    ObjectNames names;
+    std::vector<std::uint32_t> objects;
+    for (const std::string& name : soup.names) objects.push_back(names.add(name));
+    return named(std::move(soup), names, [&](std::uint32_t node) { return objects[node]; });
+}
+
 /// Runs in the child.
-std::vector<float> checkAndRead(Format format, std::string_view bytes, const ImportLimits& limits) {
+Soup checkAndRead(Format format, std::string_view bytes, const ImportLimits& limits) {
     switch (format) {
     case Format::obj:
-        return readTriangles(format, reduceObj(bytes, limits), limits);
+        return readObj(reduceObj(bytes, limits), limits);
     case Format::stl:
-        return isTextStl(bytes) ? readTriangles(format, reduceTextStl(bytes, limits), limits)
-                                : readTriangles(format, checkBinaryStl(bytes, limits), limits);
+        return isTextStl(bytes) ? readTextStl(reduceTextStl(bytes, limits), limits)
+                                : nameless(readTriangles(format, checkBinaryStl(bytes, limits), limits));
     case Format::ply: {
         const std::string obj = checkPly(bytes, limits);
-        return obj.empty() ? readTriangles(format, bytes, limits) : readTriangles(Format::obj, obj, limits);
+        return nameless(obj.empty() ? readTriangles(format, bytes, limits)
+                                    : readTriangles(Format::obj, obj, limits));
     }
     case Format::glb:
-        return readTriangles(format, bytes, limits, checkGlb(bytes, limits));
+        return withNodeNames(readTriangles(format, bytes, limits, checkGlb(bytes, limits)));
     case Format::gltf:
-        return readTriangles(format, bytes, limits, checkGltf(bytes, bytes.size(), limits));
+        return withNodeNames(readTriangles(format, bytes, limits, checkGltf(bytes, bytes.size(), limits)));
     }
     throw Refusal("", "its format is unknown: report this");
 }
 
-/// Runs in the child.
+template <typename T> void append(std::string& bytes, const std::vector<T>& values) {
+    const std::size_t size = bytes.size();
+    bytes.resize(size + values.size() * sizeof(T));
+    if (!values.empty()) std::memcpy(bytes.data() + size, values.data(), values.size() * sizeof(T));
+}
+
+/// Runs in the child. A mesh is its mark, the number of names, the names with a zero after each, the corners,
+/// and the objects where there are names.
 std::string answer(Format format, std::string_view bytes, const ImportLimits& limits) {
     try {
-        const std::vector<float> corners = checkAndRead(format, bytes, limits);
-        std::string result(1 + corners.size() * sizeof(float), meshMark);
-        std::memcpy(result.data() + 1, corners.data(), corners.size() * sizeof(float));
+        const Soup soup = checkAndRead(format, bytes, limits);
+        std::string result(1, meshMark);
+        append(result, std::vector{static_cast<std::uint32_t>(soup.names.size())});
+        for (const std::string& name : soup.names) (result += name) += '\0';
+        append(result, soup.corners);
+        append(result, soup.objects);
         return result;
     } catch (const Refusal& refusal) {
         return refusalMark + refusal.where() + '\0' + refusal.what();
     }
+}
+
+/// Removes so many values from the front of `bytes`, which must have them.
+template <typename T> std::vector<T> take(std::string_view& bytes, std::size_t count) {
+    std::vector<T> values(count);
+    if (count > 0) std::memcpy(values.data(), bytes.data(), count * sizeof(T));
+    bytes.remove_prefix(count * sizeof(T));
+    return values;
+}
+
+/// Removes their number and the names from the front of `bytes`. False where they make no sense.
+bool takeNames(std::string_view& bytes, std::vector<std::string>& names) {
+    if (bytes.size() < sizeof(std::uint32_t)) return false;
+    const std::uint32_t count = take<std::uint32_t>(bytes, 1)[0];
+    if (count > mostObjects) return false;
+    ObjectNames sound;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::size_t end = bytes.find('\0');
+        if (end == std::string_view::npos || sound.add(bytes.substr(0, end)) != i) return false;
+        bytes.remove_prefix(end + 1);
+    }
+    names = sound.all();
+    return true;
 }
 
 TriangleMesh decode(const fs::path& file, std::string_view bytes, const ImportLimits& limits) {
@@ -143,14 +218,18 @@ TriangleMesh decode(const fs::path& file, std::string_view bytes, const ImportLi
     bytes.remove_prefix(std::min<std::size_t>(bytes.size(), 1));
     if (const std::size_t end = bytes.find('\0'); mark == refusalMark && end != std::string_view::npos)
         fail(file, printable(bytes.substr(0, end)), printable(bytes.substr(end + 1)));
-    if (mark != meshMark || bytes.size() % triangleBytes != 0 ||
-        bytes.size() / triangleBytes > limits.triangles)
+    TriangleMesh mesh{.name = file.stem().string()};
+    const bool isSound = mark == meshMark && takeNames(bytes, mesh.objectNames);
+    const std::size_t size = triangleBytes + (mesh.objectNames.empty() ? 0 : sizeof(std::uint32_t));
+    const std::size_t count = bytes.size() / size;
+    if (!isSound || bytes.size() != count * size || count > limits.triangles)
         fail(file, "", "the importer failed (its answer makes no sense): export the mesh again");
-    std::vector<float> corners(bytes.size() / sizeof(float));
-    std::memcpy(corners.data(), bytes.data(), bytes.size());
+    const auto corners = take<float>(bytes, 9 * count);
     if (!std::ranges::all_of(corners, [](float x) { return std::abs(double{x}) <= largestCoordinate; }))
         fail(file, "", "the importer failed (a coordinate is not finite): repair the mesh");
-    TriangleMesh mesh{.name = file.stem().string()};
+    mesh.objects = take<std::uint32_t>(bytes, bytes.size() / sizeof(std::uint32_t));
+    for (std::uint32_t& object : mesh.objects)
+        if (object >= mesh.objectNames.size()) object = noObject;
     for (std::size_t i = 0; i < corners.size(); i += 3)
         mesh.positions.push_back({corners[i], corners[i + 1], corners[i + 2]});
     for (std::uint32_t i = 0; i < mesh.positions.size(); i += 3) mesh.triangles.push_back({i, i + 1, i + 2});
@@ -166,11 +245,12 @@ TriangleMesh importMesh(const fs::path& file, MeshDefects& defects, const Import
     const double forSize = std::floor(static_cast<double>(bytes.size()) / limits.bytesPerSecond);
     std::string result;
     try {
-        result = runInChild([&] { return answer(format, bytes, limits); },
-                            {.addressSpaceBytes = limits.addressSpaceBytes,
-                             .answerBytes = 4096 + limits.triangles * triangleBytes,
-                             .cpuSeconds = limits.cpuSeconds + forSize,
-                             .wallSeconds = limits.wallSeconds + 2 * forSize});
+        result =
+            runInChild([&] { return answer(format, bytes, limits); },
+                       {.addressSpaceBytes = limits.addressSpaceBytes,
+                        .answerBytes = (1 << 20) + limits.triangles * (triangleBytes + sizeof(std::uint32_t)),
+                        .cpuSeconds = limits.cpuSeconds + forSize,
+                        .wallSeconds = limits.wallSeconds + 2 * forSize});
     } catch (const ChildFailure& failure) {
         fail(file, "",
              std::string("the importer failed (") + failure.what() +

@@ -31,8 +31,9 @@ enum class Format { obj, stl, ply, glb, gltf };
 
 /// OBJ, STL (text and binary), PLY (text and binary), glTF 2 with embedded buffers, GLB; the content decides,
 /// not the extension. All meshes of the file joined into one, node transforms applied, triangulated, welded.
-/// Never opens a second file. Throws ImportError. Forks: call before threads that hold locks the child would
-/// need (malloc is safe).
+/// Objects keep the names that OBJ ("o", or "g" where it has no "o"), text STL ("solid") and glTF (nodes, or
+/// meshes) give them. Never opens a second file. Throws ImportError. Forks: call before threads that hold
+/// locks the child would need (malloc is safe).
 TriangleMesh importMesh(const std::filesystem::path& file, MeshDefects& defects,
                         const ImportLimits& limits = {});
 

@@ -158,17 +158,26 @@ void append(const aiMesh& mesh, const Eigen::Affine3d& transform, std::vector<fl
     }
 }
 
+/// Assimp makes up names such as "nodes[3]" and "meshes[3]-1", and numbers the parts of a mesh: "liver-1".
+std::string nameOf(const aiNode& node, const aiMesh& mesh) {
+    const std::string_view name(node.mName.C_Str(), node.mName.length);
+    if (!name.starts_with("nodes[")) return std::string(name);
+    const std::string_view other(mesh.mName.C_Str(), mesh.mName.length);
+    if (other.starts_with("meshes[")) return {};
+    return std::string(node.mNumMeshes > 1 ? other.substr(0, other.rfind('-')) : other);
+}
+
 } // namespace
 
-std::vector<float> readTriangles(Format format, std::string_view bytes, const ImportLimits& limits,
-                                 std::uint64_t announced) {
+Soup readTriangles(Format format, std::string_view bytes, const ImportLimits& limits,
+                   std::uint64_t announced) {
     const ImporterOf& importer = *std::ranges::find(importers, format, &ImporterOf::format);
     Assimp::Importer assimp;
     keepOnly(assimp, importer.name);
     assimp.SetIOHandler(new OneFile(importer.file, bytes)); // owned by assimp
     const aiScene& scene = load(assimp, importer, announced);
 
-    std::vector<float> corners;
+    Soup soup;
     std::vector<std::pair<const aiNode*, Eigen::Affine3d>> open{
         {scene.mRootNode, Eigen::Affine3d::Identity()}};
     std::uint64_t triangles = 0;
@@ -180,12 +189,14 @@ std::vector<float> readTriangles(Format format, std::string_view bytes, const Im
             const aiMesh& mesh = *scene.mMeshes[node->mMeshes[i]];
             triangles += mesh.mNumFaces; // a mesh may hang on many nodes
             if (triangles > limits.triangles) checkTriangleCount(triangles, limits);
-            append(mesh, transform, corners);
+            append(mesh, transform, soup.corners);
+            if (i == 0) soup.names.push_back(nameOf(*node, mesh));
+            soup.objects.resize(soup.corners.size() / 9, static_cast<std::uint32_t>(soup.names.size() - 1));
         }
         for (unsigned i = node->mNumChildren; i-- > 0;) open.emplace_back(node->mChildren[i], transform);
     }
     checkTriangleCount(triangles, limits);
-    return corners;
+    return soup;
 }
 
 } // namespace sinew::mesh

@@ -6,11 +6,11 @@
 
 namespace sinew::mesh {
 
-/// The corners of all triangles of a file of the given format, node transforms applied: 3 x 3 floats a
-/// triangle, counter- clockwise from outside. Throws Refusal. `bytes` have passed the checks of
+/// The triangles of a file of the given format, node transforms applied, each node an object with the name
+/// that it or its mesh has; empty where neither has one. Throws Refusal. `bytes` have passed the checks of
 /// import_checks.hpp.
 /// `announced`, where not 0, is the number of triangles that must be there before nodes repeat them.
-std::vector<float> readTriangles(Format format, std::string_view bytes, const ImportLimits& limits,
-                                 std::uint64_t announced = 0);
+Soup readTriangles(Format format, std::string_view bytes, const ImportLimits& limits,
+                   std::uint64_t announced = 0);
 
 } // namespace sinew::mesh

@@ -36,7 +36,32 @@ bool hasVertexLine(std::string_view text) {
     return false;
 }
 
+constexpr std::size_t longestName = 64; ///< bytes
+
+std::string trimmed(std::string_view text) {
+    std::string name(text.substr(0, 4 * longestName));
+    for (char& character : name)
+        if (static_cast<unsigned char>(character) <= ' ' || character == 0x7f) character = ' ';
+    name.erase(0, name.find_first_not_of(' '));
+    if (name.size() > longestName) {
+        std::size_t end = longestName; // not within a character of UTF-8
+        while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end;
+        name.resize(end);
+    }
+    name.erase(name.find_last_not_of(' ') + 1);
+    return name;
+}
+
 } // namespace
+
+std::uint32_t ObjectNames::add(std::string_view text) {
+    const std::string name = trimmed(text);
+    if (name.empty()) return noObject;
+    if (const auto known = numbers_.find(name); known != numbers_.end()) return known->second;
+    if (names_.size() == mostObjects) return noObject;
+    names_.push_back(name);
+    return numbers_[name] = static_cast<std::uint32_t>(names_.size() - 1);
+}
 
 std::uint32_t readUint32(std::string_view bytes, std::size_t offset) {
     std::uint32_t value = 0;

@@ -4,9 +4,12 @@
 
 #include "mesh/import.hpp"
 
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sinew::mesh {
 
@@ -19,6 +22,39 @@ public:
 
 private:
     std::string where_;
+};
+
+/// Names of a file with more objects than that are not kept for those beyond.
+constexpr std::size_t mostObjects = 4096;
+
+/// Names of the objects of a file, each once, as a person may write them: of printable characters and not
+/// long.
+class ObjectNames {
+public:
+    /// Its index; TriangleMesh's noObject for a name of blanks and for one beyond the limit.
+    std::uint32_t add(std::string_view name);
+    const std::vector<std::string>& all() const { return names_; }
+
+private:
+    std::vector<std::string> names_;
+    std::map<std::string, std::uint32_t> numbers_;
+};
+
+/// What is read in place of a file, and the objects of its triangles.
+struct Reduced {
+    std::string text;
+    ObjectNames names;
+    /// OBJ: each run of faces is an object that is called by its number; this is the object of the file that
+    /// the run is of. STL: the object of each facet.
+    std::vector<std::uint32_t> objects;
+};
+
+/// What the child reads: the corners of all triangles, 3 x 3 floats each, counter-clockwise from outside, and
+/// the object of each in `names`. No objects where none has a name.
+struct Soup {
+    std::vector<float> corners;
+    std::vector<std::uint32_t> objects;
+    std::vector<std::string> names;
 };
 
 /// Beyond this [m], or not finite, a coordinate is refused.
@@ -42,13 +78,14 @@ std::uint32_t readUint32(std::string_view bytes, std::size_t offset);
 /// The format by content alone; nothing where no known one matches.
 std::optional<Format> sniff(std::string_view bytes);
 
-/// Checks every vertex and face and returns an OBJ of nothing but those: no materials, normals, names.
-std::string reduceObj(std::string_view bytes, const ImportLimits& limits);
+/// Checks every vertex and face and returns an OBJ of nothing but those, no materials, normals or names, in
+/// runs of one object each where the file names objects ("o", or "g" where it has no "o").
+Reduced reduceObj(std::string_view bytes, const ImportLimits& limits);
 
 /// STL comes as text or binary; `bytes` are one of the two. Both checks return what to read: of text every
 /// facet in one solid, of binary what the header counts (files may carry something behind it).
 bool isTextStl(std::string_view bytes);
-std::string reduceTextStl(std::string_view bytes, const ImportLimits& limits);
+Reduced reduceTextStl(std::string_view bytes, const ImportLimits& limits);
 std::string_view checkBinaryStl(std::string_view bytes, const ImportLimits& limits);
 
 /// Checks header, sizes, coordinates and indices of PLY. Returns what to read in place of a file that assimp

@@ -10,6 +10,8 @@
 
 #include <array>
 #include <fcntl.h>
+#include <map>
+#include <set>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -454,4 +456,101 @@ TEST(Import, ReadsOrRefusesEachOfAssimpsTestModels) {
             EXPECT_EQ(text.find("the importer failed"), std::string::npos) << entry.path() << ": " << text;
         }
     EXPECT_GE(read, 25u);
+}
+
+namespace {
+
+/// The box of each named object, and of the triangles without one as "".
+std::map<std::string, MeshReport> objectsOf(const TriangleMesh& mesh) {
+    std::map<std::string, MeshReport> result;
+    if (mesh.objects.size() != mesh.triangles.size()) return result;
+    std::set<std::uint32_t> numbers(mesh.objects.begin(), mesh.objects.end());
+    for (const std::uint32_t number : numbers) {
+        std::vector<bool> isOf;
+        for (const std::uint32_t object : mesh.objects) isOf.push_back(object == number);
+        result[number == noObject ? "" : mesh.objectNames.at(number)] = inspect(keep(mesh, isOf));
+    }
+    return result;
+}
+
+/// The lines of an OBJ with the faces of a box whose first vertex has an index.
+std::string objBox(const std::string& head, int first, float x) {
+    TriangleMesh mesh = box({x, 0, 0}, {x + 1, 1, 1});
+    std::string text = head;
+    for (const auto& [px, py, pz] : mesh.positions)
+        text += "v " + std::to_string(px) + " " + std::to_string(py) + " " + std::to_string(pz) + "\n";
+    for (const auto& [a, b, c] : mesh.triangles)
+        text += "f " + std::to_string(a + first) + " " + std::to_string(b + first) + " " +
+                std::to_string(c + first) + "\n";
+    return text;
+}
+
+} // namespace
+
+TEST(ImportObjects, KeepTheirNamesInAnObj) {
+    const Folder folder;
+    const std::string text = objBox("", 1, 0) + objBox("o liver  \n", 9, 2) +
+                             objBox("g ignored\no gall bladder\n", 17, 4) + "o liver\n" + objBox("", 25, 6) +
+                             "o alone\n";
+    const auto found = objectsOf(import(folder.write("a.obj", text)));
+    ASSERT_EQ(found.size(), 3u);
+    EXPECT_EQ(found.at("").high.x, 1);
+    EXPECT_EQ(found.at("liver").low.x, 2);
+    EXPECT_EQ(found.at("liver").high.x, 7) << "goes on after another";
+    EXPECT_NEAR(found.at("liver").volume, 2, 1e-5);
+    EXPECT_EQ(found.at("gall bladder").low.x, 4);
+    EXPECT_NEAR(found.at("gall bladder").volume, 1, 1e-5);
+
+    const auto groups =
+        objectsOf(import(folder.write("a.obj", objBox("g a b\n", 1, 0) + objBox("g\n", 9, 2))));
+    ASSERT_EQ(groups.size(), 2u) << "groups are objects where there are no others";
+    EXPECT_EQ(groups.at("a b").low.x, 0);
+    EXPECT_EQ(groups.at("").low.x, 2);
+    EXPECT_TRUE(import(folder.write("a.obj", objBox("", 1, 0))).objects.empty());
+}
+
+TEST(ImportObjects, KeepTheOrderOfTriangles) {
+    const Folder folder;
+    const std::string plain = objBox("", 1, 0) + objBox("", 9, 2), quad = "f 1 2 3 4 5\n";
+    const TriangleMesh without = import(folder.write("a.obj", plain + quad + quad)),
+                       with = import(folder.write("b.obj", objBox("o a\n", 1, 0) + objBox("o b\n", 9, 2) +
+                                                               "o a\n" + quad + "o b\n" + quad));
+    EXPECT_EQ(with.triangles, without.triangles);
+    EXPECT_EQ(with.objects.size(), with.triangles.size());
+}
+
+TEST(ImportObjects, KeepTheirNamesInStlAndGltf) {
+    const Folder folder;
+    const TriangleMesh mesh = box({0, 0, 0}, {1, 1, 1});
+    std::string first = stlText(mesh), second = stlText(moved(mesh, {3, 0, 0}));
+    first.replace(0, first.find('\n'), "solid bone of the leg");
+    second.replace(0, second.find('\n'), "solid");
+    const auto solids = objectsOf(import(folder.write("a.stl", "solid empty\nendsolid\n" + first + second)));
+    ASSERT_EQ(solids.size(), 2u);
+    EXPECT_EQ(solids.at("bone of the leg").high.x, 1);
+    EXPECT_EQ(solids.at("").low.x, 3);
+
+    const std::string_view nodes = R"([{"children":[1,2,3]},{"mesh":0,"name":"liver"},
+        {"mesh":0,"translation":[3,0,0],"name":"gall"},{"mesh":0,"translation":[6,0,0]}])";
+    for (const std::string& bytes : {glb(mesh, nodes), gltf(mesh, nodes)}) {
+        const auto found = objectsOf(import(folder.write("nodes", bytes)));
+        ASSERT_EQ(found.size(), 3u);
+        EXPECT_EQ(found.at("liver").high.x, 1);
+        EXPECT_EQ(found.at("gall").low.x, 3);
+        EXPECT_EQ(found.at("").low.x, 6) << "names that the importer makes up are none";
+    }
+}
+
+TEST(ImportObjects, HaveNamesThatCanBePrintedAndAreNotTooMany) {
+    const Folder folder;
+    const auto names = [&](const std::string& text) {
+        return import(folder.write("a.obj", text)).objectNames;
+    };
+    EXPECT_EQ(names(objBox("o a\x1b[31m\tb\x7f\r\n", 1, 0)), std::vector<std::string>{"a [31m b"});
+    const std::string name = names(objBox("o " + std::string(63, 'x') + "\u00e9t\n", 1, 0)).at(0);
+    EXPECT_EQ(name, std::string(63, 'x')) << "cut before a letter, not within";
+    std::string many = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+    for (int i = 0; i < 20'000; ++i)
+        many += "o n" + std::to_string(i) + "\nf 1 2 3\nf 1 3 4\nf 2 3 4\nf 1 2 4\n";
+    EXPECT_EQ(names(many).size(), 4096u);
 }

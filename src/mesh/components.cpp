@@ -1,0 +1,226 @@
+// Components by union-find over vertices; cavities by winding numbers.
+#include "mesh/components.hpp"
+
+#include "mesh/topology.hpp"
+#include "mesh/triangle_tree.hpp"
+#include "mesh/vector3.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <numeric>
+
+namespace sinew::mesh {
+namespace {
+
+constexpr std::size_t mostHosts = 1000; ///< cavities are looked for in so many of the largest components
+
+/// Disjoint sets of vertices; each has its first vertex as its root.
+class Sets {
+public:
+    explicit Sets(std::size_t size) : parents_(size) { std::iota(parents_.begin(), parents_.end(), 0u); }
+
+    std::uint32_t root(std::uint32_t item) {
+        while (parents_[item] != item) item = parents_[item] = parents_[parents_[item]];
+        return item;
+    }
+    void join(std::uint32_t a, std::uint32_t b) {
+        a = root(a);
+        b = root(b);
+        parents_[std::max(a, b)] = std::min(a, b);
+    }
+
+private:
+    std::vector<std::uint32_t> parents_;
+};
+
+/// Connected triangles, before cavities are joined with what is around them.
+struct Surface {
+    std::vector<std::uint32_t> triangles;
+    Eigen::AlignedBox3d box;
+    double volume = 0; ///< negative where it faces inward
+    bool isClosed = true;
+    std::size_t cavities = 0;
+};
+
+void measure(const TriangleMesh& mesh, Surface& surface) {
+    for (const std::uint32_t triangle : surface.triangles)
+        for (const std::uint32_t vertex : mesh.triangles[triangle])
+            surface.box.extend(toVector(mesh.positions[vertex]));
+    const Vector3 middle = surface.box.center(); // of an open one it keeps the guess small
+    for (const std::uint32_t triangle : surface.triangles) {
+        const auto [a, b, c] = mesh.triangles[triangle];
+        const Vector3 x = toVector(mesh.positions[a]) - middle, y = toVector(mesh.positions[b]) - middle,
+                      z = toVector(mesh.positions[c]) - middle;
+        surface.volume += x.dot(y.cross(z)) / 6;
+    }
+}
+
+std::vector<Surface> surfacesOf(const TriangleMesh& mesh) {
+    Sets sets(mesh.positions.size());
+    for (const auto& [a, b, c] : mesh.triangles) {
+        sets.join(a, b);
+        sets.join(b, c);
+    }
+    std::vector<std::uint32_t> numbers(mesh.positions.size(), noObject);
+    std::vector<Surface> surfaces;
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+        std::uint32_t& number = numbers[sets.root(mesh.triangles[i][0])];
+        if (number == noObject) {
+            number = static_cast<std::uint32_t>(surfaces.size());
+            surfaces.emplace_back();
+        }
+        surfaces[number].triangles.push_back(i);
+    }
+    for (Surface& surface : surfaces) measure(mesh, surface);
+    forEachEdge(mesh.triangles, [&](std::span<const HalfEdge> sides) {
+        if (sides.size() == 1) surfaces[numbers[sets.root(sides[0].low)]].isClosed = false;
+    });
+    return surfaces;
+}
+
+void sortByVolume(std::vector<Surface>& surfaces) {
+    std::ranges::stable_sort(surfaces, std::greater{},
+                             [](const Surface& one) { return std::abs(one.volume); });
+}
+
+TriangleTree treeOf(const TriangleMesh& mesh, const std::vector<std::uint32_t>& chosen) {
+    std::vector<Vector3> positions;
+    TriangleTree::Triangles triangles;
+    for (const std::uint32_t triangle : chosen) {
+        const auto first = static_cast<std::uint32_t>(positions.size());
+        for (const std::uint32_t vertex : mesh.triangles[triangle])
+            positions.push_back(toVector(mesh.positions[vertex]));
+        triangles.push_back({first, first + 1, first + 2});
+    }
+    return {positions, triangles};
+}
+
+/// Adds every cavity to the smallest surface around it. Expects them sorted.
+void joinCavities(const TriangleMesh& mesh, std::vector<Surface>& surfaces) {
+    const auto isHost = [](const Surface& surface) { return surface.isClosed && surface.volume > 0; };
+    std::vector<std::size_t> hosts;
+    for (std::size_t i = 0; i < surfaces.size() && hosts.size() < mostHosts; ++i)
+        if (isHost(surfaces[i])) hosts.push_back(i);
+    std::ranges::reverse(hosts);
+    std::vector<std::unique_ptr<TriangleTree>> trees(surfaces.size());
+    for (Surface& cavity : surfaces) {
+        if (!cavity.isClosed || cavity.volume >= 0) continue;
+        const Vector3 point = toVector(mesh.positions[mesh.triangles[cavity.triangles.front()][0]]);
+        const auto around = std::ranges::find_if(hosts, [&](std::size_t host) {
+            if (!surfaces[host].box.contains(cavity.box)) return false;
+            if (!trees[host])
+                trees[host] = std::make_unique<TriangleTree>(treeOf(mesh, surfaces[host].triangles));
+            return trees[host]->windingNumber(point) > 0.5;
+        });
+        if (around == hosts.end()) continue;
+        Surface& host = surfaces[*around];
+        host.triangles.insert(host.triangles.end(), cavity.triangles.begin(), cavity.triangles.end());
+        host.volume += cavity.volume;
+        ++host.cavities;
+        cavity.triangles.clear();
+    }
+    std::erase_if(surfaces, [](const Surface& surface) { return surface.triangles.empty(); });
+    for (Surface& surface : surfaces) std::ranges::sort(surface.triangles);
+}
+
+std::string partName(std::size_t number) {
+    return "part " + std::to_string(number);
+}
+
+/// The object that all the triangles belong to, and no others do; else noObject.
+std::uint32_t objectOf(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles,
+                       const std::vector<std::size_t>& sizes) {
+    if (mesh.objects.empty()) return noObject;
+    const std::uint32_t object = mesh.objects[triangles.front()];
+    const bool isOne = object != noObject && sizes[object] == triangles.size() &&
+                       std::ranges::all_of(triangles, [&](std::uint32_t triangle) {
+                           return mesh.objects[triangle] == object;
+                       });
+    return isOne ? object : noObject;
+}
+
+/// Number of a name such as "part 12"; nothing for any other.
+std::optional<std::size_t> partNumber(const std::string& name) {
+    const std::string head = "part ";
+    std::size_t number = 0;
+    if (!name.starts_with(head)) return {};
+    const char* last = name.data() + name.size();
+    const auto [end, error] = std::from_chars(name.data() + head.size(), last, number);
+    return error == std::errc{} && end == last ? std::optional(number) : std::nullopt;
+}
+
+} // namespace
+
+std::vector<Component> components(const TriangleMesh& given) {
+    const TriangleMesh mesh = orient(given);
+    std::vector<Surface> surfaces = surfacesOf(mesh);
+    sortByVolume(surfaces);
+    joinCavities(mesh, surfaces);
+    sortByVolume(surfaces);
+    std::vector<std::size_t> sizes(mesh.objectNames.size());
+    for (const std::uint32_t object : mesh.objects)
+        if (object != noObject) ++sizes[object];
+    std::vector<Component> result;
+    for (Surface& surface : surfaces) {
+        const std::uint32_t object = objectOf(mesh, surface.triangles, sizes);
+        result.push_back({.name = object == noObject ? partName(result.size() + 1) : mesh.objectNames[object],
+                          .triangles = std::move(surface.triangles),
+                          .volume = std::abs(surface.volume),
+                          .isClosed = surface.isClosed,
+                          .cavities = surface.cavities});
+    }
+    return result;
+}
+
+std::string describe(const Component& component) {
+    char volume[48];
+    std::snprintf(volume, sizeof volume, "%.3g m^3", component.volume);
+    return "\"" + component.name + "\": " + std::to_string(component.triangles.size()) + " triangles, " +
+           (component.isClosed ? volume : "open") +
+           (component.cavities == 0   ? ""
+            : component.cavities == 1 ? ", 1 cavity"
+                                      : ", " + std::to_string(component.cavities) + " cavities");
+}
+
+std::vector<std::string> names(const TriangleMesh& mesh) {
+    std::vector<std::string> all = mesh.objectNames;
+    const std::size_t count = components(mesh).size();
+    for (std::size_t i = 1; i <= count; ++i)
+        if (std::ranges::find(mesh.objectNames, partName(i)) == mesh.objectNames.end())
+            all.push_back(partName(i));
+    return all;
+}
+
+std::optional<TriangleMesh> choose(const TriangleMesh& mesh, const std::vector<std::string>& names,
+                                   std::string& unknown) {
+    std::vector<bool> isKept(mesh.triangles.size());
+    std::vector<Component> parts;
+    for (const std::string& name : names) {
+        const auto object = std::ranges::find(mesh.objectNames, name);
+        if (object != mesh.objectNames.end()) {
+            const auto number = static_cast<std::uint32_t>(object - mesh.objectNames.begin());
+            for (std::size_t i = 0; i < isKept.size(); ++i)
+                if (mesh.objects[i] == number) isKept[i] = true;
+            continue;
+        }
+        if (parts.empty()) parts = components(mesh);
+        const std::size_t part = partNumber(name).value_or(0);
+        if (part == 0 || part > parts.size()) {
+            unknown = name;
+            return {};
+        }
+        for (const std::uint32_t triangle : parts[part - 1].triangles) isKept[triangle] = true;
+    }
+    return keep(mesh, isKept);
+}
+
+TriangleMesh extract(const TriangleMesh& mesh, const Component& component) {
+    std::vector<bool> isKept(mesh.triangles.size());
+    for (const std::uint32_t triangle : component.triangles) isKept[triangle] = true;
+    return keep(mesh, isKept);
+}
+
+} // namespace sinew::mesh
