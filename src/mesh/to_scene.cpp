@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -18,6 +19,9 @@ namespace sinew::mesh {
 namespace {
 
 using Cell = std::array<std::int64_t, 3>;
+
+/// A body whose mesh encloses less of the surface around it than that weighs as much as the surface.
+constexpr double leastShare = 0.01;
 
 bool isFilled(const VoxelGrid& grid, const Cell& cell) {
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -144,6 +148,7 @@ struct Filled {
     TriangleMesh mesh;
     bool isClosed = false;
     VoxelGrid grid;
+    double volume = 0; ///< by which the body weighs [m^3]; 0 = that of its voxels
 };
 
 Filled fillVoxels(const TriangleMesh& mesh, const MeshBody& body) {
@@ -156,12 +161,8 @@ Filled fillVoxels(const TriangleMesh& mesh, const MeshBody& body) {
     filled.grid = body.mostParticles > 0
                       ? voxeliseWithin(body.mostParticles, filled.mesh, body.voxels, voxelise)
                       : voxelise(filled.mesh, body.voxels);
+    filled.volume = filled.isClosed ? volumeOf(filled.mesh, filled.grid) : filled.grid.filledVolume;
     return filled;
-}
-
-sim::Lattice latticeOf(const Filled& filled, const MeshBody& body) {
-    return makeLattice(filled.grid, body,
-                       filled.isClosed ? volumeOf(filled.mesh, filled.grid) : filled.grid.filledVolume);
 }
 
 void addSkin(sim::Scene& scene, const Filled& filled, const sim::LatticeCorners& corners,
@@ -175,15 +176,27 @@ void addSkin(sim::Scene& scene, const Filled& filled, const sim::LatticeCorners&
 bool showsInside(const Filled& filled, const MeshBody& body) {
     if (!filled.isClosed) return false;
     sim::Scene alone;
-    addSkin(alone, filled, addLattice(alone, latticeOf(filled, body)), body);
+    addSkin(alone, filled, addLattice(alone, makeLattice(filled.grid, body, filled.volume)), body);
     return sim::showsInside(alone, 0, 0);
 }
 
-/// As volumeOf(): the voxels and the surface that is to stand for them must enclose the same.
+/// Whether a wrapped surface holds what the voxels of its mesh do; parts thinner than a cell are thicker in
+/// it.
 bool encloses(const TriangleMesh& surface, const VoxelGrid& grid) {
     const MeshReport report = measure(surface);
-    return !surface.triangles.empty() &&
-           std::abs(report.volume - grid.filledVolume) < report.area * double{grid.spacing} / 4;
+    const double more = report.volume - grid.filledVolume, layer = report.area * double{grid.spacing};
+    return more > -layer / 4 && more < layer / 2;
+}
+
+/// The surface around the mesh, with its voxels; none where that shows no inside either.
+std::optional<Filled> wrapVoxels(const Filled& given, const MeshBody& body) {
+    const TriangleMesh surface = wrap(given.mesh, given.grid);
+    if (!encloses(surface, given.grid)) return std::nullopt;
+    Filled wrapped = fillVoxels(surface, body);
+    if (!showsInside(wrapped, body)) return std::nullopt;
+    if (given.volume > leastShare * wrapped.volume) wrapped.volume = given.volume;
+    wrapped.grid.doubtful = given.grid.doubtful; // nothing is doubtful about the surface
+    return wrapped;
 }
 
 } // namespace
@@ -192,18 +205,11 @@ AddedMesh addMesh(sim::Scene& scene, const TriangleMesh& mesh, const MeshBody& b
     Filled filled = fillVoxels(mesh, body);
     Shown shown = Shown::mesh;
     if (body.isCuttable && !showsInside(filled, body)) {
-        shown = Shown::voxels;
-        const TriangleMesh wrapped = wrap(filled.mesh, filled.grid);
-        if (encloses(wrapped, filled.grid)) {
-            Filled again = fillVoxels(wrapped, body);
-            if (showsInside(again, body)) {
-                again.grid.doubtful = filled.grid.doubtful; // the wrapped mesh leaves no doubt
-                filled = std::move(again);
-                shown = Shown::wrapped;
-            }
-        }
+        std::optional<Filled> wrapped = wrapVoxels(filled, body);
+        shown = wrapped ? Shown::wrapped : Shown::voxels;
+        if (wrapped) filled = std::move(*wrapped);
     }
-    const sim::Lattice lattice = latticeOf(filled, body);
+    const sim::Lattice lattice = makeLattice(filled.grid, body, filled.volume);
     const sim::LatticeCorners corners = addLattice(scene, lattice);
     setContactOffsets(scene, corners, filled.grid, filled.mesh);
     if (shown == Shown::voxels)

@@ -16,22 +16,32 @@ using Index3 = std::array<std::uint32_t, 3>;
 
 constexpr std::uint32_t perCell = 2;    ///< samples along an edge of a cell
 constexpr double apart = 1.0 / perCell; ///< from a sample to the next
+constexpr std::uint32_t rim = 2;        ///< layers of samples around the grid
 constexpr double farAway = 2;           ///< stands for the distance of samples that no surface is near to
+/// Parts whose inside is nowhere that deep could fall between samples: they are thickened until it is.
+constexpr double leastDepth = 0.45;
 
-/// Signed distances at the samples of a grid, negative inside, and outside in one layer more on each side.
+/// Signed distances at the samples of a grid and of a rim around it, negative inside.
 class Field {
 public:
     Field(const TriangleMesh& mesh, const VoxelGrid& grid)
         : positions_(toCellUnits(mesh, grid)), tree_(positions_, mesh.triangles) {
-        for (std::size_t axis = 0; axis < 3; ++axis) count_[axis] = perCell * grid.cells[axis] + 2;
-        const Inside inside(positions_, mesh.triangles, tree_, grid.cells, perCell);
+        for (std::size_t axis = 0; axis < 3; ++axis) count_[axis] = perCell * grid.cells[axis] + 2 * rim;
         values_.assign(std::size_t{count_[0]} * count_[1] * count_[2], farAway);
+        const Inside inside(positions_, mesh.triangles, tree_, grid.cells, perCell);
+        std::vector<bool> isNear(values_.size());
         forEach([&](const Index3& at) {
             for (std::size_t axis = 0; axis < 3; ++axis)
-                if (at[axis] == 0 || at[axis] + 1 == count_[axis]) return;
-            if (inside({at[0] - 1, at[1] - 1, at[2] - 1}).isInside) values_[index(at)] = -farAway;
+                if (at[axis] < rim || at[axis] + rim >= count_[axis]) return;
+            const Index3 sample{at[0] - rim, at[1] - rim, at[2] - rim};
+            if (inside(sample).isInside) values_[index(at)] = -farAway;
+            if (grid.voxels[sample[0] / perCell +
+                            grid.cells[0] * (sample[1] / perCell + std::size_t{grid.cells[1]} *
+                                                                       (sample[2] / perCell))] == Voxel::hull)
+                forAround(at, rim, [&](std::size_t other) { isNear[other] = true; });
         });
-        measureNearSurface();
+        measure(isNear);
+        thicken(isNear);
     }
 
     bool isEmpty() const {
@@ -72,7 +82,7 @@ private:
         return at[0] + count_[0] * (at[1] + std::size_t{count_[1]} * at[2]);
     }
     Vector3 placeOf(const Index3& at) const {
-        return apart * (Vector3(at[0], at[1], at[2]) - Vector3::Constant(0.5));
+        return apart * (Vector3(at[0], at[1], at[2]) - Vector3::Constant(rim - 0.5));
     }
 
     template <typename Visit> void forEach(const Visit& visit) const {
@@ -81,28 +91,42 @@ private:
                 for (std::uint32_t i = 0; i < count_[0]; ++i) visit(Index3{i, j, k});
     }
 
-    /// Calls visit(index) for a sample and its 26 neighbours.
-    template <typename Visit> void forAround(const Index3& at, const Visit& visit) const {
-        const auto low = [&](std::size_t axis) { return at[axis] - (at[axis] > 0 ? 1u : 0u); };
-        const auto high = [&](std::size_t axis) { return std::min(at[axis] + 1, count_[axis] - 1); };
+    /// Calls visit(index) for a sample and its neighbours up to `reach` away along each axis.
+    template <typename Visit>
+    void forAround(const Index3& at, std::uint32_t reach, const Visit& visit) const {
+        const auto low = [&](std::size_t axis) { return at[axis] - std::min(at[axis], reach); };
+        const auto high = [&](std::size_t axis) { return std::min(at[axis] + reach, count_[axis] - 1); };
         for (std::uint32_t k = low(2); k <= high(2); ++k)
             for (std::uint32_t j = low(1); j <= high(1); ++j)
                 for (std::uint32_t i = low(0); i <= high(0); ++i) visit(index({i, j, k}));
     }
 
-    /// Distances of samples that have a neighbour on the other side, and of all around those.
-    void measureNearSurface() {
-        std::vector<bool> isNear(values_.size());
+    /// Distances of samples near the mesh, and where inside and outside meet in a hole of it.
+    void measure(const std::vector<bool>& isNear) {
+        std::vector<bool> isBeside(values_.size());
         forEach([&](const Index3& at) {
-            bool isBeside = false;
-            forAround(at, [&](std::size_t other) {
-                isBeside = isBeside || (values_[other] < 0) != (values_[index(at)] < 0);
+            bool meets = false;
+            forAround(at, 1, [&](std::size_t other) {
+                meets = meets || (values_[other] < 0) != (values_[index(at)] < 0);
             });
-            if (isBeside) forAround(at, [&](std::size_t other) { isNear[other] = true; });
+            if (meets) forAround(at, 1, [&](std::size_t other) { isBeside[other] = true; });
         });
         forEach([&](const Index3& at) {
             double& value = values_[index(at)];
-            if (isNear[index(at)]) value = std::copysign(std::max(distance(placeOf(at)), 1e-6), value);
+            if (isNear[index(at)] || isBeside[index(at)])
+                value = std::copysign(std::max(distance(placeOf(at)), 1e-6), value);
+        });
+    }
+
+    void thicken(const std::vector<bool>& isNear) {
+        const std::vector<double> given = values_;
+        forEach([&](const Index3& at) {
+            if (!isNear[index(at)]) return;
+            double depth = 0;
+            forAround(at, perCell, [&](std::size_t other) { depth = std::max(depth, -given[other]); });
+            if (depth < leastDepth)
+                values_[index(at)] =
+                    std::min(given[index(at)], tree_.distance(placeOf(at)) - (leastDepth - depth));
         });
     }
 

@@ -7,9 +7,9 @@
 namespace sinew::mesh {
 
 /// A closed surface that touches itself nowhere, half a cell of `grid` fine, around all that `mesh` encloses.
-/// It follows the mesh where the mesh has triangles and bridges its holes where the winding number is a half;
-/// sheets that enclose nothing are not in it. `mesh` is welded and oriented, `grid` was filled from it. Empty
-/// where the mesh encloses nothing.
+/// It follows the mesh where the mesh has triangles and bridges its holes where the winding number is a half.
+/// Sheets and parts thinner than a cell are in it as if they were a cell thick. `mesh` is welded and
+/// oriented, `grid` was filled from it. Empty where the mesh is.
 TriangleMesh wrap(const TriangleMesh& mesh, const VoxelGrid& grid);
 
 } // namespace sinew::mesh
