@@ -71,6 +71,10 @@ void checkPlacement(const VoxelGrid& grid, const std::vector<Vector3>& positions
 
 } // namespace
 
+float cellEdge(const TriangleMesh& mesh, const VoxelRequest& request) {
+    return chooseSpacing(boundsOf(mesh), request);
+}
+
 std::vector<Vector3> toCellUnits(const TriangleMesh& mesh, const VoxelGrid& grid) {
     std::vector<Vector3> positions;
     positions.reserve(mesh.positions.size());

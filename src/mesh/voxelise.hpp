@@ -35,6 +35,9 @@ struct VoxelRequest {
 /// says how far to trust it.
 VoxelGrid voxelise(const TriangleMesh& mesh, const VoxelRequest& request);
 
+/// Edge of the cells of the grid that a request makes for a mesh [m].
+float cellEdge(const TriangleMesh& mesh, const VoxelRequest& request);
+
 /// How many particles a body of this grid has: the corners of its hull and core cells.
 std::size_t particleCount(const VoxelGrid& grid);
 

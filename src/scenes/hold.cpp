@@ -27,8 +27,8 @@ struct ShapeKey {
 };
 constexpr ShapeKey shapeKeys[] = {{"normal", "half_space", true}, {"offset", "half_space", false},
                                   {"file", "mesh", true},         {"within", "mesh", true},
-                                  {"unit", "mesh", false},        {"scale", "mesh", false},
-                                  {"translation", "mesh", false}};
+                                  {"object", "mesh", false},      {"unit", "mesh", false},
+                                  {"scale", "mesh", false},       {"translation", "mesh", false}};
 
 void checkShapeKeys(const Section& hold, const std::string& shape) {
     for (const ShapeKey& key : shapeKeys) {
@@ -84,24 +84,36 @@ bool isNamed(const sim::Body& body, const std::string& name) {
             std::all_of(rest.begin() + 1, rest.end(), [](char c) { return c >= '0' && c <= '9'; }));
 }
 
+/// For each body whether a name means it: it is called so, or, where none is, it is a component of a mesh
+/// that is.
+std::vector<bool> meantBy(const std::string& name, const std::vector<sim::Body>& bodies) {
+    std::vector<bool> isMeant;
+    for (const sim::Body& body : bodies) isMeant.push_back(isNamed(body, name));
+    if (std::ranges::find(isMeant, true) != isMeant.end()) return isMeant;
+    for (std::size_t b = 0; b < bodies.size(); ++b) isMeant[b] = bodies[b].name.starts_with(name + ".");
+    return isMeant;
+}
+
 /// Indices of the bodies that a hold names.
 std::vector<std::size_t> bodiesOf(const Section& hold, const std::vector<sim::Body>& bodies) {
     std::vector<std::size_t> all;
     const std::vector<std::string> names = hold.names("bodies");
     if (hold.has("bodies") && names.empty())
         hold.fail("bodies", "names no body", "name some, or leave the key out: then all are meant");
-    for (std::size_t b = 0; b < bodies.size(); ++b)
-        if (names.empty() ||
-            std::ranges::any_of(names, [&](const std::string& name) { return isNamed(bodies[b], name); }))
-            all.push_back(b);
+    std::vector<bool> isTaken(bodies.size(), names.empty());
     for (const std::string& name : names) {
-        if (std::ranges::any_of(bodies, [&](const sim::Body& body) { return isNamed(body, name); })) continue;
+        const std::vector<bool> isMeant = meantBy(name, bodies);
+        for (std::size_t b = 0; b < bodies.size(); ++b)
+            if (isMeant[b]) isTaken[b] = true;
+        if (std::ranges::find(isMeant, true) != isMeant.end()) continue;
         const auto nearest = std::ranges::min_element(bodies, {}, [&](const sim::Body& body) {
             return editDistance(name.substr(0, 64), body.name.substr(0, 64));
         });
         hold.fail("bodies", "names \"" + name.substr(0, 64) + "\", which no body is called",
                   "did you mean \"" + nearest->name + "\"?");
     }
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        if (isTaken[b]) all.push_back(b);
     return all;
 }
 

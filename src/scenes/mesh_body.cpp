@@ -4,6 +4,7 @@
 
 #include "mesh/generate.hpp"
 #include "mesh/import.hpp"
+#include "scenes/mesh_choice.hpp"
 #include "scenes/mesh_notes.hpp"
 #include "scenes/path.hpp"
 #include "scenes/place_mesh.hpp"
@@ -17,6 +18,8 @@ namespace sinew::scenes {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t mostApart = 256; ///< bodies of one mesh
 
 struct Found {
     mesh::TriangleMesh mesh;
@@ -71,28 +74,40 @@ Found generate(const Section& section) {
     return found;
 }
 
-} // namespace
+/// The mesh of a section: all of its file or shape, or the objects that it names.
+Found find(const Section& section, const Source& source) {
+    Found found = section.has("file") ? import(section, source) : generate(section);
+    if (found.mesh.triangles.empty()) section.fail("file", "has no triangles", "check the mesh");
+    if (chooseObjects(found.mesh, section, found.file)) found.defects = mesh::inspect(found.mesh).defects;
+    return found;
+}
 
-void addMesh(LoadedScene& loaded, const Section& section, const Source& source, std::optional<float> voxel,
-             FaceChoices& faces) {
-    section.requireOneOf("file", "generate");
+std::string nameOf(const Section& section, const Found& found) {
+    return section.has("name") ? section.text("name") : fs::path(found.file).stem().string();
+}
+
+bool isApart(const Section& section) {
+    const std::string parts = section.text("parts");
+    if (parts != "joined" && parts != "apart")
+        section.fail("parts", "is \"" + parts.substr(0, 64) + "\"", "possible are joined, apart");
+    return parts == "apart";
+}
+
+void checkVoxelKeys(const Section& section) {
     if (section.has("voxel") && section.has("resolution"))
         section.fail("resolution", "is given beside voxel", "give one of them");
-    if (section.has("particles") && (section.has("voxel") || section.has("resolution")))
+    if (!section.has("particles")) return;
+    if (section.has("voxel") || section.has("resolution"))
         section.fail("particles",
                      section.has("voxel") ? "is given beside voxel" : "is given beside resolution",
                      "give one of them");
-    Found found = section.has("file") ? import(section, source) : generate(section);
-    if (found.mesh.triangles.empty()) section.fail("file", "has no triangles", "check the mesh");
-    place(found.mesh, section, loaded.origin);
+    if (isApart(section))
+        section.fail("particles", "is given, but bodies apart have one size of voxels",
+                     "give voxel or resolution");
+}
 
-    MeshSummary summary{.body =
-                            section.has("name") ? section.text("name") : fs::path(found.file).stem().string(),
-                        .file = found.file};
-    summary.surface = mesh::inspect(found.mesh);
-    summary.surface.defects = found.defects;
-    mesh::MeshBody body{.name = summary.body,
-                        .youngModulus = section.number("young_modulus"),
+mesh::MeshBody bodyOf(const Section& section, std::optional<float> voxel) {
+    mesh::MeshBody body{.youngModulus = section.number("young_modulus"),
                         .poissonRatio = section.number("poisson_ratio"),
                         .recovery = section.number("recovery"),
                         .density = section.number("density"),
@@ -103,13 +118,22 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
                         .color = section.vector("color")};
     body.voxels.resolution = section.count("resolution");
     if (section.has("voxel")) body.voxels.spacing = section.number("voxel");
+    if (section.has("particles") && !voxel) body.mostParticles = section.count("particles");
     if (voxel) body.voxels.spacing = *voxel;
+    return body;
+}
+
+/// Fills a mesh with voxels. `summary` says how it is called.
+const MeshSummary& addBody(LoadedScene& loaded, const Section& section, const mesh::TriangleMesh& mesh,
+                           mesh::MeshBody body, MeshSummary summary) {
+    body.name = summary.body;
     body.voxels.maxCells = mostParticles - loaded.scene.particles.size();
-    if (section.has("particles") && !voxel)
-        body.mostParticles = std::min<std::size_t>(section.count("particles"), body.voxels.maxCells);
-    const std::size_t first = loaded.scene.particles.size(), firstGrid = loaded.scene.grids.size();
+    body.mostParticles = std::min(body.mostParticles, body.voxels.maxCells);
+    const mesh::MeshDefects defects = summary.surface.defects;
+    summary.surface = mesh::inspect(mesh);
+    summary.surface.defects = defects;
     try {
-        mesh::AddedMesh added = mesh::addMesh(loaded.scene, found.mesh, body);
+        mesh::AddedMesh added = mesh::addMesh(loaded.scene, mesh, body);
         summary.voxels = std::move(added.voxels);
         summary.shown = added.shown;
     } catch (const std::length_error& error) {
@@ -121,18 +145,63 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
                                                  : "recovery",
                      std::string("cannot be had: ") + error.what(), "move the body nearer to the origin");
     }
-    addSurface(loaded, section, first);
-    faces.add(loaded, section, firstGrid);
     const double mass = double{body.density} * double{loaded.scene.bodies.back().restVolume};
-    noteSize(loaded, "mesh " + found.file, section, summary.surface,
+    noteSize(loaded, "mesh " + summary.file, section, summary.surface,
              ", " + massText(mass) + ", " + voxelText(summary.voxels));
     warnOfDefects(summary, loaded.warnings);
-    loaded.meshes.push_back(std::move(summary));
+    return loaded.meshes.emplace_back(std::move(summary));
+}
+
+/// A body for each component, all with the voxels that the whole mesh would have.
+void addApart(LoadedScene& loaded, const Section& section, const Found& found,
+              const std::vector<mesh::Component>& components, mesh::MeshBody body) {
+    if (components.size() > mostApart)
+        section.fail("parts",
+                     "makes " + std::to_string(components.size()) + " bodies of the components of " +
+                         found.file + ", more than " + std::to_string(mostApart),
+                     "choose some of them by object");
+    body.voxels.spacing = mesh::cellEdge(found.mesh, body.voxels);
+    for (const mesh::Component& component : components) {
+        const mesh::TriangleMesh part = mesh::extract(found.mesh, component);
+        MeshSummary summary{.body = nameOf(section, found) + "." + component.name,
+                            .file = found.file + ", \"" + component.name + "\""};
+        summary.surface.defects = mesh::inspect(part).defects;
+        addBody(loaded, section, part, body, std::move(summary));
+    }
+}
+
+void addJoined(LoadedScene& loaded, const Section& section, const Found& found,
+               const std::vector<mesh::Component>& components, const mesh::MeshBody& body) {
+    MeshSummary summary{.body = nameOf(section, found), .file = found.file};
+    summary.surface.defects = found.defects;
+    const MeshSummary& added = addBody(loaded, section, found.mesh, body, std::move(summary));
+    noteComponents(loaded, "mesh " + found.file, components);
+    if (!section.has("parts"))
+        warnOfBridges(loaded, "mesh " + found.file, mesh::findBridges(found.mesh, components, added.voxels),
+                      added.voxels);
+}
+
+} // namespace
+
+void addMesh(LoadedScene& loaded, const Section& section, const Source& source, std::optional<float> voxel,
+             FaceChoices& faces) {
+    section.requireOneOf("file", "generate");
+    checkVoxelKeys(section);
+    Found found = find(section, source);
+    place(found.mesh, section, loaded.origin);
+    const std::vector<mesh::Component> components = mesh::components(found.mesh);
+    const mesh::MeshBody body = bodyOf(section, voxel);
+    const std::size_t first = loaded.scene.particles.size(), firstGrid = loaded.scene.grids.size();
+    if (isApart(section) && components.size() > 1)
+        addApart(loaded, section, found, components, body);
+    else
+        addJoined(loaded, section, found, components, body);
+    addSurface(loaded, section, first);
+    faces.add(loaded, section, firstGrid);
 }
 
 PlacedMesh placedMesh(const Section& section, const Source& source, const std::array<double, 3>& origin) {
-    Found found = section.has("file") ? import(section, source) : generate(section);
-    if (found.mesh.triangles.empty()) section.fail("file", "has no triangles", "check the mesh");
+    Found found = find(section, source);
     const sim::Vec3 middle = place(found.mesh, section, origin);
     return {std::move(found.mesh), middle, found.file};
 }

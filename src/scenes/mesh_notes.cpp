@@ -19,11 +19,12 @@ std::string text(const char* format, double value) {
 } // namespace
 
 std::string lengthWithUnit(double metres) {
-    return metres < 0.1 ? text("%.3g mm", 1000 * metres) : text("%.3g m", metres);
+    if (metres < 0.1) return text("%.3g mm", 1000 * metres);
+    return text(metres < 1000 ? "%.3g m" : "%.0f m", metres);
 }
 
 std::string massText(double kilograms) {
-    return text("%.3g kg", kilograms);
+    return text(kilograms < 1000 ? "%.3g kg" : "%.0f kg", kilograms);
 }
 
 std::string voxelText(const mesh::VoxelGrid& grid) {
@@ -41,6 +42,27 @@ void noteSize(LoadedScene& loaded, const std::string& name, const Section& secti
     if (section.has("size") || !section.has("file")) return; // in metres, as the scene says
     const std::string odd = oddSize(std::max({x, y, z}), *findUnit(section.text("unit")));
     if (!odd.empty()) loaded.warnings.push_back(name + " " + odd);
+}
+
+void noteComponents(LoadedScene& loaded, const std::string& name,
+                    const std::vector<mesh::Component>& components) {
+    constexpr std::size_t mostLines = 10;
+    if (components.size() < 2) return;
+    loaded.notes.push_back(name + " has " + std::to_string(components.size()) + " components");
+    for (std::size_t i = 0; i < components.size() && i < mostLines; ++i)
+        loaded.notes.push_back(name + ", " + describe(components[i]));
+    if (components.size() > mostLines)
+        loaded.notes.push_back(name + ", and " + std::to_string(components.size() - mostLines) +
+                               " smaller components");
+}
+
+void warnOfBridges(LoadedScene& loaded, const std::string& name, const mesh::Bridges& bridges,
+                   const mesh::VoxelGrid& grid) {
+    if (bridges.components == 0) return;
+    loaded.warnings.push_back(
+        name + ": " + std::to_string(bridges.components) + " components, " + lengthWithUnit(bridges.gap) +
+        " apart at the nearest, are joined by voxels of " + lengthWithUnit(double{grid.spacing}) +
+        ": parts = \"apart\" keeps them apart, parts = \"joined\" says that it is meant");
 }
 
 void warnOfDefects(const MeshSummary& summary, std::vector<std::string>& warnings) {

@@ -4,6 +4,8 @@
 #include "scenes/load.hpp"
 #include "scenes/section.hpp"
 
+#include "mesh/bridges.hpp"
+
 namespace sinew::scenes {
 
 /// A length with the unit that suits it: "8.9 mm", "1.2 m".
@@ -17,6 +19,14 @@ std::string voxelText(const mesh::VoxelGrid& grid);
 /// have another unit than its section says.
 void noteSize(LoadedScene& loaded, const std::string& name, const Section& section,
               const mesh::MeshReport& surface, const std::string& more);
+
+/// Notes what components a mesh of several has, the ten largest of them by themselves.
+void noteComponents(LoadedScene& loaded, const std::string& name,
+                    const std::vector<mesh::Component>& components);
+
+/// Warns where components that lie apart are one body.
+void warnOfBridges(LoadedScene& loaded, const std::string& name, const mesh::Bridges& bridges,
+                   const mesh::VoxelGrid& grid);
 
 /// Warns of what makes the inside of a mesh uncertain.
 void warnOfDefects(const MeshSummary& summary, std::vector<std::string>& warnings);

@@ -19,13 +19,14 @@ enum class Kind : std::uint8_t {
     vector,      ///< [x, y, z]
     counts2,
     counts3,
-    pins,    ///< a list of corner and edge names and [column, row] pairs
-    names,   ///< a list of texts
-    flag,    ///< true or false
-    numbers, ///< a list of numbers
-    lines,   ///< a list of lists of [x, y, z]
-    table,   ///< [key]
-    tables,  ///< [[key]], any number of them
+    pins,        ///< a list of corner and edge names and [column, row] pairs
+    names,       ///< a list of texts
+    nameOrNames, ///< a text or a list of texts
+    flag,        ///< true or false
+    numbers,     ///< a list of numbers
+    lines,       ///< a list of lists of [x, y, z]
+    table,       ///< [key]
+    tables,      ///< [[key]], any number of them
 };
 
 struct KindRule {

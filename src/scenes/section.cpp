@@ -58,6 +58,10 @@ bool isNameList(const toml::node& node) {
     return list && (list->empty() || list->is_homogeneous(toml::node_type::string));
 }
 
+bool isNameOrNames(const toml::node& node) {
+    return node.is_string() || isNameList(node);
+}
+
 bool isNumberList(const toml::node& node) {
     const toml::array* list = node.as_array();
     return list && std::ranges::all_of(*list, [](const toml::node& element) { return element.is_number(); });
@@ -117,15 +121,16 @@ void Section::check(const toml::key& name, const toml::node& node) const {
     if (!key)
         scenes::fail(lineOf(file_, name.source()), "unknown key " + fullName(name.str().substr(0, 64)),
                      "did you mean " + std::string(nearestKey(section_, name.str()).name) + "?");
-    const bool isRight = key->kind == Kind::text      ? node.is_string()
-                         : key->kind == Kind::pins    ? isPinList(node)
-                         : key->kind == Kind::names   ? isNameList(node)
-                         : key->kind == Kind::flag    ? node.is_boolean()
-                         : key->kind == Kind::numbers ? isNumberList(node)
-                         : key->kind == Kind::lines   ? isLineList(node)
-                         : key->kind == Kind::table   ? node.is_table()
-                         : key->kind == Kind::tables  ? isTables(node)
-                                                      : true;
+    const bool isRight = key->kind == Kind::text          ? node.is_string()
+                         : key->kind == Kind::pins        ? isPinList(node)
+                         : key->kind == Kind::names       ? isNameList(node)
+                         : key->kind == Kind::nameOrNames ? isNameOrNames(node)
+                         : key->kind == Kind::flag        ? node.is_boolean()
+                         : key->kind == Kind::numbers     ? isNumberList(node)
+                         : key->kind == Kind::lines       ? isLineList(node)
+                         : key->kind == Kind::table       ? node.is_table()
+                         : key->kind == Kind::tables      ? isTables(node)
+                                                          : true;
     if (!isRight) fail(key->name, "is " + describeValue(node), "write " + expectedText(*key));
     if (key->kind == Kind::countOrAuto && isAuto(node)) return;
     if (ruleOf(key->kind).components > 0) checkNumbers(*key, node);
@@ -232,6 +237,7 @@ std::vector<Section::Pin> Section::pins(std::string_view name) const {
 
 std::vector<std::string> Section::names(std::string_view name) const {
     std::vector<std::string> result;
+    if (node(name).is_string()) result.push_back(text(name));
     const toml::array* list = node(name).as_array();
     for (std::size_t i = 0; list && i < list->size(); ++i)
         result.push_back(list->get(i)->value_or(std::string()));

@@ -45,7 +45,7 @@ public:
     };
     std::vector<Pin> pins(std::string_view name) const;
 
-    /// A list of texts.
+    /// A list of texts, or a text alone.
     std::vector<std::string> names(std::string_view name) const;
 
     std::vector<double> numbers(std::string_view name) const;

@@ -268,3 +268,174 @@ TEST_F(Load, NotesHowLargeAMeshIsAndWarnsOfAnotherUnit) {
     EXPECT_EQ(count(wall.notes, "mesh collider m.obj: 190 x 190 x 190 m, 4 triangles"), 1);
     EXPECT_EQ(count(wall.warnings, "mesh collider m.obj is 190 m long: if the file is in millimetres"), 1);
 }
+
+namespace {
+
+/// A box of a size with a corner at `low`, as lines of an OBJ whose first vertex has an index.
+std::string objCube(const std::string& head, int first, sim::Vec3 low, float size) {
+    std::string text = head;
+    for (int corner = 0; corner < 8; ++corner)
+        text += "v " + std::to_string(low.x + size * static_cast<float>(corner & 1)) + " " +
+                std::to_string(low.y + size * static_cast<float>(corner >> 1 & 1)) + " " +
+                std::to_string(low.z + size * static_cast<float>(corner >> 2)) + "\n";
+    constexpr int faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                 {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    for (const auto& face : faces) {
+        text += "f";
+        for (const int corner : face) text += " " + std::to_string(first + corner);
+        text += "\n";
+    }
+    return text;
+}
+
+const std::string organs = objCube("o liver\n", 1, {0, 0, 0}, 1) +
+                           objCube("o gall bladder\n", 9, {1.1f, 0, 0}, 0.5f) +
+                           objCube("o vessels\n", 17, {0, 2, 0}, 0.25f) + objCube("", 25, {1, 2, 0}, 0.3f);
+
+} // namespace
+
+TEST_F(Load, NotesTheComponentsOfAMesh) {
+    write("organs.obj", organs);
+    const scenes::LoadedScene loaded = load("[[mesh]]\nfile = \"organs.obj\"\nvoxel = 0.025\n");
+    EXPECT_EQ(loaded.warnings, std::vector<std::string>{}) << "they are four voxels apart";
+    ASSERT_EQ(loaded.notes.size(), 6u);
+    EXPECT_EQ(loaded.notes[1], "mesh organs.obj has 4 components");
+    EXPECT_EQ(loaded.notes[2], "mesh organs.obj, \"liver\": 12 triangles, 1 m^3");
+    EXPECT_EQ(loaded.notes[3], "mesh organs.obj, \"gall bladder\": 12 triangles, 0.125 m^3");
+    EXPECT_EQ(loaded.notes[4], "mesh organs.obj, \"part 3\": 12 triangles, 0.027 m^3");
+    std::string many;
+    for (int i = 0; i < 14; ++i) many += objCube("", 8 * i + 1, {2.0f * static_cast<float>(i), 0, 0}, 1);
+    write("many.obj", many);
+    const std::vector<std::string> notes =
+        load("[[mesh]]\nfile = \"many.obj\"\nsize = 1\nresolution = 60\n").notes;
+    ASSERT_EQ(notes.size(), 13u);
+    EXPECT_EQ(notes[12], "mesh many.obj, and 4 smaller components");
+}
+
+TEST_F(Load, ChoosesObjectsOfAMesh) {
+    write("organs.obj", organs);
+    const std::string scene = "[[mesh]]\nfile = \"organs.obj\"\nvoxel = 0.1\nobject = ";
+    const auto volume = [&](const std::string& object) {
+        return load(scene + object + "\n").meshes.at(0).surface.volume;
+    };
+    EXPECT_NEAR(volume("\"liver\""), 1, 1e-6);
+    EXPECT_NEAR(volume("\"gall bladder\""), 0.125, 1e-6);
+    EXPECT_NEAR(volume("[\"liver\", \"part 3\"]"), 1.027, 1e-6);
+    EXPECT_NEAR(volume("\"vessels\""), 0.015625 + 0.027, 1e-6);
+    const scenes::LoadedScene sized =
+        load("[[mesh]]\nfile = \"organs.obj\"\nobject = \"gall bladder\"\nsize = 2\ncenter = [0, 0, 0]\n"
+             "resolution = 4\n[[mesh_collider]]\nfile = \"organs.obj\"\nobject = \"part 4\"\n");
+    EXPECT_NEAR(width(sized), 2, 1e-6) << "the size is that of what was chosen";
+    EXPECT_EQ(sized.scene.bodies.at(1).particleCount, 8u);
+
+    const std::string list =
+        "\"liver\", \"gall bladder\", \"vessels\", \"part 1\", \"part 2\", \"part 3\", \"part 4\"";
+    expectError(scene + "\"lievr\"\n",
+                "scene.toml:4: mesh[0].object names \"lievr\", which no object of organs.obj "
+                "is called: did you mean \"liver\"? There are " +
+                    list);
+    expectError(scene + "[\"liver\", \"part 5\"]\n",
+                "scene.toml:4: mesh[0].object names \"part 5\", which no");
+    expectError(scene + "[]\n", "scene.toml:4: mesh[0].object names none: name some, or leave the key out");
+    expectError(
+        scene + "3\n",
+        "scene.toml:4: mesh[0].object is the whole number 3: write a name or a list of names in quotes");
+    expectError(scene + "[\"liver\", 3]\n", "scene.toml:4: mesh[0].object is a list of 2: write a name or");
+    expectError("[[mesh]]\ngenerate = \"sphere\"\nobject = \"part 1\"\n",
+                "scene.toml:3: mesh[0].object is given, but a generated shape has none: remove it");
+    expectError(smallCloth + "[[mesh_collider]]\nfile = \"organs.obj\"\nobject = \"x\"\n",
+                "scene.toml:6: mesh_collider[0].object names \"x\"");
+}
+
+// Voxels of 0.2 m bridge a gap of 0.1 m, those of 0.025 m do not.
+TEST_F(Load, SaysWhereVoxelsJoinWhatIsApart) {
+    write("gap.obj", objCube("", 1, {0, 0, 0}, 1) + objCube("", 9, {1.1f, 0, 0}, 1));
+    const std::string scene = "[[mesh]]\nfile = \"gap.obj\"\nvoxel = ";
+    EXPECT_EQ(load(scene + "0.2\n").warnings,
+              std::vector<std::string>{
+                  "mesh gap.obj: 2 components, 0.1 m apart at the nearest, are joined by voxels of "
+                  "0.2 m: parts = \"apart\" keeps them apart, parts = \"joined\" says that it "
+                  "is meant"});
+    EXPECT_EQ(load(scene + "0.025\n").warnings, std::vector<std::string>{});
+    EXPECT_EQ(load(scene + "0.2\nparts = \"joined\"\n").warnings, std::vector<std::string>{});
+    EXPECT_EQ(load(scene + "0.2\nparts = \"joined\"\n").scene.bodies.size(), 1u);
+
+    const auto joined = [&](const std::string& text) {
+        write("gap.obj", text);
+        return count(load(scene + "0.2\n").warnings, "are joined by voxels");
+    };
+    EXPECT_EQ(joined(objCube("", 1, {0, 0, 0}, 1) + objCube("", 9, {0.5f, 0.1f, 0.1f}, 1)), 0)
+        << "they overlap";
+    EXPECT_EQ(joined(objCube("", 1, {0, 0, 0}, 1) + objCube("", 9, {0.25f, 0.25f, 0.25f}, 0.5f)), 0)
+        << "one is inside of the other";
+    EXPECT_EQ(joined(objCube("", 1, {0, 0, 0}, 1) + objCube("", 9, {1.1f, 1.1f, 1.1f}, 1)), 1)
+        << "voxels that share a corner are joined";
+    EXPECT_EQ(joined(objCube("", 1, {0, 0, 0}, 1) + objCube("", 9, {1.7f, 0, 0}, 1)), 0);
+}
+
+TEST_F(Load, KeepsComponentsApart) {
+    write("organs.obj", organs);
+    const std::string scene = "[[mesh]]\nfile = \"organs.obj\"\nparts = \"apart\"\nresolution = 15\n";
+    const scenes::LoadedScene loaded = load(scene + "velocity = [1, 0, 0]\n");
+    EXPECT_EQ(loaded.warnings, std::vector<std::string>{});
+    ASSERT_EQ(loaded.scene.bodies.size(), 4u);
+    ASSERT_EQ(loaded.meshes.size(), 4u);
+    const char* names[] = {"organs.liver", "organs.gall bladder", "organs.part 3", "organs.part 4"};
+    const double volumes[] = {1, 0.125, 0.027, 0.015625};
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(loaded.scene.bodies[i].name, names[i]);
+        EXPECT_NEAR(double{loaded.scene.bodies[i].restVolume}, volumes[i], 1e-5);
+        EXPECT_NEAR(double{loaded.meshes[i].voxels.spacing}, double{loaded.meshes[0].voxels.spacing}, 1e-7);
+        EXPECT_EQ(loaded.scene.particles[loaded.scene.bodies[i].firstParticle].velocity.x, 1);
+    }
+    for (const sim::DistanceConstraint& link : loaded.scene.distances) {
+        const auto bodyOf = [&](std::uint32_t particle) {
+            return std::ranges::find_if(loaded.scene.bodies,
+                                        [&](const sim::Body& body) {
+                                            return particle < body.firstParticle + body.particleCount;
+                                        }) -
+                   loaded.scene.bodies.begin();
+        };
+        ASSERT_EQ(bodyOf(link.a), bodyOf(link.b));
+    }
+    EXPECT_NEAR(double{loaded.meshes[0].voxels.spacing},
+                double{load("[[mesh]]\nfile = \"organs.obj\"\nresolution = 15\n").meshes[0].voxels.spacing},
+                1e-7)
+        << "as fine as the whole mesh would be";
+
+    const std::string hold = "[[hold]]\nshape = \"sphere\"\nradius = 9\nbodies = [\"organs";
+    EXPECT_EQ(load(scene + hold + "\"]\n").scene.fixed.size(), loaded.scene.particles.size());
+    EXPECT_EQ(load(scene + hold + ".liver\"]\n").scene.fixed.size(), loaded.scene.bodies[0].particleCount);
+    EXPECT_EQ(load(scene + "object = \"liver\"\n").scene.bodies.at(0).name, "organs")
+        << "one alone is not apart";
+}
+
+TEST_F(Load, KeepsACavityWithWhatIsAroundIt) {
+    write("hollow.obj", objCube("", 1, {0, 0, 0}, 1) + objCube("", 9, {0.25f, 0.25f, 0.25f}, 0.5f));
+    mesh::MeshDefects defects;
+    mesh::TriangleMesh hollow = mesh::importMesh(folder_ / "hollow.obj", defects);
+    for (std::size_t i = 12; i < 24; ++i) std::swap(hollow.triangles[i][1], hollow.triangles[i][2]);
+    mesh::exportObj(folder_ / "hollow.obj", hollow);
+    const scenes::LoadedScene loaded =
+        load("[[mesh]]\nfile = \"hollow.obj\"\nparts = \"apart\"\nvoxel = 0.1\n");
+    ASSERT_EQ(loaded.scene.bodies.size(), 1u);
+    EXPECT_NEAR(double{loaded.scene.bodies[0].restVolume}, 1 - 0.125, 1e-4);
+}
+
+TEST_F(Load, RefusesPartsThatCannotBe) {
+    write("organs.obj", organs);
+    const std::string scene = "[[mesh]]\nfile = \"organs.obj\"\n";
+    expectError(scene + "parts = \"alone\"\n",
+                "scene.toml:3: mesh[0].parts is \"alone\": possible are joined, apart");
+    expectError(
+        scene + "parts = \"apart\"\nparticles = 900\n",
+        "scene.toml:4: mesh[0].particles is given, but bodies apart have one size of voxels: give voxel or "
+        "resolution");
+    std::string many;
+    for (int i = 0; i < 257; ++i) many += objCube("", 8 * i + 1, {2.0f * static_cast<float>(i), 0, 0}, 1);
+    write("organs.obj", many);
+    expectError(
+        scene + "parts = \"apart\"\nsize = 1\n",
+        "scene.toml:3: mesh[0].parts makes 257 bodies of the components of organs.obj, more than 256: choose "
+        "some of them by object");
+}

@@ -1,9 +1,11 @@
 // `sinew mesh`: imports a mesh, fills it with voxels and says what is odd about it. Uses a GPU where there is
 // one and needs no device: the voxels are the same, and the host is faster than a software device.
 #include "app/guard.hpp"
+#include "mesh/components.hpp"
 #include "mesh/gpu/voxelise.hpp"
 #include "mesh/import.hpp"
 #include "mesh/voxelise.hpp"
+#include "scenes/mesh_choice.hpp"
 #include "scenes/place_mesh.hpp"
 #include "sinew/commands.hpp"
 #include "sinew/json.hpp"
@@ -23,11 +25,14 @@ namespace sinew::tools {
 
 namespace {
 
+constexpr std::size_t mostListed = 10; // components
+
 struct MeshOptions {
     std::string file;
     std::string unit = "m";
     float scale = 1;
-    float voxel = 0; // [m]; 0 = by resolution
+    std::vector<std::string> objects; // none = all
+    float voxel = 0;                  // [m]; 0 = by resolution
     std::uint32_t resolution = 24;
     std::optional<std::uint32_t> particles; // at most; instead of the two above
     DeviceOptions device;
@@ -38,6 +43,7 @@ struct Findings {
     std::string file;
     mesh::TriangleMesh mesh;
     mesh::MeshReport surface;
+    std::vector<mesh::Component> components;
     mesh::VoxelGrid voxels;
     std::string filledBy; // name of a device, or "host"
     std::vector<std::string> validationMessages;
@@ -86,16 +92,33 @@ void fill(const MeshOptions& options, Findings& found) {
     found.voxels = fill(options, found.mesh, mesh::voxelise);
 }
 
+void chooseObjects(const MeshOptions& options, mesh::TriangleMesh& mesh, mesh::MeshDefects& defects) {
+    if (options.objects.empty()) return;
+    std::string unknown;
+    std::optional<mesh::TriangleMesh> chosen = mesh::choose(mesh, options.objects, unknown);
+    if (!chosen) {
+        const auto [why, whatToDo] = scenes::unknownObject(mesh, options.file, unknown);
+        throw app::Failure(app::badInput, "cannot choose from mesh: --object " + why + ": " + whatToDo);
+    }
+    if (chosen->triangles.empty())
+        throw app::Failure(app::badInput, "cannot choose from mesh: --object has no triangles in " +
+                                              options.file + ": name another");
+    mesh = std::move(*chosen);
+    defects = mesh::inspect(mesh).defects;
+}
+
 Findings inspect(const MeshOptions& options) {
     Findings found{.file = options.file};
     mesh::MeshDefects defects;
     found.mesh = mesh::importMesh(options.file, defects);
+    chooseObjects(options, found.mesh, defects);
     const double factor = scenes::findUnit(options.unit)->metres * double{options.scale};
     for (mesh::Vec3& position : found.mesh.positions)
         for (float mesh::Vec3::*axis : {&mesh::Vec3::x, &mesh::Vec3::y, &mesh::Vec3::z})
             position.*axis = static_cast<float>(factor * double{position.*axis});
     found.surface = mesh::inspect(found.mesh);
     found.surface.defects = defects;
+    found.components = mesh::components(found.mesh);
     try {
         fill(options, found);
     } catch (const std::length_error& error) {
@@ -121,9 +144,29 @@ Json surfaceJson(const Findings& found) {
             {"volume", defects.isClosed() ? Json(found.surface.volume) : Json(nullptr)}};
 }
 
+Json componentsJson(const std::vector<mesh::Component>& components) {
+    Json largest = Json::array();
+    for (std::size_t i = 0; i < components.size() && i < mostListed; ++i)
+        largest.push_back({{"name", components[i].name},
+                           {"triangles", components[i].triangles.size()},
+                           {"volume", components[i].isClosed ? Json(components[i].volume) : Json(nullptr)},
+                           {"cavities", components[i].cavities}});
+    return {{"count", components.size()}, {"largest", largest}};
+}
+
+std::string componentsText(const std::vector<mesh::Component>& components) {
+    std::string text = fmt::format("  components {}\n", components.size());
+    for (std::size_t i = 0; i < components.size() && i < mostListed; ++i)
+        text += "    " + describe(components[i]) + "\n";
+    if (components.size() > mostListed)
+        text += fmt::format("    and {} smaller ones\n", components.size() - mostListed);
+    return text;
+}
+
 std::string toJson(const Findings& found) {
     Json json{{"schema", reportSchema}, {"file", found.file}};
     json["surface"] = surfaceJson(found);
+    json["components"] = componentsJson(found.components);
     json["voxels"] = {{"spacing", found.voxels.spacing},
                       {"cells", found.voxels.cells},
                       {"hull", found.voxels.hullCount},
@@ -152,6 +195,7 @@ std::string toText(const Findings& found) {
                             defects.nonManifoldEdges);
     text += fmt::format("  defects   {} flipped edges, {} degenerate and {} duplicate triangles dropped\n",
                         defects.flippedEdges, defects.degenerateTriangles, defects.duplicateTriangles);
+    text += componentsText(found.components);
     text +=
         fmt::format("  voxels    {} hull + {} core of {} x {} x {}, edge {:.4g} m, {} of {} cells doubtful\n",
                     grid.hullCount, grid.coreCount, grid.cells[0], grid.cells[1], grid.cells[2], grid.spacing,
@@ -191,6 +235,12 @@ void addMesh(CLI::App& app, Chosen& chosen) {
         "mesh", "import a mesh, fill it with voxels, report counts, volumes and defects; needs no device");
     const auto options = std::make_shared<MeshOptions>();
     command.add_option("FILE", options->file, "OBJ, STL, PLY, glTF or GLB; its content decides")->required();
+    command
+        .add_option(
+            "--object", options->objects,
+            "an object of the file, or a component (\"part 1\" is the largest), by name; may be given "
+            "several times, all without it")
+        ->allow_extra_args(false);
     command.add_option("--unit", options->unit, "of the coordinates in the file: " + scenes::unitNames())
         ->check([](const std::string& name) {
             return scenes::findUnit(name) ? "" : name + " is no unit: possible are " + scenes::unitNames();
