@@ -212,15 +212,17 @@ void warnAboutRounding(LoadedScene& loaded) {
         " substeps: slower motion is not exact, place bodies nearer to each other or take fewer substeps");
 }
 
-// A few links on light corners are no news; half of a body being too soft is. Below what averaging leaves of
-// it, the stiffness of `jacobi` is a model too rough to warn by.
+// A few links on light corners are no news; half of a body being too soft is. The stiffness of `jacobi` and
+// `gauss_seidel` is a model of one iteration: only what is far too soft by it is worth a warning.
+constexpr double roughlyKept = 0.5;
+
 void warnAboutStiffness(LoadedScene& loaded) {
     const sim::Settings& settings = loaded.settings;
-    if (settings.solver == sim::Solver::gaussSeidel) return;
     const sim::StiffnessReport stiffness = sim::inspectStiffness(loaded.scene, settings);
     if (2 * stiffness.soft <= stiffness.elastic) return;
     const bool isReachable = stiffness.neededSubsteps > 0;
-    if (isReachable && settings.solver == sim::Solver::jacobi) return;
+    const bool isModel = settings.solver != sim::Solver::split;
+    if (isReachable && isModel && (settings.iterations > 1 || stiffness.mean > roughlyKept)) return;
     const std::string percent = std::to_string(std::lround(100 * double{settings.tolerance})) + " %";
     loaded.warnings.push_back(
         std::to_string(stiffness.soft) + " of " + std::to_string(stiffness.elastic) +
@@ -228,6 +230,15 @@ void warnAboutStiffness(LoadedScene& loaded) {
         std::to_string(std::lround(100 * stiffness.softest)) + " %: " +
         (isReachable ? std::to_string(stiffness.neededSubsteps) + " substeps would keep all within " + percent
                      : "no number of substeps reaches " + percent + ", use weight or iterations"));
+}
+
+void warnAboutMostSubsteps(LoadedScene& loaded) {
+    const sim::SubstepChoice& choice = loaded.substeps;
+    if (choice.reason != sim::SubstepReason::most) return;
+    loaded.warnings.push_back(
+        "solver.substeps = \"auto\" stops at " + std::to_string(choice.substeps) + ", " +
+        std::to_string(choice.wanted) +
+        " would keep the tolerance: give that number, shorter steps (dt) or a softer material");
 }
 
 // Searches go there on purpose, and a lattice bears more than is proven: no reason to refuse.
@@ -250,6 +261,7 @@ void warnAboutSolver(LoadedScene& loaded) {
         loaded.warnings.push_back("split makes one sweep per substep: iterations are ignored");
     warnAboutRelaxation(loaded);
     warnAboutStiffness(loaded);
+    warnAboutMostSubsteps(loaded);
 }
 
 void requireValid(const LoadedScene& loaded, const std::string& file) {

@@ -394,6 +394,36 @@ TEST_F(Load, SaysHowManySubstepsAStiffBodyNeeds) {
         scenes::load(write("scene.toml", box), {.solver = "jacobi", .iterations = 200}).warnings.empty());
 }
 
+TEST_F(Load, WarnsOfSoftBodiesUnderEverySolver) {
+    const std::string box = "[[box]]\nparticles = [4, 4, 4]\nspacing = 0.02\ncenter = [0, 1, 0]\n"
+                            "young_modulus = 2e6\n";
+    const auto warnings = [&](const std::string& solver, std::uint32_t substeps, std::uint32_t iterations) {
+        return scenes::load(write("scene.toml", box),
+                            {.solver = solver, .substeps = substeps, .iterations = iterations})
+            .warnings;
+    };
+    ASSERT_EQ(warnings("gauss_seidel", 8, 1).size(), 1u);
+    EXPECT_NE(warnings("gauss_seidel", 8, 1)[0].find(" elastic links are softer than asked, down to "),
+              std::string::npos);
+    ASSERT_EQ(warnings("jacobi", 8, 1).size(), 1u);
+    EXPECT_NE(warnings("jacobi", 8, 1)[0].find(" elastic links are softer than asked, down to "),
+              std::string::npos);
+    EXPECT_TRUE(warnings("gauss_seidel", 100, 1).empty());
+    EXPECT_TRUE(warnings("jacobi", 8, 200).empty()) << "iterations make links as stiff as asked";
+}
+
+TEST_F(Load, SaysWhereTheChoiceOfSubstepsStops) {
+    const std::string box = "[[box]]\nparticles = [4, 4, 4]\nspacing = 0.02\ncenter = [0, 1, 0]\n"
+                            "young_modulus = 2e8\n";
+    const scenes::LoadedScene loaded = load(box);
+    EXPECT_EQ(loaded.settings.substeps, 256u);
+    const std::string sentence = "solver.substeps = \"auto\" stops at 256, 975 would keep the tolerance: ";
+    EXPECT_TRUE(std::ranges::any_of(loaded.warnings, [&](const std::string& warning) {
+        return warning.starts_with(sentence);
+    })) << (loaded.warnings.empty() ? "" : loaded.warnings.back());
+    EXPECT_TRUE(load("[solver]\nsubsteps = 975\n" + box).warnings.empty());
+}
+
 TEST_F(Load, WarnsOfRelaxationOutsideItsProvenRange) {
     const auto warnings = [&](const std::string& keys) {
         return load("[solver]\nname = \"jacobi\"\n" + keys + "[[chain]]\nlength = 1\nparticles = 4\n")

@@ -200,6 +200,27 @@ TEST_F(Run, WarnsOfParticlesThatWereSlowedDownForSafety) {
     EXPECT_EQ(slow["warnings"], json::array());
 }
 
+TEST_F(Run, WarnsOfRigidLinksThatAreTooLong) {
+    for (const std::string solver : {"split", "gauss_seidel", "jacobi"}) {
+        const auto chain = [&](const std::string& substeps) {
+            return "[solver]\nname = \"" + solver + "\"\nsubsteps = " + substeps +
+                   "\n[[chain]]\nlength = 1\nparticles = 30\n";
+        };
+        write("soft.toml", chain("1"));
+        write("stiff.toml", chain("100"));
+        const json soft = report({"soft.toml", "--frames", "60"}),
+                   stiff = report({"stiff.toml", "--frames", "60"});
+        ASSERT_EQ(soft["warnings"].size(), 1u) << solver;
+        const std::string warning = soft["warnings"][0];
+        EXPECT_TRUE(warning.starts_with("rigid links are up to ")) << warning;
+        EXPECT_NE(warning.find(" % too long at the end, where solver.tolerance is 5 %: take "),
+                  std::string::npos)
+            << warning;
+        EXPECT_LT(stiff["error"]["strain_max"], 0.1) << solver;
+        EXPECT_EQ(stiff["warnings"], json::array()) << solver;
+    }
+}
+
 TEST_F(Run, StopsWithASentenceWhereNoRoomIsEnough) {
     // A ball of a metre about which 343 small ones lie.
     write("scene.toml",

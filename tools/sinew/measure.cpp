@@ -31,18 +31,26 @@ Point sum(const Point& a, const Point& b, double scale) {
     return {a[0] + scale * b[0], a[1] + scale * b[1], a[2] + scale * b[2]};
 }
 
-void measureStrain(const sim::Scene& scene, const State& state, Errors& errors) {
-    double squares = 0, largest = 0;
-    std::size_t count = 0;
+/// Calls visit(constraint, (length - restLength) / restLength) for every distance constraint that still
+/// holds.
+template <typename Visit>
+void forEachStrain(const sim::Scene& scene, const State& state, const Visit& visit) {
     for (std::size_t i = 0; i < scene.distances.size(); ++i) {
         const sim::DistanceConstraint& d = scene.distances[i];
         if (d.restLength == 0 || !state.holds(i) || !state.has(d.a) || !state.has(d.b)) continue;
         const Point edge = sum(pointOf(state.positions[d.b]), pointOf(state.positions[d.a]), -1);
-        const double strain = length(edge) / double{d.restLength} - 1;
+        visit(d, length(edge) / double{d.restLength} - 1);
+    }
+}
+
+void measureStrain(const sim::Scene& scene, const State& state, Errors& errors) {
+    double squares = 0, largest = 0;
+    std::size_t count = 0;
+    forEachStrain(scene, state, [&](const sim::DistanceConstraint&, double strain) {
         squares += strain * strain;
         largest = std::max(largest, std::abs(strain));
         ++count;
-    }
+    });
     if (count == 0) return;
     errors.strainRms = std::sqrt(squares / static_cast<double>(count));
     errors.strainMax = largest;
@@ -129,6 +137,14 @@ Errors measure(const sim::Scene& scene, const State& state, std::span<const mesh
     measureVolume(scene, skins, errors);
     measureMomentum(scene, state, frames, errors);
     return errors;
+}
+
+double rigidStretch(const sim::Scene& scene, const State& state) {
+    double most = 0;
+    forEachStrain(scene, state, [&](const sim::DistanceConstraint& d, double strain) {
+        if (d.compliance == 0) most = std::max(most, strain);
+    });
+    return most;
 }
 
 double kineticEnergy(const State& state) {

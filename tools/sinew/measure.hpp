@@ -42,6 +42,10 @@ Errors measure(const sim::Scene& scene, const State& state, std::span<const mesh
 /// Of the same figures penetrationMax and penetrationRms alone.
 Errors measurePenetration(const sim::Scene& scene, const State& state, std::uint64_t frames);
 
+/// The largest (length - restLength) / restLength of rigid distance constraints that are not cut; 0 where
+/// none is too long.
+double rigidStretch(const sim::Scene& scene, const State& state);
+
 /// Of everything that moves [J], from the velocities that the device publishes.
 double kineticEnergy(const State& state);
 

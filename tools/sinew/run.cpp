@@ -3,6 +3,7 @@
 #include "app/progress.hpp"
 #include "mesh/export.hpp"
 #include "sim/gpu_tune.hpp"
+#include "sim/ranges.hpp"
 #include "sinew/commands.hpp"
 #include "sinew/outputs.hpp"
 #include "sinew/report.hpp"
@@ -11,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <set>
 
@@ -86,6 +88,21 @@ RunRecord recordOf(const RunOptions& options, const scenes::LoadedScene& loaded,
             .validationMessages = session.device.validationMessages()};
 }
 
+/// Rigid links may be longer than the tolerance says while they move; twice as much is too few substeps. How
+/// far they stretch falls with the square of those.
+std::optional<std::string> stretchWarning(const RunRecord& record) {
+    const sim::Settings& settings = record.loaded.settings;
+    const double most = rigidStretch(record.loaded.scene, record.state), wanted = double{settings.tolerance};
+    if (record.divergence || !(most > 2 * wanted)) return std::nullopt;
+    const double substeps = std::ceil(settings.substeps * std::sqrt(most / wanted));
+    return fmt::format(
+               "rigid links are up to {:.3g} % too long at the end, where solver.tolerance is {:.3g} %: ",
+               100 * most, 100 * wanted) +
+           (substeps <= sim::ranges::substeps.high
+                ? fmt::format("take about {:.0f} substeps in place of {}", substeps, settings.substeps)
+                : std::string("take shorter steps (dt), or links that are elastic"));
+}
+
 /// What only a run can show; the same on stderr and in the report.
 void warnAboutRun(const RunRecord& record, std::vector<std::string>& warnings) {
     const auto warn = [&](const std::string& sentence) {
@@ -99,6 +116,7 @@ void warnAboutRun(const RunRecord& record, std::vector<std::string>& warnings) {
     if (record.surfaceMissing > 0)
         warn("the cuts have a surface of " + std::to_string(record.surfaceMissing) +
              " triangles, for which the device has no room: skins are written uncut, take coarser voxels");
+    if (const std::optional<std::string> stretch = stretchWarning(record)) warn(*stretch);
 }
 
 /// As the viewer saves it, from the view of `start` if it has one.
