@@ -17,6 +17,36 @@ constexpr std::uint32_t leafSize = 8;
 constexpr double farFactor = 2;
 constexpr int deepestStack = 64; ///< median splits of 2^32 triangles are at most 32 deep
 
+/// How far along a ray a box begins: 0 from inside, infinite where it is not met.
+double distanceToBox(const Eigen::AlignedBox3d& box, const Vector3& origin, const Vector3& direction) {
+    double begin = 0, end = std::numeric_limits<double>::infinity();
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        if (direction[axis] == 0) {
+            if (origin[axis] < box.min()[axis] || origin[axis] > box.max()[axis])
+                return std::numeric_limits<double>::infinity();
+            continue;
+        }
+        const double low = (box.min()[axis] - origin[axis]) / direction[axis],
+                     high = (box.max()[axis] - origin[axis]) / direction[axis];
+        begin = std::max(begin, std::min(low, high));
+        end = std::min(end, std::max(low, high));
+    }
+    return begin <= end ? begin : std::numeric_limits<double>::infinity();
+}
+
+/// How far along a ray a triangle is, after Moeller and Trumbore (1997); infinite where it is not met.
+double distanceAlong(const Vector3& origin, const Vector3& direction, const Vector3& a, const Vector3& b,
+                     const Vector3& c) {
+    constexpr double none = std::numeric_limits<double>::infinity();
+    const Vector3 ab = b - a, ac = c - a, across = direction.cross(ac), offset = origin - a;
+    const double determinant = ab.dot(across);
+    if (determinant == 0) return none;
+    const Vector3 turned = offset.cross(ab);
+    const double u = offset.dot(across) / determinant, v = direction.dot(turned) / determinant,
+                 distance = ac.dot(turned) / determinant;
+    return u >= 0 && v >= 0 && u + v <= 1 && distance >= 0 ? distance : none;
+}
+
 } // namespace
 
 double windingOfTriangle(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& point) {
@@ -130,6 +160,27 @@ double TriangleTree::distance(const Vector3& point) const {
         stack[size++] = isRightNearer ? node.right : index + 1;
     }
     return std::sqrt(best);
+}
+
+TriangleTree::Hit TriangleTree::firstHit(const Vector3& origin, const Vector3& direction,
+                                         std::uint32_t ignored) const {
+    Hit hit;
+    std::array<std::uint32_t, deepestStack> stack{};
+    for (int size = nodes_.empty() ? 0 : 1; size > 0;) {
+        const std::uint32_t index = stack[--size];
+        const Node& node = nodes_[index];
+        if (distanceToBox(node.box, origin, direction) >= hit.distance) continue;
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+            const auto& [a, b, c, triangle] = triangles_[i];
+            if (triangle == ignored) continue;
+            const double distance = distanceAlong(origin, direction, a, b, c);
+            if (distance < hit.distance) hit = {distance, triangle};
+        }
+        if (node.count > 0) continue;
+        stack[size++] = node.right;
+        stack[size++] = index + 1;
+    }
+    return hit;
 }
 
 std::vector<TriangleTree::FlatNode> TriangleTree::flatten() const {

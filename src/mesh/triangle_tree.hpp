@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace sinew::mesh {
@@ -25,6 +26,14 @@ public:
 
     /// Distance from `point` to the nearest triangle; infinite for an empty mesh.
     double distance(const Vector3& point) const;
+
+    /// Where a ray first meets a triangle.
+    struct Hit {
+        double distance = std::numeric_limits<double>::infinity(); ///< infinite where it meets none
+        std::uint32_t triangle = 0;
+    };
+    /// `direction` has length 1. The triangle `ignored` is not met.
+    Hit firstHit(const Vector3& origin, const Vector3& direction, std::uint32_t ignored) const;
 
     std::size_t bytes() const { return triangles_.size() * sizeof(Corners) + nodes_.size() * sizeof(Node); }
 

@@ -4,6 +4,7 @@
 
 #include "mesh/generate.hpp"
 #include "mesh/import.hpp"
+#include "mesh/walls.hpp"
 #include "scenes/mesh_choice.hpp"
 #include "scenes/mesh_notes.hpp"
 #include "scenes/path.hpp"
@@ -20,6 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t mostApart = 256; ///< bodies of one mesh
+constexpr double thinnest = 0.05;      ///< share of a surface whose thickness is held against the voxels
 
 struct Found {
     mesh::TriangleMesh mesh;
@@ -123,9 +125,16 @@ mesh::MeshBody bodyOf(const Section& section, std::optional<float> voxel) {
     return body;
 }
 
-/// Fills a mesh with voxels. `summary` says how it is called.
+double longestSide(const mesh::MeshReport& surface) {
+    return std::max({double{surface.high.x} - double{surface.low.x},
+                     double{surface.high.y} - double{surface.low.y},
+                     double{surface.high.z} - double{surface.low.z}});
+}
+
+/// Fills a mesh with voxels. `summary` says how it is called. `longest` is the side that has as many voxels
+/// as the section's resolution [m].
 const MeshSummary& addBody(LoadedScene& loaded, const Section& section, const mesh::TriangleMesh& mesh,
-                           mesh::MeshBody body, MeshSummary summary) {
+                           mesh::MeshBody body, MeshSummary summary, double longest) {
     body.name = summary.body;
     body.voxels.maxCells = mostParticles - loaded.scene.particles.size();
     body.mostParticles = std::min(body.mostParticles, body.voxels.maxCells);
@@ -149,6 +158,8 @@ const MeshSummary& addBody(LoadedScene& loaded, const Section& section, const me
     noteSize(loaded, "mesh " + summary.file, section, summary.surface,
              ", " + massText(mass) + ", " + voxelText(summary.voxels));
     warnOfDefects(summary, loaded.warnings);
+    warnOfThinWalls(loaded, "mesh " + summary.file, section, mesh::wallThickness(mesh, thinnest), longest,
+                    double{summary.voxels.spacing});
     return loaded.meshes.emplace_back(std::move(summary));
 }
 
@@ -161,12 +172,13 @@ void addApart(LoadedScene& loaded, const Section& section, const Found& found,
                          found.file + ", more than " + std::to_string(mostApart),
                      "choose some of them by object");
     body.voxels.spacing = mesh::cellEdge(found.mesh, body.voxels);
+    const double longest = longestSide(mesh::inspect(found.mesh));
     for (const mesh::Component& component : components) {
         const mesh::TriangleMesh part = mesh::extract(found.mesh, component);
         MeshSummary summary{.body = nameOf(section, found) + "." + component.name,
                             .file = found.file + ", \"" + component.name + "\""};
         summary.surface.defects = mesh::inspect(part).defects;
-        addBody(loaded, section, part, body, std::move(summary));
+        addBody(loaded, section, part, body, std::move(summary), longest);
     }
 }
 
@@ -174,7 +186,8 @@ void addJoined(LoadedScene& loaded, const Section& section, const Found& found,
                const std::vector<mesh::Component>& components, const mesh::MeshBody& body) {
     MeshSummary summary{.body = nameOf(section, found), .file = found.file};
     summary.surface.defects = found.defects;
-    const MeshSummary& added = addBody(loaded, section, found.mesh, body, std::move(summary));
+    const MeshSummary& added = addBody(loaded, section, found.mesh, body, std::move(summary),
+                                       longestSide(mesh::inspect(found.mesh)));
     noteComponents(loaded, "mesh " + found.file, components);
     if (!section.has("parts"))
         warnOfBridges(loaded, "mesh " + found.file, mesh::findBridges(found.mesh, components, added.voxels),

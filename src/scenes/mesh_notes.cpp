@@ -4,6 +4,7 @@
 #include "scenes/place_mesh.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace sinew::scenes {
@@ -63,6 +64,25 @@ void warnOfBridges(LoadedScene& loaded, const std::string& name, const mesh::Bri
         name + ": " + std::to_string(bridges.components) + " components, " + lengthWithUnit(bridges.gap) +
         " apart at the nearest, are joined by voxels of " + lengthWithUnit(double{grid.spacing}) +
         ": parts = \"apart\" keeps them apart, parts = \"joined\" says that it is meant");
+}
+
+void warnOfThinWalls(LoadedScene& loaded, const std::string& name, const Section& section, double thickness,
+                     double longest, double voxel) {
+    constexpr double finest = 512;                                       // cells along the longest side
+    if (!(thickness < 1.999 * voxel)) return;                            // two, but for rounding
+    const double resolution = std::ceil(2 * longest / thickness + 0.04); // as place_grid.cpp leaves free
+    const double digit = std::pow(10, std::floor(std::log10(thickness / 2)) - 1);
+    const std::string edge =
+        text("%.3g", std::floor(thickness / 2 / digit + 1e-3) * digit); // two digits, rounded down
+    std::string cure = section.has("voxel") || section.has("particles")
+                           ? "voxel = " + edge + " gives two"
+                           : "resolution = " + text("%.0f", resolution) + " gives two";
+    if (resolution > finest)
+        cure = "two would be " + text("%.0f", resolution) + " along its longest side, more than the " +
+               text("%.0f", finest) + " that are possible";
+    loaded.warnings.push_back(name + " is " + lengthWithUnit(thickness) +
+                              " thin at the thinnest 5 % of its surface, less than 2 voxels of " +
+                              lengthWithUnit(voxel) + ": " + cure);
 }
 
 void warnOfDefects(const MeshSummary& summary, std::vector<std::string>& warnings) {

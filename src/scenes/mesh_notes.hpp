@@ -28,6 +28,11 @@ void noteComponents(LoadedScene& loaded, const std::string& name,
 void warnOfBridges(LoadedScene& loaded, const std::string& name, const mesh::Bridges& bridges,
                    const mesh::VoxelGrid& grid);
 
+/// Warns of a mesh that is less than two voxels thin, `thickness` [m] at its thinnest, and says what makes
+/// two of it. `longest` is the side that has as many voxels as the section's resolution [m].
+void warnOfThinWalls(LoadedScene& loaded, const std::string& name, const Section& section, double thickness,
+                     double longest, double voxel);
+
 /// Warns of what makes the inside of a mesh uncertain.
 void warnOfDefects(const MeshSummary& summary, std::vector<std::string>& warnings);
 

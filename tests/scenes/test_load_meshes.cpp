@@ -375,7 +375,7 @@ TEST_F(Load, SaysWhereVoxelsJoinWhatIsApart) {
 
 TEST_F(Load, KeepsComponentsApart) {
     write("organs.obj", organs);
-    const std::string scene = "[[mesh]]\nfile = \"organs.obj\"\nparts = \"apart\"\nresolution = 15\n";
+    const std::string scene = "[[mesh]]\nfile = \"organs.obj\"\nparts = \"apart\"\nresolution = 20\n";
     const scenes::LoadedScene loaded = load(scene + "velocity = [1, 0, 0]\n");
     EXPECT_EQ(loaded.warnings, std::vector<std::string>{});
     ASSERT_EQ(loaded.scene.bodies.size(), 4u);
@@ -399,7 +399,7 @@ TEST_F(Load, KeepsComponentsApart) {
         ASSERT_EQ(bodyOf(link.a), bodyOf(link.b));
     }
     EXPECT_NEAR(double{loaded.meshes[0].voxels.spacing},
-                double{load("[[mesh]]\nfile = \"organs.obj\"\nresolution = 15\n").meshes[0].voxels.spacing},
+                double{load("[[mesh]]\nfile = \"organs.obj\"\nresolution = 20\n").meshes[0].voxels.spacing},
                 1e-7)
         << "as fine as the whole mesh would be";
 
@@ -438,4 +438,37 @@ TEST_F(Load, RefusesPartsThatCannotBe) {
         scene + "parts = \"apart\"\nsize = 1\n",
         "scene.toml:3: mesh[0].parts makes 257 bodies of the components of organs.obj, more than 256: choose "
         "some of them by object");
+}
+
+// A plate of 6 mm, 0.4 m long: 2 x 0.4 / 0.006 = 134 voxels make two of its thickness.
+TEST_F(Load, WarnsOfAWallThinnerThanTwoVoxels) {
+    write("plate.obj", "v -0.2 0 -0.2\nv 0.2 0 -0.2\nv 0.2 0 0.2\nv -0.2 0 0.2\n"
+                       "v -0.2 0.006 -0.2\nv 0.2 0.006 -0.2\nv 0.2 0.006 0.2\nv -0.2 0.006 0.2\n"
+                       "f 1 2 3 4\nf 8 7 6 5\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n");
+    const std::string scene = "[[mesh]]\nfile = \"plate.obj\"\n";
+    const auto warned = [&](const std::string& keys) { return load(scene + keys).warnings; };
+    const std::string thin =
+        "mesh plate.obj is 6 mm thin at the thinnest 5 % of its surface, less than 2 voxels of ";
+    EXPECT_EQ(warned("resolution = 24\n"),
+              std::vector<std::string>{thin + "16.7 mm: resolution = 134 gives two"});
+    EXPECT_EQ(count(warned("rotation = [17, 0, 23]\n"), "resolution = 1"), 1) << "turned, too";
+    EXPECT_EQ(count(warned("voxel = 0.02\n"), thin + "20 mm: voxel = 0.003 gives two"), 1);
+    EXPECT_EQ(count(warned("particles = 2000\n"), "voxel = 0.003 gives two"), 1);
+    EXPECT_EQ(count(warned("scale = 0.7\nvoxel = 0.02\n"), "voxel = 0.0021 gives two"), 1);
+    EXPECT_EQ(warned("resolution = 134\n"), std::vector<std::string>{}) << "as it was told";
+    EXPECT_EQ(warned("voxel = 0.003\n"), std::vector<std::string>{});
+
+    write("foil.obj",
+          "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 0 0.001 0\nv 1 0.001 0\nv 1 0.001 1\nv 0 0.001 1\n"
+          "f 1 2 3 4\nf 8 7 6 5\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n");
+    EXPECT_EQ(count(load("[[mesh]]\nfile = \"foil.obj\"\n").warnings,
+                    "is 1 mm thin at the thinnest 5 % of its surface, less than 2 voxels of 41.7 mm: two "
+                    "would be 2001 "
+                    "along its longest side, more than the 512 that are possible"),
+              1);
+    for (const char* shape : {"organ", "sphere", "tube", "torus_knot", "slab_with_hole"})
+        EXPECT_EQ(count(load("[[mesh]]\ngenerate = \"" + std::string(shape) + "\"\ndetail = 24\n").warnings,
+                        "thin"),
+                  0)
+            << shape << " at the default resolution";
 }
