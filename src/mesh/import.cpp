@@ -238,7 +238,8 @@ TriangleMesh decode(const fs::path& file, std::string_view bytes, const ImportLi
 
 } // namespace
 
-TriangleMesh importMesh(const fs::path& file, MeshDefects& defects, const ImportLimits& limits) {
+TriangleMesh importMesh(const fs::path& file, MeshDefects& defects, const ImportLimits& limits, Repair how,
+                        Repairs* repairs) {
     const std::string content = RegularFile(file, limits).readAll(file);
     const std::string_view bytes = withoutMark(content);
     const Format format = formatOf(file, bytes);
@@ -259,6 +260,9 @@ TriangleMesh importMesh(const fs::path& file, MeshDefects& defects, const Import
     TriangleMesh mesh = weld(decode(file, result, limits), defects);
     if (mesh.triangles.empty())
         fail(file, "", "all its faces have zero area: check the scale it was exported with");
+    Repairs done;
+    mesh = repair(std::move(mesh), how, defects, done);
+    if (repairs) *repairs = done;
     return mesh;
 }
 

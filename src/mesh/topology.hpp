@@ -42,6 +42,10 @@ void forEachEdge(const std::vector<std::array<std::uint32_t, 3>>& triangles, con
     }
 }
 
+/// Turns triangles so that neighbours run the same way round, each connected part the way most of its area
+/// already did. Returns how many were turned. Expects a welded mesh.
+std::size_t orientNeighbours(TriangleMesh& mesh);
+
 /// What inspect() reports but for the defects. Expects a welded mesh.
 MeshReport measure(const TriangleMesh& mesh);
 

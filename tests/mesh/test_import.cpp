@@ -253,7 +253,7 @@ TEST(Import, CountsDefectsAndReadsTheMeshAllTheSame) {
     bad.triangles.push_back({0, 0, 1});
     bad.triangles.push_back(bad.triangles.front());
     bad.triangles.push_back({0, 1, 200});
-    importMesh(folder.write("bad.ply", plyText(bad)), defects);
+    importMesh(folder.write("bad.ply", plyText(bad)), defects, {}, Repair::none);
     EXPECT_EQ(defects.degenerateTriangles, 1u);
     EXPECT_EQ(defects.duplicateTriangles, 1u);
     EXPECT_GT(defects.nonManifoldEdges + defects.boundaryEdges, 0u);
@@ -435,7 +435,7 @@ TEST(Import, ReadsTheSpiderOfAssimpsTestModels) {
     if (!fs::exists(models)) GTEST_SKIP() << "assimp-testmodels is not installed: real files are NOT tested";
     for (const std::string name : {"OBJ/spider.obj", "STL/Spider_ascii.stl", "STL/Spider_binary.stl"}) {
         MeshDefects defects;
-        const TriangleMesh spider = importMesh(models / name, defects);
+        const TriangleMesh spider = importMesh(models / name, defects, {}, Repair::none);
         EXPECT_EQ(spider.positions.size(), 722u)
             << name; // counted by a script of a few lines, from the OBJ text
         EXPECT_EQ(spider.triangles.size(), 1312u) << name;

@@ -1,0 +1,153 @@
+// Holes: open edges are traced to loops without repeated vertices, and the small ones get a patch.
+#include "mesh/repair_steps.hpp"
+#include "mesh/vector3.hpp"
+
+#include <map>
+
+namespace sinew::mesh {
+namespace {
+
+/// Open edges by the vertex from which a patch leaves along them.
+struct Step {
+    std::uint32_t from = 0, to = 0, triangle = 0;
+};
+
+class Tracer {
+public:
+    explicit Tracer(const TriangleMesh& mesh) {
+        for (const OpenEdge& edge : findOpenEdges(mesh))
+            steps_.push_back({edge.to, edge.from, edge.triangle});
+        std::ranges::sort(steps_, {}, [](const Step& step) { return std::pair{step.from, step.to}; });
+        isUsed_.resize(steps_.size());
+    }
+    std::size_t openEdges() const { return steps_.size(); }
+
+    /// Where a vertex is met again, the loop since then is cut off: loops that touch in a vertex part there.
+    std::vector<Loop> trace() {
+        std::vector<Loop> loops;
+        for (std::size_t seed = 0; seed < steps_.size(); ++seed)
+            if (!isUsed_[seed]) walk(seed, loops);
+        return loops;
+    }
+
+private:
+    void walk(std::size_t seed, std::vector<Loop>& loops) {
+        std::vector<std::size_t> path{seed};
+        std::map<std::uint32_t, std::size_t> places{{steps_[seed].from, 0}}; // of vertices on the path
+        isUsed_[seed] = true;
+        while (!path.empty()) {
+            const std::uint32_t vertex = steps_[path.back()].to;
+            if (const auto place = places.find(vertex); place != places.end()) {
+                cut(place->second, path, places, loops);
+                continue;
+            }
+            const std::size_t next = nextFrom(vertex);
+            if (next == steps_.size()) { // neighbours face different ways: no loop leads here
+                places.erase(steps_[path.back()].from);
+                path.pop_back();
+                continue;
+            }
+            places[vertex] = path.size();
+            path.push_back(next);
+            isUsed_[next] = true;
+        }
+    }
+
+    void cut(std::size_t first, std::vector<std::size_t>& path, std::map<std::uint32_t, std::size_t>& places,
+             std::vector<Loop>& loops) const {
+        Loop loop;
+        for (std::size_t i = first; i < path.size(); ++i) {
+            loop.vertices.push_back(steps_[path[i]].from);
+            loop.rim.push_back(steps_[path[i]].triangle);
+            places.erase(steps_[path[i]].from);
+        }
+        path.resize(first);
+        if (loop.vertices.size() >= 3) loops.push_back(std::move(loop));
+    }
+
+    std::size_t nextFrom(std::uint32_t vertex) const {
+        auto step = std::ranges::lower_bound(steps_, vertex, {}, &Step::from);
+        for (; step != steps_.end() && step->from == vertex; ++step) {
+            const auto index = static_cast<std::size_t>(step - steps_.begin());
+            if (!isUsed_[index]) return index;
+        }
+        return steps_.size();
+    }
+
+    std::vector<Step> steps_;
+    std::vector<bool> isUsed_;
+};
+
+OpenHole describe(const TriangleMesh& mesh, const Loop& loop) {
+    Vector3 sum = Vector3::Zero();
+    OpenHole hole{.edges = loop.vertices.size()};
+    for (std::size_t i = 0; i < loop.vertices.size(); ++i) {
+        const Vector3 point = toVector(mesh.positions[loop.vertices[i]]);
+        sum += point;
+        hole.rim += (toVector(mesh.positions[loop.vertices[(i + 1) % loop.vertices.size()]]) - point).norm();
+    }
+    hole.middle = toVec3(sum / static_cast<double>(loop.vertices.size()));
+    return hole;
+}
+
+double edgesOfBox(const TriangleMesh& mesh) {
+    const MeshReport report = measure(mesh);
+    return 4 * (toVector(report.high) - toVector(report.low)).sum();
+}
+
+/// All edges between vertices of `loops`.
+TakenEdges edgesBetween(const TriangleMesh& mesh, const std::vector<Loop>& loops) {
+    std::vector<bool> isOnLoop(mesh.positions.size());
+    for (const Loop& loop : loops)
+        for (const std::uint32_t vertex : loop.vertices) isOnLoop[vertex] = true;
+    std::vector<VertexPair> edges;
+    for (const auto& triangle : mesh.triangles)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t a = triangle[i], b = triangle[(i + 1) % 3];
+            if (isOnLoop[a] && isOnLoop[b]) edges.push_back({std::min(a, b), std::max(a, b)});
+        }
+    return TakenEdges(std::move(edges));
+}
+
+bool isSmall(const OpenHole& hole, const Patch& patch, double boxEdges) {
+    if (hole.edges > 3 && hole.rim > smallRim * boxEdges) return false;
+    return hole.rim <= tinyRim * boxEdges || patch.bend <= largestBend;
+}
+
+void addPatch(TriangleMesh& mesh, const Loop& loop, const Patch& patch, TakenEdges& taken) {
+    if (patch.center) mesh.positions.push_back(*patch.center);
+    for (const auto& triangle : patch.triangles) {
+        mesh.triangles.push_back(triangle);
+        if (!mesh.objects.empty()) mesh.objects.push_back(mesh.objects[loop.rim.front()]);
+        for (std::size_t i = 0; i < 3; ++i) taken.add(triangle[i], triangle[(i + 1) % 3]);
+    }
+}
+
+} // namespace
+
+void closeHoles(TriangleMesh& mesh, bool closes, Repairs& report) {
+    Tracer tracer(mesh);
+    report.openEdges = tracer.openEdges();
+    report.openHoles = 0;
+    report.largest = {};
+    const std::vector<Loop> loops = tracer.trace();
+    const double boxEdges = edgesOfBox(mesh);
+    TakenEdges taken = edgesBetween(mesh, closes ? loops : std::vector<Loop>{});
+    for (const Loop& loop : loops) {
+        const OpenHole hole = describe(mesh, loop);
+        const bool mayBeSmall = closes && (hole.edges == 3 || hole.rim <= smallRim * boxEdges);
+        const Patch patch = mayBeSmall ? makePatch(mesh, loop, taken) : Patch{};
+        if (!patch.triangles.empty() && isSmall(hole, patch, boxEdges)) {
+            addPatch(mesh, loop, patch, taken);
+            ++report.closedHoles;
+            report.holeEdges += hole.edges;
+            report.holeTriangles += patch.triangles.size();
+            report.openEdges -= hole.edges;
+        } else {
+            ++report.openHoles;
+            if (hole.rim > report.largest.rim) report.largest = hole;
+        }
+    }
+}
+
+} // namespace sinew::mesh

@@ -1,0 +1,156 @@
+// Parts that are inside out. A part is what hangs together across edges of two triangles.
+#include "mesh/repair_steps.hpp"
+#include "mesh/triangle_tree.hpp"
+
+#include <map>
+#include <numeric>
+
+namespace sinew::mesh {
+namespace {
+
+constexpr std::size_t mostContainers = 64; ///< the largest parts; whether one lies within others is not asked
+constexpr std::size_t samplesOfPart = 8;
+
+struct Part {
+    std::vector<std::uint32_t> triangles;
+    bool isClosed = true;
+    double volume = 0; ///< signed
+    Eigen::AlignedBox3d box;
+};
+
+class Sets {
+public:
+    explicit Sets(std::size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0u); }
+    std::uint32_t find(std::uint32_t i) {
+        while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
+        return i;
+    }
+    void unite(std::uint32_t a, std::uint32_t b) {
+        a = find(a);
+        b = find(b);
+        parents_[std::max(a, b)] = std::min(a, b);
+    }
+
+private:
+    std::vector<std::uint32_t> parents_;
+};
+
+/// For each triangle the number of its part.
+std::vector<std::uint32_t> numberParts(const TriangleMesh& mesh, std::size_t& count) {
+    Sets sets(mesh.triangles.size());
+    forEachEdge(mesh.triangles, [&](std::span<const HalfEdge> sides) {
+        if (sides.size() == 2) sets.unite(sides[0].triangle, sides[1].triangle);
+    });
+    std::vector<std::uint32_t> numbers(mesh.triangles.size());
+    count = 0;
+    for (std::uint32_t i = 0; i < numbers.size(); ++i)
+        numbers[i] = sets.find(i) == i ? static_cast<std::uint32_t>(count++) : numbers[sets.find(i)];
+    return numbers;
+}
+
+/// A part is closed where as many of its triangles run one way along each edge as the other.
+void findOpenParts(const TriangleMesh& mesh, const std::vector<std::uint32_t>& numbers,
+                   std::vector<Part>& parts) {
+    std::map<std::uint32_t, int> balance;
+    forEachEdge(mesh.triangles, [&](std::span<const HalfEdge> sides) {
+        if (sides.size() == 2) {
+            if (sides[0].isForward == sides[1].isForward) parts[numbers[sides[0].triangle]].isClosed = false;
+            return;
+        }
+        balance.clear();
+        for (const HalfEdge& side : sides) balance[numbers[side.triangle]] += side.isForward ? 1 : -1;
+        for (const auto& [part, sum] : balance)
+            if (sum != 0) parts[part].isClosed = false;
+    });
+}
+
+std::vector<Part> findParts(const TriangleMesh& mesh) {
+    std::size_t count = 0;
+    const std::vector<std::uint32_t> numbers = numberParts(mesh, count);
+    std::vector<Part> parts(count);
+    const MeshReport report = measure(mesh);
+    const Vector3 middle = (toVector(report.low) + toVector(report.high)) / 2;
+    for (std::uint32_t i = 0; i < numbers.size(); ++i) {
+        Part& part = parts[numbers[i]];
+        part.triangles.push_back(i);
+        std::array<Vector3, 3> corners;
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            corners[corner] = toVector(mesh.positions[mesh.triangles[i][corner]]) - middle;
+            part.box.extend(corners[corner]);
+        }
+        part.volume += corners[0].dot(corners[1].cross(corners[2])) / 6;
+    }
+    findOpenParts(mesh, numbers, parts);
+    return parts;
+}
+
+/// Whether parts lie within other parts, which may be open: they then wind around more than half.
+class Nesting {
+public:
+    Nesting(const TriangleMesh& mesh, const std::vector<Part>& parts) : mesh_(mesh), parts_(parts) {
+        containers_.resize(parts.size());
+        std::iota(containers_.begin(), containers_.end(), 0u);
+        std::ranges::stable_sort(containers_, std::greater(),
+                                 [&](std::uint32_t i) { return parts[i].box.volume(); });
+        containers_.resize(std::min(containers_.size(), mostContainers));
+        for (const Vec3& position : mesh.positions) positions_.push_back(toVector(position));
+    }
+
+    bool isWithinAny(std::uint32_t part) {
+        return std::ranges::any_of(containers_,
+                                   [&](std::uint32_t container) { return isWithin(part, container); });
+    }
+
+    bool isWithin(std::uint32_t part, std::uint32_t container) {
+        const std::vector<std::uint32_t>& triangles = parts_[part].triangles;
+        if (part == container || !parts_[container].box.contains(parts_[part].box)) return false;
+        const TriangleTree& tree = treeOf(container);
+        const std::size_t samples = std::min(samplesOfPart, triangles.size());
+        for (std::size_t i = 0; i < samples; ++i) {
+            const std::uint32_t triangle = triangles[i * triangles.size() / samples];
+            if (std::abs(tree.windingNumber(positions_[mesh_.triangles[triangle][0]])) < 0.5) return false;
+        }
+        return true;
+    }
+
+private:
+    const TriangleTree& treeOf(std::uint32_t container) {
+        const auto found = trees_.find(container);
+        if (found != trees_.end()) return found->second;
+        TriangleTree::Triangles triangles;
+        for (const std::uint32_t triangle : parts_[container].triangles)
+            triangles.push_back(mesh_.triangles[triangle]);
+        return trees_.emplace(container, TriangleTree(positions_, triangles)).first->second;
+    }
+
+    const TriangleMesh& mesh_;
+    const std::vector<Part>& parts_;
+    std::vector<std::uint32_t> containers_;
+    std::vector<Vector3> positions_;
+    std::map<std::uint32_t, TriangleTree> trees_;
+};
+
+} // namespace
+
+std::size_t turnParts(TriangleMesh& mesh) {
+    const std::vector<Part> parts = findParts(mesh);
+    const auto isInsideOut = [](const Part& part) { return part.isClosed && part.volume < 0; };
+    if (std::ranges::none_of(parts, isInsideOut)) return 0;
+    Nesting nesting(mesh, parts);
+    std::vector<bool> isTurned(parts.size());
+    std::size_t count = 0;
+    for (std::uint32_t part = 0; part < parts.size(); ++part) {
+        if (!isInsideOut(parts[part]) || nesting.isWithinAny(part)) continue;
+        ++count;
+        isTurned[part] = true;
+        for (std::uint32_t inner = 0; inner < parts.size(); ++inner)
+            if (parts[inner].isClosed && nesting.isWithin(inner, part)) isTurned[inner] = true;
+    }
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        if (isTurned[i])
+            for (const std::uint32_t triangle : parts[i].triangles)
+                std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]);
+    return count;
+}
+
+} // namespace sinew::mesh

@@ -1,0 +1,206 @@
+// Seams: vertices that are equal but for rounding, and T-junctions. Only vertices of open edges are looked
+// at, so that a closed mesh costs nothing and no closed part can be harmed.
+#include "mesh/point_tree.hpp"
+#include "mesh/repair_steps.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace sinew::mesh {
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+double lengthOf(const TriangleMesh& mesh, std::uint32_t a, std::uint32_t b) {
+    return (toVector(mesh.positions[a]) - toVector(mesh.positions[b])).norm();
+}
+
+/// For each vertex how far another may be to be joined with it.
+std::vector<float> findReaches(const TriangleMesh& mesh, double tolerance) {
+    std::vector<float> reaches(mesh.positions.size(), 0);
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const double longest = std::max({lengthOf(mesh, a, b), lengthOf(mesh, b, c), lengthOf(mesh, c, a)});
+        const auto reach = static_cast<float>(std::min(tolerance, longest / 4));
+        for (const std::uint32_t vertex : {a, b, c}) reaches[vertex] = std::max(reaches[vertex], reach);
+    }
+    return reaches;
+}
+
+/// A triangle whose edge from corner `corner` on is split at `points`, which are in order along it.
+struct Split {
+    std::uint32_t triangle = 0;
+    std::size_t corner = 0;
+    std::vector<std::uint32_t> points;
+};
+
+/// The ends of open edges, for each vertex its neighbours.
+class OpenNeighbours {
+public:
+    explicit OpenNeighbours(const std::vector<OpenEdge>& edges) {
+        for (const OpenEdge& edge : edges) {
+            pairs_.push_back({edge.from, edge.to});
+            pairs_.push_back({edge.to, edge.from});
+        }
+        std::ranges::sort(pairs_);
+    }
+    template <typename Test> bool any(std::uint32_t vertex, const Test& test) const {
+        auto pair = std::ranges::lower_bound(pairs_, std::array{vertex, std::uint32_t{0}});
+        for (; pair != pairs_.end() && (*pair)[0] == vertex; ++pair)
+            if (test((*pair)[1])) return true;
+        return false;
+    }
+
+private:
+    std::vector<std::array<std::uint32_t, 2>> pairs_;
+};
+
+class JunctionFinder {
+public:
+    JunctionFinder(const TriangleMesh& mesh, const std::vector<OpenEdge>& edges, double tolerance)
+        : mesh_(mesh), neighbours_(edges), tree_(mesh.positions, verticesOf(edges)), tolerance_(tolerance) {}
+
+    /// Vertices that split `edge`, in order along it.
+    std::vector<std::uint32_t> pointsOn(const OpenEdge& edge) const {
+        const Vector3 a = at(edge.from), b = at(edge.to);
+        const double reach = std::min(tolerance_, (b - a).norm() / 4);
+        std::vector<std::uint32_t> found;
+        tree_.findNear(a, b, reach, found);
+        std::vector<std::pair<double, std::uint32_t>> points;
+        for (const std::uint32_t vertex : found) {
+            if (std::ranges::find(mesh_.triangles[edge.triangle], vertex) !=
+                mesh_.triangles[edge.triangle].end())
+                continue;
+            const Vector3 point = at(vertex);
+            if ((point - a).norm() <= reach || (point - b).norm() <= reach) continue;
+            if (runsAlong(edge, vertex, reach)) points.push_back({nearestOnSegment(a, b, point).at, vertex});
+        }
+        std::ranges::sort(points);
+        std::vector<std::uint32_t> result;
+        for (std::size_t i = 0; i < points.size(); ++i)
+            if (i == 0 || points[i].first > points[i - 1].first) result.push_back(points[i].second);
+        return result;
+    }
+
+private:
+    Vector3 at(std::uint32_t vertex) const { return toVector(mesh_.positions[vertex]); }
+
+    /// Whether an open edge at `vertex` overlaps `edge`.
+    bool runsAlong(const OpenEdge& edge, std::uint32_t vertex, double reach) const {
+        const Vector3 a = at(edge.from), b = at(edge.to), point = at(vertex);
+        return neighbours_.any(vertex, [&](std::uint32_t other) {
+            if (other == edge.from || other == edge.to) return true;
+            const Vector3 end = at(other);
+            return nearestOnSegment(a, b, end).distance <= reach ||
+                   nearestOnSegment(point, end, a).distance <= reach ||
+                   nearestOnSegment(point, end, b).distance <= reach;
+        });
+    }
+
+    const TriangleMesh& mesh_;
+    OpenNeighbours neighbours_;
+    PointTree tree_;
+    double tolerance_;
+};
+
+std::vector<Triangle> pieces(const Triangle& triangle, const Split& split) {
+    const std::uint32_t end = triangle[(split.corner + 1) % 3], apex = triangle[(split.corner + 2) % 3];
+    std::vector<Triangle> result;
+    std::uint32_t from = triangle[split.corner];
+    for (const std::uint32_t point : split.points) {
+        result.push_back({from, point, apex});
+        from = point;
+    }
+    result.push_back({from, end, apex});
+    return result;
+}
+
+/// Whether corners lie exactly on a line: such a triangle would be dropped.
+bool isEmpty(const TriangleMesh& mesh, const Triangle& triangle) {
+    const Vector3 a = toVector(mesh.positions[triangle[0]]);
+    return (toVector(mesh.positions[triangle[1]]) - a)
+        .cross(toVector(mesh.positions[triangle[2]]) - a)
+        .isZero(0);
+}
+
+std::size_t splitOnce(TriangleMesh& mesh, double tolerance) {
+    const std::vector<OpenEdge> edges = findOpenEdges(mesh);
+    const JunctionFinder finder(mesh, edges, tolerance);
+    std::vector<bool> isSplit(mesh.triangles.size());
+    std::size_t count = 0;
+    for (const OpenEdge& edge : edges) {
+        if (isSplit[edge.triangle]) continue;
+        const Triangle triangle = mesh.triangles[edge.triangle];
+        Split split{edge.triangle, 0, finder.pointsOn(edge)};
+        if (split.points.empty()) continue;
+        while (triangle[split.corner] != edge.from) ++split.corner;
+        const std::vector<Triangle> parts = pieces(triangle, split);
+        if (std::ranges::any_of(parts, [&](const Triangle& part) { return isEmpty(mesh, part); })) continue;
+        isSplit[edge.triangle] = true;
+        mesh.triangles[edge.triangle] = parts.front();
+        mesh.triangles.insert(mesh.triangles.end(), parts.begin() + 1, parts.end());
+        if (!mesh.objects.empty()) mesh.objects.resize(mesh.triangles.size(), mesh.objects[edge.triangle]);
+        ++count;
+    }
+    return count;
+}
+
+} // namespace
+
+std::vector<OpenEdge> findOpenEdges(const TriangleMesh& mesh) {
+    std::vector<OpenEdge> edges;
+    forEachEdge(mesh.triangles, [&](std::span<const HalfEdge> sides) {
+        if (sides.size() != 1) return;
+        const HalfEdge& side = sides.front();
+        edges.push_back(
+            {side.isForward ? side.low : side.high, side.isForward ? side.high : side.low, side.triangle});
+    });
+    return edges;
+}
+
+std::vector<std::uint32_t> verticesOf(const std::vector<OpenEdge>& edges) {
+    std::vector<std::uint32_t> vertices;
+    vertices.reserve(2 * edges.size());
+    for (const OpenEdge& edge : edges) vertices.insert(vertices.end(), {edge.from, edge.to});
+    std::ranges::sort(vertices);
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return vertices;
+}
+
+std::size_t joinNear(TriangleMesh& mesh, double tolerance) {
+    const std::vector<std::uint32_t> vertices = verticesOf(findOpenEdges(mesh));
+    const std::vector<float> reaches = findReaches(mesh, tolerance);
+    const PointTree tree(mesh.positions, vertices);
+    constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> first(mesh.positions.size(), none), near;
+    std::size_t count = 0;
+    for (const std::uint32_t vertex : vertices) {
+        if (first[vertex] != none) continue;
+        first[vertex] = vertex;
+        const Vector3 point = toVector(mesh.positions[vertex]);
+        near.clear();
+        tree.findNear(point, point, double{reaches[vertex]}, near);
+        for (const std::uint32_t other : near) {
+            if (first[other] != none) continue;
+            if (lengthOf(mesh, vertex, other) > double{reaches[other]}) continue;
+            first[other] = vertex;
+            ++count;
+        }
+    }
+    for (Triangle& triangle : mesh.triangles)
+        for (std::uint32_t& vertex : triangle)
+            if (first[vertex] != none) vertex = first[vertex];
+    return count;
+}
+
+std::size_t splitJunctions(TriangleMesh& mesh, double tolerance) {
+    constexpr int mostPasses = 16; // one edge of a triangle a pass
+    std::size_t count = 0;
+    for (int pass = 0; pass < mostPasses; ++pass) {
+        const std::size_t split = splitOnce(mesh, tolerance);
+        count += split;
+        if (split == 0) break;
+    }
+    return count;
+}
+
+} // namespace sinew::mesh

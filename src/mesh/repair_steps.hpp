@@ -1,0 +1,70 @@
+// The steps of repair(), each on a welded mesh. A step changes the mesh and says how often.
+#pragma once
+
+#include "mesh/repair.hpp"
+#include "mesh/topology.hpp"
+
+#include <set>
+
+namespace sinew::mesh {
+
+/// An edge with one triangle, which runs from `from` to `to`.
+struct OpenEdge {
+    std::uint32_t from = 0, to = 0, triangle = 0;
+};
+std::vector<OpenEdge> findOpenEdges(const TriangleMesh& mesh);
+/// Ascending, without repeats.
+std::vector<std::uint32_t> verticesOf(const std::vector<OpenEdge>& edges);
+
+/// Joins vertices of open edges that are nearer than `tolerance` to the one of lowest index among them. A
+/// triangle whose longest edge is short lends its corners no more than a quarter of that. May leave triangles
+/// that are empty or double. Returns how many vertices became another.
+std::size_t joinNear(TriangleMesh& mesh, double tolerance);
+
+/// Splits triangles at vertices of open edges that lie on their own open edges and whose open edges run along
+/// these. Returns the number of edges split.
+std::size_t splitJunctions(TriangleMesh& mesh, double tolerance);
+
+/// Removes single triangles that stick out of a closed surface, and walls inside a volume that are two
+/// triangles with the same corners and opposite sides. Returns the number of triangles.
+std::size_t removeLeftovers(TriangleMesh& mesh);
+
+/// Closes the small holes; counts in `report`, and says there what stays open.
+void closeHoles(TriangleMesh& mesh, bool closes, Repairs& report);
+
+/// Turns closed parts that are inside out and lie within no other; parts within these turn with them, so that
+/// a cavity stays one. Returns the number of parts that were inside out by themselves.
+std::size_t turnParts(TriangleMesh& mesh);
+
+using VertexPair = std::array<std::uint32_t, 2>; ///< the lower first
+
+/// Edges that the mesh has already: a patch may not add a third triangle to one.
+class TakenEdges {
+public:
+    /// `edges` in any order, with repeats.
+    explicit TakenEdges(std::vector<VertexPair> edges);
+    void add(std::uint32_t a, std::uint32_t b) { added_.insert({std::min(a, b), std::max(a, b)}); }
+    bool has(std::uint32_t a, std::uint32_t b) const;
+
+private:
+    std::vector<VertexPair> edges_; ///< ascending
+    std::set<VertexPair> added_;
+};
+
+/// A hole: its vertices in the order in which a patch runs round it, and for each the triangle behind the
+/// edge to the next.
+struct Loop {
+    std::vector<std::uint32_t> vertices, rim;
+};
+
+struct Patch {
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    double bend = 0;            ///< mean angle to the triangles of the rim, by length [degrees]
+    std::optional<Vec3> center; ///< the middle of a fan: the vertex after all of the mesh
+};
+
+/// The triangulation that bends least, of those the one of least area; for more than 128 edges a fan. Without
+/// triangles where each one would fold over or give an edge a third triangle.
+Patch makePatch(const TriangleMesh& mesh, const Loop& loop, const TakenEdges& taken);
+
+} // namespace sinew::mesh
