@@ -36,6 +36,7 @@ struct PlacedMesh {
     mesh::TriangleMesh mesh;
     sim::Vec3 middle; ///< of its bounding box [m]
     std::string file; ///< as reports show it
+    mesh::Repairs repairs;
 };
 PlacedMesh placedMesh(const Section& section, const Source& source, const std::array<double, 3>& origin);
 /// All [[hold]] of a file: after the bodies that move, before those that do not.

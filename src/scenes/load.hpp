@@ -25,7 +25,8 @@ struct Camera {
 /// What a mesh body became, for reports.
 struct MeshSummary {
     std::string body, file;
-    mesh::MeshReport surface;
+    mesh::MeshReport surface; ///< after repairs
+    mesh::Repairs repairs;    ///< of the whole file
     mesh::VoxelGrid voxels;
     mesh::Shown shown = mesh::Shown::mesh;
 };

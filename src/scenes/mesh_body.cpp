@@ -27,6 +27,7 @@ struct Found {
     mesh::TriangleMesh mesh;
     mesh::MeshDefects defects;
     std::string file; // as reports show it
+    mesh::Repairs repairs;
 };
 
 /// Resolves links first, so that none leads out of the folder.
@@ -42,6 +43,15 @@ fs::path insideFolder(const Section& section, const Source& source) {
     return file;
 }
 
+mesh::Repair repairOf(const Section& section) {
+    const std::string name = section.text("repair");
+    const std::optional<mesh::Repair> repair = mesh::findRepair(name);
+    if (!repair)
+        section.fail("repair", "is no repair: \"" + name.substr(0, 64) + "\"",
+                     "possible are \"none\", \"weld\" and \"close\"");
+    return *repair;
+}
+
 Found import(const Section& section, const Source& source) {
     const bool isArgument = section.text("file") == "argument";
     if (isArgument && !source.meshArgument)
@@ -53,7 +63,7 @@ Found import(const Section& section, const Source& source) {
         section.fail("file", "names no regular file", "check the path");
     Found found;
     found.file = file.filename().string();
-    found.mesh = mesh::importMesh(file, found.defects);
+    found.mesh = mesh::importMesh(file, found.defects, {}, repairOf(section), &found.repairs);
     return found;
 }
 
@@ -176,7 +186,8 @@ void addApart(LoadedScene& loaded, const Section& section, const Found& found,
     for (const mesh::Component& component : components) {
         const mesh::TriangleMesh part = mesh::extract(found.mesh, component);
         MeshSummary summary{.body = nameOf(section, found) + "." + component.name,
-                            .file = found.file + ", \"" + component.name + "\""};
+                            .file = found.file + ", \"" + component.name + "\"",
+                            .repairs = found.repairs};
         summary.surface.defects = mesh::inspect(part).defects;
         addBody(loaded, section, part, body, std::move(summary), longest);
     }
@@ -184,7 +195,7 @@ void addApart(LoadedScene& loaded, const Section& section, const Found& found,
 
 void addJoined(LoadedScene& loaded, const Section& section, const Found& found,
                const std::vector<mesh::Component>& components, const mesh::MeshBody& body) {
-    MeshSummary summary{.body = nameOf(section, found), .file = found.file};
+    MeshSummary summary{.body = nameOf(section, found), .file = found.file, .repairs = found.repairs};
     summary.surface.defects = found.defects;
     const MeshSummary& added = addBody(loaded, section, found.mesh, body, std::move(summary),
                                        longestSide(mesh::inspect(found.mesh)));
@@ -202,6 +213,7 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
     checkVoxelKeys(section);
     Found found = find(section, source);
     place(found.mesh, section, loaded.origin);
+    noteRepairs(loaded, "mesh " + found.file, found.repairs);
     const std::vector<mesh::Component> components = mesh::components(found.mesh);
     const mesh::MeshBody body = bodyOf(section, voxel);
     const std::size_t first = loaded.scene.particles.size(), firstGrid = loaded.scene.grids.size();
@@ -216,7 +228,7 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
 PlacedMesh placedMesh(const Section& section, const Source& source, const std::array<double, 3>& origin) {
     Found found = find(section, source);
     const sim::Vec3 middle = place(found.mesh, section, origin);
-    return {std::move(found.mesh), middle, found.file};
+    return {std::move(found.mesh), middle, found.file, found.repairs};
 }
 
 void addMeshCollider(LoadedScene& loaded, const Section& section, const Source& source) {
@@ -228,6 +240,7 @@ void addMeshCollider(LoadedScene& loaded, const Section& section, const Source& 
                      "take a coarser mesh");
     noteSize(loaded, "mesh collider " + found.file, section, mesh::inspect(found.mesh),
              ", " + std::to_string(found.mesh.triangles.size()) + " triangles");
+    noteRepairs(loaded, "mesh collider " + found.file, found.repairs);
     const sim::Pose pose{found.middle, rotationOf(section)};
     Path path = readPath(section, loaded.origin, pose);
     const std::size_t first = loaded.scene.particles.size();

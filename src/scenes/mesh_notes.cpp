@@ -85,12 +85,20 @@ void warnOfThinWalls(LoadedScene& loaded, const std::string& name, const Section
                               lengthWithUnit(voxel) + ": " + cure);
 }
 
+void noteRepairs(LoadedScene& loaded, const std::string& name, const mesh::Repairs& repairs) {
+    for (const std::string& sentence : mesh::sentencesOf(repairs))
+        loaded.notes.push_back(name + ": " + sentence);
+}
+
 void warnOfDefects(const MeshSummary& summary, std::vector<std::string>& warnings) {
     const mesh::MeshDefects& defects = summary.surface.defects;
     const std::string name = "mesh " + summary.file;
     if (defects.boundaryEdges > 0)
-        warnings.push_back(name + " is open: " + std::to_string(defects.boundaryEdges) +
-                           " boundary edges; what is inside was decided by winding numbers");
+        warnings.push_back(name + " is open: " +
+                           (summary.repairs.openEdges == defects.boundaryEdges
+                                ? mesh::openText(summary.repairs)
+                                : std::to_string(defects.boundaryEdges) + " boundary edges") +
+                           "; what is inside was decided by winding numbers");
     if (defects.nonManifoldEdges > 0)
         warnings.push_back(name + " is not manifold: " + std::to_string(defects.nonManifoldEdges) +
                            " edges with three or more triangles; its volume may be wrong");

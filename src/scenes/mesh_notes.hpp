@@ -33,6 +33,9 @@ void warnOfBridges(LoadedScene& loaded, const std::string& name, const mesh::Bri
 void warnOfThinWalls(LoadedScene& loaded, const std::string& name, const Section& section, double thickness,
                      double longest, double voxel);
 
+/// Notes each repair of an imported mesh: "mesh liver.obj: 3 holes were closed: 14 edges, 8 new triangles".
+void noteRepairs(LoadedScene& loaded, const std::string& name, const mesh::Repairs& repairs);
+
 /// Warns of what makes the inside of a mesh uncertain.
 void warnOfDefects(const MeshSummary& summary, std::vector<std::string>& warnings);
 

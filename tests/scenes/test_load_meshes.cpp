@@ -112,10 +112,42 @@ TEST_F(Load, CountsTheEdgesOfAMeshThatIsNotManifold) {
     fin.positions.push_back({-1, -1, 0.5f});
     fin.triangles.push_back({0, 3, 4});
     mesh::exportObj(folder_ / "fin.obj", fin);
-    const std::vector<std::string> warnings = scenes::load(folder_ / "fin.obj").warnings;
+    const std::string scene = "[[mesh]]\nfile = \"fin.obj\"\nresolution = 24\n";
+    EXPECT_EQ(count(load(scene).notes, "mesh fin.obj: 1 triangle was removed"), 1);
+    const std::vector<std::string> warnings = load(scene + "repair = \"none\"\n").warnings;
     ASSERT_GE(warnings.size(), 2u);
     EXPECT_EQ(warnings[0].find("mesh fin.obj is open: 2 boundary edges"), 0u) << warnings[0];
     EXPECT_EQ(warnings[1].find("mesh fin.obj is not manifold: 1 edges"), 0u) << warnings[1];
+}
+
+TEST_F(Load, RepairsAMeshAndNotesIt) {
+    mesh::TriangleMesh mesh = mesh::generate("sphere", 12);
+    mesh.triangles.pop_back();
+    mesh::exportObj(folder_ / "m.obj", mesh);
+    const std::string note = "mesh m.obj: 1 hole was closed: 3 edges, 1 new triangle";
+    const scenes::LoadedScene closed = load("[[mesh]]\nfile = \"m.obj\"\nresolution = 4\n");
+    EXPECT_TRUE(closed.meshes[0].surface.defects.isClosed());
+    EXPECT_EQ(closed.meshes[0].repairs.closedHoles, 1u);
+    EXPECT_EQ(std::ranges::count(closed.notes, note), 1);
+    EXPECT_EQ(count(closed.warnings, "is open"), 0);
+    for (const std::string how : {"none", "weld"}) {
+        const scenes::LoadedScene left =
+            load("[[mesh]]\nfile = \"m.obj\"\nresolution = 4\nrepair = \"" + how + "\"\n");
+        EXPECT_EQ(left.meshes[0].surface.defects.boundaryEdges, 3u) << how;
+        EXPECT_EQ(count(left.notes, "closed"), 0);
+        EXPECT_EQ(count(left.warnings,
+                        "mesh m.obj is open: 3 boundary edges around 1 hole, the largest with 3 "
+                        "edges and a rim of "),
+                  1);
+    }
+    const scenes::LoadedScene collider = load(smallCloth + "[[mesh_collider]]\nfile = \"m.obj\"\n");
+    EXPECT_EQ(count(collider.notes, "mesh collider m.obj: 1 hole was closed"), 1);
+    EXPECT_EQ(
+        count(load(smallCloth + "[[mesh_collider]]\nfile = \"m.obj\"\nrepair = \"weld\"\n").notes, "closed"),
+        0);
+    expectError(
+        "[[mesh]]\nfile = \"m.obj\"\nrepair = \"all\"\n",
+        "scene.toml:3: mesh[0].repair is no repair: \"all\": possible are \"none\", \"weld\" and \"close\"");
 }
 
 TEST_F(Load, FitsAMeshIntoABudgetOfParticles) {

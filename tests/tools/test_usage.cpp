@@ -79,6 +79,23 @@ TEST_F(Usage, DescribeNeedsNoDevice) {
         std::string::npos);
 }
 
+TEST_F(Usage, MeshRepairsAndSaysSo) {
+    // A cube whose top meets a wall at a T-junction.
+    const auto mesh =
+        write("t.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 0 1 0\nv 1 1 0\nv 1 1 1\nv 0 1 1\nv 0.5 1 0\n"
+                       "f 1 2 3\nf 1 3 4\nf 5 8 9\nf 9 8 7\nf 9 7 6\nf 1 5 6\nf 1 6 2\nf 2 6 7\nf 2 7 3\n"
+                       "f 3 7 8\nf 3 8 4\nf 4 8 5\nf 4 5 1\n");
+    const Outcome text = run({"mesh", mesh.string()}, noDevice);
+    EXPECT_NE(text.out.find("closed, volume 1 m^3"), std::string::npos) << text.out;
+    EXPECT_NE(text.out.find("repaired  1 edge was split at T-junctions"), std::string::npos) << text.out;
+    const Outcome none = run({"mesh", mesh.string(), "--repair", "none", "--json", "-"}, noDevice);
+    const auto report = nlohmann::json::parse(none.out);
+    EXPECT_EQ(report["repair"]["how"], "none");
+    EXPECT_EQ(report["repair"]["split_edges"], 0);
+    EXPECT_EQ(report["surface"]["boundary_edges"], 3);
+    expectOneError(run({"mesh", mesh.string(), "--repair", "all"}), 2, "see `sinew mesh --help`");
+}
+
 TEST_F(Usage, MeshNeedsNoDeviceAndReportsWhatItFound) {
     const auto mesh = write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");
     const Outcome text = run({"mesh", mesh.string()}, noDevice);
@@ -92,6 +109,9 @@ TEST_F(Usage, MeshNeedsNoDeviceAndReportsWhatItFound) {
     EXPECT_EQ(report["surface"]["boundary_edges"], 3);
     EXPECT_EQ(report["surface"]["closed"], false);
     EXPECT_TRUE(report["surface"]["volume"].is_null());
+    EXPECT_EQ(report["repair"]["how"], "close");
+    EXPECT_EQ(report["repair"]["open_edges"], 3);
+    EXPECT_EQ(report["repair"]["largest_hole"]["edges"], 3);
     EXPECT_EQ(report["voxels"]["spacing"], 0.25);
     EXPECT_GT(report["voxels"]["hull"], 0);
     EXPECT_GT(report["voxels"]["bytes"], 0);

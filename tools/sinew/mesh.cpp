@@ -35,6 +35,7 @@ struct MeshOptions {
     float voxel = 0;                  // [m]; 0 = by resolution
     std::uint32_t resolution = 24;
     std::optional<std::uint32_t> particles; // at most; instead of the two above
+    std::string repair = "close";
     DeviceOptions device;
     std::optional<std::string> json;
 };
@@ -43,6 +44,7 @@ struct Findings {
     std::string file;
     mesh::TriangleMesh mesh;
     mesh::MeshReport surface;
+    mesh::Repairs repairs;
     std::vector<mesh::Component> components;
     mesh::VoxelGrid voxels;
     std::string filledBy; // name of a device, or "host"
@@ -110,7 +112,8 @@ void chooseObjects(const MeshOptions& options, mesh::TriangleMesh& mesh, mesh::M
 Findings inspect(const MeshOptions& options) {
     Findings found{.file = options.file};
     mesh::MeshDefects defects;
-    found.mesh = mesh::importMesh(options.file, defects);
+    found.mesh =
+        mesh::importMesh(options.file, defects, {}, *mesh::findRepair(options.repair), &found.repairs);
     chooseObjects(options, found.mesh, defects);
     const double factor = scenes::findUnit(options.unit)->metres * double{options.scale};
     for (mesh::Vec3& position : found.mesh.positions)
@@ -166,6 +169,7 @@ std::string componentsText(const std::vector<mesh::Component>& components) {
 std::string toJson(const Findings& found) {
     Json json{{"schema", reportSchema}, {"file", found.file}};
     json["surface"] = surfaceJson(found);
+    json["repair"] = tools::toJson(found.repairs);
     json["components"] = componentsJson(found.components);
     json["voxels"] = {{"spacing", found.voxels.spacing},
                       {"cells", found.voxels.cells},
@@ -195,6 +199,11 @@ std::string toText(const Findings& found) {
                             defects.nonManifoldEdges);
     text += fmt::format("  defects   {} flipped edges, {} degenerate and {} duplicate triangles dropped\n",
                         defects.flippedEdges, defects.degenerateTriangles, defects.duplicateTriangles);
+    for (const std::string& sentence : mesh::sentencesOf(found.repairs))
+        text += fmt::format("  repaired  {}\n", sentence);
+    if (found.repairs.openEdges > 0)
+        text += fmt::format("  open      {}: close it in a mesh editor if the mesh is to have an inside\n",
+                            mesh::openText(found.repairs));
     text += componentsText(found.components);
     text +=
         fmt::format("  voxels    {} hull + {} core of {} x {} x {}, edge {:.4g} m, {} of {} cells doubtful\n",
@@ -261,6 +270,13 @@ void addMesh(CLI::App& app, Chosen& chosen) {
         ->check(CLI::Range(8, 2'000'000))
         ->excludes(voxel)
         ->excludes("--resolution");
+    command
+        .add_option(
+            "--repair", options->repair,
+            "none, weld (join near vertices, split T-junctions), or close (also close small holes, turn "
+            "flipped triangles and parts)")
+        ->check(CLI::IsMember({"none", "weld", "close"}))
+        ->capture_default_str();
     addDeviceOptions(command, options->device);
     command.add_option("--json", options->json, "file for the report, or - for the standard output");
     command.callback([options, &chosen] { chosen = [options] { return report(*options); }; });

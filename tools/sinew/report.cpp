@@ -86,6 +86,7 @@ Json meshesJson(const std::vector<scenes::MeshSummary>& summaries) {
                           {"file", mesh.file},
                           {"boundary_edges", mesh.surface.defects.boundaryEdges},
                           {"non_manifold_edges", mesh.surface.defects.nonManifoldEdges},
+                          {"repair", toJson(mesh.repairs)},
                           {"hull_voxels", mesh.voxels.hullCount},
                           {"core_voxels", mesh.voxels.coreCount},
                           {"doubtful_voxels", mesh.voxels.doubtful},
@@ -186,6 +187,25 @@ Json toJson(const Errors& errors) {
 
 Json toJson(const sim::Vec3& v) {
     return {v.x, v.y, v.z};
+}
+
+Json toJson(const mesh::Repairs& repairs) {
+    const Json largest{{"edges", repairs.largest.edges},
+                       {"length", repairs.largest.rim},
+                       {"middle", toJson(repairs.largest.middle)}};
+    return {{"how", mesh::nameOf(repairs.how)},
+            {"tolerance", repairs.tolerance},
+            {"joined_vertices", repairs.joinedVertices},
+            {"split_edges", repairs.splitEdges},
+            {"removed_triangles", repairs.removedTriangles},
+            {"closed_holes", repairs.closedHoles},
+            {"closed_hole_edges", repairs.holeEdges},
+            {"new_triangles", repairs.holeTriangles},
+            {"turned_triangles", repairs.turnedTriangles},
+            {"turned_parts", repairs.turnedParts},
+            {"open_edges", repairs.openEdges},
+            {"open_holes", repairs.openHoles},
+            {"largest_hole", repairs.openHoles > 0 ? largest : Json(nullptr)}};
 }
 
 std::string dump(const Json& json) {
