@@ -8,6 +8,7 @@
 //   energy per V0:   lambda_v fill / 2 (J - 1)^2,  J = V / V0;  clamped to 2 k~ min tau / q (solvers/shares.hpp)
 //   recovery:        a pressure that is whole where J < 0 and falls to nothing at J = 1/2
 layout(constant_id = 8) const bool hasRecovery = false;
+layout(constant_id = 9) const bool hasStiffness = true; // lambda_v is not 0
 
 // What a cell does to its corners: the impulse on a corner is +-x +-y +-z, minus where the corner is low [kg m].
 struct CellImpulse {
@@ -35,7 +36,9 @@ CellImpulse pressCell(vec4 p[8], float fill, float hh) {
     precise const float gradient = 0.5 * (dot3(cx, cx) + dot3(cy, cy) + dot3(cz, cz)) + 1e-30;
     precise const float turning = (dot3(ex, ex) + dot3(ey, ey) + dot3(ez, ez)) * (1.0 / 6.0) + 0.5;
     const float tau = smallest(p);
-    precise float pressure = (1.0 - j) * min(push.volumeUnit * hh, push.volumeShare * tau / (gradient + abs(1.0 - j) * turning));
+    precise float pressure = 0.0;
+    if (hasStiffness)
+        pressure = (1.0 - j) * min(push.volumeUnit * hh, push.volumeShare * tau / (gradient + abs(1.0 - j) * turning));
     if (hasRecovery) {
         precise const float missing = max(RECOVERY_START - j, 0.0);
         pressure += min(push.recoveryUnit * hh * min(missing / RECOVERY_START, 1.0),

@@ -219,7 +219,10 @@ Grids uploadGrids(const Common& common) {
 Gather gridGather(const Common& common, const lattice::Batch& batch, BufferId cells) {
     Gather gather = common.gather();
     gather.constants[bodyDiagonalsId] = batch.hasBodyDiagonals;
-    if (batch.hasVolumes) gather.constants[recoveryId] = batch.hasRecovery;
+    if (batch.hasVolumes) {
+        gather.constants[recoveryId] = batch.hasRecovery;
+        gather.constants[volumesId] = batch.push.volumeUnit > 0;
+    }
     gather.buffers.push_back(cells);
     gather.buffers.push_back(common.program.upload("grid.chunks", batch.chunks));
     const CuttingBuffers& cutting = common.program.program().cutting;

@@ -8,9 +8,9 @@
 namespace sinew::sim::solvers::split {
 
 inline constexpr std::uint32_t degreeId = 1, firstGroupEndId = 3; // constant_id in gather_split.comp
-inline constexpr std::uint32_t bodyDiagonalsId = 6, residentSlotsId = 7,
-                               recoveryId =
-                                   8; // constant_id in gather_lattice.comp, split.glsl, cell_volume.glsl
+inline constexpr std::uint32_t bodyDiagonalsId = 6, residentSlotsId = 7, recoveryId = 8,
+                               volumesId =
+                                   9; // constant_id in gather_lattice.comp, split.glsl, cell_volume.glsl
 inline constexpr std::uint32_t bendDegreeId = 6; // constant_id in gather_terms.glsl
 
 namespace k = kernels;
