@@ -9,6 +9,7 @@
 #include "scenes/mesh_notes.hpp"
 #include "scenes/path.hpp"
 #include "scenes/place_mesh.hpp"
+#include "scenes/recovery.hpp"
 #include "scenes/surface.hpp"
 #include "sim/bodies.hpp"
 
@@ -121,7 +122,6 @@ void checkVoxelKeys(const Section& section) {
 mesh::MeshBody bodyOf(const Section& section, std::optional<float> voxel) {
     mesh::MeshBody body{.youngModulus = section.number("young_modulus"),
                         .poissonRatio = section.number("poisson_ratio"),
-                        .recovery = section.number("recovery"),
                         .density = section.number("density"),
                         .touchesParticles = section.flag("collides"),
                         .isCuttable = section.flag("cuttable"),
@@ -146,13 +146,14 @@ double longestSide(const mesh::MeshReport& surface) {
 const MeshSummary& addBody(LoadedScene& loaded, const Section& section, const mesh::TriangleMesh& mesh,
                            mesh::MeshBody body, MeshSummary summary, double longest) {
     body.name = summary.body;
+    body.recovery = recoveryOf(loaded, section, body.name);
     body.voxels.maxCells = mostParticles - loaded.scene.particles.size();
     body.mostParticles = std::min(body.mostParticles, body.voxels.maxCells);
     const mesh::MeshDefects defects = summary.surface.defects;
     summary.surface = mesh::inspect(mesh);
     summary.surface.defects = defects;
     try {
-        mesh::AddedMesh added = mesh::addMesh(loaded.scene, mesh, body);
+        mesh::AddedMesh added = addWithRecovery(loaded, section, mesh, body);
         summary.voxels = std::move(added.voxels);
         summary.shown = added.shown;
     } catch (const std::length_error& error) {

@@ -495,6 +495,11 @@ void checkCellVolumes(const Scene& scene, const Settings& settings, Complaints& 
 
 } // namespace
 
+bool canRecover(const Scene& scene, const Settings& settings) {
+    return settings.solver == Solver::split && settings.forms.usesGrids && scene.bends.empty() &&
+           scene.dampingTime == 0 && solvers::recoveryBudget(settings) > 0;
+}
+
 std::string toText(const Range& range) {
     const bool hasLow = range.low > -ranges::largest, hasHigh = range.high < ranges::largest;
     // As float32: 0.1f is a little more than 0.1 and must still read "0.1".

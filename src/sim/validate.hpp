@@ -13,6 +13,10 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings);
 /// Those about the settings, whatever the scene. Cheap.
 std::vector<std::string> validate(const Settings& settings);
 
+/// Whether a body that comes to `scene` next can have Lattice::recovery: solver split computes its grid, and
+/// omega leaves room for the pressure.
+bool canRecover(const Scene& scene, const Settings& settings);
+
 /// Throws std::invalid_argument, one sentence a line, where there are any.
 void requireNone(const std::vector<std::string>& complaints);
 

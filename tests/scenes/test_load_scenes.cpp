@@ -232,9 +232,40 @@ TEST_F(Load, GivesCellsTheVolumesThatABodyAsksFor) {
     EXPECT_NEAR(grid.recoveryPressure / shear, 2, 1e-6);
     EXPECT_NEAR(grid.compliance[0] * shear * 0.1f, 1, 1e-6);
     const std::string mesh = "[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\nvoxel = 0.25\n";
-    EXPECT_FALSE(sim::hasCellVolumes(load(mesh).scene.grids[0]));
+    EXPECT_FALSE(sim::hasCellVolumes(load(mesh + "recovery = 0\n").scene.grids[0]));
     EXPECT_GT(load(mesh + "poisson_ratio = 0.3\n").scene.grids[0].volumeStiffness, 0);
-    EXPECT_GT(load(mesh + "recovery = 2\n").scene.grids[0].recoveryPressure, 0);
+    EXPECT_EQ(load(mesh + "young_modulus = 1e5\n").scene.grids[0].recoveryPressure,
+              load(mesh + "young_modulus = 1e5\nrecovery = 2\n").scene.grids[0].recoveryPressure);
+}
+
+TEST_F(Load, LeavesOutTheRecoveryOfAMeshThatNobodyAskedForAndNothingComputes) {
+    const std::string mesh = "[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\nvoxel = 0.25\n";
+    const auto recoveries = [&](const std::string& text) {
+        const scenes::LoadedScene loaded = load(text);
+        const bool isNoted = std::ranges::any_of(loaded.notes, [](const std::string& note) {
+            return note.find("mesh sphere: no recovery, ") == 0;
+        });
+        const bool recovers = std::ranges::any_of(loaded.scene.grids, sim::hasCellVolumes);
+        EXPECT_NE(isNoted, recovers) << text;
+        return recovers;
+    };
+    EXPECT_TRUE(recoveries(mesh));
+    EXPECT_TRUE(recoveries(smallCloth + mesh));
+    const std::string unfit[] = {"[solver]\nname = \"jacobi\"\n", "[solver]\nname = \"gauss_seidel\"\n",
+                                 "damping_time = 0.01\n", "[solver]\nomega = 3.7\ntheta = 0\n",
+                                 smallCloth + "bending_stiffness = 1\n"};
+    for (const std::string& before : unfit) {
+        EXPECT_FALSE(recoveries(before + mesh)) << before;
+        EXPECT_NE(errorOfText(before + mesh + "recovery = 2\n"), "") << before;
+    }
+    const std::string far = smallCloth +
+                            "origin = [0, 0, 0]\n[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\n"
+                            "voxel = 0.3\ncenter = [9e5, 0, 0]\n";
+    EXPECT_FALSE(recoveries(far));
+    EXPECT_NE(errorOfText(far + "recovery = 2\n"), "");
+    EXPECT_NE(errorOfText(far + "cuttable = true\n"), "");
+    EXPECT_EQ(load(far).scene.particles.size(), load(far + "recovery = 0\n").scene.particles.size());
+    EXPECT_EQ(load(far).scene.distances.size(), load(far + "recovery = 0\n").scene.distances.size());
 }
 
 TEST_F(Load, RefusesVolumesThatItCannotCompute) {

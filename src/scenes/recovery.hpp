@@ -1,0 +1,17 @@
+// The key `recovery` of a mesh: its default gives way where it cannot be had.
+#pragma once
+
+#include "scenes/load.hpp"
+#include "scenes/section.hpp"
+
+namespace sinew::scenes {
+
+/// As sim::Lattice::recovery has it. The default is 0 where the scene or its solver has no form for it, which
+/// is noted; what the section itself says is left to sim::validate.
+float recoveryOf(LoadedScene& loaded, const Section& section, const std::string& name);
+
+/// mesh::addMesh, but a body so far from the origin that it gets no grid goes without the default.
+mesh::AddedMesh addWithRecovery(LoadedScene& loaded, const Section& section, const mesh::TriangleMesh& mesh,
+                                mesh::MeshBody body);
+
+} // namespace sinew::scenes
