@@ -22,7 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t mostApart = 256; ///< bodies of one mesh
-constexpr double thinnest = 0.05;      ///< share of a surface whose thickness is held against the voxels
 
 struct Found {
     mesh::TriangleMesh mesh;
@@ -169,8 +168,10 @@ const MeshSummary& addBody(LoadedScene& loaded, const Section& section, const me
     noteSize(loaded, "mesh " + summary.file, section, summary.surface,
              ", " + massText(mass) + ", " + voxelText(summary.voxels));
     warnOfDefects(summary, loaded.warnings);
-    warnOfThinWalls(loaded, "mesh " + summary.file, section, mesh::wallThickness(mesh, thinnest), longest,
-                    double{summary.voxels.spacing});
+    const double voxelEdge = double{summary.voxels.spacing};
+    const std::string thin = thinText(mesh::wallThickness(mesh, thinnestShare), longest, voxelEdge,
+                                      section.has("voxel") || section.has("particles"));
+    if (!thin.empty()) loaded.warnings.push_back("mesh " + summary.file + " " + thin);
     return loaded.meshes.emplace_back(std::move(summary));
 }
 
@@ -201,9 +202,13 @@ void addJoined(LoadedScene& loaded, const Section& section, const Found& found,
     const MeshSummary& added = addBody(loaded, section, found.mesh, body, std::move(summary),
                                        longestSide(mesh::inspect(found.mesh)));
     noteComponents(loaded, "mesh " + found.file, components);
-    if (!section.has("parts"))
-        warnOfBridges(loaded, "mesh " + found.file, mesh::findBridges(found.mesh, components, added.voxels),
-                      added.voxels);
+    if (section.has("parts")) return;
+    const std::string bridges =
+        bridgesText(mesh::findBridges(found.mesh, components, added.voxels), double{added.voxels.spacing});
+    if (!bridges.empty())
+        loaded.warnings.push_back(
+            "mesh " + found.file + " " + bridges +
+            ": parts = \"apart\" keeps them apart, parts = \"joined\" says that it is meant");
 }
 
 } // namespace

@@ -57,32 +57,27 @@ void noteComponents(LoadedScene& loaded, const std::string& name,
                                " smaller components");
 }
 
-void warnOfBridges(LoadedScene& loaded, const std::string& name, const mesh::Bridges& bridges,
-                   const mesh::VoxelGrid& grid) {
-    if (bridges.components == 0) return;
-    loaded.warnings.push_back(
-        name + ": " + std::to_string(bridges.components) + " components, " + lengthWithUnit(bridges.gap) +
-        " apart at the nearest, are joined by voxels of " + lengthWithUnit(double{grid.spacing}) +
-        ": parts = \"apart\" keeps them apart, parts = \"joined\" says that it is meant");
+std::string bridgesText(const mesh::Bridges& bridges, double voxel) {
+    if (bridges.components == 0) return {};
+    return "has " + std::to_string(bridges.components) + " components, " + lengthWithUnit(bridges.gap) +
+           " apart at the nearest, that voxels of " + lengthWithUnit(voxel) + " join";
 }
 
-void warnOfThinWalls(LoadedScene& loaded, const std::string& name, const Section& section, double thickness,
-                     double longest, double voxel) {
+std::string thinText(double thickness, double longest, double voxel, bool saysVoxel) {
     constexpr double finest = 512;                                       // cells along the longest side
-    if (!(thickness < 1.999 * voxel)) return;                            // two, but for rounding
+    if (!(thickness < 1.999 * voxel)) return {};                         // two, but for rounding
     const double resolution = std::ceil(2 * longest / thickness + 0.04); // as place_grid.cpp leaves free
     const double digit = std::pow(10, std::floor(std::log10(thickness / 2)) - 1);
-    const std::string edge =
-        text("%.3g", std::floor(thickness / 2 / digit + 1e-3) * digit); // two digits, rounded down
-    std::string cure = section.has("voxel") || section.has("particles")
-                           ? "voxel = " + edge + " gives two"
-                           : "resolution = " + text("%.0f", resolution) + " gives two";
+    const double edge = std::floor(thickness / 2 / digit + 1e-3) * digit; // two digits, rounded down
+    std::string cure =
+        (saysVoxel ? "voxel = " + text("%.3g", edge) : "resolution = " + text("%.0f", resolution)) +
+        " gives two";
     if (resolution > finest)
         cure = "two would be " + text("%.0f", resolution) + " along its longest side, more than the " +
                text("%.0f", finest) + " that are possible";
-    loaded.warnings.push_back(name + " is " + lengthWithUnit(thickness) +
-                              " thin at the thinnest 5 % of its surface, less than 2 voxels of " +
-                              lengthWithUnit(voxel) + ": " + cure);
+    return "is " + lengthWithUnit(thickness) +
+           " thin at the thinnest 5 % of its surface, less than 2 voxels of " + lengthWithUnit(voxel) + ": " +
+           cure;
 }
 
 void noteRepairs(LoadedScene& loaded, const std::string& name, const mesh::Repairs& repairs) {

@@ -24,14 +24,16 @@ void noteSize(LoadedScene& loaded, const std::string& name, const Section& secti
 void noteComponents(LoadedScene& loaded, const std::string& name,
                     const std::vector<mesh::Component>& components);
 
-/// Warns where components that lie apart are one body.
-void warnOfBridges(LoadedScene& loaded, const std::string& name, const mesh::Bridges& bridges,
-                   const mesh::VoxelGrid& grid);
+/// "has 2 components, 0.1 m apart at the nearest, that voxels of 0.2 m join"; empty where they join none.
+std::string bridgesText(const mesh::Bridges& bridges, double voxel);
 
-/// Warns of a mesh that is less than two voxels thin, `thickness` [m] at its thinnest, and says what makes
-/// two of it. `longest` is the side that has as many voxels as the section's resolution [m].
-void warnOfThinWalls(LoadedScene& loaded, const std::string& name, const Section& section, double thickness,
-                     double longest, double voxel);
+/// The share of a surface whose thickness is held against the voxels.
+constexpr double thinnestShare = 0.05;
+
+/// "is 6 mm thin ..., less than 2 voxels of 17 mm: resolution = 139 gives two", or which voxel does; empty
+/// where it is thicker. `thickness` is that of the thinnest share, `longest` the side that has as many voxels
+/// as the resolution, all in metres.
+std::string thinText(double thickness, double longest, double voxel, bool saysVoxel);
 
 /// Notes each repair of an imported mesh: "mesh liver.obj: 3 holes were closed: 14 edges, 8 new triangles".
 void noteRepairs(LoadedScene& loaded, const std::string& name, const mesh::Repairs& repairs);

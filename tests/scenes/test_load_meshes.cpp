@@ -385,16 +385,15 @@ TEST_F(Load, SaysWhereVoxelsJoinWhatIsApart) {
     const std::string scene = "[[mesh]]\nfile = \"gap.obj\"\nvoxel = ";
     EXPECT_EQ(load(scene + "0.2\n").warnings,
               std::vector<std::string>{
-                  "mesh gap.obj: 2 components, 0.1 m apart at the nearest, are joined by voxels of "
-                  "0.2 m: parts = \"apart\" keeps them apart, parts = \"joined\" says that it "
-                  "is meant"});
+                  "mesh gap.obj has 2 components, 0.1 m apart at the nearest, that voxels of 0.2 m join: "
+                  "parts = \"apart\" keeps them apart, parts = \"joined\" says that it is meant"});
     EXPECT_EQ(load(scene + "0.025\n").warnings, std::vector<std::string>{});
     EXPECT_EQ(load(scene + "0.2\nparts = \"joined\"\n").warnings, std::vector<std::string>{});
     EXPECT_EQ(load(scene + "0.2\nparts = \"joined\"\n").scene.bodies.size(), 1u);
 
     const auto joined = [&](const std::string& text) {
         write("gap.obj", text);
-        return count(load(scene + "0.2\n").warnings, "are joined by voxels");
+        return count(load(scene + "0.2\n").warnings, "that voxels of");
     };
     EXPECT_EQ(joined(objCube("", 1, {0, 0, 0}, 1) + objCube("", 9, {0.5f, 0.1f, 0.1f}, 1)), 0)
         << "they overlap";

@@ -56,6 +56,8 @@ TEST_F(Usage, WrongUsageIsCodeTwoAndPointsAtTheRightHelp) {
         {"mesh", "a.obj", "--resolution", "0"},
         {"mesh", "a.obj", "--resolution", "4", "--voxel", "1"},
         {"mesh", "a.obj", "--particles", "7"},
+        {"mesh", "a.obj", "--unit", "parsec"},
+        {"mesh", "a.obj", "--scale", "0"},
         {"mesh", "a.obj", "--particles", "70", "--voxel", "1"},
         {"bench", "--scene", "heap"},
         {"bench", "--seconds", "0"},
@@ -119,6 +121,46 @@ TEST_F(Usage, MeshNeedsNoDeviceAndReportsWhatItFound) {
     const Outcome budget = run({"mesh", mesh.string(), "--particles", "500", "--json", "-"}, noDevice);
     ASSERT_EQ(budget.code, 0) << budget.error;
     EXPECT_LE(nlohmann::json::parse(budget.out)["voxels"]["particles"], 500);
+}
+
+TEST_F(Usage, MeshTakesUnitScaleAndObject) {
+    const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 3 0 0\nv 5 0 0\nv 3 2 0\nv 3 0 2\n";
+    const auto mesh = write("two.obj", corners + "o liver\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+                                                 "o gall\nf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\n");
+    const auto report = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"mesh", mesh.string(), "--json", "-"});
+        const Outcome outcome = run(options, noDevice);
+        EXPECT_EQ(outcome.code, 0) << outcome.error;
+        return nlohmann::json::parse(outcome.out);
+    };
+    const auto whole = report({});
+    EXPECT_EQ(whole["components"]["count"], 2);
+    EXPECT_EQ(whole["components"]["largest"][0]["name"], "gall");
+    EXPECT_NEAR(whole["components"]["largest"][0]["volume"].get<double>(), 8.0 / 6, 1e-6);
+    EXPECT_EQ(whole["components"]["largest"][1]["triangles"], 4);
+    EXPECT_NEAR(report({"--object", "liver"})["surface"]["high"][0].get<double>(), 1, 1e-6);
+    EXPECT_NEAR(report({"--object", "liver", "--object", "part 1"})["surface"]["high"][0].get<double>(), 5,
+                1e-6);
+    EXPECT_NEAR(report({"--unit", "cm", "--scale", "2"})["surface"]["high"][0].get<double>(), 0.1, 1e-6);
+    expectOneError(run({"mesh", mesh.string(), "--object", "galll"}, noDevice), 3,
+                   "which no object of " + mesh.string() + " is called: did you mean \"gall\"?");
+}
+
+TEST_F(Usage, MeshSaysWhatIsLikelyToSurprise) {
+    const auto mesh =
+        write("two.obj", "v 0 0 0\nv 40 0 0\nv 40 0 40\nv 0 0 40\nv 0 1 0\nv 40 1 0\nv 40 1 40\nv 0 1 40\n"
+                         "v 0 2 0\nv 1 2 0\nv 0 3 0\nv 0 2 1\n"
+                         "f 1 2 3 4\nf 8 7 6 5\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n"
+                         "f 9 11 10\nf 9 10 12\nf 9 12 11\nf 10 11 12\n");
+    const Outcome outcome = run({"mesh", mesh.string(), "--voxel", "2"}, noDevice);
+    for (const std::string sentence :
+         {" is 40 m long: if the file is in millimetres, say unit = \"mm\"\n",
+          " has 2 components, 1 m apart at the nearest, that voxels of 2 m join\n",
+          " is 1 m thin at the thinnest 5 % of its surface, less than 2 voxels of 2 m: voxel = 0.5 gives "
+          "two\n"})
+        EXPECT_NE(outcome.error.find("warning: " + mesh.string() + sentence), std::string::npos)
+            << sentence << outcome.error;
+    EXPECT_EQ(run({"mesh", mesh.string(), "--resolution", "90", "--unit", "cm"}, noDevice).error, "");
 }
 
 TEST_F(Usage, MeshMakesTheSameVoxelsOnADevice) {

@@ -5,7 +5,9 @@
 #include "mesh/gpu/voxelise.hpp"
 #include "mesh/import.hpp"
 #include "mesh/voxelise.hpp"
+#include "mesh/walls.hpp"
 #include "scenes/mesh_choice.hpp"
+#include "scenes/mesh_notes.hpp"
 #include "scenes/place_mesh.hpp"
 #include "sinew/commands.hpp"
 #include "sinew/json.hpp"
@@ -216,12 +218,21 @@ std::string toText(const Findings& found) {
                               static_cast<double>(found.bytes()) / static_cast<double>(grid.voxels.size()));
 }
 
-// One that has another unit, as it seems.
-std::string oddSize(const MeshOptions& options, const mesh::MeshReport& surface) {
+// What is likely to surprise: another unit, components that voxels join, and walls that are too thin for
+// them.
+std::vector<std::string> surprises(const MeshOptions& options, const Findings& found) {
+    const mesh::MeshReport& surface = found.surface;
     const double longest = std::max({double{surface.high.x} - double{surface.low.x},
                                      double{surface.high.y} - double{surface.low.y},
-                                     double{surface.high.z} - double{surface.low.z}});
-    return scenes::oddSize(longest, *scenes::findUnit(options.unit));
+                                     double{surface.high.z} - double{surface.low.z}}),
+                 voxel = double{found.voxels.spacing};
+    std::vector<std::string> sentences{
+        scenes::oddSize(longest, *scenes::findUnit(options.unit)),
+        scenes::bridgesText(mesh::findBridges(found.mesh, found.components, found.voxels), voxel),
+        scenes::thinText(mesh::wallThickness(found.mesh, scenes::thinnestShare), longest, voxel,
+                         options.voxel > 0 || options.particles)};
+    std::erase(sentences, "");
+    return sentences;
 }
 
 int report(const MeshOptions& options) {
@@ -230,8 +241,8 @@ int report(const MeshOptions& options) {
     const Findings found = inspect(options);
     for (const std::string& message : found.validationMessages)
         std::fprintf(stderr, "validation: %s\n", message.c_str());
-    if (const std::string odd = oddSize(options, found.surface); !odd.empty())
-        std::fprintf(stderr, "warning: %s %s\n", options.file.c_str(), odd.c_str());
+    for (const std::string& sentence : surprises(options, found))
+        std::fprintf(stderr, "warning: %s %s\n", options.file.c_str(), sentence.c_str());
     if (json) json->write(toJson(found));
     if (options.json != "-") TextOutput("-").write(toText(found));
     return 0;
