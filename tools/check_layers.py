@@ -14,7 +14,7 @@ LAYERS = {
     "app": ["mesh", "sim", "vk"],
 }
 # Finer rules inside a layer: (files, includes they may not have, why).
-SIM_MAY_USE_VK = re.compile(r"src/sim/(gpu_\w+|simulation(_states?)?)\.(cpp|hpp)$")
+SIM_MAY_USE_VK = re.compile(r"src/sim/(gpu_\w+|simulation(_states?|_ring)?)\.(cpp|hpp)$")
 PURE_VK = {"vk/spirv.hpp"}  # includes no Vulkan header
 MESH_MAY_USE_SIM = {"sim/scene.hpp", "sim/bodies.hpp"}
 MESH_ON_DEVICE = "src/mesh/gpu/"  # the only part of mesh that sees Vulkan
@@ -71,13 +71,26 @@ def complaints(path, text):
         yield f"{name}: only vk/commands names stages, accesses and barriers"
 
 
+def uncalled(texts):
+    """Functions of the table that nobody calls: a device would be refused for lack of them."""
+    table = (ROOT / "src/vk/functions.inc").read_text(encoding="utf-8")
+    called = set(re.findall(r"\bvk[A-Z]\w+", "\n".join(texts)))
+    for name in re.findall(r"^SINEW_VK\w*\((\w+)\)", table, re.M):
+        if name not in called:
+            yield f"src/vk/functions.inc: {name} is called by nobody: leave it out"
+
+
 def main():
-    found, files = [], 0
+    found, files, calling = [], 0, []
     for top in ("src", "apps", "tools", "tests", "shaders"):
         for path in sorted((ROOT / top).rglob("*")):
             if path.suffix in LIMITS:
                 files += 1
-                found += complaints(path, path.read_text(encoding="utf-8"))
+                text = path.read_text(encoding="utf-8")
+                found += complaints(path, text)
+                if top in ("src", "apps"):
+                    calling.append(text)
+    found += uncalled(calling)
     print("\n".join(found) if found else f"layers: {files} files, all arrows point down")
     return 1 if found else 0
 

@@ -9,7 +9,7 @@ namespace sinew::vk {
 
 namespace {
 
-// Extensions may be absent; a core function may not.
+// Extensions may be absent; a function that the core calls may not.
 template <typename Function> Function required(PFN_vkVoidFunction function, std::string_view name) {
     if (function == nullptr && !name.ends_with("EXT"))
         throw Error(Failure::noDevice, "the Vulkan driver lacks " + std::string(name) +
@@ -23,6 +23,7 @@ InstanceFunctions loadInstanceFunctions(PFN_vkGetInstanceProcAddr getInstancePro
     InstanceFunctions functions;
 #define SINEW_VK(name) functions.name = required<PFN_##name>(getInstanceProcAddr(instance, #name), #name);
 #define SINEW_VK_DEVICE(name)
+#define SINEW_VK_DRAWING(name)
 #include "vk/functions.inc"
     return functions;
 }
@@ -31,6 +32,8 @@ DeviceFunctions loadDeviceFunctions(PFN_vkGetDeviceProcAddr getDeviceProcAddr, V
     DeviceFunctions functions;
 #define SINEW_VK(name)
 #define SINEW_VK_DEVICE(name) functions.name = required<PFN_##name>(getDeviceProcAddr(device, #name), #name);
+#define SINEW_VK_DRAWING(name)                                                                               \
+    functions.name = reinterpret_cast<PFN_##name>(getDeviceProcAddr(device, #name));
 #include "vk/functions.inc"
     return functions;
 }
