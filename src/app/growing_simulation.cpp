@@ -28,7 +28,7 @@ vk::Buffer bufferFor(const vk::Device& device, std::uint64_t size, vk::MemoryKin
 
 GrowingSimulation::GrowingSimulation(const vk::Device& device, const sim::Scene& scene,
                                      const sim::Settings& settings)
-    : device_(device), scene_(scene), settings_(settings),
+    : device_(device.anchored()), scene_(scene), settings_(settings),
       simulation_(std::make_unique<sim::Simulation>(device, scene, settings)),
       room_{.room = settings.contactRoom} {}
 

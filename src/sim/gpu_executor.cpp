@@ -55,6 +55,7 @@ std::vector<std::pair<std::uint32_t, vk::Buffer>> makeStaging(const vk::Device& 
                                    .stride = spec.stride,
                                    .kind = vk::MemoryKind::upload});
         std::copy(spec.initial.begin(), spec.initial.end(), buffer.mapped());
+        buffer.flush();
         staging.emplace_back(b, std::move(buffer));
     }
     return staging;

@@ -202,12 +202,22 @@ public:
     BufferAllocation create(const VkBufferCreateInfo& info, MemoryKind kind, const char* name) override {
         const std::lock_guard lock(mutex_);
         const BufferAllocation allocation = hook_.create(info, kind, name);
+        const bool isInMemory = allocation.memoryOffset <= allocation.memorySize &&
+                                info.size <= allocation.memorySize - allocation.memoryOffset;
         if (allocation.buffer == VK_NULL_HANDLE)
             throw Error(Failure::outOfMemory,
                         std::string("buffer ") + name + ": the host's hook returned no buffer");
         if (kind != MemoryKind::device && allocation.mapped == nullptr) {
             hook_.destroy(allocation);
             throw Error(Failure::misuse, std::string("buffer ") + name + ": the host's hook did not map it");
+        }
+        if (allocation.memory != VK_NULL_HANDLE && !isInMemory) {
+            hook_.destroy(allocation);
+            throw Error(Failure::misuse, std::string("buffer ") + name + ": the host's hook says that its " +
+                                             std::to_string(info.size) + " bytes begin at " +
+                                             std::to_string(allocation.memoryOffset) + " of memory of " +
+                                             std::to_string(allocation.memorySize) +
+                                             " bytes: set memoryOffset and memorySize");
         }
         sizes_.emplace(allocation.buffer, info.size);
         return allocation;

@@ -33,7 +33,8 @@ std::vector<std::uint32_t> suitableMemoryTypes(const VkPhysicalDeviceMemoryPrope
 std::unique_ptr<Allocator> makeBlockAllocator(VkDevice device, const DeviceFunctions& functions,
                                               const VkPhysicalDeviceMemoryProperties& properties);
 
-/// Checks what the hook returns: a buffer, and an address for the kinds that are mapped.
+/// Checks what the hook returns: a buffer, an address for the kinds that are mapped, and that the buffer lies
+/// in the memory that it names.
 std::unique_ptr<Allocator> makeHookAllocator(const BufferHook& hook);
 
 } // namespace sinew::vk

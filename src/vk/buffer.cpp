@@ -25,7 +25,8 @@ void checkRequest(const BufferRequest& request, VkDeviceSize largest) {
 } // namespace
 
 Buffer::Buffer(const Device& device, const BufferRequest& request)
-    : allocator_(&device.allocator()), count_(request.count), stride_(request.stride), name_(request.name) {
+    : device_(&device.anchored()), allocator_(&device.allocator()), count_(request.count),
+      stride_(request.stride), name_(request.name) {
     checkRequest(request, device.limits().maxStorageBufferRange);
     const VkBufferCreateInfo info{
         .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
@@ -39,12 +40,14 @@ Buffer::Buffer(const Device& device, const BufferRequest& request)
 }
 
 Buffer::Buffer(Buffer&& other) noexcept
-    : allocator_(std::exchange(other.allocator_, nullptr)), allocation_(std::exchange(other.allocation_, {})),
-      count_(other.count_), stride_(other.stride_), name_(std::move(other.name_)) {}
+    : device_(other.device_), allocator_(std::exchange(other.allocator_, nullptr)),
+      allocation_(std::exchange(other.allocation_, {})), count_(other.count_), stride_(other.stride_),
+      name_(std::move(other.name_)) {}
 
 Buffer& Buffer::operator=(Buffer&& other) noexcept {
     if (this != &other) {
         release();
+        device_ = other.device_;
         allocator_ = std::exchange(other.allocator_, nullptr);
         allocation_ = std::exchange(other.allocation_, {});
         count_ = other.count_;
@@ -61,6 +64,34 @@ Buffer::~Buffer() {
 void Buffer::release() noexcept {
     if (allocator_ != nullptr) allocator_->destroy(allocation_);
     allocator_ = nullptr;
+}
+
+// What Vulkan takes: whole atoms, but for the end of the memory.
+VkMappedMemoryRange Buffer::atomsOf(VkDeviceSize offset, VkDeviceSize size) const noexcept {
+    const VkDeviceSize atom = std::max<VkDeviceSize>(device_->limits().nonCoherentAtom, 1);
+    const VkDeviceSize whole = view().size, from = std::min(offset, whole);
+    const VkDeviceSize first = (allocation_.memoryOffset + from) / atom * atom;
+    const VkDeviceSize end = allocation_.memoryOffset + from + std::min(size, whole - from);
+    const VkDeviceSize last = std::min((end + atom - 1) / atom * atom, allocation_.memorySize);
+    return {.sType = VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE,
+            .pNext = nullptr,
+            .memory = allocation_.memory,
+            .offset = first,
+            .size = last - first};
+}
+
+// A range that Vulkan has no memory for is out of memory or device for the next submission too, which says
+// so.
+void Buffer::flush(VkDeviceSize offset, VkDeviceSize size) const noexcept {
+    if (allocation_.memory == VK_NULL_HANDLE || allocation_.mapped == nullptr) return;
+    const VkMappedMemoryRange range = atomsOf(offset, size);
+    device_->functions().vkFlushMappedMemoryRanges(device_->handle(), 1, &range);
+}
+
+void Buffer::invalidate(VkDeviceSize offset, VkDeviceSize size) const noexcept {
+    if (allocation_.memory == VK_NULL_HANDLE || allocation_.mapped == nullptr) return;
+    const VkMappedMemoryRange range = atomsOf(offset, size);
+    device_->functions().vkInvalidateMappedMemoryRanges(device_->handle(), 1, &range);
 }
 
 BufferView Buffer::view() const noexcept {

@@ -35,11 +35,20 @@ public:
     VkDeviceSize count() const noexcept { return count_; }
     std::uint32_t stride() const noexcept { return stride_; }
     const std::string& name() const noexcept { return name_; }
-    /// Host address of a mapped buffer (upload, readback), else null. Memory is host coherent.
+    /// Host address of a mapped buffer (upload, readback), else null. Host coherent, unless a host's hook
+    /// says otherwise (BufferAllocation::memory): then flush() what was written before the submission that
+    /// reads it, and invalidate() before reading what a finished submission wrote.
     std::byte* mapped() const noexcept { return allocation_.mapped; }
+    /// Make writes of the host visible to the device, and of the device to the host. Nothing to do, and
+    /// nothing done, for coherent memory. `size` [B] from `offset` [B]; ranges grow to whole atoms
+    /// (Limits::nonCoherentAtom), of which the other side must not write any part meanwhile.
+    void flush(VkDeviceSize offset = 0, VkDeviceSize size = VK_WHOLE_SIZE) const noexcept;
+    void invalidate(VkDeviceSize offset = 0, VkDeviceSize size = VK_WHOLE_SIZE) const noexcept;
 
 private:
     void release() noexcept;
+    VkMappedMemoryRange atomsOf(VkDeviceSize offset, VkDeviceSize size) const noexcept;
+    const Device* device_ = nullptr; ///< anchored
     Allocator* allocator_ = nullptr; ///< null: moved from
     BufferAllocation allocation_;
     VkDeviceSize count_ = 0;

@@ -151,7 +151,10 @@ DeviceDescription describeDevice(const InstanceFunctions& functions, VkPhysicalD
     DeviceDescription description{.name = properties.deviceName,
                                   .driver = "unknown",
                                   .type = typeName(properties.deviceType),
-                                  .apiVersion = properties.apiVersion};
+                                  .apiVersion = properties.apiVersion,
+                                  .storageBuffers =
+                                      std::min(properties.limits.maxPerStageDescriptorStorageBuffers,
+                                               properties.limits.maxDescriptorSetStorageBuffers)};
     if (properties.apiVersion >= VK_API_VERSION_1_2) {
         VkPhysicalDeviceDriverProperties driver{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
         VkPhysicalDeviceProperties2 extended{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,

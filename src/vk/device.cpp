@@ -28,6 +28,7 @@ struct Device::State {
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;
     std::unique_ptr<Allocator> allocator;
     KernelStore kernels;
+    std::unique_ptr<Device> anchored; ///< does not own this
 
     State() = default;
     State(const State&) = delete;
@@ -133,7 +134,19 @@ void dropDebugUtils(DeviceFunctions& functions) {
 
 } // namespace
 
-Device::Device(std::unique_ptr<State> state) : state_(std::move(state)) {}
+void Device::Release::operator()(State* state) const noexcept {
+    if (isOwner) delete state;
+}
+
+Device::Device(Handle state) : state_(std::move(state)) {}
+
+Device Device::make() {
+    Device device(Handle(new State, Release{true}));
+    State& state = *device.state_;
+    state.anchored.reset(new Device(Handle(&state, Release{false})));
+    return device;
+}
+
 Device::Device(Device&&) noexcept = default;
 Device& Device::operator=(Device&&) noexcept = default;
 Device::~Device() = default;
@@ -158,7 +171,7 @@ void Device::complete(bool hasDebugUtils, const BufferHook& hook) {
 }
 
 Device Device::create(PFN_vkGetInstanceProcAddr getInstanceProcAddr, const DeviceRequest& request) {
-    Device device(std::make_unique<State>());
+    Device device = make();
     State& state = *device.state_;
     state.ownInstance = std::make_unique<Instance>(getInstanceProcAddr, request);
     state.getInstanceProcAddr = getInstanceProcAddr;
@@ -177,7 +190,7 @@ Device Device::create(PFN_vkGetInstanceProcAddr getInstanceProcAddr, const Devic
 
 Device Device::borrow(const HostDevice& host) {
     checkHost(host);
-    Device device(std::make_unique<State>());
+    Device device = make();
     State& state = *device.state_;
     state.getInstanceProcAddr = host.getInstanceProcAddr;
     state.instance = host.instance;
@@ -225,6 +238,9 @@ const Limits& Device::limits() const noexcept {
 }
 const DeviceDescription& Device::description() const noexcept {
     return state_->description;
+}
+const Device& Device::anchored() const noexcept {
+    return *state_->anchored;
 }
 KernelStore& Device::kernels() const noexcept {
     return state_->kernels;

@@ -27,11 +27,17 @@ struct BufferAllocation {
     VkBuffer buffer = VK_NULL_HANDLE;
     std::byte* mapped = nullptr; ///< null for MemoryKind::device unless the memory happens to be host visible
     std::uint64_t token = 0;     ///< the allocator's own mark
+    /// Null where `mapped` is null or host coherent. Else the memory behind `mapped`, which Sinew flushes and
+    /// invalidates: the whole of it is mapped, the buffer begins at `memoryOffset`, a multiple of
+    /// nonCoherentAtomSize, and no other buffer shares its last atom.
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    VkDeviceSize memoryOffset = 0, memorySize = 0; ///< [B]
 };
 
 /// The two functions a host may replace. `create` gets a complete VkBufferCreateInfo and a kind and returns a
 /// bound buffer, or throws vk::Error. Both are called at set-up and tear-down only, from the thread that does
-/// so, one call at a time.
+/// so, one call at a time. Mapped memory that is not host coherent must be named
+/// (BufferAllocation::memory): else neither side sees what the other writes.
 struct BufferHook {
     std::function<BufferAllocation(const VkBufferCreateInfo&, MemoryKind, const char* name)> create{};
     std::function<void(const BufferAllocation&)> destroy{};
@@ -64,6 +70,10 @@ struct DeviceRequest {
     std::function<void(const std::string&)> onValidationMessage{};
 };
 
+/// Storage buffers of the kernel that binds most of them. Vulkan promises 4: with fewer than these, scenes are
+/// refused whose kernels need more (vk::Kernel).
+inline constexpr std::uint32_t mostStorageBuffers = 16;
+
 /// One physical device in the words of `sinew devices`.
 struct DeviceDescription {
     std::uint32_t index = 0;
@@ -71,6 +81,7 @@ struct DeviceDescription {
         type{}; ///< type: "discrete GPU", "integrated GPU", "virtual GPU", "software"
     std::uint32_t apiVersion = 0;
     std::vector<std::string> missing{}; ///< sentences; empty = usable
+    std::uint32_t storageBuffers = 0;   ///< that a kernel may bind; the core's bind up to mostStorageBuffers
     bool isChosen = false;              ///< the one `create` would take for this request
 };
 
@@ -96,9 +107,10 @@ template <typename Handle> std::uint64_t handleValue(Handle handle) noexcept {
 }
 
 /// Owns (create) or borrows a VkDevice, with its function tables, its allocator and its kernels, which any
-/// thread may use; all else is not thread safe. Different devices are independent. Movable: buffers, kernels,
-/// binding sets, timestamps and commands refer to parts that stay where they are; only a Queue refers to the
-/// Device itself. All of them must be gone before it is destroyed.
+/// thread may use; all else is not thread safe. Different devices are independent. Movable: whatever of Sinew
+/// was made with it, a Simulation and a Queue too, refers to parts that stay where they are (anchored()). All
+/// of that must be gone before it is destroyed. A Device that was moved from may only be assigned or
+/// destroyed.
 class Device {
 public:
     /// Makes an instance and a device through the loader's entry point (vk::Loader opens one). Prefers a real
@@ -128,6 +140,8 @@ public:
     Allocator& allocator() const noexcept;
     KernelStore& kernels() const noexcept;
     VkPipelineCache pipelineCache() const noexcept;
+    /// The same device under an address that stays valid when this one moves: for who keeps a reference.
+    const Device& anchored() const noexcept;
 
     /// Names an object for validation messages and captures; does nothing without VK_EXT_debug_utils.
     void name(VkObjectType type, std::uint64_t handle, const std::string& name) const noexcept;
@@ -137,9 +151,15 @@ public:
 
 private:
     struct State;
-    explicit Device(std::unique_ptr<State> state);
+    struct Release { // anchored() refers to the state without owning it
+        bool isOwner;
+        void operator()(State* state) const noexcept;
+    };
+    using Handle = std::unique_ptr<State, Release>;
+    explicit Device(Handle state);
+    static Device make();
     void complete(bool hasDebugUtils, const BufferHook& hook);
-    std::unique_ptr<State> state_;
+    Handle state_;
 };
 
 /// Every physical device, with what it lacks. Throws Error(noDevice) when there is no loader or driver.

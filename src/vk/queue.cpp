@@ -33,7 +33,7 @@ void checkTransfer(const BufferView& view, VkDeviceSize size) {
 
 } // namespace
 
-Queue::Queue(const Device& device) : device_(device) {
+Queue::Queue(const Device& device) : device_(device.anchored()) {
     const DeviceFunctions& functions = device.functions();
     functions.vkGetDeviceQueue(device.handle(), device.queueFamily(), 0, &queue_);
     device.name(VK_OBJECT_TYPE_QUEUE, handleValue(queue_), "sinew.queue");
@@ -142,6 +142,7 @@ void Queue::upload(const BufferView& target, const void* bytes, VkDeviceSize siz
     for (VkDeviceSize at = 0; at < size; at += stagingSize) {
         const VkDeviceSize length = std::min(size - at, stagingSize);
         std::memcpy(buffer.mapped(), static_cast<const std::byte*>(bytes) + at, length);
+        buffer.flush(0, length);
         transfer(part(buffer.view(), 0, length), part(target, at, length));
     }
 }
@@ -152,6 +153,7 @@ void Queue::download(const BufferView& source, void* bytes, VkDeviceSize size) {
     for (VkDeviceSize at = 0; at < size; at += stagingSize) {
         const VkDeviceSize length = std::min(size - at, stagingSize);
         transfer(part(source, at, length), part(buffer.view(), 0, length));
+        buffer.invalidate(0, length);
         std::memcpy(static_cast<std::byte*>(bytes) + at, buffer.mapped(), length);
     }
 }

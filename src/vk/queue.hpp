@@ -8,8 +8,8 @@
 
 namespace sinew::vk {
 
-/// Owns a command pool and a timeline semaphore on queue 0 of the device's family. One thread. The Device
-/// must neither move nor go while the Queue lives. Needs the feature timelineSemaphore, which Device::create
+/// Owns a command pool and a timeline semaphore on queue 0 of the device's family. One thread. The Device may
+/// move, but must not go while the Queue lives. Needs the feature timelineSemaphore, which Device::create
 /// enables.
 class Queue {
 public:

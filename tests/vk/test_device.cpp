@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -303,6 +304,40 @@ TEST(Device, MayMoveUnderBuffersAndKernels) {
     own.submit(handle);
     EXPECT_EQ(own.download<std::uint32_t>(buffer.view()), (std::vector<std::uint32_t>{5, 6, 7}));
     EXPECT_EQ(moved.validationMessages(), std::vector<std::string>{});
+}
+
+TEST(Device, MayMoveUnderAQueue) {
+    const auto create = [] {
+        return vk::Device::create(device().getInstanceProcAddr(), {.hasValidation = true});
+    };
+    vk::Device moved = create();
+    std::optional<vk::Device> first = create();
+    const vk::Device* const anchored = &first->anchored();
+    vk::Queue own(*first);
+    moved = std::move(*first);
+    first.reset();
+    EXPECT_EQ(&moved.anchored(), anchored);
+    const vk::Buffer buffer(moved, {.name = "values", .count = 3, .stride = 4});
+    const std::uint32_t values[] = {4, 5, 6};
+    own.upload(buffer.view(), values, sizeof values);
+    EXPECT_EQ(own.download<std::uint32_t>(buffer.view()), (std::vector<std::uint32_t>{4, 5, 6}));
+    EXPECT_EQ(moved.validationMessages(), std::vector<std::string>{});
+}
+
+// A device that computes, and has nothing that draws, waits for fences or is called by nobody.
+TEST(BorrowedDevice, NeedsNoFunctionThatTheCoreDoesNotCall) {
+    HostDevice host;
+    for (const char* name :
+         {"vkCreateGraphicsPipelines", "vkCmdDraw", "vkCmdDrawIndexedIndirect", "vkCreateImage",
+          "vkCreateRenderPass", "vkCmdBeginRenderPass", "vkCreateFence", "vkWaitForFences",
+          "vkCmdSetViewport", "vkCmdBlitImage", "vkCreateEvent", "vkCmdExecuteCommands",
+          "vkGetBufferDeviceAddress", "vkCmdDrawIndirectCount", "vkTrimCommandPool", "vkResetQueryPool"})
+        host.replace(name, nullptr);
+    const vk::Device borrowed = vk::Device::borrow(host.handles());
+    EXPECT_EQ(borrowed.functions().vkCmdDraw, nullptr);
+    EXPECT_NE(borrowed.functions().vkCmdDispatch, nullptr);
+    host.replace("vkCmdDispatchIndirect", nullptr);
+    expectPart(noDeviceComplaint([&] { vk::Device::borrow(host.handles()); }), "vkCmdDispatchIndirect");
 }
 
 TEST(BorrowedDevice, RunsADispatchWithoutAnyFeatureOrAnyMessage) {

@@ -27,6 +27,10 @@ std::string row(const DeviceDescription& device) {
                                    device.type, version(device.apiVersion), device.name);
     if (!device.driver.empty()) text += " (" + device.driver + ")";
     text += "\n";
+    if (device.storageBuffers < vk::mostStorageBuffers)
+        text += fmt::format("        a kernel may bind {} storage buffers: scenes that need more, up to {}, "
+                            "are refused\n",
+                            device.storageBuffers, vk::mostStorageBuffers);
     for (const std::string& missing : device.missing) text += "        missing: " + missing + "\n";
     return text;
 }

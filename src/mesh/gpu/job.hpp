@@ -12,7 +12,8 @@ namespace sinew::mesh::gpu {
 /// Pipelines made on first use and kept.
 class Kernels {
 public:
-    Kernels(const vk::Device& device, bool isReversed) : device_(device), isReversed_(isReversed) {}
+    Kernels(const vk::Device& device, bool isReversed)
+        : device_(device.anchored()), isReversed_(isReversed) {}
     const vk::Kernel& operator[](const vk::ShaderCode& code);
 
 private:
@@ -26,7 +27,7 @@ class Job {
 public:
     using BufferId = sim::BufferId;
     Job(const vk::Device& device, vk::Queue& queue, Kernels& kernels)
-        : device_(device), queue_(queue), kernels_(kernels) {}
+        : device_(device.anchored()), queue_(queue), kernels_(kernels) {}
 
     template <typename T> BufferId upload(const std::string& label, std::span<const T> elements) {
         const BufferId id = add(label, elements.size(), sizeof(T));

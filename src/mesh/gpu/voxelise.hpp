@@ -18,7 +18,7 @@ class Voxeliser {
 public:
     /// Makes no pipeline yet: the first call does. Reversed: a test of order (kernel.glsl).
     Voxeliser(const vk::Device& device, vk::Queue& queue, bool isReversed = false)
-        : device_(device), queue_(queue), kernels_(device, isReversed) {}
+        : device_(device.anchored()), queue_(queue), kernels_(device, isReversed) {}
 
     /// Throws as mesh::voxelise, and vk::Error: outOfMemory where a buffer exceeds what the device binds, as
     /// with more than 32 Mi pairs of a triangle and a cell that it touches at 128 MiB a binding.
