@@ -2,14 +2,16 @@
 // Smooth vertex normals of the deformed skin: those of a vertex's triangles by their angles there (Thuermer and Wuethrich 1998),
 // so that they stay as they are where flat ones are split, gathered in fixed order.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_spirv_intrinsics : require
+#define ALIASED spirv_decorate(20) // its buffer is bound once more, and written by one of both: Aliased
 #include "kernel.glsl"
 
 #ifdef TEXELS
-layout(std430, binding = 0) writeonly buffer Vertices { SkinVertex vertices[]; };
+ALIASED layout(std430, binding = 0) writeonly buffer Vertices { SkinVertex vertices[]; };
 layout(binding = 1) uniform usamplerBuffer indices;
 layout(binding = 2) uniform usamplerBuffer fans; // VertexTriangles
 layout(binding = 3) uniform usamplerBuffer trianglesOfVertex;
-layout(binding = 4) uniform samplerBuffer places; // vertices, as they are
+ALIASED layout(binding = 4) uniform samplerBuffer places; // vertices, as they are
 #define INDEX(t) texelFetch(indices, int(t)).x
 #define FAN(i) texelFetch(fans, int(i)).xy
 #define TRIANGLE(k) texelFetch(trianglesOfVertex, int(k)).x

@@ -3,30 +3,32 @@
 // so nobody reads what another writes; a particle that never moves is shared and never written. The color is padded to
 // whole work groups with constraints of a padding particle, which never moves: no lane is masked off (lavapipe).
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_spirv_intrinsics : require
+#define ALIASED spirv_decorate(20) // its buffer is bound once more, and written by one of both: Aliased
 #include "kernel.glsl"
 #include "distance.glsl"
 
 // DistanceEdge; predicted positions, w = inverse mass [1/kg]; ParticleCorrection; l n and l [N s^2]. What is fetched as
 // texels and also written is fetched by the invocation that writes it, for the value that it writes.
-layout(std430, binding = 0) writeonly buffer Corrections { vec4 corrections[]; };
+ALIASED layout(std430, binding = 0) writeonly buffer Corrections { vec4 corrections[]; };
 layout(std140, binding = 1) uniform Step { StepParams step; };
 #ifdef TEXELS
 layout(binding = 2) uniform usamplerBuffer edges;
 layout(binding = 3) uniform samplerBuffer positions;
-layout(binding = 4) uniform samplerBuffer correctionsBefore;
+ALIASED layout(binding = 4) uniform samplerBuffer correctionsBefore;
 #define FETCH(buffer, i) texelFetch(buffer, int(i))
 #else
 layout(std430, binding = 2) readonly buffer Edges { uvec4 edges[]; };
 layout(std430, binding = 3) readonly buffer Positions { vec4 positions[]; };
-layout(std430, binding = 4) readonly buffer CorrectionsBefore { vec4 correctionsBefore[]; };
+ALIASED layout(std430, binding = 4) readonly buffer CorrectionsBefore { vec4 correctionsBefore[]; };
 #define FETCH(buffer, i) buffer[i]
 #endif
 #ifdef HAS_MULTIPLIERS
-layout(std430, binding = 5) writeonly buffer Multipliers { vec4 multipliers[]; };
+ALIASED layout(std430, binding = 5) writeonly buffer Multipliers { vec4 multipliers[]; };
 #ifdef TEXELS
-layout(binding = 6) uniform samplerBuffer multipliersBefore;
+ALIASED layout(binding = 6) uniform samplerBuffer multipliersBefore;
 #else
-layout(std430, binding = 6) readonly buffer MultipliersBefore { vec4 multipliersBefore[]; };
+ALIASED layout(std430, binding = 6) readonly buffer MultipliersBefore { vec4 multipliersBefore[]; };
 #endif
 #endif
 layout(push_constant) uniform Push { ColorPush push; };

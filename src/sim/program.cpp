@@ -19,6 +19,22 @@ bool touches(vk::Access access, vk::Access part) {
     throw std::logic_error(std::string("kernel ") + code.name + ": " + why);
 }
 
+// A compiler may take bindings for different buffers, unless both say that they are not.
+void checkAliases(const vk::ShaderCode& code, const vk::KernelInterface& interface, const Pass& pass,
+                  const std::vector<BufferSpec>& buffers) {
+    const auto& uses = pass.uses;
+    for (std::size_t a = 0; a < uses.size(); ++a)
+        for (std::size_t b = a + 1; b < uses.size(); ++b) {
+            const vk::KernelBinding &first = interface.bindings[a], &second = interface.bindings[b];
+            const bool isWritten =
+                touches(uses[a].access, vk::Access::write) || touches(uses[b].access, vk::Access::write);
+            if (uses[a].buffer == uses[b].buffer && isWritten && !(first.isAliased && second.isAliased))
+                refuse(code, "buffer " + buffers[uses[a].buffer.index].label + " is bound as " + first.name +
+                                 " and as " + second.name +
+                                 ", and one of both writes it: decorate both Aliased");
+        }
+}
+
 } // namespace
 
 void planBarriers(std::span<Pass> passes, std::size_t bufferCount) {
@@ -124,6 +140,7 @@ void ProgramBuilder::dispatchBytes(const vk::ShaderCode& code, std::uint32_t ite
         }
         pass.uses.push_back({buffers[b], interface.bindings[b].access});
     }
+    checkAliases(code, interface, pass, program_.buffers);
     pass.push.assign(push.begin(), push.end());
     append(std::move(pass));
 }

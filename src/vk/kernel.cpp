@@ -31,17 +31,13 @@ void checkLimits(const KernelInterface& interface, const std::string& name, cons
                limits.maxGroupInvocations);
 }
 
-void specialise(KernelInterface& interface, const std::string& name,
-                std::span<const SpecialisationConstant> constants) {
-    for (const SpecialisationConstant& constant : constants) {
-        const auto& ids = interface.specialisationIds;
+void checkConstants(const KernelInterface& interface, const std::string& name,
+                    std::span<const SpecialisationConstant> constants) {
+    const auto& ids = interface.specialisationIds;
+    for (const SpecialisationConstant& constant : constants)
         if (!std::binary_search(ids.begin(), ids.end(), constant.id))
             throw Error(Failure::misuse,
                         "kernel " + name + " has no specialisation constant " + std::to_string(constant.id));
-        for (std::size_t dimension = 0; dimension < 3; ++dimension)
-            if (interface.groupSizeIds[dimension] == constant.id)
-                interface.groupSize[dimension] = constant.value;
-    }
 }
 
 VkDescriptorType descriptorType(const KernelBinding& binding) {
@@ -137,9 +133,9 @@ VkPipeline createPipeline(const Device& device, const ShaderCode& code, VkPipeli
 
 Kernel::Kernel(const Device& device, const ShaderCode& code,
                std::span<const SpecialisationConstant> constants)
-    : device_(device.handle()), functions_(&device.functions()), interface_(readInterface(code)),
+    : device_(device.handle()), functions_(&device.functions()), interface_(readInterface(code, constants)),
       name_(code.name) {
-    specialise(interface_, name_, constants);
+    checkConstants(interface_, name_, constants);
     checkLimits(interface_, name_, device.limits());
     try {
         create(device, code, constants);

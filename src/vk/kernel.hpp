@@ -10,10 +10,6 @@
 
 namespace sinew::vk {
 
-struct SpecialisationConstant {
-    std::uint32_t id = 0, value = 0; ///< bools and floats are passed as their 32 bits
-};
-
 /// Creates its pipeline at construction. Movable. Must not outlive its Device, which may move meanwhile.
 class Kernel {
 public:

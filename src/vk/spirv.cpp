@@ -64,7 +64,13 @@ KernelBinding bindingOf(const Module& module, const spirv::Variable& variable, B
     if (kind == BlockKind::uniform && stride > smallestLimit)
         module.fail("uniform block " + name + " has " + std::to_string(stride) +
                     " bytes, at most 16384 are allowed");
-    return {*binding, name, access, stride, kind};
+    return {*binding,
+            name,
+            access,
+            stride,
+            kind,
+            false,
+            module.decoration(variable.id, Decoration::aliased).has_value()};
 }
 
 KernelBinding texelsOf(const Module& module, const spirv::Variable& variable) {
@@ -82,7 +88,13 @@ KernelBinding texelsOf(const Module& module, const spirv::Variable& variable) {
     const auto binding = module.decoration(variable.id, Decoration::binding);
     if (!binding || module.decoration(variable.id, Decoration::descriptorSet).value_or(0) != 0)
         module.fail("texel buffer " + name + " must have a binding in set 0");
-    return {*binding, name, Access::read, 0, BlockKind::texels, isFloat};
+    return {*binding,
+            name,
+            Access::read,
+            0,
+            BlockKind::texels,
+            isFloat,
+            module.decoration(variable.id, Decoration::aliased).has_value()};
 }
 
 void addVariable(const Module& module, const spirv::Variable& variable, KernelInterface& interface) {
@@ -149,8 +161,8 @@ void readGroupSize(const Module& module, KernelInterface& interface) {
 
 } // namespace
 
-KernelInterface readInterface(const ShaderCode& code) {
-    const Module module = spirv::parse(code);
+KernelInterface readInterface(const ShaderCode& code, std::span<const SpecialisationConstant> constants) {
+    const Module module = spirv::parse(code, constants);
     checkCapabilities(module);
     if (module.entryPoints != 1)
         module.fail("it has " + std::to_string(module.entryPoints) + " entry points instead of one");

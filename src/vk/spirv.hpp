@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct KernelBinding {
     std::uint32_t stride = 0;
     BlockKind kind = BlockKind::storage;
     bool isFloat = false; ///< of texels: float32, else uint32
+    /// Decorated so: its buffer may be bound to another such binding too, though one of both writes it.
+    bool isAliased = false;
 
     /// Whether a buffer with elements of `bytes` may be bound here.
     bool takes(std::uint32_t bytes) const {
@@ -42,19 +45,24 @@ struct KernelBinding {
     }
 };
 
+struct SpecialisationConstant {
+    std::uint32_t id = 0, value = 0; ///< bools and floats are passed as their 32 bits
+};
+
 struct KernelInterface {
     std::vector<KernelBinding> bindings;             ///< descriptor set 0, sorted; a gap only before 31
     std::uint32_t pushConstantSize = 0;              ///< [B], rounded up to the block's std430 alignment
-    std::array<std::uint32_t, 3> groupSize{1, 1, 1}; ///< with the defaults of the specialisation constants
+    std::array<std::uint32_t, 3> groupSize{1, 1, 1}; ///< with the values of the specialisation constants
     /// The specialisation constant that sets a dimension of the group size; empty = fixed.
     std::array<std::optional<std::uint32_t>, 3> groupSizeIds;
     std::vector<std::uint32_t> specialisationIds; ///< sorted
-    std::uint32_t sharedMemory = 0;               ///< [B], workgroup storage
+    std::uint32_t sharedMemory = 0;               ///< [B], workgroup storage; likewise
 };
 
-/// Throws std::runtime_error with the shader's name where the module breaks a rule: a set other than 0, a gap
+/// `constants` stand for the defaults that the module has; ids that it does not have are ignored. Throws
+/// std::runtime_error with the shader's name where the module breaks a rule: a set other than 0, a gap
 /// in the bindings, anything but buffers, a block of fixed members and a run-time array, a row-major
 /// matrix, a capability that is an optional feature, an unknown opcode in a type, a truncated module.
-KernelInterface readInterface(const ShaderCode& code);
+KernelInterface readInterface(const ShaderCode& code, std::span<const SpecialisationConstant> constants = {});
 
 } // namespace sinew::vk

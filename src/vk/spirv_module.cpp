@@ -193,8 +193,8 @@ std::uint32_t roundUp(std::uint32_t size, std::uint32_t alignment) {
 
 } // namespace
 
-Module parse(const ShaderCode& code) {
-    Module module{.shader = code.name};
+Module parse(const ShaderCode& code, std::span<const SpecialisationConstant> constants) {
+    Module module{.shader = code.name, .specialised = constants};
     if (code.words.size() < headerWords || code.words[0] != magic) module.fail("it is no SPIR-V");
     for (std::size_t at = headerWords; at < code.words.size();) {
         const std::size_t length = code.words[at] >> 16;
@@ -244,7 +244,14 @@ std::uint32_t Module::constituent(std::uint32_t constant, std::uint32_t index) c
     return found->second.operands[2 + index];
 }
 
+const SpecialisationConstant* Module::specialisation(std::uint32_t constant) const {
+    const auto id = decoration(constant, Decoration::specId);
+    const auto found = std::ranges::find_if(specialised, [&](const auto& one) { return one.id == id; });
+    return found == specialised.end() ? nullptr : &*found;
+}
+
 std::uint32_t Module::value(std::uint32_t constant) const {
+    if (const SpecialisationConstant* given = specialisation(constant)) return given->value;
     const auto found = constants.find(constant);
     if (found == constants.end()) fail(nameOf(constant) + " is no constant");
     switch (found->second.op) {

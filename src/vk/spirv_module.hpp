@@ -49,6 +49,7 @@ enum class Decoration : std::uint32_t {
     rowMajor = 4,
     arrayStride = 6,
     builtIn = 11,
+    aliased = 20,
     nonWritable = 24,
     nonReadable = 25,
     binding = 33,
@@ -83,6 +84,7 @@ struct Variable {
 
 struct Module {
     std::string shader; ///< for messages
+    std::span<const SpecialisationConstant> specialised;
     std::unordered_map<std::uint32_t, std::string> names;
     std::unordered_map<std::uint32_t, Instruction> types, constants; ///< by result id
     std::unordered_map<std::uint32_t, Decorations> decorations;
@@ -102,7 +104,7 @@ struct Module {
     std::optional<std::uint32_t> memberDecoration(std::uint32_t type, std::uint32_t member,
                                                   Decoration wanted) const;
 
-    /// Value of an integer constant, with the defaults of specialisation constants.
+    /// Value of an integer constant, as specialised or else the default.
     std::uint32_t value(std::uint32_t constant) const;
     /// Constituent `index` of a composite constant, as an id.
     std::uint32_t constituent(std::uint32_t constant, std::uint32_t index) const;
@@ -113,8 +115,9 @@ struct Module {
 private:
     std::uint32_t structSize(std::uint32_t type) const;
     std::uint32_t operation(const Instruction& instruction) const;
+    const SpecialisationConstant* specialisation(std::uint32_t constant) const;
 };
 
-Module parse(const ShaderCode& code);
+Module parse(const ShaderCode& code, std::span<const SpecialisationConstant> constants);
 
 } // namespace sinew::vk::spirv

@@ -69,6 +69,23 @@ TEST(ProgramBuilder, TakesWhatAgreesWithTheKernel) {
     EXPECT_EQ(program.step[0].uses[2].access, vk::Access::read);
 }
 
+TEST(ProgramBuilder, RefusesABufferTwiceWhereTheKernelDoesNotSayThatItMayBeOne) {
+    Predict p;
+    p.builder.beginPhase("solve");
+    expectNames(test::refusal([&] {
+                    p.builder.dispatch(kernels::predict, 8, {p.positions, p.positions, p.step}, p.count);
+                }),
+                {"predict", "positions", "decorate both Aliased"});
+    for (const vk::ShaderCode* twice : {&kernels::solveDistanceColor, &kernels::skinNormals}) {
+        const vk::KernelInterface interface = vk::readInterface(*twice);
+        EXPECT_GE(std::ranges::count(interface.bindings, true, &vk::KernelBinding::isAliased), 2)
+            << twice->name;
+    }
+    EXPECT_EQ(
+        std::ranges::count(vk::readInterface(kernels::predict).bindings, true, &vk::KernelBinding::isAliased),
+        0);
+}
+
 TEST(ProgramBuilder, RefusesAWrongNumberOfBuffers) {
     Predict p;
     p.builder.beginPhase("solve");

@@ -2,8 +2,12 @@
 // several kernels ask, signs of determinants, and all that forms of one step have in common. A compiler may
 // fuse a product and a sum that are not decorated with NoContraction, and compute dot products and the like
 // as it wants. This is read out of the SPIR-V of every kernel in the build.
+#include "vk/device.hpp"
+#include "vk/spirv.hpp"
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -91,6 +95,21 @@ TEST(ExactKernels, LeaveACompilerNothingToFuseWhereBitsMustAgree) {
             }
     }
     EXPECT_EQ(found.size(), exactFunctions.size()); // a promise about nothing
+}
+
+// What `sinew devices` and the documents say of the largest kernel.
+TEST(Kernels, BindAsManyStorageBuffersAsIsSaid) {
+    const std::vector<fs::path> kernels = kernelsIn(KERNEL_FOLDER);
+    if (kernels.size() < 300) GTEST_SKIP() << "the kernels of src/sim are not built here";
+    std::ptrdiff_t most = 0;
+    for (const fs::path& kernel : kernels) {
+        if (kernel.string().find("sinew_sim_kernels") == std::string::npos) continue;
+        const std::vector<std::uint32_t> words = wordsOf(kernel);
+        const vk::KernelInterface read = vk::readInterface({"kernel", words});
+        most = std::max(most,
+                        std::ranges::count(read.bindings, vk::BlockKind::storage, &vk::KernelBinding::kind));
+    }
+    EXPECT_EQ(most, vk::mostStorageBuffers);
 }
 
 TEST(ExactKernels, AreToldFromLooseOnes) {

@@ -78,16 +78,21 @@ TEST(Kernel, NamesBothFiguresWhereALimitIsTooLow) {
     HostDevice host;
     realProperties = host.instanceFunctions().vkGetPhysicalDeviceProperties;
     host.replace("vkGetPhysicalDeviceProperties", reinterpret_cast<PFN_vkVoidFunction>(&loweredProperties));
+    std::vector<vk::SpecialisationConstant> constants;
     const auto complaintUnder = [&](std::uint32_t buffers, std::uint32_t push, std::uint32_t shared) {
         lowered.maxPerStageDescriptorStorageBuffers = buffers;
         lowered.maxPushConstantsSize = push;
         lowered.maxComputeSharedMemorySize = shared;
         const vk::Device borrowed = vk::Device::borrow(host.handles());
-        return complaint(vk::Failure::noDevice, [&] { vk::Kernel(borrowed, kernels::everything, {}); });
+        EXPECT_EQ(borrowed.description().storageBuffers, buffers);
+        return complaint(vk::Failure::noDevice,
+                         [&] { vk::Kernel(borrowed, kernels::everything, constants); });
     };
     expectParts(complaintUnder(4, 128, 1024), {"everything", "5 storage buffers", "has 4"});
     expectParts(complaintUnder(8, 44, 1024), {"everything", "48 bytes of push constants", "has 44"});
     expectParts(complaintUnder(8, 128, 100), {"everything", "164 bytes of shared memory", "has 100"});
+    constants = {{7, 40}}; // two vectors each
+    expectParts(complaintUnder(8, 128, 1024), {"everything", "1284 bytes of shared memory", "has 1024"});
 }
 
 TEST(Kernel, ThrowsWhatTheReaderSays) {

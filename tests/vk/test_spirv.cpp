@@ -84,6 +84,15 @@ TEST(KernelInterface, AddsUpSharedMemoryWithDefaultArrayLengths) {
     EXPECT_EQ(readInterface(kernels::addOne).sharedMemory, 0u);
 }
 
+TEST(KernelInterface, TakesTheValuesOfSpecialisationConstants) {
+    for (const std::uint32_t width : {1u, 5u, 512u}) {
+        const vk::SpecialisationConstant constants[] = {{7, width}, {3, 32}, {0, 1}, {99, 4}};
+        const auto specialised = readInterface(kernels::everything, constants);
+        EXPECT_EQ(specialised.sharedMemory, width * 2 * 16u + 4u);
+        EXPECT_EQ(specialised.groupSize, (std::array<std::uint32_t, 3>{32, 2, 1}));
+    }
+}
+
 TEST(KernelInterface, IsRefusedByNameWhereAKernelBreaksARule) {
     const std::pair<vk::ShaderCode, const char*> cases[] = {
         {kernels::uniformBlock, "uniform block Step has 16400 bytes, at most 16384 are allowed"},
