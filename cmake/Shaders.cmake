@@ -3,10 +3,13 @@
 #   add_kernels(<target> NAMESPACE <c++ namespace> HEADER <name.hpp> SOURCES <files...> [VARIANTS <lines...>]
 #               [AWAKE <stems...>])
 #
-# compiles every file for Vulkan 1.2, runs spirv-val on it and adds one `const vk::ShaderCode` a file to <target>:
+# compiles every file for Vulkan 1.2, runs spirv-val on it (SINEW_CHECK_KERNELS) and adds one `const vk::ShaderCode` a file to <target>:
 # solve_distance.comp becomes <namespace>::solveDistance, skin.vert becomes <namespace>::skinVert.
 find_program(GLSLANG glslangValidator REQUIRED)
-find_program(SPIRV_VAL spirv-val REQUIRED)
+option(SINEW_CHECK_KERNELS "Run spirv-val on every kernel that is compiled" ${PROJECT_IS_TOP_LEVEL})
+if(SINEW_CHECK_KERNELS)
+    find_program(SPIRV_VAL spirv-val REQUIRED)
+endif()
 set(SINEW_SHADER_INCLUDE ${PROJECT_SOURCE_DIR}/shaders/glsl)
 set(SINEW_EMBED ${CMAKE_CURRENT_LIST_DIR}/EmbedShader.cmake)
 
@@ -68,10 +71,14 @@ function(add_kernels target)
         endif()
         set(spirv ${folder}/${stem}${stage}.spv)
         set(embedded ${folder}/${stem}${stage}.cpp)
+        set(check "")
+        if(SINEW_CHECK_KERNELS)
+            set(check COMMAND ${SPIRV_VAL} --target-env vulkan1.2 ${spirv})
+        endif()
         add_custom_command(
             OUTPUT ${spirv}
             COMMAND ${GLSLANG} --quiet -V --target-env vulkan1.2 ${macros} -I${SINEW_SHADER_INCLUDE} --depfile ${spirv}.d -o ${spirv} ${source}
-            COMMAND ${SPIRV_VAL} --target-env vulkan1.2 ${spirv}
+            ${check}
             DEPENDS ${source}
             DEPFILE ${spirv}.d
             COMMENT "Kernel ${stem}${stage}"

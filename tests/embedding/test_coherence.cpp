@@ -1,0 +1,208 @@
+// A host whose mapped memory is cached and not coherent. The host side of every buffer is a copy, which meets
+// the memory of the device only where Sinew flushes or invalidates.
+#include "embedding/soft_bodies.hpp"
+#include "support/host_device.hpp"
+#include "vk/check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <map>
+
+namespace sinew::test {
+namespace {
+
+struct Memory {
+    std::byte* real = nullptr;
+    std::vector<std::byte> seen; // by the host
+};
+
+// Vulkan's entry points carry no user pointer.
+struct Incoherent {
+    std::map<VkDeviceMemory, Memory> memories;
+    VkDeviceSize atom = 1;
+    int flushes = 0, invalidations = 0, wrongRanges = 0;
+};
+Incoherent incoherent;
+
+template <typename Use>
+VkResult forEach(std::uint32_t count, const VkMappedMemoryRange* ranges, const Use& use) {
+    for (const VkMappedMemoryRange& range : std::span(ranges, count)) {
+        Memory& memory = incoherent.memories.at(range.memory);
+        const VkDeviceSize whole = memory.seen.size();
+        const bool isValid = range.offset % incoherent.atom == 0 && range.offset + range.size <= whole &&
+                             (range.size % incoherent.atom == 0 || range.offset + range.size == whole);
+        if (isValid)
+            use(memory.real + range.offset, memory.seen.data() + range.offset, range.size);
+        else
+            ++incoherent.wrongRanges;
+    }
+    return VK_SUCCESS;
+}
+
+VkResult VKAPI_CALL flush(VkDevice, std::uint32_t count, const VkMappedMemoryRange* ranges) {
+    ++incoherent.flushes;
+    return forEach(count, ranges,
+                   [](std::byte* real, std::byte* seen, std::size_t size) { std::memcpy(real, seen, size); });
+}
+
+VkResult VKAPI_CALL invalidate(VkDevice, std::uint32_t count, const VkMappedMemoryRange* ranges) {
+    ++incoherent.invalidations;
+    return forEach(count, ranges,
+                   [](std::byte* real, std::byte* seen, std::size_t size) { std::memcpy(seen, real, size); });
+}
+
+// One memory a buffer, which begins some atoms behind its start.
+class IncoherentHost {
+public:
+    IncoherentHost() {
+        VkPhysicalDeviceProperties properties;
+        host.instanceFunctions().vkGetPhysicalDeviceProperties(host.handles().physicalDevice, &properties);
+        incoherent = {.memories = {}, .atom = properties.limits.nonCoherentAtomSize};
+        host.replace("vkFlushMappedMemoryRanges", reinterpret_cast<PFN_vkVoidFunction>(&flush));
+        host.replace("vkInvalidateMappedMemoryRanges", reinterpret_cast<PFN_vkVoidFunction>(&invalidate));
+    }
+
+    vk::HostDevice handles() {
+        vk::HostDevice handles = host.handles();
+        handles.buffers = {
+            .create = [this](const VkBufferCreateInfo& info, vk::MemoryKind kind,
+                             const char*) { return create(info, kind); },
+            .destroy = [this](const vk::BufferAllocation& allocation) { destroy(allocation); }};
+        return handles;
+    }
+
+    HostDevice host;
+    bool namesReadback = true;
+
+private:
+    vk::BufferAllocation create(const VkBufferCreateInfo& info, vk::MemoryKind kind) {
+        const vk::DeviceFunctions& functions = host.functions();
+        const vk::HostDevice handles = host.handles();
+        vk::BufferAllocation made;
+        vk::check(functions.vkCreateBuffer(handles.device, &info, nullptr, &made.buffer), "vkCreateBuffer",
+                  "");
+        VkMemoryRequirements need;
+        functions.vkGetBufferMemoryRequirements(handles.device, made.buffer, &need);
+        const VkDeviceSize step = std::max(need.alignment, incoherent.atom), offset = 3 * step;
+        const VkMemoryAllocateInfo allocate{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                            .allocationSize = offset + need.size,
+                                            .memoryTypeIndex = 0}; // of a software device, all are mapped
+        VkDeviceMemory memory = VK_NULL_HANDLE;
+        vk::check(functions.vkAllocateMemory(handles.device, &allocate, nullptr, &memory), "vkAllocateMemory",
+                  "");
+        vk::check(functions.vkBindBufferMemory(handles.device, made.buffer, memory, offset),
+                  "vkBindBufferMemory", "");
+        memories_[made.buffer] = memory;
+        if (kind == vk::MemoryKind::device) return made;
+        void* real = nullptr;
+        vk::check(functions.vkMapMemory(handles.device, memory, 0, VK_WHOLE_SIZE, 0, &real), "vkMapMemory",
+                  "");
+        Memory& mapped = incoherent.memories[memory];
+        mapped = {static_cast<std::byte*>(real),
+                  std::vector<std::byte>(allocate.allocationSize, std::byte{0xcd})};
+        std::memset(mapped.real, 0xab, allocate.allocationSize);
+        made.mapped = mapped.seen.data() + offset;
+        if (kind == vk::MemoryKind::readback && !namesReadback) return made;
+        made.memory = memory;
+        made.memoryOffset = offset;
+        made.memorySize = allocate.allocationSize;
+        return made;
+    }
+
+    void destroy(const vk::BufferAllocation& allocation) {
+        const VkDeviceMemory memory = memories_.at(allocation.buffer);
+        host.functions().vkDestroyBuffer(host.handles().device, allocation.buffer, nullptr);
+        host.functions().vkFreeMemory(host.handles().device, memory, nullptr);
+        incoherent.memories.erase(memory);
+        memories_.erase(allocation.buffer);
+    }
+
+    std::map<VkBuffer, VkDeviceMemory> memories_;
+};
+
+struct Fall {
+    std::vector<std::array<float, 4>> positions;
+    std::vector<sim::Status> statuses;
+};
+
+// Some steps, one submission each, of the README's body.
+Fall fall(HostDevice& host, const vk::HostDevice& handles) {
+    SoftBodies bodies(handles);
+    Fall result;
+    const vk::BufferView view = bodies.simulation.positions();
+    vk::Buffer readback(bodies.device, {.name = "readback",
+                                        .count = view.size / view.stride,
+                                        .stride = view.stride,
+                                        .kind = vk::MemoryKind::readback});
+    for (std::uint64_t frame = 0; frame < 6; ++frame) {
+        host.submit([&](VkCommandBuffer commands) { bodies.recordFrame(commands, frame); });
+        result.statuses.push_back(bodies.simulation.status(frame));
+    }
+    host.submit([&](VkCommandBuffer buffer) {
+        vk::Commands commands(bodies.device, buffer);
+        commands.copy(view, readback.view());
+        commands.hostBarrier();
+    });
+    readback.invalidate();
+    result.positions.resize(view.size / view.stride);
+    std::memcpy(result.positions.data(), readback.mapped(), view.size);
+    return result;
+}
+
+TEST(Coherence, IsMadeWhereTheHostsMemoryHasNone) {
+    Fall coherent;
+    {
+        HostDevice host;
+        coherent = fall(host, host.handles());
+    }
+    IncoherentHost made;
+    const Fall fallen = fall(made.host, made.handles());
+    EXPECT_EQ(fallen.positions, coherent.positions);
+    for (std::size_t frame = 0; frame < fallen.statuses.size(); ++frame) {
+        EXPECT_TRUE(fallen.statuses[frame].isFinished) << frame;
+        EXPECT_EQ(fallen.statuses[frame].frame, frame);
+    }
+    EXPECT_GT(incoherent.flushes, 0);
+    EXPECT_GT(incoherent.invalidations, 0);
+    EXPECT_EQ(incoherent.wrongRanges, 0);
+    EXPECT_EQ(made.host.finish(), std::vector<std::string>{});
+}
+
+// A hook that hides that its memory is not coherent: a status that never arrives is none of a finished step.
+TEST(Coherence, IsNeverReadIntoAStatusThatDidNotArrive) {
+    IncoherentHost made;
+    made.namesReadback = false;
+    for (const sim::Status& status : fall(made.host, made.handles()).statuses)
+        EXPECT_FALSE(status.isFinished);
+}
+
+TEST(Coherence, IsCheckedWhereTheHookSaysWhereABufferLies) {
+    HostDevice host;
+    vk::HostDevice handles = host.handles();
+    std::uint64_t anything = 0;
+    std::byte byte{};
+    vk::BufferAllocation answer{.buffer = reinterpret_cast<VkBuffer>(&anything),
+                                .mapped = &byte,
+                                .memory = reinterpret_cast<VkDeviceMemory>(&anything)};
+    int destroyed = 0;
+    handles.buffers = {
+        .create = [&](const VkBufferCreateInfo&, vk::MemoryKind, const char*) { return answer; },
+        .destroy = [&](const vk::BufferAllocation&) { ++destroyed; }};
+    const vk::Device borrowed = vk::Device::borrow(handles);
+    for (const VkDeviceSize offset : {0, 64, 1000}) {
+        answer.memoryOffset = offset;
+        answer.memorySize = offset + 39;
+        try {
+            vk::Buffer(borrowed, {.name = "a", .count = 10, .stride = 4, .kind = vk::MemoryKind::upload});
+            ADD_FAILURE() << "accepted";
+        } catch (const vk::Error& error) {
+            EXPECT_EQ(error.failure(), vk::Failure::misuse);
+            EXPECT_NE(std::string(error.what()).find("set memoryOffset and memorySize"), std::string::npos);
+        }
+    }
+    EXPECT_EQ(destroyed, 3);
+}
+
+} // namespace
+} // namespace sinew::test
