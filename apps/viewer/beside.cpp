@@ -72,7 +72,7 @@ void Beside::recordReset(VkCommandBuffer commands) noexcept {
     for (Flight& flight : flights_) flight = {};
 }
 
-void Beside::recordTakeOver(VkCommandBuffer commands, const Stage& first) noexcept {
+void Beside::recordTakeOver(VkCommandBuffer commands, const Stage& first) {
     stage_.recordTakeOver(commands, first);
     gauges_.restart();
     for (Flight& flight : flights_) flight = {};

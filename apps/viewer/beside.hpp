@@ -34,7 +34,7 @@ public:
            const sim::Material& material, const BesideShape& shape, std::uint32_t slots);
 
     /// Instead of a reset: goes on where `first` stands, all steps of both have finished.
-    void recordTakeOver(VkCommandBuffer commands, const Stage& first) noexcept;
+    void recordTakeOver(VkCommandBuffer commands, const Stage& first);
     void recordReset(VkCommandBuffer commands) noexcept;
     /// The step that was recorded for `first` just now, and that of the first is timed.
     void recordStep(VkCommandBuffer commands, const Stage& first, const StepHands& hands, std::uint32_t slot,

@@ -92,6 +92,7 @@ inline constexpr Range warmStart{0, 1};
 inline constexpr Range contactMargin{.low = 0, .high = 10, .isLowOpen = true};
 inline constexpr std::uint32_t mostContactRoom = 256;
 inline constexpr Range contactRoom{1, mostContactRoom};
+inline constexpr Range framesInFlight{1, 64};
 inline constexpr std::uint32_t mostCutSurfaceRoom = 16'000'000; // one more is a float too
 inline constexpr Range cutSurfaceRoom{0, mostCutSurfaceRoom};
 inline constexpr Range crumbs{0, 1'000'000};

@@ -294,6 +294,9 @@ struct Forms {
     std::uint32_t residentBytes = 0;
 };
 
+/// Settings::framesInFlight where nobody says otherwise.
+inline constexpr std::uint32_t usualFramesInFlight = 4;
+
 /// How to solve a scene; shapes the step program. Ranges are in ranges.hpp.
 struct Settings {
     Solver solver = Solver::split;
@@ -326,6 +329,9 @@ struct Settings {
     /// leaves what it holds at rest.
     bool publishesVelocities = true;
     bool isReversed = false; ///< runs every kernel in reversed invocation order; the state must not change
+    /// Steps that may be recorded and not finished at a time, 1..64: frames in flight times steps a frame.
+    /// As many statuses are kept (Simulation::status), 64 to 256 bytes each.
+    std::uint32_t framesInFlight = usualFramesInFlight;
 };
 
 } // namespace sinew::sim

@@ -3,6 +3,8 @@
 
 #include "sim/validate.hpp"
 
+#include <cstdio>
+
 namespace sinew::sim {
 
 namespace {
@@ -27,14 +29,24 @@ SplitBudget dampedBudget(const Scene& scene, const Settings& settings) {
 Simulation::Simulation(const vk::Device& device, const Scene& scene, const Settings& settings)
     : state_(std::make_unique<State>(device, scene, settings)) {}
 
-Simulation::~Simulation() = default;
+Simulation::~Simulation() {
+#ifndef NDEBUG
+    if (const auto frame = state_->ring.oldestUnfinished())
+        std::fprintf(
+            stderr,
+            "sinew: a simulation is destroyed, and step %llu was recorded and has not finished: wait "
+            "for its submission first\n",
+            static_cast<unsigned long long>(*frame));
+#endif
+}
 
 void Simulation::recordReset(VkCommandBuffer buffer) noexcept {
     vk::Commands commands(state_->device, buffer);
     state_->executor.upload(commands);
     state_->previousH = 0;
     state_->settledEnd = {};
-    state_->unsettled = {};
+    state_->forgetUnsettled();
+    state_->hasState = true;
     state_->anchors.reset();
     state_->hands.reset();
     state_->colliders.moveTo(0);
@@ -43,7 +55,10 @@ void Simulation::recordReset(VkCommandBuffer buffer) noexcept {
 
 void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps* timestamps) noexcept {
     const float dt = withinRange(step.dt);
-    state_->lostTime[step.frame % framesInFlight] = std::max(0.0f, step.dt - dt);
+    const bool isBlade = state_->blade.read(step) && state_->mayBeCut();
+    const bool hasBlade = isBlade || state_->program.cutting.tears;
+    state_->noteMisuse(step);
+    state_->ring.open({true, step.frame, std::max(0.0f, step.dt - dt), hasBlade});
     const layout::StepParams parameters = state_->parameters(step, dt);
     state_->settledEnd = state_->settled(step.frame, state_->settledEnd);
     state_->nextFrame = step.frame + 1;
@@ -52,11 +67,8 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     state_->colliders.advance(dt, step.pokes);
     const collision::ColliderPaths& colliders = state_->colliders;
     const auto pokeArguments = state_->pokeArguments();
-    state_->unsettled[step.frame % framesInFlight] = {
+    state_->unsettled[state_->ring.slotOf(step.frame)] = {
         true, {parameters.h, colliders.time(), colliders.pokes().states()}};
-    const bool isBlade = state_->countsRing && state_->blade.read(step);
-    const bool hasBlade = isBlade || state_->program.cutting.tears;
-    state_->hasBlade[step.frame % framesInFlight] = hasBlade;
     state_->isUncut = state_->isUncut && !hasBlade;
     vk::Commands commands(state_->device, buffer);
     if (timestamps) timestamps->reset(commands);
@@ -76,6 +88,7 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
 }
 
 void Simulation::recordSkin(VkCommandBuffer buffer, SkinDetail detail, Overlap overlap) noexcept {
+    if (!state_->hasState) state_->misuse.note(Misuse::noReset, state_->nextFrame);
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
     const bool isDrawn = detail == SkinDetail::drawn;
@@ -140,23 +153,38 @@ const StepProgram& Simulation::program() const noexcept {
 }
 
 Status Simulation::status(std::uint64_t frame) const noexcept {
-    const layout::StatusWords words = state_->statusWords(frame);
-    const std::size_t slot = frame % framesInFlight;
-    const layout::CutCounts counts = state_->cutCounts(frame);
+    const StepRing& ring = state_->ring;
+    if (!ring.isFinished(frame)) return {.frame = static_cast<std::uint32_t>(frame)};
+    const layout::StatusWords words = ring.words(frame);
+    const RecordedStep& step = ring.step(frame);
+    const layout::CutCounts counts = ring.counts(frame);
     return {.frame = words.frame,
+            .isFinished = true,
+            .isUndone = ring.isUndone(frame),
+            .stepsUndone = ring.undoneUntil(frame),
             .nonFinite = words.nonFinite,
             .firstBadParticle = ~words.invertedFirstBad,
             .contactRoom = words.candidates,
             .slowed = words.slowed,
             .sleeping = words.sleeping,
-            .lostTime = state_->lostTime[slot],
-            .linksCut = state_->hasBlade[slot] ? counts.linksOfStep : 0,
+            .lostTime = step.lostTime,
+            .linksCut = step.hasBlade ? counts.linksOfStep : 0,
             .linksCutInAll = counts.links,
             .pieces = counts.pieces,
             .crumbs = counts.crumbs,
             .crumbParticles = counts.crumbParticles,
             .crumbMass = static_cast<float>(state_->program.cutting.crumbUnit * counts.crumbMass),
             .cutSurfaceMissing = counts.missing};
+}
+
+std::vector<std::string> Simulation::complaints() {
+    if (const auto lack = state_->ring.lackOfRoom())
+        state_->misuse.note(Misuse::contactRoom, lack->frame, lack->needed, state_->chosen.contactRoom);
+    return state_->misuse.take();
+}
+
+std::optional<std::uint64_t> Simulation::oldestInFlight() const noexcept {
+    return state_->ring.oldestUnfinished();
 }
 
 std::vector<std::string> Simulation::phases() const {

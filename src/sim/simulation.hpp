@@ -102,12 +102,19 @@ struct Step {
 /// What a finished step found out about itself.
 struct Status {
     std::uint32_t frame = 0; ///< low 32 bits of Step::frame
+    /// False where the step has not come back from the device, was never recorded, or is so old that another
+    /// one has its place (Settings::framesInFlight): nothing else is known then, and all else is 0.
+    bool isFinished = false;
+    /// All goes on from the state before this step: see nonFinite and contactRoom.
+    bool isUndone = false;
+    std::uint64_t stepsUndone = 0; ///< with this one, since the simulation was made
     std::uint32_t nonFinite =
         0; ///< particles with a non-finite state: the step is undone, all goes on from the last finite state
     std::uint32_t firstBadParticle = 0; ///< smallest index among them; meaningful where nonFinite > 0
     /// 0, or how many particles would have to be listed with one where Settings::contactRoom is less: the
     /// step is undone, and so is every later one until a simulation with more room takes over
-    /// (Simulation::recordTakeOver). One more than the most that there can be room for = too many anyway.
+    /// (Simulation::recordTakeOver; docs/architecture.md has the lines that do so). One more than the most
+    /// that there can be room for = too many anyway.
     std::uint32_t contactRoom = 0;
     /// Particles, counted once a substep, that were slowed down to what contacts can be found at: where more
     /// than 256 move farther in a substep than about their radius. Momentum is lost; take more substeps.
@@ -188,11 +195,16 @@ private:
     std::unique_ptr<Parts> parts_;
 };
 
-/// Owns the buffers and pipelines of one scene. Must not outlive the Device. Never submits, waits or owns a
-/// queue. One thread per Simulation; different ones are independent.
+/// Owns the buffers and pipelines of one scene. Must not outlive the Device, which may move. Never submits,
+/// waits or owns a queue, and therefore must not be destroyed before all that was recorded with it has
+/// finished or been thrown away: wait for the submissions first, by a fence, vkQueueWaitIdle() or, with a
+/// vk::Queue, a vk::Drain that is declared after the simulation. oldestInFlight() says what is missing; a
+/// debug build says so on stderr. One thread per Simulation; different ones are independent. What was
+/// recorded must be submitted once, in order, on one queue family.
 class Simulation {
 public:
-    static constexpr std::uint32_t framesInFlight = 4; ///< steps recorded but not finished, at most
+    /// Settings::framesInFlight where nobody says otherwise.
+    static constexpr std::uint32_t framesInFlight = usualFramesInFlight;
 
     /// Throws std::invalid_argument with the sentences of validate(), one a line, or vk::Error. Creates every
     /// buffer and pipeline; contents arrive with the first recordReset().
@@ -222,8 +234,10 @@ public:
     /// before the end is taken as that of the end, hands take hold anew, and what slept is awake.
     /// With `saved`, `copy` is what recordHandOver() has copied of a state that `from` saved, on this device
     /// or another one: it goes on from that, and hands take hold anew.
+    /// Throws std::invalid_argument, and nothing is recorded, where the scenes differ in more than material,
+    /// where this one has less room than `from`, or where `copy` is too small.
     void recordTakeOver(VkCommandBuffer commands, const Simulation& from, const vk::BufferView& copy = {},
-                        const SavedState* saved = nullptr) noexcept;
+                        const SavedState* saved = nullptr);
     /// Size of what recordTakeOver() copies from this [B].
     std::uint64_t handOverSize() const noexcept;
     /// Records the copy of it into `to`, of handOverSize() bytes, after which the host may read it; or the
@@ -313,8 +327,19 @@ public:
     /// Likewise the pokes, Settings::pokes of them.
     std::span<const PokeState> pokes() const noexcept;
 
-    /// Of a step that has finished on the device and is one of the last `framesInFlight` recorded.
+    /// Of a step that has finished on the device and is one of the last Settings::framesInFlight recorded;
+    /// else Status::isFinished is false. Does not wait. Steps before a reset keep theirs until others take
+    /// their places.
     Status status(std::uint64_t frame) const noexcept;
+    /// What was wrong in what the host recorded and was ignored, in sentences: a step before the first reset,
+    /// more steps in flight than Settings::framesInFlight, more grabs, pokes or anchors than there is room
+    /// for, a blade that is none or that nothing may be cut by, and steps that are undone for lack of
+    /// Settings::contactRoom. Each kind is told once, by the next call after it came up; read it now and
+    /// then, and show it to who writes the host. Allocates only where there is something to tell.
+    std::vector<std::string> complaints();
+    /// The oldest of the last Settings::framesInFlight steps that was recorded and has not finished. Nothing
+    /// where all have, which is when the simulation may be destroyed (skins and copies aside).
+    std::optional<std::uint64_t> oldestInFlight() const noexcept;
 
     const StepProgram& program() const noexcept;
     /// Any buffer of program(), to inspect; empty for an invalid id. Contents between steps are the solver's.

@@ -11,9 +11,12 @@
 #include "sim/cutting/blade.hpp"
 #include "sim/gpu_compile.hpp"
 #include "sim/gpu_executor.hpp"
+#include "sim/misuse.hpp"
 #include "sim/program_values.hpp"
 #include "sim/ranges.hpp"
+#include "sim/scene_key.hpp"
 #include "sim/simulation.hpp"
+#include "sim/simulation_ring.hpp"
 #include "sim/skin_ranges.hpp"
 #include "sim/substeps.hpp"
 
@@ -44,23 +47,23 @@ struct Simulation::State {
     StepProgram program;
     GpuExecutor executor;
     std::vector<BufferId> written;
-    vk::Buffer statusRing;                // one slot a frame in flight, read by the host
-    std::optional<vk::Buffer> countsRing; // likewise; where bodies may be cut
+    std::uint64_t sceneKey;
+    StepRing ring;
+    MisuseLog misuse;
+    bool hasState = false; // reset or taken over
     std::vector<SkinRange> skins, wholeSkins, mixedSkins;
     constraints::attachment::Anchors anchors;
     constraints::grab::Hands hands;
     collision::ColliderPaths colliders;
     cutting::BladeWords blade;
-    std::array<bool, framesInFlight> hasBlade{}; // of the newest steps
-    bool hasNewTopology = false;                 // loaded since the last step
-    bool isUncut = false;                        // since the last reset, whatever comes of its steps
-    std::uint32_t changes = 0;                   // of the material
-    bool isChanged = false;                      // since the last step
+    bool hasNewTopology = false; // loaded since the last step
+    bool isUncut = false;        // since the last reset, whatever comes of its steps
+    std::uint32_t changes = 0;   // of the material
+    bool isChanged = false;      // since the last step
     SplitBudget budget;
     float theta, omega, damping;
     std::uint32_t substeps;
-    bool hasContacts; // between particles: gathers of `split` then store x, not x + theta h v
-    std::array<float, framesInFlight> lostTime{}; // of the newest steps [s]
+    bool hasContacts;    // between particles: gathers of `split` then store x, not x + theta h v
     float previousH = 0; // 0 before the first step: the half-kick that starts the leapfrog
     // A step that came to its end: its h, and where it left colliders and pokes.
     struct Settled {
@@ -73,7 +76,7 @@ struct Simulation::State {
         bool isRecorded = false;
         Settled end;
     };
-    std::array<Unsettled, framesInFlight> unsettled{};
+    std::vector<Unsettled> unsettled; // a slot of the ring each
     std::uint64_t nextFrame = 0;
     Settled settledEnd;
 
@@ -82,24 +85,19 @@ struct Simulation::State {
 
     struct Resolved {};
     State(const vk::Device& d, const Scene& scene, const Settings& settings, Resolved)
-        : device(d), chosen(settings), program(compileFor(d, scene, settings)), executor(d, program),
-          written(writtenByStep(program)), statusRing(d, {.name = "status.ring",
-                                                          .count = framesInFlight,
-                                                          .stride = sizeof(layout::StatusWords),
-                                                          .kind = vk::MemoryKind::readback}),
+        : device(d.anchored()), chosen(settings), program(compileFor(d, scene, settings)),
+          executor(d, program), written(writtenByStep(program)), sceneKey(sim::sceneKey(scene)),
+          ring(d, settings.framesInFlight, program.cutting.counts != BufferId{}),
           skins(rangesOf(scene.skins, Triangles::all)), wholeSkins(rangesOf(scene.skins, Triangles::whole)),
           mixedSkins(rangesOf(scene.skins, program.mixedRanges)), anchors(scene.attachments),
           hands(settings.grabs, scene.particles.size()),
           colliders(scene.colliders, scene.driven, settings.pokes), budget(dampedBudget(scene, settings)),
           theta(settings.solver == Solver::split ? settings.theta : 0), omega(settings.omega),
           damping(scene.damping), substeps(settings.substeps),
-          hasContacts(collision::particle_contacts::areIn(scene) || collision::face_contacts::areIn(scene)) {
-        if (program.cutting.counts != BufferId{})
-            countsRing.emplace(d, vk::BufferRequest{.name = "cut.counts.ring",
-                                                    .count = framesInFlight,
-                                                    .stride = sizeof(layout::CutCounts),
-                                                    .kind = vk::MemoryKind::readback});
-    }
+          hasContacts(collision::particle_contacts::areIn(scene) || collision::face_contacts::areIn(scene)),
+          unsettled(settings.framesInFlight) {}
+
+    bool mayBeCut() const noexcept { return program.cutting.counts != BufferId{}; }
 
     layout::StepParams parameters(const Step& step, float dt) const {
         const float h = dt / static_cast<float>(substeps);
@@ -120,27 +118,13 @@ struct Simulation::State {
                 .wakes = step.wakes || hasNewTopology || isChanged ? 1u : 0u};
     }
 
-    layout::StatusWords statusWords(std::uint64_t frame) const {
-        layout::StatusWords words;
-        std::memcpy(&words, statusRing.mapped() + frame % framesInFlight * sizeof(words), sizeof(words));
-        return words;
-    }
-
-    layout::CutCounts cutCounts(std::uint64_t frame) const {
-        layout::CutCounts counts{};
-        if (countsRing)
-            std::memcpy(&counts, countsRing->mapped() + frame % framesInFlight * sizeof(counts),
-                        sizeof(counts));
-        return counts;
-    }
-
     // The last step before `frame` that settled has this `end`; where the one that this slot of the ring held
     // came to its end, that counts.
     Settled settled(std::uint64_t frame, const Settled& end) const {
-        const Unsettled& step = unsettled[frame % framesInFlight];
+        const Unsettled& step = unsettled[ring.slotOf(frame)];
         if (!step.isRecorded) return end;
-        const layout::StatusWords words = statusWords(frame);
-        return words.nonFinite == 0 && words.candidates == 0 ? step.end : end;
+        const std::uint64_t recorded = ring.step(frame).frame;
+        return ring.isFinished(recorded) && !ring.isUndone(recorded) ? step.end : end;
     }
 
     // Of the passes that only pokes need.
@@ -153,18 +137,34 @@ struct Simulation::State {
         return {arguments(program.pokes.placed), arguments(program.pokes.touching)};
     }
 
-    static vk::BufferView slotOf(const vk::Buffer& ring, std::uint64_t frame) {
-        vk::BufferView slot = ring.view();
-        slot.size = slot.stride;
-        slot.offset += slot.stride * (frame % framesInFlight);
-        return slot;
+    // What `step` asks for and does not get.
+    void noteMisuse(const Step& step) noexcept {
+        const std::uint64_t frame = step.frame;
+        const RecordedStep& before = ring.step(frame);
+        if (!hasState) misuse.note(Misuse::noReset, frame);
+        if (before.isRecorded && !ring.isFinished(before.frame))
+            misuse.note(Misuse::tooManyInFlight, frame, before.frame, ring.slots());
+        const auto noteMore = [&](Misuse kind, std::size_t given, std::size_t allowed) {
+            if (given > allowed) misuse.note(kind, frame, given, allowed);
+        };
+        noteMore(Misuse::tooManyGrabs, step.grabs.size(), chosen.grabs);
+        noteMore(Misuse::tooManyPokes, step.pokes.size(), chosen.pokes);
+        noteMore(Misuse::tooManyAnchors, step.anchors.size(), anchors.count());
+        const bool asksForBlade = !step.blade.from.empty() || !step.blade.to.empty();
+        if ((asksForBlade || step.ray.radius > 0) && !mayBeCut())
+            misuse.note(Misuse::nothingToCut, frame);
+        else if (asksForBlade && !blade.hasQuads())
+            misuse.note(Misuse::badBlade, frame, step.blade.from.size(), step.blade.to.size());
     }
 
     // What steps have found out, where the host may read it.
     void recordStatus(vk::Commands& commands, std::uint64_t frame) const noexcept {
-        commands.copy(executor.view(program.status), slotOf(statusRing, frame));
-        if (countsRing) commands.copy(executor.view(program.cutting.counts), slotOf(*countsRing, frame));
+        ring.record(commands, frame, executor.view(program.status), executor.view(program.cutting.counts));
     }
+
+    // What a state of `other` lacks that this one goes on from. Throws std::invalid_argument.
+    void requireSameScene(const State& other, const vk::BufferView& copy, std::uint64_t copied,
+                          bool isAlike) const;
 
     // For the surface of cuts.
     bool hasMoreRoom(const State& other) const noexcept {
@@ -249,13 +249,15 @@ struct Simulation::State {
         return executor.view(buffer);
     }
 
+    void forgetUnsettled() noexcept { std::ranges::fill(unsettled, Unsettled{}); }
+
     // The host's part of a state.
     void moveTo(const SavedState& saved) noexcept {
         previousH = saved.h;
         collision::PokeStates pokes{};
         std::copy_n(saved.pokes.begin(), std::min(saved.pokes.size(), pokes.size()), pokes.begin());
         settledEnd = {saved.h, saved.colliderTime, pokes};
-        unsettled = {};
+        forgetUnsettled();
         anchors.moveTo(saved.anchors);
         hasNewTopology = saved.hasNewTopology;
         isUncut = saved.isUncut;

@@ -2,6 +2,8 @@
 // material, of earlier topology.
 #include "sim/simulation_state.hpp"
 
+#include <stdexcept>
+
 namespace sinew::sim {
 
 namespace {
@@ -11,17 +13,42 @@ constexpr std::uint32_t farAwayBits = 0x5d5e0b6b;
 
 } // namespace
 
+void Simulation::State::requireSameScene(const State& other, const vk::BufferView& copy, std::uint64_t copied,
+                                         bool isAlike) const {
+    const auto refuse = [](const std::string& why) {
+        throw std::invalid_argument("a simulation cannot take over: " + why);
+    };
+    const auto number = [](std::uint64_t value) { return std::to_string(value); };
+    if (program.particleCount != other.program.particleCount)
+        refuse("the other one has " + number(other.program.particleCount) + " particles, this one has " +
+               number(program.particleCount) + ": make both of one scene");
+    if (sceneKey != other.sceneKey)
+        refuse(
+            "its particles, links, surroundings or bodies differ from those of the other one: make both of "
+            "one scene, which may differ in material alone");
+    if (isAlike && hasContacts && chosen.contactRoom < other.chosen.contactRoom)
+        refuse("its settings.contactRoom is " + number(chosen.contactRoom) + ", that of the other one " +
+               number(other.chosen.contactRoom) + ": give it at least as much");
+    if (isAlike && other.hasMoreRoom(*this))
+        refuse("it has less room for the surface of cuts than the other one: give it at least as much with "
+               "settings.cutSurfaceRoom");
+    if (copy.buffer != VK_NULL_HANDLE && copy.size < copied)
+        refuse("the copy has " + number(copy.size) + " bytes, the other one hands over " + number(copied) +
+               ": give all that recordHandOver() copied");
+}
+
 SceneChange::SceneChange(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 SceneChange::SceneChange(SceneChange&&) noexcept = default;
 SceneChange& SceneChange::operator=(SceneChange&&) noexcept = default;
 SceneChange::~SceneChange() = default;
 
 void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from, const vk::BufferView& copy,
-                                const SavedState* saved) noexcept {
-    recordReset(buffer);
+                                const SavedState* saved) {
     const State& other = *from.state_;
     const bool isAlike =
         state_->chosen.solver == other.chosen.solver && state_->program.order == other.program.order;
+    state_->requireSameScene(other, copy, from.handOverSize(), isAlike);
+    recordReset(buffer);
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
     state_->recordTaking(commands, other, copy, isAlike);
@@ -39,7 +66,7 @@ void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from, 
         return;
     }
     State::Settled end = other.settledEnd;
-    for (std::uint64_t frame = 0; frame < framesInFlight; ++frame) // from the oldest on
+    for (std::uint64_t frame = 0; frame < other.ring.slots(); ++frame) // from the oldest on
         end = other.settled(other.nextFrame + frame, end);
     state_->settledEnd = end;
     state_->previousH = isAlike ? end.h : 0;
@@ -88,6 +115,7 @@ std::optional<SceneChange> Simulation::prepareChange(const Scene& scene) const {
                                                                            .stride = spec.stride,
                                                                            .kind = vk::MemoryKind::upload});
         std::ranges::copy(one.initial, buffer.mapped());
+        buffer.flush();
     }
     return SceneChange(std::move(parts));
 }

@@ -45,6 +45,8 @@ constexpr SettingRow settingRows[] = {
      ranges::contactRoom},
     {"settings.cutSurfaceRoom", [](const Settings& s) { return static_cast<double>(s.cutSurfaceRoom); },
      ranges::cutSurfaceRoom},
+    {"settings.framesInFlight", [](const Settings& s) { return static_cast<double>(s.framesInFlight); },
+     ranges::framesInFlight},
     {"settings.forms.columns", [](const Settings& s) { return static_cast<double>(s.forms.columns); },
      ranges::columns},
     {"settings.forms.chunk", [](const Settings& s) { return static_cast<double>(s.forms.chunk); },

@@ -70,8 +70,8 @@ struct DeviceRequest {
     std::function<void(const std::string&)> onValidationMessage{};
 };
 
-/// Storage buffers of the kernel that binds most of them. Vulkan promises 4: with fewer than these, scenes are
-/// refused whose kernels need more (vk::Kernel).
+/// Storage buffers of the kernel that binds most of them. Vulkan promises 4: with fewer than these, scenes
+/// are refused whose kernels need more (vk::Kernel).
 inline constexpr std::uint32_t mostStorageBuffers = 16;
 
 /// One physical device in the words of `sinew devices`.

@@ -15,6 +15,8 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <optional>
+#include <utility>
 
 using namespace sinew;
 using namespace sinew::sim;
@@ -110,6 +112,29 @@ TEST(Recording, OfAThousandSubstepsCostsSoMuchADispatch) {
         ASSERT_EQ(simulation.status(frame).nonFinite, 0u);
     }
     std::printf("recording takes %.0f ns a dispatch, barrier and push constants included\n", best);
+}
+
+TEST(Recording, GoesOnWhereTheDeviceHasMoved) {
+    Application application;
+    const auto create = [&] { return vk::Device::create(application.loader.getInstanceProcAddr(), {}); };
+    vk::Device moved = create(), first = create();
+    Simulation simulation(first, everything(), {.solver = Solver::split, .substeps = 4}),
+        kept(application.device, everything(), {.solver = Solver::split, .substeps = 4});
+    vk::Queue queue(first);
+    moved = std::move(first);
+    const auto play = [](vk::Queue& on, Simulation& played) {
+        VkCommandBuffer commands = on.begin();
+        played.recordReset(commands);
+        for (std::uint64_t frame = 0; frame < 3; ++frame) played.record(commands, {.frame = frame});
+        on.wait(on.submit(commands));
+        std::optional<SceneChange> change = played.prepareChange(everything());
+        commands = on.begin();
+        EXPECT_TRUE(played.recordChange(commands, change.value()));
+        played.record(commands, {.frame = 3});
+        on.wait(on.submit(commands));
+        return on.download<float>(played.positions());
+    };
+    EXPECT_EQ(play(queue, simulation), play(application.queue, kept));
 }
 
 TEST(Recording, AsksTheHostForBuffersOnlyWhenConstructed) {

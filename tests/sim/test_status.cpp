@@ -118,5 +118,38 @@ TEST_P(StatusOf, WithoutPublicVelocitiesBodiesMoveAlikeAndAnUndoneStepLeavesThem
     }
 }
 
+TEST_P(StatusOf, AStepThatHasNotFinishedIsToldFromOneThatHas) {
+    Simulation simulation(test::device(), test::chain(6), settings());
+    EXPECT_FALSE(simulation.status(0).isFinished) << "nothing ran";
+    vk::Queue& queue = test::queue();
+    for (int round = 0; round < 2; ++round) { // after a reset frames count anew
+        VkCommandBuffer commands = queue.begin();
+        simulation.recordReset(commands);
+        queue.wait(queue.submit(commands));
+        for (std::uint64_t frame = 0; frame < 6; ++frame) {
+            commands = queue.begin();
+            simulation.record(commands, {.frame = frame});
+            EXPECT_FALSE(simulation.status(frame).isFinished) << "recorded, whatever the round before left";
+            EXPECT_EQ(simulation.oldestInFlight(), frame);
+            queue.wait(queue.submit(commands));
+            EXPECT_TRUE(simulation.status(frame).isFinished);
+            EXPECT_FALSE(simulation.status(frame).isUndone);
+            EXPECT_EQ(simulation.oldestInFlight(), std::nullopt);
+            EXPECT_FALSE(simulation.status(frame + Simulation::framesInFlight).isFinished) << "not recorded";
+            const std::uint64_t older = frame - Simulation::framesInFlight; // of frame 0: of none
+            EXPECT_FALSE(simulation.status(older).isFinished) << "its place was taken";
+        }
+    }
+}
+
+TEST_P(StatusOf, UndoneStepsAreCounted) {
+    test::Runner runner(absurdParticles(), settings());
+    for (std::uint64_t undone = 1; undone < 7; ++undone) {
+        const Status status = runner.step(0.1f);
+        EXPECT_TRUE(status.isUndone);
+        EXPECT_EQ(status.stepsUndone, undone);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(A, StatusOf, testing::Values(Solver::jacobi, Solver::split, Solver::gaussSeidel),
                          [](const auto& parameter) { return solverName(parameter.param); });

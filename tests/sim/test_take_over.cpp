@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 using namespace sinew;
 using namespace sinew::sim;
 
@@ -207,4 +209,64 @@ TEST(TakeOver, KeepsCutsAndTakesAnotherMaterial) {
     made.cut(test::bladeAcrossSheet());
     made.run(5);
     EXPECT_LT(farthest(second, made), 1e-5);
+}
+
+namespace {
+
+const std::string goesOn = "nothing was refused";
+
+// What a simulation of `to` says when it is to go on where one of `from` stands.
+std::string refusedTakeOver(const Scene& from, const Scene& to, const Settings& before,
+                            const Settings& after) {
+    test::Runner first(from, before), second(to, after);
+    first.run(1);
+    second.run(2);
+    const std::uint64_t hash = second.stateHash();
+    const std::string said = test::refusal([&] { second.takeOver(first); });
+    EXPECT_EQ(second.stateHash() == hash, said != goesOn) << "what is refused records nothing";
+    return said;
+}
+
+} // namespace
+
+TEST(TakeOver, OfAnotherSceneIsRefusedInASentence) {
+    const Settings settings = settingsOf(Solver::split, 4);
+    Scene scene = test::block(3, 0.1f, 1e5f, 0.05f);
+    scene.planes = {{.offset = -1}};
+    scene.colliders = {{.radius = 0.1f, .pose = {{3, 0, 0}, {}}}};
+    const auto refused = [&](const std::function<void(Scene&)>& change) {
+        Scene other = scene;
+        change(other);
+        return refusedTakeOver(scene, other, settings, settings);
+    };
+    EXPECT_EQ(refused([](Scene&) {}), goesOn);
+    EXPECT_EQ(refused([](Scene& other) { other = withMaterial(other, {.stiffness = 0.5f}); }), goesOn);
+    const std::pair<const char*, std::function<void(Scene&)>> others[] = {
+        {"a corner 5 cm higher", [](Scene& other) { other.particles[0].position.y += 0.05f; }},
+        {"another mass", [](Scene& other) { other.particles[0].inverseMass *= 2; }},
+        {"a floor lower", [](Scene& other) { other.planes[0].offset -= 0.1f; }},
+        {"a collider elsewhere", [](Scene& other) { other.colliders[0].pose.position.x += 1; }},
+        {"one that moves",
+         [](Scene& other) {
+             other.colliders[0].path = {{0, {{3, 0, 0}, {}}}, {1, {{3, 1, 0}, {}}}};
+         }},
+        {"what is held", [](Scene& other) { other.fixed = {{.particle = 0}}; }},
+        {"a body that may be cut", [](Scene& other) { other.grids[0].isCuttable = true; }}};
+    for (const auto& [name, change] : others) {
+        SCOPED_TRACE(name);
+        EXPECT_NE(refused(change).find("of one scene"), std::string::npos);
+    }
+    const std::string counted = refusedTakeOver(test::chain(6), test::chain(7), settings, settings);
+    EXPECT_NE(counted.find("6 particles, this one has 7"), std::string::npos) << counted;
+}
+
+TEST(TakeOver, WithLessRoomForContactsIsRefused) {
+    Scene scene = test::chain(6);
+    for (Particle& particle : scene.particles) particle.radius = 0.01f;
+    Settings before = settingsOf(Solver::split, 4), after = before;
+    before.contactRoom = 32;
+    after.contactRoom = 31;
+    const std::string said = refusedTakeOver(scene, scene, before, after);
+    EXPECT_NE(said.find("contactRoom is 31"), std::string::npos) << said;
+    EXPECT_EQ(refusedTakeOver(scene, scene, after, before), goesOn);
 }

@@ -177,7 +177,7 @@ bool Stage::hasRoomOf(const Stage& other) const noexcept {
            settings().cutSurfaceRoom >= other.settings().cutSurfaceRoom;
 }
 
-void Stage::recordTakeOver(VkCommandBuffer commands, const Stage& from) noexcept {
+void Stage::recordTakeOver(VkCommandBuffer commands, const Stage& from) {
     assert(hasRoomOf(from));
     simulation().recordTakeOver(commands, from.simulation());
     gravity_ = from.gravity_;

@@ -98,7 +98,7 @@ public:
 
     /// The same on this device, in commands before which all steps of both have finished, with the room that
     /// this has: hasRoomOf(from).
-    void recordTakeOver(VkCommandBuffer commands, const Stage& from) noexcept;
+    void recordTakeOver(VkCommandBuffer commands, const Stage& from);
     bool hasRoomOf(const Stage& other) const noexcept;
 
     /// For what goes back to earlier states.

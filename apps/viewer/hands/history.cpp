@@ -12,10 +12,10 @@ struct History::Ferry {
     Ferry(const vk::Device& givingDevice, const sim::Simulation& given, vk::Queue& givingQueue,
           const vk::Device& takingDevice, sim::Simulation& taken, vk::Queue& takingQueue)
         : from(given), to(taken), giving(givingQueue), taking(takingQueue),
-          loaded(
-              bufferFor(givingDevice, given.handOverSize(),
-                        &givingDevice == &takingDevice ? vk::MemoryKind::device : vk::MemoryKind::readback)) {
-        if (&givingDevice != &takingDevice)
+          loaded(bufferFor(givingDevice, given.handOverSize(),
+                           givingDevice.handle() == takingDevice.handle() ? vk::MemoryKind::device
+                                                                          : vk::MemoryKind::readback)) {
+        if (givingDevice.handle() != takingDevice.handle())
             landed.emplace(bufferFor(takingDevice, given.handOverSize(), vk::MemoryKind::upload));
     }
 

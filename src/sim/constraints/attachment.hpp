@@ -36,6 +36,7 @@ public:
     std::vector<Vec3> places() const;
     /// One an attachment; at once.
     void moveTo(std::span<const Vec3> places) noexcept;
+    std::size_t count() const noexcept { return attachments_.size(); }
     /// From and to of every attachment.
     std::span<const layout::vec4> values() const noexcept { return values_; }
 

@@ -15,6 +15,8 @@ public:
     /// Reads `step`; whether there is anything that cuts. A blade with too many points, poly-lines of unequal
     /// length or numbers that are not finite is none.
     bool read(const Step& step) noexcept;
+    /// Whether the step that was read has a blade, beside its ray.
+    bool hasQuads() const noexcept { return head_.quads > 0; }
 
     std::span<const std::byte> head() const noexcept { return std::as_bytes(std::span(&head_, 1)); }
     std::span<const std::byte> points() const noexcept {

@@ -1,0 +1,41 @@
+// What a host did wrong while it recorded, each kind told once. Recording may neither throw nor allocate: it
+// notes numbers, and the sentences are made when the host asks for them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sinew::sim {
+
+enum class Misuse {
+    noReset,         ///< a step or a skin before recordReset() or recordTakeOver()
+    tooManyInFlight, ///< `frame` took the place of step `given`, which had not finished
+    tooManyGrabs,    ///< `given` listed, `allowed` by Settings
+    tooManyPokes,    ///< likewise
+    tooManyAnchors,  ///< more than the scene's attachments
+    badBlade,        ///< of `given` points, and `allowed` points of where it goes, or not finite
+    nothingToCut,    ///< a blade or a ray, and no body may be cut
+    contactRoom,     ///< undone: `given` particles need room, `allowed` have it
+    count
+};
+
+class MisuseLog {
+public:
+    /// Keeps the first of each kind.
+    void note(Misuse kind, std::uint64_t frame, std::uint64_t given = 0, std::uint64_t allowed = 0) noexcept;
+    bool isNoted(Misuse kind) const noexcept { return notes_[static_cast<std::size_t>(kind)].isNoted; }
+    /// A sentence for each kind that was noted since the last call and never before.
+    std::vector<std::string> take();
+
+private:
+    struct Note {
+        bool isNoted = false, isTold = false;
+        std::uint64_t frame = 0, given = 0, allowed = 0;
+    };
+    std::array<Note, static_cast<std::size_t>(Misuse::count)> notes_{};
+};
+
+} // namespace sinew::sim

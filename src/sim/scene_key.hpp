@@ -1,0 +1,13 @@
+// What a state fits to: two scenes with one key differ in material alone.
+#pragma once
+
+#include "sim/scene.hpp"
+
+namespace sinew::sim {
+
+/// A hash of where particles are at first and how heavy, of what links, holds and surrounds them, and of
+/// which bodies may be cut: of all that recordTakeOver() takes for granted. Stiffness, compliance, friction,
+/// restitution, damping, gravity, colors, names and velocities are not in it.
+std::uint64_t sceneKey(const Scene& scene);
+
+} // namespace sinew::sim

@@ -1,0 +1,67 @@
+// What the newest steps have found out, where the host reads it: one slot for each step that may be in
+// flight.
+#pragma once
+
+#include "layout.h"
+#include "sim/scene.hpp"
+#include "vk/buffer.hpp"
+#include "vk/commands.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace sinew::sim {
+
+/// A step in its slot, as the host recorded it.
+struct RecordedStep {
+    bool isRecorded = false;
+    std::uint64_t frame = 0;
+    float lostTime = 0; ///< [s]
+    bool hasBlade = false;
+};
+
+class StepRing {
+public:
+    /// Of `slots` steps. With `hasCounts` it also keeps what is cut.
+    StepRing(const vk::Device& device, std::uint32_t slots, bool hasCounts);
+
+    std::uint32_t slots() const noexcept { return static_cast<std::uint32_t>(steps_.size()); }
+    std::uint32_t slotOf(std::uint64_t frame) const noexcept {
+        return static_cast<std::uint32_t>(frame % steps_.size());
+    }
+    /// The step that has the slot of `frame`: another one, where that was not recorded or is too old.
+    const RecordedStep& step(std::uint64_t frame) const noexcept { return steps_[slotOf(frame)]; }
+    /// Gives the slot of a step, which then has not finished, to `step`. Never allocates.
+    void open(const RecordedStep& step) noexcept;
+    /// Records the copies into the slot of `frame`.
+    void record(vk::Commands& commands, std::uint64_t frame, const vk::BufferView& status,
+                const vk::BufferView& counts) const noexcept;
+
+    /// Of the step that has the slot of `frame`.
+    layout::StatusWords words(std::uint64_t frame) const noexcept;
+    layout::CutCounts counts(std::uint64_t frame) const noexcept;
+    /// Whether `frame` was recorded, has its slot still and came back from the device.
+    bool isFinished(std::uint64_t frame) const noexcept;
+    /// Likewise, and was undone.
+    bool isUndone(std::uint64_t frame) const noexcept;
+    /// Steps that were undone until `frame` came back.
+    std::uint64_t undoneUntil(std::uint64_t frame) const noexcept;
+    /// The oldest step that was recorded and has not come back.
+    std::optional<std::uint64_t> oldestUnfinished() const noexcept;
+    /// The oldest step in a slot that was undone for lack of room, and how many particles need it.
+    struct Lack {
+        std::uint64_t frame = 0;
+        std::uint32_t needed = 0;
+    };
+    std::optional<Lack> lackOfRoom() const noexcept;
+
+private:
+    vk::BufferView slotIn(const vk::Buffer& ring, std::uint64_t frame, std::size_t size) const noexcept;
+
+    vk::Buffer status_;                // slots are whole atoms: host and device write beside each other
+    std::optional<vk::Buffer> counts_; // likewise
+    std::vector<RecordedStep> steps_;
+    std::uint64_t undone_ = 0; // of steps that have a slot no longer
+};
+
+} // namespace sinew::sim
