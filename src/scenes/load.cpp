@@ -232,6 +232,18 @@ void warnAboutStiffness(LoadedScene& loaded) {
                      : "no number of substeps reaches " + percent + ", use weight or iterations"));
 }
 
+// A tenth: some per cent are no news.
+void warnAboutDrag(LoadedScene& loaded) {
+    const double off = double{loaded.scene.damping} * double{loaded.scene.dt} / loaded.settings.substeps / 2;
+    const auto isZero = [](const sim::Vec3& g) { return g.x == 0 && g.y == 0 && g.z == 0; };
+    if (off <= 2 * sim::dragTolerance || isZero(loaded.scene.gravity)) return;
+    loaded.warnings.push_back(
+        "damping is so strong for " + std::to_string(loaded.settings.substeps) +
+        " substeps that what falls has a terminal speed some " + std::to_string(std::lround(100 * off)) +
+        " % off: " + std::to_string(sim::dragSubsteps(loaded.scene)) + " substeps keep it within " +
+        std::to_string(std::lround(100 * sim::dragTolerance)) + " %");
+}
+
 void warnAboutMostSubsteps(LoadedScene& loaded) {
     const sim::SubstepChoice& choice = loaded.substeps;
     if (choice.reason != sim::SubstepReason::most) return;
@@ -262,6 +274,7 @@ void warnAboutSolver(LoadedScene& loaded) {
     warnAboutRelaxation(loaded);
     warnAboutStiffness(loaded);
     warnAboutMostSubsteps(loaded);
+    warnAboutDrag(loaded);
 }
 
 void requireValid(const LoadedScene& loaded, const std::string& file) {

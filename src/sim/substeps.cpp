@@ -189,9 +189,20 @@ double jacobiRelaxation(const Scene& scene, const Settings& settings) {
     return double{settings.overRelaxation} * double{settings.weight} * most;
 }
 
+std::uint32_t dragSubsteps(const Scene& scene) {
+    // off by d / 2 + d^2 / 12 at most, d = damping h
+    constexpr double most = 2 * dragTolerance * (1 - dragTolerance / 3);
+    return countFor(double{scene.dt}, scene.damping > 0 ? most / double{scene.damping} : infinite);
+}
+
 SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings) {
     if (settings.substeps > 0) return {settings.substeps, settings.substeps, SubstepReason::asked};
-    if (hasOnlyFreeParticles(scene)) return {1, 1, SubstepReason::fewest};
+    const std::uint32_t drag = dragSubsteps(scene);
+    if (hasOnlyFreeParticles(scene))
+        return {std::min(drag, ranges::mostChosen), drag,
+                drag > ranges::mostChosen ? SubstepReason::most
+                : drag > 1                ? SubstepReason::drag
+                                          : SubstepReason::fewest};
     // The shares of `split` depend on h a little, so that this is the fixed point of a few rounds.
     const Load load = loadOf(scene, double{settings.tolerance});
     const std::uint32_t fewest = fewestFor(scene);
@@ -217,6 +228,11 @@ SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings) {
         tried.substeps = next;
     }
     choice.substeps = tried.substeps;
+    if (drag > choice.substeps) {
+        choice.wanted = std::max(choice.wanted, drag);
+        choice.reason = SubstepReason::drag;
+        choice.substeps = std::min(drag, ranges::mostChosen);
+    }
     if (choice.wanted < choice.substeps && choice.substeps == fewest) choice.reason = SubstepReason::fewest;
     if (choice.wanted > choice.substeps) choice.reason = SubstepReason::most;
     return choice;
@@ -280,6 +296,9 @@ std::string toText(const SubstepChoice& choice, const Settings& settings) {
         break;
     case SubstepReason::damping:
         why = "links damp as much as asked";
+        break;
+    case SubstepReason::drag:
+        why = "terminal speeds are right within 5 %";
         break;
     case SubstepReason::contacts:
         why = "what rests on contacts presses them in by no more than 1 % of a radius";

@@ -32,6 +32,7 @@ enum class SubstepReason : std::uint8_t {
     stiffness, ///< no elastic link softer than the tolerance allows
     weight,    ///< no rigid link stretched by more than tolerance x length under the weight hanging on it
     damping,   ///< `split`: dampingTime in full
+    drag,      ///< Scene::damping: terminal speeds within dragTolerance
     contacts,  ///< what rests on particles or faces presses them in by no more than 1 % of a radius
     fewest,    ///< nothing asked for more than ranges::fewestChosen
     most,      ///< more than ranges::mostChosen were wanted
@@ -45,6 +46,13 @@ struct SubstepChoice {
     bool isReachable = true; ///< false: s_m keeps a link from the tolerance, whatever the substeps
 };
 
+/// How far off a terminal speed may be where substeps are chosen, whatever the tolerance of links is.
+inline constexpr double dragTolerance = 0.05;
+
+/// With which a terminal speed g / damping is off by no more than dragTolerance. In substeps of h it is off
+/// by damping h / 2 of itself: `split` falls slower by that, other solvers faster.
+std::uint32_t dragSubsteps(const Scene& scene);
+
 /// Where settings.substeps is 0: the smallest number with which, at scene.dt,
 /// - every elastic link has k_eff >= (1 - tolerance) k; where the s_m of `jacobi` alone is below 1 -
 /// tolerance,
@@ -53,10 +61,11 @@ struct SubstepChoice {
 ///   particles that never move, on attachments, or on colliders below it (stiffness/tensions.hpp; bodies that
 ///   hang on nothing ask for nothing),
 /// - `split` is stable with the whole of dampingTime,
+/// - what falls against Scene::damping has its terminal speed within dragTolerance (dragSubsteps()),
 /// - what may rest on particles or faces presses them in by at most 1 % of a radius (collision/loads.hpp),
 ///   and there are ranges::fewestTouching where particles may touch each other or faces,
-/// but from fewestChosen to mostChosen; 1 where a scene has nothing but free particles. Longer or shorter
-/// steps keep the number.
+/// but from fewestChosen to mostChosen; where a scene has nothing but free particles, as many as drag asks
+/// for. Longer or shorter steps keep the number.
 SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings);
 
 /// `settings` with a number in the place of 0.

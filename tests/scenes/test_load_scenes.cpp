@@ -443,6 +443,19 @@ TEST_F(Load, WarnsOfSoftBodiesUnderEverySolver) {
     EXPECT_TRUE(warnings("jacobi", 8, 200).empty()) << "iterations make links as stiff as asked";
 }
 
+TEST_F(Load, WarnsOfTerminalSpeedsThatAreOff) {
+    const auto warnings = [&](const std::string& damping) {
+        return load("damping = " + damping +
+                    "\n[solver]\nsubsteps = 4\n[[particles]]\nradius = 0.05\ncount = [1, 1, 1]\nspacing = "
+                    "0.2\n")
+            .warnings;
+    };
+    EXPECT_TRUE(warnings("20").empty()); // 4 %
+    EXPECT_EQ(warnings("200"), std::vector<std::string>{
+                                   "damping is so strong for 4 substeps that what falls has a terminal speed "
+                                   "some 42 % off: 34 substeps keep it within 5 %"});
+}
+
 TEST_F(Load, SaysWhereTheChoiceOfSubstepsStops) {
     const std::string box = "[[box]]\nparticles = [4, 4, 4]\nspacing = 0.02\ncenter = [0, 1, 0]\n"
                             "young_modulus = 2e8\n";

@@ -294,6 +294,25 @@ TEST(Substeps, StayBetweenTheirLimitsAndSaySo) {
               std::string::npos);
 }
 
+TEST(Substeps, GiveWhatFallsItsTerminalSpeed) {
+    for (const Solver solver : {Solver::split, Solver::gaussSeidel, Solver::jacobi})
+        for (const float damping : {10.0f, 20.0f, 60.0f, 200.0f}) {
+            Scene scene = test::particleAt({0, 1, 0});
+            scene.gravity = {0, -9.81f, 0};
+            scene.damping = damping;
+            const Settings settings{.solver = solver};
+            const SubstepChoice choice = chooseSubsteps(scene, settings);
+            EXPECT_EQ(choice.reason, SubstepReason::drag) << damping;
+            EXPECT_EQ(choice.substeps, dragSubsteps(scene));
+            test::Runner runner(scene, settings);
+            runner.run(120);
+            const double before = runner.positions()[0].y();
+            runner.run(60);
+            const double speed = (before - runner.positions()[0].y()) / (60 * double{scene.dt});
+            EXPECT_NEAR(speed * double{damping} / 9.81, 1, dragTolerance) << damping;
+        }
+}
+
 TEST(Substeps, OfZeroAreChosenByCompileAndSimulation) {
     const Scene scene = dampedChain(5, 1e-4f);
     const std::uint32_t chosen = chooseSubsteps(scene, {}).substeps;
