@@ -59,7 +59,8 @@ Beside::Beside(const vk::Device& device, const scenes::LoadedScene& loaded, cons
                const sim::Material& material, const BesideShape& shape, std::uint32_t slots)
     : shape_(shapeOf(settingsFor(sim::withMaterial(loaded.scene, material), settings, shape))),
       stage_(device, loaded.scene, settingsFor(loaded.scene, settings, shape_), material),
-      gauges_(stage_, loaded.scene.dt), probe_(device, stage_.scene(), stage_.simulation()), flights_(slots) {
+      gauges_(stage_, loaded.scene.dt),
+      probe_(device, stage_.scene(), stage_.settings(), stage_.simulation()), flights_(slots) {
     stage_.setBlades({loaded.blades, loaded.scene.dt});
     const auto spans = static_cast<std::uint32_t>(stage_.simulation().phases().size());
     for (std::uint32_t slot = 0; slot < slots; ++slot) times_.emplace_back(device, spans);
@@ -68,7 +69,6 @@ Beside::Beside(const vk::Device& device, const scenes::LoadedScene& loaded, cons
 void Beside::recordReset(VkCommandBuffer commands) noexcept {
     stage_.recordReset(commands);
     gauges_.restart();
-    isCut_ = false;
     for (Flight& flight : flights_) flight = {};
 }
 
@@ -107,11 +107,9 @@ std::optional<Beside::Trouble> Beside::settle(std::uint32_t slot) {
             return Trouble{divergence->sentence()};
         const sim::Status status = stage_.simulation().status(step);
         gauges_.stepFinished(status);
-        isCut_ = status.linksCutInAll > 0;
     }
     if (flight.isTimed) gauges_.stepTimed(times_[slot].milliseconds());
-    if (flight.isMeasured && !isCut_)
-        gauges_.strainMeasured(measureStrain(stage_.scene(), probe_.positions()));
+    if (flight.isMeasured) gauges_.strainMeasured(measureStrain(stage_.scene(), probe_));
     return std::nullopt;
 }
 

@@ -69,7 +69,6 @@ private:
     StateProbe probe_;
     std::vector<vk::Timestamps> times_;
     std::vector<Flight> flights_;
-    bool isCut_ = false;
 };
 
 } // namespace sinew::viewer

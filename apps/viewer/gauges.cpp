@@ -113,20 +113,11 @@ SceneFacts sceneFacts(const Opening& opening, const Stage& stage, const vk::Devi
     return facts;
 }
 
-Strain measureStrain(const sim::Scene& scene, std::span<const sim::layout::vec4> positions) {
-    double squares = 0, largest = 0;
-    std::size_t count = 0;
-    for (const sim::DistanceConstraint& link : scene.distances) {
-        if (!(link.restLength > 0)) continue;
-        const sim::layout::vec4 &a = positions[link.a], &b = positions[link.b];
-        const double length =
-            std::hypot(double{a.x} - double{b.x}, double{a.y} - double{b.y}, double{a.z} - double{b.z});
-        const double strain = length / double{link.restLength} - 1;
-        squares += strain * strain;
-        largest = std::max(largest, std::abs(strain));
-        ++count;
-    }
-    return count == 0 ? Strain{} : Strain{std::sqrt(squares / static_cast<double>(count)), largest};
+Strain measureStrain(const sim::Scene& scene, StateProbe& probe) {
+    if (probe.positions().empty()) return {};
+    const std::span<const float> places(&probe.positions().front().x, 4 * probe.positions().size());
+    const app::LinkStrain strain = app::strainOf(scene, places, probe.liveLinks());
+    return {strain.rms, strain.largest};
 }
 
 Gauges::Gauges(const Stage& stage, double dt) : dt_(dt) {
@@ -153,14 +144,11 @@ void Gauges::stepTimed(std::span<const double> milliseconds) {
 void Gauges::stepFinished(const sim::Status& status) {
     facts_.slowed = status.slowed;
     facts_.sleeping = status.sleeping;
-    facts_.pieces = status.pieces;
     facts_.linksCut = status.linksCutInAll;
     facts_.crumbs = status.crumbs;
     facts_.crumbParticles = status.crumbParticles;
     facts_.crumbMass = status.crumbMass;
-    if (status.linksCutInAll == 0) return;
-    facts_.strainRms.clear(); // the length of a cut link is no error
-    facts_.strainMax.clear();
+    if (status.linksCutInAll == 0) facts_.pieces = {.pieces = status.pieces};
 }
 
 void Gauges::strainMeasured(const Strain& strain) {
@@ -171,7 +159,8 @@ void Gauges::strainMeasured(const Strain& strain) {
 void Gauges::restart() {
     facts_.strainRms.clear();
     facts_.strainMax.clear();
-    facts_.slowed = facts_.sleeping = facts_.pieces = facts_.linksCut = 0;
+    facts_.slowed = facts_.sleeping = facts_.linksCut = 0;
+    facts_.pieces = {};
     facts_.crumbs = facts_.crumbParticles = 0;
     facts_.crumbMass = 0;
 }

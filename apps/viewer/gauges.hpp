@@ -3,6 +3,7 @@
 
 #include "layout.h"
 #include "viewer/draw/stage.hpp"
+#include "viewer/hands/state_probe.hpp"
 #include "viewer/opening.hpp"
 #include "viewer/panels/facts.hpp"
 
@@ -20,8 +21,8 @@ sim::Material materialOf(const Knobs& knobs, const Knobs& fromFile);
 /// `knobs` turned so that this is their material.
 Knobs turnedTo(const sim::Material& material, Knobs knobs, const Knobs& fromFile);
 
-/// `positions` of every particle [m].
-Strain measureStrain(const sim::Scene& scene, std::span<const sim::layout::vec4> positions);
+/// Of the links that hold, in what `probe` has recorded of the scene.
+Strain measureStrain(const sim::Scene& scene, StateProbe& probe);
 
 /// Collects what changes.
 class Gauges {
@@ -33,8 +34,10 @@ public:
     /// GPU time of a step, by phase [ms].
     void stepTimed(std::span<const double> milliseconds);
     void stepFinished(const sim::Status& status);
-    /// Shown until something is cut.
     void strainMeasured(const Strain& strain);
+    /// Of a state in which something is cut; until the next one, what was counted is shown.
+    void piecesCounted(const app::PieceCount& count) { facts_.pieces = count; }
+    const app::PieceCount& pieces() const { return facts_.pieces; }
     /// After a reset, or a way back.
     void restart();
     /// After the simulation of `before` was taken over from, which may have other phases.

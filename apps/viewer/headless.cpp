@@ -2,6 +2,7 @@
 // status of steps that are about to be overwritten.
 #include "viewer/headless.hpp"
 
+#include "app/drawn.hpp"
 #include "app/guard.hpp"
 #include "app/progress.hpp"
 #include "viewer/beside.hpp"
@@ -155,14 +156,14 @@ public:
     /// Where another solver was asked for: what a step of each cost, and how wrong it is in the end.
     void printBeside() {
         if (!beside_) return;
-        StateProbe probe(device_, stage_.scene(), stage_.simulation());
+        StateProbe probe(device_, stage_.scene(), stage_.settings(), stage_.simulation());
         const VkCommandBuffer commands = queue_.begin();
         stage_.recordSkin(commands);
         probe.record(commands);
         beside_->recordPicture(commands, 0, true);
         queue_.wait(queue_.submit(commands));
         checkBeside(0);
-        const Strain strain = measureStrain(stage_.scene(), probe.positions());
+        const Strain strain = measureStrain(stage_.scene(), probe);
         const Facts other = beside_->facts();
         const sim::Settings& settings = stage_.settings();
         std::printf("%s: strain of links rms %.3f %%, largest %.2f %%\n",
@@ -170,6 +171,20 @@ public:
                     100 * strain.largest);
         std::printf("%s: strain of links rms %.3f %%, largest %.2f %%\n", toText(beside_->shape()).c_str(),
                     100 * double{other.strainRms.newest()}, 100 * double{other.strainMax.newest()});
+    }
+
+    /// Once something is cut, what is left of it.
+    void printCuts() {
+        if (stage_.steps() == 0) return;
+        const sim::Status status = stage_.simulation().status(stage_.steps());
+        if (status.linksCutInAll == 0) return;
+        const VkCommandBuffer commands = queue_.begin();
+        stage_.recordSkin(commands);
+        queue_.wait(queue_.submit(commands));
+        const sim::Scene& scene = stage_.scene();
+        const app::Drawn drawn = app::downloadDrawn(queue_, stage_.simulation(), scene, stage_.settings());
+        std::printf("cut: %u links, %s\n", status.linksCutInAll,
+                    app::toText(app::countPieces(scene, drawn, status.pieces)).c_str());
     }
 
     /// Where they were asked for; waits for nothing.
@@ -431,6 +446,7 @@ int runHeadless(const Options& asked, std::atomic<std::size_t>& messages) {
         recorder.settle();
         progress.finish();
         recorder.finishReplay();
+        recorder.printCuts();
         recorder.printTimes();
         recorder.printBeside();
     } catch (const app::Failure& failure) {

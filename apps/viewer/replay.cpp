@@ -68,7 +68,7 @@ Replay::Due Replay::next(Tools& tools, Camera& camera, Stage& stage) {
 }
 
 std::uint64_t stateHash(const vk::Device& device, const Stage& stage, vk::Queue& queue) {
-    StateProbe probe(device, stage.scene(), stage.simulation());
+    StateProbe probe(device, stage.scene(), stage.settings(), stage.simulation());
     VkCommandBuffer commands = queue.begin();
     probe.record(commands);
     probe.recordVelocities(commands);

@@ -31,8 +31,8 @@ Show::Show(Screen& screen, Library& library, const Devices& devices, const vk::D
     : screen_(screen), library_(library), devices_(devices), device_(device), ownOpening_(std::move(opening)),
       opening_(*ownOpening_), prepared_(*opening_.prepared),
       controller_(opening_.camera, opening_.loaded.scene.dt), stage_(prepared_.stage),
-      probe_(std::in_place, device, stage_.scene(), stage_.simulation()),
-      backstage_(device, prepared_, opening_.camera, Presenter::framesInFlight),
+      probe_(std::in_place, device, stage_.scene(), stage_.settings(), stage_.simulation()),
+      pieceProbe_(device, stage_), backstage_(device, prepared_, opening_.camera, Presenter::framesInFlight),
       inspector_(stage_, Presenter::framesInFlight), tools_(device, opening_), sceneFacts_(prepared_.facts),
       gauges_(stage_, opening_.loaded.scene.dt),
       knobs_(sceneFacts_.fromFile), begun_{stage_.settings().solver, stage_.settings().substeps},
@@ -164,8 +164,8 @@ void Show::play() {
     const Plan plan = this->plan(elapsed);
     const bool hasInput = std::exchange(isInputDue_, false);
     const bool isChanged = !controller_.playback.isPaused() || plan.isReset || plan.steps > 0 || hasInput ||
-                           wantsScreenshot_ || wantsProbe_ || wantsLook_ || tools_.isWaiting() ||
-                           shown_ == Shown::nothing;
+                           wantsScreenshot_ || wantsProbe_ || wantsLook_ || wantsCount_ ||
+                           tools_.isWaiting() || shown_ == Shown::nothing;
     if (isChanged) lastChange_ = now;
     if (screen_.hasNewNotice()) panelsDue_ = picturesOfATouch;
     if (!isChanged && shown_ == Shown::still && panelsDue_ == 0) return;

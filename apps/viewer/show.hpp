@@ -11,6 +11,7 @@
 #include "viewer/hands/controller.hpp"
 #include "viewer/hands/inspector.hpp"
 #include "viewer/hands/picture_budget.hpp"
+#include "viewer/hands/piece_probe.hpp"
 #include "viewer/hands/state_probe.hpp"
 #include "viewer/library.hpp"
 #include "viewer/opening.hpp"
@@ -76,6 +77,7 @@ private:
         bool isProbed = false;     // for the bounds
         std::optional<Look> look;
         bool isMeasured = false;          // for the strain
+        bool isCounted = false;           // by pieceProbe_
         bool isRecorded = false;          // by cameras_
         ColorMap map = ColorMap::none;    // of what is inspected
         bool hasContacts = false;         // likewise
@@ -85,7 +87,9 @@ private:
         std::unique_ptr<Shot> screenshot;
         std::uint64_t screenshotStep = 0;
         /// Whether it brings a copy of the state.
-        bool isAsked() const { return isProbed || look || question || isMeasured || isInspected; }
+        bool isAsked() const {
+            return isProbed || look || question || isMeasured || isInspected || isCounted;
+        }
     };
 
     enum class Shown { nothing, moving, still };
@@ -146,6 +150,9 @@ private:
     void makeSurfaceRoom();
     void warnOfSurface();
     bool isStrainDue(std::uint32_t steps);
+    bool isCountDue();
+    void settleCount();
+    void showCounts(const sim::Status& status);
     bool askProbe(InFlight& flight);
     void recordProbe(const Presenter::Frame& frame);
     void inspect(const Presenter::Frame& frame, const Ray& ray);
@@ -188,6 +195,7 @@ private:
     Controller controller_;
     Stage& stage_;
     std::optional<StateProbe> probe_; // of the stage's simulation
+    PieceProbe pieceProbe_;
     Backstage backstage_;
     Watched drawn_; // of what is wanted, what the newest picture has
     Inspector inspector_;
@@ -218,9 +226,12 @@ private:
     std::array<InFlight, Presenter::framesInFlight> inFlight_;
     PictureWriter writer_{1};
     StatusLine status_;
-    Clock::time_point lastTurn_ = Clock::now(), lastChange_ = lastTurn_, lastStrain_ = lastTurn_;
+    Clock::time_point lastTurn_ = Clock::now(), lastChange_ = lastTurn_, lastStrain_ = lastTurn_,
+                      lastCount_ = lastTurn_;
     Shown shown_ = Shown::nothing;
     std::size_t inputSaved_ = 0;       // events of the log that some file has, or a reset has made
+    std::uint32_t linksCut_ = 0;       // Status::linksCutInAll, likewise
+    std::uint32_t allPieces_ = 0;      // Status::pieces, likewise
     std::uint32_t surfaceMissing_ = 0; // Status::cutSurfaceMissing of the newest settled step
     std::uint32_t panelsDue_ = 0;      // pictures until the panels look as they should
     bool arePanelsDue_ = true;         // in the picture that is recorded
@@ -230,7 +241,7 @@ private:
     std::optional<SavedOrigin> from_;              // until the reset
     bool isDropped_ = false;                       // the replay, by hand
     bool isBroken_ = false;                        // has diverged, likewise
-    bool isHidden_ = false, isDiverged_ = false, isSurfaceMissing_ = false, isCut_ = false,
+    bool isHidden_ = false, isDiverged_ = false, isSurfaceMissing_ = false, wantsCount_ = false,
          isRefused_ = false, wantsScreenshot_ = false, wantsProbe_ = false, isInputDue_ = false,
          isMakingSaid_ = false, isSurfaceGrowing_ = false, isBesideOut_ = false, isButtonDown_ = false;
 };

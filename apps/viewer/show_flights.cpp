@@ -13,6 +13,7 @@ namespace sinew::viewer {
 namespace {
 
 constexpr double strainEvery = 0.25; // [s]: a copy of all positions
+constexpr double countEvery = 0.25;  // [s]: a copy of all triangles, while something is being cut
 
 } // namespace
 
@@ -72,13 +73,21 @@ void Show::forgetFlights() {
     }
 }
 
-// The length of cut links says nothing of error.
 bool Show::isStrainDue(std::uint32_t steps) {
     const auto now = Clock::now();
-    const bool isDue = steps > 0 && !isCut_ && screen_.panels().isShown(screen_.presenter().extent()) &&
+    const bool isDue = steps > 0 && screen_.panels().isShown(screen_.presenter().extent()) &&
                        now - lastStrain_ >= std::chrono::duration<double>(strainEvery);
     if (isDue) lastStrain_ = now;
     return isDue;
+}
+
+// Of the newest cuts.
+bool Show::isCountDue() {
+    const auto now = Clock::now();
+    if (!wantsCount_ || now - lastCount_ < std::chrono::duration<double>(countEvery)) return false;
+    wantsCount_ = false;
+    lastCount_ = now;
+    return true;
 }
 
 // One copy is enough for all that is in flight: a question is asked again until it is answered. True where it
@@ -90,7 +99,8 @@ bool Show::askProbe(InFlight& flight) {
     if (!replay_) flight.question = tools_.question(); // a replay has its answers
     flight.isMeasured = isStrainDue(flight.steps);
     flight.isInspected = inspector_.isDue(rayThrough(controller_.camera, pointer_));
-    return flight.look || flight.question || flight.isInspected;
+    flight.isCounted = isCountDue();
+    return flight.look || flight.question || flight.isInspected || flight.isCounted;
 }
 
 // After skins were.
@@ -98,6 +108,7 @@ void Show::recordProbe(const Presenter::Frame& frame) {
     const InFlight& flight = inFlight_[frame.slot];
     if (!flight.isAsked()) return;
     probe_->record(frame.commands);
+    if (flight.isCounted) pieceProbe_.record(frame.commands);
     if (flight.isInspected) inspect(frame, rayThrough(controller_.camera, pointer_));
 }
 
@@ -126,8 +137,7 @@ void Show::settle(std::uint32_t slot) {
     settleTimes(slot, flight);
     settleProbe(flight);
     if (flight.isInspected)
-        inspector_.settle(slot, opening_.light.balls, *probe_, isCut_, opened(),
-                          backstage_.inspection().counter());
+        inspector_.settle(slot, opening_.light.balls, *probe_, opened(), backstage_.inspection().counter());
     settleMap(slot, flight);
     if (flight.hasContacts && drawn_.layers.hasContacts)
         contactsFound_ = backstage_.inspection().contacts(slot);
@@ -143,13 +153,29 @@ void Show::settle(std::uint32_t slot) {
         }
         if (const std::optional<Divergence> divergence = stage_.check(step)) stop(divergence->sentence());
         const sim::Status status = stage_.simulation().status(step);
-        status_.setCounts(status.sleeping, status.pieces);
-        gauges_.stepFinished(status);
-        isCut_ = status.linksCutInAll > 0;
+        showCounts(status);
         surfaceMissing_ = status.cutSurfaceMissing;
     }
+    if (flight.isCounted && !isUndone) settleCount();
     if (flight.isRecorded && !isUndone) settleCamera(slot, flight);
     if (flight.screenshot) settleScreenshot(flight);
+}
+
+// How many pieces have a surface is counted from what is drawn, some pictures later.
+void Show::showCounts(const sim::Status& status) {
+    wantsCount_ = status.linksCutInAll > 0 && (wantsCount_ || status.linksCutInAll != linksCut_);
+    linksCut_ = status.linksCutInAll;
+    allPieces_ = status.pieces;
+    gauges_.stepFinished(status);
+    status_.setSleeping(status.sleeping);
+    status_.setPieces(gauges_.pieces().pieces);
+}
+
+void Show::settleCount() {
+    if (linksCut_ == 0) return; // somebody has gone back to before
+    gauges_.piecesCounted(pieceProbe_.count(allPieces_));
+    status_.setPieces(gauges_.pieces().pieces);
+    panelsDue_ = std::max(panelsDue_, 1u);
 }
 
 void Show::settleTimes(std::uint32_t slot, const InFlight& flight) {
@@ -178,8 +204,7 @@ void Show::settleProbe(InFlight& flight) {
                                 flight.question->among(), opened());
         tools_.answer(*flight.question, found, found ? holdRadius(scene, found->particle) : 0);
     }
-    if (flight.isMeasured && !isCut_)
-        gauges_.strainMeasured(measureStrain(stage_.scene(), probe_->positions()));
+    if (flight.isMeasured) gauges_.strainMeasured(measureStrain(stage_.scene(), *probe_));
     if (flight.look && isSeen) settleLook(*flight.look);
     if (flight.look && !isSeen && !wantsLook_) wantsLook_ = flight.look;
     if (!flight.isProbed) return;

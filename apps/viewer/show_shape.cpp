@@ -66,8 +66,8 @@ void Show::takeOver(const Show& before) {
     controller_ = before.controller_;
     tools_.goOn(before.tools_, stage_);
     gauges_.goOn(before.gauges_);
-    const Facts counts = gauges_.facts(stage_);
-    status_.setCounts(counts.sleeping, counts.pieces);
+    status_.setSleeping(gauges_.facts(stage_).sleeping);
+    status_.setPieces(gauges_.pieces().pieces);
     pointer_ = before.pointer_;
     fold_ = before.fold_;
     isButtonDown_ = before.isButtonDown_;
@@ -76,7 +76,8 @@ void Show::takeOver(const Show& before) {
     begun_ = before.begun_;
     from_ = before.from_;
     isBroken_ = before.isBroken_;
-    isCut_ = before.isCut_;
+    linksCut_ = before.linksCut_;
+    allPieces_ = before.allPieces_;
     sceneFacts_.fromFile = before.sceneFacts_.fromFile;
     knobs_ = before.knobs_;
     if (!before.asked_ || areOfOneShape(knobs_, *before.asked_)) knobs_ = madeKnobs(); // 0 is a number now
@@ -110,8 +111,10 @@ void Show::reshape() {
 
 // After the stage has another simulation.
 void Show::restartViews() {
-    probe_.emplace(device_, stage_.scene(), stage_.simulation());
-    backstage_.forget(); // layers are made of the other one
+    probe_.emplace(device_, stage_.scene(), stage_.settings(), stage_.simulation());
+    pieceProbe_.restart();
+    wantsCount_ = linksCut_ > 0; // where it had been asked for, nobody answers
+    backstage_.forget();         // layers are made of the other one
     drawn_ = {};
     inspector_.restart();
     shown_ = Shown::nothing;

@@ -54,7 +54,7 @@ struct Scene {
     Controller controller{opening.camera, opening.loaded.scene.dt};
     Stage stage;
     Tools tools{test::device(), opening};
-    StateProbe probe{test::device(), stage.scene(), stage.simulation()};
+    StateProbe probe{test::device(), stage.scene(), stage.settings(), stage.simulation()};
 
     explicit Scene(const std::string& text = block, const sim::Material& material = {})
         : Scene(openText(text), material) {}

@@ -59,6 +59,11 @@ for picture in roomy/*.png; do
 done
 cmp -s roomy/frame_0000.png roomy/frame_0024.png && fail "no ball has moved"
 
+# Pieces without a surface are named apart, as in the report of a run.
+printf 'gravity = [0, 0, 0]\n[[mesh]]\ngenerate = "sphere"\ndetail = 32\nsize = 0.3\ncenter = [0, 0, 0]\nresolution = 8\ncuttable = true\n[[blade]]\ntimes = [0, 0.0166667]\nedges = [[[0.1055, 1, -1], [0.1055, 1, 1]], [[0.1055, -1, -1], [0.1055, -1, 1]]]\n' >slice.toml
+expect 0 slice.toml --headless --frames 4 --every 4 --size 64x64 --out slice --validation
+grep -qx 'cut: [0-9]* links, 2 pieces and 6 fragments without a surface' out || fail "it counts other pieces"
+
 # Far too much over-relaxation.
 printf '[solver]\nname = "jacobi"\nsubsteps = 1\niterations = 200\nover_relaxation = 1.99\nweight = 1\n[[cloth]]\nname = "fuse"\nsize = [16, 16]\nspacing = 1\npinned = ["first_row"]\n' >bomb.toml
 expect 7 bomb.toml --headless --frames 100000 --every 100000 --size 64x64 --out bomb

@@ -106,20 +106,30 @@ TEST(Inspector, SaysWhatAStateSaysOfAParticle) {
     const std::uint32_t first = seen.scene.bodies[1].firstParticle;
     for (layout::vec4& place : seen.positions) place.x *= 1.1f; // stretched
     std::vector<layout::vec4> velocities(seen.positions.size(), layout::vec4{3, 4, 0, 0});
-    const Found found = foundAt(seen.scene, first, seen.positions, velocities, false);
+    const auto all = [](std::size_t) { return true; };
+    const Found found = foundAt(seen.scene, first, seen.positions, velocities, all);
     EXPECT_EQ(found.body, "behind");
     EXPECT_FLOAT_EQ(found.speed.value(), 5);
     ASSERT_TRUE(found.strain);
     EXPECT_NEAR(found.strain->largest, 0.1, 1e-5) << "along x";
     EXPECT_GT(found.strain->rms, 0.01);
     EXPECT_LT(found.strain->rms, found.strain->largest);
-    EXPECT_FALSE(foundAt(seen.scene, first, seen.positions, {}, false).speed);
-    EXPECT_FALSE(foundAt(seen.scene, first, seen.positions, {}, true).strain) << "something is cut";
+    EXPECT_FALSE(foundAt(seen.scene, first, seen.positions, {}, all).speed);
+    const auto none = [](std::size_t) { return false; };
+    EXPECT_FALSE(foundAt(seen.scene, first, seen.positions, {}, none).strain) << "all of them are cut";
+    std::size_t held = seen.scene.distances.size();
+    for (std::size_t d = held; d-- > 0;)
+        if (seen.scene.distances[d].a == first) held = d;
+    const Found one =
+        foundAt(seen.scene, first, seen.positions, {}, [&](std::size_t d) { return d == held; });
+    EXPECT_EQ(one.links, 1u) << "the others are cut";
+    ASSERT_TRUE(one.strain);
+    EXPECT_EQ(one.strain->rms, one.strain->largest);
     EXPECT_FALSE(found.isAsleep);
     seen.positions[first].w = 0;
-    EXPECT_TRUE(foundAt(seen.scene, first, seen.positions, {}, false).isAsleep);
+    EXPECT_TRUE(foundAt(seen.scene, first, seen.positions, {}, all).isAsleep);
     seen.scene.particles[first].inverseMass = 0;
-    const Found fixed = foundAt(seen.scene, first, seen.positions, {}, false);
+    const Found fixed = foundAt(seen.scene, first, seen.positions, {}, all);
     EXPECT_TRUE(fixed.isFixed);
     EXPECT_FALSE(fixed.isAsleep);
 }

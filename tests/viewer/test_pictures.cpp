@@ -336,7 +336,7 @@ TEST(Picture, OfASceneWithoutSkinsIsAnEmptyStage) {
 TEST(StateProbe, FindsTheBodyWhereItIsNow) {
     const sim::Scene scene = block(0.5f, true);
     Stage stage(test::device(), scene, {});
-    StateProbe probe(test::device(), stage.scene(), stage.simulation());
+    StateProbe probe(test::device(), stage.scene(), stage.settings(), stage.simulation());
     VkCommandBuffer commands = test::queue().begin();
     stage.recordReset(commands);
     for (int i = 0; i < 4; ++i) stage.recordStep(commands);

@@ -56,7 +56,7 @@ TEST(Pins, HoldABodyAgainstItsWeight) {
     const Vector3 at(x.x, x.y, x.z);
     Pins pins;
     pins.add(handAt(corner, at), 0.16f);
-    StateProbe probe(test::device(), stage.scene(), stage.simulation());
+    StateProbe probe(test::device(), stage.scene(), stage.settings(), stage.simulation());
     std::array<sim::Grab, sim::ranges::mostGrabs> grabs;
     const auto step = [&](int steps) {
         grabs[0] = emptyHand();

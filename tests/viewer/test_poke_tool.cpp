@@ -106,7 +106,7 @@ TEST(PokeTool, PushesABlockAndIsSeen) {
     sim::addLatticeSkin(scene, lattice, sim::addLattice(scene, lattice), {0.10f, 0.15f, 0.70f});
     scene.gravity = {0, 0, 0};
     Stage stage(test::device(), scene, {.substeps = 16, .pokes = 1});
-    StateProbe probe(test::device(), stage.scene(), stage.simulation());
+    StateProbe probe(test::device(), stage.scene(), stage.settings(), stage.simulation());
     Offscreen offscreen(test::device(), {160, 100}, lightFor(scene, fromFront), {});
     PokeTool tool = takenUp();
     const auto run = [&](int steps) {

@@ -59,7 +59,8 @@ struct Cut {
     explicit Cut(const sim::Scene& scene_, const Layers& on = {}, const Sweep& sweep = cornerCut,
                  int more = 1)
         : layers(on), scene(scene_), stage(test::device(), scene, {.substeps = 8}),
-          inspection(test::device(), stage, 1), probe(test::device(), scene, stage.simulation()) {
+          inspection(test::device(), stage, 1),
+          probe(test::device(), scene, stage.settings(), stage.simulation()) {
         inspection.prepare(layers);
         run([&](VkCommandBuffer commands) { stage.recordReset(commands); });
         run([&](VkCommandBuffer commands) {

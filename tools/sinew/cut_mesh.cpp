@@ -8,6 +8,9 @@
 
 namespace sinew::tools {
 
+using app::Drawn;
+using app::DrawnTriangle;
+
 namespace {
 
 using Part = DrawnTriangle::Part;

@@ -1,8 +1,8 @@
 // What is drawn of a skin as meshes to export or to measure, piece by piece.
 #pragma once
 
+#include "app/drawn.hpp"
 #include "mesh/export_gltf.hpp"
-#include "sinew/drawn.hpp"
 
 #include <optional>
 
@@ -13,10 +13,11 @@ namespace sinew::tools {
 /// where there are several. Both sides of a cut stay apart where they lie on each other, and edges with four
 /// triangles are split. None where that skin is not cut.
 std::optional<std::vector<mesh::TriangleMesh>> cutMeshes(const sim::Scene& scene, std::size_t index,
-                                                         const Drawn& drawn);
+                                                         const app::Drawn& drawn);
 
 /// Skin `index` as it is drawn, with normals, likewise; where nothing is cut, whole.
-std::vector<mesh::ShadedMesh> shadedPieces(const sim::Scene& scene, std::size_t index, const Drawn& drawn);
+std::vector<mesh::ShadedMesh> shadedPieces(const sim::Scene& scene, std::size_t index,
+                                           const app::Drawn& drawn);
 
 /// All of them in one.
 mesh::TriangleMesh joined(std::span<const mesh::TriangleMesh> pieces, const std::string& name);

@@ -1,6 +1,7 @@
 // All sums in double and in the scene's order, whatever the device did.
 #include "sinew/measure.hpp"
 
+#include "app/cut_links.hpp"
 #include "sim/colliders.hpp"
 #include "sim/hash.hpp"
 #include "sinew/overlap.hpp"
@@ -35,25 +36,22 @@ Point sum(const Point& a, const Point& b, double scale) {
 /// holds.
 template <typename Visit>
 void forEachStrain(const sim::Scene& scene, const State& state, const Visit& visit) {
-    for (std::size_t i = 0; i < scene.distances.size(); ++i) {
+    if (state.positions.empty()) return;
+    const auto holds = [&](std::size_t i) {
         const sim::DistanceConstraint& d = scene.distances[i];
-        if (d.restLength == 0 || !state.holds(i) || !state.has(d.a) || !state.has(d.b)) continue;
-        const Point edge = sum(pointOf(state.positions[d.b]), pointOf(state.positions[d.a]), -1);
-        visit(d, length(edge) / double{d.restLength} - 1);
-    }
+        return state.holds(i) && state.has(d.a) && state.has(d.b);
+    };
+    const std::span<const float> places(state.positions.front().data(), 4 * state.positions.size());
+    app::eachStrain(scene, places, holds,
+                    [&](std::size_t i, double strain) { visit(scene.distances[i], strain); });
 }
 
 void measureStrain(const sim::Scene& scene, const State& state, Errors& errors) {
-    double squares = 0, largest = 0;
-    std::size_t count = 0;
-    forEachStrain(scene, state, [&](const sim::DistanceConstraint&, double strain) {
-        squares += strain * strain;
-        largest = std::max(largest, std::abs(strain));
-        ++count;
-    });
-    if (count == 0) return;
-    errors.strainRms = std::sqrt(squares / static_cast<double>(count));
-    errors.strainMax = largest;
+    app::StrainSum strains;
+    forEachStrain(scene, state, [&](const sim::DistanceConstraint&, double strain) { strains.add(strain); });
+    if (strains.result().links == 0) return;
+    errors.strainRms = strains.result().rms;
+    errors.strainMax = strains.result().largest;
 }
 
 void measureVolume(const sim::Scene& scene, std::span<const mesh::TriangleMesh> skins, Errors& errors) {

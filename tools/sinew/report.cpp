@@ -158,19 +158,14 @@ Json overflowJson(const RunRecord& record) {
     return overflow;
 }
 
-/// Pieces without a surface.
-std::size_t fragments(const RunRecord& record) {
-    return record.cuts.pieces - std::min<std::size_t>(record.skins.piecesWithSurface, record.cuts.pieces);
-}
-
 Json cutJson(const RunRecord& record) {
     if (record.program.cutting.counts == sim::BufferId{}) return nullptr;
     const CutFigures& cuts = record.cuts;
     return {
         {"blades", record.loaded.blades.size()},
         {"links", cuts.links},
-        {"pieces", record.skins.piecesWithSurface},
-        {"fragments", fragments(record)},
+        {"pieces", record.skins.count.pieces},
+        {"fragments", record.skins.count.fragments},
         {"crumbs", {{"pieces", cuts.crumbs}, {"particles", cuts.crumbParticles}, {"mass", cuts.crumbMass}}}};
 }
 
@@ -271,10 +266,6 @@ std::string stiffnessText(const scenes::LoadedScene& loaded) {
     return text;
 }
 
-std::string fragmentsText(std::size_t fragments) {
-    return fragments == 0 ? std::string() : fmt::format(" and {} fragments without a surface", fragments);
-}
-
 // Of what was removed.
 std::string crumbsText(const CutFigures& cuts) {
     if (cuts.crumbs == 0) return {};
@@ -311,9 +302,8 @@ std::string toText(const RunRecord& record) {
         text += fmt::format("asleep: {} particles, {} whole bodies\n",
                             sleeping["particles"].get<std::size_t>(), sleeping["bodies"].get<std::size_t>());
     if (record.program.cutting.counts != sim::BufferId{})
-        text +=
-            fmt::format("cut: {} links, {} pieces{}{}\n", record.cuts.links, record.skins.piecesWithSurface,
-                        fragmentsText(fragments(record)), crumbsText(record.cuts));
+        text += fmt::format("cut: {} links, {}{}\n", record.cuts.links, app::toText(record.skins.count),
+                            crumbsText(record.cuts));
     text += fmt::format("state hash: {:016x}\n", stateHash(record.state));
     if (record.hasValidation)
         text += fmt::format("validation: {} messages\n", record.validationMessages.size());

@@ -2,9 +2,9 @@
 // behind.
 #include "sinew/runner.hpp"
 
+#include "app/cut_links.hpp"
 #include "app/guard.hpp"
 #include "sim/compile.hpp"
-#include "sinew/cut_links.hpp"
 #include "sinew/cut_mesh.hpp"
 #include "sinew/skin_mesh.hpp"
 
@@ -182,9 +182,11 @@ State Runner::readState() {
         for (const std::uint32_t piece : session_.queue.download<std::uint32_t>(simulation().pieces()))
             state.isRemoved.push_back(piece == REMOVED_PIECE);
     const sim::BufferId links = simulation().program().cutting.links;
-    if (links != sim::BufferId{})
-        state.isCut = cutLinks(scene_, sim::stateLayout(scene_, settings_).slot,
-                               session_.queue.download<std::uint32_t>(simulation().view(links)));
+    if (links != sim::BufferId{}) {
+        const app::CutLinks cut(scene_, sim::stateLayout(scene_, settings_).slot);
+        const auto words = session_.queue.download<std::uint32_t>(simulation().view(links));
+        for (std::size_t d = 0; d < scene_.distances.size(); ++d) state.isCut.push_back(cut.isCut(d, words));
+    }
     if (!settings_.sleeps) return state;
     const std::vector<float> inverseMass = sim::inverseMasses(scene_); // the device has 0 for what sleeps
     for (std::size_t i = 0; i < inverseMass.size(); ++i) {
@@ -196,12 +198,13 @@ State Runner::readState() {
 
 SkinMeshes Runner::readSkins() {
     SkinMeshes meshes;
+    meshes.count.fragments = cuts_.pieces;
     if (scene_.skins.empty()) return meshes;
     const VkCommandBuffer commands = session_.queue.begin();
     growing_.simulation().recordSkin(commands);
     session_.queue.wait(session_.queue.submit(commands));
-    const Drawn drawn = downloadDrawn(session_.queue, simulation(), scene_, settings_);
-    meshes.piecesWithSurface = piecesWithSurface(scene_, drawn);
+    const app::Drawn drawn = app::downloadDrawn(session_.queue, simulation(), scene_, settings_);
+    meshes.count = app::countPieces(scene_, drawn, cuts_.pieces);
     std::size_t first = 0;
     for (std::size_t s = 0; s < scene_.skins.size(); ++s) {
         const sim::Skin& skin = scene_.skins[s];

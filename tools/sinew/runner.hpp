@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/growing_simulation.hpp"
+#include "app/piece_count.hpp"
 #include "app/state_file.hpp"
 #include "mesh/export_gltf.hpp"
 #include "scenes/blades.hpp"
@@ -25,7 +26,7 @@ struct SkinMeshes {
     std::vector<mesh::TriangleMesh> whole;
     std::vector<std::vector<mesh::TriangleMesh>> pieces; ///< the same; one each where nothing is cut
     std::vector<std::vector<mesh::ShadedMesh>> shaded;   ///< likewise, with normals
-    std::size_t piecesWithSurface = 0;                   ///< of bodies that may be cut
+    app::PieceCount count{};                             ///< of bodies that may be cut
 };
 
 /// What sim::Status says of bodies that may be cut.

@@ -19,8 +19,8 @@ struct Found {
     std::array<float, 3> position{}; ///< of it [m]
     bool isFixed = false, isAsleep = false;
     std::optional<float> speed;            ///< [m/s]; nothing where the simulation has no velocities
-    std::size_t links = 0;                 ///< of the uncut body
-    std::optional<Strain> strain;          ///< of those; nothing once something is cut
+    std::size_t links = 0;                 ///< that hold
+    std::optional<Strain> strain;          ///< of those; nothing where none does
     std::optional<std::uint32_t> contacts; ///< how many things it touches; nothing = not counted yet
 };
 

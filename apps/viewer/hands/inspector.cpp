@@ -15,48 +15,36 @@ namespace {
 
 constexpr std::chrono::milliseconds pause{100};
 
-struct Links {
-    std::size_t count = 0;
-    Strain strain;
-};
-
-Links linksAt(const sim::Scene& scene, std::uint32_t particle, std::span<const sim::layout::vec4> positions) {
-    Links links;
-    double squares = 0;
-    for (const sim::DistanceConstraint& link : scene.distances) {
-        if ((link.a != particle && link.b != particle) || !(link.restLength > 0)) continue;
-        const sim::layout::vec4 &a = positions[link.a], &b = positions[link.b];
-        const double length =
-            std::hypot(double{a.x} - double{b.x}, double{a.y} - double{b.y}, double{a.z} - double{b.z});
-        const double strain = length / double{link.restLength} - 1;
-        squares += strain * strain;
-        links.strain.largest = std::max(links.strain.largest, std::abs(strain));
-        ++links.count;
-    }
-    if (links.count > 0) links.strain.rms = std::sqrt(squares / static_cast<double>(links.count));
-    return links;
+app::LinkStrain strainAt(const sim::Scene& scene, std::uint32_t particle,
+                         std::span<const sim::layout::vec4> positions,
+                         const std::function<bool(std::size_t)>& holds) {
+    const std::span<const float> places(&positions.front().x, 4 * positions.size());
+    return app::strainOf(scene, places, [&](std::size_t d) {
+        const sim::DistanceConstraint& link = scene.distances[d];
+        return (link.a == particle || link.b == particle) && holds(d);
+    });
 }
 
 } // namespace
 
 Found foundAt(const sim::Scene& scene, std::uint32_t particle, std::span<const sim::layout::vec4> positions,
-              std::span<const sim::layout::vec4> velocities, bool isCut) {
+              std::span<const sim::layout::vec4> velocities, const std::function<bool(std::size_t)>& holds) {
     const sim::layout::vec4& x = positions[particle];
     const bool isFixed = sim::inverseMasses(scene)[particle] == 0;
-    const Links links = linksAt(scene, particle, positions);
+    const app::LinkStrain strain = strainAt(scene, particle, positions, holds);
     Found found{.body = scene.name,
                 .particle = particle,
                 .position = {x.x, x.y, x.z},
                 .isFixed = isFixed,
                 .isAsleep = !isFixed && x.w == 0,
-                .links = links.count};
+                .links = strain.links};
     for (const sim::Body& body : scene.bodies)
         if (particle - body.firstParticle < body.particleCount) found.body = body.name;
     if (!velocities.empty()) {
         const sim::layout::vec4& v = velocities[particle];
         found.speed = std::hypot(v.x, v.y, v.z);
     }
-    if (links.count > 0 && !isCut) found.strain = links.strain;
+    if (strain.links > 0) found.strain = {strain.rms, strain.largest};
     return found;
 }
 
@@ -88,7 +76,7 @@ void Inspector::record(VkCommandBuffer commands, std::uint32_t slot, const Ray& 
     asked_[slot].counted = found_->particle;
 }
 
-void Inspector::settle(std::uint32_t slot, const BallList& balls, const StateProbe& probe, bool isCut,
+void Inspector::settle(std::uint32_t slot, const BallList& balls, StateProbe& probe,
                        const std::optional<Opened>& opened, const ContactMarks* counter) {
     const Asked asked = std::exchange(asked_[slot], {});
     if (!asked.ray || !isOn_) return;
@@ -96,7 +84,7 @@ void Inspector::settle(std::uint32_t slot, const BallList& balls, const StatePro
     const auto met = pick(scene, balls, *asked.ray, probe.seen(), Among::all, opened);
     found_.reset();
     if (!met) return;
-    found_ = foundAt(scene, met->particle, probe.positions(), probe.velocities(), isCut);
+    found_ = foundAt(scene, met->particle, probe.positions(), probe.velocities(), probe.liveLinks());
     if (asked.counted == met->particle && counter != nullptr) found_->contacts = counter->found(slot);
 }
 

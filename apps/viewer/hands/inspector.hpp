@@ -7,6 +7,7 @@
 #include "viewer/hands/pick.hpp"
 
 #include <chrono>
+#include <functional>
 #include <vector>
 
 namespace sinew::viewer {
@@ -15,8 +16,9 @@ class Stage;
 class StateProbe;
 
 /// What a state says of a particle. `positions` and `velocities` of every particle, or no velocities.
+/// `holds`: whether a link of the scene does (StateProbe::liveLinks).
 Found foundAt(const sim::Scene& scene, std::uint32_t particle, std::span<const sim::layout::vec4> positions,
-              std::span<const sim::layout::vec4> velocities, bool isCut);
+              std::span<const sim::layout::vec4> velocities, const std::function<bool(std::size_t)>& holds);
 
 /// Must not outlive the stage.
 class Inspector {
@@ -36,7 +38,7 @@ public:
     /// there is none yet; settle() has the same one then.
     void record(VkCommandBuffer commands, std::uint32_t slot, const Ray& ray, const ContactMarks* counter);
     /// When that frame has finished.
-    void settle(std::uint32_t slot, const BallList& balls, const StateProbe& probe, bool isCut,
+    void settle(std::uint32_t slot, const BallList& balls, StateProbe& probe,
                 const std::optional<Opened>& opened, const ContactMarks* counter);
 
     /// Nothing where it is off or where nothing is.

@@ -1,7 +1,7 @@
 // Copies in mapped memory.
 #include "viewer/hands/state_probe.hpp"
 
-#include "sim/program.hpp"
+#include "sim/compile.hpp"
 #include "vk/commands.hpp"
 
 namespace sinew::viewer {
@@ -16,15 +16,20 @@ vk::Buffer readback(const vk::Device& device, const std::string& name, const vk:
 
 } // namespace
 
-StateProbe::StateProbe(const vk::Device& device, const sim::Scene& scene, const sim::Simulation& simulation)
-    : device_(device), simulation_(simulation), particles_(simulation.program().particleCount),
-      positions_{simulation.positions(), readback(device, "probe.positions", simulation.positions())} {
+StateProbe::StateProbe(const vk::Device& device, const sim::Scene& scene, const sim::Settings& settings,
+                       const sim::Simulation& simulation)
+    : device_(device), scene_(scene), settings_(settings), simulation_(simulation),
+      particles_(simulation.program().particleCount), positions_{simulation.positions(),
+                                                                 readback(device, "probe.positions",
+                                                                          simulation.positions())} {
     const vk::BufferView velocities = simulation.velocities(), vertices = simulation.skinVertices(),
-                         pieces = simulation.pieces();
+                         pieces = simulation.pieces(),
+                         links = simulation.view(simulation.program().cutting.links);
     if (velocities.size > 0)
         velocities_.emplace(Copy{velocities, readback(device, "probe.velocities", velocities)});
     if (vertices.size > 0) vertices_.emplace(Copy{vertices, readback(device, "probe.vertices", vertices)});
     if (pieces.size > 0) pieces_.emplace(Copy{pieces, readback(device, "probe.pieces", pieces)});
+    if (links.size > 0) links_.emplace(Copy{links, readback(device, "probe.links", links)});
     if (simulation.cutSurface().vertices.size > 0) cuts_.emplace(device, scene, simulation);
 }
 
@@ -33,6 +38,7 @@ void StateProbe::record(VkCommandBuffer handle) noexcept {
     vk::Commands commands(device_, handle);
     commands.copy(positions_.from, positions_.to.view());
     if (pieces_) commands.copy(pieces_->from, pieces_->to.view());
+    if (links_) commands.copy(links_->from, links_->to.view());
     if (vertices_) {
         commands.barrier();
         commands.copy(vertices_->from, vertices_->to.view());
@@ -75,6 +81,16 @@ std::span<const std::uint32_t> StateProbe::pieces() const noexcept {
 std::span<const sim::layout::vec4> StateProbe::velocities() const noexcept {
     if (!velocities_) return {};
     return {reinterpret_cast<const sim::layout::vec4*>(velocities_->to.mapped()), particles_};
+}
+
+std::function<bool(std::size_t)> StateProbe::liveLinks() {
+    if (isWhole_ || !links_) return [](std::size_t) { return true; };
+    if (!cutLinks_) cutLinks_.emplace(scene_, sim::stateLayout(scene_, settings_).slot);
+    const std::span words(reinterpret_cast<const std::uint32_t*>(links_->to.mapped()), links_->to.count());
+    return [this, words](std::size_t d) {
+        const sim::DistanceConstraint& link = scene_.distances[d];
+        return !cutLinks_->isCut(d, words) && !isRemoved(pieces(), link.a) && !isRemoved(pieces(), link.b);
+    };
 }
 
 SeenState StateProbe::seen() const noexcept {

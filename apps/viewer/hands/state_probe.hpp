@@ -2,21 +2,24 @@
 // it has finished.
 #pragma once
 
+#include "app/cut_links.hpp"
 #include "layout.h"
 #include "sim/simulation.hpp"
 #include "viewer/hands/cut_probe.hpp"
 #include "vk/buffer.hpp"
 
+#include <functional>
 #include <optional>
 #include <span>
 
 namespace sinew::viewer {
 
-/// Must not outlive its Device, which must not move, nor the simulation.
+/// Must not outlive its Device, which must not move, nor the scene and the simulation.
 class StateProbe {
 public:
-    /// Of a simulation of this scene.
-    StateProbe(const vk::Device& device, const sim::Scene& scene, const sim::Simulation& simulation);
+    /// Of a simulation of this scene with these settings.
+    StateProbe(const vk::Device& device, const sim::Scene& scene, const sim::Settings& settings,
+               const sim::Simulation& simulation);
 
     /// Velocities too, in the same commands as record(), where the simulation has some.
     void recordVelocities(VkCommandBuffer commands) const noexcept;
@@ -35,6 +38,9 @@ public:
     std::span<const sim::layout::vec4> velocities() const noexcept;
     /// Of every particle, sim::Simulation::pieces(); empty where nothing can be cut.
     std::span<const std::uint32_t> pieces() const noexcept;
+    /// Whether a link of the scene, an index into Scene::distances, holds: it is not cut, and no end of it is
+    /// a crumb that was removed. Valid until the next recording.
+    std::function<bool(std::size_t)> liveLinks();
     /// What a ray can meet: those, vertices as they were drawn, and what cuts have laid open.
     SeenState seen() const noexcept;
     /// False where more has been cut since than was copied: what is asked has to be asked again.
@@ -46,11 +52,14 @@ private:
         vk::Buffer to;
     };
     const vk::Device& device_;
+    const sim::Scene& scene_;
+    sim::Settings settings_;
     const sim::Simulation& simulation_;
     std::size_t particles_;
     bool isWhole_ = false; // what was recorded
     Copy positions_;
-    std::optional<Copy> velocities_, vertices_, pieces_;
+    std::optional<Copy> velocities_, vertices_, pieces_, links_;
+    std::optional<app::CutLinks> cutLinks_; // made when something is cut first
     std::optional<CutProbe> cuts_;
 };
 

@@ -2,6 +2,7 @@
 // and whoever fills this in knows no panels.
 #pragma once
 
+#include "app/piece_count.hpp"
 #include "viewer/draw/layers.hpp"
 #include "viewer/hands/bindings.hpp"
 #include "viewer/hands/found.hpp"
@@ -128,10 +129,11 @@ struct Facts {
     double time = 0;                ///< of the scene [s]
     std::vector<PhaseCurve> phases; ///< of one step; empty where the device has no clock
     Curve frameMs;
-    Curve strainRms, strainMax; ///< of links; empty where nothing was measured
+    Curve strainRms, strainMax; ///< of links that hold; empty where nothing was measured
     std::uint32_t contactRoom = 0, contactsNeeded = 0, timesGrown = 0, slowed = 0;
     bool isContactRoomShort = false;
-    std::uint32_t sleeping = 0, pieces = 0, linksCut = 0;
+    std::uint32_t sleeping = 0, linksCut = 0;
+    app::PieceCount pieces;
     std::uint32_t crumbs = 0, crumbParticles = 0; ///< pieces that were removed, and theirs
     float crumbMass = 0;                          ///< [kg]
     std::vector<std::string> cuts;                ///< that can be undone, then those that can be redone

@@ -31,8 +31,9 @@ std::string crumbsText(const Facts& facts) {
 
 void cuts(const SceneFacts&, const Facts& facts, Wishes& wishes) {
     heading("cuts");
-    pair("links cut", grouped(facts.linksCut), "pieces", grouped(facts.pieces),
+    pair("links cut", grouped(facts.linksCut), "pieces", grouped(facts.pieces.pieces),
          ImGui::GetStyleColorVec4(ImGuiCol_Text));
+    if (facts.pieces.fragments > 0) row("fragments", grouped(facts.pieces.fragments) + " without a surface");
     if (facts.crumbs > 0) row("crumbs removed", crumbsText(facts));
     const float width = buttonWidth(2);
     ImGui::BeginDisabled(facts.undos == 0);

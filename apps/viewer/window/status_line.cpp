@@ -12,8 +12,7 @@ StatusLine::StatusLine(const sim::Scene& scene, const vk::Device& device)
     : head_("Sinew - " + scene.name + " - " + (isSoftware(device) ? "SOFTWARE: " : "") +
             device.description().name + " - " + std::to_string(scene.particles.size()) + " particles") {}
 
-void StatusLine::setCounts(std::uint32_t sleeping, std::uint32_t pieces) {
-    sleeping_ = sleeping;
+void StatusLine::setPieces(std::size_t pieces) {
     isFresh_ = isFresh_ || pieces != pieces_;
     pieces_ = pieces;
 }

@@ -15,8 +15,11 @@ public:
     /// GPU time of one step [ms].
     void stepTimed(double milliseconds);
 
-    /// Particles that sleep and pieces of bodies that were cut, and what is in the hand: " - holding".
-    void setCounts(std::uint32_t sleeping, std::uint32_t pieces);
+    /// Particles that sleep.
+    void setSleeping(std::uint32_t sleeping) { sleeping_ = sleeping; }
+    /// Pieces of bodies that were cut, with a surface.
+    void setPieces(std::size_t pieces);
+    /// What is in the hand: " - holding".
     void setTool(const char* tool) { tool_ = tool; }
 
     /// A new title, twice a second or when what it says about playing has changed.
@@ -28,7 +31,8 @@ private:
     Clock::time_point since_ = Clock::now();
     std::uint64_t frames_ = 0;
     double framesPerSecond_ = 0, stepMs_ = 0; ///< stepMs_: smoothed; 0 = not measured
-    std::uint32_t sleeping_ = 0, pieces_ = 0;
+    std::uint32_t sleeping_ = 0;
+    std::size_t pieces_ = 0;
     bool isFresh_ = false; // the number of pieces
     std::string tool_, lastTool_;
     bool wasPaused_ = false, wasDiverged_ = false, isFirst_ = true;

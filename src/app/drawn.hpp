@@ -2,13 +2,14 @@
 // beside cuts, and the inside. For whoever exports or measures it.
 #pragma once
 
+#include "app/piece_count.hpp"
 #include "layout.h"
 #include "sim/simulation.hpp"
 #include "vk/queue.hpp"
 
 #include <functional>
 
-namespace sinew::tools {
+namespace sinew::app {
 
 /// What the device has of skins and of the surface of cuts, after recordSkin(); lists are empty where a scene
 /// has none of it.
@@ -26,6 +27,13 @@ struct Drawn {
 /// `scene` and `settings` are those of `simulation`. Waits for `queue`.
 Drawn downloadDrawn(vk::Queue& queue, const sim::Simulation& simulation, const sim::Scene& scene,
                     const sim::Settings& settings);
+
+/// Which triangles there are, without vertices: enough for everything below. The copies of topologyViews()
+/// come from `read`, which writes all bytes of a view to the address.
+using ReadView = std::function<void(const vk::BufferView& view, void* bytes)>;
+Drawn readTopology(const ReadView& read, const sim::Simulation& simulation, const sim::Scene& scene,
+                   const sim::Settings& settings);
+std::vector<vk::BufferView> topologyViews(const sim::Simulation& simulation, const sim::Scene& scene);
 
 /// One of a skin. Its corners are vertices of the skin, or of the surface of cuts.
 struct DrawnTriangle {
@@ -46,7 +54,10 @@ void eachTriangle(const sim::Scene& scene, std::size_t index, const Drawn& drawn
 /// particles that stand outside the body's skin. Of a skin that no cut clips, those that it hangs on.
 std::size_t piecesWithSurface(const sim::Scene& scene, const Drawn& drawn);
 
+/// `all` is sim::Status::pieces of the same step.
+PieceCount countPieces(const sim::Scene& scene, const Drawn& drawn, std::size_t all);
+
 /// Whether something else is drawn of that skin than the skin itself.
 bool isCut(std::size_t index, const Drawn& drawn);
 
-} // namespace sinew::tools
+} // namespace sinew::app

@@ -1,34 +1,43 @@
 // A vertex of the surface of a cut goes with the first corner that it hangs on; one of a skin with its
 // particle or anchor. All three vertices of a triangle go with the same piece.
-#include "sinew/drawn.hpp"
+#include "app/drawn.hpp"
 
 #include "sim/compile.hpp"
 
 #include <algorithm>
 #include <set>
 
-namespace sinew::tools {
+namespace sinew::app {
 
 namespace {
 
 using Corners = std::array<std::uint32_t, 3>;
 using Part = DrawnTriangle::Part;
 
-void downloadPieces(vk::Queue& queue, const sim::Simulation& simulation, const sim::Scene& scene,
-                    const sim::Settings& settings, Drawn& drawn) {
-    const vk::BufferView pieces = simulation.pieces();
-    if (pieces.size == 0) return;
+template <typename T> std::vector<T> elementsOf(const ReadView& read, const vk::BufferView& view) {
+    std::vector<T> elements(static_cast<std::size_t>(view.size / sizeof(T)));
+    read(view, elements.data());
+    return elements;
+}
+
+bool haveSurface(const sim::Simulation& simulation, const sim::Scene& scene) {
+    return simulation.pieces().size > 0 && !scene.skins.empty();
+}
+
+void readPieces(const ReadView& read, const sim::Simulation& simulation, const sim::Scene& scene,
+                const sim::Settings& settings, Drawn& drawn) {
     const sim::StateLayout layout = sim::stateLayout(scene, settings);
-    drawn.pieces = queue.download<std::uint32_t>(pieces);
+    drawn.pieces = elementsOf<std::uint32_t>(read, simulation.pieces());
     drawn.slotPieces.assign(layout.count, NO_PARTICLE);
     for (std::size_t i = 0; i < layout.slot.size(); ++i) drawn.slotPieces[layout.slot[i]] = drawn.pieces[i];
 }
 
-void downloadSheets(vk::Queue& queue, const sim::Simulation& simulation, Drawn& drawn) {
-    drawn.pieceDraws = queue.download<sim::layout::DrawArguments>(simulation.pieceDraws());
-    drawn.sheetSlots.assign(drawn.skinVertices.size(), NO_PARTICLE);
+void readSheets(const ReadView& read, const sim::Simulation& simulation, Drawn& drawn) {
+    const vk::BufferView all = simulation.skinVertices();
+    drawn.pieceDraws = elementsOf<sim::layout::DrawArguments>(read, simulation.pieceDraws());
+    drawn.sheetSlots.assign(all.size / all.stride, NO_PARTICLE);
     for (const sim::PieceVertices& pieces : simulation.program().pieceSkins) {
-        const auto vertices = queue.download<sim::layout::SheetVertex>(simulation.view(pieces.vertices));
+        const auto vertices = elementsOf<sim::layout::SheetVertex>(read, simulation.view(pieces.vertices));
         std::ranges::transform(vertices, drawn.sheetSlots.begin() + pieces.first,
                                &sim::layout::SheetVertex::a);
     }
@@ -117,21 +126,45 @@ private:
 
 } // namespace
 
+std::vector<vk::BufferView> topologyViews(const sim::Simulation& simulation, const sim::Scene& scene) {
+    std::vector<vk::BufferView> views{simulation.pieces()};
+    if (!haveSurface(simulation, scene)) return {};
+    views.push_back(simulation.skinIndices());
+    if (simulation.pieceDraws().size > 0) {
+        views.push_back(simulation.pieceDraws());
+        for (const sim::PieceVertices& pieces : simulation.program().pieceSkins)
+            views.push_back(simulation.view(pieces.vertices));
+    }
+    const sim::CutSurface cut = simulation.cutSurface();
+    if (cut.vertices.size > 0) views.insert(views.end(), {cut.indices, cut.rest, cut.draws});
+    return views;
+}
+
+Drawn readTopology(const ReadView& read, const sim::Simulation& simulation, const sim::Scene& scene,
+                   const sim::Settings& settings) {
+    Drawn drawn;
+    if (!haveSurface(simulation, scene)) return drawn;
+    readPieces(read, simulation, scene, settings, drawn);
+    drawn.skinIndices = elementsOf<std::uint32_t>(read, simulation.skinIndices());
+    findThinned(scene, drawn);
+    if (simulation.pieceDraws().size > 0) readSheets(read, simulation, drawn);
+    const sim::CutSurface cut = simulation.cutSurface();
+    if (cut.vertices.size == 0) return drawn;
+    drawn.indices = elementsOf<std::uint32_t>(read, cut.indices);
+    drawn.rest = elementsOf<sim::layout::CutVertex>(read, cut.rest);
+    drawn.draws = elementsOf<sim::layout::DrawArguments>(read, cut.draws);
+    return drawn;
+}
+
 Drawn downloadDrawn(vk::Queue& queue, const sim::Simulation& simulation, const sim::Scene& scene,
                     const sim::Settings& settings) {
-    Drawn drawn;
+    const auto read = [&](const vk::BufferView& view, void* bytes) {
+        queue.download(view, bytes, view.size);
+    };
+    Drawn drawn = readTopology(read, simulation, scene, settings);
     drawn.skinVertices = queue.download<sim::layout::SkinVertex>(simulation.skinVertices());
-    downloadPieces(queue, simulation, scene, settings, drawn);
-    const sim::CutSurface cut = simulation.cutSurface();
-    if (drawn.pieces.empty() || scene.skins.empty()) return drawn;
-    drawn.skinIndices = queue.download<std::uint32_t>(simulation.skinIndices());
-    findThinned(scene, drawn);
-    if (simulation.pieceDraws().size > 0) downloadSheets(queue, simulation, drawn);
-    if (cut.vertices.size == 0) return drawn;
-    drawn.vertices = queue.download<sim::layout::SkinVertex>(cut.vertices);
-    drawn.indices = queue.download<std::uint32_t>(cut.indices);
-    drawn.rest = queue.download<sim::layout::CutVertex>(cut.rest);
-    drawn.draws = queue.download<sim::layout::DrawArguments>(cut.draws);
+    if (drawn.pieces.empty() || simulation.cutSurface().vertices.size == 0) return drawn;
+    drawn.vertices = queue.download<sim::layout::SkinVertex>(simulation.cutSurface().vertices);
     return drawn;
 }
 
@@ -144,7 +177,10 @@ std::size_t piecesWithSurface(const sim::Scene& scene, const Drawn& drawn) {
     if (drawn.pieces.empty()) return 0;
     std::set<std::uint32_t> pieces;
     for (std::size_t s = 0; s < scene.skins.size(); ++s) {
-        eachTriangle(scene, s, drawn, [&](const DrawnTriangle& triangle) { pieces.insert(triangle.piece); });
+        std::uint32_t last = REMOVED_PIECE; // that no triangle has
+        eachTriangle(scene, s, drawn, [&](const DrawnTriangle& triangle) {
+            if (triangle.piece != last) pieces.insert(last = triangle.piece);
+        });
         if (pieces.erase(NO_PARTICLE) == 0) continue;
         for (const sim::CellEmbedding& cell : scene.skins[s].cells) // not clipped
             for (const std::uint32_t particle : cell.particles) pieces.insert(drawn.pieces[particle]);
@@ -152,6 +188,18 @@ std::size_t piecesWithSurface(const sim::Scene& scene, const Drawn& drawn) {
         pieces.erase(REMOVED_PIECE);
     }
     return pieces.size();
+}
+
+PieceCount countPieces(const sim::Scene& scene, const Drawn& drawn, std::size_t all) {
+    const std::size_t pieces = piecesWithSurface(scene, drawn);
+    return {pieces, all - std::min(pieces, all)};
+}
+
+std::string toText(const PieceCount& count) {
+    std::string text = std::to_string(count.pieces) + " pieces";
+    if (count.fragments > 0)
+        text += " and " + std::to_string(count.fragments) + " fragments without a surface";
+    return text;
 }
 
 bool isCut(std::size_t index, const Drawn& drawn) {
@@ -165,4 +213,4 @@ bool isCut(std::size_t index, const Drawn& drawn) {
     });
 }
 
-} // namespace sinew::tools
+} // namespace sinew::app

@@ -1,0 +1,36 @@
+// Pieces that cuts have left, counted as reports do, from copies that a picture brings along.
+#pragma once
+
+#include "app/piece_count.hpp"
+#include "vk/buffer.hpp"
+
+#include <vector>
+
+namespace sinew::viewer {
+
+class Stage;
+
+/// Must not outlive its Device, which must not move, nor the stage. One recording at a time.
+class PieceProbe {
+public:
+    PieceProbe(const vk::Device& device, const Stage& stage) : device_(device), stage_(stage) {}
+
+    /// After the stage has another simulation: nothing is recorded.
+    void restart() noexcept { copies_.clear(); }
+    /// After recordSkin() of the simulation with Overlap::none. Takes memory the first time; without any,
+    /// nothing is recorded.
+    void record(VkCommandBuffer commands) noexcept;
+    /// Of what was recorded, which must have finished. `all` is sim::Status::pieces of its newest step.
+    app::PieceCount count(std::size_t all) const;
+
+private:
+    struct Copy {
+        vk::BufferView from;
+        vk::Buffer to;
+    };
+    const vk::Device& device_;
+    const Stage& stage_;
+    std::vector<Copy> copies_;
+};
+
+} // namespace sinew::viewer

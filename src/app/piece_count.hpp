@@ -1,0 +1,18 @@
+// How many pieces cuts have left, as reports and the viewer show them.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace sinew::app {
+
+/// Pieces of bodies that may be cut.
+struct PieceCount {
+    std::size_t pieces = 0;    ///< with a surface
+    std::size_t fragments = 0; ///< without one: particles outside the body's skin
+    bool operator==(const PieceCount&) const = default;
+};
+/// "2 pieces and 6 fragments without a surface".
+std::string toText(const PieceCount& count);
+
+} // namespace sinew::app

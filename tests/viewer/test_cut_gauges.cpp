@@ -1,0 +1,140 @@
+// What gauges say after a cut: strain of the links that hold, and pieces as reports and meshes count them.
+#include "played.hpp"
+
+#include "app/drawn.hpp"
+#include "viewer/gauges.hpp"
+#include "viewer/hands/inspector.hpp"
+#include "viewer/hands/piece_probe.hpp"
+
+#include <map>
+
+namespace sinew::viewer {
+namespace {
+
+// A scene with a blade of its own.
+struct Cut : Scene {
+    explicit Cut(const std::string& text) : Scene(text) {
+        stage.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
+    }
+    void play(int steps) {
+        run([&](VkCommandBuffer commands) {
+            for (int i = 0; i < steps; ++i) step(commands);
+            stage.recordSkin(commands);
+            probe.record(commands);
+            counter.record(commands);
+        });
+    }
+    sim::Status status() const { return stage.simulation().status(stage.steps()); }
+    app::PieceCount reported() {
+        const sim::Scene& scene = stage.scene();
+        return app::countPieces(
+            scene, app::downloadDrawn(test::queue(), stage.simulation(), scene, stage.settings()),
+            status().pieces);
+    }
+    PieceProbe counter{test::device(), stage};
+};
+
+std::string bladeAt(const std::string& x, const std::string& end) {
+    return "[[blade]]\ntimes = [0, " + end + "]\nedges = [[[" + x + ", 2, -2], [" + x + ", 2, 2]], [[" + x +
+           ", -2, -2], [" + x + ", -2, 2]]]\n";
+}
+
+const std::map<std::string, std::string> bodies{
+    {"box", "[[box]]\nparticles = [6, 5, 5]\nspacing = 0.1\ncenter = [0, 0.1, 0]\nyoung_modulus = 1e6\n"},
+    {"mesh", "[[mesh]]\ngenerate = \"sphere\"\ndetail = 16\nsize = 0.5\nresolution = 8\n"
+             "center = [0, 0.1, 0]\nyoung_modulus = 1e6\n"},
+    {"cloth", "[[cloth]]\nsize = [14, 10]\nspacing = 0.05\norigin = [-0.3, 0.1, -0.2]\n"
+              "skip_stiffness = 10\n"}};
+
+// Two slopes part the halves, so that cut links get long.
+std::string parted(const std::string& body) {
+    return "dt = 0.01\n[solver]\nsubsteps = 16\n[[plane]]\nfriction = 0\nnormal = [0.6, 0.8, 0]\n"
+           "offset = -0.3\n[[plane]]\nfriction = 0\nnormal = [-0.6, 0.8, 0]\noffset = -0.3\n" +
+           body + "cuttable = true\n" + bladeAt("0.06", "0.01");
+}
+
+TEST(CutGauges, ShowTheStrainOfLinksThatHold) {
+    for (const auto& [name, body] : bodies) {
+        Cut cut(parted(body));
+        cut.play(25);
+        ASSERT_GT(cut.status().linksCutInAll, 0u) << name;
+        const Strain strain = measureStrain(cut.stage.scene(), cut.probe);
+        EXPECT_GT(strain.rms, 0) << name;
+        EXPECT_LT(strain.rms, 0.02) << name << "; with links that are cut 0.03 to 0.35";
+        Gauges gauges(cut.stage, 0.01);
+        gauges.strainMeasured(strain);
+        gauges.stepFinished(cut.status());
+        EXPECT_EQ(gauges.facts(cut.stage).strainRms.count(), 1u) << name << ": a cut clears no curve";
+    }
+}
+
+TEST(CutGauges, ShowTheStrainOfAllLinksWhileNothingIsCut) {
+    Cut cut(parted(bodies.at("box")));
+    cut.stage.setBlades({});
+    cut.play(25);
+    const auto all = [](std::size_t) { return true; };
+    const std::span<const float> places(&cut.probe.positions().front().x, 4 * cut.probe.positions().size());
+    EXPECT_EQ(measureStrain(cut.stage.scene(), cut.probe).rms,
+              app::strainOf(cut.stage.scene(), places, all).rms);
+}
+
+TEST(CutGauges, SayTheStrainOfLinksThatHoldUnderThePointer) {
+    Cut cut(parted(bodies.at("box")));
+    cut.play(25);
+    std::size_t whole = 0, parts = 0;
+    const auto all = [](std::size_t) { return true; };
+    for (std::uint32_t i = 0; i < cut.stage.scene().particles.size(); ++i) {
+        const Found found = foundAt(cut.stage.scene(), i, cut.probe.positions(), {}, cut.probe.liveLinks());
+        const Found uncut = foundAt(cut.stage.scene(), i, cut.probe.positions(), {}, all);
+        (found.links == uncut.links ? whole : parts) += 1;
+        ASSERT_TRUE(found.strain) << i;
+        EXPECT_LT(found.strain->largest, 0.2) << i;
+    }
+    EXPECT_EQ(parts, 50u) << "those of the two layers beside the blade";
+    EXPECT_EQ(whole, 100u);
+}
+
+TEST(CutGauges, CountPiecesAsReportsDo) {
+    for (const char* at : {"0.1055", "-0.13", "0.142"})
+        for (const char* resolution : {"8", "13"}) {
+            Cut cut(std::string("gravity = [0, 0, 0]\n[[mesh]]\ngenerate = \"sphere\"\ndetail = 32\n"
+                                "size = 0.3\ncenter = [0, 0, 0]\ncuttable = true\nresolution = ") +
+                    resolution + "\n" + bladeAt(at, "0.0166667"));
+            cut.play(4);
+            const std::uint32_t all = cut.status().pieces;
+            const app::PieceCount count = cut.counter.count(all);
+            EXPECT_EQ(count, (app::PieceCount{2, all - 2})) << at << ", " << resolution;
+            EXPECT_EQ(count, cut.reported()) << at << ", " << resolution;
+        }
+    EXPECT_EQ(app::toText({2, 0}), "2 pieces");
+    EXPECT_EQ(app::toText({2, 6}), "2 pieces and 6 fragments without a surface");
+}
+
+TEST(CutGauges, CountPiecesOfEveryKindOfBody) {
+    for (const auto& [name, body] : bodies) {
+        Cut cut(parted(body));
+        cut.play(4);
+        EXPECT_EQ(cut.counter.count(cut.status().pieces), cut.reported()) << name;
+        EXPECT_EQ(cut.counter.count(cut.status().pieces).pieces, 2u) << name;
+    }
+}
+
+TEST(CutGauges, KeepTheCountUntilTheNextOne) {
+    Cut cut(parted(bodies.at("box")));
+    Gauges gauges(cut.stage, 0.01);
+    sim::Status status{.pieces = 1};
+    gauges.stepFinished(status);
+    EXPECT_EQ(gauges.pieces(), (app::PieceCount{1, 0}));
+    status.linksCutInAll = 7;
+    status.pieces = 8;
+    gauges.stepFinished(status);
+    EXPECT_EQ(gauges.pieces(), (app::PieceCount{1, 0})) << "which of them have a surface nobody knows yet";
+    gauges.piecesCounted({2, 6});
+    gauges.stepFinished(status);
+    EXPECT_EQ(gauges.pieces(), (app::PieceCount{2, 6}));
+    gauges.restart();
+    EXPECT_EQ(gauges.pieces(), app::PieceCount());
+}
+
+} // namespace
+} // namespace sinew::viewer
