@@ -103,6 +103,7 @@ double distance(const Measured& from, const Measured& to, std::size_t most) {
     for (std::size_t i = 0; i < from.vertices.size(); i += stride) {
         if (to.box.contains(from.vertices[i]) && std::abs(to.tree.windingNumber(from.vertices[i])) > 0.5)
             return 0;
+        if (to.box.exteriorDistance(from.vertices[i]) >= least) continue; // and so are all of its triangles
         least = std::min(least, to.tree.distance(from.vertices[i]));
     }
     return least;
