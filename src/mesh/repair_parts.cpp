@@ -35,19 +35,6 @@ private:
     std::vector<std::uint32_t> parents_;
 };
 
-/// For each triangle the number of its part.
-std::vector<std::uint32_t> numberParts(const TriangleMesh& mesh, std::size_t& count) {
-    Sets sets(mesh.triangles.size());
-    forEachEdge(mesh.triangles, [&](std::span<const HalfEdge> sides) {
-        if (sides.size() == 2) sets.unite(sides[0].triangle, sides[1].triangle);
-    });
-    std::vector<std::uint32_t> numbers(mesh.triangles.size());
-    count = 0;
-    for (std::uint32_t i = 0; i < numbers.size(); ++i)
-        numbers[i] = sets.find(i) == i ? static_cast<std::uint32_t>(count++) : numbers[sets.find(i)];
-    return numbers;
-}
-
 /// A part is closed where as many of its triangles run one way along each edge as the other.
 void findOpenParts(const TriangleMesh& mesh, const std::vector<std::uint32_t>& numbers,
                    std::vector<Part>& parts) {
@@ -131,6 +118,18 @@ private:
 };
 
 } // namespace
+
+std::vector<std::uint32_t> numberParts(const TriangleMesh& mesh, std::size_t& count) {
+    Sets sets(mesh.triangles.size());
+    forEachEdge(mesh.triangles, [&](std::span<const HalfEdge> sides) {
+        if (sides.size() == 2) sets.unite(sides[0].triangle, sides[1].triangle);
+    });
+    std::vector<std::uint32_t> numbers(mesh.triangles.size());
+    count = 0;
+    for (std::uint32_t i = 0; i < numbers.size(); ++i)
+        numbers[i] = sets.find(i) == i ? static_cast<std::uint32_t>(count++) : numbers[sets.find(i)];
+    return numbers;
+}
 
 std::size_t turnParts(TriangleMesh& mesh) {
     const std::vector<Part> parts = findParts(mesh);

@@ -25,12 +25,15 @@ std::size_t joinNear(TriangleMesh& mesh, double tolerance);
 /// these. Returns the number of edges split.
 std::size_t splitJunctions(TriangleMesh& mesh, double tolerance);
 
-/// Removes single triangles that stick out of a closed surface, and walls inside a volume that are two
-/// triangles with the same corners and opposite sides. Returns the number of triangles.
+/// Removes single triangles that stick out of a surface, and walls within a volume: sheets whose whole rim
+/// the surface passes without them. Returns the number of triangles.
 std::size_t removeLeftovers(TriangleMesh& mesh);
 
 /// Closes the small holes; counts in `report`, and says there what stays open.
 void closeHoles(TriangleMesh& mesh, bool closes, Repairs& report);
+
+/// For each triangle the number of its part: what hangs together across edges of two triangles.
+std::vector<std::uint32_t> numberParts(const TriangleMesh& mesh, std::size_t& count);
 
 /// Turns closed parts that are inside out and lie within no other; parts within these turn with them, so that
 /// a cavity stays one. Returns the number of parts that were inside out by themselves.

@@ -30,7 +30,8 @@ std::vector<std::string> sentencesOf(const Repairs& report) {
     say(report.joinedVertices, "vertex", "vertices",
         "joined with another one nearer than " + shortNumber(report.tolerance));
     say(report.splitEdges, "edge", "edges", "split at T-junctions");
-    say(report.removedTriangles, "triangle", "triangles", "removed: empty, double or sticking out");
+    say(report.removedTriangles, "triangle", "triangles",
+        "removed: empty, double, sticking out or within the volume");
     say(report.closedHoles, "hole", "holes",
         "closed: " + counted(report.holeEdges, "edge", "edges") + ", " +
             counted(report.holeTriangles, "new triangle", "new triangles"));

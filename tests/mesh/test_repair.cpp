@@ -334,6 +334,24 @@ TEST(Repair, LeavesCupsPlanesAndClothsOpen) {
     EXPECT_EQ(repaired(triangle).mesh.triangles.size(), 1u);
 }
 
+TEST(Repair, RemovesATriangleThatSticksOutAndAWallWithin) {
+    TriangleMesh fin = unitBox;
+    fin.positions.push_back({0.5f, 0.5f, 3});
+    fin.triangles.push_back({4, 5, 8});
+    const Result withoutFin = repaired(fin);
+    EXPECT_EQ(withoutFin.report.removedTriangles, 1u);
+    expectClosed(withoutFin, 1, 1e-9);
+    EXPECT_EQ(repaired(fin, Repair::weld).defects.nonManifoldEdges, 1u);
+
+    MeshDefects defects; // a box of two halves with the side of one of them between
+    const TriangleMesh walled =
+        weld(joined(box({0, 0, 0}, {1, 1, 1}), without(box({1, 0, 0}, {2, 1, 1}), {8, 9})), defects);
+    EXPECT_EQ(defects.nonManifoldEdges, 4u);
+    const Result open = repaired(walled);
+    EXPECT_EQ(open.report.removedTriangles, 2u);
+    expectClosed(open, 2, 1e-9);
+}
+
 TEST(Repair, TurnsFlippedTrianglesAndCountsThem) {
     const TriangleMesh organ = generate("organ", 16);
     const double volume = inspect(organ).volume;
