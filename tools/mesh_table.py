@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""mesh_table.py SINEW [--resolution N] [--device D] PATH...: what importing and filling makes of meshes, as a Markdown table.
+"""mesh_table.py SINEW [--resolution N] [--repair none|weld|close] [--device D] PATH...: what importing and filling makes of meshes, as a Markdown table.
 
 PATH is a mesh (OBJ, STL, PLY, glTF, GLB; OFF is rewritten as OBJ), a folder searched for them, or `broken`: meshes that this
-script makes, each with one fault. Exit code 1 where `sinew mesh` ended in any other way than with a report or one sentence.
+script makes, each with one fault. The last lines, on stderr, count the meshes that were read, that are closed, and whose voxels
+keep their volume within 1 %. Exit code 1 where `sinew mesh` ended in any other way than with a report or one sentence.
 """
 import argparse
 import json
@@ -155,6 +156,8 @@ def row(arguments, name, path):
     if path is None:
         return [name, "OFF of a kind that this table does not read"], True
     command = [arguments.sinew, "mesh", str(path), "--resolution", str(arguments.resolution), "--json", "-"]
+    if arguments.repair:
+        command += ["--repair", arguments.repair]
     if arguments.device:
         command += ["--device", arguments.device]
     start = time.monotonic()
@@ -172,10 +175,19 @@ def row(arguments, name, path):
         ("degenerate_triangles", "without area"), ("duplicate_triangles", "twice")) if surface[key]]
     own = surface.get("volume")
     volume = voxels["volume"]
-    ratio = f"{100 * (volume / abs(own) - 1):+.1f} %" if own and not faults else "–"
+    isEven = not surface["flipped_edges"]
+    ratio = f"{100 * (volume / abs(own) - 1):+.1f} %" if own and isEven else "–"
     return [name, f"{surface['triangles']:,}", "; ".join(faults) or "none", f"{own:.4g}" if own is not None else "–",
             f"{volume:.4g}", ratio, f"{voxels['hull']:,} + {voxels['core']:,}", f"{voxels['doubtful']:,}",
-            f"{seconds:.2f}"], True
+            f"{seconds:.2f}", repaired(report["repair"])], True
+
+
+def repaired(report):
+    """What was repaired, in a cell of the table."""
+    said = [f"{report[key]} {text}" for key, text in (
+        ("joined_vertices", "joined"), ("split_edges", "split"), ("removed_triangles", "removed"), ("closed_holes", "closed"),
+        ("turned_triangles", "turned"), ("turned_parts", "parts turned")) if report[key]]
+    return "; ".join(said) or "none"
 
 
 def main():
@@ -183,18 +195,25 @@ def main():
     parser.add_argument("sinew")
     parser.add_argument("paths", nargs="+")
     parser.add_argument("--resolution", type=int, default=48)
+    parser.add_argument("--repair", choices=("none", "weld", "close"))
     parser.add_argument("--device")
     arguments = parser.parse_args()
-    print("| mesh | triangles | defects (edges; triangles) | volume | of voxels | difference | hull + core | doubtful | s |")
-    print("|---|---|---|---|---|---|---|---|---|")
+    print("| mesh | triangles | defects (edges; triangles) | volume | of voxels | difference | hull + core | doubtful | s | repairs |")
+    print("|---|---|---|---|---|---|---|---|---|---|")
     areAllWell = True
+    read, closed, kept = 0, 0, 0
     with tempfile.TemporaryDirectory() as folder:
         for name, path in found(arguments.paths, Path(folder)):
             cells, isWell = row(arguments, name, path)
             areAllWell = areAllWell and isWell
-            print("| " + " | ".join(cells + [""] * (9 - len(cells))) + " |", flush=True)
+            print("| " + " | ".join(cells + [""] * (10 - len(cells))) + " |", flush=True)
+            if len(cells) == 10:
+                isClosed = not any(word in cells[2] for word in ("open", "of three", "flipped"))
+                read, closed = read + 1, closed + isClosed
+                kept += isClosed and cells[5] != "–" and abs(float(cells[5].split()[0])) <= 1
             if not isWell:
                 print(f"not a sentence: {name}", file=sys.stderr)
+    print(f"{read} read, {closed} closed and evenly oriented, {kept} of these keep their volume within 1 %", file=sys.stderr)
     return 0 if areAllWell else 1
 
 
