@@ -268,6 +268,25 @@ void warnAboutRelaxation(LoadedScene& loaded) {
         loaded.warnings.push_back("solver.over_relaxation is " + text(relaxation) + bound);
 }
 
+// A path is followed from step to step: between the ends of one it is a straight way.
+void warnAboutShortPath(LoadedScene& loaded, const std::string& name, std::span<const sim::Keyframe> path) {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 1; k < path.size(); ++k)
+        shortest = std::min(shortest, double{path[k].time} - double{path[k - 1].time});
+    if (shortest >= (1 - 1e-4) * double{loaded.scene.dt}) return;
+    loaded.warnings.push_back(
+        "the path of " + name + " has keyframes " + thousandths(shortest) +
+        " ms apart, which is less than a step of " + thousandths(double{loaded.scene.dt}) +
+        " ms: within a step it goes straight from its beginning to its end, take shorter steps (dt)");
+}
+
+void warnAboutShortPaths(LoadedScene& loaded) {
+    for (std::size_t i = 0; i < loaded.scene.colliders.size(); ++i)
+        warnAboutShortPath(loaded, "collider[" + std::to_string(i) + "]", loaded.scene.colliders[i].path);
+    for (const sim::DrivenBody& body : loaded.scene.driven)
+        warnAboutShortPath(loaded, "a mesh_collider or a hold", body.path);
+}
+
 void warnAboutSolver(LoadedScene& loaded) {
     if (loaded.settings.solver == sim::Solver::split && loaded.settings.iterations > 1)
         loaded.warnings.push_back("split makes one sweep per substep: iterations are ignored");
@@ -312,6 +331,7 @@ LoadedScene read(const std::string& text, const Source& source, const Overrides&
     loaded.settings.substeps = loaded.substeps.substeps;
     warnAboutSizes(loaded);
     warnAboutRounding(loaded);
+    warnAboutShortPaths(loaded);
     warnAboutSolver(loaded);
     return loaded;
 }

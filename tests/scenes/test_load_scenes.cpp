@@ -443,6 +443,23 @@ TEST_F(Load, WarnsOfSoftBodiesUnderEverySolver) {
     EXPECT_TRUE(warnings("jacobi", 8, 200).empty()) << "iterations make links as stiff as asked";
 }
 
+TEST_F(Load, WarnsOfPathsThatAreShorterThanAStep) {
+    const auto warnings = [&](const std::string& time) {
+        return load(
+                   "dt = 0.01\n[[particles]]\nradius = 0.05\ncount = [1, 1, 1]\nspacing = 0.2\n[[collider]]\n"
+                   "shape = \"sphere\"\nradius = 0.1\ncenter = [0, -1, 0]\n"
+                   "[[collider.keyframe]]\ntime = 0\n[[collider.keyframe]]\ntime = " +
+                   time + "\ncenter = [0, -0.9, 0]\n")
+            .warnings;
+    };
+    EXPECT_TRUE(warnings("0.01").empty());
+    EXPECT_EQ(warnings("0.004"),
+              std::vector<std::string>{
+                  "the path of collider[0] has keyframes 4 ms apart, which is less than a step "
+                  "of 10 ms: within a step it goes straight from its beginning to its end, "
+                  "take shorter steps (dt)"});
+}
+
 TEST_F(Load, WarnsOfTerminalSpeedsThatAreOff) {
     const auto warnings = [&](const std::string& damping) {
         return load("damping = " + damping +
