@@ -90,6 +90,27 @@ kill -INT $!
 code=0
 wait $! || code=$?
 [[ $code == 130 ]] || fail "interrupted: exit code $code, expected 130"
+# Likewise while a scene loads, and in a step that takes seconds: 2 s, and some for a busy machine.
+endsSoon() { # SIGNAL SECONDS ARGUMENTS...: is sent the signal so long after its start
+    local signal=$1 after=$2 code=0 from
+    shift 2
+    "$viewer" "$@" >out 2>err &
+    sleep "$after"
+    from=$(date +%s%N)
+    kill -"$signal" $! || fail "$*: it has ended before the signal"
+    wait $! || code=$?
+    [[ $code == 130 ]] || fail "$*: interrupted: exit code $code, expected 130"
+    (($(date +%s%N) - from < 4000000000)) || fail "$*: the signal took longer than 4 s"
+    [[ -z $(find . -name '*.tmp*' -o -name '*.part*' -o -name '.*.png*') ]] || fail "partial files: $(find .)"
+}
+printf '[[mesh]]\ngenerate = "organ"\ndetail = 256\nsize = 0.4\nresolution = 120\ncuttable = true\n' >large.toml
+printf '[solver]\nsubsteps = 1000\n[[box]]\nparticles = [40, 40, 40]\nspacing = 0.02\ncenter = [0, 1, 0]\nyoung_modulus = 1e5\n[[plane]]\n' >slow.toml
+for signal in INT TERM; do
+    endsSoon $signal 0.5 large.toml --headless --frames 10 --size 64x64 --out loading
+    [[ ! -e loading/frame_0000.png ]] || fail "the scene was loaded before the signal came"
+    endsSoon $signal 4 slow.toml --headless --frames 1000 --size 64x64 --out slow
+done
+
 # Stands in for ffmpeg: its last argument is the file.
 mkdir bin
 printf '#!/bin/sh\nfor last; do :; done\nexec cat >"${last#file:}"\n' >bin/ffmpeg
