@@ -91,6 +91,7 @@ TriangleMesh repair(TriangleMesh mesh, Repair how, MeshDefects& defects, Repairs
     if (how == Repair::close) close(trial, report);
     if (trial.defects().boundaryEdges > 0) closeHoles(trial.mesh(), false, report);
     TriangleMesh result = std::move(trial.mesh());
+    if (!report.isAny()) return result;
     MeshDefects left;
     result = weld(result, left);
     defects.boundaryEdges = left.boundaryEdges;
