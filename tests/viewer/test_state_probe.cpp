@@ -84,10 +84,10 @@ private:
 
 public:
     Stage stage{test::device(), scene_, {.substeps = 16}};
-    StateProbe probe{test::device(), scene_, stage.simulation()};
+    StateProbe probe{test::device(), scene_, stage.settings(), stage.simulation()};
 
 private:
-    StateProbe all_{test::device(), scene_, stage.simulation()};
+    StateProbe all_{test::device(), scene_, stage.settings(), stage.simulation()};
 };
 
 // From above, over an area of this half width.
