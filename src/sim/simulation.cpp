@@ -58,9 +58,9 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     const bool isBlade = state_->blade.read(step) && state_->mayBeCut();
     const bool hasBlade = isBlade || state_->program.cutting.tears;
     state_->noteMisuse(step);
-    state_->ring.open({true, step.frame, std::max(0.0f, step.dt - dt), hasBlade});
     const layout::StepParams parameters = state_->parameters(step, dt);
-    state_->settledEnd = state_->settled(step.frame, state_->settledEnd);
+    state_->settledEnd = state_->settled(step.frame, state_->settledEnd); // of the slot that is opened next
+    state_->ring.open({true, step.frame, std::max(0.0f, step.dt - dt), hasBlade});
     state_->nextFrame = step.frame + 1;
     state_->anchors.advance(step.anchors, dt);
     state_->hands.advance(step.grabs, dt);

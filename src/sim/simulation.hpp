@@ -338,7 +338,9 @@ public:
     /// then, and show it to who writes the host. Allocates only where there is something to tell.
     std::vector<std::string> complaints();
     /// The oldest of the last Settings::framesInFlight steps that was recorded and has not finished. Nothing
-    /// where all have, which is when the simulation may be destroyed (skins and copies aside).
+    /// where all have, and after a recorded step was thrown away it names that one until others take its
+    /// place. For finding what is missing: only the host's own fence says when the simulation may be
+    /// destroyed.
     std::optional<std::uint64_t> oldestInFlight() const noexcept;
 
     const StepProgram& program() const noexcept;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <limits>
 
 using namespace sinew;
 using namespace sinew::sim;
@@ -269,4 +270,26 @@ TEST(TakeOver, WithLessRoomForContactsIsRefused) {
     const std::string said = refusedTakeOver(scene, scene, before, after);
     EXPECT_NE(said.find("contactRoom is 31"), std::string::npos) << said;
     EXPECT_EQ(refusedTakeOver(scene, scene, after, before), goesOn);
+}
+
+// The ends of steps that went well are kept as they leave the ring of those in flight.
+TEST(TakeOver, AfterMoreUndoneStepsThanAreInFlightGoesOnFromTheLastGoodOne) {
+    Scene scene = test::particleAt({0, 1, 0});
+    scene.colliders.push_back({.shape = ColliderShape::sphere,
+                               .radius = 0.1f,
+                               .path = {{.time = 0, .pose = {.position = {5, 0, 0}}},
+                                        {.time = 10, .pose = {.position = {5, 10, 0}}}}});
+    for (const std::uint32_t inFlight : {1u, 4u}) {
+        const Settings settings{.substeps = 4, .framesInFlight = inFlight};
+        test::Runner first(scene, settings), second(scene, settings);
+        first.run(10);
+        for (std::uint32_t i = 0; i < inFlight + 2; ++i) {
+            first.writePosition(0, std::numeric_limits<float>::quiet_NaN());
+            EXPECT_GT(first.run(1).nonFinite, 0u);
+        }
+        second.takeOver(first);
+        second.run(1);
+        EXPECT_NEAR(double{second.simulation().colliderPoses()[0].position.y}, 11 * double{scene.dt}, 1e-5)
+            << inFlight;
+    }
 }
