@@ -2,6 +2,7 @@
 // that cell exists; rounding at cell borders is caught by taking the neighbour.
 #include "mesh/to_scene.hpp"
 
+#include "mesh/components.hpp"
 #include "mesh/inside.hpp"
 #include "mesh/place_grid.hpp"
 #include "mesh/split_skin.hpp"
@@ -110,12 +111,30 @@ sim::Lattice makeLattice(const VoxelGrid& grid, const MeshBody& body, double vol
     return lattice;
 }
 
+/// Volume of the components that lie inside of another one and face outward, as that one does [m^3]: a place
+/// that both enclose is there once.
+double volumeWithin(const TriangleMesh& mesh, const VoxelGrid& grid) {
+    const std::vector<Component> parts = components(mesh);
+    if (parts.size() < 2) return 0;
+    const std::vector<Vector3> positions = toCellUnits(mesh, grid);
+    const TriangleTree tree(positions, mesh.triangles);
+    double volume = 0;
+    for (const Component& part : parts) {
+        const auto& [a, b, c] = mesh.triangles[part.triangles.front()];
+        const Vector3 normal = (positions[b] - positions[a]).cross(positions[c] - positions[a]).normalized();
+        const Vector3 outside = (positions[a] + positions[b] + positions[c]) / 3 + 1e-3 * normal;
+        if (tree.windingNumber(outside) > 0.5) volume += part.volume;
+    }
+    return volume;
+}
+
 /// Volume of a closed mesh [m^3]. Samples of a cell are off by an eighth of a cell at most beside a surface:
 /// where the mesh is farther off, parts of it overlap or cancel each other, and what is filled counts.
 double volumeOf(const TriangleMesh& mesh, const VoxelGrid& grid) {
     const MeshReport report = measure(mesh);
-    const bool isOff = std::abs(report.volume - grid.filledVolume) > report.area * double{grid.spacing} / 4;
-    return isOff ? grid.filledVolume : report.volume;
+    const double volume = report.volume - volumeWithin(mesh, grid);
+    const bool isOff = std::abs(volume - grid.filledVolume) > report.area * double{grid.spacing} / 4;
+    return isOff ? grid.filledVolume : volume;
 }
 
 /// Every vertex into its cell; a vertex of a skin that is clipped also gets the particle that it goes with.

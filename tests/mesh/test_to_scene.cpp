@@ -177,6 +177,24 @@ TEST(AddMesh, WeighsWhatPartsShareOnce) {
 }
 
 // Stability: a node without enough mass for the stiffness of its cells would need shorter substeps.
+TEST(AddMesh, WeighsAPartWithinAnotherOnce) {
+    const TriangleMesh sphere = generate("sphere", 48);
+    const double volume = inspect(sphere).volume;
+    for (const float size : {0.1f, 0.3f, 0.6f}) {
+        const TriangleMesh cyst = moved(scaled(sphere, size), {0.03f, 0.02f, 0});
+        const double hollow = volume * double{1 - size * size * size};
+        for (const bool isCuttable : {false, true}) {
+            MeshBody cuttable = body(20);
+            cuttable.isCuttable = isCuttable;
+            sim::Scene solid, shell;
+            addMesh(solid, joined(sphere, cyst), cuttable);
+            addMesh(shell, joined(sphere, inverted(cyst)), cuttable);
+            EXPECT_NEAR(massOf(solid) / (1000 * volume), 1, 5e-3) << size;
+            EXPECT_NEAR(massOf(shell) / (1000 * hollow), 1, 5e-3) << size << ", a cavity";
+        }
+    }
+}
+
 TEST(AddMesh, LeavesNoNodeMuchLighterThanItsLinksAreWeak) {
     for (const double degrees : {0.0, 17.0, 45.0}) {
         sim::Scene scene;
