@@ -232,25 +232,33 @@ void warnAboutStiffness(LoadedScene& loaded) {
                      : "no number of substeps reaches " + percent + ", use weight or iterations"));
 }
 
+// That many, or what to do where they are more than may be asked for.
+std::string giveSubsteps(std::uint32_t count) {
+    return count <= sim::ranges::substeps.high ? std::to_string(count) + " substeps"
+                                               : std::string("shorter steps (dt)");
+}
+
 // A tenth: some per cent are no news.
 void warnAboutDrag(LoadedScene& loaded) {
-    const double off = double{loaded.scene.damping} * double{loaded.scene.dt} / loaded.settings.substeps / 2;
+    const double decay = double{loaded.scene.damping} * double{loaded.scene.dt} / loaded.settings.substeps;
+    const double off = loaded.settings.solver == sim::Solver::split ? 1 - decay / std::expm1(decay)
+                                                                    : decay / -std::expm1(-decay) - 1;
     const auto isZero = [](const sim::Vec3& g) { return g.x == 0 && g.y == 0 && g.z == 0; };
-    if (off <= 2 * sim::dragTolerance || isZero(loaded.scene.gravity)) return;
+    if (decay == 0 || off <= 2 * sim::dragTolerance || isZero(loaded.scene.gravity)) return;
     loaded.warnings.push_back(
         "damping is so strong for " + std::to_string(loaded.settings.substeps) +
         " substeps that what falls has a terminal speed some " + std::to_string(std::lround(100 * off)) +
-        " % off: " + std::to_string(sim::dragSubsteps(loaded.scene)) + " substeps keep it within " +
+        " % off: " + giveSubsteps(sim::dragSubsteps(loaded.scene)) + " keep it within " +
         std::to_string(std::lround(100 * sim::dragTolerance)) + " %");
 }
 
 void warnAboutMostSubsteps(LoadedScene& loaded) {
     const sim::SubstepChoice& choice = loaded.substeps;
     if (choice.reason != sim::SubstepReason::most) return;
-    loaded.warnings.push_back(
-        "solver.substeps = \"auto\" stops at " + std::to_string(choice.substeps) + ", " +
-        std::to_string(choice.wanted) +
-        " would keep the tolerance: give that number, shorter steps (dt) or a softer material");
+    loaded.warnings.push_back("solver.substeps = \"auto\" stops at " + std::to_string(choice.substeps) +
+                              ", " + std::to_string(choice.wanted) + " would keep the tolerance: give " +
+                              (choice.wanted <= sim::ranges::substeps.high ? "that number, " : "") +
+                              "shorter steps (dt), larger voxels or a softer material");
 }
 
 // Searches go there on purpose, and a lattice bears more than is proven: no reason to refuse.
