@@ -81,6 +81,8 @@ Opening look(const Options& asked, float aspect) {
     opening.bladeDepth = options.bladeDepth;
     opening.camera = firstView(opening.loaded, aspect);
     opening.light = lightFor(opening.loaded.scene, opening.camera);
+    opening.light.marks =
+        marksOf(opening.loaded.scene, opening.loaded.holds, pinShare * opening.light.radius());
     opening.light.showsSleep = opening.loaded.settings.sleeps;
     if (opening.run && opening.run->view) opening.camera = seenAgain(opening.camera, *opening.run->view);
     return opening;

@@ -33,8 +33,8 @@ Show::Show(Screen& screen, Library& library, const Devices& devices, const vk::D
       controller_(opening_.camera, opening_.loaded.scene.dt), stage_(prepared_.stage),
       probe_(std::in_place, device, stage_.scene(), stage_.settings(), stage_.simulation()),
       pieceProbe_(device, stage_), backstage_(device, prepared_, opening_.camera, Presenter::framesInFlight),
-      inspector_(stage_, Presenter::framesInFlight), tools_(device, opening_), sceneFacts_(prepared_.facts),
-      gauges_(stage_, opening_.loaded.scene.dt),
+      inspector_(stage_, opening_.loaded.holds, Presenter::framesInFlight), tools_(device, opening_),
+      sceneFacts_(prepared_.facts), gauges_(stage_, opening_.loaded.scene.dt),
       knobs_(sceneFacts_.fromFile), begun_{stage_.settings().solver, stage_.settings().substeps},
       status_(opening_.loaded.scene, device) {
     const auto spans = static_cast<std::uint32_t>(stage_.simulation().phases().size());

@@ -1,6 +1,7 @@
 // One pointer, three tools: the left button belongs to the one that is out.
 #include "viewer/tools.hpp"
 
+#include "sim/compile.hpp"
 #include "viewer/hands/controller.hpp"
 #include "viewer/opening.hpp"
 #include "vk/check.hpp"
@@ -20,10 +21,12 @@ constexpr const char* lost =
 
 Tools::Tools(const vk::Device& device, const Opening& opening)
     : blade_(opening.light.bounds), poke_(opening.light.radius(), opening.loaded.scene.planes),
-      history_(device, History::mostCuts), steps_(device, History::mostSteps),
+      history_(device, History::mostCuts), steps_(device, History::mostSteps), holds_(opening.loaded.holds),
       pinReach_(0.04f * opening.light.radius()),
       canCut_(std::ranges::any_of(opening.loaded.scene.grids, &sim::Grid::isCuttable)) {
     setDepth(opening.bladeDepth);
+    for (const float inverseMass : sim::inverseMasses(opening.loaded.scene))
+        isFixed_.push_back(inverseMass == 0);
 }
 
 void Tools::handle(const Input& input, Controller& controller) {
@@ -99,10 +102,19 @@ void Tools::answer(const Question& question, const std::optional<Pick>& pick, fl
     if (question.asker == Question::Asker::hand) return hand_.answer(pick, radius);
     if (question.asker == Question::Asker::poke) return poke_.answer(pick);
     pinned_.reset();
-    if (pick)
+    if (pick && isFixed_[pick->particle])
+        sayHeld(pick->particle);
+    else if (pick)
         pin({pick->particle, pick->offset, pick->point}, radius);
     else
         note_ = "there is nothing to pin under the pointer";
+}
+
+void Tools::sayHeld(std::uint32_t particle) {
+    const sim::NamedHold* hold = sim::holdOf(holds_, particle);
+    note_ = (hold != nullptr ? "hold \"" + hold->name + "\" of the scene holds this"
+                             : std::string("the scene holds this")) +
+            ": it needs no pin, and N does not let it go";
 }
 
 void Tools::press(const Camera& camera, bool isDown, const Vector2& at) {

@@ -2,6 +2,7 @@
 // be undone.
 #pragma once
 
+#include "sim/holds.hpp"
 #include "viewer/draw/stage.hpp"
 #include "viewer/hands/cut_tool.hpp"
 #include "viewer/hands/grab_tool.hpp"
@@ -124,6 +125,7 @@ private:
     void turnWheel(float notches);
     void pinAt(const Ray& ray);
     void pin(const Hand& hand, float radius);
+    void sayHeld(std::uint32_t particle);
     void drop();
     void say(const std::string& note);
 
@@ -136,10 +138,12 @@ private:
     void rememberStep(VkCommandBuffer commands, const Stage& stage);
     bool goBack(VkCommandBuffer commands, Stage& stage);
 
-    float pinReach_;               // of the pointer around a pin [m]
-    std::optional<Ray> pinned_;    // a question
-    std::optional<float> gravity_; // that was turned
-    sim::Material material_;       // likewise
+    std::vector<sim::NamedHold> holds_; // of the scene
+    std::vector<bool> isFixed_;         // of every particle
+    float pinReach_;                    // of the pointer around a pin [m]
+    std::optional<Ray> pinned_;         // a question
+    std::optional<float> gravity_;      // that was turned
+    sim::Material material_;            // likewise
     InputLog log_;
     std::uint32_t stepsBack_ = 0; // that are wanted
     bool isLost_ = false;         // what could be undone, in bring()

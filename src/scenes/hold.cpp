@@ -146,6 +146,14 @@ Taken take(LoadedScene& loaded, const Section& hold, const sim::Gap& gap) {
     return taken;
 }
 
+// A particle of several holds goes along the path of one: those with a path stand first.
+void remember(LoadedScene& loaded, const std::string& name, std::vector<std::uint32_t> particles,
+              bool isDriven) {
+    std::ranges::sort(particles);
+    loaded.holds.insert(isDriven ? loaded.holds.begin() : loaded.holds.end(),
+                        sim::NamedHold{name, std::move(particles)});
+}
+
 constexpr std::size_t nobody = ~std::size_t{0};
 
 void addHold(LoadedScene& loaded, const Section& hold, const Source& source,
@@ -159,6 +167,7 @@ void addHold(LoadedScene& loaded, const Section& hold, const Source& source,
                       "\", is " + lengthText(taken.gap) + " outside of this " + shape,
                   "move it there, or make it larger");
     Path path = readPath(hold, loaded.origin, place.pose);
+    remember(loaded, name, taken.particles, !path.keyframes.empty());
     if (path.keyframes.empty()) {
         sim::hold(loaded.scene, taken.particles);
         return;

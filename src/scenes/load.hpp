@@ -3,6 +3,7 @@
 
 #include "mesh/import.hpp"
 #include "mesh/to_scene.hpp"
+#include "sim/holds.hpp"
 #include "sim/substeps.hpp"
 
 #include <filesystem>
@@ -47,6 +48,7 @@ struct LoadedScene {
     std::array<double, 3> origin{};
     std::optional<Camera> camera;
     std::vector<MeshSummary> meshes;
+    std::vector<sim::NamedHold> holds; ///< those with a path first
     std::vector<BladeMotion> blades;   ///< no two of them in one step; ScriptedBlades plays them
     std::vector<std::string> warnings; ///< sentences, such as "mesh bunny.obj is open: 72 boundary edges ..."
     /// Lines that ask for nothing, such as the size and mass of each mesh.

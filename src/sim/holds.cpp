@@ -3,6 +3,7 @@
 
 #include "sim/colliders.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -53,6 +54,12 @@ void hold(Scene& scene, std::span<const std::uint32_t> particles) {
 void drive(Scene& scene, std::vector<std::uint32_t> particles, std::vector<Keyframe> path, PathEnd end) {
     hold(scene, particles);
     scene.driven.push_back({.path = std::move(path), .pathEnd = end, .particles = std::move(particles)});
+}
+
+const NamedHold* holdOf(std::span<const NamedHold> holds, std::uint32_t particle) {
+    const auto found = std::ranges::find_if(
+        holds, [&](const NamedHold& hold) { return std::ranges::binary_search(hold.particles, particle); });
+    return found == holds.end() ? nullptr : &*found;
 }
 
 } // namespace sinew::sim

@@ -1,5 +1,8 @@
 // Pins: what they hold stays where it is while the rest falls, and what is taken out falls after it.
+#include "played.hpp"
+#include "viewer/draw/offscreen.hpp"
 #include "viewer/draw/stage.hpp"
+#include "viewer/hands/inspector.hpp"
 #include "viewer/hands/pins.hpp"
 #include "viewer/hands/state_probe.hpp"
 
@@ -74,6 +77,145 @@ TEST(Pins, HoldABodyAgainstItsWeight) {
     pins.clear();
     for (int i = 0; i < 9; ++i) step(3);
     EXPECT_LT(step(3).y(), at.y() - 0.5f) << "half a second of a fall of the whole body";
+}
+
+// A block whose front is held, or goes to the side.
+const std::string heldFront = std::string(block) + R"([[hold]]
+name = "clamp"
+shape = "half_space"
+normal = [0, 0, 1]
+offset = 0.15
+)";
+const std::string drivenFront = heldFront + R"([[hold.keyframe]]
+time = 0
+[[hold.keyframe]]
+time = 0.2
+center = [0.4, 0, 0]
+)";
+
+std::vector<std::uint32_t> markedIn(const BallList& marks) {
+    std::vector<std::uint32_t> marked;
+    for (const BallRange& range : marks.ranges)
+        for (std::uint32_t i = range.first; i < range.first + range.count; ++i)
+            if (marks.radii[i] > 0) marked.push_back(i);
+    return marked;
+}
+
+TEST(HeldMarks, AreThereForEachHeldParticleAndNoOther) {
+    const Opening opening = openText(heldFront);
+    ASSERT_EQ(opening.loaded.holds.size(), 1u);
+    EXPECT_EQ(opening.loaded.holds[0].particles.size(), 16u);
+    EXPECT_EQ(markedIn(opening.light.marks), opening.loaded.holds[0].particles);
+    EXPECT_TRUE(openText(block).light.marks.ranges.empty());
+}
+
+TEST(HeldMarks, AreOneDrawWhereGapsAreShortAndApartWhereTheyAreLong) {
+    sim::Scene scene;
+    scene.particles.resize(100);
+    const std::vector<sim::NamedHold> holds{{"a", {3, 10, 70}}, {"b", {10, 11, 99}}};
+    const BallList marks = marksOf(scene, holds, 0.1f);
+    EXPECT_EQ(markedIn(marks), (std::vector<std::uint32_t>{3, 10, 11, 70, 99}));
+    ASSERT_EQ(marks.ranges.size(), 3u);
+    EXPECT_EQ(marks.ranges[0].count, 9u);
+    EXPECT_EQ(sim::holdOf(holds, 10)->name, "a") << "the first";
+    EXPECT_EQ(sim::holdOf(holds, 99)->name, "b");
+    EXPECT_EQ(sim::holdOf(holds, 12), nullptr);
+}
+
+// Mean column of the pixels that are as blue as a pin.
+struct Blue {
+    std::size_t count = 0;
+    double column = 0;
+};
+Blue blueIn(Scene& scene, int steps) {
+    Offscreen offscreen(test::device(), {320, 200}, scene.opening.light, reducedQuality());
+    scene.run([&](VkCommandBuffer commands) {
+        for (int i = 0; i < steps; ++i) scene.step(commands);
+        scene.stage.recordSkin(commands);
+        offscreen.record(commands, scene.controller.camera, scene.stage.simulation());
+    });
+    const Picture picture = offscreen.read();
+    Blue blue;
+    for (std::size_t i = 0; i < picture.pixels.size(); i += 4) {
+        if (picture.pixels[i + 2] < picture.pixels[i] + 60) continue;
+        ++blue.count;
+        blue.column += static_cast<double>(i / 4 % picture.width);
+    }
+    if (blue.count > 0) blue.column /= static_cast<double>(blue.count);
+    return blue;
+}
+
+TEST(HeldMarks, AreSeenAndGoAlongTheirPath) {
+    Scene plain, held(heldFront), driven(drivenFront);
+    EXPECT_EQ(blueIn(plain, 1).count, 0u);
+    const Blue still = blueIn(held, 1), begun = blueIn(driven, 1);
+    EXPECT_GT(still.count, 50u);
+    const Blue later = blueIn(held, 20), moved = blueIn(driven, 20);
+    EXPECT_NEAR(later.column, still.column, 1);
+    EXPECT_GT(moved.column, begun.column + 25) << "0.4 m of a picture that is 2.3 m wide";
+}
+
+TEST(HeldParticle, SaysTheNameOfItsHold) {
+    Found found{.isFixed = true, .hold = "clamp"};
+    EXPECT_EQ(stateText(found), "held by clamp");
+    found.hold.clear();
+    EXPECT_EQ(stateText(found), "fixed");
+    found.isFixed = false;
+    found.speed = 0.5f;
+    EXPECT_EQ(stateText(found), "0.5 m/s");
+}
+
+TEST(HeldParticle, IsFoundByTheInspectorWithItsHold) {
+    Played played(heldFront);
+    Inspector inspector(played.stage, played.opening.loaded.holds, 1);
+    inspector.toggle();
+    const auto under = [&](const Vector2& at) {
+        played.run([&](VkCommandBuffer commands) {
+            played.stage.recordSkin(commands);
+            inspector.record(commands, 0, rayThrough(played.controller.camera, at), nullptr);
+            played.probe.record(commands);
+        });
+        inspector.settle(0, played.opening.light.balls, played.probe, {}, nullptr);
+        return inspector.found();
+    };
+    ASSERT_TRUE(under({0, 0}));
+    EXPECT_EQ(stateText(*under({0, 0})), "held by clamp");
+}
+
+TEST(HeldParticle, IsNoPinAndNSaysSo) {
+    Played played(heldFront);
+    played.turn({});
+    played.turn({.actions = {Action::pin}, .pointer = {0, 0}});
+    played.turn({.pointer = {0, 0}});
+    played.turn({.pointer = {0, 0}});
+    EXPECT_EQ(played.tools.pins(), 0u);
+    EXPECT_EQ(played.tools.takeNote(),
+              "hold \"clamp\" of the scene holds this: it needs no pin, and N does not let it go");
+}
+
+TEST(HeldParticle, StaysHeldAfterACutAndItsUndo) {
+    Played played(heldFront);
+    const std::vector<std::uint32_t> held = played.opening.loaded.holds[0].particles;
+    const auto largestMove = [&] {
+        float largest = 0;
+        for (const std::uint32_t i : held) {
+            const sim::Vec3& from = played.stage.scene().particles[i].position;
+            const sim::layout::vec4& now = played.probe.positions()[i];
+            largest = std::max(largest, std::hypot(now.x - from.x, now.y - from.y, now.z - from.z));
+        }
+        return largest;
+    };
+    played.turn({}, 4);
+    played.turn({.actions = {Action::blade}}, 0);
+    played.dragFrom({-0.5f, 0.1f}, {1, 0}, 6);
+    played.pressAt({0.5f, 0.1f}, false);
+    played.turn({}, 10);
+    ASSERT_EQ(played.stage.simulation().status(played.stage.steps()).pieces, 2u);
+    EXPECT_EQ(largestMove(), 0) << "cut";
+    played.turn({.actions = {Action::undo}}, 0);
+    played.turn({}, 20);
+    EXPECT_EQ(played.stage.simulation().status(played.stage.steps()).pieces, 1u);
+    EXPECT_EQ(largestMove(), 0) << "undone";
 }
 
 } // namespace

@@ -143,6 +143,22 @@ BallList allBallsOf(const sim::Scene& scene) {
     return listBalls(scene, Which::all);
 }
 
+BallList marksOf(const sim::Scene& scene, std::span<const sim::NamedHold> holds, float radius) {
+    constexpr std::uint32_t longestGap = 8;
+    if (holds.empty()) return {};
+    const std::vector<float> shortest = shortestLinks(scene);
+    BallList list{.ranges = {}, .radii = std::vector<float>(scene.particles.size())};
+    for (const sim::NamedHold& hold : holds)
+        for (const std::uint32_t i : hold.particles) list.radii[i] = std::min(radius, 0.35f * shortest[i]);
+    for (std::uint32_t i = 0; i < list.radii.size(); ++i) {
+        if (list.radii[i] == 0) continue;
+        if (list.ranges.empty() || i - list.ranges.back().first >= list.ranges.back().count + longestGap)
+            list.ranges.push_back({i, 0, {}});
+        list.ranges.back().count = i + 1 - list.ranges.back().first;
+    }
+    return list;
+}
+
 BallMesh makeBall(std::uint32_t cuts) {
     BallMesh ball = icosahedron();
     addFaces(ball);

@@ -2,7 +2,7 @@
 // the mesh of one ball, which is drawn where the simulation has the particles.
 #pragma once
 
-#include "sim/scene.hpp"
+#include "sim/holds.hpp"
 #include "vk/buffer.hpp"
 
 namespace sinew::viewer {
@@ -23,6 +23,11 @@ struct BallList {
 BallList ballsOf(const sim::Scene& scene);
 /// The same for bodies with a skin too, in its color; smaller, so that it is seen.
 BallList allBallsOf(const sim::Scene& scene);
+
+/// Marks of particles that are held: balls of `radius` [m], smaller where links are short, so that
+/// those of a lattice stay apart. A draw takes a run of them: gaps of a few particles, whose balls have no
+/// size, join two runs.
+BallList marksOf(const sim::Scene& scene, std::span<const sim::NamedHold> holds, float radius);
 
 /// A ball of radius 1 in triangles, counter-clockwise seen from outside: an icosahedron of which every
 /// triangle was cut in four `cuts` times.

@@ -58,7 +58,7 @@ Renderer::Renderer(const vk::Device& device, const Target& target, const Quality
                                          .depth = format_.depth,
                                          .samples = format_.samples,
                                          .finalLayout = target.finalLayout})),
-      sets_(device, maps_, slots), balls_(device, light.balls), hand_(device),
+      sets_(device, maps_, slots), balls_(device, light.balls), marks_(device, light.marks), hand_(device),
       strokes_(device, {.name = "strokes",
                         .count = slots * pointsASlot,
                         .stride = sizeof(sim::layout::vec4),
@@ -75,7 +75,7 @@ Renderer::Renderer(const vk::Device& device, const Target& target, const Quality
     makeMaps(to);
     makeBodies(to);
     makeCuts(to);
-    if (!balls_.ranges().empty()) makeBalls(to);
+    if (!balls_.ranges().empty() || !marks_.ranges().empty()) makeBalls(to);
     readablePass_.emplace(
         RenderPass::picture(device_, {.color = format_.color,
                                       .depth = format_.depth,
@@ -219,6 +219,7 @@ void Renderer::recordPicture(VkCommandBuffer commands, const Sheet& sheet, const
         if (layers.skin == SkinLook::solid)
             drawCuts(commands, opened(insidePipeline, layers), opened(clippedPipeline, layers), simulation);
     }
+    drawMarks(commands, simulation, layers);
     drawCap(commands, canvas, layers);
     if (overlay.hand) drawHand(commands, simulation, *overlay.hand, handColor, 1);
     for (const Hand& pin : overlay.pins) drawHand(commands, simulation, pin, pinColor, -1);

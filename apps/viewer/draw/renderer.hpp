@@ -195,6 +195,8 @@ private:
                    const sim::Simulation& simulation) const noexcept;
     void drawBalls(VkCommandBuffer commands, std::size_t pipeline, const sim::Simulation& simulation,
                    const Overlay& overlay) const noexcept;
+    void drawMarks(VkCommandBuffer commands, const sim::Simulation& simulation,
+                   const Layers& layers) const noexcept;
     void drawCuts(VkCommandBuffer commands, std::size_t ofInside, std::size_t ofClipped,
                   const sim::Simulation& simulation, const LayerBuffers& buffers = {}) const noexcept;
     static constexpr std::size_t pointsASlot = mostStrokePoints + 2; // a stroke and a gauge
@@ -222,7 +224,7 @@ private:
     LightMaps maps_;
     RenderPass pass_;
     PictureSets sets_;
-    Balls balls_;
+    Balls balls_, marks_;
     HandMesh hand_;
     vk::Buffer strokes_;                             // vec4, pointsASlot each
     vk::Buffer nothing_;                             // corners that are one

@@ -151,12 +151,22 @@ void Renderer::drawBalls(VkCommandBuffer commands, std::size_t pipeline, const s
     }
 }
 
+// No shadows: they show what the scene does, as pins show what a hand does.
+void Renderer::drawMarks(VkCommandBuffer commands, const sim::Simulation& simulation,
+                         const Layers& layers) const noexcept {
+    if (marks_.ranges().empty()) return;
+    bind(commands, opened(ballPipeline, layers));
+    marks_.bind(commands, simulation.positions(), removedParticles(simulation));
+    push(commands, pinColor, ballGloss, {});
+    for (const BallRange& range : marks_.ranges()) marks_.draw(commands, range);
+}
+
 void Renderer::drawHand(VkCommandBuffer commands, const sim::Simulation& simulation, const Hand& hand,
                         const sim::Vec3& color, float ball) const noexcept {
     bind(commands, handPipeline);
     const Vector3 &at = hand.target, &held = hand.offset;
     push(commands, {{color.x, color.y, color.z, ballGloss},
-                    {at.x(), at.y(), at.z(), 0.02f * light_.radius()},
+                    {at.x(), at.y(), at.z(), pinShare * light_.radius()},
                     {held.x(), held.y(), held.z(), ball}});
     hand_.draw(commands, simulation.positions(), removedParticles(simulation), hand.particle);
 }

@@ -9,6 +9,8 @@
 
 namespace sinew::viewer {
 
+constexpr float pinShare = 0.02f; ///< radius of the ball of a hand or pin, of that of the stage
+
 struct StageLight {
     Box bounds;                           ///< where bodies are expected [m]
     std::optional<float> ground;          ///< its height [m]; none = no floor is drawn
@@ -18,6 +20,7 @@ struct StageLight {
     std::vector<bool> isClosed;           ///< likewise: whether it encloses something (closedSkins)
     std::vector<bool> isOutward;          ///< likewise: and its triangles face outwards
     BallList balls;                       ///< what is drawn of bodies that have none
+    BallList marks;                       ///< of what the scene holds
     bool showsSleep = false;              ///< bodies that sleep are paler
     std::vector<sim::Collider> colliders; ///< drawn where the simulation has them
 

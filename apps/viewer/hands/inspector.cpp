@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 namespace sinew::viewer {
@@ -48,7 +49,18 @@ Found foundAt(const sim::Scene& scene, std::uint32_t particle, std::span<const s
     return found;
 }
 
-Inspector::Inspector(const Stage& stage, std::uint32_t slots) : stage_(stage), asked_(slots) {}
+std::string stateText(const Found& found) {
+    if (!found.hold.empty()) return "held by " + found.hold;
+    if (found.isFixed) return "fixed";
+    if (found.isAsleep) return "asleep";
+    if (!found.speed) return "moves";
+    char text[40];
+    std::snprintf(text, sizeof text, "%.3g m/s", double{*found.speed});
+    return text;
+}
+
+Inspector::Inspector(const Stage& stage, std::span<const sim::NamedHold> holds, std::uint32_t slots)
+    : stage_(stage), holds_(holds), asked_(slots) {}
 
 void Inspector::toggle() {
     isOn_ = !isOn_;
@@ -85,6 +97,7 @@ void Inspector::settle(std::uint32_t slot, const BallList& balls, StateProbe& pr
     found_.reset();
     if (!met) return;
     found_ = foundAt(scene, met->particle, probe.positions(), probe.velocities(), probe.liveLinks());
+    if (const sim::NamedHold* hold = sim::holdOf(holds_, met->particle)) found_->hold = hold->name;
     if (asked.counted == met->particle && counter != nullptr) found_->contacts = counter->found(slot);
 }
 

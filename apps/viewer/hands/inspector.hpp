@@ -2,6 +2,7 @@
 // bring along; nothing waits.
 #pragma once
 
+#include "sim/holds.hpp"
 #include "viewer/draw/contact_marks.hpp"
 #include "viewer/hands/found.hpp"
 #include "viewer/hands/pick.hpp"
@@ -20,11 +21,11 @@ class StateProbe;
 Found foundAt(const sim::Scene& scene, std::uint32_t particle, std::span<const sim::layout::vec4> positions,
               std::span<const sim::layout::vec4> velocities, const std::function<bool(std::size_t)>& holds);
 
-/// Must not outlive the stage.
+/// Must not outlive the stage, nor the holds of its scene.
 class Inspector {
 public:
     /// `slots` frames may be under way at a time.
-    Inspector(const Stage& stage, std::uint32_t slots);
+    Inspector(const Stage& stage, std::span<const sim::NamedHold> holds, std::uint32_t slots);
 
     void toggle();
     bool isOn() const { return isOn_; }
@@ -52,6 +53,7 @@ private:
     };
 
     const Stage& stage_;
+    std::span<const sim::NamedHold> holds_;
     std::vector<Asked> asked_; // a slot
     std::optional<Ray> last_;
     std::optional<Found> found_;

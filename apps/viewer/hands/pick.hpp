@@ -23,10 +23,8 @@ enum class Among { moving, all };
 struct Question {
     enum class Asker { hand, pin, poke, blade, preview } asker = Asker::hand;
     Ray ray;
-    /// What is fixed can be cut, not held.
-    Among among() const {
-        return asker == Asker::blade || asker == Asker::preview ? Among::all : Among::moving;
-    }
+    /// What is fixed can be cut, not grabbed or poked; N says that it is held.
+    Among among() const { return asker == Asker::hand || asker == Asker::poke ? Among::moving : Among::all; }
     bool operator==(const Question&) const = default;
 };
 

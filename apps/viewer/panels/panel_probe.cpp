@@ -8,15 +8,6 @@ namespace sinew::viewer::parts {
 
 namespace {
 
-std::string stateText(const Found& found) {
-    if (found.isFixed) return "fixed";
-    if (found.isAsleep) return "asleep";
-    if (!found.speed) return "moves";
-    char text[40];
-    std::snprintf(text, sizeof text, "%.3g m/s", double{*found.speed});
-    return text;
-}
-
 void rows(const Found& found) {
     char text[80];
     row(found.body.c_str(), "particle " + grouped(found.particle));
