@@ -21,8 +21,9 @@ std::optional<Repair> findRepair(std::string_view name); ///< by such a name
 /// Vertices nearer than that share of the longest side of the bounding box are one; or nearer than so many
 /// roundings of the largest coordinate, where that is more.
 inline constexpr double weldTolerance = 1e-5, weldRoundings = 4;
-/// A hole of more than three edges is small where its rim is no longer than that share of the sum of the
-/// twelve edges of the bounding box.
+/// A hole is small where its rim is no longer than that share of the sum of the twelve edges of the bounding
+/// box of its part: the triangles that hang together with its rim across edges. A hole of three edges may
+/// have any size where the part has more than three triangles.
 inline constexpr double smallRim = 1.0 / 6;
 /// Beyond this share a patch must continue the surface: seen from outside, it may bend from its neighbours by
 /// `largestBend` degrees on average along the rim. The lid of a cup bends by 90.

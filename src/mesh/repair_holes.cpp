@@ -2,6 +2,7 @@
 #include "mesh/repair_steps.hpp"
 #include "mesh/vector3.hpp"
 
+#include <Eigen/Geometry>
 #include <map>
 
 namespace sinew::mesh {
@@ -90,9 +91,49 @@ OpenHole describe(const TriangleMesh& mesh, const Loop& loop) {
     return hole;
 }
 
-double edgesOfBox(const TriangleMesh& mesh) {
-    const MeshReport report = measure(mesh);
-    return 4 * (toVector(report.high) - toVector(report.low)).sum();
+/// The parts of a mesh, by which the size of a hole is measured.
+class Surroundings {
+public:
+    explicit Surroundings(const TriangleMesh& mesh) {
+        std::size_t count = 0;
+        numbers_ = numberParts(mesh, count, Across::edges);
+        parts_.resize(count);
+        for (std::size_t i = 0; i < numbers_.size(); ++i) {
+            Part& part = parts_[numbers_[i]];
+            ++part.triangles;
+            for (const std::uint32_t vertex : mesh.triangles[i])
+                part.box.extend(toVector(mesh.positions[vertex]));
+        }
+    }
+
+    struct Scale {
+        double boxEdges = 0;      ///< sum of the twelve edges of the box [units of the mesh]
+        bool isExempting = false; ///< a hole of three edges may be of any size
+    };
+    /// Measures the parts along the rim of `loop` together.
+    Scale scaleOf(const Loop& loop) const {
+        Part whole;
+        std::set<std::uint32_t> seen;
+        for (const std::uint32_t triangle : loop.rim) {
+            if (!seen.insert(numbers_[triangle]).second) continue;
+            const Part& part = parts_[numbers_[triangle]];
+            whole.triangles += part.triangles;
+            whole.box.extend(part.box);
+        }
+        return {4 * whole.box.sizes().sum(), whole.triangles > 3};
+    }
+
+private:
+    struct Part {
+        std::size_t triangles = 0;
+        Eigen::AlignedBox3d box;
+    };
+    std::vector<std::uint32_t> numbers_;
+    std::vector<Part> parts_;
+};
+
+bool isShort(const OpenHole& hole, const Surroundings::Scale& scale) {
+    return hole.rim <= smallRim * scale.boxEdges || (hole.edges == 3 && scale.isExempting);
 }
 
 /// All edges between vertices of `loops`.
@@ -107,11 +148,6 @@ TakenEdges edgesBetween(const TriangleMesh& mesh, const std::vector<Loop>& loops
             if (isOnLoop[a] && isOnLoop[b]) edges.push_back({std::min(a, b), std::max(a, b)});
         }
     return TakenEdges(std::move(edges));
-}
-
-bool isSmall(const OpenHole& hole, const Patch& patch, double boxEdges) {
-    if (hole.edges > 3 && hole.rim > smallRim * boxEdges) return false;
-    return hole.rim <= tinyRim * boxEdges || patch.bend <= largestBend;
 }
 
 void addPatch(TriangleMesh& mesh, const Loop& loop, const Patch& patch, TakenEdges& taken) {
@@ -131,13 +167,14 @@ void closeHoles(TriangleMesh& mesh, bool closes, Repairs& report) {
     report.openHoles = 0;
     report.largest = {};
     const std::vector<Loop> loops = tracer.trace();
-    const double boxEdges = edgesOfBox(mesh);
+    const Surroundings surroundings(mesh);
     TakenEdges taken = edgesBetween(mesh, closes ? loops : std::vector<Loop>{});
     for (const Loop& loop : loops) {
         const OpenHole hole = describe(mesh, loop);
-        const bool mayBeSmall = closes && (hole.edges == 3 || hole.rim <= smallRim * boxEdges);
-        const Patch patch = mayBeSmall ? makePatch(mesh, loop, taken) : Patch{};
-        if (!patch.triangles.empty() && isSmall(hole, patch, boxEdges)) {
+        const Surroundings::Scale scale = surroundings.scaleOf(loop);
+        const Patch patch = closes && isShort(hole, scale) ? makePatch(mesh, loop, taken) : Patch{};
+        const bool isSmall = hole.rim <= tinyRim * scale.boxEdges || patch.bend <= largestBend;
+        if (isSmall && !patch.triangles.empty()) {
             addPatch(mesh, loop, patch, taken);
             ++report.closedHoles;
             report.holeEdges += hole.edges;

@@ -119,10 +119,11 @@ private:
 
 } // namespace
 
-std::vector<std::uint32_t> numberParts(const TriangleMesh& mesh, std::size_t& count) {
+std::vector<std::uint32_t> numberParts(const TriangleMesh& mesh, std::size_t& count, Across across) {
     Sets sets(mesh.triangles.size());
     forEachEdge(mesh.triangles, [&](std::span<const HalfEdge> sides) {
-        if (sides.size() == 2) sets.unite(sides[0].triangle, sides[1].triangle);
+        if (sides.size() > 2 && across == Across::pairs) return;
+        for (const HalfEdge& side : sides) sets.unite(sides.front().triangle, side.triangle);
     });
     std::vector<std::uint32_t> numbers(mesh.triangles.size());
     count = 0;

@@ -32,8 +32,13 @@ std::size_t removeLeftovers(TriangleMesh& mesh);
 /// Closes the small holes; counts in `report`, and says there what stays open.
 void closeHoles(TriangleMesh& mesh, bool closes, Repairs& report);
 
-/// For each triangle the number of its part: what hangs together across edges of two triangles.
-std::vector<std::uint32_t> numberParts(const TriangleMesh& mesh, std::size_t& count);
+enum class Across {
+    pairs, ///< edges of two triangles
+    edges, ///< edges of two triangles and more
+};
+/// For each triangle the number of its part: what hangs together across such edges.
+std::vector<std::uint32_t> numberParts(const TriangleMesh& mesh, std::size_t& count,
+                                       Across across = Across::pairs);
 
 /// Turns closed parts that are inside out and lie within no other; parts within these turn with them, so that
 /// a cavity stays one. Returns the number of parts that were inside out by themselves.

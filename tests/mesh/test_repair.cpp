@@ -334,6 +334,59 @@ TEST(Repair, LeavesCupsPlanesAndClothsOpen) {
     EXPECT_EQ(repaired(triangle).mesh.triangles.size(), 1u);
 }
 
+// Each triangle is a part of its own: its back would close it.
+TEST(Repair, NeverClosesLoneTrianglesAndQuads) {
+    const TriangleMesh organ = generate("organ", 24);
+    const MeshReport report = inspect(organ);
+    const TriangleMesh noisy = soup(organ, 1e-2 * (double{report.high.x} - double{report.low.x}));
+    for (const TriangleMesh& mesh : {noisy, joined(noisy, moved(unitBox, {9, 0, 0}))}) {
+        const Result result = repaired(mesh);
+        EXPECT_EQ(result.report.closedHoles, 0u);
+        EXPECT_EQ(result.mesh.triangles.size(), mesh.triangles.size());
+        EXPECT_EQ(result.defects.boundaryEdges, 3 * organ.triangles.size());
+    }
+    TriangleMesh quads; // of the faces of boxes, each by itself and far smaller than the whole
+    for (std::size_t face = 0; face < 6; ++face) {
+        std::set<std::size_t> others;
+        for (std::size_t i = 0; i < 12; ++i)
+            if (i / 2 != face) others.insert(i);
+        const TriangleMesh quad = scaled(without(unitBox, others), 0.01f);
+        quads = joined(quads, moved(quad, {static_cast<float>(face), 0, 0}));
+    }
+    const Result result = repaired(quads);
+    EXPECT_EQ(result.report.closedHoles, 0u);
+    EXPECT_EQ(result.mesh.triangles.size(), 12u);
+}
+
+TEST(Repair, ClosesTheSurfaceAroundLooseTrianglesAndNotThese) {
+    const TriangleMesh sphere = generate("sphere", 24);
+    TriangleMesh mesh = sphere;
+    std::size_t loose = 0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); i += 10) {
+        const float factor = 1.001f + 0.0001f * static_cast<float>(++loose); // no two share a corner
+        for (std::uint32_t& vertex : mesh.triangles[i]) {
+            const Vec3 corner = mesh.positions[vertex];
+            mesh.positions.push_back({corner.x * factor, corner.y * factor, corner.z * factor});
+            vertex = static_cast<std::uint32_t>(mesh.positions.size() - 1);
+        }
+    }
+    const Result result = repaired(mesh);
+    EXPECT_EQ(result.report.openEdges, 3 * loose);
+    EXPECT_EQ(result.mesh.triangles.size(), sphere.triangles.size() + loose);
+}
+
+TEST(Repair, OfAHoleDependsOnItsPartAndNotOnTheRestOfTheFile) {
+    const TriangleMesh deep = cup(24, 0.5f, 2), large = moved(scaled(unitBox, 100), {9, 0, 0});
+    const Result alone = repaired(deep), beside = repaired(joined(deep, large));
+    EXPECT_EQ(alone.report.openEdges, 24u);
+    EXPECT_EQ(beside.report.openEdges, 24u);
+    EXPECT_EQ(beside.report.closedHoles, 0u);
+    const TriangleMesh sphere = generate("sphere", 24);
+    const TriangleMesh holed = without(sphere, around(sphere, 5));
+    EXPECT_EQ(repaired(holed).report.closedHoles, 1u);
+    EXPECT_EQ(repaired(joined(holed, large)).report.closedHoles, 1u);
+}
+
 TEST(Repair, RemovesATriangleThatSticksOutAndAWallWithin) {
     TriangleMesh fin = unitBox;
     fin.positions.push_back({0.5f, 0.5f, 3});
