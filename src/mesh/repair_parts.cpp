@@ -51,22 +51,31 @@ void findOpenParts(const TriangleMesh& mesh, const std::vector<std::uint32_t>& n
     });
 }
 
+/// Signed. About the middle of the part itself: far from it a small volume drowns in rounding.
+double volumeOf(const TriangleMesh& mesh, const Part& part) {
+    const Vector3 middle = part.box.center();
+    double volume = 0;
+    for (const std::uint32_t triangle : part.triangles) {
+        const auto [a, b, c] = mesh.triangles[triangle];
+        volume +=
+            (toVector(mesh.positions[a]) - middle)
+                .dot((toVector(mesh.positions[b]) - middle).cross(toVector(mesh.positions[c]) - middle)) /
+            6;
+    }
+    return volume;
+}
+
 std::vector<Part> findParts(const TriangleMesh& mesh) {
     std::size_t count = 0;
     const std::vector<std::uint32_t> numbers = numberParts(mesh, count);
     std::vector<Part> parts(count);
-    const MeshReport report = measure(mesh);
-    const Vector3 middle = (toVector(report.low) + toVector(report.high)) / 2;
     for (std::uint32_t i = 0; i < numbers.size(); ++i) {
         Part& part = parts[numbers[i]];
         part.triangles.push_back(i);
-        std::array<Vector3, 3> corners;
-        for (std::size_t corner = 0; corner < 3; ++corner) {
-            corners[corner] = toVector(mesh.positions[mesh.triangles[i][corner]]) - middle;
-            part.box.extend(corners[corner]);
-        }
-        part.volume += corners[0].dot(corners[1].cross(corners[2])) / 6;
+        for (const std::uint32_t vertex : mesh.triangles[i])
+            part.box.extend(toVector(mesh.positions[vertex]));
     }
+    for (Part& part : parts) part.volume = volumeOf(mesh, part);
     findOpenParts(mesh, numbers, parts);
     return parts;
 }

@@ -439,6 +439,18 @@ TEST(Repair, TurnsPartsThatAreInsideOutAndKeepsCavities) {
               (std::pair{2.0, std::size_t{1}}));
 }
 
+// Seen from the middle of the file the volume of a speck is less than the rounding of its terms.
+TEST(Repair, TurnsNoSoundSpeckFarFromTheMiddle) {
+    Random random(4);
+    const auto coordinate = [&] { return static_cast<float>(900 + 100 * random.unit()); };
+    TriangleMesh mesh = box({0.1234567f, 0.2345678f, 0.3456789f}, {500, 500, 500});
+    for (int i = 0; i < 200; ++i) {
+        const Vec3 low{coordinate(), coordinate(), coordinate()};
+        mesh = joined(mesh, box(low, {low.x + 3e-4f, low.y + 3e-4f, low.z + 3e-4f}));
+    }
+    EXPECT_EQ(repaired(mesh).report.turnedParts, 0u);
+}
+
 TEST(Repair, SaysEachThingItDid) {
     TriangleMesh mesh = soup(generate("sphere", 24), 1e-7);
     const std::vector<std::string> joinedOnly = sentencesOf(repaired(mesh).report);
