@@ -20,6 +20,7 @@ public:
             steps_.push_back({edge.to, edge.from, edge.triangle});
         std::ranges::sort(steps_, {}, [](const Step& step) { return std::pair{step.from, step.to}; });
         isUsed_.resize(steps_.size());
+        skipped_.resize(steps_.size());
     }
     std::size_t openEdges() const { return steps_.size(); }
 
@@ -66,17 +67,19 @@ private:
         if (loop.vertices.size() >= 3) loops.push_back(std::move(loop));
     }
 
-    std::size_t nextFrom(std::uint32_t vertex) const {
-        auto step = std::ranges::lower_bound(steps_, vertex, {}, &Step::from);
-        for (; step != steps_.end() && step->from == vertex; ++step) {
-            const auto index = static_cast<std::size_t>(step - steps_.begin());
-            if (!isUsed_[index]) return index;
-        }
-        return steps_.size();
+    std::size_t nextFrom(std::uint32_t vertex) {
+        const auto step = std::ranges::lower_bound(steps_, vertex, {}, &Step::from);
+        const auto first = static_cast<std::size_t>(step - steps_.begin());
+        if (first == steps_.size()) return first;
+        std::size_t index = first + skipped_[first];
+        while (index < steps_.size() && steps_[index].from == vertex && isUsed_[index]) ++index;
+        skipped_[first] = index - first;
+        return index < steps_.size() && steps_[index].from == vertex ? index : steps_.size();
     }
 
     std::vector<Step> steps_;
     std::vector<bool> isUsed_;
+    std::vector<std::size_t> skipped_; ///< at the first step of a vertex: how many of its steps are used
 };
 
 OpenHole describe(const TriangleMesh& mesh, const Loop& loop) {

@@ -1,4 +1,5 @@
 // Parts that are inside out. A part is what hangs together across edges of two triangles.
+#include "mesh/point_tree.hpp"
 #include "mesh/repair_steps.hpp"
 #include "mesh/triangle_tree.hpp"
 
@@ -90,6 +91,25 @@ public:
                                  [&](std::uint32_t i) { return parts[i].box.volume(); });
         containers_.resize(std::min(containers_.size(), mostContainers));
         for (const Vec3& position : mesh.positions) positions_.push_back(toVector(position));
+        std::vector<Vec3> corners;
+        for (const Part& part : parts) corners.push_back(toVec3(part.box.min()));
+        std::vector<std::uint32_t> all(parts.size());
+        std::iota(all.begin(), all.end(), 0u);
+        lowCorners_.emplace(corners, all);
+    }
+
+    /// Ascending parts whose boxes may lie within the box of `container`, itself among them.
+    std::vector<std::uint32_t> candidatesWithin(std::uint32_t container) const {
+        const Eigen::AlignedBox3d& box = parts_[container].box;
+        Vector3 half = box.sizes() / 2, along = Vector3::Zero();
+        Eigen::Index longest = 0;
+        half.maxCoeff(&longest);
+        along[longest] = half[longest];
+        half[longest] = 0;
+        std::vector<std::uint32_t> found;
+        lowCorners_->findNear(box.center() - along, box.center() + along, half.norm() * 1.00001, found);
+        std::ranges::sort(found);
+        return found;
     }
 
     bool isWithinAny(std::uint32_t part) {
@@ -123,6 +143,7 @@ private:
     const std::vector<Part>& parts_;
     std::vector<std::uint32_t> containers_;
     std::vector<Vector3> positions_;
+    std::optional<PointTree> lowCorners_; ///< of the boxes of all parts
     std::map<std::uint32_t, TriangleTree> trees_;
 };
 
@@ -152,7 +173,7 @@ std::size_t turnParts(TriangleMesh& mesh) {
         if (!isInsideOut(parts[part]) || nesting.isWithinAny(part)) continue;
         ++count;
         isTurned[part] = true;
-        for (std::uint32_t inner = 0; inner < parts.size(); ++inner)
+        for (const std::uint32_t inner : nesting.candidatesWithin(part))
             if (parts[inner].isClosed && nesting.isWithin(inner, part)) isTurned[inner] = true;
     }
     for (std::size_t i = 0; i < parts.size(); ++i)

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -449,6 +450,40 @@ TEST(Repair, TurnsNoSoundSpeckFarFromTheMiddle) {
         mesh = joined(mesh, box(low, {low.x + 3e-4f, low.y + 3e-4f, low.z + 3e-4f}));
     }
     EXPECT_EQ(repaired(mesh).report.turnedParts, 0u);
+}
+
+TEST(Repair, TakesSecondsForManyPartsThatAreInsideOut) {
+    TriangleMesh mesh;
+    constexpr std::uint32_t side = 50;
+    for (std::uint32_t i = 0; i < side * side * side; ++i) {
+        const Vec3 p{static_cast<float>(i % side), static_cast<float>(i / side % side),
+                     static_cast<float>(i / side / side)};
+        mesh.positions.insert(mesh.positions.end(),
+                              {p, {p.x + 0.5f, p.y, p.z}, {p.x, p.y + 0.5f, p.z}, {p.x, p.y, p.z + 0.5f}});
+        const std::uint32_t a = 4 * i;
+        mesh.triangles.insert(
+            mesh.triangles.end(),
+            {{a, a + 1, a + 2}, {a, a + 3, a + 1}, {a, a + 2, a + 3}, {a + 1, a + 3, a + 2}});
+    }
+    const auto start = std::chrono::steady_clock::now();
+    const Result result = repaired(mesh);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+    EXPECT_EQ(result.report.turnedParts, side * side * side);
+}
+
+TEST(Repair, TakesSecondsForManyTrianglesAtOneVertex) {
+    TriangleMesh mesh;
+    constexpr std::uint32_t count = 300000;
+    for (std::uint32_t i = 0; i < 2 * count; ++i) {
+        const double angle = M_PI * i / count;
+        mesh.positions.push_back(toVec3(Vector3(std::cos(angle), std::sin(angle), 1e-3 * (i % 64))));
+    }
+    mesh.positions.push_back({0, 0, -1});
+    for (std::uint32_t i = 0; i < count; ++i) mesh.triangles.push_back({2 * i, 2 * i + 1, 2 * count});
+    const auto start = std::chrono::steady_clock::now();
+    const Result result = repaired(mesh, Repair::none);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+    EXPECT_EQ(result.report.openHoles, count);
 }
 
 TEST(Repair, SaysEachThingItDid) {
