@@ -65,7 +65,7 @@ TriangleMesh repair(TriangleMesh mesh, Repair how, MeshDefects& defects, Repairs
 /// triangles".
 std::vector<std::string> sentencesOf(const Repairs& report);
 /// What stays open and where: "38 boundary edges around 2 holes, the largest with 20 edges and a rim of 0.12
-/// around (1, 2, 3) in the file".
+/// in units of the file around (1, 2, 3)".
 std::string openText(const Repairs& report);
 
 } // namespace sinew::mesh

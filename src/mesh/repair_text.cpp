@@ -28,7 +28,7 @@ std::vector<std::string> sentencesOf(const Repairs& report) {
         if (count > 0) sentences.push_back(counted(count, one, many) + wasOrWere(count) + what);
     };
     say(report.joinedVertices, "vertex", "vertices",
-        "joined with another one nearer than " + shortNumber(report.tolerance));
+        "joined with another one nearer than " + shortNumber(report.tolerance) + " in units of the file");
     say(report.splitEdges, "edge", "edges", "split at T-junctions");
     say(report.removedTriangles, "triangle", "triangles",
         "removed: empty, double, sticking out or within the volume");
@@ -45,9 +45,9 @@ std::string openText(const Repairs& report) {
     if (report.openHoles == 0) return text;
     const OpenHole& hole = report.largest;
     return text + " around " + counted(report.openHoles, "hole", "holes") + ", the largest with " +
-           std::to_string(hole.edges) + " edges and a rim of " + shortNumber(hole.rim) + " around (" +
-           shortNumber(double{hole.middle.x}) + ", " + shortNumber(double{hole.middle.y}) + ", " +
-           shortNumber(double{hole.middle.z}) + ") in the file";
+           std::to_string(hole.edges) + " edges and a rim of " + shortNumber(hole.rim) +
+           " in units of the file around (" + shortNumber(double{hole.middle.x}) + ", " +
+           shortNumber(double{hole.middle.y}) + ", " + shortNumber(double{hole.middle.z}) + ")";
 }
 
 } // namespace sinew::mesh

@@ -491,16 +491,16 @@ TEST(Repair, SaysEachThingItDid) {
     const std::vector<std::string> joinedOnly = sentencesOf(repaired(mesh).report);
     ASSERT_EQ(joinedOnly.size(), 1u);
     EXPECT_NE(joinedOnly[0].find("vertices were joined with another one nearer than "), std::string::npos);
+    EXPECT_TRUE(joinedOnly[0].ends_with(" in units of the file")) << joinedOnly[0];
     const std::vector<std::string> closed = sentencesOf(repaired(without(unitBox, {0})).report);
     ASSERT_EQ(closed.size(), 1u);
     EXPECT_EQ(closed[0], "1 hole was closed: 3 edges, 1 new triangle");
     EXPECT_EQ(sentencesOf(repaired(withFlipped(unitBox, 1)).report),
               std::vector<std::string>{"1 closed part was inside out and turned"});
     EXPECT_TRUE(sentencesOf(repaired(unitBox).report).empty());
-    EXPECT_EQ(
-        openText(repaired(without(unitBox, {2, 3})).report),
-        "4 boundary edges around 1 hole, the largest with 4 edges and a rim of 4 around (0.5, 0.5, 1) in "
-        "the file");
+    EXPECT_EQ(openText(repaired(without(unitBox, {2, 3})).report),
+              "4 boundary edges around 1 hole, the largest with 4 edges and a rim of 4 in units of the file "
+              "around (0.5, 0.5, 1)");
 }
 
 TEST(Repair, OfAnImportIsDoneUnlessItIsSwitchedOff) {
