@@ -13,9 +13,10 @@
 namespace sinew::mesh {
 namespace {
 
-constexpr std::size_t mostMeasured = 16;  ///< components of one connected set of voxels
-constexpr std::size_t fewVertices = 1000; ///< of a component, to find the nearest pair by
-constexpr std::size_t manyVertices = 50'000;
+constexpr std::size_t mostMeasured = 16;      ///< components of one connected set of voxels
+constexpr std::size_t coarseTriangles = 1000; ///< up to so many, edges are cut in pieces
+constexpr std::size_t manyQueries = 100'000;  ///< from one component to another
+constexpr std::size_t allQueries = 400'000;   ///< among those of one connected set
 
 /// Numbers connected cells that are not empty, from 1.
 class Labels {
@@ -70,19 +71,35 @@ private:
 
 /// A component to measure distances from and to.
 struct Measured {
-    std::vector<Vector3> vertices; ///< three of each triangle
+    /// A piece of an edge.
+    struct Step {
+        Vector3 from, to;
+    };
+    std::vector<Step> steps; ///< the edges; those of a coarse mesh in pieces of about a voxel
     TriangleTree tree;
     Eigen::AlignedBox3d box;
 
     Measured(const TriangleMesh& mesh, const Component& component)
-        : tree(positionsOf(mesh, component, vertices), trianglesOf(component)) {
+        : tree(positionsOf(mesh, component), trianglesOf(component)) {
+        const std::vector<Vector3> vertices = positionsOf(mesh, component);
         for (const Vector3& vertex : vertices) box.extend(vertex);
+    }
+
+    void cut(const TriangleMesh& mesh, const Component& component, double voxel) {
+        const std::vector<Vector3> vertices = positionsOf(mesh, component);
+        const double most = component.triangles.size() > coarseTriangles ? 1 : 64;
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            const Vector3 from = vertices[i], edge = vertices[i % 3 == 2 ? i - 2 : i + 1] - from;
+            const double pieces = std::clamp(std::ceil(edge.norm() / voxel), 1.0, most);
+            for (double k = 0; k < pieces; ++k)
+                steps.push_back({from + edge * (k / pieces), from + edge * ((k + 1) / pieces)});
+        }
     }
 
 private:
     /// Three of each triangle in a row.
-    static std::vector<Vector3> positionsOf(const TriangleMesh& mesh, const Component& component,
-                                            std::vector<Vector3>& vertices) {
+    static std::vector<Vector3> positionsOf(const TriangleMesh& mesh, const Component& component) {
+        std::vector<Vector3> vertices;
         for (const std::uint32_t triangle : component.triangles)
             for (const std::uint32_t vertex : mesh.triangles[triangle])
                 vertices.push_back(toVector(mesh.positions[vertex]));
@@ -96,34 +113,52 @@ private:
     }
 };
 
-/// Least distance from at most `most` vertices of one to the other; 0 where one of them lies inside of it.
-double distance(const Measured& from, const Measured& to, std::size_t most) {
-    const std::size_t stride = from.vertices.size() / most + 1;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < from.vertices.size(); i += stride) {
-        if (to.box.contains(from.vertices[i]) && std::abs(to.tree.windingNumber(from.vertices[i])) > 0.5)
-            return 0;
-        if (to.box.exteriorDistance(from.vertices[i]) >= least) continue; // and so are all of its triangles
-        least = std::min(least, to.tree.distance(from.vertices[i]));
-    }
-    return least;
+bool reachesInto(const Measured::Step& step, const Measured& to) {
+    Eigen::AlignedBox3d box(step.from);
+    box.extend(step.to);
+    if (!to.box.intersects(box)) return false;
+    if (to.box.contains(step.from) && std::abs(to.tree.windingNumber(step.from)) > 0.5) return true;
+    const double length = (step.to - step.from).norm();
+    constexpr auto none = std::numeric_limits<std::uint32_t>::max();
+    return length > 0 && to.tree.firstHit(step.from, (step.to - step.from) / length, none).distance <= length;
 }
 
-/// The least distance of two that do not touch; infinite where all touch.
-double gapOf(const std::vector<Measured>& parts) {
-    double gap = std::numeric_limits<double>::infinity();
+/// Least distance from at most `most` points on the edges of one to the other; 0 where an edge of it meets or
+/// lies inside of the other, infinite where it is more than `limit`.
+double distance(const Measured& from, const Measured& to, std::size_t most, double limit) {
+    const std::size_t stride = from.steps.size() / most + 1;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < from.steps.size(); i += stride) {
+        if (reachesInto(from.steps[i], to)) return 0;
+        if (to.box.exteriorDistance(from.steps[i].from) >= std::min(least, limit)) continue;
+        least = std::min(least, to.tree.distance(from.steps[i].from));
+    }
+    return least <= limit ? least : std::numeric_limits<double>::infinity();
+}
+
+/// Adds what is between the components of one connected set of voxels.
+void compare(const TriangleMesh& mesh, const std::vector<const Component*>& set, double voxel,
+             Bridges& bridges) {
+    const double limit = 2 * std::sqrt(3.0) * voxel; // two diagonals: one voxel of each side
+    std::vector<Measured> parts;
+    for (std::size_t i = 0; i < set.size() && i < mostMeasured; ++i)
+        parts.emplace_back(mesh, *set[i]).cut(mesh, *set[i], voxel);
+    const std::size_t most = std::min(manyQueries, allQueries / (parts.size() * (parts.size() - 1)));
+    std::vector<bool> isJoined(parts.size());
     for (std::size_t a = 0; a < parts.size(); ++a)
         for (std::size_t b = a + 1; b < parts.size(); ++b) {
-            if (parts[a].box.exteriorDistance(parts[b].box) >= gap) continue;
-            const auto both = [&](std::size_t most) {
-                return std::min(distance(parts[a], parts[b], most), distance(parts[b], parts[a], most));
-            };
-            const double rough = both(fewVertices);
-            if (rough == 0 || rough > 2 * gap) continue;
-            const double exact = both(manyVertices);
-            if (exact > 0) gap = std::min(gap, exact);
+            if (parts[a].box.exteriorDistance(parts[b].box) > limit) continue;
+            const double there = distance(parts[a], parts[b], most, limit);
+            const double gap = there > 0 ? std::min(there, distance(parts[b], parts[a], most, limit)) : 0;
+            if (gap == 0) bridges.overlaps.push_back({set[a]->name, set[b]->name});
+            if (gap == 0 || gap > limit) continue;
+            isJoined[a] = isJoined[b] = true;
+            if (gap >= bridges.gap) continue;
+            bridges.gap = gap;
+            bridges.nearest = {set[a]->name, set[b]->name};
         }
-    return gap;
+    const auto joined = static_cast<std::size_t>(std::ranges::count(isJoined, true));
+    if (joined > 0) bridges.components += joined + set.size() - parts.size();
 }
 
 } // namespace
@@ -134,19 +169,19 @@ Bridges findBridges(const TriangleMesh& mesh, const std::vector<Component>& comp
     if (components.size() < 2) return {};
     const Labels labels(grid);
     const std::vector<Vector3> positions = toCellUnits(mesh, grid);
+    const auto labelOf = [&](const Component& component) {
+        for (const std::uint32_t triangle : component.triangles)
+            for (const std::uint32_t vertex : mesh.triangles[triangle])
+                if (const std::uint32_t label = labels.at(positions[vertex]); label != 0) return label;
+        return std::uint32_t{0}; // it has no voxels
+    };
     std::map<std::uint32_t, std::vector<const Component*>> sets;
     for (const Component& component : components)
-        sets[labels.at(positions[mesh.triangles[component.triangles.front()][0]])].push_back(&component);
-    for (const auto& [label, set] : sets) {
-        if (set.size() < 2) continue;
-        std::vector<Measured> parts;
-        for (std::size_t i = 0; i < set.size() && i < mostMeasured; ++i) parts.emplace_back(mesh, *set[i]);
-        const double gap = gapOf(parts);
-        if (!std::isfinite(gap)) continue;
-        bridges.components += set.size();
-        bridges.gap = std::min(bridges.gap, gap);
-    }
-    return bridges.components > 0 ? bridges : Bridges{};
+        if (const std::uint32_t label = labelOf(component); label != 0) sets[label].push_back(&component);
+    for (const auto& [label, set] : sets)
+        if (set.size() > 1) compare(mesh, set, double{grid.spacing}, bridges);
+    if (bridges.components == 0) bridges.gap = 0;
+    return bridges;
 }
 
 } // namespace sinew::mesh

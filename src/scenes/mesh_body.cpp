@@ -203,8 +203,10 @@ void addJoined(LoadedScene& loaded, const Section& section, const Found& found,
                                        longestSide(mesh::inspect(found.mesh)));
     noteComponents(loaded, "mesh " + found.file, components);
     if (section.has("parts")) return;
-    const std::string bridges =
-        bridgesText(mesh::findBridges(found.mesh, components, added.voxels), double{added.voxels.spacing});
+    const mesh::Bridges between = mesh::findBridges(found.mesh, components, added.voxels);
+    for (const std::string& overlap : overlapTexts(between))
+        loaded.notes.push_back("mesh " + found.file + ": " + overlap);
+    const std::string bridges = bridgesText(between, double{added.voxels.spacing});
     if (!bridges.empty())
         loaded.warnings.push_back(
             "mesh " + found.file + " " + bridges +

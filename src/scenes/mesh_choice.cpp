@@ -22,12 +22,14 @@ UnknownObject unknownObject(const mesh::TriangleMesh& mesh, const std::string& f
     const std::vector<std::string> known = mesh::names(mesh);
     const auto nearest = std::ranges::min_element(
         known, {}, [&](const std::string& other) { return editDistance(name.substr(0, 64), other); });
+    const bool isNear =
+        2 * editDistance(name.substr(0, 64), *nearest) <= std::max<std::size_t>(name.size(), 2);
     std::string list;
     for (std::size_t i = 0; i < known.size() && i < mostListed; ++i)
         list += (i == 0 ? "" : ", ") + quoted(known[i]);
     if (known.size() > mostListed) list += " and " + std::to_string(known.size() - mostListed) + " more";
     return {"names " + quoted(name) + ", which no object of " + file + " is called",
-            "did you mean " + quoted(*nearest) + "? There are " + list};
+            (isNear ? "did you mean " + quoted(*nearest) + "? There are " : "there are ") + list};
 }
 
 bool chooseObjects(mesh::TriangleMesh& mesh, const Section& section, const std::string& file) {

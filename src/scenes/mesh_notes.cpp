@@ -60,18 +60,33 @@ void noteComponents(LoadedScene& loaded, const std::string& name,
 std::string bridgesText(const mesh::Bridges& bridges, double voxel) {
     if (bridges.components == 0) return {};
     return "has " + std::to_string(bridges.components) + " components, " + lengthWithUnit(bridges.gap) +
-           " apart at the nearest, that voxels of " + lengthWithUnit(voxel) + " join";
+           " apart at the nearest (\"" + bridges.nearest[0] + "\" and \"" + bridges.nearest[1] +
+           "\"), that voxels of " + lengthWithUnit(voxel) + " join";
 }
 
-std::string thinText(double thickness, double longest, double voxel, bool saysVoxel) {
-    constexpr double finest = 512;                                       // cells along the longest side
-    if (!(thickness < 1.999 * voxel)) return {};                         // two, but for rounding
+std::vector<std::string> overlapTexts(const mesh::Bridges& bridges) {
+    constexpr std::size_t mostLines = 10;
+    std::vector<std::string> texts;
+    for (const auto& [one, other] : bridges.overlaps) {
+        if (texts.size() == mostLines) break;
+        texts.push_back("\"" + one + "\" and \"" + other + "\" touch or overlap");
+    }
+    if (bridges.overlaps.size() > mostLines)
+        texts.push_back(std::to_string(bridges.overlaps.size() - mostLines) + " more pairs touch or overlap");
+    return texts;
+}
+
+std::string thinText(double thickness, double longest, double voxel, bool saysVoxel, Words words) {
+    constexpr double finest = 512;               // cells along the longest side
+    if (!(thickness < 1.999 * voxel)) return {}; // two, but for rounding
+    if (thickness < 1e-6 * longest)
+        return "has no thickness at the thinnest 5 % of its surface: give it a wall in a mesh editor";
     const double resolution = std::ceil(2 * longest / thickness + 0.04); // as place_grid.cpp leaves free
     const double digit = std::pow(10, std::floor(std::log10(thickness / 2)) - 1);
     const double edge = std::floor(thickness / 2 / digit + 1e-3) * digit; // two digits, rounded down
-    std::string cure =
-        (saysVoxel ? "voxel = " + text("%.3g", edge) : "resolution = " + text("%.0f", resolution)) +
-        " gives two";
+    std::string cure = (saysVoxel ? setting(words, "voxel", text("%.3g", edge))
+                                  : setting(words, "resolution", text("%.0f", resolution))) +
+                       " gives two";
     if (resolution > finest)
         cure = "two would be " + text("%.0f", resolution) + " along its longest side, more than the " +
                text("%.0f", finest) + " that are possible";
@@ -101,8 +116,10 @@ void warnOfDefects(const MeshSummary& summary, std::vector<std::string>& warning
         warnings.push_back(name + ": " + std::to_string(summary.voxels.doubtful) + " of " +
                            std::to_string(summary.voxels.voxels.size()) +
                            " cells of its grid are doubtful: winding numbers decided");
-    const std::string why =
-        defects.isClosed() ? " passes through itself or is too thin for its voxels" : " stays open";
+    const std::string why = defects.boundaryEdges > 0 ? " stays open"
+                            : defects.nonManifoldEdges > 0
+                                ? " has edges with three or more triangles"
+                                : " passes through itself or is too thin for its voxels";
     if (summary.shown == mesh::Shown::wrapped)
         warnings.push_back(
             name + why +

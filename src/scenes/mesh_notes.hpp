@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenes/load.hpp"
+#include "scenes/place_mesh.hpp"
 #include "scenes/section.hpp"
 
 #include "mesh/bridges.hpp"
@@ -24,8 +25,12 @@ void noteSize(LoadedScene& loaded, const std::string& name, const Section& secti
 void noteComponents(LoadedScene& loaded, const std::string& name,
                     const std::vector<mesh::Component>& components);
 
-/// "has 2 components, 0.1 m apart at the nearest, that voxels of 0.2 m join"; empty where they join none.
+/// "has 2 components, 0.1 m apart at the nearest (\"part 1\" and \"part 2\"), that voxels of 0.2 m join";
+/// empty where they join none.
 std::string bridgesText(const mesh::Bridges& bridges, double voxel);
+
+/// "\"liver\" and \"tumour\" touch or overlap", for the first ten pairs.
+std::vector<std::string> overlapTexts(const mesh::Bridges& bridges);
 
 /// The share of a surface whose thickness is held against the voxels.
 constexpr double thinnestShare = 0.05;
@@ -33,7 +38,8 @@ constexpr double thinnestShare = 0.05;
 /// "is 6 mm thin ..., less than 2 voxels of 17 mm: resolution = 139 gives two", or which voxel does; empty
 /// where it is thicker. `thickness` is that of the thinnest share, `longest` the side that has as many voxels
 /// as the resolution, all in metres.
-std::string thinText(double thickness, double longest, double voxel, bool saysVoxel);
+std::string thinText(double thickness, double longest, double voxel, bool saysVoxel,
+                     Words words = Words::scene);
 
 /// Notes each repair of an imported mesh: "mesh liver.obj: 3 holes were closed: 14 edges, 8 new triangles".
 void noteRepairs(LoadedScene& loaded, const std::string& name, const mesh::Repairs& repairs);

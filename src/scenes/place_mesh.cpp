@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cstdio>
+#include <limits>
 #include <numbers>
 
 namespace sinew::scenes {
@@ -75,11 +77,15 @@ sim::Vec3 place(mesh::TriangleMesh& mesh, const Section& section, const std::arr
     const bool isSized = section.has("size");
     const double scale = isSized ? double{section.number("size")} / longest
                                  : findUnit(section.text("unit"))->metres * section.value("scale");
+    const char* scaledBy = isSized ? "size" : section.has("unit") ? "unit" : "scale";
     const Eigen::Matrix3d turn = turnOf(section);
     Eigen::Vector3d center = isSized ? middle : Eigen::Vector3d(middle * scale);
     if (section.has("center")) center = toEigen(section.point("center"));
     if (section.has("translation")) center = turn * middle * scale + toEigen(section.point("translation"));
     center -= toEigen(origin);
+    const std::string why = unplaceable(longest * scale, center.cwiseAbs().maxCoeff());
+    if (!why.empty())
+        section.fail(scaledBy, why, "check unit and scale, or move the mesh nearer to the first body");
     for (sim::Vec3& position : mesh.positions) {
         const Eigen::Vector3d placed = turn * (toDouble(position) - middle) * scale + center;
         position = {static_cast<float>(placed.x()), static_cast<float>(placed.y()),
@@ -88,14 +94,33 @@ sim::Vec3 place(mesh::TriangleMesh& mesh, const Section& section, const std::arr
     return {static_cast<float>(center.x()), static_cast<float>(center.y()), static_cast<float>(center.z())};
 }
 
-std::string oddSize(double longest, const LengthUnit& unit) {
+std::string setting(Words words, const std::string& key, const std::string& value) {
+    if (words == Words::scene) return key + " = " + value;
+    return "--" + key + " " + (value.starts_with('"') ? value.substr(1, value.size() - 2) : value);
+}
+
+std::string unplaceable(double longest, double farthest) {
+    constexpr double least = 1e-9, most = 1e9; // [m]
+    constexpr double steps = 64;               // of the coordinates, along the longest side
+    const auto metres = [](double length) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%.3g m", length);
+        return std::string(text);
+    };
+    const std::string makes = "makes the mesh " + metres(longest) + " long";
+    if (!(longest >= least && longest <= most)) return makes + ", and 1e-9 to 1e9 m are possible";
+    if (longest > steps * farthest * double{std::numeric_limits<float>::epsilon()}) return {};
+    return makes + ", too small for float32 coordinates that are " + metres(farthest) + " from 0";
+}
+
+std::string oddSize(double longest, const LengthUnit& unit, Words words) {
     if (longest <= longestUsual && longest >= shortestUsual) return {};
     for (const char* name : {"mm", longest > longestUsual ? "cm" : "m", "um"}) {
         const LengthUnit& other = *findUnit(name);
         const double then = longest * other.metres / unit.metres;
         if (&other != &unit && then <= longestUsual && then >= shortestUsual)
             return "is " + lengthWithUnit(longest) + " long: if the file is in " + std::string(other.word) +
-                   ", say unit = \"" + name + "\"";
+                   ", say " + setting(words, "unit", "\"" + std::string(name) + "\"");
     }
     return "is " + lengthWithUnit(longest) + " long: check its unit and scale";
 }

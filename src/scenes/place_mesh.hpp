@@ -23,7 +23,15 @@ std::string unitNames();
 /// several files of one patient keep their places to each other. Throws SceneError.
 sim::Vec3 place(mesh::TriangleMesh& mesh, const Section& section, const std::array<double, 3>& origin);
 
+/// How a cure names a setting: as a key of a scene, unit = "mm", or as an option, --unit mm.
+enum class Words { scene, commandLine };
+/// `value` as the scene has it, with quotes where it is text.
+std::string setting(Words words, const std::string& key, const std::string& value);
+
+/// Empty, or why float32 cannot hold a mesh `longest` metres long with coordinates up to `farthest` metres.
+std::string unplaceable(double longest, double farthest);
+
 /// Empty, or why a mesh `longest` metres long may have another unit than `unit` (not null).
-std::string oddSize(double longest, const LengthUnit& unit);
+std::string oddSize(double longest, const LengthUnit& unit, Words words = Words::scene);
 
 } // namespace sinew::scenes

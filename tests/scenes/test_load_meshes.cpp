@@ -1,6 +1,7 @@
 // Meshes in scenes: where they may come from, how they are placed, what is said about them.
 #include "mesh/generate.hpp"
 #include "scenes/load_fixture.hpp"
+#include "scenes/mesh_notes.hpp"
 
 using namespace sinew;
 namespace fs = std::filesystem;
@@ -383,10 +384,12 @@ TEST_F(Load, ChoosesObjectsOfAMesh) {
 TEST_F(Load, SaysWhereVoxelsJoinWhatIsApart) {
     write("gap.obj", objCube("", 1, {0, 0, 0}, 1) + objCube("", 9, {1.1f, 0, 0}, 1));
     const std::string scene = "[[mesh]]\nfile = \"gap.obj\"\nvoxel = ";
-    EXPECT_EQ(load(scene + "0.2\n").warnings,
-              std::vector<std::string>{
-                  "mesh gap.obj has 2 components, 0.1 m apart at the nearest, that voxels of 0.2 m join: "
-                  "parts = \"apart\" keeps them apart, parts = \"joined\" says that it is meant"});
+    EXPECT_EQ(
+        load(scene + "0.2\n").warnings,
+        std::vector<std::string>{
+            "mesh gap.obj has 2 components, 0.1 m apart at the nearest (\"part 1\" and \"part 2\"), that "
+            "voxels of 0.2 m join: "
+            "parts = \"apart\" keeps them apart, parts = \"joined\" says that it is meant"});
     EXPECT_EQ(load(scene + "0.025\n").warnings, std::vector<std::string>{});
     EXPECT_EQ(load(scene + "0.2\nparts = \"joined\"\n").warnings, std::vector<std::string>{});
     EXPECT_EQ(load(scene + "0.2\nparts = \"joined\"\n").scene.bodies.size(), 1u);
@@ -402,6 +405,51 @@ TEST_F(Load, SaysWhereVoxelsJoinWhatIsApart) {
     EXPECT_EQ(joined(objCube("", 1, {0, 0, 0}, 1) + objCube("", 9, {1.1f, 1.1f, 1.1f}, 1)), 1)
         << "voxels that share a corner are joined";
     EXPECT_EQ(joined(objCube("", 1, {0, 0, 0}, 1) + objCube("", 9, {1.7f, 0, 0}, 1)), 0);
+}
+
+// Crossed bars have no vertex inside of each other, and their vertices are far apart.
+TEST_F(Load, SaysThatCrossedBarsOverlapAndHowFarCoarseOnesAreApart) {
+    const auto bars = [](const std::string& low, const std::string& high) {
+        const std::string faces[] = {"f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n",
+                                     "f 9 11 12 10\nf 13 14 16 15\nf 9 10 14 13\nf 11 15 16 12\n"
+                                     "f 9 13 15 11\nf 10 12 16 14\n"};
+        std::string text;
+        for (const char* z : {" -0.05\n", " 0.05\n"})
+            for (const char* y : {" -0.05", " 0.05"})
+                for (const char* x : {"-0.5", "0.5"}) text += "v " + std::string(x) + y + z;
+        for (const std::string& z : {low, high})
+            for (const char* y : {" -0.5 ", " 0.5 "})
+                for (const char* x : {"-0.05", "0.05"}) text += "v " + std::string(x) + y + z + "\n";
+        return text + faces[0] + faces[1];
+    };
+    const std::string scene = "[[mesh]]\nfile = \"bars.obj\"\nvoxel = 0.04\n";
+    write("bars.obj", bars("-0.04", "0.04"));
+    const scenes::LoadedScene crossed = load(scene);
+    EXPECT_EQ(count(crossed.warnings, "that voxels of"), 0);
+    EXPECT_EQ(count(crossed.notes, "mesh bars.obj: \"part 1\" and \"part 2\" touch or overlap"), 1);
+    write("bars.obj", bars("0.06", "0.16"));
+    const scenes::LoadedScene apart = load(scene);
+    EXPECT_EQ(count(apart.warnings, "10 mm apart at the nearest (\"part 1\" and \"part 2\")"), 1);
+    EXPECT_EQ(count(apart.notes, "overlap"), 0);
+}
+
+TEST_F(Load, RefusesAMeshThatFloatsCannotHold) {
+    write("cube.obj", objCube("", 1, {0, 0, 0}, 1));
+    const std::string mesh = "[[mesh]]\nfile = \"cube.obj\"\n";
+    expectError(
+        "[[box]]\nspacing = 0.5\norigin = [0, 0, 0]\n" + mesh + "unit = \"um\"\ncenter = [0, 100, 0]\n",
+        "scene.toml:6: mesh[0].unit makes the mesh 1e-06 m long, too small for float32 coordinates that "
+        "are 100 m from 0: check unit and scale");
+    expectError(mesh + "scale = 1e-12\n",
+                "scene.toml:3: mesh[0].scale makes the mesh 1e-12 m long, and 1e-9 to 1e9 m are possible");
+}
+
+TEST_F(Load, SaysThatAMeshHasNoThickness) {
+    for (const double thickness : {0.0, 1e-17}) {
+        const std::string text = scenes::thinText(thickness, 1, 0.04, false);
+        EXPECT_EQ(text,
+                  "has no thickness at the thinnest 5 % of its surface: give it a wall in a mesh editor");
+    }
 }
 
 TEST_F(Load, KeepsComponentsApart) {

@@ -58,6 +58,7 @@ TEST_F(Usage, WrongUsageIsCodeTwoAndPointsAtTheRightHelp) {
         {"mesh", "a.obj", "--particles", "7"},
         {"mesh", "a.obj", "--unit", "parsec"},
         {"mesh", "a.obj", "--scale", "0"},
+        {"mesh", "a.obj", "--scale", "1e38"},
         {"mesh", "a.obj", "--particles", "70", "--voxel", "1"},
         {"bench", "--scene", "heap"},
         {"bench", "--seconds", "0"},
@@ -144,6 +145,22 @@ TEST_F(Usage, MeshTakesUnitScaleAndObject) {
     EXPECT_NEAR(report({"--unit", "cm", "--scale", "2"})["surface"]["high"][0].get<double>(), 0.1, 1e-6);
     expectOneError(run({"mesh", mesh.string(), "--object", "galll"}, noDevice), 3,
                    "which no object of " + mesh.string() + " is called: did you mean \"gall\"?");
+    const Outcome strange = run({"mesh", mesh.string(), "--object", "kidney"}, noDevice);
+    expectOneError(strange, 3, "is called: there are \"liver\", \"gall\"");
+    expectOneError(run({"mesh", mesh.string(), "--scale", "1e-30"}, noDevice), 3,
+                   "--unit m with --scale 1e-30 makes the mesh 5e-30 m long");
+}
+
+TEST_F(Usage, MeshSpeaksOfHolesInWhatWasChosenAlone) {
+    const auto mesh =
+        write("two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 3 0 0\nv 5 0 0\nv 3 2 0\nv 3 0 2\n"
+                         "o liver\nf 1 3 2\nf 1 2 4\nf 1 4 3\no gall\nf 5 7 6\nf 5 6 8\nf 5 8 7\n"
+                         "f 6 7 8\n");
+    const auto text = [&](const std::string& object) {
+        return run({"mesh", mesh.string(), "--object", object}, noDevice).out;
+    };
+    EXPECT_NE(text("liver").find("  open      3 boundary edges"), std::string::npos);
+    EXPECT_EQ(text("gall").find("  open "), std::string::npos);
 }
 
 TEST_F(Usage, MeshSaysWhatIsLikelyToSurprise) {
@@ -154,9 +171,10 @@ TEST_F(Usage, MeshSaysWhatIsLikelyToSurprise) {
                          "f 9 11 10\nf 9 10 12\nf 9 12 11\nf 10 11 12\n");
     const Outcome outcome = run({"mesh", mesh.string(), "--voxel", "2"}, noDevice);
     for (const std::string sentence :
-         {" is 40 m long: if the file is in millimetres, say unit = \"mm\"\n",
-          " has 2 components, 1 m apart at the nearest, that voxels of 2 m join\n",
-          " is 1 m thin at the thinnest 5 % of its surface, less than 2 voxels of 2 m: voxel = 0.5 gives "
+         {" is 40 m long: if the file is in millimetres, say --unit mm\n",
+          " has 2 components, 1 m apart at the nearest (\"part 1\" and \"part 2\"), that voxels of 2 m "
+          "join\n",
+          " is 1 m thin at the thinnest 5 % of its surface, less than 2 voxels of 2 m: --voxel 0.5 gives "
           "two\n"})
         EXPECT_NE(outcome.error.find("warning: " + mesh.string() + sentence), std::string::npos)
             << sentence << outcome.error;

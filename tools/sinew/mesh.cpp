@@ -20,6 +20,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -49,6 +50,7 @@ struct Findings {
     mesh::Repairs repairs;
     std::vector<mesh::Component> components;
     mesh::VoxelGrid voxels;
+    mesh::Bridges bridges;
     std::string filledBy; // name of a device, or "host"
     std::vector<std::string> validationMessages;
     std::size_t bytes() const {
@@ -111,6 +113,21 @@ void chooseObjects(const MeshOptions& options, mesh::TriangleMesh& mesh, mesh::M
     defects = mesh::inspect(mesh).defects;
 }
 
+// `surface` is as it is in the file, `factor` makes metres of it.
+void checkScale(const MeshOptions& options, const mesh::MeshReport& surface, double factor) {
+    double longest = 0, farthest = 0;
+    for (float mesh::Vec3::*axis : {&mesh::Vec3::x, &mesh::Vec3::y, &mesh::Vec3::z}) {
+        const double low = double{surface.low.*axis}, high = double{surface.high.*axis};
+        longest = std::max(longest, high - low);
+        farthest = std::max(farthest, std::abs(low + high) / 2);
+    }
+    const std::string why = scenes::unplaceable(longest * factor, farthest * factor);
+    if (!why.empty())
+        throw app::Failure(app::badInput,
+                           fmt::format("cannot scale mesh: {}: --unit {} with --scale {:g} {}: give another",
+                                       options.file, options.unit, options.scale, why));
+}
+
 Findings inspect(const MeshOptions& options) {
     Findings found{.file = options.file};
     mesh::MeshDefects defects;
@@ -118,6 +135,7 @@ Findings inspect(const MeshOptions& options) {
         mesh::importMesh(options.file, defects, {}, *mesh::findRepair(options.repair), &found.repairs);
     chooseObjects(options, found.mesh, defects);
     const double factor = scenes::findUnit(options.unit)->metres * double{options.scale};
+    checkScale(options, mesh::inspect(found.mesh), factor);
     for (mesh::Vec3& position : found.mesh.positions)
         for (float mesh::Vec3::*axis : {&mesh::Vec3::x, &mesh::Vec3::y, &mesh::Vec3::z})
             position.*axis = static_cast<float>(factor * double{position.*axis});
@@ -130,6 +148,7 @@ Findings inspect(const MeshOptions& options) {
         throw app::Failure(app::badInput, "cannot fill mesh: " + options.file + ": " + error.what() +
                                               ": use a larger --voxel");
     }
+    found.bridges = mesh::findBridges(found.mesh, found.components, found.voxels);
     return found;
 }
 
@@ -203,10 +222,14 @@ std::string toText(const Findings& found) {
                         defects.flippedEdges, defects.degenerateTriangles, defects.duplicateTriangles);
     for (const std::string& sentence : mesh::sentencesOf(found.repairs))
         text += fmt::format("  repaired  {}\n", sentence);
-    if (found.repairs.openEdges > 0)
+    if (defects.boundaryEdges > 0)
         text += fmt::format("  open      {}: close it in a mesh editor if the mesh is to have an inside\n",
-                            mesh::openText(found.repairs));
+                            found.repairs.openEdges == defects.boundaryEdges
+                                ? mesh::openText(found.repairs)
+                                : fmt::format("{} boundary edges", defects.boundaryEdges));
     text += componentsText(found.components);
+    for (const std::string& sentence : scenes::overlapTexts(found.bridges))
+        text += fmt::format("  overlap   {}\n", sentence);
     text +=
         fmt::format("  voxels    {} hull + {} core of {} x {} x {}, edge {:.4g} m, {} of {} cells doubtful\n",
                     grid.hullCount, grid.coreCount, grid.cells[0], grid.cells[1], grid.cells[2], grid.spacing,
@@ -227,10 +250,10 @@ std::vector<std::string> surprises(const MeshOptions& options, const Findings& f
                                      double{surface.high.z} - double{surface.low.z}}),
                  voxel = double{found.voxels.spacing};
     std::vector<std::string> sentences{
-        scenes::oddSize(longest, *scenes::findUnit(options.unit)),
-        scenes::bridgesText(mesh::findBridges(found.mesh, found.components, found.voxels), voxel),
+        scenes::oddSize(longest, *scenes::findUnit(options.unit), scenes::Words::commandLine),
+        scenes::bridgesText(found.bridges, voxel),
         scenes::thinText(mesh::wallThickness(found.mesh, scenes::thinnestShare), longest, voxel,
-                         options.voxel > 0 || options.particles)};
+                         options.voxel > 0 || options.particles, scenes::Words::commandLine)};
     std::erase(sentences, "");
     return sentences;
 }
@@ -268,6 +291,7 @@ void addMesh(CLI::App& app, Chosen& chosen) {
         ->capture_default_str();
     command.add_option("--scale", options->scale, "factor on the coordinates, beside --unit")
         ->check(CLI::PositiveNumber)
+        ->check(CLI::Range(0.0, 1e6, "at most 1e6"))
         ->capture_default_str();
     CLI::Option* voxel = command.add_option("--voxel", options->voxel, "edge of a voxel [m]");
     voxel->check(CLI::PositiveNumber);
