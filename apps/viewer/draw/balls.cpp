@@ -78,6 +78,12 @@ std::uint32_t cutsFor(std::size_t balls) {
     return balls <= 3'000 ? 2 : balls <= 40'000 ? 1 : 0;
 }
 
+std::size_t countOf(const BallList& list) {
+    std::size_t balls = 0;
+    for (const BallRange& range : list.ranges) balls += range.count;
+    return balls;
+}
+
 BallMesh icosahedron() {
     const float a = 0.52573111f, b = 0.85065081f; // 1 and the golden ratio, on the unit ball
     BallMesh ball;
@@ -166,11 +172,12 @@ BallMesh makeBall(std::uint32_t cuts) {
     return ball;
 }
 
-Balls::Balls(const vk::Device& device, const BallList& list) : device_(device), ranges_(list.ranges) {
+Balls::Balls(const vk::Device& device, const BallList& list) : Balls(device, list, cutsFor(countOf(list))) {}
+
+Balls::Balls(const vk::Device& device, const BallList& list, std::uint32_t cuts)
+    : device_(device), ranges_(list.ranges) {
     if (ranges_.empty()) return;
-    std::size_t balls = 0;
-    for (const BallRange& range : ranges_) balls += range.count;
-    const BallMesh ball = makeBall(cutsFor(balls));
+    const BallMesh ball = makeBall(cuts);
     buffers_.push_back(
         filledBuffer(device, "balls.corners", ball.corners, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT));
     buffers_.push_back(filledBuffer(device, "balls.radii", list.radii, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT));

@@ -41,6 +41,8 @@ BallMesh makeBall(std::uint32_t cuts);
 class Balls {
 public:
     Balls(const vk::Device& device, const BallList& list);
+    /// Of makeBall(cuts).
+    Balls(const vk::Device& device, const BallList& list, std::uint32_t cuts);
 
     const std::vector<BallRange>& ranges() const noexcept { return ranges_; }
     /// Binds vertices (binding 0), positions (1), removedParticles() (2) and radii (3), and indices; values

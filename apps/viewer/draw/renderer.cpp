@@ -58,7 +58,7 @@ Renderer::Renderer(const vk::Device& device, const Target& target, const Quality
                                          .depth = format_.depth,
                                          .samples = format_.samples,
                                          .finalLayout = target.finalLayout})),
-      sets_(device, maps_, slots), balls_(device, light.balls), marks_(device, light.marks), hand_(device),
+      sets_(device, maps_, slots), balls_(device, light.balls), marks_(device, light.marks, 0), hand_(device),
       strokes_(device, {.name = "strokes",
                         .count = slots * pointsASlot,
                         .stride = sizeof(sim::layout::vec4),
