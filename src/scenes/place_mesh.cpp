@@ -101,7 +101,7 @@ std::string setting(Words words, const std::string& key, const std::string& valu
 
 std::string unplaceable(double longest, double farthest) {
     constexpr double least = 1e-9, most = 1e9; // [m]
-    constexpr double steps = 64;               // of the coordinates, along the longest side
+    constexpr double steps = 4; // of the coordinates, along the longest side; fewer leave no triangles
     const auto metres = [](double length) {
         char text[32];
         std::snprintf(text, sizeof text, "%.3g m", length);
