@@ -1,6 +1,7 @@
 // Components by union-find over vertices; cavities by winding numbers.
 #include "mesh/components.hpp"
 
+#include "mesh/disjoint_sets.hpp"
 #include "mesh/topology.hpp"
 #include "mesh/triangle_tree.hpp"
 #include "mesh/vector3.hpp"
@@ -10,31 +11,11 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <numeric>
 
 namespace sinew::mesh {
 namespace {
 
 constexpr std::size_t mostHosts = 1000; ///< cavities are looked for in so many of the largest components
-
-/// Disjoint sets of vertices; each has its first vertex as its root.
-class Sets {
-public:
-    explicit Sets(std::size_t size) : parents_(size) { std::iota(parents_.begin(), parents_.end(), 0u); }
-
-    std::uint32_t root(std::uint32_t item) {
-        while (parents_[item] != item) item = parents_[item] = parents_[parents_[item]];
-        return item;
-    }
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = root(a);
-        b = root(b);
-        parents_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<std::uint32_t> parents_;
-};
 
 /// Connected triangles, before cavities are joined with what is around them.
 struct Surface {
@@ -59,7 +40,7 @@ void measure(const TriangleMesh& mesh, Surface& surface) {
 }
 
 std::vector<Surface> surfacesOf(const TriangleMesh& mesh) {
-    Sets sets(mesh.positions.size());
+    DisjointSets sets(mesh.positions.size());
     for (const auto& [a, b, c] : mesh.triangles) {
         sets.join(a, b);
         sets.join(b, c);

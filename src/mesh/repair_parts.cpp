@@ -1,4 +1,5 @@
 // Parts that are inside out. A part is what hangs together across edges of two triangles.
+#include "mesh/disjoint_sets.hpp"
 #include "mesh/point_tree.hpp"
 #include "mesh/repair_steps.hpp"
 #include "mesh/triangle_tree.hpp"
@@ -17,23 +18,6 @@ struct Part {
     bool isClosed = true;
     double volume = 0; ///< signed
     Eigen::AlignedBox3d box;
-};
-
-class Sets {
-public:
-    explicit Sets(std::size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0u); }
-    std::uint32_t find(std::uint32_t i) {
-        while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
-        return i;
-    }
-    void unite(std::uint32_t a, std::uint32_t b) {
-        a = find(a);
-        b = find(b);
-        parents_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<std::uint32_t> parents_;
 };
 
 /// A part is closed where as many of its triangles run one way along each edge as the other.
@@ -150,15 +134,15 @@ private:
 } // namespace
 
 std::vector<std::uint32_t> numberParts(const TriangleMesh& mesh, std::size_t& count, Across across) {
-    Sets sets(mesh.triangles.size());
+    DisjointSets sets(mesh.triangles.size());
     forEachEdge(mesh.triangles, [&](std::span<const HalfEdge> sides) {
         if (sides.size() > 2 && across == Across::pairs) return;
-        for (const HalfEdge& side : sides) sets.unite(sides.front().triangle, side.triangle);
+        for (const HalfEdge& side : sides) sets.join(sides.front().triangle, side.triangle);
     });
     std::vector<std::uint32_t> numbers(mesh.triangles.size());
     count = 0;
     for (std::uint32_t i = 0; i < numbers.size(); ++i)
-        numbers[i] = sets.find(i) == i ? static_cast<std::uint32_t>(count++) : numbers[sets.find(i)];
+        numbers[i] = sets.root(i) == i ? static_cast<std::uint32_t>(count++) : numbers[sets.root(i)];
     return numbers;
 }
 
