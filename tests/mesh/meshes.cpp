@@ -60,6 +60,10 @@ TriangleMesh withFlipped(TriangleMesh mesh, std::size_t step) {
     return mesh;
 }
 
+TriangleMesh inverted(TriangleMesh mesh) {
+    return withFlipped(std::move(mesh), 1);
+}
+
 double windingNumber(const TriangleMesh& mesh, const Vector3& point) {
     double turns = 0;
     for (const auto& [i, j, k] : mesh.triangles) {

@@ -25,6 +25,9 @@ TriangleMesh openedAbove(const TriangleMesh& mesh, float height);
 /// Every `step`th triangle turned over.
 TriangleMesh withFlipped(TriangleMesh mesh, std::size_t step);
 
+/// Every triangle turned over.
+TriangleMesh inverted(TriangleMesh mesh);
+
 /// Winding number by the plain sum over all triangles.
 double windingNumber(const TriangleMesh& mesh, const Vector3& point);
 

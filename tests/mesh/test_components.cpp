@@ -14,11 +14,6 @@ using namespace sinew::mesh::test;
 
 namespace {
 
-TriangleMesh inwards(TriangleMesh mesh) {
-    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
-    return mesh;
-}
-
 TriangleMesh cube(float low, float high) {
     return box({low, low, low}, {high, high, high});
 }
@@ -64,24 +59,24 @@ TEST(Components, OfAnOpenMeshSaySo) {
 }
 
 TEST(Components, HoldTheirCavities) {
-    TriangleMesh hollow = joined(cube(0, 4), inwards(cube(1, 2)));
+    TriangleMesh hollow = joined(cube(0, 4), inverted(cube(1, 2)));
     EXPECT_EQ(describeAll(hollow), std::vector<std::string>{"\"part 1\": 24 triangles, 63 m^3, 1 cavity"});
-    hollow = joined(hollow, inwards(cube(2.5f, 3.5f)));
+    hollow = joined(hollow, inverted(cube(2.5f, 3.5f)));
     EXPECT_EQ(describeAll(hollow), std::vector<std::string>{"\"part 1\": 36 triangles, 62 m^3, 2 cavities"});
 
     const TriangleMesh stone = joined(hollow, cube(1.25f, 1.75f)); // lies in the first cavity
     EXPECT_EQ(describeAll(stone), (std::vector<std::string>{"\"part 1\": 36 triangles, 62 m^3, 2 cavities",
                                                             "\"part 2\": 12 triangles, 0.125 m^3"}));
-    const TriangleMesh nested = joined(stone, inwards(cube(1.4f, 1.5f)));
+    const TriangleMesh nested = joined(stone, inverted(cube(1.4f, 1.5f)));
     EXPECT_EQ(components(nested)[0].cavities, 2u);
     EXPECT_EQ(components(nested)[1].cavities, 1u) << "goes to the smallest around it";
 
-    EXPECT_EQ(components(joined(cube(0, 4), inwards(cube(5, 6)))).size(), 2u) << "beside, not inside";
-    EXPECT_NEAR(components(joined(cube(0, 4), inwards(cube(5, 6))))[1].volume, 1, 1e-6);
+    EXPECT_EQ(components(joined(cube(0, 4), inverted(cube(5, 6)))).size(), 2u) << "beside, not inside";
+    EXPECT_NEAR(components(joined(cube(0, 4), inverted(cube(5, 6))))[1].volume, 1, 1e-6);
     EXPECT_EQ(components(joined(cube(0, 4), cube(1, 2))).size(), 2u) << "turned outward it is a body inside";
     TriangleMesh tube = generate("tube", 16);
     const std::size_t parts = components(tube).size();
-    EXPECT_EQ(components(joined(tube, inwards(scaled(cube(-0.5f, 0.5f), 1e-3f)))).size(), parts + 1)
+    EXPECT_EQ(components(joined(tube, inverted(scaled(cube(-0.5f, 0.5f), 1e-3f)))).size(), parts + 1)
         << "in the middle of a tube, outside of it";
 }
 

@@ -48,11 +48,6 @@ double massOf(const sim::Scene& scene) {
     return mass;
 }
 
-TriangleMesh inverted(TriangleMesh mesh) {
-    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
-    return mesh;
-}
-
 /// About the axes x and z.
 TriangleMesh turned(TriangleMesh mesh, double degrees) {
     const double angle = degrees * std::numbers::pi / 180;

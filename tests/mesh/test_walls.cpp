@@ -13,30 +13,23 @@
 using namespace sinew::mesh;
 using namespace sinew::mesh::test;
 
-namespace {
-
-TriangleMesh inwards(TriangleMesh mesh) {
-    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
-    return mesh;
-}
-
-} // namespace
+namespace {} // namespace
 
 TEST(WallThickness, OfAPlateIsItsThickness) {
     EXPECT_NEAR(wallThickness(box({-0.2f, 0, -0.2f}, {0.2f, 0.006f, 0.2f}), 0.05), 0.006, 1e-8);
     EXPECT_NEAR(wallThickness(box({-0.2f, 5, -0.2f}, {0.2f, 5.006f, 0.2f}), 0.05), 0.006, 1e-6);
-    EXPECT_NEAR(wallThickness(inwards(box({0, 0, 0}, {4, 0.1f, 3})), 0.05), 0.1, 1e-6)
+    EXPECT_NEAR(wallThickness(inverted(box({0, 0, 0}, {4, 0.1f, 3})), 0.05), 0.1, 1e-6)
         << "whichever way round";
     EXPECT_NEAR(wallThickness(box({0, 0, 0}, {1, 1, 1}), 0.05), 1, 1e-6);
 }
 
 TEST(WallThickness, OfAShellIsThatBetweenItsTwoSurfaces) {
     const TriangleMesh outer = box({0, 0, 0}, {1, 1, 1});
-    EXPECT_NEAR(wallThickness(joined(outer, inwards(box({0.1f, 0.1f, 0.1f}, {0.9f, 0.9f, 0.9f}))), 0.05), 0.1,
-                1e-6);
+    EXPECT_NEAR(wallThickness(joined(outer, inverted(box({0.1f, 0.1f, 0.1f}, {0.9f, 0.9f, 0.9f}))), 0.05),
+                0.1, 1e-6);
     const TriangleMesh ball = generate("sphere", 64);
     const double radius = double{inspect(ball).high.x};
-    EXPECT_NEAR(wallThickness(joined(ball, inwards(scaled(ball, 0.9f))), 0.05), 0.1 * radius, 0.01 * radius);
+    EXPECT_NEAR(wallThickness(joined(ball, inverted(scaled(ball, 0.9f))), 0.05), 0.1 * radius, 0.01 * radius);
     EXPECT_NEAR(wallThickness(ball, 0.05), 2 * radius, 0.1 * radius);
 }
 
