@@ -21,7 +21,7 @@ sim::Material materialOf(const Knobs& knobs, const Knobs& fromFile);
 /// `knobs` turned so that this is their material.
 Knobs turnedTo(const sim::Material& material, Knobs knobs, const Knobs& fromFile);
 
-/// Of the links that hold, in what `probe` has recorded of the scene.
+/// Strain of the links that are not cut, in the state that `probe` recorded last.
 Strain measureStrain(const sim::Scene& scene, StateProbe& probe);
 
 /// Collects what changes.
@@ -35,7 +35,7 @@ public:
     void stepTimed(std::span<const double> milliseconds);
     void stepFinished(const sim::Status& status);
     void strainMeasured(const Strain& strain);
-    /// Of a state in which something is cut; until the next one, what was counted is shown.
+    /// Sets the number of pieces that is shown until the next call.
     void piecesCounted(const app::PieceCount& count) { facts_.pieces = count; }
     const app::PieceCount& pieces() const { return facts_.pieces; }
     /// After a reset, or a way back.

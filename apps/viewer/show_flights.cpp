@@ -81,7 +81,7 @@ bool Show::isStrainDue(std::uint32_t steps) {
     return isDue;
 }
 
-// Of the newest cuts.
+// True where something was cut since the last count and a quarter of a second has passed.
 bool Show::isCountDue() {
     const auto now = Clock::now();
     if (!wantsCount_ || now - lastCount_ < std::chrono::duration<double>(countEvery)) return false;

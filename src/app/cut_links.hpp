@@ -10,7 +10,7 @@
 
 namespace sinew::app {
 
-/// Where the device keeps the bits of each link.
+/// Finds the bits that the device keeps for each link.
 class CutLinks {
 public:
     /// `slot` is sim::StateLayout::slot of the scene.
@@ -29,7 +29,7 @@ private:
     std::vector<Place> places_;
 };
 
-/// Of links, (length - rest length) / rest length.
+/// Strain over links: (length - rest length) / rest length.
 struct LinkStrain {
     double rms = 0, largest = 0; ///< root of the mean square; largest absolute value
     std::size_t links = 0;       ///< 0: the others mean nothing

@@ -28,7 +28,7 @@ struct Drawn {
 Drawn downloadDrawn(vk::Queue& queue, const sim::Simulation& simulation, const sim::Scene& scene,
                     const sim::Settings& settings);
 
-/// Which triangles there are, without vertices: enough for everything below. The copies of topologyViews()
+/// The triangles that are drawn, without vertices: enough for everything below. The copies of topologyViews()
 /// come from `read`, which writes all bytes of a view to the address.
 using ReadView = std::function<void(const vk::BufferView& view, void* bytes)>;
 Drawn readTopology(const ReadView& read, const sim::Simulation& simulation, const sim::Scene& scene,

@@ -40,7 +40,7 @@ private:
     std::map<std::string, std::uint32_t> numbers_;
 };
 
-/// What is read in place of a file, and the objects of its triangles.
+/// The text that is read in place of a file, and the objects of its triangles.
 struct Reduced {
     std::string text;
     ObjectNames names;
@@ -49,7 +49,7 @@ struct Reduced {
     std::vector<std::uint32_t> objects;
 };
 
-/// What the child reads: the corners of all triangles, 3 x 3 floats each, counter-clockwise from outside, and
+/// The child's answer: the corners of all triangles, 3 x 3 floats each, counter-clockwise from outside, and
 /// the object of each in `names`. No objects where none has a name.
 struct Soup {
     std::vector<float> corners;

@@ -69,7 +69,7 @@ void PointTree::visit(std::size_t first, std::size_t count, int axis, double fro
     test(points_[first + half]);
     const double plane = coordinate(points_[first + half].position, axis);
     const double start = query.a[axis], step = query.b[axis] - query.a[axis];
-    // Where the segment passes the planes in front of and behind `plane` by the radius.
+    // The shares of the segment on either side of `plane`, widened by the radius.
     double lowFrom = from, lowTo = to, highFrom = from, highTo = to;
     const double toHigh = plane + query.radius - start, toLow = plane - query.radius - start;
     if (step > 0) {

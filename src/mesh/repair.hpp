@@ -37,7 +37,7 @@ struct OpenHole {
     Vec3 middle;    ///< mean of its vertices
 };
 
-/// What repair() did, and what it left.
+/// The work of repair(), and the faults that it left.
 struct Repairs {
     Repair how = Repair::none;
     double tolerance = 0;             ///< for near vertices [units of the mesh]
@@ -64,8 +64,8 @@ TriangleMesh repair(TriangleMesh mesh, Repair how, MeshDefects& defects, Repairs
 /// A sentence for each thing that was done, with counts, such as "3 holes of 14 edges were closed with 8
 /// triangles".
 std::vector<std::string> sentencesOf(const Repairs& report);
-/// What stays open and where: "38 boundary edges around 2 holes, the largest with 20 edges and a rim of 0.12
-/// in units of the file around (1, 2, 3)".
+/// The edges that stay open and their place: "38 boundary edges around 2 holes, the largest with 20 edges and
+/// a rim of 0.12 in units of the file around (1, 2, 3)".
 std::string openText(const Repairs& report);
 
 } // namespace sinew::mesh

@@ -24,7 +24,7 @@ public:
     }
     std::size_t openEdges() const { return steps_.size(); }
 
-    /// Where a vertex is met again, the loop since then is cut off: loops that touch in a vertex part there.
+    /// A loop is cut off as soon as a vertex is met again, so loops that touch in a vertex part there.
     std::vector<Loop> trace() {
         std::vector<Loop> loops;
         for (std::size_t seed = 0; seed < steps_.size(); ++seed)

@@ -44,7 +44,7 @@ std::size_t removeSingles(TriangleMesh& mesh) {
     return count;
 }
 
-/// What hangs together across edges of two triangles, and the crowded edges around it.
+/// Triangles connected across edges of two triangles, and the crowded edges around them.
 struct Sheet {
     std::vector<std::uint32_t> triangles;
     std::vector<std::size_t> edges;

@@ -1,4 +1,4 @@
-// What repair() did, in sentences.
+// The report of repair() in sentences.
 #include "mesh/repair.hpp"
 
 #include <cstdio>

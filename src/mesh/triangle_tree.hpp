@@ -27,7 +27,7 @@ public:
     /// Distance from `point` to the nearest triangle; infinite for an empty mesh.
     double distance(const Vector3& point) const;
 
-    /// Where a ray first meets a triangle.
+    /// The first point at which a ray meets a triangle.
     struct Hit {
         double distance = std::numeric_limits<double>::infinity(); ///< infinite where it meets none
         std::uint32_t triangle = 0;

@@ -1,4 +1,4 @@
-// Where the keys `unit`, `scale`, `size`, `rotation`, `center` and `translation` put a mesh.
+// Places a mesh by the keys `unit`, `scale`, `size`, `rotation`, `center` and `translation`.
 #pragma once
 
 #include "scenes/section.hpp"

@@ -34,7 +34,7 @@ void hold(Scene& scene, std::span<const std::uint32_t> particles);
 void drive(Scene& scene, std::vector<std::uint32_t> particles, std::vector<Keyframe> path,
            PathEnd end = PathEnd::hold);
 
-/// What a scene calls particles that it holds, or drives.
+/// The name that a scene gives to particles that it holds or drives.
 struct NamedHold {
     std::string name;
     std::vector<std::uint32_t> particles; ///< ascending

@@ -1,4 +1,4 @@
-// What a host did wrong while it recorded, each kind told once. Recording may neither throw nor allocate: it
+// Mistakes of a host while it recorded, each kind told once. Recording may neither throw nor allocate: it
 // notes numbers, and the sentences are made when the host asks for them.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What a state fits to: two scenes with one key differ in material alone.
+// A key of the scenes that a state fits to: two scenes with one key differ in material alone.
 #pragma once
 
 #include "sim/scene.hpp"

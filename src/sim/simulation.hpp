@@ -327,11 +327,11 @@ public:
     /// Likewise the pokes, Settings::pokes of them.
     std::span<const PokeState> pokes() const noexcept;
 
-    /// Of a step that has finished on the device and is one of the last Settings::framesInFlight recorded;
-    /// else Status::isFinished is false. Does not wait. Steps before a reset keep theirs until others take
-    /// their places.
+    /// The status of a step that has finished on the device and is one of the last Settings::framesInFlight
+    /// recorded; of any other Status::isFinished is false. Does not wait. Steps before a reset keep theirs
+    /// until others take their places.
     Status status(std::uint64_t frame) const noexcept;
-    /// What was wrong in what the host recorded and was ignored, in sentences: a step before the first reset,
+    /// Mistakes in the host's recording that were ignored, in sentences: a step before the first reset,
     /// more steps in flight than Settings::framesInFlight, more grabs, pokes or anchors than there is room
     /// for, a blade that is none or that nothing may be cut by, and steps that are undone for lack of
     /// Settings::contactRoom. Each kind is told once, by the next call after it came up; read it now and

@@ -1,5 +1,4 @@
-// What the newest steps have found out, where the host reads it: one slot for each step that may be in
-// flight.
+// Results of the newest steps for the host to read: one slot for each step that may be in flight.
 #pragma once
 
 #include "layout.h"
@@ -22,7 +21,7 @@ struct RecordedStep {
 
 class StepRing {
 public:
-    /// Of `slots` steps. With `hasCounts` it also keeps what is cut.
+    /// Makes a ring for `slots` steps. With `hasCounts` it also keeps the counts of cuts.
     StepRing(const vk::Device& device, std::uint32_t slots, bool hasCounts);
 
     std::uint32_t slots() const noexcept { return static_cast<std::uint32_t>(steps_.size()); }
@@ -37,12 +36,12 @@ public:
     void record(vk::Commands& commands, std::uint64_t frame, const vk::BufferView& status,
                 const vk::BufferView& counts) const noexcept;
 
-    /// Of the step that has the slot of `frame`.
+    /// Words and counts of the step that has the slot of `frame`.
     layout::StatusWords words(std::uint64_t frame) const noexcept;
     layout::CutCounts counts(std::uint64_t frame) const noexcept;
     /// Whether `frame` was recorded, has its slot still and came back from the device.
     bool isFinished(std::uint64_t frame) const noexcept;
-    /// Likewise, and was undone.
+    /// True where that step has finished and was undone.
     bool isUndone(std::uint64_t frame) const noexcept;
     /// Steps that were undone until `frame` came back.
     std::uint64_t undoneUntil(std::uint64_t frame) const noexcept;

@@ -137,7 +137,7 @@ struct Simulation::State {
         return {arguments(program.pokes.placed), arguments(program.pokes.touching)};
     }
 
-    // What `step` asks for and does not get.
+    // Notes the parts of `step` that are ignored.
     void noteMisuse(const Step& step) noexcept {
         const std::uint64_t frame = step.frame;
         const RecordedStep& before = ring.step(frame);
@@ -162,7 +162,7 @@ struct Simulation::State {
         ring.record(commands, frame, executor.view(program.status), executor.view(program.cutting.counts));
     }
 
-    // What a state of `other` lacks that this one goes on from. Throws std::invalid_argument.
+    // Throws std::invalid_argument where this state cannot go on from one of `other`, with the reason.
     void requireSameScene(const State& other, const vk::BufferView& copy, std::uint64_t copied,
                           bool isAlike) const;
 

@@ -66,7 +66,7 @@ void Buffer::release() noexcept {
     allocator_ = nullptr;
 }
 
-// What Vulkan takes: whole atoms, but for the end of the memory.
+// The range widened to whole atoms, as Vulkan demands, but for the end of the memory.
 VkMappedMemoryRange Buffer::atomsOf(VkDeviceSize offset, VkDeviceSize size) const noexcept {
     const VkDeviceSize atom = std::max<VkDeviceSize>(device_->limits().nonCoherentAtom, 1);
     const VkDeviceSize whole = view().size, from = std::min(offset, whole);

@@ -1,4 +1,4 @@
-// What a host gets wrong is said, once, in a sentence; nothing that it did right is.
+// A host's mistake is said once, in a sentence; correct use is not.
 #include "sim/bodies.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"

@@ -216,7 +216,7 @@ namespace {
 
 const std::string goesOn = "nothing was refused";
 
-// What a simulation of `to` says when it is to go on where one of `from` stands.
+// The refusal of a simulation of `to` that is to go on from one of `from`, or goesOn.
 std::string refusedTakeOver(const Scene& from, const Scene& to, const Settings& before,
                             const Settings& after) {
     test::Runner first(from, before), second(to, after);

@@ -1,4 +1,4 @@
-// What gauges say after a cut: strain of the links that hold, and pieces as reports and meshes count them.
+// Gauges after a cut: strain of the links that hold, and pieces as reports and meshes count them.
 #include "played.hpp"
 
 #include "app/drawn.hpp"

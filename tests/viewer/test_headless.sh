@@ -90,7 +90,7 @@ kill -INT $!
 code=0
 wait $! || code=$?
 [[ $code == 130 ]] || fail "interrupted: exit code $code, expected 130"
-# Likewise while a scene loads, and in a step that takes seconds: 2 s, and some for a busy machine.
+# A signal while a scene loads, or in a step that takes seconds, ends the viewer: 2 s, and some for a busy machine.
 endsSoon() { # SIGNAL SECONDS ARGUMENTS...: is sent the signal so long after its start
     local signal=$1 after=$2 code=0 from
     shift 2

@@ -97,7 +97,7 @@ TEST(ExactKernels, LeaveACompilerNothingToFuseWhereBitsMustAgree) {
     EXPECT_EQ(found.size(), exactFunctions.size()); // a promise about nothing
 }
 
-// What `sinew devices` and the documents say of the largest kernel.
+// The largest kernel binds as many storage buffers as `sinew devices` and the documents say.
 TEST(Kernels, BindAsManyStorageBuffersAsIsSaid) {
     const std::vector<fs::path> kernels = kernelsIn(KERNEL_FOLDER);
     ASSERT_GE(kernels.size(), 300u) << "the kernels of src/sim are built with the library that this links";

@@ -241,7 +241,7 @@ std::string toText(const Findings& found) {
                               static_cast<double>(found.bytes()) / static_cast<double>(grid.voxels.size()));
 }
 
-// What is likely to surprise: another unit, components that voxels join, and walls that are too thin for
+// Warnings of likely surprises: another unit, components that voxels join, and walls that are too thin for
 // them.
 std::vector<std::string> surprises(const MeshOptions& options, const Findings& found) {
     const mesh::MeshReport& surface = found.surface;

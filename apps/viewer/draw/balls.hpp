@@ -41,7 +41,7 @@ BallMesh makeBall(std::uint32_t cuts);
 class Balls {
 public:
     Balls(const vk::Device& device, const BallList& list);
-    /// Of makeBall(cuts).
+    /// Draws each ball as the mesh makeBall(cuts).
     Balls(const vk::Device& device, const BallList& list, std::uint32_t cuts);
 
     const std::vector<BallRange>& ranges() const noexcept { return ranges_; }

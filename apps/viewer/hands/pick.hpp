@@ -23,7 +23,7 @@ enum class Among { moving, all };
 struct Question {
     enum class Asker { hand, pin, poke, blade, preview } asker = Asker::hand;
     Ray ray;
-    /// What is fixed can be cut, not grabbed or poked; N says that it is held.
+    /// Particles that are fixed can be cut, not grabbed or poked; N says that they are held.
     Among among() const { return asker == Asker::hand || asker == Asker::poke ? Among::moving : Among::all; }
     bool operator==(const Question&) const = default;
 };

@@ -20,7 +20,8 @@ public:
     /// After recordSkin() of the simulation with Overlap::none. Takes memory the first time; without any,
     /// nothing is recorded.
     void record(VkCommandBuffer commands) noexcept;
-    /// Of what was recorded, which must have finished. `all` is sim::Status::pieces of its newest step.
+    /// Counts the pieces in the last recorded copy, which must have finished. `all` is sim::Status::pieces of
+    /// its newest step.
     app::PieceCount count(std::size_t all) const;
 
 private:

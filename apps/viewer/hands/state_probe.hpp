@@ -17,7 +17,7 @@ namespace sinew::viewer {
 /// Must not outlive its Device, which must not move, nor the scene and the simulation.
 class StateProbe {
 public:
-    /// Of a simulation of this scene with these settings.
+    /// Reads from `simulation`, which must be one of `scene` with `settings`.
     StateProbe(const vk::Device& device, const sim::Scene& scene, const sim::Settings& settings,
                const sim::Simulation& simulation);
 

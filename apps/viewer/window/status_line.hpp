@@ -19,7 +19,7 @@ public:
     void setSleeping(std::uint32_t sleeping) { sleeping_ = sleeping; }
     /// Pieces of bodies that were cut, with a surface.
     void setPieces(std::size_t pieces);
-    /// What is in the hand: " - holding".
+    /// Sets the text for the tool in hand, such as " - holding".
     void setTool(const char* tool) { tool_ = tool; }
 
     /// A new title, twice a second or when what it says about playing has changed.
