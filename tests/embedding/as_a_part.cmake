@@ -1,8 +1,10 @@
 # Configures Sinew as a part of another build, and looks for what that must not need.
-#   cmake -DFOLDER=<build folder> -DPART=<host's sources> -DSINEW_FOLDER=<sources> -DCOMPILER=<c++> -P as_a_part.cmake
+#   cmake -DHOST_CMAKE=<cmake of the host> -DFOLDER=<build folder> -DPART=<host's sources> -DFETCHES=<by FetchContent>
+#       -DSINEW_FOLDER=<sources> -DCOMPILER=<c++> -P as_a_part.cmake
 file(REMOVE_RECURSE ${FOLDER})
 execute_process(
-    COMMAND ${CMAKE_COMMAND} -S ${PART} -B ${FOLDER} -G Ninja -DSINEW_FOLDER=${SINEW_FOLDER} -DCMAKE_CXX_COMPILER=${COMPILER}
+    COMMAND ${HOST_CMAKE} -S ${PART} -B ${FOLDER} -G Ninja -DFETCHES=${FETCHES} -DSINEW_FOLDER=${SINEW_FOLDER}
+            -DCMAKE_CXX_COMPILER=${COMPILER}
     RESULT_VARIABLE result
     OUTPUT_VARIABLE output
     ERROR_VARIABLE output)
