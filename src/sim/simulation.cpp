@@ -81,7 +81,8 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
                           timestamps, hasBlade);
     commands.barrier();
     state_->recordStatus(commands, step.frame);
-    commands.endStep();
+    commands.endStepForHost();
+    state_->recordEnd(commands, step.frame);
     commands.hostBarrier();
     state_->previousH = parameters.h;
     state_->hasNewTopology = state_->isChanged = false;

@@ -1,7 +1,9 @@
-// A step has finished when the device has put its frame over what the host put there as it recorded it.
+// A step has finished when the device has put its frame over the mark that the host put there as it recorded
+// the step. That copy is the last one, behind a barrier: what the host reads of the step has arrived by then.
 #include "sim/simulation_ring.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstring>
 
@@ -31,7 +33,8 @@ template <typename Words> Words read(const vk::Buffer& ring, std::uint32_t slot)
 } // namespace
 
 StepRing::StepRing(const vk::Device& device, std::uint32_t slots, bool hasCounts)
-    : status_(ringOf(device, "status.ring", slots, sizeof(layout::StatusWords))), steps_(slots) {
+    : status_(ringOf(device, "status.ring", slots, sizeof(layout::StatusWords))),
+      ends_(ringOf(device, "status.ends", slots, sizeof(std::uint32_t))), steps_(slots) {
     if (hasCounts) counts_.emplace(ringOf(device, "cut.counts.ring", slots, sizeof(layout::CutCounts)));
 }
 
@@ -39,25 +42,31 @@ void StepRing::open(const RecordedStep& step) noexcept {
     const std::uint32_t slot = slotOf(step.frame);
     if (steps_[slot].isRecorded && isUndone(steps_[slot].frame)) ++undone_;
     const std::uint32_t unfinished = ~static_cast<std::uint32_t>(step.frame);
-    const std::size_t offset = std::size_t{slot} * status_.stride();
-    std::memcpy(status_.mapped() + offset + offsetof(layout::StatusWords, frame), &unfinished,
-                sizeof(unfinished));
-    status_.flush(offset, status_.stride());
+    const std::size_t offset = std::size_t{slot} * ends_.stride();
+    std::memcpy(ends_.mapped() + offset, &unfinished, sizeof(unfinished));
+    ends_.flush(offset, ends_.stride());
     steps_[slot] = step;
 }
 
-vk::BufferView StepRing::slotIn(const vk::Buffer& ring, std::uint64_t frame,
-                                std::size_t size) const noexcept {
-    vk::BufferView slot = ring.view();
-    slot.offset += VkDeviceSize{slot.stride} * slotOf(frame);
-    slot.size = size;
-    return slot;
+vk::BufferView StepRing::slotIn(const vk::Buffer& ring, std::uint32_t slot, std::size_t size) noexcept {
+    vk::BufferView view = ring.view();
+    view.offset += VkDeviceSize{view.stride} * slot;
+    view.size = size;
+    return view;
 }
 
 void StepRing::record(vk::Commands& commands, std::uint64_t frame, const vk::BufferView& status,
                       const vk::BufferView& counts) const noexcept {
-    commands.copy(status, slotIn(status_, frame, status.size));
-    if (counts_) commands.copy(counts, slotIn(*counts_, frame, counts.size));
+    commands.copy(status, slotIn(status_, slotOf(frame), status.size));
+    if (counts_) commands.copy(counts, slotIn(*counts_, slotOf(frame), counts.size));
+}
+
+void StepRing::recordEnd(vk::Commands& commands, std::uint64_t frame,
+                         const vk::BufferView& status) const noexcept {
+    vk::BufferView word = status;
+    word.offset += offsetof(layout::StatusWords, frame);
+    word.size = sizeof(std::uint32_t);
+    commands.copy(word, slotIn(ends_, slotOf(frame), word.size));
 }
 
 layout::StatusWords StepRing::words(std::uint64_t frame) const noexcept {
@@ -70,8 +79,10 @@ layout::CutCounts StepRing::counts(std::uint64_t frame) const noexcept {
 
 bool StepRing::isFinished(std::uint64_t frame) const noexcept {
     const RecordedStep& recorded = step(frame);
-    return recorded.isRecorded && recorded.frame == frame &&
-           words(frame).frame == static_cast<std::uint32_t>(frame);
+    if (!recorded.isRecorded || recorded.frame != frame) return false;
+    const bool hasEnded = read<std::uint32_t>(ends_, slotOf(frame)) == static_cast<std::uint32_t>(frame);
+    std::atomic_thread_fence(std::memory_order_acquire); // before whatever else of it is read
+    return hasEnded;
 }
 
 bool StepRing::isUndone(std::uint64_t frame) const noexcept {

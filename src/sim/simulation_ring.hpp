@@ -35,6 +35,9 @@ public:
     /// Records the copies into the slot of `frame`.
     void record(vk::Commands& commands, std::uint64_t frame, const vk::BufferView& status,
                 const vk::BufferView& counts) const noexcept;
+    /// Records the copy after which `frame` has finished. Between the two stands a barrier that makes the
+    /// copies of record() visible to the host (vk::Commands::endStepForHost).
+    void recordEnd(vk::Commands& commands, std::uint64_t frame, const vk::BufferView& status) const noexcept;
 
     /// Words and counts of the step that has the slot of `frame`.
     layout::StatusWords words(std::uint64_t frame) const noexcept;
@@ -55,9 +58,9 @@ public:
     std::optional<Lack> lackOfRoom() const noexcept;
 
 private:
-    vk::BufferView slotIn(const vk::Buffer& ring, std::uint64_t frame, std::size_t size) const noexcept;
+    static vk::BufferView slotIn(const vk::Buffer& ring, std::uint32_t slot, std::size_t size) noexcept;
 
-    vk::Buffer status_;                // slots are whole atoms: host and device write beside each other
+    vk::Buffer status_, ends_;         // slots are whole atoms: host and device write beside each other
     std::optional<vk::Buffer> counts_; // likewise
     std::vector<RecordedStep> steps_;
     std::uint64_t undone_ = 0; // of steps that have a slot no longer

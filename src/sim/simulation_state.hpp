@@ -162,6 +162,11 @@ struct Simulation::State {
         ring.record(commands, frame, executor.view(program.status), executor.view(program.cutting.counts));
     }
 
+    // That it has come to its end: behind a barrier after all that the host reads of it.
+    void recordEnd(vk::Commands& commands, std::uint64_t frame) const noexcept {
+        ring.recordEnd(commands, frame, executor.view(program.status));
+    }
+
     // Throws std::invalid_argument where this state cannot go on from one of `other`, with the reason.
     void requireSameScene(const State& other, const vk::BufferView& copy, std::uint64_t copied,
                           bool isAlike) const;

@@ -83,9 +83,18 @@ void Commands::beginStep() noexcept {
     memoryBarrier(allStages_, stepStages, stepAccess);
 }
 
-void Commands::endStep() noexcept {
+void Commands::endStep(VkPipelineStageFlags moreStages, VkAccessFlags moreAccess) noexcept {
     const bool isDrawing = (allStages_ & drawingStages) != 0;
-    memoryBarrier(writerStages, allStages_, isDrawing ? stepAccess | drawingAccess : stepAccess);
+    memoryBarrier(writerStages, allStages_ | moreStages,
+                  (isDrawing ? stepAccess | drawingAccess : stepAccess) | moreAccess);
+}
+
+void Commands::endStep() noexcept {
+    endStep(0, 0);
+}
+
+void Commands::endStepForHost() noexcept {
+    endStep(VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
 }
 
 void Commands::hostBarrier() noexcept {

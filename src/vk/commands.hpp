@@ -32,6 +32,9 @@ public:
     /// Closes a step: makes all writes visible to indirect, index and vertex fetch, vertex and compute
     /// shaders, and transfers. Stages the queue family lacks are left out.
     void endStep() noexcept;
+    /// endStep() that makes all writes visible to the host too: the host sees what is recorded behind it no
+    /// sooner than those.
+    void endStepForHost() noexcept;
     /// Makes transfer and compute writes visible to the host; validation never reports its absence.
     void hostBarrier() noexcept;
 
@@ -43,6 +46,7 @@ public:
     VkCommandBuffer handle() const noexcept { return commands_; }
 
 private:
+    void endStep(VkPipelineStageFlags moreStages, VkAccessFlags moreAccess) noexcept;
     void memoryBarrier(VkPipelineStageFlags from, VkPipelineStageFlags to, VkAccessFlags access) noexcept;
     const DeviceFunctions* functions_;
     VkPipelineStageFlags

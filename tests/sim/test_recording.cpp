@@ -44,6 +44,37 @@ Scene everything() {
     return scene;
 }
 
+// A device that stops in the middle of a command buffer: copies after the first `most` are not done. Vulkan's
+// entry points carry no user pointer.
+struct Stopping {
+    PFN_vkCmdCopyBuffer copy = nullptr;
+    PFN_vkCmdPipelineBarrier barrier = nullptr;
+    int copies = 0, most = 0;
+    bool isVisible = false;        // a barrier since the last copy makes that visible to the host first
+    bool isLastBehindThat = false; // the last copy stands behind such a barrier
+};
+Stopping stopping;
+
+void VKAPI_CALL copyWhileItGoes(VkCommandBuffer commands, VkBuffer from, VkBuffer to, std::uint32_t count,
+                                const VkBufferCopy* regions) {
+    stopping.isLastBehindThat = std::exchange(stopping.isVisible, false);
+    if (stopping.copies++ < stopping.most) stopping.copy(commands, from, to, count, regions);
+}
+
+void VKAPI_CALL lookAtBarrier(VkCommandBuffer commands, VkPipelineStageFlags from, VkPipelineStageFlags to,
+                              VkDependencyFlags flags, std::uint32_t count, const VkMemoryBarrier* barriers,
+                              std::uint32_t buffers, const VkBufferMemoryBarrier* bufferBarriers,
+                              std::uint32_t images, const VkImageMemoryBarrier* imageBarriers) {
+    constexpr VkPipelineStageFlags transfer = VK_PIPELINE_STAGE_TRANSFER_BIT,
+                                   later = transfer | VK_PIPELINE_STAGE_HOST_BIT;
+    stopping.isVisible =
+        stopping.isVisible || ((from & transfer) != 0 && (to & later) == later && count == 1 &&
+                               (barriers->srcAccessMask & VK_ACCESS_TRANSFER_WRITE_BIT) != 0 &&
+                               (barriers->dstAccessMask & VK_ACCESS_HOST_READ_BIT) != 0);
+    stopping.barrier(commands, from, to, flags, count, barriers, buffers, bufferBarriers, images,
+                     imageBarriers);
+}
+
 } // namespace
 
 TEST(Recording, AllocatesNothing) {
@@ -92,6 +123,46 @@ TEST(Recording, OfAStepWithABladeAllocatesNothing) {
     const vk::AllocatorStatistics after = application.device.allocator().statistics();
     EXPECT_EQ(after.used, before.used);
     EXPECT_EQ(after.reserved, before.reserved);
+}
+
+// A step may be on its way while the host asks for its status: it has finished when all that the host reads
+// of it has arrived.
+TEST(Recording, OfAStepEndsWithTheMarkThatItHasFinished) {
+    test::HostDevice host;
+    stopping = {reinterpret_cast<PFN_vkCmdCopyBuffer>(host.original("vkCmdCopyBuffer")),
+                reinterpret_cast<PFN_vkCmdPipelineBarrier>(host.original("vkCmdPipelineBarrier"))};
+    host.replace("vkCmdCopyBuffer", reinterpret_cast<PFN_vkVoidFunction>(&copyWhileItGoes));
+    host.replace("vkCmdPipelineBarrier", reinterpret_cast<PFN_vkVoidFunction>(&lookAtBarrier));
+    Scene scene{.name = "cube"};
+    addLattice(scene, {.cells = {2, 2, 2}, .spacing = 0.1f, .isCuttable = true});
+    {
+        const vk::Device device = vk::Device::borrow(host.handles());
+        Simulation simulation(device, scene, {.substeps = 2});
+        std::uint64_t frame = 0;
+        const auto play = [&](int lost) { // of the copies of a whole step
+            const int whole = std::exchange(stopping.copies, 0);
+            stopping.most = whole - lost;
+            host.submit([&](VkCommandBuffer commands) { simulation.record(commands, {.frame = frame}); });
+        };
+        stopping.most = 1000;
+        host.submit([&](VkCommandBuffer commands) { simulation.recordReset(commands); });
+        stopping.copies = 1000;
+        play(0);
+        ASSERT_LT(stopping.copies, 1000);
+        EXPECT_TRUE(stopping.isLastBehindThat) << "else the mark may overtake what it marks";
+        EXPECT_EQ(simulation.oldestInFlight(), std::nullopt);
+        for (const int lost : {3, 2, 1}) { // counts, status, mark, in whichever order
+            ++frame;
+            play(lost);
+            EXPECT_FALSE(simulation.status(frame).isFinished) << "without the last " << lost << " copies";
+            EXPECT_EQ(simulation.oldestInFlight(), frame - (3u - static_cast<unsigned>(lost)));
+        }
+        ++frame;
+        play(0);
+        EXPECT_TRUE(simulation.status(frame).isFinished);
+        EXPECT_EQ(simulation.status(frame).pieces, 1u);
+    }
+    EXPECT_EQ(host.finish(), std::vector<std::string>{}) << "validation";
 }
 
 TEST(Recording, OfAThousandSubstepsCostsSoMuchADispatch) {
