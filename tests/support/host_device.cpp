@@ -4,6 +4,8 @@
 #include "vk/check.hpp"
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <string_view>
 #include <utility>
 
@@ -36,6 +38,17 @@ VKAPI_ATTR VkBool32 VKAPI_CALL collect(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                        const VkDebugUtilsMessengerCallbackDataEXT* message, void* messages) {
     static_cast<std::vector<std::string>*>(messages)->push_back(message->pMessage);
     return VK_FALSE;
+}
+
+// Without destructors, which wait for the device.
+[[noreturn]] void endProgram() {
+    std::fprintf(
+        stderr,
+        "the device has not come back after %lld s: a kernel does not end: look for a buffer that was "
+        "never written or never flushed\n",
+        static_cast<long long>(HostDevice::longestSubmission.count()));
+    std::fflush(nullptr);
+    std::_Exit(EXIT_FAILURE);
 }
 
 } // namespace
@@ -153,8 +166,11 @@ void HostDevice::submit(const std::function<void(VkCommandBuffer)>& record) {
     const VkSubmitInfo submitInfo{
         .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands};
     vk::check(functions_.vkQueueSubmit(queue, 1, &submitInfo, fence), "vkQueueSubmit", "the host");
-    vk::check(functions_.vkWaitForFences(device_, 1, &fence, VK_TRUE, UINT64_MAX), "vkWaitForFences",
-              "the host");
+    const std::chrono::nanoseconds longest = longestSubmission;
+    const VkResult result =
+        functions_.vkWaitForFences(device_, 1, &fence, VK_TRUE, static_cast<std::uint64_t>(longest.count()));
+    if (result == VK_TIMEOUT) endProgram();
+    vk::check(result, "vkWaitForFences", "the host");
     functions_.vkDestroyFence(device_, fence, nullptr);
     functions_.vkDestroyCommandPool(device_, pool, nullptr);
 }

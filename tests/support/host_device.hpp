@@ -5,6 +5,7 @@
 #include "vk/device.hpp"
 #include "vk/loader.hpp"
 
+#include <chrono>
 #include <map>
 
 namespace sinew::test {
@@ -31,8 +32,10 @@ public:
     void replace(const std::string& name, PFN_vkVoidFunction replacement);
     /// What the loader has under this name, for a replacement that passes calls on.
     PFN_vkVoidFunction original(const std::string& name) const;
-    /// Runs one recording on the host's queue and waits with a fence.
+    /// Runs one recording on the host's queue and waits with a fence. Ends the program with a sentence where
+    /// the device has not come back after `longestSubmission`: nothing that it uses can be destroyed then.
     void submit(const std::function<void(VkCommandBuffer)>& record);
+    static constexpr std::chrono::seconds longestSubmission{10};
     /// Destroys the device and returns all validation messages so far, leaks included.
     std::vector<std::string> finish();
 
