@@ -1,6 +1,7 @@
 // Real GPUs before software; an index or a part of a name overrides.
 #include "vk/choice.hpp"
 
+#include "vk/allocator.hpp"
 #include "vk/check.hpp"
 
 #include <algorithm>
@@ -71,6 +72,13 @@ std::optional<std::uint32_t> findQueueFamily(const Instance& instance, VkPhysica
     return computeOnly;
 }
 
+// Programs map buffers and neither flush nor invalidate them (Device::create).
+bool hasCoherentMemory(const InstanceFunctions& functions, VkPhysicalDevice physical) {
+    VkPhysicalDeviceMemoryProperties memory;
+    functions.vkGetPhysicalDeviceMemoryProperties(physical, &memory);
+    return !suitableMemoryTypes(memory, ~0u, MemoryKind::upload).empty();
+}
+
 std::string tooOld(std::uint32_t version) {
     return std::string("it has Vulkan ")
         .append(std::to_string(VK_API_VERSION_MAJOR(version)))
@@ -95,6 +103,8 @@ Candidate examine(const Instance& instance, VkPhysicalDevice physical, std::uint
     instance.functions().vkGetPhysicalDeviceFeatures2(physical, &features);
     if (features12.timelineSemaphore == VK_FALSE)
         missing.push_back("it lacks timeline semaphores, which Vulkan 1.2 requires");
+    if (!hasCoherentMemory(instance.functions(), physical))
+        missing.push_back("none of its memory is host visible and host coherent, which Vulkan requires");
     for (const std::string& extension : request.deviceExtensions)
         if (!hasExtension(instance.functions(), physical, extension))
             missing.push_back("it lacks the extension " + extension);

@@ -114,7 +114,7 @@ template <typename Handle> std::uint64_t handleValue(Handle handle) noexcept {
 class Device {
 public:
     /// Makes an instance and a device through the loader's entry point (vk::Loader opens one). Prefers a real
-    /// GPU to a software device. Throws Error(noDevice) with what is missing, in a sentence.
+    /// GPU to a software device. Mapped buffers are host coherent. Throws Error(noDevice) with what it lacks.
     static Device create(PFN_vkGetInstanceProcAddr getInstanceProcAddr, const DeviceRequest& request);
 
     /// Uses handles a host made: creates no device, touches no queue, links no loader, needs no enabled

@@ -251,6 +251,37 @@ TEST(Device, OfMoltenVkIsListedAndToldThatItsSubsetWillDo) {
     EXPECT_TRUE(portability.hasEnabledSubset);
 }
 
+namespace {
+
+PFN_vkGetPhysicalDeviceMemoryProperties trueMemory = nullptr;
+
+void VKAPI_CALL incoherentMemory(VkPhysicalDevice physical, VkPhysicalDeviceMemoryProperties* memory) {
+    trueMemory(physical, memory);
+    for (std::uint32_t type = 0; type < memory->memoryTypeCount; ++type)
+        memory->memoryTypes[type].propertyFlags &=
+            ~static_cast<VkMemoryPropertyFlags>(VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+}
+
+} // namespace
+
+// Programs neither flush nor invalidate what they map.
+TEST(Device, WithoutCoherentMemoryIsRefusedForPrograms) {
+    ReplacedLoader loader;
+    loader.wrap("vkGetPhysicalDeviceMemoryProperties", trueMemory, &incoherentMemory);
+    expectPart(noDeviceComplaint([&] { vk::Device::create(loader.entry(), {}); }),
+               "none of its memory is host visible and host coherent");
+}
+
+// The host says where its own memory is not.
+TEST(BorrowedDevice, NeedsNoCoherentMemory) {
+    HostDevice host;
+    trueMemory = reinterpret_cast<PFN_vkGetPhysicalDeviceMemoryProperties>(
+        host.original("vkGetPhysicalDeviceMemoryProperties"));
+    host.replace("vkGetPhysicalDeviceMemoryProperties",
+                 reinterpret_cast<PFN_vkVoidFunction>(&incoherentMemory));
+    EXPECT_NO_THROW(vk::Device::borrow(host.handles()));
+}
+
 TEST(Device, WithADriverThatFindsNoGpuSaysWhatToInstall) {
     ReplacedLoader loader;
     loader.replace("vkEnumeratePhysicalDevices", reinterpret_cast<PFN_vkVoidFunction>(&noPhysicalDevices));
