@@ -230,6 +230,8 @@ TriangleMesh decode(const fs::path& file, std::string_view bytes, const ImportLi
     mesh.objects = take<std::uint32_t>(bytes, bytes.size() / sizeof(std::uint32_t));
     for (std::uint32_t& object : mesh.objects)
         if (object >= mesh.objectNames.size()) object = noObject;
+    mesh.positions.reserve(3 * count);
+    mesh.triangles.reserve(count);
     for (std::size_t i = 0; i < corners.size(); i += 3)
         mesh.positions.push_back({corners[i], corners[i + 1], corners[i + 2]});
     for (std::uint32_t i = 0; i < mesh.positions.size(); i += 3) mesh.triangles.push_back({i, i + 1, i + 2});

@@ -20,11 +20,21 @@ struct Neighbours {
     void add(Neighbour neighbour) { list[count++] = neighbour; }
 };
 
+bool areFlipped(std::span<const HalfEdge> sides) {
+    return sides.size() == 2 && sides[0].isForward == sides[1].isForward;
+}
+
+/// Empty where no neighbours run different ways round.
 std::vector<Neighbours> findNeighbours(const TriangleMesh& mesh) {
+    const std::vector<HalfEdge> all = sortedSides(mesh.triangles);
+    bool isAnyFlipped = false;
+    forEachEdge(all,
+                [&](std::span<const HalfEdge> sides) { isAnyFlipped = isAnyFlipped || areFlipped(sides); });
+    if (!isAnyFlipped) return {};
     std::vector<Neighbours> neighbours(mesh.triangles.size());
-    forEachEdge(mesh.triangles, [&](std::span<const HalfEdge> sides) {
+    forEachEdge(all, [&](std::span<const HalfEdge> sides) {
         if (sides.size() != 2) return;
-        const bool isFlipped = sides[0].isForward == sides[1].isForward;
+        const bool isFlipped = areFlipped(sides);
         neighbours[sides[0].triangle].add({sides[1].triangle, isFlipped});
         neighbours[sides[1].triangle].add({sides[0].triangle, isFlipped});
     });
@@ -68,6 +78,7 @@ void orientPart(const TriangleMesh& mesh, const std::vector<Neighbours>& neighbo
 
 std::size_t orientNeighbours(TriangleMesh& mesh) {
     const std::vector<Neighbours> neighbours = findNeighbours(mesh);
+    if (neighbours.empty()) return 0;
     std::vector<Turn> turns(mesh.triangles.size(), Turn::unknown);
     for (std::uint32_t triangle = 0; triangle < turns.size(); ++triangle)
         if (turns[triangle] == Turn::unknown) orientPart(mesh, neighbours, triangle, turns);

@@ -61,14 +61,17 @@ void stitch(Trial& trial, Repairs& report) {
 }
 
 void close(Trial& trial, Repairs& report) {
-    report.removedTriangles += trial.apply(report, removeLeftovers);
+    if (trial.defects().nonManifoldEdges > 0) // leftovers lie at such edges
+        report.removedTriangles += trial.apply(report, removeLeftovers);
     if (trial.defects().flippedEdges > 0) report.turnedTriangles = orientNeighbours(trial.mesh());
-    Repairs closed = report;
-    if (trial.apply(closed, [&](TriangleMesh& mesh) {
+    if (trial.defects().boundaryEdges > 0) {
+        Repairs closed = report;
+        const auto closing = [&](TriangleMesh& mesh) {
             closeHoles(mesh, true, closed);
             return closed.closedHoles;
-        }) > 0)
-        report = closed;
+        };
+        if (trial.apply(closed, closing) > 0) report = closed;
+    }
     report.turnedParts = turnParts(trial.mesh());
 }
 

@@ -21,10 +21,10 @@ struct Part {
 };
 
 /// A part is closed where as many of its triangles run one way along each edge as the other.
-void findOpenParts(const TriangleMesh& mesh, const std::vector<std::uint32_t>& numbers,
+void findOpenParts(const std::vector<HalfEdge>& all, const std::vector<std::uint32_t>& numbers,
                    std::vector<Part>& parts) {
     std::map<std::uint32_t, int> balance;
-    forEachEdge(mesh.triangles, [&](std::span<const HalfEdge> sides) {
+    forEachEdge(all, [&](std::span<const HalfEdge> sides) {
         if (sides.size() == 2) {
             if (sides[0].isForward == sides[1].isForward) parts[numbers[sides[0].triangle]].isClosed = false;
             return;
@@ -50,9 +50,26 @@ double volumeOf(const TriangleMesh& mesh, const Part& part) {
     return volume;
 }
 
+/// For each triangle the number of its part.
+std::vector<std::uint32_t> numberParts(std::size_t triangles, const std::vector<HalfEdge>& all,
+                                       std::size_t& count, Across across) {
+    DisjointSets sets(triangles);
+    forEachEdge(all, [&](std::span<const HalfEdge> sides) {
+        if (sides.size() > 2 && across == Across::pairs) return;
+        for (const HalfEdge& side : sides) sets.join(sides.front().triangle, side.triangle);
+    });
+    std::vector<std::uint32_t> numbers(triangles);
+    count = 0;
+    for (std::uint32_t i = 0; i < numbers.size(); ++i)
+        numbers[i] = sets.root(i) == i ? static_cast<std::uint32_t>(count++) : numbers[sets.root(i)];
+    return numbers;
+}
+
 std::vector<Part> findParts(const TriangleMesh& mesh) {
     std::size_t count = 0;
-    const std::vector<std::uint32_t> numbers = numberParts(mesh, count);
+    const std::vector<HalfEdge> sides = sortedSides(mesh.triangles);
+    const std::vector<std::uint32_t> numbers =
+        numberParts(mesh.triangles.size(), sides, count, Across::pairs);
     std::vector<Part> parts(count);
     for (std::uint32_t i = 0; i < numbers.size(); ++i) {
         Part& part = parts[numbers[i]];
@@ -61,7 +78,7 @@ std::vector<Part> findParts(const TriangleMesh& mesh) {
             part.box.extend(toVector(mesh.positions[vertex]));
     }
     for (Part& part : parts) part.volume = volumeOf(mesh, part);
-    findOpenParts(mesh, numbers, parts);
+    findOpenParts(sides, numbers, parts);
     return parts;
 }
 
@@ -134,16 +151,7 @@ private:
 } // namespace
 
 std::vector<std::uint32_t> numberParts(const TriangleMesh& mesh, std::size_t& count, Across across) {
-    DisjointSets sets(mesh.triangles.size());
-    forEachEdge(mesh.triangles, [&](std::span<const HalfEdge> sides) {
-        if (sides.size() > 2 && across == Across::pairs) return;
-        for (const HalfEdge& side : sides) sets.join(sides.front().triangle, side.triangle);
-    });
-    std::vector<std::uint32_t> numbers(mesh.triangles.size());
-    count = 0;
-    for (std::uint32_t i = 0; i < numbers.size(); ++i)
-        numbers[i] = sets.root(i) == i ? static_cast<std::uint32_t>(count++) : numbers[sets.root(i)];
-    return numbers;
+    return numberParts(mesh.triangles.size(), sortedSides(mesh.triangles), count, across);
 }
 
 std::size_t turnParts(TriangleMesh& mesh) {

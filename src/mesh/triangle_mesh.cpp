@@ -8,30 +8,33 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
-#include <numeric>
+#include <tuple>
 
 namespace sinew::mesh {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Bit patterns of a position; -0 counts as 0.
-std::array<std::uint32_t, 3> bitsOf(Vec3 p) {
-    return {std::bit_cast<std::uint32_t>(p.x + 0.0f), std::bit_cast<std::uint32_t>(p.y + 0.0f),
-            std::bit_cast<std::uint32_t>(p.z + 0.0f)};
-}
+/// Bit patterns of a position, and the vertex; -0 counts as 0.
+struct Place {
+    std::array<std::uint32_t, 3> bits;
+    std::uint32_t vertex = 0;
+    auto operator<=>(const Place&) const = default;
+};
 
 /// For each vertex the first vertex with the same position.
 std::vector<std::uint32_t> findTwins(const std::vector<Vec3>& positions) {
-    std::vector<std::uint32_t> order(positions.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::ranges::sort(order, {}, [&](std::uint32_t vertex) {
-        return std::pair{bitsOf(positions[vertex]), vertex};
-    });
+    std::vector<Place> places;
+    places.reserve(positions.size());
+    for (const Vec3& p : positions)
+        places.push_back({{std::bit_cast<std::uint32_t>(p.x + 0.0f), std::bit_cast<std::uint32_t>(p.y + 0.0f),
+                           std::bit_cast<std::uint32_t>(p.z + 0.0f)},
+                          static_cast<std::uint32_t>(places.size())});
+    std::ranges::sort(places);
     std::vector<std::uint32_t> twins(positions.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool isTwin = i > 0 && bitsOf(positions[order[i]]) == bitsOf(positions[order[i - 1]]);
-        twins[order[i]] = isTwin ? twins[order[i - 1]] : order[i];
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const bool isTwin = i > 0 && places[i].bits == places[i - 1].bits;
+        twins[places[i].vertex] = isTwin ? twins[places[i - 1].vertex] : places[i].vertex;
     }
     return twins;
 }
@@ -45,32 +48,34 @@ bool isDegenerate(const TriangleMesh& mesh, const Triangle& triangle) {
     return (toVector(mesh.positions[b]) - origin).cross(toVector(mesh.positions[c]) - origin).isZero(0);
 }
 
-/// The same triangle with its lowest corner first; keeps the way round.
-Triangle rotated(Triangle triangle) {
-    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
-    return triangle;
-}
-
-/// True for each triangle that repeats an earlier one.
-std::vector<bool> findDuplicates(const std::vector<Triangle>& triangles) {
-    std::vector<std::size_t> order(triangles.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair{rotated(triangles[i]), i}; });
-    std::vector<bool> isDuplicate(triangles.size());
+/// Marks each triangle at an edge that repeats an earlier one there: the same way along the edge to the same
+/// third corner.
+void findDuplicates(const std::vector<Triangle>& triangles, std::span<const HalfEdge> sides,
+                    std::vector<bool>& isDuplicate) {
+    const auto thirdOf = [&](const HalfEdge& side) {
+        const auto [a, b, c] = triangles[side.triangle];
+        return a ^ b ^ c ^ side.low ^ side.high;
+    };
+    std::vector<std::tuple<bool, std::uint32_t, std::uint32_t>> order;
+    for (const HalfEdge& side : sides) order.push_back({side.isForward, thirdOf(side), side.triangle});
+    std::ranges::sort(order);
     for (std::size_t i = 1; i < order.size(); ++i)
-        isDuplicate[order[i]] = rotated(triangles[order[i]]) == rotated(triangles[order[i - 1]]);
-    return isDuplicate;
+        if (std::get<0>(order[i]) == std::get<0>(order[i - 1]) &&
+            std::get<1>(order[i]) == std::get<1>(order[i - 1]))
+            isDuplicate[std::get<2>(order[i])] = true;
 }
 
-void countEdges(const std::vector<Triangle>& triangles, MeshDefects& defects) {
+/// True for each triangle that repeats an earlier one; counts the edges as they are with such triangles.
+std::vector<bool> checkEdges(const std::vector<Triangle>& triangles, MeshDefects& defects) {
+    std::vector<bool> isDuplicate(triangles.size());
     forEachEdge(triangles, [&](std::span<const HalfEdge> sides) {
-        if (sides.size() == 1)
-            ++defects.boundaryEdges;
-        else if (sides.size() > 2)
-            ++defects.nonManifoldEdges;
-        else if (sides[0].isForward == sides[1].isForward)
-            ++defects.flippedEdges;
+        const bool isFlipped = sides.size() == 2 && sides[0].isForward == sides[1].isForward;
+        if (sides.size() == 1) ++defects.boundaryEdges;
+        if (sides.size() > 2) ++defects.nonManifoldEdges;
+        if (isFlipped) ++defects.flippedEdges;
+        if (isFlipped || sides.size() > 2) findDuplicates(triangles, sides, isDuplicate);
     });
+    return isDuplicate;
 }
 
 void keepTriangles(TriangleMesh& mesh, const std::vector<bool>& isKept) {
@@ -90,7 +95,8 @@ TriangleMesh compacted(const TriangleMesh& mesh) {
     std::vector<std::uint32_t> number(mesh.positions.size(), unused);
     for (const Triangle& triangle : mesh.triangles)
         for (const std::uint32_t vertex : triangle) number[vertex] = 0;
-    TriangleMesh result{.name = mesh.name, .objects = mesh.objects, .objectNames = mesh.objectNames};
+    TriangleMesh result{
+        .name = mesh.name, .objects = mesh.objects, .objectNames = mesh.objectNames};
     for (std::size_t vertex = 0; vertex < number.size(); ++vertex)
         if (number[vertex] != unused) {
             number[vertex] = static_cast<std::uint32_t>(result.positions.size());
@@ -115,11 +121,18 @@ TriangleMesh weld(const TriangleMesh& mesh, MeshDefects& defects) {
     }
     defects.degenerateTriangles = static_cast<std::size_t>(std::ranges::count(isKept, false));
     keepTriangles(joined, isKept);
-    std::vector<bool> isUnique = findDuplicates(joined.triangles);
+    MeshDefects edges;
+    std::vector<bool> isUnique = checkEdges(joined.triangles, edges);
     isUnique.flip();
     defects.duplicateTriangles = static_cast<std::size_t>(std::ranges::count(isUnique, false));
-    keepTriangles(joined, isUnique);
-    countEdges(joined.triangles, defects);
+    if (defects.duplicateTriangles > 0) {
+        keepTriangles(joined, isUnique);
+        edges = {};
+        checkEdges(joined.triangles, edges);
+    }
+    defects.boundaryEdges = edges.boundaryEdges;
+    defects.nonManifoldEdges = edges.nonManifoldEdges;
+    defects.flippedEdges = edges.flippedEdges;
     return compacted(joined);
 }
 

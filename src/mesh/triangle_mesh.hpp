@@ -36,6 +36,9 @@ struct MeshReport {
     Vec3 low, high;    ///< bounding box [m]
 };
 
+/// What inspect() reports but for the defects. Expects a welded mesh.
+MeshReport measure(const TriangleMesh& mesh);
+
 /// Topology as after weld(); `mesh` itself may hold duplicate vertices.
 MeshReport inspect(const TriangleMesh& mesh);
 

@@ -149,7 +149,7 @@ const MeshSummary& addBody(LoadedScene& loaded, const Section& section, const me
     body.voxels.maxCells = mostParticles - loaded.scene.particles.size();
     body.mostParticles = std::min(body.mostParticles, body.voxels.maxCells);
     const mesh::MeshDefects defects = summary.surface.defects;
-    summary.surface = mesh::inspect(mesh);
+    summary.surface = mesh::measure(mesh);
     summary.surface.defects = defects;
     try {
         mesh::AddedMesh added = addWithRecovery(loaded, section, mesh, body);
@@ -184,7 +184,7 @@ void addApart(LoadedScene& loaded, const Section& section, const Found& found,
                          found.file + ", more than " + std::to_string(mostApart),
                      "choose some of them by object");
     body.voxels.spacing = mesh::cellEdge(found.mesh, body.voxels);
-    const double longest = longestSide(mesh::inspect(found.mesh));
+    const double longest = longestSide(mesh::measure(found.mesh));
     for (const mesh::Component& component : components) {
         const mesh::TriangleMesh part = mesh::extract(found.mesh, component);
         MeshSummary summary{.body = nameOf(section, found) + "." + component.name,
@@ -200,7 +200,7 @@ void addJoined(LoadedScene& loaded, const Section& section, const Found& found,
     MeshSummary summary{.body = nameOf(section, found), .file = found.file, .repairs = found.repairs};
     summary.surface.defects = found.defects;
     const MeshSummary& added = addBody(loaded, section, found.mesh, body, std::move(summary),
-                                       longestSide(mesh::inspect(found.mesh)));
+                                       longestSide(mesh::measure(found.mesh)));
     noteComponents(loaded, "mesh " + found.file, components);
     if (section.has("parts")) return;
     const mesh::Bridges between = mesh::findBridges(found.mesh, components, added.voxels);
@@ -246,7 +246,7 @@ void addMeshCollider(LoadedScene& loaded, const Section& section, const Source& 
         section.fail(section.has("file") ? "file" : "detail",
                      "makes more than " + std::to_string(mostParticles) + " particles",
                      "take a coarser mesh");
-    noteSize(loaded, "mesh collider " + found.file, section, mesh::inspect(found.mesh),
+    noteSize(loaded, "mesh collider " + found.file, section, mesh::measure(found.mesh),
              ", " + std::to_string(found.mesh.triangles.size()) + " triangles");
     noteRepairs(loaded, "mesh collider " + found.file, found.repairs);
     const sim::Pose pose{found.middle, rotationOf(section)};

@@ -66,7 +66,7 @@ std::string unitNames() {
 
 sim::Vec3 place(mesh::TriangleMesh& mesh, const Section& section, const std::array<double, 3>& origin) {
     checkKeys(section);
-    const mesh::MeshReport report = mesh::inspect(mesh);
+    const mesh::MeshReport report = mesh::measure(mesh);
     const auto toDouble = [](const sim::Vec3& v) {
         return Eigen::Vector3d(double{v.x}, double{v.y}, double{v.z});
     };

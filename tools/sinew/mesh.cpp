@@ -135,11 +135,11 @@ Findings inspect(const MeshOptions& options) {
         mesh::importMesh(options.file, defects, {}, *mesh::findRepair(options.repair), &found.repairs);
     chooseObjects(options, found.mesh, defects);
     const double factor = scenes::findUnit(options.unit)->metres * double{options.scale};
-    checkScale(options, mesh::inspect(found.mesh), factor);
+    checkScale(options, mesh::measure(found.mesh), factor);
     for (mesh::Vec3& position : found.mesh.positions)
         for (float mesh::Vec3::*axis : {&mesh::Vec3::x, &mesh::Vec3::y, &mesh::Vec3::z})
             position.*axis = static_cast<float>(factor * double{position.*axis});
-    found.surface = mesh::inspect(found.mesh);
+    found.surface = mesh::measure(found.mesh);
     found.surface.defects = defects;
     found.components = mesh::components(found.mesh);
     try {
