@@ -10,7 +10,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <memory>
+#include <set>
+#include <unordered_map>
 
 namespace sinew::mesh {
 namespace {
@@ -111,6 +114,35 @@ std::string partName(std::size_t number) {
     return "part " + std::to_string(number);
 }
 
+/// The numbers of components: of a choice those that they had before it.
+class PartNames {
+public:
+    explicit PartNames(const TriangleMesh& mesh) : parts_(mesh.parts) {}
+
+    /// The next one, whose first triangle is `triangle`. A part of which a choice left several components has
+    /// its pieces counted.
+    std::string next(std::uint32_t triangle) {
+        ++count_;
+        if (parts_.empty()) return partName(count_);
+        const std::uint32_t part = parts_[triangle];
+        const std::size_t piece = ++pieces_[part];
+        return partName(part) + (piece == 1 ? "" : ", piece " + std::to_string(piece));
+    }
+
+private:
+    const std::vector<std::uint32_t>& parts_;
+    std::size_t count_ = 0;
+    std::unordered_map<std::uint32_t, std::size_t> pieces_; ///< of each part so far
+};
+
+/// Numbers of triangles.
+std::vector<std::size_t> sizesOfObjects(const TriangleMesh& mesh) {
+    std::vector<std::size_t> sizes(mesh.objectNames.size());
+    for (const std::uint32_t object : mesh.objects)
+        if (object != noObject) ++sizes[object];
+    return sizes;
+}
+
 /// The object that all the triangles belong to, and no others do; else noObject.
 std::uint32_t objectOf(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles,
                        const std::vector<std::size_t>& sizes) {
@@ -141,13 +173,13 @@ std::vector<Component> components(const TriangleMesh& given) {
     sortByVolume(surfaces);
     joinCavities(mesh, surfaces);
     sortByVolume(surfaces);
-    std::vector<std::size_t> sizes(mesh.objectNames.size());
-    for (const std::uint32_t object : mesh.objects)
-        if (object != noObject) ++sizes[object];
+    const std::vector<std::size_t> sizes = sizesOfObjects(mesh);
     std::vector<Component> result;
+    PartNames parts(mesh);
     for (Surface& surface : surfaces) {
         const std::uint32_t object = objectOf(mesh, surface.triangles, sizes);
-        result.push_back({.name = object == noObject ? partName(result.size() + 1) : mesh.objectNames[object],
+        const std::string part = parts.next(surface.triangles.front());
+        result.push_back({.name = object == noObject ? part : mesh.objectNames[object],
                           .triangles = std::move(surface.triangles),
                           .volume = std::abs(surface.volume),
                           .isClosed = surface.isClosed,
@@ -168,34 +200,46 @@ std::string describe(const Component& component) {
 
 std::vector<std::string> names(const TriangleMesh& mesh) {
     std::vector<std::string> all = mesh.objectNames;
+    const std::set<std::string_view> objects(mesh.objectNames.begin(), mesh.objectNames.end());
     const std::size_t count = components(mesh).size();
     for (std::size_t i = 1; i <= count; ++i)
-        if (std::ranges::find(mesh.objectNames, partName(i)) == mesh.objectNames.end())
-            all.push_back(partName(i));
+        if (std::string name = partName(i); !objects.contains(name)) all.push_back(std::move(name));
     return all;
 }
 
 std::optional<TriangleMesh> choose(const TriangleMesh& mesh, const std::vector<std::string>& names,
                                    std::string& unknown) {
-    std::vector<bool> isKept(mesh.triangles.size());
-    std::vector<Component> parts;
+    std::map<std::string_view, std::size_t> objects;
+    for (std::size_t i = 0; i < mesh.objectNames.size(); ++i) objects[mesh.objectNames[i]] = i;
+    const std::vector<Component> all = components(mesh);
+    std::vector<bool> isObjectKept(objects.size()), isPartKept(all.size());
     for (const std::string& name : names) {
-        const auto object = std::ranges::find(mesh.objectNames, name);
-        if (object != mesh.objectNames.end()) {
-            const auto number = static_cast<std::uint32_t>(object - mesh.objectNames.begin());
-            for (std::size_t i = 0; i < isKept.size(); ++i)
-                if (mesh.objects[i] == number) isKept[i] = true;
-            continue;
-        }
-        if (parts.empty()) parts = components(mesh);
+        const auto object = objects.find(name);
         const std::size_t part = partNumber(name).value_or(0);
-        if (part == 0 || part > parts.size()) {
+        if (object != objects.end()) {
+            isObjectKept[object->second] = true;
+        } else if (part > 0 && part <= all.size()) {
+            isPartKept[part - 1] = true;
+        } else {
             unknown = name;
             return {};
         }
-        for (const std::uint32_t triangle : parts[part - 1].triangles) isKept[triangle] = true;
     }
-    return keep(mesh, isKept);
+    TriangleMesh numbered = mesh;
+    numbered.parts.resize(mesh.triangles.size());
+    std::vector<bool> isKept(mesh.triangles.size());
+    for (std::size_t part = 0; part < all.size(); ++part)
+        for (const std::uint32_t triangle : all[part].triangles) {
+            const std::uint32_t object = mesh.objects.empty() ? noObject : mesh.objects[triangle];
+            isKept[triangle] = isPartKept[part] || (object != noObject && isObjectKept[object]);
+            numbered.parts[triangle] = static_cast<std::uint32_t>(part + 1);
+        }
+    const std::vector<std::size_t> whole = sizesOfObjects(numbered);
+    TriangleMesh chosen = keep(numbered, isKept);
+    const std::vector<std::size_t> left = sizesOfObjects(chosen);
+    for (std::uint32_t& object : chosen.objects) // what is left of an object is not it
+        if (object != noObject && left[object] < whole[object]) object = noObject;
+    return chosen;
 }
 
 TriangleMesh extract(const TriangleMesh& mesh, const Component& component) {

@@ -18,7 +18,8 @@ struct Component {
     std::size_t cavities = 0;
 };
 
-/// All components of a welded mesh, the largest volume first: the first is "part 1".
+/// All components of a welded mesh, the largest volume first: the first is "part 1". Those of a choice keep
+/// the numbers that they have in the whole mesh.
 std::vector<Component> components(const TriangleMesh& mesh);
 
 /// "\"liver\": 1200 triangles, 0.00143 m^3"; says where a component is open or has cavities.

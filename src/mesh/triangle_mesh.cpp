@@ -83,10 +83,12 @@ void keepTriangles(TriangleMesh& mesh, const std::vector<bool>& isKept) {
     for (std::size_t i = 0; i < isKept.size(); ++i) {
         if (!isKept[i]) continue;
         if (!mesh.objects.empty()) mesh.objects[kept] = mesh.objects[i];
+        if (!mesh.parts.empty()) mesh.parts[kept] = mesh.parts[i];
         mesh.triangles[kept++] = mesh.triangles[i];
     }
     mesh.triangles.resize(kept);
     if (!mesh.objects.empty()) mesh.objects.resize(kept);
+    if (!mesh.parts.empty()) mesh.parts.resize(kept);
 }
 
 /// Drops vertices no triangle uses.
@@ -96,7 +98,7 @@ TriangleMesh compacted(const TriangleMesh& mesh) {
     for (const Triangle& triangle : mesh.triangles)
         for (const std::uint32_t vertex : triangle) number[vertex] = 0;
     TriangleMesh result{
-        .name = mesh.name, .objects = mesh.objects, .objectNames = mesh.objectNames};
+        .name = mesh.name, .objects = mesh.objects, .objectNames = mesh.objectNames, .parts = mesh.parts};
     for (std::size_t vertex = 0; vertex < number.size(); ++vertex)
         if (number[vertex] != unused) {
             number[vertex] = static_cast<std::uint32_t>(result.positions.size());

@@ -17,6 +17,9 @@ struct TriangleMesh {
     /// name.
     std::vector<std::uint32_t> objects = {};
     std::vector<std::string> objectNames = {}; ///< as the file gives them, no two equal
+    /// For each triangle the number of the component that held it before some were chosen, from 1; empty
+    /// where none were.
+    std::vector<std::uint32_t> parts = {};
 };
 
 /// Topology and quality of a mesh after identical vertices were joined.

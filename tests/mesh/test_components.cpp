@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <numbers>
 
 using namespace sinew::mesh;
@@ -112,4 +113,58 @@ TEST(Components, AreChosenByName) {
         EXPECT_EQ(volume({"liver", name}), -1) << name;
         EXPECT_EQ(unknown, name);
     }
+}
+
+TEST(Components, OfAChoiceKeepTheirNumbers) {
+    const TriangleMesh mesh =
+        withObjects(joined(joined(cube(0, 1), cube(2, 4)), joined(cube(5, 5.5f), cube(6, 6.25f))),
+                    {{"liver", 12}, {"", 12}, {"vessels", 24}});
+    std::string unknown;
+    EXPECT_EQ(
+        describeAll(*choose(mesh, {"part 4", "liver"}, unknown)),
+        (std::vector<std::string>{"\"liver\": 12 triangles, 1 m^3", "\"part 4\": 12 triangles, 0.0156 m^3"}));
+    EXPECT_EQ(describeAll(*choose(mesh, {"vessels"}, unknown)),
+              (std::vector<std::string>{"\"part 3\": 12 triangles, 0.125 m^3",
+                                        "\"part 4\": 12 triangles, 0.0156 m^3"}));
+    MeshDefects defects;
+    const TriangleMesh welded = weld(*choose(mesh, {"part 3"}, unknown), defects);
+    EXPECT_EQ(components(welded)[0].name, "part 3") << "through every further step";
+}
+
+TEST(Components, OfAChoiceAreCountedAsPiecesWhereItPartsOne) {
+    MeshDefects defects; // two cubes that a third one connects
+    const TriangleMesh row =
+        weld(joined(joined(cube(0, 1), joined(cube(1, 2), cube(2, 4))), cube(10, 15)), defects);
+    TriangleMesh mesh = withObjects(row, {{"ends", 12}, {"middle", 12}, {"", 24}});
+    std::fill_n(mesh.objects.begin() + 24, 12, 0u);
+    std::string unknown;
+    EXPECT_EQ(describeAll(*choose(mesh, {"ends"}, unknown)),
+              (std::vector<std::string>{"\"part 2\": 12 triangles, 8 m^3",
+                                        "\"part 2, piece 2\": 12 triangles, 1 m^3"}));
+}
+
+TEST(Components, AreNamedInTimeThatGrowsAsTheirNumber) {
+    TriangleMesh mesh = withObjects(TriangleMesh{}, {});
+    for (std::uint32_t i = 0; i < 200'000; ++i) {
+        const float x = static_cast<float>(i);
+        for (const Vec3 corner : {Vec3{x, 0, 0}, Vec3{x + 0.5f, 0, 0}, Vec3{x, 0.5f, 0}, Vec3{x, 0, 0.5f}})
+            mesh.positions.push_back(corner);
+        for (const auto& [a, b, c] :
+             {std::array{0u, 2u, 1u}, std::array{0u, 1u, 3u}, std::array{1u, 2u, 3u}, std::array{0u, 3u, 2u}})
+            mesh.triangles.push_back({4 * i + a, 4 * i + b, 4 * i + c});
+    }
+    mesh.objects.assign(mesh.triangles.size(), noObject);
+    for (std::uint32_t i = 0; i < 20'000; ++i) {
+        mesh.objectNames.push_back("a long name of an object " + std::to_string(i));
+        for (std::uint32_t k = 0; k < 4; ++k) mesh.objects[4 * i + k] = i;
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    const std::vector<std::string> all = names(mesh);
+    std::string unknown;
+    const auto chosen = choose(mesh, all, unknown);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    EXPECT_EQ(all.size(), 220'000u);
+    ASSERT_TRUE(chosen);
+    EXPECT_EQ(chosen->triangles.size(), mesh.triangles.size());
+    EXPECT_LT(taken.count(), 20) << "a name against every other takes minutes";
 }

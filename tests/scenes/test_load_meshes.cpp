@@ -487,6 +487,10 @@ TEST_F(Load, KeepsComponentsApart) {
     EXPECT_EQ(load(scene + hold + ".liver\"]\n").scene.fixed.size(), loaded.scene.bodies[0].particleCount);
     EXPECT_EQ(load(scene + "object = \"liver\"\n").scene.bodies.at(0).name, "organs")
         << "one alone is not apart";
+    const scenes::LoadedScene chosen = load(scene + "object = [\"part 4\", \"part 2\", \"part 3\"]\n");
+    ASSERT_EQ(chosen.scene.bodies.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_EQ(chosen.scene.bodies[i].name, names[i + 1]) << "a part keeps its number";
 }
 
 TEST_F(Load, KeepsACavityWithWhatIsAroundIt) {
