@@ -1,0 +1,17 @@
+// A host's own file: nothing of how Sinew is built reaches it.
+#ifdef VK_NO_PROTOTYPES
+#error a definition came with the target of Sinew
+#endif
+
+#include "sim/simulation.hpp"
+
+#ifdef VK_NO_PROTOTYPES
+#error a definition came with the headers of Sinew
+#endif
+#ifdef _GLIBCXX_ASSERTIONS
+#error a definition came with the target of Sinew
+#endif
+
+int framesInFlight() {
+    return static_cast<int>(sinew::sim::Simulation::framesInFlight);
+}
