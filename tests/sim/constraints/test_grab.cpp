@@ -283,7 +283,8 @@ TEST(Hand, HoldsOnWhenASimulationWithMoreRoomTakesOver) {
     bool isSecond = false;
     for (int s = 0; s < 40; ++s) {
         grab.target.x += 0.005f;
-        const Step step = stepOf(scene, std::array{grab});
+        const std::array grabs{grab};
+        const Step step = stepOf(scene, grabs);
         whole.step(step);
         if (isSecond) {
             second.step(step);
