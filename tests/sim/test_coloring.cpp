@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <random>
 #include <set>
 
@@ -125,6 +126,30 @@ TEST(Coloring, OfVoxelsOfAnyShapeTakesEighteenColors) {
                 lattice.fill.push_back(isHole || isOutside ? 0.0f : 1.0f);
             }
     EXPECT_EQ(latticeColors(lattice), 18u);
+}
+
+// The first and the last turn of the links of each step between indices: those of two steps enclose each
+// other or lie apart.
+TEST(Coloring, NestsTheTurnsOfDirections) {
+    for (const std::uint32_t neighbours : {0u, 18u, 26u}) {
+        Scene scene;
+        if (neighbours == 0)
+            addCloth(scene, {.size = {12, 9}, .skipStiffness = 10, .pinned = {0}});
+        else
+            addLattice(scene, {.cells = {5, 4, 7}, .hasBodyDiagonals = neighbours == 26});
+        const Coloring coloring = colored(scene);
+        std::map<std::uint32_t, std::set<std::size_t>> turns;
+        for (std::size_t turn = 0; turn < coloring.colorCount(); ++turn) {
+            const DistanceConstraint& c = scene.distances[coloring.color(turn)[0]];
+            turns[std::max(c.a, c.b) - std::min(c.a, c.b)].insert(turn);
+        }
+        for (const auto& [step, of] : turns)
+            for (const auto& [other, inside] : turns) {
+                const bool alternate = *of.begin() < *inside.begin() && *inside.begin() < *of.rbegin() &&
+                                       *of.rbegin() < *inside.rbegin();
+                EXPECT_FALSE(alternate) << neighbours << " neighbours, steps " << step << ", " << other;
+            }
+    }
 }
 
 TEST(Coloring, OfADisturbedSheetStillFindsItsRows) {
