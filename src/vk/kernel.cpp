@@ -2,6 +2,7 @@
 #include "vk/kernel.hpp"
 
 #include "vk/check.hpp"
+#include "vk/exact.hpp"
 #include "vk/kernel_store.hpp"
 
 #include <algorithm>
@@ -107,9 +108,10 @@ VkPipeline createPipeline(const Device& device, const ShaderCode& code, VkPipeli
                                               .pMapEntries = entries.data(),
                                               .dataSize = constants.size_bytes(),
                                               .pData = constants.data()};
+    const std::vector<std::uint32_t> exact = withoutContraction(code.words);
     const VkShaderModuleCreateInfo moduleInfo{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                              .codeSize = code.words.size_bytes(),
-                                              .pCode = code.words.data()};
+                                              .codeSize = exact.size() * sizeof(std::uint32_t),
+                                              .pCode = exact.data()};
     VkShaderModule module = VK_NULL_HANDLE;
     check(device.functions().vkCreateShaderModule(device.handle(), &moduleInfo, nullptr, &module),
           "vkCreateShaderModule", code.name);

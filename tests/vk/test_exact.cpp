@@ -1,8 +1,10 @@
-// Functions in kernels of which the result must be the same bits wherever it is computed: predicates that
-// several kernels ask, signs of determinants, and all that forms of one step have in common. A compiler may
-// fuse a product and a sum that are not decorated with NoContraction, and compute dot products and the like
-// as it wants. This is read out of the SPIR-V of every kernel in the build.
+// Arithmetic that is the same on every device. A compiler may fuse a product and a sum that are not decorated
+// with NoContraction: vk::withoutContraction decorates all of them. Dot products and the like it computes as
+// it wants: none is in the functions of which the result must be the same bits wherever it is computed, which
+// are predicates that several kernels ask, signs of determinants, and all that forms of one step have in
+// common. Both are read out of the SPIR-V of every kernel in the build.
 #include "vk/device.hpp"
+#include "vk/exact.hpp"
 #include "vk/spirv.hpp"
 
 #include <gtest/gtest.h>
@@ -22,12 +24,18 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Names as the compiler mangles them, up to where they differ from others.
-const std::vector<std::string> exactFunctions{
-    "dot3(",        "cross3(",          "length3(",      "sizeOf(",                  // math.glsl
-    "wayOf(f1;vf3", "frameOf(",         "cellOf(",       "isHurrying(",              // hash grids
-    "isApart(",     "touches(",         "meetingOf(vf3", "volumeOf(",    "edgeHit(", // contacts, blades
-    "rayHit(",      "hitOf(",           "linkImpulse(",  "latticeLink(", "advance(", // forms of `split`
-    "rebound(",     "projectOntoPlane("};
+const std::vector<std::string> exactFunctions{"dot3(",          "cross3(",
+                                              "length3(",       "sizeOf(", // math.glsl
+                                              "wayOf(f1;vf3",   "frameOf(",
+                                              "cellOf(",        "isHurrying(", // hash grids
+                                              "isApart(",       "touches(",
+                                              "meetingOf(vf3",  "volumeOf(",
+                                              "edgeHit(", // contacts, blades
+                                              "rayHit(",        "hitOf(",
+                                              "linkImpulse(",   "latticeLink(",
+                                              "advance(", // forms of `split`
+                                              "rebound(",       "projectOntoPlane(",
+                                              "directionOf(vf3"};
 
 constexpr std::uint32_t opName = 5, opExtInst = 12, opFunction = 54, opDecorate = 71, noContraction = 42,
                         opDot = 148;
@@ -53,6 +61,7 @@ std::vector<std::uint32_t> wordsOf(const fs::path& file) {
 
 struct Inexact {
     std::set<std::string> functions;  ///< all that the module has
+    int fused = 0;                    ///< operations that a compiler may fuse, of all functions
     std::map<std::string, int> loose; ///< instructions that are not exact, by function
 };
 
@@ -67,6 +76,7 @@ Inexact inspect(const std::vector<std::uint32_t>& words) {
         if (op == opDecorate && operands[1] == noContraction) decorated.insert(operands[0]);
         if (op == opFunction) result.functions.insert(function = names[operands[1]]);
         const bool isFused = mayBeFused(op) && !decorated.contains(operands[1]);
+        result.fused += isFused ? 1 : 0;
         if (isFused || op == opDot || (op == opExtInst && isLoose(operands[3]))) ++result.loose[function];
     }
     return result;
@@ -86,7 +96,7 @@ TEST(ExactKernels, LeaveACompilerNothingToFuseWhereBitsMustAgree) {
     ASSERT_GE(kernels.size(), 300u) << "the kernels of src/sim are built with the library that this links";
     std::set<std::string> found;
     for (const fs::path& kernel : kernels) {
-        const Inexact inexact = inspect(wordsOf(kernel));
+        const Inexact inexact = inspect(vk::withoutContraction(wordsOf(kernel))); // as it is made
         for (const std::string& exact : exactFunctions)
             for (const std::string& function : inexact.functions) {
                 if (!function.starts_with(exact)) continue;
@@ -95,6 +105,17 @@ TEST(ExactKernels, LeaveACompilerNothingToFuseWhereBitsMustAgree) {
             }
     }
     EXPECT_EQ(found.size(), exactFunctions.size()); // a promise about nothing
+}
+
+TEST(ExactKernels, AreMadeWithoutAnOperationThatMayBeFused) {
+    int before = 0;
+    for (const fs::path& kernel : kernelsIn(KERNEL_FOLDER)) {
+        const std::vector<std::uint32_t> words = wordsOf(kernel), exact = vk::withoutContraction(words);
+        before += inspect(words).fused;
+        EXPECT_EQ(inspect(exact).fused, 0) << kernel.filename();
+        EXPECT_EQ(vk::withoutContraction(exact), exact) << kernel.filename() << " is exact already";
+    }
+    EXPECT_GT(before, 1000) << "without it there are many";
 }
 
 // The largest kernel binds as many storage buffers as `sinew devices` and the documents say.
