@@ -29,11 +29,13 @@ struct Direction {
     float distance; // [m]
 };
 
+// By the one root: a compiler may make a quotient by a root in two ways, and not alike in a substep with fast particles and
+// in one without.
 Direction directionOf(vec3 d, uint i, uint j) {
-    const float squared = dot(d, d);
+    const float squared = dot3(d, d);
     if (squared < 1e-30) return Direction(axisFor(i, j), 0.0);
-    const float distance = sqrt(squared);
-    return Direction(d / distance, distance);
+    const float inverse = inversesqrt(squared);
+    return Direction(inverse * d, inverse * squared);
 }
 
 // When two that are at difference d after a substep, in which that changed by `way`, met on the way: the first root t of
