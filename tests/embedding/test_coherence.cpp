@@ -87,7 +87,7 @@ private:
         const VkDeviceSize step = std::max(need.alignment, incoherent.atom), offset = 3 * step;
         const VkMemoryAllocateInfo allocate{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
                                             .allocationSize = offset + need.size,
-                                            .memoryTypeIndex = 0}; // of a software device, all are mapped
+                                            .memoryTypeIndex = mappedType(need.memoryTypeBits)};
         VkDeviceMemory memory = VK_NULL_HANDLE;
         vk::check(functions.vkAllocateMemory(handles.device, &allocate, nullptr, &memory), "vkAllocateMemory",
                   "");
@@ -108,6 +108,19 @@ private:
         made.memoryOffset = offset;
         made.memorySize = allocate.allocationSize;
         return made;
+    }
+
+    /// A type that the host can map and that is coherent: what is not is played by `incoherent`.
+    std::uint32_t mappedType(std::uint32_t allowed) const {
+        constexpr VkMemoryPropertyFlags wanted =
+            VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+        VkPhysicalDeviceMemoryProperties memory;
+        const vk::HostDevice handles = host.handles();
+        host.instanceFunctions().vkGetPhysicalDeviceMemoryProperties(handles.physicalDevice, &memory);
+        for (std::uint32_t type = 0; type < memory.memoryTypeCount; ++type)
+            if ((allowed >> type & 1) != 0 && (memory.memoryTypes[type].propertyFlags & wanted) == wanted)
+                return type;
+        throw std::runtime_error("no memory for a mapped buffer");
     }
 
     void destroy(const vk::BufferAllocation& allocation) {

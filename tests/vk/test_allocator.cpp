@@ -47,7 +47,9 @@ VkBufferCreateInfo bufferOf(VkDeviceSize size) {
 std::unique_ptr<vk::Allocator> allocatorWithHeap(VkDeviceSize size) {
     VkPhysicalDeviceMemoryProperties memory;
     device().instanceFunctions().vkGetPhysicalDeviceMemoryProperties(device().physical(), &memory);
-    for (std::uint32_t heap = 0; heap < memory.memoryHeapCount; ++heap) memory.memoryHeaps[heap].size = size;
+    memory.memoryHeapCount = 1;
+    memory.memoryHeaps[0].size = size;
+    for (VkMemoryType& type : memory.memoryTypes) type.heapIndex = 0;
     return makeBlockAllocator(device().handle(), device().functions(), memory);
 }
 
