@@ -1,6 +1,10 @@
 // A Vulkan layer whose devices are lost as soon as the file that SINEW_LOSE_DEVICES names is there: they take
 // no more work, and waits fail. Where that file says a number, so many of those that are made afterwards are
 // lost from the beginning, and those that follow only once the file says something else.
+// SINEW_FAIL_CALL=N lets the Nth call that may fail return SINEW_FAIL_RESULT (a number,
+// VK_ERROR_OUT_OF_DEVICE_MEMORY unless given) and do nothing else, and SINEW_FAIL_TIMES calls in all from
+// that one on (one unless given). Calls count once the file SINEW_FAIL_FROM is there, where that is given.
+// Names of struck calls are lines of the file SINEW_FAIL_REPORT.
 #include <vulkan/vk_layer.h>
 
 #include <cstdlib>
@@ -66,6 +70,34 @@ template <typename Info, typename Create> Info* linkIn(const Create* create, VkS
     return info;
 }
 
+// Of an environment variable; `otherwise` where it is not set.
+long number(const char* variable, long otherwise) {
+    const char* text = std::getenv(variable);
+    return text != nullptr ? std::atol(text) : otherwise;
+}
+
+bool doCallsCount() {
+    const char* from = std::getenv("SINEW_FAIL_FROM");
+    return from == nullptr || std::ifstream(from);
+}
+
+// Whether this call is one that fails.
+bool isStruck(const char* name) {
+    static const long first = number("SINEW_FAIL_CALL", 0), times = number("SINEW_FAIL_TIMES", 1);
+    static long calls = 0;
+    if (first == 0 || !doCallsCount()) return false;
+    const std::lock_guard lock(mutex);
+    ++calls;
+    if (calls < first || calls - first >= times) return false;
+    const char* report = std::getenv("SINEW_FAIL_REPORT");
+    if (report != nullptr) std::ofstream(report, std::ios::app) << name << '\n';
+    return true;
+}
+
+VkResult strike() {
+    return static_cast<VkResult>(number("SINEW_FAIL_RESULT", VK_ERROR_OUT_OF_DEVICE_MEMORY));
+}
+
 VKAPI_ATTR VkResult VKAPI_CALL createInstance(const VkInstanceCreateInfo* create,
                                               const VkAllocationCallbacks* allocator, VkInstance* instance) {
     auto* link = linkIn<VkLayerInstanceCreateInfo>(create, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
@@ -103,26 +135,85 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkD
 
 VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, std::uint32_t count, const VkSubmitInfo* infos,
                                       VkFence fence) {
+    if (isStruck("vkQueueSubmit")) return strike();
     if (isLost(queue)) return VK_ERROR_DEVICE_LOST;
     return down<PFN_vkQueueSubmit>(queue, "vkQueueSubmit")(queue, count, infos, fence);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL waitIdle(VkQueue queue) {
+    if (isStruck("vkQueueWaitIdle")) return strike();
     const VkResult result = down<PFN_vkQueueWaitIdle>(queue, "vkQueueWaitIdle")(queue);
     return isLost(queue) ? VK_ERROR_DEVICE_LOST : result;
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL waitForFences(VkDevice device, std::uint32_t count, const VkFence* fences,
                                              VkBool32 all, std::uint64_t timeout) {
+    if (isStruck("vkWaitForFences")) return strike();
     if (isLost(device)) return VK_ERROR_DEVICE_LOST;
     return down<PFN_vkWaitForFences>(device, "vkWaitForFences")(device, count, fences, all, timeout);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL waitSemaphores(VkDevice device, const VkSemaphoreWaitInfo* info,
                                               std::uint64_t timeout) {
+    if (isStruck("vkWaitSemaphores")) return strike();
     if (isLost(device)) return VK_ERROR_DEVICE_LOST;
     return down<PFN_vkWaitSemaphores>(device, "vkWaitSemaphores")(device, info, timeout);
 }
+
+// Of a device, and known by its number.
+template <int Number, typename Function> struct Fallible;
+template <int Number, typename Handle, typename... Rest>
+struct Fallible<Number, VkResult(VKAPI_PTR*)(Handle, Rest...)> {
+    static inline const char* name = nullptr;
+    static VkResult VKAPI_CALL call(Handle handle, Rest... rest) {
+        if (isStruck(name)) return strike();
+        return down<VkResult(VKAPI_PTR*)(Handle, Rest...)>(handle, name)(handle, rest...);
+    }
+    static PFN_vkVoidFunction named(const char* known) {
+        name = known;
+        return reinterpret_cast<PFN_vkVoidFunction>(call);
+    }
+};
+
+#define FALLIBLE(name)                                                                                       \
+    { #name, Fallible < __COUNTER__, PFN_##name> ::named(#name) }
+const std::map<std::string, PFN_vkVoidFunction> fallible{
+    FALLIBLE(vkAcquireNextImageKHR),
+    FALLIBLE(vkAllocateCommandBuffers),
+    FALLIBLE(vkAllocateDescriptorSets),
+    FALLIBLE(vkAllocateMemory),
+    FALLIBLE(vkBeginCommandBuffer),
+    FALLIBLE(vkBindBufferMemory),
+    FALLIBLE(vkBindImageMemory),
+    FALLIBLE(vkCreateBuffer),
+    FALLIBLE(vkCreateBufferView),
+    FALLIBLE(vkCreateCommandPool),
+    FALLIBLE(vkCreateComputePipelines),
+    FALLIBLE(vkCreateDescriptorPool),
+    FALLIBLE(vkCreateDescriptorSetLayout),
+    FALLIBLE(vkCreateFence),
+    FALLIBLE(vkCreateFramebuffer),
+    FALLIBLE(vkCreateGraphicsPipelines),
+    FALLIBLE(vkCreateImage),
+    FALLIBLE(vkCreateImageView),
+    FALLIBLE(vkCreatePipelineCache),
+    FALLIBLE(vkCreatePipelineLayout),
+    FALLIBLE(vkCreateQueryPool),
+    FALLIBLE(vkCreateRenderPass),
+    FALLIBLE(vkCreateSampler),
+    FALLIBLE(vkCreateSemaphore),
+    FALLIBLE(vkCreateShaderModule),
+    FALLIBLE(vkCreateSwapchainKHR),
+    FALLIBLE(vkEndCommandBuffer),
+    FALLIBLE(vkFlushMappedMemoryRanges),
+    FALLIBLE(vkGetFenceStatus),
+    FALLIBLE(vkGetSemaphoreCounterValue),
+    FALLIBLE(vkGetSwapchainImagesKHR),
+    FALLIBLE(vkInvalidateMappedMemoryRanges),
+    FALLIBLE(vkMapMemory),
+    FALLIBLE(vkQueuePresentKHR),
+    FALLIBLE(vkResetFences),
+};
 
 PFN_vkVoidFunction own(const char* name) {
     const auto is = [name](const char* other) { return std::strcmp(name, other) == 0; };
@@ -132,7 +223,8 @@ PFN_vkVoidFunction own(const char* name) {
     if (is("vkQueueWaitIdle")) return reinterpret_cast<PFN_vkVoidFunction>(waitIdle);
     if (is("vkWaitForFences")) return reinterpret_cast<PFN_vkVoidFunction>(waitForFences);
     if (is("vkWaitSemaphores")) return reinterpret_cast<PFN_vkVoidFunction>(waitSemaphores);
-    return nullptr;
+    const auto found = fallible.find(name);
+    return found == fallible.end() ? nullptr : found->second;
 }
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* name) {
