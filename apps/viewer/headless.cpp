@@ -20,6 +20,7 @@
 #include "vk/queue.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cinttypes>
 #include <cstdio>
 #include <deque>
@@ -382,10 +383,25 @@ private:
         }
     }
 
+    // A step may take a software device minutes. Throws app::Failure (interrupted).
+    void waitFor(std::uint64_t value) {
+        const VkSemaphore timeline = queue_.timeline();
+        const VkSemaphoreWaitInfo info{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO,
+                                       .semaphoreCount = 1,
+                                       .pSemaphores = &timeline,
+                                       .pValues = &value};
+        app::waitUntil([&](std::chrono::nanoseconds most) {
+            const VkResult result = device_.functions().vkWaitSemaphores(
+                device_.handle(), &info, static_cast<std::uint64_t>(most.count()));
+            vk::check(result, "vkWaitSemaphores", "a step");
+            return result != VK_TIMEOUT;
+        });
+    }
+
     void settleOldest() {
         const Submission oldest = submissions_.front();
         submissions_.pop_front();
-        queue_.wait(oldest.value);
+        waitFor(oldest.value);
         if (oldest.frame == 0) return;
         if (times_) times_->stepFinished(oldest.frame);
         if (stage_.neededRoom(oldest.frame) > 0) return redoFrom(oldest);
@@ -451,8 +467,10 @@ int runHeadless(const Options& asked, std::atomic<std::size_t>& messages) {
         recorder.printBeside();
     } catch (const app::Failure& failure) {
         const app::Writing writing;
-        if (failure.code() == app::diverged) // what was drawn before is whole and stays
+        const bool isInterrupted = failure.code() == app::interrupted;
+        if (failure.code() == app::diverged || isInterrupted) // what was drawn before is whole and stays
             outputs.finish();
+        if (isInterrupted) app::leaveInterrupted(failure.what());
         throw;
     } catch (const vk::Error&) { // likewise: encoders and files need no device
         const app::Writing writing;

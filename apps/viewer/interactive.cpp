@@ -222,6 +222,12 @@ public:
                 playing_.show->finishFilm();
                 const std::string kept = keeping_();
                 if (!goesOnAfter(error, kept)) throwAgain(kept);
+            } catch (const app::Failure& failure) {
+                const app::Writing writing;
+                playing_.show->finishFilm();
+                const std::string kept = keeping_();
+                if (failure.code() == app::interrupted) app::leaveInterrupted(failure.what() + kept);
+                throwAgain(kept);
             } catch (...) {
                 playing_.show->finishFilm();
                 throwAgain(keeping_());

@@ -31,7 +31,7 @@ int view(int argc, char** argv) {
         throw app::Failure(app::internalFault,
                            "the validation layer complained: " + std::to_string(messages) +
                                " messages above: please report them");
-    return code;
+    return code == app::interrupted ? app::reportInterruption() : code;
 }
 
 } // namespace

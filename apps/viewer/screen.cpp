@@ -42,10 +42,7 @@ Screen::Screen(Window& window, std::unique_ptr<Place> place, const Timing& timin
 
 Screen::~Screen() {
     window_.setCover({});
-    try {
-        place_->presenter.waitIdle(); // the painter's buffers may be in use
-    } catch (const vk::Error&) {      // of a lost device there is nothing to wait for
-    }
+    place_->presenter.drain(); // the painter's buffers may be in use
 }
 
 std::unique_ptr<Place> Screen::moveTo(std::unique_ptr<Place> place) {

@@ -61,10 +61,7 @@ void Show::goOn(const app::SavedRun& run) {
 }
 
 Show::~Show() {
-    try {
-        screen_.presenter().waitIdle(); // an exception may have left frames in flight
-    } catch (const vk::Error&) {        // of a lost device there is nothing to wait for
-    }
+    screen_.presenter().drain(); // an exception may have left frames in flight
 }
 
 std::unique_ptr<Opening> Show::run() {

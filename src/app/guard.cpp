@@ -6,8 +6,10 @@
 #include "vk/check.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <new>
 
 #include <sys/time.h>
@@ -19,7 +21,13 @@ namespace {
 
 constexpr itimerval patience{.it_interval = {}, .it_value = {.tv_sec = 1, .tv_usec = 800'000}};
 
+constexpr std::chrono::milliseconds patienceForWaits{500}, betweenLooks{50};
+
+using Clock = std::chrono::steady_clock;
+
 volatile std::sig_atomic_t interruptions = 0, writings = 0;
+std::atomic<Clock::rep> interruptedAt = 0; // of the first signal; lock-free, so that handlers may set it
+static_assert(std::atomic<Clock::rep>::is_always_lock_free);
 
 // In handlers: setitimer is a system call and nothing else.
 void beginToWait() {
@@ -27,6 +35,7 @@ void beginToWait() {
 }
 
 extern "C" void countInterruption(int) {
+    if (interruptions == 0) interruptedAt = Clock::now().time_since_epoch().count();
     interruptions = 1;
     beginToWait();
 }
@@ -120,6 +129,24 @@ void catchSignals() {
 
 bool isInterrupted() noexcept {
     return interruptions != 0;
+}
+
+void waitUntil(const std::function<bool(std::chrono::nanoseconds)>& wait) {
+    while (!wait(betweenLooks))
+        if (isInterrupted() &&
+            Clock::now().time_since_epoch() - Clock::duration(interruptedAt.load()) >= patienceForWaits)
+            throw Failure(interrupted, "interrupted: a step that was under way did not end in time: outputs "
+                                       "end with the step before it");
+}
+
+int reportInterruption() noexcept {
+    return report(interrupted, "interrupted: outputs are whole and end with the last step that was done");
+}
+
+void leaveInterrupted(const std::string& message) noexcept {
+    std::fflush(stdout);
+    report(interrupted, message);
+    std::_Exit(interrupted);
 }
 
 Writing::Writing() noexcept {

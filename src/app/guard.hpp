@@ -1,6 +1,7 @@
 // What the programs share at their edge: exit codes, the one-line error, and stopping on signals.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -43,6 +44,18 @@ int report(ExitCode code, std::string message) noexcept;
 /// with a line on stderr and exit code 130: a device or a long computation may not come back before.
 void catchSignals();
 bool isInterrupted() noexcept;
+
+/// Calls `wait`, which waits at most as long as it is told and returns whether it is over, until it is.
+/// Throws Failure (interrupted) where a signal has asked the program to end and it is not over half a second
+/// later: there is then time to finish outputs, and no time for what still waits.
+void waitUntil(const std::function<bool(std::chrono::nanoseconds)>& wait);
+
+/// Says in a line that a signal has ended the program, whose outputs are whole; returns `interrupted`.
+int reportInterruption() noexcept;
+
+/// Says it as report() does and ends the program with exit code 130 at once, without destructors, which may
+/// wait for the device. Outputs are finished before.
+[[noreturn]] void leaveInterrupted(const std::string& message) noexcept;
 
 /// While it lives, a program that was asked to end takes the time that its outputs need. For the thread that
 /// writes them; what it writes is all there, so nothing else is to be waited for. Not to be nested.

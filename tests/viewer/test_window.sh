@@ -378,7 +378,9 @@ start
 keys F9
 for _ in {1..200}; do [[ -n $(find . -name '*.mp4*.part' -size +1000k) ]] && break; sleep 0.1; done
 kill -INT "$running"
-awaitEnd 130
+code=0
+wait "$running" || code=$?
+[[ $code == 130 && $(grep -c "^error: interrupted" viewer.err) == 1 ]] || fail "interrupted: exit code $code, $(cat viewer.err)"
 film=$(sed -n 's/^recording //p' viewer.out)
 bytes=$(stat -c %s "$film") || fail "interrupted, the film is lost"
 ((bytes > 0 && bytes % (640 * 400 * 4) == 0)) || fail "interrupted, the film has $bytes bytes, which are no whole pictures"

@@ -1,6 +1,7 @@
 // Swapchain and frames in flight.
 #include "viewer/window/presenter.hpp"
 
+#include "app/guard.hpp"
 #include "viewer/draw/image.hpp"
 #include "viewer/draw/renderer.hpp"
 #include "vk/check.hpp"
@@ -12,8 +13,6 @@
 namespace sinew::viewer {
 
 namespace {
-
-constexpr std::uint64_t forever = std::numeric_limits<std::uint64_t>::max();
 
 WindowFunctions loadFunctions(const vk::Device& device) {
     WindowFunctions functions;
@@ -59,7 +58,7 @@ Presenter::Presenter(const vk::Device& device, const Window& window)
 }
 
 Presenter::~Presenter() {
-    device_.functions().vkQueueWaitIdle(queue_);
+    drain();
     release();
 }
 
@@ -187,7 +186,7 @@ bool Presenter::resize(VkExtent2D pixels, bool isVsync) {
 }
 
 void Presenter::retire() noexcept {
-    device_.functions().vkQueueWaitIdle(queue_); // of a lost device it returns at once
+    drain();
     destroyViews();
     functions_.vkDestroySwapchainKHR(device_.handle(), std::exchange(swapchain_, VK_NULL_HANDLE), nullptr);
     isOutdated_ = true;
@@ -214,25 +213,45 @@ void Presenter::destroyViews() noexcept {
     drawn_.clear();
 }
 
+void Presenter::waitFor(Slot& slot) {
+    if (!slot.isSubmitted) return;
+    app::waitUntil([&](std::chrono::nanoseconds most) {
+        const VkResult result = device_.functions().vkWaitForFences(
+            device_.handle(), 1, &slot.finished, VK_TRUE, static_cast<std::uint64_t>(most.count()));
+        vk::check(result, "vkWaitForFences", "the window");
+        return result != VK_TIMEOUT;
+    });
+    slot.isSubmitted = false;
+}
+
 void Presenter::waitForSlot() {
-    vk::check(
-        device_.functions().vkWaitForFences(device_.handle(), 1, &slots_[slot_].finished, VK_TRUE, forever),
-        "vkWaitForFences", "the window");
+    waitFor(slots_[slot_]);
 }
 
 bool Presenter::isFinished(std::size_t slot) const {
-    return device_.functions().vkGetFenceStatus(device_.handle(), slots_[slot].finished) != VK_NOT_READY;
+    return !slots_[slot].isSubmitted ||
+           device_.functions().vkGetFenceStatus(device_.handle(), slots_[slot].finished) != VK_NOT_READY;
 }
 
 void Presenter::waitIdle() {
+    for (Slot& slot : slots_) waitFor(slot);
     vk::check(device_.functions().vkQueueWaitIdle(queue_), "vkQueueWaitIdle", "the window");
+}
+
+void Presenter::drain() noexcept {
+    device_.functions().vkQueueWaitIdle(queue_); // of a lost device it returns at once
 }
 
 std::optional<Presenter::Frame> Presenter::begin() {
     const Slot& slot = slots_[slot_];
     std::uint32_t image = 0;
-    const VkResult result = functions_.vkAcquireNextImageKHR(device_.handle(), swapchain_, forever,
-                                                             slot.acquired, VK_NULL_HANDLE, &image);
+    VkResult result = VK_SUCCESS;
+    app::waitUntil([&](std::chrono::nanoseconds most) {
+        result = functions_.vkAcquireNextImageKHR(device_.handle(), swapchain_,
+                                                  static_cast<std::uint64_t>(most.count()), slot.acquired,
+                                                  VK_NULL_HANDLE, &image);
+        return result != VK_TIMEOUT && result != VK_NOT_READY;
+    });
     isOutdated_ = result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR;
     if (result == VK_ERROR_OUT_OF_DATE_KHR) return std::nullopt;
     vk::check(result, "vkAcquireNextImageKHR", "the window"); // a suboptimal image is drawn all the same
@@ -245,7 +264,7 @@ std::optional<Presenter::Frame> Presenter::begin() {
 
 void Presenter::end(const Frame& frame) {
     const vk::DeviceFunctions& functions = device_.functions();
-    const Slot& slot = slots_[frame.slot];
+    Slot& slot = slots_[frame.slot];
     vk::check(functions.vkEndCommandBuffer(slot.commands), "vkEndCommandBuffer", "the window");
     vk::check(functions.vkResetFences(device_.handle(), 1, &slot.finished), "vkResetFences", "the window");
     const VkPipelineStageFlags drawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
@@ -258,6 +277,7 @@ void Presenter::end(const Frame& frame) {
                                   .signalSemaphoreCount = 1,
                                   .pSignalSemaphores = &drawn_[frame.image]};
     vk::check(functions.vkQueueSubmit(queue_, 1, &submission, slot.finished), "vkQueueSubmit", "the window");
+    slot.isSubmitted = true;
     const VkPresentInfoKHR presentation{.sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR,
                                         .waitSemaphoreCount = 1,
                                         .pWaitSemaphores = &drawn_[frame.image],

@@ -47,7 +47,8 @@ public:
 
     /// Slot of the next begin().
     std::uint32_t nextSlot() const noexcept { return slot_; }
-    /// Waits until what was submitted in the next slot has finished.
+    /// Waits until what was submitted in the next slot has finished. Throws vk::Error and, where a signal has
+    /// asked the program to end and that takes its time, app::Failure (interrupted).
     void waitForSlot();
     /// Whether nothing that was submitted in that slot is on its way.
     bool isFinished(std::size_t slot) const;
@@ -56,15 +57,19 @@ public:
     std::optional<Frame> begin();
     /// Submits and presents. The picture must be in PRESENT_SRC_KHR layout.
     void end(const Frame& frame);
-    /// Waits for all frames.
+    /// Waits for all frames. Throws likewise.
     void waitIdle();
+    /// The same for destructors: waits however long it takes.
+    void drain() noexcept;
 
 private:
     struct Slot {
         VkCommandBuffer commands = VK_NULL_HANDLE;
         VkFence finished = VK_NULL_HANDLE;
         VkSemaphore acquired = VK_NULL_HANDLE;
+        bool isSubmitted = false; // since the last wait: the fence comes
     };
+    void waitFor(Slot& slot);
     void chooseFormat();
     void createSlots();
     VkSemaphore createSemaphore(const std::string& name);

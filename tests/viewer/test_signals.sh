@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# test_signals.sh VIEWER SCENE FOLDER: SIGINT and SIGTERM while the window is open, while it prepares its first scene and in a step that
+# takes seconds. It ends within 2 s (and some for a busy machine) with one line and exit code 130, and nothing is written half; films and settings of a window that plays are whole.
+set -euo pipefail
+viewer=$1 scene=$2 folder=$3
+here=$(cd "$(dirname "$0")" && pwd)
+extent=320x240 options=(--no-validation)
+. "$here/window.sh"
+mkdir bin # stands in for ffmpeg: its last argument is the file
+printf '#!/bin/sh\nfor last; do :; done\nexec cat >"${last#file:}"\n' >bin/ffmpeg
+chmod +x bin/ffmpeg
+PATH=$folder/bin:$PATH
+
+endsSoon() { # SIGNAL
+    local code=0 from
+    from=$(date +%s%N)
+    kill -"$1" "$running" || fail "it has ended before the signal"
+    wait "$running" || code=$?
+    (($(date +%s%N) - from < 6000000000)) || fail "SIG$1 took longer than 6 s"
+    [[ $code == 130 ]] || fail "SIG$1: exit code $code, expected 130"
+    (($(grep -c '^error: interrupted' viewer.err) == 1)) || fail "SIG$1: nothing, or more than a line, is said of it"
+    [[ -z $(find . -name '*.tmp*' -o -name '*.part*' -o -name '.*.png*') ]] || fail "SIG$1: partial files: $(find .)"
+}
+expectFilm() {
+    local film bytes
+    film=$(sed -n 's/^recording //p' viewer.out)
+    bytes=$(stat -c %s "$film") || fail "the film is lost"
+    ((bytes > 0 && bytes % (320 * 240 * 4) == 0)) || fail "the film has $bytes bytes, which are no whole pictures"
+}
+expectSettings() { # LINE: of what a key has changed
+    grep -qx "$1" config/sinew/viewer.conf || fail "settings are lost: $1"
+}
+
+printf '[solver]\nsubsteps = 1000\n[[box]]\nparticles = [40, 40, 40]\nspacing = 0.02\ncenter = [0, 1, 0]\nyoung_modulus = 1e5\n[[plane]]\n' >slow.toml
+for signal in INT TERM; do
+    echo "signals: SIG$signal in the window"
+    rm -rf config
+    start
+    keys v
+    keys F9
+    for _ in {1..300}; do [[ -n $(find . -name '*.mp4*.part' -size +600k) ]] && break; sleep 0.1; done
+    endsSoon $signal
+    expectFilm
+    expectSettings 'vsync = false'
+
+    echo "signals: SIG$signal while the first scene is prepared"
+    "$viewer" slow.toml --size $extent >viewer.out 2>viewer.err &
+    running=$!
+    processes+=("$running")
+    for _ in {1..200}; do grep -q ' on ' viewer.out && break; sleep 0.05; done # loaded, and pipelines are made
+    endsSoon $signal
+
+    echo "signals: SIG$signal in a step that takes seconds"
+    "$viewer" slow.toml "${options[@]}" --size $extent >viewer.out 2>viewer.err &
+    running=$!
+    processes+=("$running")
+    for _ in {1..1200}; do
+        window=$(xdotool search --name '^Sinew.*particles' 2>/dev/null | head -n 1) && [[ -n $window ]] && break
+        kill -0 "$running" 2>/dev/null || fail "the viewer ended at once"
+        sleep 0.1
+    done
+    sleep 3 # a step is under way
+    endsSoon $signal
+done
+echo "passed"
