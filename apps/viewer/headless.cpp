@@ -144,6 +144,12 @@ public:
         if (tools_) tools_->moveOn();
     }
 
+    /// What the simulation says of how it is used, on stderr. All steps have finished.
+    void printComplaints() {
+        for (const std::string& complaint : stage_.simulation().complaints())
+            std::fprintf(stderr, "warning: %s\n", complaint.c_str());
+    }
+
     /// Of a replay, what came after its last step, and the state in which it was left; likewise of what went
     /// on from a saved one.
     void finishReplay() {
@@ -461,6 +467,7 @@ int runHeadless(const Options& asked, std::atomic<std::size_t>& messages) {
         }
         recorder.settle();
         progress.finish();
+        recorder.printComplaints();
         recorder.finishReplay();
         recorder.printCuts();
         recorder.printTimes();

@@ -27,7 +27,9 @@ void say(const Opening& opening, const vk::Device& device) {
 
 // and in the window.
 void tell(const Opening& opening, Screen& screen) {
-    if (!opening.loaded.warnings.empty()) screen.tell(opening.loaded.warnings.front());
+    std::vector<std::string> texts = opening.loaded.warnings;
+    texts.insert(texts.end(), opening.loaded.notes.begin(), opening.loaded.notes.end());
+    screen.announce(texts);
 }
 
 // What plays, and the device that it plays on.

@@ -12,7 +12,6 @@ namespace sinew::viewer {
 
 namespace {
 
-constexpr std::chrono::seconds warningStays{12}, notePasses{4};
 constexpr std::chrono::milliseconds panelsStay{100};
 constexpr std::uint32_t picturesOfPanels = 5; // to draw them anew takes a software device four times as long
 
@@ -110,7 +109,7 @@ void Screen::rescale() {
     place_->presenter.waitIdle(); // the atlas may be in use
     panels_.rescale(windowScale_ * ownScale_);
     place_->painter.setAtlas(panels_.atlas());
-    isNoticeNew_ = true; // what is shown is laid out anew
+    notices_.touch(); // what is shown is laid out anew
 }
 
 void Screen::expectPreviews(std::size_t count) {
@@ -122,7 +121,7 @@ void Screen::expectPreviews(std::size_t count) {
 void Screen::addPreview(std::size_t scene, const Picture& picture) {
     if (!sheet_.set(scene, picture)) return;
     place_->painter.addPicture(sheet_, scene);
-    isNoticeNew_ = true;
+    notices_.touch();
 }
 
 void Screen::feed(const PanelInput& input) {
@@ -133,8 +132,8 @@ Wishes Screen::drawPanels(const Presenter::Frame& frame, const SceneFacts& scene
     const auto now = Clock::now();
     const double seconds = std::chrono::duration<double>(now - std::exchange(lastPicture_, now)).count();
     facts.isVsync = isVsync_;
-    facts.notice = notice_.text;
-    facts.isNoticeBad = notice_.isBad;
+    facts.notice = notices_.shown().text;
+    facts.isNoticeBad = notices_.shown().isBad;
     facts.previews = sheet_.has();
     PanelInput input = std::move(input_);
     input_ = {};
@@ -154,21 +153,20 @@ Wishes Screen::drawPanels(const Presenter::Frame& frame, const SceneFacts& scene
 
 void Screen::warn(const std::string& text) {
     std::fprintf(stderr, "warning: %s\n", text.c_str());
-    notice_ = {text, true, Clock::now() + warningStays};
-    isNoticeNew_ = true;
+    notices_.show({text, true}, Clock::now());
 }
 
 void Screen::tell(const std::string& text) {
-    notice_ = {text, false, Clock::now() + notePasses};
-    isNoticeNew_ = true;
+    notices_.show({text}, Clock::now());
+}
+
+void Screen::announce(const std::vector<std::string>& texts) {
+    notices_.announce(texts, Clock::now());
 }
 
 bool Screen::hasNewNotice() {
-    if (!notice_.text.empty() && Clock::now() >= notice_.until) {
-        notice_ = {};
-        isNoticeNew_ = true;
-    }
-    return std::exchange(isNoticeNew_, false);
+    notices_.pass(Clock::now());
+    return notices_.hasChanged();
 }
 
 } // namespace sinew::viewer

@@ -5,6 +5,7 @@
 #include "viewer/beside.hpp"
 #include "viewer/panels/panels.hpp"
 #include "viewer/prepared_show.hpp"
+#include "viewer/window/notices.hpp"
 #include "viewer/window/preferences.hpp"
 #include "viewer/window/timing.hpp"
 
@@ -67,17 +68,14 @@ public:
     void warn(const std::string& text);
     /// Says it in the window alone.
     void tell(const std::string& text);
+    /// Says them in the window, one after the other, in place of those of the scene before.
+    void announce(const std::vector<std::string>& texts);
     /// True once when a message or a preview has come, or a message has gone.
     bool hasNewNotice();
 
 private:
     void rescale();
     using Clock = std::chrono::steady_clock;
-    struct Notice {
-        std::string text;
-        bool isBad = false;
-        Clock::time_point until;
-    };
 
     Window& window_;
     std::unique_ptr<Place> place_;
@@ -85,14 +83,14 @@ private:
     Panels panels_;
     PictureSheet sheet_{0};
     PanelInput input_;
-    Notice notice_;
+    Notices notices_;
     Layers layers_;
     std::optional<BesideShape> beside_;
     float ownScale_, windowScale_; // of texts: as chosen, and as the display wants them
     Clock::time_point lastPicture_ = Clock::now(), panelsDrawn_{};
     std::uint32_t picturesOfPanels_ = 0; // since then
     VkExtent2D pixels_{};
-    bool isVsync_, isNoticeNew_ = false;
+    bool isVsync_;
 };
 
 } // namespace sinew::viewer

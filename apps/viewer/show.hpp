@@ -183,6 +183,7 @@ private:
     void stop(const std::string& why);
     void makeRoom(std::uint64_t step, const InFlight& undone);
     void settleAll();
+    void warnOfMistakes();
     void reportFiles(PictureWriter::Wait wait);
 
     Screen& screen_;

@@ -317,6 +317,13 @@ void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
 void Show::settleAll() {
     screen_.presenter().waitIdle();
     for (std::uint32_t slot = 0; slot < Presenter::framesInFlight; ++slot) settle(slot);
+    warnOfMistakes();
+}
+
+// Steps without room are undone by then and done again: no mistake.
+void Show::warnOfMistakes() {
+    if (stage_.lacksContactRoom() || isDiverged_) return;
+    for (const std::string& complaint : stage_.simulation().complaints()) screen_.warn(complaint);
 }
 
 } // namespace sinew::viewer

@@ -104,11 +104,13 @@ std::optional<std::string> stretchWarning(const RunRecord& record) {
 }
 
 /// What only a run can show; the same on stderr and in the report.
-void warnAboutRun(const RunRecord& record, std::vector<std::string>& warnings) {
+void warnAboutRun(const RunRecord& record, std::vector<std::string>& warnings,
+                  const std::vector<std::string>& complaints) {
     const auto warn = [&](const std::string& sentence) {
         warnings.push_back(sentence);
         std::fprintf(stderr, "warning: %s\n", sentence.c_str());
     };
+    for (const std::string& complaint : complaints) warn(complaint);
     if (record.slowed > 0)
         warn(std::to_string(record.slowed) +
              " times a particle was slowed down, so that its contacts are found: momentum was lost, "
@@ -146,7 +148,7 @@ int conclude(const RunRecord& record) {
                 " particles are not finite, the last finite state was kept: use more substeps, a lower "
                 "omega or a softer material");
     }
-    return record.isInterrupted ? app::interrupted : app::done;
+    return record.isInterrupted ? app::reportInterruption() : app::done;
 }
 
 int run(const RunOptions& options) {
@@ -173,7 +175,7 @@ int run(const RunOptions& options) {
     const RunRecord record = recordOf(options, loaded, session, runner);
     for (const std::string& message : record.validationMessages)
         std::fprintf(stderr, "validation: %s\n", message.c_str());
-    warnAboutRun(record, loaded.warnings);
+    warnAboutRun(record, loaded.warnings, runner.complaints());
 
     const std::string report = toJson(record);
     if (options.save) writeState(*options.save, start, runner);

@@ -162,6 +162,11 @@ void Runner::advance(std::uint64_t count, std::uint32_t inFlight,
     if (!divergence_) growSurface();
 }
 
+std::vector<std::string> Runner::complaints() {
+    if (divergence_ && divergence_->isCrowded) return {};
+    return growing_.simulation().complaints();
+}
+
 std::vector<double> Runner::phaseMs() const {
     std::vector<double> means;
     for (const double sum : phaseSums_)

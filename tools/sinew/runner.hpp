@@ -69,6 +69,10 @@ public:
     /// Of the newest step with a finite state.
     const CutFigures& cuts() const { return cuts_; }
 
+    /// What the simulation says of how it is used (sim::Simulation::complaints), after advance(); nothing
+    /// where it found too little room for contacts, which the divergence tells.
+    std::vector<std::string> complaints();
+
     /// Wall-clock time [ms] from the end of one step to the end of the next, of the newest 65,536 steps at
     /// most, the one that diverged included: an endless run must not grow. In no order.
     const std::vector<double>& frameMs() const { return frameMs_; }

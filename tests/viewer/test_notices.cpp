@@ -1,0 +1,49 @@
+// What the window says, one text after the other.
+#include "viewer/window/notices.hpp"
+
+#include <gtest/gtest.h>
+
+namespace sinew::viewer {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(Notices, ShowEveryNoteOfASceneInItsTurn) {
+    Notices notices;
+    Notices::Clock::time_point now{};
+    notices.announce({"one", "two", "three"}, now);
+    for (const char* text : {"one", "two", "three", ""}) {
+        EXPECT_TRUE(notices.hasChanged()) << text;
+        EXPECT_EQ(notices.shown().text, text);
+        EXPECT_FALSE(notices.shown().isBad);
+        notices.pass(now + Notices::notePasses - 1ms);
+        EXPECT_FALSE(notices.hasChanged()) << text;
+        EXPECT_EQ(notices.shown().text, text) << "it stays its time";
+        notices.pass(now += Notices::notePasses);
+    }
+    EXPECT_FALSE(notices.hasChanged());
+}
+
+TEST(Notices, PutAWarningBeforeThoseThatWait) {
+    Notices notices;
+    Notices::Clock::time_point now{};
+    notices.announce({"one", "two"}, now);
+    notices.show({"no room", true}, now);
+    EXPECT_EQ(notices.shown().text, "no room");
+    notices.pass(now += Notices::notePasses);
+    EXPECT_EQ(notices.shown().text, "no room") << "a warning stays longer";
+    notices.pass(now += Notices::warningStays);
+    EXPECT_EQ(notices.shown().text, "two");
+}
+
+TEST(Notices, ForgetThoseOfTheSceneBefore) {
+    Notices notices;
+    Notices::Clock::time_point now{};
+    notices.announce({"one", "two"}, now);
+    notices.announce({}, now);
+    notices.pass(now += Notices::notePasses);
+    EXPECT_EQ(notices.shown().text, "");
+}
+
+} // namespace
+} // namespace sinew::viewer
