@@ -168,13 +168,13 @@ void Show::showCounts(const sim::Status& status) {
     allPieces_ = status.pieces;
     gauges_.stepFinished(status);
     status_.setSleeping(status.sleeping);
-    status_.setPieces(gauges_.pieces().pieces);
+    status_.setPieces(gauges_.pieces());
 }
 
 void Show::settleCount() {
     if (linksCut_ == 0) return; // somebody has gone back to before
     gauges_.piecesCounted(pieceProbe_.count(allPieces_));
-    status_.setPieces(gauges_.pieces().pieces);
+    status_.setPieces(gauges_.pieces());
     panelsDue_ = std::max(panelsDue_, 1u);
 }
 

@@ -67,7 +67,7 @@ void Show::takeOver(const Show& before) {
     tools_.goOn(before.tools_, stage_);
     gauges_.goOn(before.gauges_);
     status_.setSleeping(gauges_.facts(stage_).sleeping);
-    status_.setPieces(gauges_.pieces().pieces);
+    status_.setPieces(gauges_.pieces());
     pointer_ = before.pointer_;
     fold_ = before.fold_;
     isButtonDown_ = before.isButtonDown_;

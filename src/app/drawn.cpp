@@ -192,10 +192,11 @@ std::size_t piecesWithSurface(const sim::Scene& scene, const Drawn& drawn) {
 
 PieceCount countPieces(const sim::Scene& scene, const Drawn& drawn, std::size_t all) {
     const std::size_t pieces = piecesWithSurface(scene, drawn);
-    return {pieces, all - std::min(pieces, all)};
+    return {.pieces = pieces, .fragments = all - std::min(pieces, all)};
 }
 
 std::string toText(const PieceCount& count) {
+    if (!count.isCounted) return "pieces were not counted";
     std::string text = std::to_string(count.pieces) + " pieces";
     if (count.fragments > 0)
         text += " and " + std::to_string(count.fragments) + " fragments without a surface";

@@ -5,6 +5,7 @@
 #include "viewer/gauges.hpp"
 #include "viewer/hands/inspector.hpp"
 #include "viewer/hands/piece_probe.hpp"
+#include "viewer/window/status_line.hpp"
 
 #include <map>
 
@@ -117,6 +118,21 @@ TEST(CutGauges, CountPiecesOfEveryKindOfBody) {
         EXPECT_EQ(cut.counter.count(cut.status().pieces), cut.reported()) << name;
         EXPECT_EQ(cut.counter.count(cut.status().pieces).pieces, 2u) << name;
     }
+}
+
+TEST(CutGauges, SayThatNothingWasCountedWhereThereIsNoCopy) {
+    Cut cut(parted(bodies.at("box")));
+    cut.play(4);
+    const PieceProbe withoutCopies(test::device(), cut.stage);
+    const app::PieceCount count = withoutCopies.count(cut.status().pieces);
+    EXPECT_FALSE(count.isCounted);
+    EXPECT_EQ(app::toText(count), "pieces were not counted");
+    EXPECT_TRUE(cut.counter.count(cut.status().pieces).isCounted);
+    StatusLine line(cut.stage.scene(), test::device());
+    line.setPieces(count);
+    const auto title = line.title(false, false);
+    ASSERT_TRUE(title);
+    EXPECT_NE(title->find(" - ? pieces - "), std::string::npos) << *title;
 }
 
 TEST(CutGauges, KeepTheCountUntilTheNextOne) {

@@ -35,7 +35,7 @@ app::PieceCount PieceProbe::count(std::size_t all) const {
         });
         std::memcpy(bytes, copy->to.mapped(), view.size);
     };
-    if (copies_.empty()) return {.pieces = all};
+    if (copies_.empty()) return {.isCounted = false};
     const sim::Scene& scene = stage_.scene();
     return app::countPieces(scene, app::readTopology(read, stage_.simulation(), scene, stage_.settings()),
                             all);

@@ -21,7 +21,7 @@ public:
     /// nothing is recorded.
     void record(VkCommandBuffer commands) noexcept;
     /// Counts the pieces in the last recorded copy, which must have finished. `all` is sim::Status::pieces of
-    /// its newest step.
+    /// its newest step. PieceCount::isCounted is false where nothing was recorded.
     app::PieceCount count(std::size_t all) const;
 
 private:

@@ -31,7 +31,8 @@ std::string crumbsText(const Facts& facts) {
 
 void cuts(const SceneFacts&, const Facts& facts, Wishes& wishes) {
     heading("cuts");
-    pair("links cut", grouped(facts.linksCut), "pieces", grouped(facts.pieces.pieces),
+    pair("links cut", grouped(facts.linksCut), "pieces",
+         facts.pieces.isCounted ? grouped(facts.pieces.pieces) : "not counted",
          ImGui::GetStyleColorVec4(ImGuiCol_Text));
     if (facts.pieces.fragments > 0) row("fragments", grouped(facts.pieces.fragments) + " without a surface");
     if (facts.crumbs > 0) row("crumbs removed", crumbsText(facts));

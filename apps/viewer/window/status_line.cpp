@@ -12,7 +12,7 @@ StatusLine::StatusLine(const sim::Scene& scene, const vk::Device& device)
     : head_("Sinew - " + scene.name + " - " + (isSoftware(device) ? "SOFTWARE: " : "") +
             device.description().name + " - " + std::to_string(scene.particles.size()) + " particles") {}
 
-void StatusLine::setPieces(std::size_t pieces) {
+void StatusLine::setPieces(const app::PieceCount& pieces) {
     isFresh_ = isFresh_ || pieces != pieces_;
     pieces_ = pieces;
 }
@@ -40,7 +40,8 @@ std::optional<std::string> StatusLine::title(bool isPaused, bool isDiverged) {
     std::string title = head_ + numbers;
     std::snprintf(numbers, sizeof numbers, " - %.0f fps", framesPerSecond_);
     if (sleeping_ > 0) title += " - " + std::to_string(sleeping_) + " asleep";
-    if (pieces_ > 1) title += " - " + std::to_string(pieces_) + " pieces";
+    if (!pieces_.isCounted) title += " - ? pieces";
+    if (pieces_.isCounted && pieces_.pieces > 1) title += " - " + std::to_string(pieces_.pieces) + " pieces";
     title += tool_;
     title += isDiverged ? " - DIVERGED, R resets" : isPaused ? " - paused" : numbers;
     return title;

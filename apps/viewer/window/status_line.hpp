@@ -1,6 +1,7 @@
 // The window's title: what is shown, where it runs and how fast.
 #pragma once
 
+#include "app/piece_count.hpp"
 #include "viewer/draw/stage.hpp"
 
 #include <chrono>
@@ -18,7 +19,7 @@ public:
     /// Particles that sleep.
     void setSleeping(std::uint32_t sleeping) { sleeping_ = sleeping; }
     /// Pieces of bodies that were cut, with a surface.
-    void setPieces(std::size_t pieces);
+    void setPieces(const app::PieceCount& pieces);
     /// Sets the text for the tool in hand, such as " - holding".
     void setTool(const char* tool) { tool_ = tool; }
 
@@ -32,7 +33,7 @@ private:
     std::uint64_t frames_ = 0;
     double framesPerSecond_ = 0, stepMs_ = 0; ///< stepMs_: smoothed; 0 = not measured
     std::uint32_t sleeping_ = 0;
-    std::size_t pieces_ = 0;
+    app::PieceCount pieces_;
     bool isFresh_ = false; // the number of pieces
     std::string tool_, lastTool_;
     bool wasPaused_ = false, wasDiverged_ = false, isFirst_ = true;
