@@ -116,7 +116,8 @@ mkdir bin
 printf '#!/bin/sh\nfor last; do :; done\nexec cat >"${last#file:}"\n' >bin/ffmpeg
 chmod +x bin/ffmpeg
 for signal in INT TERM HUP; do
-    PATH=$folder/bin:$PATH "$viewer" "$scene" --headless --frames 1000000 --size 64x64 --video film.mp4 >out 2>err &
+    # nohup, which may run the tests, has HUP ignored
+    PATH=$folder/bin:$PATH env --default-signal=HUP "$viewer" "$scene" --headless --frames 1000000 --size 64x64 --video film.mp4 >out 2>err &
     for _ in {1..200}; do [[ -n $(find . -name 'film.mp4*.part' -size +16k) ]] && break; sleep 0.1; done
     [[ ! -e film.mp4 ]] || fail "a film that is not finished has its name already"
     kill -$signal $!
