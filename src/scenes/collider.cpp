@@ -49,7 +49,7 @@ void addCollider(LoadedScene& loaded, const Section& section) {
         .path = {},
         .color = section.vector("color")};
     readShape(section, collider);
-    Path path = readPath(section, loaded.origin, collider.pose);
+    Path path = readPath(loaded, section, collider.pose);
     collider.path = std::move(path.keyframes);
     collider.pathEnd = path.end;
     loaded.scene.colliders.push_back(std::move(collider));

@@ -166,7 +166,7 @@ void addHold(LoadedScene& loaded, const Section& hold, const Source& source,
                   "of hold \"" + name + "\" takes no particle: the nearest, of body \"" + taken.nearest +
                       "\", is " + lengthText(taken.gap) + " outside of this " + shape,
                   "move it there, or make it larger");
-    Path path = readPath(hold, loaded.origin, place.pose);
+    Path path = readPath(loaded, hold, place.pose);
     remember(loaded, name, taken.particles, !path.keyframes.empty());
     if (path.keyframes.empty()) {
         sim::hold(loaded.scene, taken.particles);

@@ -16,8 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 namespace sinew::scenes {
 
@@ -166,52 +164,6 @@ void warnAboutSizes(LoadedScene& loaded) {
     }
 }
 
-// The shortest link or diameter of a scene [m]; infinite where it has neither.
-double finestLength(const sim::Scene& scene) {
-    double finest = INFINITY;
-    for (const sim::DistanceConstraint& link : scene.distances)
-        if (link.restLength > 0) finest = std::min(finest, double{link.restLength});
-    for (const sim::Particle& particle : scene.particles)
-        if (particle.radius > 0) finest = std::min(finest, 2 * double{particle.radius});
-    return finest;
-}
-
-// The distance between float32 numbers at the particle that is farthest from the origin [m].
-struct Rounding {
-    double distance = 0, step = 0;
-};
-Rounding roundingOf(const sim::Scene& scene) {
-    float farthest = 0;
-    for (const sim::Particle& particle : scene.particles)
-        if (particle.inverseMass > 0)
-            for (const float value : {particle.position.x, particle.position.y, particle.position.z})
-                farthest = std::max(farthest, std::abs(value));
-    return {double{farthest}, double{std::nextafter(farthest, INFINITY) - farthest}};
-}
-
-// A length or a speed in thousandths of its unit, with two digits or as a whole number.
-std::string thousandths(double value) {
-    if (value >= 0.1) return std::to_string(std::lround(1000 * value));
-    std::ostringstream text;
-    text << std::setprecision(2) << 1000 * value;
-    return text.str();
-}
-
-// Positions are float32: far from the origin they are coarse against the spacing of particles, and a substep
-// moves what is slow by a whole step of them or not at all.
-void warnAboutRounding(LoadedScene& loaded) {
-    const Rounding rounding = roundingOf(loaded.scene);
-    const double speed = rounding.step * loaded.settings.substeps / double{loaded.scene.dt};
-    const double finest = finestLength(loaded.scene);
-    const double slow = std::isfinite(finest) ? std::max(0.01, 0.1 * finest) : 0.01; // [m/s]
-    if (rounding.step < 1e-3 * finest && speed < slow) return;
-    loaded.warnings.push_back(
-        "positions are rounded to " + thousandths(rounding.step) + " mm at " +
-        std::to_string(std::lround(rounding.distance)) + " m from the origin, which is " +
-        thousandths(speed) + " mm/s with " + std::to_string(loaded.settings.substeps) +
-        " substeps: slower motion is not exact, place bodies nearer to each other or take fewer substeps");
-}
-
 // A few links on light corners are no news; half of a body being too soft is. The stiffness of `jacobi` and
 // `gauss_seidel` is a model of one iteration: only what is far too soft by it is worth a warning.
 constexpr double roughlyKept = 0.5;
@@ -227,7 +179,8 @@ void warnAboutStiffness(LoadedScene& loaded) {
     loaded.warnings.push_back(
         std::to_string(stiffness.soft) + " of " + std::to_string(stiffness.elastic) +
         " elastic links are softer than asked, down to " +
-        std::to_string(std::lround(100 * stiffness.softest)) + " %: " +
+        std::to_string(std::lround(100 * stiffness.softest)) + " %" +
+        (stiffness.softestBody.empty() ? "" : " in body \"" + stiffness.softestBody + "\"") + ": " +
         (isReachable ? std::to_string(stiffness.neededSubsteps) + " substeps would keep all within " + percent
                      : "no number of substeps reaches " + percent + ", use weight or iterations"));
 }
@@ -256,7 +209,8 @@ void warnAboutMostSubsteps(LoadedScene& loaded) {
     const sim::SubstepChoice& choice = loaded.substeps;
     if (choice.reason != sim::SubstepReason::most) return;
     loaded.warnings.push_back("solver.substeps = \"auto\" stops at " + std::to_string(choice.substeps) +
-                              ", " + std::to_string(choice.wanted) + " would keep the tolerance: give " +
+                              ", " + std::to_string(choice.wanted) + " would keep the tolerance" +
+                              (choice.body.empty() ? "" : " of body \"" + choice.body + "\"") + ": give " +
                               (choice.wanted <= sim::ranges::substeps.high ? "that number, " : "") +
                               "shorter steps (dt), larger voxels or a softer material");
 }
@@ -274,25 +228,6 @@ void warnAboutRelaxation(LoadedScene& loaded) {
                                   text(relaxation) + bound);
     else
         loaded.warnings.push_back("solver.over_relaxation is " + text(relaxation) + bound);
-}
-
-// A path is followed from step to step: between the ends of one it is a straight way.
-void warnAboutShortPath(LoadedScene& loaded, const std::string& name, std::span<const sim::Keyframe> path) {
-    double shortest = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 1; k < path.size(); ++k)
-        shortest = std::min(shortest, double{path[k].time} - double{path[k - 1].time});
-    if (shortest >= (1 - 1e-4) * double{loaded.scene.dt}) return;
-    loaded.warnings.push_back(
-        "the path of " + name + " has keyframes " + thousandths(shortest) +
-        " ms apart, which is less than a step of " + thousandths(double{loaded.scene.dt}) +
-        " ms: within a step it goes straight from its beginning to its end, take shorter steps (dt)");
-}
-
-void warnAboutShortPaths(LoadedScene& loaded) {
-    for (std::size_t i = 0; i < loaded.scene.colliders.size(); ++i)
-        warnAboutShortPath(loaded, "collider[" + std::to_string(i) + "]", loaded.scene.colliders[i].path);
-    for (const sim::DrivenBody& body : loaded.scene.driven)
-        warnAboutShortPath(loaded, "a mesh_collider or a hold", body.path);
 }
 
 void warnAboutSolver(LoadedScene& loaded) {
@@ -338,8 +273,8 @@ LoadedScene read(const std::string& text, const Source& source, const Overrides&
     loaded.substeps = sim::chooseSubsteps(loaded.scene, loaded.settings);
     loaded.settings.substeps = loaded.substeps.substeps;
     warnAboutSizes(loaded);
-    warnAboutRounding(loaded);
-    warnAboutShortPaths(loaded);
+    const std::vector<std::string> ofScene = sim::warnings(loaded.scene, loaded.settings);
+    loaded.warnings.insert(loaded.warnings.end(), ofScene.begin(), ofScene.end());
     warnAboutSolver(loaded);
     return loaded;
 }

@@ -250,7 +250,7 @@ void addMeshCollider(LoadedScene& loaded, const Section& section, const Source& 
              ", " + std::to_string(found.mesh.triangles.size()) + " triangles");
     noteRepairs(loaded, "mesh collider " + found.file, found.repairs);
     const sim::Pose pose{found.middle, rotationOf(section)};
-    Path path = readPath(section, loaded.origin, pose);
+    Path path = readPath(loaded, section, pose);
     const std::size_t first = loaded.scene.particles.size();
     sim::addMeshCollider(loaded.scene, {.name = section.has("name") ? section.text("name")
                                                                     : fs::path(found.file).stem().string(),

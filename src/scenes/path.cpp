@@ -3,9 +3,14 @@
 
 #include "scenes/origin.hpp"
 
+#include "sim/complaints.hpp"
+
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <span>
 #include <string>
 
 namespace sinew::scenes {
@@ -26,6 +31,19 @@ void requireShortTurns(const Section& section, const std::vector<Section>& keyfr
     }
 }
 
+/// A path is followed from step to step: between the ends of one it is a straight way.
+void warnAboutShortPath(LoadedScene& loaded, const std::string& name, std::span<const sim::Keyframe> path) {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 1; k < path.size(); ++k)
+        shortest = std::min(shortest, double{path[k].time} - double{path[k - 1].time});
+    if (shortest >= (1 - 1e-4) * double{loaded.scene.dt}) return;
+    loaded.warnings.push_back("the path of " + name + " has keyframes " + sim::thousandths(shortest) +
+                              " ms apart, which is less than a step of " +
+                              sim::thousandths(double{loaded.scene.dt}) +
+                              " ms: within a step it goes straight from its beginning to its end, take "
+                              "shorter steps (dt)");
+}
+
 } // namespace
 
 sim::Quaternion rotationOf(const Section& section) {
@@ -39,7 +57,7 @@ sim::Quaternion rotationOf(const Section& section) {
             static_cast<float>(q.w())};
 }
 
-Path readPath(const Section& section, const std::array<double, 3>& origin, const sim::Pose& pose) {
+Path readPath(LoadedScene& loaded, const Section& section, const sim::Pose& pose) {
     const std::vector<Section> keyframes = section.list("keyframe");
     requireShortTurns(section, keyframes);
     Path path;
@@ -47,12 +65,13 @@ Path readPath(const Section& section, const std::array<double, 3>& origin, const
         sim::Keyframe& key = path.keyframes.emplace_back();
         key.time = keyframe.number("time");
         key.pose = pose;
-        if (keyframe.has("center")) key.pose.position = localPoint(keyframe, "center", origin);
+        if (keyframe.has("center")) key.pose.position = localPoint(keyframe, "center", loaded.origin);
         if (keyframe.has("rotation")) key.pose.rotation = rotationOf(keyframe);
     }
     const std::string end = section.text("path_end");
     if (end != "hold" && end != "loop")
         section.fail("path_end", "is \"" + end.substr(0, 64) + "\"", "possible are hold, loop");
+    warnAboutShortPath(loaded, section.label(), path.keyframes);
     path.end = end == "loop" ? sim::PathEnd::loop : sim::PathEnd::hold;
     return path;
 }

@@ -1,6 +1,7 @@
 // Where what moves along keyframes of a file is: [[collider.keyframe]], [[mesh_collider.keyframe]].
 #pragma once
 
+#include "scenes/load.hpp"
 #include "scenes/section.hpp"
 
 namespace sinew::scenes {
@@ -14,7 +15,7 @@ struct Path {
 };
 
 /// `keyframe` and `path_end` of a table that puts its thing at `pose`, which counts where a keyframe says
-/// nothing.
-Path readPath(const Section& section, const std::array<double, 3>& origin, const sim::Pose& pose);
+/// nothing. Warns of keyframes that are less than a step apart.
+Path readPath(LoadedScene& loaded, const Section& section, const sim::Pose& pose);
 
 } // namespace sinew::scenes

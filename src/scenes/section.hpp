@@ -17,6 +17,9 @@ public:
     /// but `label`.
     Section(const toml::table& table, std::string_view section, std::string label, const std::string& file);
 
+    /// How errors name the table: "cloth[0]"; empty for the top level.
+    const std::string& label() const { return label_; }
+
     /// In the file itself, not by its default.
     bool has(std::string_view name) const { return table_.contains(name); }
 

@@ -6,6 +6,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,6 +24,13 @@ template <typename Number> std::string number(Number value) {
 inline std::string asWritten(double value) {
     const auto narrow = static_cast<float>(value);
     return double{narrow} == value || std::isnan(value) ? number(narrow) : number(value);
+}
+
+/// A length or a speed in thousandths of its unit, with two digits or as a whole number.
+inline std::string thousandths(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, value >= 0.1 ? "%.0f" : "%.2g", 1000 * value);
+    return text;
 }
 
 inline std::string element(std::string_view list, std::size_t index) {

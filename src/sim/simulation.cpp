@@ -3,7 +3,10 @@
 
 #include "sim/validate.hpp"
 
+#include <algorithm>
 #include <cstdio>
+#include <iterator>
+#include <utility>
 
 namespace sinew::sim {
 
@@ -181,7 +184,9 @@ Status Simulation::status(std::uint64_t frame) const noexcept {
 std::vector<std::string> Simulation::complaints() {
     if (const auto lack = state_->ring.lackOfRoom())
         state_->misuse.note(Misuse::contactRoom, lack->frame, lack->needed, state_->chosen.contactRoom);
-    return state_->misuse.take();
+    std::vector<std::string> sentences = std::exchange(state_->untold, {});
+    std::ranges::move(state_->misuse.take(), std::back_inserter(sentences));
+    return sentences;
 }
 
 std::optional<std::uint64_t> Simulation::oldestInFlight() const noexcept {

@@ -333,9 +333,10 @@ public:
     Status status(std::uint64_t frame) const noexcept;
     /// Mistakes in the host's recording that were ignored, in sentences: a step before the first reset,
     /// more steps in flight than Settings::framesInFlight, more grabs, pokes or anchors than there is room
-    /// for, a blade that is none or that nothing may be cut by, and steps that are undone for lack of
-    /// Settings::contactRoom. Each kind is told once, by the next call after it came up; read it now and
-    /// then, and show it to who writes the host. Allocates only where there is something to tell.
+    /// for, a blade that is none or that nothing may be cut by, and steps undone for lack of
+    /// Settings::contactRoom; at first also warnings() of validate.hpp. Each kind is told once, by the next
+    /// call after it came up; show it to who writes the host. Allocates only where there is something to
+    /// tell.
     std::vector<std::string> complaints();
     /// The oldest of the last Settings::framesInFlight steps that was recorded and has not finished. Nothing
     /// where all have, and after a recorded step was thrown away it names that one until others take its

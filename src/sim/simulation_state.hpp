@@ -19,6 +19,7 @@
 #include "sim/simulation_ring.hpp"
 #include "sim/skin_ranges.hpp"
 #include "sim/substeps.hpp"
+#include "sim/validate.hpp"
 
 #include <algorithm>
 #include <array>
@@ -77,6 +78,7 @@ struct Simulation::State {
         Settled end;
     };
     std::vector<Unsettled> unsettled; // a slot of the ring each
+    std::vector<std::string> untold;  // warnings of the scene
     std::uint64_t nextFrame = 0;
     Settled settledEnd;
 
@@ -95,7 +97,7 @@ struct Simulation::State {
           theta(settings.solver == Solver::split ? settings.theta : 0), omega(settings.omega),
           damping(scene.damping), substeps(settings.substeps),
           hasContacts(collision::particle_contacts::areIn(scene) || collision::face_contacts::areIn(scene)),
-          unsettled(settings.framesInFlight) {}
+          unsettled(settings.framesInFlight), untold(warnings(scene, settings)) {}
 
     bool mayBeCut() const noexcept { return program.cutting.counts != BufferId{}; }
 

@@ -81,23 +81,48 @@ std::uint32_t countFor(double dt, double h) {
     return static_cast<std::uint32_t>(std::clamp(substeps, 1.0, 4e9));
 }
 
+constexpr std::uint32_t nobody = ~0u;
+
+// The longest substep that a rule allows [s], and an end of the constraint that asks for it.
+struct Limit {
+    double longest = infinite;
+    std::uint32_t particle = nobody;
+    void lower(double to, std::uint32_t end) {
+        if (to < longest) *this = {to, end};
+    }
+};
+
+// "" for nobody, in a scene of one body and for a particle of none.
+std::string bodyOf(const Scene& scene, std::uint32_t particle) {
+    if (scene.bodies.size() < 2) return {};
+    const auto found = std::ranges::find_if(scene.bodies, [particle](const Body& body) {
+        return particle >= body.firstParticle && particle - body.firstParticle < body.particleCount;
+    });
+    return found == scene.bodies.end() ? std::string() : found->name;
+}
+
 // The longest h at which `split` bears the whole of dampingTime: the positive root of
 // (1 + 2 theta) links h^2 + 2 dampingTime links h = 4 x 0.95; `links` the largest k D of an elastic term.
-double longestOfDamping(const Terms& terms) {
+Limit longestOfDamping(const Terms& terms) {
     const Settings& settings = terms.settings;
-    if (!terms.isSplit() || terms.scene.dampingTime == 0) return infinite;
+    if (!terms.isSplit() || terms.scene.dampingTime == 0) return {};
     double links = 0; // rigid ones have no damping of their own
+    std::uint32_t particle = nobody;
     terms.forEach([&](const Term& term) {
-        if (!term.isRigid) links = std::max(links, term.stiffness * double{settings.omega} / term.clamp);
+        const double of = term.isRigid ? 0 : term.stiffness * double{settings.omega} / term.clamp;
+        if (of <= links) return;
+        links = of;
+        particle = term.particle;
     });
     const double damping = double{terms.scene.dampingTime} * links;
     const double a = (1 + 2 * double{settings.theta}) * links;
-    return damping == 0 ? infinite : (std::sqrt(damping * damping + 3.8 * a) - damping) / a;
+    if (damping == 0) return {};
+    return {(std::sqrt(damping * damping + 3.8 * a) - damping) / a, particle};
 }
 
-// The longest substeps that each rule allows [s]; settings.substeps is the number that is tried.
+// The longest substeps that each rule allows; settings.substeps is the number that is tried.
 struct Limits {
-    double elastic = infinite, rigid = infinite, damped = infinite;
+    Limit elastic, rigid, damped;
     double share = 1;        // the smallest of an elastic term
     bool isReachable = true; // the tolerance, by some number of substeps
 };
@@ -113,8 +138,8 @@ Limits limitsOf(const Terms& terms) {
             limits.share = std::min(limits.share, term.share);
             limits.isReachable = limits.isReachable && isReachable(term, tolerance);
         }
-        double& longest = term.isRigid ? limits.rigid : limits.elastic;
-        if (term.stiffness > 0) longest = std::min(longest, model.longest(term, tolerance));
+        Limit& limit = term.isRigid ? limits.rigid : limits.elastic;
+        if (term.stiffness > 0) limit.lower(model.longest(term, tolerance), term.particle);
     });
     limits.damped = longestOfDamping(terms);
     return limits;
@@ -127,7 +152,7 @@ std::uint32_t neededFor(const Scene& scene, const Settings& settings, const Load
     for (int round = 0; round < mostRounds; ++round) {
         const Limits limits = limitsOf({scene, tried, load});
         if (!limits.isReachable) return 0;
-        const std::uint32_t wanted = countFor(double{scene.dt}, limits.elastic);
+        const std::uint32_t wanted = countFor(double{scene.dt}, limits.elastic.longest);
         if (wanted == tried.substeps) break;
         tried.substeps = wanted;
     }
@@ -215,14 +240,23 @@ SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings) {
     SubstepChoice choice;
     for (int round = 0; round < mostRounds; ++round) {
         const Limits limits = limitsOf({scene, tried, load});
-        const double longest = std::min({limits.elastic, limits.rigid, limits.damped, ofContacts});
+        const double longest =
+            std::min({limits.elastic.longest, limits.rigid.longest, limits.damped.longest, ofContacts});
         choice.wanted = countFor(double{scene.dt}, longest);
         choice.share = limits.share;
         choice.isReachable = limits.isReachable;
-        choice.reason = longest == limits.elastic  ? SubstepReason::stiffness
-                        : longest == limits.rigid  ? SubstepReason::weight
-                        : longest == limits.damped ? SubstepReason::damping
-                                                   : SubstepReason::contacts;
+        const auto decide = [&](SubstepReason reason, const Limit& limit) {
+            choice.reason = reason;
+            choice.body = bodyOf(scene, limit.particle);
+        };
+        if (longest == limits.elastic.longest)
+            decide(SubstepReason::stiffness, limits.elastic);
+        else if (longest == limits.rigid.longest)
+            decide(SubstepReason::weight, limits.rigid);
+        else if (longest == limits.damped.longest)
+            decide(SubstepReason::damping, limits.damped);
+        else
+            decide(SubstepReason::contacts, {});
         const std::uint32_t next = std::clamp(choice.wanted, fewest, ranges::mostChosen);
         if (next == tried.substeps || (round + 2 > mostRounds && next < tried.substeps)) break;
         tried.substeps = next;
@@ -231,6 +265,7 @@ SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings) {
     if (drag > choice.substeps) {
         choice.wanted = std::max(choice.wanted, drag);
         choice.reason = SubstepReason::drag;
+        choice.body.clear();
         choice.substeps = std::min(drag, ranges::mostChosen);
     }
     if (choice.wanted < choice.substeps && choice.substeps == fewest) choice.reason = SubstepReason::fewest;
@@ -252,13 +287,17 @@ StiffnessReport inspectStiffness(const Scene& scene, const Settings& asked) {
     const double h = double{scene.dt} / settings.substeps;
     const double budget = dampingBudget(budgetOf(terms), double{settings.theta}, h);
     double sum = 0, damping = 0;
+    std::uint32_t softest = nobody;
     terms.forEach([&](const Term& term) {
         if (term.isRigid) return;
         const double reached = model.reached(term, h);
         ++report.elastic;
         report.clamped += terms.isSplit() && reached < 1 - rounding;
         report.soft += reached < 1 - double{settings.tolerance} - rounding;
-        report.softest = std::min(report.softest, reached);
+        if (reached < report.softest) {
+            report.softest = reached;
+            softest = term.particle;
+        }
         sum += reached;
         // of a link's c = k dampingTime, h c D is at most the budget
         const double most = budget * term.clamp / double{settings.omega} / (term.stiffness * h);
@@ -269,6 +308,7 @@ StiffnessReport inspectStiffness(const Scene& scene, const Settings& asked) {
                                    : double{scene.dampingTime} / (1 + double{scene.dampingTime} * implicit);
     });
     if (report.elastic == 0) return report;
+    report.softestBody = bodyOf(scene, softest);
     report.mean = sum / static_cast<double>(report.elastic);
     report.dampingTime = damping / static_cast<double>(report.elastic);
     report.neededSubsteps = neededFor(scene, settings, load);
@@ -283,19 +323,20 @@ std::string toText(const SubstepChoice& choice, const Settings& settings) {
                std::to_string(settings.iterations) + " iterations give a link " +
                std::to_string(std::lround(100 * choice.share)) +
                " % of its stiffness at most; use weight or iterations";
+    const std::string body = choice.body.empty() ? "" : ", body \"" + choice.body + "\" decides";
     std::string why;
     switch (choice.reason) {
     case SubstepReason::asked:
         why = "as asked";
         break;
     case SubstepReason::stiffness:
-        why = "no link is more than " + percent + " softer than asked";
+        why = "no link is more than " + percent + " softer than asked" + body;
         break;
     case SubstepReason::weight:
-        why = "no rigid link stretches by more than " + percent + " under what hangs on it";
+        why = "no rigid link stretches by more than " + percent + " under what hangs on it" + body;
         break;
     case SubstepReason::damping:
-        why = "links damp as much as asked";
+        why = "links damp as much as asked" + body;
         break;
     case SubstepReason::drag:
         why = "terminal speeds are right within 5 %";
@@ -308,7 +349,7 @@ std::string toText(const SubstepChoice& choice, const Settings& settings) {
         break;
     case SubstepReason::most:
         why = "the most chosen unasked; " + std::to_string(choice.wanted) + " would keep the tolerance of " +
-              percent;
+              percent + body;
         break;
     }
     return std::to_string(choice.substeps) + " substeps: " + why;

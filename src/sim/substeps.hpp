@@ -17,6 +17,7 @@ struct StiffnessReport {
     std::size_t clamped = 0;      ///< `split`: those with k_eff < k; other solvers have no clamp
     std::size_t soft = 0;         ///< those with k_eff < (1 - tolerance) k
     double softest = 1, mean = 1; ///< of k_eff / k
+    std::string softestBody;      ///< name of the body of the softest; empty in a scene of one
     /// With which 1 - k_eff / k is at most the tolerance for all; 0 = with no number, since the s_m of
     /// `jacobi` alone exceed it.
     std::uint32_t neededSubsteps = 1;
@@ -44,6 +45,9 @@ struct SubstepChoice {
     SubstepReason reason = SubstepReason::asked;
     double share = 1;        ///< the smallest s_m of an elastic constraint; 1 where substeps are asked for
     bool isReachable = true; ///< false: s_m keeps a link from the tolerance, whatever the substeps
+    /// Name of the body whose link, bend or cell asks for `wanted`; empty in a scene of one body, and where
+    /// something else decides.
+    std::string body = {};
 };
 
 /// How far off a terminal speed may be where substeps are chosen, whatever the tolerance of links is.

@@ -460,6 +460,50 @@ TEST_F(Load, WarnsOfPathsThatAreShorterThanAStep) {
                   "take shorter steps (dt)"});
 }
 
+TEST_F(Load, NamesTheItemOfAPathThatIsShorterThanAStep) {
+    mesh::exportObj(folder_ / "t.obj", test::tetrahedron(0.1f));
+    const auto keyframes = [](const std::string& table, const std::string& time) {
+        return "[[" + table + ".keyframe]]\ntime = 0\n[[" + table + ".keyframe]]\ntime = " + time + "\n";
+    };
+    const std::string still = "[[mesh_collider]]\nfile = \"t.obj\"\ncenter = [9, 0, 0]\n",
+                      hold = "[[hold]]\nshape = \"sphere\"\nradius = 0.2\ncenter = ";
+    const std::vector<std::string> warnings =
+        load("dt = 0.01\n[[cloth]]\nsize = [9, 3]\nspacing = 0.1\n" + hold + "[0, 0, 0]\n" +
+             keyframes("hold", "1") + hold + "[0.8, 0, 0]\n" + keyframes("hold", "0.002") + still + still +
+             keyframes("mesh_collider", "0.003"))
+            .warnings;
+    const auto says = [&](const std::string& text) {
+        return std::ranges::count_if(
+            warnings, [&](const std::string& warning) { return warning.starts_with("the path of " + text); });
+    };
+    EXPECT_EQ(says("hold[1] has keyframes 2 ms apart"), 1);
+    EXPECT_EQ(says("mesh_collider[1] has keyframes 3 ms apart"), 1);
+    EXPECT_EQ(says(""), 2);
+}
+
+TEST_F(Load, NamesTheBodyThatAsksForMoreSubsteps) {
+    const auto box = [](const std::string& name, const std::string& x, const std::string& stiffness) {
+        return "[[box]]\nname = \"" + name + "\"\nparticles = [4, 4, 4]\nspacing = 0.02\ncenter = [" + x +
+               ", 1, 0]\nyoung_modulus = " + stiffness + "\n";
+    };
+    const auto first = [&](const std::string& head, const std::string& bodies) {
+        const std::vector<std::string> warnings = load(head + bodies).warnings;
+        return warnings.empty() ? "" : warnings[0];
+    };
+    const std::string asked = "[solver]\nsubsteps = 32\n";
+    const std::string two = first(asked, box("liver", "0", "2e7") + box("bone", "1", "4e7"));
+    EXPECT_NE(two.find(" % in body \"bone\": "), std::string::npos) << two;
+    const std::string most = first("", box("bone", "0", "2e8") + box("liver", "1", "2e4"));
+    EXPECT_NE(most.find(" would keep the tolerance of body \"bone\": give "), std::string::npos) << most;
+    for (const std::string& head : {std::string(), asked}) {
+        const std::string one = first(head, box("bone", "0", "2e8"));
+        EXPECT_EQ(one.find("bone"), std::string::npos) << "there is no other: " << one;
+    }
+    const scenes::LoadedScene loaded = load(box("liver", "0", "2e5") + box("bone", "1", "2e6"));
+    EXPECT_TRUE(sim::toText(loaded.substeps, loaded.settings).ends_with(", body \"bone\" decides"))
+        << sim::toText(loaded.substeps, loaded.settings);
+}
+
 TEST_F(Load, WarnsOfTerminalSpeedsThatAreOff) {
     const auto warnings = [&](const std::string& damping) {
         return load("damping = " + damping +

@@ -64,6 +64,17 @@ TEST(Misuse, OfNothingIsNotSaid) {
     EXPECT_EQ(simulation.oldestInFlight(), std::nullopt);
 }
 
+TEST(Misuse, OfPlacesFarFromTheOriginIsSaidOnce) {
+    Scene scene = test::chain(6);
+    EXPECT_EQ(warnings(scene, fewSubsteps), Sentences{});
+    for (Particle& particle : scene.particles) particle.position.x += 4000;
+    const Sentences said = warnings(scene, fewSubsteps);
+    expectOne(said, {"positions are rounded to 0.24 mm at 4001 m from the origin", "place bodies nearer"});
+    Simulation simulation(test::device(), scene, fewSubsteps);
+    EXPECT_EQ(simulation.complaints(), said);
+    EXPECT_EQ(simulation.complaints(), Sentences{});
+}
+
 TEST(Misuse, OfMoreGrabsOrPokesThanThereIsRoomForIsSaidOnce) {
     for (const std::uint32_t allowed : {0u, 1u}) {
         Settings settings = fewSubsteps;

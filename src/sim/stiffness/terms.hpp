@@ -20,6 +20,7 @@ struct Term {
     double inverseMass = 0; // sum of w |grad|^2 [1/kg]
     double share = 1;       // `jacobi`: of its correction, after all iterations
     bool isRigid = false;
+    std::uint32_t particle = 0; // one of its ends
 };
 
 // What a scene is, whatever the number of substeps; of each particle.
@@ -74,7 +75,8 @@ struct Terms {
             Term term{.clamp = isSplit() ? clampOfLink(shares, scene, i) : 0,
                       .inverseMass = double{load.inverseMass[c.a]} + double{load.inverseMass[c.b]},
                       .share = shareAmong({c.a, c.b}),
-                      .isRigid = c.compliance == 0};
+                      .isRigid = c.compliance == 0,
+                      .particle = c.a};
             if (!term.isRigid)
                 term.stiffness = 1 / double{c.compliance};
             else if (c.restLength > 0)
@@ -91,7 +93,8 @@ struct Terms {
                        .clamp = omega / splitOfBend(load, c),
                        .inverseMass = double{load.inverseMass[c.a]} + 4 * double{load.inverseMass[c.b]} +
                                       double{load.inverseMass[c.c]},
-                       .share = shareAmong({c.a, c.b, c.c})});
+                       .share = shareAmong({c.a, c.b, c.c}),
+                       .particle = c.b});
         }
     }
 
@@ -106,7 +109,8 @@ struct Terms {
                 float time = shares.times[cell.corners[0]];
                 for (const std::uint32_t corner : cell.corners) time = std::min(time, shares.times[corner]);
                 visit(Term{.stiffness = cell.fill * whole,
-                           .clamp = cell.fill * double{shares.ofCells[g].volume} * double{time}});
+                           .clamp = cell.fill * double{shares.ofCells[g].volume} * double{time},
+                           .particle = cell.corners[0]});
             });
         }
     }
