@@ -6,7 +6,9 @@
 #include "mesh/vector3.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
+#include <tuple>
 
 namespace sinew::mesh {
 namespace {
@@ -20,19 +22,22 @@ class Trial {
 public:
     Trial(TriangleMesh mesh, const MeshDefects& defects) : mesh_(std::move(mesh)), defects_(defects) {}
 
-    /// `step` changes a mesh and returns how often. Returns 0 and keeps the mesh where that leaves no fewer
-    /// faults.
-    template <typename Step> std::size_t apply(Repairs& report, const Step& step) {
+    /// `step(mesh, places)` changes a mesh and adds a place for each change. Keeps mesh and report as they
+    /// are where it leaves no fewer faults; else appends the places to `done`, and those of the triangles
+    /// that became empty or double to report.places.removed.
+    template <typename Step> bool apply(Repairs& report, Places& done, const Step& step) {
         TriangleMesh changed = mesh_;
-        const std::size_t count = step(changed);
-        if (count == 0) return 0;
+        Places places, dropped;
+        step(changed, places);
+        if (places.empty()) return false;
         MeshDefects defects;
-        changed = weld(changed, defects);
-        if (faultsOf(defects) >= faultsOf(defects_)) return 0;
-        report.removedTriangles += defects.degenerateTriangles + defects.duplicateTriangles;
+        changed = weld(changed, defects, &dropped);
+        if (faultsOf(defects) >= faultsOf(defects_)) return false;
+        done.insert(done.end(), places.begin(), places.end());
+        report.places.removed.insert(report.places.removed.end(), dropped.begin(), dropped.end());
         mesh_ = std::move(changed);
         defects_ = defects;
-        return count;
+        return true;
     }
 
     TriangleMesh& mesh() { return mesh_; }
@@ -54,26 +59,68 @@ double toleranceOf(const TriangleMesh& mesh) {
 
 void stitch(Trial& trial, Repairs& report) {
     const double tolerance = report.tolerance;
-    report.joinedVertices =
-        trial.apply(report, [&](TriangleMesh& mesh) { return joinNear(mesh, tolerance); });
-    report.splitEdges =
-        trial.apply(report, [&](TriangleMesh& mesh) { return splitJunctions(mesh, tolerance); });
+    trial.apply(report, report.places.joined,
+                [&](TriangleMesh& mesh, Places& places) { joinNear(mesh, tolerance, places); });
+    trial.apply(report, report.places.split,
+                [&](TriangleMesh& mesh, Places& places) { splitJunctions(mesh, tolerance, places); });
+}
+
+void turnTriangles(TriangleMesh& mesh, Places& places) {
+    const auto given = mesh.triangles;
+    orientNeighbours(mesh);
+    for (std::size_t i = 0; i < given.size(); ++i)
+        if (mesh.triangles[i] != given[i]) places.push_back(mesh.positions[given[i][0]]);
 }
 
 void close(Trial& trial, Repairs& report) {
     if (trial.defects().nonManifoldEdges > 0) // leftovers lie at such edges
-        report.removedTriangles += trial.apply(report, removeLeftovers);
-    if (trial.defects().flippedEdges > 0) report.turnedTriangles = orientNeighbours(trial.mesh());
+        trial.apply(report, report.places.removed, removeLeftovers);
+    if (trial.defects().flippedEdges > 0) turnTriangles(trial.mesh(), report.places.turnedTriangles);
     if (trial.defects().boundaryEdges > 0) {
-        Repairs closed = report;
-        const auto closing = [&](TriangleMesh& mesh) {
-            closeHoles(mesh, true, closed);
-            return closed.closedHoles;
+        Repairs tried = report;
+        Places rims;
+        const auto closing = [&](TriangleMesh& mesh, Places& places) {
+            closeHoles(mesh, true, tried);
+            for (const ClosedHole& hole : tried.places.holes) places.push_back(hole.place);
         };
-        if (trial.apply(closed, closing) > 0) report = closed;
+        if (trial.apply(tried, rims, closing)) report = std::move(tried);
     }
-    report.turnedParts = turnParts(trial.mesh());
+    turnParts(trial.mesh(), report.places.turnedParts);
 }
+
+/// Sets the numbers to those of the places.
+void count(Repairs& report) {
+    const RepairPlaces& places = report.places;
+    report.joinedVertices = places.joined.size();
+    report.splitEdges = places.split.size();
+    report.removedTriangles = places.removed.size();
+    report.turnedTriangles = places.turnedTriangles.size();
+    report.turnedParts = places.turnedParts.size();
+    report.closedHoles = places.holes.size();
+    for (const ClosedHole& hole : places.holes) {
+        report.holeEdges += hole.edges;
+        report.holeTriangles += hole.triangles;
+    }
+}
+
+/// The positions of a mesh, to ask for.
+class Positions {
+public:
+    explicit Positions(const TriangleMesh& mesh) : all_(mesh.positions) { std::ranges::sort(all_, isBefore); }
+    bool has(const Vec3& place) const { return std::ranges::binary_search(all_, place, isBefore); }
+    Places among(const Places& places) const {
+        Places found;
+        std::ranges::copy_if(places, std::back_inserter(found),
+                             [&](const Vec3& place) { return has(place); });
+        return found;
+    }
+
+private:
+    static bool isBefore(const Vec3& a, const Vec3& b) {
+        return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+    }
+    std::vector<Vec3> all_;
+};
 
 } // namespace
 
@@ -92,6 +139,7 @@ TriangleMesh repair(TriangleMesh mesh, Repair how, MeshDefects& defects, Repairs
     Trial trial(std::move(mesh), defects);
     if (how != Repair::none && defects.boundaryEdges > 0) stitch(trial, report);
     if (how == Repair::close) close(trial, report);
+    count(report);
     if (trial.defects().boundaryEdges > 0) closeHoles(trial.mesh(), false, report);
     TriangleMesh result = std::move(trial.mesh());
     if (!report.isAny()) return result;
@@ -101,6 +149,20 @@ TriangleMesh repair(TriangleMesh mesh, Repair how, MeshDefects& defects, Repairs
     defects.nonManifoldEdges = left.nonManifoldEdges;
     defects.flippedEdges = left.flippedEdges;
     return result;
+}
+
+Repairs repairsOf(const TriangleMesh& part, const Repairs& whole) {
+    const Positions positions(part);
+    Repairs report{.how = whole.how, .tolerance = whole.tolerance};
+    for (Places RepairPlaces::*kind : {&RepairPlaces::joined, &RepairPlaces::split, &RepairPlaces::removed,
+                                       &RepairPlaces::turnedTriangles, &RepairPlaces::turnedParts})
+        report.places.*kind = positions.among(whole.places.*kind);
+    std::ranges::copy_if(whole.places.holes, std::back_inserter(report.places.holes),
+                         [&](const ClosedHole& hole) { return positions.has(hole.place); });
+    count(report);
+    TriangleMesh open = part;
+    closeHoles(open, false, report);
+    return report;
 }
 
 } // namespace sinew::mesh

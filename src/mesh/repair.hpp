@@ -37,6 +37,20 @@ struct OpenHole {
     Vec3 middle;    ///< mean of its vertices
 };
 
+/// Positions of vertices of the repaired mesh, one for each repair of a kind.
+using Places = std::vector<Vec3>;
+
+struct ClosedHole {
+    Vec3 place; ///< of a vertex of its rim
+    std::size_t edges = 0, triangles = 0;
+};
+
+/// Where repairs were made, by which those of a part are found (repairsOf).
+struct RepairPlaces {
+    Places joined, split, removed, turnedTriangles, turnedParts;
+    std::vector<ClosedHole> holes;
+};
+
 /// The work of repair(), and the faults that it left.
 struct Repairs {
     Repair how = Repair::none;
@@ -50,6 +64,7 @@ struct Repairs {
     std::size_t openEdges = 0;       ///< left
     std::size_t openHoles = 0;       ///< left
     OpenHole largest;                ///< of the open holes, by its rim
+    RepairPlaces places;
     bool isAny() const {
         return joinedVertices + splitEdges + removedTriangles + closedHoles + turnedTriangles + turnedParts >
                0;
@@ -60,6 +75,10 @@ struct Repairs {
 /// only where it leaves fewer edges that are open or shared by three and more triangles; closed parts are
 /// never welded. The same mesh gives the same bytes.
 TriangleMesh repair(TriangleMesh mesh, Repair how, MeshDefects& defects, Repairs& report);
+
+/// What was done in the triangles of `part` alone, which were chosen of the repaired mesh and not moved, and
+/// what is left open of them.
+Repairs repairsOf(const TriangleMesh& part, const Repairs& whole);
 
 /// A sentence for each thing that was done, with counts, such as "3 holes of 14 edges were closed with 8
 /// triangles".

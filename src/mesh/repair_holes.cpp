@@ -179,9 +179,8 @@ void closeHoles(TriangleMesh& mesh, bool closes, Repairs& report) {
         const bool isSmall = hole.rim <= tinyRim * scale.boxEdges || patch.bend <= largestBend;
         if (isSmall && !patch.triangles.empty()) {
             addPatch(mesh, loop, patch, taken);
-            ++report.closedHoles;
-            report.holeEdges += hole.edges;
-            report.holeTriangles += patch.triangles.size();
+            report.places.holes.push_back(
+                {mesh.positions[loop.vertices.front()], hole.edges, patch.triangles.size()});
             report.openEdges -= hole.edges;
         } else {
             ++report.openHoles;

@@ -23,13 +23,13 @@ EdgeCounts countEdgesOf(const TriangleMesh& mesh) {
     return counts;
 }
 
-std::size_t removeSingles(TriangleMesh& mesh) {
+void removeSingles(TriangleMesh& mesh, Places& places) {
     const EdgeCounts counts = countEdgesOf(mesh);
     const auto sticksOut = [&](std::uint32_t triangle) {
         return counts.open[triangle] == 2 && counts.crowded[triangle] == 1;
     };
     std::vector<bool> isKept(mesh.triangles.size(), true);
-    std::size_t count = 0;
+    const std::size_t before = places.size();
     forEachEdge(mesh.triangles, [&](std::span<const HalfEdge> sides) {
         const auto loose =
             static_cast<std::size_t>(std::ranges::count_if(sides, sticksOut, &HalfEdge::triangle));
@@ -37,77 +37,90 @@ std::size_t removeSingles(TriangleMesh& mesh) {
         for (const HalfEdge& side : sides)
             if (sticksOut(side.triangle)) {
                 isKept[side.triangle] = false;
-                ++count;
+                places.push_back(mesh.positions[side.low]);
             }
     });
-    if (count > 0) mesh = keep(mesh, isKept);
-    return count;
+    if (places.size() > before) mesh = keep(mesh, isKept);
 }
 
 /// Triangles connected across edges of two triangles, and the crowded edges around them.
 struct Sheet {
-    std::vector<std::uint32_t> triangles;
-    std::vector<std::size_t> edges;
+    std::size_t firstEdge = 0, edgeCount = 0; ///< in Walls::edgesOf_
     double area = 0;
     bool isWall = true; ///< bounded by edges of three triangles alone, of which it has one each
 };
 
+/// An edge of three triangles.
 struct CrowdedEdge {
-    std::vector<HalfEdge> sides;
+    std::array<HalfEdge, 3> sides;
     bool isFree = true; ///< still of three triangles
 };
 
 class Walls {
 public:
-    explicit Walls(const TriangleMesh& mesh) : mesh_(mesh), sheets_(findSheets()) {}
+    explicit Walls(const TriangleMesh& mesh) : mesh_(mesh) {
+        std::size_t count = 0;
+        numbers_ = numberParts(mesh_, count);
+        sheets_.resize(count);
+        for (std::size_t i = 0; i < numbers_.size(); ++i) {
+            const auto [a, b, c] = mesh_.triangles[i];
+            const Vector3 origin = toVector(mesh_.positions[a]);
+            sheets_[numbers_[i]].area +=
+                (toVector(mesh_.positions[b]) - origin).cross(toVector(mesh_.positions[c]) - origin).norm();
+        }
+        findEdges();
+    }
 
     /// Marks the triangles of walls, the smallest first: without them each edge around them has two sides
     /// that run opposite ways.
-    std::size_t mark(std::vector<bool>& isKept) {
+    void mark(std::vector<bool>& isKept, Places& places) {
         std::vector<std::size_t> order(sheets_.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
         std::ranges::stable_sort(order, {}, [&](std::size_t i) { return sheets_[i].area; });
-        std::size_t count = 0;
+        std::vector<bool> isRemoved(sheets_.size());
         for (const std::size_t i : order) {
-            const Sheet& sheet = sheets_[i];
-            if (!sheet.isWall || sheet.edges.empty() || !areFree(sheet, i)) continue;
-            for (const std::size_t edge : sheet.edges) crowded_[edge].isFree = false;
-            for (const std::uint32_t triangle : sheet.triangles) isKept[triangle] = false;
-            count += sheet.triangles.size();
+            if (!sheets_[i].isWall || sheets_[i].edgeCount == 0 || !areFree(i)) continue;
+            for (const std::uint32_t edge : edgesOf(i)) crowded_[edge].isFree = false;
+            isRemoved[i] = true;
         }
-        return count;
+        for (std::size_t i = 0; i < isKept.size(); ++i) {
+            const std::size_t sheet = numbers_[i];
+            if (!isRemoved[sheet]) continue;
+            isKept[i] = false;
+            places.push_back(mesh_.positions[crowded_[edgesOf(sheet).front()].sides[0].low]);
+        }
     }
 
 private:
-    std::vector<Sheet> findSheets() {
-        std::size_t count = 0;
-        numbers_ = numberParts(mesh_, count);
-        std::vector<Sheet> sheets(count);
-        for (std::uint32_t i = 0; i < numbers_.size(); ++i) {
-            const auto [a, b, c] = mesh_.triangles[i];
-            const Vector3 origin = toVector(mesh_.positions[a]);
-            sheets[numbers_[i]].triangles.push_back(i);
-            sheets[numbers_[i]].area +=
-                (toVector(mesh_.positions[b]) - origin).cross(toVector(mesh_.positions[c]) - origin).norm();
-        }
+    void findEdges() {
+        std::vector<std::array<std::uint32_t, 2>> pairs; // sheet, edge
         forEachEdge(mesh_.triangles, [&](std::span<const HalfEdge> sides) {
             if (sides.size() == 2) return;
             for (const HalfEdge& side : sides) {
-                Sheet& sheet = sheets[numbers_[side.triangle]];
+                Sheet& sheet = sheets_[numbers_[side.triangle]];
                 sheet.isWall = sheet.isWall && sides.size() == 3;
-                sheet.edges.push_back(crowded_.size());
+                if (sides.size() != 3) continue;
+                pairs.push_back({numbers_[side.triangle], static_cast<std::uint32_t>(crowded_.size())});
             }
-            crowded_.push_back({{sides.begin(), sides.end()}});
+            if (sides.size() == 3) crowded_.push_back({{sides[0], sides[1], sides[2]}});
         });
-        return sheets;
+        std::ranges::sort(pairs);
+        for (const auto& [sheet, edge] : pairs) {
+            if (sheets_[sheet].edgeCount++ == 0) sheets_[sheet].firstEdge = edgesOf_.size();
+            edgesOf_.push_back(edge);
+        }
     }
 
-    bool areFree(const Sheet& sheet, std::size_t number) const {
-        return std::ranges::all_of(sheet.edges, [&](std::size_t index) {
+    std::span<const std::uint32_t> edgesOf(std::size_t sheet) const {
+        return std::span(edgesOf_).subspan(sheets_[sheet].firstEdge, sheets_[sheet].edgeCount);
+    }
+
+    bool areFree(std::size_t sheet) const {
+        return std::ranges::all_of(edgesOf(sheet), [&](std::uint32_t index) {
             const CrowdedEdge& edge = crowded_[index];
             int others = 0, balance = 0;
             for (const HalfEdge& side : edge.sides)
-                if (numbers_[side.triangle] != number) {
+                if (numbers_[side.triangle] != sheet) {
                     ++others;
                     balance += side.isForward ? 1 : -1;
                 }
@@ -117,18 +130,19 @@ private:
 
     const TriangleMesh& mesh_;
     std::vector<std::uint32_t> numbers_;
-    std::vector<CrowdedEdge> crowded_;
     std::vector<Sheet> sheets_;
+    std::vector<CrowdedEdge> crowded_;
+    std::vector<std::uint32_t> edgesOf_; ///< of each sheet in a row
 };
 
 } // namespace
 
-std::size_t removeLeftovers(TriangleMesh& mesh) {
-    std::size_t count = removeSingles(mesh);
+void removeLeftovers(TriangleMesh& mesh, Places& places) {
+    removeSingles(mesh, places);
     std::vector<bool> isKept(mesh.triangles.size(), true);
-    const std::size_t walls = Walls(mesh).mark(isKept);
-    if (walls > 0) mesh = keep(mesh, isKept);
-    return count + walls;
+    const std::size_t before = places.size();
+    Walls(mesh).mark(isKept, places);
+    if (places.size() > before) mesh = keep(mesh, isKept);
 }
 
 } // namespace sinew::mesh

@@ -154,16 +154,15 @@ std::vector<std::uint32_t> numberParts(const TriangleMesh& mesh, std::size_t& co
     return numberParts(mesh.triangles.size(), sortedSides(mesh.triangles), count, across);
 }
 
-std::size_t turnParts(TriangleMesh& mesh) {
+void turnParts(TriangleMesh& mesh, Places& places) {
     const std::vector<Part> parts = findParts(mesh);
     const auto isInsideOut = [](const Part& part) { return part.isClosed && part.volume < 0; };
-    if (std::ranges::none_of(parts, isInsideOut)) return 0;
+    if (std::ranges::none_of(parts, isInsideOut)) return;
     Nesting nesting(mesh, parts);
     std::vector<bool> isTurned(parts.size());
-    std::size_t count = 0;
     for (std::uint32_t part = 0; part < parts.size(); ++part) {
         if (!isInsideOut(parts[part]) || nesting.isWithinAny(part)) continue;
-        ++count;
+        places.push_back(mesh.positions[mesh.triangles[parts[part].triangles.front()][0]]);
         isTurned[part] = true;
         for (const std::uint32_t inner : nesting.candidatesWithin(part))
             if (parts[inner].isClosed && nesting.isWithin(inner, part)) isTurned[inner] = true;
@@ -172,7 +171,6 @@ std::size_t turnParts(TriangleMesh& mesh) {
         if (isTurned[i])
             for (const std::uint32_t triangle : parts[i].triangles)
                 std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]);
-    return count;
 }
 
 } // namespace sinew::mesh

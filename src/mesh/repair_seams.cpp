@@ -122,11 +122,12 @@ bool isEmpty(const TriangleMesh& mesh, const Triangle& triangle) {
         .isZero(0);
 }
 
-std::size_t splitOnce(TriangleMesh& mesh, double tolerance) {
+/// Returns whether any edge was split.
+bool splitOnce(TriangleMesh& mesh, double tolerance, Places& places) {
     const std::vector<OpenEdge> edges = findOpenEdges(mesh);
     const JunctionFinder finder(mesh, edges, tolerance);
     std::vector<bool> isSplit(mesh.triangles.size());
-    std::size_t count = 0;
+    const std::size_t before = places.size();
     for (const OpenEdge& edge : edges) {
         if (isSplit[edge.triangle]) continue;
         const Triangle triangle = mesh.triangles[edge.triangle];
@@ -139,9 +140,9 @@ std::size_t splitOnce(TriangleMesh& mesh, double tolerance) {
         mesh.triangles[edge.triangle] = parts.front();
         mesh.triangles.insert(mesh.triangles.end(), parts.begin() + 1, parts.end());
         if (!mesh.objects.empty()) mesh.objects.resize(mesh.triangles.size(), mesh.objects[edge.triangle]);
-        ++count;
+        places.push_back(mesh.positions[split.points.front()]);
     }
-    return count;
+    return places.size() > before;
 }
 
 } // namespace
@@ -166,13 +167,12 @@ std::vector<std::uint32_t> verticesOf(const std::vector<OpenEdge>& edges) {
     return vertices;
 }
 
-std::size_t joinNear(TriangleMesh& mesh, double tolerance) {
+void joinNear(TriangleMesh& mesh, double tolerance, Places& places) {
     const std::vector<std::uint32_t> vertices = verticesOf(findOpenEdges(mesh));
     const std::vector<float> reaches = findReaches(mesh, tolerance);
     const PointTree tree(mesh.positions, vertices);
     constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> first(mesh.positions.size(), none), near;
-    std::size_t count = 0;
     for (const std::uint32_t vertex : vertices) {
         if (first[vertex] != none) continue;
         first[vertex] = vertex;
@@ -183,24 +183,18 @@ std::size_t joinNear(TriangleMesh& mesh, double tolerance) {
             if (first[other] != none) continue;
             if (lengthOf(mesh, vertex, other) > double{reaches[other]}) continue;
             first[other] = vertex;
-            ++count;
+            places.push_back(mesh.positions[vertex]);
         }
     }
     for (Triangle& triangle : mesh.triangles)
         for (std::uint32_t& vertex : triangle)
             if (first[vertex] != none) vertex = first[vertex];
-    return count;
 }
 
-std::size_t splitJunctions(TriangleMesh& mesh, double tolerance) {
+void splitJunctions(TriangleMesh& mesh, double tolerance, Places& places) {
     constexpr int mostPasses = 16; // one edge of a triangle a pass
-    std::size_t count = 0;
-    for (int pass = 0; pass < mostPasses; ++pass) {
-        const std::size_t split = splitOnce(mesh, tolerance);
-        count += split;
-        if (split == 0) break;
-    }
-    return count;
+    for (int pass = 0; pass < mostPasses; ++pass)
+        if (!splitOnce(mesh, tolerance, places)) break;
 }
 
 } // namespace sinew::mesh

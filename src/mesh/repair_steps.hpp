@@ -1,4 +1,5 @@
-// The steps of repair(), each on a welded mesh. A step changes the mesh and says how often.
+// The steps of repair(), each on a welded mesh. A step changes the mesh and appends a place for each change:
+// the position of a vertex that stays.
 #pragma once
 
 #include "mesh/repair.hpp"
@@ -18,18 +19,18 @@ std::vector<std::uint32_t> verticesOf(const std::vector<OpenEdge>& edges);
 
 /// Joins vertices of open edges that are nearer than `tolerance` to the one of lowest index among them. A
 /// triangle whose longest edge is short lends its corners no more than a quarter of that. May leave triangles
-/// that are empty or double. Returns how many vertices became another.
-std::size_t joinNear(TriangleMesh& mesh, double tolerance);
+/// that are empty or double. A place for each vertex that became another.
+void joinNear(TriangleMesh& mesh, double tolerance, Places& places);
 
 /// Splits triangles at vertices of open edges that lie on their own open edges and whose open edges run along
-/// these. Returns the number of edges split.
-std::size_t splitJunctions(TriangleMesh& mesh, double tolerance);
+/// these. A place for each edge split.
+void splitJunctions(TriangleMesh& mesh, double tolerance, Places& places);
 
 /// Removes single triangles that stick out of a surface, and walls within a volume: sheets whose whole rim
-/// the surface passes without them. Returns the number of triangles.
-std::size_t removeLeftovers(TriangleMesh& mesh);
+/// the surface passes without them. A place for each triangle.
+void removeLeftovers(TriangleMesh& mesh, Places& places);
 
-/// Closes the small holes; counts in `report`, and says there what stays open.
+/// Closes the small holes, if it `closes`, with an entry of `report` for each; says there what stays open.
 void closeHoles(TriangleMesh& mesh, bool closes, Repairs& report);
 
 enum class Across {
@@ -41,8 +42,8 @@ std::vector<std::uint32_t> numberParts(const TriangleMesh& mesh, std::size_t& co
                                        Across across = Across::pairs);
 
 /// Turns closed parts that are inside out and lie within no other; parts within these turn with them, so that
-/// a cavity stays one. Returns the number of parts that were inside out by themselves.
-std::size_t turnParts(TriangleMesh& mesh);
+/// a cavity stays one. A place for each part that was inside out by itself.
+void turnParts(TriangleMesh& mesh, Places& places);
 
 using VertexPair = std::array<std::uint32_t, 2>; ///< the lower first
 

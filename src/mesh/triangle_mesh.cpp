@@ -112,7 +112,7 @@ TriangleMesh compacted(const TriangleMesh& mesh) {
 
 } // namespace
 
-TriangleMesh weld(const TriangleMesh& mesh, MeshDefects& defects) {
+TriangleMesh weld(const TriangleMesh& mesh, MeshDefects& defects, std::vector<Vec3>* dropped) {
     defects = {};
     TriangleMesh joined = mesh;
     const std::vector<std::uint32_t> twins = findTwins(mesh.positions);
@@ -121,14 +121,19 @@ TriangleMesh weld(const TriangleMesh& mesh, MeshDefects& defects) {
         for (std::uint32_t& vertex : joined.triangles[i]) vertex = twins[vertex];
         isKept[i] = !isDegenerate(joined, joined.triangles[i]);
     }
+    const auto drop = [&](const std::vector<bool>& isStaying) {
+        for (std::size_t i = 0; dropped && i < isStaying.size(); ++i)
+            if (!isStaying[i]) dropped->push_back(joined.positions[joined.triangles[i][0]]);
+        keepTriangles(joined, isStaying);
+    };
     defects.degenerateTriangles = static_cast<std::size_t>(std::ranges::count(isKept, false));
-    keepTriangles(joined, isKept);
+    drop(isKept);
     MeshDefects edges;
     std::vector<bool> isUnique = checkEdges(joined.triangles, edges);
     isUnique.flip();
     defects.duplicateTriangles = static_cast<std::size_t>(std::ranges::count(isUnique, false));
     if (defects.duplicateTriangles > 0) {
-        keepTriangles(joined, isUnique);
+        drop(isUnique);
         edges = {};
         checkEdges(joined.triangles, edges);
     }

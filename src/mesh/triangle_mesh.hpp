@@ -47,8 +47,9 @@ MeshReport inspect(const TriangleMesh& mesh);
 
 /// Joins vertices with identical positions, drops degenerate triangles, duplicates (the same corners the same
 /// way round) and vertices that no triangle uses. Sets `defects` to what was found. Keeps the order of what
-/// stays, so that a second weld changes nothing.
-TriangleMesh weld(const TriangleMesh& mesh, MeshDefects& defects);
+/// stays, so that a second weld changes nothing. Appends to `dropped`, if not null, the position of a corner
+/// of each triangle that it drops.
+TriangleMesh weld(const TriangleMesh& mesh, MeshDefects& defects, std::vector<Vec3>* dropped = nullptr);
 
 /// The triangles marked true, their objects, and the vertices that they use, all in the order of `mesh`.
 TriangleMesh keep(const TriangleMesh& mesh, const std::vector<bool>& isKept);

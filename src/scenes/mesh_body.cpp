@@ -90,7 +90,10 @@ Found generate(const Section& section) {
 Found find(const Section& section, const Source& source) {
     Found found = section.has("file") ? import(section, source) : generate(section);
     if (found.mesh.triangles.empty()) section.fail("file", "has no triangles", "check the mesh");
-    if (chooseObjects(found.mesh, section, found.file)) found.defects = mesh::inspect(found.mesh).defects;
+    if (chooseObjects(found.mesh, section, found.file)) {
+        found.defects = mesh::inspect(found.mesh).defects;
+        found.repairs = mesh::repairsOf(found.mesh, found.repairs);
+    }
     return found;
 }
 
@@ -175,9 +178,11 @@ const MeshSummary& addBody(LoadedScene& loaded, const Section& section, const me
     return loaded.meshes.emplace_back(std::move(summary));
 }
 
-/// A body for each component, all with the voxels that the whole mesh would have.
+/// A body for each component, all with the voxels that the whole mesh would have. `given` is the mesh before
+/// it was placed.
 void addApart(LoadedScene& loaded, const Section& section, const Found& found,
-              const std::vector<mesh::Component>& components, mesh::MeshBody body) {
+              const mesh::TriangleMesh& given, const std::vector<mesh::Component>& components,
+              mesh::MeshBody body) {
     if (components.size() > mostApart)
         section.fail("parts",
                      "makes " + std::to_string(components.size()) + " bodies of the components of " +
@@ -189,7 +194,7 @@ void addApart(LoadedScene& loaded, const Section& section, const Found& found,
         const mesh::TriangleMesh part = mesh::extract(found.mesh, component);
         MeshSummary summary{.body = nameOf(section, found) + "." + component.name,
                             .file = found.file + ", \"" + component.name + "\"",
-                            .repairs = found.repairs};
+                            .repairs = mesh::repairsOf(mesh::extract(given, component), found.repairs)};
         summary.surface.defects = mesh::inspect(part).defects;
         addBody(loaded, section, part, body, std::move(summary), longest);
     }
@@ -220,13 +225,14 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
     section.requireOneOf("file", "generate");
     checkVoxelKeys(section);
     Found found = find(section, source);
+    const mesh::TriangleMesh given = isApart(section) ? found.mesh : mesh::TriangleMesh{};
     place(found.mesh, section, loaded.origin);
     noteRepairs(loaded, "mesh " + found.file, found.repairs);
     const std::vector<mesh::Component> components = mesh::components(found.mesh);
     const mesh::MeshBody body = bodyOf(section, voxel);
     const std::size_t first = loaded.scene.particles.size(), firstGrid = loaded.scene.grids.size();
     if (isApart(section) && components.size() > 1)
-        addApart(loaded, section, found, components, body);
+        addApart(loaded, section, found, given, components, body);
     else
         addJoined(loaded, section, found, components, body);
     addSurface(loaded, section, first);

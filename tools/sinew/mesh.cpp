@@ -98,19 +98,20 @@ void fill(const MeshOptions& options, Findings& found) {
     found.voxels = fill(options, found.mesh, mesh::voxelise);
 }
 
-void chooseObjects(const MeshOptions& options, mesh::TriangleMesh& mesh, mesh::MeshDefects& defects) {
+void chooseObjects(const MeshOptions& options, Findings& found, mesh::MeshDefects& defects) {
     if (options.objects.empty()) return;
     std::string unknown;
-    std::optional<mesh::TriangleMesh> chosen = mesh::choose(mesh, options.objects, unknown);
+    std::optional<mesh::TriangleMesh> chosen = mesh::choose(found.mesh, options.objects, unknown);
     if (!chosen) {
-        const auto [why, whatToDo] = scenes::unknownObject(mesh, options.file, unknown);
+        const auto [why, whatToDo] = scenes::unknownObject(found.mesh, options.file, unknown);
         throw app::Failure(app::badInput, "cannot choose from mesh: --object " + why + ": " + whatToDo);
     }
     if (chosen->triangles.empty())
         throw app::Failure(app::badInput, "cannot choose from mesh: --object has no triangles in " +
                                               options.file + ": name another");
-    mesh = std::move(*chosen);
-    defects = mesh::inspect(mesh).defects;
+    found.mesh = std::move(*chosen);
+    found.repairs = mesh::repairsOf(found.mesh, found.repairs);
+    defects = mesh::inspect(found.mesh).defects;
 }
 
 // `surface` is as it is in the file, `factor` makes metres of it.
@@ -133,7 +134,7 @@ Findings inspect(const MeshOptions& options) {
     mesh::MeshDefects defects;
     found.mesh =
         mesh::importMesh(options.file, defects, {}, *mesh::findRepair(options.repair), &found.repairs);
-    chooseObjects(options, found.mesh, defects);
+    chooseObjects(options, found, defects);
     const double factor = scenes::findUnit(options.unit)->metres * double{options.scale};
     checkScale(options, mesh::measure(found.mesh), factor);
     for (mesh::Vec3& position : found.mesh.positions)
