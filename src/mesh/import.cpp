@@ -241,7 +241,7 @@ TriangleMesh decode(const fs::path& file, std::string_view bytes, const ImportLi
 } // namespace
 
 TriangleMesh importMesh(const fs::path& file, MeshDefects& defects, const ImportLimits& limits, Repair how,
-                        Repairs* repairs) {
+                        Repairs* repairs, double weldWithin) {
     const std::string content = RegularFile(file, limits).readAll(file);
     const std::string_view bytes = withoutMark(content);
     const Format format = formatOf(file, bytes);
@@ -263,7 +263,7 @@ TriangleMesh importMesh(const fs::path& file, MeshDefects& defects, const Import
     if (mesh.triangles.empty())
         fail(file, "", "all its faces have zero area: check the scale it was exported with");
     Repairs done;
-    mesh = repair(std::move(mesh), how, defects, done);
+    mesh = repair(std::move(mesh), how, defects, done, weldWithin);
     if (repairs) *repairs = done;
     return mesh;
 }

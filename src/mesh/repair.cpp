@@ -2,10 +2,12 @@
 // needs neighbours that run the same way.
 #include "mesh/repair.hpp"
 
+#include "mesh/disjoint_sets.hpp"
 #include "mesh/repair_steps.hpp"
 #include "mesh/vector3.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <tuple>
@@ -48,12 +50,17 @@ private:
     MeshDefects defects_;
 };
 
+double sizeOf(const TriangleMesh& mesh) {
+    const MeshReport report = measure(mesh);
+    return (toVector(report.high) - toVector(report.low)).maxCoeff();
+}
+
 /// Far from the origin the coordinates themselves are rounded by more than weldTolerance.
-double toleranceOf(const TriangleMesh& mesh) {
+double toleranceOf(const TriangleMesh& mesh, double weld) {
     const MeshReport report = measure(mesh);
     const Vector3 low = toVector(report.low), high = toVector(report.high);
     const double farthest = low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff();
-    return std::max(weldTolerance * (high - low).maxCoeff(),
+    return std::max(weld > 0 ? weld : weldTolerance * (high - low).maxCoeff(),
                     weldRoundings * double{std::numeric_limits<float>::epsilon()} * farthest);
 }
 
@@ -63,6 +70,43 @@ void stitch(Trial& trial, Repairs& report) {
                 [&](TriangleMesh& mesh, Places& places) { joinNear(mesh, tolerance, places); });
     trial.apply(report, report.places.split,
                 [&](TriangleMesh& mesh, Places& places) { splitJunctions(mesh, tolerance, places); });
+}
+
+/// Of vertices that triangles connect.
+std::size_t countSurfaces(const TriangleMesh& mesh) {
+    DisjointSets sets(mesh.positions.size());
+    std::size_t count = mesh.positions.size();
+    for (const auto& [a, b, c] : mesh.triangles)
+        for (const std::uint32_t other : {b, c}) {
+            if (sets.root(a) == sets.root(other)) continue;
+            sets.join(a, other);
+            --count;
+        }
+    return count;
+}
+
+enum class Seams { between, all }; ///< between surfaces, or also within one
+
+/// Joins what is nearer than ever larger shares of the size, until that closes a good part of the open edges.
+void findWideSeam(const TriangleMesh& mesh, const MeshDefects& defects, Seams which, Repairs& report) {
+    constexpr std::size_t mostEdges = 100'000; // a search in more of them takes long
+    if (report.seam.weld > 0 || defects.boundaryEdges == 0 || defects.boundaryEdges > mostEdges) return;
+    const double size = sizeOf(mesh);
+    const std::size_t surfaces = countSurfaces(mesh);
+    if (which == Seams::between && surfaces < 2) return;
+    for (const double share : {1e-4, 1e-3, 1e-2}) {
+        const double digit = std::pow(10, std::floor(std::log10(share * size)));
+        Repairs tried{.how = Repair::weld, .tolerance = std::ceil(share * size / digit - 1e-6) * digit};
+        if (tried.tolerance <= report.tolerance) continue;
+        Trial trial(mesh, defects);
+        stitch(trial, tried);
+        const std::size_t joined =
+            defects.boundaryEdges - std::min(defects.boundaryEdges, trial.defects().boundaryEdges);
+        if (4 * joined < defects.boundaryEdges) continue;
+        if (which == Seams::between && countSurfaces(trial.mesh()) == surfaces) continue;
+        report.seam = {tried.tolerance, joined};
+        return;
+    }
 }
 
 void turnTriangles(TriangleMesh& mesh, Places& places) {
@@ -134,13 +178,15 @@ std::optional<Repair> findRepair(std::string_view name) {
     return {};
 }
 
-TriangleMesh repair(TriangleMesh mesh, Repair how, MeshDefects& defects, Repairs& report) {
-    report = {.how = how, .tolerance = toleranceOf(mesh)};
+TriangleMesh repair(TriangleMesh mesh, Repair how, MeshDefects& defects, Repairs& report, double weldWithin) {
+    report = {.how = how, .tolerance = toleranceOf(mesh, weldWithin)};
     Trial trial(std::move(mesh), defects);
     if (how != Repair::none && defects.boundaryEdges > 0) stitch(trial, report);
+    if (how == Repair::close) findWideSeam(trial.mesh(), trial.defects(), Seams::between, report);
     if (how == Repair::close) close(trial, report);
     count(report);
     if (trial.defects().boundaryEdges > 0) closeHoles(trial.mesh(), false, report);
+    if (how != Repair::none) findWideSeam(trial.mesh(), trial.defects(), Seams::all, report);
     TriangleMesh result = std::move(trial.mesh());
     if (!report.isAny()) return result;
     MeshDefects left;
@@ -160,8 +206,10 @@ Repairs repairsOf(const TriangleMesh& part, const Repairs& whole) {
     std::ranges::copy_if(whole.places.holes, std::back_inserter(report.places.holes),
                          [&](const ClosedHole& hole) { return positions.has(hole.place); });
     count(report);
-    TriangleMesh open = part;
+    MeshDefects defects;
+    TriangleMesh open = weld(part, defects);
     closeHoles(open, false, report);
+    if (whole.seam.weld > 0) findWideSeam(open, defects, Seams::all, report);
     return report;
 }
 

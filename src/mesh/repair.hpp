@@ -45,6 +45,12 @@ struct ClosedHole {
     std::size_t edges = 0, triangles = 0;
 };
 
+/// A seam between open edges that is wider than what was joined.
+struct WideSeam {
+    double weld = 0;       ///< what joins it, as given to repair() [units of the mesh]; 0 = there is none
+    std::size_t edges = 0; ///< open edges that are then joined
+};
+
 /// Where repairs were made, by which those of a part are found (repairsOf).
 struct RepairPlaces {
     Places joined, split, removed, turnedTriangles, turnedParts;
@@ -64,6 +70,7 @@ struct Repairs {
     std::size_t openEdges = 0;       ///< left
     std::size_t openHoles = 0;       ///< left
     OpenHole largest;                ///< of the open holes, by its rim
+    WideSeam seam;                   ///< left, or closed by lids on both sides of it
     RepairPlaces places;
     bool isAny() const {
         return joinedVertices + splitEdges + removedTriangles + closedHoles + turnedTriangles + turnedParts >
@@ -73,8 +80,9 @@ struct Repairs {
 
 /// Expects a welded mesh and its `defects`, whose counts of edges become those of the result. A step is kept
 /// only where it leaves fewer edges that are open or shared by three and more triangles; closed parts are
-/// never welded. The same mesh gives the same bytes.
-TriangleMesh repair(TriangleMesh mesh, Repair how, MeshDefects& defects, Repairs& report);
+/// never welded. `weld`: near vertices are those nearer than that [units of the mesh]; 0 = as weldTolerance
+/// says. The same mesh gives the same bytes.
+TriangleMesh repair(TriangleMesh mesh, Repair how, MeshDefects& defects, Repairs& report, double weld = 0);
 
 /// What was done in the triangles of `part` alone, which were chosen of the repaired mesh and not moved, and
 /// what is left open of them.

@@ -25,10 +25,11 @@ struct ShapeKey {
     const char *name, *shape;
     bool isNeeded;
 };
-constexpr ShapeKey shapeKeys[] = {
-    {"normal", "half_space", true}, {"offset", "half_space", false}, {"file", "mesh", true},
-    {"within", "mesh", true},       {"object", "mesh", false},       {"unit", "mesh", false},
-    {"scale", "mesh", false},       {"translation", "mesh", false},  {"repair", "mesh", false}};
+constexpr ShapeKey shapeKeys[] = {{"normal", "half_space", true}, {"offset", "half_space", false},
+                                  {"file", "mesh", true},         {"within", "mesh", true},
+                                  {"object", "mesh", false},      {"unit", "mesh", false},
+                                  {"scale", "mesh", false},       {"translation", "mesh", false},
+                                  {"repair", "mesh", false},      {"weld", "mesh", false}};
 
 void checkShapeKeys(const Section& hold, const std::string& shape) {
     for (const ShapeKey& key : shapeKeys) {

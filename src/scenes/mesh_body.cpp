@@ -49,6 +49,8 @@ mesh::Repair repairOf(const Section& section) {
     if (!repair)
         section.fail("repair", "is no repair: \"" + name.substr(0, 64) + "\"",
                      "possible are \"none\", \"weld\" and \"close\"");
+    if (section.has("weld") && *repair == mesh::Repair::none)
+        section.fail("weld", "is given, but repair = \"none\" joins nothing", "remove one of them");
     return *repair;
 }
 
@@ -63,7 +65,8 @@ Found import(const Section& section, const Source& source) {
         section.fail("file", "names no regular file", "check the path");
     Found found;
     found.file = file.filename().string();
-    found.mesh = mesh::importMesh(file, found.defects, {}, repairOf(section), &found.repairs);
+    found.mesh = mesh::importMesh(file, found.defects, {}, repairOf(section), &found.repairs,
+                                  section.has("weld") ? section.value("weld") : 0);
     return found;
 }
 
@@ -75,6 +78,8 @@ std::string shapeNames() {
 }
 
 Found generate(const Section& section) {
+    if (section.has("weld"))
+        section.fail("weld", "is given, but a generated shape has no seams", "remove it");
     const std::string name = section.text("generate");
     if (std::ranges::find(mesh::shapes(), name, &mesh::Shape::name) == mesh::shapes().end())
         section.fail("generate", "names no shape: \"" + name.substr(0, 64) + "\"",
@@ -228,6 +233,7 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
     const mesh::TriangleMesh given = isApart(section) ? found.mesh : mesh::TriangleMesh{};
     place(found.mesh, section, loaded.origin);
     noteRepairs(loaded, "mesh " + found.file, found.repairs);
+    warnOfSeam(loaded, "mesh " + found.file, found.repairs);
     const std::vector<mesh::Component> components = mesh::components(found.mesh);
     const mesh::MeshBody body = bodyOf(section, voxel);
     const std::size_t first = loaded.scene.particles.size(), firstGrid = loaded.scene.grids.size();
@@ -255,6 +261,7 @@ void addMeshCollider(LoadedScene& loaded, const Section& section, const Source& 
     noteSize(loaded, "mesh collider " + found.file, section, mesh::measure(found.mesh),
              ", " + std::to_string(found.mesh.triangles.size()) + " triangles");
     noteRepairs(loaded, "mesh collider " + found.file, found.repairs);
+    warnOfSeam(loaded, "mesh collider " + found.file, found.repairs);
     const sim::Pose pose{found.middle, rotationOf(section)};
     Path path = readPath(loaded, section, pose);
     const std::size_t first = loaded.scene.particles.size();

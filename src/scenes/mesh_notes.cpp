@@ -100,6 +100,19 @@ void noteRepairs(LoadedScene& loaded, const std::string& name, const mesh::Repai
         loaded.notes.push_back(name + ": " + sentence);
 }
 
+std::string seamText(const mesh::Repairs& repairs, Words words) {
+    if (repairs.seam.weld == 0) return {};
+    return "has a seam wider than the " + text("%.2g", repairs.tolerance) +
+           " that are joined, in units of the file: " +
+           setting(words, "weld", text("%.4g", repairs.seam.weld)) + " joins " +
+           std::to_string(repairs.seam.edges) + " of its open edges";
+}
+
+void warnOfSeam(LoadedScene& loaded, const std::string& name, const mesh::Repairs& repairs) {
+    const std::string seam = seamText(repairs);
+    if (!seam.empty()) loaded.warnings.push_back(name + " " + seam);
+}
+
 void warnOfDefects(const MeshSummary& summary, std::vector<std::string>& warnings) {
     const mesh::MeshDefects& defects = summary.surface.defects;
     const std::string name = "mesh " + summary.file;

@@ -59,3 +59,48 @@ TEST(Repair, OfAPartIsWhatWasDoneInItsTriangles) {
     EXPECT_EQ(sentences, 6u);
     EXPECT_EQ(sentencesOf(repairsOf(whole.mesh, whole.report)), sentencesOf(whole.report));
 }
+
+namespace {
+
+/// The triangles of a sphere whose middle is above `height`, lifted by `gap`, and those below.
+TriangleMesh halves(float height, float gap) {
+    const TriangleMesh sphere = generate("sphere", 24);
+    std::vector<bool> isBelow;
+    for (const auto& [a, b, c] : sphere.triangles)
+        isBelow.push_back((sphere.positions[a].y + sphere.positions[b].y + sphere.positions[c].y) / 3 <
+                          height);
+    const TriangleMesh low = keep(sphere, isBelow);
+    isBelow.flip();
+    return joined(low, moved(keep(sphere, isBelow), {0, gap, 0}));
+}
+
+} // namespace
+
+TEST(Repair, SaysWhichToleranceJoinsTwoHalves) {
+    const double volume = inspect(generate("sphere", 24)).volume;
+    EXPECT_EQ(repaired(halves(0, 1e-6f)).report.seam.weld, 0) << "that is joined anyway";
+    for (const float gap : {3e-5f, 2e-4f, 1.5e-3f})
+        for (const float height : {0.0f, 0.14f}) { // of two caps one is closed by a lid
+            const TriangleMesh mesh = halves(height, gap);
+            const Repairs report = repaired(mesh).report;
+            EXPECT_GE(report.seam.weld, double{gap}) << height;
+            EXPECT_LE(report.seam.weld, std::max(20 * double{gap}, 4e-5)) << height;
+            EXPECT_GT(report.seam.edges, 0u);
+            Result cured;
+            cured.mesh = repair(weld(mesh, cured.defects), Repair::close, cured.defects, cured.report,
+                                report.seam.weld);
+            expectClosed(cured, volume, 0.03);
+            EXPECT_EQ(components(cured.mesh).size(), 1u);
+            EXPECT_EQ(cured.report.seam.weld, 0);
+        }
+}
+
+TEST(Repair, FindsNoSeamWhereNoneIs) {
+    EXPECT_EQ(repaired(generate("organ", 24)).report.seam.weld, 0);
+    EXPECT_EQ(repaired(generate("cloth", 64)).report.seam.weld, 0) << "a rim alone";
+    EXPECT_EQ(repaired(halves(0, 0.02f)).report.seam.weld, 0) << "far apart";
+    EXPECT_EQ(repaired(openedAbove(generate("sphere", 24), 0.05f)).report.seam.weld, 0);
+    EXPECT_EQ(repaired(joined(box({0, 0, 0}, {1, 1, 1}), box({1.001f, 0, 0}, {2, 1, 1}))).report.seam.weld, 0)
+        << "closed parts have no seam";
+    EXPECT_EQ(repaired(halves(0, 2e-4f), Repair::none).report.seam.weld, 0) << "nothing is asked for";
+}

@@ -39,6 +39,7 @@ struct MeshOptions {
     std::uint32_t resolution = 24;
     std::optional<std::uint32_t> particles; // at most; instead of the two above
     std::string repair = "close";
+    double weld = 0; // [units of the file]; 0 = by its size
     DeviceOptions device;
     std::optional<std::string> json;
 };
@@ -132,8 +133,8 @@ void checkScale(const MeshOptions& options, const mesh::MeshReport& surface, dou
 Findings inspect(const MeshOptions& options) {
     Findings found{.file = options.file};
     mesh::MeshDefects defects;
-    found.mesh =
-        mesh::importMesh(options.file, defects, {}, *mesh::findRepair(options.repair), &found.repairs);
+    found.mesh = mesh::importMesh(options.file, defects, {}, *mesh::findRepair(options.repair),
+                                  &found.repairs, options.weld);
     chooseObjects(options, found, defects);
     const double factor = scenes::findUnit(options.unit)->metres * double{options.scale};
     checkScale(options, mesh::measure(found.mesh), factor);
@@ -252,6 +253,7 @@ std::vector<std::string> surprises(const MeshOptions& options, const Findings& f
                  voxel = double{found.voxels.spacing};
     std::vector<std::string> sentences{
         scenes::oddSize(longest, *scenes::findUnit(options.unit), scenes::Words::commandLine),
+        scenes::seamText(found.repairs, scenes::Words::commandLine),
         scenes::bridgesText(found.bridges, voxel),
         scenes::thinText(mesh::wallThickness(found.mesh, scenes::thinnestShare), longest, voxel,
                          options.voxel > 0 || options.particles, scenes::Words::commandLine)};
@@ -313,6 +315,12 @@ void addMesh(CLI::App& app, Chosen& chosen) {
             "flipped triangles and parts)")
         ->check(CLI::IsMember({"none", "weld", "close"}))
         ->capture_default_str();
+    command
+        .add_option(
+            "--weld", options->weld,
+            "open edges nearer than that are joined, in units of the file; a hundred-thousandth of its "
+            "size without it")
+        ->check(CLI::PositiveNumber);
     addDeviceOptions(command, options->device);
     command.add_option("--json", options->json, "file for the report, or - for the standard output");
     command.callback([options, &chosen] { chosen = [options] { return report(*options); }; });

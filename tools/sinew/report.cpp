@@ -188,6 +188,7 @@ Json toJson(const mesh::Repairs& repairs) {
     const Json largest{{"edges", repairs.largest.edges},
                        {"length", repairs.largest.rim},
                        {"middle", toJson(repairs.largest.middle)}};
+    const Json seam{{"weld", repairs.seam.weld}, {"edges", repairs.seam.edges}};
     return {{"how", mesh::nameOf(repairs.how)},
             {"tolerance", repairs.tolerance},
             {"joined_vertices", repairs.joinedVertices},
@@ -200,7 +201,8 @@ Json toJson(const mesh::Repairs& repairs) {
             {"turned_parts", repairs.turnedParts},
             {"open_edges", repairs.openEdges},
             {"open_holes", repairs.openHoles},
-            {"largest_hole", repairs.openHoles > 0 ? largest : Json(nullptr)}};
+            {"largest_hole", repairs.openHoles > 0 ? largest : Json(nullptr)},
+            {"wide_seam", repairs.seam.weld > 0 ? seam : Json(nullptr)}};
 }
 
 std::string dump(const Json& json) {
