@@ -34,7 +34,7 @@ if [[ $mode != asan ]]; then
     exit
 fi
 export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=1} UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
-export LSAN_OPTIONS=suppressions=$PWD/tools/sanitize/leaks.txt
+export LSAN_OPTIONS=suppressions=$PWD/tools/sanitize/leaks.txt:print_suppressions=0
 export TSAN_OPTIONS=suppressions=$PWD/tools/sanitize/races.txt:ignore_noninstrumented_modules=1
 tests asan "$@"
 # a line of threaded.txt: a program, and the suites of its tests that start threads
