@@ -159,7 +159,8 @@ bool isBelow(const Collider& collider, double kept, const Vector& from, const Ve
             const double reach = half[k] + kept;
             if (down[k] == 0 && std::abs(from[k]) > reach) return false;
             if (down[k] == 0) continue;
-            const auto [first, last] = std::minmax((-reach - from[k]) / down[k], (reach - from[k]) / down[k]);
+            const auto [first, last] =
+                std::minmax({(-reach - from[k]) / down[k], (reach - from[k]) / down[k]});
             enters = std::max(enters, first);
             leaves = std::min(leaves, last);
         }
