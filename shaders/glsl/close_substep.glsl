@@ -1,5 +1,7 @@
 // Part of advance_substep: what becomes of a particle whose substep has been swept (methods: D; contacts: 0.4).
 
+layout(constant_id = 11) const bool hasColliders = false; // planes come before those (touch_planes), not here
+
 // Turns the end of a sweep into the velocity after the substep, and returns the way from p to the position after it.
 vec3 close(uint i, vec3 halfKick, vec3 p, inout vec3 v) {
     vec3 way = uintBitsToFloat(corrections[i].xyz);
@@ -9,7 +11,7 @@ vec3 close(uint i, vec3 halfKick, vec3 p, inout vec3 v) {
     const vec3 x = p + way;
     Motion motion = Motion(x, v, way + step.h * (before + halfKick));
     uint touched = corrections[i].w;
-    for (uint plane = 0u; plane < planeCount; ++plane) {
+    for (uint plane = 0u; plane < (hasColliders ? 0u : planeCount); ++plane) {
         if (projectOntoPlane(planes[plane], contactOffsets[i], step.h, motion)) touched |= 1u << plane;
     }
     way += motion.x - x;

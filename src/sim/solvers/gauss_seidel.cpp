@@ -37,7 +37,10 @@ struct Work {
     constraints::bend::ColoredBends bends;
     collision::planes::Colliders colliders;
     BufferId corrections;
+    bool hasColliders = false; // other than planes, which then come before them
 };
+
+constexpr std::uint32_t hasCollidersId = 11; // constant_id in close_substep.glsl
 
 void addBetween(ProgramBuilder& program, const Work& work, const Form& form, bool isFirst) {
     const ParticleBuffers& particles = work.particles;
@@ -52,6 +55,7 @@ void addBetween(ProgramBuilder& program, const Work& work, const Form& form, boo
     if (hasPlanes) {
         buffers.insert(buffers.end(), {work.colliders.planes, work.colliders.contactOffsets});
         constants.merge(work.colliders.constants());
+        if (work.hasColliders) constants[hasCollidersId] = 1;
     }
     program.dispatch(hasPlanes ? *form.planes : *form.plain, particles.count, buffers,
                      layout::SubstepPush{particles.count, isFirst}, constants);
@@ -82,15 +86,16 @@ StateLayout stateLayout(const Scene& scene) {
 
 void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& settings,
                const ParticleBuffers& particles) {
-    const Work work{.particles = particles,
-                    .edges = constraints::distance::uploadColors(program, scene, settings, particles.layout),
-                    .bends = constraints::bend::uploadColors(program, scene, settings, particles.layout),
-                    .colliders = collision::planes::addColliders(program, scene, particles.layout),
-                    .corrections = program.scratch<layout::ParticleCorrection>("state.displacements",
-                                                                               particles.layout.count)};
+    Work work{.particles = particles,
+              .edges = constraints::distance::uploadColors(program, scene, settings, particles.layout),
+              .bends = constraints::bend::uploadColors(program, scene, settings, particles.layout),
+              .colliders = collision::planes::addColliders(program, scene, particles.layout),
+              .corrections =
+                  program.scratch<layout::ParticleCorrection>("state.displacements", particles.layout.count)};
     const auto attachments = constraints::attachment::add(program, scene, particles.layout);
     const auto tethers = constraints::tether::add(program, scene, particles.layout);
     const auto colliders = collision::colliders::add(program, scene, settings, particles.layout);
+    work.hasColliders = colliders.count > 0;
     const bool isDamped = scene.dampingTime > 0 && !work.edges.colors.empty();
     const bool isWarm = work.edges.degree > 0, usesTexels = settings.forms.usesTexels;
     const Form& open = !isWarm ? openCold : usesTexels ? openWarm : openWarmLoads;
@@ -104,6 +109,8 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
                                              settings.substeps);
         constraints::grab::addOpenPass(program, particles, work.corrections, substep, settings.substeps);
         constraints::tether::addOpenPass(program, particles, work.corrections, tethers);
+        if (work.hasColliders)
+            collision::planes::addTouch(program, particles, work.corrections, work.colliders);
         collision::colliders::addOpenPass(program, particles, work.corrections, colliders, substep);
         if (!isDamped) continue;
         addBetween(program, work, close, false);

@@ -221,6 +221,54 @@ TEST_P(Collided, SlidesToAStopWhereFrictionSays) {
     }
 }
 
+// Each pushes it out, and the last takes back what the others have pushed: no speed may come of that.
+TEST_P(Collided, StandsStillBetweenWhatHoldsIt) {
+    const Collider below = box({1, 0.5, 1}, {0, -0.49, 0}), above = box({1, 0.5, 1}, {0, 0.48, 0});
+    const std::vector<std::vector<Collider>> pairs{
+        {below, above},
+        {above, below},
+        {sphere(0.5, {0, 0.48, 0}), sphere(0.5, {0, -0.49, 0})},
+        {capsule(0.5, 0.2, {0, 0.48, 0}), below},
+        {above, box({1, 0.5, 1}, {0, -0.49, 0}, 1)}}; // a wedge of one degree
+    for (const double gravity : {0.0, g})
+        for (const float friction : {0.0f, 0.5f})
+            for (std::size_t c = 0; c < pairs.size(); ++c) {
+                if (c == 4 && friction == 0) continue; // slips out
+                Scene scene = particleAt({0, 0, 0});
+                scene.gravity = {0, static_cast<float>(-gravity), 0};
+                scene.colliders = pairs[c];
+                for (Collider& collider : scene.colliders) collider.friction = friction;
+                test::Runner runner(scene, settings());
+                runner.run(20);
+                EXPECT_LE(runner.velocities()[0].norm(), 0.01 + gravity / 600) << c << ", " << friction;
+            }
+}
+
+TEST_P(Collided, StandsStillBetweenAPlaneAndAColliderThatHoldIt) {
+    Scene scene = particleAt({0, 0, 0});
+    scene.planes = {{.normal = {0, 1, 0}, .offset = 0.01f}};
+    scene.colliders = {sphere(0.5, {0, 0.48, 0})};
+    test::Runner runner(scene, settings());
+    runner.run(20);
+    EXPECT_LE(runner.velocities()[0].norm(), 0.01 + g / 600);
+}
+
+TEST_P(Collided, IsNoFasterThanTheColliderThatPressesItOnAnother) {
+    for (const bool movesFirst : {true, false}) {
+        Scene scene = particleAt({0, 0.001f, 0});
+        scene.colliders = {box({1, 0.5, 1}, {0, -0.5, 0}), box({1, 0.5, 1}, {0, 0.55, 0})};
+        scene.colliders[1].path = {{0, scene.colliders[1].pose}, {0.5f, {.position = {0, 0.49f, 0}}}};
+        if (movesFirst) std::swap(scene.colliders[0], scene.colliders[1]);
+        test::Runner runner(scene, settings());
+        for (int frame = 0; frame < 30; ++frame) {
+            runner.run(1);
+            EXPECT_LE(runner.velocities()[0].norm(), 0.12 + g / 600) << frame; // 0.12 m/s
+        }
+        runner.run(10);
+        EXPECT_LE(runner.velocities()[0].norm(), 0.01 + g / 600) << movesFirst;
+    }
+}
+
 TEST_P(Collided, KeepsMomentumAlongASurfaceWithoutFriction) {
     Scene scene = particleAt({0, 0.3, 0}, {2, 0, 0.5});
     scene.colliders = {incline(0)};
