@@ -4,6 +4,7 @@
 #include "viewer/draw/image.hpp"
 #include "vk/queue.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace sinew::viewer {
@@ -52,7 +53,8 @@ void warmUp(const vk::Device& device, PreparedShow& show, VkFormat format, const
     const Through blade(boxOf(show.stage.scene()));
     VkCommandBuffer commands = queue.begin();
     show.stage.recordReset(commands);
-    show.stage.recordStep(commands, nullptr, {}, {blade.from, blade.to});
+    const bool canCut = std::ranges::any_of(show.stage.scene().grids, &sim::Grid::isCuttable);
+    show.stage.recordStep(commands, nullptr, {}, canCut ? sim::Blade{blade.from, blade.to} : sim::Blade{});
     for (const sim::Overlap overlap : {sim::Overlap::none, sim::Overlap::some})
         show.stage.recordSkin(commands, overlap);
     queue.wait(queue.submit(commands));
