@@ -50,15 +50,16 @@ struct Bounce {
 
 Bounce bounceFrom(uint i, uvec2 candidate, Self self) {
     const uint j = candidate.x;
-    const vec3 d = self.x - POSITION(j);
+    const vec3 d = self.x - POSITION(j), change = self.before - BEFORE(j);
+    const vec3 way = step.h * (self.predicted - PREDICTED(j));
     const float reach = uintBitsToFloat(candidate.y);
     Contact contact = Contact(touches(d, reach), false, d);
     if (bounds.isSwept != 0u)
-        contact = contactOf(d, step.h * (self.predicted - PREDICTED(j)), reach, min(firsts[i], firsts[j]));
+        contact = contactOf(d, way, reach, min(firsts[i], firsts[j]));
     Bounce bounce = Bounce(vec3(0.0), 0.0);
     if (!contact.exists) return bounce;
     bounce.n = directionOf(contact.at, i, j).n;
-    precise float speed = dot(bounce.n, self.before - BEFORE(j));
-    if (speed < -step.restSpeed) bounce.speed = -RESTITUTION(i, j) * speed;
+    const float speed = dot3(bounce.n, change), rebound = -RESTITUTION(i, j) * speed;
+    if (speed < -step.restSpeed) bounce.speed = rebound;
     return bounce;
 }

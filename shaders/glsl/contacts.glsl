@@ -6,8 +6,7 @@
 // d = x_i - x_j. Of a pair in a list; the sign of |d| - reach, without a root.
 // Exact: passes that disagreed about it would divide a particle among fewer contacts than it has.
 bool touches(vec3 d, float reach) {
-    precise float left = reach * reach - dot3(d, d);
-    return left > 0.0;
+    return reach * reach - dot3(d, d) > 0.0;
 }
 
 // What is left after a substep of the overlap that a pair had when the scene was loaded (contacts: 3). As much as remains
@@ -21,7 +20,7 @@ vec3 axisFor(uint i, uint j) {
     bits *= 2654435761u;
     bits ^= bits >> 13;
     const vec3 any = vec3(bits & 1023u, bits >> 10 & 1023u, bits >> 20 & 1023u) - 511.5; // never 0
-    return (i < j ? 1.0 : -1.0) * normalize(any);
+    return (i < j ? 1.0 : -1.0) * inversesqrt(dot3(any, any)) * any;
 }
 
 struct Direction {
@@ -29,13 +28,11 @@ struct Direction {
     float distance; // [m]
 };
 
-// By the one root: a compiler may make a quotient by a root in two ways, and not alike in a substep with fast particles and
-// in one without.
 Direction directionOf(vec3 d, uint i, uint j) {
     const float squared = dot3(d, d);
     if (squared < 1e-30) return Direction(axisFor(i, j), 0.0);
-    const float inverse = inversesqrt(squared);
-    return Direction(inverse * d, inverse * squared);
+    const float distance = sqrt(squared);
+    return Direction(d / distance, distance);
 }
 
 // When two that are at difference d after a substep, in which that changed by `way`, met on the way: the first root t of
@@ -49,13 +46,13 @@ struct Meeting {
 const float never = 2.0;
 
 Meeting meetingOf(vec3 d, vec3 way, float reach) {
-    precise const vec3 start = d - way;
-    precise const float a = dot3(way, way), b = dot3(start, way), c = dot3(start, start) - reach * reach;
-    precise const float root = b * b - a * c, least = 0.25 * reach * reach;
+    const vec3 start = d - way;
+    const float a = dot3(way, way), b = dot3(start, way), c = dot3(start, start) - reach * reach;
+    const float root = b * b - a * c, least = 0.25 * reach * reach;
     if (!(a > least) || b >= 0.0 || c <= 0.0 || root < 0.0) return Meeting(never, d);
-    precise float t = c / (sqrt(root) - b);
+    float t = c / (sqrt(root) - b);
     if (t > 1.0) return Meeting(never, d);
-    precise const vec3 at = start + t * way;
+    const vec3 at = start + t * way;
     return Meeting(t, at);
 }
 

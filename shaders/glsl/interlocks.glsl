@@ -31,6 +31,6 @@ vec3 normalOf(uint i, uint j, vec3 d) {
 // By which a contact parts two in a substep that changed their difference d by `way`: what they came nearer, and what is
 // left of the overlap no faster than `most` [m].
 float partingOf(vec3 n, vec3 d, vec3 way, float reach, float most) {
-    precise float depth = reach - dot(n, d), approach = -dot(n, way);
-    return max(0.0, min(depth, approach + most));
+    const float depth = reach - dot3(n, d), left = most - dot3(n, way);
+    return max(0.0, min(depth, left));
 }

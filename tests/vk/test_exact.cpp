@@ -24,21 +24,29 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Names as the compiler mangles them, up to where they differ from others.
-const std::vector<std::string> exactFunctions{"dot3(",          "cross3(",
-                                              "length3(",       "sizeOf(", // math.glsl
-                                              "wayOf(f1;vf3",   "frameOf(",
-                                              "cellOf(",        "isHurrying(", // hash grids
-                                              "isApart(",       "touches(",
-                                              "meetingOf(vf3",  "volumeOf(",
-                                              "edgeHit(", // contacts, blades
-                                              "rayHit(",        "hitOf(",
-                                              "linkImpulse(",   "latticeLink(",
-                                              "advance(", // forms of `split`
-                                              "rebound(",       "projectOntoPlane(",
-                                              "directionOf(vf3"};
+const std::vector<std::string> exactFunctions{// math.glsl
+                                              "dot3(", "cross3(", "length3(", "sizeOf(",
+                                              // hash grids
+                                              "wayOf(f1;vf3", "frameOf(", "cellOf(", "isHurrying(",
+                                              // contacts, restitution, interlocked bodies
+                                              "isApart(", "touches(", "meetingOf(vf3", "axisFor(",
+                                              "directionOf(vf3", "bounceFrom(", "partingOf(",
+                                              // blades
+                                              "volumeOf(", "edgeHit(", "rayHit(", "hitOf(", "isNearBlade(",
+                                              // forms of `split`
+                                              "linkImpulse(", "latticeLink(", "pressCell(", "ofCorner(",
+                                              "pressCells(", "advance(", "rebound(", "projectOntoPlane("};
 
-constexpr std::uint32_t opName = 5, opExtInst = 12, opFunction = 54, opDecorate = 71, noContraction = 42,
-                        opDot = 148;
+/// Functions that decide, in several kernels, and are not exact: why that does no harm.
+const std::map<std::string, std::string> looseDecisions{
+    {"isBesideWay(struct-Searched", "a face is searched by find_faces or by find_wide_faces"},
+    {"isInBox(struct-Searched", "a face is searched by find_faces or by find_wide_faces"},
+    {"isNear(struct-Searched-u1-struct-ContactFace",
+     "a face is searched by find_faces or by find_wide_faces"},
+    {"isSliver(", "find_faces looks farther around a sliver, and touch_faces passes it over: one is enough"}};
+
+constexpr std::uint32_t opName = 5, opExtInst = 12, opTypeBool = 20, opFunction = 54, opFunctionCall = 57,
+                        opDecorate = 71, noContraction = 42, opDot = 148;
 
 // Operations on floats that may be fused: OpFAdd, OpFSub, OpFMul, and products with vectors and matrices.
 bool mayBeFused(std::uint32_t op) {
@@ -63,18 +71,33 @@ struct Inexact {
     std::set<std::string> functions;  ///< all that the module has
     int fused = 0;                    ///< operations that a compiler may fuse, of all functions
     std::map<std::string, int> loose; ///< instructions that are not exact, by function
+    std::set<std::string> decisions;  ///< functions that return a bool
+    std::map<std::string, std::set<std::string>> calls;
+
+    /// Whether a function, or one that it calls, has instructions that are not exact.
+    bool isLoose(const std::string& function) const {
+        if (loose.contains(function)) return true;
+        const auto called = calls.find(function);
+        return called != calls.end() &&
+               std::ranges::any_of(called->second, [&](const std::string& one) { return isLoose(one); });
+    }
 };
 
 Inexact inspect(const std::vector<std::uint32_t>& words) {
     Inexact result;
     std::map<std::uint32_t, std::string> names;
-    std::set<std::uint32_t> decorated;
+    std::set<std::uint32_t> decorated, bools;
     std::string function;
     for (std::size_t at = 5; at < words.size(); at += words[at] >> 16) {
         const std::uint32_t op = words[at] & 0xffff, *operands = words.data() + at + 1;
         if (op == opName) names[operands[0]] = reinterpret_cast<const char*>(operands + 1);
         if (op == opDecorate && operands[1] == noContraction) decorated.insert(operands[0]);
-        if (op == opFunction) result.functions.insert(function = names[operands[1]]);
+        if (op == opTypeBool) bools.insert(operands[0]);
+        if (op == opFunction) {
+            result.functions.insert(function = names[operands[1]]);
+            if (bools.contains(operands[0])) result.decisions.insert(function);
+        }
+        if (op == opFunctionCall) result.calls[function].insert(names[operands[2]]);
         const bool isFused = mayBeFused(op) && !decorated.contains(operands[1]);
         result.fused += isFused ? 1 : 0;
         if (isFused || op == opDot || (op == opExtInst && isLoose(operands[3]))) ++result.loose[function];
@@ -87,6 +110,14 @@ std::vector<fs::path> kernelsIn(const fs::path& folder) {
     for (const fs::directory_entry& file : fs::recursive_directory_iterator(folder))
         if (file.path().string().ends_with(".comp.spv")) files.push_back(file.path());
     return files;
+}
+
+// The kernel of which this is a form: forms are named after their source.
+std::string kernelOf(const fs::path& file) {
+    const std::string whole = file.stem().stem().string();
+    for (std::size_t end = whole.size(); end != std::string::npos && end > 0; end = whole.rfind('_', end - 1))
+        if (fs::exists(fs::path(GLSL_FOLDER) / (whole.substr(0, end) + ".comp"))) return whole.substr(0, end);
+    return whole;
 }
 
 } // namespace
@@ -105,6 +136,35 @@ TEST(ExactKernels, LeaveACompilerNothingToFuseWhereBitsMustAgree) {
             }
     }
     EXPECT_EQ(found.size(), exactFunctions.size()); // a promise about nothing
+}
+
+// What two kernels decide must be decided alike. Else one takes a particle for fast and the other for slow,
+// and a pair is listed twice or never.
+TEST(ExactKernels, DecideNothingTwiceThatIsNotExact) {
+    const std::vector<fs::path> kernels = kernelsIn(KERNEL_FOLDER);
+    ASSERT_GE(kernels.size(), 300u) << "the kernels of src/sim are built with the library that this links";
+    std::map<std::string, std::set<std::string>> decidedIn, looseIn;
+    for (const fs::path& kernel : kernels) {
+        const Inexact inexact = inspect(vk::withoutContraction(wordsOf(kernel)));
+        for (const std::string& decision : inexact.decisions) {
+            decidedIn[decision].insert(kernelOf(kernel));
+            if (inexact.isLoose(decision)) looseIn[decision].insert(kernelOf(kernel));
+        }
+    }
+    std::set<std::string> excused;
+    for (const auto& [decision, loose] : looseIn) {
+        const auto& in = decidedIn[decision];
+        if (in.size() < 2) continue;
+        const auto excuse = std::ranges::find_if(
+            looseDecisions, [&](const auto& one) { return decision.starts_with(one.first); });
+        if (excuse != looseDecisions.end())
+            excused.insert(excuse->first);
+        else
+            ADD_FAILURE() << decision << " is not exact, and asked in " << *in.begin() << " and "
+                          << *in.rbegin() << ": decide once and store it, or make it exact (math.glsl)";
+    }
+    for (const auto& [decision, why] : looseDecisions)
+        EXPECT_TRUE(excused.contains(decision)) << "an excuse for nothing: " << decision;
 }
 
 TEST(ExactKernels, AreMadeWithoutAnOperationThatMayBeFused) {
