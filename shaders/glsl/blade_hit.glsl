@@ -30,15 +30,15 @@ float meetingOf(vec3 link, vec3 linkSigns, vec3 edge, vec3 edgeSigns, vec3 isB) 
     const bvec3 e = notEqual(greaterThanEqual(edge, vec3(0.0)), lessThan(edgeSigns, vec3(0.0)));
     if (l.x != l.y || l.y != l.z || e.x != e.y || e.y != e.z || l.x == e.x) return never;
     const vec3 weights = abs(link);
-    precise const float all = weights.x + weights.y + weights.z;
+    const float all = weights.x + weights.y + weights.z;
     return dot3(weights, isB) / max(all, 1e-37);
 }
 
 // How far along the link.
 float edgeHit(Ends x, vec3 e0, vec3 g0, vec3 e1, vec3 g1) {
-    precise const vec3 l0 = x.b0 - x.a0, l1 = x.b1 - x.a1;
-    precise const vec3 ae0 = e0 - x.a0, ag0 = g0 - x.a0, ae1 = e1 - x.a1, ag1 = g1 - x.a1;
-    precise const vec3 be0 = e0 - x.b0, bg0 = g0 - x.b0, be1 = e1 - x.b1, bg1 = g1 - x.b1;
+    const vec3 l0 = x.b0 - x.a0, l1 = x.b1 - x.a1;
+    const vec3 ae0 = e0 - x.a0, ag0 = g0 - x.a0, ae1 = e1 - x.a1, ag1 = g1 - x.a1;
+    const vec3 be0 = e0 - x.b0, bg0 = g0 - x.b0, be1 = e1 - x.b1, bg1 = g1 - x.b1;
     const float a1 = volumeOf(ae0, ag0, ag1), a2 = volumeOf(ae0, ag1, ae1); // the way of a
     const float b1 = volumeOf(be0, bg0, bg1), b2 = volumeOf(be0, bg1, be1); // of b
     const float d1 = volumeOf(ae0, ag0, bg1), d2 = volumeOf(ae0, bg1, be1);           // from a to b meanwhile
@@ -46,7 +46,7 @@ float edgeHit(Ends x, vec3 e0, vec3 g0, vec3 e1, vec3 g1) {
     const float x1 = volumeOf(l0, ae0, bg1), x2 = volumeOf(l1, ae0, ag1);             // from e to g meanwhile
     const float e1_ = volumeOf(l0, ae0, be1), e2 = volumeOf(l1, ae0, ae1);            // the way of e
     const float g1_ = volumeOf(l0, ag0, bg1), g2 = volumeOf(l1, ag0, ag1);            // of g
-    precise const vec3 eg0 = g0 - e0, ge1 = e1 - g1;
+    const vec3 eg0 = g0 - e0, ge1 = e1 - g1;
     const float m1 = volumeOf(eg0, l1, ag1), m2 = volumeOf(l0, ae0, ge1);
     const float n1 = volumeOf(ae0, ag0, l1), n2 = volumeOf(l0, bg1, be1);
     const vec3 first = vec3(0.0, 1.0, 1.0), second = vec3(0.0, 0.0, 1.0);
@@ -59,13 +59,13 @@ float edgeHit(Ends x, vec3 e0, vec3 g0, vec3 e1, vec3 g1) {
 // The nearest points of two segments, a to b and p to q [Ericson 2005, 5.1.9]: how far along the first, where they are nearer than
 // `radius`.
 float rayHit(vec3 a, vec3 b, vec3 p, vec3 q, float radius) {
-    precise const vec3 d = b - a, e = q - p, r = a - p;
+    const vec3 d = b - a, e = q - p, r = a - p;
     const float dd = max(dot3(d, d), 1e-30), ee = max(dot3(e, e), 1e-30), de = dot3(d, e), er = dot3(e, r), dr = dot3(d, r);
-    precise const float apart = dd * ee - de * de, least = 1e-12 * dd * ee, ahead = (de * er - dr * ee) / apart;
-    precise float s = apart > least ? clamp(ahead, 0.0, 1.0) : 0.0;
-    precise const float t = clamp((de * s + er) / ee, 0.0, 1.0);
+    const float apart = dd * ee - de * de, least = 1e-12 * dd * ee, ahead = (de * er - dr * ee) / apart;
+    float s = apart > least ? clamp(ahead, 0.0, 1.0) : 0.0;
+    const float t = clamp((de * s + er) / ee, 0.0, 1.0);
     s = clamp((de * t - dr) / dd, 0.0, 1.0);
-    precise const vec3 between = r + s * d - t * e;
-    precise const float most = radius * radius;
+    const vec3 between = r + s * d - t * e;
+    const float most = radius * radius;
     return dot3(between, between) < most ? s : never;
 }

@@ -15,11 +15,11 @@ vec3 normalOf(Ends x, float at, vec3 e0, vec3 g0, vec3 e1, vec3 g1) {
 
 Meeting stripMeeting(Ends x) {
     const vec3 low = min(min(x.a0, x.b0), min(x.a1, x.b1)), high = max(max(x.a0, x.b0), max(x.a1, x.b1));
-    precise const vec3 shift = push.spacing * bladeShift;
+    const vec3 shift = push.spacing * bladeShift;
     Meeting nearest = Meeting(never, vec3(0.0));
-    precise vec3 e0 = POINT(0u) + shift, e1 = POINT(1u) + shift;
+    vec3 e0 = POINT(0u) + shift, e1 = POINT(1u) + shift;
     for (uint q = 1u; q <= blade.quads; ++q) {
-        precise const vec3 g0 = POINT(2u * q) + shift, g1 = POINT(2u * q + 1u) + shift;
+        const vec3 g0 = POINT(2u * q) + shift, g1 = POINT(2u * q + 1u) + shift;
         if (all(lessThanEqual(min(min(e0, g0), min(e1, g1)), high)) && all(greaterThanEqual(max(max(e0, g0), max(e1, g1)), low))) {
             const float at = edgeHit(x, e0, g0, e1, g1);
             if (at < nearest.at) nearest = Meeting(at, normalOf(x, at, e0, g0, e1, g1));

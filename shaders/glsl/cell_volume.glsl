@@ -26,26 +26,26 @@ float smallest(vec4 p[8]) {
 
 // Corners as in layout.h; `fill` in 1/15.
 CellImpulse pressCell(vec4 p[8], float fill, float hh) {
-    precise const float spacing = push.restLengths[0], quarter = 0.25 / spacing;
+    const float spacing = push.restLengths[0], quarter = 0.25 / spacing;
     // differences first: those of neighbours are exact
-    precise const vec3 ex = quarter * (((p[1] - p[0]) + (p[3] - p[2])) + ((p[5] - p[4]) + (p[7] - p[6]))).xyz;
-    precise const vec3 ey = quarter * (((p[2] - p[0]) + (p[3] - p[1])) + ((p[6] - p[4]) + (p[7] - p[5]))).xyz;
-    precise const vec3 ez = quarter * (((p[4] - p[0]) + (p[5] - p[1])) + ((p[6] - p[2]) + (p[7] - p[3]))).xyz;
+    const vec3 ex = quarter * (((p[1] - p[0]) + (p[3] - p[2])) + ((p[5] - p[4]) + (p[7] - p[6]))).xyz;
+    const vec3 ey = quarter * (((p[2] - p[0]) + (p[3] - p[1])) + ((p[6] - p[4]) + (p[7] - p[5]))).xyz;
+    const vec3 ez = quarter * (((p[4] - p[0]) + (p[5] - p[1])) + ((p[6] - p[2]) + (p[7] - p[3]))).xyz;
     const vec3 cx = cross3(ey, ez), cy = cross3(ez, ex), cz = cross3(ex, ey);
     const float j = dot3(ex, cx);
-    precise const float gradient = 0.5 * (dot3(cx, cx) + dot3(cy, cy) + dot3(cz, cz)) + 1e-30;
-    precise const float turning = (dot3(ex, ex) + dot3(ey, ey) + dot3(ez, ez)) * (1.0 / 6.0) + 0.5;
+    const float gradient = 0.5 * (dot3(cx, cx) + dot3(cy, cy) + dot3(cz, cz)) + 1e-30;
+    const float turning = (dot3(ex, ex) + dot3(ey, ey) + dot3(ez, ez)) * (1.0 / 6.0) + 0.5;
     const float tau = smallest(p);
-    precise float pressure = 0.0;
+    float pressure = 0.0;
     if (hasStiffness)
         pressure = (1.0 - j) * min(push.volumeUnit * hh, push.volumeShare * tau / (gradient + abs(1.0 - j) * turning));
     if (hasRecovery) {
-        precise const float missing = max(RECOVERY_START - j, 0.0);
+        const float missing = max(RECOVERY_START - j, 0.0);
         pressure += min(push.recoveryUnit * hh * min(missing / RECOVERY_START, 1.0),
                         push.recoveryShare * tau * missing / (gradient + missing * turning));
     }
-    precise const float scale = fill * pressure * (0.25 * spacing);
-    precise const vec3 onX = scale * cx, onY = scale * cy, onZ = scale * cz;
+    const float scale = fill * pressure * (0.25 * spacing);
+    const vec3 onX = scale * cx, onY = scale * cy, onZ = scale * cz;
     return CellImpulse(onX, onY, onZ);
 }
 

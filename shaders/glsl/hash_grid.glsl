@@ -28,22 +28,22 @@ struct Frame {
 Frame frameOf(GridBounds bounds, uint cells, float edge) {
     Frame frame;
     frame.low = vec3(valueOf(bounds.lowX), valueOf(bounds.lowY), valueOf(bounds.lowZ));
-    precise const vec3 extent = vec3(valueOf(bounds.highX), valueOf(bounds.highY), valueOf(bounds.highZ)) - frame.low;
+    const vec3 extent = vec3(valueOf(bounds.highX), valueOf(bounds.highY), valueOf(bounds.highZ)) - frame.low;
     const float longest = max(extent.x, max(extent.y, extent.z));
-    precise const float perLength = 1.0 / (1.015625 * edge + longest / 1048576.0);
+    const float perLength = 1.0 / (1.015625 * edge + longest / 1048576.0);
     frame.perLength = perLength;
     frame.mask = cells - 1u;
-    precise const vec3 size = floor(extent * perLength) + 3.0; // with an empty cell at every end: nobody finds others there
-    precise const float all = size.x * size.y * size.z;
+    const vec3 size = floor(extent * perLength) + 3.0; // with an empty cell at every end: nobody finds others there
+    const float all = size.x * size.y * size.z;
     const bool isDense = all <= float(cells);
-    precise const float spreadY = 0.75487767 * float(cells), spreadZ = 0.56984029 * float(cells);
+    const float spreadY = 0.75487767 * float(cells), spreadZ = 0.56984029 * float(cells);
     frame.strideY = isDense ? uint(size.x) : uint(spreadY) | 1u;
     frame.strideZ = isDense ? uint(size.x) * uint(size.y) : uint(spreadZ) | 1u;
     return frame;
 }
 
 ivec3 cellOf(vec3 x, Frame frame) {
-    precise const vec3 place = (x - frame.low) * frame.perLength;
+    const vec3 place = (x - frame.low) * frame.perLength;
     return ivec3(floor(place));
 }
 
@@ -56,13 +56,12 @@ bool isInGrid(float radius, float most) { return radius >= 0.0 && radius <= most
 
 // How far something with velocity v goes in a substep of length h.
 float wayOf(float h, vec3 v) {
-    precise const vec3 way = h * v;
-    return length3(way);
+    return length3(h * v);
 }
 
 // Whether a particle of the grid moves so far in a substep that the cells around its end do not hold all that it may have
 // met: it is then searched one by one, like a large one. Way x substep length; `quiet` as in GridPush.
 bool isHurrying(float radius, float way, float quiet, float most) {
-    precise const float size = radius + way;
+    const float size = radius + way;
     return isInGrid(radius, most) && way > quiet && size > most;
 }

@@ -2,7 +2,7 @@
 
 vec3 latticeLink(vec4 a, vec4 b, float stiffness, int dx, int dy, int dz, float hh) {
     const int kind = abs(dx) + abs(dy) + abs(dz) - 1; // edge, face diagonal, body diagonal
-    precise const float clamped = stiffness * min(push.units[kind] * hh, push.shares[kind] * min(a.w, b.w));
+    const float clamped = stiffness * min(push.units[kind] * hh, push.shares[kind] * min(a.w, b.w));
     return linkImpulse(a.xyz, b.xyz, push.restLengths[kind], clamped);
 }
 

@@ -16,7 +16,7 @@ Searched searchedOf(uint e) {
 }
 
 bool isApart(ContactEdge edge, float way) { // as part_points has it
-    precise const float size = edge.radius + way;
+    const float size = edge.radius + way;
     return !(size <= push.most);
 }
 

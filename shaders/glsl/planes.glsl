@@ -15,14 +15,14 @@ struct Motion {
 // friction x depth.
 bool projectOntoPlane(PlaneCollider plane, float contactOffset, float h, inout Motion motion) {
     const vec3 n = plane.normalOffset.xyz;
-    precise const float depth = plane.normalOffset.w + contactOffset - dot3(n, motion.x);
+    const float depth = plane.normalOffset.w + contactOffset - dot3(n, motion.x);
     if (depth <= 0.0) return false;
-    precise const vec3 tangential = motion.displacement - dot3(n, motion.displacement) * n;
-    precise const float slip = length3(tangential), most = plane.staticFriction * depth;
+    const vec3 tangential = motion.displacement - dot3(n, motion.displacement) * n;
+    const float slip = length3(tangential), most = plane.staticFriction * depth;
     const float friction = slip <= most ? plane.staticFriction : plane.friction;
-    precise const float held = slip > 0.0 ? min(1.0, friction * depth / slip) : 0.0;
-    precise const vec3 correction = depth * n - held * tangential;
-    precise const vec3 x = motion.x + correction, v = motion.v + correction / h, way = motion.displacement + correction;
+    const float held = slip > 0.0 ? min(1.0, friction * depth / slip) : 0.0;
+    const vec3 correction = depth * n - held * tangential;
+    const vec3 x = motion.x + correction, v = motion.v + correction / h, way = motion.displacement + correction;
     motion = Motion(x, v, way);
     return true;
 }
@@ -33,6 +33,6 @@ vec3 rebound(PlaneCollider plane, float restSpeed, vec3 velocityBefore, vec3 v) 
     const vec3 n = plane.normalOffset.xyz;
     const float before = dot3(n, velocityBefore);
     if (before >= -restSpeed) return vec3(0.0);
-    precise const vec3 change = max(0.0, -plane.restitution * before - dot3(n, v)) * n;
+    const vec3 change = max(0.0, -plane.restitution * before - dot3(n, v)) * n;
     return change;
 }

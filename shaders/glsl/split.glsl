@@ -84,24 +84,24 @@ Substep substepOf(bool isFirst) {
 
 // dl n of a link from a to b [kg m]; its stiffness [kg] is clamped already. Coincident ends give exactly 0.
 vec3 linkImpulse(vec3 a, vec3 b, float restLength, float stiffness) {
-    precise const vec3 d = b - a;
-    precise const vec3 impulse = stiffness * (1.0 - restLength * inversesqrt(dot3(d, d) + 1e-30)) * d;
+    const vec3 d = b - a;
+    const vec3 impulse = stiffness * (1.0 - restLength * inversesqrt(dot3(d, d) + 1e-30)) * d;
     return impulse;
 }
 
 // Moves particle i by the sum of its links' impulses and writes it.
 void advance(uint i, vec4 y, vec4 velocity, vec3 impulses, Substep substep) {
     const float w = velocity.w, h = step.h;
-    precise vec3 v = velocity.xyz;
+    vec3 v = velocity.xyz;
     if (w > 0.0) { // 0 times a NaN next to it would stay for ever in a slot that holds no particle, which nobody restores
         v += substep.impulse * w * impulses;
         v += substep.kick * step.gravity.xyz;
     }
     v *= step.velocityFactor;
-    precise vec3 x = y.xyz - substep.thetaH * velocity.xyz + h * v;
+    vec3 x = y.xyz - substep.thetaH * velocity.xyz + h * v;
 #ifdef HAS_PLANES
     if (w > 0.0) {
-        precise const vec3 way = h * v;
+        const vec3 way = h * v;
         Motion motion = Motion(x, v, way);
         const float offset = contactOffsets[i];
         uint touched = 0u;
@@ -116,6 +116,6 @@ void advance(uint i, vec4 y, vec4 velocity, vec3 impulses, Substep substep) {
     }
 #endif
     STORE_VELOCITY(i, vec4(v, w));
-    precise const vec3 stored = x + step.thetaHStored * v;
+    const vec3 stored = x + step.thetaHStored * v;
     STORE_POSITION(i, vec4(stored, y.w));
 }
