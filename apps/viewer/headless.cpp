@@ -146,7 +146,7 @@ public:
 
     /// What the simulation says of how it is used, on stderr. All steps have finished.
     void printComplaints() {
-        for (const std::string& complaint : stage_.simulation().complaints())
+        for (const std::string& complaint : stage_.complaints())
             std::fprintf(stderr, "warning: %s\n", complaint.c_str());
     }
 

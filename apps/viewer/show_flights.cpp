@@ -323,7 +323,7 @@ void Show::settleAll() {
 // Steps without room are undone by then and done again: no mistake.
 void Show::warnOfMistakes() {
     if (stage_.lacksContactRoom() || isDiverged_) return;
-    for (const std::string& complaint : stage_.simulation().complaints()) screen_.warn(complaint);
+    for (const std::string& complaint : stage_.complaints()) screen_.warn(complaint);
 }
 
 } // namespace sinew::viewer

@@ -2,6 +2,7 @@
 #include "app/growing_simulation.hpp"
 
 #include "sim/ranges.hpp"
+#include "sim/validate.hpp"
 #include "vk/check.hpp"
 
 #include <algorithm>
@@ -31,6 +32,16 @@ GrowingSimulation::GrowingSimulation(const vk::Device& device, const sim::Scene&
     : device_(device.anchored()), scene_(scene), settings_(settings),
       simulation_(std::make_unique<sim::Simulation>(device, scene, settings)),
       room_{.room = settings.contactRoom} {}
+
+std::vector<std::string> GrowingSimulation::complaints() {
+    std::vector<std::string> complaints = simulation_->complaints();
+    if (complaints.empty()) return complaints;
+    const std::vector<std::string> ofScene = sim::warnings(scene_, settings_);
+    std::erase_if(complaints, [&](const std::string& complaint) {
+        return std::ranges::find(ofScene, complaint) != ofScene.end();
+    });
+    return complaints;
+}
 
 std::optional<sim::Settings> GrowingSimulation::roomForContacts(std::uint32_t needed) {
     room_.needed = std::max(room_.needed, needed);

@@ -43,6 +43,8 @@ public:
     /// Those of simulation(), with the room that it has.
     const sim::Settings& settings() const noexcept { return settings_; }
     const vk::Device& device() const noexcept { return device_; }
+    /// Complaints of simulation(), without the warnings of its scene: those are said where it is loaded.
+    std::vector<std::string> complaints();
     const ContactRoom& contactRoom() const noexcept { return room_; }
 
     /// What a simulation() has to be made with after a step whose Status::contactRoom is `needed`, or after

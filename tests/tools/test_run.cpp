@@ -517,6 +517,22 @@ TEST_F(Run, ARunWhoseStepTakesLongEndsWithinSecondsOfASignal) {
     EXPECT_LT(taken.count(), 60 * test::slowness) << "most of it to load the scene";
 }
 
+// By the loader, and not once more by the simulation.
+TEST_F(Run, SaysOnceHowCoarsePositionsAre) {
+    write("scene.toml", "[[box]]\nparticles = [3, 3, 3]\nspacing = 0.1\ncenter = [0, 0, 0]\n"
+                        "[[box]]\nparticles = [3, 3, 3]\nspacing = 0.1\ncenter = [2000, 0, 0]\n");
+    const Outcome outcome = run({"run", "scene.toml", "--frames", "2", "--json", "-"});
+    const json report = json::parse(outcome.out, nullptr, false);
+    ASSERT_FALSE(report.is_discarded()) << outcome.out;
+    EXPECT_EQ(std::ranges::count_if(report["warnings"],
+                                    [](const json& warning) {
+                                        return warning.get<std::string>().starts_with(
+                                            "positions are rounded");
+                                    }),
+              1)
+        << report["warnings"];
+}
+
 TEST_F(Run, BodiesInOneSpotAreRefusedWithTheirNames) {
     const auto spot = [&](const std::string& scene, const std::string& why) {
         write("scene.toml", scene + "[[plane]]\n");

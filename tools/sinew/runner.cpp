@@ -164,7 +164,7 @@ void Runner::advance(std::uint64_t count, std::uint32_t inFlight,
 
 std::vector<std::string> Runner::complaints() {
     if (divergence_ && divergence_->isCrowded) return {};
-    return growing_.simulation().complaints();
+    return growing_.complaints();
 }
 
 std::vector<double> Runner::phaseMs() const {

@@ -149,6 +149,8 @@ public:
     const sim::Settings& madeWith() const noexcept { return settings_; }
     const sim::Settings& settings() const noexcept { return growing_.settings(); }
     const sim::Simulation& simulation() const noexcept { return growing_.simulation(); }
+    /// As GrowingSimulation.
+    std::vector<std::string> complaints() { return growing_.complaints(); }
     const app::ContactRoom& contactRoom() const noexcept { return growing_.contactRoom(); }
     const app::SurfaceRoom& surfaceRoom() const noexcept { return growing_.surfaceRoom(); }
 
