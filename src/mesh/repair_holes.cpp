@@ -158,6 +158,7 @@ void addPatch(TriangleMesh& mesh, const Loop& loop, const Patch& patch, TakenEdg
     for (const auto& triangle : patch.triangles) {
         mesh.triangles.push_back(triangle);
         if (!mesh.objects.empty()) mesh.objects.push_back(mesh.objects[loop.rim.front()]);
+        if (!mesh.parts.empty()) mesh.parts.push_back(mesh.parts[loop.rim.front()]);
         for (std::size_t i = 0; i < 3; ++i) taken.add(triangle[i], triangle[(i + 1) % 3]);
     }
 }

@@ -140,6 +140,7 @@ bool splitOnce(TriangleMesh& mesh, double tolerance, Places& places) {
         mesh.triangles[edge.triangle] = parts.front();
         mesh.triangles.insert(mesh.triangles.end(), parts.begin() + 1, parts.end());
         if (!mesh.objects.empty()) mesh.objects.resize(mesh.triangles.size(), mesh.objects[edge.triangle]);
+        if (!mesh.parts.empty()) mesh.parts.resize(mesh.triangles.size(), mesh.parts[edge.triangle]);
         places.push_back(mesh.positions[split.points.front()]);
     }
     return places.size() > before;

@@ -149,6 +149,18 @@ TEST(Repair, SplitsTJunctions) {
     }
 }
 
+// The component of each triangle, too, where triangles are split and holes are closed.
+TEST(Repair, KeepsTheNumberOfThePart) {
+    TriangleMesh mesh = unitBox;
+    addJunction(mesh, 0, 0, 0.5);
+    mesh.triangles.erase(mesh.triangles.begin() + 5);
+    mesh.parts.assign(mesh.triangles.size(), 7);
+    const Result result = repaired(mesh);
+    EXPECT_EQ(result.report.splitEdges, 1u);
+    EXPECT_EQ(result.report.closedHoles, 1u);
+    EXPECT_EQ(result.mesh.parts, std::vector<std::uint32_t>(result.mesh.triangles.size(), 7));
+}
+
 TEST(Repair, SplitsSeveralJunctionsOnAnEdgeAndOnEachEdgeOfATriangle) {
     TriangleMesh two = unitBox; // the first triangle keeps the corner, the rest is split again
     addJunction(two, 0, 0, 0.3);
