@@ -2,7 +2,8 @@
 # tools/test.sh [--clang | --sanitize] [ctest options]: installs what is missing, builds everything and runs every test, on lavapipe.
 #   --clang     builds with clang++ in build/clang
 #   --sanitize  builds and runs every test under AddressSanitizer and UndefinedBehaviorSanitizer (build/asan), then the
-#               programs that start threads under ThreadSanitizer (build/tsan); takes about two hours on two cores
+#               programs that start threads under ThreadSanitizer (build/tsan); ends with a summary of both;
+#               takes about two hours on two cores
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . tools/packages.sh
@@ -19,12 +20,18 @@ find src apps tools tests \( -name '*.cpp' -o -name '*.hpp' \) -print0 | xargs -
 # on the software device, whatever else the machine has
 for icd in /usr/share/vulkan/icd.d/lvp_icd.*.json; do export VK_ICD_FILENAMES=$icd; done
 
-# tests PRESET [ctest options]: runs the tests.
+# tests PRESET [ctest options]: runs the tests, and keeps what ctest says in build/PRESET/tests.log. Fails when a test fails.
 tests() {
     local preset=$1
     shift
     echo "testing (build/$preset)"
-    ctest --preset "$preset" --output-on-failure -j2 "$@"
+    ctest --preset "$preset" --output-on-failure -j2 "$@" | tee "build/$preset/tests.log"
+}
+
+# summary PRESET: how many tests passed, and the names of those that did not.
+summary() {
+    echo "summary of build/$1:"
+    if ! sed -n '/tests passed/,$p' "build/$1/tests.log" 2>/dev/null | grep .; then echo "no test ran"; fi
 }
 
 echo "building (build/$mode)"
@@ -36,10 +43,15 @@ fi
 export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=1} UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 export LSAN_OPTIONS=suppressions=$PWD/tools/sanitize/leaks.txt:print_suppressions=0
 export TSAN_OPTIONS=suppressions=$PWD/tools/sanitize/races.txt:ignore_noninstrumented_modules=1
-tests asan "$@"
+# both sanitizers run, whatever the first one finds
+failed=0
+tests asan "$@" || failed=1
 # a line of threaded.txt: a program, and the suites of its tests that start threads
 mapfile -t programs < <(cut -d' ' -f1 tools/sanitize/threaded.txt)
 suites=$(cut -d' ' -f2 tools/sanitize/threaded.txt | paste -sd'|')
 echo "building (build/tsan)"
-build tsan "${programs[@]}"
-tests tsan -R "^($suites)[.]" "$@"
+rm -f build/tsan/tests.log
+{ build tsan "${programs[@]}" && tests tsan -R "^($suites)[.]" "$@"; } || failed=1
+summary asan
+summary tsan
+exit "$failed"
