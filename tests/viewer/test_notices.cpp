@@ -1,4 +1,4 @@
-// What the window says, one text after the other.
+// Texts in the window, one after the other.
 #include "viewer/window/notices.hpp"
 
 #include <gtest/gtest.h>
@@ -32,8 +32,14 @@ TEST(Notices, PutAWarningBeforeThoseThatWait) {
     EXPECT_EQ(notices.shown().text, "no room");
     notices.pass(now += Notices::notePasses);
     EXPECT_EQ(notices.shown().text, "no room") << "a warning stays longer";
+    notices.show({"no memory", true}, now);
+    EXPECT_EQ(notices.shown().text, "no room") << "as long as another one";
     notices.pass(now += Notices::warningStays);
-    EXPECT_EQ(notices.shown().text, "two");
+    EXPECT_EQ(notices.shown().text, "no memory");
+    for (const char* text : {"one", "two", ""}) {
+        notices.pass(now += Notices::warningStays);
+        EXPECT_EQ(notices.shown().text, text);
+    }
 }
 
 TEST(Notices, ForgetThoseOfTheSceneBefore) {
@@ -41,8 +47,13 @@ TEST(Notices, ForgetThoseOfTheSceneBefore) {
     Notices::Clock::time_point now{};
     notices.announce({"one", "two"}, now);
     notices.announce({}, now);
-    notices.pass(now += Notices::notePasses);
     EXPECT_EQ(notices.shown().text, "");
+    notices.announce({"three"}, now);
+    notices.show({"no room", true}, now);
+    notices.announce({"four"}, now);
+    EXPECT_EQ(notices.shown().text, "no room") << "a warning stays";
+    notices.pass(now += Notices::warningStays);
+    EXPECT_EQ(notices.shown().text, "four");
 }
 
 } // namespace

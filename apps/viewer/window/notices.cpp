@@ -1,32 +1,45 @@
 // A queue of texts.
 #include "viewer/window/notices.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace sinew::viewer {
 
 void Notices::show(Notice notice, Clock::time_point now) {
+    if (notice.isBad && shown_.isBad && now < until_) {
+        waiting_.insert(std::ranges::find(waiting_, false, &Notice::isBad), std::move(notice));
+        return;
+    }
+    if (shown_.isAnnounced && now < until_)
+        waiting_.insert(std::ranges::find(waiting_, false, &Notice::isBad), std::move(shown_));
+    start(std::move(notice), now);
+}
+
+void Notices::announce(const std::vector<std::string>& texts, Clock::time_point now) {
+    std::erase_if(waiting_, &Notice::isAnnounced);
+    for (const std::string& text : texts) waiting_.push_back({.text = text, .isAnnounced = true});
+    const bool isFree = shown_.text.empty() || shown_.isAnnounced || now >= until_;
+    if (isFree ? !shown_.text.empty() || !waiting_.empty() : !shown_.isBad && !texts.empty()) next(now);
+}
+
+void Notices::pass(Clock::time_point now) {
+    if (!shown_.text.empty() && now >= until_) next(now);
+}
+
+void Notices::start(Notice notice, Clock::time_point now) {
     until_ = now + (notice.isBad ? warningStays : notePasses);
     shown_ = std::move(notice);
     hasChanged_ = true;
 }
 
-void Notices::announce(const std::vector<std::string>& texts, Clock::time_point now) {
-    waiting_.assign(texts.begin(), texts.end());
-    if (waiting_.empty()) return;
-    show({waiting_.front()}, now);
-    waiting_.pop_front();
-}
-
-void Notices::pass(Clock::time_point now) {
-    if (shown_.text.empty() || now < until_) return;
-    if (waiting_.empty()) {
-        shown_ = {};
-        hasChanged_ = true;
-        return;
+void Notices::next(Clock::time_point now) {
+    Notice notice;
+    if (!waiting_.empty()) {
+        notice = std::move(waiting_.front());
+        waiting_.pop_front();
     }
-    show({waiting_.front()}, now);
-    waiting_.pop_front();
+    start(std::move(notice), now);
 }
 
 bool Notices::hasChanged() {

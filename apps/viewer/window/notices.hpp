@@ -1,4 +1,4 @@
-// What the window says for a while: one text at a time, and others that wait for it to go.
+// Texts that the window shows for a while: one at a time, the others wait for it to go.
 #pragma once
 
 #include <chrono>
@@ -10,7 +10,8 @@ namespace sinew::viewer {
 
 struct Notice {
     std::string text{};
-    bool isBad = false;
+    bool isBad = false;       ///< a warning
+    bool isAnnounced = false; ///< about the scene
 };
 
 /// One thread.
@@ -19,9 +20,10 @@ public:
     using Clock = std::chrono::steady_clock;
     static constexpr std::chrono::seconds warningStays{12}, notePasses{4};
 
-    /// Shows it at once, in place of what is shown.
+    /// Shows it at once, in place of what is shown. A warning waits for another warning to go, and what is
+    /// announced is shown again after it.
     void show(Notice notice, Clock::time_point now);
-    /// Shows notes one after the other, the first at once, in place of those that still wait.
+    /// Shows notes one after the other, the first at once, in place of those announced before.
     void announce(const std::vector<std::string>& texts, Clock::time_point now);
     /// Takes away what was shown long enough, and shows the next.
     void pass(Clock::time_point now);
@@ -33,8 +35,11 @@ public:
     const Notice& shown() const { return shown_; }
 
 private:
+    void start(Notice notice, Clock::time_point now);
+    void next(Clock::time_point now);
+
     Notice shown_;
-    std::deque<std::string> waiting_;
+    std::deque<Notice> waiting_; // warnings first
     Clock::time_point until_{};
     bool hasChanged_ = false;
 };
