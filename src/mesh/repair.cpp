@@ -72,7 +72,7 @@ void stitch(Trial& trial, Repairs& report) {
                 [&](TriangleMesh& mesh, Places& places) { splitJunctions(mesh, tolerance, places); });
 }
 
-/// Of vertices that triangles connect.
+/// Counts groups of vertices that triangles connect.
 std::size_t countSurfaces(const TriangleMesh& mesh) {
     DisjointSets sets(mesh.positions.size());
     std::size_t count = mesh.positions.size();
@@ -105,6 +105,9 @@ void findWideSeam(const TriangleMesh& mesh, const MeshDefects& defects, Seams wh
         if (4 * joined < defects.boundaryEdges) continue;
         if (which == Seams::between && countSurfaces(trial.mesh()) == surfaces) continue;
         report.seam = {tried.tolerance, joined};
+        TriangleMesh both = mesh;
+        Places places;
+        joinNear(both, tried.tolerance, places, &report.seam.pairs);
         return;
     }
 }
@@ -166,6 +169,17 @@ private:
     std::vector<Vec3> all_;
 };
 
+// Lids may have closed it on both sides, so that the part itself shows no seam.
+WideSeam seamIn(const Positions& positions, const WideSeam& whole) {
+    WideSeam seam{.weld = whole.weld};
+    std::ranges::copy_if(whole.pairs, std::back_inserter(seam.pairs), [&](const std::array<Vec3, 2>& pair) {
+        return positions.has(pair[0]) && positions.has(pair[1]);
+    });
+    if (seam.pairs.empty()) return {};
+    seam.edges = whole.edges * seam.pairs.size() / whole.pairs.size();
+    return seam;
+}
+
 } // namespace
 
 const char* nameOf(Repair how) {
@@ -210,6 +224,7 @@ Repairs repairsOf(const TriangleMesh& part, const Repairs& whole) {
     TriangleMesh open = weld(part, defects);
     closeHoles(open, false, report);
     if (whole.seam.weld > 0) findWideSeam(open, defects, Seams::all, report);
+    if (report.seam.weld == 0) report.seam = seamIn(positions, whole.seam);
     return report;
 }
 

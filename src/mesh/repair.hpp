@@ -4,6 +4,7 @@
 
 #include "mesh/triangle_mesh.hpp"
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -40,6 +41,9 @@ struct OpenHole {
 /// Positions of vertices of the repaired mesh, one for each repair of a kind.
 using Places = std::vector<Vec3>;
 
+/// Positions of two vertices each.
+using VertexPairs = std::vector<std::array<Vec3, 2>>;
+
 struct ClosedHole {
     Vec3 place; ///< of a vertex of its rim
     std::size_t edges = 0, triangles = 0;
@@ -47,11 +51,12 @@ struct ClosedHole {
 
 /// A seam between open edges that is wider than what was joined.
 struct WideSeam {
-    double weld = 0;       ///< what joins it, as given to repair() [units of the mesh]; 0 = there is none
-    std::size_t edges = 0; ///< open edges that are then joined
+    double weld = 0;        ///< what joins it, as given to repair() [units of the mesh]; 0 = there is none
+    std::size_t edges = 0;  ///< open edges that are then joined
+    VertexPairs pairs = {}; ///< that become one
 };
 
-/// Where repairs were made, by which those of a part are found (repairsOf).
+/// Places of repairs, by which those of a part are found (repairsOf).
 struct RepairPlaces {
     Places joined, split, removed, turnedTriangles, turnedParts;
     std::vector<ClosedHole> holes;
@@ -84,8 +89,8 @@ struct Repairs {
 /// says. The same mesh gives the same bytes.
 TriangleMesh repair(TriangleMesh mesh, Repair how, MeshDefects& defects, Repairs& report, double weld = 0);
 
-/// What was done in the triangles of `part` alone, which were chosen of the repaired mesh and not moved, and
-/// what is left open of them.
+/// The repairs in the triangles of `part` alone, which were chosen of the repaired mesh and not moved, and
+/// the edges of them that stay open.
 Repairs repairsOf(const TriangleMesh& part, const Repairs& whole);
 
 /// A sentence for each thing that was done, with counts, such as "3 holes of 14 edges were closed with 8

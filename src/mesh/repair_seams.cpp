@@ -168,7 +168,7 @@ std::vector<std::uint32_t> verticesOf(const std::vector<OpenEdge>& edges) {
     return vertices;
 }
 
-void joinNear(TriangleMesh& mesh, double tolerance, Places& places) {
+void joinNear(TriangleMesh& mesh, double tolerance, Places& places, VertexPairs* pairs) {
     const std::vector<std::uint32_t> vertices = verticesOf(findOpenEdges(mesh));
     const std::vector<float> reaches = findReaches(mesh, tolerance);
     const PointTree tree(mesh.positions, vertices);
@@ -185,6 +185,7 @@ void joinNear(TriangleMesh& mesh, double tolerance, Places& places) {
             if (lengthOf(mesh, vertex, other) > double{reaches[other]}) continue;
             first[other] = vertex;
             places.push_back(mesh.positions[vertex]);
+            if (pairs) pairs->push_back({mesh.positions[vertex], mesh.positions[other]});
         }
     }
     for (Triangle& triangle : mesh.triangles)

@@ -19,8 +19,8 @@ std::vector<std::uint32_t> verticesOf(const std::vector<OpenEdge>& edges);
 
 /// Joins vertices of open edges that are nearer than `tolerance` to the one of lowest index among them. A
 /// triangle whose longest edge is short lends its corners no more than a quarter of that. May leave triangles
-/// that are empty or double. A place for each vertex that became another.
-void joinNear(TriangleMesh& mesh, double tolerance, Places& places);
+/// that are empty or double. A place, and a pair of positions, for each vertex that became another.
+void joinNear(TriangleMesh& mesh, double tolerance, Places& places, VertexPairs* pairs = nullptr);
 
 /// Splits triangles at vertices of open edges that lie on their own open edges and whose open edges run along
 /// these. A place for each edge split.

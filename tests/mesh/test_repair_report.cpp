@@ -1,4 +1,4 @@
-// What a repair says: of a part of a mesh, and of seams that are wider than what is joined.
+// Reports of repairs: of a part of a mesh, and of seams that are wider than what is joined.
 #include "mesh/components.hpp"
 #include "mesh/generate.hpp"
 #include "mesh/repair.hpp"
@@ -93,6 +93,27 @@ TEST(Repair, SaysWhichToleranceJoinsTwoHalves) {
             EXPECT_EQ(components(cured.mesh).size(), 1u);
             EXPECT_EQ(cured.report.seam.weld, 0);
         }
+}
+
+// Each half gets a lid, so that neither is open any more.
+TEST(Repair, SaysTheSeamOfAChoiceThatLidsClosed) {
+    const auto isOnTheRight = [](const std::array<std::uint32_t, 3>& triangle) {
+        return std::ranges::all_of(triangle, [](std::uint32_t i) { return unitBox.positions[i].x == 1; });
+    };
+    const auto lid = std::ranges::find_if(unitBox.triangles, isOnTheRight) - unitBox.triangles.begin();
+    const TriangleMesh half = without(unitBox, {static_cast<std::size_t>(lid)});
+    TriangleMesh other = inverted(half);
+    for (Vec3& x : other.positions) x.x = 2.0002f - x.x;
+    const Result whole = repaired(joined(half, other));
+    ASSERT_GT(whole.report.seam.weld, 0);
+    ASSERT_EQ(whole.defects.boundaryEdges, 0u);
+    std::string unknown;
+    const auto seamOf = [&](const std::vector<std::string>& names) {
+        return repairsOf(*choose(whole.mesh, names, unknown), whole.report).seam;
+    };
+    EXPECT_EQ(seamOf({"part 1", "part 2"}).weld, whole.report.seam.weld);
+    EXPECT_EQ(seamOf({"part 1", "part 2"}).edges, whole.report.seam.edges);
+    EXPECT_EQ(seamOf({"part 1"}).weld, 0) << "the other half is left out";
 }
 
 TEST(Repair, FindsNoSeamWhereNoneIs) {
