@@ -102,9 +102,8 @@ void noteRepairs(LoadedScene& loaded, const std::string& name, const mesh::Repai
 
 std::string seamText(const mesh::Repairs& repairs, Words words) {
     if (repairs.seam.weld == 0) return {};
-    return "has a seam wider than the " + text("%.2g", repairs.tolerance) +
-           " that are joined, in units of the file: " +
-           setting(words, "weld", text("%.4g", repairs.seam.weld)) + " joins " +
+    return "has a seam that is wider than the tolerance of " + text("%.2g", repairs.tolerance) +
+           " (units of the file): " + setting(words, "weld", text("%.4g", repairs.seam.weld)) + " joins " +
            std::to_string(repairs.seam.edges) + " of its open edges";
 }
 

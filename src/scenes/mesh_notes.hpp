@@ -44,8 +44,8 @@ std::string thinText(double thickness, double longest, double voxel, bool saysVo
 /// Notes each repair of an imported mesh: "mesh liver.obj: 3 holes were closed: 14 edges, 8 new triangles".
 void noteRepairs(LoadedScene& loaded, const std::string& name, const mesh::Repairs& repairs);
 
-/// "has a seam wider than the 0.002 that are joined, in units of the file: weld = 0.03 joins 64 of its open
-/// edges"; empty where there is none.
+/// "has a seam that is wider than the tolerance of 0.002 (units of the file): weld = 0.03 joins 64 of its
+/// open edges"; empty where there is none.
 std::string seamText(const mesh::Repairs& repairs, Words words = Words::scene);
 void warnOfSeam(LoadedScene& loaded, const std::string& name, const mesh::Repairs& repairs);
 

@@ -1,4 +1,4 @@
-// What is said about repairs of meshes in scenes, and the key that joins a wide seam.
+// Notes and warnings about repairs of meshes in scenes, and the key that joins a wide seam.
 #include "mesh/generate.hpp"
 #include "scenes/load_fixture.hpp"
 
@@ -33,8 +33,8 @@ TEST_F(Load, SaysWhatJoinsAWideSeam) {
         smallCloth + "[[mesh_collider]]\nfile = \"sheet.obj\"\ncenter = [0, -2, 0]\n";
     EXPECT_EQ(
         load(collider).warnings,
-        std::vector<std::string>{"mesh collider sheet.obj has a seam wider than the 2e-05 that are joined, "
-                                 "in units of the file: weld = 0.002 joins 2 of its open edges"});
+        std::vector<std::string>{"mesh collider sheet.obj has a seam that is wider than the tolerance of "
+                                 "2e-05 (units of the file): weld = 0.002 joins 2 of its open edges"});
     EXPECT_TRUE(load(collider + "repair = \"none\"\n").warnings.empty());
     const scenes::LoadedScene welded = load(collider + "weld = 0.002\n");
     EXPECT_TRUE(welded.warnings.empty());
