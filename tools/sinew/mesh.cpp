@@ -320,7 +320,11 @@ void addMesh(CLI::App& app, Chosen& chosen) {
             "--weld", options->weld,
             "open edges nearer than that are joined, in units of the file; a hundred-thousandth of its "
             "size without it")
-        ->check(CLI::PositiveNumber);
+        ->check([](const std::string& text) {
+            double length = 0;
+            const bool isLength = CLI::detail::lexical_cast(text, length) && length > 0 && length <= 1e6;
+            return isLength ? "" : text + " is no length above 0 and at most 1e6, in units of the file";
+        });
     addDeviceOptions(command, options->device);
     command.add_option("--json", options->json, "file for the report, or - for the standard output");
     command.callback([options, &chosen] { chosen = [options] { return report(*options); }; });
