@@ -8,7 +8,12 @@ namespace sinew::vk {
 
 namespace {
 
-constexpr std::uint32_t header = 5, opTypeVoid = 19, opDecorate = 71, noContraction = 42;
+constexpr std::uint32_t header = 5, opDecorate = 71, noContraction = 42;
+
+/// From OpTypeVoid to OpSpecConstantOp, which no decoration may follow.
+bool isTypeOrConstant(std::uint32_t op) {
+    return op >= 19 && op <= 52;
+}
 
 /// OpFAdd, OpFSub, OpFMul, OpFDiv, OpFRem, OpFMod, and the products of vectors and matrices up to OpDot.
 bool isOnFloats(std::uint32_t op) {
@@ -24,7 +29,7 @@ std::vector<std::uint32_t> withoutContraction(std::span<const std::uint32_t> mod
     for (std::size_t at = header; at < module.size(); at += std::max(module[at] >> 16, 1u)) {
         const std::uint32_t op = module[at] & 0xffff;
         if (op == opDecorate && module[at + 2] == noContraction) decorated.insert(module[at + 1]);
-        if (op == opTypeVoid) types = std::min(types, at);
+        if (isTypeOrConstant(op)) types = std::min(types, at);
         if (isOnFloats(op)) results.push_back(module[at + 2]);
     }
     std::vector<std::uint32_t> exact(module.begin(), module.begin() + static_cast<std::ptrdiff_t>(types));

@@ -1,8 +1,9 @@
-// Arithmetic that is the same on every device. A compiler may fuse a product and a sum that are not decorated
-// with NoContraction: vk::withoutContraction decorates all of them. Dot products and the like it computes as
-// it wants: none is in the functions of which the result must be the same bits wherever it is computed, which
-// are predicates that several kernels ask, signs of determinants, and all that forms of one step have in
-// common. Both are read out of the SPIR-V of every kernel in the build.
+// Sums and products that are the same on every device; roots and quotients are not looked at. A compiler may
+// fuse a product and a sum that are not decorated with NoContraction: vk::withoutContraction decorates all of
+// them. Dot products and the like it computes as it wants: none is in the functions of which the result must
+// be the same bits wherever it is computed, which are predicates that several kernels ask, signs of
+// determinants, and all that forms of one step have in common. Both are read out of the SPIR-V of every
+// kernel in the build.
 #include "vk/device.hpp"
 #include "vk/exact.hpp"
 #include "vk/spirv.hpp"
@@ -138,7 +139,7 @@ TEST(ExactKernels, LeaveACompilerNothingToFuseWhereBitsMustAgree) {
     EXPECT_EQ(found.size(), exactFunctions.size()); // a promise about nothing
 }
 
-// What two kernels decide must be decided alike. Else one takes a particle for fast and the other for slow,
+// Two kernels must decide alike. Else one takes a particle for fast and the other for slow,
 // and a pair is listed twice or never.
 TEST(ExactKernels, DecideNothingTwiceThatIsNotExact) {
     const std::vector<fs::path> kernels = kernelsIn(KERNEL_FOLDER);
