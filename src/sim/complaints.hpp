@@ -29,7 +29,7 @@ inline std::string asWritten(double value) {
 /// A length or a speed in thousandths of its unit, with two digits or as a whole number.
 inline std::string thousandths(double value) {
     char text[32];
-    std::snprintf(text, sizeof text, value >= 0.1 ? "%.0f" : "%.2g", 1000 * value);
+    std::snprintf(text, sizeof text, value >= 0.00995 ? "%.0f" : "%.2g", 1000 * value);
     return text;
 }
 
