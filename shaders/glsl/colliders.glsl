@@ -90,7 +90,7 @@ bool projectOut(Collider collider, float contactOffset, ColliderPose before, Col
     const vec3 correction = rotated(after.rotation, pressed * contact.n - held * tangential);
     n = rotated(after.rotation, contact.n);
     const vec3 pushed = (depth - pressed) * n;
-    // What takes back a way that gave no speed gives none: between two colliders each would push, and one of them give a speed.
+    // A correction that takes back a way which gave no speed gives none either: between two colliders each would push, and one of them give a speed.
     const float outward = dot(n, movement.pushed);
     const vec3 undone = clamp(-outward, 0.0, pressed) * n - held * (movement.pushed - outward * n);
     movement.x += correction + pushed;

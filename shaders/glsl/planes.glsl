@@ -33,6 +33,5 @@ vec3 rebound(PlaneCollider plane, float restSpeed, vec3 velocityBefore, vec3 v) 
     const vec3 n = plane.normalOffset.xyz;
     const float before = dot3(n, velocityBefore);
     if (before >= -restSpeed) return vec3(0.0);
-    const vec3 change = max(0.0, -plane.restitution * before - dot3(n, v)) * n;
-    return change;
+    return max(0.0, -plane.restitution * before - dot3(n, v)) * n;
 }

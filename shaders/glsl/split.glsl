@@ -85,8 +85,7 @@ Substep substepOf(bool isFirst) {
 // dl n of a link from a to b [kg m]; its stiffness [kg] is clamped already. Coincident ends give exactly 0.
 vec3 linkImpulse(vec3 a, vec3 b, float restLength, float stiffness) {
     const vec3 d = b - a;
-    const vec3 impulse = stiffness * (1.0 - restLength * inversesqrt(dot3(d, d) + 1e-30)) * d;
-    return impulse;
+    return stiffness * (1.0 - restLength * inversesqrt(dot3(d, d) + 1e-30)) * d;
 }
 
 // Moves particle i by the sum of its links' impulses and writes it.
@@ -101,8 +100,7 @@ void advance(uint i, vec4 y, vec4 velocity, vec3 impulses, Substep substep) {
     vec3 x = y.xyz - substep.thetaH * velocity.xyz + h * v;
 #ifdef HAS_PLANES
     if (w > 0.0) {
-        const vec3 way = h * v;
-        Motion motion = Motion(x, v, way);
+        Motion motion = Motion(x, v, h * v);
         const float offset = contactOffsets[i];
         uint touched = 0u;
         for (uint p = 0u; p < planeCount; ++p) {
@@ -116,6 +114,5 @@ void advance(uint i, vec4 y, vec4 velocity, vec3 impulses, Substep substep) {
     }
 #endif
     STORE_VELOCITY(i, vec4(v, w));
-    const vec3 stored = x + step.thetaHStored * v;
-    STORE_POSITION(i, vec4(stored, y.w));
+    STORE_POSITION(i, vec4(x + step.thetaHStored * v, y.w));
 }
