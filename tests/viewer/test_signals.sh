@@ -54,11 +54,7 @@ for signal in INT TERM; do
     "$viewer" slow.toml "${options[@]}" --size $extent >viewer.out 2>viewer.err &
     running=$!
     processes+=("$running")
-    for _ in {1..1200}; do
-        window=$(xdotool search --name '^Sinew.*particles' 2>/dev/null | head -n 1) && [[ -n $window ]] && break
-        kill -0 "$running" 2>/dev/null || fail "the viewer ended at once"
-        sleep 0.1
-    done
+    awaitWindow '^Sinew.*particles'
     sleep 3 # a step is under way
     endsSoon $signal
 done

@@ -29,15 +29,18 @@ for _ in {1..100}; do [[ -s display ]] && break; sleep 0.1; done
 export XDG_CONFIG_HOME=$folder/config
 export DISPLAY=:$(tr -d '[:space:]' <display)
 
+awaitWindow() { # NAME, within two minutes
+    for _ in {1..1200}; do
+        window=$(xdotool search --name "$1" 2>/dev/null | head -n 1) && [[ -n $window ]] && break
+        kill -0 "$running" 2>/dev/null || fail "the viewer ended at once"
+        sleep 0.1
+    done
+}
 start() {
     "$viewer" ${scene:+"$scene"} "${options[@]}" --size "$extent" "$@" >viewer.out 2>viewer.err &
     running=$!
     processes+=("$running")
-    for _ in {1..600}; do
-        window=$(xdotool search --name '^Sinew' 2>/dev/null | head -n 1) && [[ -n $window ]] && break
-        kill -0 "$running" 2>/dev/null || fail "the viewer ended at once"
-        sleep 0.1
-    done
+    awaitWindow '^Sinew'
     awaitTitle fps
 }
 title() { xdotool getwindowname "$window"; }
