@@ -144,7 +144,7 @@ public:
         if (tools_) tools_->moveOn();
     }
 
-    /// What the simulation says of how it is used, on stderr. All steps have finished.
+    /// Prints complaints of the simulation on stderr. All steps have finished.
     void printComplaints() {
         for (const std::string& complaint : stage_.complaints())
             std::fprintf(stderr, "warning: %s\n", complaint.c_str());

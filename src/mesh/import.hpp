@@ -32,13 +32,13 @@ enum class Format { obj, stl, ply, glb, gltf };
 /// OBJ, STL (text and binary), PLY (text and binary), glTF 2 with embedded buffers, GLB; the content decides,
 /// not the extension. All meshes of the file joined into one, node transforms applied, triangulated, welded,
 /// repaired as `how` says; `repairs`, if not null, becomes what was done. `defects` are those of the result,
-/// but for the degenerate and duplicate triangles, which are those of the file. `weld` as of repair() [units
-/// of the file]. Objects keep the names that OBJ
+/// but for the degenerate and duplicate triangles, which are those of the file. `weldWithin` as `weld` of
+/// repair() [units of the file]. Objects keep the names that OBJ
 /// ("o", or "g" where it has no "o"), text STL ("solid") and glTF (nodes, or meshes) give them. Never opens a
 /// second file. Throws ImportError. Forks: call before threads that hold locks the child would need (malloc
 /// is safe).
 TriangleMesh importMesh(const std::filesystem::path& file, MeshDefects& defects,
                         const ImportLimits& limits = {}, Repair how = Repair::close,
-                        Repairs* repairs = nullptr, double weld = 0);
+                        Repairs* repairs = nullptr, double weldWithin = 0);
 
 } // namespace sinew::mesh

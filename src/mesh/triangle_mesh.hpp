@@ -39,7 +39,7 @@ struct MeshReport {
     Vec3 low, high;    ///< bounding box [m]
 };
 
-/// What inspect() reports but for the defects. Expects a welded mesh.
+/// The report of inspect() without the defects. Expects a welded mesh.
 MeshReport measure(const TriangleMesh& mesh);
 
 /// Topology as after weld(); `mesh` itself may hold duplicate vertices.

@@ -149,13 +149,13 @@ private:
     std::uint64_t stamp_ = 0;
 };
 
-// In which turn each color is solved; `ends` holds one past the last color of each group. The turns of a
-// group enclose those of the groups that come after it: half of its colors come before them, half behind. In
-// a sweep a link pulls those that are solved later, which pull it only in the next substep. Where turns are
-// nested this one-sided pull cancels between the two colors of a direction, as long as strain is smooth.
-// Where the turns of two directions alternate it adds up and drives slow modes: a rigid cloth never rests. An
-// odd number of groups is taken in steps of two from the last: direction after direction, a warm start makes
-// a stiff beam swing up.
+// The turn in which each color is solved; `ends` holds one past the last color of each group. The turns of a
+// group enclose those of the groups that are taken after it: half of its colors come before them, half
+// behind. In a sweep a link pulls those that are solved later, which pull it only in the next substep. Nested
+// turns let this one-sided pull cancel between the two colors of a direction, as long as strain is smooth. It
+// adds up if the turns of two directions alternate, and drives slow modes: a rigid cloth never rests. An odd
+// number of groups, such as the 9 and 13 directions of lattices, is taken in steps of two backwards from the
+// first: direction after direction, a warm start makes a stiff beam swing up.
 std::vector<std::uint32_t> nestedTurns(const std::vector<std::uint32_t>& ends) {
     const auto groups = static_cast<std::uint32_t>(ends.size());
     const std::uint32_t stride = groups % 2 == 1 && groups > 2 ? groups - 2 : 1; // no common divisor

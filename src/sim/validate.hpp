@@ -10,8 +10,8 @@ namespace sinew::sim {
 /// rest. Example: "distance[17]: particles 4 and 4 are the same".
 std::vector<std::string> validate(const Scene& scene, const Settings& settings);
 
-/// What can be computed and is likely not meant, as sentences: positions so far from the origin that float32
-/// rounds them coarsely. Simulation::complaints() says them once.
+/// Sentences about scenes that can be computed and are likely not meant: positions so far from the origin
+/// that float32 rounds them coarsely. Simulation::complaints() says them once.
 std::vector<std::string> warnings(const Scene& scene, const Settings& settings);
 
 /// Those about the settings, whatever the scene. Cheap.

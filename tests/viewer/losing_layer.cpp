@@ -70,7 +70,7 @@ template <typename Info, typename Create> Info* linkIn(const Create* create, VkS
     return info;
 }
 
-// Of an environment variable; `otherwise` where it is not set.
+// The value of an environment variable; `otherwise` if it is not set.
 long number(const char* variable, long otherwise) {
     const char* text = std::getenv(variable);
     return text != nullptr ? std::atol(text) : otherwise;
@@ -160,7 +160,7 @@ VKAPI_ATTR VkResult VKAPI_CALL waitSemaphores(VkDevice device, const VkSemaphore
     return down<PFN_vkWaitSemaphores>(device, "vkWaitSemaphores")(device, info, timeout);
 }
 
-// Of a device, and known by its number.
+// The functions of a device, known by its number.
 template <int Number, typename Function> struct Fallible;
 template <int Number, typename Handle, typename... Rest>
 struct Fallible<Number, VkResult(VKAPI_PTR*)(Handle, Rest...)> {

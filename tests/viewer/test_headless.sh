@@ -128,7 +128,7 @@ for signal in INT TERM HUP; do
     ((bytes > 0 && bytes % (64 * 64 * 4) == 0)) || fail "the film has $bytes bytes, which are no whole pictures"
     rm film.mp4
 done
-# Likewise in a step that takes longer than the viewer may after the signal.
+# The same in a step that takes longer than the viewer may after the signal.
 PATH=$folder/bin:$PATH "$viewer" slow.toml --headless --frames 1000 --size 64x64 --video film.mp4 >out 2>err &
 for _ in {1..400}; do [[ -n $(find . -name 'film.mp4*.part' -size +15k) ]] && break; sleep 0.1; done
 sleep 1

@@ -69,7 +69,7 @@ public:
     /// Of the newest step with a finite state.
     const CutFigures& cuts() const { return cuts_; }
 
-    /// What the simulation says of how it is used (sim::Simulation::complaints), after advance(); nothing
+    /// Complaints of the simulation about its use (sim::Simulation::complaints), after advance(); nothing
     /// where it found too little room for contacts, which the divergence tells.
     std::vector<std::string> complaints();
 
