@@ -235,9 +235,7 @@ TEST(Repair, ClosesHolesOfThreeFourAndManyEdges) {
 TEST(Repair, ClosesATriangleOfACubeAndHolesInItsFaces) {
     for (std::size_t triangle = 0; triangle < 12; ++triangle)
         expectClosed(repaired(without(unitBox, {triangle})), 1, 1e-6);
-    TriangleMesh mesh = scaled(unitBox, 1); // a concave hole of many edges in a plane
-    MeshDefects defects;
-    mesh = generate("slab_with_hole", 48);
+    const TriangleMesh mesh = generate("slab_with_hole", 48); // a concave hole of many edges in a plane
     const double volume = inspect(mesh).volume;
     const std::set<std::size_t> fan = around(mesh, mesh.triangles[mesh.triangles.size() / 2][0]);
     std::set<std::size_t> larger = fan;
