@@ -27,12 +27,13 @@ endfunction()
 
 # A variant is one line, "name: file [MACRO...]": the file compiled with these macros defined, under that name. Whatever is
 # compiled from the files named in AWAKE has one more form, <name>_awake, with AWAKE defined: <namespace>::awakeForms pairs
-# all kernels with theirs.
+# all kernels with theirs. A second header, all_<name.hpp>, lists everything as <namespace>::all.
 function(add_kernels target)
     cmake_parse_arguments(PARSE_ARGV 1 ARG "" "NAMESPACE;HEADER" "SOURCES;VARIANTS;AWAKE")
     set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}_kernels)
     file(MAKE_DIRECTORY ${folder})
     set(declarations "")
+    set(all "")
     set(pairs "")
     set(awake "")
     set(embeddings "")
@@ -95,6 +96,7 @@ function(add_kernels target)
         math(EXPR group "${count} / 16")
         sinew_compile_together(${target} kernels_${group} ${embedded})
         string(APPEND declarations "extern const vk::ShaderCode ${identifier};\n")
+        string(APPEND all "    &${identifier},\n")
     endforeach()
     if(pairs)
         string(APPEND declarations "inline constexpr const vk::ShaderCode* awakeForms[][2] = {\n${pairs}};\n")
@@ -108,6 +110,17 @@ function(add_kernels target)
 namespace @ARG_NAMESPACE@ {
 namespace vk = ::sinew::vk;
 @declarations@} // namespace @ARG_NAMESPACE@
+")
+    file(CONFIGURE OUTPUT ${folder}/all_${ARG_HEADER} @ONLY CONTENT
+"// Generated from the shader files by cmake/Shaders.cmake.
+#pragma once
+
+#include \"@ARG_HEADER@\"
+
+namespace @ARG_NAMESPACE@ {
+inline constexpr const vk::ShaderCode* all[] = {
+@all@};
+} // namespace @ARG_NAMESPACE@
 ")
     target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${folder}>)
 endfunction()

@@ -4,8 +4,11 @@
 #include "vk/check.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
+#include <set>
+#include <span>
 #include <string_view>
 
 namespace sinew::test {
@@ -18,16 +21,23 @@ constexpr const char* statisticsExtension = VK_KHR_PIPELINE_EXECUTABLE_PROPERTIE
 struct Capture {
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
     PFN_vkGetDeviceProcAddr getDeviceProcAddr = nullptr;
+    PFN_vkGetBufferMemoryRequirements bufferNeed = nullptr;
+    PFN_vkCreateShaderModule createModule = nullptr;
     PFN_vkCreateComputePipelines create = nullptr;
+    PFN_vkCreateGraphicsPipelines createGraphics = nullptr;
+    PFN_vkGetPipelineExecutablePropertiesKHR properties = nullptr;
     PFN_vkGetPipelineExecutableStatisticsKHR statistics = nullptr;
+    std::set<const std::uint32_t*> codes; // of all modules
     std::vector<PipelineFacts> pipelines;
-    std::map<VkPipeline, std::size_t> newest; // a handle comes again after its pipeline is destroyed
+    std::multimap<VkPipeline, std::size_t> newest; // a handle comes again after its pipeline is destroyed
 };
 Capture capture;
 
-std::map<std::string, std::uint64_t> readStatistics(VkDevice device, VkPipeline pipeline) {
+std::map<std::string, std::uint64_t> readStatistics(VkDevice device, VkPipeline pipeline,
+                                                    std::uint32_t executable) {
     const VkPipelineExecutableInfoKHR info{.sType = VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_INFO_KHR,
-                                           .pipeline = pipeline};
+                                           .pipeline = pipeline,
+                                           .executableIndex = executable};
     std::uint32_t count = 0;
     vk::check(capture.statistics(device, &info, &count, nullptr), "vkGetPipelineExecutableStatisticsKHR",
               "a pipeline");
@@ -54,6 +64,32 @@ std::vector<std::uint32_t> constantsOf(const VkSpecializationInfo* info) {
     return values;
 }
 
+// One entry for each shader of the pipeline.
+void read(VkDevice device, VkPipeline pipeline, const std::vector<std::uint32_t>& constants) {
+    const VkPipelineInfoKHR info{.sType = VK_STRUCTURE_TYPE_PIPELINE_INFO_KHR, .pipeline = pipeline};
+    std::uint32_t count = 0;
+    vk::check(capture.properties(device, &info, &count, nullptr), "vkGetPipelineExecutablePropertiesKHR",
+              "a pipeline");
+    std::vector<VkPipelineExecutablePropertiesKHR> shaders(
+        count, {.sType = VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_PROPERTIES_KHR});
+    vk::check(capture.properties(device, &info, &count, shaders.data()),
+              "vkGetPipelineExecutablePropertiesKHR", "a pipeline");
+    capture.newest.erase(pipeline);
+    for (std::uint32_t s = 0; s < count; ++s) {
+        capture.newest.emplace(pipeline, capture.pipelines.size());
+        capture.pipelines.push_back({.kernel = "",
+                                     .shader = shaders[s].name,
+                                     .constants = constants,
+                                     .statistics = readStatistics(device, pipeline, s)});
+    }
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL createModule(VkDevice device, const VkShaderModuleCreateInfo* info,
+                                            const VkAllocationCallbacks* allocator, VkShaderModule* module) {
+    capture.codes.insert(info->pCode);
+    return capture.createModule(device, info, allocator, module);
+}
+
 VKAPI_ATTR VkResult VKAPI_CALL createAndRead(VkDevice device, VkPipelineCache cache, std::uint32_t count,
                                              const VkComputePipelineCreateInfo* infos,
                                              const VkAllocationCallbacks* allocator, VkPipeline* pipelines) {
@@ -61,12 +97,23 @@ VKAPI_ATTR VkResult VKAPI_CALL createAndRead(VkDevice device, VkPipelineCache ca
     for (VkComputePipelineCreateInfo& info : captured)
         info.flags |= VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR;
     const VkResult result = capture.create(device, cache, count, captured.data(), allocator, pipelines);
-    for (std::uint32_t p = 0; result == VK_SUCCESS && p < count; ++p) {
-        capture.newest[pipelines[p]] = capture.pipelines.size();
-        capture.pipelines.push_back({.kernel = "",
-                                     .constants = constantsOf(infos[p].stage.pSpecializationInfo),
-                                     .statistics = readStatistics(device, pipelines[p])});
-    }
+    for (std::uint32_t p = 0; result == VK_SUCCESS && p < count; ++p)
+        read(device, pipelines[p], constantsOf(infos[p].stage.pSpecializationInfo));
+    return result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL createAndReadGraphics(VkDevice device, VkPipelineCache cache,
+                                                     std::uint32_t count,
+                                                     const VkGraphicsPipelineCreateInfo* infos,
+                                                     const VkAllocationCallbacks* allocator,
+                                                     VkPipeline* pipelines) {
+    std::vector<VkGraphicsPipelineCreateInfo> captured(infos, infos + count);
+    for (VkGraphicsPipelineCreateInfo& info : captured)
+        info.flags |= VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR;
+    const VkResult result =
+        capture.createGraphics(device, cache, count, captured.data(), allocator, pipelines);
+    for (std::uint32_t p = 0; result == VK_SUCCESS && p < count; ++p)
+        read(device, pipelines[p], constantsOf(infos[p].pStages[0].pSpecializationInfo));
     return result;
 }
 
@@ -78,18 +125,86 @@ VKAPI_ATTR VkResult VKAPI_CALL readName(VkDevice, const VkDebugUtilsObjectNameIn
     return VK_SUCCESS;
 }
 
+// The driver names no heap and no type of memory, but gives memory of the host for type 0.
+VKAPI_ATTR void VKAPI_CALL readMemory(VkPhysicalDevice, VkPhysicalDeviceMemoryProperties* properties) {
+    constexpr VkMemoryPropertyFlags ofAll = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT |
+                                            VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
+                                            VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    *properties = {};
+    properties->memoryTypes[properties->memoryTypeCount++] = {.propertyFlags = ofAll};
+    properties->memoryHeaps[properties->memoryHeapCount++] = {.size = VkDeviceSize{1} << 30,
+                                                              .flags = VK_MEMORY_HEAP_DEVICE_LOCAL_BIT};
+}
+
+VKAPI_ATTR void VKAPI_CALL readBufferNeed(VkDevice device, VkBuffer buffer, VkMemoryRequirements* need) {
+    capture.bufferNeed(device, buffer, need);
+    need->memoryTypeBits = 1;
+}
+
+// The driver lays no image out: images, what is made of them and descriptors are handles of nothing.
+template <class Object> const Object nothing = reinterpret_cast<Object>(std::uintptr_t{1});
+
+template <class Object, class Info>
+VKAPI_ATTR VkResult VKAPI_CALL makeNothing(VkDevice, const Info*, const VkAllocationCallbacks*,
+                                           Object* made) {
+    *made = nothing<Object>;
+    return VK_SUCCESS;
+}
+
+template <class Object>
+VKAPI_ATTR void VKAPI_CALL destroyNothing(VkDevice, Object, const VkAllocationCallbacks*) {}
+
+VKAPI_ATTR void VKAPI_CALL readImageNeed(VkDevice, VkImage, VkMemoryRequirements* need) {
+    *need = {.size = 4096, .alignment = 4096, .memoryTypeBits = 1};
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL bindImage(VkDevice, VkImage, VkDeviceMemory, VkDeviceSize) {
+    return VK_SUCCESS;
+}
+
+VKAPI_ATTR void VKAPI_CALL writeNothing(VkDevice, std::uint32_t, const VkWriteDescriptorSet*, std::uint32_t,
+                                        const VkCopyDescriptorSet*) {}
+
+struct Wrapped {
+    std::string_view name;
+    PFN_vkVoidFunction function;
+};
+
+template <class Function> PFN_vkVoidFunction anyFunction(Function function) {
+    return reinterpret_cast<PFN_vkVoidFunction>(function);
+}
+
+// Null for what is not wrapped.
+PFN_vkVoidFunction findWrapped(std::span<const Wrapped> wrapped, std::string_view name) {
+    const auto found = std::ranges::find(wrapped, name, &Wrapped::name);
+    return found == wrapped.end() ? nullptr : found->function;
+}
+
 PFN_vkVoidFunction VKAPI_CALL deviceProcAddr(VkDevice device, const char* name) {
-    if (std::string_view(name) == "vkCreateComputePipelines")
-        return reinterpret_cast<PFN_vkVoidFunction>(&createAndRead);
-    if (std::string_view(name) == "vkSetDebugUtilsObjectNameEXT")
-        return reinterpret_cast<PFN_vkVoidFunction>(&readName);
-    return capture.getDeviceProcAddr(device, name);
+    static const std::array wrapped{
+        Wrapped{"vkCreateShaderModule", anyFunction(&createModule)},
+        Wrapped{"vkCreateComputePipelines", anyFunction(&createAndRead)},
+        Wrapped{"vkCreateGraphicsPipelines", anyFunction(&createAndReadGraphics)},
+        Wrapped{"vkSetDebugUtilsObjectNameEXT", anyFunction(&readName)},
+        Wrapped{"vkGetBufferMemoryRequirements", anyFunction(&readBufferNeed)},
+        Wrapped{"vkGetImageMemoryRequirements", anyFunction(&readImageNeed)},
+        Wrapped{"vkBindImageMemory", anyFunction(&bindImage)},
+        Wrapped{"vkUpdateDescriptorSets", anyFunction(&writeNothing)},
+        Wrapped{"vkCreateImage", anyFunction(&makeNothing<VkImage, VkImageCreateInfo>)},
+        Wrapped{"vkCreateImageView", anyFunction(&makeNothing<VkImageView, VkImageViewCreateInfo>)},
+        Wrapped{"vkCreateFramebuffer", anyFunction(&makeNothing<VkFramebuffer, VkFramebufferCreateInfo>)},
+        Wrapped{"vkDestroyImage", anyFunction(&destroyNothing<VkImage>)},
+        Wrapped{"vkDestroyImageView", anyFunction(&destroyNothing<VkImageView>)},
+        Wrapped{"vkDestroyFramebuffer", anyFunction(&destroyNothing<VkFramebuffer>)}};
+    const PFN_vkVoidFunction found = findWrapped(wrapped, name);
+    return found != nullptr ? found : capture.getDeviceProcAddr(device, name);
 }
 
 PFN_vkVoidFunction VKAPI_CALL instanceProcAddr(VkInstance instance, const char* name) {
-    if (std::string_view(name) == "vkGetDeviceProcAddr")
-        return reinterpret_cast<PFN_vkVoidFunction>(&deviceProcAddr);
-    return capture.getInstanceProcAddr(instance, name);
+    static const std::array wrapped{Wrapped{"vkGetDeviceProcAddr", anyFunction(&deviceProcAddr)},
+                                    Wrapped{"vkGetPhysicalDeviceMemoryProperties", anyFunction(&readMemory)}};
+    const PFN_vkVoidFunction found = findWrapped(wrapped, name);
+    return found != nullptr ? found : capture.getInstanceProcAddr(instance, name);
 }
 
 /// Sets a variable of the environment for as long as it lives.
@@ -185,16 +300,25 @@ bool NullHardware::makeDevice() {
 void NullHardware::borrow() {
     capture.getInstanceProcAddr = loader_.getInstanceProcAddr();
     capture.getDeviceProcAddr = functions_.vkGetDeviceProcAddr;
-    capture.create = reinterpret_cast<PFN_vkCreateComputePipelines>(
-        functions_.vkGetDeviceProcAddr(handle_, "vkCreateComputePipelines"));
-    capture.statistics = reinterpret_cast<PFN_vkGetPipelineExecutableStatisticsKHR>(
-        functions_.vkGetDeviceProcAddr(handle_, "vkGetPipelineExecutableStatisticsKHR"));
+    const auto load = [&]<class Function>(Function& function, const char* name) {
+        function = reinterpret_cast<Function>(functions_.vkGetDeviceProcAddr(handle_, name));
+    };
+    load(capture.bufferNeed, "vkGetBufferMemoryRequirements");
+    load(capture.createModule, "vkCreateShaderModule");
+    load(capture.create, "vkCreateComputePipelines");
+    load(capture.createGraphics, "vkCreateGraphicsPipelines");
+    load(capture.properties, "vkGetPipelineExecutablePropertiesKHR");
+    load(capture.statistics, "vkGetPipelineExecutableStatisticsKHR");
     const char* names = VK_EXT_DEBUG_UTILS_EXTENSION_NAME; // readName answers for it
     device_.emplace(vk::Device::borrow({.getInstanceProcAddr = instanceProcAddr,
                                         .instance = instance_,
                                         .physicalDevice = physical_,
                                         .device = handle_,
                                         .enabledInstanceExtensions = {&names, 1}}));
+}
+
+bool NullHardware::hasModuleOf(const vk::ShaderCode& code) const {
+    return capture.codes.contains(code.words.data());
 }
 
 const std::vector<PipelineFacts>& NullHardware::pipelines() const {

@@ -4,6 +4,7 @@
 
 #include "vk/device.hpp"
 #include "vk/loader.hpp"
+#include "vk/shader_code.hpp"
 
 #include <map>
 #include <memory>
@@ -13,9 +14,10 @@
 
 namespace sinew::test {
 
-/// Figures that the driver gives about a compute pipeline.
+/// Figures that the driver gives about a shader of a pipeline.
 struct PipelineFacts {
     std::string kernel;                              ///< the debug name that Sinew gave it
+    std::string shader;                              ///< the driver's name of it, such as "Fragment Shader"
     std::vector<std::uint32_t> constants;            ///< values of its specialisation constants
     std::map<std::string, std::uint64_t> statistics; ///< by the driver's names, such as "VGPRs"
 
@@ -34,7 +36,9 @@ public:
     ~NullHardware();
 
     const vk::Device& device() const { return *device_; }
-    /// All compute pipelines that were made on the device so far.
+    /// Whether a shader module was made of this code as it is: of kernels modules are made of copies.
+    bool hasModuleOf(const vk::ShaderCode& code) const;
+    /// The shaders of all pipelines that were made on the device so far.
     const std::vector<PipelineFacts>& pipelines() const;
 
 private:

@@ -1,0 +1,104 @@
+// Every pipeline of the viewer, made by the compiler of a real GPU on a machine that has none
+// (support/null_hardware.hpp). Families as in the test of the simulation's pipelines, more with SINEW_FULL=1.
+// The variable SINEW_KERNEL_TABLE names a folder for a table of all shaders.
+#include "all_viewer_shaders.hpp"
+#include "support/full.hpp"
+#include "support/null_hardware.hpp"
+#include "viewer/draw/renderer.hpp"
+#include "viewer/panels/panel_painter.hpp"
+#include "vk/kernel_store.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+
+namespace sinew::viewer {
+namespace {
+
+using test::NullHardware;
+using test::PipelineFacts;
+
+constexpr std::array kernels{&shaders::cutValues,    &shaders::liveLinks,   &shaders::markCells,
+                             &shaders::markContacts, &shaders::markEdges,   &shaders::sheetValues,
+                             &shaders::skinValues,   &shaders::sleepValues, &shaders::speedValues,
+                             &shaders::strainValues};
+
+// With balls and marks, so that there are pipelines for them.
+StageLight light() {
+    StageLight light;
+    light.bounds = Box(Vector3(-1, -1, -1), Vector3(1, 1, 1));
+    light.balls = {.ranges = {{.first = 0, .count = 2, .color = {1, 0, 0}}}, .radii = {0.1f, 0.1f}};
+    return light;
+}
+
+void makeDrawing(const vk::Device& device, const Quality& quality) {
+    for (const VkFormat format : {VK_FORMAT_B8G8R8A8_SRGB, VK_FORMAT_B8G8R8A8_UNORM}) {
+        const PanelPainter panels(device, format, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, 1);
+        Renderer renderer(device, {.color = format, .finalLayout = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR}, quality,
+                          light());
+        for (const SkinLook look : {SkinLook::solid, SkinLook::glass})
+            for (const bool isOpened : {false, true}) {
+                Layers layers{.skin = look,
+                              .map = ColorMap::strain,
+                              .hasWires = true,
+                              .hasBalls = true,
+                              .hasLinks = true,
+                              .hasContacts = true,
+                              .hasCells = true};
+                if (isOpened) layers.section.emplace();
+                renderer.add(renderer.make(layers));
+            }
+    }
+}
+
+std::vector<std::string> families() {
+    std::vector<std::string> result{"NAVI21", "POLARIS10"};
+    if (test::isFull()) result.insert(result.end(), {"VEGA10", "GFX1100"});
+    return result;
+}
+
+void writeTable(const std::vector<PipelineFacts>& pipelines, const std::string& family) {
+    const char* folder = std::getenv("SINEW_KERNEL_TABLE");
+    if (folder == nullptr) return;
+    std::ofstream table(std::string(folder) + "/viewer_" + family + ".csv");
+    table << "pipeline,shader,VGPRs,SGPRs,waves a SIMD,instructions,latency\n";
+    for (const PipelineFacts& facts : pipelines) {
+        table << facts.kernel << ',' << facts.shader;
+        for (const char* statistic : {"VGPRs", "SGPRs", "Subgroups per SIMD", "Instructions", "Latency"})
+            table << ',' << facts[statistic];
+        table << '\n';
+    }
+    EXPECT_TRUE(table.flush()) << "cannot write to " << folder;
+}
+
+class ViewerGpuCompiler : public testing::TestWithParam<std::string> {};
+
+TEST_P(ViewerGpuCompiler, MakesEveryPipelineWithoutSpilling) {
+    const std::string& family = GetParam();
+    const auto hardware = NullHardware::make(family);
+    if (!hardware)
+        GTEST_SKIP() << "no driver here compiles for " << family << ": install mesa-vulkan-drivers";
+    const vk::KeptKernels kept(hardware->device());
+    for (const vk::ShaderCode* kernel : kernels)
+        EXPECT_NO_THROW(hardware->device().kernels().get(hardware->device(), *kernel, {})) << kernel->name;
+    makeDrawing(hardware->device(), {});
+    makeDrawing(hardware->device(), reducedQuality());
+    for (const vk::ShaderCode* code : shaders::all)
+        EXPECT_TRUE(hardware->hasModuleOf(*code) || std::ranges::count(kernels, code) > 0)
+            << "no pipeline of this test has " << code->name;
+    for (const PipelineFacts& facts : hardware->pipelines()) {
+        const std::string name = facts.kernel + ", " + facts.shader;
+        EXPECT_GT(facts["Instructions"], 0u) << name;
+        for (const char* statistic : {"Spilled VGPRs", "Spilled SGPRs", "Scratch size"})
+            EXPECT_EQ(facts[statistic], 0u) << name << ": " << statistic;
+    }
+    writeTable(hardware->pipelines(), family);
+}
+
+INSTANTIATE_TEST_SUITE_P(, ViewerGpuCompiler, testing::ValuesIn(families()),
+                         [](const auto& family) { return family.param; });
+
+} // namespace
+} // namespace sinew::viewer
