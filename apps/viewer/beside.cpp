@@ -1,6 +1,7 @@
 // A stage, gauges of its own, and the words of both.
 #include "viewer/beside.hpp"
 
+#include "scenes/recovery.hpp"
 #include "sim/compile.hpp"
 #include "sim/ranges.hpp"
 #include "sim/substeps.hpp"
@@ -14,10 +15,18 @@ namespace sinew::viewer {
 namespace {
 
 // As the first has them but for the shape; forms that were fast for another solver say nothing here.
-sim::Settings settingsFor(const sim::Scene& scene, sim::Settings settings, const BesideShape& shape) {
+sim::Settings settingsOf(sim::Settings settings, const BesideShape& shape) {
     settings.solver = shape.solver;
     settings.substeps = shape.substeps;
-    return shape.substeps == 0 ? sim::withSubsteps(scene, settings) : settings;
+    return settings;
+}
+
+sim::Settings chosenFor(const sim::Scene& scene, const sim::Settings& settings) {
+    return settings.substeps == 0 ? sim::withSubsteps(scene, settings) : settings;
+}
+
+sim::Scene sceneFor(const scenes::LoadedScene& loaded, const sim::Settings& settings) {
+    return scenes::withoutDefaults(loaded.scene, loaded.defaultRecovery, settings);
 }
 
 BesideShape shapeOf(const sim::Settings& settings) {
@@ -57,9 +66,11 @@ std::string toText(const BesideShape& shape) {
 
 Beside::Beside(const vk::Device& device, const scenes::LoadedScene& loaded, const sim::Settings& settings,
                const sim::Material& material, const BesideShape& shape, std::uint32_t slots)
-    : shape_(shapeOf(settingsFor(sim::withMaterial(loaded.scene, material), settings, shape))),
-      stage_(device, loaded.scene, settingsFor(loaded.scene, settings, shape_), material),
-      gauges_(stage_, loaded.scene.dt),
+    : shape_(shapeOf(chosenFor(sim::withMaterial(sceneFor(loaded, settingsOf(settings, shape)), material),
+                               settingsOf(settings, shape)))),
+      stage_(device, sceneFor(loaded, settingsOf(settings, shape_)), settingsOf(settings, shape_), material),
+      warnings_(scenes::newWarnings(loaded, stage_.settings())),
+      notes_(scenes::recoveryLeftOut(loaded, stage_.settings())), gauges_(stage_, loaded.scene.dt),
       probe_(device, stage_.scene(), stage_.settings(), stage_.simulation()), flights_(slots) {
     stage_.setBlades({loaded.blades, loaded.scene.dt});
     const auto spans = static_cast<std::uint32_t>(stage_.simulation().phases().size());

@@ -54,6 +54,10 @@ public:
     const sim::Simulation& simulation() const noexcept { return stage_.simulation(); }
     const Stage& stage() const noexcept { return stage_; }
     const BesideShape& shape() const noexcept { return shape_; }
+    /// What loading the scene in this shape would warn of, and does not in its own.
+    const std::vector<std::string>& warnings() const noexcept { return warnings_; }
+    /// Notes on what bodies have in the first and do without here.
+    const std::vector<std::string>& notes() const noexcept { return notes_; }
     /// As far as gauges know them.
     Facts facts() const { return gauges_.facts(stage_); }
 
@@ -65,6 +69,7 @@ private:
     };
     BesideShape shape_; // with a number of substeps
     Stage stage_;
+    std::vector<std::string> warnings_, notes_;
     Gauges gauges_;
     StateProbe probe_;
     std::vector<vk::Timestamps> times_;

@@ -5,6 +5,7 @@
 #include "app/drawn.hpp"
 #include "app/guard.hpp"
 #include "app/progress.hpp"
+#include "scenes/recovery.hpp"
 #include "viewer/beside.hpp"
 #include "viewer/draw/offscreen.hpp"
 #include "viewer/draw/stage.hpp"
@@ -36,6 +37,13 @@ std::filesystem::path pictureFile(const std::filesystem::path& folder, std::uint
     char name[40];
     std::snprintf(name, sizeof name, "frame_%04" PRIu64 ".png", frame);
     return folder / name;
+}
+
+void print(const char* before, const std::vector<std::string>& warnings,
+           const std::vector<std::string>& notes) {
+    for (const std::string& warning : warnings)
+        std::fprintf(stderr, "warning: %s%s\n", before, warning.c_str());
+    for (const std::string& note : notes) std::fprintf(stderr, "note: %s%s\n", before, note.c_str());
 }
 
 void makeFolder(const std::filesystem::path& folder) {
@@ -100,6 +108,7 @@ public:
         : opening_(opening), device_(device), camera_(opening.camera),
           stage_(device, opening.loaded.scene, opening.loaded.settings, firstMaterial(opening)),
           offscreen_(device, options.size, opening.light), layers_(options.layers), queue_(device) {
+        stage_.setDefaultRecovery(opening.loaded.defaultRecovery);
         stage_.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
         if (options.isTimed) times_.emplace(device, stage_);
         if (input) {
@@ -108,7 +117,9 @@ public:
         }
         if (opening.run) load();
         besideShape_ = parseBeside(options.beside);
-        if (besideShape_) beside_ = makeBeside(stage_.settings());
+        if (!besideShape_) return;
+        beside_ = makeBeside(stage_.settings());
+        print("beside: ", beside_->warnings(), beside_->notes());
     }
 
     /// Submits a frame; with `isPictured`, waits for its picture.
@@ -316,6 +327,8 @@ private:
         } catch (const std::invalid_argument& error) {
             throw app::Failure(app::badInput, std::string("cannot play input: ") + error.what());
         }
+        print("", scenes::newWarnings(opening_.loaded, stage_.settings()),
+              scenes::recoveryLeftOut(opening_.loaded, stage_.settings()));
         tools_->reshaped();
         inspection_.reset();
         if (times_) times_->restart(stage_);

@@ -156,6 +156,11 @@ void Screen::warn(const std::string& text) {
     notices_.show({text, true}, Clock::now());
 }
 
+void Screen::note(const std::string& text) {
+    std::fprintf(stderr, "note: %s\n", text.c_str());
+    tell(text);
+}
+
 void Screen::tell(const std::string& text) {
     notices_.show({text}, Clock::now());
 }

@@ -81,6 +81,8 @@ void Show::takeBeside() {
     dropBeside();
     besideAsked_ = asked; // another one may be wanted by now: that is made then
     beside_ = std::move(made);
+    for (const std::string& warning : beside_->warnings()) screen_.warn("beside: " + warning);
+    for (const std::string& note : beside_->notes()) screen_.note("beside: " + note);
     backstage_.rehearse([this](VkCommandBuffer commands) {
         beside_->recordReset(commands);
         beside_->recordStep(commands, stage_, {}, 0, false);

@@ -2,6 +2,7 @@
 // the scene takes over from the one on show.
 #include "viewer/show.hpp"
 
+#include "scenes/recovery.hpp"
 #include "sim/compile.hpp"
 #include "vk/queue.hpp"
 
@@ -107,6 +108,10 @@ void Show::reshape() {
     sceneFacts_ = sceneFacts(opening_, stage_, device_);
     sceneFacts_.fromFile = fromFile;
     knobs_ = turnedTo(stage_.material(), madeKnobs(), fromFile);
+    for (const std::string& warning : scenes::newWarnings(opening_.loaded, stage_.settings()))
+        screen_.warn(warning);
+    for (const std::string& note : scenes::recoveryLeftOut(opening_.loaded, stage_.settings()))
+        screen_.note(note);
 }
 
 // After the stage has another simulation.

@@ -286,6 +286,16 @@ LoadedScene readBuiltIn(const std::string& name, const std::optional<fs::path>& 
 
 } // namespace
 
+std::vector<std::string> newWarnings(const LoadedScene& loaded, const sim::Settings& settings) {
+    LoadedScene other{.scene = loaded.scene, .settings = settings};
+    other.warnings = sim::warnings(other.scene, settings);
+    warnAboutSolver(other);
+    std::erase_if(other.warnings, [&](const std::string& warning) {
+        return std::ranges::find(loaded.warnings, warning) != loaded.warnings.end();
+    });
+    return other.warnings;
+}
+
 LoadedScene load(const fs::path& argument, const Overrides& overrides) {
     requireRegularFile(argument);
     if (isScene(argument))

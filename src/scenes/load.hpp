@@ -50,6 +50,9 @@ struct LoadedScene {
     std::vector<MeshSummary> meshes;
     std::vector<sim::NamedHold> holds; ///< those with a path first
     std::vector<BladeMotion> blades;   ///< no two of them in one step; ScriptedBlades plays them
+    /// Indices of scene.grids that have recovery (Grid::recoveryPressure) by default, not because the scene
+    /// asks for it.
+    std::vector<std::uint32_t> defaultRecovery;
     std::vector<std::string> warnings; ///< sentences, such as "mesh bunny.obj is open: 72 boundary edges ..."
     /// Lines that ask for nothing, such as the size and mass of each mesh.
     std::vector<std::string> notes;
@@ -70,6 +73,10 @@ struct Overrides {
 /// `argument` is a scene file (TOML) or a mesh file (anything importMesh reads), which is dropped by the
 /// scene drop_mesh.toml. Throws SceneError or mesh::ImportError. The result has passed sim::validate.
 LoadedScene load(const std::filesystem::path& argument, const Overrides& overrides = {});
+
+/// Warnings that the scene would have had if it had been loaded with `settings`, of which substeps is a
+/// number, and does not have.
+std::vector<std::string> newWarnings(const LoadedScene& loaded, const sim::Settings& settings);
 
 /// A shipped scene by the name of its file (cloth, cube, organ), from the text built into the program.
 LoadedScene loadBuiltIn(const std::string& name, const Overrides& overrides = {});

@@ -1,17 +1,38 @@
 // Whether a mesh body can have what it did not ask for.
 #include "scenes/recovery.hpp"
 
+#include "sim/compile.hpp"
 #include "sim/ranges.hpp"
 #include "sim/validate.hpp"
 
+#include <array>
+#include <cstdio>
 #include <stdexcept>
 
 namespace sinew::scenes {
 
 namespace {
 
+std::string sentence(const std::string& name, const std::string& why) {
+    return "mesh " + name + ": no recovery, cells that fold may stay so: " + why;
+}
+
 void note(LoadedScene& loaded, const std::string& name, const std::string& why) {
-    loaded.notes.push_back("mesh " + name + ": no recovery, cells that fold may stay so: " + why);
+    loaded.notes.push_back(sentence(name, why));
+}
+
+// The first of the things that sim::canRecover() asks for and does not find.
+std::string whyNot(const sim::Scene& scene, const sim::Settings& settings) {
+    if (settings.solver != sim::Solver::split)
+        return std::string("it needs solver split, the scene is solved by ") +
+               sim::solverName(settings.solver);
+    if (!settings.forms.usesGrids) return "it needs settings.forms.usesGrids";
+    if (!scene.bends.empty()) return "it needs a scene without bends";
+    if (scene.dampingTime != 0) return "it needs a scene without damping_time";
+    std::array<char, 100> text{};
+    std::snprintf(text.data(), text.size(), "it needs solver.omega below %.3g, which is %g",
+                  0.9 * sim::ranges::omegaBound(double{settings.theta}), double{settings.omega});
+    return text.data();
 }
 
 } // namespace
@@ -19,8 +40,23 @@ void note(LoadedScene& loaded, const std::string& name, const std::string& why) 
 float recoveryOf(LoadedScene& loaded, const Section& section, const std::string& name) {
     if (section.has("recovery") || sim::canRecover(loaded.scene, loaded.settings))
         return section.number("recovery");
-    note(loaded, name, "it needs solver split, and a scene without bends and damping_time");
+    note(loaded, name, whyNot(loaded.scene, loaded.settings));
     return 0;
+}
+
+sim::Scene withoutDefaults(sim::Scene scene, std::span<const std::uint32_t> defaultRecovery,
+                           const sim::Settings& settings) {
+    if (!defaultRecovery.empty() && !sim::canRecover(scene, settings))
+        for (const std::uint32_t grid : defaultRecovery) scene.grids[grid].recoveryPressure = 0;
+    return scene;
+}
+
+std::vector<std::string> recoveryLeftOut(const LoadedScene& loaded, const sim::Settings& settings) {
+    std::vector<std::string> notes;
+    if (loaded.defaultRecovery.empty() || sim::canRecover(loaded.scene, settings)) return notes;
+    for (const std::uint32_t grid : loaded.defaultRecovery)
+        notes.push_back(sentence(loaded.scene.grids[grid].name, whyNot(loaded.scene, settings)));
+    return notes;
 }
 
 mesh::AddedMesh addWithRecovery(LoadedScene& loaded, const Section& section, const mesh::TriangleMesh& mesh,
@@ -28,7 +64,10 @@ mesh::AddedMesh addWithRecovery(LoadedScene& loaded, const Section& section, con
     sim::Scene& scene = loaded.scene;
     const std::size_t particles = scene.particles.size(), links = scene.distances.size();
     try {
-        return mesh::addMesh(scene, mesh, body);
+        mesh::AddedMesh added = mesh::addMesh(scene, mesh, body);
+        if (!section.has("recovery") && body.recovery > 0)
+            loaded.defaultRecovery.push_back(static_cast<std::uint32_t>(scene.grids.size() - 1));
+        return added;
     } catch (const std::domain_error&) {
         const bool isAsked = section.has("recovery") || body.isCuttable;
         if (isAsked || body.poissonRatio > sim::ranges::poissonRatio.low) throw;

@@ -4,11 +4,21 @@
 #include "scenes/load.hpp"
 #include "scenes/section.hpp"
 
+#include <span>
+
 namespace sinew::scenes {
 
 /// As sim::Lattice::recovery has it. The default is 0 where the scene or its solver has no form for it, which
 /// is noted; what the section itself says is left to sim::validate.
 float recoveryOf(LoadedScene& loaded, const Section& section, const std::string& name);
+
+/// `scene` as it can be played with `settings`, which may be others than it was loaded with: where it cannot
+/// recover, the grids of LoadedScene::defaultRecovery do without.
+sim::Scene withoutDefaults(sim::Scene scene, std::span<const std::uint32_t> defaultRecovery,
+                           const sim::Settings& settings);
+
+/// Notes on the bodies of `loaded` that recover as it was loaded, but not with `settings`.
+std::vector<std::string> recoveryLeftOut(const LoadedScene& loaded, const sim::Settings& settings);
 
 /// mesh::addMesh, but a body so far from the origin that it gets no grid goes without the default.
 mesh::AddedMesh addWithRecovery(LoadedScene& loaded, const Section& section, const mesh::TriangleMesh& mesh,

@@ -555,3 +555,31 @@ TEST_F(Load, WarnsOfAWallThinnerThanTwoVoxels) {
                   0)
             << shape << " at the default resolution";
 }
+
+TEST_F(Load, SaysWhyAMeshDoesNotRecover) {
+    const std::string mesh = "[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\nvoxel = 0.25\n";
+    const std::string reasons[][2] = {
+        {"[solver]\nname = \"jacobi\"\n", "it needs solver split, the scene is solved by jacobi"},
+        {"damping_time = 0.01\n", "it needs a scene without damping_time"},
+        {smallCloth + "bending_stiffness = 1\n", "it needs a scene without bends"},
+        {"[solver]\nomega = 3.7\ntheta = 0\n", "it needs solver.omega below 3.6, which is 3.7"},
+        {"[solver]\nomega = 3.2\n", "it needs solver.omega below 3, which is 3.2"}};
+    for (const auto& [before, why] : reasons) {
+        const scenes::LoadedScene loaded = load(before + mesh);
+        EXPECT_EQ(
+            std::ranges::count(loaded.notes, "mesh sphere: no recovery, cells that fold may stay so: " + why),
+            1)
+            << before;
+        EXPECT_TRUE(loaded.defaultRecovery.empty()) << before;
+    }
+}
+
+TEST_F(Load, KnowsWhichMeshesRecoverByDefault) {
+    const std::string mesh = "[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\nvoxel = 0.25\n",
+                      asks = mesh + "center = [5, 0, 0]\nrecovery = 2\n";
+    using Grids = std::vector<std::uint32_t>;
+    EXPECT_EQ(load(mesh).defaultRecovery, Grids{0});
+    EXPECT_EQ(load(asks + mesh).defaultRecovery, Grids{1});
+    EXPECT_EQ(load(smallCloth + mesh + asks).defaultRecovery, Grids{1});
+    EXPECT_EQ(load(asks).defaultRecovery, Grids{});
+}

@@ -1,6 +1,7 @@
 // Two solvers side by side: in step, with the same hands, measured alike, drawn in two halves.
 #include "played.hpp"
 
+#include "sim/compile.hpp"
 #include "viewer/beside.hpp"
 #include "viewer/draw/offscreen.hpp"
 
@@ -141,6 +142,81 @@ TEST(Beside, GoesOnWithTheRoomAndTheMaterialThatTheFirstHas) {
 
 TEST(Beside, RefusesWhatItsSolverHasNoFormFor) {
     EXPECT_THROW(Pair({sim::Solver::jacobi, 8}, block), std::invalid_argument) << "cuts";
+}
+
+const std::string sphere = "[solver]\nsubsteps = 4\n[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\n"
+                           "voxel = 0.25\ncenter = [0, 2, 0]\n";
+
+bool recovers(const Stage& stage) {
+    return stage.scene().grids.at(0).recoveryPressure > 0;
+}
+
+TEST(Beside, OfAnotherSolverGoesWithoutTheRecoveryThatTheSceneDoesNotAskFor) {
+    for (const sim::Solver solver : {sim::Solver::jacobi, sim::Solver::gaussSeidel}) {
+        Pair pair({solver, 6}, sphere);
+        EXPECT_TRUE(recovers(pair.stage));
+        EXPECT_FALSE(recovers(pair.beside.stage()));
+        ASSERT_EQ(pair.beside.notes().size(), 1u);
+        EXPECT_EQ(pair.beside.notes()[0],
+                  std::string("mesh sphere: no recovery, cells that fold may stay so: it needs solver split, "
+                              "the scene is solved by ") +
+                      sim::solverName(solver));
+        ASSERT_FALSE(pair.play(5));
+        EXPECT_EQ(pair.beside.stage().steps(), 5u);
+        pair.run([&](VkCommandBuffer commands) { pair.beside.recordTakeOver(commands, pair.stage); });
+        ASSERT_FALSE(pair.play(5));
+    }
+    const Pair same({sim::Solver::split, 6}, sphere);
+    EXPECT_TRUE(recovers(same.beside.stage()));
+    EXPECT_TRUE(same.beside.notes().empty());
+    EXPECT_TRUE(recovers(Pair({sim::Solver::split, 0}, sphere).beside.stage()));
+    EXPECT_FALSE(recovers(Pair({sim::Solver::jacobi, 0}, sphere).beside.stage()));
+}
+
+TEST(Beside, WarnsOfWhatLoadingInItsShapeWouldWarnOf) {
+    const std::string stiff = changed(changed(hanging, "2e4", "2e6"), "substeps = 4", "substeps = 60");
+    const auto beside = [&](std::uint32_t substeps) {
+        return Pair({sim::Solver::split, substeps}, stiff).beside.warnings();
+    };
+    EXPECT_EQ(beside(60).size(), 0u);
+    EXPECT_EQ(beside(0).size(), 0u);
+    ASSERT_EQ(beside(2).size(), 1u);
+    EXPECT_NE(beside(2)[0].find("elastic links are softer than asked"), std::string::npos) << beside(2)[0];
+    EXPECT_EQ(beside(2), openText(changed(stiff, "substeps = 60", "substeps = 2")).loaded.warnings);
+}
+
+TEST(Beside, RefusesTheRecoveryThatTheSceneAsksFor) {
+    try {
+        const Pair pair({sim::Solver::jacobi, 6}, sphere + "recovery = 2\n");
+        FAIL() << "it is played";
+    } catch (const std::invalid_argument& error) {
+        const std::string why = error.what();
+        EXPECT_NE(why.find("grid[0] \"sphere\": "), std::string::npos) << why;
+        EXPECT_NE(why.find(": use split"), std::string::npos) << why;
+    }
+}
+
+// As a replay does of somebody who has changed the solver.
+TEST(Stage, LeavesDefaultRecoveryOutOfShapesWithoutAFormForIt) {
+    Scene scene(sphere);
+    Stage& stage = scene.stage;
+    const auto play = [&](int steps) {
+        for (int i = 0; i < steps; ++i)
+            scene.run([&](VkCommandBuffer commands) { stage.recordStep(commands); });
+    };
+    stage.setDefaultRecovery(scene.opening.loaded.defaultRecovery);
+    play(3);
+    stage.wantShape(sim::Solver::gaussSeidel, 6);
+    ASSERT_NO_THROW(stage.reshape(test::queue()));
+    EXPECT_FALSE(recovers(stage));
+    stage.turnNow({.stiffness = 0.5f});
+    play(3);
+    EXPECT_FALSE(recovers(stage));
+    EXPECT_EQ(stage.material(), sim::Material{.stiffness = 0.5f});
+    stage.wantShape(sim::Solver::split, 4);
+    stage.reshape(test::queue());
+    EXPECT_TRUE(recovers(stage));
+    EXPECT_EQ(stage.steps(), 6u);
 }
 
 TEST(Beside, IsDrawnInTheRightHalf) {

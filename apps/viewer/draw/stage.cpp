@@ -1,6 +1,7 @@
 // Counts steps and turns status words into sentences.
 #include "viewer/draw/stage.hpp"
 
+#include "scenes/recovery.hpp"
 #include "vk/check.hpp"
 
 #include <algorithm>
@@ -79,9 +80,13 @@ void Stage::setGravity(float gravity) noexcept {
     gravity_.z *= gravity;
 }
 
+sim::Scene Stage::sceneOf(const sim::Material& material, const sim::Settings& settings) const {
+    return scenes::withoutDefaults(sim::withMaterial(given_, material), defaultRecovery_, settings);
+}
+
 // Of the step program only what does not change meanwhile is read: recordTurn() waits for this.
 Stage::Turned Stage::prepare(const sim::Material& material) const {
-    Turned turned{material, sim::withMaterial(given_, material), {}, std::nullopt};
+    Turned turned{material, sceneOf(material, settings()), {}, std::nullopt};
     turned.change = simulation().prepareChange(turned.scene);
     turned.stiffness = sim::inspectStiffness(turned.scene, settings());
     return turned;
@@ -122,8 +127,7 @@ void Stage::keepShape() {
 std::future<std::unique_ptr<sim::Simulation>> Stage::make(const sim::Settings& settings,
                                                           const sim::Material& material) const {
     return std::async(std::launch::async, [this, settings, material] {
-        const sim::Scene scene = sim::withMaterial(given_, material);
-        return std::make_unique<sim::Simulation>(growing_.device(), scene, settings);
+        return std::make_unique<sim::Simulation>(growing_.device(), sceneOf(material, settings), settings);
     });
 }
 
@@ -154,7 +158,7 @@ void Stage::reshape(vk::Queue& queue, const app::Bring& bring) {
     ready_.reset();
     awaitTurn(); // it is prepared for the simulation that goes
     std::unique_ptr<sim::Simulation> made = next.making.get();
-    sim::Scene before = std::exchange(scene_, sim::withMaterial(given_, next.material));
+    sim::Scene before = std::exchange(scene_, sceneOf(next.material, next.settings));
     try {
         growing_.replaceBy(std::move(made), next.settings, queue, bring);
     } catch (...) {

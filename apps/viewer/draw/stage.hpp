@@ -53,6 +53,10 @@ public:
     /// As app::GrowingSimulation::widen.
     void widen(const sim::Settings& roomy, vk::Queue& queue) { growing_.widen(roomy, queue); }
 
+    /// scenes::LoadedScene::defaultRecovery of the scene: bodies do without it in a shape that has no form
+    /// for it.
+    void setDefaultRecovery(std::vector<std::uint32_t> grids) { defaultRecovery_ = std::move(grids); }
+
     /// Blades that cut by themselves, from the reset on; in their steps no other one does.
     void setBlades(scenes::ScriptedBlades blades) { blades_ = std::move(blades); }
 
@@ -181,6 +185,7 @@ private:
         std::future<std::unique_ptr<sim::Simulation>> making; // or, once there:
         std::unique_ptr<sim::Simulation> made;
     };
+    sim::Scene sceneOf(const sim::Material& material, const sim::Settings& settings) const;
     Turned prepare(const sim::Material& material) const;
     void beginTurn();
     void awaitTurn();
@@ -192,7 +197,8 @@ private:
     void goBackBefore(std::uint64_t step) noexcept;
 
     const sim::Scene given_;
-    sim::Scene scene_; // of the material that it has now
+    std::vector<std::uint32_t> defaultRecovery_; // of given_
+    sim::Scene scene_;                           // of the material that it has now
     sim::Settings settings_;
     sim::StiffnessReport stiffness_;
     app::GrowingSimulation growing_;
