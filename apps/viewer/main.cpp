@@ -24,13 +24,11 @@ int view(int argc, char** argv) {
     const std::optional<viewer::Options> options = viewer::parseOptions(argc, argv);
     if (!options) return app::done;
     app::catchSignals();
-    std::atomic<std::size_t> messages = 0;
+    static std::atomic<std::size_t> messages = 0;
+    app::watchMessages(&messages);
     const int code = options->isHeadless ? viewer::runHeadless(*options, messages)
                                          : viewer::runInteractive(*options, messages);
-    if (messages > 0)
-        throw app::Failure(app::internalFault,
-                           "the validation layer complained: " + std::to_string(messages) +
-                               " messages above: please report them");
+    if (messages > 0) throw app::Failure(app::internalFault, app::textOfMessages(messages));
     return code == app::interrupted ? app::reportInterruption() : code;
 }
 

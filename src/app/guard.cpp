@@ -26,8 +26,14 @@ constexpr std::chrono::milliseconds patienceForWaits{500}, betweenLooks{50};
 using Clock = std::chrono::steady_clock;
 
 volatile std::sig_atomic_t interruptions = 0, writings = 0;
+std::atomic<const std::atomic<std::size_t>*> watched = nullptr;
 std::atomic<Clock::rep> interruptedAt = 0; // of the first signal; lock-free, so that handlers may set it
-static_assert(std::atomic<Clock::rep>::is_always_lock_free);
+static_assert(std::atomic<Clock::rep>::is_always_lock_free && std::atomic<std::size_t>::is_always_lock_free);
+
+std::size_t messagesSoFar() {
+    const std::atomic<std::size_t>* const messages = watched.load();
+    return messages == nullptr ? 0 : messages->load();
+}
 
 // In handlers: setitimer is a system call and nothing else.
 void beginToWait() {
@@ -45,8 +51,12 @@ extern "C" void leave(int) {
     if (writings != 0) return;
     constexpr char line[] = "error: interrupted: what was under way did not end within 2 s: nothing more was "
                             "written\n";
-    [[maybe_unused]] const auto written = write(STDERR_FILENO, line, sizeof line - 1);
-    _exit(interrupted);
+    [[maybe_unused]] auto written = write(STDERR_FILENO, line, sizeof line - 1);
+    if (messagesSoFar() == 0) _exit(interrupted);
+    constexpr char more[] =
+        "error: the validation layer complained: see the messages above: please report them\n";
+    written = write(STDERR_FILENO, more, sizeof more - 1);
+    _exit(internalFault);
 }
 
 bool isIgnored(int signal) {
@@ -143,10 +153,21 @@ int reportInterruption() noexcept {
     return report(interrupted, "interrupted: outputs are whole and end with the last step that was done");
 }
 
+void watchMessages(const std::atomic<std::size_t>* messages) noexcept {
+    watched = messages;
+}
+
+std::string textOfMessages(std::size_t messages) {
+    return "the validation layer complained: " + std::to_string(messages) +
+           " messages above: please report them";
+}
+
 void leaveInterrupted(const std::string& message) noexcept {
     std::fflush(stdout);
-    report(interrupted, message);
-    std::_Exit(interrupted);
+    int code = report(interrupted, message);
+    if (const std::size_t messages = messagesSoFar(); messages > 0)
+        code = report(internalFault, textOfMessages(messages));
+    std::_Exit(code);
 }
 
 Writing::Writing() noexcept {

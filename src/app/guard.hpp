@@ -1,6 +1,7 @@
 // What the programs share at their edge: exit codes, the one-line error, and stopping on signals.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <stdexcept>
@@ -45,6 +46,13 @@ int report(ExitCode code, std::string message) noexcept;
 void catchSignals();
 bool isInterrupted() noexcept;
 
+/// Messages of the validation layer, counted as they come, from now on. A program that ends early for a
+/// signal says then that there are some, and its exit code is that of a fault, as at its end. `messages`
+/// stays as long as the program; null = none.
+void watchMessages(const std::atomic<std::size_t>* messages) noexcept;
+/// What is said of so many at the end of a program.
+std::string textOfMessages(std::size_t messages);
+
 /// Calls `wait`, which waits at most as long as it is told and returns whether it is over, until it is.
 /// Throws Failure (interrupted) where a signal has asked the program to end and it is not over half a second
 /// later: there is then time to finish outputs, and no time for what still waits.
@@ -53,8 +61,8 @@ void waitUntil(const std::function<bool(std::chrono::nanoseconds)>& wait);
 /// Says in a line that a signal has ended the program, whose outputs are whole; returns `interrupted`.
 int reportInterruption() noexcept;
 
-/// Says it as report() does and ends the program with exit code 130 at once, without destructors, which may
-/// wait for the device. Outputs are finished before.
+/// Says it as report() does and ends the program with exit code 130 at once, or 70 (watchMessages), without
+/// destructors, which may wait for the device. Outputs are finished before.
 [[noreturn]] void leaveInterrupted(const std::string& message) noexcept;
 
 /// While it lives, a program that was asked to end takes the time that its outputs need. For the thread that

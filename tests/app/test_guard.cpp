@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -112,6 +113,25 @@ TEST(Signals, EndWhatDoesNotComeToAnEndWithinTwoSeconds) {
             workFor(30);
         },
         testing::ExitedWithCode(130), "error: interrupted: .* did not end within 2 s");
+}
+
+// As at the end of a program, whose exit code is then that of a fault.
+TEST(Signals, SayThatTheValidationLayerHasComplained) {
+    static std::atomic<std::size_t> messages = 0;
+    app::watchMessages(&messages);
+    EXPECT_EXIT(app::leaveInterrupted("interrupted: a"), testing::ExitedWithCode(130),
+                "^error: interrupted: a\n$");
+    messages = 3;
+    EXPECT_EXIT(app::leaveInterrupted("interrupted: a"), testing::ExitedWithCode(70),
+                "^error: interrupted: a\nerror: the validation layer complained: 3 messages above: ");
+    EXPECT_EXIT(
+        {
+            app::catchSignals();
+            std::raise(SIGTERM);
+            workFor(30);
+        },
+        testing::ExitedWithCode(70), "did not end within 2 s.*\nerror: the validation layer complained: ");
+    app::watchMessages(nullptr);
 }
 
 TEST(Signals, LetOutputsBeWrittenForAsLongAsTheyTake) {

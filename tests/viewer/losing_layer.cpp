@@ -5,8 +5,11 @@
 // VK_ERROR_OUT_OF_DEVICE_MEMORY unless given) and do nothing else, and SINEW_FAIL_TIMES calls in all from
 // that one on (one unless given). Calls count once the file SINEW_FAIL_FROM is there, where that is given.
 // Names of struck calls are lines of the file SINEW_FAIL_REPORT.
+// SINEW_BLOCK_CALL names a call that never comes back once the file SINEW_BLOCK_FROM is there; it then makes
+// the file SINEW_BLOCK_REPORT.
 #include <vulkan/vk_layer.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -15,6 +18,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 
 namespace {
 
@@ -81,8 +85,18 @@ bool doCallsCount() {
     return from == nullptr || std::ifstream(from);
 }
 
+void blockWhereAsked(const char* name) {
+    static const char *const call = std::getenv("SINEW_BLOCK_CALL"),
+                             *const from = std::getenv("SINEW_BLOCK_FROM"),
+                             *const report = std::getenv("SINEW_BLOCK_REPORT");
+    if (call == nullptr || from == nullptr || std::strcmp(call, name) != 0 || !std::ifstream(from)) return;
+    if (report != nullptr) std::ofstream(report) << name << '\n';
+    for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
+}
+
 // Whether this call is one that fails.
 bool isStruck(const char* name) {
+    blockWhereAsked(name);
     static const long first = number("SINEW_FAIL_CALL", 0), times = number("SINEW_FAIL_TIMES", 1);
     static long calls = 0;
     if (first == 0 || !doCallsCount()) return false;

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# test_signals.sh VIEWER SCENE FOLDER: SIGINT and SIGTERM while the window is open, while it prepares its first scene and in a step that
-# takes seconds. It ends within 2 s (and some for a busy machine) with one line and exit code 130, and nothing is written half; films and settings of a window that plays are whole.
+# test_signals.sh VIEWER SCENE FOLDER LAYERS: SIGINT and SIGTERM while the window is open, while it prepares its first scene, in a step that
+# takes seconds, and in a call of the driver that never comes back. It ends within 2 s (and some for a busy machine) with one line and exit code 130, and nothing is written half; films and settings of a window that plays are whole.
 set -euo pipefail
-viewer=$1 scene=$2 folder=$3
+viewer=$1 scene=$2 folder=$3 layers=$4
 here=$(cd "$(dirname "$0")" && pwd)
 extent=320x240 options=(--no-validation)
 . "$here/window.sh"
@@ -57,5 +57,16 @@ for signal in INT TERM; do
     awaitWindow '^Sinew.*particles'
     sleep 3 # a step is under way
     endsSoon $signal
+done
+
+for call in vkQueuePresentKHR vkAcquireNextImageKHR vkQueueSubmit vkWaitForFences vkQueueWaitIdle; do
+    echo "signals: SIGTERM in $call, which never comes back"
+    rm -f block blocked
+    VK_LAYER_PATH=$layers VK_INSTANCE_LAYERS=VK_LAYER_SINEW_losing SINEW_BLOCK_CALL=$call SINEW_BLOCK_FROM=block SINEW_BLOCK_REPORT=blocked start
+    touch block
+    keys v # waits for the device
+    for _ in {1..300}; do [[ -s blocked ]] && break; sleep 0.1; done
+    [[ -s blocked ]] || fail "$call is not called"
+    endsSoon TERM
 done
 echo "passed"
