@@ -7,6 +7,7 @@
 #include "sim/collision/particle_contacts.hpp"
 #include "sim/ranges.hpp"
 #include "sim/solvers/shares.hpp"
+#include "sim/stiffness/folds.hpp"
 #include "sim/stiffness/terms.hpp"
 
 #include <algorithm>
@@ -231,17 +232,19 @@ SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings) {
     // The shares of `split` depend on h a little, so that this is the fixed point of a few rounds.
     const Load load = loadOf(scene, double{settings.tolerance});
     const std::uint32_t fewest = fewestFor(scene);
-    const double ofContacts =
-        canTouch(scene)
-            ? collision::loads::longestSubstep(scene, load.inverseMass, stiffness::componentsOf(scene))
-            : infinite;
+    double ofContacts = infinite, ofFolds = infinite;
+    if (canTouch(scene)) {
+        const std::vector<std::uint32_t> components = stiffness::componentsOf(scene);
+        ofContacts = collision::loads::longestSubstep(scene, load.inverseMass, components);
+        ofFolds = stiffness::longestFold(scene, load.inverseMass, components);
+    }
     Settings tried = settings;
     tried.substeps = fewest;
     SubstepChoice choice;
     for (int round = 0; round < mostRounds; ++round) {
         const Limits limits = limitsOf({scene, tried, load});
-        const double longest =
-            std::min({limits.elastic.longest, limits.rigid.longest, limits.damped.longest, ofContacts});
+        const double longest = std::min(
+            {limits.elastic.longest, limits.rigid.longest, limits.damped.longest, ofContacts, ofFolds});
         choice.wanted = countFor(double{scene.dt}, longest);
         choice.share = limits.share;
         choice.isReachable = limits.isReachable;
@@ -256,7 +259,7 @@ SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings) {
         else if (longest == limits.damped.longest)
             decide(SubstepReason::damping, limits.damped);
         else
-            decide(SubstepReason::contacts, {});
+            decide(longest == ofContacts ? SubstepReason::contacts : SubstepReason::folds, {});
         const std::uint32_t next = std::clamp(choice.wanted, fewest, ranges::mostChosen);
         if (next == tried.substeps || (round + 2 > mostRounds && next < tried.substeps)) break;
         tried.substeps = next;
@@ -343,6 +346,9 @@ std::string toText(const SubstepChoice& choice, const Settings& settings) {
         break;
     case SubstepReason::contacts:
         why = "what rests on contacts presses them in by no more than 1 % of a radius";
+        break;
+    case SubstepReason::folds:
+        why = "no sheet falls onto itself by more than a third of its thickness in one";
         break;
     case SubstepReason::fewest:
         why = "fewer would do for the stiffness";

@@ -109,8 +109,8 @@ Json stiffnessJson(const scenes::LoadedScene& loaded) {
 }
 
 Json choiceJson(const scenes::LoadedScene& loaded) {
-    constexpr const char* reasons[] = {"asked", "stiffness", "weight", "damping",
-                                       "drag",  "contacts",  "fewest", "most"};
+    constexpr const char* reasons[] = {"asked",    "stiffness", "weight", "damping", "drag",
+                                       "contacts", "folds",     "fewest", "most"};
     return {{"reason", reasons[static_cast<std::size_t>(loaded.substeps.reason)]},
             {"wanted", loaded.substeps.wanted},
             {"tolerance", loaded.settings.tolerance}};

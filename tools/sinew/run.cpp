@@ -4,6 +4,7 @@
 #include "mesh/export.hpp"
 #include "sim/gpu_tune.hpp"
 #include "sim/ranges.hpp"
+#include "sim/substeps.hpp"
 #include "sinew/commands.hpp"
 #include "sinew/outputs.hpp"
 #include "sinew/report.hpp"
@@ -89,12 +90,15 @@ RunRecord recordOf(const RunOptions& options, const scenes::LoadedScene& loaded,
 }
 
 /// Rigid links may be longer than the tolerance says while they move; twice as much is too few substeps. How
-/// far they stretch falls with the square of those.
+/// far they stretch falls with the square of those; at corners, which "auto" regards, more slowly.
 std::optional<std::string> stretchWarning(const RunRecord& record) {
     const sim::Settings& settings = record.loaded.settings;
     const double most = rigidStretch(record.loaded.scene, record.state), wanted = double{settings.tolerance};
     if (record.divergence || !(most > 2 * wanted)) return std::nullopt;
-    const double substeps = std::ceil(settings.substeps * std::sqrt(most / wanted));
+    sim::Settings chosen = settings;
+    chosen.substeps = 0;
+    const double ofAuto = sim::chooseSubsteps(record.loaded.scene, chosen).substeps;
+    const double substeps = std::max(ofAuto, std::ceil(settings.substeps * std::sqrt(most / wanted)));
     return fmt::format(
                "rigid links are up to {:.3g} % too long at the end, where solver.tolerance is {:.3g} %: ",
                100 * most, 100 * wanted) +

@@ -1,6 +1,8 @@
 // Columns of cells across gravity, each summed from its top.
 #include "sim/collision/loads.hpp"
 
+#include "sim/collision/vectors.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,26 +24,6 @@ struct Stacked {
     }
 };
 
-double dot(const Vec3& a, const std::array<double, 3>& b) {
-    return double{a.x} * b[0] + double{a.y} * b[1] + double{a.z} * b[2];
-}
-
-// Unit vectors: along gravity, and two across.
-std::array<std::array<double, 3>, 3> axesOf(const Vec3& gravity, double g) {
-    const std::array<double, 3> down{double{gravity.x} / g, double{gravity.y} / g, double{gravity.z} / g};
-    const std::size_t least = static_cast<std::size_t>(
-        std::ranges::min_element(down, {}, [](double v) { return std::abs(v); }) - down.begin());
-    std::array<double, 3> across{};
-    across[least] = 1;
-    for (std::size_t k = 0; k < 3; ++k) across[k] -= down[least] * down[k];
-    const double length = std::hypot(across[0], across[1], across[2]);
-    for (double& v : across) v /= length;
-    const std::array<double, 3> third{down[1] * across[2] - down[2] * across[1],
-                                      down[2] * across[0] - down[0] * across[2],
-                                      down[0] * across[1] - down[1] * across[0]};
-    return {down, across, third};
-}
-
 double medianRadius(const Scene& scene) {
     std::vector<float> radii;
     for (const Particle& particle : scene.particles)
@@ -52,17 +34,16 @@ double medianRadius(const Scene& scene) {
 }
 
 // Particles that touch, column by column, each from its top.
-std::vector<Stacked> columnsOf(const Scene& scene, const std::array<std::array<double, 3>, 3>& axes,
-                               double width) {
+std::vector<Stacked> columnsOf(const Scene& scene, const std::array<Vector, 3>& axes, double width) {
     std::vector<Stacked> stacked;
     for (std::uint32_t i = 0; i < scene.particles.size(); ++i) {
         const Particle& particle = scene.particles[i];
         if (particle.radius <= 0) continue;
         const auto column = [&](std::size_t axis) {
-            const double cell = std::floor(dot(particle.position, axes[axis]) / width);
+            const double cell = std::floor(dot(toVector(particle.position), axes[axis]) / width);
             return static_cast<std::int64_t>(std::clamp(cell, -9e18, 9e18));
         };
-        stacked.push_back({{column(1), column(2)}, dot(particle.position, axes[0]), i});
+        stacked.push_back({{column(1), column(2)}, dot(toVector(particle.position), axes[0]), i});
     }
     std::sort(stacked.begin(), stacked.end());
     return stacked;
@@ -72,11 +53,12 @@ std::vector<Stacked> columnsOf(const Scene& scene, const std::array<std::array<d
 
 double longestSubstep(const Scene& scene, std::span<const float> inverseMass,
                       std::span<const std::uint32_t> bodies) {
-    const Vec3& gravity = scene.gravity;
-    const double g = std::hypot(double{gravity.x}, double{gravity.y}, double{gravity.z});
+    const Vector gravity = toVector(scene.gravity);
+    const double g = std::sqrt(dot(gravity, gravity));
     const double median = medianRadius(scene);
     if (g == 0 || median == 0) return infinite;
-    const std::vector<Stacked> stacked = columnsOf(scene, axesOf(gravity, g), 2 * median);
+    const std::vector<Stacked> stacked =
+        columnsOf(scene, frameOf({gravity[0] / g, gravity[1] / g, gravity[2] / g}), 2 * median);
     double longest = infinite, above = 0;
     for (std::size_t s = 0; s < stacked.size(); ++s) {
         const std::uint32_t lower = stacked[s].particle;

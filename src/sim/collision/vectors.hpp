@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace sinew::sim::collision {
 
@@ -21,6 +22,18 @@ inline Vector cross(const Vector& a, const Vector& b) {
 }
 inline Vector toVector(const Vec3& v) {
     return {double{v.x}, double{v.y}, double{v.z}};
+}
+
+/// `down`, of length 1, and two unit vectors across.
+inline std::array<Vector, 3> frameOf(const Vector& down) {
+    const std::size_t least = static_cast<std::size_t>(
+        std::ranges::min_element(down, {}, [](double v) { return std::abs(v); }) - down.begin());
+    Vector across{};
+    across[least] = 1;
+    for (std::size_t k = 0; k < 3; ++k) across[k] -= down[least] * down[k];
+    const double length = std::sqrt(dot(across, across));
+    for (double& v : across) v /= length;
+    return {down, across, cross(down, across)};
 }
 
 inline double squaredToSegment(const Vector& p, const Vector& a, const Vector& b) {

@@ -1,8 +1,8 @@
 // Weight flows down the distance to what holds a body: one walk over the particles, farthest first.
 #include "sim/stiffness/tensions.hpp"
 
-#include "sim/colliders.hpp"
 #include "sim/collision/vectors.hpp"
+#include "sim/stiffness/carried.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,9 +20,9 @@ using collision::Vector;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t nobody = ~0u;
-constexpr double alongTheWay = 0.99;  // of a link's length, what it leads nearer to what holds
-constexpr double steepest = 0.5;      // sine of the slope on which friction still holds
-constexpr std::size_t mostTimes = 32; // of keyframes that are looked at
+constexpr double alongTheWay = 0.99; // of a link's length, what it leads nearer to what holds
+// Tension over load of links to a corner, where folds of a sheet meet (docs/accuracy.md).
+constexpr double atCorners = 25;
 
 // The links of each particle.
 struct Neighbours {
@@ -124,7 +124,17 @@ struct Flow {
         return drop > alongTheWay * double{c.restLength} ? drop : 0;
     }
 
-    void run(const std::vector<bool>& isHeld) {
+    // A particle at a corner of what holds it: more of its neighbours hang than are held. Chains have none.
+    bool isAtCorner(const Holds& holds, std::uint32_t i) const {
+        const std::span<const std::uint32_t> links = neighbours.of(i);
+        if (!holds.isHeld[i] || !holds.isSharp[i] || links.size() <= 2) return false;
+        const auto held = std::ranges::count_if(
+            links, [&](std::uint32_t k) { return bool{holds.isHeld[otherEnd(scene.distances[k], i)]}; });
+        return 2 * static_cast<std::size_t>(held) < links.size();
+    }
+
+    void run(const Holds& holds) {
+        const std::vector<bool>& isHeld = holds.isHeld;
         const Ways ways = waysTo(scene, neighbours, isHeld);
         std::vector<double> spans = spansOf(scene, ways, down, tolerance);
         std::vector<double> loads(scene.particles.size(), 0);
@@ -143,71 +153,17 @@ struct Flow {
                              slope = (ways.length[*i] - ways.length[other]) / double{c.restLength};
                 loads[other] += load;
                 spans[other] = std::max(spans[other], spans[*i]);
-                tensions[k] = std::max(tensions[k], load / slope * spans[*i]);
+                const double corner = isAtCorner(holds, other) ? atCorners : 1;
+                tensions[k] = std::max(tensions[k], load / slope * spans[*i] * corner);
             }
         }
     }
 };
 
-// In the frame of a collider: whether a ray from `from` along `down` meets it, on a round one where it is not
-// steep.
-bool isBelow(const Collider& collider, double kept, const Vector& from, const Vector& down) {
-    if (collider.shape == ColliderShape::box) {
-        const Vector half = toVector(collider.halfExtents);
-        double enters = -infinite, leaves = infinite;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double reach = half[k] + kept;
-            if (down[k] == 0 && std::abs(from[k]) > reach) return false;
-            if (down[k] == 0) continue;
-            const auto [first, last] =
-                std::minmax({(-reach - from[k]) / down[k], (reach - from[k]) / down[k]});
-            enters = std::max(enters, first);
-            leaves = std::min(leaves, last);
-        }
-        return enters <= leaves && leaves >= 0;
-    }
-    // the point of the capsule's axis that is nearest to the ray's line
-    const double half = collider.shape == ColliderShape::capsule ? double{collider.halfLength} : 0;
-    const double flat = 1 - down[1] * down[1];
-    const double height = from[1] - along(from, down) * down[1];
-    const double y = flat > 1e-12 ? std::clamp(height / flat, -half, half) : (down[1] < 0 ? -half : half);
-    const Vector toAxis{-from[0], y - from[1], -from[2]};
-    const double reach = double{collider.radius} + kept;
-    return acrossLength(toAxis, down) <= steepest * reach && along(toAxis, down) >= -reach;
-}
-
-void addCarried(const Scene& scene, double time, const Vector& down, std::vector<bool>& isHeld) {
-    for (const Collider& collider : scene.colliders) {
-        const Pose pose = poseAt(collider, time);
-        const Vec3 axis{static_cast<float>(down[0]), static_cast<float>(down[1]),
-                        static_cast<float>(down[2])};
-        const Vector localDown = toVector(toLocal({.position = {}, .rotation = pose.rotation}, axis));
-        for (std::size_t i = 0; i < isHeld.size(); ++i) {
-            const Particle& particle = scene.particles[i];
-            const Vector from = toVector(toLocal(pose, particle.position));
-            const double kept = double{collider.margin} + double{particle.contactOffset};
-            if (isBelow(collider, kept, from, localDown)) isHeld[i] = true;
-        }
-    }
-}
-
-// At which colliders may begin to carry something.
-std::vector<double> timesOf(const Scene& scene) {
-    std::vector<double> times{0};
-    for (const Collider& collider : scene.colliders)
-        for (const Keyframe& key : collider.path) times.push_back(double{key.time});
-    std::sort(times.begin(), times.end());
-    times.erase(std::unique(times.begin(), times.end()), times.end());
-    if (times.size() <= mostTimes) return times;
-    std::vector<double> some;
-    for (std::size_t k = 0; k < mostTimes; ++k)
-        some.push_back(times[k * (times.size() - 1) / (mostTimes - 1)]);
-    return some;
-}
-
 } // namespace
 
-std::vector<double> tensionsOf(const Scene& scene, std::span<const float> inverseMass, double tolerance) {
+std::vector<double> tensionsOf(const Scene& scene, std::span<const float> inverseMass,
+                               std::span<const std::uint32_t> components, double tolerance) {
     const Vector g = toVector(scene.gravity);
     const double gravity = std::sqrt(collision::dot(g, g));
     if (gravity == 0) return std::vector<double>(scene.distances.size(), 0.0);
@@ -218,15 +174,17 @@ std::vector<double> tensionsOf(const Scene& scene, std::span<const float> invers
               .down = {g[0] / gravity, g[1] / gravity, g[2] / gravity},
               .gravity = gravity,
               .tolerance = tolerance};
-    std::vector<bool> isHeld(scene.particles.size());
-    for (std::size_t i = 0; i < isHeld.size(); ++i) isHeld[i] = inverseMass[i] == 0;
-    for (const Attachment& attachment : scene.attachments) isHeld[attachment.particle] = true;
-    flow.run(isHeld);
-    if (scene.colliders.empty()) return std::move(flow.tensions);
+    Holds holds{.isHeld = std::vector<bool>(scene.particles.size()),
+                .isSharp = std::vector<bool>(scene.particles.size())};
+    for (std::size_t i = 0; i < holds.isHeld.size(); ++i) holds.isHeld[i] = inverseMass[i] == 0;
+    for (const Attachment& attachment : scene.attachments) holds.isHeld[attachment.particle] = true;
+    flow.run(holds);
+    Holds onBodies = holds;
+    addCarriedByBodies(scene, components, flow.down, onBodies);
     for (const double time : timesOf(scene)) {
-        std::vector<bool> isCarried = isHeld;
-        addCarried(scene, time, flow.down, isCarried);
-        if (isCarried != isHeld) flow.run(isCarried);
+        Holds carried = onBodies;
+        addCarriedByColliders(scene, time, flow.down, carried);
+        if (carried.isHeld != holds.isHeld) flow.run(carried);
     }
     return std::move(flow.tensions);
 }

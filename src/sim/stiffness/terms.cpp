@@ -48,8 +48,9 @@ Load loadOf(const Scene& scene, double tolerance) {
     }
     for (const BendConstraint& c : scene.bends)
         if (canMove(load, {c.a, c.b, c.c})) ++load.bends[c.a], ++load.bends[c.b], ++load.bends[c.c];
-    load.tensions = hasRigid && tolerance > 0 ? tensionsOf(scene, load.inverseMass, tolerance)
-                                              : std::vector<double>(scene.distances.size(), 0.0);
+    load.tensions = hasRigid && tolerance > 0
+                        ? tensionsOf(scene, load.inverseMass, componentsOf(scene), tolerance)
+                        : std::vector<double>(scene.distances.size(), 0.0);
     return load;
 }
 

@@ -444,6 +444,27 @@ TEST(FaceContacts, LayAClothOverABallOfTriangles) {
     EXPECT_EQ(intersections(scene, x), 0);
 }
 
+TEST(FaceContacts, LetAThinSheetFoldOverACapsuleAtTheChosenSubsteps) {
+    Scene scene;
+    addCloth(scene, {.origin = {-0.3f, 0.4825f, -0.3f},
+                     .size = {31, 31},
+                     .spacing = 0.02f,
+                     .bendingStiffness = 1e-5f,
+                     .thickness = 0.003f});
+    scene.damping = 1;
+    const float half = std::sqrt(0.5f);
+    scene.colliders = {{.shape = ColliderShape::capsule,
+                        .radius = 0.02f,
+                        .halfLength = 1,
+                        .pose = {{0, 0.46f, 0}, {half, 0, 0, half}}}};
+    test::Runner runner(scene, {.contactRoom = 96});
+    for (int step = 0; step < 60; ++step) {
+        const Status status = runner.run(1);
+        ASSERT_EQ(status.nonFinite + status.contactRoom, 0u) << "step " << step;
+    }
+    EXPECT_EQ(intersections(scene, runner.positions()), 0);
+}
+
 // Hard case 17.
 TEST(FaceContacts, KeepAFallingFoldOutOfItself) {
     const Scene scene = test::fallingFold();
