@@ -157,7 +157,7 @@ TEST(ExactKernels, DecideNothingTwiceThatIsNotExact) {
         const auto& in = decidedIn[decision];
         if (in.size() < 2) continue;
         const auto excuse = std::ranges::find_if(
-            looseDecisions, [&](const auto& one) { return decision.starts_with(one.first); });
+            looseDecisions, [&name = decision](const auto& one) { return name.starts_with(one.first); });
         if (excuse != looseDecisions.end())
             excused.insert(excuse->first);
         else
