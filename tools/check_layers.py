@@ -16,7 +16,7 @@ LAYERS = {
 # Finer rules inside a layer: (files, includes they may not have, why).
 SIM_MAY_USE_VK = re.compile(r"src/sim/(gpu_\w+|simulation(_states?|_ring)?)\.(cpp|hpp)$")
 PURE_VK = {"vk/spirv.hpp"}  # includes no Vulkan header
-MESH_MAY_USE_SIM = {"sim/scene.hpp", "sim/bodies.hpp"}
+MESH_MAY_USE_SIM = {"sim/scene.hpp", "sim/bodies.hpp", "sim/counted.hpp"}
 MESH_ON_DEVICE = "src/mesh/gpu/"  # the only part of mesh that sees Vulkan
 GPU_MAY_USE_SIM = MESH_MAY_USE_SIM | {"sim/program.hpp"}  # passes and their barriers
 # The rooms of the viewer, the same way; what stands beside them may include all.

@@ -9,6 +9,7 @@
 #include "scenes/path.hpp"
 #include "scenes/surface.hpp"
 #include "sim/compile.hpp"
+#include "sim/counted.hpp"
 #include "sim/ranges.hpp"
 #include "sim/start.hpp"
 #include "sim/substeps.hpp"
@@ -165,24 +166,35 @@ void warnAboutSizes(LoadedScene& loaded) {
 }
 
 // A few links on light corners are no news; half of a body being too soft is. The stiffness of `jacobi` and
-// `gauss_seidel` is a model of one iteration: only what is far too soft by it is worth a warning.
+// `gauss_seidel` is a model: only a body that is far too soft by it is worth a warning.
 constexpr double roughlyKept = 0.5;
 
+std::string softnessText(const sim::BodyStiffness& body, bool hasOthers) {
+    return std::to_string(body.soft) + " of " + std::to_string(body.elastic) + " elastic links " +
+           (hasOthers ? "of body \"" + body.name + "\" " : "") + "are softer than asked, down to " +
+           std::to_string(std::lround(100 * body.softest)) + " %";
+}
+
 void warnAboutStiffness(LoadedScene& loaded) {
+    constexpr std::size_t mostNamed = 4;
     const sim::Settings& settings = loaded.settings;
-    const sim::StiffnessReport stiffness = sim::inspectStiffness(loaded.scene, settings);
-    if (2 * stiffness.soft <= stiffness.elastic) return;
+    sim::StiffnessReport stiffness = sim::inspectStiffness(loaded.scene, settings);
     const bool isReachable = stiffness.neededSubsteps > 0;
-    const bool isModel = settings.solver != sim::Solver::split;
-    if (isReachable && isModel && (settings.iterations > 1 || stiffness.mean > roughlyKept)) return;
+    const bool isRough = isReachable && settings.solver != sim::Solver::split;
+    std::vector<sim::BodyStiffness>& bodies = stiffness.bodies;
+    std::erase_if(bodies, [&](const sim::BodyStiffness& body) {
+        return 2 * body.soft <= body.elastic || (isRough && body.mean > roughlyKept);
+    });
+    std::ranges::stable_sort(bodies, {}, &sim::BodyStiffness::softest);
     const std::string percent = std::to_string(std::lround(100 * double{settings.tolerance})) + " %";
-    loaded.warnings.push_back(
-        std::to_string(stiffness.soft) + " of " + std::to_string(stiffness.elastic) +
-        " elastic links are softer than asked, down to " +
-        std::to_string(std::lround(100 * stiffness.softest)) + " %" +
-        (stiffness.softestBody.empty() ? "" : " in body \"" + stiffness.softestBody + "\"") + ": " +
-        (isReachable ? std::to_string(stiffness.neededSubsteps) + " substeps would keep all within " + percent
-                     : "no number of substeps reaches " + percent + ", use weight or iterations"));
+    const std::string cure =
+        isReachable ? sim::counted(stiffness.neededSubsteps, "substep") + " would keep all within " + percent
+                    : "no number of substeps reaches " + percent + ", use weight or iterations";
+    for (std::size_t b = 0; b < bodies.size() && b < mostNamed; ++b)
+        loaded.warnings.push_back(softnessText(bodies[b], loaded.scene.bodies.size() > 1) + ": " + cure);
+    if (bodies.size() > mostNamed)
+        loaded.warnings.push_back("so are most elastic links of " +
+                                  sim::counted(bodies.size() - mostNamed, "other body", "other bodies"));
 }
 
 // That many, or what to do where they are more than may be asked for.

@@ -45,31 +45,28 @@ double longestOfSplit(const Term& term, double tolerance) {
     const double wanted = (term.isRigid ? 1 : 1 - tolerance) * term.stiffness;
     return std::sqrt(term.clamp / wanted);
 }
-double reachedByCompliance(const Term& term, double h) {
-    return 1 / (1 + h * h * term.inverseMass * term.stiffness);
-}
-double longestOfCompliance(const Term& term, double tolerance) {
-    const double excess = term.isRigid ? 1 : tolerance / (1 - tolerance);
-    return std::sqrt(excess / (term.inverseMass * term.stiffness));
+// Each sweep does the same share of what the ones before have left of the force, if others pull the link back
+// to where it was.
+double reachedBySweeps(const Term& term, double h) {
+    const double ofSweep = term.sweepShare / (1 + h * h * term.inverseMass * term.stiffness);
+    return stiffness::shareAfter(ofSweep, term.sweeps);
 }
 // Whether any h brings an elastic term within the tolerance.
 bool isReachable(const Term& term, double tolerance) {
-    return term.share > 1 - tolerance + rounding;
+    return term.share() > 1 - tolerance + rounding;
 }
-double reachedByJacobi(const Term& term, double h) {
-    return term.share * reachedByCompliance(term, h);
-}
-// What the shares of all iterations leave of the tolerance is left to h; where they leave none, all of it is.
-double longestOfJacobi(const Term& term, double tolerance) {
-    if (term.isRigid) return longestOfCompliance(term, tolerance) * std::sqrt(term.share);
-    return longestOfCompliance(term,
-                               isReachable(term, tolerance) ? 1 - (1 - tolerance) / term.share : tolerance);
+// Where no h does, one within the tolerance of what the shares leave.
+double longestOfSweeps(const Term& term, double tolerance) {
+    const double wanted = (1 - tolerance) * (isReachable(term, tolerance) ? 1 : term.share());
+    const double ofSweep = stiffness::shareAfter(wanted, 1.0 / term.sweeps);
+    const double excess = term.isRigid ? term.share() : term.sweepShare / ofSweep - 1;
+    return std::sqrt(excess / (term.inverseMass * term.stiffness));
 }
 
 constexpr Model models[] = {
     {Solver::split, reachedBySplit, longestOfSplit},
-    {Solver::jacobi, reachedByJacobi, longestOfJacobi},
-    {Solver::gaussSeidel, reachedByCompliance, longestOfCompliance},
+    {Solver::jacobi, reachedBySweeps, longestOfSweeps},
+    {Solver::gaussSeidel, reachedBySweeps, longestOfSweeps},
 };
 
 const Model& modelOf(Solver solver) {
@@ -136,7 +133,7 @@ Limits limitsOf(const Terms& terms) {
     Limits limits;
     terms.forEach([&](const Term& term) {
         if (!term.isRigid) {
-            limits.share = std::min(limits.share, term.share);
+            limits.share = std::min(limits.share, term.share());
             limits.isReachable = limits.isReachable && isReachable(term, tolerance);
         }
         Limit& limit = term.isRigid ? limits.rigid : limits.elastic;
@@ -192,6 +189,35 @@ SplitBudget budgetOf(const Terms& terms) {
             budget.bends = std::max(budget.bends, splitOfBend(load, c) / double{c.compliance});
     return budget;
 }
+
+// Adds up what each body has.
+class StiffnessOfBodies {
+public:
+    explicit StiffnessOfBodies(const Scene& scene) : bodyOf_(scene.particles.size(), nobody) {
+        for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
+            const Body& body = scene.bodies[b];
+            bodies_.push_back({.name = body.name, .mean = 0});
+            std::fill_n(bodyOf_.begin() + body.firstParticle, body.particleCount, b);
+        }
+    }
+    void add(std::uint32_t particle, double reached, bool isSoft) {
+        if (bodyOf_[particle] == nobody) return;
+        BodyStiffness& body = bodies_[bodyOf_[particle]];
+        ++body.elastic;
+        body.soft += isSoft;
+        body.softest = std::min(body.softest, reached);
+        body.mean += reached; // a sum until the end
+    }
+    std::vector<BodyStiffness> finish() {
+        std::erase_if(bodies_, [](const BodyStiffness& body) { return body.elastic == 0; });
+        for (BodyStiffness& body : bodies_) body.mean /= static_cast<double>(body.elastic);
+        return std::move(bodies_);
+    }
+
+private:
+    std::vector<BodyStiffness> bodies_;
+    std::vector<std::uint32_t> bodyOf_; // of each particle
+};
 
 } // namespace
 
@@ -290,17 +316,16 @@ StiffnessReport inspectStiffness(const Scene& scene, const Settings& asked) {
     const double h = double{scene.dt} / settings.substeps;
     const double budget = dampingBudget(budgetOf(terms), double{settings.theta}, h);
     double sum = 0, damping = 0;
-    std::uint32_t softest = nobody;
+    StiffnessOfBodies bodies(scene);
     terms.forEach([&](const Term& term) {
         if (term.isRigid) return;
         const double reached = model.reached(term, h);
+        const bool isSoft = reached < 1 - double{settings.tolerance} - rounding;
         ++report.elastic;
         report.clamped += terms.isSplit() && reached < 1 - rounding;
-        report.soft += reached < 1 - double{settings.tolerance} - rounding;
-        if (reached < report.softest) {
-            report.softest = reached;
-            softest = term.particle;
-        }
+        report.soft += isSoft;
+        report.softest = std::min(report.softest, reached);
+        bodies.add(term.particle, reached, isSoft);
         sum += reached;
         // of a link's c = k dampingTime, h c D is at most the budget
         const double most = budget * term.clamp / double{settings.omega} / (term.stiffness * h);
@@ -311,7 +336,7 @@ StiffnessReport inspectStiffness(const Scene& scene, const Settings& asked) {
                                    : double{scene.dampingTime} / (1 + double{scene.dampingTime} * implicit);
     });
     if (report.elastic == 0) return report;
-    report.softestBody = bodyOf(scene, softest);
+    report.bodies = bodies.finish();
     report.mean = sum / static_cast<double>(report.elastic);
     report.dampingTime = damping / static_cast<double>(report.elastic);
     report.neededSubsteps = neededFor(scene, settings, load);

@@ -6,19 +6,26 @@
 
 namespace sinew::sim {
 
+/// The part of a StiffnessReport that one body has.
+struct BodyStiffness {
+    std::string name; ///< of the body
+    std::size_t elastic = 0, soft = 0;
+    double softest = 1, mean = 1;
+};
+
 /// The stiffness k_eff that the links (and bends, and volumes of cells) with a compliance really have in
 /// substeps of h = dt / substeps:
 ///   split         min(k, k~ min(tau_a, tau_b) / h^2), see solvers/shares.hpp; exact
-///   gauss_seidel  1 / (1/k + h^2 (w_a + w_b)); a model, of one sweep a substep
-///   jacobi        s_m / (1/k + h^2 (w_a + w_b)), s_m = 1 - (1 - s)^iterations; a model, s = the share a
-///                 particle takes of a correction
+///   gauss_seidel  k (1 - (1 - r)^iterations), r = 1 / (1 + k h^2 (w_a + w_b)); a model of one link that
+///                 others pull back to where it was after each sweep
+///   jacobi        k (1 - (1 - s r)^iterations); likewise, s = the share a particle takes of a correction
 struct StiffnessReport {
-    std::size_t elastic = 0;      ///< constraints with a compliance and an end that moves
-    std::size_t clamped = 0;      ///< `split`: those with k_eff < k; other solvers have no clamp
-    std::size_t soft = 0;         ///< those with k_eff < (1 - tolerance) k
-    double softest = 1, mean = 1; ///< of k_eff / k
-    std::string softestBody;      ///< name of the body of the softest; empty in a scene of one
-    /// With which 1 - k_eff / k is at most the tolerance for all; 0 = with no number, since the s_m of
+    std::size_t elastic = 0;           ///< constraints with a compliance and an end that moves
+    std::size_t clamped = 0;           ///< `split`: those with k_eff < k; other solvers have no clamp
+    std::size_t soft = 0;              ///< those with k_eff < (1 - tolerance) k
+    double softest = 1, mean = 1;      ///< of k_eff / k
+    std::vector<BodyStiffness> bodies; ///< those with such constraints, in the order of Scene::bodies
+    /// With which 1 - k_eff / k is at most the tolerance for all; 0 = with no number, since the shares of
     /// `jacobi` alone exceed it.
     std::uint32_t neededSubsteps = 1;
     double dampingTime = 0; ///< of the scene's, what a step of scene.dt has [s]
@@ -59,9 +66,9 @@ inline constexpr double dragTolerance = 0.05;
 std::uint32_t dragSubsteps(const Scene& scene);
 
 /// Where settings.substeps is 0: the smallest number with which, at scene.dt,
-/// - every elastic link has k_eff >= (1 - tolerance) k; where the s_m of `jacobi` alone is below 1 -
-/// tolerance,
-///   which no substep changes, k_eff >= (1 - tolerance) s_m k, and toText() says so,
+/// - every elastic link has k_eff >= (1 - tolerance) k; where the share s_m = 1 - (1 - s)^iterations of
+///   `jacobi` alone is below 1 - tolerance, which no substep changes, k_eff >= (1 - tolerance) s_m k, and
+///   toText() says so,
 /// - every rigid link stretches by at most tolerance x its length under the weight that hangs on it: on
 ///   particles that never move, on attachments, or on colliders below it (stiffness/tensions.hpp; bodies that
 ///   hang on nothing ask for nothing),

@@ -128,10 +128,15 @@ TEST(Substeps, GrowWithFrameTimeStiffnessAndLightness) {
 }
 
 TEST(Substeps, KeepEveryElasticLinkWithinTheTolerance) {
-    for (const Solver solver : {Solver::split, Solver::jacobi}) {
+    struct Case {
+        Solver solver;
+        std::uint32_t iterations;
+    };
+    for (const auto& [solver, iterations] : {Case{Solver::split, 1}, Case{Solver::jacobi, 200},
+                                             Case{Solver::gaussSeidel, 1}, Case{Solver::gaussSeidel, 4}}) {
         for (const float tolerance : {0.01f, 0.05f, 0.2f}) {
-            const Scene scene = test::block(4, 0.05f, 1e5f);
-            Settings settings{.solver = solver, .tolerance = tolerance, .iterations = 200};
+            const Scene scene = test::block(4, 0.05f, 1e6f);
+            Settings settings{.solver = solver, .tolerance = tolerance, .iterations = iterations};
             settings.substeps = chooseSubsteps(scene, settings).substeps;
             const StiffnessReport report = inspectStiffness(scene, settings);
             EXPECT_GE(report.softest, 1 - double{tolerance} - 1e-5) << solverName(solver) << ' ' << tolerance;
@@ -181,15 +186,60 @@ TEST(Substeps, AreNotSaidToMendWhatAveragingLeaves) {
     EXPECT_GT(inspectStiffness(scene, weighted).neededSubsteps, 0u);
 }
 
+// The model is of one link that others pull back: a chain of few masses is at least as stiff as it says, and
+// not much stiffer.
+TEST(Substeps, OfMoreSweepsAreAsStiffAsReported) {
+    const Scene scene = dampedChain(4, 1e-4f);
+    const double asked = 0.01 * 9.81 * (4 + 3 + 2 + 1) * 1e-4;
+    for (const Solver solver : {Solver::gaussSeidel, Solver::jacobi}) {
+        double before = 0;
+        for (const std::uint32_t iterations : {1u, 2u, 4u, 16u, 64u}) {
+            const Settings settings{
+                .solver = solver, .substeps = 4, .iterations = iterations, .warmStart = 0};
+            const StiffnessReport report = inspectStiffness(scene, settings);
+            const double shown = asked / stretchOf(scene, settings);
+            EXPECT_GT(report.mean, before) << solverName(solver) << ' ' << iterations;
+            EXPECT_LT(report.mean, 1.05 * shown) << solverName(solver) << ' ' << iterations;
+            EXPECT_GT(report.mean, 0.4 * shown) << solverName(solver) << ' ' << iterations;
+            before = report.mean;
+        }
+    }
+}
+
+// Each body has figures of its own, which add up to those of the scene.
+TEST(Substeps, ReportTheStiffnessOfEachBody) {
+    Scene scene = test::block(4, 0.05f, 1e7f);
+    const auto firstParticle = static_cast<std::uint32_t>(scene.particles.size());
+    addLattice(scene, {.name = "soft", .cells = {5, 5, 5}, .spacing = 0.05f, .youngModulus = 1e4f});
+    scene.bodies = {{.name = "stiff", .particleCount = firstParticle},
+                    {.name = "soft",
+                     .firstParticle = firstParticle,
+                     .particleCount = static_cast<std::uint32_t>(scene.particles.size()) - firstParticle}};
+    const StiffnessReport report = inspectStiffness(scene, {.substeps = 16});
+    ASSERT_EQ(report.bodies.size(), 2u);
+    const BodyStiffness &stiff = report.bodies[0], &soft = report.bodies[1];
+    EXPECT_EQ(stiff.name, "stiff");
+    EXPECT_EQ(stiff.soft, stiff.elastic);
+    EXPECT_LT(stiff.softest, 0.5);
+    EXPECT_EQ(soft.soft, 0u);
+    EXPECT_EQ(soft.mean, 1);
+    EXPECT_EQ(stiff.elastic + soft.elastic, report.elastic);
+    EXPECT_EQ(stiff.soft, report.soft);
+    EXPECT_EQ(stiff.softest, report.softest);
+    EXPECT_LT(2 * report.soft, report.elastic) << "half of the scene is not the measure";
+}
+
 // What the iterations leave of a tolerance is what the substeps have.
 TEST(Substeps, GrowWhereAveragingLeavesLessOfTheTolerance) {
     const Scene scene = dampedChain(5, 1e-4f);
-    // 1/2 is left of a correction after each sweep: 1/32 of 0.05 after five, 1/1024 after ten
+    // A sweep does s r of what is left, s = 1/2 and r = 1 / (1 + c h^2); n of them all but 0.05 where
+    // 1 - s r is the n-th root of 0.05.
+    const auto excess = [](double n) { return 0.5 / (1 - std::pow(0.05, 1 / n)) - 1; };
     const Settings few{.solver = Solver::jacobi, .iterations = 5},
         many{.solver = Solver::jacobi, .iterations = 10};
     EXPECT_GT(chooseSubsteps(scene, few).wanted, chooseSubsteps(scene, many).wanted);
     EXPECT_NEAR(chooseSubsteps(scene, few).wanted / double(chooseSubsteps(scene, many).wanted),
-                std::sqrt((0.05 - 1.0 / 1024) / (0.05 - 1.0 / 32)), 0.05);
+                std::sqrt(excess(10) / excess(5)), 0.05);
     EXPECT_FALSE(chooseSubsteps(scene, {.solver = Solver::jacobi, .iterations = 4}).isReachable);
 }
 

@@ -4,7 +4,6 @@
 #include "sim/compile.hpp"
 #include "sim/stiffness/tensions.hpp"
 
-#include <cmath>
 #include <numeric>
 
 namespace sinew::sim::stiffness {
@@ -31,10 +30,9 @@ double splitOfBend(const Load& load, const BendConstraint& c) {
     return end(c.a) + 4 * end(c.b) + end(c.c);
 }
 
-double shareAfter(const Settings& settings, std::uint32_t mostConstraints) {
+double shareOfSweep(const Settings& settings, std::uint32_t mostConstraints) {
     const double weight = settings.weight > 0 ? double{settings.weight} : 1.0 / std::max(1u, mostConstraints);
-    const double share = std::min(1.0, double{settings.overRelaxation} * weight);
-    return 1 - std::pow(1 - share, settings.iterations);
+    return std::min(1.0, double{settings.overRelaxation} * weight);
 }
 
 Load loadOf(const Scene& scene, double tolerance) {

@@ -7,18 +7,26 @@
 #include "sim/solvers/shares.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <initializer_list>
 #include <vector>
 
 namespace sinew::sim::stiffness {
 
+// What is done of 1 after `sweeps` that each do a share of what is left.
+inline double shareAfter(double share, double sweeps) {
+    return -std::expm1(sweeps * std::log1p(-share));
+}
+
 // What the rules need of a constraint.
 struct Term {
     double stiffness = 0;   // [N/m]; of a rigid one what its load asks for, 0 = nothing
     double clamp = 0;       // `split`: k h^2 at most [kg]
     double inverseMass = 0; // sum of w |grad|^2 [1/kg]
-    double share = 1;       // `jacobi`: of its correction, after all iterations
+    double sweepShare = 1;  // `jacobi`: of its correction, in one sweep
+    std::uint32_t sweeps = 1;
+    double share() const { return shareAfter(sweepShare, sweeps); } // after all sweeps
     bool isRigid = false;
     std::uint32_t particle = 0; // one of its ends
 };
@@ -50,8 +58,8 @@ double clampOfLink(const solvers::Shares& shares, const Scene& scene, std::size_
 
 double splitOfBend(const Load& load, const BendConstraint& c);
 
-// What is left of 1 after `iterations` in which the slower end takes a share of each correction.
-double shareAfter(const Settings& settings, std::uint32_t mostConstraints);
+// What the slower end takes of a correction in one sweep.
+double shareOfSweep(const Settings& settings, std::uint32_t mostConstraints);
 
 // How `split` divides the particles; settings.substeps is a number. Other solvers divide nothing.
 solvers::Shares sharesFor(const Scene& scene, const Settings& settings, const Load& load);
@@ -65,8 +73,9 @@ struct Terms {
 
     bool isSplit() const { return settings.solver == Solver::split; }
     double shareAmong(std::initializer_list<std::uint32_t> ends) const {
-        return settings.solver == Solver::jacobi ? shareAfter(settings, load.mostConstraints(ends)) : 1;
+        return settings.solver == Solver::jacobi ? shareOfSweep(settings, load.mostConstraints(ends)) : 1;
     }
+    std::uint32_t sweeps() const { return isSplit() ? 1 : settings.iterations; }
 
     template <typename Visit> void forEachLink(const Visit& visit) const {
         for (std::size_t i = 0; i < scene.distances.size(); ++i) {
@@ -74,7 +83,8 @@ struct Terms {
             if (!canMove(load, {c.a, c.b})) continue;
             Term term{.clamp = isSplit() ? clampOfLink(shares, scene, i) : 0,
                       .inverseMass = double{load.inverseMass[c.a]} + double{load.inverseMass[c.b]},
-                      .share = shareAmong({c.a, c.b}),
+                      .sweepShare = shareAmong({c.a, c.b}),
+                      .sweeps = sweeps(),
                       .isRigid = c.compliance == 0,
                       .particle = c.a};
             if (!term.isRigid)
@@ -93,7 +103,8 @@ struct Terms {
                        .clamp = omega / splitOfBend(load, c),
                        .inverseMass = double{load.inverseMass[c.a]} + 4 * double{load.inverseMass[c.b]} +
                                       double{load.inverseMass[c.c]},
-                       .share = shareAmong({c.a, c.b, c.c}),
+                       .sweepShare = shareAmong({c.a, c.b, c.c}),
+                       .sweeps = sweeps(),
                        .particle = c.b});
         }
     }
