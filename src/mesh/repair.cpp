@@ -3,13 +3,17 @@
 #include "mesh/repair.hpp"
 
 #include "mesh/disjoint_sets.hpp"
+#include "mesh/point_tree.hpp"
 #include "mesh/repair_steps.hpp"
 #include "mesh/vector3.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
+#include <numeric>
+#include <optional>
 #include <tuple>
 
 namespace sinew::mesh {
@@ -150,30 +154,82 @@ void count(Repairs& report) {
     }
 }
 
-/// The positions of a mesh, to ask for.
-class Positions {
+constexpr Places RepairPlaces::*placeKinds[] = {&RepairPlaces::joined, &RepairPlaces::split,
+                                                &RepairPlaces::removed, &RepairPlaces::turnedTriangles,
+                                                &RepairPlaces::turnedParts};
+
+bool isBefore(const Vec3& a, const Vec3& b) {
+    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+/// Moves places to the nearest vertices of the result, where later steps have joined or removed those that
+/// they were.
+class Settler {
 public:
-    explicit Positions(const TriangleMesh& mesh) : all_(mesh.positions) { std::ranges::sort(all_, isBefore); }
-    bool has(const Vec3& place) const { return std::ranges::binary_search(all_, place, isBefore); }
-    Places among(const Places& places) const {
-        Places found;
-        std::ranges::copy_if(places, std::back_inserter(found),
-                             [&](const Vec3& place) { return has(place); });
-        return found;
+    Settler(const TriangleMesh& result, double tolerance)
+        : mesh_(result), sorted_(result.positions), radius_(std::max(tolerance, 1e-6 * sizeOf(result))) {
+        std::ranges::sort(sorted_, isBefore);
+    }
+    void settle(Vec3& place) {
+        if (sorted_.empty() || std::ranges::binary_search(sorted_, place, isBefore)) return;
+        if (!tree_) {
+            std::vector<std::uint32_t> all(mesh_.positions.size());
+            std::iota(all.begin(), all.end(), 0u);
+            tree_.emplace(mesh_.positions, all);
+        }
+        const Vector3 from = toVector(place);
+        std::vector<std::uint32_t> near;
+        for (double radius = radius_; near.empty() && std::isfinite(radius); radius *= 4)
+            tree_->findNear(from, from, radius, near);
+        if (near.empty()) return;
+        place = mesh_.positions[*std::ranges::min_element(near, {}, [&](std::uint32_t vertex) {
+            return (toVector(mesh_.positions[vertex]) - from).squaredNorm();
+        })];
     }
 
 private:
-    static bool isBefore(const Vec3& a, const Vec3& b) {
-        return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-    }
-    std::vector<Vec3> all_;
+    const TriangleMesh& mesh_;
+    std::vector<Vec3> sorted_;
+    double radius_;
+    std::optional<PointTree> tree_;
 };
 
-// Lids may have closed it on both sides, so that the part itself shows no seam.
-WideSeam seamIn(const Positions& positions, const WideSeam& whole) {
-    WideSeam seam{.weld = whole.weld};
-    std::ranges::copy_if(whole.pairs, std::back_inserter(seam.pairs), [&](const std::array<Vec3, 2>& pair) {
-        return positions.has(pair[0]) && positions.has(pair[1]);
+const Vec3& placeOf(const std::array<Vec3, 2>& pair) {
+    return pair[0];
+}
+
+/// repairsOf() looks places up.
+void sortPlaces(Repairs& report) {
+    for (const auto kind : placeKinds) std::ranges::sort(report.places.*kind, isBefore);
+    std::ranges::stable_sort(report.places.holes, isBefore, &ClosedHole::place);
+    std::ranges::stable_sort(report.seam.pairs, isBefore, placeOf);
+}
+
+void settlePlaces(const TriangleMesh& result, Repairs& report) {
+    Settler settler(result, report.tolerance);
+    for (const auto kind : placeKinds)
+        for (Vec3& place : report.places.*kind) settler.settle(place);
+    for (ClosedHole& hole : report.places.holes) settler.settle(hole.place);
+    for (std::array<Vec3, 2>& pair : report.seam.pairs)
+        for (Vec3& place : pair) settler.settle(place);
+}
+
+/// Those of sorted `places` that are at one of sorted `positions`.
+template <typename Place, typename Of>
+std::vector<Place> among(const std::vector<Vec3>& positions, const std::vector<Place>& places, const Of& of) {
+    std::vector<Place> found;
+    if (places.empty()) return found;
+    for (const Vec3& position : positions)
+        std::ranges::copy(std::ranges::equal_range(places, position, isBefore, of),
+                          std::back_inserter(found));
+    return found;
+}
+
+/// Lids may have closed it on both sides, so that the part itself shows no seam. `positions` are sorted.
+WideSeam seamIn(const std::vector<Vec3>& positions, const WideSeam& whole) {
+    WideSeam seam{.weld = whole.weld, .pairs = among(positions, whole.pairs, placeOf)};
+    std::erase_if(seam.pairs, [&](const std::array<Vec3, 2>& pair) {
+        return !std::ranges::binary_search(positions, pair[1], isBefore);
     });
     if (seam.pairs.empty()) return {};
     seam.edges = whole.edges * seam.pairs.size() / whole.pairs.size();
@@ -202,9 +258,13 @@ TriangleMesh repair(TriangleMesh mesh, Repair how, MeshDefects& defects, Repairs
     if (trial.defects().boundaryEdges > 0) closeHoles(trial.mesh(), false, report);
     if (how != Repair::none) findWideSeam(trial.mesh(), trial.defects(), Seams::all, report);
     TriangleMesh result = std::move(trial.mesh());
-    if (!report.isAny()) return result;
     MeshDefects left;
-    result = weld(result, left);
+    if (report.isAny()) {
+        result = weld(result, left);
+        settlePlaces(result, report);
+    }
+    sortPlaces(report);
+    if (!report.isAny()) return result;
     defects.boundaryEdges = left.boundaryEdges;
     defects.nonManifoldEdges = left.nonManifoldEdges;
     defects.flippedEdges = left.flippedEdges;
@@ -212,13 +272,15 @@ TriangleMesh repair(TriangleMesh mesh, Repair how, MeshDefects& defects, Repairs
 }
 
 Repairs repairsOf(const TriangleMesh& part, const Repairs& whole) {
-    const Positions positions(part);
+    std::vector<Vec3> positions = part.positions;
+    std::ranges::sort(positions, isBefore);
+    const auto same = std::ranges::unique(
+        positions, [](const Vec3& a, const Vec3& b) { return !isBefore(a, b) && !isBefore(b, a); });
+    positions.erase(same.begin(), same.end());
     Repairs report{.how = whole.how, .tolerance = whole.tolerance};
-    for (Places RepairPlaces::*kind : {&RepairPlaces::joined, &RepairPlaces::split, &RepairPlaces::removed,
-                                       &RepairPlaces::turnedTriangles, &RepairPlaces::turnedParts})
-        report.places.*kind = positions.among(whole.places.*kind);
-    std::ranges::copy_if(whole.places.holes, std::back_inserter(report.places.holes),
-                         [&](const ClosedHole& hole) { return positions.has(hole.place); });
+    for (const auto kind : placeKinds)
+        report.places.*kind = among(positions, whole.places.*kind, std::identity());
+    report.places.holes = among(positions, whole.places.holes, &ClosedHole::place);
     count(report);
     MeshDefects defects;
     TriangleMesh open = weld(part, defects);

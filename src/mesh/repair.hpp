@@ -38,7 +38,7 @@ struct OpenHole {
     Vec3 middle;    ///< mean of its vertices
 };
 
-/// Positions of vertices of the repaired mesh, one for each repair of a kind.
+/// Positions of vertices of the repaired mesh, one for each repair of a kind, ascending by x, y and z.
 using Places = std::vector<Vec3>;
 
 /// Positions of two vertices each.

@@ -60,6 +60,44 @@ TEST(Repair, OfAPartIsWhatWasDoneInItsTriangles) {
     EXPECT_EQ(sentencesOf(repairsOf(whole.mesh, whole.report)), sentencesOf(whole.report));
 }
 
+// Vertices that one step names may be joined, or lose their triangles, in a later one.
+TEST(Repair, IsPlacedAtVerticesOfTheResult) {
+    TriangleMesh flap = generate("sphere", 24); // a sliver that hangs on nothing, with a fin
+    const auto n = static_cast<std::uint32_t>(flap.positions.size());
+    flap.positions.insert(flap.positions.end(), {{3, 0, 0}, {3.000001f, 0, 0}, {3, 1e-6f, 0}, {8, 8, 8}});
+    flap.triangles.push_back({n, n + 1, n + 2});
+    flap.triangles.push_back({flap.triangles[0][0], flap.triangles[0][1], n + 3});
+    TriangleMesh junctions = soup(generate("sphere", 24), 1e-7);
+    addJunction(junctions, 3, 0, 0.5);
+    addJunction(junctions, 9, 1, 0.25);
+    for (const TriangleMesh& mesh : {flap, junctions, soup(flap, 1e-7), without(junctions, {7, 50})}) {
+        const Result result = repaired(mesh);
+        ASSERT_TRUE(result.report.isAny());
+        const auto isVertex = [&](const Vec3& place) {
+            return std::ranges::any_of(result.mesh.positions, [&](const Vec3& x) {
+                return x.x == place.x && x.y == place.y && x.z == place.z;
+            });
+        };
+        const RepairPlaces& places = result.report.places;
+        for (const Places& kind : {places.joined, places.split, places.removed, places.turnedTriangles})
+            for (const Vec3& place : kind) EXPECT_TRUE(isVertex(place)) << place.x << ' ' << place.y;
+        for (const ClosedHole& hole : places.holes) EXPECT_TRUE(isVertex(hole.place));
+    }
+}
+
+TEST(Repair, OfManyPartsAddsUpToThatOfTheWhole) {
+    const TriangleMesh holed = without(generate("sphere", 8), {7});
+    TriangleMesh all;
+    constexpr int count = 300;
+    for (int part = 0; part < count; ++part)
+        all = joined(all, moved(holed, {2 * static_cast<float>(part), 0, 0}));
+    const Result whole = repaired(all);
+    std::size_t holes = 0;
+    for (const Component& component : components(whole.mesh))
+        holes += repairsOf(extract(whole.mesh, component), whole.report).closedHoles;
+    EXPECT_EQ(holes, std::size_t{count});
+}
+
 namespace {
 
 /// The triangles of a sphere whose middle is above `height`, lifted by `gap`, and those below.
