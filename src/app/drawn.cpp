@@ -3,6 +3,7 @@
 #include "app/drawn.hpp"
 
 #include "sim/compile.hpp"
+#include "sim/counted.hpp"
 
 #include <algorithm>
 #include <set>
@@ -197,9 +198,9 @@ PieceCount countPieces(const sim::Scene& scene, const Drawn& drawn, std::size_t 
 
 std::string toText(const PieceCount& count) {
     if (!count.isCounted) return "pieces were not counted";
-    std::string text = std::to_string(count.pieces) + " pieces";
+    std::string text = sim::counted(count.pieces, "piece");
     if (count.fragments > 0)
-        text += " and " + std::to_string(count.fragments) + " fragments without a surface";
+        text += " and " + sim::counted(count.fragments, "fragment") + " without a surface";
     return text;
 }
 

@@ -1,14 +1,14 @@
 // The report of repair() in sentences.
 #include "mesh/repair.hpp"
 
+#include "sim/counted.hpp"
+
 #include <cstdio>
 
 namespace sinew::mesh {
 namespace {
 
-std::string counted(std::size_t count, const char* one, const char* many) {
-    return std::to_string(count) + " " + (count == 1 ? one : many);
-}
+using sim::counted;
 
 const char* wasOrWere(std::size_t count) {
     return count == 1 ? " was " : " were ";
@@ -44,8 +44,8 @@ std::string openText(const Repairs& report) {
     std::string text = counted(report.openEdges, "boundary edge", "boundary edges");
     if (report.openHoles == 0) return text;
     const OpenHole& hole = report.largest;
-    return text + " around " + counted(report.openHoles, "hole", "holes") + ", the largest with " +
-           std::to_string(hole.edges) + " edges and a rim of " + shortNumber(hole.rim) +
+    return text + " around " + counted(report.openHoles, "hole") + ", the largest with " +
+           counted(hole.edges, "edge") + " and a rim of " + shortNumber(hole.rim) +
            " in units of the file around (" + shortNumber(double{hole.middle.x}) + ", " +
            shortNumber(double{hole.middle.y}) + ", " + shortNumber(double{hole.middle.z}) + ")";
 }

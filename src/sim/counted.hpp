@@ -7,7 +7,8 @@
 
 namespace sinew::sim {
 
-/// "1 piece", "2 pieces": `many` is what more than one and none are called, `one` with an s where it is empty.
+/// "1 piece", "2 pieces": `many` is what more than one and none are called, `one` with an s where it is
+/// empty.
 inline std::string counted(std::uint64_t count, std::string_view one, std::string_view many = {}) {
     std::string text = std::to_string(count) + " ";
     if (count == 1) return text.append(one);

@@ -1,6 +1,7 @@
 // Every rule works on one list of terms (stiffness/terms.hpp), so that a solver is a row of a table here and
 // a constraint a loop there.
 #include "sim/substeps.hpp"
+#include "sim/counted.hpp"
 
 #include "sim/collision/face_contacts.hpp"
 #include "sim/collision/loads.hpp"
@@ -346,10 +347,9 @@ StiffnessReport inspectStiffness(const Scene& scene, const Settings& asked) {
 std::string toText(const SubstepChoice& choice, const Settings& settings) {
     const std::string percent = std::to_string(std::lround(100 * double{settings.tolerance})) + " %";
     if (!choice.isReachable)
-        return std::to_string(choice.substeps) +
-               " substeps: no number of substeps reaches the tolerance of " + percent + ", " +
-               std::to_string(settings.iterations) + " iterations give a link " +
-               std::to_string(std::lround(100 * choice.share)) +
+        return counted(choice.substeps, "substep") + ": no number of substeps reaches the tolerance of " +
+               percent + ", " + counted(settings.iterations, "iteration gives", "iterations give") +
+               " a link " + std::to_string(std::lround(100 * choice.share)) +
                " % of its stiffness at most; use weight or iterations";
     const std::string body = choice.body.empty() ? "" : ", body \"" + choice.body + "\" decides";
     std::string why;
@@ -383,7 +383,7 @@ std::string toText(const SubstepChoice& choice, const Settings& settings) {
               percent + body;
         break;
     }
-    return std::to_string(choice.substeps) + " substeps: " + why;
+    return counted(choice.substeps, "substep") + ": " + why;
 }
 
 } // namespace sinew::sim

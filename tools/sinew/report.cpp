@@ -3,6 +3,7 @@
 
 #include "sim/collision/particle_contacts.hpp"
 #include "sim/compile.hpp"
+#include "sim/counted.hpp"
 #include "sinew/json.hpp"
 
 #include <fmt/format.h>
@@ -271,44 +272,48 @@ std::string stiffnessText(const scenes::LoadedScene& loaded) {
 // Of what was removed.
 std::string crumbsText(const CutFigures& cuts) {
     if (cuts.crumbs == 0) return {};
-    return fmt::format(", {} removed with {} particles, {:.3g} kg", cuts.crumbs, cuts.crumbParticles,
-                       cuts.crumbMass);
+    return fmt::format(", {} removed with {}, {:.3g} kg", cuts.crumbs,
+                       sim::counted(cuts.crumbParticles, "particle"), cuts.crumbMass);
 }
 
 std::string toText(const RunRecord& record) {
     const sim::Settings& settings = record.loaded.settings;
-    std::string text = fmt::format("{}: {} particles, {} constraints, {} with {} substeps, on {} ({})\n",
-                                   record.loaded.scene.name, record.program.particleCount,
-                                   record.program.constraintCount, sim::solverName(settings.solver),
-                                   settings.substeps, record.device.name, record.device.type);
+    std::string text = fmt::format(
+        "{}: {}, {}, {} with {}, on {} ({})\n", record.loaded.scene.name,
+        sim::counted(record.program.particleCount, "particle"),
+        sim::counted(record.program.constraintCount, "constraint"), sim::solverName(settings.solver),
+        sim::counted(settings.substeps, "substep"), record.device.name, record.device.type);
     if (const auto frame = summarise(record.frameMs))
-        text += fmt::format("{} steps: {:.2f} ms each (median), {:.2f} ms at most in 99 %\n", record.frames,
-                            frame->p50, frame->p99);
+        text += fmt::format("{}: {:.2f} ms each (median), {:.2f} ms at most in 99 %\n",
+                            sim::counted(record.frames, "step"), frame->p50, frame->p99);
     text += stiffnessText(record.loaded);
     const Errors errors = measure(record.loaded.scene, record.state, record.skins.whole, record.frames);
     if (errors.strainRms)
         text += fmt::format("strain: {:.3g} % rms, {:.3g} % at most\n", 100 * *errors.strainRms,
                             100 * *errors.strainMax);
-    if (errors.volume) text += fmt::format("volume: {:+.3g} %\n", 100 * *errors.volume);
+    if (errors.volume)
+        text += fmt::format("volume: {:+.3g} %{}\n", 100 * *errors.volume,
+                            *errors.volume < -1 ? ", inside out" : "");
     if (errors.penetrationMax)
         text += fmt::format("deepest penetration: {:.3g} mm\n", 1000 * *errors.penetrationMax);
     if (errors.penetrationRms)
         text += fmt::format("overlap of touching particles: {:.3g} mm rms\n", 1000 * *errors.penetrationRms);
     if (record.contactRoom.grown > 0)
-        text += fmt::format("room for contacts: grown {} times, to {}\n", record.contactRoom.grown,
-                            record.contactRoom.room);
+        text += fmt::format("room for contacts: grown {}, to {}\n",
+                            sim::counted(record.contactRoom.grown, "time"), record.contactRoom.room);
     if (record.surfaceRoom.grown > 0)
-        text += fmt::format("room for the surface of cuts: grown {} times, {} triangles were needed\n",
-                            record.surfaceRoom.grown, record.surfaceRoom.needed);
+        text += fmt::format("room for the surface of cuts: grown {}, {} triangles were needed\n",
+                            sim::counted(record.surfaceRoom.grown, "time"), record.surfaceRoom.needed);
     if (const Json sleeping = sleepJson(record); !sleeping.is_null())
-        text += fmt::format("asleep: {} particles, {} whole bodies\n",
-                            sleeping["particles"].get<std::size_t>(), sleeping["bodies"].get<std::size_t>());
+        text += fmt::format(
+            "asleep: {}, {}\n", sim::counted(sleeping["particles"].get<std::size_t>(), "particle"),
+            sim::counted(sleeping["bodies"].get<std::size_t>(), "whole body", "whole bodies"));
     if (record.program.cutting.counts != sim::BufferId{})
-        text += fmt::format("cut: {} links, {}{}\n", record.cuts.links, app::toText(record.skins.count),
-                            crumbsText(record.cuts));
+        text += fmt::format("cut: {}, {}{}\n", sim::counted(record.cuts.links, "link"),
+                            app::toText(record.skins.count), crumbsText(record.cuts));
     text += fmt::format("state hash: {:016x}\n", stateHash(record.state));
     if (record.hasValidation)
-        text += fmt::format("validation: {} messages\n", record.validationMessages.size());
+        text += fmt::format("validation: {}\n", sim::counted(record.validationMessages.size(), "message"));
     return text;
 }
 

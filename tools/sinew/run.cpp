@@ -2,6 +2,7 @@
 #include "app/guard.hpp"
 #include "app/progress.hpp"
 #include "mesh/export.hpp"
+#include "sim/counted.hpp"
 #include "sim/gpu_tune.hpp"
 #include "sim/ranges.hpp"
 #include "sim/substeps.hpp"
@@ -116,8 +117,8 @@ void warnAboutRun(const RunRecord& record, std::vector<std::string>& warnings,
     };
     for (const std::string& complaint : complaints) warn(complaint);
     if (record.slowed > 0)
-        warn(std::to_string(record.slowed) +
-             " times a particle was slowed down, so that its contacts are found: momentum was lost, "
+        warn(sim::counted(record.slowed, "time") +
+             " a particle was slowed down, so that its contacts are found: momentum was lost, "
              "take more substeps");
     if (record.surfaceMissing > 0)
         warn("the cuts have a surface of " + std::to_string(record.surfaceMissing) +
@@ -148,8 +149,8 @@ int conclude(const RunRecord& record) {
             fmt::format("the simulation diverged: step {} ({:.4g} s): ", divergence->step,
                         static_cast<double>(divergence->step) * double{record.loaded.scene.dt}) +
                 body + "particle " + std::to_string(divergence->particle) + ": " +
-                std::to_string(divergence->count) +
-                " particles are not finite, the last finite state was kept: use more substeps, a lower "
+                sim::counted(divergence->count, "particle is", "particles are") +
+                " not finite, the last finite state was kept: use more substeps, a lower "
                 "omega or a softer material");
     }
     return record.isInterrupted ? app::reportInterruption() : app::done;
