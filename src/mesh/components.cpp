@@ -5,6 +5,7 @@
 #include "mesh/topology.hpp"
 #include "mesh/triangle_tree.hpp"
 #include "mesh/vector3.hpp"
+#include "sim/counted.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -12,6 +13,7 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <set>
 #include <unordered_map>
 
@@ -25,6 +27,7 @@ struct Surface {
     std::vector<std::uint32_t> triangles;
     Eigen::AlignedBox3d box;
     double volume = 0; ///< negative where it faces inward
+    double area = 0;
     bool isClosed = true;
     std::size_t cavities = 0;
 };
@@ -39,6 +42,7 @@ void measure(const TriangleMesh& mesh, Surface& surface) {
         const Vector3 x = toVector(mesh.positions[a]) - middle, y = toVector(mesh.positions[b]) - middle,
                       z = toVector(mesh.positions[c]) - middle;
         surface.volume += x.dot(y.cross(z)) / 6;
+        surface.area += (y - x).cross(z - x).norm() / 2;
     }
 }
 
@@ -63,6 +67,12 @@ std::vector<Surface> surfacesOf(const TriangleMesh& mesh) {
         if (sides.size() == 1) surfaces[numbers[sets.root(sides[0].low)]].isClosed = false;
     });
     return surfaces;
+}
+
+/// Whether its triangles face inward, by more than rounding, or than an open sheet that is hardly bent.
+bool isInward(const Surface& surface) {
+    const double ofSphere = std::pow(surface.area, 1.5) / (6 * std::sqrt(std::numbers::pi));
+    return surface.volume < -(surface.isClosed ? 1e-6 : 0.1) * ofSphere;
 }
 
 void sortByVolume(std::vector<Surface>& surfaces) {
@@ -183,6 +193,7 @@ std::vector<Component> components(const TriangleMesh& given) {
                           .triangles = std::move(surface.triangles),
                           .volume = std::abs(surface.volume),
                           .isClosed = surface.isClosed,
+                          .isInward = isInward(surface),
                           .cavities = surface.cavities});
     }
     return result;
@@ -191,11 +202,10 @@ std::vector<Component> components(const TriangleMesh& given) {
 std::string describe(const Component& component) {
     char volume[48];
     std::snprintf(volume, sizeof volume, "%.3g m^3", component.volume);
-    return "\"" + component.name + "\": " + std::to_string(component.triangles.size()) + " triangles, " +
+    return "\"" + component.name + "\": " + sim::counted(component.triangles.size(), "triangle") + ", " +
            (component.isClosed ? volume : "open") +
-           (component.cavities == 0   ? ""
-            : component.cavities == 1 ? ", 1 cavity"
-                                      : ", " + std::to_string(component.cavities) + " cavities");
+           (component.cavities == 0 ? "" : ", " + sim::counted(component.cavities, "cavity", "cavities")) +
+           (component.isInward ? ", inside out" : "");
 }
 
 std::vector<std::string> names(const TriangleMesh& mesh) {

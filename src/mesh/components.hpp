@@ -15,6 +15,7 @@ struct Component {
     std::vector<std::uint32_t> triangles; ///< indices, ascending
     double volume = 0;                    ///< enclosed, less the cavities [m^3]; a guess where it is open
     bool isClosed = false;                ///< no edge has one triangle alone
+    bool isInward = false; ///< it faces inward, and is no cavity; of an open one its volume is guessed
     std::size_t cavities = 0;
 };
 
@@ -22,7 +23,8 @@ struct Component {
 /// the numbers that they have in the whole mesh.
 std::vector<Component> components(const TriangleMesh& mesh);
 
-/// "\"liver\": 1200 triangles, 0.00143 m^3"; says where a component is open or has cavities.
+/// "\"liver\": 1200 triangles, 0.00143 m^3"; says where a component is open, has cavities or
+/// is inside out.
 std::string describe(const Component& component);
 
 /// All names that choose() knows: those of the objects, then "part 1", "part 2", ...

@@ -37,6 +37,8 @@ struct PlacedMesh {
     sim::Vec3 middle; ///< of its bounding box [m]
     std::string file; ///< as reports show it
     mesh::Repairs repairs;
+    std::vector<std::string> notes; ///< what follows the name of the mesh in them
+    std::string odd; ///< "is 190 m long: if the file is in millimetres ..."; empty where its size is usual
 };
 PlacedMesh placedMesh(const Section& section, const Source& source, const std::array<double, 3>& origin);
 /// All [[hold]] of a file: after the bodies that move, before those that do not.

@@ -2,13 +2,13 @@
 #include "scenes/bodies.hpp"
 #include "scenes/origin.hpp"
 #include "scenes/path.hpp"
+#include "scenes/sentences.hpp"
 
 #include "mesh/triangle_tree.hpp"
 #include "sim/holds.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 
 namespace sinew::scenes {
@@ -19,6 +19,7 @@ namespace {
 struct Place {
     sim::Gap gap;
     sim::Pose pose;
+    std::string odd = {}; ///< about the size of its mesh, where that is odd
 };
 
 struct ShapeKey {
@@ -57,12 +58,15 @@ sim::Gap nearMesh(const mesh::TriangleMesh& mesh, float within) {
     };
 }
 
-Place placeOf(const Section& hold, const Source& source, const std::array<double, 3>& origin) {
+Place placeOf(LoadedScene& loaded, const Section& hold, const Source& source) {
+    const std::array<double, 3>& origin = loaded.origin;
     const std::string shape = hold.text("shape");
     checkShapeKeys(hold, shape);
     if (shape == "mesh") {
         const PlacedMesh found = placedMesh(hold, source, origin);
-        return {nearMesh(found.mesh, hold.number("within")), {found.middle, rotationOf(hold)}};
+        for (const std::string& note : found.notes)
+            loaded.notes.push_back("hold \"" + hold.text("name") + "\", " + found.file + note);
+        return {nearMesh(found.mesh, hold.number("within")), {found.middle, rotationOf(hold)}, found.odd};
     }
     const sim::Pose pose{localPoint(hold, "center", origin), rotationOf(hold)};
     if (shape == "half_space") {
@@ -118,12 +122,6 @@ std::vector<std::size_t> bodiesOf(const Section& hold, const std::vector<sim::Bo
     return all;
 }
 
-std::string lengthText(double length) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g m", length);
-    return text;
-}
-
 struct Taken {
     std::vector<std::uint32_t> particles;
     double gap = INFINITY; ///< of the nearest particle [m]
@@ -138,13 +136,21 @@ Taken take(LoadedScene& loaded, const Section& hold, const sim::Gap& gap) {
         taken.particles.insert(taken.particles.end(), found.particles.begin(), found.particles.end());
         if (found.particles.empty() && hold.has("bodies"))
             loaded.warnings.push_back("hold \"" + hold.text("name") + "\" takes no particle of body \"" +
-                                      body.name + "\", the nearest is " + lengthText(found.gap) +
-                                      " outside of its " + hold.text("shape"));
+                                      body.name + "\", the nearest is " + atLeast(found.gap) +
+                                      " m outside of its " + hold.text("shape"));
         if (found.gap >= taken.gap) continue;
         taken.gap = found.gap;
         taken.nearest = body.name;
     }
     return taken;
+}
+
+// A forgotten unit puts a body and what is to hold it far apart: no other cure helps then.
+std::string cureOfUnits(const LoadedScene& loaded, const std::string& body, const std::string& oddHold) {
+    if (!oddHold.empty()) return "first, its mesh " + oddHold + "; then, ";
+    for (const MeshSummary& mesh : loaded.meshes)
+        if (mesh.body == body && !mesh.odd.empty()) return "first, the body " + mesh.odd + "; then, ";
+    return {};
 }
 
 // A particle of several holds goes along the path of one: those with a path stand first.
@@ -159,14 +165,14 @@ constexpr std::size_t nobody = ~std::size_t{0};
 
 void addHold(LoadedScene& loaded, const Section& hold, const Source& source,
              std::vector<std::string>& drivers, std::vector<std::size_t>& driverOf) {
-    const Place place = placeOf(hold, source, loaded.origin);
+    const Place place = placeOf(loaded, hold, source);
     Taken taken = take(loaded, hold, place.gap);
     const std::string name = hold.text("name"), shape = hold.text("shape");
     if (taken.particles.empty())
         hold.fail("shape",
                   "of hold \"" + name + "\" takes no particle: the nearest, of body \"" + taken.nearest +
-                      "\", is " + lengthText(taken.gap) + " outside of this " + shape,
-                  "move it there, or make it larger");
+                      "\", is " + atLeast(taken.gap) + " m outside of this " + shape,
+                  cureOfUnits(loaded, taken.nearest, place.odd) + "move it there, or make it larger");
     Path path = readPath(loaded, hold, place.pose);
     remember(loaded, name, taken.particles, !path.keyframes.empty());
     if (path.keyframes.empty()) {
@@ -187,12 +193,38 @@ void addHold(LoadedScene& loaded, const Section& hold, const Source& source,
     sim::drive(loaded.scene, std::move(taken.particles), std::move(path.keyframes), path.end);
 }
 
+// Notes which bodies cannot move on their own, since holds have all of their particles, with pins and clamps.
+void noteWhole(LoadedScene& loaded) {
+    std::vector<bool> isHeld(loaded.scene.particles.size()), isDriven(isHeld);
+    for (const sim::FixedConstraint& fixed : loaded.scene.fixed) isHeld[fixed.particle] = true;
+    for (const sim::DrivenBody& driven : loaded.scene.driven)
+        for (const std::uint32_t particle : driven.particles) isDriven[particle] = true;
+    const auto isAny = [](const std::vector<bool>& all, const sim::Body& body, bool is) {
+        const auto first = all.begin() + body.firstParticle;
+        return std::find(first, first + body.particleCount, is) != first + body.particleCount;
+    };
+    for (const sim::Body& body : loaded.scene.bodies) {
+        if (body.particleCount == 0 || isAny(isHeld, body, false)) continue;
+        std::string names;
+        for (const sim::NamedHold& hold : loaded.holds) {
+            const auto taken = std::ranges::lower_bound(hold.particles, body.firstParticle);
+            if (taken != hold.particles.end() && *taken - body.firstParticle < body.particleCount)
+                names += (names.empty() ? "" : ", ") + std::string("\"") + hold.name + "\"";
+        }
+        if (!names.empty())
+            loaded.notes.push_back(
+                "body \"" + body.name + "\" is held whole by hold " + names +
+                (isAny(isDriven, body, true) ? ": it moves along the path alone" : ": it cannot move"));
+    }
+}
+
 } // namespace
 
 void addHolds(LoadedScene& loaded, const Section& top, const Source& source) {
     std::vector<std::string> drivers;
     std::vector<std::size_t> driverOf(loaded.scene.particles.size(), nobody);
     for (const Section& hold : top.list("hold")) addHold(loaded, hold, source, drivers, driverOf);
+    noteWhole(loaded);
 }
 
 } // namespace sinew::scenes

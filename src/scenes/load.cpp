@@ -5,9 +5,12 @@
 #include "scenes/blades.hpp"
 #include "scenes/bodies.hpp"
 #include "scenes/built_in.hpp"
+#include "scenes/check_solver.hpp"
 #include "scenes/origin.hpp"
 #include "scenes/path.hpp"
+#include "scenes/sentences.hpp"
 #include "scenes/surface.hpp"
+#include "scenes/untouched.hpp"
 #include "sim/compile.hpp"
 #include "sim/counted.hpp"
 #include "sim/ranges.hpp"
@@ -165,6 +168,21 @@ void warnAboutSizes(LoadedScene& loaded) {
     }
 }
 
+// "dt = 0.0043": steps in which `substeps` are enough where `wanted` would be now; empty where none are so
+// short.
+std::string shorterSteps(const LoadedScene& loaded, std::uint32_t substeps, std::uint32_t wanted) {
+    const double dt = double{loaded.scene.dt} * substeps / wanted;
+    return dt < sim::ranges::dt.low ? "" : "dt = " + atMost(dt);
+}
+
+// That many, or what to do where they are more than may be asked for.
+std::string giveSubsteps(const LoadedScene& loaded, std::uint32_t count) {
+    constexpr auto most = static_cast<std::uint32_t>(sim::ranges::substeps.high);
+    if (count <= most) return sim::counted(count, "substep");
+    const std::string dt = shorterSteps(loaded, most, count);
+    return std::to_string(most) + " substeps" + (dt.empty() ? " of far shorter steps" : " with " + dt);
+}
+
 // A few links on light corners are no news; half of a body being too soft is. The stiffness of `jacobi` and
 // `gauss_seidel` is a model: only a body that is far too soft by it is worth a warning.
 constexpr double roughlyKept = 0.5;
@@ -188,19 +206,13 @@ void warnAboutStiffness(LoadedScene& loaded) {
     std::ranges::stable_sort(bodies, {}, &sim::BodyStiffness::softest);
     const std::string percent = std::to_string(std::lround(100 * double{settings.tolerance})) + " %";
     const std::string cure =
-        isReachable ? sim::counted(stiffness.neededSubsteps, "substep") + " would keep all within " + percent
+        isReachable ? giveSubsteps(loaded, stiffness.neededSubsteps) + " would keep all within " + percent
                     : "no number of substeps reaches " + percent + ", use weight or iterations";
     for (std::size_t b = 0; b < bodies.size() && b < mostNamed; ++b)
         loaded.warnings.push_back(softnessText(bodies[b], loaded.scene.bodies.size() > 1) + ": " + cure);
     if (bodies.size() > mostNamed)
         loaded.warnings.push_back("so are most elastic links of " +
                                   sim::counted(bodies.size() - mostNamed, "other body", "other bodies"));
-}
-
-// That many, or what to do where they are more than may be asked for.
-std::string giveSubsteps(std::uint32_t count) {
-    return count <= sim::ranges::substeps.high ? std::to_string(count) + " substeps"
-                                               : std::string("shorter steps (dt)");
 }
 
 // A tenth: some per cent are no news.
@@ -213,18 +225,19 @@ void warnAboutDrag(LoadedScene& loaded) {
     loaded.warnings.push_back(
         "damping is so strong for " + std::to_string(loaded.settings.substeps) +
         " substeps that what falls has a terminal speed some " + std::to_string(std::lround(100 * off)) +
-        " % off: " + giveSubsteps(sim::dragSubsteps(loaded.scene)) + " keep it within " +
+        " % off: " + giveSubsteps(loaded, sim::dragSubsteps(loaded.scene)) + " keep it within " +
         std::to_string(std::lround(100 * sim::dragTolerance)) + " %");
 }
 
 void warnAboutMostSubsteps(LoadedScene& loaded) {
     const sim::SubstepChoice& choice = loaded.substeps;
     if (choice.reason != sim::SubstepReason::most) return;
+    const std::string dt = shorterSteps(loaded, choice.substeps, choice.wanted);
     loaded.warnings.push_back("solver.substeps = \"auto\" stops at " + std::to_string(choice.substeps) +
                               ", " + std::to_string(choice.wanted) + " would keep the tolerance" +
                               (choice.body.empty() ? "" : " of body \"" + choice.body + "\"") + ": give " +
                               (choice.wanted <= sim::ranges::substeps.high ? "that number, " : "") +
-                              "shorter steps (dt), larger voxels or a softer material");
+                              (dt.empty() ? "" : dt + ", ") + "larger voxels or a softer material");
 }
 
 // Searches go there on purpose, and a lattice bears more than is proven: no reason to refuse.
@@ -251,14 +264,6 @@ void warnAboutSolver(LoadedScene& loaded) {
     warnAboutDrag(loaded);
 }
 
-void requireValid(const LoadedScene& loaded, const std::string& file) {
-    const std::vector<std::string> complaints = sim::validate(loaded.scene, loaded.settings);
-    if (complaints.empty()) return;
-    const std::string more =
-        complaints.size() == 1 ? "" : " and " + std::to_string(complaints.size() - 1) + " more";
-    fail(file, complaints.front(), "correct this" + more);
-}
-
 LoadedScene read(const std::string& text, const Source& source, const Overrides& overrides) {
     const toml::table table = parse(text, source.file);
     const Section top(table, "", "", source.file);
@@ -281,10 +286,12 @@ LoadedScene read(const std::string& text, const Source& source, const Overrides&
         loaded.camera = Camera{localPoint(camera, "eye", loaded.origin),
                                localPoint(camera, "target", loaded.origin), camera.number("field_of_view")};
     }
+    requireForms(loaded, source.file);
     requireValid(loaded, source.file);
     loaded.substeps = sim::chooseSubsteps(loaded.scene, loaded.settings);
     loaded.settings.substeps = loaded.substeps.substeps;
     warnAboutSizes(loaded);
+    warnOfUntouched(loaded, top);
     const std::vector<std::string> ofScene = sim::warnings(loaded.scene, loaded.settings);
     loaded.warnings.insert(loaded.warnings.end(), ofScene.begin(), ofScene.end());
     warnAboutSolver(loaded);

@@ -26,10 +26,12 @@ struct Camera {
 /// What a mesh body became, for reports.
 struct MeshSummary {
     std::string body, file;
+    std::string called;       ///< in sentences: `mesh liver.obj`, `mesh "left" (liver.obj)`
     mesh::MeshReport surface; ///< after repairs
     mesh::Repairs repairs;    ///< of the whole file
     mesh::VoxelGrid voxels;
     mesh::Shown shown = mesh::Shown::mesh;
+    std::string odd; ///< "is 190 m long: if the file is in millimetres ..."; empty where its size is usual
 };
 
 /// The edge of a blade, a poly-line, at certain times; in between it moves straight.

@@ -12,6 +12,7 @@
 #include "scenes/recovery.hpp"
 #include "scenes/surface.hpp"
 #include "sim/bodies.hpp"
+#include "sim/counted.hpp"
 
 #include <algorithm>
 
@@ -28,6 +29,7 @@ struct Found {
     mesh::MeshDefects defects;
     std::string file; // as reports show it
     mesh::Repairs repairs;
+    std::vector<std::string> notes; // what follows the name of the mesh
 };
 
 /// Resolves links first, so that none leads out of the folder.
@@ -67,6 +69,9 @@ Found import(const Section& section, const Source& source) {
     found.file = file.filename().string();
     found.mesh = mesh::importMesh(file, found.defects, {}, repairOf(section), &found.repairs,
                                   section.has("weld") ? section.value("weld") : 0);
+    const std::string vain =
+        section.has("weld") ? vainWeldText(found.repairs, section.value("weld")) : std::string();
+    if (!vain.empty()) found.notes.push_back(" " + vain);
     return found;
 }
 
@@ -98,8 +103,17 @@ Found find(const Section& section, const Source& source) {
     if (chooseObjects(found.mesh, section, found.file)) {
         found.defects = mesh::inspect(found.mesh).defects;
         found.repairs = mesh::repairsOf(found.mesh, found.repairs);
+        found.notes.push_back(": " + choiceText(found.mesh));
     }
     return found;
+}
+
+/// Notes and warnings of what a table has from its file.
+void sayFound(LoadedScene& loaded, const std::string& called, const mesh::Repairs& repairs,
+              const std::vector<std::string>& notes, bool hasParts) {
+    for (const std::string& note : notes) loaded.notes.push_back(called + note);
+    noteRepairs(loaded, called, repairs);
+    warnOfSeam(loaded, called, repairs, hasParts);
 }
 
 std::string nameOf(const Section& section, const Found& found) {
@@ -173,19 +187,20 @@ const MeshSummary& addBody(LoadedScene& loaded, const Section& section, const me
                      std::string("cannot be had: ") + error.what(), "move the body nearer to the origin");
     }
     const double mass = double{body.density} * double{loaded.scene.bodies.back().restVolume};
-    noteSize(loaded, "mesh " + summary.file, section, summary.surface,
+    summary.odd = oddSizeOf(section, summary.surface);
+    noteSize(loaded, summary.called, section, summary.surface,
              ", " + massText(mass) + ", " + voxelText(summary.voxels));
     warnOfDefects(summary, loaded.warnings);
     const double voxelEdge = double{summary.voxels.spacing};
     const std::string thin = thinText(mesh::wallThickness(mesh, thinnestShare), longest, voxelEdge,
                                       section.has("voxel") || section.has("particles"));
-    if (!thin.empty()) loaded.warnings.push_back("mesh " + summary.file + " " + thin);
+    if (!thin.empty()) loaded.warnings.push_back(summary.called + " " + thin);
     return loaded.meshes.emplace_back(std::move(summary));
 }
 
 /// A body for each component, all with the voxels that the whole mesh would have. `given` is the mesh before
 /// it was placed.
-void addApart(LoadedScene& loaded, const Section& section, const Found& found,
+void addApart(LoadedScene& loaded, const Section& section, const std::string& called, const Found& found,
               const mesh::TriangleMesh& given, const std::vector<mesh::Component>& components,
               mesh::MeshBody body) {
     if (components.size() > mostApart)
@@ -199,27 +214,30 @@ void addApart(LoadedScene& loaded, const Section& section, const Found& found,
         const mesh::TriangleMesh part = mesh::extract(found.mesh, component);
         MeshSummary summary{.body = nameOf(section, found) + "." + component.name,
                             .file = found.file + ", \"" + component.name + "\"",
+                            .called = called + ", \"" + component.name + "\"",
                             .repairs = mesh::repairsOf(mesh::extract(given, component), found.repairs)};
         summary.surface.defects = mesh::inspect(part).defects;
         addBody(loaded, section, part, body, std::move(summary), longest);
     }
 }
 
-void addJoined(LoadedScene& loaded, const Section& section, const Found& found,
+void addJoined(LoadedScene& loaded, const Section& section, const std::string& called, const Found& found,
                const std::vector<mesh::Component>& components, const mesh::MeshBody& body) {
-    MeshSummary summary{.body = nameOf(section, found), .file = found.file, .repairs = found.repairs};
+    MeshSummary summary{
+        .body = nameOf(section, found), .file = found.file, .called = called, .repairs = found.repairs};
     summary.surface.defects = found.defects;
     const MeshSummary& added = addBody(loaded, section, found.mesh, body, std::move(summary),
                                        longestSide(mesh::measure(found.mesh)));
-    noteComponents(loaded, "mesh " + found.file, components);
+    noteComponents(loaded, called, components);
+    const std::string inward = inwardText(components);
+    if (!inward.empty()) loaded.warnings.push_back(called + " " + inward);
     if (section.has("parts")) return;
     const mesh::Bridges between = mesh::findBridges(found.mesh, components, added.voxels);
-    for (const std::string& overlap : overlapTexts(between))
-        loaded.notes.push_back("mesh " + found.file + ": " + overlap);
+    for (const std::string& overlap : overlapTexts(between)) loaded.notes.push_back(called + ": " + overlap);
     const std::string bridges = bridgesText(between, double{added.voxels.spacing});
     if (!bridges.empty())
         loaded.warnings.push_back(
-            "mesh " + found.file + " " + bridges +
+            called + " " + bridges +
             ": parts = \"apart\" keeps them apart, parts = \"joined\" says that it is meant");
 }
 
@@ -232,15 +250,15 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
     Found found = find(section, source);
     const mesh::TriangleMesh given = isApart(section) ? found.mesh : mesh::TriangleMesh{};
     place(found.mesh, section, loaded.origin);
-    noteRepairs(loaded, "mesh " + found.file, found.repairs);
-    warnOfSeam(loaded, "mesh " + found.file, found.repairs);
     const std::vector<mesh::Component> components = mesh::components(found.mesh);
+    const std::string called = calledIn(loaded, section, "mesh", found.file);
+    sayFound(loaded, called, found.repairs, found.notes, section.has("object") || components.size() > 1);
     const mesh::MeshBody body = bodyOf(section, voxel);
     const std::size_t first = loaded.scene.particles.size(), firstGrid = loaded.scene.grids.size();
     if (isApart(section) && components.size() > 1)
-        addApart(loaded, section, found, given, components, body);
+        addApart(loaded, section, called, found, given, components, body);
     else
-        addJoined(loaded, section, found, components, body);
+        addJoined(loaded, section, called, found, components, body);
     addSurface(loaded, section, first);
     faces.add(loaded, section, firstGrid);
 }
@@ -248,7 +266,8 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
 PlacedMesh placedMesh(const Section& section, const Source& source, const std::array<double, 3>& origin) {
     Found found = find(section, source);
     const sim::Vec3 middle = place(found.mesh, section, origin);
-    return {std::move(found.mesh), middle, found.file, found.repairs};
+    const std::string odd = oddSizeOf(section, mesh::measure(found.mesh));
+    return {std::move(found.mesh), middle, found.file, found.repairs, std::move(found.notes), odd};
 }
 
 void addMeshCollider(LoadedScene& loaded, const Section& section, const Source& source) {
@@ -258,10 +277,10 @@ void addMeshCollider(LoadedScene& loaded, const Section& section, const Source& 
         section.fail(section.has("file") ? "file" : "detail",
                      "makes more than " + std::to_string(mostParticles) + " particles",
                      "take a coarser mesh");
-    noteSize(loaded, "mesh collider " + found.file, section, mesh::measure(found.mesh),
-             ", " + std::to_string(found.mesh.triangles.size()) + " triangles");
-    noteRepairs(loaded, "mesh collider " + found.file, found.repairs);
-    warnOfSeam(loaded, "mesh collider " + found.file, found.repairs);
+    const std::string called = calledIn(loaded, section, "mesh collider", found.file);
+    noteSize(loaded, called, section, mesh::measure(found.mesh),
+             ", " + sim::counted(found.mesh.triangles.size(), "triangle"));
+    sayFound(loaded, called, found.repairs, found.notes, section.has("object"));
     const sim::Pose pose{found.middle, rotationOf(section)};
     Path path = readPath(loaded, section, pose);
     const std::size_t first = loaded.scene.particles.size();

@@ -2,6 +2,7 @@
 #include "scenes/mesh_notes.hpp"
 
 #include "scenes/place_mesh.hpp"
+#include "sim/counted.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,15 +34,33 @@ std::string voxelText(const mesh::VoxelGrid& grid) {
            std::to_string(grid.cells[2]) + " voxels of " + lengthWithUnit(double{grid.spacing});
 }
 
-void noteSize(LoadedScene& loaded, const std::string& name, const Section& section,
-              const mesh::MeshReport& surface, const std::string& more) {
+std::string calledIn(const LoadedScene& loaded, const Section& section, const std::string& kind,
+                     const std::string& file) {
+    if (section.has("name")) return kind + " \"" + section.text("name") + "\" (" + file + ")";
+    if (std::ranges::any_of(loaded.meshes, [&](const MeshSummary& other) {
+            return other.file == file || other.file.starts_with(file + ", \"");
+        }))
+        return section.label() + " (" + file + ")";
+    return kind + " " + file;
+}
+
+std::string oddSizeOf(const Section& section, const mesh::MeshReport& surface) {
+    if (section.has("size") || !section.has("file")) return {}; // in metres, as the scene says
     const auto along = [&](float sim::Vec3::*axis) {
         return double{surface.high.*axis} - double{surface.low.*axis};
     };
-    const double x = along(&sim::Vec3::x), y = along(&sim::Vec3::y), z = along(&sim::Vec3::z);
-    loaded.notes.push_back(name + ": " + text("%.3g x ", x) + text("%.3g x ", y) + text("%.3g m", z) + more);
-    if (section.has("size") || !section.has("file")) return; // in metres, as the scene says
-    const std::string odd = oddSize(std::max({x, y, z}), *findUnit(section.text("unit")));
+    return oddSize(std::max({along(&sim::Vec3::x), along(&sim::Vec3::y), along(&sim::Vec3::z)}),
+                   *findUnit(section.text("unit")));
+}
+
+void noteSize(LoadedScene& loaded, const std::string& name, const Section& section,
+              const mesh::MeshReport& surface, const std::string& more) {
+    const auto along = [&](float sim::Vec3::*axis) {
+        return text("%.3g", double{surface.high.*axis} - double{surface.low.*axis});
+    };
+    loaded.notes.push_back(name + ": " + along(&sim::Vec3::x) + " x " + along(&sim::Vec3::y) + " x " +
+                           along(&sim::Vec3::z) + " m" + more);
+    const std::string odd = oddSizeOf(section, surface);
     if (!odd.empty()) loaded.warnings.push_back(name + " " + odd);
 }
 
@@ -53,8 +72,8 @@ void noteComponents(LoadedScene& loaded, const std::string& name,
     for (std::size_t i = 0; i < components.size() && i < mostLines; ++i)
         loaded.notes.push_back(name + ", " + describe(components[i]));
     if (components.size() > mostLines)
-        loaded.notes.push_back(name + ", and " + std::to_string(components.size() - mostLines) +
-                               " smaller components");
+        loaded.notes.push_back(name + ", and " +
+                               sim::counted(components.size() - mostLines, "smaller component"));
 }
 
 std::string bridgesText(const mesh::Bridges& bridges, double voxel) {
@@ -72,8 +91,24 @@ std::vector<std::string> overlapTexts(const mesh::Bridges& bridges) {
         texts.push_back("\"" + one + "\" and \"" + other + "\" touch or overlap");
     }
     if (bridges.overlaps.size() > mostLines)
-        texts.push_back(std::to_string(bridges.overlaps.size() - mostLines) + " more pairs touch or overlap");
+        texts.push_back(sim::counted(bridges.overlaps.size() - mostLines, "more pair touches or overlaps",
+                                     "more pairs touch or overlap"));
     return texts;
+}
+
+std::string inwardText(const std::vector<mesh::Component>& components) {
+    constexpr std::size_t mostNamed = 10;
+    std::string names;
+    std::size_t count = 0;
+    for (const mesh::Component& component : components)
+        if (component.isInward && ++count <= mostNamed)
+            names += (count == 1 ? "\"" : ", \"") + component.name + "\"";
+    if (count == 0 || components.size() < 2) return {};
+    if (count > mostNamed) names += " and " + sim::counted(count - mostNamed, "other");
+    return "has " + sim::counted(count, "component") + " inside out, " + names +
+           ": where it lies in another one, it is left out of the volume; turn its triangles, or close what "
+           "is "
+           "around it if it is a cavity";
 }
 
 std::string thinText(double thickness, double longest, double voxel, bool saysVoxel, Words words) {
@@ -100,30 +135,49 @@ void noteRepairs(LoadedScene& loaded, const std::string& name, const mesh::Repai
         loaded.notes.push_back(name + ": " + sentence);
 }
 
-std::string seamText(const mesh::Repairs& repairs, Words words) {
+std::string seamText(const mesh::Repairs& repairs, bool hasParts, Words words) {
     if (repairs.seam.weld == 0) return {};
     return "has a seam that is wider than the tolerance of " + text("%.2g", repairs.tolerance) +
            " (units of the file): " + setting(words, "weld", text("%.4g", repairs.seam.weld)) + " joins " +
-           std::to_string(repairs.seam.edges) + " of its open edges";
+           std::to_string(repairs.seam.edges) + " of its open edges" +
+           (hasParts ? ", and may give its parts other numbers" : "");
 }
 
-void warnOfSeam(LoadedScene& loaded, const std::string& name, const mesh::Repairs& repairs) {
-    const std::string seam = seamText(repairs);
+void warnOfSeam(LoadedScene& loaded, const std::string& name, const mesh::Repairs& repairs, bool hasParts) {
+    const std::string seam = seamText(repairs, hasParts);
     if (!seam.empty()) loaded.warnings.push_back(name + " " + seam);
+}
+
+std::string vainWeldText(const mesh::Repairs& repairs, double weld, Words words) {
+    if (weld == 0 || repairs.joinedVertices + repairs.splitEdges > 0) return {};
+    return "has no open edges that " + setting(words, "weld", text("%.4g", weld)) + " joins";
+}
+
+std::string choiceText(const mesh::TriangleMesh& chosen) {
+    const mesh::MeshReport report = mesh::measure(chosen);
+    const auto along = [&](float sim::Vec3::*axis) {
+        return text("%.3g", double{report.high.*axis} - double{report.low.*axis});
+    };
+    const auto middle = [&](float sim::Vec3::*axis) {
+        return text("%.3g", (double{report.high.*axis} + double{report.low.*axis}) / 2);
+    };
+    return "object takes " + sim::counted(chosen.triangles.size(), "triangle") + ", " + along(&sim::Vec3::x) +
+           " x " + along(&sim::Vec3::y) + " x " + along(&sim::Vec3::z) + " around (" + middle(&sim::Vec3::x) +
+           ", " + middle(&sim::Vec3::y) + ", " + middle(&sim::Vec3::z) + ") in units of the file";
 }
 
 void warnOfDefects(const MeshSummary& summary, std::vector<std::string>& warnings) {
     const mesh::MeshDefects& defects = summary.surface.defects;
-    const std::string name = "mesh " + summary.file;
+    const std::string& name = summary.called;
     if (defects.boundaryEdges > 0)
         warnings.push_back(name + " is open: " +
                            (summary.repairs.openEdges == defects.boundaryEdges
                                 ? mesh::openText(summary.repairs)
-                                : std::to_string(defects.boundaryEdges) + " boundary edges") +
+                                : sim::counted(defects.boundaryEdges, "boundary edge")) +
                            "; what is inside was decided by winding numbers");
     if (defects.nonManifoldEdges > 0)
-        warnings.push_back(name + " is not manifold: " + std::to_string(defects.nonManifoldEdges) +
-                           " edges with three or more triangles; its volume may be wrong");
+        warnings.push_back(name + " is not manifold: " + sim::counted(defects.nonManifoldEdges, "edge") +
+                           " with three or more triangles; its volume may be wrong");
     if (summary.voxels.doubtful > 0)
         warnings.push_back(name + ": " + std::to_string(summary.voxels.doubtful) + " of " +
                            std::to_string(summary.voxels.voxels.size()) +

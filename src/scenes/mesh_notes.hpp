@@ -16,6 +16,16 @@ std::string massText(double kilograms);
 /// "24 x 21 x 14 voxels of 8.9 mm".
 std::string voxelText(const mesh::VoxelGrid& grid);
 
+/// How sentences call the mesh of a table, which is a `kind`: `mesh liver.obj`, with its `name` where it has
+/// one `mesh "left" (liver.obj)`, and with its place where another body is of that file `mesh[1]
+/// (liver.obj)`.
+std::string calledIn(const LoadedScene& loaded, const Section& section, const std::string& kind,
+                     const std::string& file);
+
+/// "is 190 m long: if the file is in millimetres, say unit = \"mm\"" of a placed mesh; empty where its size
+/// is usual, or asked for in metres.
+std::string oddSizeOf(const Section& section, const mesh::MeshReport& surface);
+
 /// Notes how large a mesh is, "mesh liver.obj: 0.21 x 0.18 x 0.12 m" and `more`, and warns where it seems to
 /// have another unit than its section says.
 void noteSize(LoadedScene& loaded, const std::string& name, const Section& section,
@@ -32,6 +42,10 @@ std::string bridgesText(const mesh::Bridges& bridges, double voxel);
 /// "\"liver\" and \"tumour\" touch or overlap", for the first ten pairs.
 std::vector<std::string> overlapTexts(const mesh::Bridges& bridges);
 
+/// "has a component inside out, \"part 2\": ...", for the first ten of several components; empty where there
+/// is none.
+std::string inwardText(const std::vector<mesh::Component>& components);
+
 /// The share of a surface whose thickness is held against the voxels.
 constexpr double thinnestShare = 0.05;
 
@@ -46,8 +60,15 @@ void noteRepairs(LoadedScene& loaded, const std::string& name, const mesh::Repai
 
 /// "has a seam that is wider than the tolerance of 0.002 (units of the file): weld = 0.03 joins 64 of its
 /// open edges"; empty where there is none.
-std::string seamText(const mesh::Repairs& repairs, Words words = Words::scene);
-void warnOfSeam(LoadedScene& loaded, const std::string& name, const mesh::Repairs& repairs);
+/// `hasParts`: the mesh has others, or is a part of one, whose numbers may change by that.
+std::string seamText(const mesh::Repairs& repairs, bool hasParts, Words words = Words::scene);
+void warnOfSeam(LoadedScene& loaded, const std::string& name, const mesh::Repairs& repairs, bool hasParts);
+
+/// "has no open edges that weld = 0.001 joins"; empty where it joins some, or `weld` is 0.
+std::string vainWeldText(const mesh::Repairs& repairs, double weld, Words words = Words::scene);
+
+/// What a choice took: "object takes 412 triangles, 31 x 20 x 10 around (12, 40, 3) in units of the file".
+std::string choiceText(const mesh::TriangleMesh& chosen);
 
 /// Warns of what makes the inside of a mesh uncertain.
 void warnOfDefects(const MeshSummary& summary, std::vector<std::string>& warnings);

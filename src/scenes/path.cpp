@@ -2,7 +2,9 @@
 #include "scenes/path.hpp"
 
 #include "scenes/origin.hpp"
+#include "scenes/sentences.hpp"
 
+#include "sim/collision/check_colliders.hpp"
 #include "sim/complaints.hpp"
 
 #include <Eigen/Geometry>
@@ -31,17 +33,37 @@ void requireShortTurns(const Section& section, const std::vector<Section>& keyfr
     }
 }
 
+void requireOrder(const Section& section, const std::vector<Section>& keyframes, const Path& path) {
+    const std::vector<sim::Keyframe>& keys = path.keyframes;
+    for (std::size_t k = 1; k < keys.size(); ++k)
+        if (keys[k].time <= keys[k - 1].time)
+            keyframes[k].fail("time",
+                              "is " + sim::number(keys[k].time) + " s, which is not later than the " +
+                                  sim::number(keys[k - 1].time) + " s of the keyframe before",
+                              "give a later time");
+    if (path.end == sim::PathEnd::loop && keys.size() > 1 &&
+        !sim::collision::isSame(keys.front().pose, keys.back().pose))
+        section.fail("path_end", "is \"loop\", but the last keyframe is not where the first one is",
+                     "give it the same center and rotation, or say \"hold\"");
+}
+
+/// `hold[1] "grip"`.
+std::string pathOwner(const Section& section) {
+    return section.label() + (section.has("name") ? " \"" + section.text("name") + "\"" : "");
+}
+
 /// A path is followed from step to step: between the ends of one it is a straight way.
-void warnAboutShortPath(LoadedScene& loaded, const std::string& name, std::span<const sim::Keyframe> path) {
+void warnAboutShortPath(LoadedScene& loaded, const Section& section, std::span<const sim::Keyframe> path) {
     double shortest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 1; k < path.size(); ++k)
         shortest = std::min(shortest, double{path[k].time} - double{path[k - 1].time});
     if (shortest >= (1 - 1e-4) * double{loaded.scene.dt}) return;
-    loaded.warnings.push_back("the path of " + name + " has keyframes " + sim::thousandths(shortest) +
-                              " ms apart, which is less than a step of " +
-                              sim::thousandths(double{loaded.scene.dt}) +
-                              " ms: within a step it goes straight from its beginning to its end, take "
-                              "shorter steps (dt)");
+    loaded.warnings.push_back(
+        "the path of " + pathOwner(section) + " has keyframes " + sim::thousandths(shortest) +
+        " ms apart, which is less than a step of " + sim::thousandths(double{loaded.scene.dt}) +
+        " ms: within a step it goes straight from its beginning to its end, " +
+        (shortest < sim::ranges::dt.low ? "put them farther apart"
+                                        : "give dt = " + atMost(shortest) + " or keyframes farther apart"));
 }
 
 } // namespace
@@ -71,8 +93,9 @@ Path readPath(LoadedScene& loaded, const Section& section, const sim::Pose& pose
     const std::string end = section.text("path_end");
     if (end != "hold" && end != "loop")
         section.fail("path_end", "is \"" + end.substr(0, 64) + "\"", "possible are hold, loop");
-    warnAboutShortPath(loaded, section.label(), path.keyframes);
     path.end = end == "loop" ? sim::PathEnd::loop : sim::PathEnd::hold;
+    requireOrder(section, keyframes, path);
+    warnAboutShortPath(loaded, section, path.keyframes);
     return path;
 }
 

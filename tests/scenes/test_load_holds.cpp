@@ -47,8 +47,9 @@ TEST_F(LoadHolds, TakeOfSeveralBodiesWhatIsNamed) {
     EXPECT_EQ(load(copies + all + "bodies = [\"beam\"]\n").scene.fixed.size(), 9u);
     const auto loaded = load(copies + all + "bodies = [\"beam 1\", \"beam 2\"]\n");
     ASSERT_FALSE(loaded.warnings.empty());
-    EXPECT_EQ(loaded.warnings[0], "hold \"hold\" takes no particle of body \"beam 2\", the nearest is 0.99 m "
-                                  "outside of its half_space");
+    EXPECT_EQ(loaded.warnings[0],
+              "hold \"hold\" takes no particle of body \"beam 2\", the nearest is 0.991 m "
+              "outside of its half_space");
 }
 
 TEST_F(LoadHolds, DriveWhatHasAPath) {
@@ -71,6 +72,55 @@ TEST_F(LoadHolds, ThatTakeNobodyOrNameNobodyAreRefusedInASentence) {
         "scene.toml:9: hold[0].bodies names \"baem\", which no body is called: did you mean \"beam\"?");
     expectError(beam + "[[hold]]\nshape = \"sphere\"\nradius = 1\nbodies = []\n",
                 "scene.toml:9: hold[0].bodies names no body: name some, or leave the key out");
+}
+
+// The printed distance is enough: a radius larger by that takes somebody.
+TEST_F(LoadHolds, ThatTakeNobodySayAtLeastHowFarTheNearestIs) {
+    for (const double x : {-0.12341, -0.12344, -0.50001, -1.0 / 3}) {
+        const auto sphere = [&](double radius) {
+            return beam + "[[hold]]\nshape = \"sphere\"\ncenter = [" + std::to_string(x) +
+                   ", 0, 0]\nradius = " + std::to_string(radius) + "\n";
+        };
+        const std::string error = errorOfText(sphere(0.05));
+        const std::size_t at = error.find(" is ");
+        ASSERT_NE(at, std::string::npos) << error;
+        EXPECT_EQ(fixedOf(load(sphere(0.05 + std::stod(error.substr(error.find(", is ") + 5))))).size(), 1u)
+            << error;
+    }
+}
+
+TEST_F(LoadHolds, ThatTakeNobodyOfABodyOfOddSizeNameItsUnitFirst) {
+    mesh::exportObj(folder_ / "organ.obj", test::tetrahedron(190));
+    const std::string mesh = "[[mesh]]\nfile = \"organ.obj\"\nresolution = 8\ncenter = [0, 0, 0]\n",
+                      hold = "[[hold]]\nname = \"grip\"\nshape = \"sphere\"\nradius = 0.05\ncenter = [0, "
+                             "0.2, 0]\n",
+                      cure =
+                          "first, the body is 190 m long: if the file is in millimetres, say unit = \"mm\"; "
+                          "then, move it there, or make it larger";
+    EXPECT_NE(errorOfText(mesh + hold).find(cure), std::string::npos) << errorOfText(mesh + hold);
+    EXPECT_EQ(errorOfText(mesh + "unit = \"mm\"\n" + hold).find("first"), std::string::npos);
+    const std::string near = "[[hold]]\nshape = \"mesh\"\nfile = \"organ.obj\"\nwithin = 0.01\ncenter = "
+                             "[900, 0, 0]\n";
+    EXPECT_NE(errorOfText(beam + near).find("first, its mesh is 190 m long: if the file is in millimetres"),
+              std::string::npos)
+        << errorOfText(beam + near);
+}
+
+TEST_F(LoadHolds, ThatTakeAWholeBodyAreNoted) {
+    const std::string all = "[[hold]]\nname = \"grip\"\nshape = \"sphere\"\nradius = 3\n",
+                      left = "[[hold]]\nname = \"left\"\nshape = \"half_space\"\nnormal = [-1, 0, 0]\n"
+                             "offset = -0.15\n",
+                      path = "[[hold.keyframe]]\ntime = 0\n[[hold.keyframe]]\ntime = 1\ncenter = [0, 1, 0]\n";
+    const auto notes = [&](const std::string& holds) { return load(beam + chain + holds).notes; };
+    const std::string only = "bodies = [\"beam\"]\n", is = "body \"beam\" is held whole by hold ";
+    EXPECT_EQ(notes(all + only), std::vector<std::string>{is + "\"grip\": it cannot move"});
+    EXPECT_EQ(notes(all + only + path),
+              std::vector<std::string>{is + "\"grip\": it moves along the path alone"});
+    EXPECT_TRUE(notes(left + only).empty());
+    const std::string right = "[[hold]]\nname = \"right\"\nshape = \"half_space\"\nnormal = [1, 0, 0]\n"
+                              "offset = 0.15\nbodies = [\"beam\"]\n";
+    EXPECT_EQ(notes(left + only + right),
+              std::vector<std::string>{is + "\"left\", \"right\": it cannot move"});
 }
 
 TEST_F(LoadHolds, WithKeysOfAnotherShapeAreRefused) {

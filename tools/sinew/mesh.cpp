@@ -9,6 +9,7 @@
 #include "scenes/mesh_choice.hpp"
 #include "scenes/mesh_notes.hpp"
 #include "scenes/place_mesh.hpp"
+#include "sim/counted.hpp"
 #include "sinew/commands.hpp"
 #include "sinew/json.hpp"
 #include "sinew/outputs.hpp"
@@ -52,6 +53,7 @@ struct Findings {
     std::vector<mesh::Component> components;
     mesh::VoxelGrid voxels;
     mesh::Bridges bridges;
+    std::string vainWeld; // a sentence, where --weld joins nothing
     std::string filledBy; // name of a device, or "host"
     std::vector<std::string> validationMessages;
     std::size_t bytes() const {
@@ -135,6 +137,7 @@ Findings inspect(const MeshOptions& options) {
     mesh::MeshDefects defects;
     found.mesh = mesh::importMesh(options.file, defects, {}, *mesh::findRepair(options.repair),
                                   &found.repairs, options.weld);
+    found.vainWeld = scenes::vainWeldText(found.repairs, options.weld, scenes::Words::commandLine);
     chooseObjects(options, found, defects);
     const double factor = scenes::findUnit(options.unit)->metres * double{options.scale};
     checkScale(options, mesh::measure(found.mesh), factor);
@@ -176,7 +179,8 @@ Json componentsJson(const std::vector<mesh::Component>& components) {
         largest.push_back({{"name", components[i].name},
                            {"triangles", components[i].triangles.size()},
                            {"volume", components[i].isClosed ? Json(components[i].volume) : Json(nullptr)},
-                           {"cavities", components[i].cavities}});
+                           {"cavities", components[i].cavities},
+                           {"inside_out", components[i].isInward}});
     return {{"count", components.size()}, {"largest", largest}};
 }
 
@@ -185,7 +189,7 @@ std::string componentsText(const std::vector<mesh::Component>& components) {
     for (std::size_t i = 0; i < components.size() && i < mostListed; ++i)
         text += "    " + describe(components[i]) + "\n";
     if (components.size() > mostListed)
-        text += fmt::format("    and {} smaller ones\n", components.size() - mostListed);
+        text += fmt::format("    and {}\n", sim::counted(components.size() - mostListed, "smaller one"));
     return text;
 }
 
@@ -210,25 +214,28 @@ std::string toText(const Findings& found) {
     const mesh::MeshReport& surface = found.surface;
     const mesh::MeshDefects& defects = surface.defects;
     const mesh::VoxelGrid& grid = found.voxels;
-    std::string text = fmt::format("{}: {} vertices, {} triangles\n", found.file, found.mesh.positions.size(),
-                                   found.mesh.triangles.size());
+    std::string text = fmt::format("{}: {}, {}\n", found.file,
+                                   sim::counted(found.mesh.positions.size(), "vertex", "vertices"),
+                                   sim::counted(found.mesh.triangles.size(), "triangle"));
     text += fmt::format("  size      {:.4g} x {:.4g} x {:.4g} m, area {:.4g} m^2\n",
                         surface.high.x - surface.low.x, surface.high.y - surface.low.y,
                         surface.high.z - surface.low.z, surface.area);
     if (defects.isClosed())
-        text += fmt::format("  surface   closed, volume {:.4g} m^3\n", surface.volume);
+        text += fmt::format("  surface   closed, volume {:.4g} m^3{}\n", surface.volume,
+                            surface.volume < 0 ? ": it is inside out" : "");
     else
-        text += fmt::format("  surface   {} boundary edges, {} non-manifold edges\n", defects.boundaryEdges,
-                            defects.nonManifoldEdges);
-    text += fmt::format("  defects   {} flipped edges, {} degenerate and {} duplicate triangles dropped\n",
-                        defects.flippedEdges, defects.degenerateTriangles, defects.duplicateTriangles);
+        text += fmt::format("  surface   {}, {}\n", sim::counted(defects.boundaryEdges, "boundary edge"),
+                            sim::counted(defects.nonManifoldEdges, "non-manifold edge"));
+    text += fmt::format("  defects   {}, {} degenerate and {} duplicate triangles dropped\n",
+                        sim::counted(defects.flippedEdges, "flipped edge"), defects.degenerateTriangles,
+                        defects.duplicateTriangles);
     for (const std::string& sentence : mesh::sentencesOf(found.repairs))
         text += fmt::format("  repaired  {}\n", sentence);
     if (defects.boundaryEdges > 0)
         text += fmt::format("  open      {}: close it in a mesh editor if the mesh is to have an inside\n",
                             found.repairs.openEdges == defects.boundaryEdges
                                 ? mesh::openText(found.repairs)
-                                : fmt::format("{} boundary edges", defects.boundaryEdges));
+                                : sim::counted(defects.boundaryEdges, "boundary edge"));
     text += componentsText(found.components);
     for (const std::string& sentence : scenes::overlapTexts(found.bridges))
         text += fmt::format("  overlap   {}\n", sentence);
@@ -236,8 +243,8 @@ std::string toText(const Findings& found) {
         fmt::format("  voxels    {} hull + {} core of {} x {} x {}, edge {:.4g} m, {} of {} cells doubtful\n",
                     grid.hullCount, grid.coreCount, grid.cells[0], grid.cells[1], grid.cells[2], grid.spacing,
                     grid.doubtful, grid.voxels.size());
-    text +=
-        fmt::format("  filled    {:.4g} m^3, {} particles\n", grid.filledVolume, mesh::particleCount(grid));
+    text += fmt::format("  filled    {:.4g} m^3, {}\n", grid.filledVolume,
+                        sim::counted(mesh::particleCount(grid), "particle"));
     return text + fmt::format("  filled by {}, {:.1f} MiB: {:.0f} bytes a cell\n", found.filledBy,
                               static_cast<double>(found.bytes()) / (1 << 20),
                               static_cast<double>(found.bytes()) / static_cast<double>(grid.voxels.size()));
@@ -253,8 +260,11 @@ std::vector<std::string> surprises(const MeshOptions& options, const Findings& f
                  voxel = double{found.voxels.spacing};
     std::vector<std::string> sentences{
         scenes::oddSize(longest, *scenes::findUnit(options.unit), scenes::Words::commandLine),
-        scenes::seamText(found.repairs, scenes::Words::commandLine),
+        scenes::seamText(found.repairs, !options.objects.empty() || found.components.size() > 1,
+                         scenes::Words::commandLine),
+        found.vainWeld,
         scenes::bridgesText(found.bridges, voxel),
+        scenes::inwardText(found.components),
         scenes::thinText(mesh::wallThickness(found.mesh, scenes::thinnestShare), longest, voxel,
                          options.voxel > 0 || options.particles, scenes::Words::commandLine)};
     std::erase(sentences, "");
@@ -327,7 +337,12 @@ void addMesh(CLI::App& app, Chosen& chosen) {
         });
     addDeviceOptions(command, options->device);
     command.add_option("--json", options->json, "file for the report, or - for the standard output");
-    command.callback([options, &chosen] { chosen = [options] { return report(*options); }; });
+    command.callback([options, &chosen] {
+        if (options->weld > 0 && options->repair == mesh::nameOf(mesh::Repair::none))
+            throw CLI::ValidationError("--weld",
+                                       "is given, but --repair none joins nothing: remove one of them");
+        chosen = [options] { return report(*options); };
+    });
 }
 
 } // namespace sinew::tools

@@ -1,0 +1,17 @@
+// The same questions that compile() asks before it adds passes.
+#include "sim/touching.hpp"
+
+#include "sim/collision/face_contacts.hpp"
+#include "sim/collision/particle_contacts.hpp"
+
+namespace sinew::sim {
+
+bool particlesTouch(const Scene& scene) {
+    return collision::particle_contacts::areIn(scene);
+}
+
+bool facesTouch(const Scene& scene) {
+    return collision::face_contacts::areIn(scene);
+}
+
+} // namespace sinew::sim
