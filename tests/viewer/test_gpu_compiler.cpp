@@ -30,6 +30,7 @@ StageLight light() {
     StageLight light;
     light.bounds = Box(Vector3(-1, -1, -1), Vector3(1, 1, 1));
     light.balls = {.ranges = {{.first = 0, .count = 2, .color = {1, 0, 0}}}, .radii = {0.1f, 0.1f}};
+    light.marks = light.balls;
     return light;
 }
 

@@ -5,6 +5,7 @@
 #include "viewer/draw/mesh_buffer.hpp"
 #include "vk/commands.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace sinew::viewer {
@@ -21,6 +22,12 @@ std::array<vk::SpecialisationConstant, 3> lookOf(const Renderer::Target& target,
     return {vk::SpecialisationConstant{0, isSrgb(target.color) ? 0u : 1u},
             vk::SpecialisationConstant{1, quality.shadowTaps},
             vk::SpecialisationConstant{2, quality.skyTaps}};
+}
+
+// Marks of what is held are many, small and without penumbras: a few taps are enough.
+std::array<vk::SpecialisationConstant, 3> heldLookOf(const Renderer::Target& target, Quality quality) {
+    quality.shadowTaps = std::max(quality.shadowTaps / 8, 1u);
+    return lookOf(target, quality);
 }
 
 VkFormat canvasDepthFormat(const vk::Device& device) {
@@ -66,7 +73,7 @@ Renderer::Renderer(const vk::Device& device, const Target& target, const Quality
                         .usage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT}),
       nothing_(filledBuffer(device, "picture.nothing", std::vector<sim::layout::vec4>(64),
                             VK_BUFFER_USAGE_VERTEX_BUFFER_BIT)),
-      look_(lookOf(target, quality)),
+      look_(lookOf(target, quality)), heldLook_(heldLookOf(target, quality)),
       copiedPass_(RenderPass::picture(device, {.color = format_.color,
                                                .depth = format_.depth,
                                                .samples = format_.samples,
@@ -75,7 +82,8 @@ Renderer::Renderer(const vk::Device& device, const Target& target, const Quality
     makeMaps(to);
     makeBodies(to);
     makeCuts(to);
-    if (!balls_.ranges().empty() || !marks_.ranges().empty()) makeBalls(to);
+    if (!balls_.ranges().empty()) makeBalls(to);
+    if (!marks_.ranges().empty()) makeHeld(to);
     readablePass_.emplace(
         RenderPass::picture(device_, {.color = format_.color,
                                       .depth = format_.depth,

@@ -139,6 +139,7 @@ private:
     void makeEnlarging(Additions& to) const;
     void makeCuts(Additions& to) const;
     void makeBalls(Additions& to) const;
+    void makeHeld(Additions& to) const;
     bool isOpened(std::size_t index) const noexcept;
     const RenderPass& countsPass(Additions& to) const;
     const RenderPass& passOf(const Canvas& canvas) const noexcept;
@@ -226,9 +227,9 @@ private:
     PictureSets sets_;
     Balls balls_, marks_;
     HandMesh hand_;
-    vk::Buffer strokes_;                             // vec4, pointsASlot each
-    vk::Buffer nothing_;                             // corners that are one
-    std::array<vk::SpecialisationConstant, 3> look_; // of what is lit
+    vk::Buffer strokes_;                                        // vec4, pointsASlot each
+    vk::Buffer nothing_;                                        // corners that are one
+    std::array<vk::SpecialisationConstant, 3> look_, heldLook_; // of what is lit; of marks of what is held
     enum PipelineIndex : std::size_t {
         shadowPipeline,
         planPipeline,
@@ -247,6 +248,7 @@ private:
         ballShadowPipeline,
         ballPlanPipeline,
         ballPipeline,
+        heldPipeline,
         skinGlassPipeline,
         insideGlassPipeline,
         clippedGlassPipeline,

@@ -155,7 +155,7 @@ void Renderer::drawBalls(VkCommandBuffer commands, std::size_t pipeline, const s
 void Renderer::drawMarks(VkCommandBuffer commands, const sim::Simulation& simulation,
                          const Layers& layers) const noexcept {
     if (marks_.ranges().empty()) return;
-    bind(commands, opened(ballPipeline, layers));
+    bind(commands, opened(heldPipeline, layers));
     marks_.bind(commands, simulation.positions(), removedParticles(simulation));
     push(commands, pinColor, ballGloss, {});
     for (const BallRange& range : marks_.ranges()) marks_.draw(commands, range);

@@ -29,7 +29,7 @@ void Renderer::addLit(Additions& to, std::size_t index, PipelineRequest request)
     request.name.insert(0, "picture.");
     request.pass = pass_.handle();
     request.samples = format_.samples;
-    request.constants = look_;
+    if (request.constants.empty()) request.constants = look_;
     addPipeline(to, index, request);
 }
 
@@ -137,6 +137,16 @@ void Renderer::makeBalls(Additions& to) const {
             .fragment = &shaders::skinFrag,
             .input = Input::balls,
             .depth = solid});
+}
+
+void Renderer::makeHeld(Additions& to) const {
+    addLit(to, heldPipeline,
+           {.name = "held",
+            .vertex = &shaders::ballVert,
+            .fragment = &shaders::skinFrag,
+            .input = Input::balls,
+            .depth = solid,
+            .constants = heldLook_});
 }
 
 void Renderer::makeGlass(Additions& to) const {
