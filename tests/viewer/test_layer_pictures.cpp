@@ -87,7 +87,6 @@ TEST(Layers, ColorTheSkinOfACutSheetAsWell) {
     }
 }
 
-// It weighs 3.4 kg. At some other weights a single shadow at a silhouette differs by up to 8 of 255.
 sim::Scene smallOrgan() {
     sim::Scene scene{.name = "organ", .gravity = {0, 0, 0}};
     mesh::MeshBody body{.name = "organ", .youngModulus = 1e5f, .density = 1050, .isCuttable = true};
@@ -117,21 +116,57 @@ TEST(Layers, HaveMadeWhatTheyDrawOnceAMeshIsCut) {
     }
 }
 
-// A light meets the faces of a solid first that look towards it, once it is in two, too.
+// Pictures of one scene with all faces in the maps of light, and with those alone that look towards it.
+struct ShadowTwins {
+    explicit ShadowTwins(const sim::Scene& scene) : all(scene, {}, quick), facing(scene, {}, facingAlone()) {
+        EXPECT_TRUE(facing.light.areSolidsOutward());
+    }
+    static Quality facingAlone() {
+        Quality quality = quick;
+        quality.leavesBacks = true;
+        return quality;
+    }
+    void cut(const sim::Blade& blade) {
+        for (LayerShot* shot : {&all, &facing}) shot->take(0, blade);
+        EXPECT_EQ(all.stage.simulation().status(1).pieces, 2u);
+    }
+    // How many pixels differ after a step.
+    int differing() {
+        const Picture a = static_cast<SceneShot&>(all).take(1), b = static_cast<SceneShot&>(facing).take(1);
+        int count = 0;
+        for (std::size_t i = 0; i < a.pixels.size(); i += 4)
+            count += std::equal(&a.pixels[i], &a.pixels[i] + 4, &b.pixels[i]) ? 0 : 1;
+        return count;
+    }
+    LayerShot all, facing;
+};
+
+// A light meets the faces of a solid first that look towards it, once it is in two, too. At silhouettes it
+// still may be another face in a map of finite size: up to 27 of 64,000 pixels differ in some states, and
+// none in most.
+void expectTheSameShadows(const sim::Scene& scene) {
+    constexpr int steps = 20, mostOfOne = 64, mostOnAverage = 8;
+    ShadowTwins twins(scene);
+    twins.cut({.from = from, .to = to});
+    int all = 0;
+    for (int step = 0; step < steps; ++step) {
+        const int differing = twins.differing();
+        EXPECT_LE(differing, mostOfOne) << step << " steps after the cut";
+        all += differing;
+    }
+    EXPECT_LE(all, steps * mostOnAverage);
+}
+
 TEST(Layers, ThrowTheSameShadowsWithoutFacesThatLookAway) {
-    sim::Scene scene = smallOrgan();
-    scene.gravity = {0, -9.81f, 0};
-    scene.planes.push_back({.offset = -0.6f});
-    Quality less = quick;
-    less.leavesBacks = true;
-    const auto fallen = [&](const Quality& quality) {
-        LayerShot shot(scene, {}, quality);
-        EXPECT_TRUE(shot.light.areSolidsOutward());
-        shot.take(0, {.from = from, .to = to});
-        EXPECT_EQ(shot.stage.simulation().status(1).pieces, 2u);
-        return static_cast<SceneShot&>(shot).take(30);
-    };
-    EXPECT_EQ(largestDifference(fallen(quick), fallen(less)), 0);
+    sim::Scene organ = smallOrgan();
+    organ.gravity = {0, -9.81f, 0};
+    organ.planes.push_back({.offset = -0.6f});
+    expectTheSameShadows(organ);
+    sim::Scene cube = block(0.6f, true);
+    cube.grids[0].isCuttable = true;
+    for (sim::Particle& particle : cube.particles) // the halves fly apart and turn
+        particle.velocity = {particle.position.x > 0 ? 0.6f : -0.6f, 4 * particle.position.z, 1.5f};
+    expectTheSameShadows(cube);
 }
 
 TEST(Layers, ShowParticlesInAHiddenAndThroughATranslucentSkin) {
