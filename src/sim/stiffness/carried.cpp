@@ -98,10 +98,11 @@ public:
     // Whether something of another component is in the cell of `place`, no higher than `slack` above it.
     bool isBelow(const Vector& place, double slack, std::uint32_t component) const {
         const auto [depth, x, y] = onMap(place);
+        const double lowest = depth - slack;
         const auto& cell =
             cells_[indexOf(static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y)))];
         return std::ranges::any_of(cell, [&](const Occupant& occupant) {
-            return occupant.component != component && occupant.depth > depth - slack;
+            return occupant.component != component && occupant.depth > lowest;
         });
     }
 
