@@ -219,9 +219,11 @@ template <typename Place, typename Of>
 std::vector<Place> among(const std::vector<Vec3>& positions, const std::vector<Place>& places, const Of& of) {
     std::vector<Place> found;
     if (places.empty()) return found;
-    for (const Vec3& position : positions)
-        std::ranges::copy(std::ranges::equal_range(places, position, isBefore, of),
-                          std::back_inserter(found));
+    for (const Vec3& position : positions) {
+        const auto first = std::ranges::lower_bound(places, position, isBefore, of);
+        found.insert(found.end(), first,
+                     std::ranges::upper_bound(first, places.end(), position, isBefore, of));
+    }
     return found;
 }
 
@@ -274,9 +276,10 @@ TriangleMesh repair(TriangleMesh mesh, Repair how, MeshDefects& defects, Repairs
 Repairs repairsOf(const TriangleMesh& part, const Repairs& whole) {
     std::vector<Vec3> positions = part.positions;
     std::ranges::sort(positions, isBefore);
-    const auto same = std::ranges::unique(
-        positions, [](const Vec3& a, const Vec3& b) { return !isBefore(a, b) && !isBefore(b, a); });
-    positions.erase(same.begin(), same.end());
+    const auto same = std::unique(positions.begin(), positions.end(), [](const Vec3& a, const Vec3& b) {
+        return !isBefore(a, b) && !isBefore(b, a);
+    });
+    positions.erase(same, positions.end());
     Repairs report{.how = whole.how, .tolerance = whole.tolerance};
     for (const auto kind : placeKinds)
         report.places.*kind = among(positions, whole.places.*kind, std::identity());
