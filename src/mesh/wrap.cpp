@@ -156,4 +156,29 @@ TriangleMesh wrap(const TriangleMesh& mesh, const VoxelGrid& grid) {
     return result;
 }
 
+std::vector<double> leftOut(const TriangleMesh& mesh, std::span<const Component> components,
+                            const TriangleMesh& wrapped, double voxel) {
+    constexpr std::size_t mostComponents = 1000, mostSamples = 64;
+    std::vector<Vector3> positions;
+    for (const Vec3& position : wrapped.positions) positions.push_back(toVector(position));
+    const TriangleTree tree(positions, wrapped.triangles);
+    std::vector<double> shares(components.size());
+    for (std::size_t c = 0; c < std::min(components.size(), mostComponents); ++c) {
+        const std::vector<std::uint32_t>& triangles = components[c].triangles;
+        const std::size_t samples = std::min(mostSamples, triangles.size());
+        double all = 0, outside = 0;
+        for (std::size_t i = 0; i < samples; ++i) {
+            std::array<Vector3, 3> x;
+            std::ranges::transform(mesh.triangles[triangles[i * triangles.size() / samples]], x.begin(),
+                                   [&](std::uint32_t corner) { return toVector(mesh.positions[corner]); });
+            const double area = (x[1] - x[0]).cross(x[2] - x[0]).norm();
+            const Vector3 middle = (x[0] + x[1] + x[2]) / 3;
+            all += area;
+            if (tree.distance(middle) > 0.2 * voxel && tree.windingNumber(middle) < 0.5) outside += area;
+        }
+        if (all > 0) shares[c] = outside / all;
+    }
+    return shares;
+}
+
 } // namespace sinew::mesh

@@ -157,3 +157,52 @@ TEST_F(Load, WarnsOfAComponentThatIsInsideOut) {
     EXPECT_EQ(warned(true, false), 0);
     EXPECT_EQ(warned(false, false), 0);
 }
+
+namespace {
+
+/// Adds a box whose upper face hangs `lift` above it.
+void addBox(mesh::TriangleMesh& mesh, const sim::Vec3& low, const sim::Vec3& high, float lift) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const float x : {low.x, high.x})
+        for (const float y : {low.y, high.y})
+            for (const float z : {low.z, high.z}) mesh.positions.push_back({x, y, z});
+    for (const std::uint32_t corner : {2u, 3u, 6u, 7u}) {
+        sim::Vec3 lifted = mesh.positions[first + corner];
+        lifted.y += lift;
+        mesh.positions.push_back(lifted);
+    }
+    const bool isOpen = lift > 0;
+    const std::uint32_t a = isOpen ? 8 : 2, b = isOpen ? 9 : 3, c = isOpen ? 10 : 6, d = isOpen ? 11 : 7;
+    for (const auto& [i, j, k] : std::vector<std::array<std::uint32_t, 3>>{{0, 1, 3},
+                                                                           {0, 3, 2},
+                                                                           {4, 6, 7},
+                                                                           {4, 7, 5},
+                                                                           {0, 4, 5},
+                                                                           {0, 5, 1},
+                                                                           {a, b, d},
+                                                                           {a, d, c},
+                                                                           {0, 2, 6},
+                                                                           {0, 6, 4},
+                                                                           {1, 5, 7},
+                                                                           {1, 7, 3}})
+        mesh.triangles.push_back({first + i, first + j, first + k});
+}
+
+} // namespace
+
+// The surface around an open box is half a voxel fine: a plate nearer to it than a voxel is not in it.
+TEST_F(Load, NamesAThinPartThatIsLostBesideAThickOne) {
+    const auto warned = [&](float gap, float thickness) {
+        mesh::TriangleMesh mesh;
+        addBox(mesh, {0, 0, 0}, {1, 1, 1}, 0.03f);
+        addBox(mesh, {1 + gap, 0.2f, 0.2f}, {1 + gap + thickness, 0.8f, 0.8f}, 0);
+        mesh::exportObj(folder_ / "m.obj", mesh);
+        return count(
+            load("[[mesh]]\nfile = \"m.obj\"\nresolution = 16\ncuttable = true\n").warnings,
+            "mesh m.obj: \"part 2\" is left out of the surface that is shown, since it is 5 mm thin at "
+            "the thinnest 5 % of its surface, less than 2 voxels of 64.");
+    };
+    EXPECT_EQ(warned(0.03f, 0.005f), 1);
+    EXPECT_EQ(warned(0.2f, 0.005f), 0) << "it is thicker in that surface";
+    EXPECT_EQ(warned(0.03f, 0.4f), 0) << "it is not thin";
+}

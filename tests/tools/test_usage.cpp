@@ -97,6 +97,8 @@ TEST_F(Usage, MeshRepairsAndSaysSo) {
     EXPECT_EQ(report["repair"]["split_edges"], 0);
     EXPECT_EQ(report["surface"]["boundary_edges"], 3);
     expectOneError(run({"mesh", mesh.string(), "--repair", "all"}), 2, "see `sinew mesh --help`");
+    expectOneError(run({"mesh", mesh.string(), "--repair", "none", "--weld", "1"}), 2,
+                   "--weld: is given, but --repair none joins nothing: remove one of them");
 }
 
 TEST_F(Usage, MeshNeedsNoDeviceAndReportsWhatItFound) {
