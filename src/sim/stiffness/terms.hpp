@@ -16,7 +16,7 @@ namespace sinew::sim::stiffness {
 
 // What is done of 1 after `sweeps` that each do a share of what is left.
 inline double shareAfter(double share, double sweeps) {
-    return -std::expm1(sweeps * std::log1p(-share));
+    return sweeps == 1 ? share : -std::expm1(sweeps * std::log1p(-share)); // every term of `split` asks
 }
 
 // What the rules need of a constraint.
