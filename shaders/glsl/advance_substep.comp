@@ -8,10 +8,12 @@
 // While a substep is open a particle is at p + c. Corrections add up apart from p, which is coarser by far: taken from the
 // difference of positions, v would wander by 1e-7 |x| / h a sweep, and momentum with it (methods: E). They join x in one sum
 // with the way of the next substep: alone, c = h^2 f w is less than half of the last bit of x where substeps are short, and a
-// position that never gets it moves as explicit Euler has it, which gains energy.
+// position that never gets it moves as explicit Euler has it, which gains energy. Where x has a remainder (remainder.glsl), c begins
+// as that: sweeps then see it, and it is no part of the change of v.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "kernel.glsl"
+#include "remainder.glsl"
 
 layout(std430, binding = 0) buffer Positions { vec4 positions[]; };   // x, while open p; w = inverse mass [1/kg]
 layout(std430, binding = 1) buffer Velocities { vec4 velocities[]; }; // v, while open v* [m/s]; w = inverse mass
@@ -57,23 +59,27 @@ void main() {
     const uint i = itemIndex(push.count);
     const vec3 x = positions[i].xyz;
     vec3 v = velocities[i].xyz;
-    vec3 way = vec3(0.0); // from x [m]
+    const uint r = hasRemainders ? remainderOf(positions.length(), i) : i;
+    vec3 way = hasRemainders ? positions[r].xyz : vec3(0.0); // from x [m]
     const float w = velocities[i].w;
     const vec3 halfKick = 0.5 * step.h * step.gravity.xyz;
 #ifdef CLOSES
-    if (w > 0.0) way = close(i, halfKick, x, v);
+    if (w > 0.0) way = close(i, halfKick, x, way, v);
 #endif
 #ifdef OPENS
     if (w > 0.0) {
         way += step.h * (v + halfKick);
         v += 2.0 * halfKick;
     }
-    vec3 correction = vec3(0.0);
 #ifdef HAS_WARM_START
-    correction = w * warmImpulses(i);
+    vec3 correction = w * warmImpulses(i);
+#else
+    vec3 correction = vec3(0.0);
 #endif
+    if (hasRemainders) correction += exactSum(x, way).remainder;
     corrections[i] = uvec4(floatBitsToUint(correction), 0u);
 #endif
     positions[i].xyz = x + way;
+    if (hasRemainders) positions[r].xyz = exactSum(x, way).remainder;
     velocities[i].xyz = v;
 }

@@ -3,10 +3,11 @@
 layout(constant_id = 11) const bool hasColliders = false; // planes come before those (touch_planes), not here
 
 // Turns the end of a sweep into the velocity after the substep, and returns the way from p to the position after it.
-vec3 close(uint i, vec3 halfKick, vec3 p, inout vec3 v) {
+// `remainder` is the part of the corrections with which the substep opened.
+vec3 close(uint i, vec3 halfKick, vec3 p, vec3 remainder, inout vec3 v) {
     vec3 way = uintBitsToFloat(corrections[i].xyz);
     const vec3 before = v - 2.0 * halfKick;
-    v += way / step.h;
+    v += (way - remainder) / step.h;
 #ifdef HAS_PLANES
     const vec3 x = p + way;
     Motion motion = Motion(x, v, way + step.h * (before + halfKick));

@@ -2,6 +2,7 @@
 // Puts every island to sleep that has rested long enough.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
+#include "remainder.glsl"
 
 layout(std430, binding = 0) readonly buffer Weights { float weights[]; }; // inverse mass of what is awake [1/kg]
 layout(std430, binding = 1) buffer Positions { vec4 positions[]; };       // x + thetaH v
@@ -18,6 +19,7 @@ void main() {
     if (weights[i] == 0.0 || velocity.w == 0.0) return;
     if (uintBitsToFloat(least[islands[i]]) < 0.9999 * SLEEP_TIME) return; // a sum of steps, rounded
     positions[i].xyz -= step.thetaH * velocity.xyz;
+    if (hasRemainders) positions[remainderOf(positions.length(), i)].xyz = vec3(0.0); // or it would move once more
     velocities[i] = vec4(0.0);
     rests[i].w = -1.0;
 }

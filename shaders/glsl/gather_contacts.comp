@@ -12,6 +12,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "contacts.glsl"
+#include "remainder.glsl"
 
 #ifdef TEXELS
 layout(binding = 0) uniform samplerBuffer touching;
@@ -29,7 +30,7 @@ layout(std430, binding = 2) readonly buffer Velocities { vec4 velocities[]; }; /
 #define VELOCITY(i) velocities[i]
 #endif
 layout(std430, binding = 3) readonly buffer Counts { uint counts[]; };
-layout(std430, binding = 4) readonly buffer Predicted { vec4 predicted[]; };         // after the links; w: passed on
+layout(std430, binding = 4) readonly buffer Predicted { vec4 predicted[]; };         // after the links (remainder.glsl); w: passed on
 layout(std430, binding = 5) writeonly buffer NextPositions { vec4 nextPositions[]; }; // x + thetaH v
 layout(std430, binding = 6) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
 layout(std140, binding = 7) uniform Step { StepParams step; };
@@ -54,7 +55,7 @@ void main() {
     for (uint s = 0u; s < resting; ++s) sum += impulseFrom(i, s * push.row + i, self, velocity.xyz);
     for (uint s = 0u; s < sweeping; ++s) addSwept(i, s * push.row + i, self, velocity.xyz, sum, stopping);
     const vec3 correction = w * sum;
-    vec3 x = self.xyz + correction, v = velocity.xyz + (correction + w * stopping) / h;
+    vec3 x = self.xyz + correction, way = correction, v = velocity.xyz + (correction + w * stopping) / h;
 #ifdef HAS_PLANES
     if (w > 0.0) {
         Motion motion = Motion(x, v, h * velocity.xyz + correction);
@@ -69,9 +70,18 @@ void main() {
         }
 #endif
         x = motion.x;
+        way = motion.displacement - h * velocity.xyz;
         v = motion.v;
     }
 #endif
-    nextPositions[i] = vec4(x + step.thetaH * v, predicted[i].w);
+    if (hasRemainders) {
+        const uint r = remainderOf(predicted.length(), i);
+        const Sum sum = exactSum(self.xyz, predicted[r].xyz + way + step.thetaH * v);
+        x = sum.rounded;
+        nextPositions[r] = vec4(sum.remainder, 0.0);
+    } else {
+        x += step.thetaH * v;
+    }
+    nextPositions[i] = vec4(x, predicted[i].w);
     nextVelocities[i] = vec4(v, w);
 }

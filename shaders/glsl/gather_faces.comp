@@ -5,6 +5,7 @@
 // come last and one after another. REBOUND: what velocities get of impulses [kg m/s] after all contacts of a substep.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
+#include "remainder.glsl"
 #ifdef EDGES
 layout(std430, binding = 0) readonly buffer Corners { uint corners[]; };   // first of each particle; then 2 x edge + end
 layout(std430, binding = 1) readonly buffer Impulses { vec4 impulses[]; }; // on each end of all edges [kg m]
@@ -21,7 +22,7 @@ layout(std430, binding = STATE_BINDING + 1) buffer State { vec4 state[]; };     
 layout(std140, binding = STATE_BINDING + 2) uniform Step { StepParams step; };
 #else
 layout(std430, binding = STATE_BINDING) readonly buffer Velocities { vec4 velocities[]; };   // w = inverse mass [1/kg]
-layout(std430, binding = STATE_BINDING + 1) readonly buffer Predicted { vec4 predicted[]; }; // w: passed on
+layout(std430, binding = STATE_BINDING + 1) readonly buffer Predicted { vec4 predicted[]; }; // remainder.glsl; w: passed on
 layout(std430, binding = STATE_BINDING + 2) writeonly buffer NextPositions { vec4 nextPositions[]; };
 layout(std430, binding = STATE_BINDING + 3) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
 layout(std140, binding = STATE_BINDING + 4) uniform Step { StepParams step; };
@@ -48,7 +49,7 @@ void main() {
     const vec4 self = predicted[i], velocity = velocities[i];
     const float w = velocity.w, h = step.h;
     const vec3 correction = w * impulseOn(i);
-    vec3 x = self.xyz + correction, v = velocity.xyz + correction / h;
+    vec3 x = self.xyz + correction, way = correction, v = velocity.xyz + correction / h;
 #ifdef HAS_PLANES
     if (w > 0.0) {
         Motion motion = Motion(x, v, h * velocity.xyz + correction);
@@ -60,14 +61,21 @@ void main() {
             if ((touched & 1u << p) != 0u) motion.v += rebound(planes[p], step.restSpeed, before[i].xyz, motion.v);
         }
         x = motion.x;
+        way = motion.displacement - h * velocity.xyz;
         v = motion.v;
     }
 #endif
 #ifdef ENDS_SUBSTEP
-    nextPositions[i] = vec4(x + step.thetaH * v, self.w);
-#else
-    nextPositions[i] = vec4(x, self.w);
+    x += step.thetaH * v;
+    way += step.thetaH * v;
 #endif
+    if (hasRemainders) {
+        const uint r = remainderOf(predicted.length(), i);
+        const Sum sum = exactSum(self.xyz, predicted[r].xyz + way);
+        x = sum.rounded;
+        nextPositions[r] = vec4(sum.remainder, 0.0);
+    }
+    nextPositions[i] = vec4(x, self.w);
     nextVelocities[i] = vec4(v, w);
 }
 #endif

@@ -4,6 +4,7 @@
 // What put a NaN there once (a fault, a host) then harms nobody; a motion that diverges does so again and is reported again.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
+#include "remainder.glsl"
 
 layout(std430, binding = 0) buffer Positions { vec4 positions[]; };   // `split`: x + thetaH v
 layout(std430, binding = 1) buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
@@ -36,5 +37,6 @@ void main() {
 #endif
         velocities[slot] = velocity;
         positions[slot].xyz = publicPositions[i].xyz + step.thetaH * velocity.xyz;
+        if (hasRemainders) positions[remainderOf(positions.length(), slot)].xyz = vec3(0.0);
     }
 }

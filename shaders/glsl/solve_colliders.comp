@@ -6,6 +6,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "colliders.glsl"
+#ifndef OPEN
+#include "remainder.glsl"
+#endif
 
 layout(std430, binding = 0) readonly buffer Colliders { Collider colliders[]; };
 layout(std430, binding = 1) readonly buffer Poses { ColliderPose poses[]; };
@@ -13,7 +16,7 @@ layout(std430, binding = 2) readonly buffer ContactOffsets { float contactOffset
 #ifdef OPEN
 layout(std430, binding = 3) readonly buffer Positions { vec4 positions[]; }; // predicted; w = inverse mass [1/kg]
 #else
-layout(std430, binding = 3) buffer Positions { vec4 positions[]; }; // x + thetaH v
+layout(std430, binding = 3) buffer Positions { vec4 positions[]; }; // x + thetaH v (remainder.glsl)
 #endif
 layout(std430, binding = 4) buffer Velocities { vec4 velocities[]; }; // open: v + h g; w = inverse mass [1/kg]
 layout(std140, binding = 5) uniform Step { StepParams step; };
@@ -42,6 +45,7 @@ void main() {
 #endif
 #endif
     if (velocity.w == 0.0) return;
+    const vec3 wayBefore = movement.way;
     vec3 rebound = vec3(0.0);
     bool isTouching = false;
     for (uint c = 0u; c < colliderCount; ++c) {
@@ -63,6 +67,14 @@ void main() {
 #else
     const vec3 v = movement.v + rebound;
     velocities[i].xyz = v;
-    positions[i].xyz = movement.x + step.thetaH * v;
+    if (hasRemainders) {
+        const uint r = remainderOf(positions.length(), i);
+        const vec3 change = movement.way - wayBefore + step.thetaH * (v - velocity.xyz);
+        const Sum sum = exactSum(positions[i].xyz, change + positions[r].xyz);
+        positions[i].xyz = sum.rounded;
+        positions[r].xyz = sum.remainder;
+    } else {
+        positions[i].xyz = movement.x + step.thetaH * v;
+    }
 #endif
 }

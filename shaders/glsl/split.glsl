@@ -12,7 +12,7 @@
 // k~_c / sum k~ (solvers/shares.hpp).
 #extension GL_EXT_control_flow_attributes : require
 #include "kernel.glsl"
-#include "math.glsl"
+#include "remainder.glsl"
 
 // Stored positions: y, tau [s^2]. RESIDENT: a work group keeps a whole body in shared memory for all substeps.
 #ifdef RESIDENT
@@ -23,6 +23,8 @@ uint firstSlot, lastSlot;              // of the body, in the state; beyond lie 
 layout(std430, binding = 0) buffer Positions { vec4 positions[]; };
 #define POSITION(i) resident[front + min(uint(i) - firstSlot, lastSlot - firstSlot)]
 #define STORE_POSITION(i, value) resident[back + (i) - firstSlot] = value
+#define REMAINDER(i) positions[remainderOf(positions.length(), i)]
+#define STORE_REMAINDER(i, value) REMAINDER(i) = value
 #define VELOCITY_BINDING 1
 #else
 #ifdef TEXELS
@@ -34,6 +36,8 @@ layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
 #endif
 layout(std430, binding = 1) writeonly buffer NextPositions { vec4 nextPositions[]; };
 #define STORE_POSITION(i, value) nextPositions[i] = value
+#define REMAINDER(i) POSITION(remainderOf(nextPositions.length(), i))
+#define STORE_REMAINDER(i, value) nextPositions[remainderOf(nextPositions.length(), i)] = value
 #define VELOCITY_BINDING 2
 #endif
 #ifdef HAS_DAMPING
@@ -88,6 +92,18 @@ vec3 linkImpulse(vec3 a, vec3 b, float restLength, float stiffness) {
     return stiffness * (1.0 - restLength * inversesqrt(dot3(d, d) + 1e-30)) * d;
 }
 
+// Writes y of particle i after a way [m] in this substep that has led from `y` to x, with velocity `before` when it began.
+void store(uint i, vec4 y, vec3 before, vec3 x, vec3 v, vec3 way, Substep substep) {
+    if (hasRemainders) {
+        const vec3 change = REMAINDER(i).xyz + way + (step.thetaHStored * v - substep.thetaH * before);
+        const Sum sum = exactSum(y.xyz, change);
+        STORE_POSITION(i, vec4(sum.rounded, y.w));
+        STORE_REMAINDER(i, vec4(sum.remainder, 0.0));
+    } else {
+        STORE_POSITION(i, vec4(x + step.thetaHStored * v, y.w));
+    }
+}
+
 // Moves particle i by the sum of its links' impulses and writes it.
 void advance(uint i, vec4 y, vec4 velocity, vec3 impulses, Substep substep) {
     const float w = velocity.w, h = step.h;
@@ -98,9 +114,10 @@ void advance(uint i, vec4 y, vec4 velocity, vec3 impulses, Substep substep) {
     }
     v *= step.velocityFactor;
     vec3 x = y.xyz - substep.thetaH * velocity.xyz + h * v;
+    vec3 way = h * v;
 #ifdef HAS_PLANES
     if (w > 0.0) {
-        Motion motion = Motion(x, v, h * v);
+        Motion motion = Motion(x, v, way);
         const float offset = contactOffsets[i];
         uint touched = 0u;
         for (uint p = 0u; p < planeCount; ++p) {
@@ -111,8 +128,9 @@ void advance(uint i, vec4 y, vec4 velocity, vec3 impulses, Substep substep) {
         }
         x = motion.x;
         v = motion.v;
+        way = motion.displacement;
     }
 #endif
     STORE_VELOCITY(i, vec4(v, w));
-    STORE_POSITION(i, vec4(x + step.thetaHStored * v, y.w));
+    store(i, y, velocity.xyz, x, v, way, substep);
 }

@@ -2,6 +2,7 @@
 // Makes the state of a solver out of the public one, which another solver has left: what slept there is awake here.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
+#include "remainder.glsl"
 
 layout(std430, binding = 0) buffer Positions { vec4 positions[]; };
 layout(std430, binding = 1) buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg], as the scene has it
@@ -15,6 +16,7 @@ void main() {
     if (i >= push.count) return;
     const uint slot = slotOf(i);
     positions[slot].xyz = publicPositions[i].xyz;
+    if (hasRemainders) positions[remainderOf(positions.length(), slot)].xyz = vec3(0.0);
     velocities[slot].xyz = publicVelocities[i].xyz;
     publicPositions[i].w = velocities[slot].w;
     publicVelocities[i].w = velocities[slot].w;

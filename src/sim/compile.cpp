@@ -11,6 +11,7 @@
 #include "sim/hash.hpp"
 #include "sim/lattice/cells.hpp"
 #include "sim/publish.hpp"
+#include "sim/rounding.hpp"
 #include "sim/sleep.hpp"
 #include "sim/solvers/gauss_seidel.hpp"
 #include "sim/solvers/jacobi.hpp"
@@ -60,8 +61,9 @@ std::vector<layout::vec4> velocitiesOf(const Scene& scene, const std::vector<flo
     return result;
 }
 
-std::vector<layout::vec4> spread(const std::vector<layout::vec4>& values, const StateLayout& layout) {
-    std::vector<layout::vec4> result(layout.count);
+std::vector<layout::vec4> spread(const std::vector<layout::vec4>& values, const StateLayout& layout,
+                                 std::size_t count) {
+    std::vector<layout::vec4> result(count);
     for (std::size_t i = 0; i < values.size(); ++i) result[layout.slot[i]] = values[i];
     return result;
 }
@@ -100,6 +102,16 @@ StateLayout orderedLayout(std::size_t particles) {
     return layout;
 }
 
+std::size_t positionCount(const StateLayout& layout) {
+    return layout.hasRemainders ? 2 * layout.count : layout.count;
+}
+
+ProgramBuilder::Constants remainderConstants(const StateLayout& layout) {
+    constexpr std::uint32_t hasRemaindersId = 10; // constant_id in remainder.glsl
+    if (!layout.hasRemainders) return {};
+    return {{hasRemaindersId, 1}};
+}
+
 std::vector<float> inverseMasses(const Scene& scene) {
     std::vector<float> result;
     result.reserve(scene.particles.size());
@@ -108,10 +120,20 @@ std::vector<float> inverseMasses(const Scene& scene) {
     return result;
 }
 
+namespace {
+
+// Refers to `scene` and `settings`.
+SolverPlan planOf(const Scene& scene, const Settings& settings, const std::vector<float>& inverseMass) {
+    SolverPlan plan = entry(settings.solver).plan(scene, settings, inverseMass);
+    plan.layout.hasRemainders = keepsRemainders(scene, settings.substeps);
+    return plan;
+}
+
+} // namespace
+
 StateLayout stateLayout(const Scene& scene, const Settings& settings) {
-    const Settings chosen = withSubsteps(scene, settings); // both outlive the plan, which may refer to them
-    const std::vector<float> inverseMass = inverseMasses(scene);
-    return entry(settings.solver).plan(scene, chosen, inverseMass).layout;
+    const Settings chosen = withSubsteps(scene, settings);
+    return planOf(scene, chosen, inverseMasses(scene)).layout;
 }
 
 StepProgram compile(const Scene& scene, const Settings& asked) {
@@ -132,16 +154,15 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     built.parameters = program.scratch<layout::StepParams>("step", 1);
     if (scene.particles.empty()) return program.finish();
 
-    const SolverPlan solver = entry(settings.solver).plan(scene, settings, inverseMass);
+    const SolverPlan solver = planOf(scene, settings, inverseMass);
     built.order = fnv1a(std::as_bytes(std::span(solver.layout.slot)));
-    const auto inSlots = [&](const std::vector<layout::vec4>& values) {
-        return spread(values, solver.layout);
-    };
     ParticleBuffers particles{
         .count = built.particleCount,
         .step = built.parameters,
-        .positions = program.upload("state.positions", inSlots(positionsOf(start, solver.positionW))),
-        .velocities = program.upload("state.velocities", inSlots(velocitiesOf(scene, inverseMass))),
+        .positions = program.upload("state.positions", spread(positionsOf(start, solver.positionW),
+                                                              solver.layout, positionCount(solver.layout))),
+        .velocities = program.upload(
+            "state.velocities", spread(velocitiesOf(scene, inverseMass), solver.layout, solver.layout.count)),
         .layout = solver.layout,
         .sleep = nullptr,
         .grabs = nullptr};

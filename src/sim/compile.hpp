@@ -33,15 +33,21 @@ struct StateLayout {
     std::size_t count = 0; ///< slots, whole work groups, so that a kernel may do without a bounds check
     bool isInOrder = true; ///< slot[i] == i
     std::optional<EqualBoxes> boxes; ///< the same as `slot`, where there is such a rule
+    bool hasRemainders = false;      ///< positions have a second half: what rounding has taken (rounding.hpp)
 };
 StateLayout orderedLayout(std::size_t particles);
+
+/// Elements of a buffer of positions: those of all slots, and as many for their remainders where it has some.
+std::size_t positionCount(const StateLayout& layout);
+/// What kernels that write positions are specialised with.
+ProgramBuilder::Constants remainderConstants(const StateLayout& layout);
 
 /// Buffers that every solver and feature shares while a program is built.
 struct ParticleBuffers {
     std::uint32_t count = 0;
     BufferId step;       ///< layout::StepParams
-    BufferId positions;  ///< of the solver's state, layout.count elements; meaning of w is the solver's
-    BufferId velocities; ///< likewise; w = inverse mass [1/kg], 0 while asleep
+    BufferId positions;  ///< of the solver's state, positionCount elements; meaning of w is the solver's
+    BufferId velocities; ///< layout.count elements; w = inverse mass [1/kg], 0 while asleep
     StateLayout layout;
     std::shared_ptr<sleep::Sleep> sleep;             ///< none where nothing sleeps
     std::shared_ptr<constraints::grab::Grabs> grabs; ///< none without hands

@@ -49,7 +49,7 @@ void addAdopting(ProgramBuilder& program, const ParticleBuffers& particles, cons
                                   built.velocities};
     buffers.insert(buffers.end(), slots.begin(), slots.end());
     program.beginAdopting();
-    program.dispatch(take, particles.count, buffers, push);
+    program.dispatch(take, particles.count, buffers, push, remainderConstants(particles.layout));
     for (const Carried& carried : std::vector(built.carried))
         for (const BufferId state : {particles.positions, particles.velocities})
             if (carried.to == state && carried.from != state) program.copy(state, carried.from);
@@ -71,7 +71,7 @@ void addKernels(ProgramBuilder& program, const ParticleBuffers& particles, const
     for (const auto& addChecked : program.checked()) addChecked();
     addKept(program);
     program.dispatch(hasVelocities ? kernels.publish : kernels.publishPositions, particles.count, published,
-                     push);
+                     push, remainderConstants(particles.layout));
     if (hasVelocities) addAdopting(program, particles, kernels.take, slots, push);
 }
 

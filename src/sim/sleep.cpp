@@ -152,8 +152,10 @@ void addJudgement(ProgramBuilder& program, const Sleep& sleep, const ParticleBuf
                                   edges.directions, edges.edges, edges.corners},
                                  pushOfEdges(sleep));
     add(k::findIslands, {sleep.weights, velocities, sleep.rests, sleep.islands, sleep.least});
-    add(k::fallAsleep,
-        {sleep.weights, positions, velocities, particles.step, sleep.islands, sleep.least, sleep.rests});
+    program.dispatchIndirect(
+        k::fallAsleep, wakingItems(sleep, SLEEP_RESTING, sleep.push.count),
+        {sleep.weights, positions, velocities, particles.step, sleep.islands, sleep.least, sleep.rests},
+        sleep.push, remainderConstants(particles.layout));
 }
 
 // What the kernels read of attachments and colliders, or something in its place.

@@ -56,13 +56,20 @@ struct Maker {
     }
 };
 
-// A scene in all its forms, without and with hands and pokes, which a resident body has not.
+// The scene so far from the origin that its positions keep what rounding takes from them (sim/rounding.hpp).
+sim::Scene farAway(sim::Scene scene) {
+    for (sim::Particle& particle : scene.particles) particle.position.x += 100;
+    return scene;
+}
+
+// A scene in all its forms, without and with hands and pokes, which a resident body has not; and far away.
 void makeForms(Maker& maker, const sim::Scene& scene, sim::Settings settings) {
     for (const sim::Forms& forms : formsOf(maker.device, settings)) {
         settings.forms = forms;
         maker.make(scene, settings);
     }
     settings.forms = {};
+    maker.make(farAway(scene), settings);
     settings.grabs = settings.pokes = settings.solver == sim::Solver::split;
     maker.make(scene, settings);
 }

@@ -160,9 +160,11 @@ void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Co
     std::vector<BufferId> buffers{colliders.shapes,    colliders.poses,      colliders.contactOffsets,
                                   particles.positions, particles.velocities, particles.step};
     if (colliders.hasRebound) buffers.push_back(colliders.before);
+    ProgramBuilder::Constants constants = constantsOf(colliders);
+    constants.merge(remainderConstants(particles.layout));
     dispatchTouching(program, colliders,
                      colliders.hasRebound ? kernels::solveCollidersRebound : kernels::solveColliders, buffers,
-                     pushOf(colliders, substep, kick), constantsOf(colliders));
+                     pushOf(colliders, substep, kick), constants);
 }
 
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,

@@ -82,8 +82,9 @@ void addGather(ProgramBuilder& program, const Contacts& contacts, const Particle
         buffers.insert(buffers.end(),
                        {contacts.planes.planes, contacts.planes.contactOffsets, contacts.before});
     const layout::FacePush push = pushOfParticles(contacts, predicted);
-    program.dispatch(gatherForm(contacts), push.count, buffers, push,
-                     contacts.planes.count > 0 ? contacts.planes.constants() : ProgramBuilder::Constants{});
+    ProgramBuilder::Constants constants = remainderConstants(next.layout);
+    if (contacts.planes.count > 0) constants.merge(contacts.planes.constants());
+    program.dispatch(gatherForm(contacts), push.count, buffers, push, constants);
 }
 
 // Where corners stand this near to each other, the points of one sheet keep the edges of another out, and
@@ -146,7 +147,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     if (endsSubstep) {
         contacts.planes = planes::addColliders(program, scene, layout);
     } else {
-        contacts.moved.positions = program.scratch<layout::vec4>("edges.positions", layout.count);
+        contacts.moved.positions = program.scratch<layout::vec4>("edges.positions", positionCount(layout));
         contacts.moved.velocities = program.scratch<layout::vec4>("edges.velocities", layout.count);
     }
     return contacts;

@@ -147,8 +147,9 @@ void addGather(ProgramBuilder& program, const Contacts& contacts, const Particle
     if (contacts.planes.count > 0)
         buffers.insert(buffers.end(),
                        {contacts.planes.planes, contacts.planes.contactOffsets, contacts.before});
-    program.dispatch(gatherForm(contacts), contacts.push.count, buffers, contacts.push,
-                     contacts.planes.count > 0 ? contacts.planes.constants() : ProgramBuilder::Constants{});
+    ProgramBuilder::Constants constants = remainderConstants(next.layout);
+    if (contacts.planes.count > 0) constants.merge(contacts.planes.constants());
+    program.dispatch(gatherForm(contacts), contacts.push.count, buffers, contacts.push, constants);
 }
 
 // How particles are shared among contacts that have something in the last word of `directions`.
@@ -221,7 +222,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     if (endsSubstep) {
         contacts.planes = planes::addColliders(program, scene, layout);
     } else {
-        contacts.moved.positions = program.scratch<layout::vec4>("faces.positions", layout.count);
+        contacts.moved.positions = program.scratch<layout::vec4>("faces.positions", positionCount(layout));
         contacts.moved.velocities = program.scratch<layout::vec4>("faces.velocities", layout.count);
     }
     return contacts;

@@ -189,11 +189,12 @@ void addGather(ProgramBuilder& program, const Contacts& contacts, const Particle
     std::vector<BufferId> buffers{contacts.touching,   lists.contacts, predicted.velocities, lists.counts,
                                   predicted.positions, next.positions, next.velocities,      predicted.step,
                                   lists.grid.bounds,   contacts.firsts};
-    ProgramBuilder::Constants constants;
+    ProgramBuilder::Constants constants = remainderConstants(next.layout);
     if (contacts.hasMemory() || contacts.hasRebound) buffers.push_back(contacts.before);
     if (contacts.hasMemory()) {
         buffers.push_back(contacts.slips);
-        constants = {{hasFrictionId, contacts.surfaces.hasFriction}, {hasRecoveryId, contacts.hasRecovery}};
+        constants.insert(
+            {{hasFrictionId, contacts.surfaces.hasFriction}, {hasRecoveryId, contacts.hasRecovery}});
     }
     if (hasFrictionTable(contacts))
         buffers.insert(buffers.end(), {contacts.surfaces.ofParticles, contacts.surfaces.pairs});

@@ -46,10 +46,10 @@ void addBetween(ProgramBuilder& program, const Work& work, const Form& form, boo
     const ParticleBuffers& particles = work.particles;
     std::vector<BufferId> buffers{particles.positions, particles.velocities, work.corrections,
                                   particles.step};
-    ProgramBuilder::Constants constants;
+    ProgramBuilder::Constants constants = remainderConstants(particles.layout);
     if (form.isWarm) {
         buffers.insert(buffers.end(), {work.edges.links, work.edges.multipliers});
-        constants = work.edges.constants();
+        constants.merge(work.edges.constants());
     }
     const bool hasPlanes = form.planes && work.colliders.count > 0;
     if (hasPlanes) {

@@ -67,7 +67,7 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
         collision::colliders::addOpening(program, particles, colliders, substep == 0);
         program.dispatch(kernels::predict, particles.count,
                          {particles.positions, particles.velocities, particles.step},
-                         layout::CountPush{particles.count});
+                         layout::CountPush{particles.count}, remainderConstants(particles.layout));
         for (std::uint32_t iteration = 0; iteration < iterations; ++iteration) {
             addIteration(program, particles, corrections, iteration == 0);
             collision::planes::addSolve(program, particles, contacts);

@@ -58,8 +58,10 @@ struct Common {
         return kernel.form(settings.forms.usesTexels, colliders.count > 0);
     }
     Gather gather() const {
-        if (colliders.count == 0) return {};
-        return {{colliders.planes, colliders.contactOffsets}, colliders.constants(), {}};
+        ProgramBuilder::Constants constants = remainderConstants(layout);
+        if (colliders.count == 0) return {{}, std::move(constants), {}};
+        constants.merge(colliders.constants());
+        return {{colliders.planes, colliders.contactOffsets}, std::move(constants), {}};
     }
 };
 
@@ -290,7 +292,7 @@ void addSubsteps(const Common& common, const ParticleBuffers& particles) {
     const auto driven = constraints::driven::add(program, common.scene, layout, rigid);
     sleep::addOpening(program, particles, attachments, rigid);
     ParticleBuffers current = particles, next = particles;
-    next.positions = program.scratch<layout::vec4>("state.next_positions", layout.count);
+    next.positions = program.scratch<layout::vec4>("state.next_positions", positionCount(layout));
     if (alternates) next.velocities = program.scratch<layout::vec4>("state.next_velocities", layout.count);
     for (std::uint32_t substep = 0; substep < substeps; ++substep) {
         program.beginSubstep();
@@ -383,7 +385,7 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
     const auto driven = constraints::driven::add(program, common.scene, layout, rigid);
     sleep::addOpening(program, particles, attachments, rigid);
     ParticleBuffers current = particles, predicted = particles;
-    predicted.positions = program.scratch<layout::vec4>("state.next_positions", layout.count);
+    predicted.positions = program.scratch<layout::vec4>("state.next_positions", positionCount(layout));
     BufferId spare = program.scratch<layout::vec4>("state.next_velocities", layout.count);
     for (std::uint32_t substep = 0; substep < substeps; ++substep) {
         program.beginSubstep();

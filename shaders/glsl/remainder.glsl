@@ -1,0 +1,23 @@
+// What rounding takes from a position. In float32 a way of less than half the distance between two numbers is lost, substep after
+// substep, so scenes in which that shows (sim/rounding.hpp) keep a remainder: a buffer of positions then has two halves, x of all
+// particles, and r of all particles [m]. The position is x + r. |r| is at most half the distance between two float32 numbers at x, so
+// who reads x alone is within a rounding.
+#include "math.glsl"
+
+layout(constant_id = 10) const bool hasRemainders = false;
+
+// Where r of particle i is in a buffer of so many elements.
+uint remainderOf(int elements, uint i) { return uint(elements) / 2u + i; }
+
+// A sum in float32, and what its rounding loses.
+struct Sum {
+    vec3 rounded;
+    vec3 remainder; // exact where |x| >= |way|, else within a rounding of `way`
+};
+
+Sum exactSum(vec3 x, vec3 way) {
+    const vec3 rounded = x + way;
+    const vec3 taken = rounded - x;
+    const vec3 remainder = way - taken;
+    return Sum(rounded, remainder);
+}
