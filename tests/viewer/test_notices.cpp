@@ -42,6 +42,19 @@ TEST(Notices, PutAWarningBeforeThoseThatWait) {
     }
 }
 
+TEST(Notices, ShowAWarningAgainAfterANote) {
+    Notices notices;
+    Notices::Clock::time_point now{};
+    for (int time = 0; time < 3; ++time) notices.show({"soft", true}, now);
+    notices.show({"plays jacobi"}, now);
+    EXPECT_EQ(notices.shown().text, "plays jacobi");
+    notices.pass(now += Notices::notePasses);
+    EXPECT_EQ(notices.shown().text, "soft");
+    EXPECT_TRUE(notices.shown().isBad);
+    notices.pass(now += Notices::warningStays);
+    EXPECT_EQ(notices.shown().text, "") << "once, however often it was said";
+}
+
 TEST(Notices, ForgetThoseOfTheSceneBefore) {
     Notices notices;
     Notices::Clock::time_point now{};

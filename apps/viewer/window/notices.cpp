@@ -7,12 +7,18 @@
 namespace sinew::viewer {
 
 void Notices::show(Notice notice, Clock::time_point now) {
-    if (notice.isBad && shown_.isBad && now < until_) {
-        waiting_.insert(std::ranges::find(waiting_, false, &Notice::isBad), std::move(notice));
+    const bool isUp = !shown_.text.empty() && now < until_;
+    const auto isSame = [&](const Notice& other) { return other.text == notice.text; };
+    if ((isUp && isSame(shown_)) || std::ranges::any_of(waiting_, isSame)) return;
+    const auto afterWarnings = [&] { return std::ranges::find(waiting_, false, &Notice::isBad); };
+    if (isUp && notice.isBad && shown_.isBad) {
+        waiting_.insert(afterWarnings(), std::move(notice));
         return;
     }
-    if (shown_.isAnnounced && now < until_)
-        waiting_.insert(std::ranges::find(waiting_, false, &Notice::isBad), std::move(shown_));
+    if (isUp && shown_.isBad)
+        waiting_.push_front(std::move(shown_));
+    else if (isUp && shown_.isAnnounced)
+        waiting_.insert(afterWarnings(), std::move(shown_));
     start(std::move(notice), now);
 }
 
