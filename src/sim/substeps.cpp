@@ -144,6 +144,23 @@ Limits limitsOf(const Terms& terms) {
     return limits;
 }
 
+// Whether particles may rest on each other, or on faces.
+bool canTouch(const Scene& scene) {
+    return collision::particle_contacts::areIn(scene) || collision::face_contacts::areIn(scene);
+}
+
+// The longest substeps that contacts allow.
+struct ContactLimits {
+    double loads = infinite, folds = infinite;
+};
+
+ContactLimits limitsOfContacts(const Scene& scene, const Load& load) {
+    if (!canTouch(scene)) return {};
+    const std::vector<std::uint32_t> components = stiffness::componentsOf(scene);
+    return {collision::loads::longestSubstep(scene, load.inverseMass, components),
+            stiffness::longestSubstepOfFolds(scene, load.inverseMass, components)};
+}
+
 // With which elastic terms are within the tolerance; 0 = no number. The shares of `split` depend on h a
 // little: a fixed point.
 std::uint32_t neededFor(const Scene& scene, const Settings& settings, const Load& load) {
@@ -156,11 +173,6 @@ std::uint32_t neededFor(const Scene& scene, const Settings& settings, const Load
         tried.substeps = wanted;
     }
     return tried.substeps;
-}
-
-// Whether particles may rest on each other, or on faces.
-bool canTouch(const Scene& scene) {
-    return collision::particle_contacts::areIn(scene) || collision::face_contacts::areIn(scene);
 }
 
 bool hasOnlyFreeParticles(const Scene& scene) {
@@ -259,19 +271,14 @@ SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings) {
     // The shares of `split` depend on h a little, so that this is the fixed point of a few rounds.
     const Load load = loadOf(scene, double{settings.tolerance});
     const std::uint32_t fewest = fewestFor(scene);
-    double ofContacts = infinite, ofFolds = infinite;
-    if (canTouch(scene)) {
-        const std::vector<std::uint32_t> components = stiffness::componentsOf(scene);
-        ofContacts = collision::loads::longestSubstep(scene, load.inverseMass, components);
-        ofFolds = stiffness::longestFold(scene, load.inverseMass, components);
-    }
+    const ContactLimits contacts = limitsOfContacts(scene, load);
     Settings tried = settings;
     tried.substeps = fewest;
     SubstepChoice choice;
     for (int round = 0; round < mostRounds; ++round) {
         const Limits limits = limitsOf({scene, tried, load});
-        const double longest = std::min(
-            {limits.elastic.longest, limits.rigid.longest, limits.damped.longest, ofContacts, ofFolds});
+        const double longest = std::min({limits.elastic.longest, limits.rigid.longest, limits.damped.longest,
+                                         contacts.loads, contacts.folds});
         choice.wanted = countFor(double{scene.dt}, longest);
         choice.share = limits.share;
         choice.isReachable = limits.isReachable;
@@ -286,7 +293,7 @@ SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings) {
         else if (longest == limits.damped.longest)
             decide(SubstepReason::damping, limits.damped);
         else
-            decide(longest == ofContacts ? SubstepReason::contacts : SubstepReason::folds, {});
+            decide(longest == contacts.loads ? SubstepReason::contacts : SubstepReason::folds, {});
         const std::uint32_t next = std::clamp(choice.wanted, fewest, ranges::mostChosen);
         if (next == tried.substeps || (round + 2 > mostRounds && next < tried.substeps)) break;
         tried.substeps = next;
@@ -373,7 +380,7 @@ std::string toText(const SubstepChoice& choice, const Settings& settings) {
         why = "what rests on contacts presses them in by no more than 1 % of a radius";
         break;
     case SubstepReason::folds:
-        why = "no sheet falls onto itself by more than a third of its thickness in one";
+        why = "no sheet falls onto itself by more than 0.35 thicknesses in one";
         break;
     case SubstepReason::fewest:
         why = "fewer would do for the stiffness";

@@ -24,6 +24,12 @@ inline Vector toVector(const Vec3& v) {
     return {double{v.x}, double{v.y}, double{v.z}};
 }
 
+/// The length of the part of `v` at right angles to the unit vector `down`.
+inline double acrossLength(const Vector& v, const Vector& down) {
+    const double depth = dot(v, down);
+    return std::sqrt(std::max(0.0, dot(v, v) - depth * depth));
+}
+
 /// `down`, of length 1, and two unit vectors across.
 inline std::array<Vector, 3> frameOf(const Vector& down) {
     const std::size_t least = static_cast<std::size_t>(

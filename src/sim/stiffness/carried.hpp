@@ -1,4 +1,4 @@
-// Which particles have something below them that carries them.
+// Supports of particles: what is below them and may carry them.
 #pragma once
 
 #include "sim/collision/vectors.hpp"
@@ -10,23 +10,20 @@
 
 namespace sinew::sim::stiffness {
 
-/// What holds particles, and for how much of their load.
-struct Holds {
-    std::vector<bool> isHeld;
-    std::vector<bool> isSharp; ///< held by a shape that may have corners: a box, faces
+/// The nearest support below each particle.
+struct Support {
+    std::vector<double> ways;  ///< how far below along gravity [m]; infinite where nothing is
+    std::vector<bool> isSharp; ///< whether it may end in a corner: a box, a flat face, a body; no round thing
 };
 
-/// Times at which colliders may begin to carry something: those of keyframes, at most 32 [s].
+/// Times at which something that goes along a path may begin to carry: those of keyframes, at most 32 [s].
 std::vector<double> timesOf(const Scene& scene);
 
-/// Adds particles for which a collider is below them at `time`, along the unit vector `down`; of a round one
-/// the part that is not steep.
-void addCarriedByColliders(const Scene& scene, double time, const collision::Vector& down, Holds& holds);
-
-/// Adds particles for which something of another component is below them at the start: a face that is not
-/// steep, or a particle that touches others. Only particles that touch others, or are corners of faces.
+/// Looks from the particles `asked` along the unit vector `down` for colliders, and, if they touch others,
+/// for faces and particles of other components that touch; of round ones and faces the parts that are not
+/// steep. Colliders and driven bodies are where their paths lead at `time`, others where they begin.
 /// `components` says which particles hang together (componentsOf).
-void addCarriedByBodies(const Scene& scene, std::span<const std::uint32_t> components,
-                        const collision::Vector& down, Holds& holds);
+Support supportAt(const Scene& scene, double time, std::span<const std::uint32_t> components,
+                  const collision::Vector& down, std::span<const std::uint32_t> asked);
 
 } // namespace sinew::sim::stiffness

@@ -1,7 +1,7 @@
-// One walk over the faces for thickness and middle of each sheet, one for its reach.
+// One walk over the faces for thickness and middle of each sheet, one for its reach and its fall.
 #include "sim/stiffness/folds.hpp"
 
-#include "sim/collision/vectors.hpp"
+#include "sim/stiffness/carried.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,45 +17,88 @@ using collision::minus;
 using collision::toVector;
 using collision::Vector;
 
-// Of its thickness, what a sheet may fall in a substep. Sheets that fold over capsules or crumple on a plane
-// cross themselves from about 0.45 on (docs/accuracy.md).
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+// Share of its thickness that a sheet may fall in a substep. Sheets that fold over capsules cross themselves
+// from about 0.45 on (docs/accuracy.md).
 constexpr double mostOfThickness = 0.35;
 
 struct Sheet {
+    std::vector<std::uint32_t> corners; // each as often as faces have it
     Vector sum{};
-    double corners = 0, halfThickness = std::numeric_limits<double>::infinity(), reach = 0;
-    Vector middle() const { return {sum[0] / corners, sum[1] / corners, sum[2] / corners}; }
+    double halfThickness = infinite;
+    bool isHeld = false;
+
+    double reach(const Scene& scene) const {
+        const double count = static_cast<double>(corners.size());
+        const Vector middle{sum[0] / count, sum[1] / count, sum[2] / count};
+        double most = 0;
+        for (const std::uint32_t i : corners) {
+            const Vector away = minus(toVector(scene.particles[i].position), middle);
+            most = std::max(most, std::sqrt(dot(away, away)));
+        }
+        return most;
+    }
 };
 
-template <typename Visit>
-void forEachCorner(const Scene& scene, std::span<const float> inverseMass, const Visit& visit) {
+std::unordered_map<std::uint32_t, Sheet> sheetsOf(const Scene& scene, std::span<const float> inverseMass,
+                                                  std::span<const std::uint32_t> components) {
+    std::unordered_map<std::uint32_t, Sheet> sheets;
     for (const Face& face : scene.faces)
-        for (const std::uint32_t corner : face.particles)
-            if (!face.isSolid && inverseMass[corner] > 0)
-                visit(face, corner, toVector(scene.particles[corner].position));
+        for (const std::uint32_t corner : face.particles) {
+            if (face.isSolid) continue;
+            Sheet& sheet = sheets[components[corner]];
+            sheet.corners.push_back(corner);
+            const Vector place = toVector(scene.particles[corner].position);
+            for (std::size_t k = 0; k < 3; ++k) sheet.sum[k] += place[k];
+            sheet.halfThickness = std::min(sheet.halfThickness, double{face.thickness});
+        }
+    const auto hold = [&](std::uint32_t i) {
+        if (const auto found = sheets.find(components[i]); found != sheets.end()) found->second.isHeld = true;
+    };
+    for (std::uint32_t i = 0; i < inverseMass.size(); ++i)
+        if (inverseMass[i] == 0) hold(i);
+    for (const Attachment& attachment : scene.attachments) hold(attachment.particle);
+    return sheets;
+}
+
+// From a place to the nearest plane below.
+double wayToPlanes(const Scene& scene, const Vector& place, const Vector& down) {
+    double way = infinite;
+    for (const Plane& plane : scene.planes) {
+        const Vector normal = toVector(plane.normal);
+        const double toward = -dot(normal, down), gap = dot(normal, place) - double{plane.offset};
+        if (toward > 0) way = std::min(way, std::max(0.0, gap) / toward);
+    }
+    return way;
 }
 
 } // namespace
 
-double longestFold(const Scene& scene, std::span<const float> inverseMass,
-                   std::span<const std::uint32_t> components) {
-    std::unordered_map<std::uint32_t, Sheet> sheets;
-    forEachCorner(scene, inverseMass, [&](const Face& face, std::uint32_t corner, const Vector& place) {
-        Sheet& sheet = sheets[components[corner]];
-        for (std::size_t k = 0; k < 3; ++k) sheet.sum[k] += place[k];
-        ++sheet.corners;
-        sheet.halfThickness = std::min(sheet.halfThickness, double{face.thickness});
-    });
-    forEachCorner(scene, inverseMass, [&](const Face&, std::uint32_t corner, const Vector& place) {
-        Sheet& sheet = sheets[components[corner]];
-        const Vector away = minus(place, sheet.middle());
-        sheet.reach = std::max(sheet.reach, std::sqrt(dot(away, away)));
-    });
+double longestSubstepOfFolds(const Scene& scene, std::span<const float> inverseMass,
+                             std::span<const std::uint32_t> components) {
     const Vector gravity = toVector(scene.gravity);
     const double g = std::sqrt(dot(gravity, gravity));
-    double longest = std::numeric_limits<double>::infinity();
+    std::unordered_map<std::uint32_t, Sheet> sheets = sheetsOf(scene, inverseMass, components);
+    std::erase_if(sheets, [](const auto& one) { return one.second.isHeld; });
+    if (g == 0 || sheets.empty()) return infinite;
+    std::vector<std::uint32_t> asked;
+    for (const auto& [component, sheet] : sheets)
+        asked.insert(asked.end(), sheet.corners.begin(), sheet.corners.end());
+    std::ranges::sort(asked);
+    const auto repeated = std::ranges::unique(asked);
+    asked.erase(repeated.begin(), repeated.end());
+    const Vector down{gravity[0] / g, gravity[1] / g, gravity[2] / g};
+    const Support support = supportAt(scene, 0, components, down, asked);
+    double longest = infinite;
     for (const auto& [component, sheet] : sheets) {
-        double speed = std::sqrt(2 * g * sheet.reach);
+        const double reach = sheet.reach(scene);
+        double fall = 0;
+        for (const std::uint32_t i : sheet.corners) {
+            const Vector place = toVector(scene.particles[i].position);
+            fall = std::max(fall, std::min({reach, support.ways[i], wayToPlanes(scene, place, down)}));
+        }
+        double speed = std::sqrt(2 * g * fall);
         if (scene.damping > 0) speed = std::min(speed, g / double{scene.damping});
         if (speed > 0) longest = std::min(longest, mostOfThickness * 2 * sheet.halfThickness / speed);
     }

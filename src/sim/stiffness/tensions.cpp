@@ -14,6 +14,8 @@ namespace sinew::sim::stiffness {
 
 namespace {
 
+using collision::acrossLength;
+using collision::dot;
 using collision::minus;
 using collision::toVector;
 using collision::Vector;
@@ -77,14 +79,6 @@ Ways waysTo(const Scene& scene, const Neighbours& neighbours, const std::vector<
     return ways;
 }
 
-double along(const Vector& v, const Vector& down) {
-    return collision::dot(v, down);
-}
-double acrossLength(const Vector& v, const Vector& down) {
-    const double depth = along(v, down);
-    return std::sqrt(std::max(0.0, collision::dot(v, v) - depth * depth));
-}
-
 // Tension over load of a span across gravity that is `way` long between holds `apart` from each other. A load
 // in its middle makes the shallowest slope.
 double steepness(double way, double apart, double tolerance) {
@@ -108,6 +102,22 @@ std::vector<double> spansOf(const Scene& scene, const Ways& ways, const Vector& 
     return spans;
 }
 
+struct Holds {
+    std::vector<bool> isHeld, isSharp; ///< of each particle
+    bool operator==(const Holds&) const = default;
+};
+
+// Particles of components with a rigid link.
+std::vector<std::uint32_t> withRigidLinks(const Scene& scene, std::span<const std::uint32_t> components) {
+    std::vector<bool> isRigid(scene.particles.size());
+    for (const DistanceConstraint& c : scene.distances)
+        if (c.compliance == 0) isRigid[components[c.a]] = true;
+    std::vector<std::uint32_t> particles;
+    for (std::uint32_t i = 0; i < components.size(); ++i)
+        if (isRigid[components[i]]) particles.push_back(i);
+    return particles;
+}
+
 // A body's weight, handed from particle to particle.
 struct Flow {
     const Scene& scene;
@@ -124,13 +134,35 @@ struct Flow {
         return drop > alongTheWay * double{c.restLength} ? drop : 0;
     }
 
-    // A particle at a corner of what holds it: more of its neighbours hang than are held. Chains have none.
+    // Whether `i` is at a corner of what holds it: fewer than half of its neighbours are held, and no two of
+    // them on opposite sides. Chains have no corners.
     bool isAtCorner(const Holds& holds, std::uint32_t i) const {
         const std::span<const std::uint32_t> links = neighbours.of(i);
         if (!holds.isHeld[i] || !holds.isSharp[i] || links.size() <= 2) return false;
-        const auto held = std::ranges::count_if(
-            links, [&](std::uint32_t k) { return bool{holds.isHeld[otherEnd(scene.distances[k], i)]}; });
-        return 2 * static_cast<std::size_t>(held) < links.size();
+        std::vector<Vector> held; // directions
+        for (const std::uint32_t k : links) {
+            const std::uint32_t other = otherEnd(scene.distances[k], i);
+            if (!holds.isHeld[other]) continue;
+            const Vector way =
+                minus(toVector(scene.particles[other].position), toVector(scene.particles[i].position));
+            const double length = std::sqrt(dot(way, way));
+            for (const Vector& before : held)
+                if (dot(way, before) < -0.9 * length) return false;
+            if (length > 0) held.push_back({way[0] / length, way[1] / length, way[2] / length});
+        }
+        return 2 * held.size() < links.size();
+    }
+
+    // How far each particle may fall before its way to the nearest one that is held is straight.
+    std::vector<double> fallsOf(const Holds& holds) const {
+        const Ways ways = waysTo(scene, neighbours, holds.isHeld);
+        std::vector<double> falls(ways.length.size(), infinite);
+        for (const std::uint32_t i : ways.order) {
+            const Vector drop = minus(toVector(scene.particles[ways.root[i]].position),
+                                      toVector(scene.particles[i].position));
+            falls[i] = ways.length[i] + dot(drop, down);
+        }
+        return falls;
     }
 
     void run(const Holds& holds) {
@@ -178,13 +210,18 @@ std::vector<double> tensionsOf(const Scene& scene, std::span<const float> invers
                 .isSharp = std::vector<bool>(scene.particles.size())};
     for (std::size_t i = 0; i < holds.isHeld.size(); ++i) holds.isHeld[i] = inverseMass[i] == 0;
     for (const Attachment& attachment : scene.attachments) holds.isHeld[attachment.particle] = true;
+    const std::vector<double> falls = flow.fallsOf(holds);
     flow.run(holds);
-    Holds onBodies = holds;
-    addCarriedByBodies(scene, components, flow.down, onBodies);
+    const std::vector<std::uint32_t> asked = withRigidLinks(scene, components);
+    Holds before = holds;
     for (const double time : timesOf(scene)) {
-        Holds carried = onBodies;
-        addCarriedByColliders(scene, time, flow.down, carried);
-        if (carried.isHeld != holds.isHeld) flow.run(carried);
+        const Support support = supportAt(scene, time, components, flow.down, asked);
+        Holds carried = holds;
+        for (const std::uint32_t i : asked)
+            if (support.ways[i] < infinite && support.ways[i] <= falls[i])
+                carried.isHeld[i] = true, carried.isSharp[i] = support.isSharp[i];
+        if (carried != before) flow.run(carried);
+        before = std::move(carried);
     }
     return std::move(flow.tensions);
 }
