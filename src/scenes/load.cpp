@@ -233,11 +233,12 @@ void warnAboutMostSubsteps(LoadedScene& loaded) {
     const sim::SubstepChoice& choice = loaded.substeps;
     if (choice.reason != sim::SubstepReason::most) return;
     const std::string dt = shorterSteps(loaded, choice.substeps, choice.wanted);
+    const sim::SubstepCure cure = sim::cureOf(choice, loaded.settings);
     loaded.warnings.push_back("solver.substeps = \"auto\" stops at " + std::to_string(choice.substeps) +
-                              ", " + std::to_string(choice.wanted) + " would keep the tolerance" +
-                              (choice.body.empty() ? "" : " of body \"" + choice.body + "\"") + ": give " +
+                              ", " + std::to_string(choice.wanted) + " " + cure.would +
+                              (choice.body.empty() ? "" : " in body \"" + choice.body + "\"") + ": give " +
                               (choice.wanted <= sim::ranges::substeps.high ? "that number, " : "") +
-                              (dt.empty() ? "" : dt + ", ") + "larger voxels or a softer material");
+                              (dt.empty() ? "" : dt + ", ") + cure.otherwise);
 }
 
 // Searches go there on purpose, and a lattice bears more than is proven: no reason to refuse.

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace sinew::sim {
 
@@ -232,6 +233,26 @@ private:
     std::vector<std::uint32_t> bodyOf_; // of each particle
 };
 
+// The number that the strictest rule wants, before the limits.
+SubstepChoice choiceOf(const Limits& limits, const ContactLimits& contacts, const Scene& scene) {
+    const std::pair<SubstepReason, Limit> rules[] = {{SubstepReason::stiffness, limits.elastic},
+                                                     {SubstepReason::weight, limits.rigid},
+                                                     {SubstepReason::damping, limits.damped},
+                                                     {SubstepReason::contacts, {.longest = contacts.loads}},
+                                                     {SubstepReason::folds, {.longest = contacts.folds}}};
+    const auto& [reason, limit] =
+        *std::ranges::min_element(rules, {}, [](const auto& rule) { return rule.second.longest; });
+    return {.wanted = countFor(double{scene.dt}, limit.longest),
+            .reason = reason,
+            .share = limits.share,
+            .isReachable = limits.isReachable,
+            .body = bodyOf(scene, limit.particle)};
+}
+
+std::string percentOf(const Settings& settings) {
+    return std::to_string(std::lround(100 * double{settings.tolerance})) + " %";
+}
+
 } // namespace
 
 SplitBudget splitBudget(const Scene& scene, const Settings& settings) {
@@ -261,13 +282,15 @@ std::uint32_t dragSubsteps(const Scene& scene) {
 }
 
 SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings) {
-    if (settings.substeps > 0) return {settings.substeps, settings.substeps, SubstepReason::asked};
+    if (settings.substeps > 0) return {.substeps = settings.substeps, .wanted = settings.substeps};
     const std::uint32_t drag = dragSubsteps(scene);
     if (hasOnlyFreeParticles(scene))
-        return {std::min(drag, ranges::mostChosen), drag,
-                drag > ranges::mostChosen ? SubstepReason::most
-                : drag > 1                ? SubstepReason::drag
-                                          : SubstepReason::fewest};
+        return {.substeps = std::min(drag, ranges::mostChosen),
+                .wanted = drag,
+                .reason = drag > ranges::mostChosen ? SubstepReason::most
+                          : drag > 1                ? SubstepReason::drag
+                                                    : SubstepReason::fewest,
+                .rule = SubstepReason::drag};
     // The shares of `split` depend on h a little, so that this is the fixed point of a few rounds.
     const Load load = loadOf(scene, double{settings.tolerance});
     const std::uint32_t fewest = fewestFor(scene);
@@ -276,24 +299,7 @@ SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings) {
     tried.substeps = fewest;
     SubstepChoice choice;
     for (int round = 0; round < mostRounds; ++round) {
-        const Limits limits = limitsOf({scene, tried, load});
-        const double longest = std::min({limits.elastic.longest, limits.rigid.longest, limits.damped.longest,
-                                         contacts.loads, contacts.folds});
-        choice.wanted = countFor(double{scene.dt}, longest);
-        choice.share = limits.share;
-        choice.isReachable = limits.isReachable;
-        const auto decide = [&](SubstepReason reason, const Limit& limit) {
-            choice.reason = reason;
-            choice.body = bodyOf(scene, limit.particle);
-        };
-        if (longest == limits.elastic.longest)
-            decide(SubstepReason::stiffness, limits.elastic);
-        else if (longest == limits.rigid.longest)
-            decide(SubstepReason::weight, limits.rigid);
-        else if (longest == limits.damped.longest)
-            decide(SubstepReason::damping, limits.damped);
-        else
-            decide(longest == contacts.loads ? SubstepReason::contacts : SubstepReason::folds, {});
+        choice = choiceOf(limitsOf({scene, tried, load}), contacts, scene);
         const std::uint32_t next = std::clamp(choice.wanted, fewest, ranges::mostChosen);
         if (next == tried.substeps || (round + 2 > mostRounds && next < tried.substeps)) break;
         tried.substeps = next;
@@ -306,7 +312,7 @@ SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings) {
         choice.substeps = std::min(drag, ranges::mostChosen);
     }
     if (choice.wanted < choice.substeps && choice.substeps == fewest) choice.reason = SubstepReason::fewest;
-    if (choice.wanted > choice.substeps) choice.reason = SubstepReason::most;
+    if (choice.wanted > choice.substeps) choice.rule = std::exchange(choice.reason, SubstepReason::most);
     return choice;
 }
 
@@ -351,8 +357,24 @@ StiffnessReport inspectStiffness(const Scene& scene, const Settings& asked) {
     return report;
 }
 
+SubstepCure cureOf(const SubstepChoice& choice, const Settings& settings) {
+    switch (choice.rule) {
+    case SubstepReason::damping:
+        return {"would let links damp as much as asked", "a smaller damping_time"};
+    case SubstepReason::drag:
+        return {"would give terminal speeds right within 5 %", "a smaller damping"};
+    case SubstepReason::contacts:
+        return {"would let contacts give by no more than 1 % of a radius", "lower heaps or larger radii"};
+    case SubstepReason::folds:
+        return {"would let no sheet fall onto itself by more than 0.35 thicknesses",
+                "a larger thickness or more damping"};
+    default:
+        return {"would keep the tolerance of " + percentOf(settings), "larger voxels or a softer material"};
+    }
+}
+
 std::string toText(const SubstepChoice& choice, const Settings& settings) {
-    const std::string percent = std::to_string(std::lround(100 * double{settings.tolerance})) + " %";
+    const std::string percent = percentOf(settings);
     if (!choice.isReachable)
         return counted(choice.substeps, "substep") + ": no number of substeps reaches the tolerance of " +
                percent + ", " + counted(settings.iterations, "iteration gives", "iterations give") +
@@ -386,8 +408,8 @@ std::string toText(const SubstepChoice& choice, const Settings& settings) {
         why = "fewer would do for the stiffness";
         break;
     case SubstepReason::most:
-        why = "the most chosen unasked; " + std::to_string(choice.wanted) + " would keep the tolerance of " +
-              percent + body;
+        why = "the most chosen unasked; " + std::to_string(choice.wanted) + " " +
+              cureOf(choice, settings).would + body;
         break;
     }
     return counted(choice.substeps, "substep") + ": " + why;

@@ -51,6 +51,7 @@ struct SubstepChoice {
     std::uint32_t substeps = 1;
     std::uint32_t wanted = 1; ///< before the limits fewestChosen and mostChosen
     SubstepReason reason = SubstepReason::asked;
+    SubstepReason rule = SubstepReason::asked; ///< what asks for `wanted`, where the reason is `most`
     double share = 1;        ///< the smallest s_m of an elastic constraint; 1 where substeps are asked for
     bool isReachable = true; ///< false: s_m keeps a link from the tolerance, whatever the substeps
     /// Name of the body whose link, bend or cell asks for `wanted`; empty in a scene of one body, and where
@@ -84,6 +85,13 @@ SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings);
 
 /// `settings` with a number in the place of 0.
 Settings withSubsteps(const Scene& scene, Settings settings);
+
+/// The use of more substeps than are chosen, and something else that does as well: "would keep the tolerance
+/// of 5 %", "larger voxels or a softer material".
+struct SubstepCure {
+    std::string would, otherwise;
+};
+SubstepCure cureOf(const SubstepChoice& choice, const Settings& settings);
 
 /// "64 substeps: so that no link is more than 5 % softer than asked".
 std::string toText(const SubstepChoice& choice, const Settings& settings);
