@@ -166,7 +166,8 @@ TEST_F(LoadWarnings, NamesTheBodyThatAsksForMoreSubsteps) {
     const std::string two = which(asked, box("liver", "0", "2e7") + box("bone", "1", "4e7"), "softer");
     EXPECT_TRUE(two.starts_with("360 of 360 elastic links of body \"bone\" are softer than asked")) << two;
     const std::string most = which("", box("bone", "0", "2e8") + box("liver", "1", "2e4"), "stops at");
-    EXPECT_NE(most.find(" would keep the tolerance of 5 % in body \"bone\": give "), std::string::npos) << most;
+    EXPECT_NE(most.find(" would keep the tolerance of 5 % in body \"bone\": give "), std::string::npos)
+        << most;
     for (const std::string& head : {std::string(), asked}) {
         const std::string one = which(head, box("bone", "0", "2e8"), "");
         EXPECT_EQ(one.find("bone"), std::string::npos) << "there is no other: " << one;
@@ -194,7 +195,8 @@ TEST_F(LoadWarnings, SaysWhereTheChoiceOfSubstepsStops) {
                             "young_modulus = 2e8\n";
     const scenes::LoadedScene loaded = load(box);
     EXPECT_EQ(loaded.settings.substeps, 256u);
-    const std::string sentence = "solver.substeps = \"auto\" stops at 256, 975 would keep the tolerance of 5 %: ";
+    const std::string sentence =
+        "solver.substeps = \"auto\" stops at 256, 975 would keep the tolerance of 5 %: ";
     EXPECT_TRUE(std::ranges::any_of(loaded.warnings, [&](const std::string& warning) {
         return warning.starts_with(sentence);
     })) << (loaded.warnings.empty() ? "" : loaded.warnings.back());

@@ -20,8 +20,8 @@ public:
     using Clock = std::chrono::steady_clock;
     static constexpr std::chrono::seconds warningStays{12}, notePasses{4};
 
-    /// Shows it at once, and after it again a warning or something announced that it replaces. A warning waits
-    /// for another warning to go. Nothing is shown that is shown or waits already.
+    /// Shows it at once, and after it again a warning or something announced that it replaces. A warning
+    /// waits for another warning to go. Nothing is shown that is shown or waits already.
     void show(Notice notice, Clock::time_point now);
     /// Shows notes one after the other, the first at once, in place of those announced before.
     void announce(const std::vector<std::string>& texts, Clock::time_point now);
