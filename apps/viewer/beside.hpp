@@ -54,7 +54,7 @@ public:
     const sim::Simulation& simulation() const noexcept { return stage_.simulation(); }
     const Stage& stage() const noexcept { return stage_; }
     const BesideShape& shape() const noexcept { return shape_; }
-    /// What loading the scene in this shape would warn of, and does not in its own.
+    /// Warnings of loading the scene in this shape that loading it in its own does not give.
     const std::vector<std::string>& warnings() const noexcept { return warnings_; }
     /// Notes on what bodies have in the first and do without here.
     const std::vector<std::string>& notes() const noexcept { return notes_; }

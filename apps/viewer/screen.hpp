@@ -66,7 +66,7 @@ public:
 
     /// Says something in the window for a while, and in a line on stderr: "warning: <text>".
     void warn(const std::string& text);
-    /// Likewise "note: <text>", for less long.
+    /// Says "note: <text>" in both places, for less long.
     void note(const std::string& text);
     /// Says it in the window alone.
     void tell(const std::string& text);

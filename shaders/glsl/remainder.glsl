@@ -1,4 +1,4 @@
-// What rounding takes from a position. In float32 a way of less than half the distance between two numbers is lost, substep after
+// Remainders of positions, which rounding would take. In float32 a way of less than half the distance between two numbers is lost, substep after
 // substep, so scenes in which that shows (sim/rounding.hpp) keep a remainder: a buffer of positions then has two halves, x of all
 // particles, and r of all particles [m]. The position is x + r. |r| is at most half the distance between two float32 numbers at x, so
 // who reads x alone is within a rounding.
@@ -6,7 +6,7 @@
 
 layout(constant_id = 10) const bool hasRemainders = false;
 
-// Where r of particle i is in a buffer of so many elements.
+// The place of r of particle i in a buffer of so many elements.
 uint remainderOf(int elements, uint i) { return uint(elements) / 2u + i; }
 
 // A sum in float32, and what its rounding loses.

@@ -50,7 +50,7 @@ bool isInterrupted() noexcept;
 /// signal says then that there are some, and its exit code is that of a fault, as at its end. `messages`
 /// stays as long as the program; null = none.
 void watchMessages(const std::atomic<std::size_t>* messages) noexcept;
-/// What is said of so many at the end of a program.
+/// The sentence on so many validation messages at the end of a program.
 std::string textOfMessages(std::size_t messages);
 
 /// Calls `wait`, which waits at most as long as it is told and returns whether it is over, until it is.

@@ -234,7 +234,7 @@ WideSeam seamIn(const std::vector<Vec3>& positions, const WideSeam& whole) {
         return !std::ranges::binary_search(positions, pair[1], isBefore);
     });
     if (seam.pairs.empty()) return {};
-    seam.edges = whole.edges * seam.pairs.size() / whole.pairs.size();
+    seam.edges = std::max<std::size_t>(1, whole.edges * seam.pairs.size() / whole.pairs.size());
     return seam;
 }
 

@@ -67,7 +67,8 @@ void warnOfSeam(LoadedScene& loaded, const std::string& name, const mesh::Repair
 /// "has no open edges that weld = 0.001 joins"; empty where it joins some, or `weld` is 0.
 std::string vainWeldText(const mesh::Repairs& repairs, double weld, Words words = Words::scene);
 
-/// What a choice took: "object takes 412 triangles, 31 x 20 x 10 around (12, 40, 3) in units of the file".
+/// The extent of a choice: "object takes 412 triangles, 31 x 20 x 10 around (12, 40, 3) in units of the
+/// file".
 std::string choiceText(const mesh::TriangleMesh& chosen);
 
 /// Warns of what makes the inside of a mesh uncertain.

@@ -39,7 +39,7 @@ StateLayout orderedLayout(std::size_t particles);
 
 /// Elements of a buffer of positions: those of all slots, and as many for their remainders where it has some.
 std::size_t positionCount(const StateLayout& layout);
-/// What kernels that write positions are specialised with.
+/// Constants that specialise kernels which write positions.
 ProgramBuilder::Constants remainderConstants(const StateLayout& layout);
 
 /// Buffers that every solver and feature shares while a program is built.

@@ -57,7 +57,7 @@ double reachedBySweeps(const Term& term, double h) {
 bool isReachable(const Term& term, double tolerance) {
     return term.share() > 1 - tolerance + rounding;
 }
-// Where no h does, one within the tolerance of what the shares leave.
+// If no h does, the longest within the tolerance of what the shares leave.
 double longestOfSweeps(const Term& term, double tolerance) {
     const double wanted = (1 - tolerance) * (isReachable(term, tolerance) ? 1 : term.share());
     const double ofSweep = stiffness::shareAfter(wanted, 1.0 / term.sweeps);

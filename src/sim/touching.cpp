@@ -1,4 +1,4 @@
-// The same questions that compile() asks before it adds passes.
+// Answers by the questions that compile() asks before it adds passes.
 #include "sim/touching.hpp"
 
 #include "sim/collision/face_contacts.hpp"

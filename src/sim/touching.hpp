@@ -1,4 +1,4 @@
-// What of a scene may touch: contacts that only `split` has a form for.
+// Parts of a scene that may touch: contacts that only `split` has a form for.
 #pragma once
 
 #include "sim/scene.hpp"

@@ -1,4 +1,4 @@
-// Sums and products that are the same bits on every device: no compiler may fuse them.
+// Sums and products of numbers that are the same bits on every device: no compiler may fuse them.
 #pragma once
 
 #include <cstdint>

@@ -115,7 +115,7 @@ TEST(Signals, EndWhatDoesNotComeToAnEndWithinTwoSeconds) {
         testing::ExitedWithCode(130), "error: interrupted: .* did not end within 2 s");
 }
 
-// As at the end of a program, whose exit code is then that of a fault.
+// The exit code is that of a fault, as at the end of a program.
 TEST(Signals, SayThatTheValidationLayerHasComplained) {
     static std::atomic<std::size_t> messages = 0;
     app::watchMessages(&messages);

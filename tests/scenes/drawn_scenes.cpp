@@ -28,7 +28,7 @@ private:
     bool isPlain_;
 };
 
-/// What all bodies of a scene have in common.
+/// Properties that all bodies of a scene have in common.
 struct Kind {
     float radius = 0; ///< of particles; 0 = touch nothing
     bool isCuttable = false, tears = false, hasVolumes = false;

@@ -11,7 +11,8 @@ struct DrawnScene {
     sim::Settings settings;
 };
 
-/// The same on every machine. Not every one is valid: some have what their solver has no form for.
+/// A scene for a number, the same on every machine. Not every one is valid: some have what their solver has
+/// no form for.
 DrawnScene drawScene(std::uint32_t seed);
 
 } // namespace sinew::test

@@ -1,4 +1,4 @@
-// What a scene is warned of that loads.
+// Warnings of scenes that load.
 #include "scenes/load_fixture.hpp"
 
 #include <algorithm>

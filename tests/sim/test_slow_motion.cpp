@@ -217,7 +217,7 @@ TEST_P(SlowMotion, BeginsAnewWithTheSameBits) {
     EXPECT_EQ(runner.stateHash(), first);
 }
 
-// What has been lost where other positions stood is none of theirs.
+// The remainders of other positions are none of theirs.
 TEST_P(SlowMotion, TakesNoRemaindersOverFromAnotherSolver) {
     const Scene scene = freeParticles(100);
     const Solver other = GetParam() == Solver::split ? Solver::gaussSeidel : Solver::split;

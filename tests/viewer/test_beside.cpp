@@ -196,7 +196,7 @@ TEST(Beside, RefusesTheRecoveryThatTheSceneAsksFor) {
     }
 }
 
-// As a replay does of somebody who has changed the solver.
+// A replay of somebody who has changed the solver does so.
 TEST(Stage, LeavesDefaultRecoveryOutOfShapesWithoutAFormForIt) {
     Scene scene(sphere);
     Stage& stage = scene.stage;

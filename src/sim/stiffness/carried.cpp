@@ -93,7 +93,7 @@ void addColliders(const Scene& scene, const std::vector<Vector>& places, double 
     }
 }
 
-// Of what touches others: a particle's radius, or half the thickness of its faces.
+// How far each particle that touches others reaches: its radius, or half the thickness of its faces.
 std::vector<double> reachesOf(const Scene& scene) {
     std::vector<double> reaches;
     for (const Particle& particle : scene.particles) reaches.push_back(double{particle.radius});

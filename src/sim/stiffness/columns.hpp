@@ -33,7 +33,7 @@ public:
                       });
     }
 
-    /// The same of a triangle, which is where it passes the middle of a column.
+    /// Calls visit for columns that a triangle meets, `way` being to where it passes the middle of a column.
     template <typename Visit>
     void visitBelow(const std::array<collision::Vector, 3>& corners, const Visit& visit) const {
         const std::array<collision::Vector, 3> on{onMap(corners[0]), onMap(corners[1]), onMap(corners[2])};

@@ -14,7 +14,7 @@
 
 namespace sinew::sim::stiffness {
 
-// What is done of 1 after `sweeps` that each do a share of what is left.
+// The part of 1 that is done after `sweeps` that each do a share of the rest.
 inline double shareAfter(double share, double sweeps) {
     return sweeps == 1 ? share : -std::expm1(sweeps * std::log1p(-share)); // every term of `split` asks
 }
@@ -58,7 +58,7 @@ double clampOfLink(const solvers::Shares& shares, const Scene& scene, std::size_
 
 double splitOfBend(const Load& load, const BendConstraint& c);
 
-// What the slower end takes of a correction in one sweep.
+// The share of a correction that the slower end takes in one sweep.
 double shareOfSweep(const Settings& settings, std::uint32_t mostConstraints);
 
 // How `split` divides the particles; settings.substeps is a number. Other solvers divide nothing.
