@@ -4,6 +4,7 @@
 #include "sim/ranges.hpp"
 #include "sim/scene.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -35,6 +36,15 @@ inline std::string thousandths(double value) {
 
 inline std::string element(std::string_view list, std::size_t index) {
     return std::string(list) + "[" + number(index) + "]";
+}
+
+/// The name of a particle's body; "" in a scene of one body, and for a particle of none.
+inline std::string bodyOf(const Scene& scene, std::uint32_t particle) {
+    if (scene.bodies.size() < 2) return {};
+    const auto found = std::ranges::find_if(scene.bodies, [particle](const Body& body) {
+        return particle >= body.firstParticle && particle - body.firstParticle < body.particleCount;
+    });
+    return found == scene.bodies.end() ? std::string() : found->name;
 }
 
 // Keeps the first sentences and counts the rest, so that a million NaNs stay readable.

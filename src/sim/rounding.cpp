@@ -7,11 +7,15 @@ namespace sinew::sim {
 
 Rounding roundingOf(const Scene& scene) {
     float farthest = 0;
-    for (const Particle& particle : scene.particles)
-        if (particle.inverseMass > 0)
-            for (const float value : {particle.position.x, particle.position.y, particle.position.z})
-                farthest = std::max(farthest, std::abs(value));
-    return {double{farthest}, double{std::nextafter(farthest, INFINITY) - farthest}};
+    std::uint32_t particle = 0;
+    for (std::uint32_t i = 0; i < scene.particles.size(); ++i) {
+        const auto& [x, y, z] = scene.particles[i].position;
+        const float distance = std::max({std::abs(x), std::abs(y), std::abs(z)});
+        if (!(scene.particles[i].inverseMass > 0) || !(distance > farthest)) continue;
+        farthest = distance;
+        particle = i;
+    }
+    return {double{farthest}, double{std::nextafter(farthest, INFINITY) - farthest}, particle};
 }
 
 bool keepsRemainders(const Scene& scene, std::uint32_t substeps) {

@@ -12,6 +12,7 @@ namespace sinew::sim {
 struct Rounding {
     double distance = 0; ///< of that particle [m]
     double step = 0;     ///< [m]
+    std::uint32_t particle = 0;
 };
 Rounding roundingOf(const Scene& scene);
 

@@ -1,11 +1,12 @@
 // Every rule works on one list of terms (stiffness/terms.hpp), so that a solver is a row of a table here and
 // a constraint a loop there.
 #include "sim/substeps.hpp"
-#include "sim/counted.hpp"
 
 #include "sim/collision/face_contacts.hpp"
 #include "sim/collision/loads.hpp"
 #include "sim/collision/particle_contacts.hpp"
+#include "sim/complaints.hpp"
+#include "sim/counted.hpp"
 #include "sim/ranges.hpp"
 #include "sim/solvers/shares.hpp"
 #include "sim/stiffness/folds.hpp"
@@ -91,15 +92,6 @@ struct Limit {
         if (to < longest) *this = {to, end};
     }
 };
-
-// "" for nobody, in a scene of one body and for a particle of none.
-std::string bodyOf(const Scene& scene, std::uint32_t particle) {
-    if (scene.bodies.size() < 2) return {};
-    const auto found = std::ranges::find_if(scene.bodies, [particle](const Body& body) {
-        return particle >= body.firstParticle && particle - body.firstParticle < body.particleCount;
-    });
-    return found == scene.bodies.end() ? std::string() : found->name;
-}
 
 // The longest h at which `split` bears the whole of dampingTime: the positive root of
 // (1 + 2 theta) links h^2 + 2 dampingTime links h = 4 x 0.95; `links` the largest k D of an elastic term.

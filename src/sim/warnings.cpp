@@ -25,12 +25,17 @@ double finestLength(const Scene& scene) {
 
 // Positions are float32: far from the origin they are coarse against the spacing of particles.
 void warnOfRounding(const Scene& scene, std::vector<std::string>& sentences) {
+    constexpr double coarse = 1e-3; // of the finest length
     const Rounding rounding = roundingOf(scene);
-    if (!(rounding.step >= 1e-3 * finestLength(scene))) return;
+    const double finest = finestLength(scene);
+    if (!(rounding.step >= coarse * finest)) return;
+    const double reach = std::exp2(std::ceil(std::log2(coarse * finest)) + 23); // steps are finer below
+    const std::string body = bodyOf(scene, rounding.particle);
     sentences.push_back("positions are rounded to " + thousandths(rounding.step) + " mm at " +
-                        number(std::lround(rounding.distance)) +
-                        " m from the origin, which is coarse against the spacing of particles: place bodies "
-                        "nearer to each other");
+                        number(std::lround(rounding.distance)) + " m from the origin" +
+                        (body.empty() ? "" : ", where body \"" + body + "\" is") +
+                        ", which is coarse against the spacing of particles: place all within " +
+                        number(reach) + " m of the origin");
 }
 
 } // namespace

@@ -50,8 +50,10 @@ TEST_F(LoadWarnings, WarnsWherePositionsAreTooCoarse) {
     EXPECT_TRUE(warnings("15", "256").empty()); // what is slow moves on (tests/sim/test_slow_motion.cpp)
     EXPECT_EQ(warnings("1000", "10"),
               std::vector<std::string>{
-                  "positions are rounded to 0.061 mm at 1000 m from the origin, which is coarse against the "
-                  "spacing of particles: place bodies nearer to each other"});
+                  "positions are rounded to 0.061 mm at 1000 m from the origin, where body \"box\" is, which "
+                  "is coarse against the spacing of particles: place all within 512 m of the origin"});
+    EXPECT_TRUE(warnings("511.5", "10").empty());
+    EXPECT_EQ(warnings("512.5", "10").size(), 1u) << "512 m is where they become coarse";
     EXPECT_EQ(warnings("20000", "10").size(), 1u);
     EXPECT_EQ(warnings("900000", "10").size(), 1u);
 }
