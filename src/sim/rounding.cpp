@@ -19,13 +19,13 @@ Rounding roundingOf(const Scene& scene) {
 }
 
 bool keepsRemainders(const Scene& scene, std::uint32_t substeps) {
-    constexpr double least = 1e-5, most = 1e-3; // [m/s]
-    constexpr double time = 1e-4;               // [s]
-    constexpr double far = 8;                   // [m]
+    constexpr double least = 1e-5, leastNear = 1e-4, most = 1e-3; // [m/s]
+    constexpr double time = 1e-4;                                 // [s]
+    constexpr double far = 8;                                     // [m]
     const Rounding rounding = roundingOf(scene);
     const double lost = 0.5 * rounding.step * substeps / double{scene.dt};
     const double gravity = std::hypot(scene.gravity.x, scene.gravity.y, scene.gravity.z);
-    return lost > (rounding.distance >= far ? least : std::clamp(time * gravity, least, most));
+    return lost > (rounding.distance >= far ? least : std::clamp(time * gravity, leastNear, most));
 }
 
 } // namespace sinew::sim

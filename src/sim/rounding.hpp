@@ -17,9 +17,9 @@ struct Rounding {
 Rounding roundingOf(const Scene& scene);
 
 /// Whether positions keep what rounding takes from them. A substep may lose half of `step`, which is a speed.
-/// They do where that speed is more than 1e-5 m/s. Within 8 m of the origin gravity hides more: there the
-/// speed must be more than gravity gives in 1e-4 s, too, which is 1 mm/s on Earth and never more than that.
-/// Positions, gravity and the length of a step are those of the scene, not those of later steps.
+/// They do where that speed is more than 1e-5 m/s, or within 8 m of the origin more than 1e-4 m/s and than
+/// gravity gives in 1e-4 s, which is 1 mm/s on Earth and never more than that. Positions, gravity and the
+/// length of a step are those of the scene, not those of later steps.
 bool keepsRemainders(const Scene& scene, std::uint32_t substeps);
 
 } // namespace sinew::sim

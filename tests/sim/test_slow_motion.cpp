@@ -373,8 +373,9 @@ TEST(Remainders, AreKeptWhereALostRoundingShows) {
         scene.gravity = {0, g, 0};
         return keepsRemainders(scene, substeps);
     };
-    EXPECT_TRUE(keeps(1, 4, 0));
-    EXPECT_FALSE(keeps(0.4f, 4, 0)); // 0.4 % of 1 mm/s at most
+    EXPECT_TRUE(keeps(1, 32, 0));
+    EXPECT_FALSE(keeps(1, 4, 0)); // 1.4 % of 1 mm/s at most
+    EXPECT_FALSE(keeps(0.4f, 64, 0));
     EXPECT_TRUE(keeps(15, 4, -9.81f));
     EXPECT_FALSE(keeps(1.5f, 256, -9.81f));
     EXPECT_TRUE(keeps(1.5f, 300, -9.81f));
