@@ -231,7 +231,7 @@ void warnAboutDrag(LoadedScene& loaded) {
 
 void warnAboutMostSubsteps(LoadedScene& loaded) {
     const sim::SubstepChoice& choice = loaded.substeps;
-    if (choice.reason != sim::SubstepReason::most) return;
+    if (choice.reason != sim::SubstepReason::most || !choice.isReachable) return;
     const std::string dt = shorterSteps(loaded, choice.substeps, choice.wanted);
     const sim::SubstepCure cure = sim::cureOf(choice, loaded.settings);
     loaded.warnings.push_back("solver.substeps = \"auto\" stops at " + std::to_string(choice.substeps) +

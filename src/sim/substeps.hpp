@@ -87,7 +87,7 @@ SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings);
 Settings withSubsteps(const Scene& scene, Settings settings);
 
 /// The use of more substeps than are chosen, and something else that does as well: "would keep the tolerance
-/// of 5 %", "larger voxels or a softer material".
+/// of 5 %", "larger voxels or spacing, or a softer material".
 struct SubstepCure {
     std::string would, otherwise;
 };
