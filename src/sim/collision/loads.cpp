@@ -53,12 +53,10 @@ std::vector<Stacked> columnsOf(const Scene& scene, const std::array<Vector, 3>& 
 
 double longestSubstep(const Scene& scene, std::span<const float> inverseMass,
                       std::span<const std::uint32_t> bodies) {
-    const Vector gravity = toVector(scene.gravity);
-    const double g = std::sqrt(dot(gravity, gravity));
+    const auto [g, down] = pullOf(scene);
     const double median = medianRadius(scene);
     if (g == 0 || median == 0) return infinite;
-    const std::vector<Stacked> stacked =
-        columnsOf(scene, frameOf({gravity[0] / g, gravity[1] / g, gravity[2] / g}), 2 * median);
+    const std::vector<Stacked> stacked = columnsOf(scene, frameOf(down), 2 * median);
     double longest = infinite, above = 0;
     for (std::size_t s = 0; s < stacked.size(); ++s) {
         const std::uint32_t lower = stacked[s].particle;

@@ -24,6 +24,18 @@ inline Vector toVector(const Vec3& v) {
     return {double{v.x}, double{v.y}, double{v.z}};
 }
 
+/// Gravity [m/s^2] and its unit direction; down is 0 where there is none.
+struct Pull {
+    double gravity = 0;
+    Vector down{};
+};
+inline Pull pullOf(const Scene& scene) {
+    const Vector g = toVector(scene.gravity);
+    const double size = std::sqrt(dot(g, g));
+    if (size == 0) return {};
+    return {size, {g[0] / size, g[1] / size, g[2] / size}};
+}
+
 /// The length of the part of `v` at right angles to the unit vector `down`.
 inline double acrossLength(const Vector& v, const Vector& down) {
     const double depth = dot(v, down);

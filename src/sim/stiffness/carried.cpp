@@ -76,23 +76,6 @@ void lower(Support& support, std::uint32_t i, double way, bool isSharp) {
     support.isSharp[i] = isSharp;
 }
 
-void addColliders(const Scene& scene, const std::vector<Vector>& places, double time, const Vector& down,
-                  std::span<const std::uint32_t> asked, Support& support) {
-    for (const Collider& collider : scene.colliders) {
-        const Pose pose = poseAt(collider, time);
-        const auto inFrame = [&](const Vector& v, const Vec3& origin) {
-            const Vec3 single{static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-            return toVector(toLocal({.position = origin, .rotation = pose.rotation}, single));
-        };
-        const Vector localDown = inFrame(down, {});
-        for (const std::uint32_t i : asked) {
-            const double kept = double{collider.margin} + double{scene.particles[i].contactOffset};
-            lower(support, i, wayTo(collider, kept, inFrame(places[i], pose.position), localDown),
-                  collider.shape == ColliderShape::box);
-        }
-    }
-}
-
 // How far each particle that touches others reaches: its radius, or half the thickness of its faces.
 std::vector<double> reachesOf(const Scene& scene) {
     std::vector<double> reaches;
@@ -101,39 +84,6 @@ std::vector<double> reachesOf(const Scene& scene) {
         for (const std::uint32_t corner : face.particles)
             reaches[corner] = std::max(reaches[corner], double{face.thickness});
     return reaches;
-}
-
-void addBodies(const Scene& scene, const std::vector<Vector>& places,
-               std::span<const std::uint32_t> components, const Vector& down,
-               std::span<const std::uint32_t> asked, Support& support) {
-    const std::vector<double> reaches = reachesOf(scene);
-    std::vector<std::uint32_t> touching;
-    std::ranges::copy_if(asked, std::back_inserter(touching),
-                         [&](std::uint32_t i) { return reaches[i] > 0; });
-    if (touching.empty()) return;
-    std::vector<bool> isLinked(scene.particles.size());
-    for (const DistanceConstraint& c : scene.distances) isLinked[c.a] = isLinked[c.b] = true;
-    const Columns columns(scene, places, touching, down);
-    const auto take = [&](std::uint32_t component, bool isSharp) {
-        return [&, component, isSharp](std::uint32_t i, double way) {
-            if (components[i] != component && way > -reaches[i])
-                lower(support, i, std::max(0.0, way), isSharp);
-        };
-    };
-    std::vector<bool> isCorner(scene.particles.size()); // whose faces are there for it
-    for (const Face& face : scene.faces)
-        for (const std::uint32_t corner : face.particles) isCorner[corner] = true;
-    for (std::uint32_t i = 0; i < reaches.size(); ++i)
-        if (const double radius{scene.particles[i].radius}; radius > 0 && !isCorner[i])
-            columns.visitBelow(places[i], isLinked[i] ? radius : steepest * radius,
-                               take(components[i], isLinked[i]));
-    for (const Face& face : scene.faces) {
-        const std::array corners{places[face.particles[0]], places[face.particles[1]],
-                                 places[face.particles[2]]};
-        const double slope = slopeOf(corners, down);
-        if (slope <= steepest)
-            columns.visitBelow(corners, take(components[face.particles[0]], slope < flattest));
-    }
 }
 
 } // namespace
@@ -153,14 +103,68 @@ std::vector<double> timesOf(const Scene& scene) {
     return some;
 }
 
-Support supportAt(const Scene& scene, double time, std::span<const std::uint32_t> components,
-                  const Vector& down, std::span<const std::uint32_t> asked) {
-    Support support{.ways = std::vector(scene.particles.size(), infinite),
-                    .isSharp = std::vector<bool>(scene.particles.size())};
-    const std::vector<Vector> places = placesAt(scene, time);
-    addColliders(scene, places, time, down, asked, support);
-    addBodies(scene, places, components, down, asked, support);
+Supports::Supports(const Scene& scene, std::span<const std::uint32_t> components, const Vector& down,
+                   std::span<const std::uint32_t> asked)
+    : scene_(scene), components_(components), asked_(asked), down_(down),
+      hasMovingBodies_(
+          std::ranges::any_of(scene.driven, [](const DrivenBody& body) { return isMoving(body); })),
+      still_{.ways = std::vector(scene.particles.size(), infinite),
+             .isSharp = std::vector<bool>(scene.particles.size())} {
+    if (!hasMovingBodies_) addBodies(0, still_);
+}
+
+Support Supports::at(double time) const {
+    Support support = still_;
+    if (hasMovingBodies_) addBodies(time, support);
+    addColliders(time, support);
     return support;
+}
+
+void Supports::addColliders(double time, Support& support) const {
+    for (const Collider& collider : scene_.colliders) {
+        const Pose pose = poseAt(collider, time);
+        const Vec3 down{static_cast<float>(down_[0]), static_cast<float>(down_[1]),
+                        static_cast<float>(down_[2])};
+        const Vector localDown = toVector(toLocal({.position = {}, .rotation = pose.rotation}, down));
+        for (const std::uint32_t i : asked_) {
+            const double kept = double{collider.margin} + double{scene_.particles[i].contactOffset};
+            lower(support, i,
+                  wayTo(collider, kept, toVector(toLocal(pose, scene_.particles[i].position)), localDown),
+                  collider.shape == ColliderShape::box);
+        }
+    }
+}
+
+void Supports::addBodies(double time, Support& support) const {
+    const std::vector<Vector> places = placesAt(scene_, time);
+    const std::vector<double> reaches = reachesOf(scene_);
+    std::vector<std::uint32_t> touching;
+    std::ranges::copy_if(asked_, std::back_inserter(touching),
+                         [&](std::uint32_t i) { return reaches[i] > 0; });
+    if (touching.empty()) return;
+    std::vector<bool> isLinked(scene_.particles.size());
+    for (const DistanceConstraint& c : scene_.distances) isLinked[c.a] = isLinked[c.b] = true;
+    const Columns columns(scene_, places, touching, down_);
+    const auto take = [&](std::uint32_t component, bool isSharp) {
+        return [&, component, isSharp](std::uint32_t i, double way) {
+            if (components_[i] != component && way > -reaches[i])
+                lower(support, i, std::max(0.0, way), isSharp);
+        };
+    };
+    std::vector<bool> isCorner(scene_.particles.size()); // whose faces are there for it
+    for (const Face& face : scene_.faces)
+        for (const std::uint32_t corner : face.particles) isCorner[corner] = true;
+    for (std::uint32_t i = 0; i < reaches.size(); ++i)
+        if (const double radius{scene_.particles[i].radius}; radius > 0 && !isCorner[i])
+            columns.visitBelow(places[i], isLinked[i] ? radius : steepest * radius,
+                               take(components_[i], isLinked[i]));
+    for (const Face& face : scene_.faces) {
+        const std::array corners{places[face.particles[0]], places[face.particles[1]],
+                                 places[face.particles[2]]};
+        const double slope = slopeOf(corners, down_);
+        if (slope <= steepest)
+            columns.visitBelow(corners, take(components_[face.particles[0]], slope < flattest));
+    }
 }
 
 } // namespace sinew::sim::stiffness

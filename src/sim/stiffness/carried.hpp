@@ -19,11 +19,27 @@ struct Support {
 /// Times at which something that goes along a path may begin to carry: those of keyframes, at most 32 [s].
 std::vector<double> timesOf(const Scene& scene);
 
-/// Looks from the particles `asked` along the unit vector `down` for colliders, and, if they touch others,
-/// for faces and particles of other components that touch; of round ones and faces the parts that are not
-/// steep. Colliders and driven bodies are where their paths lead at `time`, others where they begin.
-/// `components` says which particles hang together (componentsOf).
-Support supportAt(const Scene& scene, double time, std::span<const std::uint32_t> components,
-                  const collision::Vector& down, std::span<const std::uint32_t> asked);
+/// Supports of the particles `asked` of a scene: looks along the unit vector `down` for colliders, and, for
+/// particles that touch others, for faces and particles of other components that touch; of round ones and
+/// faces the parts that are not steep. `components` says which particles hang together (componentsOf). Keeps
+/// its arguments by reference. Bodies are looked for once, unless one goes along a path.
+class Supports {
+public:
+    Supports(const Scene& scene, std::span<const std::uint32_t> components, const collision::Vector& down,
+             std::span<const std::uint32_t> asked);
+
+    /// Colliders and driven bodies are where their paths lead at `time` [s], others where they begin.
+    Support at(double time) const;
+
+private:
+    void addBodies(double time, Support& support) const;
+    void addColliders(double time, Support& support) const;
+
+    const Scene& scene_;
+    std::span<const std::uint32_t> components_, asked_;
+    collision::Vector down_;
+    bool hasMovingBodies_;
+    Support still_; ///< bodies at the start
+};
 
 } // namespace sinew::sim::stiffness

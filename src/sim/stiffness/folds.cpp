@@ -77,8 +77,7 @@ double wayToPlanes(const Scene& scene, const Vector& place, const Vector& down) 
 
 double longestSubstepOfFolds(const Scene& scene, std::span<const float> inverseMass,
                              std::span<const std::uint32_t> components) {
-    const Vector gravity = toVector(scene.gravity);
-    const double g = std::sqrt(dot(gravity, gravity));
+    const auto [g, down] = collision::pullOf(scene);
     std::unordered_map<std::uint32_t, Sheet> sheets = sheetsOf(scene, inverseMass, components);
     std::erase_if(sheets, [](const auto& one) { return one.second.isHeld; });
     if (g == 0 || sheets.empty()) return infinite;
@@ -88,8 +87,7 @@ double longestSubstepOfFolds(const Scene& scene, std::span<const float> inverseM
     std::ranges::sort(asked);
     const auto repeated = std::ranges::unique(asked);
     asked.erase(repeated.begin(), repeated.end());
-    const Vector down{gravity[0] / g, gravity[1] / g, gravity[2] / g};
-    const Support support = supportAt(scene, 0, components, down, asked);
+    const Support support = Supports(scene, components, down, asked).at(0);
     double longest = infinite;
     for (const auto& [component, sheet] : sheets) {
         const double reach = sheet.reach(scene);

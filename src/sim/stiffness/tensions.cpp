@@ -196,14 +196,13 @@ struct Flow {
 
 std::vector<double> tensionsOf(const Scene& scene, std::span<const float> inverseMass,
                                std::span<const std::uint32_t> components, double tolerance) {
-    const Vector g = toVector(scene.gravity);
-    const double gravity = std::sqrt(collision::dot(g, g));
+    const auto [gravity, down] = collision::pullOf(scene);
     if (gravity == 0) return std::vector<double>(scene.distances.size(), 0.0);
     const Neighbours neighbours(scene);
     Flow flow{.scene = scene,
               .inverseMass = inverseMass,
               .neighbours = neighbours,
-              .down = {g[0] / gravity, g[1] / gravity, g[2] / gravity},
+              .down = down,
               .gravity = gravity,
               .tolerance = tolerance};
     Holds holds{.isHeld = std::vector<bool>(scene.particles.size()),
@@ -213,9 +212,10 @@ std::vector<double> tensionsOf(const Scene& scene, std::span<const float> invers
     const std::vector<double> falls = flow.fallsOf(holds);
     flow.run(holds);
     const std::vector<std::uint32_t> asked = withRigidLinks(scene, components);
+    const Supports supports(scene, components, down, asked);
     Holds before = holds;
     for (const double time : timesOf(scene)) {
-        const Support support = supportAt(scene, time, components, flow.down, asked);
+        const Support support = supports.at(time);
         Holds carried = holds;
         for (const std::uint32_t i : asked)
             if (support.ways[i] < infinite && support.ways[i] <= falls[i])
