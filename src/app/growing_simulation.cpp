@@ -36,7 +36,7 @@ GrowingSimulation::GrowingSimulation(const vk::Device& device, const sim::Scene&
 std::vector<std::string> GrowingSimulation::complaints() {
     std::vector<std::string> complaints = simulation_->complaints();
     if (complaints.empty()) return complaints;
-    const std::vector<std::string> ofScene = sim::warnings(scene_, settings_);
+    const std::vector<std::string> ofScene = sim::warnings(scene_);
     std::erase_if(complaints, [&](const std::string& complaint) {
         return std::ranges::find(ofScene, complaint) != ofScene.end();
     });

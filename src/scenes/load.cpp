@@ -205,9 +205,10 @@ void warnAboutStiffness(LoadedScene& loaded) {
     });
     std::ranges::stable_sort(bodies, {}, &sim::BodyStiffness::softest);
     const std::string percent = std::to_string(std::lround(100 * double{settings.tolerance})) + " %";
-    const std::string cure =
-        isReachable ? giveSubsteps(loaded, stiffness.neededSubsteps) + " would keep all within " + percent
-                    : "no number of substeps reaches " + percent + ", use weight or iterations";
+    const std::string cure = isReachable
+                                 ? giveSubsteps(loaded, stiffness.neededSubsteps) +
+                                       " would keep all links of the scene within " + percent
+                                 : "no number of substeps reaches " + percent + ", use weight or iterations";
     for (std::size_t b = 0; b < bodies.size() && b < mostNamed; ++b)
         loaded.warnings.push_back(softnessText(bodies[b], loaded.scene.bodies.size() > 1) + ": " + cure);
     if (bodies.size() > mostNamed)
@@ -293,7 +294,7 @@ LoadedScene read(const std::string& text, const Source& source, const Overrides&
     loaded.settings.substeps = loaded.substeps.substeps;
     warnAboutSizes(loaded);
     warnOfUntouched(loaded, top);
-    const std::vector<std::string> ofScene = sim::warnings(loaded.scene, loaded.settings);
+    const std::vector<std::string> ofScene = sim::warnings(loaded.scene);
     loaded.warnings.insert(loaded.warnings.end(), ofScene.begin(), ofScene.end());
     warnAboutSolver(loaded);
     return loaded;
@@ -308,7 +309,7 @@ LoadedScene readBuiltIn(const std::string& name, const std::optional<fs::path>& 
 
 std::vector<std::string> newWarnings(const LoadedScene& loaded, const sim::Settings& settings) {
     LoadedScene other{.scene = loaded.scene, .settings = settings};
-    other.warnings = sim::warnings(other.scene, settings);
+    other.warnings = sim::warnings(other.scene);
     warnAboutSolver(other);
     std::erase_if(other.warnings, [&](const std::string& warning) {
         return std::ranges::find(loaded.warnings, warning) != loaded.warnings.end();

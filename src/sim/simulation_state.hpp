@@ -97,7 +97,7 @@ struct Simulation::State {
           theta(settings.solver == Solver::split ? settings.theta : 0), omega(settings.omega),
           damping(scene.damping), substeps(settings.substeps),
           hasContacts(collision::particle_contacts::areIn(scene) || collision::face_contacts::areIn(scene)),
-          unsettled(settings.framesInFlight), untold(warnings(scene, settings)) {}
+          unsettled(settings.framesInFlight), untold(warnings(scene)) {}
 
     bool mayBeCut() const noexcept { return program.cutting.counts != BufferId{}; }
 

@@ -12,7 +12,7 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings);
 
 /// Sentences about scenes that can be computed and are likely not meant: positions so far from the origin
 /// that float32 rounds them coarsely. Simulation::complaints() says them once.
-std::vector<std::string> warnings(const Scene& scene, const Settings& settings);
+std::vector<std::string> warnings(const Scene& scene);
 
 /// Those about the settings, whatever the scene. Cheap.
 std::vector<std::string> validate(const Settings& settings);

@@ -40,7 +40,7 @@ void warnOfRounding(const Scene& scene, std::vector<std::string>& sentences) {
 
 } // namespace
 
-std::vector<std::string> warnings(const Scene& scene, const Settings& /*settings*/) {
+std::vector<std::string> warnings(const Scene& scene) {
     std::vector<std::string> sentences;
     warnOfRounding(scene, sentences);
     return sentences;

@@ -67,7 +67,9 @@ TEST_F(LoadWarnings, SaysHowManySubstepsAStiffBodyNeeds) {
     // Stiffness and mass are assembled alike, so that each particle has sum k / m = 18 x 0.4 E a / (density
     // a^3) and h^2 sum k / m <= 1: 1/60 s sqrt(7.2 E / density) / spacing = 316.2 substeps; sqrt(0.95) of it
     // leave a link at most 5 % too soft.
-    EXPECT_NE(warnings[0].find(": 309 substeps would keep all within 5 %"), std::string::npos) << warnings[0];
+    EXPECT_NE(warnings[0].find(": 309 substeps would keep all links of the scene within 5 %"),
+              std::string::npos)
+        << warnings[0];
     EXPECT_TRUE(scenes::load(write("scene.toml", box), {.substeps = 309}).warnings.empty());
     EXPECT_TRUE(
         scenes::load(write("scene.toml", box), {.solver = "jacobi", .iterations = 200}).warnings.empty());
@@ -107,7 +109,7 @@ TEST_F(LoadWarnings, WarnsOfASoftBodyBesideALargerOne) {
     const std::vector<std::string> both = warnings(liver + bone);
     ASSERT_EQ(both.size(), 1u);
     EXPECT_EQ(both[0], "360 of 360 elastic links of body \"bone\" are softer than asked, down to 1 %: 309 "
-                       "substeps would keep all within 5 %");
+                       "substeps would keep all links of the scene within 5 %");
     EXPECT_TRUE(warnings(liver).empty());
     std::string bones;
     for (int b = 1; b < 8; ++b) bones += box("bone " + std::to_string(b), b, 4, "2e7");

@@ -66,9 +66,9 @@ TEST(Misuse, OfNothingIsNotSaid) {
 
 TEST(Misuse, OfPlacesFarFromTheOriginIsSaidOnce) {
     Scene scene = test::chain(6);
-    EXPECT_EQ(warnings(scene, fewSubsteps), Sentences{});
+    EXPECT_EQ(warnings(scene), Sentences{});
     for (Particle& particle : scene.particles) particle.position.x += 4000;
-    const Sentences said = warnings(scene, fewSubsteps);
+    const Sentences said = warnings(scene);
     expectOne(said, {"positions are rounded to 0.24 mm at 4001 m from the origin", "place all within "});
     Simulation simulation(test::device(), scene, fewSubsteps);
     EXPECT_EQ(simulation.complaints(), said);
