@@ -20,12 +20,12 @@ template <typename IsSo> std::string bodyWhere(const sim::Scene& scene, const Is
     return "this scene";
 }
 
-std::string bodyWithFaces(const sim::Scene& scene) {
+std::vector<bool> cornersOf(const sim::Scene& scene) {
     std::vector<bool> isCorner(scene.particles.size());
     for (const sim::Face& face : scene.faces)
         for (const std::uint32_t corner : face.particles)
             if (corner < isCorner.size()) isCorner[corner] = true;
-    return bodyWhere(scene, [&](std::uint32_t i) { return isCorner[i]; });
+    return isCorner;
 }
 
 std::string drivenThing(const LoadedScene& loaded) {
@@ -52,13 +52,18 @@ void requireForms(const LoadedScene& loaded, const std::string& file) {
     if (loaded.settings.solver == sim::Solver::split) return;
     const std::string none =
         std::string("solver ") + sim::solverName(loaded.settings.solver) + " has no form for ";
+    const std::vector<bool> isCorner = cornersOf(scene); // sheets with a thickness touch by their faces
     if (sim::particlesTouch(scene))
         fail(file,
              none + "particles that touch each other, as those of " +
-                 bodyWhere(scene, [&](std::uint32_t i) { return scene.particles[i].radius > 0; }) + " do",
+                 bodyWhere(scene,
+                           [&](std::uint32_t i) { return scene.particles[i].radius > 0 && !isCorner[i]; }) +
+                 " do",
              "use split, or leave out collides and [[particles]]");
     if (sim::facesTouch(scene))
-        fail(file, none + "particles that touch surfaces, as that of " + bodyWithFaces(scene),
+        fail(file,
+             none + "particles that touch surfaces, as that of " +
+                 bodyWhere(scene, [&](std::uint32_t i) { return isCorner[i]; }),
              "use split, or leave out thickness, faces and [[mesh_collider]]");
     if (!scene.driven.empty())
         fail(file, none + "keyframes of holds and mesh colliders, as those of " + drivenThing(loaded),
