@@ -361,7 +361,8 @@ SubstepCure cureOf(const SubstepChoice& choice, const Settings& settings) {
         return {"would let no sheet fall onto itself by more than 0.35 thicknesses",
                 "a larger thickness or more damping"};
     default:
-        return {"would keep the tolerance of " + percentOf(settings), "larger voxels or spacing, or a softer material"};
+        return {"would keep the tolerance of " + percentOf(settings),
+                "larger voxels or spacing, or a softer material"};
     }
 }
 
