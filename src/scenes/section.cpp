@@ -32,8 +32,10 @@ std::string describeValue(const toml::node& node) {
 }
 
 std::string expectedText(const Key& key) {
-    if (key.kind == Kind::table) return "[" + std::string(key.name) + "]";
-    if (key.kind == Kind::tables) return "[[" + std::string(key.name) + "]]";
+    const std::string name =
+        (key.section.empty() ? "" : std::string(key.section) + ".") + std::string(key.name);
+    if (key.kind == Kind::table) return "[" + name + "]";
+    if (key.kind == Kind::tables) return "[[" + name + "]]";
     std::string text(ruleOf(key.kind).expected);
     if (!key.unit.empty()) text += " in " + std::string(key.unit);
     return text;

@@ -143,8 +143,10 @@ TEST(EveryTextKey, RefusesNumbers) {
 
 TEST(EveryTableKey, RefusesAValue) {
     for (const Key& key : scenes::schema()) {
-        if (key.kind == Kind::table) expectRefused(key, "5", "write [" + std::string(key.name) + "]");
-        if (key.kind == Kind::tables) expectRefused(key, "5", "write [[" + std::string(key.name) + "]]");
+        const std::string inner = key.section.empty() ? "" : std::string(key.section) + ".",
+                          name = inner + std::string(key.name);
+        if (key.kind == Kind::table) expectRefused(key, "5", "write [" + name + "]");
+        if (key.kind == Kind::tables) expectRefused(key, "5", "write [[" + name + "]]");
     }
 }
 
