@@ -444,6 +444,28 @@ void checkGrids(const Scene& scene, Complaints& complaints) {
     checkOverlap(scene, complaints);
 }
 
+// Why lattice::computedGrids() leaves a body out where the solver and the forms allow it: the cause, and the
+// cure.
+std::string whyNotComputed(const Scene& scene, std::uint32_t g) {
+    if (!scene.bends.empty()) {
+        const std::string body = bodyOf(scene, scene.bends.front().b);
+        return "but " + (body.empty() ? "the scene" : "body \"" + body + "\"") +
+               " has a bending stiffness (bends), beside which split has no form for that: make it 0";
+    }
+    if (scene.dampingTime > 0)
+        return "but the scene has a damping time (internal damping), beside which split has no form for "
+               "that: make it 0";
+    const Grid& grid = scene.grids[g];
+    const auto isOfGrid = [&](std::uint32_t i) { return i - grid.firstParticle < grid.node.size(); };
+    for (std::size_t c = 0; c < scene.distances.size(); ++c) {
+        const DistanceConstraint& link = scene.distances[c];
+        const bool isOwn = c >= grid.firstDistance && c - grid.firstDistance < grid.distanceCount;
+        if (!isOwn && (isOfGrid(link.a) || isOfGrid(link.b)))
+            return "but " + element("distance", c) + " holds it beside its own links: leave that out";
+    }
+    return "but split has no form for that";
+}
+
 // Only where `split` computes a body are there links to cut. The scene is right in all else.
 void checkCutting(const Scene& scene, const Settings& settings, Complaints& complaints) {
     if (std::ranges::none_of(scene.grids, &Grid::isCuttable)) return;
@@ -463,9 +485,7 @@ void checkCutting(const Scene& scene, const Settings& settings, Complaints& comp
         } else if (!settings.forms.usesGrids)
             complaints.add(nameOf(scene, g), may + "which needs settings.forms.usesGrids");
         else if (!std::ranges::binary_search(computed, g))
-            complaints.add(nameOf(scene, g), may +
-                                                 "which split can do only to a body that no other constraint "
-                                                 "holds, in a scene without bends and internal damping");
+            complaints.add(nameOf(scene, g), may + whyNotComputed(scene, g));
     }
 }
 
@@ -483,11 +503,7 @@ void checkCellVolumes(const Scene& scene, const Settings& settings, Complaints& 
         else if (!settings.forms.usesGrids)
             complaints.add(nameOf(scene, g), has + "which need settings.forms.usesGrids");
         else if (!std::ranges::binary_search(computed, g))
-            complaints.add(
-                nameOf(scene, g),
-                has +
-                    "which split computes only for a body that no other constraint holds, in a scene without "
-                    "bends and internal damping");
+            complaints.add(nameOf(scene, g), has + whyNotComputed(scene, g));
         if (scene.grids[g].recoveryPressure > 0 && solvers::recoveryBudget(settings) <= 0)
             complaints.add("settings.omega",
                            "is " + number(settings.omega) + ", but recovery needs it below " +

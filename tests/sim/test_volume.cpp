@@ -258,8 +258,12 @@ TEST(CellVolume, IsRefusedInASentenceWhereItWouldBeLost) {
     Scene tied = scene;
     tied.particles.push_back({.position = {1, 1, 1}});
     tied.distances.push_back({0, static_cast<std::uint32_t>(tied.particles.size() - 1), 1, 1e-3f});
-    EXPECT_EQ(complaintAbout(tied), has + "which split computes only for a body that no other constraint "
-                                          "holds, in a scene without bends and internal damping");
+    EXPECT_EQ(complaintAbout(tied), has + "but distance[" + std::to_string(tied.distances.size() - 1) +
+                                        "] holds it beside its own links: leave that out");
+    Scene damped = scene;
+    damped.dampingTime = 0.01f;
+    EXPECT_EQ(complaintAbout(damped), has + "but the scene has a damping time (internal damping), beside "
+                                            "which split has no form for that: make it 0");
     const Scene recovering = body({2, 2, 2}, {0.25f, 1});
     EXPECT_EQ(complaintAbout(recovering), "none");
     EXPECT_EQ(complaintAbout(recovering, {.omega = 3.1f}),

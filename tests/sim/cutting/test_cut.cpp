@@ -396,7 +396,17 @@ TEST(Cuttable, IsRefusedWhereNoLinksAreComputed) {
         complaint(cube(2), {.solver = Solver::jacobi}).find("may be cut, which solver jacobi has no form"),
         std::string::npos);
     EXPECT_NE(complaint(cube(2), {.forms = {.usesGrids = false}}).find("usesGrids"), std::string::npos);
-    EXPECT_NE(complaint(tied, {}).find("no other constraint holds"), std::string::npos);
+    EXPECT_NE(complaint(tied, {}).find("may be cut, but distance[" +
+                                       std::to_string(tied.distances.size() - 1) +
+                                       "] holds it beside its own links: leave that out"),
+              std::string::npos)
+        << complaint(tied, {});
+    Scene bent = cube(2);
+    addCloth(bent, {.name = "curtain", .origin = {3, 0, 0}, .size = {4, 4}, .bendingStiffness = 1});
+    EXPECT_NE(complaint(bent, {}).find("may be cut, but body \"curtain\" has a bending stiffness (bends), "
+                                       "beside which split has no form for that: make it 0"),
+              std::string::npos)
+        << complaint(bent, {});
     EXPECT_THROW(addLattice(tied, {.origin = {1e6f, 0, 0}, .spacing = 0.01f, .isCuttable = true}),
                  std::domain_error);
 }
