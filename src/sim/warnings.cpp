@@ -13,13 +13,18 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// The shortest link or diameter of a scene [m]; infinite where it has neither.
+// The shortest link or diameter [m] that matters to particles that move; infinite where there is neither.
+// The diameter of held ones does where a particle that moves can touch them.
 double finestLength(const Scene& scene) {
+    const auto moves = [&](const Particle& particle) { return particle.inverseMass > 0; };
     double finest = infinite;
     for (const DistanceConstraint& link : scene.distances)
-        if (link.restLength > 0) finest = std::min(finest, double{link.restLength});
+        if (link.restLength > 0 && (moves(scene.particles[link.a]) || moves(scene.particles[link.b])))
+            finest = std::min(finest, double{link.restLength});
+    const bool touches = std::ranges::any_of(
+        scene.particles, [&](const Particle& particle) { return particle.radius > 0 && moves(particle); });
     for (const Particle& particle : scene.particles)
-        if (particle.radius > 0) finest = std::min(finest, 2 * double{particle.radius});
+        if (touches && particle.radius > 0) finest = std::min(finest, 2 * double{particle.radius});
     return finest;
 }
 
