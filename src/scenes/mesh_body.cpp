@@ -94,6 +94,7 @@ Found generate(const Section& section) {
     found.file = name;
     found.mesh = mesh::generate(name, section.count("detail"));
     found.defects = mesh::inspect(found.mesh).defects;
+    found.repairs.how = mesh::Repair::close; // which has nothing to do
     return found;
 }
 
@@ -163,6 +164,13 @@ double longestSide(const mesh::MeshReport& surface) {
                      double{surface.high.z} - double{surface.low.z}});
 }
 
+/// A sentence "fact: cure" as those two; both empty where it is.
+std::pair<std::string, std::string> splitAtColon(const std::string& sentence) {
+    const std::size_t colon = sentence.find(": ");
+    if (colon == std::string::npos) return {};
+    return {sentence.substr(0, colon), sentence.substr(colon + 2)};
+}
+
 /// Names the components that are too thin for the surface that stands in for the mesh.
 void warnOfLost(LoadedScene& loaded, const Section& section, const MeshSummary& summary,
                 const mesh::TriangleMesh& mesh, const mesh::TriangleMesh& wrapped, double longest) {
@@ -199,8 +207,12 @@ const MeshSummary& addBody(LoadedScene& loaded, const Section& section, const me
         summary.shown = added.shown;
         warnOfLost(loaded, section, summary, mesh, added.wrapped, longest);
     } catch (const std::length_error& error) {
-        section.fail("voxel", std::string("is too small for this mesh (") + error.what() + ")",
-                     "give larger voxels");
+        // a mesh in millimetres that is taken for metres asks for other words than a fine voxel
+        const auto [extent, cure] = splitAtColon(oddSizeOf(section, summary.surface));
+        section.fail("voxel",
+                     std::string("is too small for this mesh (") + error.what() + ")" +
+                         (extent.empty() ? "" : ", which " + extent),
+                     cure.empty() ? "give larger voxels" : cure + ", or give larger voxels");
     } catch (const std::domain_error& error) {
         section.fail(body.isCuttable             ? "cuttable"
                      : body.poissonRatio > 0.25f ? "poisson_ratio"
@@ -250,7 +262,7 @@ void addJoined(LoadedScene& loaded, const Section& section, const std::string& c
     const MeshSummary& added = addBody(loaded, section, found.mesh, body, std::move(summary),
                                        longestSide(mesh::measure(found.mesh)));
     noteComponents(loaded, called, components);
-    const std::string inward = inwardText(components);
+    const std::string inward = inwardText(components, found.repairs.how);
     if (!inward.empty()) loaded.warnings.push_back(called + " " + inward);
     if (section.has("parts")) return;
     const mesh::Bridges between = mesh::findBridges(found.mesh, components, added.voxels);

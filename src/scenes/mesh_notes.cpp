@@ -96,7 +96,7 @@ std::vector<std::string> overlapTexts(const mesh::Bridges& bridges) {
     return texts;
 }
 
-std::string inwardText(const std::vector<mesh::Component>& components) {
+std::string inwardText(const std::vector<mesh::Component>& components, mesh::Repair how, Words words) {
     constexpr std::size_t mostNamed = 10;
     std::string names;
     std::size_t count = 0;
@@ -106,9 +106,11 @@ std::string inwardText(const std::vector<mesh::Component>& components) {
     if (count == 0 || components.size() < 2) return {};
     if (count > mostNamed) names += " and " + sim::counted(count - mostNamed, "other");
     return "has " + sim::counted(count, "component") + " inside out, " + names +
-           ": where it lies in another one, it is left out of the volume; turn its triangles, or close what "
-           "is "
-           "around it if it is a cavity";
+           ": where it lies in another one, it is left out of the volume; turn its triangles" +
+           (how == mesh::Repair::close
+                ? ""
+                : " (" + setting(words, "repair", "\"close\"") + " turns closed parts)") +
+           ", or close what is around it if it is a cavity";
 }
 
 std::string thinText(double thickness, double longest, double voxel, bool saysVoxel, Words words) {
@@ -174,7 +176,10 @@ void warnOfDefects(const MeshSummary& summary, std::vector<std::string>& warning
                            (summary.repairs.openEdges == defects.boundaryEdges
                                 ? mesh::openText(summary.repairs)
                                 : sim::counted(defects.boundaryEdges, "boundary edge")) +
-                           "; what is inside was decided by winding numbers");
+                           "; what is inside was decided by winding numbers" +
+                           (summary.repairs.how == mesh::Repair::close
+                                ? ""
+                                : ", and repair = \"close\" closes small holes"));
     if (defects.nonManifoldEdges > 0)
         warnings.push_back(name + " is not manifold: " + sim::counted(defects.nonManifoldEdges, "edge") +
                            " with three or more triangles; its volume may be wrong");

@@ -43,8 +43,9 @@ std::string bridgesText(const mesh::Bridges& bridges, double voxel);
 std::vector<std::string> overlapTexts(const mesh::Bridges& bridges);
 
 /// "has a component inside out, \"part 2\": ...", for the first ten of several components; empty where there
-/// is none.
-std::string inwardText(const std::vector<mesh::Component>& components);
+/// is none. `how` the mesh was repaired decides on the cure.
+std::string inwardText(const std::vector<mesh::Component>& components, mesh::Repair how,
+                       Words words = Words::scene);
 
 /// The share of a surface whose thickness is held against the voxels.
 constexpr double thinnestShare = 0.05;

@@ -140,6 +140,7 @@ TEST_F(Load, RepairsAMeshAndNotesIt) {
                         "mesh m.obj is open: 3 boundary edges around 1 hole, the largest with 3 "
                         "edges and a rim of "),
                   1);
+        EXPECT_EQ(count(left.warnings, "winding numbers, and repair = \"close\" closes small holes"), 1);
     }
     const scenes::LoadedScene collider = load(smallCloth + "[[mesh_collider]]\nfile = \"m.obj\"\n");
     EXPECT_EQ(count(collider.notes, "mesh collider m.obj: 1 hole was closed"), 1);
@@ -199,6 +200,19 @@ TEST_F(Load, GeneratesShapesByName) {
     expectError("[[mesh]]\ngenerate = \"sphere\"\nparticles = 7\n", "scene.toml:3: mesh[0].particles");
     expectError("[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\nvoxel = 1e-4\n",
                 "scene.toml:5: mesh[0].voxel is too small");
+}
+
+// A mesh in millimetres that is taken for metres, with a voxel in metres.
+TEST_F(Load, NamesTheUnitWhereVoxelsAreTooSmallForIt) {
+    mesh::exportObj(folder_ / "m.obj", tetrahedron(200));
+    const std::string error = errorOfText("[[mesh]]\nfile = \"m.obj\"\nvoxel = 0.01\n");
+    EXPECT_NE(error.find("scene.toml:3: mesh[0].voxel is too small for this mesh ("), std::string::npos)
+        << error;
+    EXPECT_NE(error.find("), which is 200 m long: if the file is in millimetres, say unit = \"mm\", or give "
+                         "larger voxels"),
+              std::string::npos)
+        << error;
+    EXPECT_EQ(errorOfText("[[mesh]]\nfile = \"m.obj\"\nvoxel = 0.01\nunit = \"mm\"\n"), "");
 }
 
 TEST_F(Load, ReadsAMeshInItsUnit) {

@@ -232,10 +232,13 @@ std::string toText(const Findings& found) {
     for (const std::string& sentence : mesh::sentencesOf(found.repairs))
         text += fmt::format("  repaired  {}\n", sentence);
     if (defects.boundaryEdges > 0)
-        text += fmt::format("  open      {}: close it in a mesh editor if the mesh is to have an inside\n",
-                            found.repairs.openEdges == defects.boundaryEdges
-                                ? mesh::openText(found.repairs)
-                                : sim::counted(defects.boundaryEdges, "boundary edge"));
+        text +=
+            fmt::format("  open      {}: {} if the mesh is to have an inside\n",
+                        found.repairs.openEdges == defects.boundaryEdges
+                            ? mesh::openText(found.repairs)
+                            : sim::counted(defects.boundaryEdges, "boundary edge"),
+                        found.repairs.how == mesh::Repair::close ? "close it in a mesh editor"
+                                                                 : "try --repair close, or a mesh editor,");
     text += componentsText(found.components);
     for (const std::string& sentence : scenes::overlapTexts(found.bridges))
         text += fmt::format("  overlap   {}\n", sentence);
@@ -264,7 +267,7 @@ std::vector<std::string> surprises(const MeshOptions& options, const Findings& f
                          scenes::Words::commandLine),
         found.vainWeld,
         scenes::bridgesText(found.bridges, voxel),
-        scenes::inwardText(found.components),
+        scenes::inwardText(found.components, found.repairs.how, scenes::Words::commandLine),
         scenes::thinText(mesh::wallThickness(found.mesh, scenes::thinnestShare), longest, voxel,
                          options.voxel > 0 || options.particles, scenes::Words::commandLine)};
     std::erase(sentences, "");
