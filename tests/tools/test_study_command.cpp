@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 using sinew::test::expectOneError;
@@ -90,6 +91,26 @@ TEST_F(Study, WritesWhatItsDocumentationSays) {
     std::size_t lines = 0;
     for (std::string line; std::getline(csv, line);) ++lines;
     EXPECT_EQ(lines, points + 1);
+}
+
+TEST_F(Study, GivesEverySolverTheSameMesh) {
+    write("scene.toml", "name = \"tiny\"\n[[mesh]]\nname = \"ball\"\ngenerate = \"sphere\"\nsize = 0.2\n"
+                        "resolution = 4\nyoung_modulus = 2e3\ncuttable = true\nspin = [3, 0, 0]\n");
+    const Outcome outcome = study();
+    ASSERT_EQ(outcome.code, 0) << outcome.error;
+    const Json json = Json::parse(text("study.json"))["scenes"][0];
+    EXPECT_EQ(json["notes"], Json({"studied without the recovery that \"ball\" would have by default: jacobi "
+                                   "and gauss_seidel have no form for it"}));
+    std::set<std::string> solvers;
+    for (const Json& curve : json["curves"]) solvers.insert(curve["solver"]);
+    for (const char* solver : {"split", "jacobi", "gauss_seidel"})
+        EXPECT_TRUE(solvers.contains(solver)) << solver;
+    // what the file itself asks for is another scene, which only split can do
+    write("scene.toml", "name = \"tiny\"\n[[mesh]]\nname = \"ball\"\ngenerate = \"sphere\"\nsize = 0.2\n"
+                        "resolution = 4\nyoung_modulus = 2e3\nrecovery = 1\n[[plane]]\noffset = -1\n");
+    const Outcome asked = study();
+    ASSERT_EQ(asked.code, 0) << asked.error;
+    EXPECT_EQ(Json::parse(text("study.json"))["scenes"][0]["curves"].size(), 1u);
 }
 
 TEST_F(Study, ComparesContactsWithShortStepsAndFollowsThemToRest) {

@@ -1,6 +1,7 @@
 // Two tables: scenes and tunings.
 #include "sinew/study/plan.hpp"
 
+#include "scenes/recovery.hpp"
 #include "sim/collision/particle_contacts.hpp"
 #include "sim/compile.hpp"
 #include "sim/ranges.hpp"
@@ -77,6 +78,22 @@ std::vector<SweepCount> sweepCounts(std::uint32_t points, std::uint32_t fewest, 
 
 constexpr const char* weighted = "jacobi_weighted";
 
+/// See studyScenes().
+StudyScene forEverySolver(StudyScene study) {
+    sim::Scene& scene = study.loaded.scene;
+    std::string names;
+    for (const std::uint32_t grid : study.loaded.defaultRecovery)
+        names += (names.empty() ? "\"" : ", \"") + scene.grids[grid].name + "\"";
+    if (!names.empty())
+        study.notes.push_back("studied without the recovery that " + names +
+                              " would have by default: jacobi and gauss_seidel have no form for it");
+    scene = scenes::withoutDefaults(std::move(scene), study.loaded.defaultRecovery,
+                                    {.solver = sim::Solver::jacobi});
+    for (sim::Grid& grid : scene.grids)
+        if (grid.tearStrain == 0) grid.isCuttable = false;
+    return study;
+}
+
 } // namespace
 
 std::string curveOf(const sim::Settings& settings) {
@@ -100,12 +117,12 @@ std::vector<StudyScene> studyScenes(const std::string& which, std::optional<std:
     std::vector<StudyScene> scenes;
     for (const Shipped& scene : shipped)
         if (which == "all" || which == scene.name)
-            scenes.push_back(
-                {scene.name, frames.value_or(scene.frames), scene.points, scenes::loadBuiltIn(scene.name)});
+            scenes.push_back(forEverySolver(
+                {scene.name, frames.value_or(scene.frames), scene.points, scenes::loadBuiltIn(scene.name)}));
     if (!scenes.empty()) return scenes;
     scenes::LoadedScene loaded = scenes::load(which);
     const std::string name = fileName(loaded.scene.name);
-    scenes.push_back({name, frames.value_or(defaultFrames), mostPoints, std::move(loaded)});
+    scenes.push_back(forEverySolver({name, frames.value_or(defaultFrames), mostPoints, std::move(loaded)}));
     return scenes;
 }
 

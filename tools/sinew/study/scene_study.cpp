@@ -174,7 +174,8 @@ SceneResult study(Session& session, const StudyScene& scene, std::uint32_t point
                        .constraints = scene.loaded.scene.distances.size(),
                        .frames = scene.frames,
                        .dt = double{scene.loaded.scene.dt},
-                       .isOfContacts = isOfContacts(scene.loaded.scene)};
+                       .isOfContacts = isOfContacts(scene.loaded.scene),
+                       .notes = scene.notes};
     std::vector<Trial> trials = prepareAll(scene, points, session.device.description(), result.notes);
     for (Trial& trial : trials) store.load(trial);
     const std::vector<Trial*> toRun = missing(trials);

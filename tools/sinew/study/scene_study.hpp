@@ -14,8 +14,9 @@ struct SceneResult {
     Truth truth;               ///< without its frames
     std::vector<Trial> trials; ///< that have run
     bool isOfContacts = false;
-    std::vector<RestRun> rest;      ///< of contacts, those that have run
-    std::vector<std::string> notes; ///< sentences: what could not run, and why
+    std::vector<RestRun> rest; ///< of contacts, those that have run
+    std::vector<std::string>
+        notes; ///< sentences: how the scene differs from its file, what could not run, and why
 };
 
 /// Runs what is missing and says on stderr how far it is. Trials of all solvers take turns. After an
