@@ -101,8 +101,10 @@ std::optional<std::string> stretchWarning(const RunRecord& record) {
     const double ofAuto = sim::chooseSubsteps(record.loaded.scene, chosen).substeps;
     const double substeps = std::max(ofAuto, std::ceil(settings.substeps * std::sqrt(most / wanted)));
     return fmt::format(
-               "rigid links are up to {:.3g} % too long at the end, where solver.tolerance is {:.3g} %: ",
-               100 * most, 100 * wanted) +
+               "rigid links are up to {:.3g} % too long at the end, where solver.tolerance is {:.3g} %{}: ",
+               100 * most, 100 * wanted,
+               settings.substeps >= ofAuto ? " of what hangs or lies still, and \"auto\" counts no motion"
+                                           : "") +
            (substeps <= sim::ranges::substeps.high
                 ? fmt::format("take about {:.0f} substeps in place of {}", substeps, settings.substeps)
                 : std::string("take shorter steps (dt), or links that are elastic"));
