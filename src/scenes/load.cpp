@@ -242,6 +242,18 @@ void warnAboutMostSubsteps(LoadedScene& loaded) {
                               (dt.empty() ? "" : dt + ", ") + cure.otherwise);
 }
 
+// Down to half of what contacts ask for is a matter of taste; fewer let them give way, which no report of
+// links shows.
+void warnAboutContacts(LoadedScene& loaded) {
+    if (loaded.substeps.reason != sim::SubstepReason::asked) return;
+    const std::uint32_t given = loaded.settings.substeps;
+    const sim::SubstepChoice asked = sim::contactSubsteps(loaded.scene);
+    if (2 * given >= asked.wanted) return;
+    loaded.warnings.push_back(sim::counted(given, "substep is", "substeps are") +
+                              " few for what may touch: " + giveSubsteps(loaded, asked.wanted) + " " +
+                              sim::cureOf(asked, loaded.settings).would);
+}
+
 // Searches go there on purpose, and a lattice bears more than is proven: no reason to refuse.
 void warnAboutRelaxation(LoadedScene& loaded) {
     const sim::Settings& settings = loaded.settings;
@@ -263,7 +275,24 @@ void warnAboutSolver(LoadedScene& loaded) {
     warnAboutRelaxation(loaded);
     warnAboutStiffness(loaded);
     warnAboutMostSubsteps(loaded);
+    warnAboutContacts(loaded);
     warnAboutDrag(loaded);
+}
+
+// A file that is tried with another solver, asked for from outside, has its own keys for a reason.
+void warnOfForeignKeys(LoadedScene& loaded, const Section& solver) {
+    static constexpr std::pair<const char*, sim::Solver> ofOne[] = {
+        {"omega", sim::Solver::split},
+        {"theta", sim::Solver::split},
+        {"weight", sim::Solver::jacobi},
+        {"over_relaxation", sim::Solver::jacobi},
+        {"warm_start", sim::Solver::gaussSeidel},
+    };
+    for (const auto& [key, of] : ofOne)
+        if (solver.has(key) && of != loaded.settings.solver)
+            loaded.warnings.push_back(std::string("solver.") + key + " is ignored by solver " +
+                                      sim::solverName(loaded.settings.solver) + ": only " +
+                                      sim::solverName(of) + " has it");
 }
 
 LoadedScene read(const std::string& text, const Source& source, const Overrides& overrides) {
@@ -279,6 +308,7 @@ LoadedScene read(const std::string& text, const Source& source, const Overrides&
     readContacts(loaded, top.child("contacts"));
     loaded.scene.crumbs = top.count("crumbs");
     loaded.settings.cutSurfaceRoom = top.count("cut_surface_room");
+    if (!overrides.solver) warnOfForeignKeys(loaded, top.child("solver"));
     apply(overrides, loaded);
     loaded.origin = originOf(top);
     readBodies(loaded, top, source, overrides.voxel);

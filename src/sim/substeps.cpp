@@ -308,6 +308,14 @@ SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings) {
     return choice;
 }
 
+SubstepChoice contactSubsteps(const Scene& scene) {
+    if (!canTouch(scene)) return {};
+    const ContactLimits limits = limitsOfContacts(scene, loadOf(scene));
+    const double longest = std::min(limits.loads, limits.folds);
+    return {.wanted = countFor(double{scene.dt}, longest),
+            .rule = limits.folds < limits.loads ? SubstepReason::folds : SubstepReason::contacts};
+}
+
 Settings withSubsteps(const Scene& scene, Settings settings) {
     settings.substeps = chooseSubsteps(scene, settings).substeps;
     return settings;

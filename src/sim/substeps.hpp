@@ -93,6 +93,10 @@ struct SubstepCure {
 };
 SubstepCure cureOf(const SubstepChoice& choice, const Settings& settings);
 
+/// The number that contacts alone ask for as `wanted`, by the rule `contacts` or `folds`, without the limits
+/// of chooseSubsteps(). 1 where nothing may touch.
+SubstepChoice contactSubsteps(const Scene& scene);
+
 /// "64 substeps: so that no link is more than 5 % softer than asked".
 std::string toText(const SubstepChoice& choice, const Settings& settings);
 

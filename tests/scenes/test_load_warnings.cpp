@@ -58,6 +58,65 @@ TEST_F(LoadWarnings, WarnsWherePositionsAreTooCoarse) {
     EXPECT_EQ(warnings("900000", "10").size(), 1u);
 }
 
+// A plate that nothing touches is never compared with a position, its thickness is of no matter.
+TEST_F(LoadWarnings, HoldsRoundingAgainstWhatMoves) {
+    mesh::exportObj(folder_ / "t.obj", test::tetrahedron(0.1f));
+    const auto coarse = [&](const std::string& more) {
+        std::size_t found = 0;
+        const std::string box = "[[box]]\nparticles = [3, 3, 3]\nspacing = 0.05\ncenter = ";
+        for (const std::string& warning : load(box + "[0, 0, 0]\n" + box + "[40, 0, 0]\n" + more).warnings)
+            found += warning.starts_with("positions are rounded");
+        return found;
+    };
+    const std::string plate = "[[mesh_collider]]\nfile = \"t.obj\"\nthickness = 0.001\ncenter = [40, 1, 0]\n";
+    EXPECT_EQ(coarse(""), 0u);
+    EXPECT_EQ(coarse(plate), 0u);
+    EXPECT_EQ(coarse("collides = true\n" + plate), 1u);
+}
+
+TEST_F(LoadWarnings, SaysWhatContactsAskForWhereANumberIsGiven) {
+    const auto few = [&](const std::string& substeps) {
+        std::string found;
+        for (const std::string& warning :
+             load("[solver]\nsubsteps = " + substeps +
+                  "\n[[cloth]]\nsize = [33, 33]\nspacing = 0.03\n"
+                  "thickness = 0.004\norigin = [0, 0.5, 0]\nright = [0, 1, 0]\n[[plane]]\n")
+                 .warnings)
+            if (warning.find("for what may touch") != std::string::npos) found = warning;
+        return found;
+    };
+    const std::string said = few("4");
+    const std::string start = "4 substeps are few for what may touch: ",
+                      end = " substeps would let no sheet fall onto itself by more than 0.35 thicknesses";
+    ASSERT_TRUE(said.starts_with(start) && said.ends_with(end)) << said;
+    const std::string wanted = said.substr(start.size(), said.size() - start.size() - end.size());
+    EXPECT_GT(std::stoul(wanted), 8u);
+    EXPECT_EQ(few(wanted), "");
+    EXPECT_EQ(few(std::to_string((std::stoul(wanted) + 1) / 2)), "");
+    EXPECT_NE(few(std::to_string((std::stoul(wanted) - 1) / 2)), "");
+    EXPECT_EQ(few("\"auto\""), "");
+}
+
+TEST_F(LoadWarnings, NamesKeysOfOtherSolvers) {
+    const std::string chain = "[[chain]]\nlength = 1\nparticles = 4\nstretch_compliance = 1e-3\n";
+    const auto ignored = [&](const std::string& keys, const scenes::Overrides& overrides = {}) {
+        std::vector<std::string> found;
+        for (const std::string& warning :
+             scenes::load(write("scene.toml", "[solver]\nsubsteps = 64\n" + keys + chain), overrides)
+                 .warnings)
+            if (warning.find(" is ignored by ") != std::string::npos) found.push_back(warning);
+        return found;
+    };
+    EXPECT_EQ(ignored("weight = 0.5\nomega = 1\n"),
+              std::vector<std::string>{"solver.weight is ignored by solver split: only jacobi has it"});
+    EXPECT_EQ(ignored("name = \"gauss_seidel\"\nwarm_start = 0.5\ntheta = 0\n"),
+              std::vector<std::string>{"solver.theta is ignored by solver gauss_seidel: only split has it"});
+    EXPECT_EQ(
+        ignored("name = \"jacobi\"\nover_relaxation = 1.2\nwarm_start = 0\n"),
+        std::vector<std::string>{"solver.warm_start is ignored by solver jacobi: only gauss_seidel has it"});
+    EXPECT_TRUE(ignored("theta = 0\n", {.solver = "jacobi"}).empty()) << "asked for from outside";
+}
+
 TEST_F(LoadWarnings, SaysHowManySubstepsAStiffBodyNeeds) {
     const std::string box = "[solver]\nsubsteps = 32\n[[box]]\nparticles = [4, 4, 4]\nspacing = 0.02\ncenter "
                             "= [0, 1, 0]\nyoung_modulus = 2e7\n";
@@ -299,6 +358,14 @@ TEST_F(LoadWarnings, AreRefusalsInTheWordsOfTheFileWhereASolverHasNoForm) {
     expectError(solver + "sleep = true\n" + box, none + "bodies that sleep, as solver.sleep asks");
     expectError(solver + box + "cuttable = true\n",
                 "scene.toml: body \"liver\": may be cut, which solver gauss_seidel has no form for");
+    expectError(box + "cuttable = true\n[[cloth]]\nname = \"drape\"\nsize = [4, 4]\nspacing = 0.1\n"
+                      "bending_stiffness = 1\n",
+                "scene.toml: body \"liver\": may be cut, but body \"drape\" has a bending stiffness (bends), "
+                "beside which split has no form for that: make it 0");
+    expectError(
+        "damping_time = 0.01\n" + box + "cuttable = true\n",
+        "scene.toml: body \"liver\": may be cut, but the scene has a damping time (internal damping), "
+        "beside which split has no form for that: make it 0");
 }
 
 TEST_F(LoadWarnings, AreRefusalsInTheWordsOfTheFileWhereAPathIsNone) {
