@@ -235,7 +235,7 @@ AddedMesh addMesh(sim::Scene& scene, const TriangleMesh& mesh, const MeshBody& b
         addLatticeSkin(scene, lattice, corners, body.color);
     else
         addSkin(scene, filled, corners, body);
-    return {std::move(filled.grid), shown, shown == Shown::wrapped ? std::move(filled.mesh) : TriangleMesh{}};
+    return {std::move(filled.grid), shown};
 }
 
 } // namespace sinew::mesh

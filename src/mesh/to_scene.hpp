@@ -33,7 +33,6 @@ enum class Shown {
 struct AddedMesh {
     VoxelGrid voxels;
     Shown shown = Shown::mesh;
-    TriangleMesh wrapped; ///< the surface that is shown where it is `wrapped`; else empty
 };
 
 /// Appends particles on the corners of the filled cells, links, a body (restVolume = the mesh's volume if

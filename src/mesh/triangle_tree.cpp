@@ -142,7 +142,8 @@ double TriangleTree::windingNumber(const Vector3& point) const {
     return winding;
 }
 
-double TriangleTree::distance(const Vector3& point) const {
+TriangleTree::Nearest TriangleTree::nearest(const Vector3& point) const {
+    Nearest found;
     double best = std::numeric_limits<double>::infinity(); // squared
     std::array<std::uint32_t, deepestStack> stack{};
     for (int size = nodes_.empty() ? 0 : 1; size > 0;) {
@@ -151,7 +152,10 @@ double TriangleTree::distance(const Vector3& point) const {
         if (node.box.squaredExteriorDistance(point) >= best) continue;
         for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
             const auto& [a, b, c, triangle] = triangles_[i];
-            best = std::min(best, (nearestPoint(a, b, c, point) - point).squaredNorm());
+            const double squared = (nearestPoint(a, b, c, point) - point).squaredNorm();
+            if (!(squared < best)) continue;
+            best = squared;
+            found.triangle = triangle;
         }
         if (node.count > 0) continue;
         const bool isRightNearer = nodes_[node.right].box.squaredExteriorDistance(point) <
@@ -159,7 +163,8 @@ double TriangleTree::distance(const Vector3& point) const {
         stack[size++] = isRightNearer ? index + 1 : node.right; // the nearer child is visited first
         stack[size++] = isRightNearer ? node.right : index + 1;
     }
-    return std::sqrt(best);
+    found.distance = std::sqrt(best);
+    return found;
 }
 
 TriangleTree::Hit TriangleTree::firstHit(const Vector3& origin, const Vector3& direction,

@@ -24,8 +24,13 @@ public:
     /// sum (the worst met, in a heap of interlocking parts; 0.01 is usual).
     double windingNumber(const Vector3& point) const;
 
-    /// Distance from `point` to the nearest triangle; infinite for an empty mesh.
-    double distance(const Vector3& point) const;
+    /// The nearest triangle.
+    struct Nearest {
+        double distance = std::numeric_limits<double>::infinity(); ///< infinite for an empty mesh
+        std::uint32_t triangle = 0;
+    };
+    Nearest nearest(const Vector3& point) const;
+    double distance(const Vector3& point) const { return nearest(point).distance; }
 
     /// The first point at which a ray meets a triangle.
     struct Hit {

@@ -2,6 +2,7 @@
 // mesh. All lengths are in cells of the grid.
 #include "mesh/wrap.hpp"
 
+#include "mesh/components.hpp"
 #include "mesh/inside.hpp"
 #include "mesh/place_grid.hpp"
 #include "mesh/surface_nets.hpp"
@@ -18,14 +19,21 @@ constexpr std::uint32_t perCell = 2;    ///< samples along an edge of a cell
 constexpr double apart = 1.0 / perCell; ///< from a sample to the next
 constexpr std::uint32_t rim = 2;        ///< layers of samples around the grid
 constexpr double farAway = 2;           ///< stands for the distance of samples that no surface is near to
-/// Parts whose inside is nowhere that deep could fall between samples: they are thickened until it is.
+/// Components whose inside is nowhere that deep could fall between samples: they are thickened until it is.
 constexpr double leastDepth = 0.45;
+constexpr std::uint32_t nobody = ~0u;
 
 /// Signed distances at the samples of a grid and of a rim around it, negative inside.
 class Field {
 public:
     Field(const TriangleMesh& mesh, const VoxelGrid& grid)
-        : positions_(toCellUnits(mesh, grid)), tree_(positions_, mesh.triangles) {
+        : positions_(toCellUnits(mesh, grid)), tree_(positions_, mesh.triangles),
+          componentOf_(mesh.triangles.size()) {
+        std::uint32_t number = 0;
+        for (const Component& component : components(mesh)) {
+            for (const std::uint32_t triangle : component.triangles) componentOf_[triangle] = number;
+            ++number;
+        }
         for (std::size_t axis = 0; axis < 3; ++axis) count_[axis] = perCell * grid.cells[axis] + 2 * rim;
         values_.assign(std::size_t{count_[0]} * count_[1] * count_[2], farAway);
         const Inside inside(positions_, mesh.triangles, tree_, grid.cells, perCell);
@@ -118,12 +126,21 @@ private:
         });
     }
 
+    /// A sample belongs to the component that is nearest to it: a thick one is no reason to leave a thin one
+    /// beside it as thin as it is.
     void thicken(const std::vector<bool>& isNear) {
         const std::vector<double> given = values_;
+        std::vector<std::uint32_t> nearest(values_.size(), nobody);
         forEach([&](const Index3& at) {
-            if (!isNear[index(at)]) return;
+            if (isNear[index(at)]) nearest[index(at)] = componentOf_[tree_.nearest(placeOf(at)).triangle];
+        });
+        forEach([&](const Index3& at) {
+            const std::uint32_t own = nearest[index(at)];
+            if (own == nobody) return;
             double depth = 0;
-            forAround(at, perCell, [&](std::size_t other) { depth = std::max(depth, -given[other]); });
+            forAround(at, perCell, [&](std::size_t other) {
+                if (nearest[other] == own || nearest[other] == nobody) depth = std::max(depth, -given[other]);
+            });
             if (depth < leastDepth)
                 values_[index(at)] =
                     std::min(given[index(at)], tree_.distance(placeOf(at)) - (leastDepth - depth));
@@ -140,6 +157,7 @@ private:
 
     std::vector<Vector3> positions_;
     TriangleTree tree_;
+    std::vector<std::uint32_t> componentOf_; ///< of each triangle
     Index3 count_{};
     std::vector<double> values_;
 };
@@ -154,31 +172,6 @@ TriangleMesh wrap(const TriangleMesh& mesh, const VoxelGrid& grid) {
     for (Vec3& position : result.positions)
         position = toVec3(toVector(grid.origin) + double{grid.spacing} * toVector(position));
     return result;
-}
-
-std::vector<double> leftOut(const TriangleMesh& mesh, std::span<const Component> components,
-                            const TriangleMesh& wrapped, double voxel) {
-    constexpr std::size_t mostComponents = 1000, mostSamples = 64;
-    std::vector<Vector3> positions;
-    for (const Vec3& position : wrapped.positions) positions.push_back(toVector(position));
-    const TriangleTree tree(positions, wrapped.triangles);
-    std::vector<double> shares(components.size());
-    for (std::size_t c = 0; c < std::min(components.size(), mostComponents); ++c) {
-        const std::vector<std::uint32_t>& triangles = components[c].triangles;
-        const std::size_t samples = std::min(mostSamples, triangles.size());
-        double all = 0, outside = 0;
-        for (std::size_t i = 0; i < samples; ++i) {
-            std::array<Vector3, 3> x;
-            std::ranges::transform(mesh.triangles[triangles[i * triangles.size() / samples]], x.begin(),
-                                   [&](std::uint32_t corner) { return toVector(mesh.positions[corner]); });
-            const double area = (x[1] - x[0]).cross(x[2] - x[0]).norm();
-            const Vector3 middle = (x[0] + x[1] + x[2]) / 3;
-            all += area;
-            if (tree.distance(middle) > 0.2 * voxel && tree.windingNumber(middle) < 0.5) outside += area;
-        }
-        if (all > 0) shares[c] = outside / all;
-    }
-    return shares;
 }
 
 } // namespace sinew::mesh

@@ -5,7 +5,6 @@
 #include "mesh/generate.hpp"
 #include "mesh/import.hpp"
 #include "mesh/walls.hpp"
-#include "mesh/wrap.hpp"
 #include "scenes/mesh_choice.hpp"
 #include "scenes/mesh_notes.hpp"
 #include "scenes/path.hpp"
@@ -171,25 +170,6 @@ std::pair<std::string, std::string> splitAtColon(const std::string& sentence) {
     return {sentence.substr(0, colon), sentence.substr(colon + 2)};
 }
 
-/// Names the components that are too thin for the surface that stands in for the mesh.
-void warnOfLost(LoadedScene& loaded, const Section& section, const MeshSummary& summary,
-                const mesh::TriangleMesh& mesh, const mesh::TriangleMesh& wrapped, double longest) {
-    if (wrapped.triangles.empty()) return;
-    constexpr double most = 0.5; // of the surface of a component
-    const double voxel = double{summary.voxels.spacing};
-    const std::vector<mesh::Component> components = mesh::components(mesh);
-    const std::vector<double> shares = mesh::leftOut(mesh, components, wrapped, voxel);
-    for (std::size_t c = 0; c < components.size(); ++c) {
-        if (shares[c] <= most) continue;
-        const double thickness = mesh::wallThickness(mesh::extract(mesh, components[c]), thinnestShare);
-        const std::string thin =
-            thinText(thickness, longest, voxel, section.has("voxel") || section.has("particles"));
-        if (!thin.empty())
-            loaded.warnings.push_back(summary.called + ": \"" + components[c].name +
-                                      "\" is left out of the surface that is shown, since it " + thin);
-    }
-}
-
 /// Fills a mesh with voxels. `summary` says how it is called. `longest` is the side that has as many voxels
 /// as the section's resolution [m].
 const MeshSummary& addBody(LoadedScene& loaded, const Section& section, const mesh::TriangleMesh& mesh,
@@ -205,7 +185,6 @@ const MeshSummary& addBody(LoadedScene& loaded, const Section& section, const me
         mesh::AddedMesh added = addWithRecovery(loaded, section, mesh, body);
         summary.voxels = std::move(added.voxels);
         summary.shown = added.shown;
-        warnOfLost(loaded, section, summary, mesh, added.wrapped, longest);
     } catch (const std::length_error& error) {
         // a mesh in millimetres that is taken for metres asks for other words than a fine voxel
         const auto [extent, cure] = splitAtColon(oddSizeOf(section, summary.surface));
