@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
-"""mesh_table.py SINEW [--resolution N] [--repair none|weld|close] [--device D] PATH...: what importing and filling makes of meshes, as a Markdown table.
+"""mesh_table.py SINEW [--resolution N] [--repair none|weld|close] [--device D] [--surfaces] PATH...: what importing and filling makes of meshes, as a Markdown table.
 
 PATH is a mesh (OBJ, STL, PLY, glTF, GLB; OFF is rewritten as OBJ), a folder searched for them, or `broken`: meshes that this
 script makes, each with one fault. The last lines, on stderr, count the meshes that were read, that are closed, and whose voxels
-keep their volume within 1 %. Exit code 1 where `sinew mesh` ended in any other way than with a report or one sentence.
+keep their volume within 1 %. With --surfaces the table says which surface a body of each mesh shows that may be cut, and the last
+line counts them. Exit code 1 where `sinew mesh` ended in any other way than with a report or one sentence.
 """
 import argparse
 import json
 import math
+import shutil
 import struct
 import subprocess
 import sys
@@ -182,6 +184,38 @@ def row(arguments, name, path):
             f"{seconds:.2f}", repaired(report["repair"])], True
 
 
+def surface(arguments, name, path, folder):
+    """Cells of a row of --surfaces, and whether `sinew describe` ended as it should. The body lies where its file has it."""
+    if path is None:
+        return [name, "not read"], True
+    scene, mesh = folder / "surface.toml", folder / ("surface" + path.suffix)
+    shutil.copy(path, mesh)
+    scene.write_text(f'[[mesh]]\nfile = "{mesh.name}"\nresolution = {arguments.resolution}\ncuttable = true\n'
+                     f'repair = "{arguments.repair or "close"}"\n')
+    done = subprocess.run([arguments.sinew, "describe", str(scene)], capture_output=True, text=True, timeout=1800)
+    mesh.unlink()
+    if done.returncode:
+        errors = [line[7:] for line in done.stderr.splitlines() if line.startswith("error: ")]
+        return [name, "refused", errors[0] if errors else done.stderr], done.returncode == 3 and len(errors) == 1
+    shown = [shown for sentence, shown in (("a closed surface half a voxel fine is shown in its place", "wrapped"),
+                                           ("the faces of its voxels are shown in its place", "voxels"))
+             if sentence in done.stderr]
+    return [name, shown[0] if shown else "mesh"], True
+
+
+def surfaces(arguments):
+    print("| mesh | surface | |\n|---|---|---|")
+    counts, areAllWell = {}, True
+    with tempfile.TemporaryDirectory() as folder:
+        for name, path in found(arguments.paths, Path(folder)):
+            cells, isWell = surface(arguments, name, path, Path(folder))
+            areAllWell = areAllWell and isWell
+            counts[cells[1]] = counts.get(cells[1], 0) + 1
+            print("| " + " | ".join(cells + [""] * (3 - len(cells))) + " |", flush=True)
+    print(", ".join(f"{count} {shown}" for shown, count in sorted(counts.items())), file=sys.stderr)
+    return 0 if areAllWell else 1
+
+
 def repaired(report):
     """What was repaired, in a cell of the table."""
     said = [f"{report[key]} {text}" for key, text in (
@@ -197,7 +231,10 @@ def main():
     parser.add_argument("--resolution", type=int, default=48)
     parser.add_argument("--repair", choices=("none", "weld", "close"))
     parser.add_argument("--device")
+    parser.add_argument("--surfaces", action="store_true")
     arguments = parser.parse_args()
+    if arguments.surfaces:
+        return surfaces(arguments)
     print("| mesh | triangles | defects (edges; triangles) | volume | of voxels | difference | hull + core | doubtful | s | repairs |")
     print("|---|---|---|---|---|---|---|---|---|---|")
     areAllWell = True
