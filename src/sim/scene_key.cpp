@@ -32,7 +32,7 @@ private:
 };
 
 void addLinks(Key& key, const Scene& scene) {
-    key.each(scene.particles, [&](const Particle& p) { key.addAll(p.position, p.inverseMass, p.radius); });
+    key.each(scene.particles, [&](const Particle& p) { key.addAll(p.position, p.inverseMass, p.radius, p.contactOffset); });
     key.each(scene.distances, [&](const DistanceConstraint& d) { key.addAll(d.a, d.b, d.restLength); });
     key.each(scene.bends, [&](const BendConstraint& bend) { key.addAll(bend.a, bend.b, bend.c); });
     key.each(scene.attachments, [&](const Attachment& a) { key.add(a.particle); });
@@ -67,7 +67,7 @@ void addBodies(Key& key, const Scene& scene) {
         key.all(grid.nodes);
         key.all(grid.node);
         key.all(grid.fill);
-        key.addAll(grid.firstParticle, grid.kinds, grid.isCuttable);
+        key.addAll(grid.firstParticle, grid.kinds, grid.isCuttable, grid.tearStrain);
     });
     key.each(scene.skins, [&](const Skin& skin) {
         key.addAll(std::uint64_t{skin.triangles.size()}, std::uint64_t{skin.vertexCount()},
@@ -82,6 +82,7 @@ std::uint64_t sceneKey(const Scene& scene) {
     addLinks(key, scene);
     addSurroundings(key, scene);
     addBodies(key, scene);
+    key.add(scene.crumbs);
     return key.value();
 }
 

@@ -252,7 +252,16 @@ TEST(TakeOver, OfAnotherSceneIsRefusedInASentence) {
              other.colliders[0].path = {{0, {{3, 0, 0}, {}}}, {1, {{3, 1, 0}, {}}}};
          }},
         {"what is held", [](Scene& other) { other.fixed = {{.particle = 0}}; }},
-        {"a body that may be cut", [](Scene& other) { other.grids[0].isCuttable = true; }}};
+        {"a body that may be cut", [](Scene& other) { other.grids[0].isCuttable = true; }},
+        {"a body that tears",
+         [](Scene& other) {
+             other.grids[0].isCuttable = true;
+             other.grids[0].tearStrain = 0.5f;
+         }},
+        {"one that floats above planes", [](Scene& other) { other.particles[0].contactOffset = 0.05f; }},
+        {"wider particles", [](Scene& other) { other.particles[0].radius = 0.04f; }},
+        {"crumbs that are removed", [](Scene& other) { other.crumbs = 3; }},
+        {"another way of an attachment", [](Scene& other) { other.attachments = {{.particle = 3}}; }}};
     for (const auto& [name, change] : others) {
         SCOPED_TRACE(name);
         EXPECT_NE(refused(change).find("of one scene"), std::string::npos);
