@@ -30,7 +30,7 @@ build_packages=(ca-certificates cmake ninja-build g++ libc6-dev
     librsvg2-bin libbullet-dev # plots of `sinew study` as PNG; `sinew bench --peers`
     libgtest-dev) # the configure step looks for it, tests or not
 # What the tests need beyond that.
-test_packages=(vulkan-validationlayers spirv-cross xvfb xauth xdotool imagemagick x11-apps
+test_packages=(clang libx11-dev vulkan-validationlayers spirv-cross xvfb xauth xdotool imagemagick x11-apps
     assimp-testmodels python3-minimal binutils clang-format)
 
 # build PRESET [TARGET...]: configures once, then builds what changed.

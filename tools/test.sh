@@ -10,7 +10,7 @@ cd "$(dirname "$0")/.."
 
 mode=release
 case ${1:-} in
-    --clang) mode=clang; shift; test_packages+=(clang) ;;
+    --clang) mode=clang; shift ;;
     --sanitize) mode=asan; shift ;;
 esac
 need "${build_packages[@]}" "${test_packages[@]}"

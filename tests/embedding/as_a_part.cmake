@@ -1,11 +1,17 @@
 # Configures Sinew as a part of another build with strict flags, and looks for what that must not need. Where BUILDS is set, a
 # file of the host and of Sinew are compiled with them.
 #   cmake -DHOST_CMAKE=<cmake of the host> -DFOLDER=<build folder> -DPART=<host's sources> -DFETCHES=<by FetchContent>
-#       -DSINEW_FOLDER=<sources> -DCOMPILER=<c++> [-DBUILDS=ON] -P as_a_part.cmake
+#       -DSINEW_FOLDER=<sources> -DCOMPILER=<c++> -DVULKAN=<folder of vulkan/> [-DBUILDS=ON] -P as_a_part.cmake
 file(REMOVE_RECURSE ${FOLDER})
+# the headers of Vulkan are where no compiler looks by itself
+set(headers ${FOLDER}/headers)
+file(MAKE_DIRECTORY ${headers})
+foreach(folder vulkan vk_video)
+    file(CREATE_LINK ${VULKAN}/${folder} ${headers}/${folder} SYMBOLIC)
+endforeach()
 execute_process(
     COMMAND ${HOST_CMAKE} -S ${PART} -B ${FOLDER} -G Ninja -DFETCHES=${FETCHES} -DSINEW_FOLDER=${SINEW_FOLDER}
-            -DCMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Wconversion -Werror"
+            -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Debug -DVULKAN_HEADERS=${headers} "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Wconversion -Werror"
     RESULT_VARIABLE result
     OUTPUT_VARIABLE output
     ERROR_VARIABLE output)
@@ -16,6 +22,15 @@ file(STRINGS ${FOLDER}/build.ninja compiled REGEX "glslangValidator" LIMIT_COUNT
 file(STRINGS ${FOLDER}/build.ninja checked REGEX "spirv-val" LIMIT_COUNT 1)
 if(NOT compiled)
     message(FATAL_ERROR "no kernel is compiled")
+endif()
+file(STRINGS ${FOLDER}/build.ninja included REGEX "INCLUDES = .*${headers}")
+list(LENGTH included count)
+if(count LESS 10)
+    message(FATAL_ERROR "VULKAN_HEADERS reaches ${count} files")
+endif()
+file(STRINGS ${FOLDER}/build.ninja together REGEX "unity_[0-9a-z_]+cxx.cxx.o: CXX_COMPILER" LIMIT_COUNT 1)
+if(NOT together)
+    message(FATAL_ERROR "sources are not compiled together, which doubles the time of a host's build")
 endif()
 if(checked)
     message(FATAL_ERROR "kernels are checked with spirv-val, which a host need not have: ${checked}")

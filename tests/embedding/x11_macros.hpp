@@ -1,21 +1,9 @@
-// Macros of <X11/Xlib.h> and <X11/X.h>, for machines without these headers.
+// The macros of <X11/Xlib.h>, as a host meets them that makes surfaces of X11.
 #pragma once
 
-#define Status int
-#define Bool int
-#define True 1
-#define False 0
-#define None 0L
-#define Always 2
-#define Success 0
-#define Above 0
-#define Below 1
-#define Complex 0
-#define Convex 2
-#define Unsorted 0
-#define CursorShape 0
-#define KeyPress 2
-#define FocusIn 9
-#define FocusOut 10
-#define Expose 12
-#define GrayScale 1
+#define VK_USE_PLATFORM_XLIB_KHR
+#include <vulkan/vulkan.h> // includes <X11/Xlib.h>
+
+#if !defined(Status) || !defined(None)
+#error <X11/Xlib.h> is missing
+#endif
