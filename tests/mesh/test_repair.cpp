@@ -106,9 +106,12 @@ TEST(Repair, JoinsWithinAHundredThousandthOfTheSizeAndNotBeyond) {
     const TriangleMesh organ = generate("organ", 24);
     const MeshReport report = inspect(organ);
     const double size = double{report.high.x} - double{report.low.x};
-    expectClosed(repaired(soup(organ, 1e-6 * size), Repair::weld), report.volume, 1e-4);
-    const Result far = repaired(soup(organ, 1e-3 * size), Repair::weld);
-    EXPECT_GT(far.defects.boundaryEdges, organ.triangles.size());
+    for (const double share : {1e-7, 1e-6, 2.5e-6})
+        expectClosed(repaired(soup(organ, share * size), Repair::weld), report.volume, 1e-4);
+    for (const double share : {4e-5, 1e-4, 1e-3})
+        EXPECT_GT(repaired(soup(organ, share * size), Repair::weld).defects.boundaryEdges,
+                  organ.triangles.size() / 2)
+            << share;
 }
 
 TEST(Repair, LeavesAClosedMeshAsItIs) {
