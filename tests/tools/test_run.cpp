@@ -41,24 +41,43 @@ const std::string bomb =
     "weight = 1\n[[cloth]]\nname = \"fuse\"\nsize = [16, 16]\nspacing = 1\npinned = [\"first_row\"]\n";
 
 // As docs/report.md lists them.
-constexpr const char* reportFields[] = {"schema",        "scene",
-                                        "device",        "solver",
-                                        "substeps",      "substep_choice",
-                                        "forms",         "iterations",
-                                        "reversed",      "dt",
-                                        "origin",        "particles",
-                                        "constraints",   "bodies",
-                                        "cut",           "meshes",
-                                        "passes",        "skipped",
-                                        "step",          "frames",
-                                        "frames_wanted", "interrupted",
-                                        "frame_ms",      "phase_ms",
-                                        "error",         "stiffness",
-                                        "finite",        "sleeping",
-                                        "divergence",    "overflow",
-                                        "state_hash",    "peak_memory_mib",
-                                        "validation",    "validation_messages",
-                                        "warnings",      "notes"};
+constexpr const char* reportFields[] = {"schema",
+                                        "scene",
+                                        "device",
+                                        "solver",
+                                        "substeps",
+                                        "substep_choice",
+                                        "forms",
+                                        "iterations",
+                                        "reversed",
+                                        "dt",
+                                        "velocity_age",
+                                        "origin",
+                                        "particles",
+                                        "constraints",
+                                        "bodies",
+                                        "cut",
+                                        "meshes",
+                                        "passes",
+                                        "skipped",
+                                        "step",
+                                        "frames",
+                                        "frames_wanted",
+                                        "interrupted",
+                                        "frame_ms",
+                                        "phase_ms",
+                                        "error",
+                                        "stiffness",
+                                        "finite",
+                                        "sleeping",
+                                        "divergence",
+                                        "overflow",
+                                        "state_hash",
+                                        "peak_memory_mib",
+                                        "validation",
+                                        "validation_messages",
+                                        "warnings",
+                                        "notes"};
 
 } // namespace
 
@@ -130,6 +149,7 @@ TEST_F(Run, ReportHasEveryDocumentedField) {
     EXPECT_EQ(report["scene"], "scene");
     EXPECT_EQ(report["solver"], "split");
     EXPECT_EQ(report["substeps"], 4);
+    EXPECT_NEAR(report["velocity_age"].get<double>(), report["dt"].get<double>() / 8, 1e-9);
     EXPECT_EQ(report["particles"], 16);
     EXPECT_EQ(report["constraints"], 42);
     EXPECT_EQ(report["frames"], 3);

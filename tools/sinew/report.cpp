@@ -227,6 +227,8 @@ std::string toJson(const RunRecord& record) {
                      {"chunk", settings.forms.chunk},
                      {"resident_bytes", settings.forms.residentBytes}};
     json["dt"] = scene.dt;
+    json["velocity_age"] =
+        settings.solver == sim::Solver::split ? double{scene.dt} / settings.substeps / 2 : 0.0;
     json["origin"] = record.loaded.origin;
     json["particles"] = record.program.particleCount;
     json["constraints"] = record.program.constraintCount;
