@@ -148,3 +148,40 @@ TEST_P(Recovery, Case07_ACubeInOnePointComesBackToItsRestShape) {
 INSTANTIATE_TEST_SUITE_P(Of, Recovery,
                          testing::Values(Material{"Volumes", 0.45f, 0}, Material{"Pressure", 0.25f, 2}),
                          [](const auto& parameter) { return parameter.param.name; });
+
+namespace {
+
+// The volume that is left of a box which was pressed to a part of its height and released.
+double volumeAfterBeingPressed(float poissonRatio, float recovery, float part) {
+    constexpr float side = 0.3f;
+    Scene scene;
+    addLattice(scene, {.origin = {-side / 2, 0, -side / 2},
+                       .cells = {6, 6, 6},
+                       .spacing = side / 6,
+                       .youngModulus = 1e5f,
+                       .poissonRatio = poissonRatio,
+                       .recovery = recovery});
+    const Scene rest = scene;
+    scene.damping = 2;
+    scene.planes = {{.friction = 0.3f}};
+    const float low = 0.5f + part * side; // the middle of a block of 1 m
+    scene.colliders = {
+        {.shape = ColliderShape::box,
+         .halfExtents = {1, 0.5f, 1},
+         .path = {{0, {{0, 0.51f + side, 0}, {}}}, {1, {{0, low, 0}, {}}}, {2, {{0, 1.5f, 0}, {}}}}}};
+    test::Runner runner(scene, {});
+    EXPECT_EQ(runner.run(300).nonFinite, 0u);
+    return shapeOf(rest, runner.positions()).volume;
+}
+
+} // namespace
+
+// From which ratio on cells unfold by themselves: docs/scene-files.md.
+TEST(PressedBox, UnfoldsFromAPoissonsRatioOf032On) {
+    for (const float part : {0.27f, 0.4f})
+        for (const float ratio : {0.32f, 0.36f})
+            EXPECT_GE(volumeAfterBeingPressed(ratio, 0, part), 0.95) << ratio << ", to " << part;
+    EXPECT_LE(volumeAfterBeingPressed(0.3f, 0, 0.4f), 0.75) << "the docs say so";
+    EXPECT_GE(volumeAfterBeingPressed(0.3f, 0.5f, 0.4f), 0.95);
+    EXPECT_GE(volumeAfterBeingPressed(0.25f, 2, 0.27f), 0.95);
+}

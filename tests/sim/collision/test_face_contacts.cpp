@@ -444,19 +444,31 @@ TEST(FaceContacts, LayAClothOverABallOfTriangles) {
     EXPECT_EQ(intersections(scene, x), 0);
 }
 
-TEST(FaceContacts, LetAThinSheetFoldOverACapsuleAtTheChosenSubsteps) {
+namespace {
+
+struct Fold {
+    const char* name;
+    float thickness, radius; // of the sheet and of the capsule [m]
+};
+
+class FaceContactsOfAFold : public testing::TestWithParam<Fold> {};
+
+} // namespace
+
+TEST_P(FaceContactsOfAFold, KeepItOutOfItselfAtTheChosenSubsteps) {
+    const auto [name, thickness, radius] = GetParam();
     Scene scene;
-    addCloth(scene, {.origin = {-0.3f, 0.4825f, -0.2f},
+    addCloth(scene, {.origin = {-0.3f, 0.481f + thickness / 2, -0.2f},
                      .size = {31, 21},
                      .spacing = 0.02f,
                      .bendingStiffness = 1e-5f,
-                     .thickness = 0.003f});
+                     .thickness = thickness});
     scene.damping = 1;
     const float half = std::sqrt(0.5f);
     scene.colliders = {{.shape = ColliderShape::capsule,
-                        .radius = 0.02f,
+                        .radius = radius,
                         .halfLength = 1,
-                        .pose = {{0, 0.46f, 0}, {half, 0, 0, half}}}};
+                        .pose = {{0, 0.48f - radius, 0}, {half, 0, 0, half}}}};
     test::Runner runner(scene, {.contactRoom = 96});
     for (int step = 0; step < 60; ++step) {
         const Status status = runner.run(1);
@@ -464,6 +476,13 @@ TEST(FaceContacts, LetAThinSheetFoldOverACapsuleAtTheChosenSubsteps) {
     }
     EXPECT_EQ(intersections(scene, runner.positions()), 0);
 }
+
+INSTANTIATE_TEST_SUITE_P(, FaceContactsOfAFold,
+                         testing::Values(Fold{"ThinOnNarrow", 0.003f, 0.02f},
+                                         Fold{"ThickOnNarrow", 0.006f, 0.02f},
+                                         Fold{"ThinnestOnNarrow", 0.002f, 0.02f},
+                                         Fold{"ThinOnWide", 0.003f, 0.06f}),
+                         [](const auto& fold) { return std::string(fold.param.name); });
 
 // Hard case 17.
 TEST(FaceContacts, KeepAFallingFoldOutOfItself) {
