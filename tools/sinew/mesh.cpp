@@ -217,9 +217,11 @@ std::string toText(const Findings& found) {
     std::string text = fmt::format("{}: {}, {}\n", found.file,
                                    sim::counted(found.mesh.positions.size(), "vertex", "vertices"),
                                    sim::counted(found.mesh.triangles.size(), "triangle"));
-    text += fmt::format("  size      {:.4g} x {:.4g} x {:.4g} m, area {:.4g} m^2\n",
-                        surface.high.x - surface.low.x, surface.high.y - surface.low.y,
-                        surface.high.z - surface.low.z, surface.area);
+    text += fmt::format(
+        "  size      {:.4g} x {:.4g} x {:.4g} m around ({:.4g}, {:.4g}, {:.4g}), area {:.4g} m^2\n",
+        surface.high.x - surface.low.x, surface.high.y - surface.low.y, surface.high.z - surface.low.z,
+        (surface.high.x + surface.low.x) / 2, (surface.high.y + surface.low.y) / 2,
+        (surface.high.z + surface.low.z) / 2, surface.area);
     if (defects.isClosed())
         text += fmt::format("  surface   closed, volume {:.4g} m^3{}\n", surface.volume,
                             surface.volume < 0 ? ": it is inside out" : "");
