@@ -297,7 +297,7 @@ Scene rigidCloth() {
 } // namespace
 
 TEST(Substeps, HoldRigidChainsThatACapsuleCarries) {
-    for (const std::uint32_t count : {21u, 51u, 101u}) {
+    for (const std::uint32_t count : {21u, 51u, 101u, 202u}) {
         Scene scene = rigidChain(count);
         const float half = std::sqrt(0.5f);
         scene.colliders = {{.shape = ColliderShape::capsule,
@@ -369,6 +369,29 @@ TEST(Substeps, HoldRigidSheetsOverTheCornersOfABox) {
                             .friction = 0.5f,
                             .pose = {{}, {0, std::sin(angle), 0, std::cos(angle)}}}};
         EXPECT_LE(strainAtRest(scene, 3), 0.05) << degrees;
+    }
+}
+
+TEST(Substeps, HoldRigidSheetsOverRoundThingsAndEdges) {
+    const float turn = std::sqrt(0.5f);
+    const std::pair<const char*, Collider> things[] = {
+        {"a capsule",
+         {.shape = ColliderShape::capsule,
+          .radius = half,
+          .halfLength = 1,
+          .pose = {{}, {turn, 0, 0, turn}}}},
+        {"a narrow capsule",
+         {.shape = ColliderShape::capsule,
+          .radius = half / 2,
+          .halfLength = 1,
+          .pose = {{0, half / 2, 0}, {turn, 0, 0, turn}}}},
+        {"a sphere", {.shape = ColliderShape::sphere, .radius = half}},
+        {"two edges", {.shape = ColliderShape::box, .halfExtents = {half, half, 1}}}};
+    for (const auto& [name, thing] : things) {
+        Scene scene = sheetAbove(1e-3f, 0);
+        scene.colliders = {thing};
+        scene.colliders[0].friction = 0.5f;
+        EXPECT_LE(strainAtRest(scene, 3), 0.05) << name;
     }
 }
 

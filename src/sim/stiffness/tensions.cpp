@@ -25,6 +25,11 @@ constexpr std::uint32_t nobody = ~0u;
 constexpr double alongTheWay = 0.99; // of a link's length, what it leads nearer to what holds
 // Tension over load of links to a corner, where folds of a sheet meet (docs/accuracy.md).
 constexpr double atCorners = 25;
+// Likewise of links at the rim of what holds a sheet from below in its middle: a round thing makes folds all
+// around it.
+constexpr double aroundIt = 5;
+// Likewise of all links of what lies on something: it slides, and folds.
+constexpr double whereCarried = 1.2;
 
 // The links of each particle.
 struct Neighbours {
@@ -104,6 +109,7 @@ std::vector<double> spansOf(const Scene& scene, const Ways& ways, const Vector& 
 
 struct Holds {
     std::vector<bool> isHeld, isSharp; ///< of each particle
+    std::vector<bool> isInMiddle;      ///< what holds a sheet there reaches no edge of it; empty = nowhere
     bool operator==(const Holds&) const = default;
 };
 
@@ -125,6 +131,7 @@ struct Flow {
     const Neighbours& neighbours;
     Vector down{};
     double gravity = 0, tolerance = 0;
+    double margin = 1; ///< tension over load
     std::vector<double> tensions = std::vector<double>(scene.distances.size(), 0.0);
 
     // Slanted links go slack as a sheet that hangs grows narrow: those along the way bear it, longer ones
@@ -151,6 +158,36 @@ struct Flow {
             if (length > 0) held.push_back({way[0] / length, way[1] / length, way[2] / length});
         }
         return 2 * held.size() < links.size();
+    }
+
+    // Of each particle, whether it is held among others that hang together, none of which is at an edge of
+    // its sheet: has fewer links than most of the component. Chains have no middle.
+    std::vector<bool> inMiddle(const std::vector<bool>& isHeld,
+                               std::span<const std::uint32_t> components) const {
+        const std::size_t count = isHeld.size();
+        std::vector<std::size_t> most(count, 0);
+        for (std::uint32_t i = 0; i < count; ++i)
+            most[components[i]] = std::max(most[components[i]], neighbours.of(i).size());
+        std::vector<bool> isSeen(count), result(count);
+        std::vector<std::uint32_t> group;
+        for (std::uint32_t start = 0; start < count; ++start) {
+            if (!isHeld[start] || isSeen[start]) continue;
+            group.assign(1, start);
+            isSeen[start] = true;
+            bool isInMiddle = true;
+            for (std::size_t n = 0; n < group.size(); ++n) {
+                const std::span<const std::uint32_t> links = neighbours.of(group[n]);
+                isInMiddle = isInMiddle && links.size() > 2 && links.size() == most[components[group[n]]];
+                for (const std::uint32_t k : links) {
+                    const std::uint32_t other = otherEnd(scene.distances[k], group[n]);
+                    if (!isHeld[other] || isSeen[other]) continue;
+                    isSeen[other] = true;
+                    group.push_back(other);
+                }
+            }
+            for (const std::uint32_t i : group) result[i] = isInMiddle;
+        }
+        return result;
     }
 
     // How far each particle may fall before its way to the nearest one that is held is straight.
@@ -185,8 +222,10 @@ struct Flow {
                              slope = (ways.length[*i] - ways.length[other]) / double{c.restLength};
                 loads[other] += load;
                 spans[other] = std::max(spans[other], spans[*i]);
-                const double corner = isAtCorner(holds, other) ? atCorners : 1;
-                tensions[k] = std::max(tensions[k], load / slope * spans[*i] * corner);
+                const double corner = isAtCorner(holds, other)                               ? atCorners
+                                      : !holds.isInMiddle.empty() && holds.isInMiddle[other] ? aroundIt
+                                                                                             : 1;
+                tensions[k] = std::max(tensions[k], margin * load / slope * spans[*i] * corner);
             }
         }
     }
@@ -213,6 +252,7 @@ std::vector<double> tensionsOf(const Scene& scene, std::span<const float> invers
     flow.run(holds);
     const std::vector<std::uint32_t> asked = withRigidLinks(scene, components);
     const Supports supports(scene, components, down, asked);
+    flow.margin = whereCarried;
     Holds before = holds;
     for (const double time : timesOf(scene)) {
         const Support support = supports.at(time);
@@ -220,8 +260,10 @@ std::vector<double> tensionsOf(const Scene& scene, std::span<const float> invers
         for (const std::uint32_t i : asked)
             if (support.ways[i] < infinite && support.ways[i] <= falls[i])
                 carried.isHeld[i] = true, carried.isSharp[i] = support.isSharp[i];
-        if (carried != before) flow.run(carried);
-        before = std::move(carried);
+        if (carried == before) continue;
+        before = carried;
+        carried.isInMiddle = flow.inMiddle(carried.isHeld, components);
+        flow.run(carried);
     }
     return std::move(flow.tensions);
 }
