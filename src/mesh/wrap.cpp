@@ -21,16 +21,20 @@ constexpr std::uint32_t rim = 2;        ///< layers of samples around the grid
 constexpr double farAway = 2;           ///< stands for the distance of samples that no surface is near to
 /// Components whose inside is nowhere that deep could fall between samples: they are thickened until it is.
 constexpr double leastDepth = 0.45;
-constexpr std::uint32_t nobody = ~0u;
+/// Open components of less area are too narrow to have a depth of their own: triangles of a file in which no
+/// two share corners [cells^2].
+constexpr double leastArea = 4;
+constexpr std::uint32_t nobody = ~0u, crumbs = nobody - 1; ///< numbers of components
 
 /// Signed distances at the samples of a grid and of a rim around it, negative inside.
 class Field {
 public:
     Field(const TriangleMesh& mesh, const VoxelGrid& grid)
         : positions_(toCellUnits(mesh, grid)), tree_(positions_, mesh.triangles),
-          componentOf_(mesh.triangles.size()) {
+          componentOf_(mesh.triangles.size(), crumbs) {
         std::uint32_t number = 0;
         for (const Component& component : components(mesh)) {
+            if (!component.isClosed && areaOf(mesh, component) < leastArea) continue;
             for (const std::uint32_t triangle : component.triangles) componentOf_[triangle] = number;
             ++number;
         }
@@ -38,6 +42,7 @@ public:
         values_.assign(std::size_t{count_[0]} * count_[1] * count_[2], farAway);
         const Inside inside(positions_, mesh.triangles, tree_, grid.cells, perCell);
         std::vector<bool> isNear(values_.size());
+        nearest_.assign(values_.size(), nobody);
         forEach([&](const Index3& at) {
             for (std::size_t axis = 0; axis < 3; ++axis)
                 if (at[axis] < rim || at[axis] + rim >= count_[axis]) return;
@@ -49,7 +54,8 @@ public:
                 forAround(at, rim, [&](std::size_t other) { isNear[other] = true; });
         });
         measure(isNear);
-        thicken(isNear);
+        thicken();
+        nearest_ = {};
     }
 
     bool isEmpty() const {
@@ -120,26 +126,25 @@ private:
             if (meets) forAround(at, 1, [&](std::size_t other) { isBeside[other] = true; });
         });
         forEach([&](const Index3& at) {
+            if (!isNear[index(at)] && !isBeside[index(at)]) return;
             double& value = values_[index(at)];
-            if (isNear[index(at)] || isBeside[index(at)])
-                value = std::copysign(std::max(distance(placeOf(at)), 1e-6), value);
+            const TriangleTree::Nearest found = tree_.nearest(placeOf(at));
+            value = std::copysign(std::max(distance(placeOf(at), found.distance), 1e-6), value);
+            if (isNear[index(at)]) nearest_[index(at)] = componentOf_[found.triangle];
         });
     }
 
     /// A sample belongs to the component that is nearest to it: a thick one is no reason to leave a thin one
-    /// beside it as thin as it is.
-    void thicken(const std::vector<bool>& isNear) {
+    /// beside it as thin as it is. Those that are too narrow belong to whatever is around them.
+    void thicken() {
         const std::vector<double> given = values_;
-        std::vector<std::uint32_t> nearest(values_.size(), nobody);
         forEach([&](const Index3& at) {
-            if (isNear[index(at)]) nearest[index(at)] = componentOf_[tree_.nearest(placeOf(at)).triangle];
-        });
-        forEach([&](const Index3& at) {
-            const std::uint32_t own = nearest[index(at)];
+            const std::uint32_t own = nearest_[index(at)];
             if (own == nobody) return;
             double depth = 0;
             forAround(at, perCell, [&](std::size_t other) {
-                if (nearest[other] == own || nearest[other] == nobody) depth = std::max(depth, -given[other]);
+                if (nearest_[other] == own || nearest_[other] == nobody || own == crumbs)
+                    depth = std::max(depth, -given[other]);
             });
             if (depth < leastDepth)
                 values_[index(at)] =
@@ -149,15 +154,25 @@ private:
 
     /// In a hole the surface is far: there the winding number, which falls from 1 to 0 across it, says how
     /// far its middle is.
-    double distance(const Vector3& x) const {
-        const double fromMesh = tree_.distance(x);
+    double distance(const Vector3& x, double fromMesh) const {
         if (fromMesh < apart) return fromMesh;
         return std::min(fromMesh, farAway * std::abs(0.5 - std::abs(tree_.windingNumber(x))));
+    }
+
+    /// [cells^2]
+    double areaOf(const TriangleMesh& mesh, const Component& component) const {
+        double area = 0;
+        for (const std::uint32_t triangle : component.triangles) {
+            const auto& [a, b, c] = mesh.triangles[triangle];
+            area += (positions_[b] - positions_[a]).cross(positions_[c] - positions_[a]).norm() / 2;
+        }
+        return area;
     }
 
     std::vector<Vector3> positions_;
     TriangleTree tree_;
     std::vector<std::uint32_t> componentOf_; ///< of each triangle
+    std::vector<std::uint32_t> nearest_;     ///< while it is made: of each sample near the mesh
     Index3 count_{};
     std::vector<double> values_;
 };

@@ -1,6 +1,7 @@
 // A mesh as a lattice body with a skin: what the skin promises, what rests on a plane, what is weighed.
 #include "mesh/to_scene.hpp"
 
+#include "broken_meshes.hpp"
 #include "mesh/generate.hpp"
 #include "mesh/triangle_tree.hpp"
 #include "meshes.hpp"
@@ -382,8 +383,24 @@ TEST(AddMesh, WrapsAThinPartBesideAThickOne) {
                     if (tree.windingNumber(x) < 0.5)
                         farthest = std::max(farthest, tree.distance(x) / double{body.added.voxels.spacing});
                 }
-                EXPECT_LT(farthest, 0.5) << degrees << ' ' << gap << ' ' << thickness;
+                EXPECT_LT(farthest, 0.25) << degrees << ' ' << gap << ' ' << thickness;
+                const double plateVoxels =
+                    (inspect(skin).volume - 1) / (0.36 * double{body.added.voxels.spacing});
+                EXPECT_GT(plateVoxels, 0.3) << degrees << ' ' << gap << ' ' << thickness;
+                EXPECT_LT(plateVoxels, 1.3) << degrees << ' ' << gap << ' ' << thickness;
             }
+}
+
+// No two triangles share corners: each is a component, most of them finer than a voxel.
+TEST(AddMesh, WrapsTrianglesThatHangOnNothingAsTheMeshThatTheyWere) {
+    for (const std::uint32_t detail : {12u, 24u, 40u, 80u}) {
+        const TriangleMesh organ = generate("organ", detail);
+        const MeshReport report = inspect(organ);
+        const Cuttable body(soup(organ, 1e-4 * double{report.high.x - report.low.x}), 20);
+        EXPECT_EQ(body.added.shown, Shown::wrapped) << detail;
+        EXPECT_TRUE(body.showsInside()) << detail;
+        EXPECT_NEAR(inspect(body.skin()).volume / report.volume, 1, 0.02) << detail;
+    }
 }
 
 TEST(AddMesh, WrapsASheetAsThickAsAVoxel) {
