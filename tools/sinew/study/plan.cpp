@@ -5,6 +5,7 @@
 #include "sim/collision/particle_contacts.hpp"
 #include "sim/compile.hpp"
 #include "sim/ranges.hpp"
+#include "sim/validate.hpp"
 #include "sinew/outputs.hpp"
 
 #include <algorithm>
@@ -80,17 +81,19 @@ constexpr const char* weighted = "jacobi_weighted";
 
 /// See studyScenes().
 StudyScene forEverySolver(StudyScene study) {
-    sim::Scene& scene = study.loaded.scene;
+    const sim::Settings other = settingsOfContacts(study, {.solver = sim::Solver::jacobi, .substeps = 1});
+    const std::vector<std::uint32_t>& defaults = study.loaded.defaultRecovery;
+    sim::Scene common = scenes::withoutDefaults(study.loaded.scene, defaults, other);
+    for (sim::Grid& grid : common.grids)
+        if (grid.tearStrain == 0) grid.isCuttable = false;
+    if (!sim::validate(common, other).empty()) return study; // something else keeps it to split
     std::string names;
-    for (const std::uint32_t grid : study.loaded.defaultRecovery)
-        names += (names.empty() ? "\"" : ", \"") + scene.grids[grid].name + "\"";
+    for (const std::uint32_t grid : defaults)
+        names += (names.empty() ? "\"" : ", \"") + common.grids[grid].name + "\"";
     if (!names.empty())
         study.notes.push_back("studied without the recovery that " + names +
                               " would have by default: jacobi and gauss_seidel have no form for it");
-    scene = scenes::withoutDefaults(std::move(scene), study.loaded.defaultRecovery,
-                                    {.solver = sim::Solver::jacobi});
-    for (sim::Grid& grid : scene.grids)
-        if (grid.tearStrain == 0) grid.isCuttable = false;
+    study.loaded.scene = std::move(common);
     return study;
 }
 

@@ -32,10 +32,10 @@ inline constexpr std::uint32_t defaultFrames = 30; ///< of a scene that is not o
 /// Names of the shipped scenes that a study of "all" runs.
 std::vector<std::string> studySceneNames();
 
-/// "all", the name of a shipped study scene, or a scene file. Every solver gets the same problem: meshes go
-/// without the recovery that they have by default, which only `split` has a form for and a note says, and
-/// bodies that may be cut are whole, since nothing cuts in a study. `frames` overrides the length of each.
-/// Throws scenes::SceneError.
+/// "all", the name of a shipped study scene, or a scene file. Every solver gets the same problem: where that
+/// lets others than `split` take part, meshes go without the recovery that they have by default, which a note
+/// says, and bodies that may be cut are whole, since nothing cuts in a study. `frames` overrides the length
+/// of each. Throws scenes::SceneError.
 std::vector<StudyScene> studyScenes(const std::string& which, std::optional<std::uint32_t> frames);
 
 /// On which curve settings stand: a solver's name; `jacobi` as published averages a particle's corrections,
