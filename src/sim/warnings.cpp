@@ -16,13 +16,18 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 // The shortest link or diameter [m] that matters to particles that move; infinite where there is neither.
 // The diameter of held ones does where a particle that moves can touch them.
 double finestLength(const Scene& scene) {
-    const auto moves = [&](const Particle& particle) { return particle.inverseMass > 0; };
+    std::vector<bool> moves;
+    for (const Particle& particle : scene.particles) moves.push_back(particle.inverseMass > 0);
+    for (const FixedConstraint& held : scene.fixed)
+        if (held.particle < moves.size()) moves[held.particle] = false;
     double finest = infinite;
     for (const DistanceConstraint& link : scene.distances)
-        if (link.restLength > 0 && (moves(scene.particles[link.a]) || moves(scene.particles[link.b])))
+        if (link.restLength > 0 && std::max(link.a, link.b) < moves.size() &&
+            (moves[link.a] || moves[link.b]))
             finest = std::min(finest, double{link.restLength});
-    const bool touches = std::ranges::any_of(
-        scene.particles, [&](const Particle& particle) { return particle.radius > 0 && moves(particle); });
+    bool touches = false;
+    for (std::size_t i = 0; i < moves.size(); ++i)
+        touches = touches || (scene.particles[i].radius > 0 && moves[i]);
     for (const Particle& particle : scene.particles)
         if (touches && particle.radius > 0) finest = std::min(finest, 2 * double{particle.radius});
     return finest;
