@@ -339,6 +339,8 @@ LoadedScene readBuiltIn(const std::string& name, const std::optional<fs::path>& 
 
 std::vector<std::string> newWarnings(const LoadedScene& loaded, const sim::Settings& settings) {
     LoadedScene other{.scene = loaded.scene, .settings = settings};
+    if (settings.solver == loaded.settings.solver && settings.substeps == loaded.settings.substeps)
+        other.substeps = loaded.substeps; // the same choice
     other.warnings = sim::warnings(other.scene);
     warnAboutSolver(other);
     std::erase_if(other.warnings, [&](const std::string& warning) {

@@ -107,9 +107,9 @@ std::string inwardText(const std::vector<mesh::Component>& components, mesh::Rep
     if (count > mostNamed) names += " and " + sim::counted(count - mostNamed, "other");
     return "has " + sim::counted(count, "component") + " inside out, " + names +
            ": where it lies in another one, it is left out of the volume; turn its triangles" +
-           (how == mesh::Repair::close
-                ? ""
-                : " (" + setting(words, "repair", "\"close\"") + " turns closed parts)") +
+           (how == mesh::Repair::close ? ""
+                                       : " (" + setting(words, "repair", "\"close\"") +
+                                             " turns closed parts that lie in no other)") +
            ", or close what is around it if it is a cavity";
 }
 

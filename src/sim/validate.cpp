@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 namespace sinew::sim {
@@ -448,9 +449,15 @@ void checkGrids(const Scene& scene, Complaints& complaints) {
 // cure.
 std::string whyNotComputed(const Scene& scene, std::uint32_t g) {
     if (!scene.bends.empty()) {
-        const std::string body = bodyOf(scene, scene.bends.front().b);
-        return "but " + (body.empty() ? "the scene" : "body \"" + body + "\"") +
-               " has a bending stiffness (bends), beside which split has no form for that: make it 0";
+        std::set<std::string> bodies;
+        for (const BendConstraint& bend : scene.bends) bodies.insert(bodyOf(scene, bend.b));
+        std::string names;
+        for (const std::string& body : bodies) names += (names.empty() ? "" : ", ") + ("\"" + body + "\"");
+        return "but " +
+               (bodies.contains("")  ? "the scene has"
+                : bodies.size() == 1 ? "body " + names + " has"
+                                     : "bodies " + names + " have") +
+               " a bending stiffness (bends), beside which split has no form for that: make it 0";
     }
     if (scene.dampingTime > 0)
         return "but the scene has a damping time (internal damping), beside which split has no form for "
