@@ -41,43 +41,14 @@ const std::string bomb =
     "weight = 1\n[[cloth]]\nname = \"fuse\"\nsize = [16, 16]\nspacing = 1\npinned = [\"first_row\"]\n";
 
 // As docs/report.md lists them.
-constexpr const char* reportFields[] = {"schema",
-                                        "scene",
-                                        "device",
-                                        "solver",
-                                        "substeps",
-                                        "substep_choice",
-                                        "forms",
-                                        "iterations",
-                                        "reversed",
-                                        "dt",
-                                        "velocity_age",
-                                        "origin",
-                                        "particles",
-                                        "constraints",
-                                        "bodies",
-                                        "cut",
-                                        "meshes",
-                                        "passes",
-                                        "skipped",
-                                        "step",
-                                        "frames",
-                                        "frames_wanted",
-                                        "interrupted",
-                                        "frame_ms",
-                                        "phase_ms",
-                                        "error",
-                                        "stiffness",
-                                        "finite",
-                                        "sleeping",
-                                        "divergence",
-                                        "overflow",
-                                        "state_hash",
-                                        "peak_memory_mib",
-                                        "validation",
-                                        "validation_messages",
-                                        "warnings",
-                                        "notes"};
+// clang-format off
+constexpr const char* reportFields[] = {
+    "schema", "scene", "device", "solver", "substeps", "substep_choice", "forms", "iterations", "reversed",
+    "dt", "velocity_age", "origin", "particles", "constraints", "bodies", "cut", "meshes", "passes",
+    "skipped", "step", "frames", "frames_wanted", "interrupted", "frame_ms", "phase_ms", "error",
+    "stiffness", "finite", "sleeping", "divergence", "overflow", "state_hash", "peak_memory_mib",
+    "validation", "validation_messages", "warnings", "notes"};
+// clang-format on
 
 } // namespace
 
