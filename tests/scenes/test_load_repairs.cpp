@@ -156,7 +156,8 @@ TEST_F(Load, WarnsOfAComponentThatIsInsideOut) {
     EXPECT_EQ(warned(false, true), 0);
     EXPECT_EQ(warned(true, false), 0);
     EXPECT_EQ(warned(false, false), 0);
-    const std::string turned = "turn its triangles (repair = \"close\" turns closed parts that lie in no other), or";
+    const std::string turned =
+        "turn its triangles (repair = \"close\" turns closed parts that lie in no other), or";
     EXPECT_EQ(
         count(load("[[mesh]]\nfile = \"m.obj\"\nresolution = 24\nrepair = \"weld\"\n").warnings, turned), 1);
 }
