@@ -85,8 +85,7 @@ double longestSubstepOfFolds(const Scene& scene, std::span<const float> inverseM
     for (const auto& [component, sheet] : sheets)
         asked.insert(asked.end(), sheet.corners.begin(), sheet.corners.end());
     std::ranges::sort(asked);
-    const auto repeated = std::ranges::unique(asked);
-    asked.erase(repeated.begin(), repeated.end());
+    asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
     const Support support = Supports(scene, components, down, asked).at(0);
     double longest = infinite;
     for (const auto& [component, sheet] : sheets) {
