@@ -41,6 +41,17 @@ std::string expectedText(const Key& key) {
     return text;
 }
 
+/// "did you mean radius?"; where nothing is spelled alike, all keys of the section.
+std::string adviceFor(std::string_view section, std::string_view name) {
+    const Key& nearest = nearestKey(section, name);
+    if (2 * editDistance(nearest.name, name) <= nearest.name.size())
+        return "did you mean " + std::string(nearest.name) + "?";
+    std::string names;
+    for (const Key& key : schema())
+        if (key.section == section) names += (names.empty() ? "" : ", ") + std::string(key.name);
+    return "possible are " + names;
+}
+
 bool isPin(const toml::node& node) {
     if (node.is_string()) return true;
     const toml::array* pair = node.as_array();
@@ -122,7 +133,7 @@ void Section::check(const toml::key& name, const toml::node& node) const {
     const Key* key = findKey(section_, name.str());
     if (!key)
         scenes::fail(lineOf(file_, name.source()), "unknown key " + fullName(name.str().substr(0, 64)),
-                     "did you mean " + std::string(nearestKey(section_, name.str()).name) + "?");
+                     adviceFor(section_, name.str()));
     const bool isRight = key->kind == Kind::text          ? node.is_string()
                          : key->kind == Kind::pins        ? isPinList(node)
                          : key->kind == Kind::names       ? isNameList(node)

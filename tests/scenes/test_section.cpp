@@ -176,10 +176,19 @@ TEST(EveryRequiredKey, IsMissedAtTheHeadOfItsTable) {
 
 TEST(EveryKey, IsSuggestedForAnUnknownOneOfItsSection) {
     for (const Key& key : scenes::schema()) {
-        const Key wrong{key.section, "zzzz"};
-        const std::string error = errorOf(wrong, "1");
-        EXPECT_EQ(error.find("cannot read scene: test.toml:1: unknown key item.zzzz: did you mean "), 0u)
-            << error;
+        const std::string nothing = errorOf({key.section, "zzzzzzzzzzzzzzzz"}, "1");
+        EXPECT_EQ(
+            nothing.find("cannot read scene: test.toml:1: unknown key item.zzzzzzzzzzzzzzzz: possible are "),
+            0u)
+            << nothing;
+        EXPECT_NE(nothing.find(std::string(key.name)), std::string::npos) << nothing;
+        if (key.name.size() < 4) continue;
+        std::string swapped(key.name);
+        std::swap(swapped[1], swapped[2]);
+        if (swapped == key.name || scenes::findKey(key.section, swapped) != nullptr) continue;
+        EXPECT_NE(errorOf({key.section, swapped}, "1").find("did you mean " + std::string(key.name) + "?"),
+                  std::string::npos)
+            << swapped;
     }
 }
 
