@@ -456,19 +456,19 @@ class FaceContactsOfAFold : public testing::TestWithParam<Fold> {};
 } // namespace
 
 TEST_P(FaceContactsOfAFold, KeepItOutOfItselfAtTheChosenSubsteps) {
-    const auto [name, thickness, radius] = GetParam();
+    const Fold fold = GetParam();
     Scene scene;
-    addCloth(scene, {.origin = {-0.3f, 0.481f + thickness / 2, -0.2f},
+    addCloth(scene, {.origin = {-0.3f, 0.481f + fold.thickness / 2, -0.2f},
                      .size = {31, 21},
                      .spacing = 0.02f,
                      .bendingStiffness = 1e-5f,
-                     .thickness = thickness});
+                     .thickness = fold.thickness});
     scene.damping = 1;
     const float half = std::sqrt(0.5f);
     scene.colliders = {{.shape = ColliderShape::capsule,
-                        .radius = radius,
+                        .radius = fold.radius,
                         .halfLength = 1,
-                        .pose = {{0, 0.48f - radius, 0}, {half, 0, 0, half}}}};
+                        .pose = {{0, 0.48f - fold.radius, 0}, {half, 0, 0, half}}}};
     test::Runner runner(scene, {.contactRoom = 96});
     for (int step = 0; step < 60; ++step) {
         const Status status = runner.run(1);
