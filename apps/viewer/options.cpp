@@ -117,6 +117,12 @@ void addHeadlessOptions(CLI::App& app, Options& options) {
         ->excludes(every);
 }
 
+// CLI11 takes nan for a number within any range.
+void checkNumbers(const Options& options) {
+    if (options.bladeDepth && std::isnan(*options.bladeDepth)) refuse("--blade-depth is no number");
+    if (options.scale && std::isnan(*options.scale)) refuse("--scale is no number");
+}
+
 void checkHeadless(Options& options, bool hasFrames) {
     std::ranges::sort(options.pictured);
     if (!options.isHeadless) return;
@@ -183,6 +189,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     options.hasSize = app.count("--size") > 0;
     options.hasFrames = app.count("--frames") + app.count("--picture-frames") > 0;
     checkWindow(app, options);
+    checkNumbers(options);
     checkHeadless(options, app.count("--frames") > 0);
     return options;
 }

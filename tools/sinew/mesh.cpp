@@ -308,11 +308,10 @@ void addMesh(CLI::App& app, Chosen& chosen) {
         })
         ->capture_default_str();
     command.add_option("--scale", options->scale, "factor on the coordinates, beside --unit")
-        ->check(CLI::PositiveNumber)
-        ->check(CLI::Range(0.0, 1e6, "at most 1e6"))
+        ->check(checkPositive)
         ->capture_default_str();
     CLI::Option* voxel = command.add_option("--voxel", options->voxel, "edge of a voxel [m]");
-    voxel->check(CLI::PositiveNumber);
+    voxel->check(checkPositive);
     command.add_option("--resolution", options->resolution, "voxels along the longest side")
         ->check(CLI::Range(1, 512))
         ->capture_default_str()
@@ -335,11 +334,7 @@ void addMesh(CLI::App& app, Chosen& chosen) {
             "--weld", options->weld,
             "open edges nearer than that are joined, in units of the file; a hundred-thousandth of its "
             "size without it")
-        ->check([](const std::string& text) {
-            double length = 0;
-            const bool isLength = CLI::detail::lexical_cast(text, length) && length > 0 && length <= 1e6;
-            return isLength ? "" : text + " is no length above 0 and at most 1e6, in units of the file";
-        });
+        ->check(checkPositive);
     addDeviceOptions(command, options->device);
     command.add_option("--json", options->json, "file for the report, or - for the standard output");
     command.callback([options, &chosen] {

@@ -31,6 +31,12 @@ void sayNews(const scenes::LoadedScene& loaded) {
 
 } // namespace
 
+std::string checkPositive(const std::string& text) {
+    double number = 0;
+    const bool isRight = CLI::detail::lexical_cast(text, number) && number > 0 && number <= 1e6;
+    return isRight ? "" : text + " is no number above 0 and at most 1e6";
+}
+
 void addSceneOptions(CLI::App& command, SceneOptions& options) {
     scenes::Overrides& overrides = options.overrides;
     command
@@ -54,7 +60,7 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
     command
         .add_option("--voxel", overrides.voxel,
                     "edge of the voxels of mesh bodies [m], instead of the scene's")
-        ->check(CLI::PositiveNumber);
+        ->check(checkPositive);
     command.add_flag("--reversed", overrides.isReversed,
                      "run kernels in reversed invocation order; the result must not change");
 }

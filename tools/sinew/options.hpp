@@ -41,6 +41,9 @@ struct DeviceOptions {
 /// --device, --validation.
 void addDeviceOptions(CLI::App& command, DeviceOptions& options);
 
+/// Check of an option: a number above 0 and at most 1e6. CLI11's own lets nan through, and inf.
+std::string checkPositive(const std::string& text);
+
 /// Loads the scene and prints its notes and warnings to stderr.
 scenes::LoadedScene loadScene(const SceneOptions& options);
 
