@@ -82,6 +82,20 @@ TEST_F(Run, TracesEnergyOverlapAndSleepOverTime) {
     expectOneError(run({"run", "balls.toml", "--frames", "1", "--trace", "none/trace.csv"}), 6, "none");
 }
 
+TEST_F(Run, SaysThatABladeHasCutNothing) {
+    const auto warnsOf = [&](const std::string& edges, const std::string& frames) {
+        write("scene.toml", box + "cuttable = true\n[[blade]]\ntimes = [0, 0.01]\nedges = " + edges + "\n");
+        const Outcome outcome = run({"run", "scene.toml", "--frames", frames});
+        EXPECT_EQ(outcome.code, 0) << outcome.error;
+        return outcome.error.find("warning: no blade has cut anything in ") != std::string::npos;
+    };
+    EXPECT_FALSE(warnsOf("[[[-1, 0.33, -1], [-1, 0.33, 1]], [[1, 0.33, -1], [1, 0.33, 1]]]", "2"));
+    EXPECT_TRUE(warnsOf("[[[-1, 3, -1], [-1, 3, 1]], [[1, 3, -1], [1, 3, 1]]]", "2")) << "above it";
+    EXPECT_TRUE(
+        warnsOf("[[[-1000, 330, -1000], [-1000, 330, 1000]], [[1000, 330, -1000], [1000, 330, 1000]]]", "2"))
+        << "in millimetres";
+}
+
 // A box falls while a blade goes through it.
 TEST_F(Run, GoesOnFromASavedStateToTheSameBits) {
     write("cut.toml",

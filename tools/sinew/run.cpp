@@ -126,6 +126,11 @@ void warnAboutRun(const RunRecord& record, std::vector<std::string>& warnings,
         warn("the cuts have a surface of " + std::to_string(record.surfaceMissing) +
              " triangles, for which the device has no room: skins are written uncut, take coarser voxels");
     if (const std::optional<std::string> stretch = stretchWarning(record)) warn(*stretch);
+    if (!record.loaded.blades.empty() && record.cuts.links == 0 && !record.isInterrupted &&
+        !record.divergence)
+        warn("no blade has cut anything in " +
+             fmt::format("{:.3g} s", double{record.loaded.scene.dt} * static_cast<double>(record.frames)) +
+             ": check its times, and that its edges, in metres, pass through a body");
 }
 
 /// As the viewer saves it, from the view of `start` if it has one.
