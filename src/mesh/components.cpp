@@ -101,7 +101,7 @@ void joinCavities(const TriangleMesh& mesh, std::vector<Surface>& surfaces) {
     std::ranges::reverse(hosts);
     std::vector<std::unique_ptr<TriangleTree>> trees(surfaces.size());
     for (Surface& cavity : surfaces) {
-        if (!cavity.isClosed || cavity.volume >= 0) continue;
+        if (!cavity.isClosed || !isInward(cavity)) continue; // nothing is no cavity, whatever its sign
         const Vector3 point = toVector(mesh.positions[mesh.triangles[cavity.triangles.front()][0]]);
         const auto around = std::ranges::find_if(hosts, [&](std::size_t host) {
             if (!surfaces[host].box.contains(cavity.box)) return false;

@@ -81,6 +81,20 @@ TEST(Components, HoldTheirCavities) {
         << "in the middle of a tube, outside of it";
 }
 
+// Two sides of one flat square: its volume is rounding, of another sign at another scale.
+TEST(Components, WithoutAVolumeAreNoCavitiesAtAnyScale) {
+    TriangleMesh square;
+    square.positions = {
+        {0.31f, 0.17f, 0.43f}, {0.47f, 0.29f, 0.51f}, {0.53f, 0.61f, 0.7f}, {0.37f, 0.49f, 0.62f}};
+    square.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 2, 1}, {0, 3, 2}};
+    for (const float factor : {0.001f, 0.0011f, 0.0015f, 0.002f, 0.004f, 0.01f, 0.1f, 1.0f, 7.0f, 1000.0f}) {
+        const std::vector<Component> found = components(scaled(joined(cube(0, 1), square), factor));
+        ASSERT_EQ(found.size(), 2u) << factor;
+        EXPECT_EQ(found[0].cavities, 0u) << factor;
+        EXPECT_FALSE(found[1].isInward) << factor;
+    }
+}
+
 TEST(Components, AreCalledAsTheirObjectsWhereTheyAreAllOfIt) {
     const TriangleMesh mesh =
         withObjects(joined(joined(cube(0, 1), cube(2, 4)), joined(cube(5, 5.5f), cube(6, 6.25f))),
