@@ -172,7 +172,8 @@ void addHold(LoadedScene& loaded, const Section& hold, const Source& source,
         hold.fail("shape",
                   "of hold \"" + name + "\" takes no particle: the nearest, of body \"" + taken.nearest +
                       "\", is " + atLeast(taken.gap) + " m outside of this " + shape,
-                  cureOfUnits(loaded, taken.nearest, place.odd) + "move it there, or make it larger");
+                  cureOfUnits(loaded, taken.nearest, place.odd) + "move it there, or " +
+                      (shape == "mesh" ? "give a larger within" : "make it larger"));
     Path path = readPath(loaded, hold, place.pose);
     remember(loaded, name, taken.particles, !path.keyframes.empty());
     if (path.keyframes.empty()) {

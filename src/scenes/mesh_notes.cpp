@@ -64,6 +64,11 @@ void noteSize(LoadedScene& loaded, const std::string& name, const Section& secti
     if (!odd.empty()) loaded.warnings.push_back(name + " " + odd);
 }
 
+std::string scaledText(double given, double metres) {
+    return "is scaled to " + lengthWithUnit(metres) + ", from " + text("%.3g", given) +
+           " in units of the file: a scene file with unit in the place of size keeps its own";
+}
+
 void noteComponents(LoadedScene& loaded, const std::string& name,
                     const std::vector<mesh::Component>& components) {
     constexpr std::size_t mostLines = 10;

@@ -31,6 +31,9 @@ std::string oddSizeOf(const Section& section, const mesh::MeshReport& surface);
 void noteSize(LoadedScene& loaded, const std::string& name, const Section& section,
               const mesh::MeshReport& surface, const std::string& more);
 
+/// "is scaled to 0.4 m, from 189 in units of the file: ...", of a mesh that was dropped.
+std::string scaledText(double given, double metres);
+
 /// Notes what components a mesh of several has, the ten largest of them by themselves.
 void noteComponents(LoadedScene& loaded, const std::string& name,
                     const std::vector<mesh::Component>& components);

@@ -41,11 +41,16 @@ std::string expectedText(const Key& key) {
     return text;
 }
 
-/// "did you mean radius?"; where nothing is spelled alike, all keys of the section.
+/// "did you mean radius?"; where nothing is spelled alike, the table that has such a key, or all keys of this
+/// one.
 std::string adviceFor(std::string_view section, std::string_view name) {
     const Key& nearest = nearestKey(section, name);
-    if (2 * editDistance(nearest.name, name) <= nearest.name.size())
+    if (3 * editDistance(nearest.name, name) <= nearest.name.size())
         return "did you mean " + std::string(nearest.name) + "?";
+    for (const Key& key : schema())
+        if (key.name == name)
+            return "it is a key of " + (key.section.empty() ? std::string("the file itself, above all tables")
+                                                            : "[" + std::string(key.section) + "]");
     std::string names;
     for (const Key& key : schema())
         if (key.section == section) names += (names.empty() ? "" : ", ") + std::string(key.name);

@@ -42,8 +42,9 @@ void warnOfRounding(const Scene& scene, std::vector<std::string>& sentences) {
     const double reach = std::exp2(std::ceil(std::log2(coarse * finest)) + 23); // steps are finer below
     const std::string body = bodyOf(scene, rounding.particle);
     sentences.push_back("positions are rounded to " + thousandths(rounding.step) + " mm at " +
-                        number(std::lround(rounding.distance)) + " m from the origin" +
-                        (body.empty() ? "" : ", where body \"" + body + "\" is") +
+                        (rounding.distance < 10 ? thousandths(rounding.distance) + " mm"
+                                                : number(std::lround(rounding.distance)) + " m") +
+                        " from the origin" + (body.empty() ? "" : ", where body \"" + body + "\" is") +
                         ", which is coarse against the spacing of particles: place all within " +
                         number(reach) + " m of the origin");
 }

@@ -192,6 +192,14 @@ TEST(EveryKey, IsSuggestedForAnUnknownOneOfItsSection) {
     }
 }
 
+TEST(EveryKey, OfAnotherTableIsToldItsTable) {
+    EXPECT_NE(errorOf({"cloth", "gravity"}, "1").find(": it is a key of the file itself, above all tables"),
+              std::string::npos)
+        << errorOf({"cloth", "gravity"}, "1");
+    EXPECT_NE(errorOf({"mesh", "substeps"}, "1").find(": it is a key of [solver]"), std::string::npos)
+        << errorOf({"mesh", "substeps"}, "1");
+}
+
 TEST(Section, GivesDefaultsWhereTheFileIsSilent) {
     const std::string file = "test.toml";
     const toml::table table = scenes::parse("spacing = 0.5", file);
