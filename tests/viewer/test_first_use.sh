@@ -12,7 +12,7 @@ options=(--validation --timing)
 cat >crowd.toml <<'TOML'
 name = "crowd"
 [solver]
-substeps = 8
+substeps = 9
 [contacts]
 room = 1
 [[box]]
