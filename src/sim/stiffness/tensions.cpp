@@ -23,13 +23,10 @@ using collision::Vector;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t nobody = ~0u;
 constexpr double alongTheWay = 0.99; // of a link's length, what it leads nearer to what holds
-// Tension over load of links to a corner, where folds of a sheet meet (docs/accuracy.md).
-constexpr double atCorners = 25;
-// Likewise of links at the rim of what holds a sheet from below in its middle: a round thing makes folds all
-// around it.
-constexpr double aroundIt = 5;
-// Likewise of all links of what lies on something: it slides, and folds.
-constexpr double whereCarried = 1.2;
+// Factors on the load of a link, which give its tension (docs/accuracy.md): at a corner, where folds of a
+// sheet meet; at the rim of what holds a sheet from below in its middle, since a round thing makes folds all
+// around it; and of all that lies on something, which slides and folds.
+constexpr double atCorners = 25, aroundIt = 5, whereCarried = 1.2;
 
 // The links of each particle.
 struct Neighbours {
@@ -160,8 +157,8 @@ struct Flow {
         return 2 * held.size() < links.size();
     }
 
-    // Of each particle, whether it is held among others that hang together, none of which is at an edge of
-    // its sheet: has fewer links than most of the component. Chains have no middle.
+    // Whether each particle is held among others that hang together, none of which is at an edge of its
+    // sheet, that is, has fewer links than the most of its component. Chains have no middle.
     std::vector<bool> inMiddle(const std::vector<bool>& isHeld,
                                std::span<const std::uint32_t> components) const {
         const std::size_t count = isHeld.size();
