@@ -395,6 +395,19 @@ TEST(Substeps, HoldRigidSheetsOverRoundThingsAndEdges) {
     }
 }
 
+TEST(Substeps, OfWhatHangsOnPinsAreTheSameBesideWhatIsCarried) {
+    Scene hung = rigidCloth();
+    hung.fixed = {{0}, {30}, {31 * 15 + 15}}; // two corners, and one in the middle
+    const SubstepChoice alone = chooseSubsteps(hung, {});
+    ASSERT_EQ(alone.reason, SubstepReason::weight);
+    for (const float x : {-0.01f, 0.0f, 0.01f})
+        hung.particles.push_back({.position = {5 + x, 0.101f, 5}, .inverseMass = 1e4f});
+    hung.distances.push_back({.a = 961, .b = 962, .restLength = 0.01f});
+    hung.distances.push_back({.a = 962, .b = 963, .restLength = 0.01f});
+    hung.colliders = {{.shape = ColliderShape::sphere, .radius = 0.1f, .pose = {{5, 0, 5}, {}}}};
+    EXPECT_EQ(chooseSubsteps(hung, {}).wanted, alone.wanted);
+}
+
 TEST(Substeps, HoldRigidSheetsThatMeshesAndBodiesCarry) {
     const std::uint32_t alone = chooseSubsteps(sheetAbove(0.02f, 0.01f), {}).substeps;
     Scene onMesh = sheetAbove(0.012f, 0.01f);

@@ -104,9 +104,12 @@ std::vector<double> spansOf(const Scene& scene, const Ways& ways, const Vector& 
     return spans;
 }
 
+// Of each particle.
 struct Holds {
-    std::vector<bool> isHeld, isSharp; ///< of each particle
-    std::vector<bool> isInMiddle;      ///< what holds a sheet there reaches no edge of it; empty = nowhere
+    std::vector<bool> isHeld, isSharp;
+    std::vector<bool> isCarried;  ///< held from below, not by a pin or an attachment
+    std::vector<bool> isInMiddle; ///< what carries a sheet there reaches no edge of it
+    explicit Holds(std::size_t count) : isHeld(count), isSharp(count), isCarried(count), isInMiddle(count) {}
     bool operator==(const Holds&) const = default;
 };
 
@@ -128,7 +131,6 @@ struct Flow {
     const Neighbours& neighbours;
     Vector down{};
     double gravity = 0, tolerance = 0;
-    double margin = 1; ///< tension over load
     std::vector<double> tensions = std::vector<double>(scene.distances.size(), 0.0);
 
     // Slanted links go slack as a sheet that hangs grows narrow: those along the way bear it, longer ones
@@ -157,18 +159,18 @@ struct Flow {
         return 2 * held.size() < links.size();
     }
 
-    // Whether each particle is held among others that hang together, none of which is at an edge of its
+    // Whether each particle is carried among others that hang together, none of which is at an edge of its
     // sheet, that is, has fewer links than the most of its component. Chains have no middle.
-    std::vector<bool> inMiddle(const std::vector<bool>& isHeld,
+    std::vector<bool> inMiddle(const std::vector<bool>& isCarried,
                                std::span<const std::uint32_t> components) const {
-        const std::size_t count = isHeld.size();
+        const std::size_t count = isCarried.size();
         std::vector<std::size_t> most(count, 0);
         for (std::uint32_t i = 0; i < count; ++i)
             most[components[i]] = std::max(most[components[i]], neighbours.of(i).size());
         std::vector<bool> isSeen(count), result(count);
         std::vector<std::uint32_t> group;
         for (std::uint32_t start = 0; start < count; ++start) {
-            if (!isHeld[start] || isSeen[start]) continue;
+            if (!isCarried[start] || isSeen[start]) continue;
             group.assign(1, start);
             isSeen[start] = true;
             bool isInMiddle = true;
@@ -177,7 +179,7 @@ struct Flow {
                 isInMiddle = isInMiddle && links.size() > 2 && links.size() == most[components[group[n]]];
                 for (const std::uint32_t k : links) {
                     const std::uint32_t other = otherEnd(scene.distances[k], group[n]);
-                    if (!isHeld[other] || isSeen[other]) continue;
+                    if (!isCarried[other] || isSeen[other]) continue;
                     isSeen[other] = true;
                     group.push_back(other);
                 }
@@ -219,10 +221,11 @@ struct Flow {
                              slope = (ways.length[*i] - ways.length[other]) / double{c.restLength};
                 loads[other] += load;
                 spans[other] = std::max(spans[other], spans[*i]);
-                const double corner = isAtCorner(holds, other)                               ? atCorners
-                                      : !holds.isInMiddle.empty() && holds.isInMiddle[other] ? aroundIt
-                                                                                             : 1;
-                tensions[k] = std::max(tensions[k], margin * load / slope * spans[*i] * corner);
+                const double folds = isAtCorner(holds, other)  ? atCorners
+                                     : holds.isInMiddle[other] ? aroundIt
+                                                               : 1,
+                             margin = holds.isCarried[ways.root[*i]] ? whereCarried : 1;
+                tensions[k] = std::max(tensions[k], margin * folds * load / slope * spans[*i]);
             }
         }
     }
@@ -241,25 +244,25 @@ std::vector<double> tensionsOf(const Scene& scene, std::span<const float> invers
               .down = down,
               .gravity = gravity,
               .tolerance = tolerance};
-    Holds holds{.isHeld = std::vector<bool>(scene.particles.size()),
-                .isSharp = std::vector<bool>(scene.particles.size())};
+    Holds holds(scene.particles.size());
     for (std::size_t i = 0; i < holds.isHeld.size(); ++i) holds.isHeld[i] = inverseMass[i] == 0;
     for (const Attachment& attachment : scene.attachments) holds.isHeld[attachment.particle] = true;
     const std::vector<double> falls = flow.fallsOf(holds);
     flow.run(holds);
     const std::vector<std::uint32_t> asked = withRigidLinks(scene, components);
     const Supports supports(scene, components, down, asked);
-    flow.margin = whereCarried;
     Holds before = holds;
     for (const double time : timesOf(scene)) {
         const Support support = supports.at(time);
         Holds carried = holds;
         for (const std::uint32_t i : asked)
-            if (support.ways[i] < infinite && support.ways[i] <= falls[i])
-                carried.isHeld[i] = true, carried.isSharp[i] = support.isSharp[i];
+            if (!holds.isHeld[i] && support.ways[i] < infinite && support.ways[i] <= falls[i]) {
+                carried.isHeld[i] = carried.isCarried[i] = true;
+                carried.isSharp[i] = support.isSharp[i];
+            }
         if (carried == before) continue;
         before = carried;
-        carried.isInMiddle = flow.inMiddle(carried.isHeld, components);
+        carried.isInMiddle = flow.inMiddle(carried.isCarried, components);
         flow.run(carried);
     }
     return std::move(flow.tensions);
