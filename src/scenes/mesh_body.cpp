@@ -261,12 +261,12 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
     checkVoxelKeys(section);
     Found found = find(section, source);
     const mesh::TriangleMesh given = isApart(section) ? found.mesh : mesh::TriangleMesh{};
-    const double longest = longestSide(mesh::measure(found.mesh)); // in units of the file
+    const bool isDropped = section.has("size") && section.has("file") && section.text("file") == "argument";
+    const double longest = isDropped ? longestSide(mesh::measure(found.mesh)) : 0; // in units of the file
     place(found.mesh, section, loaded.origin);
     const std::vector<mesh::Component> components = mesh::components(found.mesh);
     const std::string called = calledIn(loaded, section, "mesh", found.file);
-    if (section.has("size") && section.has("file") && section.text("file") == "argument")
-        loaded.notes.push_back(called + " " + scaledText(longest, section.value("size")));
+    if (isDropped) loaded.notes.push_back(called + " " + scaledText(longest, section.value("size")));
     sayFound(loaded, called, found.repairs, found.notes, section.has("object") || components.size() > 1);
     const mesh::MeshBody body = bodyOf(section, voxel);
     const std::size_t first = loaded.scene.particles.size(), firstGrid = loaded.scene.grids.size();

@@ -41,16 +41,24 @@ std::string expectedText(const Key& key) {
     return text;
 }
 
-/// "did you mean radius?"; where nothing is spelled alike, the table that has such a key, or all keys of this
-/// one.
+/// "[solver]", "[[hold.keyframe]]": the head of the tables of a section.
+std::string headOf(std::string_view section) {
+    for (const Key& key : schema())
+        if (key.kind == Kind::table || key.kind == Kind::tables)
+            if (const std::string head = expectedText(key);
+                head.find("[" + std::string(section) + "]") != head.npos)
+                return head;
+    return "the file itself, above all tables";
+}
+
+/// "did you mean radius?"; where nothing is spelled alike, the one table that has such a key, or all keys of
+/// this one.
 std::string adviceFor(std::string_view section, std::string_view name) {
     const Key& nearest = nearestKey(section, name);
     if (3 * editDistance(nearest.name, name) <= nearest.name.size())
         return "did you mean " + std::string(nearest.name) + "?";
-    for (const Key& key : schema())
-        if (key.name == name)
-            return "it is a key of " + (key.section.empty() ? std::string("the file itself, above all tables")
-                                                            : "[" + std::string(key.section) + "]");
+    if (std::ranges::count(schema(), name, &Key::name) == 1)
+        return "it is a key of " + headOf(std::ranges::find(schema(), name, &Key::name)->section);
     std::string names;
     for (const Key& key : schema())
         if (key.section == section) names += (names.empty() ? "" : ", ") + std::string(key.name);

@@ -198,6 +198,11 @@ TEST(EveryKey, OfAnotherTableIsToldItsTable) {
         << errorOf({"cloth", "gravity"}, "1");
     EXPECT_NE(errorOf({"mesh", "substeps"}, "1").find(": it is a key of [solver]"), std::string::npos)
         << errorOf({"mesh", "substeps"}, "1");
+    EXPECT_NE(errorOf({"box", "tethers"}, "1").find(": it is a key of [[cloth]]"), std::string::npos)
+        << errorOf({"box", "tethers"}, "1");
+    EXPECT_NE(errorOf({"cloth", "center"}, "[0, 0, 0]").find(": possible are name, origin, "),
+              std::string::npos)
+        << "several have it: " << errorOf({"cloth", "center"}, "[0, 0, 0]");
 }
 
 TEST(Section, GivesDefaultsWhereTheFileIsSilent) {
