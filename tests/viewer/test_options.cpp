@@ -49,7 +49,9 @@ TEST(Options, HaveWhatKeysChangeInTheWindow) {
     EXPECT_TRUE(all.isFullScreen);
     EXPECT_EQ(all.bladeDepth, 0.02f);
     EXPECT_NE(complaint({"--scale", "9"}).find("--scale"), std::string::npos);
-    EXPECT_NE(complaint({"--blade-depth", "0"}).find("--blade-depth"), std::string::npos);
+    for (const char* depth : {"0", "nan"})
+        EXPECT_NE(complaint({"--blade-depth", depth}).find("--blade-depth"), std::string::npos) << depth;
+    EXPECT_NE(complaint({"--scale", "nan"}).find("--scale"), std::string::npos);
     EXPECT_NE(complaint({"--blade-depth", "1", "--replay", "a.input"}).find("--replay"), std::string::npos);
 }
 
