@@ -37,13 +37,9 @@ layout(std140, binding = 7) uniform Step { StepParams step; };
 layout(std140, binding = 8) uniform Bounds { GridBounds bounds; };
 layout(std430, binding = 9) readonly buffer Firsts { float firsts[]; }; // when each first met another, where isSwept
 #include "contact_memory.glsl"
-#ifdef HAS_PLANES
-#include "planes.glsl"
-layout(std430, binding = PLANE_BINDING) readonly buffer Planes { PlaneCollider planes[]; };
-layout(std430, binding = PLANE_BINDING + 1) readonly buffer ContactOffsets { float contactOffsets[]; };
-#endif
 layout(push_constant) uniform Push { ContactPush push; };
 
+#include "finish_substep.glsl"
 #include "contact_impulses.glsl"
 
 void main() {
@@ -55,33 +51,5 @@ void main() {
     for (uint s = 0u; s < resting; ++s) sum += impulseFrom(i, s * push.row + i, self, velocity.xyz);
     for (uint s = 0u; s < sweeping; ++s) addSwept(i, s * push.row + i, self, velocity.xyz, sum, stopping);
     const vec3 correction = w * sum;
-    vec3 x = self.xyz + correction, way = correction, v = velocity.xyz + (correction + w * stopping) / h;
-#ifdef HAS_PLANES
-    if (w > 0.0) {
-        Motion motion = Motion(x, v, h * velocity.xyz + correction);
-        const float offset = contactOffsets[i];
-        uint touched = 0u;
-        for (uint p = 0u; p < planeCount; ++p) {
-            if (projectOntoPlane(planes[p], offset, h, motion)) touched |= 1u << p;
-        }
-#ifdef HAS_REBOUND
-        for (uint p = 0u; p < planeCount; ++p) {
-            if ((touched & 1u << p) != 0u) motion.v += rebound(planes[p], step.restSpeed, BEFORE(i), motion.v);
-        }
-#endif
-        x = motion.x;
-        way = motion.displacement - h * velocity.xyz;
-        v = motion.v;
-    }
-#endif
-    if (hasRemainders) {
-        const uint r = remainderOf(predicted.length(), i);
-        const Sum sum = exactSum(self.xyz, predicted[r].xyz + way + step.thetaH * v);
-        x = sum.rounded;
-        nextPositions[r] = vec4(sum.remainder, 0.0);
-    } else {
-        x += step.thetaH * v;
-    }
-    nextPositions[i] = vec4(x, predicted[i].w);
-    nextVelocities[i] = vec4(v, w);
+    finish(i, self.xyz, velocity, correction, velocity.xyz + (correction + w * stopping) / h);
 }

@@ -271,6 +271,53 @@ struct GridBounds {
     // listed as too fast for cells. plan_grid hands them on:
     uint sweeping, hurrying;
     uint isSwept, fast; // of the substep that is solved
+    float drift;        // how far particles may still stray, together, from where their bodies are expected in this step [m]
+};
+
+// The motion that a body is expected to have until its lists of contacts are made again (collision/body_frames.hpp): a particle
+// that was at r when they were made is expected at A (r - from) + to. Rows of 3 x 4 matrices.
+struct BodyFrame {
+    vec4 now[3];    // A; w: to [m], when the substep ends
+    vec4 rates[3];  // dA/dt A^-1 [1/s]; w: velocity of `to` [m/s]
+    vec4 from;      // [m]; w: how far from where it is expected a particle may be [m]; below 0 = lists are not complete
+    vec4 gravity;   // [m/s^2], 0 where the frame stands still; w: how far from `to` particles of the body are, at most [m]
+};
+
+// Sums over particles of a body. x: where they are, r: where they were when lists were made, v: velocities; x and r against
+// those of the body's first particle.
+#define FRAME_SUMS 14
+#define FRAME_SUM_R 0      // sum of r; w: particles
+#define FRAME_SUM_X 1      // of x
+#define FRAME_SUM_V 2      // of v
+#define FRAME_SUM_RR 3     // of r r^T, three rows
+#define FRAME_SUM_DR 6     // of (x - r) r^T
+#define FRAME_SUM_VR 9     // of v r^T
+#define FRAME_SUM_LOW 12   // the box of x
+#define FRAME_SUM_HIGH 13
+
+// A share of a body's particles that one invocation sums up: entries of a list of slots.
+struct FrameChunk {
+    uint first, count, body;
+    uint origin; // slot of the body's first particle
+};
+
+#define FRAME_NONE 0xffffffffu // the body of what touches nothing
+#define FRAME_MOVES 0  // as it does
+#define FRAME_STANDS 1 // never
+struct FrameBody {
+    uint firstChunk, chunks;
+    uint origin; // slot of its first particle
+    uint kind;
+};
+
+// One work group fits the frames of all bodies.
+#define FRAME_MOST_BODIES GROUP_ITEMS
+
+struct FramePush {
+    uint chunks, bodies;
+    float reach;  // the largest at which two touch [m]
+    float margin; // beyond it, up to which a pair is listed [m]
+    uint substeps; // of a step
 };
 
 // Cells that one invocation sums up, and particles that one measures.
@@ -296,9 +343,11 @@ struct GridPush {
     uint cells;  // a power of two
     float edge;  // of a cell, at least [m]
     float most;  // radius in the grid [m]; particles with more are searched one by one
-    float slack; // how far a particle may move before the grid is built again [m]
+    float slack; // how far from where it is expected a particle may be before the grid is built again [m]
     uint others; // items of further passes that run with a build; 0 = none
     float quiet; // way in a substep up to which nobody meets anybody on it [m]
+    uint bodies; // with a frame
+    float reach, margin; // as in FramePush
 };
 
 // Candidate s of particle i is element s * row + i, so that a longer list starts with a shorter one. Rows are a little longer

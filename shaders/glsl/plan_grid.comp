@@ -1,11 +1,16 @@
 #version 460
 // Says how many groups the passes that build the grid have: none while lists are still complete. And those that depend on
-// how fast particles are.
+// how fast particles are. Moves the frames of bodies on to the next substep.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
+#include "math.glsl"
+#include "body_frames.glsl"
 
 layout(std430, binding = 0) buffer Bounds { GridBounds bounds; };
 layout(std430, binding = 1) writeonly buffer Arguments { DispatchArguments arguments[]; };
+layout(std430, binding = 2) buffer Frames { BodyFrame frames[]; };
+layout(std430, binding = 4) writeonly buffer Touching { DispatchArguments touching; }; // of groups that contacts are solved for
+layout(std140, binding = 3) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { GridPush push; };
 
 uint groupsOf(uint items) { return (items - 1u) / GROUP_SIZE + 1u; }
@@ -14,9 +19,7 @@ void plan(uint element, bool runs, uint items) {
     arguments[element] = DispatchArguments(runs ? groupsOf(items) : 0u, 1u, 1u, 0u);
 }
 
-void main() {
-    if (gl_GlobalInvocationID.x > 0u) return;
-    const bool isBuilt = bounds.moved > 0u; // watch_motion writes only what is too far
+void planPasses(bool isBuilt) {
     const bool isSwept = bounds.sweeping > 0u, isSlowed = bounds.hurrying > MOST_FAST;
     plan(GRID_PARTICLES, isBuilt, push.count);
     plan(GRID_PARTICLE_CHUNKS, isBuilt, (push.count - 1u) / GRID_CHUNK + 1u);
@@ -27,12 +30,32 @@ void main() {
     plan(GRID_SWEPT, isBuilt && isSwept, push.count);
     plan(GRID_UNSWEPT, isBuilt && !isSwept, push.count);
     if (isBuilt) {
+        touching = DispatchArguments(0u, 1u, 1u, 0u); // sort_contacts counts anew
         bounds.lowX = bounds.lowY = bounds.lowZ = ~0u;
         bounds.highX = bounds.highY = bounds.highZ = 0u;
         ++bounds.builds;
+        bounds.drift -= uintBitsToFloat(bounds.moved);
     }
     bounds.moved = bounds.sweeping = 0u;
     bounds.isSwept = isSwept ? 1u : 0u;
     bounds.fast = isSlowed ? 0u : bounds.hurrying;
     bounds.hurrying = 0u;
+}
+
+// Bodies far from each other have frames of their own while no particle strays; once some have, all frames stand still until
+// the next step.
+void planFrame(uint b, bool isBuilt, bool stands) {
+    BodyFrame frame = frames[b];
+    if (isBuilt) restart(frame, stands);
+    advance(frame, step.h, push.reach, push.margin);
+    frames[b] = frame;
+}
+
+void main() {
+    const uint b = gl_LocalInvocationID.x;
+    const uint moved = bounds.moved; // watch_motion writes only what is too far
+    const bool stands = bounds.drift < uintBitsToFloat(moved);
+    barrier();
+    if (b == 0u) planPasses(moved > 0u);
+    if (b < push.bodies) planFrame(b, moved > 0u, stands);
 }

@@ -20,6 +20,18 @@ layout(std430, binding = 2) buffer Found { uint found[]; };
 layout(std430, binding = 3) writeonly buffer Contacts { ContactCandidate contacts[]; };
 layout(std430, binding = 4) writeonly buffer Counts { uint counts[]; };
 layout(std430, binding = 5) buffer Status { StatusWords status; };
+#ifdef LISTS_GROUPS
+layout(std430, binding = 6) buffer Marks { uint marks[]; };          // of each group: the last build that listed it
+layout(std430, binding = 7) writeonly buffer Touching { uint touching[]; };
+layout(std430, binding = 8) buffer Arguments { DispatchArguments arguments; };
+layout(std430, binding = 9) readonly buffer Bounds { GridBounds bounds; };
+
+// The groups that contacts are solved for.
+void listGroup(uint group) {
+    if (atomicMax(marks[group], bounds.builds) >= bounds.builds) return;
+    touching[atomicAdd(arguments.groupsX, 1u)] = group;
+}
+#endif
 layout(push_constant) uniform Push { FindPush push; };
 #define BLOCK 16
 
@@ -43,5 +55,8 @@ void main() {
                 contacts[rank[b] * push.row + i] = ContactCandidate(mine[b], radius + RADIUS(mine[b]));
     }
     counts[i] = n;
+#ifdef LISTS_GROUPS
+    if (n > 0u) listGroup(i / GROUP_SIZE);
+#endif
     found[i] = 0u; // large particles count on it
 }

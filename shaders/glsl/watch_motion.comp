@@ -1,7 +1,7 @@
 #version 460
-// Finds out whether a particle is, or was on its way in this substep, farther from where it was when the grid was built than
-// lists bear, and whether some are so fast that contacts may lie on their way. Where that is so, all that remains is decided
-// by plan_grid; most particles never touch the shared words.
+// Finds out whether a particle is, or was on its way in this substep, farther from where its body's frame expects it than lists
+// bear, and whether some are so fast that contacts may lie on their way. Where that is so, all that remains is decided
+// by plan_grid.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "hash_grid.glsl"
@@ -26,21 +26,7 @@ layout(std430, binding = 4) readonly buffer Radii { float radii[]; };
 layout(std430, binding = 5) writeonly buffer Fast { uint fast[]; };
 layout(std140, binding = 6) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { GridPush push; };
+#define FRAMES_BINDING 7
+#include "watch.glsl"
 
-void watchFast(uint i, float way) {
-    atomicMax(bounds.sweeping, 1u);
-    if (!isHurrying(radii[i], way, push.quiet, push.most)) return;
-    const uint place = atomicAdd(bounds.hurrying, 1u);
-    if (place < MOST_FAST) fast[place] = i;
-}
-
-void main() {
-    const uint i = itemIndex(push.count);
-    const vec3 way = step.h * VELOCITY(i).xyz, end = POSITION(i).xyz - DETECTED(i).xyz, start = end - way;
-    const float farthest = max(dot(end, end), dot(start, start));
-    if (radii[i] < 0.0) return; // in no list, such as crumbs that fall for ever
-    if (!(farthest <= push.slack * push.slack)) // what is no number has gone far
-        atomicMax(bounds.moved, floatBitsToUint(min(sqrt(farthest), 1e30)));
-    const float far = wayOf(step.h, VELOCITY(i).xyz); // as find_contacts and cap_speeds have it
-    if (far > push.quiet) watchFast(i, far);
-}
+void main() { watch(itemIndex(push.count), push.quiet, push.most); }

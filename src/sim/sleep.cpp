@@ -251,6 +251,10 @@ void addOpening(ProgramBuilder& program, const ParticleBuffers& particles,
     });
 }
 
+const vk::ShaderCode& listedForm(const vk::ShaderCode& code) {
+    return *awakeForm(code);
+}
+
 void addTouches(ProgramBuilder& program, const ParticleBuffers& predicted) {
     if (!predicted.sleep) return;
     Sleep& sleep = *predicted.sleep;

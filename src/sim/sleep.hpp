@@ -42,6 +42,9 @@ void addOpening(ProgramBuilder& program, const ParticleBuffers& particles,
                 const constraints::attachment::Attachments& attachments = {},
                 const collision::colliders::Colliders& colliders = {});
 
+/// The form of a kernel over particles that runs for the work groups in a list, which it binds last.
+const vk::ShaderCode& listedForm(const vk::ShaderCode& code);
+
 /// In a substep, before contacts of `predicted` are counted: what is touched wakes.
 void addTouches(ProgramBuilder& program, const ParticleBuffers& predicted);
 /// Likewise, after contacts with faces, or between edges, were found.

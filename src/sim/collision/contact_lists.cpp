@@ -32,6 +32,10 @@ float quietWay(const Request& request) {
     return std::min(0.5f * least, slackShare * request.margin);
 }
 
+float largestOf(std::span<const float> radii) {
+    return radii.empty() ? 0.0f : std::max(0.0f, *std::ranges::max_element(radii));
+}
+
 bool hasOneRadius(std::span<const float> radii) {
     float only = -1;
     for (const float radius : radii) {
@@ -55,6 +59,19 @@ const vk::ShaderCode& form(const Lists& lists, const Forms& forms) {
     return *forms[lists.grid.usesTexels ? 1 : 0][lists.excluded != BufferId{} ? 1 : 0];
 }
 
+void addSorting(ProgramBuilder& program, const Lists& lists) {
+    const hash_grid::Grid& grid = lists.grid;
+    std::vector<BufferId> buffers{lists.candidates, grid.radii,   lists.found,
+                                  lists.contacts,   lists.counts, program.program().status};
+    const bool listsGroups = lists.touching != BufferId{};
+    if (listsGroups)
+        buffers.insert(buffers.end(), {lists.marks, lists.touching, grid.touching.arguments, grid.bounds});
+    const std::array<const vk::ShaderCode*, 2> forms =
+        listsGroups ? std::array{&k::sortContactsGroupsLoads, &k::sortContactsGroups}
+                    : std::array{&k::sortContactsLoads, &k::sortContacts};
+    program.dispatchIndirect(*forms[grid.usesTexels ? 1 : 0], grid.particles, buffers, lists.push);
+}
+
 } // namespace
 
 std::uint32_t rowOf(std::size_t slots) {
@@ -67,7 +84,10 @@ Lists add(ProgramBuilder& program, const Request& request) {
                                                  .margin = request.margin,
                                                  .slack = slackShare * request.margin,
                                                  .quiet = quietWay(request),
-                                                 .usesTexels = request.usesTexels}),
+                                                 .usesTexels = request.usesTexels,
+                                                 .bodies = request.bodies,
+                                                 .reach = 2 * largestOf(request.radii),
+                                                 .substeps = request.substeps}),
                 .hasOneRadius = hasOneRadius(request.radii)};
     const std::vector<std::uint32_t> large = slotsAbove(request.radii, lists.grid.push.most);
     lists.push = {.count = lists.grid.push.count,
@@ -89,16 +109,21 @@ Lists add(ProgramBuilder& program, const Request& request) {
     lists.found = program.scratch<std::uint32_t>("contacts.found", count);
     lists.candidates = program.scratch<std::uint32_t>("contacts.candidates", elements);
     lists.large = program.upload("contacts.large", large);
+    if (request.listsGroups) {
+        lists.touching = program.scratch<std::uint32_t>("contacts.groups", count / GROUP_ITEMS);
+        lists.marks = program.scratch<std::uint32_t>("contacts.groups.listed", count / GROUP_ITEMS);
+    }
     if (!request.exclusions.empty()) lists.excluded = program.upload("contacts.excluded", request.exclusions);
     return lists;
 }
 
-void addWatch(ProgramBuilder& program, const Lists& lists, const hash_grid::Moved& moved) {
+void addBuild(ProgramBuilder& program, const Lists& lists, const hash_grid::Moved& moved) {
     hash_grid::addBuild(program, lists.grid, moved);
 }
 
 void addUpdate(ProgramBuilder& program, const Lists& lists, const hash_grid::Moved& moved) {
-    addWatch(program, lists, moved);
+    hash_grid::addWatch(program, lists.grid, moved);
+    addBuild(program, lists, moved);
     addLists(program, lists, moved);
 }
 
@@ -111,10 +136,7 @@ void addLists(ProgramBuilder& program, const Lists& lists, const hash_grid::Move
     program.dispatchIndirect(form(lists, unswept), grid.unswept, buffers, lists.push, constants);
     buffers.insert(buffers.end(), {moved.velocities, grid.fast, moved.step});
     program.dispatchIndirect(form(lists, swept), grid.swept, buffers, lists.push, constants);
-    program.dispatchIndirect(
-        grid.usesTexels ? kernels::sortContacts : kernels::sortContactsLoads, grid.particles,
-        {lists.candidates, grid.radii, lists.found, lists.contacts, lists.counts, program.program().status},
-        lists.push);
+    addSorting(program, lists);
 }
 
 } // namespace sinew::sim::collision::contact_lists

@@ -29,9 +29,12 @@ struct Request {
     std::uint32_t limit = 256;    ///< candidates after which counting stops: bounds the time of a step
     Exclusions exclusions;
     bool usesTexels = true;
+    const body_frames::Bodies* bodies = nullptr; ///< as hash_grid::Request has them
+    std::uint32_t substeps = 1;                  ///< of a step
     /// The lists before the first update, capacity x row, and their lengths; empty = nobody is listed.
     std::vector<layout::ContactCandidate> contacts;
     std::vector<std::uint32_t> counts;
+    bool listsGroups = false; ///< whether groups in which a particle has a candidate are listed
 };
 
 /// Elements from one candidate of a particle to the next.
@@ -45,19 +48,20 @@ struct Lists {
     BufferId contacts, counts;
     BufferId found, candidates, large, excluded;
     bool hasOneRadius = false;
+    BufferId touching, marks; ///< work groups in which a particle has a candidate; only where asked for
 };
 
 Lists add(ProgramBuilder& program, const Request& request);
 
-/// Watches particles, and builds the grid of them where lists are no longer complete: for those that are
-/// near, or were on their way. Until addLists() the old lists stand.
-void addWatch(ProgramBuilder& program, const Lists& lists, const hash_grid::Moved& moved);
+/// After particles were watched: builds the grid of them where lists are no longer complete, for those that
+/// are near, or were on their way. Until addLists() the old lists stand.
+void addBuild(ProgramBuilder& program, const Lists& lists, const hash_grid::Moved& moved);
 
 /// Makes the lists where the grid was built. A list that does not fit its room is said in the
 /// status (StatusWords::candidates): what it lacks is lost, so the step must be undone.
 void addLists(ProgramBuilder& program, const Lists& lists, const hash_grid::Moved& moved);
 
-/// Both.
+/// Watches particles, and both.
 void addUpdate(ProgramBuilder& program, const Lists& lists, const hash_grid::Moved& moved);
 
 } // namespace sinew::sim::collision::contact_lists

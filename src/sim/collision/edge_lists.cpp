@@ -101,7 +101,7 @@ void addWatch(ProgramBuilder& program, const Lists& lists, const ParticleBuffers
                      {particles.positions, particles.velocities, lists.edges, lists.ends, grid.detected,
                       lists.middles, lists.speeds, grid.bounds, lists.points, particles.step},
                      grid.push);
-    hash_grid::addSort(program, grid, lists.middles);
+    hash_grid::addSort(program, grid, lists.middles, particles.step);
 }
 
 void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {

@@ -107,6 +107,7 @@ face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
         for (std::uint32_t* corner : {&face.a, &face.b, &face.c}) *corner = layout.slot[*corner];
     // Thin cloth of coarse faces may wait longer than its radius says: an eighth of a face costs few
     // candidates.
+    const body_frames::Bodies bodies = body_frames::bodiesOf(scene, layout);
     const float length = std::max(median(wide), median(faces.extents) / 8);
     face_lists::Lists lists = face_lists::add(program, {.radii = radii,
                                                         .inverseMasses = masses,
@@ -117,7 +118,9 @@ face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
                                                         .margin = settings.contactMargin * length,
                                                         .capacity = settings.contactRoom,
                                                         .limit = ranges::mostContactRoom,
-                                                        .usesTexels = settings.forms.usesTexels});
+                                                        .usesTexels = settings.forms.usesTexels,
+                                                        .bodies = &bodies,
+                                                        .substeps = settings.substeps});
     cutting::letCrumbsLeave(program, lists.grid.radii, lists.grid);
     cutting::letCrumbsLeave(program, lists.radii, lists.grid);
     return lists;
@@ -129,8 +132,10 @@ const vk::ShaderCode& gatherForm(const Contacts& contacts) {
     return contacts.planes.count > 0 ? k::gatherFacesPlanes : k::gatherFacesEnd;
 }
 
-void addListUpdate(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted) {
+void addListUpdate(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
+                   bool isFirst) {
     const face_lists::Lists& lists = contacts.lists;
+    if (isFirst) face_lists::addFit(program, lists, predicted);
     face_lists::addWatch(program, lists, predicted);
     side_memory::addKeeping(program, contacts.memory);
     face_lists::addLists(program, lists, predicted);
@@ -239,10 +244,10 @@ void addOpening(ProgramBuilder& program, const Contacts& contacts, BufferId velo
 }
 
 ParticleBuffers addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
-                          const ParticleBuffers& next) {
+                          const ParticleBuffers& next, bool isFirst) {
     const face_lists::Lists& lists = contacts.lists;
     const ParticleBuffers moved = contacts.endsSubstep ? next : contacts.moved;
-    addListUpdate(program, contacts, predicted);
+    addListUpdate(program, contacts, predicted, isFirst);
     program.dispatch(k::touchFaces, contacts.push.count,
                      {predicted.positions, predicted.velocities, lists.faces, lists.contacts, lists.counts,
                       contacts.memory.memory, contacts.directions, contacts.weights, predicted.step},

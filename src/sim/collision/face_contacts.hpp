@@ -50,9 +50,9 @@ void joinIslands(const Contacts& contacts, sleep::Sleep& sleep);
 void addOpening(ProgramBuilder& program, const Contacts& contacts, BufferId velocities);
 
 /// From predicted positions and velocities to those after the contacts, which are returned: those of `next`
-/// if they end the substep.
+/// if they end the substep. `isFirst`: of a step.
 ParticleBuffers addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
-                          const ParticleBuffers& next);
+                          const ParticleBuffers& next, bool isFirst);
 
 /// Restitution, after all contacts of a substep, which `state` then is of; nothing where nothing rebounds.
 void addBounces(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state);

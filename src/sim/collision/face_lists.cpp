@@ -35,6 +35,21 @@ std::vector<BufferId> searchBuffers(const Lists& lists, const ParticleBuffers& p
             lists.candidates,    lists.faceFound,      lists.faceCandidates, lists.excluded, particles.step};
 }
 
+// By slot: below 0 = neither a point nor a corner.
+std::vector<float> watchedOf(const Request& request) {
+    std::vector<float> watched(request.radii.begin(), request.radii.end());
+    for (const layout::ContactFace& face : request.faces)
+        for (const std::uint32_t corner : {face.a, face.b, face.c}) watched[corner] = 0;
+    return watched;
+}
+
+float reachOf(const Request& request) {
+    float radius = 0, thickness = 0;
+    for (const float one : request.radii) radius = std::max(radius, one);
+    for (const layout::ContactFace& face : request.faces) thickness = std::max(thickness, face.thickness);
+    return radius + thickness;
+}
+
 } // namespace
 
 Lists add(ProgramBuilder& program, const Request& request) {
@@ -42,6 +57,7 @@ Lists add(ProgramBuilder& program, const Request& request) {
     const float edge = std::max(hash_grid::largestInGrid(request.extents),
                                 2 * hash_grid::largestInGrid(request.radii) + request.margin);
     const std::vector<float> points = pointsOf(request.radii);
+    const std::vector<float> watched = watchedOf(request);
     const std::vector<std::uint32_t> large = facesWhere(request.extents, edge, true);
     Lists lists{.grid = hash_grid::add(program, {.radii = points,
                                                  .margin = request.margin,
@@ -49,6 +65,10 @@ Lists add(ProgramBuilder& program, const Request& request) {
                                                  .edge = edge,
                                                  .others = static_cast<std::uint32_t>(paddedCount(faces)),
                                                  .usesTexels = request.usesTexels,
+                                                 .bodies = request.bodies,
+                                                 .watched = watched,
+                                                 .reach = reachOf(request),
+                                                 .substeps = request.substeps,
                                                  .name = "faces.grid",
                                                  .radiiName = "faces.grid.radii"})};
     const layout::GridPush& grid = lists.grid.push;
@@ -86,12 +106,17 @@ Lists add(ProgramBuilder& program, const Request& request) {
     return lists;
 }
 
+void addFit(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {
+    hash_grid::addFit(program, lists.grid, {particles.positions, particles.velocities, particles.step});
+}
+
 void addWatch(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {
     const hash_grid::Grid& grid = lists.grid;
     program.dispatch(k::watchFaces, grid.push.count,
-                     {particles.positions, particles.velocities, grid.detected, grid.bounds, particles.step},
+                     {particles.positions, particles.velocities, grid.detected, grid.bounds, particles.step,
+                      grid.frames.frames, grid.frames.ofSlots},
                      grid.push);
-    hash_grid::addSort(program, grid, particles.positions);
+    hash_grid::addSort(program, grid, particles.positions, particles.step);
 }
 
 void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {

@@ -27,6 +27,8 @@ struct Request {
     std::uint32_t capacity = 0; ///< faces near a point, and points near a face that moves
     std::uint32_t limit = 256;  ///< candidates after which counting stops: bounds the time of a step
     bool usesTexels = true;
+    const body_frames::Bodies* bodies = nullptr; ///< as hash_grid::Request has them
+    std::uint32_t substeps = 1;                  ///< of a step
 };
 
 /// Element s x row + i of `contacts` is face s of point i (layout::ContactCandidate); element s x faceRow + f
@@ -40,6 +42,9 @@ struct Lists {
 };
 
 Lists add(ProgramBuilder& program, const Request& request);
+
+/// Once a step, at the end of its first substep, before addWatch().
+void addFit(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles);
 
 /// Watches where `particles` have gone, and builds the grid of them where lists are no longer complete. Until
 /// addLists() the old lists stand.

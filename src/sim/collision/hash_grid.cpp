@@ -24,8 +24,10 @@ const vk::ShaderCode& form(const Grid& grid, const vk::ShaderCode& texels, const
     return grid.usesTexels ? texels : loads;
 }
 
-void addPlan(ProgramBuilder& program, const Grid& grid) {
-    program.dispatch(kernels::planGrid, 1, {grid.bounds, grid.arguments}, grid.push);
+void addPlan(ProgramBuilder& program, const Grid& grid, BufferId step) {
+    program.dispatch(kernels::planGrid, GROUP_ITEMS,
+                     {grid.bounds, grid.arguments, grid.frames.frames, step, grid.touching.arguments},
+                     grid.push);
 }
 
 void addCells(ProgramBuilder& program, const Grid& grid, BufferId positions) {
@@ -87,7 +89,18 @@ Grid add(ProgramBuilder& program, const Request& request) {
     grid.others = {grid.arguments, GRID_OTHERS, request.others};
     grid.swept = {grid.arguments, GRID_SWEPT, grid.push.count};
     grid.unswept = {grid.arguments, GRID_UNSWEPT, grid.push.count};
+    grid.touching = {program.scratch<layout::DispatchArguments>(name + ".touching", 1), 0, grid.push.count};
     grid.slowed = {grid.arguments, GRID_SLOWED, grid.push.count};
+    const body_frames::Request frames{.radii = request.watched.empty() ? request.radii : request.watched,
+                                      .reach = request.reach,
+                                      .margin = request.margin,
+                                      .substeps = request.substeps,
+                                      .name = request.name};
+    grid.frames = request.bodies ? body_frames::add(program, *request.bodies, frames)
+                                 : body_frames::addStanding(program, frames, count);
+    grid.push.bodies = grid.frames.push.bodies;
+    grid.push.reach = request.reach;
+    grid.push.margin = request.margin;
     if (request.quiet >= 0) grid.fast = program.scratch<std::uint32_t>(name + ".fast", MOST_FAST);
     program.program().grids.push_back({.name = name,
                                        .bounds = grid.bounds,
@@ -99,21 +112,30 @@ Grid add(ProgramBuilder& program, const Request& request) {
     return grid;
 }
 
-void addBuild(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
+void addWatch(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
     namespace k = kernels;
-    program.dispatch(
-        form(grid, k::watchMotion, k::watchMotionLoads), grid.push.count,
-        {moved.positions, grid.detected, moved.velocities, grid.bounds, grid.radii, grid.fast, moved.step},
-        grid.push);
-    addPlan(program, grid);
+    program.dispatch(form(grid, k::watchMotion, k::watchMotionLoads), grid.push.count,
+                     {moved.positions, grid.detected, moved.velocities, grid.bounds, grid.radii, grid.fast,
+                      moved.step, grid.frames.frames, grid.frames.ofSlots},
+                     grid.push);
+}
+
+void addBuild(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
+    addPlan(program, grid, moved.step);
     program.dispatchIndirect(
-        k::capSpeeds, grid.slowed,
+        kernels::capSpeeds, grid.slowed,
         {moved.positions, moved.velocities, grid.radii, program.program().status, moved.step}, grid.push);
     addCells(program, grid, moved.positions);
 }
 
-void addSort(ProgramBuilder& program, const Grid& grid, BufferId positions) {
-    addPlan(program, grid);
+void addFit(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
+    body_frames::addFit(
+        program, grid.frames,
+        {moved.positions, moved.velocities, grid.detected, grid.radii, grid.bounds, moved.step});
+}
+
+void addSort(ProgramBuilder& program, const Grid& grid, BufferId positions, BufferId step) {
+    addPlan(program, grid, step);
     addCells(program, grid, positions);
 }
 

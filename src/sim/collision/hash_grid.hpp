@@ -4,6 +4,7 @@
 #pragma once
 
 #include "layout.h"
+#include "sim/collision/body_frames.hpp"
 #include "sim/program.hpp"
 
 #include <span>
@@ -21,6 +22,11 @@ struct Request {
     /// nobody watches.
     float quiet = -1;
     bool usesTexels = true;
+    /// The bodies whose motion particles are expected to share; null = they are expected to stay.
+    const body_frames::Bodies* bodies = nullptr;
+    std::span<const float> watched;           ///< by state slot: below 0 = never watched; empty = `radii`
+    float reach = 0;                          ///< the largest at which two touch [m]
+    std::uint32_t substeps = 1;               ///< of a step
     const char* name = "grid";                ///< of its buffers
     const char* radiiName = "contacts.radii"; ///< of that one
 };
@@ -43,17 +49,26 @@ struct Grid {
     BufferId radii, bounds, arguments, counts, sums, starts, places, sorted, detected, fast;
     IndirectItems particles, particleChunks, cellChunks, oneGroup,
         others;                   ///< of passes that run with a build
+    IndirectItems touching;       ///< of particles in groups of which one has a candidate
     IndirectItems swept, unswept; ///< likewise, a particle each, where contacts may or cannot lie on the way
     IndirectItems slowed;         ///< where too many are too fast
+    body_frames::Frames frames;
 };
 
 Grid add(ProgramBuilder& program, const Request& request);
 
-/// Builds the grid of `positions` where bounds.moved says that somebody has gone too far.
-void addSort(ProgramBuilder& program, const Grid& grid, BufferId positions);
+/// Fits frames to particles at the end of the first substep of a step, before they are watched.
+void addFit(ProgramBuilder& program, const Grid& grid, const Moved& moved);
 
-/// Watches particles and builds the grid of them where it must be. Particles too fast for cells are listed,
-/// up to MOST_FAST; where there are more, all of those are slowed down first, which the status counts.
+/// Builds the grid of moved.positions where bounds.moved says that somebody has gone too far.
+void addSort(ProgramBuilder& program, const Grid& grid, BufferId positions, BufferId step);
+
+/// Watches particles.
+void addWatch(ProgramBuilder& program, const Grid& grid, const Moved& moved);
+
+/// After they were watched, by addWatch() or another pass: builds the grid of them where it must be.
+/// Particles too fast for cells are listed, up to MOST_FAST; where there are more, all of those are slowed
+/// down first, which the status counts.
 void addBuild(ProgramBuilder& program, const Grid& grid, const Moved& moved);
 
 } // namespace sinew::sim::collision::hash_grid

@@ -36,6 +36,7 @@ constexpr Forms loadForms{
      {&k::gatherContactsSlipsLoads, &k::gatherContactsSlipsPlanesLoads, &k::gatherContactsSlipsReboundLoads},
      {&k::gatherContactsSurfacesLoads, &k::gatherContactsSurfacesPlanesLoads,
       &k::gatherContactsSurfacesReboundLoads}}};
+constexpr std::uint32_t watchesId = 3;                        // constant_id in settle_free.comp
 constexpr std::uint32_t hasFrictionId = 3, hasRecoveryId = 4; // constant_ids in gather_contacts.comp
 
 const vk::ShaderCode& gatherForm(const Contacts& contacts) {
@@ -163,9 +164,54 @@ void addCarrying(ProgramBuilder& program, const Contacts& contacts, const vk::Sh
                              lists.push);
 }
 
-void addListUpdate(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted) {
+// Ends the substep for all as if they touched nothing, and watches them; or, for those that were slowed down
+// since, the first alone.
+void addSettling(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
+                 const ParticleBuffers& next, bool watches) {
+    const hash_grid::Grid& grid = contacts.lists.grid;
+    std::vector<BufferId> buffers{predicted.positions, grid.detected,      predicted.velocities,
+                                  grid.bounds,         grid.radii,         grid.fast,
+                                  predicted.step,      grid.frames.frames, grid.frames.ofSlots,
+                                  predicted.positions, next.positions,     next.velocities};
+    ProgramBuilder::Constants constants = remainderConstants(next.layout);
+    if (contacts.hasRebound) buffers.push_back(contacts.before);
+    if (contacts.planes.count > 0) {
+        buffers.insert(buffers.end(), {contacts.planes.planes, contacts.planes.contactOffsets});
+        constants.merge(contacts.planes.constants());
+    }
+    constants.insert({watchesId, watches});
+    const vk::ShaderCode& code =
+        contacts.hasRebound         ? form(contacts, {&k::settleFreeReboundLoads, &k::settleFreeRebound})
+        : contacts.planes.count > 0 ? form(contacts, {&k::settleFreePlanesLoads, &k::settleFreePlanes})
+                                    : form(contacts, {&k::settleFreeLoads, &k::settleFree});
+    if (watches)
+        program.dispatch(code, grid.push.count, buffers, grid.push, constants);
+    else
+        program.dispatchIndirect(code, grid.slowed, buffers, grid.push, constants);
+}
+
+// A pass of contacts: over all particles, or over the groups in which somebody has a candidate.
+void addOverContacts(ProgramBuilder& program, const Contacts& contacts, const vk::ShaderCode& code,
+                     std::vector<BufferId> buffers, const ProgramBuilder::Constants& constants = {}) {
+    if (!contacts.settles) {
+        program.dispatch(code, contacts.push.count, buffers, contacts.push, constants);
+        return;
+    }
+    buffers.push_back(contacts.lists.touching);
+    program.dispatchIndirect(sleep::listedForm(code), contacts.lists.grid.touching, buffers, contacts.push,
+                             constants);
+}
+
+void addListUpdate(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
+                   const ParticleBuffers& next, bool isFirst) {
     const hash_grid::Moved moved{predicted.positions, predicted.velocities, predicted.step};
-    contact_lists::addWatch(program, contacts.lists, moved);
+    if (isFirst) hash_grid::addFit(program, contacts.lists.grid, moved);
+    if (contacts.settles)
+        addSettling(program, contacts, predicted, next, true);
+    else
+        hash_grid::addWatch(program, contacts.lists.grid, moved);
+    contact_lists::addBuild(program, contacts.lists, moved);
+    if (contacts.settles) addSettling(program, contacts, predicted, next, false);
     if (contacts.hasMemory()) addCarrying(program, contacts, k::keepSlips, k::keepSlipsRecovery);
     contact_lists::addLists(program, contacts.lists, moved);
     if (contacts.hasMemory()) addCarrying(program, contacts, k::returnSlips, k::returnSlipsRecovery);
@@ -177,10 +223,11 @@ void addCount(ProgramBuilder& program, const Contacts& contacts, const ParticleB
                                   predicted.velocities, contacts.touching, predicted.step,
                                   lists.grid.bounds,    contacts.firsts};
     if (contacts.hasRecovery) buffers.push_back(contacts.slips);
-    program.dispatch(contacts.hasRecovery
-                         ? form(contacts, {&k::countContactsRecoveryLoads, &k::countContactsRecovery})
-                         : form(contacts, {&k::countContactsLoads, &k::countContacts}),
-                     contacts.push.count, buffers, contacts.push);
+    addOverContacts(program, contacts,
+                    contacts.hasRecovery
+                        ? form(contacts, {&k::countContactsRecoveryLoads, &k::countContactsRecovery})
+                        : form(contacts, {&k::countContactsLoads, &k::countContacts}),
+                    std::move(buffers));
 }
 
 void addGather(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
@@ -202,7 +249,22 @@ void addGather(ProgramBuilder& program, const Contacts& contacts, const Particle
         buffers.insert(buffers.end(), {contacts.planes.planes, contacts.planes.contactOffsets});
         constants.merge(contacts.planes.constants());
     }
-    program.dispatch(gatherForm(contacts), contacts.push.count, buffers, contacts.push, constants);
+    addOverContacts(program, contacts, gatherForm(contacts), std::move(buffers), constants);
+}
+
+// Whether most of what touches is of linked bodies: then few of its particles have a candidate at a time.
+bool areMostlyLinked(const Scene& scene) {
+    std::size_t linked = 0, all = 0;
+    const std::vector<float> radii = face_contacts::looseRadii(scene);
+    const std::vector<std::uint32_t> bodies = contact_lists::linkedBodies(scene);
+    std::vector<std::uint32_t> sizes(bodies.size());
+    for (const std::uint32_t body : bodies) ++sizes[body];
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        if (radii[i] <= 0) continue;
+        ++all;
+        linked += sizes[bodies[i]] > 1 ? 1 : 0;
+    }
+    return 2 * linked > all;
 }
 
 } // namespace
@@ -224,11 +286,15 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     const std::vector<float> radii = radiiOf(scene, layout);
     contact_lists::Exclusions exclusions = exclusionsOf(scene, layout);
     const overlaps::Overlaps overlaps = overlapsOf(scene, settings, layout, radii, exclusions);
+    surfaces::Surfaces surfaces = surfaces::add(program, scene, layout);
+    const bool settles =
+        !settings.sleeps && areMostlyLinked(scene) && !surfaces.hasRestitution && overlaps.empty();
     // What overlaps at first must not be forgotten for want of room.
     const std::uint32_t room = std::max(settings.contactRoom, overlaps::mostPartners(overlaps));
     const bool isCuttable = !exclusions.empty() && cutting::canMeet(program.program(), scene);
     BufferId allExcluded;
     if (isCuttable) allExcluded = program.upload("contacts.all_excluded", exclusions);
+    const body_frames::Bodies bodies = body_frames::bodiesOf(scene, layout);
     FirstLists first;
     if (!overlaps.empty()) first = firstLists(overlaps, radii, room);
     Contacts contacts{
@@ -238,10 +304,14 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
                                               .limit = ranges::mostContactRoom,
                                               .exclusions = std::move(exclusions),
                                               .usesTexels = settings.forms.usesTexels,
+                                              .bodies = &bodies,
+                                              .substeps = settings.substeps,
                                               .contacts = std::move(first.contacts),
-                                              .counts = first.counts}),
+                                              .counts = first.counts,
+                                              .listsGroups = settles}),
         .planes = planes::addColliders(program, scene, layout),
-        .surfaces = surfaces::add(program, scene, layout),
+        .surfaces = std::move(surfaces),
+        .settles = settles,
         .hasRebound =
             std::ranges::any_of(scene.planes, [](const Plane& plane) { return plane.restitution > 0; }),
         .hasRecovery = !overlaps.empty() || isCuttable,
@@ -288,12 +358,12 @@ void addOpening(ProgramBuilder& program, const Contacts& contacts, BufferId velo
 
 void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                const ParticleBuffers& next, bool isFirst) {
-    addListUpdate(program, contacts, predicted);
+    addListUpdate(program, contacts, predicted, next, isFirst);
     if (isFirst) cutting::addContactOpening(program, contacts);
     if (contacts.interlocks) {
         interlocks::addPasses(program, *contacts.interlocks,
                               {contacts.lists, contacts.slips, contacts.touching}, predicted);
-        addListUpdate(program, contacts, predicted); // they have moved since
+        addListUpdate(program, contacts, predicted, next, false); // they have moved since
     }
     sleep::addTouches(program, predicted);
     addCount(program, contacts, predicted);

@@ -20,6 +20,9 @@ struct Contacts {
     planes::Colliders planes;
     surfaces::Surfaces surfaces;
     layout::ContactPush push{};
+    /// Whether the substep ends for all as if they touched nothing, and then anew for groups in which
+    /// somebody has a candidate; else for all in one pass.
+    bool settles = false;
     bool hasRebound = false;  ///< of a plane
     bool hasRecovery = false; ///< some pair overlaps when the scene is loaded, or may after a cut
     BufferId touching, firsts, before, bouncing, rebounding;

@@ -324,7 +324,7 @@ struct Touching {
     // Returns what pairs were found with.
     ParticleBuffers addPasses(ProgramBuilder& program, ParticleBuffers predicted, const ParticleBuffers& next,
                               bool isFirst) const {
-        if (faces) predicted = collision::face_contacts::addPasses(program, *faces, predicted, next);
+        if (faces) predicted = collision::face_contacts::addPasses(program, *faces, predicted, next, isFirst);
         if (edges) predicted = collision::edge_contacts::addPasses(program, *edges, predicted, next);
         if (pairs) collision::particle_contacts::addPasses(program, *pairs, predicted, next, isFirst);
         return predicted;

@@ -1,0 +1,42 @@
+// The end of a substep of `split` where particles touch: planes, and what is stored. In the names predicted, nextPositions,
+// nextVelocities and BEFORE of a kernel, and PLANE_BINDING.
+#ifdef HAS_PLANES
+#include "planes.glsl"
+layout(std430, binding = PLANE_BINDING) readonly buffer Planes { PlaneCollider planes[]; };
+layout(std430, binding = PLANE_BINDING + 1) readonly buffer ContactOffsets { float contactOffsets[]; };
+#endif
+
+// Of particle i, which contacts have moved from `found` by `correction`, to the velocity v; `velocity` is the one before, w its
+// inverse mass.
+void finish(uint i, vec3 found, vec4 velocity, vec3 correction, vec3 v) {
+    const float w = velocity.w, h = step.h;
+    vec3 x = found + correction, way = correction;
+#ifdef HAS_PLANES
+    if (w > 0.0) {
+        Motion motion = Motion(x, v, h * velocity.xyz + correction);
+        const float offset = contactOffsets[i];
+        uint touched = 0u;
+        for (uint p = 0u; p < planeCount; ++p) {
+            if (projectOntoPlane(planes[p], offset, h, motion)) touched |= 1u << p;
+        }
+#ifdef HAS_REBOUND
+        for (uint p = 0u; p < planeCount; ++p) {
+            if ((touched & 1u << p) != 0u) motion.v += rebound(planes[p], step.restSpeed, BEFORE(i), motion.v);
+        }
+#endif
+        x = motion.x;
+        way = motion.displacement - h * velocity.xyz;
+        v = motion.v;
+    }
+#endif
+    if (hasRemainders) {
+        const uint r = remainderOf(predicted.length(), i);
+        const Sum sum = exactSum(found, predicted[r].xyz + way + step.thetaH * v);
+        x = sum.rounded;
+        nextPositions[r] = vec4(sum.remainder, 0.0);
+    } else {
+        x += step.thetaH * v;
+    }
+    nextPositions[i] = vec4(x, predicted[i].w);
+    nextVelocities[i] = vec4(v, w);
+}

@@ -1,0 +1,184 @@
+#version 460
+// Frames of bodies, third pass: the affine motion that takes each body's particles from where they were when lists were made
+// to where they are, and goes on at the rate at which they move now, fitted by least squares. Bodies whose boxes, swept over
+// the step, come near each other share a frame: only then do differences between their particles follow from it. Any frame is
+// right, for lists are checked against it in every substep (watch_motion); one that fits keeps them longer.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "math.glsl"
+#include "body_frames.glsl"
+
+layout(std430, binding = 0) readonly buffer Sums { vec4 sums[]; };
+layout(std430, binding = 1) readonly buffer Bodies { FrameBody bodies[]; };
+layout(std430, binding = 2) readonly buffer Positions { vec4 positions[]; };
+layout(std430, binding = 3) readonly buffer Detected { vec4 detected[]; };
+layout(std430, binding = 4) writeonly buffer Frames { BodyFrame frames[]; };
+layout(std430, binding = 5) buffer Bounds { GridBounds bounds; };
+layout(std140, binding = 6) uniform Step { StepParams step; };
+layout(push_constant) uniform Push { FramePush push; };
+
+shared uint cluster[FRAME_MOST_BODIES];
+shared vec4 low[FRAME_MOST_BODIES], high[FRAME_MOST_BODIES];
+shared uint changed;
+
+// As FRAME_SUMS, against one origin.
+struct Moments {
+    float count;
+    vec3 r, x, v;
+    mat3 rr, dr, vr;
+};
+
+struct Origin {
+    vec3 r, x;
+};
+
+// A motion: x = A (r - from) + to, dx/dt = W (x - to) + u.
+struct Fit {
+    vec3 from, to, u;
+    mat3 a, w;
+    bool stands;
+};
+
+mat3 columnsAt(uint first) { return mat3(sums[first].xyz, sums[first + 1u].xyz, sums[first + 2u].xyz); }
+
+Origin originOf(uint b) {
+    const uint i = bodies[b].origin;
+    const vec3 x = positions[i].xyz, r = detected[i].xyz;
+    return Origin(abs(r.x) < 1e17 ? r : x, x);
+}
+
+void add(inout Moments m, uint b, Origin origin) {
+    const uint first = b * FRAME_SUMS;
+    const Origin own = originOf(b);
+    const vec3 toR = own.r - origin.r, toX = own.x - origin.x, toD = toX - toR;
+    const vec4 r = sums[first + FRAME_SUM_R];
+    const vec3 x = sums[first + FRAME_SUM_X].xyz, v = sums[first + FRAME_SUM_V].xyz, d = x - r.xyz;
+    m.count += r.w;
+    m.r += r.xyz + r.w * toR;
+    m.x += x + r.w * toX;
+    m.v += v;
+    m.rr += columnsAt(first + FRAME_SUM_RR) + outerProduct(r.xyz, toR) + outerProduct(toR, r.xyz) + r.w * outerProduct(toR, toR);
+    m.dr += columnsAt(first + FRAME_SUM_DR) + outerProduct(d, toR) + outerProduct(toD, r.xyz) + r.w * outerProduct(toD, toR);
+    m.vr += columnsAt(first + FRAME_SUM_VR) + outerProduct(v, toR);
+}
+
+// The inverse of a symmetric matrix that may be flat: a little is added to the diagonal, where nothing is known.
+mat3 inverseOf(mat3 moments) {
+    const float trace = moments[0][0] + moments[1][1] + moments[2][2];
+    return inverse(moments + (1e-5 * trace + 1e-30) * mat3(1.0));
+}
+
+Fit standing(Origin origin) { return Fit(origin.r, origin.r, vec3(0.0), mat3(1.0), mat3(0.0), true); }
+
+bool isFinite(mat3 a) { return squaredNorm(a) < 1e20; }
+
+// Of all bodies in one cluster, or of one alone.
+Fit fitOf(Moments m, Origin origin) {
+    const vec3 r = m.r / m.count, x = m.x / m.count, v = m.v / m.count;
+    const mat3 inverseMoments = inverseOf(m.rr - m.count * outerProduct(r, r));
+    const mat3 a = mat3(1.0) + (m.dr - m.count * outerProduct(x - r, r)) * inverseMoments;
+    const mat3 rate = (m.vr - m.count * outerProduct(v, r)) * inverseMoments;
+    Fit fit = Fit(origin.r + r, origin.x + x, v, a, mat3(0.0), false);
+    if (!isFinite(a) || !isFinite(rate) || determinant(a) < 0.1) return standing(origin);
+    fit.w = rate * inverse(a);
+    return fit;
+}
+
+Fit ownFit(uint b) {
+    if (bodies[b].kind == FRAME_STANDS) return standing(originOf(b));
+    const Origin origin = originOf(b);
+    Moments m = Moments(0.0, vec3(0.0), vec3(0.0), vec3(0.0), mat3(0.0), mat3(0.0), mat3(0.0));
+    add(m, b, origin);
+    return fitOf(m, origin);
+}
+
+Fit clusterFit(uint b) {
+    const uint mine = cluster[b];
+    const Origin origin = originOf(mine);
+    Moments m = Moments(0.0, vec3(0.0), vec3(0.0), vec3(0.0), mat3(0.0), mat3(0.0), mat3(0.0));
+    for (uint other = 0u; other < push.bodies; ++other) {
+        if (cluster[other] != mine) continue;
+        if (bodies[other].kind == FRAME_STANDS) return standing(origin);
+        add(m, other, origin);
+    }
+    return fitOf(m, origin);
+}
+
+float mostDrift() { return 4.0 * push.margin; }
+
+// The box of what a body's particles may reach in the step.
+void sweep(uint b, Fit fit) {
+    const uint first = b * FRAME_SUMS;
+    const vec3 from = sums[first + FRAME_SUM_LOW].xyz, to = sums[first + FRAME_SUM_HIGH].xyz, middle = 0.5 * (from + to);
+    const float dt = float(push.substeps) * step.h, turn = dt * sqrt(squaredNorm(fit.w)), grown = exp(min(turn, 10.0));
+    const float radius = 0.5 * length(to - from), arm = radius + length(middle - fit.to);
+    const vec3 way = dt * (fit.u + fit.w * (middle - fit.to));
+    const float more = (grown - 1.0 - turn) * arm + turn * grown * radius + dt * dt * length(step.gravity.xyz) +
+                       grown * (2.0 * push.margin + mostDrift()) + 0.51 * push.reach;
+    low[b] = vec4(min(from, from + way) - more, 0.0);
+    high[b] = vec4(max(to, to + way) + more, 0.0);
+}
+
+bool meet(uint a, uint b) {
+    return all(lessThanEqual(low[a].xyz, high[b].xyz)) && all(lessThanEqual(low[b].xyz, high[a].xyz));
+}
+
+bool isOneCluster() {
+    for (uint b = 1u; b < push.bodies; ++b)
+        if (cluster[b] != cluster[0]) return false;
+    return true;
+}
+
+// The lowest body of all that meet each other, directly or by others. In uniform control flow.
+void findClusters(uint b) {
+    const bool exists = b < push.bodies;
+    if (exists) cluster[b] = b;
+    barrier();
+    for (uint round = 0u; round < push.bodies; ++round) {
+        uint least = exists ? cluster[b] : 0u;
+        for (uint other = 0u; exists && other < push.bodies; ++other)
+            if (cluster[other] < least && meet(b, other)) least = cluster[other];
+        if (b == 0u) changed = 0u;
+        barrier();
+        if (exists && least < cluster[b]) {
+            cluster[b] = least;
+            changed = 1u;
+        }
+        barrier();
+        if (changed == 0u) break;
+        barrier();
+    }
+}
+
+void main() {
+    const uint b = gl_LocalInvocationID.x;
+    const bool exists = b < push.bodies;
+    if (exists) sweep(b, ownFit(b));
+    barrier();
+    findClusters(b);
+    barrier();
+    Fit fit;
+    if (exists) {
+        fit = clusterFit(b);
+        sweep(b, fit);
+    }
+    if (b == 0u) changed = 0u;
+    barrier();
+    // With the frames that they share, boxes may be wider. Where they then meet, all share one that stands still.
+    for (uint other = 0u; exists && other < push.bodies; ++other)
+        if (cluster[other] != cluster[b] && meet(b, other)) changed = 1u;
+    barrier();
+    if (b == 0u) bounds.drift = changed != 0u || isOneCluster() ? 1e30 : mostDrift();
+    if (!exists) return;
+    if (changed != 0u) fit = standing(originOf(b));
+    const float h = step.h;
+    BodyFrame frame;
+    const vec3 lowest = sums[b * FRAME_SUMS + FRAME_SUM_LOW].xyz, highest = sums[b * FRAME_SUMS + FRAME_SUM_HIGH].xyz;
+    const float arm = 0.5 * length(highest - lowest) + length(0.5 * (lowest + highest) - fit.to) + mostDrift();
+    frame.gravity = vec4(fit.stands ? vec3(0.0) : step.gravity.xyz, fit.stands ? 0.0 : arm);
+    frame.from = vec4(fit.from, 0.0);
+    setRows(frame.now, fit.a - h * fit.w * fit.a, fit.to - h * fit.u); // when the substep began
+    setRows(frame.rates, fit.w, fit.u - h * frame.gravity.xyz);
+    advance(frame, h, push.reach, push.margin);
+    frames[b] = frame;
+}

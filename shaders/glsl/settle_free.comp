@@ -1,0 +1,49 @@
+#version 460
+// Ends a substep of `split` for all particles as if they touched nothing, and watches them as watch_motion does. Groups in
+// which somebody may touch another are then solved by count_contacts and gather_contacts, which end the substep for them anew.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "hash_grid.glsl"
+#include "remainder.glsl"
+
+#ifdef TEXELS
+layout(binding = 0) uniform samplerBuffer positions;
+layout(binding = 1) uniform samplerBuffer detected;
+layout(binding = 2) uniform samplerBuffer velocities;
+#define POSITION(i) texelFetch(positions, int(i))
+#define DETECTED(i) texelFetch(detected, int(i))
+#define VELOCITY(i) texelFetch(velocities, int(i))
+#else
+layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
+layout(std430, binding = 1) readonly buffer Detected { vec4 detected[]; }; // where they were; w unused
+layout(std430, binding = 2) readonly buffer Velocities { vec4 velocities[]; }; // with which they came here; w = inverse mass
+#define POSITION(i) positions[i]
+#define DETECTED(i) detected[i]
+#define VELOCITY(i) velocities[i]
+#endif
+layout(std430, binding = 3) buffer Bounds { GridBounds bounds; };
+layout(std430, binding = 4) readonly buffer Radii { float radii[]; };
+layout(std430, binding = 5) writeonly buffer Fast { uint fast[]; };
+layout(std140, binding = 6) uniform Step { StepParams step; };
+#define FRAMES_BINDING 7
+#include "watch.glsl"
+layout(std430, binding = 9) readonly buffer Predicted { vec4 predicted[]; };
+layout(std430, binding = 10) writeonly buffer NextPositions { vec4 nextPositions[]; };
+layout(std430, binding = 11) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
+#ifdef HAS_REBOUND
+layout(std430, binding = 12) readonly buffer Before { vec4 before[]; }; // velocities before the substep
+#define BEFORE(i) before[i].xyz
+#define PLANE_BINDING 13
+#else
+#define PLANE_BINDING 12
+#endif
+#include "finish_substep.glsl"
+layout(push_constant) uniform Push { GridPush push; };
+layout(constant_id = 3) const bool watches = true; // false: of particles that were slowed down since
+
+void main() {
+    const uint i = itemIndex(push.count);
+    const vec4 velocity = VELOCITY(i);
+    finish(i, POSITION(i).xyz, velocity, vec3(0.0), velocity.xyz + vec3(0.0));
+    if (watches) watch(i, push.quiet, push.most);
+}

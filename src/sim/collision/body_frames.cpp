@@ -1,0 +1,147 @@
+// The host side: which particles are of one body, and the order of the passes.
+#include "sim/collision/body_frames.hpp"
+
+#include "kernels.hpp"
+#include "sim/components.hpp"
+#include "sim/constraints/driven.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace sinew::sim::collision::body_frames {
+
+namespace {
+
+namespace k = kernels;
+
+constexpr std::uint32_t loose = 0, still = 1, firstLinked = 2; // bodies
+constexpr std::size_t fewest = 8;                              // particles of a body of its own
+
+// The lowest particles of the largest components, by size.
+std::map<std::uint32_t, std::uint32_t> largestOf(std::span<const std::uint32_t> components) {
+    std::map<std::uint32_t, std::size_t> sizes;
+    for (const std::uint32_t component : components) ++sizes[component];
+    std::vector<std::pair<std::size_t, std::uint32_t>> order;
+    for (const auto& [component, size] : sizes)
+        if (size >= fewest) order.emplace_back(size, component);
+    std::ranges::stable_sort(order, [](const auto& a, const auto& b) { return a.first > b.first; });
+    order.resize(std::min<std::size_t>(order.size(), FRAME_MOST_BODIES - firstLinked));
+    std::map<std::uint32_t, std::uint32_t> bodies;
+    for (const auto& [size, component] : order)
+        bodies.emplace(component, firstLinked + static_cast<std::uint32_t>(bodies.size()));
+    return bodies;
+}
+
+layout::BodyFrame standingFrame() {
+    layout::BodyFrame frame{};
+    frame.now[0].x = frame.now[1].y = frame.now[2].z = 1;
+    frame.from.w = -1; // no lists yet
+    return frame;
+}
+
+// Slots body by body, in shares for one invocation each.
+struct Shares {
+    std::vector<std::uint32_t> members;
+    std::vector<layout::FrameChunk> chunks;
+    std::vector<layout::FrameBody> bodies;
+    std::vector<std::uint32_t> numbers; // of the bodies that have a member, by number in Bodies
+};
+
+// Of at most so many shares in all, or a step would wait for who adds them up.
+constexpr std::size_t leastShare = 64, mostShares = 256;
+
+Shares sharesOf(const Bodies& bodies, std::span<const float> radii) {
+    Shares shares;
+    shares.numbers.assign(bodies.kinds.size(), 0);
+    std::vector<std::vector<std::uint32_t>> members(bodies.kinds.size());
+    for (std::uint32_t i = 0; i < bodies.ofSlots.size(); ++i)
+        if (bodies.isMember[i] && radii[i] >= 0) members[bodies.ofSlots[i]].push_back(i);
+    const std::size_t share = std::max(leastShare, bodies.ofSlots.size() / mostShares);
+    for (std::uint32_t b = 0; b < members.size(); ++b) {
+        if (members[b].empty()) continue;
+        const auto number = static_cast<std::uint32_t>(shares.bodies.size());
+        shares.numbers[b] = number;
+        const std::uint32_t origin = members[b].front();
+        layout::FrameBody body{static_cast<std::uint32_t>(shares.chunks.size()), 0, origin, bodies.kinds[b]};
+        for (std::size_t first = 0; first < members[b].size(); first += share, ++body.chunks)
+            shares.chunks.push_back({static_cast<std::uint32_t>(shares.members.size() + first),
+                                     static_cast<std::uint32_t>(std::min(share, members[b].size() - first)),
+                                     number, origin});
+        shares.members.insert(shares.members.end(), members[b].begin(), members[b].end());
+        shares.bodies.push_back(body);
+    }
+    return shares;
+}
+
+} // namespace
+
+Bodies bodiesOf(const Scene& scene, const StateLayout& layout) {
+    const std::vector<float> inverseMass = inverseMasses(scene);
+    const std::vector<bool> isDriven = constraints::driven::areDriven(scene);
+    const std::vector<std::uint32_t> components = linkedComponents(scene, inverseMass);
+    const std::map<std::uint32_t, std::uint32_t> large = largestOf(components);
+    Bodies bodies{std::vector<std::uint32_t>(layout.count, loose),
+                  std::vector<std::uint32_t>(firstLinked + large.size(), FRAME_MOVES),
+                  std::vector<bool>(layout.count, false)};
+    bodies.kinds[still] = FRAME_STANDS;
+    for (std::size_t i = 0; i < components.size(); ++i) {
+        const std::uint32_t slot = layout.slot[i];
+        bodies.isMember[slot] = true;
+        const auto found = large.find(components[i]);
+        if (found != large.end())
+            bodies.ofSlots[slot] = found->second;
+        else if (inverseMass[i] == 0 && !isDriven[i])
+            bodies.ofSlots[slot] = still;
+    }
+    return bodies;
+}
+
+Frames addStanding(ProgramBuilder& program, const Request& request, std::size_t slots) {
+    const std::string name = request.name;
+    return {.push = {.chunks = 0,
+                     .bodies = 1,
+                     .reach = request.reach,
+                     .margin = request.margin,
+                     .substeps = request.substeps},
+            .frames = program.upload(name + ".frames", std::vector{standingFrame()}),
+            .ofSlots = program.scratch<std::uint32_t>(name + ".bodies", slots)};
+}
+
+Frames add(ProgramBuilder& program, const Bodies& bodies, const Request& request) {
+    const std::string name = request.name;
+    const Shares shares = sharesOf(bodies, request.radii);
+    const auto count = static_cast<std::uint32_t>(shares.bodies.size());
+    if (count == 0) return addStanding(program, request, bodies.ofSlots.size());
+    std::vector<std::uint32_t> ofSlots(bodies.ofSlots.size(), FRAME_NONE);
+    for (const std::uint32_t slot : shares.members) ofSlots[slot] = shares.numbers[bodies.ofSlots[slot]];
+    return {.push = {.chunks = static_cast<std::uint32_t>(shares.chunks.size()),
+                     .bodies = count,
+                     .reach = request.reach,
+                     .margin = request.margin,
+                     .substeps = request.substeps},
+            .frames = program.upload(name + ".frames", std::vector(count, standingFrame())),
+            .ofSlots = program.upload(name + ".bodies", ofSlots),
+            .chunks = program.upload(name + ".frames.chunks", shares.chunks),
+            .members = program.upload(name + ".frames.members", shares.members),
+            .bodies = program.upload(name + ".frames.bodies", shares.bodies),
+            .partial =
+                program.scratch<layout::vec4>(name + ".frames.partial", shares.chunks.size() * FRAME_SUMS),
+            .sums = program.scratch<layout::vec4>(name + ".frames.sums", std::size_t{count} * FRAME_SUMS)};
+}
+
+void addFit(ProgramBuilder& program, const Frames& frames, const Seen& seen) {
+    if (frames.chunks == BufferId{}) return;
+    const layout::FramePush& push = frames.push;
+    program.dispatch(k::sumFrames, push.chunks,
+                     {seen.positions, seen.velocities, seen.detected, frames.chunks, frames.members,
+                      seen.radii, frames.partial},
+                     push);
+    program.dispatch(k::addFrames, push.bodies * FRAME_SUMS, {frames.partial, frames.bodies, frames.sums},
+                     push);
+    program.dispatch(
+        k::fitFrames, GROUP_ITEMS,
+        {frames.sums, frames.bodies, seen.positions, seen.detected, frames.frames, seen.bounds, seen.step},
+        push);
+}
+
+} // namespace sinew::sim::collision::body_frames
