@@ -1,19 +1,31 @@
 // Where particles of a body are expected (BodyFrame in layout.h).
 
-vec3 turned(vec4 rows[3], vec3 d) { return vec3(dot3(rows[0].xyz, d), dot3(rows[1].xyz, d), dot3(rows[2].xyz, d)); }
-
-vec3 placeIn(vec4 rows[3]) { return vec3(rows[0].w, rows[1].w, rows[2].w); }
-
 // Of a particle that was at r when lists were made.
-vec3 expectedAt(vec4 rows[3], vec4 from, vec3 r) { return turned(rows, r - from.xyz) + placeIn(rows); }
+vec3 expectedAt(BodyFrame frame, vec3 r) {
+    return vec3(dot3(frame.map[0].xyz, r), dot3(frame.map[1].xyz, r), dot3(frame.map[2].xyz, r)) +
+           vec3(frame.map[0].w, frame.map[1].w, frame.map[2].w);
+}
 
 mat3 matrixOf(vec4 rows[3]) { return transpose(mat3(rows[0].xyz, rows[1].xyz, rows[2].xyz)); }
 
-void setRows(out vec4 rows[3], mat3 a, vec3 place) {
+vec3 placeOf(BodyFrame frame) { return vec3(frame.rates[0].w, frame.rates[1].w, frame.rates[2].w); }
+
+void setMap(inout BodyFrame frame, mat3 a, vec3 to) {
     const mat3 t = transpose(a);
-    rows[0] = vec4(t[0], place.x);
-    rows[1] = vec4(t[1], place.y);
-    rows[2] = vec4(t[2], place.z);
+    const vec3 shift = to - a * frame.from.xyz;
+    frame.map[0] = vec4(t[0], shift.x);
+    frame.map[1] = vec4(t[1], shift.y);
+    frame.map[2] = vec4(t[2], shift.z);
+    frame.rates[0].w = to.x;
+    frame.rates[1].w = to.y;
+    frame.rates[2].w = to.z;
+}
+
+void setRates(inout BodyFrame frame, mat3 w) {
+    const mat3 t = transpose(w);
+    frame.rates[0].xyz = t[0];
+    frame.rates[1].xyz = t[1];
+    frame.rates[2].xyz = t[2];
 }
 
 // The sum of the squares of all entries.
@@ -35,21 +47,24 @@ float normOf(mat3 w) {
 }
 
 // On to the next substep, of length h. A particle that is e away from where it is expected when the substep ends, with the
-// velocity v, was at most e + h |v - u| + h |W| |x - to| away when it began: the last summand is taken off here.
+// velocity v, was at most e + h |v - u| + h |W| |x - to| away when it began: the last summand is taken off here, and what
+// places far from the origin are rounded by.
 void advance(inout BodyFrame frame, float h, float reach, float margin) {
     const mat3 w = h * matrixOf(frame.rates);
-    const vec3 to = placeIn(frame.now), u = placeIn(frame.rates) + h * frame.gravity.xyz;
-    const mat3 before = matrixOf(frame.now), a = before + w * before;
-    setRows(frame.now, a, to + h * u);
-    setRows(frame.rates, matrixOf(frame.rates), u);
-    frame.from.w = min(slackOf(before, w, reach, margin), slackOf(a, w, reach, margin)) - normOf(w) * frame.gravity.w;
+    const vec3 to = placeOf(frame), u = frame.speed.xyz + h * frame.gravity.xyz, far = abs(to);
+    const mat3 before = matrixOf(frame.map), a = before + w * before;
+    setMap(frame, a, to + h * u);
+    const float slack = min(slackOf(before, w, reach, margin), slackOf(a, w, reach, margin));
+    frame.speed = vec4(u, slack - normOf(w) * frame.gravity.w - 1e-6 * max(far.x, max(far.y, far.z)));
 }
 
 // Lists have been made of particles where they are expected, or near there: from now on expectations start from it.
 void restart(inout BodyFrame frame, bool stands) {
-    frame.from.xyz = placeIn(frame.now);
-    setRows(frame.now, mat3(1.0), frame.from.xyz);
+    const vec3 to = placeOf(frame);
+    frame.from.xyz = to;
+    setMap(frame, mat3(1.0), to);
     if (!stands) return;
-    setRows(frame.rates, mat3(0.0), vec3(0.0));
+    setRates(frame, mat3(0.0));
+    frame.speed.xyz = vec3(0.0);
     frame.gravity = vec4(0.0);
 }

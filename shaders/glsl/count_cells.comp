@@ -1,6 +1,6 @@
 #version 460
 // Counting sort, first pass: how many particles each slot of the table has, and which of them a particle is. Also
-// remembers where particles are: until they have left there by more than the slack, lists stay complete.
+// remembers where particles are, and of which body: until they have left there by more than the slack, lists stay complete.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "hash_grid.glsl"
@@ -20,13 +20,15 @@ layout(std140, binding = 2) uniform Bounds { GridBounds bounds; };
 layout(std430, binding = 3) buffer Counts { uint counts[]; };
 layout(std430, binding = 4) writeonly buffer Places { uvec2 places[]; }; // slot and rank of each particle
 layout(std430, binding = 5) writeonly buffer Detected { vec4 detected[]; };
+layout(std430, binding = 6) readonly buffer Bodies { float bodies[]; }; // of each particle, below 0 = of what touches nothing
 layout(push_constant) uniform Push { GridPush push; };
+layout(constant_id = 5) const bool keepsAll = false; // of what is in no cell too: corners of faces
 
 void main() {
     const uint i = itemIndex(push.count);
     const vec4 x = POSITION(i);
     const Frame frame = frameOf(bounds, push.cells, push.edge);
-    detected[i] = x;
+    detected[i] = vec4(x.xyz, RADIUS(i) < 0.0 && !keepsAll ? -1.0 : bodies[i]);
     uvec2 place = uvec2(~0u);
     if (isInGrid(RADIUS(i), push.most)) {
         place.x = slotOf(cellOf(x.xyz, frame), frame);

@@ -7,8 +7,8 @@ layout(std430, binding = PLANE_BINDING + 1) readonly buffer ContactOffsets { flo
 #endif
 
 // Of particle i, which contacts have moved from `found` by `correction`, to the velocity v; `velocity` is the one before, w its
-// inverse mass.
-void finish(uint i, vec3 found, vec4 velocity, vec3 correction, vec3 v) {
+// inverse mass; `last` the last word of its position, passed on.
+void finish(uint i, vec3 found, float last, vec4 velocity, vec3 correction, vec3 v) {
     const float w = velocity.w, h = step.h;
     vec3 x = found + correction, way = correction;
 #ifdef HAS_PLANES
@@ -37,6 +37,6 @@ void finish(uint i, vec3 found, vec4 velocity, vec3 correction, vec3 v) {
     } else {
         x += step.thetaH * v;
     }
-    nextPositions[i] = vec4(x, predicted[i].w);
+    nextPositions[i] = vec4(x, last);
     nextVelocities[i] = vec4(v, w);
 }

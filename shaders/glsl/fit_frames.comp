@@ -12,7 +12,7 @@ layout(std430, binding = 0) readonly buffer Sums { vec4 sums[]; };
 layout(std430, binding = 1) readonly buffer Bodies { FrameBody bodies[]; };
 layout(std430, binding = 2) readonly buffer Positions { vec4 positions[]; };
 layout(std430, binding = 3) readonly buffer Detected { vec4 detected[]; };
-layout(std430, binding = 4) writeonly buffer Frames { BodyFrame frames[]; };
+layout(std430, binding = 4) writeonly buffer Frames { BodyFrame frames[FRAME_MOST_BODIES]; };
 layout(std430, binding = 5) buffer Bounds { GridBounds bounds; };
 layout(std140, binding = 6) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { FramePush push; };
@@ -177,8 +177,9 @@ void main() {
     const float arm = 0.5 * length(highest - lowest) + length(0.5 * (lowest + highest) - fit.to) + mostDrift();
     frame.gravity = vec4(fit.stands ? vec3(0.0) : step.gravity.xyz, fit.stands ? 0.0 : arm);
     frame.from = vec4(fit.from, 0.0);
-    setRows(frame.now, fit.a - h * fit.w * fit.a, fit.to - h * fit.u); // when the substep began
-    setRows(frame.rates, fit.w, fit.u - h * frame.gravity.xyz);
+    frame.speed = vec4(fit.u - h * frame.gravity.xyz, 0.0);
+    setMap(frame, fit.a - h * fit.w * fit.a, fit.to - h * fit.u); // when the substep began
+    setRates(frame, fit.w);
     advance(frame, h, push.reach, push.margin);
     frames[b] = frame;
 }

@@ -51,5 +51,5 @@ void main() {
     for (uint s = 0u; s < resting; ++s) sum += impulseFrom(i, s * push.row + i, self, velocity.xyz);
     for (uint s = 0u; s < sweeping; ++s) addSwept(i, s * push.row + i, self, velocity.xyz, sum, stopping);
     const vec3 correction = w * sum;
-    finish(i, self.xyz, velocity, correction, velocity.xyz + (correction + w * stopping) / h);
+    finish(i, self.xyz, predicted[i].w, velocity, correction, velocity.xyz + (correction + w * stopping) / h);
 }

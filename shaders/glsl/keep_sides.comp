@@ -13,6 +13,7 @@ layout(std430, binding = 5) buffer KeptCounts { uint keptCounts[]; };
 #ifdef PUBLISH
 layout(std430, binding = 6) readonly buffer Status { StatusWords status; };
 layout(std430, binding = 7) writeonly buffer Detected { vec4 detected[]; };
+layout(std430, binding = 8) buffer Bounds { GridBounds bounds; };
 #endif
 layout(push_constant) uniform Push { FacePush push; };
 
@@ -39,6 +40,7 @@ void takeBack(uint i) {
 
 void main() {
     const uint i = itemIndex(push.count);
+    if (i == 0u && status.candidates > 0u) bounds.lacking = status.candidates;
     if (isFinished(status)) keep(i);
     else {
         detected[i] = vec4(1e18);

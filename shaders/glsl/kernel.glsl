@@ -21,6 +21,13 @@ uint itemIndex(uint count) {
     const uint lane = isReversed ? GROUP_SIZE - 1u - gl_LocalInvocationID.x : gl_LocalInvocationID.x;
     return awakeGroups[place] * GROUP_SIZE + lane;
 }
+#elif defined LISTED
+// Over slots of the state that hold a particle, not over padding; ~0 behind the last.
+layout(std430, binding = LAST_BINDING) readonly buffer Slots { uint slots[]; };
+uint itemIndex(uint count) {
+    const uint i = gl_GlobalInvocationID.x;
+    return i < count ? slots[isReversed ? count - 1u - i : i] : ~0u;
+}
 #else
 uint itemIndex(uint count) {
     const uint i = gl_GlobalInvocationID.x;

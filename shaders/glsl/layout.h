@@ -271,15 +271,18 @@ struct GridBounds {
     // listed as too fast for cells. plan_grid hands them on:
     uint sweeping, hurrying;
     uint isSwept, fast; // of the substep that is solved
-    float drift;        // how far particles may still stray, together, from where their bodies are expected in this step [m]
+    uint listed, listedParticles; // work groups in which an owner of a list, a particle, has a candidate
+    uint lacking; // room that a step of this simulation has lacked (StatusWords::candidates), or 0: no later one may end either
+    float drift;  // how far particles may still stray, together, from where their bodies are expected in this step [m]
 };
 
 // The motion that a body is expected to have until its lists of contacts are made again (collision/body_frames.hpp): a particle
-// that was at r when they were made is expected at A (r - from) + to. Rows of 3 x 4 matrices.
+// that was at r when they were made is expected at A (r - from) + to, when the substep ends.
 struct BodyFrame {
-    vec4 now[3];    // A; w: to [m], when the substep ends
-    vec4 rates[3];  // dA/dt A^-1 [1/s]; w: velocity of `to` [m/s]
-    vec4 from;      // [m]; w: how far from where it is expected a particle may be [m]; below 0 = lists are not complete
+    vec4 map[3];    // rows of A; w: to - A from [m]
+    vec4 speed;     // velocity of `to` [m/s]; w: how far from where it is expected a particle may be [m]; below 0 = no lists stand
+    vec4 rates[3];  // rows of dA/dt A^-1 [1/s]; w: to [m]
+    vec4 from;      // [m]
     vec4 gravity;   // [m/s^2], 0 where the frame stands still; w: how far from `to` particles of the body are, at most [m]
 };
 
@@ -301,7 +304,7 @@ struct FrameChunk {
     uint origin; // slot of the body's first particle
 };
 
-#define FRAME_NONE 0xffffffffu // the body of what touches nothing
+#define FRAME_NONE -1.0 // the body of what touches nothing
 #define FRAME_MOVES 0  // as it does
 #define FRAME_STANDS 1 // never
 struct FrameBody {
@@ -311,7 +314,7 @@ struct FrameBody {
 };
 
 // One work group fits the frames of all bodies.
-#define FRAME_MOST_BODIES GROUP_ITEMS
+#define FRAME_MOST_BODIES 96 // a uniform buffer of them is small enough for any device
 
 struct FramePush {
     uint chunks, bodies;

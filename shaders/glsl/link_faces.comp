@@ -13,6 +13,11 @@ layout(std430, binding = 4) writeonly buffer Links { uint links[]; }; // element
 layout(std430, binding = 5) writeonly buffer LinkCounts { uint linkCounts[]; };
 layout(std430, binding = 6) writeonly buffer Points { FacePoints points; };
 layout(std430, binding = 7) buffer Status { StatusWords status; };
+layout(std430, binding = 8) buffer Bounds { GridBounds bounds; };
+layout(std430, binding = 9) readonly buffer Faces { ContactFace faces[]; };
+#define GROUPS_BINDING 10
+#define LISTS_PARTICLES
+#include "listed_groups.glsl"
 layout(push_constant) uniform Push { FaceFindPush push; };
 #define BLOCK 16
 
@@ -46,5 +51,10 @@ void main() {
             if (first + b < n) links[rank[b] * push.faceRow + f] = elementOf(mine[b], f);
     }
     linkCounts[f] = n;
+    if (n > 0u) {
+        listParticle(faces[f].a);
+        listParticle(faces[f].b);
+        listParticle(faces[f].c);
+    }
     faceFound[f] = 0u;
 }

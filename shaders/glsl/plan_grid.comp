@@ -8,8 +8,9 @@
 
 layout(std430, binding = 0) buffer Bounds { GridBounds bounds; };
 layout(std430, binding = 1) writeonly buffer Arguments { DispatchArguments arguments[]; };
-layout(std430, binding = 2) buffer Frames { BodyFrame frames[]; };
-layout(std430, binding = 4) writeonly buffer Touching { DispatchArguments touching; }; // of groups that contacts are solved for
+layout(std430, binding = 2) buffer Frames { BodyFrame frames[FRAME_MOST_BODIES]; };
+layout(std430, binding = 4) writeonly buffer Touching { DispatchArguments touching[]; }; // of groups that contacts are solved for
+layout(std430, binding = 5) buffer Status { StatusWords status; };
 layout(std140, binding = 3) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { GridPush push; };
 
@@ -20,6 +21,7 @@ void plan(uint element, bool runs, uint items) {
 }
 
 void planPasses(bool isBuilt) {
+    atomicMax(status.candidates, bounds.lacking);
     const bool isSwept = bounds.sweeping > 0u, isSlowed = bounds.hurrying > MOST_FAST;
     plan(GRID_PARTICLES, isBuilt, push.count);
     plan(GRID_PARTICLE_CHUNKS, isBuilt, (push.count - 1u) / GRID_CHUNK + 1u);
@@ -30,12 +32,14 @@ void planPasses(bool isBuilt) {
     plan(GRID_SWEPT, isBuilt && isSwept, push.count);
     plan(GRID_UNSWEPT, isBuilt && !isSwept, push.count);
     if (isBuilt) {
-        touching = DispatchArguments(0u, 1u, 1u, 0u); // sort_contacts counts anew
+        bounds.listed = bounds.listedParticles = 0u; // whoever sorts lists counts anew
         bounds.lowX = bounds.lowY = bounds.lowZ = ~0u;
         bounds.highX = bounds.highY = bounds.highZ = 0u;
         ++bounds.builds;
         bounds.drift -= uintBitsToFloat(bounds.moved);
     }
+    touching[0] = DispatchArguments(bounds.listed, 1u, 1u, 0u);
+    touching[1] = DispatchArguments(bounds.listedParticles, 1u, 1u, 0u);
     bounds.moved = bounds.sweeping = 0u;
     bounds.isSwept = isSwept ? 1u : 0u;
     bounds.fast = isSlowed ? 0u : bounds.hurrying;

@@ -6,14 +6,15 @@
 
 layout(std430, binding = 0) readonly buffer Status { StatusWords status; };
 layout(std430, binding = 1) writeonly buffer Detected { vec4 detected[]; };
+layout(std430, binding = 2) buffer Bounds { GridBounds bounds; };
 #ifdef HAS_MEMORY
-layout(std430, binding = 2) buffer Contacts { ContactCandidate contacts[]; };
-layout(std430, binding = 3) buffer Counts { uint counts[]; };
-layout(std430, binding = 4) buffer Slips { vec4 slips[]; };
-layout(std430, binding = 5) buffer Saved { uvec4 saved[]; }; // bits of t; the other particle
-layout(std430, binding = 6) buffer SavedCounts { uint savedCounts[]; };
+layout(std430, binding = 3) buffer Contacts { ContactCandidate contacts[]; };
+layout(std430, binding = 4) buffer Counts { uint counts[]; };
+layout(std430, binding = 5) buffer Slips { vec4 slips[]; };
+layout(std430, binding = 6) buffer Saved { uvec4 saved[]; }; // bits of t; the other particle
+layout(std430, binding = 7) buffer SavedCounts { uint savedCounts[]; };
 #ifdef HAS_RECOVERY
-layout(std430, binding = 7) buffer SavedOffsets { float savedOffsets[]; }; // what is left of an overlap [m]
+layout(std430, binding = 8) buffer SavedOffsets { float savedOffsets[]; }; // what is left of an overlap [m]
 #define OFFSET(slot) savedOffsets[slot]
 #else
 #define OFFSET(slot) 0.0
@@ -51,6 +52,7 @@ void main() {
     const uint i = itemIndex(push.count);
     const bool stays = isFinished(status);
     if (!stays) detected[i] = vec4(1e18);
+    if (i == 0u && status.candidates > 0u) bounds.lacking = status.candidates;
 #ifdef HAS_MEMORY
     if (stays) save(i);
     else takeBack(i);

@@ -15,7 +15,7 @@ layout(binding = 2) uniform samplerBuffer velocities;
 #define VELOCITY(i) texelFetch(velocities, int(i))
 #else
 layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
-layout(std430, binding = 1) readonly buffer Detected { vec4 detected[]; }; // where they were; w unused
+layout(std430, binding = 1) readonly buffer Detected { vec4 detected[]; }; // where they were; w: body
 layout(std430, binding = 2) readonly buffer Velocities { vec4 velocities[]; }; // with which they came here; w = inverse mass
 #define POSITION(i) positions[i]
 #define DETECTED(i) detected[i]
@@ -27,15 +27,15 @@ layout(std430, binding = 5) writeonly buffer Fast { uint fast[]; };
 layout(std140, binding = 6) uniform Step { StepParams step; };
 #define FRAMES_BINDING 7
 #include "watch.glsl"
-layout(std430, binding = 9) readonly buffer Predicted { vec4 predicted[]; };
-layout(std430, binding = 10) writeonly buffer NextPositions { vec4 nextPositions[]; };
-layout(std430, binding = 11) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
+layout(std430, binding = 8) readonly buffer Predicted { vec4 predicted[]; };
+layout(std430, binding = 9) writeonly buffer NextPositions { vec4 nextPositions[]; };
+layout(std430, binding = 10) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
 #ifdef HAS_REBOUND
-layout(std430, binding = 12) readonly buffer Before { vec4 before[]; }; // velocities before the substep
+layout(std430, binding = 11) readonly buffer Before { vec4 before[]; }; // velocities before the substep
 #define BEFORE(i) before[i].xyz
-#define PLANE_BINDING 13
-#else
 #define PLANE_BINDING 12
+#else
+#define PLANE_BINDING 11
 #endif
 #include "finish_substep.glsl"
 layout(push_constant) uniform Push { GridPush push; };
@@ -43,7 +43,8 @@ layout(constant_id = 3) const bool watches = true; // false: of particles that w
 
 void main() {
     const uint i = itemIndex(push.count);
-    const vec4 velocity = VELOCITY(i);
-    finish(i, POSITION(i).xyz, velocity, vec3(0.0), velocity.xyz + vec3(0.0));
-    if (watches) watch(i, push.quiet, push.most);
+    if (i == ~0u) return;
+    const vec4 x = POSITION(i), velocity = VELOCITY(i);
+    finish(i, x.xyz, x.w, velocity, vec3(0.0), velocity.xyz + vec3(0.0));
+    if (watches) watch(i, x.xyz, velocity.xyz, push.quiet, push.most);
 }

@@ -1,6 +1,6 @@
 #version 460
 // Sorts every particle's candidates by index, so that sums over them do not depend on when and how they were found, and
-// adds at which distance they touch. Ranks a block of a list at a time against the whole: registers instead of shifting.
+// adds at which distance they touch. LISTS_OWNERS: lists the groups of which one has a candidate. EDGES: and those of ends. Ranks a block of a list at a time against the whole: registers instead of shifting.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "kernel.glsl"
@@ -20,17 +20,15 @@ layout(std430, binding = 2) buffer Found { uint found[]; };
 layout(std430, binding = 3) writeonly buffer Contacts { ContactCandidate contacts[]; };
 layout(std430, binding = 4) writeonly buffer Counts { uint counts[]; };
 layout(std430, binding = 5) buffer Status { StatusWords status; };
-#ifdef LISTS_GROUPS
-layout(std430, binding = 6) buffer Marks { uint marks[]; };          // of each group: the last build that listed it
-layout(std430, binding = 7) writeonly buffer Touching { uint touching[]; };
-layout(std430, binding = 8) buffer Arguments { DispatchArguments arguments; };
-layout(std430, binding = 9) readonly buffer Bounds { GridBounds bounds; };
-
-// The groups that contacts are solved for.
-void listGroup(uint group) {
-    if (atomicMax(marks[group], bounds.builds) >= bounds.builds) return;
-    touching[atomicAdd(arguments.groupsX, 1u)] = group;
-}
+#ifdef LISTS_OWNERS
+layout(std430, binding = 6) buffer Bounds { GridBounds bounds; };
+#define GROUPS_BINDING 7
+#include "listed_groups.glsl"
+#endif
+#ifdef EDGES
+layout(std430, binding = PARTICLES_BINDING + 2) readonly buffer Edges { ContactEdge edges[]; };
+layout(std430, binding = PARTICLES_BINDING + 3) writeonly buffer Sums { float sums[]; };
+layout(std430, binding = PARTICLES_BINDING + 4) writeonly buffer Impulses { vec4 impulses[]; };
 #endif
 layout(push_constant) uniform Push { FindPush push; };
 #define BLOCK 16
@@ -55,8 +53,17 @@ void main() {
                 contacts[rank[b] * push.row + i] = ContactCandidate(mine[b], radius + RADIUS(mine[b]));
     }
     counts[i] = n;
-#ifdef LISTS_GROUPS
-    if (n > 0u) listGroup(i / GROUP_SIZE);
+#ifdef LISTS_OWNERS
+    if (n > 0u) listOwner(i);
+#endif
+#ifdef EDGES
+    if (n > 0u) {
+        listParticle(edges[i].a);
+        listParticle(edges[i].b);
+    } else { // no pass will look at it, but its ends sum it up
+        sums[2u * i] = sums[2u * i + 1u] = 0.0;
+        impulses[2u * i] = impulses[2u * i + 1u] = vec4(0.0);
+    }
 #endif
     found[i] = 0u; // large particles count on it
 }

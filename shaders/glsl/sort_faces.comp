@@ -12,6 +12,10 @@ layout(std430, binding = 3) buffer Found { uint found[]; };
 layout(std430, binding = 4) writeonly buffer Contacts { ContactCandidate contacts[]; };
 layout(std430, binding = 5) writeonly buffer Counts { uint counts[]; };
 layout(std430, binding = 6) buffer Status { StatusWords status; };
+layout(std430, binding = 7) buffer Bounds { GridBounds bounds; };
+#define GROUPS_BINDING 8
+#define LISTS_PARTICLES
+#include "listed_groups.glsl"
 layout(push_constant) uniform Push { FaceFindPush push; };
 #define BLOCK 16
 
@@ -34,5 +38,6 @@ void main() {
                 contacts[rank[b] * push.row + i] = ContactCandidate(mine[b], radii[i] + faces[mine[b]].thickness);
     }
     counts[i] = n;
+    if (n > 0u) listParticle(i);
     found[i] = 0u;
 }

@@ -1,17 +1,21 @@
 // How far a particle may be, or have been when the substep began, from where it is expected [m]. In the names POSITION, VELOCITY and
-// DETECTED of a kernel; DETECTED is where it was when lists were made.
+// DETECTED of a kernel; DETECTED is where it was when lists were made, w: its body.
 #include "body_frames.glsl"
 
-layout(std430, binding = FRAMES_BINDING) readonly buffer Frames { BodyFrame frames[]; };
-layout(std430, binding = FRAMES_BINDING + 1) readonly buffer Bodies { uint bodies[]; }; // of each particle; FRAME_NONE = touches nothing
+layout(std140, binding = FRAMES_BINDING) uniform Frames { BodyFrame frames[FRAME_MOST_BODIES]; };
+layout(constant_id = 4) const bool hasOneBody = false;
 
-bool hasStrayed(uint i, out float farthest) {
-    const uint body = bodies[i];
-    farthest = 0.0;
-    if (body == FRAME_NONE) return false;
-    const BodyFrame frame = frames[body];
-    const vec3 x = POSITION(i).xyz, r = DETECTED(i).xyz;
-    const vec3 stray = x - expectedAt(frame.now, frame.from, r), way = step.h * (VELOCITY(i).xyz - placeIn(frame.rates));
+// No more than those of `frame`; it is the same for all lanes where there is one body.
+bool hasStrayedFrom(BodyFrame frame, vec3 x, vec3 v, vec3 r, out float farthest) {
+    const vec3 stray = x - expectedAt(frame, r), way = step.h * (v - frame.speed.xyz);
     farthest = sqrt(dot3(stray, stray)) + sqrt(dot3(way, way)); // advance() says why
-    return !(farthest <= frame.from.w); // as is what is no number
+    return !(farthest <= frame.speed.w); // as is what is no number
+}
+
+bool hasStrayed(uint i, vec3 x, vec3 v, out float farthest) {
+    const vec4 r = DETECTED(i);
+    farthest = 0.0;
+    if (r.w < 0.0) return false; // FRAME_NONE
+    if (hasOneBody) return hasStrayedFrom(frames[0], x, v, r.xyz, farthest);
+    return hasStrayedFrom(frames[uint(min(r.w, float(FRAME_MOST_BODIES - 1)))], x, v, r.xyz, farthest);
 }

@@ -1,8 +1,9 @@
 // Watches a particle: whether lists are still complete for it, and whether contacts may lie on its way. Most particles never
-// touch the shared words. In the names POSITION, VELOCITY, DETECTED, bounds, radii, fast, step of a kernel, and FRAMES_BINDING.
+// touch the shared words. In the names VELOCITY, DETECTED, bounds, radii, fast, step of a kernel, and FRAMES_BINDING.
 #include "strays.glsl"
 
 void watchFast(uint i, float way, float quiet, float most) {
+    if (radii[i] < 0.0) return; // in no list
     atomicMax(bounds.sweeping, 1u);
     if (!isHurrying(radii[i], way, quiet, most)) return;
     const uint place = atomicAdd(bounds.hurrying, 1u);
@@ -10,10 +11,9 @@ void watchFast(uint i, float way, float quiet, float most) {
 }
 
 // `quiet` and `most` as in GridPush.
-void watch(uint i, float quiet, float most) {
-    if (radii[i] < 0.0) return; // in no list, such as crumbs that fall for ever
+void watch(uint i, vec3 x, vec3 v, float quiet, float most) {
     float farthest;
-    if (hasStrayed(i, farthest)) atomicMax(bounds.moved, floatBitsToUint(min(farthest, 1e30)));
-    const float far = wayOf(step.h, VELOCITY(i).xyz); // as find_contacts and cap_speeds have it
+    if (hasStrayed(i, x, v, farthest)) atomicMax(bounds.moved, floatBitsToUint(min(farthest, 1e30)));
+    const float far = wayOf(step.h, v); // as find_contacts and cap_speeds have it
     if (far > quiet) watchFast(i, far, quiet, most);
 }

@@ -11,13 +11,13 @@ layout(std430, binding = 2) readonly buffer Detected { vec4 detected[]; };
 layout(std430, binding = 3) buffer Bounds { GridBounds bounds; };
 layout(std140, binding = 4) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { GridPush push; };
-#define POSITION(i) positions[i]
-#define VELOCITY(i) velocities[i]
 #define DETECTED(i) detected[i]
 #define FRAMES_BINDING 5
 #include "strays.glsl"
 
 void main() {
+    const uint i = itemIndex(push.count);
+    if (i == ~0u) return;
     float farthest;
-    if (hasStrayed(itemIndex(push.count), farthest)) atomicMax(bounds.moved, floatBitsToUint(min(farthest, 1e30)));
+    if (hasStrayed(i, positions[i].xyz, velocities[i].xyz, farthest)) atomicMax(bounds.moved, floatBitsToUint(min(farthest, 1e30)));
 }

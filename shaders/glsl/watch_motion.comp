@@ -15,7 +15,7 @@ layout(binding = 2) uniform samplerBuffer velocities;
 #define VELOCITY(i) texelFetch(velocities, int(i))
 #else
 layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
-layout(std430, binding = 1) readonly buffer Detected { vec4 detected[]; }; // where they were; w unused
+layout(std430, binding = 1) readonly buffer Detected { vec4 detected[]; }; // where they were; w: body
 layout(std430, binding = 2) readonly buffer Velocities { vec4 velocities[]; }; // with which they came here [m/s]
 #define POSITION(i) positions[i]
 #define DETECTED(i) detected[i]
@@ -29,4 +29,7 @@ layout(push_constant) uniform Push { GridPush push; };
 #define FRAMES_BINDING 7
 #include "watch.glsl"
 
-void main() { watch(itemIndex(push.count), push.quiet, push.most); }
+void main() {
+    const uint i = itemIndex(push.count);
+    watch(i, POSITION(i).xyz, VELOCITY(i).xyz, push.quiet, push.most);
+}

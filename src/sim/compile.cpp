@@ -102,6 +102,12 @@ StateLayout orderedLayout(std::size_t particles) {
     return layout;
 }
 
+std::vector<std::uint32_t> slotsInOrder(const StateLayout& layout) {
+    std::vector<std::uint32_t> slots = layout.slot;
+    std::ranges::sort(slots);
+    return slots;
+}
+
 std::size_t positionCount(const StateLayout& layout) {
     return layout.hasRemainders ? 2 * layout.count : layout.count;
 }

@@ -36,6 +36,8 @@ struct StateLayout {
     bool hasRemainders = false;      ///< positions have a second half: what rounding has taken (rounding.hpp)
 };
 StateLayout orderedLayout(std::size_t particles);
+/// The slots that hold a particle, ascending.
+std::vector<std::uint32_t> slotsInOrder(const StateLayout& layout);
 
 /// Elements of a buffer of positions: those of all slots, and as many for their remainders where it has some.
 std::size_t positionCount(const StateLayout& layout);

@@ -6,6 +6,7 @@
 #include "sim/constraints/driven.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 namespace sinew::sim::collision::body_frames {
@@ -32,11 +33,15 @@ std::map<std::uint32_t, std::uint32_t> largestOf(std::span<const std::uint32_t> 
     return bodies;
 }
 
-layout::BodyFrame standingFrame() {
+using AllFrames = std::array<layout::BodyFrame, FRAME_MOST_BODIES>;
+
+std::vector<AllFrames> standingFrames() {
     layout::BodyFrame frame{};
-    frame.now[0].x = frame.now[1].y = frame.now[2].z = 1;
-    frame.from.w = -1; // no lists yet
-    return frame;
+    frame.map[0].x = frame.map[1].y = frame.map[2].z = 1;
+    frame.speed.w = -1; // no lists yet
+    AllFrames frames;
+    frames.fill(frame);
+    return {frames};
 }
 
 // Slots body by body, in shares for one invocation each.
@@ -96,33 +101,41 @@ Bodies bodiesOf(const Scene& scene, const StateLayout& layout) {
     return bodies;
 }
 
-Frames addStanding(ProgramBuilder& program, const Request& request, std::size_t slots) {
+Frames addStanding(ProgramBuilder& program, const Request& request) {
     const std::string name = request.name;
+    std::vector<std::uint32_t> members;
+    for (std::uint32_t i = 0; i < request.radii.size(); ++i)
+        if (request.radii[i] >= 0) members.push_back(i);
+    const auto count = static_cast<std::uint32_t>(members.size());
     return {.push = {.chunks = 0,
                      .bodies = 1,
                      .reach = request.reach,
                      .margin = request.margin,
                      .substeps = request.substeps},
-            .frames = program.upload(name + ".frames", std::vector{standingFrame()}),
-            .ofSlots = program.scratch<std::uint32_t>(name + ".bodies", slots)};
+            .frames = program.upload(name + ".frames", standingFrames()),
+            .ofSlots = program.scratch<float>(name + ".bodies", request.radii.size()),
+            .members = program.upload(name + ".watched", members),
+            .memberCount = count};
 }
 
 Frames add(ProgramBuilder& program, const Bodies& bodies, const Request& request) {
     const std::string name = request.name;
     const Shares shares = sharesOf(bodies, request.radii);
     const auto count = static_cast<std::uint32_t>(shares.bodies.size());
-    if (count == 0) return addStanding(program, request, bodies.ofSlots.size());
-    std::vector<std::uint32_t> ofSlots(bodies.ofSlots.size(), FRAME_NONE);
-    for (const std::uint32_t slot : shares.members) ofSlots[slot] = shares.numbers[bodies.ofSlots[slot]];
+    if (count == 0) return addStanding(program, request);
+    std::vector<float> ofSlots(bodies.ofSlots.size(), FRAME_NONE);
+    for (const std::uint32_t slot : shares.members)
+        ofSlots[slot] = static_cast<float>(shares.numbers[bodies.ofSlots[slot]]);
     return {.push = {.chunks = static_cast<std::uint32_t>(shares.chunks.size()),
                      .bodies = count,
                      .reach = request.reach,
                      .margin = request.margin,
                      .substeps = request.substeps},
-            .frames = program.upload(name + ".frames", std::vector(count, standingFrame())),
+            .frames = program.upload(name + ".frames", standingFrames()),
             .ofSlots = program.upload(name + ".bodies", ofSlots),
+            .members = program.upload(name + ".watched", shares.members),
+            .memberCount = static_cast<std::uint32_t>(shares.members.size()),
             .chunks = program.upload(name + ".frames.chunks", shares.chunks),
-            .members = program.upload(name + ".frames.members", shares.members),
             .bodies = program.upload(name + ".frames.bodies", shares.bodies),
             .partial =
                 program.scratch<layout::vec4>(name + ".frames.partial", shares.chunks.size() * FRAME_SUMS),

@@ -30,15 +30,19 @@ struct Request {
     const char* name = "grid";    ///< of its buffers
 };
 
-/// `frames` and `ofSlots` are read by kernels that watch lists.
+/// `frames` are read by kernels that watch lists, `ofSlots`, the number of the body, by those that make them.
 struct Frames {
     layout::FramePush push{};
     BufferId frames, ofSlots;
-    BufferId chunks, members, bodies, partial, sums; ///< invalid where nothing is fitted
+    /// Specialises kernels that watch lists.
+    ProgramBuilder::Constants constants() const { return {{4, push.bodies == 1}}; }
+    BufferId members;                       ///< slots that are watched
+    std::uint32_t memberCount = 0;          ///< how many
+    BufferId chunks, bodies, partial, sums; ///< invalid where nothing is fitted
 };
 
-/// One frame for all `slots`, which stands still.
-Frames addStanding(ProgramBuilder& program, const Request& request, std::size_t slots);
+/// One frame for all, which stands still.
+Frames addStanding(ProgramBuilder& program, const Request& request);
 
 Frames add(ProgramBuilder& program, const Bodies& bodies, const Request& request);
 

@@ -65,7 +65,7 @@ void addSorting(ProgramBuilder& program, const Lists& lists) {
                                   lists.contacts,   lists.counts, program.program().status};
     const bool listsGroups = lists.touching != BufferId{};
     if (listsGroups)
-        buffers.insert(buffers.end(), {lists.marks, lists.touching, grid.touching.arguments, grid.bounds});
+        buffers.insert(buffers.end(), {grid.bounds, grid.touching.arguments, lists.marks, lists.touching});
     const std::array<const vk::ShaderCode*, 2> forms =
         listsGroups ? std::array{&k::sortContactsGroupsLoads, &k::sortContactsGroups}
                     : std::array{&k::sortContactsLoads, &k::sortContacts};

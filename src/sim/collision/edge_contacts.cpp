@@ -51,13 +51,16 @@ edge_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
                                      .margin = margin,
                                      .capacity = settings.contactRoom,
                                      .limit = ranges::mostContactRoom,
-                                     .usesTexels = settings.forms.usesTexels});
+                                     .usesTexels = settings.forms.usesTexels,
+                                     .particles = layout.count});
 }
 
-// The forms of gather_faces for edges: with contacts between particles after it, or as the end of a substep.
-const vk::ShaderCode& gatherForm(const Contacts& contacts) {
-    if (!contacts.endsSubstep) return k::gatherEdges;
-    return contacts.planes.count > 0 ? k::gatherEdgesPlanes : k::gatherEdgesEnd;
+// A pass over the edges of groups in which one may touch another.
+void addOverEdges(ProgramBuilder& program, const Contacts& contacts, const vk::ShaderCode& code,
+                  std::vector<BufferId> buffers) {
+    const edge_lists::Lists& lists = contacts.lists;
+    buffers.push_back(lists.touching);
+    program.dispatchIndirect(code, lists.grid.touching, buffers, contacts.push);
 }
 
 // Of kernels over particles instead of edges.
@@ -67,24 +70,19 @@ layout::FacePush pushOfParticles(const Contacts& contacts, const ParticleBuffers
     return push;
 }
 
-void addShares(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& particles) {
-    const layout::FacePush push = pushOfParticles(contacts, particles);
-    program.dispatch(k::shareEdges, push.count,
-                     {contacts.corners, contacts.sums, particles.velocities, contacts.shares}, push);
+// A pass over the particles of groups in which one is an end of such an edge.
+void addOverEnds(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& particles,
+                 const vk::ShaderCode& code, std::vector<BufferId> buffers,
+                 const ProgramBuilder::Constants& constants = {}) {
+    const edge_lists::Lists& lists = contacts.lists;
+    buffers.push_back(lists.touchingParticles);
+    program.dispatchIndirect(code, lists.grid.touchingParticles, buffers,
+                             pushOfParticles(contacts, particles), constants);
 }
 
-void addGather(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
-               const ParticleBuffers& next) {
-    std::vector<BufferId> buffers{contacts.corners,    contacts.impulses, predicted.velocities,
-                                  predicted.positions, next.positions,    next.velocities,
-                                  predicted.step};
-    if (contacts.planes.count > 0)
-        buffers.insert(buffers.end(),
-                       {contacts.planes.planes, contacts.planes.contactOffsets, contacts.before});
-    const layout::FacePush push = pushOfParticles(contacts, predicted);
-    ProgramBuilder::Constants constants = remainderConstants(next.layout);
-    if (contacts.planes.count > 0) constants.merge(contacts.planes.constants());
-    program.dispatch(gatherForm(contacts), push.count, buffers, push, constants);
+void addShares(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& particles) {
+    addOverEnds(program, contacts, particles, k::shareEdges,
+                {contacts.corners, contacts.lists.sums, particles.velocities, contacts.shares});
 }
 
 // Where corners stand this near to each other, the points of one sheet keep the edges of another out, and
@@ -111,14 +109,13 @@ bool areIn(const Scene& scene) {
 }
 
 Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-             const ParticleBuffers& particles, const face_contacts::Contacts& faces, bool endsSubstep) {
+             const ParticleBuffers& particles, const face_contacts::Contacts& faces) {
     const StateLayout& layout = particles.layout;
     const std::vector<Edge> edges = edgesOf(scene);
     Contacts contacts{.lists = addLists(program, scene, settings, layout, edges),
-                      .endsSubstep = endsSubstep,
                       .surfaces = faces.surfaces,
-                      .before = faces.before,
-                      .moved = particles};
+                      .before = faces.before};
+    contacts.sleeps = particles.sleep != nullptr;
     const layout::FaceFindPush& find = contacts.lists.push;
     contacts.push = {.count = find.points,
                      .row = find.row,
@@ -133,23 +130,15 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     shown.edgeCounts = contacts.lists.counts;
     shown.edgeRow = contacts.push.row;
     shown.edgeCount = contacts.push.count;
-    const std::size_t elements = std::size_t{find.row} * find.capacity, count = find.points;
+    const std::size_t elements = std::size_t{find.row} * find.capacity;
     contacts.memory = side_memory::add(program, "edges", contacts.lists.contacts, contacts.lists.counts,
                                        contacts.lists.grid, contacts.push, elements);
     contacts.corners = program.upload("edges.corners", cornersOf(edges, layout, inverseMasses(scene)));
     contacts.directions = program.scratch<layout::vec4>("edges.directions", elements);
     contacts.weights = program.scratch<layout::vec4>("edges.weights", elements);
-    contacts.sums = program.scratch<float>("edges.sums", 2 * count);
-    contacts.impulses = program.scratch<layout::vec4>("edges.impulses", 2 * count);
     if (contacts.surfaces.hasRestitution)
         contacts.bounces = program.scratch<layout::vec4>("edges.bounces", elements);
     contacts.shares = program.scratch<float>("edges.shares", layout.count);
-    if (endsSubstep) {
-        contacts.planes = planes::addColliders(program, scene, layout);
-    } else {
-        contacts.moved.positions = program.scratch<layout::vec4>("edges.positions", positionCount(layout));
-        contacts.moved.velocities = program.scratch<layout::vec4>("edges.velocities", layout.count);
-    }
     return contacts;
 }
 
@@ -159,53 +148,46 @@ void joinIslands(const Contacts& contacts, sleep::Sleep& sleep) {
                    contacts.directions, contacts.corners, contacts.push.row};
 }
 
-ParticleBuffers addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
-                          const ParticleBuffers& next) {
+void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted) {
     const edge_lists::Lists& lists = contacts.lists;
-    const ParticleBuffers moved = contacts.endsSubstep ? next : contacts.moved;
     edge_lists::addWatch(program, lists, predicted);
     side_memory::addKeeping(program, contacts.memory);
     edge_lists::addLists(program, lists, predicted);
     side_memory::addReturning(program, contacts.memory);
-    program.dispatch(k::touchEdges, contacts.push.count,
-                     {predicted.velocities, lists.edges, lists.contacts, lists.counts, predicted.positions,
-                      contacts.memory.memory, contacts.directions, contacts.weights, contacts.sums,
-                      predicted.step},
-                     contacts.push);
+    addOverEdges(program, contacts, k::touchEdges,
+                 {predicted.velocities, lists.edges, lists.contacts, lists.counts, predicted.positions,
+                  contacts.memory.memory, contacts.directions, contacts.weights, lists.sums, predicted.step});
     sleep::addEdgeTouches(program, predicted);
     addShares(program, contacts, predicted);
-    program.dispatch(k::pressEdges, contacts.push.count,
-                     {predicted.velocities, lists.edges, lists.contacts, lists.counts, contacts.directions,
-                      contacts.weights, contacts.shares, contacts.memory.memory, contacts.impulses,
-                      contacts.before, predicted.step, contacts.surfaces.ofParticles,
-                      contacts.surfaces.pairs},
-                     contacts.push);
-    addGather(program, contacts, predicted, moved);
-    return moved;
+    addOverEdges(program, contacts, k::pressEdges,
+                 {predicted.velocities, lists.edges, lists.contacts, lists.counts, contacts.directions,
+                  contacts.weights, contacts.shares, contacts.memory.memory, lists.impulses, contacts.before,
+                  predicted.step, contacts.surfaces.ofParticles, contacts.surfaces.pairs});
+    addOverEnds(program, contacts, predicted, k::gatherEdges,
+                {contacts.corners, lists.impulses, predicted.velocities, predicted.positions, predicted.step},
+                remainderConstants(predicted.layout));
 }
 
 void addBounces(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state) {
     if (!contacts.surfaces.hasRestitution) return;
     const edge_lists::Lists& lists = contacts.lists;
     const surfaces::Surfaces& surfaces = contacts.surfaces;
-    program.dispatch(k::bounceEdges, contacts.push.count,
-                     {contacts.before, lists.edges, lists.contacts, lists.counts, contacts.directions,
-                      contacts.weights, surfaces.ofParticles, surfaces.pairs, state.step, contacts.bounces,
-                      contacts.sums},
-                     contacts.push);
+    addOverEdges(program, contacts, k::bounceEdges,
+                 {contacts.before, lists.edges, lists.contacts, lists.counts, contacts.directions,
+                  contacts.weights, surfaces.ofParticles, surfaces.pairs, state.step, contacts.bounces,
+                  lists.sums});
     addShares(program, contacts, state);
-    program.dispatch(k::reboundEdges, contacts.push.count,
-                     {state.velocities, lists.edges, lists.contacts, lists.counts, contacts.bounces,
-                      contacts.weights, contacts.shares, contacts.impulses},
-                     contacts.push);
-    const layout::FacePush push = pushOfParticles(contacts, state);
-    program.dispatch(k::gatherEdgesRebound, push.count,
-                     {contacts.corners, contacts.impulses, state.velocities, state.positions, state.step},
-                     push);
+    addOverEdges(program, contacts, k::reboundEdges,
+                 {state.velocities, lists.edges, lists.contacts, lists.counts, contacts.bounces,
+                  contacts.weights, contacts.shares, lists.impulses});
+    addOverEnds(program, contacts, state, k::gatherEdgesRebound,
+                {contacts.corners, lists.impulses, state.velocities, state.positions, state.step});
 }
 
 void addPublishing(ProgramBuilder& program, const Contacts& contacts) {
     side_memory::addPublishing(program, contacts.memory);
+    // What sleeps has lists, and nobody plans how many groups run while all sleeps.
+    if (contacts.sleeps) program.fill(contacts.lists.grid.touching.arguments, 0);
 }
 
 } // namespace sinew::sim::collision::edge_contacts

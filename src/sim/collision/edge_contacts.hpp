@@ -22,28 +22,24 @@ bool areIn(const Scene& scene);
 
 struct Contacts {
     edge_lists::Lists lists;
-    planes::Colliders planes; ///< without particle contacts, which else take care of them
     layout::FacePush push{};
-    bool endsSubstep = false;
+    bool sleeps = false; ///< whether the scene may
     side_memory::Memory memory;
     surfaces::Surfaces surfaces; ///< those of the contacts with faces
-    BufferId corners, directions, weights, sums, shares, impulses;
-    BufferId bounces;      ///< only where something rebounds
-    BufferId before;       ///< velocities when the substep began, of the contacts with faces
-    ParticleBuffers moved; ///< between these contacts and those of particles
+    BufferId corners, directions, weights, shares;
+    BufferId bounces; ///< only where something rebounds
+    BufferId before;  ///< velocities when the substep began, of the contacts with faces
 };
 
-/// Only where areIn(), beside `faces`. `endsSubstep` = no contacts between particles follow.
+/// Only where areIn(), beside `faces`.
 Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-             const ParticleBuffers& particles, const face_contacts::Contacts& faces, bool endsSubstep);
+             const ParticleBuffers& particles, const face_contacts::Contacts& faces);
 
 /// What touches sleeps together.
 void joinIslands(const Contacts& contacts, sleep::Sleep& sleep);
 
-/// From predicted positions and velocities to those after the contacts, which are returned: those of `next`
-/// if they end the substep.
-ParticleBuffers addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
-                          const ParticleBuffers& next);
+/// Changes predicted positions and velocities where they stand.
+void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted);
 
 /// Restitution, after all contacts of a substep, which `state` then is of; nothing where nothing rebounds.
 void addBounces(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state);

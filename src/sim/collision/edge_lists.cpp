@@ -63,6 +63,7 @@ Lists add(ProgramBuilder& program, const Request& request) {
                                                  .slack = slackShare * request.margin,
                                                  .edge = 2 * largest + request.margin,
                                                  .usesTexels = request.usesTexels,
+                                                 .particles = request.particles,
                                                  .name = "edges.grid",
                                                  .radiiName = "edges.grid.radii"})};
     const layout::GridPush& grid = lists.grid.push;
@@ -91,6 +92,13 @@ Lists add(ProgramBuilder& program, const Request& request) {
     lists.candidates = program.scratch<std::uint32_t>("edges.candidates", elements);
     lists.excluded = program.upload("edges.excluded", request.exclusions);
     lists.points = program.scratch<layout::FacePoints>("edges.points", 1);
+    lists.sums = program.scratch<float>("edges.sums", 2 * count);
+    lists.impulses = program.scratch<layout::vec4>("edges.impulses", 2 * count);
+    lists.touching = program.scratch<std::uint32_t>("edges.groups", count / GROUP_ITEMS);
+    lists.marks = program.scratch<std::uint32_t>("edges.groups.listed", count / GROUP_ITEMS);
+    const std::size_t groups = request.particles / GROUP_ITEMS;
+    lists.touchingParticles = program.scratch<std::uint32_t>("edges.particles.groups", groups);
+    lists.particleMarks = program.scratch<std::uint32_t>("edges.particles.groups.listed", groups);
     lists.apart = program.scratch<std::uint32_t>("edges.apart", count);
     return lists;
 }
@@ -115,9 +123,11 @@ void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers
                               lists.middles, lists.found, lists.candidates, lists.ends,
                               program.program().status, particles.step},
                              lists.push);
-    program.dispatchIndirect(k::sortContactsLoads, grid.particles,
+    program.dispatchIndirect(k::sortEdges, grid.particles,
                              {lists.candidates, lists.thickness, lists.found, lists.contacts, lists.counts,
-                              program.program().status},
+                              program.program().status, grid.bounds, grid.touching.arguments, lists.marks,
+                              lists.touching, lists.particleMarks, lists.touchingParticles, lists.edges,
+                              lists.sums, lists.impulses},
                              sortPush(lists.push));
 }
 

@@ -29,6 +29,7 @@ struct Request {
     std::uint32_t capacity = 0; ///< edges near an edge
     std::uint32_t limit = 256;  ///< candidates after which counting stops: bounds the time of a step
     bool usesTexels = true;
+    std::size_t particles = 0; ///< slots of the state
 };
 
 /// Element s x row + e of `contacts` is the other edge s of edge e (layout::ContactCandidate).
@@ -37,6 +38,11 @@ struct Lists {
     layout::FaceFindPush push{};
     BufferId edges, contacts, counts;
     BufferId radii, thickness, middles, speeds, ends, found, candidates, excluded, points, apart;
+    /// By end of an edge: sums of the weights of its contacts and of what they do to it. 0 where it has no
+    /// candidate; else of whoever solves contacts.
+    BufferId sums, impulses;
+    BufferId touching, marks;                  ///< work groups of edges of which one has a candidate
+    BufferId touchingParticles, particleMarks; ///< those of ends of such edges
 };
 
 Lists add(ProgramBuilder& program, const Request& request);

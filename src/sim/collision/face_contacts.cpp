@@ -126,12 +126,6 @@ face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
     return lists;
 }
 
-// The forms of gather_faces: with contacts between particles after it, or as the end of a substep.
-const vk::ShaderCode& gatherForm(const Contacts& contacts) {
-    if (!contacts.endsSubstep) return k::gatherFaces;
-    return contacts.planes.count > 0 ? k::gatherFacesPlanes : k::gatherFacesEnd;
-}
-
 void addListUpdate(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                    bool isFirst) {
     const face_lists::Lists& lists = contacts.lists;
@@ -142,29 +136,21 @@ void addListUpdate(ProgramBuilder& program, const Contacts& contacts, const Part
     side_memory::addReturning(program, contacts.memory);
 }
 
-void addGather(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
-               const ParticleBuffers& next) {
+// A pass over the particles of groups in which one may touch a face, or a face of one may be touched.
+void addOverContacts(ProgramBuilder& program, const Contacts& contacts, const vk::ShaderCode& code,
+                     std::vector<BufferId> buffers, const ProgramBuilder::Constants& constants = {}) {
     const face_lists::Lists& lists = contacts.lists;
-    std::vector<BufferId> buffers{lists.counts,      contacts.directions,  contacts.weights,
-                                  contacts.corners,  lists.links,          lists.linkCounts,
-                                  contacts.impulses, predicted.velocities, predicted.positions,
-                                  next.positions,    next.velocities,      predicted.step};
-    if (contacts.planes.count > 0)
-        buffers.insert(buffers.end(),
-                       {contacts.planes.planes, contacts.planes.contactOffsets, contacts.before});
-    ProgramBuilder::Constants constants = remainderConstants(next.layout);
-    if (contacts.planes.count > 0) constants.merge(contacts.planes.constants());
-    program.dispatch(gatherForm(contacts), contacts.push.count, buffers, contacts.push, constants);
+    buffers.push_back(lists.touching);
+    program.dispatchIndirect(code, lists.grid.touchingParticles, buffers, contacts.push, constants);
 }
 
 // How particles are shared among contacts that have something in the last word of `directions`.
 void addShares(ProgramBuilder& program, const Contacts& contacts, BufferId directions,
                const ParticleBuffers& particles) {
     const face_lists::Lists& lists = contacts.lists;
-    program.dispatch(k::shareFaces, contacts.push.count,
-                     {lists.counts, directions, contacts.weights, contacts.corners, lists.links,
-                      lists.linkCounts, particles.velocities, contacts.shares},
-                     contacts.push);
+    addOverContacts(program, contacts, k::shareFaces,
+                    {lists.counts, directions, contacts.weights, contacts.corners, lists.links,
+                     lists.linkCounts, particles.velocities, contacts.shares});
 }
 
 } // namespace
@@ -192,13 +178,12 @@ std::vector<float> looseRadii(const Scene& scene) {
 }
 
 Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-             const ParticleBuffers& particles, bool endsSubstep) {
+             const ParticleBuffers& particles) {
     const StateLayout& layout = particles.layout;
     const std::vector<float> inverseMass = inverseMasses(scene);
     const Faces faces = facesOf(scene, inverseMass);
-    Contacts contacts{.lists = addLists(program, scene, settings, layout, inverseMass, faces),
-                      .endsSubstep = endsSubstep,
-                      .moved = particles};
+    Contacts contacts{.lists = addLists(program, scene, settings, layout, inverseMass, faces)};
+    contacts.sleeps = particles.sleep != nullptr;
     const layout::FaceFindPush& find = contacts.lists.push;
     contacts.surfaces = surfaces::addTable(program, scene, layout, "faces.surface");
     contacts.push = {.count = find.points,
@@ -224,12 +209,6 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
         contacts.bounces = program.scratch<layout::vec4>("faces.bounces", elements);
     contacts.shares = program.scratch<float>("faces.shares", layout.count);
     contacts.before = program.scratch<layout::vec4>("faces.before", layout.count);
-    if (endsSubstep) {
-        contacts.planes = planes::addColliders(program, scene, layout);
-    } else {
-        contacts.moved.positions = program.scratch<layout::vec4>("faces.positions", positionCount(layout));
-        contacts.moved.velocities = program.scratch<layout::vec4>("faces.velocities", layout.count);
-    }
     return contacts;
 }
 
@@ -243,48 +222,47 @@ void addOpening(ProgramBuilder& program, const Contacts& contacts, BufferId velo
     program.copy(velocities, contacts.before);
 }
 
-ParticleBuffers addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
-                          const ParticleBuffers& next, bool isFirst) {
+void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
+               bool isFirst) {
     const face_lists::Lists& lists = contacts.lists;
-    const ParticleBuffers moved = contacts.endsSubstep ? next : contacts.moved;
     addListUpdate(program, contacts, predicted, isFirst);
-    program.dispatch(k::touchFaces, contacts.push.count,
-                     {predicted.positions, predicted.velocities, lists.faces, lists.contacts, lists.counts,
-                      contacts.memory.memory, contacts.directions, contacts.weights, predicted.step},
-                     contacts.push);
+    addOverContacts(program, contacts, k::touchFaces,
+                    {predicted.positions, predicted.velocities, lists.faces, lists.contacts, lists.counts,
+                     contacts.memory.memory, contacts.directions, contacts.weights, predicted.step});
     sleep::addFaceTouches(program, predicted);
     addShares(program, contacts, contacts.directions, predicted);
-    program.dispatch(k::pressFaces, contacts.push.count,
-                     {predicted.velocities, lists.faces, lists.contacts, lists.counts, contacts.directions,
-                      contacts.weights, contacts.shares, contacts.memory.memory, contacts.impulses,
-                      contacts.before, predicted.step, contacts.surfaces.ofParticles,
-                      contacts.surfaces.pairs},
-                     contacts.push);
-    addGather(program, contacts, predicted, moved);
-    return moved;
+    addOverContacts(program, contacts, k::pressFaces,
+                    {predicted.velocities, lists.faces, lists.contacts, lists.counts, contacts.directions,
+                     contacts.weights, contacts.shares, contacts.memory.memory, contacts.impulses,
+                     contacts.before, predicted.step, contacts.surfaces.ofParticles,
+                     contacts.surfaces.pairs});
+    addOverContacts(program, contacts, k::gatherFaces,
+                    {lists.counts, contacts.directions, contacts.weights, contacts.corners, lists.links,
+                     lists.linkCounts, contacts.impulses, predicted.velocities, predicted.positions,
+                     predicted.step},
+                    remainderConstants(predicted.layout));
 }
 
 void addBounces(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state) {
     if (!contacts.surfaces.hasRestitution) return;
     const face_lists::Lists& lists = contacts.lists;
     const surfaces::Surfaces& surfaces = contacts.surfaces;
-    program.dispatch(k::bounceFaces, contacts.push.count,
-                     {contacts.before, lists.faces, lists.contacts, lists.counts, contacts.directions,
-                      contacts.weights, surfaces.ofParticles, surfaces.pairs, state.step, contacts.bounces},
-                     contacts.push);
+    addOverContacts(program, contacts, k::bounceFaces,
+                    {contacts.before, lists.faces, lists.contacts, lists.counts, contacts.directions,
+                     contacts.weights, surfaces.ofParticles, surfaces.pairs, state.step, contacts.bounces});
     addShares(program, contacts, contacts.bounces, state);
-    program.dispatch(k::reboundFaces, contacts.push.count,
-                     {state.velocities, lists.faces, lists.contacts, lists.counts, contacts.bounces,
-                      contacts.weights, contacts.shares, contacts.impulses},
-                     contacts.push);
-    program.dispatch(k::gatherFacesRebound, contacts.push.count,
-                     {lists.counts, contacts.bounces, contacts.weights, contacts.corners, lists.links,
-                      lists.linkCounts, contacts.impulses, state.velocities, state.positions, state.step},
-                     contacts.push);
+    addOverContacts(program, contacts, k::reboundFaces,
+                    {state.velocities, lists.faces, lists.contacts, lists.counts, contacts.bounces,
+                     contacts.weights, contacts.shares, contacts.impulses});
+    addOverContacts(program, contacts, k::gatherFacesRebound,
+                    {lists.counts, contacts.bounces, contacts.weights, contacts.corners, lists.links,
+                     lists.linkCounts, contacts.impulses, state.velocities, state.positions, state.step});
 }
 
 void addPublishing(ProgramBuilder& program, const Contacts& contacts) {
     side_memory::addPublishing(program, contacts.memory);
+    // What sleeps has lists, and nobody plans how many groups run while all sleeps.
+    if (contacts.sleeps) program.fill(contacts.lists.grid.touching.arguments, 0);
 }
 
 } // namespace sinew::sim::collision::face_contacts

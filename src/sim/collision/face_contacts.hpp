@@ -13,7 +13,6 @@
 #pragma once
 
 #include "sim/collision/face_lists.hpp"
-#include "sim/collision/planes.hpp"
 #include "sim/collision/side_memory.hpp"
 #include "sim/collision/surfaces.hpp"
 
@@ -28,20 +27,18 @@ std::vector<float> looseRadii(const Scene& scene);
 
 struct Contacts {
     face_lists::Lists lists;
-    planes::Colliders planes; ///< without particle contacts, which else take care of them
     layout::FacePush push{};
-    bool endsSubstep = false;
+    bool sleeps = false; ///< whether the scene may
     side_memory::Memory memory;
     surfaces::Surfaces surfaces;
     BufferId corners, directions, weights, shares, impulses;
-    BufferId bounces;      ///< only where something rebounds
-    BufferId before;       ///< velocities when the substep began
-    ParticleBuffers moved; ///< between these contacts and those that follow
+    BufferId bounces; ///< only where something rebounds
+    BufferId before;  ///< velocities when the substep began
 };
 
-/// Only where areIn(). `endsSubstep` = no contacts between edges or particles follow.
+/// Only where areIn().
 Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-             const ParticleBuffers& particles, bool endsSubstep);
+             const ParticleBuffers& particles);
 
 /// What touches sleeps together.
 void joinIslands(const Contacts& contacts, sleep::Sleep& sleep);
@@ -49,10 +46,9 @@ void joinIslands(const Contacts& contacts, sleep::Sleep& sleep);
 /// Before the links of a substep, whose velocities are `velocities`.
 void addOpening(ProgramBuilder& program, const Contacts& contacts, BufferId velocities);
 
-/// From predicted positions and velocities to those after the contacts, which are returned: those of `next`
-/// if they end the substep. `isFirst`: of a step.
-ParticleBuffers addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
-                          const ParticleBuffers& next, bool isFirst);
+/// Changes predicted positions and velocities where they stand. `isFirst`: of a step.
+void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
+               bool isFirst);
 
 /// Restitution, after all contacts of a substep, which `state` then is of; nothing where nothing rebounds.
 void addBounces(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state);

@@ -102,6 +102,8 @@ Lists add(ProgramBuilder& program, const Request& request) {
     lists.apart = program.scratch<std::uint32_t>("faces.points.apart", count);
     lists.searched = program.upload("faces.searched", facesWhere(request.extents, edge, false));
     lists.large = program.upload("faces.large", large);
+    lists.touching = program.scratch<std::uint32_t>("faces.groups", count / GROUP_ITEMS);
+    lists.marks = program.scratch<std::uint32_t>("faces.groups.listed", count / GROUP_ITEMS);
     lists.wide = program.scratch<std::uint32_t>("faces.wide", faces);
     return lists;
 }
@@ -112,10 +114,12 @@ void addFit(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& 
 
 void addWatch(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {
     const hash_grid::Grid& grid = lists.grid;
-    program.dispatch(k::watchFaces, grid.push.count,
+    layout::GridPush push = grid.push;
+    push.count = grid.frames.memberCount;
+    program.dispatch(k::watchFaces, push.count,
                      {particles.positions, particles.velocities, grid.detected, grid.bounds, particles.step,
-                      grid.frames.frames, grid.frames.ofSlots},
-                     grid.push);
+                      grid.frames.frames, grid.frames.members},
+                     push, grid.frames.constants());
     hash_grid::addSort(program, grid, particles.positions, particles.step);
 }
 
@@ -135,11 +139,13 @@ void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers
     program.dispatchIndirect(k::findWideFaces, grid.particles, buffers, lists.push);
     program.dispatchIndirect(k::sortFaces, grid.particles,
                              {lists.candidates, lists.radii, lists.faces, lists.found, lists.contacts,
-                              lists.counts, program.program().status},
+                              lists.counts, program.program().status, grid.bounds, grid.touching.arguments,
+                              lists.marks, lists.touching},
                              lists.push);
     program.dispatchIndirect(k::linkFaces, grid.others,
                              {lists.faceCandidates, lists.contacts, lists.counts, lists.faceFound,
-                              lists.links, lists.linkCounts, lists.points, program.program().status},
+                              lists.links, lists.linkCounts, lists.points, program.program().status,
+                              grid.bounds, lists.faces, grid.touching.arguments, lists.marks, lists.touching},
                              lists.push);
 }
 

@@ -39,6 +39,7 @@ struct Lists {
     BufferId contacts, counts, links, linkCounts;
     BufferId radii, inverseMasses, faces, found, candidates, faceFound, faceCandidates, excluded;
     BufferId points, apart, searched, large, wide;
+    BufferId touching, marks; ///< work groups of particles of which one is in a list, as point or corner
 };
 
 Lists add(ProgramBuilder& program, const Request& request);

@@ -13,6 +13,8 @@ namespace sinew::sim::collision::hash_grid {
 
 namespace {
 
+constexpr std::uint32_t keepsAllId = 5; // constant_id in count_cells.comp
+
 // Slots of the table: twice as many as particles keep rows that share slots rare, where the grid is not
 // dense. scan_sums takes whole groups of chunks.
 std::uint32_t cellsFor(std::size_t particles) {
@@ -26,7 +28,8 @@ const vk::ShaderCode& form(const Grid& grid, const vk::ShaderCode& texels, const
 
 void addPlan(ProgramBuilder& program, const Grid& grid, BufferId step) {
     program.dispatch(kernels::planGrid, GROUP_ITEMS,
-                     {grid.bounds, grid.arguments, grid.frames.frames, step, grid.touching.arguments},
+                     {grid.bounds, grid.arguments, grid.frames.frames, step, grid.touching.arguments,
+                      program.program().status},
                      grid.push);
 }
 
@@ -34,9 +37,10 @@ void addCells(ProgramBuilder& program, const Grid& grid, BufferId positions) {
     namespace k = kernels;
     program.dispatchIndirect(form(grid, k::measureBounds, k::measureBoundsLoads), grid.particleChunks,
                              {positions, grid.radii, grid.bounds}, grid.push);
-    program.dispatchIndirect(form(grid, k::countCells, k::countCellsLoads), grid.particles,
-                             {positions, grid.radii, grid.bounds, grid.counts, grid.places, grid.detected},
-                             grid.push);
+    program.dispatchIndirect(
+        form(grid, k::countCells, k::countCellsLoads), grid.particles,
+        {positions, grid.radii, grid.bounds, grid.counts, grid.places, grid.detected, grid.frames.ofSlots},
+        grid.push, {{keepsAllId, grid.keepsAll}});
     program.dispatchIndirect(k::sumCells, grid.cellChunks, {grid.counts, grid.sums}, grid.push);
     program.dispatchIndirect(k::scanSums, grid.oneGroup, {grid.sums}, grid.push);
     program.dispatchIndirect(k::startCells, grid.cellChunks, {grid.counts, grid.sums, grid.starts},
@@ -89,7 +93,10 @@ Grid add(ProgramBuilder& program, const Request& request) {
     grid.others = {grid.arguments, GRID_OTHERS, request.others};
     grid.swept = {grid.arguments, GRID_SWEPT, grid.push.count};
     grid.unswept = {grid.arguments, GRID_UNSWEPT, grid.push.count};
-    grid.touching = {program.scratch<layout::DispatchArguments>(name + ".touching", 1), 0, grid.push.count};
+    const BufferId touching = program.scratch<layout::DispatchArguments>(name + ".touching", 2);
+    grid.touching = {touching, 0, grid.push.count};
+    grid.touchingParticles = {touching, 1, static_cast<std::uint32_t>(std::max(count, request.particles))};
+    grid.keepsAll = !request.watched.empty();
     grid.slowed = {grid.arguments, GRID_SLOWED, grid.push.count};
     const body_frames::Request frames{.radii = request.watched.empty() ? request.radii : request.watched,
                                       .reach = request.reach,
@@ -97,7 +104,7 @@ Grid add(ProgramBuilder& program, const Request& request) {
                                       .substeps = request.substeps,
                                       .name = request.name};
     grid.frames = request.bodies ? body_frames::add(program, *request.bodies, frames)
-                                 : body_frames::addStanding(program, frames, count);
+                                 : body_frames::addStanding(program, frames);
     grid.push.bodies = grid.frames.push.bodies;
     grid.push.reach = request.reach;
     grid.push.margin = request.margin;
@@ -116,8 +123,8 @@ void addWatch(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
     namespace k = kernels;
     program.dispatch(form(grid, k::watchMotion, k::watchMotionLoads), grid.push.count,
                      {moved.positions, grid.detected, moved.velocities, grid.bounds, grid.radii, grid.fast,
-                      moved.step, grid.frames.frames, grid.frames.ofSlots},
-                     grid.push);
+                      moved.step, grid.frames.frames},
+                     grid.push, grid.frames.constants());
 }
 
 void addBuild(ProgramBuilder& program, const Grid& grid, const Moved& moved) {

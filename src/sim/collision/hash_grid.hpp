@@ -24,10 +24,11 @@ struct Request {
     bool usesTexels = true;
     /// The bodies whose motion particles are expected to share; null = they are expected to stay.
     const body_frames::Bodies* bodies = nullptr;
-    std::span<const float> watched;           ///< by state slot: below 0 = never watched; empty = `radii`
-    float reach = 0;                          ///< the largest at which two touch [m]
-    std::uint32_t substeps = 1;               ///< of a step
-    const char* name = "grid";                ///< of its buffers
+    std::size_t particles = 0;      ///< slots of the state, where items of the grid are something else
+    std::span<const float> watched; ///< by state slot: below 0 = never watched; empty = `radii`
+    float reach = 0;                ///< the largest at which two touch [m]
+    std::uint32_t substeps = 1;     ///< of a step
+    const char* name = "grid";      ///< of its buffers
     const char* radiiName = "contacts.radii"; ///< of that one
 };
 
@@ -48,8 +49,10 @@ struct Grid {
     bool usesTexels = true;
     BufferId radii, bounds, arguments, counts, sums, starts, places, sorted, detected, fast;
     IndirectItems particles, particleChunks, cellChunks, oneGroup,
-        others;                   ///< of passes that run with a build
-    IndirectItems touching;       ///< of particles in groups of which one has a candidate
+        others; ///< of passes that run with a build
+    /// Of items in work groups of which one has a candidate: owners of lists, particles.
+    IndirectItems touching, touchingParticles;
+    bool keepsAll = false;        ///< whether what is in no cell is watched
     IndirectItems swept, unswept; ///< likewise, a particle each, where contacts may or cannot lie on the way
     IndirectItems slowed;         ///< where too many are too fast
     body_frames::Frames frames;

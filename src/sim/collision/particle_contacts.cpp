@@ -171,8 +171,8 @@ void addSettling(ProgramBuilder& program, const Contacts& contacts, const Partic
     const hash_grid::Grid& grid = contacts.lists.grid;
     std::vector<BufferId> buffers{predicted.positions, grid.detected,      predicted.velocities,
                                   grid.bounds,         grid.radii,         grid.fast,
-                                  predicted.step,      grid.frames.frames, grid.frames.ofSlots,
-                                  predicted.positions, next.positions,     next.velocities};
+                                  predicted.step,      grid.frames.frames, predicted.positions,
+                                  next.positions,      next.velocities};
     ProgramBuilder::Constants constants = remainderConstants(next.layout);
     if (contacts.hasRebound) buffers.push_back(contacts.before);
     if (contacts.planes.count > 0) {
@@ -180,14 +180,18 @@ void addSettling(ProgramBuilder& program, const Contacts& contacts, const Partic
         constants.merge(contacts.planes.constants());
     }
     constants.insert({watchesId, watches});
+    constants.merge(grid.frames.constants());
     const vk::ShaderCode& code =
         contacts.hasRebound         ? form(contacts, {&k::settleFreeReboundLoads, &k::settleFreeRebound})
         : contacts.planes.count > 0 ? form(contacts, {&k::settleFreePlanesLoads, &k::settleFreePlanes})
                                     : form(contacts, {&k::settleFreeLoads, &k::settleFree});
+    layout::GridPush push = grid.push;
+    push.count = contacts.particleCount;
+    buffers.push_back(contacts.particles);
     if (watches)
-        program.dispatch(code, grid.push.count, buffers, grid.push, constants);
+        program.dispatch(code, push.count, buffers, push, constants);
     else
-        program.dispatchIndirect(code, grid.slowed, buffers, grid.push, constants);
+        program.dispatchIndirect(code, grid.slowed, buffers, push, constants);
 }
 
 // A pass of contacts: over all particles, or over the groups in which somebody has a candidate.
@@ -330,6 +334,11 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     shown.pairs = contacts.lists.contacts;
     shown.pairCounts = contacts.lists.counts;
     shown.pairRow = contacts.push.row;
+    if (settles) {
+        const std::vector<std::uint32_t> slots = slotsInOrder(layout);
+        contacts.particles = program.upload("contacts.particles", slots);
+        contacts.particleCount = static_cast<std::uint32_t>(slots.size());
+    }
     contacts.touching = program.scratch<layout::vec4>("contacts.touching", layout.count);
     contacts.firsts = program.scratch<float>("contacts.firsts", layout.count);
     if (contacts.hasMemory()) addMemory(program, contacts, first);
@@ -389,7 +398,8 @@ void addBounces(ProgramBuilder& program, const Contacts& contacts, const Particl
 }
 
 void addPublishing(ProgramBuilder& program, const Contacts& contacts) {
-    std::vector<BufferId> buffers{program.program().status, contacts.lists.grid.detected};
+    std::vector<BufferId> buffers{program.program().status, contacts.lists.grid.detected,
+                                  contacts.lists.grid.bounds};
     if (contacts.hasMemory())
         buffers.insert(buffers.end(), {contacts.lists.contacts, contacts.lists.counts, contacts.slips,
                                        contacts.saved, contacts.savedCounts});

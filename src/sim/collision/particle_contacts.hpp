@@ -23,8 +23,10 @@ struct Contacts {
     /// Whether the substep ends for all as if they touched nothing, and then anew for groups in which
     /// somebody has a candidate; else for all in one pass.
     bool settles = false;
-    bool hasRebound = false;  ///< of a plane
-    bool hasRecovery = false; ///< some pair overlaps when the scene is loaded, or may after a cut
+    BufferId particles;              ///< slots that hold a particle; only where it settles
+    std::uint32_t particleCount = 0; ///< how many
+    bool hasRebound = false;         ///< of a plane
+    bool hasRecovery = false;        ///< some pair overlaps when the scene is loaded, or may after a cut
     BufferId touching, firsts, before, bouncing, rebounding;
     /// What is remembered of candidates, from substep to substep, while lists are made again, and from step
     /// to step; `...Offsets` where hasRecovery.

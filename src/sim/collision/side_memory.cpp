@@ -42,7 +42,7 @@ void addReturning(ProgramBuilder& program, const Memory& memory) {
 void addPublishing(ProgramBuilder& program, const Memory& memory) {
     program.dispatch(kernels::publishSides, memory.push.count,
                      {memory.contacts, memory.counts, memory.memory, memory.saved, memory.savedOthers,
-                      memory.savedCounts, program.program().status, memory.grid.detected},
+                      memory.savedCounts, program.program().status, memory.grid.detected, memory.grid.bounds},
                      memory.push);
 }
 

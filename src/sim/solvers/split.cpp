@@ -316,18 +316,37 @@ struct Touching {
     std::optional<collision::face_contacts::Contacts> faces;
     std::optional<collision::edge_contacts::Contacts> edges;
     std::optional<collision::particle_contacts::Contacts> pairs;
+    // Where no particles touch each other: planes, and the slots that hold a particle.
+    collision::planes::Colliders planes;
+    BufferId particles;
+    std::uint32_t particleCount = 0;
 
     void addOpening(ProgramBuilder& program, BufferId velocities) const {
         if (faces) collision::face_contacts::addOpening(program, *faces, velocities);
         if (pairs) collision::particle_contacts::addOpening(program, *pairs, velocities);
     }
-    // Returns what pairs were found with.
-    ParticleBuffers addPasses(ProgramBuilder& program, ParticleBuffers predicted, const ParticleBuffers& next,
-                              bool isFirst) const {
-        if (faces) predicted = collision::face_contacts::addPasses(program, *faces, predicted, next, isFirst);
-        if (edges) predicted = collision::edge_contacts::addPasses(program, *edges, predicted, next);
-        if (pairs) collision::particle_contacts::addPasses(program, *pairs, predicted, next, isFirst);
-        return predicted;
+    void addPasses(ProgramBuilder& program, const ParticleBuffers& predicted, const ParticleBuffers& next,
+                   bool isFirst) const {
+        if (faces) collision::face_contacts::addPasses(program, *faces, predicted, isFirst);
+        if (edges) collision::edge_contacts::addPasses(program, *edges, predicted);
+        if (pairs)
+            collision::particle_contacts::addPasses(program, *pairs, predicted, next, isFirst);
+        else
+            addFinish(program, predicted, next);
+    }
+    // The end of a substep in which no particles touch each other.
+    void addFinish(ProgramBuilder& program, const ParticleBuffers& predicted,
+                   const ParticleBuffers& next) const {
+        std::vector<BufferId> buffers{predicted.positions, predicted.velocities, next.step, next.positions,
+                                      next.velocities};
+        ProgramBuilder::Constants constants = remainderConstants(next.layout);
+        if (planes.count > 0) {
+            buffers.insert(buffers.end(), {faces->before, planes.planes, planes.contactOffsets});
+            constants.merge(planes.constants());
+        }
+        buffers.push_back(particles);
+        program.dispatch(planes.count > 0 ? kernels::finishFreePlanes : kernels::finishFree, particleCount,
+                         buffers, layout::CountPush{particleCount}, constants);
     }
     // After all contacts of a substep; velocities alternate.
     void addBounces(ProgramBuilder& program, const ParticleBuffers& met, ParticleBuffers& current) {
@@ -356,12 +375,15 @@ Touching addTouching(const Common& common, const ParticleBuffers& particles) {
     const Scene& scene = common.scene;
     const bool hasPairs = pairs::areIn(scene), hasEdges = edges::areIn(scene);
     Touching touching;
-    if (faces::areIn(scene))
-        touching.faces =
-            faces::add(common.program, scene, common.settings, particles, !hasEdges && !hasPairs);
+    if (faces::areIn(scene)) touching.faces = faces::add(common.program, scene, common.settings, particles);
     if (hasEdges)
-        touching.edges =
-            edges::add(common.program, scene, common.settings, particles, *touching.faces, !hasPairs);
+        touching.edges = edges::add(common.program, scene, common.settings, particles, *touching.faces);
+    if (!hasPairs) {
+        const std::vector<std::uint32_t> slots = slotsInOrder(common.layout);
+        touching.planes = collision::planes::addColliders(common.program, scene, common.layout);
+        touching.particles = common.program.upload("state.particles", slots);
+        touching.particleCount = static_cast<std::uint32_t>(slots.size());
+    }
     if (hasPairs) touching.pairs = pairs::add(common.program, scene, common.settings, common.layout);
     return touching;
 }
@@ -395,8 +417,8 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
         addLinks(gathers, current, predicted, substep == 0);
         constraints::driven::addPass(program, predicted, driven, substep);
         if (!alternates) std::swap(current.velocities, spare);
-        const ParticleBuffers met = contacts.addPasses(program, predicted, current, substep == 0);
-        contacts.addBounces(program, met, current);
+        contacts.addPasses(program, predicted, current, substep == 0);
+        contacts.addBounces(program, predicted, current);
         constraints::attachment::addPass(program, current, attachments, substep, substeps);
         constraints::grab::addPass(program, current, substep, substeps, Kick::whole);
         constraints::tether::addPass(program, current, tethers);

@@ -61,10 +61,10 @@ Duration shortest(const vk::Device& device, vk::Queue& queue, std::uint32_t side
                    parameters = builder.upload("step", std::span(&step, 1));
     builder.beginPhase("lists");
     for (const BufferId positions : {here, there}) {
-        if (part != Part::build)
-            collision::contact_lists::addUpdate(builder, lists, {positions, velocities, parameters});
-        else
-            collision::hash_grid::addBuild(builder, lists.grid, {positions, velocities, parameters});
+        const collision::hash_grid::Moved moved{positions, velocities, parameters};
+        collision::hash_grid::addWatch(builder, lists.grid, moved);
+        collision::contact_lists::addBuild(builder, lists, moved);
+        if (part != Part::build) collision::contact_lists::addLists(builder, lists, moved);
     }
     StepProgram program = builder.finish();
     if (part == Part::find)

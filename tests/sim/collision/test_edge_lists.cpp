@@ -62,7 +62,8 @@ public:
                                        .exclusions = exclusions,
                                        .margin = margin,
                                        .capacity = capacity,
-                                       .usesTexels = usesTexels});
+                                       .usesTexels = usesTexels,
+                                       .particles = count});
         builder_.beginPhase("solve");
         builder_.fill(builder_.program().status, 0);
         lists::addWatch(builder_, lists_, particles_);

@@ -1,0 +1,27 @@
+#version 460
+// Ends a substep of `split` after contacts with faces and between edges, where no particles touch each other: boundary planes,
+// one after another, and what is stored.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "remainder.glsl"
+
+layout(std430, binding = 0) readonly buffer Predicted { vec4 predicted[]; };
+layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; }; // with which they came here; w = inverse mass
+layout(std140, binding = 2) uniform Step { StepParams step; };
+layout(std430, binding = 3) writeonly buffer NextPositions { vec4 nextPositions[]; };
+layout(std430, binding = 4) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
+#ifdef HAS_PLANES
+layout(std430, binding = 5) readonly buffer Before { vec4 before[]; }; // velocities before the substep
+#define BEFORE(i) before[i].xyz
+#define HAS_REBOUND
+#define PLANE_BINDING 6
+#endif
+layout(push_constant) uniform Push { CountPush push; };
+#include "finish_substep.glsl"
+
+void main() {
+    const uint i = itemIndex(push.count);
+    if (i == ~0u) return;
+    const vec4 x = predicted[i], velocity = velocities[i];
+    finish(i, x.xyz, x.w, velocity, vec3(0.0), velocity.xyz);
+}

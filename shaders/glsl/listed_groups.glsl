@@ -1,0 +1,30 @@
+// Lists the work groups that contacts are solved for: those of owners of lists, and those of particles. In the names
+// bounds and GROUPS_BINDING of a kernel; LISTS_OWNERS, LISTS_PARTICLES: which.
+layout(std430, binding = GROUPS_BINDING) buffer Arguments { DispatchArguments arguments[]; };
+#ifdef LISTS_OWNERS
+layout(std430, binding = GROUPS_BINDING + 1) buffer Marks { uint marks[]; }; // of each group: the last build that listed it
+layout(std430, binding = GROUPS_BINDING + 2) writeonly buffer Owners { uint owners[]; };
+
+void listOwner(uint i) {
+    const uint group = i / GROUP_ITEMS;
+    if (atomicMax(marks[group], bounds.builds) >= bounds.builds) return;
+    const uint place = atomicAdd(bounds.listed, 1u);
+    owners[place] = group;
+    atomicMax(arguments[0].groupsX, place + 1u);
+}
+#define PARTICLES_BINDING (GROUPS_BINDING + 3)
+#else
+#define PARTICLES_BINDING (GROUPS_BINDING + 1)
+#endif
+#ifdef LISTS_PARTICLES
+layout(std430, binding = PARTICLES_BINDING) buffer ParticleMarks { uint particleMarks[]; };
+layout(std430, binding = PARTICLES_BINDING + 1) writeonly buffer Particles { uint particles[]; };
+
+void listParticle(uint i) {
+    const uint group = i / GROUP_ITEMS;
+    if (atomicMax(particleMarks[group], bounds.builds) >= bounds.builds) return;
+    const uint place = atomicAdd(bounds.listedParticles, 1u);
+    particles[place] = group;
+    atomicMax(arguments[1].groupsX, place + 1u);
+}
+#endif
