@@ -358,6 +358,10 @@ LoadedScene load(const fs::path& argument, const Overrides& overrides) {
     return loaded;
 }
 
+LoadedScene loadText(const std::string& text, const std::string& name, const Overrides& overrides) {
+    return read(text, {name, {}, {}}, overrides);
+}
+
 LoadedScene loadBuiltIn(const std::string& name, const Overrides& overrides) {
     return readBuiltIn(name, {}, overrides);
 }

@@ -80,6 +80,10 @@ LoadedScene load(const std::filesystem::path& argument, const Overrides& overrid
 /// number, and does not have.
 std::vector<std::string> newWarnings(const LoadedScene& loaded, const sim::Settings& settings);
 
+/// The text of a scene file, which messages call `name`. Files that it names are found from the working
+/// folder.
+LoadedScene loadText(const std::string& text, const std::string& name, const Overrides& overrides = {});
+
 /// A shipped scene by the name of its file (cloth, cube, organ), from the text built into the program.
 LoadedScene loadBuiltIn(const std::string& name, const Overrides& overrides = {});
 

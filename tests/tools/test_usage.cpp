@@ -68,6 +68,10 @@ TEST_F(Usage, WrongUsageIsCodeTwoAndPointsAtTheRightHelp) {
         {"bench", "--scene", "heap"},
         {"bench", "--seconds", "0"},
         {"bench", "--kernels", "--peers"},
+        {"bench", "--contacts", "--kernels"},
+        {"bench", "--contacts", "--peers"},
+        {"bench", "--only", "stack"},
+        {"bench", "--contacts", "--only", "heap"},
         {"devices", "extra"},
     };
     for (const std::vector<std::string>& arguments : wrong) {
@@ -239,4 +243,27 @@ TEST_F(Usage, BenchWritesARowForEverySolver) {
     EXPECT_TRUE(rows[2]["flags"].is_null());
     EXPECT_EQ(rows[0]["speedup"], 1);
     EXPECT_LE(rows[2]["speedup_over_best"], rows[2]["speedup"]);
+}
+
+TEST_F(Usage, BenchOfContactsWritesWhatTheyCost) {
+    const Outcome outcome =
+        run({"bench", "--contacts", "--only", "box 14^3", "--seconds", "0.01", "--json", "-"});
+    ASSERT_EQ(outcome.code, 0) << outcome.error;
+    const auto rows = nlohmann::json::parse(outcome.out)["contacts"];
+    ASSERT_EQ(rows.size(), 1u);
+    const auto &row = rows[0], &with = row["with"], &without = row["without"];
+    EXPECT_EQ(row["scene"], "box 14^3 in free fall");
+    EXPECT_EQ(row["particles"], 2744);
+    EXPECT_GT(row["ratio"], 0);
+    EXPECT_GT(row["contact_bytes_per_particle"], 0);
+    EXPECT_GE(with["steps"], 32);
+    EXPECT_GE(with["list_builds"], 1) << "it falls by more than a margin";
+    EXPECT_EQ(without["list_builds"], 0);
+    EXPECT_EQ(without["indirect_dispatches_per_substep"], 0) << "makes no lists";
+    for (const char* field : {"ms_p50", "passes_per_substep", "dispatches_per_substep",
+                              "barriers_per_substep", "gpu_dispatch_us_predicted"}) {
+        EXPECT_GT(without[field], 0) << field;
+        EXPECT_GE(with[field], without[field]) << field;
+    }
+    EXPECT_TRUE(with["finite"]);
 }

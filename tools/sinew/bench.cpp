@@ -6,6 +6,7 @@
 #include "sim/compile.hpp"
 #include "sim/gpu_tune.hpp"
 #include "sinew/bench_clutter.hpp"
+#include "sinew/bench_contacts.hpp"
 #include "sinew/bench_kernels.hpp"
 #include "sinew/commands.hpp"
 #include "sinew/json.hpp"
@@ -33,7 +34,8 @@ using Clock = std::chrono::steady_clock;
 struct BenchOptions {
     std::string scene = "all";
     double seconds = 10; // of measuring per scene
-    bool hasPeers = false, hasKernels = false;
+    bool hasPeers = false, hasKernels = false, hasContacts = false;
+    std::string only; // rows of contacts whose name contains it
     DeviceOptions device;
     std::optional<std::string> json;
 };
@@ -215,12 +217,19 @@ int bench(const BenchOptions& options) {
     if (options.json) json.emplace(*options.json);
     if (options.hasPeers) requirePeers();
     Session session(options.device);
-    if (options.hasKernels) {
-        const Json report{{"schema", reportSchema}, {"kernels", measureKernels(session)}};
+    const auto finish = [&](const Json& report, const std::string& text) {
         const app::Writing writing;
         if (json) json->write(dump(report));
-        if (options.json != "-") TextOutput("-").write(kernelsTable(report["kernels"]));
+        if (options.json != "-") TextOutput("-").write(text);
         return app::isInterrupted() ? app::interrupted : app::done;
+    };
+    if (options.hasKernels) {
+        const Json rows = measureKernels(session);
+        return finish({{"schema", reportSchema}, {"kernels", rows}}, kernelsTable(rows));
+    }
+    if (options.hasContacts) {
+        const Json rows = measureContacts(session, options.only, options.seconds);
+        return finish({{"schema", reportSchema}, {"contacts", rows}}, contactsTable(rows));
     }
     Json report{{"schema", reportSchema}, {"rows", Json::array()}};
     for (const BenchScene& scene : benchScenes) {
@@ -232,14 +241,21 @@ int bench(const BenchOptions& options) {
     if ((options.scene == "all" || options.scene == "clutter") && !app::isInterrupted())
         clutter = measureClutter(session, options.seconds, options.hasPeers);
     if (options.hasPeers) report["peers"] = comparePeers(options.scene, session);
-    const app::Writing writing;
     std::string text = report["rows"].empty() ? std::string() : table(report["rows"]);
     if (!clutter.empty()) text += clutterTable(clutter);
     if (options.hasPeers && !report["peers"].empty()) text += peersTable(report["peers"]);
     for (Json& row : clutter) report["rows"].push_back(std::move(row));
-    if (json) json->write(dump(report));
-    if (options.json != "-") TextOutput("-").write(text);
-    return app::isInterrupted() ? app::interrupted : app::done;
+    return finish(report, text);
+}
+
+// Empty where some row of contacts has such a name, as CLI11 wants it.
+std::string checkRow(const std::string& only) {
+    std::string names;
+    for (const std::string& name : contactRows()) {
+        if (name.find(only) != std::string::npos) return {};
+        names += (names.empty() ? "" : "; ") + name;
+    }
+    return "no row has " + only + " in its name: " + names;
 }
 
 } // namespace
@@ -262,6 +278,16 @@ void addBench(CLI::App& app, Chosen& chosen) {
         .add_flag("--kernels", options->hasKernels,
                   "instead: what a substep of split costs on bodies of many sizes")
         ->excludes("--peers");
+    CLI::Option* contacts =
+        command
+            .add_flag("--contacts", options->hasContacts,
+                      "instead: what contacts cost where nothing touches, where bodies rest, and in shipped "
+                      "scenes (takes minutes)")
+            ->excludes("--peers")
+            ->excludes("--kernels");
+    command.add_option("--only", options->only, "of the rows of --contacts those with this in their names")
+        ->needs(contacts)
+        ->check(checkRow);
     command.add_option("--json", options->json, "file for the rows, or - for the standard output");
     addDeviceOptions(command, options->device);
     command.callback([options, &chosen] { chosen = [options] { return bench(*options); }; });

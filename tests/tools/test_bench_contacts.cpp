@@ -1,0 +1,60 @@
+// What the table of contacts says of a program that is known, and that it leaves out contacts alone.
+#include "sinew/bench_contacts.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+using namespace sinew;
+
+namespace {
+
+sim::Pass passOf(sim::PassKind kind, std::uint32_t substep, bool isIndirect = false, bool hasBarrier = true) {
+    return {.kind = kind, .isIndirect = isIndirect, .substep = substep, .barrierWithoutCut = hasBarrier};
+}
+
+// Two substeps of two direct dispatches, an indirect one and a copy; the second with one indirect more.
+sim::StepProgram program() {
+    using enum sim::PassKind;
+    sim::StepProgram program;
+    program.step.push_back(passOf(update, 0));
+    for (const std::uint32_t substep : {1u, 2u}) {
+        program.step.push_back(passOf(copy, substep, false, false));
+        program.step.push_back(passOf(dispatch, substep));
+        program.step.push_back(passOf(dispatch, substep));
+        program.step.push_back(passOf(dispatch, substep, true));
+    }
+    program.step.push_back(passOf(dispatch, 2, true));
+    program.step.push_back(passOf(dispatch, 0));
+    sim::Pass ofCut = passOf(dispatch, 1);
+    ofCut.isOfCut = true;
+    program.step.push_back(ofCut);
+    return program;
+}
+
+} // namespace
+
+TEST(BenchContacts, CountsTheMeanOfSubstepsWithoutABlade) {
+    const tools::SubstepCounts counts = tools::countSubstep(program());
+    EXPECT_EQ(counts.direct, 2);
+    EXPECT_EQ(counts.indirect, 1.5);
+    EXPECT_EQ(counts.passes, 4.5);
+    EXPECT_EQ(counts.barriers, 3.5);
+    EXPECT_EQ(tools::countSubstep({}).passes, 0) << "of nothing";
+}
+
+TEST(BenchContacts, PredictsTimeFromDispatchesOfAStep) {
+    EXPECT_EQ(tools::predictedUs(program()), 5 * 2.5 + 3 * 2.0);
+}
+
+TEST(BenchContacts, NamesItsRowsApart) {
+    const std::vector<std::string> rows = tools::contactRows();
+    EXPECT_EQ(std::set(rows.begin(), rows.end()).size(), rows.size());
+    for (const char* name : {"organ in free fall", "box 14^3", "on a plane", "cloth 60^2 swinging",
+                             "cloth_on_sphere", "cloth_fold", "clutter_bodies", "stack", "pile_8000, falling",
+                             "pile_8000, at rest", "1,000 balls", "8,000 balls"})
+        EXPECT_TRUE(std::ranges::any_of(rows, [&](const std::string& row) {
+            return row.find(name) != std::string::npos;
+        })) << name;
+}

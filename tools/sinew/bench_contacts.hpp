@@ -1,0 +1,39 @@
+// `sinew bench --contacts`: what contacts cost where nothing touches, where a body rests, and in shipped
+// scenes.
+#pragma once
+
+#include "sim/program.hpp"
+#include "sinew/json.hpp"
+#include "sinew/session.hpp"
+
+#include <string>
+#include <vector>
+
+namespace sinew::tools {
+
+/// What a program does in a substep without a blade, the mean over the substeps of a step.
+struct SubstepCounts {
+    double passes = 0; ///< dispatches, fills, copies and updates
+    double direct = 0; ///< dispatches of which the program says how many groups they have
+    /// Dispatches of which a kernel says so: of those that make lists none has a group while lists are
+    /// complete.
+    double indirect = 0;
+    double barriers = 0;
+};
+SubstepCounts countSubstep(const sim::StepProgram& program);
+
+/// Time of a GPU that is predicted for the dispatches of a step [us]: 2.5 for a direct one, 2 for an indirect
+/// one, as if none of these had a group. What the kernels compute is not in it.
+double predictedUs(const sim::StepProgram& program);
+
+/// The names of the rows.
+std::vector<std::string> contactRows();
+
+/// The rows whose names contain `only`, at least one. The same steps of a scene are measured whatever their
+/// speed, in rounds until `seconds` have passed. Stops early, with the rows so far, where a signal asks to.
+Json measureContacts(Session& session, const std::string& only, double seconds);
+
+/// The rows as text.
+std::string contactsTable(const Json& rows);
+
+} // namespace sinew::tools
