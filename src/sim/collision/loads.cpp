@@ -1,75 +1,96 @@
-// Columns of cells across gravity, each summed from its top.
+// One walk over what stands above what for masses, one for contacts.
 #include "sim/collision/loads.hpp"
 
-#include "sim/collision/vectors.hpp"
+#include "sim/collision/footprints.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
-#include <vector>
 
 namespace sinew::sim::collision::loads {
 
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
+// Of the best overlap with what is below, or above: in the middle between four particles of a grid, or of
+// three of a face, something still stands on them with all that it bears.
+constexpr double leastOverlap = 0.25;
 
-struct Stacked {
-    std::array<std::int64_t, 2> column;
-    double depth; // along gravity [m]
-    std::uint32_t particle;
-    bool operator<(const Stacked& other) const {
-        return column != other.column ? column < other.column : depth < other.depth;
-    }
+struct Masses {
+    std::vector<double> borne; // by each particle, itself and all that stands on it [kg]
+    std::vector<double> onto;  // of that, from other bodies [kg]
+    // The best overlap with one of another body.
+    std::vector<double> below, above;
 };
 
-double medianRadius(const Scene& scene) {
-    std::vector<float> radii;
-    for (const Particle& particle : scene.particles)
-        if (particle.radius > 0) radii.push_back(particle.radius);
-    if (radii.empty()) return 0;
-    std::ranges::nth_element(radii, radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2));
-    return double{radii[radii.size() / 2]};
+// By component, whether it has faces that touch and is nothing solid: it folds, and bears none of its own
+// weight.
+std::vector<bool> sheetsOf(const Scene& scene, std::span<const std::uint32_t> bodies) {
+    std::vector<bool> isSheet(scene.particles.size());
+    for (const Face& face : scene.faces)
+        if (!face.isSolid) isSheet[bodies[face.particles[0]]] = true;
+    return isSheet;
 }
 
-// Particles that touch, column by column, each from its top.
-std::vector<Stacked> columnsOf(const Scene& scene, const std::array<Vector, 3>& axes, double width) {
-    std::vector<Stacked> stacked;
-    for (std::uint32_t i = 0; i < scene.particles.size(); ++i) {
-        const Particle& particle = scene.particles[i];
-        if (particle.radius <= 0) continue;
-        const auto column = [&](std::size_t axis) {
-            const double cell = std::floor(dot(toVector(particle.position), axes[axis]) / width);
-            return static_cast<std::int64_t>(std::clamp(cell, -9e18, 9e18));
-        };
-        stacked.push_back({{column(1), column(2)}, dot(toVector(particle.position), axes[0]), i});
+bool areOfSeveral(const std::vector<Disc>& discs, std::span<const std::uint32_t> bodies) {
+    return std::ranges::any_of(
+        discs, [&](const Disc& disc) { return bodies[disc.particle] != bodies[discs[0].particle]; });
+}
+
+Masses massesOf(const Scene& scene, std::span<const float> inverseMass, std::span<const std::uint32_t> bodies,
+                Footprints& footprints) {
+    const std::vector<double> nothing(scene.particles.size(), 0);
+    Masses masses{nothing, nothing, nothing, nothing};
+    const std::vector<bool> isSheet = sheetsOf(scene, bodies);
+    for (const Disc& disc : footprints.discs()) {
+        const std::uint32_t lower = disc.particle;
+        if (!disc.isStill) masses.borne[lower] = 1 / double{inverseMass[lower]};
+        footprints.forEachAbove(disc, [&](const Disc& above, double overlap, double share) {
+            const std::uint32_t upper = above.particle;
+            const bool isOther = bodies[upper] != bodies[lower];
+            if (!isOther && isSheet[bodies[lower]]) return;
+            const double mass = share / double{inverseMass[upper]};
+            masses.borne[lower] += mass;
+            if (!isOther) return;
+            masses.onto[lower] += mass;
+            masses.above[lower] = std::max(masses.above[lower], overlap);
+            masses.below[upper] = std::max(masses.below[upper], overlap);
+        });
     }
-    std::sort(stacked.begin(), stacked.end());
-    return stacked;
+    return masses;
 }
 
 } // namespace
 
+std::vector<double> massesOnto(const Scene& scene, std::span<const float> inverseMass,
+                               std::span<const std::uint32_t> bodies) {
+    const Pull pull = pullOf(scene);
+    if (pull.gravity == 0) return std::vector<double>(scene.particles.size(), 0);
+    Footprints footprints(scene, inverseMass, pull.down);
+    if (!areOfSeveral(footprints.discs(), bodies)) return std::vector<double>(scene.particles.size(), 0);
+    return massesOf(scene, inverseMass, bodies, footprints).onto;
+}
+
 double longestSubstep(const Scene& scene, std::span<const float> inverseMass,
                       std::span<const std::uint32_t> bodies) {
-    const auto [g, down] = pullOf(scene);
-    const double median = medianRadius(scene);
-    if (g == 0 || median == 0) return infinite;
-    const std::vector<Stacked> stacked = columnsOf(scene, frameOf(down), 2 * median);
-    double longest = infinite, above = 0;
-    for (std::size_t s = 0; s < stacked.size(); ++s) {
-        const std::uint32_t lower = stacked[s].particle;
-        const bool isTop = s == 0 || stacked[s - 1].column != stacked[s].column;
-        if (isTop) above = 0;
-        if (above > 0 && bodies[stacked[s - 1].particle] != bodies[lower]) {
-            const std::uint32_t upper = stacked[s - 1].particle;
-            const double radius =
-                double{std::min(scene.particles[upper].radius, scene.particles[lower].radius)};
-            const double split = 2 * (double{inverseMass[upper]} + double{inverseMass[lower]});
-            longest = std::min(longest, std::sqrt(give * radius / (above * g * split)));
-        }
-        above = inverseMass[lower] > 0 ? above + 1 / double{inverseMass[lower]} : 0;
+    const Pull pull = pullOf(scene);
+    if (pull.gravity == 0) return infinite;
+    Footprints footprints(scene, inverseMass, pull.down);
+    if (!areOfSeveral(footprints.discs(), bodies)) return infinite;
+    const Masses masses = massesOf(scene, inverseMass, bodies, footprints);
+    double longest = infinite;
+    for (const Disc& disc : footprints.discs()) {
+        const std::uint32_t lower = disc.particle;
+        if (masses.above[lower] == 0) continue;
+        footprints.forEachAbove(disc, [&](const Disc& above, double overlap, double) {
+            const std::uint32_t upper = above.particle;
+            if (bodies[upper] == bodies[lower]) return;
+            const auto termOf = [&](std::uint32_t i, double mass, double best) {
+                return mass * double{inverseMass[i]} * overlap / std::max(best, leastOverlap);
+            };
+            const double split = 2 * (termOf(upper, masses.borne[upper], masses.below[upper]) +
+                                      termOf(lower, masses.onto[lower], masses.above[lower]));
+            const double radius = (above.radius + disc.radius) / 2;
+            longest = std::min(longest, std::sqrt(give * radius / (pull.gravity * split)));
+        });
     }
     return longest;
 }
