@@ -1,6 +1,7 @@
 // Weight flows down the distance to what holds a body: one walk over the particles, farthest first.
 #include "sim/stiffness/tensions.hpp"
 
+#include "sim/collision/loads.hpp"
 #include "sim/collision/vectors.hpp"
 #include "sim/stiffness/carried.hpp"
 
@@ -131,6 +132,7 @@ struct Flow {
     const Neighbours& neighbours;
     Vector down{};
     double gravity = 0, tolerance = 0;
+    std::span<const double> onto; // mass of other bodies, by particle [kg]
     std::vector<double> tensions = std::vector<double>(scene.distances.size(), 0.0);
 
     // Slanted links go slack as a sheet that hangs grows narrow: those along the way bear it, longer ones
@@ -138,6 +140,12 @@ struct Flow {
     double partOf(const Ways& ways, std::uint32_t from, const DistanceConstraint& c) const {
         const double drop = ways.length[from] - ways.length[otherEnd(c, from)];
         return drop > alongTheWay * double{c.restLength} ? drop : 0;
+    }
+
+    // Mass of other bodies on `i`, which pulls at all sides of it: this walk leads to one of them. A chain
+    // has one, a sheet whose particles have eight links four.
+    double ontoLinks(std::uint32_t i) const {
+        return onto[i] * 2 / static_cast<double>(std::max<std::size_t>(2, neighbours.of(i).size()));
     }
 
     // Whether `i` is at a corner of what holds it: fewer than half of its neighbours are held, and no two of
@@ -208,7 +216,7 @@ struct Flow {
         std::vector<double> loads(scene.particles.size(), 0);
         for (auto i = ways.order.rbegin(); i != ways.order.rend(); ++i) {
             if (isHeld[*i]) break; // these are the nearest of all
-            if (inverseMass[*i] > 0) loads[*i] += gravity / double{inverseMass[*i]};
+            if (inverseMass[*i] > 0) loads[*i] += gravity * (1 / double{inverseMass[*i]} + ontoLinks(*i));
             double sum = 0;
             for (const std::uint32_t k : neighbours.of(*i)) sum += partOf(ways, *i, scene.distances[k]);
             if (sum == 0) continue;
@@ -238,12 +246,14 @@ std::vector<double> tensionsOf(const Scene& scene, std::span<const float> invers
     const auto [gravity, down] = collision::pullOf(scene);
     if (gravity == 0) return std::vector<double>(scene.distances.size(), 0.0);
     const Neighbours neighbours(scene);
+    const std::vector<double> onto = collision::loads::massesOnto(scene, inverseMass, components);
     Flow flow{.scene = scene,
               .inverseMass = inverseMass,
               .neighbours = neighbours,
               .down = down,
               .gravity = gravity,
-              .tolerance = tolerance};
+              .tolerance = tolerance,
+              .onto = onto};
     Holds holds(scene.particles.size());
     for (std::size_t i = 0; i < holds.isHeld.size(); ++i) holds.isHeld[i] = inverseMass[i] == 0;
     for (const Attachment& attachment : scene.attachments) holds.isHeld[attachment.particle] = true;

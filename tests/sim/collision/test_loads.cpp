@@ -141,3 +141,13 @@ TEST(Loads, ABallIsCaughtByAClothWhateverItsSize) {
         EXPECT_GT(runner.positions().back().y(), -0.1) << radius;
     }
 }
+
+TEST(Loads, WhatLiesOnASheetPullsAtItsLinks) {
+    const BallOnCloth made{.radius = 0.12, .thickness = 0.029};
+    const Scene scene = made.scene();
+    Scene apart = scene;
+    apart.particles.back().position.x = 2;
+    const SubstepChoice choice = chooseSubsteps(scene, {});
+    EXPECT_EQ(choice.reason, SubstepReason::weight);
+    EXPECT_GT(choice.wanted, 5 * chooseSubsteps(apart, {}).wanted);
+}
