@@ -6,7 +6,7 @@ layout(binding = 0) uniform samplerBuffer positions;
 layout(binding = 1) uniform usamplerBuffer contacts;
 layout(binding = 2) uniform samplerBuffer before;
 layout(binding = 3) uniform samplerBuffer predicted;
-#define POSITION(i) texelFetch(positions, int(i)).xyz
+#define POSITION(i) texelFetch(positions, int(i))
 #define CONTACT(i) texelFetch(contacts, int(i)).xy
 #define BEFORE(i) texelFetch(before, int(i)).xyz
 #define PREDICTED(i) texelFetch(predicted, int(i)).xyz
@@ -14,7 +14,7 @@ layout(binding = 3) uniform samplerBuffer predicted;
 layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; }; // that contacts were found with
 layout(std430, binding = 1) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
 layout(std430, binding = 2) readonly buffer Before { vec4 before[]; };      // velocities before the substep [m/s]
-#define POSITION(i) positions[i].xyz
+#define POSITION(i) positions[i]
 #define CONTACT(i) contacts[i]
 layout(std430, binding = 3) readonly buffer Predicted { vec4 predicted[]; }; // velocities that contacts were found with
 #define BEFORE(i) before[i].xyz
@@ -37,7 +37,8 @@ layout(push_constant) uniform Push { ContactPush push; };
 
 // Of particle i.
 struct Self {
-    vec3 x, before, predicted;
+    vec4 x;
+    vec3 before, predicted;
 };
 
 Self selfOf(uint i) { return Self(POSITION(i), BEFORE(i), PREDICTED(i)); }
@@ -50,12 +51,13 @@ struct Bounce {
 
 Bounce bounceFrom(uint i, uvec2 candidate, Self self) {
     const uint j = candidate.x;
-    const vec3 d = self.x - POSITION(j), change = self.before - BEFORE(j);
+    const vec4 xj = POSITION(j);
+    const vec3 d = self.x.xyz - xj.xyz, change = self.before - BEFORE(j);
     const vec3 way = step.h * (self.predicted - PREDICTED(j));
     const float reach = uintBitsToFloat(candidate.y);
     Contact contact = Contact(touches(d, reach), false, d);
     if (bounds.isSwept != 0u)
-        contact = contactOf(d, way, reach, min(firsts[i], firsts[j]));
+        contact = contactOf(d, way, reach, min(firsts[i], firsts[j]), areFreeOf(self.x.w, xj.w));
     Bounce bounce = Bounce(vec3(0.0), 0.0);
     if (!contact.exists) return bounce;
     bounce.n = directionOf(contact.at, i, j).n;

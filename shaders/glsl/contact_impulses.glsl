@@ -67,9 +67,10 @@ vec3 impulseFrom(uint i, uint slot, vec4 self, vec3 velocity) {
 void addSwept(uint i, uint slot, vec4 self, vec3 velocity, inout vec3 moving, inout vec3 stopping) {
     const uvec2 candidate = CONTACT(slot);
     const uint j = candidate.x;
-    const vec3 d = predicted[i].xyz - predicted[j].xyz, way = step.h * (velocity - VELOCITY(j).xyz);
+    const vec4 xi = predicted[i], xj = predicted[j];
+    const vec3 d = xi.xyz - xj.xyz, way = step.h * (velocity - VELOCITY(j).xyz);
     const float offset = offsetOf(slot), reach = uintBitsToFloat(candidate.y) - offset;
-    const Contact contact = contactOf(d, way, reach, min(firsts[i], firsts[j]));
+    const Contact contact = contactOf(d, way, reach, min(firsts[i], firsts[j]), areFreeOf(xi.w, xj.w));
     if (!contact.exists) {
         forget(slot, offset);
         return;

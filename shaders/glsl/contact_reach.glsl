@@ -24,10 +24,12 @@ float reachOf(uint slot, float reach) {
 struct Pair {
     vec3 d, way;
     float reach;
+    bool areFree;
 };
 
-Pair pairOf(uint slot, vec3 x, vec3 velocity) {
+Pair pairOf(uint slot, vec4 x, vec3 velocity) {
     const uvec2 candidate = CONTACT(slot);
-    const vec3 d = x - PREDICTED(candidate.x).xyz;
-    return Pair(d, step.h * (velocity - VELOCITY(candidate.x).xyz), reachOf(slot, uintBitsToFloat(candidate.y)));
+    const vec4 other = PREDICTED(candidate.x);
+    return Pair(x.xyz - other.xyz, step.h * (velocity - VELOCITY(candidate.x).xyz),
+                reachOf(slot, uintBitsToFloat(candidate.y)), areFreeOf(x.w, other.w));
 }

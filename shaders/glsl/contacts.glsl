@@ -36,21 +36,27 @@ Direction directionOf(vec3 d, uint i, uint j) {
 }
 
 // When two that are at difference d after a substep, in which that changed by `way`, met on the way: the first root t of
-// |d - way + t way| = reach, and their difference then. Only where they move far enough to pass through each other unseen,
-// |way| > reach / 2 (contacts: 2). Two that touched before have met already: they touch like any others. Stopped where they
-// were, they stored energy in the links that pulled on, substep after substep.
+// |d - way + t way| = reach, and their difference then. Only where they move far enough for what a contact leaves of their
+// approach to carry them past each other, |way| > reach / 4: in a pit several contacts share the load, and each substep takes a
+// part of the approach. Two that touched before and that no link moves meet at t = 0 where they come nearer by more than reach / 8. All
+// others touch as where nobody is fast: stopped where they were, they stored energy in the links that pulled on, substep after
+// substep.
 struct Meeting {
     float time; // of the substep, 0 to 1; more = they did not meet
     vec3 at;
 };
 const float never = 2.0;
 
-Meeting meetingOf(vec3 d, vec3 way, float reach) {
+// Whether no link moves either of two, by what positions hold beside places (split.glsl): of who is fixed or has no links it is 1e30.
+bool areFreeOf(float tauI, float tauJ) { return min(tauI, tauJ) > 0.5e30; }
+
+Meeting meetingOf(vec3 d, vec3 way, float reach, bool areFree) {
     const vec3 start = d - way;
     const float a = dot3(way, way), b = dot3(start, way), c = dot3(start, start) - reach * reach;
-    const float root = b * b - a * c, least = 0.25 * reach * reach;
-    if (!(a > least) || b >= 0.0 || c <= 0.0 || root < 0.0) return Meeting(never, d);
-    float t = c / (sqrt(root) - b);
+    const float root = b * b - a * c, least = 0.0625 * reach * reach;
+    if (!(a > least) || b >= 0.0 || root < 0.0) return Meeting(never, d);
+    if (c <= 0.0 && !(areFree && b * b > 0.25 * least * dot3(start, start))) return Meeting(never, d);
+    float t = max(0.0, c / (sqrt(root) - b));
     if (t > 1.0) return Meeting(never, d);
     const vec3 at = start + t * way;
     return Meeting(t, at);
@@ -63,8 +69,8 @@ struct Contact {
     vec3 at; // difference when they met, or after the substep
 };
 
-Contact contactOf(vec3 d, vec3 way, float reach, float first) {
-    const Meeting meeting = meetingOf(d, way, reach);
+Contact contactOf(vec3 d, vec3 way, float reach, float first, bool areFree) {
+    const Meeting meeting = meetingOf(d, way, reach, areFree);
     const bool isMet = meeting.time < never;
     return Contact(isMet ? meeting.time <= first + 1e-3 : touches(d, reach), isMet, meeting.at);
 }

@@ -37,7 +37,8 @@ void main() {
     const uint i = itemIndex(push.count), n = counts[i];
     // Loops of which some are empty: what stands under a condition costs a software device its time nevertheless.
     const uint sweeping = bounds.isSwept != 0u ? n : 0u, resting = n - sweeping;
-    vec3 x = PREDICTED(i).xyz;
+    const vec4 start = PREDICTED(i);
+    vec3 x = start.xyz;
     const vec4 velocity = VELOCITY(i);
     float contactCount = 0.0, first = 1.0;
 #ifdef HAS_RECOVERY
@@ -50,12 +51,12 @@ void main() {
         contactCount += float(touches(d, reachOf(slot, uintBitsToFloat(candidate.y))));
     }
     for (uint s = 0u; s < sweeping; ++s) {
-        const Pair pair = pairOf(s * push.row + i, x, velocity.xyz);
-        first = min(first, meetingOf(pair.d, pair.way, pair.reach).time);
+        const Pair pair = pairOf(s * push.row + i, start, velocity.xyz);
+        first = min(first, meetingOf(pair.d, pair.way, pair.reach, pair.areFree).time);
     }
     for (uint s = 0u; s < sweeping; ++s) {
-        const Pair pair = pairOf(s * push.row + i, x, velocity.xyz);
-        contactCount += float(contactOf(pair.d, pair.way, pair.reach, first).exists);
+        const Pair pair = pairOf(s * push.row + i, start, velocity.xyz);
+        contactCount += float(contactOf(pair.d, pair.way, pair.reach, first, pair.areFree).exists);
     }
     if (sweeping > 0u) {
         firsts[i] = first;

@@ -149,6 +149,30 @@ TEST(HardContacts, Case15BodiesThatPressIntoEachOtherFastGainNoEnergy) {
         }
 }
 
+TEST(HardContacts, Case15ABodyThatPressesFastIntoOneThatHoldsGainsNoEnergy) {
+    for (const std::uint32_t substeps : {4u, 8u, 16u}) {
+        Scene scene = twoCubes();
+        const std::size_t half = scene.particles.size() / 2;
+        for (std::size_t i = 0; i < scene.particles.size(); ++i) {
+            if (i < half)
+                scene.particles[i].velocity.x = 30;
+            else
+                scene.particles[i].inverseMass = 0;
+        }
+        const Settings settings{.substeps = substeps, .contactRoom = 128};
+        Runner runner(scene, settings);
+        const double before = kineticEnergy(scene, runner.velocities());
+        double most = 0;
+        for (int step = 0; step < 60; ++step) {
+            const Status status = runner.run(1);
+            ASSERT_EQ(status.nonFinite + status.contactRoom, 0u);
+            most = std::max(most, kineticEnergy(scene, runner.velocities()));
+        }
+        std::printf("%2u substeps: %.0f J at first, at most %.0f J\n", substeps, before, most);
+        EXPECT_LE(most, 1.02 * before);
+    }
+}
+
 // Many fast ones: all are searched for up to 256, beyond all are slowed down and counted, never lost.
 TEST(HardContacts, Case15MoreFastParticlesThanThereIsRoomForAreSlowedDownAndCounted) {
     const auto swarm = [](std::uint32_t count, float speed) {

@@ -23,13 +23,13 @@ std::vector<std::uint32_t> slotsAbove(std::span<const float> radii, float most) 
     return slots;
 }
 
-// Two that both move no farther than this in a substep cannot pass through each other, and are in each
-// other's lists after it.
+// Two that both move no farther than this in a substep cannot pass through each other (meetingOf in
+// contacts.glsl: reach / 4 together), and are in each other's lists after it.
 float quietWay(const Request& request) {
     float least = std::numeric_limits<float>::max();
     for (const float radius : request.radii)
         if (radius >= 0) least = std::min(least, radius);
-    return std::min(0.5f * least, slackShare * request.margin);
+    return std::min(0.25f * least, slackShare * request.margin);
 }
 
 float largestOf(std::span<const float> radii) {

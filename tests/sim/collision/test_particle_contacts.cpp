@@ -11,11 +11,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <numbers>
 #include <random>
+#include <span>
 
 using namespace sinew;
 using namespace sinew::sim;
@@ -81,6 +83,36 @@ Scene pyramid(float friction) {
     scene.particles.push_back(ballAt({0, radius + static_cast<float>(height), 0}));
     scene.contacts.friction = friction;
     scene.planes = {{}};
+    return scene;
+}
+
+// A fixed layer of touching balls, and balls that fly at it with `way` radii of their own in a substep of 1 /
+// 960 s, over a pit, an edge, a top and places between; each in a place of its own.
+Scene bedUnder(std::span<const float> radii, float way) {
+    Scene scene = weightless();
+    constexpr float pitch = 2 * radius;
+    constexpr int width = 12, depth = 4;
+    const std::array<std::array<float, 2>, 6> places{{{0, 0},
+                                                      {0.5f, 0},
+                                                      {0.5f, 0.5f},
+                                                      {0.1f, 0.2f},
+                                                      {0.25f, 0.25f},
+                                                      {0.4f, 0.05f}}}; // of the pit [pitches]
+    float x = 0;
+    for (const float ball : radii) {
+        for (const auto& place : places) {
+            for (int i = 0; i < width * depth; ++i)
+                scene.particles.push_back(
+                    test::fixedBallAt({x + pitch * (static_cast<float>(i % width) - 5.5f), 0,
+                                       pitch * (static_cast<float>(i / width) - 1.5f)}));
+            Particle flying =
+                ballAt({x + pitch * place[0], 2 * radius + ball * (1 + 0.37f * way), pitch * place[1]},
+                       {0, -960 * way * ball, 0});
+            flying.radius = ball;
+            scene.particles.push_back(flying);
+            x += pitch * width + 0.5f;
+        }
+    }
     return scene;
 }
 
@@ -221,6 +253,29 @@ TEST(ParticleContacts, LayABlockOntoABlock) {
     std::printf("gaps %.5f and %.5f m\n", gaps[0], gaps[1]);
     EXPECT_EQ(hashOf(scene, {.substeps = 8, .isReversed = true}, 30), hashOf(scene, {.substeps = 8}, 30));
 }
+
+// A substep carries a ball from outside to behind a layer. In a pit four contacts share what stops it.
+class BedOfBalls : public testing::TestWithParam<float> {};
+
+TEST_P(BedOfBalls, HoldsABallAtAnyWayOfASubstep) {
+    const float way = GetParam();
+    const std::array<float, 3> radii{radius, 1.7f * radius, 4 * radius};
+    const Scene scene = bedUnder(radii, way);
+    test::Runner runner(scene, {.substeps = 16});
+    runner.run(way < 1 ? 6 : 3);
+    const auto x = runner.positions(), v = runner.velocities();
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        if (scene.particles[i].inverseMass == 0) continue;
+        const double ball = double{scene.particles[i].radius} / double{radius};
+        EXPECT_GE(x[i].y(), 0.3 * double{radius}) << "ball of " << ball << " radii at " << i;
+        EXPECT_LE(v[i].norm(), 960 * double{way} * ball * double{radius})
+            << "ball of " << ball << " radii at " << i;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways, BedOfBalls,
+                         testing::Values(0.5f, 0.6f, 0.7f, 0.8f, 0.9f, 0.95f, 1.0f, 1.2f, 2.0f, 5.0f, 20.0f,
+                                         100.0f));
 
 TEST(ParticleContacts, EndInTheSameBitsForAnyMarginRoomOrderAndForm) {
     for (const float friction : {0.0f, 0.3f}) {
