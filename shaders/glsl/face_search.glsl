@@ -1,5 +1,6 @@
 // What finding pairs of a point and a face shares: the buffers, and the test. A pair is listed where the two are nearer than
-// touching, a margin, and what both move in this substep: so nothing that meets on the way is missed, however fast.
+// touching, a margin, and what they move against each other in this substep: so nothing that meets on the way is missed, however
+// fast, and what goes along together is not listed for its speed.
 #include "kernel.glsl"
 #include "math.glsl"
 #include "triangle.glsl"
@@ -40,6 +41,8 @@ struct Searched {
     Triangle triangle;
     vec3 low, high; // box of the corners
     float reach;    // beyond radius and way of a point [m]
+    float still;    // the same without its own way [m]
+    vec3 va, vb, vc; // [m/s]
 };
 
 Searched searchedOf(uint f) {
@@ -48,9 +51,10 @@ Searched searchedOf(uint f) {
     const vec3 va = VELOCITY(face.a).xyz, vb = VELOCITY(face.b).xyz, vc = VELOCITY(face.c).xyz;
     const float way = step.h * sqrt(max(dot(va, va), max(dot(vb, vb), dot(vc, vc))));
     const vec3 low = min(a, min(b, c)), high = max(a, max(b, c)), size = high - low;
-    Searched searched = Searched(f, face, a, triangleOf(b - a, c - a), low, high, face.thickness + push.margin + way);
-    if (isSliver(searched.triangle)) searched.reach += 1e-3 * length(size); // as thick as its edges may be apart
-    return searched;
+    const Triangle triangle = triangleOf(b - a, c - a);
+    float still = face.thickness + push.margin;
+    if (isSliver(triangle)) still += 1e-3 * length(size); // as thick as its edges may be apart
+    return Searched(f, face, a, triangle, low, high, still + way, still, va, vb, vc);
 }
 
 #include "excluded.glsl"
@@ -61,24 +65,29 @@ bool isInBox(Searched face, vec3 x, float reach) {
     return dot(d, d) < reach * reach;
 }
 
-// Whether a fast point stays away from the ball around a face on all of its way in this substep: else a fine body would be listed
-// whole with it. What it makes in the next one is within the margin, or lists are made again.
+float longestOf(vec3 a, vec3 b, vec3 c) { return sqrt(max(dot(a, a), max(dot(b, b), dot(c, c)))); }
+
+// Whether a fast point, seen from the middle of a face, stays away from the ball around it on all of its way in this substep: else a fine
+// body would be listed whole with it. What it makes in the next one is within the margin, or lists are made again.
 bool isBesideWay(Searched face, uint i, vec3 x) {
-    const vec3 way = step.h * VELOCITY(i).xyz, d = 0.5 * (face.low + face.high) - x;
+    const vec3 v = (face.va + face.vb + face.vc) / 3.0;
+    const vec3 way = step.h * (VELOCITY(i).xyz - v), d = 0.5 * (face.low + face.high) - x;
     const float size = 0.5 * length(face.high - face.low), length2 = dot(way, way);
     if (length2 < size * size) return false;
+    const float turning = step.h * longestOf(face.va - v, face.vb - v, face.vc - v);
     const vec3 apart = d + clamp(-dot(d, way) / length2, 0.0, 1.0) * way;
-    const float reach = 1.001 * (size + face.reach + RADIUS(i));
+    const float reach = 1.001 * (size + face.still + turning + RADIUS(i));
     return dot(apart, apart) > reach * reach;
 }
 
 // But for excluded pairs, of which whoever asks must look in a table.
-bool isNear(Searched face, uint i, vec3 x, float reach) {
+bool isNear(Searched face, uint i, vec3 x) {
     const uint f = face.index;
     if (i == face.face.a || i == face.face.b || i == face.face.c) return false;
     if (f >= push.moving && inverseMass[i] == 0.0) return false; // neither ever moves
     if (isBesideWay(face, i, x)) return false;
-    const vec3 d = nearestOf(x - face.a, face.triangle).d;
+    const vec3 v = VELOCITY(i).xyz, d = nearestOf(x - face.a, face.triangle).d;
+    const float reach = face.still + RADIUS(i) + step.h * longestOf(v - face.va, v - face.vb, v - face.vc);
     return dot(d, d) < reach * reach;
 }
 

@@ -31,7 +31,7 @@ layout(std430, binding = 16) writeonly buffer Wide { uint wide[]; };
 
 bool isNearby(Searched face, uint i, vec3 x, bool isApart) {
     const float size = sizeOf(RADIUS(i), step.h, VELOCITY(i).xyz), reach = face.reach + size;
-    return isInBox(face, x, reach) && (size <= push.most) != isApart && isNear(face, i, x, reach);
+    return isInBox(face, x, reach) && (size <= push.most) != isApart && isNear(face, i, x);
 }
 
 void list(Searched face, uint i, inout uint n) {

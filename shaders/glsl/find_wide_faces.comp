@@ -21,7 +21,7 @@ void main() {
         if (f == ~0u) continue; // a cut has parted it
         const Searched face = searchedOf(f);
         const float reach = face.reach + size;
-        if (!isInBox(face, x, reach) || !isNear(face, i, x, reach) || isExcluded(f, i)) continue;
+        if (!isInBox(face, x, reach) || !isNear(face, i, x) || isExcluded(f, i)) continue;
         listAtPoint(i, face.index);
         if (face.index >= push.moving) continue;
         const uint slot = atomicAdd(faceFound[face.index], 1u);

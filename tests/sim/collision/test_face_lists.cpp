@@ -179,6 +179,10 @@ double halfBox(const std::array<Vector3d, 3>& x) {
     return 0.5 * (x[0].cwiseMax(x[1]).cwiseMax(x[2]) - x[0].cwiseMin(x[1]).cwiseMin(x[2])).norm();
 }
 
+double longestFrom(const Vector3d& way, const std::array<Vector3d, 3>& ways) {
+    return std::max({(way - ways[0]).norm(), (way - ways[1]).norm(), (way - ways[2]).norm()});
+}
+
 // What lists may differ by: pairs whose distance is the reach, to float's rounding of the face's size;
 // slivers are as thick as their height, a thousandth of their length. A fast point is near what its way is
 // near to.
@@ -191,25 +195,28 @@ Expected bruteForce(const Cloud& cloud, const State& state, double margin) {
     const auto faces = cloud.faces();
     for (std::uint32_t f = 0; f < faceCount; ++f) {
         std::array<Vector3d, 3> x;
-        double way = 0;
+        std::array<Vector3d, 3> ways;
         for (std::uint32_t k = 0; k < 3; ++k) {
             x[k] = at(state.x[3 * f + k]);
-            way = std::max(way, double{substep} * at(state.v[3 * f + k]).norm());
+            ways[k] = double{substep} * at(state.v[3 * f + k]);
         }
+        const Vector3d mean = (ways[0] + ways[1] + ways[2]) / 3;
+        const double turning = longestFrom(mean, ways);
         const double size = std::max({(x[1] - x[0]).norm(), (x[2] - x[1]).norm(), (x[0] - x[2]).norm()});
         const double area = (x[1] - x[0]).cross(x[2] - x[0]).norm();
         const double slack = (area < 1.1e-3 * size * size ? 2e-3 : 1e-5) * size;
         for (std::uint32_t i = 0; i < count; ++i) {
             if (cloud.radii[i] < 0 || i / 3 == f || (f >= movingFaces && state.v[i].w == 0)) continue;
-            const double reach = double{cloud.radii[i]} + double{cloud.thickness[f]} + margin + way +
-                                 double{substep} * at(state.v[i]).norm();
+            const Vector3d ofPoint = double{substep} * at(state.v[i]);
+            const double still = double{cloud.radii[i]} + double{cloud.thickness[f]} + margin,
+                         reach = still + longestFrom(ofPoint, ways);
             const double d = toTriangle(at(state.x[i]), x);
             if (d < reach * (1 + 1e-5) + slack) expected.possible[i].push_back(f);
             if (d >= reach * (1 - 1e-5) - 1e-5 * size) continue;
-            const Vector3d ofPoint = double{substep} * at(state.v[i]);
-            const double touching = (reach - ofPoint.norm()) * (1 - 1e-5) - 1e-5 * size;
-            const bool isSlow = ofPoint.norm() < (1 - 1e-5) * halfBox(x);
-            if (isSlow || comesNearer(at(state.x[i]), ofPoint, x, touching)) expected.sure[i].push_back(f);
+            const double touching = (still + turning) * (1 - 1e-5) - 1e-5 * size;
+            const bool isSlow = (ofPoint - mean).norm() < (1 - 1e-5) * halfBox(x);
+            if (isSlow || comesNearer(at(state.x[i]), ofPoint - mean, x, touching))
+                expected.sure[i].push_back(f);
         }
     }
     return expected;
