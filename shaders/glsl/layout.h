@@ -464,6 +464,12 @@ struct FacePush {
     uint sheets; // of those, faces before that one have two sides, the others are the surface of something solid
 };
 
+struct StopPush {
+    uint count; // of particles; whole work groups
+    uint row;   // elements of a point's list from one face to the next
+    uint moving, faces; // faces from the first to before the second have no corner that gives way
+};
+
 struct SubstepPush {
     uint count;
     uint isFirst; // 1 in the first substep of a step

@@ -182,8 +182,9 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     const StateLayout& layout = particles.layout;
     const std::vector<float> inverseMass = inverseMasses(scene);
     const Faces faces = facesOf(scene, inverseMass);
-    Contacts contacts{.lists = addLists(program, scene, settings, layout, inverseMass, faces)};
-    contacts.sleeps = particles.sleep != nullptr;
+    Contacts contacts{.lists = addLists(program, scene, settings, layout, inverseMass, faces),
+                      .faces = static_cast<std::uint32_t>(faces.faces.size()),
+                      .sleeps = particles.sleep != nullptr};
     const layout::FaceFindPush& find = contacts.lists.push;
     contacts.surfaces = surfaces::addTable(program, scene, layout, "faces.surface");
     contacts.push = {.count = find.points,
@@ -209,6 +210,10 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
         contacts.bounces = program.scratch<layout::vec4>("faces.bounces", elements);
     contacts.shares = program.scratch<float>("faces.shares", layout.count);
     contacts.before = program.scratch<layout::vec4>("faces.before", layout.count);
+    if (contacts.hasStops()) {
+        contacts.linkedPositions = program.scratch<layout::vec4>("faces.positions", positionCount(layout));
+        contacts.linkedVelocities = program.scratch<layout::vec4>("faces.velocities", layout.count);
+    }
     return contacts;
 }
 
@@ -226,6 +231,10 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
                bool isFirst) {
     const face_lists::Lists& lists = contacts.lists;
     addListUpdate(program, contacts, predicted, isFirst);
+    if (contacts.hasStops()) {
+        program.copy(predicted.positions, contacts.linkedPositions);
+        program.copy(predicted.velocities, contacts.linkedVelocities);
+    }
     addOverContacts(program, contacts, k::touchFaces,
                     {predicted.positions, predicted.velocities, lists.faces, lists.contacts, lists.counts,
                      contacts.memory.memory, contacts.directions, contacts.weights, predicted.step});
@@ -257,6 +266,17 @@ void addBounces(ProgramBuilder& program, const Contacts& contacts, const Particl
     addOverContacts(program, contacts, k::gatherFacesRebound,
                     {lists.counts, contacts.bounces, contacts.weights, contacts.corners, lists.links,
                      lists.linkCounts, contacts.impulses, state.velocities, state.positions, state.step});
+}
+
+void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state) {
+    if (!contacts.hasStops()) return;
+    const face_lists::Lists& lists = contacts.lists;
+    const layout::StopPush push{contacts.push.count, contacts.push.row, contacts.push.moving, contacts.faces};
+    program.dispatch(k::stopAtFaces, push.count,
+                     {contacts.linkedPositions, contacts.linkedVelocities, lists.faces, lists.contacts,
+                      lists.counts, lists.radii, lists.excluded, state.positions, state.velocities,
+                      state.step, contacts.memory.memory},
+                     push, remainderConstants(state.layout));
 }
 
 void addPublishing(ProgramBuilder& program, const Contacts& contacts) {

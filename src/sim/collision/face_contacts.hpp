@@ -28,12 +28,18 @@ std::vector<float> looseRadii(const Scene& scene);
 struct Contacts {
     face_lists::Lists lists;
     layout::FacePush push{};
-    bool sleeps = false; ///< whether the scene may
+    std::uint32_t faces = 0; ///< of all kinds
+    bool sleeps = false;     ///< whether the scene may
     side_memory::Memory memory;
     surfaces::Surfaces surfaces;
     BufferId corners, directions, weights, shares, impulses;
     BufferId bounces; ///< only where something rebounds
     BufferId before;  ///< velocities when the substep began
+    /// Where links have put particles, and with which velocities; only where hasStops().
+    BufferId linkedPositions, linkedVelocities;
+
+    /// Whether some face never gives way.
+    bool hasStops() const { return lists.push.moving < faces; }
 };
 
 /// Only where areIn().
@@ -52,6 +58,10 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
 
 /// Restitution, after all contacts of a substep, which `state` then is of; nothing where nothing rebounds.
 void addBounces(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state);
+
+/// Keeps particles in front of faces that never give way, exactly: after all other passes of a substep but
+/// colliders, on `state`. Nothing where there is no such face.
+void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state);
 
 /// The end of a step: what contacts remember is saved, or taken back with an undone step.
 void addPublishing(ProgramBuilder& program, const Contacts& contacts);

@@ -422,6 +422,7 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
         constraints::attachment::addPass(program, current, attachments, substep, substeps);
         constraints::grab::addPass(program, current, substep, substeps, Kick::whole);
         constraints::tether::addPass(program, current, tethers);
+        if (contacts.faces) collision::face_contacts::addStops(program, *contacts.faces, current);
         collision::colliders::addPass(program, current, rigid, substep, Kick::whole);
     }
     program.endSubsteps();

@@ -1,0 +1,87 @@
+// How a point meets a face that never gives way, and where it must end instead. In the names and buffers of stop_at_faces.
+struct Stop {
+    float urgency; // above 1: it passes, 2 - when; else the part of the reach by which it ends too near; 0 = no stop
+    vec3 n;        // unit, to the side that the point comes from, at the end
+    float rise;    // along n, as far as the point came nearer in this substep [m]
+    float lift;    // along n, as far as it was too near before: gives no speed [m]
+    vec3 carried;  // where it ends if it goes with the face
+};
+
+const Stop noStop = Stop(0.0, vec3(0.0), 0.0, 0.0, vec3(0.0));
+
+// At the end of a substep, from corner a, and the ways of the substep.
+struct Passage {
+    vec3 ap, ab, ac, wp, wb, wc; // [m]
+};
+
+// Above the plane of the face, `back` before the end [m].
+float heightAt(Passage p, float back) {
+    const vec3 normal = cross(p.ab - back * p.wb, p.ac - back * p.wc);
+    return dot(normal, p.ap - back * p.wp) / max(length(normal), 1e-37);
+}
+
+// When the point comes to `least` above the plane, as a part of the substep: cornered by halving and by chords in turn. Where the face does
+// not turn the first chord is exact.
+float timeAbove(Passage p, float least, float before, float after) {
+    float low = 0.0, high = 1.0, atLow = before - least, atHigh = after - least;
+    for (uint turn = 0u; turn < 9u; ++turn) {
+        const float chord = low + (high - low) * atLow / (atLow - atHigh);
+        const float t = (turn & 1u) == 0u && chord > low && chord < high ? chord : 0.5 * (low + high);
+        const float at = heightAt(p, 1.0 - t) - least;
+        const bool isBefore = at > 0.0 == before > least;
+        low = isBefore ? t : low;
+        atLow = isBefore ? at : atLow;
+        high = isBefore ? high : t;
+        atHigh = isBefore ? atHigh : at;
+    }
+    return low + (high - low) * atLow / (atLow - atHigh);
+}
+
+// Where the point is if it goes with the face from where it was: `height` above it.
+vec3 carriedBy(Passage p, vec3 a, float height, vec3 n) {
+    const vec3 b = weightsOf(p.ap - p.wp, triangleOf(p.ab - p.wb, p.ac - p.wc));
+    return a + b.y * p.ab + b.z * p.ac + height * n;
+}
+
+// Of a way that leads through the face.
+Stop passing(Passage p, vec3 a, vec3 normal, float reach, float least, float before, float after) {
+    const float t = timeAbove(p, least, before, after), back = 1.0 - t, height = abs(before);
+    const vec3 b = weightsOf(p.ap - back * p.wp, triangleOf(p.ab - back * p.wb, p.ac - back * p.wc));
+    if (min(b.x, min(b.y, b.z)) < -1e-3) return noStop; // of two faces at an edge at least one sees it
+    const vec3 n = before < 0.0 ? -normal : normal;
+    return Stop(2.0 - t, n, min(height, reach) - dot(n, p.ap), max(0.0, reach - height), carriedBy(p, a, height, n));
+}
+
+// The part of a reach in a substep that is left to the contacts that share: cloth in folds must not be pressed through itself.
+const float soft = 0.25;
+
+// Of a way that ends too near: that came nearer by more than this part, or ends nearer than half of the reach.
+Stop pressing(Passage p, vec3 a, Triangle triangle, float reach, vec3 seen) {
+    const Nearest nearest = nearestOf(p.ap, triangle);
+    const float distance = length(nearest.d);
+    if (distance >= reach || distance < 1e-15) return noStop;
+    const vec3 n = nearest.d / distance;
+    const vec3 way = p.wp - nearest.weights.y * p.wb - nearest.weights.z * p.wc;
+    const float rise = clamp(-dot(n, way), 0.0, reach - distance);
+    if (rise < soft * reach && distance > 2.0 * soft * reach) return noStop;
+    if (!(length(nearestOf(seen - a, triangle).d) < reach)) return noStop;
+    return Stop((reach - distance) / reach, n, rise, reach - distance - rise, vec3(0.0));
+}
+
+// A point goes from x0 to x1. It touches the face where it is nearer than `reach`. Before it is in the plane it is stopped a little above,
+// so that rounding does not decide its side. `seen`: a place that is within reach of all faces which it may end too near to.
+Stop stopAt(ContactFace face, float reach, vec3 x0, vec3 x1, vec3 seen) {
+    const float h = step.h;
+    const vec3 a = predicted[face.a].xyz, wa = h * predictedVelocities[face.a].xyz;
+    const Passage p = Passage(x1 - a, predicted[face.b].xyz - a, predicted[face.c].xyz - a, x1 - x0 - wa,
+                              h * predictedVelocities[face.b].xyz - wa, h * predictedVelocities[face.c].xyz - wa);
+    const Triangle now = triangleOf(p.ab, p.ac);
+    const float before = heightAt(p, 1.0), after = heightAt(p, 0.0);
+    const float side = before < 0.0 ? -1.0 : 1.0, least = side * min(0.05 * reach, 0.5 * abs(before));
+    if (side * after >= reach || isSliver(now)) return noStop;
+    if (side * (after - least) < 0.0 && before != 0.0) {
+        const Stop stop = passing(p, a, normalize(now.normal), reach, least, before, after);
+        if (stop.urgency > 0.0) return stop;
+    }
+    return pressing(p, a, now, reach, seen);
+}

@@ -1,0 +1,93 @@
+#version 460
+// Keeps particles in front of faces that never give way: those of meshes that stand still or go along a path. A pass of its own inside the
+// particle, after all contacts: they give each a part of a particle, and where bodies are pressed together in one substep a part is too
+// little to keep a side. Here the side on which a substep begins holds. A particle whose way leads through a face, or ends far too near, is put
+// back in front of it. It gets no more speed by that than takes away its approach to the face in this substep. All others stay as they are, to
+// the bit.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "remainder.glsl"
+#include "triangle.glsl"
+
+layout(std430, binding = 0) readonly buffer Predicted { vec4 predicted[]; };
+layout(std430, binding = 1) readonly buffer PredictedVelocities { vec4 predictedVelocities[]; }; // with which they came there [m/s]
+layout(std430, binding = 2) readonly buffer Faces { ContactFace faces[]; };
+layout(std430, binding = 3) readonly buffer Contacts { ContactCandidate contacts[]; };
+layout(std430, binding = 4) readonly buffer Counts { uint counts[]; };
+layout(std430, binding = 5) readonly buffer Radii { float radii[]; };       // below 0 = touches no face
+layout(std430, binding = 6) readonly buffer Excluded { uint excluded[]; };  // first of each face, then points, sorted
+layout(std430, binding = 7) buffer Positions { vec4 positions[]; };         // x + thetaH v (remainder.glsl)
+layout(std430, binding = 8) buffer Velocities { vec4 velocities[]; };       // w = inverse mass [1/kg]
+layout(std140, binding = 9) uniform Step { StepParams step; };
+layout(push_constant) uniform Push { StopPush push; };
+layout(std430, binding = 10) readonly buffer Memory { vec4 memory[]; };     // w: side and overlap (contact_memory.glsl)
+#define EXCLUDED(k) excluded[k]
+#include "excluded.glsl"
+#include "face_stop.glsl"
+
+// Lists hold what comes near the predicted way, so they hold all that is met on a way which ends within the radius of the predicted place. For
+// one that ends farther off all faces are looked at.
+struct Search {
+    bool isListed;
+    uint first, end; // in the list or of all faces
+};
+
+bool isNearPredicted(uint i, vec3 x) {
+    const vec3 off = x - predicted[i].xyz;
+    return dot(off, off) <= radii[i] * radii[i];
+}
+
+Search searchFor(uint i, uint firstListed, vec3 x) {
+    if (isNearPredicted(i, x)) return Search(true, firstListed, counts[i]);
+    return Search(false, push.moving, push.faces);
+}
+
+// What is left of an overlap that is parting by itself.
+float leftOf(uint element) { return max(0.0, abs(memory[element].w) - 1.0); }
+
+// The most urgent stop of a way from x0 to x1.
+Stop stopOf(uint i, Search search, vec3 x0, vec3 x1) {
+    Stop first = noStop;
+    for (uint s = search.first; s < search.end; ++s) {
+        const uint element = s * push.row + i, f = search.isListed ? contacts[element].other : s;
+        const ContactFace face = faces[f];
+        const float left = search.isListed ? leftOf(element) : 0.0;
+        const vec3 seen = search.isListed ? predicted[i].xyz : x1; // what is farther from there may be in no list
+        const Stop stop = stopAt(face, radii[i] + face.thickness - left, x0, x1, seen);
+        if (stop.urgency > first.urgency && !isExcluded(f, i)) first = stop;
+    }
+    return first;
+}
+
+// In a corner of faces a particle that was put in front of one may be behind the next. One that finds no place goes with the last.
+const uint mostStops = 4u;
+
+void main() {
+    const uint i = itemIndex(push.count);
+    uint first = counts[i];
+    for (; first > 0u && contacts[(first - 1u) * push.row + i].other >= push.moving; --first) {}
+    const vec4 velocity = velocities[i];
+    const vec3 x = positions[i].xyz - step.thetaH * velocity.xyz, x0 = predicted[i].xyz - step.h * predictedVelocities[i].xyz;
+    if (velocity.w == 0.0 || radii[i] < 0.0 || first == counts[i] && isNearPredicted(i, x)) return;
+    vec3 end = x, v = velocity.xyz;
+    for (uint stops = 0u; stops <= mostStops; ++stops) {
+        const Stop stop = stopOf(i, searchFor(i, first, end), x0, end);
+        const bool isLast = stops == mostStops;
+        if (stop.urgency <= (isLast ? 1.0 : 0.0)) break;
+        const vec3 n = stop.n, stopped = isLast ? stop.carried : end + stop.rise * n;
+        const vec3 meanwhile = (stopped - x0) / step.h; // the velocity that brings it there
+        v = isLast ? meanwhile : v + max(0.0, dot(n, meanwhile - v)) * n;
+        end = isLast ? stopped : stopped + stop.lift * n;
+    }
+    if (end == x) return;
+    velocities[i].xyz = v;
+    const vec3 change = end - x + step.thetaH * (v - velocity.xyz);
+    if (hasRemainders) {
+        const uint r = remainderOf(positions.length(), i);
+        const Sum sum = exactSum(positions[i].xyz, change + positions[r].xyz);
+        positions[i].xyz = sum.rounded;
+        positions[r].xyz = sum.remainder;
+    } else {
+        positions[i].xyz = end + step.thetaH * v;
+    }
+}
