@@ -2,7 +2,8 @@
 // Keeps every particle out of the colliders at the end of a substep, one collider after another inside the particle: the
 // last pass of a substep, exact, so that a share of nothing else is softer for it. Serves every solver: thetaH is 0 but for
 // `split`; the substep of `gauss_seidel` is still open (solve_attachments.comp). HAS_REBOUND: something of the scene
-// rebounds, so that the way since the substep began is no longer h v, and impacts need the velocity from before.
+// rebounds, so that the way since the substep began is no longer h v, and impacts need the velocity from before. HAS_CONTACTS: particles touch;
+// one that is stopped on its way has a velocity that did not bring it where it is.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "colliders.glsl"
@@ -24,6 +25,9 @@ layout(std140, binding = 5) uniform Step { StepParams step; };
 layout(std430, binding = 6) buffer Corrections { vec4 corrections[]; }; // ParticleCorrection
 #elif defined HAS_REBOUND
 layout(std430, binding = 6) readonly buffer Before { vec4 before[]; }; // x, v of each particle (open_colliders)
+#elif defined HAS_CONTACTS
+layout(std430, binding = 6) readonly buffer Predicted { vec4 predicted[]; }; // before contacts
+layout(std430, binding = 7) readonly buffer PredictedVelocities { vec4 predictedVelocities[]; };
 #endif
 layout(push_constant) uniform Push { ColliderPush push; };
 
@@ -42,6 +46,12 @@ void main() {
 #ifdef HAS_REBOUND
     movement.way = x - before[2u * i].xyz;
     const vec3 velocityBefore = before[2u * i + 1u].xyz;
+#elif defined HAS_CONTACTS
+    const vec3 way = x - (predicted[i].xyz - h * predictedVelocities[i].xyz);
+    if (largest(way - movement.way) > 1e-4 * largest(way) + 1e-5 * largest(x)) { // else h v is finer
+        movement.pushed = way - movement.way;
+        movement.way = way;
+    }
 #endif
 #endif
     if (velocity.w == 0.0) return;

@@ -155,16 +155,21 @@ void addOpening(ProgramBuilder& program, const ParticleBuffers& particles, const
 }
 
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Colliders& colliders,
-             std::uint32_t substep, Kick kick) {
+             std::uint32_t substep, Kick kick, const ParticleBuffers* predicted) {
     if (colliders.count == 0) return;
     std::vector<BufferId> buffers{colliders.shapes,    colliders.poses,      colliders.contactOffsets,
                                   particles.positions, particles.velocities, particles.step};
-    if (colliders.hasRebound) buffers.push_back(colliders.before);
+    const vk::ShaderCode* form = &kernels::solveColliders;
+    if (colliders.hasRebound) {
+        buffers.push_back(colliders.before);
+        form = &kernels::solveCollidersRebound;
+    } else if (predicted) {
+        buffers.insert(buffers.end(), {predicted->positions, predicted->velocities});
+        form = &kernels::solveCollidersContacts;
+    }
     ProgramBuilder::Constants constants = constantsOf(colliders);
     constants.merge(remainderConstants(particles.layout));
-    dispatchTouching(program, colliders,
-                     colliders.hasRebound ? kernels::solveCollidersRebound : kernels::solveColliders, buffers,
-                     pushOf(colliders, substep, kick), constants);
+    dispatchTouching(program, colliders, *form, buffers, pushOf(colliders, substep, kick), constants);
 }
 
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,

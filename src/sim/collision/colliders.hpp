@@ -31,9 +31,10 @@ void addMemory(ProgramBuilder& program, Colliders& colliders);
 /// Before the links of a substep.
 void addOpening(ProgramBuilder& program, const ParticleBuffers& particles, const Colliders& colliders,
                 bool isFirst);
-/// The end of that substep, which counts from 0.
+/// The end of that substep, which counts from 0. `predicted`: particles before contacts with each other; none
+/// where they touch nothing else.
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Colliders& colliders,
-             std::uint32_t substep, Kick kick);
+             std::uint32_t substep, Kick kick, const ParticleBuffers* predicted = nullptr);
 /// The same in a substep of `gauss_seidel`, which is still open: what moves are the `corrections`.
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
                  const Colliders& colliders, std::uint32_t substep);

@@ -423,7 +423,8 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
         constraints::grab::addPass(program, current, substep, substeps, Kick::whole);
         constraints::tether::addPass(program, current, tethers);
         if (contacts.faces) collision::face_contacts::addStops(program, *contacts.faces, current);
-        collision::colliders::addPass(program, current, rigid, substep, Kick::whole);
+        collision::colliders::addPass(program, current, rigid, substep, Kick::whole,
+                                      contacts.pairs ? &predicted : nullptr);
     }
     program.endSubsteps();
     if (current.velocities != particles.velocities) program.copy(current.velocities, particles.velocities);

@@ -191,3 +191,26 @@ TEST(HardMeshes, GiveTheSameBitsInAnyOrderAndMargin) {
         EXPECT_EQ(hashWith(false, 1.3f), hash) << trial.name();
     }
 }
+
+// A ball that others have stopped on its way is not where its velocity would have brought it.
+TEST(HardColliders, ThatMoveArePassedByNoRow) {
+    for (const std::uint32_t substeps : {4u, 8u, 16u}) {
+        Trial trial{"", "row", 100, substeps};
+        Scene scene = targetOf(trial.target);
+        for (Particle& particle : scene.particles) particle.contactOffset = particle.radius;
+        Collider box{.shape = ColliderShape::box, .halfExtents = {0.15f, 2, 2}};
+        for (const int step : {0, trial.steps})
+            box.path.push_back({static_cast<float>(step / 60.0),
+                                {{static_cast<float>(trial.wallAt(step)) - box.halfExtents.x, 0, 0}}});
+        scene.colliders.push_back(box);
+        test::Runner runner(scene, {.substeps = substeps});
+        for (int step = 1; step <= trial.steps; ++step) {
+            runner.run(1);
+            const auto x = runner.positions(), v = runner.velocities();
+            for (std::size_t i = 0; i < x.size(); ++i) {
+                EXPECT_GE(x[i].x() - trial.wallAt(step), 0.05 - 1e-4) << trial.name() << ", ball " << i;
+                EXPECT_LE(v[i].norm(), 2 * trial.speed) << trial.name() << ", ball " << i;
+            }
+        }
+    }
+}
