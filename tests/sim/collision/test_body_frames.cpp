@@ -1,0 +1,114 @@
+// Frames of bodies: lists of contacts last while bodies move as one, and no pair is ever missed for it.
+#include "layout.h"
+#include "sim/bodies.hpp"
+#include "sim/program.hpp"
+#include "sim/runner.hpp"
+#include "sim/start.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+namespace sinew::sim {
+namespace {
+
+constexpr float spacing = 0.05f;
+
+// A box of voxels whose corner is at `origin`.
+void addBox(Scene& scene, Vec3 origin, std::array<std::uint32_t, 3> cells, const Start& how) {
+    const std::size_t first = scene.bodies.size();
+    addLattice(scene, {.origin = origin,
+                       .cells = cells,
+                       .spacing = spacing,
+                       .youngModulus = 2e5f,
+                       .radius = 0.45f * spacing});
+    start(scene, first, how);
+}
+
+Settings settingsWith(float margin = 0.5f, bool isReversed = false) {
+    return {.substeps = 16, .contactMargin = margin, .contactRoom = 200, .isReversed = isReversed};
+}
+
+// How often lists of particles were made in so many steps.
+std::uint32_t buildsIn(const Scene& scene, int steps) {
+    test::Runner runner(scene, settingsWith());
+    const Status status = runner.run(steps);
+    EXPECT_FALSE(status.isUndone);
+    const Simulation& simulation = runner.simulation();
+    const auto bounds =
+        test::queue().download<layout::GridBounds>(simulation.view(simulation.program().grids.at(0).bounds));
+    return bounds[0].builds;
+}
+
+} // namespace
+
+TEST(BodyFrames, KeepListsOfWhatFallsFliesAndTurns) {
+    struct Case {
+        const char* name;
+        Start how;
+    };
+    for (const Case& one : {Case{"falls", {}}, Case{"flies", {.velocity = {30, 10, -20}}},
+                            Case{"turns", {.velocity = {1, 2, 3}, .spin = {4, -5, 3}}}}) {
+        Scene scene;
+        addBox(scene, {0, 0, 0}, {6, 4, 4}, one.how);
+        const std::uint32_t builds = buildsIn(scene, 30);
+        std::printf("%s: lists made %u times in 480 substeps\n", one.name, builds);
+        EXPECT_LE(builds, 40u) << one.name;
+    }
+}
+
+TEST(BodyFrames, KeepListsOfBodiesThatFallApartFromEachOther) {
+    Scene scene;
+    for (int b = 0; b < 5; ++b)
+        addBox(scene, {0.6f * static_cast<float>(b), 0, 0}, {4, 4, 4},
+               {.velocity = {0, static_cast<float>(3 * b), 0}});
+    const std::uint32_t builds = buildsIn(scene, 20);
+    std::printf("lists made %u times in 320 substeps\n", builds);
+    EXPECT_LE(builds, 20u);
+}
+
+// More bodies than there are frames share one with all that is loose.
+TEST(BodyFrames, ServeMoreBodiesThanThereAreFrames) {
+    Scene scene;
+    for (int b = 0; b < FRAME_MOST_BODIES + 20; ++b)
+        addBox(scene, {0.2f * static_cast<float>(b % 12), 0.2f * static_cast<float>(b / 12), 0}, {1, 1, 1}, {});
+    EXPECT_LE(buildsIn(scene, 10), 10u);
+}
+
+// What meets, turns and parts again: bits do not depend on when lists are made.
+TEST(BodyFrames, MissNoPair) {
+    Scene scene;
+    addBox(scene, {0, 0.1f, 0}, {4, 4, 4}, {.velocity = {4, 0, 0}, .spin = {3, 6, -4}});
+    addBox(scene, {0.6f, 0.15f, 0.05f}, {3, 5, 3}, {.velocity = {-6, 0, 0}, .spin = {-8, 2, 5}});
+    addBox(scene, {0.3f, 0.6f, 0}, {5, 2, 5}, {.velocity = {0, -3, 0}, .spin = {0, 12, 0}});
+    for (int b = 0; b < 6; ++b)
+        scene.particles.push_back({.position = {0.1f * static_cast<float>(b), 0.9f, 0.1f},
+                                   .velocity = {0, -2.0f * static_cast<float>(b), 0},
+                                   .inverseMass = 5,
+                                   .radius = 0.03f});
+    scene.planes.push_back({.normal = {0, 1, 0}, .friction = 0.4f});
+    scene.contacts.friction = 0.4f;
+    const std::uint64_t hash = test::hashOfRun(scene, settingsWith(), 60);
+    for (const float margin : {0.1f, 0.25f, 1.0f, 2.0f})
+        EXPECT_EQ(test::hashOfRun(scene, settingsWith(margin), 60), hash) << "margin " << margin;
+    EXPECT_EQ(test::hashOfRun(scene, settingsWith(0.5f, true), 60), hash);
+}
+
+// Sheets fold, flutter and meet themselves and others.
+TEST(BodyFrames, MissNoPairOfSheets) {
+    Scene scene;
+    addCloth(scene, {.origin = {-0.3f, 0.6f, -0.3f},
+                     .right = {1, 0, 0},
+                     .down = {0, 0.1f, 0.995f},
+                     .size = {13, 13},
+                     .spacing = spacing,
+                     .thickness = 0.03f});
+    addBox(scene, {-0.1f, 0.9f, -0.1f}, {3, 2, 3}, {.velocity = {0, -4, 0}, .spin = {5, 3, 0}});
+    addBox(scene, {-0.1f, 0, -0.1f}, {3, 3, 3}, {});
+    scene.planes.push_back({.normal = {0, 1, 0}, .friction = 0.3f});
+    const std::uint64_t hash = test::hashOfRun(scene, settingsWith(), 40);
+    for (const float margin : {0.15f, 1.0f, 2.0f})
+        EXPECT_EQ(test::hashOfRun(scene, settingsWith(margin), 40), hash) << "margin " << margin;
+}
+
+} // namespace sinew::sim
