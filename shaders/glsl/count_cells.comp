@@ -21,14 +21,14 @@ layout(std430, binding = 3) buffer Counts { uint counts[]; };
 layout(std430, binding = 4) writeonly buffer Places { uvec2 places[]; }; // slot and rank of each particle
 layout(std430, binding = 5) writeonly buffer Detected { vec4 detected[]; };
 layout(std430, binding = 6) readonly buffer Bodies { float bodies[]; }; // of each particle, below 0 = of what touches nothing
+layout(std430, binding = 7) readonly buffer Watched { float watched[]; }; // below 0 = nothing can touch it, nor what it is a corner of
 layout(push_constant) uniform Push { GridPush push; };
-layout(constant_id = 5) const bool keepsAll = false; // of what is in no cell too: corners of faces
 
 void main() {
     const uint i = itemIndex(push.count);
     const vec4 x = POSITION(i);
     const Frame frame = frameOf(bounds, push.cells, push.edge);
-    detected[i] = vec4(x.xyz, RADIUS(i) < 0.0 && !keepsAll ? -1.0 : bodies[i]);
+    detected[i] = vec4(x.xyz, watched[i] < 0.0 ? FRAME_NONE : bodies[i]);
     uvec2 place = uvec2(~0u);
     if (isInGrid(RADIUS(i), push.most)) {
         place.x = slotOf(cellOf(x.xyz, frame), frame);

@@ -117,8 +117,8 @@ Lists add(ProgramBuilder& program, const Request& request) {
     return lists;
 }
 
-void addBuild(ProgramBuilder& program, const Lists& lists, const hash_grid::Moved& moved) {
-    hash_grid::addBuild(program, lists.grid, moved);
+void addBuild(ProgramBuilder& program, const Lists& lists, const hash_grid::Moved& moved, bool isLast) {
+    hash_grid::addBuild(program, lists.grid, moved, isLast);
 }
 
 void addUpdate(ProgramBuilder& program, const Lists& lists, const hash_grid::Moved& moved) {

@@ -1,7 +1,7 @@
 // Which particles may touch before their lists are made again: for each particle the others nearer than
 // touching and a margin M, or were so on their way in the substep, sorted by index, made on the device
-// whenever one may have moved more than M / 2. No pair is ever missed, and no result depends on M (contacts:
-// 2).
+// whenever one may have strayed from where its body is expected (body_frames.hpp) by half of M. No pair is
+// ever missed, and no result depends on M.
 #pragma once
 
 #include "sim/collision/hash_grid.hpp"
@@ -54,8 +54,9 @@ struct Lists {
 Lists add(ProgramBuilder& program, const Request& request);
 
 /// After particles were watched: builds the grid of them where lists are no longer complete, for those that
-/// are near, or were on their way. Until addLists() the old lists stand.
-void addBuild(ProgramBuilder& program, const Lists& lists, const hash_grid::Moved& moved);
+/// are near, or were on their way. Until addLists() the old lists stand. `isLast`: of the
+/// watches of a substep.
+void addBuild(ProgramBuilder& program, const Lists& lists, const hash_grid::Moved& moved, bool isLast = true);
 
 /// Makes the lists where the grid was built. A list that does not fit its room is said in the
 /// status (StatusWords::candidates): what it lacks is lost, so the step must be undone.

@@ -186,7 +186,7 @@ void addBounces(ProgramBuilder& program, const Contacts& contacts, const Particl
 
 void addPublishing(ProgramBuilder& program, const Contacts& contacts) {
     side_memory::addPublishing(program, contacts.memory);
-    // What sleeps has lists, and nobody plans how many groups run while all sleeps.
+    // Lists stay while all sleeps, and nothing plans how many groups run then.
     if (contacts.sleeps) program.fill(contacts.lists.grid.touching.arguments, 0);
 }
 

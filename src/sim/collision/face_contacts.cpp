@@ -122,6 +122,7 @@ face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
                                                         .bodies = &bodies,
                                                         .substeps = settings.substeps});
     cutting::letCrumbsLeave(program, lists.grid.radii, lists.grid);
+    cutting::letCrumbsLeave(program, lists.grid.watched, lists.grid);
     cutting::letCrumbsLeave(program, lists.radii, lists.grid);
     return lists;
 }
@@ -281,7 +282,7 @@ void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleB
 
 void addPublishing(ProgramBuilder& program, const Contacts& contacts) {
     side_memory::addPublishing(program, contacts.memory);
-    // What sleeps has lists, and nobody plans how many groups run while all sleeps.
+    // Lists stay while all sleeps, and nothing plans how many groups run then.
     if (contacts.sleeps) program.fill(contacts.lists.grid.touching.arguments, 0);
 }
 

@@ -13,8 +13,6 @@ namespace sinew::sim::collision::hash_grid {
 
 namespace {
 
-constexpr std::uint32_t keepsAllId = 5; // constant_id in count_cells.comp
-
 // Slots of the table: twice as many as particles keep rows that share slots rare, where the grid is not
 // dense. scan_sums takes whole groups of chunks.
 std::uint32_t cellsFor(std::size_t particles) {
@@ -26,21 +24,23 @@ const vk::ShaderCode& form(const Grid& grid, const vk::ShaderCode& texels, const
     return grid.usesTexels ? texels : loads;
 }
 
-void addPlan(ProgramBuilder& program, const Grid& grid, BufferId step) {
+void addPlan(ProgramBuilder& program, const Grid& grid, BufferId step, bool isLast = true) {
+    layout::GridPush push = grid.push;
+    if (!isLast) push.bodies = 0; // frames go on once a substep
     program.dispatch(kernels::planGrid, GROUP_ITEMS,
                      {grid.bounds, grid.arguments, grid.frames.frames, step, grid.touching.arguments,
                       program.program().status},
-                     grid.push);
+                     push);
 }
 
 void addCells(ProgramBuilder& program, const Grid& grid, BufferId positions) {
     namespace k = kernels;
     program.dispatchIndirect(form(grid, k::measureBounds, k::measureBoundsLoads), grid.particleChunks,
                              {positions, grid.radii, grid.bounds}, grid.push);
-    program.dispatchIndirect(
-        form(grid, k::countCells, k::countCellsLoads), grid.particles,
-        {positions, grid.radii, grid.bounds, grid.counts, grid.places, grid.detected, grid.frames.ofSlots},
-        grid.push, {{keepsAllId, grid.keepsAll}});
+    program.dispatchIndirect(form(grid, k::countCells, k::countCellsLoads), grid.particles,
+                             {positions, grid.radii, grid.bounds, grid.counts, grid.places, grid.detected,
+                              grid.frames.ofSlots, grid.watched},
+                             grid.push);
     program.dispatchIndirect(k::sumCells, grid.cellChunks, {grid.counts, grid.sums}, grid.push);
     program.dispatchIndirect(k::scanSums, grid.oneGroup, {grid.sums}, grid.push);
     program.dispatchIndirect(k::startCells, grid.cellChunks, {grid.counts, grid.sums, grid.starts},
@@ -96,7 +96,8 @@ Grid add(ProgramBuilder& program, const Request& request) {
     const BufferId touching = program.scratch<layout::DispatchArguments>(name + ".touching", 2);
     grid.touching = {touching, 0, grid.push.count};
     grid.touchingParticles = {touching, 1, static_cast<std::uint32_t>(std::max(count, request.particles))};
-    grid.keepsAll = !request.watched.empty();
+    grid.watched =
+        request.watched.empty() ? grid.radii : program.upload(name + ".watched_radii", request.watched);
     grid.slowed = {grid.arguments, GRID_SLOWED, grid.push.count};
     const body_frames::Request frames{.radii = request.watched.empty() ? request.radii : request.watched,
                                       .reach = request.reach,
@@ -127,8 +128,8 @@ void addWatch(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
                      grid.push, grid.frames.constants());
 }
 
-void addBuild(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
-    addPlan(program, grid, moved.step);
+void addBuild(ProgramBuilder& program, const Grid& grid, const Moved& moved, bool isLast) {
+    addPlan(program, grid, moved.step, isLast);
     program.dispatchIndirect(
         kernels::capSpeeds, grid.slowed,
         {moved.positions, moved.velocities, grid.radii, program.program().status, moved.step}, grid.push);
@@ -138,7 +139,7 @@ void addBuild(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
 void addFit(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
     body_frames::addFit(
         program, grid.frames,
-        {moved.positions, moved.velocities, grid.detected, grid.radii, grid.bounds, moved.step});
+        {moved.positions, moved.velocities, grid.detected, grid.watched, grid.bounds, moved.step});
 }
 
 void addSort(ProgramBuilder& program, const Grid& grid, BufferId positions, BufferId step) {

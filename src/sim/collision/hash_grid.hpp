@@ -1,6 +1,6 @@
 // A hash grid on the device: particles in cells, built by a counting sort (shaders/glsl/hash_grid.glsl)
-// whenever one of them has moved farther than a given way, and only then: the passes that build it are
-// indirect. A scene in which nothing can meet has none of this.
+// whenever one of them has strayed farther than a given way from where it is expected, and only then: the
+// passes that build it are indirect. A scene in which nothing can meet has none of this.
 #pragma once
 
 #include "layout.h"
@@ -50,9 +50,9 @@ struct Grid {
     BufferId radii, bounds, arguments, counts, sums, starts, places, sorted, detected, fast;
     IndirectItems particles, particleChunks, cellChunks, oneGroup,
         others; ///< of passes that run with a build
-    /// Of items in work groups of which one has a candidate: owners of lists, particles.
+    /// Items in work groups of which one has a candidate: owners of lists, particles.
     IndirectItems touching, touchingParticles;
-    bool keepsAll = false;        ///< whether what is in no cell is watched
+    BufferId watched;             ///< by item: below 0 = nothing can touch it, nor what it is a corner of
     IndirectItems swept, unswept; ///< likewise, a particle each, where contacts may or cannot lie on the way
     IndirectItems slowed;         ///< where too many are too fast
     body_frames::Frames frames;
@@ -72,6 +72,6 @@ void addWatch(ProgramBuilder& program, const Grid& grid, const Moved& moved);
 /// After they were watched, by addWatch() or another pass: builds the grid of them where it must be.
 /// Particles too fast for cells are listed, up to MOST_FAST; where there are more, all of those are slowed
 /// down first, which the status counts.
-void addBuild(ProgramBuilder& program, const Grid& grid, const Moved& moved);
+void addBuild(ProgramBuilder& program, const Grid& grid, const Moved& moved, bool isLast = true);
 
 } // namespace sinew::sim::collision::hash_grid

@@ -207,14 +207,14 @@ void addOverContacts(ProgramBuilder& program, const Contacts& contacts, const vk
 }
 
 void addListUpdate(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
-                   const ParticleBuffers& next, bool isFirst) {
+                   const ParticleBuffers& next, bool isFirst, bool isLast) {
     const hash_grid::Moved moved{predicted.positions, predicted.velocities, predicted.step};
     if (isFirst) hash_grid::addFit(program, contacts.lists.grid, moved);
     if (contacts.settles)
         addSettling(program, contacts, predicted, next, true);
     else
         hash_grid::addWatch(program, contacts.lists.grid, moved);
-    contact_lists::addBuild(program, contacts.lists, moved);
+    contact_lists::addBuild(program, contacts.lists, moved, isLast);
     if (contacts.settles) addSettling(program, contacts, predicted, next, false);
     if (contacts.hasMemory()) addCarrying(program, contacts, k::keepSlips, k::keepSlipsRecovery);
     contact_lists::addLists(program, contacts.lists, moved);
@@ -367,12 +367,12 @@ void addOpening(ProgramBuilder& program, const Contacts& contacts, BufferId velo
 
 void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                const ParticleBuffers& next, bool isFirst) {
-    addListUpdate(program, contacts, predicted, next, isFirst);
+    addListUpdate(program, contacts, predicted, next, isFirst, !contacts.interlocks);
     if (isFirst) cutting::addContactOpening(program, contacts);
     if (contacts.interlocks) {
         interlocks::addPasses(program, *contacts.interlocks,
                               {contacts.lists, contacts.slips, contacts.touching}, predicted);
-        addListUpdate(program, contacts, predicted, next, false); // they have moved since
+        addListUpdate(program, contacts, predicted, next, false, true); // they have moved since
     }
     sleep::addTouches(program, predicted);
     addCount(program, contacts, predicted);
