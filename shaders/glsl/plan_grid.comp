@@ -20,6 +20,9 @@ void plan(uint element, bool runs, uint items) {
     arguments[element] = DispatchArguments(runs ? groupsOf(items) : 0u, 1u, 1u, 0u);
 }
 
+// How far particles may have strayed when lists are made: those that were not noticed by less than half of the margin.
+float strayOf(uint moved) { return max(uintBitsToFloat(moved), 0.49 * push.margin); }
+
 void planPasses(bool isBuilt) {
     atomicMax(status.candidates, bounds.lacking);
     const bool isSwept = bounds.sweeping > 0u, isSlowed = bounds.hurrying > MOST_FAST;
@@ -36,7 +39,7 @@ void planPasses(bool isBuilt) {
         bounds.lowX = bounds.lowY = bounds.lowZ = ~0u;
         bounds.highX = bounds.highY = bounds.highZ = 0u;
         ++bounds.builds;
-        bounds.drift -= uintBitsToFloat(bounds.moved);
+        bounds.drift -= strayOf(bounds.moved);
     }
     touching[0] = DispatchArguments(bounds.listed, 1u, 1u, 0u);
     touching[1] = DispatchArguments(bounds.listedParticles, 1u, 1u, 0u);
@@ -48,9 +51,12 @@ void planPasses(bool isBuilt) {
 
 // Bodies far from each other have frames of their own while no particle strays; once some have, all frames stand still until
 // the next step.
-void planFrame(uint b, bool isBuilt, bool stands) {
+void planFrame(uint b, uint moved, bool stands) {
     BodyFrame frame = frames[b];
-    if (isBuilt) restart(frame, stands);
+    if (moved > 0u) {
+        frame.gravity.w += strayOf(moved);
+        restart(frame, stands);
+    }
     advance(frame, step.h, push.reach, push.margin);
     frames[b] = frame;
 }
@@ -58,8 +64,9 @@ void planFrame(uint b, bool isBuilt, bool stands) {
 void main() {
     const uint b = gl_LocalInvocationID.x;
     const uint moved = bounds.moved; // watch_motion writes only what is too far
-    const bool stands = bounds.drift < uintBitsToFloat(moved);
+    const bool stands = bounds.drift < strayOf(moved);
+    memoryBarrierBuffer();
     barrier();
     if (b == 0u) planPasses(moved > 0u);
-    if (b < push.bodies) planFrame(b, moved > 0u, stands);
+    if (b < push.bodies) planFrame(b, moved, stands);
 }

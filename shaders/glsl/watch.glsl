@@ -13,7 +13,7 @@ void watchFast(uint i, float way, float quiet, float most) {
 // `quiet` and `most` as in GridPush.
 void watch(uint i, vec3 x, vec3 v, float quiet, float most) {
     float farthest;
-    if (hasStrayed(i, x, v, farthest)) atomicMax(bounds.moved, floatBitsToUint(min(farthest, 1e30)));
+    if (hasStrayed(i, x, v, farthest)) atomicMax(bounds.moved, floatBitsToUint(clamp(farthest, 1e-30, 1e30)));
     const float far = wayOf(step.h, v); // as find_contacts and cap_speeds have it
     if (far > quiet) watchFast(i, far, quiet, most);
 }

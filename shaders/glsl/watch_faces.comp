@@ -19,5 +19,5 @@ void main() {
     const uint i = itemIndex(push.count);
     if (i == ~0u) return;
     float farthest;
-    if (hasStrayed(i, positions[i].xyz, velocities[i].xyz, farthest)) atomicMax(bounds.moved, floatBitsToUint(min(farthest, 1e30)));
+    if (hasStrayed(i, positions[i].xyz, velocities[i].xyz, farthest)) atomicMax(bounds.moved, floatBitsToUint(clamp(farthest, 1e-30, 1e30)));
 }
