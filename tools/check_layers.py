@@ -23,7 +23,8 @@ GPU_MAY_USE_SIM = MESH_MAY_USE_SIM | {"sim/program.hpp"}  # passes and their bar
 VIEWER_ROOMS = ["draw", "hands", "panels", "window", "pictures"]
 LIMITS = {".cpp": 600, ".hpp": 600, ".h": 600, ".comp": 150, ".glsl": 150, ".vert": 150, ".frag": 150}
 # Lavapipe makes a shader anew when a word of a uniform buffer changes that a condition hangs on: what changes with every step is in storage buffers.
-UNIFORMS = {"Step", "Bounds", "Frame"}
+# No condition hangs on Frames alone.
+UNIFORMS = {"Step", "Bounds", "Frame", "Frames"}
 UNIFORM = re.compile(r"^layout\(std140[^)]*\)\s*uniform\s+(\w+)", re.M)
 INCLUDE = re.compile(r'^\s*#\s*include\s+[<"]([^>"]+)[>"]', re.M)
 STAGES = re.compile(r"vkCmdPipelineBarrier|VK_PIPELINE_STAGE_|VK_ACCESS_")

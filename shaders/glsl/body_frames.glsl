@@ -1,6 +1,6 @@
-// Where particles of a body are expected (BodyFrame in layout.h).
+// The expected places of particles of a body (BodyFrame in layout.h).
 
-// Of a particle that was at r when lists were made.
+// The place of a particle that was at r when lists were made.
 vec3 expectedAt(BodyFrame frame, vec3 r) {
     return vec3(dot3(frame.map[0].xyz, r), dot3(frame.map[1].xyz, r), dot3(frame.map[2].xyz, r)) +
            vec3(frame.map[0].w, frame.map[1].w, frame.map[2].w);

@@ -21,68 +21,7 @@ shared uint cluster[FRAME_MOST_BODIES];
 shared vec4 low[FRAME_MOST_BODIES], high[FRAME_MOST_BODIES];
 shared uint changed;
 
-// As FRAME_SUMS, against one origin.
-struct Moments {
-    float count;
-    vec3 r, x, v;
-    mat3 rr, dr, vr;
-};
-
-struct Origin {
-    vec3 r, x;
-};
-
-// A motion: x = A (r - from) + to, dx/dt = W (x - to) + u.
-struct Fit {
-    vec3 from, to, u;
-    mat3 a, w;
-    bool stands;
-};
-
-mat3 columnsAt(uint first) { return mat3(sums[first].xyz, sums[first + 1u].xyz, sums[first + 2u].xyz); }
-
-Origin originOf(uint b) {
-    const uint i = bodies[b].origin;
-    const vec3 x = positions[i].xyz, r = detected[i].xyz;
-    return Origin(abs(r.x) < 1e17 ? r : x, x);
-}
-
-void add(inout Moments m, uint b, Origin origin) {
-    const uint first = b * FRAME_SUMS;
-    const Origin own = originOf(b);
-    const vec3 toR = own.r - origin.r, toX = own.x - origin.x, toD = toX - toR;
-    const vec4 r = sums[first + FRAME_SUM_R];
-    const vec3 x = sums[first + FRAME_SUM_X].xyz, v = sums[first + FRAME_SUM_V].xyz, d = x - r.xyz;
-    m.count += r.w;
-    m.r += r.xyz + r.w * toR;
-    m.x += x + r.w * toX;
-    m.v += v;
-    m.rr += columnsAt(first + FRAME_SUM_RR) + outerProduct(r.xyz, toR) + outerProduct(toR, r.xyz) + r.w * outerProduct(toR, toR);
-    m.dr += columnsAt(first + FRAME_SUM_DR) + outerProduct(d, toR) + outerProduct(toD, r.xyz) + r.w * outerProduct(toD, toR);
-    m.vr += columnsAt(first + FRAME_SUM_VR) + outerProduct(v, toR);
-}
-
-// The inverse of a symmetric matrix that may be flat: a little is added to the diagonal, where nothing is known.
-mat3 inverseOf(mat3 moments) {
-    const float trace = moments[0][0] + moments[1][1] + moments[2][2];
-    return inverse(moments + (1e-5 * trace + 1e-30) * mat3(1.0));
-}
-
-Fit standing(Origin origin) { return Fit(origin.r, origin.r, vec3(0.0), mat3(1.0), mat3(0.0), true); }
-
-bool isFinite(mat3 a) { return squaredNorm(a) < 1e20; }
-
-// Of all bodies in one cluster, or of one alone.
-Fit fitOf(Moments m, Origin origin) {
-    const vec3 r = m.r / m.count, x = m.x / m.count, v = m.v / m.count;
-    const mat3 inverseMoments = inverseOf(m.rr - m.count * outerProduct(r, r));
-    const mat3 a = mat3(1.0) + (m.dr - m.count * outerProduct(x - r, r)) * inverseMoments;
-    const mat3 rate = (m.vr - m.count * outerProduct(v, r)) * inverseMoments;
-    Fit fit = Fit(origin.r + r, origin.x + x, v, a, mat3(0.0), false);
-    if (!isFinite(a) || !isFinite(rate) || determinant(a) < 0.1) return standing(origin);
-    fit.w = rate * inverse(a);
-    return fit;
-}
+#include "frame_moments.glsl"
 
 Fit ownFit(uint b) {
     if (bodies[b].kind == FRAME_STANDS) return standing(originOf(b));
@@ -115,8 +54,9 @@ void sweep(uint b, Fit fit) {
     const vec3 way = dt * (fit.u + fit.w * (middle - fit.to));
     const float more = (grown - 1.0 - turn) * arm + turn * grown * radius + dt * dt * length(step.gravity.xyz) +
                        grown * (2.0 * push.margin + mostDrift()) + 0.51 * push.reach;
-    low[b] = vec4(min(from, from + way) - more, 0.0);
-    high[b] = vec4(max(to, to + way) + more, 0.0);
+    const vec3 back = way / float(push.substeps); // particles are seen when the first substep ends
+    low[b] = vec4(min(from, min(from - back, from + way)) - more, 0.0);
+    high[b] = vec4(max(to, max(to - back, to + way)) + more, 0.0);
 }
 
 bool meet(uint a, uint b) {
@@ -164,7 +104,7 @@ void main() {
     }
     if (b == 0u) changed = 0u;
     barrier();
-    // With the frames that they share, boxes may be wider. Where they then meet, all share one that stands still.
+    // With the frames that they share, boxes may be wider. All share one that stands still if some then meet.
     for (uint other = 0u; exists && other < push.bodies; ++other)
         if (cluster[other] != cluster[b] && meet(b, other)) changed = 1u;
     barrier();
@@ -175,7 +115,10 @@ void main() {
     BodyFrame frame;
     const vec3 lowest = sums[b * FRAME_SUMS + FRAME_SUM_LOW].xyz, highest = sums[b * FRAME_SUMS + FRAME_SUM_HIGH].xyz;
     const float arm = 0.5 * length(highest - lowest) + length(0.5 * (lowest + highest) - fit.to) + mostDrift();
-    frame.gravity = vec4(fit.stands ? vec3(0.0) : step.gravity.xyz, fit.stands ? 0.0 : arm);
+    // A body that hangs or lies does not fall: one that is slower than a step of falling makes it is expected to stay.
+    const vec3 fall = float(push.substeps) * h * step.gravity.xyz;
+    const bool falls = !fit.stands && dot(fit.u, fit.u) > dot(fall, fall);
+    frame.gravity = vec4(falls ? step.gravity.xyz : vec3(0.0), fit.stands ? 0.0 : arm);
     frame.from = vec4(fit.from, 0.0);
     frame.speed = vec4(fit.u - h * frame.gravity.xyz, 0.0);
     setMap(frame, fit.a - h * fit.w * fit.a, fit.to - h * fit.u); // when the substep began
