@@ -316,7 +316,7 @@ struct Touching {
     std::optional<collision::face_contacts::Contacts> faces;
     std::optional<collision::edge_contacts::Contacts> edges;
     std::optional<collision::particle_contacts::Contacts> pairs;
-    // Where no particles touch each other: planes, and the slots that hold a particle.
+    // Planes, and the slots that hold a particle; only where no particles touch each other.
     collision::planes::Colliders planes;
     BufferId particles;
     std::uint32_t particleCount = 0;
@@ -356,6 +356,8 @@ struct Touching {
         collision::particle_contacts::addBounces(program, *pairs, met, current);
         std::swap(current.velocities, pairs->rebounding);
     }
+    // Whether some may end a substep where their velocity has not brought them.
+    bool moveUnseen() const { return pairs || (faces && faces->hasStops()); }
     void joinIslands(sleep::Sleep& sleep) const {
         if (faces) collision::face_contacts::joinIslands(*faces, sleep);
         if (edges) collision::edge_contacts::joinIslands(*edges, sleep);
@@ -424,7 +426,7 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
         constraints::tether::addPass(program, current, tethers);
         if (contacts.faces) collision::face_contacts::addStops(program, *contacts.faces, current);
         collision::colliders::addPass(program, current, rigid, substep, Kick::whole,
-                                      contacts.pairs ? &predicted : nullptr);
+                                      contacts.moveUnseen() ? &predicted : nullptr);
     }
     program.endSubsteps();
     if (current.velocities != particles.velocities) program.copy(current.velocities, particles.velocities);
