@@ -485,22 +485,27 @@ INSTANTIATE_TEST_SUITE_P(, FaceContactsOfAFold,
                          [](const auto& fold) { return std::string(fold.param.name); });
 
 // Hard case 17.
+// With 32 substeps the outcome is chance: of six starts that differ by 1e-7 m three ended with edges through
+// faces. "auto" takes 46; with 48 none of the six ever had one.
 TEST(FaceContacts, KeepAFallingFoldOutOfItself) {
-    const Scene scene = test::fallingFold();
-    test::Runner runner(scene, {.substeps = 32, .contactRoom = 96});
-    int worst = 0;
-    for (int step = 0; step < 150; ++step) {
-        const Status status = runner.run(1);
-        ASSERT_EQ(status.nonFinite + status.contactRoom, 0u) << "step " << step;
-        if (step % 10 == 9) worst = std::max(worst, intersections(scene, runner.positions()));
+    for (const float shift : {0.0f, 4e-7f}) {
+        Scene scene = test::fallingFold();
+        for (std::size_t i = 0; i < scene.particles.size(); ++i)
+            scene.particles[i].position.x += shift * static_cast<float>(i % 3);
+        test::Runner runner(scene, {.substeps = 48, .contactRoom = 200});
+        int worst = 0;
+        for (int step = 0; step < 150; ++step) {
+            const Status status = runner.run(1);
+            ASSERT_EQ(status.nonFinite + status.contactRoom, 0u) << "step " << step;
+            if (step % 10 == 9) worst = std::max(worst, intersections(scene, runner.positions()));
+        }
+        double high = 0;
+        for (const Vector3d& x : runner.positions()) high = std::max(high, x.y());
+        std::printf("fold: %d edges through faces at worst; %.3f m high, v rms %.4f m/s\n", worst, high,
+                    rms(runner.velocities()));
+        EXPECT_EQ(worst, 0) << shift;
+        EXPECT_LE(high, 0.25) << "it lies in folds";
     }
-    double high = 0;
-    for (const Vector3d& x : runner.positions()) high = std::max(high, x.y());
-    std::printf("fold: %d edges through faces at worst, %d at the end; %.3f m high, v rms %.4f m/s\n", worst,
-                intersections(scene, runner.positions()), high, rms(runner.velocities()));
-    EXPECT_EQ(intersections(scene, runner.positions()), 0);
-    EXPECT_LE(worst, 20) << "two edges may cross for a while: only points and faces are kept apart";
-    EXPECT_LE(high, 0.25) << "it lies in folds";
 }
 
 // Hard case 16: no layer changes places with another, and all come to rest.
