@@ -20,8 +20,8 @@ float heightAt(Passage p, float back) {
     return dot(normal, p.ap - back * p.wp) / max(length(normal), 1e-37);
 }
 
-// When the point comes to `least` above the plane, as a part of the substep: cornered by halving and by chords in turn. Where the face does
-// not turn the first chord is exact.
+// When the point comes to `least` above the plane, as a part of the substep: cornered by halving and by chords in turn. The first chord is
+// exact for a face that does not turn.
 float timeAbove(Passage p, float least, float before, float after) {
     float low = 0.0, high = 1.0, atLow = before - least, atHigh = after - least;
     for (uint turn = 0u; turn < 9u; ++turn) {
@@ -37,13 +37,13 @@ float timeAbove(Passage p, float least, float before, float after) {
     return low + (high - low) * atLow / (atLow - atHigh);
 }
 
-// Where the point is if it goes with the face from where it was: `height` above it.
+// The place of the point if it goes with the face from where it was: `height` above it.
 vec3 carriedBy(Passage p, vec3 a, float height, vec3 n) {
     const vec3 b = weightsOf(p.ap - p.wp, triangleOf(p.ab - p.wb, p.ac - p.wc));
     return a + b.y * p.ab + b.z * p.ac + height * n;
 }
 
-// Of a way that leads through the face.
+// The stop of a way that leads through the face.
 Stop passing(Passage p, vec3 a, vec3 normal, float reach, float least, float before, float after) {
     const float t = timeAbove(p, least, before, after), back = 1.0 - t, height = abs(before);
     const vec3 b = weightsOf(p.ap - back * p.wp, triangleOf(p.ab - back * p.wb, p.ac - back * p.wc));
@@ -55,7 +55,7 @@ Stop passing(Passage p, vec3 a, vec3 normal, float reach, float least, float bef
 // The part of a reach in a substep that is left to the contacts that share: cloth in folds must not be pressed through itself.
 const float soft = 0.25;
 
-// Of a way that ends too near: that came nearer by more than this part, or ends nearer than half of the reach.
+// The stop of a way that ends too near: that came nearer by more than this part, or ends nearer than half of the reach.
 Stop pressing(Passage p, vec3 a, Triangle triangle, float reach, vec3 seen) {
     const Nearest nearest = nearestOf(p.ap, triangle);
     const float distance = length(nearest.d);

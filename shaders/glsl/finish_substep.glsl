@@ -6,7 +6,7 @@ layout(std430, binding = PLANE_BINDING) readonly buffer Planes { PlaneCollider p
 layout(std430, binding = PLANE_BINDING + 1) readonly buffer ContactOffsets { float contactOffsets[]; };
 #endif
 
-// Of particle i, which contacts have moved from `found` by `correction`, to the velocity v; `velocity` is the one before, w its
+// Ends it for particle i, which contacts have moved from `found` by `correction`, to the velocity v; `velocity` is the one before, w its
 // inverse mass; `last` the last word of its position, passed on.
 void finish(uint i, vec3 found, float last, vec4 velocity, vec3 correction, vec3 v) {
     const float w = velocity.w, h = step.h;

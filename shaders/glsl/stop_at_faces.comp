@@ -42,7 +42,7 @@ Search searchFor(uint i, uint firstListed, vec3 x) {
     return Search(false, push.moving, push.faces);
 }
 
-// What is left of an overlap that is parting by itself.
+// The rest of an overlap that is parting by itself.
 float leftOf(uint element) { return max(0.0, abs(memory[element].w) - 1.0); }
 
 // The most urgent stop of a way from x0 to x1.

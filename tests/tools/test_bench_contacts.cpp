@@ -1,4 +1,4 @@
-// What the table of contacts says of a program that is known, and that it leaves out contacts alone.
+// The table of contacts for a program that is known, and that it leaves out contacts alone.
 #include "sinew/bench_contacts.hpp"
 
 #include <gtest/gtest.h>

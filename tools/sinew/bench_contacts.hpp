@@ -11,7 +11,7 @@
 
 namespace sinew::tools {
 
-/// What a program does in a substep without a blade, the mean over the substeps of a step.
+/// The work of a program in a substep without a blade, the mean over the substeps of a step.
 struct SubstepCounts {
     double passes = 0; ///< dispatches, fills, copies and updates
     double direct = 0; ///< dispatches of which the program says how many groups they have
@@ -23,7 +23,7 @@ struct SubstepCounts {
 SubstepCounts countSubstep(const sim::StepProgram& program);
 
 /// Time of a GPU that is predicted for the dispatches of a step [us]: 2.5 for a direct one, 2 for an indirect
-/// one, as if none of these had a group. What the kernels compute is not in it.
+/// one, as if none of these had a group. The computing of kernels is not in it.
 double predictedUs(const sim::StepProgram& program);
 
 /// The names of the rows.

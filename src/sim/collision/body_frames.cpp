@@ -52,7 +52,7 @@ struct Shares {
     std::vector<std::uint32_t> numbers; // of the bodies that have a member, by number in Bodies
 };
 
-// Of at most so many shares in all, or a step would wait for who adds them up.
+// There are at most so many shares, or a step would wait until they are added up.
 constexpr std::size_t leastShare = 64, mostShares = 256;
 
 Shares sharesOf(const Bodies& bodies, std::span<const float> radii) {

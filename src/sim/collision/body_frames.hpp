@@ -12,7 +12,7 @@
 
 namespace sinew::sim::collision::body_frames {
 
-/// Which particles move together.
+/// Groups of particles that move together.
 struct Bodies {
     std::vector<std::uint32_t> ofSlots; ///< by state slot; padding belongs to any
     std::vector<std::uint32_t> kinds;   ///< by body: FRAME_MOVES or FRAME_STANDS
@@ -46,7 +46,7 @@ Frames addStanding(ProgramBuilder& program, const Request& request);
 
 Frames add(ProgramBuilder& program, const Bodies& bodies, const Request& request);
 
-/// What frames are fitted to.
+/// The buffers that frames are fitted to.
 struct Seen {
     BufferId positions;  ///< at the end of the first substep [m]
     BufferId velocities; ///< with which particles came there [m/s]

@@ -35,7 +35,7 @@ struct Contacts {
     BufferId corners, directions, weights, shares, impulses;
     BufferId bounces; ///< only where something rebounds
     BufferId before;  ///< velocities when the substep began
-    /// Where links have put particles, and with which velocities; only where hasStops().
+    /// Positions and velocities that links have left; only where hasStops().
     BufferId linkedPositions, linkedVelocities;
 
     /// Whether some face never gives way.

@@ -1,9 +1,9 @@
 // Which points may touch which faces before their lists are made again: for each point the faces nearer than
 // touching, a margin M and what both move in a substep, sorted by index; for each face with a corner that
-// moves, its points. Made on the device whenever a particle may have moved more than M / 2, in a substep or
-// since: no pair that meets is ever missed, and no result depends on M. Candidates are found face by face in
-// a hash grid of the points; a few large faces are compared with every point, wide or fast points with every
-// face.
+// moves, its points. Made on the device whenever a particle may have strayed from where its body is expected
+// by half of M, in a substep or since: no pair that meets is ever missed, and no result depends on M.
+// Candidates are found face by face in a hash grid of the points; a few large faces are compared with every
+// point, wide or fast points with every face.
 #pragma once
 
 #include "sim/collision/hash_grid.hpp"

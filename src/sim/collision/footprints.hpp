@@ -1,4 +1,4 @@
-// What stands above what, seen along gravity at the start: overlaps of discs across it.
+// Overlaps of discs across gravity at the start: they say which particle stands above which.
 #pragma once
 
 #include "sim/collision/vectors.hpp"

@@ -10,8 +10,8 @@ namespace sinew::sim::collision::loads {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-// Of the best overlap with what is below, or above: in the middle between four particles of a grid, or of
-// three of a face, something still stands on them with all that it bears.
+// A share of the best overlap with what is below, or above: in the middle between four particles of a grid,
+// or of three of a face, something still stands on them with all that it bears.
 constexpr double leastOverlap = 0.25;
 
 struct Masses {

@@ -163,7 +163,7 @@ TEST(HardMeshes, ThatMovePassNothing) {
     }
 }
 
-// What crumples meets itself, and is thrown by that.
+// A body that crumples meets itself, and is thrown by that.
 TEST(HardMeshes, ThatMovePassNothingThatCrumples) {
     for (const char* target : {"aslant", "edgewise", "voxels with faces"})
         for (const auto& [speed, substeps] : paces) expectHeld({"wall", target, speed, substeps}, 3, 0.99);

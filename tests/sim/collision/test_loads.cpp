@@ -1,4 +1,4 @@
-// What rests on contacts, as the rule for substeps sees it: shared among what lies below, and smooth.
+// The load of contacts, as the rule for substeps sees it: shared among what lies below, and smooth.
 #include "sim/collision/loads.hpp"
 
 #include "sim/bodies.hpp"
