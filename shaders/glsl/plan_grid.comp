@@ -54,7 +54,8 @@ void planPasses(bool isBuilt) {
 void planFrame(uint b, uint moved, bool stands) {
     BodyFrame frame = frames[b];
     if (moved > 0u) {
-        frame.gravity.w += strayOf(moved);
+        const float stray = strayOf(moved);
+        if (stray < 1e20) frame.gravity.w += stray; // else there were no lists
         restart(frame, stands);
     }
     advance(frame, step.h, push.reach, push.margin);
