@@ -88,7 +88,7 @@ struct Trial {
     double wallAt(int step) const { return isThrown ? start() : start() + speed * step / 60; }
     std::string name() const {
         char text[200];
-        std::snprintf(text, sizeof text, "%s, %s%s, %.0f m/s, %u substeps", mesh.c_str(), target,
+        std::snprintf(text, sizeof text, "%s, %s%s, %.0f m/s, %u substeps", mesh.c_str(), target.c_str(),
                       isThrown ? " thrown" : "", speed, substeps);
         return text;
     }
