@@ -55,7 +55,7 @@ void planFrame(uint b, uint moved, bool stands) {
     BodyFrame frame = frames[b];
     if (moved > 0u) {
         const float stray = strayOf(moved);
-        if (stray < 1e20) frame.gravity.w += stray; // else there were no lists
+        if (stray < 1e15) frame.gravity.w += stray; // else there were no lists
         restart(frame, stands);
     }
     advance(frame, step.h, push.reach, push.margin);
