@@ -47,8 +47,8 @@ float normOf(mat3 w) {
 }
 
 // On to the next substep, of length h. A particle that is e away from where it is expected when the substep ends, with the
-// velocity v, was at most e + h |v - u| + h |W| |x - to| away when it began: the last summand is taken off here, and what
-// places far from the origin are rounded by.
+// velocity v, was e - h (v - u) away when it began, but for h |W| |x - to| at most: that is taken off here, and what places
+// far from the origin are rounded by.
 void advance(inout BodyFrame frame, float h, float reach, float margin) {
     const mat3 w = h * matrixOf(frame.rates);
     const vec3 to = placeOf(frame), u = frame.speed.xyz + h * frame.gravity.xyz, far = abs(to);
