@@ -64,6 +64,7 @@ const uint mostStops = 4u;
 
 void main() {
     const uint i = itemIndex(push.count);
+    if (i == ~0u) return;
     uint first = counts[i];
     for (; first > 0u && contacts[(first - 1u) * push.row + i].other >= push.moving; --first) {}
     const vec4 velocity = velocities[i];

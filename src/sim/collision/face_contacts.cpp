@@ -105,9 +105,9 @@ face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
     }
     for (layout::ContactFace& face : faces.faces)
         for (std::uint32_t* corner : {&face.a, &face.b, &face.c}) *corner = layout.slot[*corner];
+    const body_frames::Bodies bodies = body_frames::bodiesOf(scene, layout);
     // Thin cloth of coarse faces may wait longer than its radius says: an eighth of a face costs few
     // candidates.
-    const body_frames::Bodies bodies = body_frames::bodiesOf(scene, layout);
     const float length = std::max(median(wide), median(faces.extents) / 8);
     face_lists::Lists lists = face_lists::add(program, {.radii = radii,
                                                         .inverseMasses = masses,
@@ -135,6 +135,16 @@ void addListUpdate(ProgramBuilder& program, const Contacts& contacts, const Part
     side_memory::addKeeping(program, contacts.memory);
     face_lists::addLists(program, lists, predicted);
     side_memory::addReturning(program, contacts.memory);
+}
+
+// Slots, ascending.
+std::vector<std::uint32_t> movingPoints(const Scene& scene, const std::vector<float>& inverseMass,
+                                        const StateLayout& layout) {
+    std::vector<std::uint32_t> points;
+    for (std::size_t i = 0; i < scene.particles.size(); ++i)
+        if (scene.particles[i].radius > 0 && inverseMass[i] > 0) points.push_back(layout.slot[i]);
+    std::ranges::sort(points);
+    return points;
 }
 
 // A pass over the particles of groups in which one may touch a face, or a face of one may be touched.
@@ -214,6 +224,9 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     if (contacts.hasStops()) {
         contacts.linkedPositions = program.scratch<layout::vec4>("faces.positions", positionCount(layout));
         contacts.linkedVelocities = program.scratch<layout::vec4>("faces.velocities", layout.count);
+        const std::vector<std::uint32_t> points = movingPoints(scene, inverseMass, layout);
+        contacts.movingPoints = program.upload("faces.moving_points", points);
+        contacts.movingPointCount = static_cast<std::uint32_t>(points.size());
     }
     return contacts;
 }
@@ -270,13 +283,14 @@ void addBounces(ProgramBuilder& program, const Contacts& contacts, const Particl
 }
 
 void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state) {
-    if (!contacts.hasStops()) return;
+    if (!contacts.hasStops() || contacts.movingPointCount == 0) return;
     const face_lists::Lists& lists = contacts.lists;
-    const layout::StopPush push{contacts.push.count, contacts.push.row, contacts.push.moving, contacts.faces};
+    const layout::StopPush push{contacts.movingPointCount, contacts.push.row, contacts.push.moving,
+                                contacts.faces};
     program.dispatch(k::stopAtFaces, push.count,
                      {contacts.linkedPositions, contacts.linkedVelocities, lists.faces, lists.contacts,
                       lists.counts, lists.radii, lists.excluded, state.positions, state.velocities,
-                      state.step, contacts.memory.memory},
+                      state.step, contacts.memory.memory, contacts.movingPoints},
                      push, remainderConstants(state.layout));
 }
 

@@ -37,6 +37,8 @@ struct Contacts {
     BufferId before;  ///< velocities when the substep began
     /// Positions and velocities that links have left; only where hasStops().
     BufferId linkedPositions, linkedVelocities;
+    BufferId movingPoints; ///< slots of points that move; only where hasStops()
+    std::uint32_t movingPointCount = 0;
 
     /// Whether some face never gives way.
     bool hasStops() const { return lists.push.moving < faces; }
