@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdio>
 #include <random>
+#include <utility>
 
 using namespace sinew;
 using namespace sinew::sim;
@@ -123,6 +124,23 @@ TEST(HardContacts, Case15TwoFastBallsHeadOnKeepTheSquareOfRestitutionOfTheirEner
         }
 }
 
+namespace {
+
+// Kinetic energy at first, and the most after any of 60 steps [J].
+std::pair<double, double> energyOfASecond(const Scene& scene, std::uint32_t substeps) {
+    Runner runner(scene, {.substeps = substeps, .contactRoom = 128});
+    const double before = kineticEnergy(scene, runner.velocities());
+    double most = 0;
+    for (int step = 0; step < 60; ++step) {
+        const Status status = runner.run(1);
+        EXPECT_EQ(status.nonFinite + status.contactRoom, 0u) << "step " << step;
+        most = std::max(most, kineticEnergy(scene, runner.velocities()));
+    }
+    return {before, most};
+}
+
+} // namespace
+
 // Who touches already and presses on faster than half a radius a substep was once stopped where he was, while
 // links pulled on: that stored energy in the links, substep after substep (1e5 J and more in a collapsed
 // stack).
@@ -134,15 +152,7 @@ TEST(HardContacts, Case15BodiesThatPressIntoEachOtherFastGainNoEnergy) {
             scene.contacts.friction = friction;
             for (std::size_t i = 0; i < scene.particles.size(); ++i)
                 scene.particles[i].velocity.x = i < half ? 30.0f : -30.0f;
-            const Settings settings{.substeps = substeps, .contactRoom = 128};
-            Runner runner(scene, settings);
-            const double before = kineticEnergy(scene, runner.velocities());
-            double most = 0;
-            for (int step = 0; step < 60; ++step) {
-                const Status status = runner.run(1);
-                ASSERT_EQ(status.nonFinite + status.contactRoom, 0u);
-                most = std::max(most, kineticEnergy(scene, runner.velocities()));
-            }
+            const auto [before, most] = energyOfASecond(scene, substeps);
             std::printf("friction %.1f, %2u substeps: %.0f J at first, at most %.0f J\n", double{friction},
                         substeps, before, most);
             EXPECT_LE(most, 1.01 * before);
@@ -159,15 +169,7 @@ TEST(HardContacts, Case15ABodyThatPressesFastIntoOneThatHoldsGainsNoEnergy) {
             else
                 scene.particles[i].inverseMass = 0;
         }
-        const Settings settings{.substeps = substeps, .contactRoom = 128};
-        Runner runner(scene, settings);
-        const double before = kineticEnergy(scene, runner.velocities());
-        double most = 0;
-        for (int step = 0; step < 60; ++step) {
-            const Status status = runner.run(1);
-            ASSERT_EQ(status.nonFinite + status.contactRoom, 0u);
-            most = std::max(most, kineticEnergy(scene, runner.velocities()));
-        }
+        const auto [before, most] = energyOfASecond(scene, substeps);
         std::printf("%2u substeps: %.0f J at first, at most %.0f J\n", substeps, before, most);
         EXPECT_LE(most, 1.02 * before);
     }
