@@ -301,7 +301,7 @@ struct GridPush {
     uint cells;  // a power of two
     float edge;  // of a cell, at least [m]
     float most;  // radius in the grid [m]; particles with more are searched one by one
-    float slack; // how far from where it is expected a particle may be before the grid is built again [m]
+    float slack; // how far an end of an edge may move before the grid is built again [m]; other grids have frames of bodies
     uint others; // items of further passes that run with a build; 0 = none
     float quiet; // way in a substep up to which nobody meets anybody on it [m]
     uint bodies; // with a frame
@@ -420,7 +420,7 @@ struct FacePush {
 };
 
 struct StopPush {
-    uint count; // of particles; whole work groups
+    uint count; // of points that move
     uint row;   // elements of a point's list from one face to the next
     uint moving, faces; // faces from the first to before the second have no corner that gives way
 };

@@ -30,12 +30,14 @@ struct Request {
     const char* name = "grid";    ///< of its buffers
 };
 
+constexpr std::uint32_t hasOneBodyId = 4; // constant_id in strays.glsl
+
 /// `frames` are read by kernels that watch lists, `ofSlots`, the number of the body, by those that make them.
 struct Frames {
     layout::FramePush push{};
     BufferId frames, ofSlots;
     /// Specialises kernels that watch lists.
-    ProgramBuilder::Constants constants() const { return {{4, push.bodies == 1}}; }
+    ProgramBuilder::Constants constants() const { return {{hasOneBodyId, push.bodies == 1}}; }
     BufferId members;                       ///< slots that are watched
     std::uint32_t memberCount = 0;          ///< how many
     BufferId chunks, bodies, partial, sums; ///< invalid where nothing is fitted

@@ -54,8 +54,8 @@ struct Lists {
 Lists add(ProgramBuilder& program, const Request& request);
 
 /// After particles were watched: builds the grid of them where lists are no longer complete, for those that
-/// are near, or were on their way. Until addLists() the old lists stand. `isLast`: of the
-/// watches of a substep.
+/// are near, or were on their way. Until addLists() the old lists stand. `isLast`: no other
+/// addBuild() of this substep follows.
 void addBuild(ProgramBuilder& program, const Lists& lists, const hash_grid::Moved& moved, bool isLast = true);
 
 /// Makes the lists where the grid was built. A list that does not fit its room is said in the

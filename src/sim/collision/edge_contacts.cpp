@@ -113,9 +113,9 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     const StateLayout& layout = particles.layout;
     const std::vector<Edge> edges = edgesOf(scene);
     Contacts contacts{.lists = addLists(program, scene, settings, layout, edges),
+                      .sleeps = particles.sleep != nullptr,
                       .surfaces = faces.surfaces,
                       .before = faces.before};
-    contacts.sleeps = particles.sleep != nullptr;
     const layout::FaceFindPush& find = contacts.lists.push;
     contacts.push = {.count = find.points,
                      .row = find.row,

@@ -2,6 +2,7 @@
 #include "sim/collision/footprints.hpp"
 
 #include <limits>
+
 namespace sinew::sim::collision {
 
 namespace {

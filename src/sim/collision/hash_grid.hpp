@@ -71,7 +71,7 @@ void addWatch(ProgramBuilder& program, const Grid& grid, const Moved& moved);
 
 /// After they were watched, by addWatch() or another pass: builds the grid of them where it must be.
 /// Particles too fast for cells are listed, up to MOST_FAST; where there are more, all of those are slowed
-/// down first, which the status counts.
+/// down first, which the status counts. `isLast`: no other addBuild() of this substep follows.
 void addBuild(ProgramBuilder& program, const Grid& grid, const Moved& moved, bool isLast = true);
 
 } // namespace sinew::sim::collision::hash_grid

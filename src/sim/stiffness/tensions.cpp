@@ -105,7 +105,7 @@ std::vector<double> spansOf(const Scene& scene, const Ways& ways, const Vector& 
     return spans;
 }
 
-// Of each particle.
+// How each particle is held.
 struct Holds {
     std::vector<bool> isHeld, isSharp;
     std::vector<bool> isCarried;  ///< held from below, not by a pin or an attachment
