@@ -21,12 +21,13 @@ layout(std430, binding = BOUNCE_BINDING + 3) writeonly buffer NextVelocities { v
 void main() {
     const uint i = itemIndex(push.count);
     const float own = bouncing[i];
-    const uint n = own > 0.0 ? counts[i] : 0u; // what never moves rebounds from nothing
+    const uvec2 list = lists[i];
+    const uint end = own > 0.0 ? list.x + list.y : list.x; // what never moves rebounds from nothing
     const Self self = selfOf(i);
     const vec4 velocity = VELOCITY(i);
     vec3 sum = vec3(0.0);
-    for (uint s = 0u; s < n; ++s) {
-        const uvec2 candidate = CONTACT(s * push.row + i);
+    for (uint slot = list.x; slot < end; ++slot) {
+        const uvec2 candidate = CONTACT(slot);
         const Bounce bounce = bounceFrom(i, candidate, self);
         if (bounce.speed == 0.0) continue;
         const float missing = bounce.speed - dot(bounce.n, velocity.xyz - VELOCITY(candidate.x).xyz);

@@ -19,10 +19,10 @@ vec4 bounceOf(EdgePair pair, vec3 n, vec2 st) {
 }
 
 void main() {
-    const uint e = itemIndex(push.count), n = counts[e];
+    const uint e = itemIndex(push.count);
+    const uvec2 list = lists[e];
     vec2 sum = vec2(0.0);
-    for (uint s = 0u; s < n; ++s) {
-        const uint element = s * push.row + e;
+    for (uint element = list.x; element < list.x + list.y; ++element) {
         const vec4 direction = directions[element];
         const vec2 own = weights[element].xy;
         vec4 bounce = vec4(0.0);

@@ -8,7 +8,7 @@
 layout(std430, binding = 0) readonly buffer Before { vec4 before[]; };     // velocities when the substep began [m/s]
 layout(std430, binding = 1) readonly buffer Faces { ContactFace faces[]; };
 layout(std430, binding = 2) readonly buffer Contacts { uvec2 contacts[]; };
-layout(std430, binding = 3) readonly buffer Counts { uint counts[]; };
+layout(std430, binding = 3) readonly buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 4) readonly buffer Directions { vec4 directions[]; };
 layout(std430, binding = 5) readonly buffer Weights { vec4 weights[]; };
 layout(std430, binding = 6) readonly buffer Surfaces { uint surfaces[]; }; // of each particle
@@ -26,9 +26,9 @@ float speedOf(uint i, uint element) {
 }
 
 void main() {
-    const uint i = itemIndex(push.count), n = counts[i];
-    for (uint s = 0u; s < n; ++s) {
-        const uint element = s * push.row + i;
+    const uint i = itemIndex(push.count);
+    const uvec2 list = lists[i];
+    for (uint element = list.x; element < list.x + list.y; ++element) {
         const vec4 direction = directions[element];
         bounces[element] = vec4(direction.xyz, direction.w > 0.0 ? speedOf(i, element) : 0.0);
     }

@@ -20,7 +20,7 @@ layout(std430, binding = 3) readonly buffer Predicted { vec4 predicted[]; }; // 
 #define BEFORE(i) before[i].xyz
 #define PREDICTED(i) predicted[i].xyz
 #endif
-layout(std430, binding = 4) readonly buffer Counts { uint counts[]; };
+layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };
 layout(std140, binding = 5) uniform Step { StepParams step; };
 layout(std140, binding = 6) uniform Bounds { GridBounds bounds; };
 layout(std430, binding = 7) readonly buffer Firsts { float firsts[]; }; // when each first met another, where isSwept

@@ -8,10 +8,11 @@ layout(std430, binding = BOUNCE_BINDING) readonly buffer Velocities { vec4 veloc
 layout(std430, binding = BOUNCE_BINDING + 1) writeonly buffer Bouncing { float bouncing[]; }; // bounces x inverse mass
 
 void main() {
-    const uint i = itemIndex(push.count), n = counts[i];
+    const uint i = itemIndex(push.count);
+    const uvec2 list = lists[i];
     const Self self = selfOf(i);
     float bounces = 0.0;
-    for (uint s = 0u; s < n; ++s)
-        bounces += float(bounceFrom(i, CONTACT(s * push.row + i), self).speed > 0.0);
+    for (uint slot = list.x; slot < list.x + list.y; ++slot)
+        bounces += float(bounceFrom(i, CONTACT(slot), self).speed > 0.0);
     bouncing[i] = bounces * velocities[i].w;
 }

@@ -21,7 +21,7 @@ layout(std430, binding = 3) readonly buffer Velocities { vec4 velocities[]; }; /
 #define CONTACT(i) contacts[i]
 #define VELOCITY(i) velocities[i]
 #endif
-layout(std430, binding = 2) readonly buffer Counts { uint counts[]; };
+layout(std430, binding = 2) readonly buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 4) writeonly buffer Touching { vec4 touching[]; }; // x, contacts x inverse mass
 layout(std140, binding = 5) uniform Step { StepParams step; };
 layout(std140, binding = 6) uniform Bounds { GridBounds bounds; };
@@ -34,31 +34,32 @@ layout(push_constant) uniform Push { ContactPush push; };
 #include "contact_reach.glsl"
 
 void main() {
-    const uint i = itemIndex(push.count), n = counts[i];
+    const uint i = itemIndex(push.count);
+    const uvec2 list = lists[i];
+    const uint end = list.x + list.y;
     // Loops of which some are empty: what stands under a condition costs a software device its time nevertheless.
-    const uint sweeping = bounds.isSwept != 0u ? n : 0u, resting = n - sweeping;
+    const uint resting = bounds.isSwept != 0u ? list.x : end, sweeping = bounds.isSwept != 0u ? end : list.x;
     const vec4 start = PREDICTED(i);
     vec3 x = start.xyz;
     const vec4 velocity = VELOCITY(i);
     float contactCount = 0.0, first = 1.0;
 #ifdef HAS_RECOVERY
-    for (uint s = 0u; s < n; ++s) recover(s * push.row + i, x);
+    for (uint slot = list.x; slot < end; ++slot) recover(slot, x);
 #endif
-    for (uint s = 0u; s < resting; ++s) {
-        const uint slot = s * push.row + i;
+    for (uint slot = list.x; slot < resting; ++slot) {
         const uvec2 candidate = CONTACT(slot);
         const vec3 d = x - PREDICTED(candidate.x).xyz;
         contactCount += float(touches(d, reachOf(slot, uintBitsToFloat(candidate.y))));
     }
-    for (uint s = 0u; s < sweeping; ++s) {
-        const Pair pair = pairOf(s * push.row + i, start, velocity.xyz);
+    for (uint slot = list.x; slot < sweeping; ++slot) {
+        const Pair pair = pairOf(slot, start, velocity.xyz);
         first = min(first, meetingOf(pair.d, pair.way, pair.reach, pair.areFree).time);
     }
-    for (uint s = 0u; s < sweeping; ++s) {
-        const Pair pair = pairOf(s * push.row + i, start, velocity.xyz);
+    for (uint slot = list.x; slot < sweeping; ++slot) {
+        const Pair pair = pairOf(slot, start, velocity.xyz);
         contactCount += float(contactOf(pair.d, pair.way, pair.reach, first, pair.areFree).exists);
     }
-    if (sweeping > 0u) {
+    if (sweeping > list.x) {
         firsts[i] = first;
         if (first < 1.0) x -= (1.0 - first) * step.h * velocity.xyz; // stays where it met
     }

@@ -33,13 +33,14 @@ bool pushes(uint i, uint slot, uint pair, vec3 x, vec4 velocity) {
 }
 
 void main() {
-    const uint i = itemIndex(push.count), body = nodes[i].body, n = body > 0u ? counts[i] : 0u;
+    const uint i = itemIndex(push.count), body = nodes[i].body;
+    const uvec2 list = body > 0u ? lists[i] : uvec2(0u);
     const vec3 x = predicted[i].xyz;
     const vec4 velocity = velocities[i];
     if (body > 0u && velocity.w > 0.0) see(body);
     float contactCount = 0.0;
-    for (uint s = 0u; s < n; ++s) {
-        const uint slot = s * push.row + i, other = nodes[contacts[slot].x].body;
+    for (uint slot = list.x; slot < list.x + list.y; ++slot) {
+        const uint other = nodes[contacts[slot].x].body;
         const uint pair = other > 0u ? pairOf(body, other) : noPair;
         if (pair != noPair) contactCount += float(pushes(i, slot, pair, x, velocity));
     }

@@ -49,7 +49,6 @@ struct CutPush {
     uint rowStride, sliceStride; // from a node to the next in y, in z; in a sheet there is no y and rowStride 0
     uint stiffLinks;             // bits of the links that have stiffness
     float spacing;               // [m]
-    uint contactRow;             // elements of a list of contacts from one candidate to the next
     uint run;                    // which one it is: its lists
 };
 

@@ -2,7 +2,7 @@
 layout(std430, binding = 0) readonly buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
 layout(std430, binding = 1) readonly buffer Edges { ContactEdge edges[]; };
 layout(std430, binding = 2) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
-layout(std430, binding = 3) readonly buffer Counts { uint counts[]; };
+layout(std430, binding = 3) readonly buffer Lists { uvec2 lists[]; }; // of each edge: the first element, how many
 layout(push_constant) uniform Push { FacePush push; };
 
 struct EdgePair {

@@ -8,14 +8,15 @@ vec3 impulseOn(uint i) {
 }
 #else
 vec3 impulseOn(uint i) {
-    const uint n = counts[i];
+    const uvec2 list = lists[i];
     vec3 sum = vec3(0.0);
-    for (uint s = 0u; s < n; ++s)
-        if (directions[s * push.row + i].w > 0.0) sum += impulses[s * push.row + i].xyz;
+    for (uint element = list.x; element < list.x + list.y; ++element)
+        if (directions[element].w > 0.0) sum += impulses[element].xyz;
     for (uint k = corners[i]; k < corners[i + 1u]; ++k) {
-        const uint face = corners[k] / 4u, corner = corners[k] % 4u, points = linkCounts[face];
-        for (uint s = 0u; s < points; ++s) {
-            const uint element = links[s * push.faceRow + face];
+        const uint corner = corners[k] % 4u;
+        const uvec2 points = linkLists[corners[k] / 4u];
+        for (uint link = points.x; link < points.x + points.y; ++link) {
+            const uint element = links[link];
             if (directions[element].w > 0.0) sum -= weights[element][corner] * impulses[element].xyz;
         }
     }

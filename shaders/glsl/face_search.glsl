@@ -25,13 +25,16 @@ layout(std430, binding = 8) readonly buffer Excluded { uint excluded[]; };     /
 #define EXCLUDED(k) excluded[k]
 #endif
 layout(std430, binding = 3) readonly buffer Faces { ContactFace faces[]; };
-layout(std430, binding = 4) buffer Found { uint found[]; };              // faces near each point, listed or not; 0 at first
-layout(std430, binding = 5) writeonly buffer Candidates { uint candidates[]; };
-layout(std430, binding = 6) buffer FaceFound { uint faceFound[]; };      // points near each moving face, likewise
-layout(std430, binding = 7) writeonly buffer FaceCandidates { uint faceCandidates[]; };
+layout(std430, binding = 4) buffer PointChains { uint pointChains[]; };
+layout(std430, binding = 5) buffer FaceChains { uint faceChains[]; }; // of moving faces
 layout(std140, binding = 9) uniform Step { StepParams step; };
 layout(std430, binding = WEIGHT_BINDING) readonly buffer Masses { float inverseMass[]; }; // also of what sleeps [1/kg]
 layout(push_constant) uniform Push { FaceFindPush push; };
+layout(std430, binding = 6) coherent volatile buffer Bounds { GridBounds bounds; };
+#define PAIRS_BINDING 7
+#define FINDS_PAIRS
+#define ENTRIES_OF_PAIR 1u
+#include "listed_pairs.glsl"
 
 // A face at the end of its way.
 struct Searched {
@@ -91,7 +94,10 @@ bool isNear(Searched face, uint i, vec3 x) {
     return dot(d, d) < reach * reach;
 }
 
-void listAtPoint(uint i, uint f) {
-    const uint slot = atomicAdd(found[i], 1u);
-    if (slot < push.capacity) candidates[slot * push.row + i] = f;
+void list(uint i, uint f) {
+    const uint pair = newPair();
+    if (pair == noPair) return;
+    const uint next = atomicExchange(pointChains[i], 2u * pair + 1u);
+    const uint nextOfFace = f < push.moving ? atomicExchange(faceChains[f], 2u * pair + 2u) : 0u;
+    pairs[pair] = uvec4(i, f, next, nextOfFace);
 }

@@ -1,6 +1,5 @@
 #version 460
-// Lists every pair of particles that is nearer than touching and a margin with both of the two, in any order:
-// sort_contacts sorts. A list that is too short loses what does not fit and says how long it should be. SWEPT: in a substep
+// Lists every pair of particles that is nearer than touching and a margin, in any order: sort_lists sorts. SWEPT: in a substep
 // in which particles may have met on their way; fast ones are then searched one by one, like large ones.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -26,9 +25,9 @@ layout(std430, binding = 3) readonly buffer Radii { float radii[]; };
 #define POSITION(i) positions[i]
 #define RADIUS(i) radii[i]
 #endif
-layout(std140, binding = 4) uniform Bounds { GridBounds bounds; };
-layout(std430, binding = 5) buffer Found { uint found[]; }; // candidates of each particle, listed or not; 0 at first
-layout(std430, binding = 6) writeonly buffer Candidates { uint candidates[]; };
+layout(std430, binding = 4) coherent volatile buffer Bounds { GridBounds bounds; };
+layout(std430, binding = 5) buffer Chains { uint chains[]; };
+#define PAIRS_BINDING 6
 layout(std430, binding = 7) readonly buffer Large { uint large[]; };
 #ifdef HAS_EXCLUSIONS
 layout(std430, binding = 8) readonly buffer Excluded { uint excluded[]; }; // first of each particle, then the lists, sorted
@@ -45,6 +44,9 @@ layout(std430, binding = SWEPT_BINDING + 1) readonly buffer Fast { uint fast[]; 
 layout(std140, binding = SWEPT_BINDING + 2) uniform Step { StepParams step; };
 #endif
 layout(push_constant) uniform Push { FindPush push; };
+#define FINDS_PAIRS
+#define ENTRIES_OF_PAIR 2u
+#include "listed_pairs.glsl"
 layout(constant_id = 1) const bool hasOneRadius = false;
 
 #ifdef HAS_EXCLUSIONS
@@ -56,7 +58,7 @@ bool isExcluded(uint i, uint j) { return false; }
 #include "sweep.glsl"
 #include "near_cells.glsl"
 
-// A pair with a particle that is searched one by one: small ones enter both copies, of two such the first does.
+// A pair with a particle that is searched one by one: a small one lists it, of two such the first does.
 void searchOne(uint i, vec3 x, float radius, bool isSmall, uint j) {
     if ((isSmall || i < j) && isNear(i, j, radius, x - POSITION(j).xyz)) list(i, j);
 }

@@ -1,6 +1,6 @@
 #version 460
 // Every edge looks for others near it, in the cells around it and among those that stand apart, and lists them, in any order:
-// sort_contacts sorts. A pair is listed where the two are nearer than touching, a margin, and what both move in this substep,
+// sort_lists sorts. A pair is listed where the two are nearer than touching, a margin, and what both move in this substep,
 // and their balls likewise, at both.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -42,16 +42,19 @@ layout(std430, binding = 6) readonly buffer Excluded { uint excluded[]; }; // fi
 #define EXCLUDED(k) excluded[k]
 ContactEdge edgeAt(uint e) { return edges[e]; }
 #endif
-layout(std140, binding = 7) uniform Bounds { GridBounds bounds; };
+layout(std430, binding = 7) coherent volatile buffer Bounds { GridBounds bounds; };
 layout(std430, binding = 8) readonly buffer Points { FacePoints points; };
 layout(std430, binding = 9) readonly buffer Apart { uint apart[]; };
 layout(std430, binding = 10) readonly buffer Middles { vec4 middles[]; };
-layout(std430, binding = 11) buffer Found { uint found[]; };               // edges near each, listed or not; 0 at first
-layout(std430, binding = 12) writeonly buffer Candidates { uint candidates[]; };
+layout(std430, binding = 11) buffer Chains { uint chains[]; };
+#define PAIRS_BINDING 12
 layout(std430, binding = 13) writeonly buffer Ends { vec4 ends[]; };
 layout(std430, binding = 14) buffer Status { StatusWords status; };
 layout(std140, binding = 15) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { FaceFindPush push; };
+#define FINDS_PAIRS
+#define ENTRIES_OF_PAIR 2u
+#include "listed_pairs.glsl"
 
 #include "near_edges.glsl"
 #include "grid_rows.glsl"
@@ -86,14 +89,12 @@ uint nearOf(Searched one, uint visits, Rows rows, uint from, Frame frame, uint t
 }
 
 // What stands under a condition is what costs: a batch is measured first, and what is left of it is looked at then.
-void searchRows(Searched one, float range, Rows rows, Frame frame, uint total, inout uint n) {
-    for (uint from = 0u; from < rows.all && n <= push.limit; from += 32u) {
+void searchRows(Searched one, float range, Rows rows, Frame frame, uint total) {
+    for (uint from = 0u; from < rows.all && !isFull(); from += 32u) {
         uint near = nearOf(one, around(one, range, rows, from, total), rows, from, frame, total);
         for (; near != 0u; near &= near - 1u) {
             const uint f = SORTED(placeOf(rows, from + uint(findLSB(near)), total)).w;
-            if (isExcluded(one.index, f)) continue;
-            list(one.index, f);
-            ++n;
+            if (!isExcluded(one.index, f)) list(one.index, f);
         }
     }
 }
@@ -107,12 +108,11 @@ void searchGrid(Searched one, uint total) {
     const vec3 low = max(one.middle - range, frame.low), high = min(one.middle + range, top);
     if (any(lessThan(high, low))) return;
     const ivec3 first = cellOf(low, frame), last = cellOf(high, frame);
-    if (pointsIn(first, last, frame) > FACE_MOST_POINTS) atomicMax(status.candidates, push.limit + 1u); // said, not lost
-    uint n = 0u;
+    if (pointsIn(first, last, frame) > FACE_MOST_POINTS) atomicMax(status.candidates, CONTACT_MOST_ROOM + 1u); // said, not lost
     for (int z = first.z; z <= last.z; ++z)
         for (int y = first.y; y <= last.y; y += 3)
             for (int x = first.x; x <= last.x; x += 3)
-                searchRows(one, range, rowsFrom(ivec3(x, y, z), last, frame), frame, total, n);
+                searchRows(one, range, rowsFrom(ivec3(x, y, z), last, frame), frame, total);
 }
 
 void main() {
@@ -124,8 +124,8 @@ void main() {
     const uint total = START(push.cells);
     const bool standsApart = isApart(one.edge, one.way);
     if (total > 0u && !standsApart) searchGrid(one, total);
-    if (points.apart > FACE_MOST_POINTS) atomicMax(status.candidates, push.limit + 1u);
-    for (uint k = 0u; k < min(points.apart, FACE_MOST_POINTS); ++k) {
+    if (points.apart > FACE_MOST_POINTS) atomicMax(status.candidates, CONTACT_MOST_ROOM + 1u);
+    for (uint k = 0u; k < min(points.apart, FACE_MOST_POINTS) && !isFull(); ++k) {
         const uint f = apart[k];
         // of two apart the first lists both
         if ((standsApart && f < e) || !isNear(one, f, edgeAt(f), wayOf(f), middles[f].xyz) || isExcluded(e, f)) continue;

@@ -1,10 +1,9 @@
 #version 460
-// Every small face looks for points near it, in the cells around it and among those that stand apart, and lists them; at a
-// point the face is listed too. In any order: sort_faces and link_faces sort. A face with too much around it is left to
-// find_wide_faces.
+// Every small face looks for points near it, in the cells around it and among those that stand apart, and lists the pairs in any
+// order: sort_lists and link_faces sort. A face with too much around it is left to find_wide_faces.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-#define WEIGHT_BINDING 17
+#define WEIGHT_BINDING 16
 #include "face_search.glsl"
 #include "hash_grid.glsl"
 
@@ -19,12 +18,11 @@ layout(std430, binding = 11) readonly buffer Starts { uint starts[]; };
 #define SORTED(k) sorted[k]
 #define START(slot) starts[slot]
 #endif
-layout(std140, binding = 12) uniform Bounds { GridBounds bounds; };
-layout(std430, binding = 13) buffer Points { FacePoints points; };
-layout(std430, binding = 14) readonly buffer Apart { uint apart[]; };
-layout(std430, binding = 15) readonly buffer SearchedFaces { uint searchedFaces[]; }; // ~0 in padding
+layout(std430, binding = 12) buffer Points { FacePoints points; };
+layout(std430, binding = 13) readonly buffer Apart { uint apart[]; };
+layout(std430, binding = 14) readonly buffer SearchedFaces { uint searchedFaces[]; }; // ~0 in padding
 
-layout(std430, binding = 16) writeonly buffer Wide { uint wide[]; };
+layout(std430, binding = 15) writeonly buffer Wide { uint wide[]; };
 
 #include "face_cells.glsl"
 #include "grid_rows.glsl"
@@ -34,12 +32,8 @@ bool isNearby(Searched face, uint i, vec3 x, bool isApart) {
     return isInBox(face, x, reach) && (size <= push.most) != isApart && isNear(face, i, x);
 }
 
-void list(Searched face, uint i, inout uint n) {
-    if (isExcluded(face.index, i)) return;
-    listAtPoint(i, face.index);
-    if (face.index >= push.moving) return;
-    if (n < push.capacity) faceCandidates[n * push.faceRow + face.index] = i;
-    ++n;
+void listUnlessExcluded(Searched face, uint i) {
+    if (!isExcluded(face.index, i)) list(i, face.index);
 }
 
 // Of up to 32 visits from `from` on, the points near the box of the face: bit v for visit from + v.
@@ -67,25 +61,25 @@ uint nearOf(Searched face, uint visits, Rows rows, uint from, Frame frame, uint 
 }
 
 // What stands under a condition is what costs: a batch is measured first, and what is left of it is looked at then.
-void searchRows(Searched face, float range, Rows rows, Frame frame, uint total, inout uint n) {
-    for (uint from = 0u; from < rows.all && n <= push.limit; from += 32u) {
+void searchRows(Searched face, float range, Rows rows, Frame frame, uint total) {
+    for (uint from = 0u; from < rows.all && !isFull(); from += 32u) {
         uint near = nearOf(face, around(face, range, rows, from, total), rows, from, frame, total);
         for (; near != 0u; near &= near - 1u)
-            list(face, SORTED(placeOf(rows, from + uint(findLSB(near)), total)).w, n);
+            listUnlessExcluded(face, SORTED(placeOf(rows, from + uint(findLSB(near)), total)).w);
     }
 }
 
-void searchGrid(Searched face, Cells cells, Frame frame, uint total, inout uint n) {
+void searchGrid(Searched face, Cells cells, Frame frame, uint total) {
     const float range = rangeOf(face);
     for (int z = cells.first.z; z <= cells.last.z; ++z)
         for (int y = cells.first.y; y <= cells.last.y; y += 3)
             for (int x = cells.first.x; x <= cells.last.x; x += 3)
-                searchRows(face, range, rowsFrom(ivec3(x, y, z), cells.last, frame), frame, total, n);
+                searchRows(face, range, rowsFrom(ivec3(x, y, z), cells.last, frame), frame, total);
 }
 
-void searchApart(Searched face, inout uint n) {
-    for (uint k = 0u; k < points.apart && n <= push.limit; ++k)
-        if (isNearby(face, apart[k], POSITION(apart[k]).xyz, true)) list(face, apart[k], n);
+void searchApart(Searched face) {
+    for (uint k = 0u; k < points.apart && !isFull(); ++k)
+        if (isNearby(face, apart[k], POSITION(apart[k]).xyz, true)) listUnlessExcluded(face, apart[k]);
 }
 
 void main() {
@@ -100,8 +94,6 @@ void main() {
         wide[atomicAdd(points.wide, 1u)] = f;
         return;
     }
-    uint n = 0u;
-    searchGrid(face, cells, frame, total, n);
-    searchApart(face, n);
-    if (f < push.moving) faceFound[f] = n;
+    searchGrid(face, cells, frame, total);
+    searchApart(face);
 }

@@ -15,16 +15,13 @@ void main() {
     const vec3 x = POSITION(i).xyz;
     const float size = sizeOf(RADIUS(i), step.h, VELOCITY(i).xyz);
     const uint all = push.large + points.wide;
-    if (all > FACE_MOST_WIDE) atomicMax(status.candidates, push.limit + 1u); // more than can be done: said, not lost
-    for (uint l = 0u; l < min(all, FACE_MOST_WIDE); ++l) {
+    if (all > FACE_MOST_WIDE) atomicMax(status.candidates, CONTACT_MOST_ROOM + 1u); // more than can be done: said, not lost
+    for (uint l = 0u; l < min(all, FACE_MOST_WIDE) && !isFull(); ++l) {
         const uint f = l < push.large ? large[l] : wide[l - push.large];
         if (f == ~0u) continue; // a cut has parted it
         const Searched face = searchedOf(f);
         const float reach = face.reach + size;
         if (!isInBox(face, x, reach) || !isNear(face, i, x) || isExcluded(f, i)) continue;
-        listAtPoint(i, face.index);
-        if (face.index >= push.moving) continue;
-        const uint slot = atomicAdd(faceFound[face.index], 1u);
-        if (slot < push.capacity) faceCandidates[slot * push.faceRow + face.index] = i;
+        list(i, face.index);
     }
 }

@@ -29,7 +29,7 @@ layout(std430, binding = 2) readonly buffer Velocities { vec4 velocities[]; }; /
 #define CONTACT(i) contacts[i]
 #define VELOCITY(i) velocities[i]
 #endif
-layout(std430, binding = 3) readonly buffer Counts { uint counts[]; };
+layout(std430, binding = 3) readonly buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 4) readonly buffer Predicted { vec4 predicted[]; };         // after the links (remainder.glsl); w: passed on
 layout(std430, binding = 5) writeonly buffer NextPositions { vec4 nextPositions[]; }; // x + thetaH v
 layout(std430, binding = 6) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
@@ -43,13 +43,15 @@ layout(push_constant) uniform Push { ContactPush push; };
 #include "contact_impulses.glsl"
 
 void main() {
-    const uint i = itemIndex(push.count), n = counts[i];
+    const uint i = itemIndex(push.count);
+    const uvec2 list = lists[i];
+    const uint end = list.x + list.y;
     const vec4 self = TOUCHING(i), velocity = VELOCITY(i);
     const float w = velocity.w, h = step.h;
     vec3 sum = vec3(0.0), stopping = vec3(0.0);
-    const uint sweeping = bounds.isSwept != 0u ? n : 0u, resting = n - sweeping; // as in count_contacts
-    for (uint s = 0u; s < resting; ++s) sum += impulseFrom(i, s * push.row + i, self, velocity.xyz);
-    for (uint s = 0u; s < sweeping; ++s) addSwept(i, s * push.row + i, self, velocity.xyz, sum, stopping);
+    const uint resting = bounds.isSwept != 0u ? list.x : end, sweeping = bounds.isSwept != 0u ? end : list.x; // as in count_contacts
+    for (uint slot = list.x; slot < resting; ++slot) sum += impulseFrom(i, slot, self, velocity.xyz);
+    for (uint slot = list.x; slot < sweeping; ++slot) addSwept(i, slot, self, velocity.xyz, sum, stopping);
     const vec3 correction = w * sum;
     finish(i, self.xyz, predicted[i].w, velocity, correction, velocity.xyz + (correction + w * stopping) / h);
 }

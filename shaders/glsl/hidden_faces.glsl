@@ -25,17 +25,16 @@ bool has(ContactFace other, ContactFace face, uint corners) {
 // it would be pushed aslant, too softly, and be thrown as it comes out. So such a contact does not push: its depth is below
 // 0. What it remembers goes on, for the nearest place may change from one face to the other. Not among those of sheets that move:
 // where cloth lies on cloth, to push its neighbours as well spreads what a point presses with, and folds rest sooner for it.
-void hide(uint i, uint n) {
-    for (uint s = 0u; s < n; ++s) {
-        const uint element = s * push.row + i, corners = cornersIn(directions[element].w);
+void hide(uint first, uint end) {
+    for (uint element = first; element < end; ++element) {
+        const uint corners = cornersIn(directions[element].w);
         if (!(directions[element].w > 0.0) || corners == 7u || contacts[element].x < push.sheets) continue;
         const ContactFace face = faces[contacts[element].x];
         bool isHidden = false;
-        for (uint t = 0u; t < n && !isHidden; ++t) {
-            const uint beside = t * push.row + i;
-            if (t == s || directions[beside].w == 0.0 || contacts[beside].x < push.sheets) continue;
+        for (uint beside = first; beside < end && !isHidden; ++beside) {
+            if (beside == element || directions[beside].w == 0.0 || contacts[beside].x < push.sheets) continue;
             const ContactFace other = faces[contacts[beside].x];
-            isHidden = has(other, face, corners) && (t < s || !has(face, other, cornersIn(directions[beside].w)));
+            isHidden = has(other, face, corners) && (beside < element || !has(face, other, cornersIn(directions[beside].w)));
         }
         if (isHidden) directions[element].w = -directions[element].w;
     }

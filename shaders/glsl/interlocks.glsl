@@ -3,7 +3,7 @@
 #include "contacts.glsl"
 
 layout(std430, binding = 0) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
-layout(std430, binding = 1) readonly buffer Counts { uint counts[]; };
+layout(std430, binding = 1) readonly buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 2) readonly buffer Normals { vec4 normals[]; }; // out of the body, 0 = none; depth at rest [m]
 layout(std430, binding = 3) readonly buffer Nodes { InterlockNode nodes[]; };
 layout(std430, binding = 4) readonly buffer Partners { uint partners[]; }; // firsts of bodies; partner and pair of each

@@ -6,7 +6,7 @@
 #include "islands.glsl"
 
 layout(std430, binding = 3) readonly buffer Contacts { ContactCandidate contacts[]; };
-layout(std430, binding = 4) readonly buffer Counts { uint counts[]; };
+layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 5) readonly buffer Touching { vec4 touching[]; }; // where contacts were counted [m]
 layout(push_constant) uniform Push { SleepPush push; };
 
@@ -14,8 +14,9 @@ void main() {
     const uint i = itemIndex(push.count);
     if (!isAwake(i)) return;
     const vec3 x = touching[i].xyz;
-    for (uint s = 0u; s < counts[i]; ++s) {
-        const ContactCandidate candidate = contacts[s * push.row + i];
+    const uvec2 list = lists[i];
+    for (uint slot = list.x; slot < list.x + list.y; ++slot) {
+        const ContactCandidate candidate = contacts[slot];
         const uint j = candidate.other;
         if (j < i && isAwake(j) && touches(x - touching[j].xyz, candidate.reach)) join(i, j);
     }

@@ -274,6 +274,10 @@ struct GridBounds {
     uint listed, listedParticles; // work groups in which an owner of a list, a particle, has a candidate
     uint lacking; // room that a step of this simulation has lacked (StatusWords::candidates), or 0: no later one may end either
     float drift;  // how far particles may still stray, together, from where their bodies are expected in this step [m]
+    // Of the lists that were made last (pooled_lists): pairs that were found, also those that there was no room for; entries of all lists;
+    // links of faces to entries.
+    uint pairs, entries, links;
+    uint unused0;
 };
 
 #include "frames_layout.h"
@@ -308,9 +312,7 @@ struct GridPush {
     float reach, margin; // as in FramePush
 };
 
-// Candidate s of particle i is element s * row + i, so that a longer list starts with a shorter one. Rows are a little longer
-// than there are particles: a power of two would put all slots of a particle into one set of a CPU's cache.
-#define CONTACT_ROW_EXTRA 32
+// Element of a list, which stands in one piece in the pool of all lists (ListRange).
 struct ContactCandidate {
     uint other;
     float reach; // distance below which they touch [m]
@@ -320,16 +322,13 @@ struct FindPush {
     uint count, cells;
     float edge, most;
     float margin;  // beyond touching, up to which a pair is listed [m]
-    uint capacity; // candidates of a particle
-    uint row;      // elements from one to the next
-    uint limit;    // candidates after which counting stops
+    uint room;     // entries of the pool, of all lists together
     uint large;    // particles that are searched one by one
     float quiet;   // as in GridPush
 };
 
 struct ContactPush {
     uint count; // of particles; whole work groups
-    uint row;   // elements of a list from one candidate to the next
     float friction, staticFriction; // as a pair of surfaces has them
     float restitution;
     float recoverySpeed; // of pairs that overlapped when the scene was loaded [m/s]
@@ -360,7 +359,6 @@ struct InterlockPair {
 
 struct InterlockPush {
     uint count; // of particles; whole work groups
-    uint row;   // elements of a list from one candidate to the next
     float recoverySpeed; // [m/s]
     uint pairs; // of bodies
 };
@@ -386,6 +384,17 @@ struct FacePoints {
     uint wide;   // how many faces
     uint unused0;
 };
+
+// Entries that a list may have: some devices end a kernel's loops silently at 65,535 turns in all. A list that is longer ends a step as one
+// without room does, and so do more entries on average than there can be room for.
+#define LIST_MOST 2048u
+#define CONTACT_MOST_ROOM 1024u
+
+// Where a list stands in the pool of some lists; a uvec2 in kernels.
+struct ListRange {
+    uint first, count;
+};
+
 #define FACE_MOST_POINTS 20000 // that a face looks at itself
 #define FACE_MOST_WIDE 50000   // faces that a point looks at itself
 
@@ -395,9 +404,7 @@ struct FaceFindPush {
     float edge;
     float most;    // radius and way of a point that the grid is searched for [m]
     float margin;  // beyond touching, up to which a pair is listed [m]
-    uint capacity; // faces near a point, and points near a face
-    uint row, faceRow; // elements from one to the next
-    uint limit;    // candidates after which counting stops
+    uint room;     // entries of the pool, of all lists together
     uint moving;   // faces before that one have a corner that moves
     uint large;    // faces that every point is compared with, beside wide ones
 };
@@ -411,8 +418,6 @@ struct ContactEdge {
 
 struct FacePush {
     uint count;   // of particles, or edges; whole work groups
-    uint row;     // elements of a point's list from one face to the next
-    uint faceRow; // of a face's list from one point to the next
     uint surfaces; // pair (a, b) of them is element a * surfaces + b of a table
     float recoverySpeed; // of what overlapped when the scene was loaded [m/s]
     uint moving; // faces before that one have a corner that moves; of edges nothing
@@ -421,7 +426,6 @@ struct FacePush {
 
 struct StopPush {
     uint count; // of points that move
-    uint row;   // elements of a point's list from one face to the next
     uint moving, faces; // faces from the first to before the second have no corner that gives way
 };
 
@@ -534,7 +538,6 @@ struct SleepState {
 struct SleepPush {
     uint count;  // of particles; whole work groups
     uint groups; // of them
-    uint row, faceRow; // elements of a list of contacts from one candidate to the next
     uint attachments, colliders;
     uint driven;   // so many of the colliders, the last, are balls around driven bodies
     uint passes;   // entries of the list of SleepPass

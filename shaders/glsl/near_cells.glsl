@@ -5,18 +5,17 @@ bool isNear(uint i, uint j, float radius, vec3 d) {
     return i != j && (dot(d, d) < reach * reach || wasNear(i, j, touching, d)) && !isExcluded(i, j);
 }
 
-// Appends each of the two to the other's list.
 void list(uint i, uint j) {
-    const uint s = atomicAdd(found[i], 1u), t = atomicAdd(found[j], 1u);
-    if (s < push.capacity) candidates[s * push.row + i] = j;
-    if (t < push.capacity) candidates[t * push.row + j] = i;
+    const uint pair = newPair();
+    if (pair == noPair) return;
+    const uint next = atomicExchange(chains[i], 2u * pair + 1u), nextOfOther = atomicExchange(chains[j], 2u * pair + 2u);
+    pairs[pair] = uvec4(i, j, next, nextOfOther);
 }
 
-// Lists those near particle i among three rows of cells; n counts them. The rows are visited in one loop, because lanes
+// Lists those near particle i among three rows of cells. The rows are visited in one loop, because lanes
 // wait for the longest list among them: of three rows together it is less above the mean than of one. A batch is measured
 // first and the few that may be near are looked at then: what stands under a condition is what costs.
-void searchRows(uint i, vec3 x, float radius, ivec3 home, ivec3 firstCells[3], uint cells[3], Frame frame, uint total,
-                inout uint n) {
+void searchRows(uint i, vec3 x, float radius, ivec3 home, ivec3 firstCells[3], uint cells[3], Frame frame, uint total) {
     uint start[3], count[3];
     [[unroll]] for (int row = 0; row < 3; ++row) {
         const uint slot = slotOf(firstCells[row], frame);
@@ -27,7 +26,7 @@ void searchRows(uint i, vec3 x, float radius, ivec3 home, ivec3 firstCells[3], u
     start[1] -= second;
     start[2] -= third;
     const float reach = wideOf(i, radius) + push.most + push.margin;
-    for (uint first = 0u; first < all && n <= push.limit; first += 32u) {
+    for (uint first = 0u; first < all && !isFull(); first += 32u) {
         const uint last = min(first + 32u, all);
         uint near = 0u;
         for (uint visit = first; visit < last; ++visit) {
@@ -45,7 +44,6 @@ void searchRows(uint i, vec3 x, float radius, ivec3 home, ivec3 firstCells[3], u
             if (cell.yz != row || cell == home && other.w <= i) continue; // of two in one cell the first lists both
             if (isFast(other.w) || !isNear(i, other.w, radius, x - xj)) continue;
             list(i, other.w);
-            ++n;
         }
     }
 }
@@ -54,9 +52,8 @@ void searchRows(uint i, vec3 x, float radius, ivec3 home, ivec3 firstCells[3], u
 void searchCells(uint i, vec3 x, float radius, Frame frame) {
     const ivec3 home = cellOf(x, frame);
     const uint total = START(push.cells);
-    uint n = 0u;
-    searchRows(i, x, radius, home, ivec3[3](home, home + ivec3(-1, 1, 0), home), uint[3](2u, 3u, 0u), frame, total, n);
+    searchRows(i, x, radius, home, ivec3[3](home, home + ivec3(-1, 1, 0), home), uint[3](2u, 3u, 0u), frame, total);
     searchRows(i, x, radius, home,
                ivec3[3](home + ivec3(-1, -1, 1), home + ivec3(-1, 0, 1), home + ivec3(-1, 1, 1)), uint[3](3u, 3u, 3u),
-               frame, total, n);
+               frame, total);
 }

@@ -38,13 +38,9 @@ bool isNear(Searched one, uint f, ContactEdge edge, float way, vec3 middle) {
 // Which of two edges in the grid looks for the other: half of all do so for each, and near ones as many as far ones.
 bool looksFor(uint e, uint f) { return ((e ^ f) & 1u) == 0u ? e < f : f < e; }
 
-void listAt(uint e, uint f) {
-    const uint slot = atomicAdd(found[e], 1u);
-    if (slot < push.capacity) candidates[slot * push.row + e] = f;
-}
-
-// At both.
 void list(uint e, uint f) {
-    listAt(e, f);
-    listAt(f, e);
+    const uint pair = newPair();
+    if (pair == noPair) return;
+    const uint next = atomicExchange(chains[e], 2u * pair + 1u), nextOfOther = atomicExchange(chains[f], 2u * pair + 2u);
+    pairs[pair] = uvec4(e, f, next, nextOfOther);
 }

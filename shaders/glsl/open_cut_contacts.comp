@@ -9,7 +9,7 @@ layout(std430, binding = 0) readonly buffer Links { uint links[]; };
 layout(std430, binding = 1) readonly buffer SavedLinks { uint savedLinks[]; };
 layout(std430, binding = 2) readonly buffer Places { vec4 places[]; }; // when the step began [m]
 layout(std430, binding = 3) readonly buffer Contacts { ContactCandidate contacts[]; };
-layout(std430, binding = 4) readonly buffer Counts { uint counts[]; };
+layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 5) buffer Slips { vec4 slips[]; }; // w: what is left of an overlap [m]
 
 void main() {
@@ -17,8 +17,8 @@ void main() {
     if (item >= push.count) return;
     const uint i = push.first + item, dead = savedLinks[i] & ~links[i];
     if (dead == 0u) return;
-    for (uint s = 0u; s < counts[i]; ++s) {
-        const uint slot = s * push.contactRow + i;
+    const uvec2 list = lists[i];
+    for (uint slot = list.x; slot < list.x + list.y; ++slot) {
         const ContactCandidate candidate = contacts[slot];
         const int bit = bitTo(int(candidate.other) - int(i), push.rowStride, push.sliceStride);
         if (bit < 0 || (dead >> bit & 1u) == 0u) continue;

@@ -22,11 +22,12 @@ vec3 impulseFrom(uint i, uvec2 candidate, vec4 self, vec3 velocity) {
 }
 
 void main() {
-    const uint i = itemIndex(push.count), body = nodes[i].body, n = body > 0u ? counts[i] : 0u;
+    const uint i = itemIndex(push.count), body = nodes[i].body;
+    const uvec2 list = body > 0u ? lists[i] : uvec2(0u);
     const vec4 self = touching[i], velocity = moving[i];
     vec3 sum = vec3(0.0);
-    for (uint s = 0u; s < n; ++s) {
-        const uvec2 candidate = contacts[s * push.row + i];
+    for (uint slot = list.x; slot < list.x + list.y; ++slot) {
+        const uvec2 candidate = contacts[slot];
         const uint other = nodes[candidate.x].body, pair = other > 0u ? pairOf(body, other) : noPair;
         if (pair == noPair || pairs[pair].state != INTERLOCK_PARTING) continue;
         sum += impulseFrom(i, candidate, self, velocity.xyz);

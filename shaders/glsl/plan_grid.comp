@@ -35,7 +35,8 @@ void planPasses(bool isBuilt) {
     plan(GRID_SWEPT, isBuilt && isSwept, push.count);
     plan(GRID_UNSWEPT, isBuilt && !isSwept, push.count);
     if (isBuilt) {
-        bounds.listed = bounds.listedParticles = 0u; // whoever sorts lists counts anew
+        bounds.listed = bounds.listedParticles = 0u; // whoever makes lists counts anew
+        bounds.pairs = bounds.entries = bounds.links = 0u;
         bounds.lowX = bounds.lowY = bounds.lowZ = ~0u;
         bounds.highX = bounds.highY = bounds.highZ = 0u;
         ++bounds.builds;

@@ -31,10 +31,10 @@ vec3 impulseOf(EdgePair pair, vec3 n, float depth, vec2 st, float remembered, ui
 }
 
 void main() {
-    const uint e = itemIndex(push.count), n = counts[e];
+    const uint e = itemIndex(push.count);
+    const uvec2 list = lists[e];
     vec3 onA = vec3(0.0), onB = vec3(0.0);
-    for (uint s = 0u; s < n; ++s) {
-        const uint element = s * push.row + e;
+    for (uint element = list.x; element < list.x + list.y; ++element) {
         const vec4 direction = directions[element], weight = weights[element];
         if (!(direction.w > 0.0)) {
             memory[element] = vec4(vec3(0.0), weight.w);

@@ -12,7 +12,7 @@
 layout(std430, binding = 0) readonly buffer Velocities { vec4 velocities[]; };
 layout(std430, binding = 1) readonly buffer Faces { ContactFace faces[]; };
 layout(std430, binding = 2) readonly buffer Contacts { uvec2 contacts[]; };
-layout(std430, binding = 3) readonly buffer Counts { uint counts[]; };
+layout(std430, binding = 3) readonly buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 4) readonly buffer Directions { vec4 directions[]; };
 layout(std430, binding = 5) readonly buffer Weights { vec4 weights[]; };
 layout(std430, binding = 6) readonly buffer Shares { float shares[]; };
@@ -54,6 +54,7 @@ void press(uint i, uint element) {
 }
 
 void main() {
-    const uint i = itemIndex(push.count), n = counts[i];
-    for (uint s = 0u; s < n; ++s) press(i, s * push.row + i);
+    const uint i = itemIndex(push.count);
+    const uvec2 list = lists[i];
+    for (uint element = list.x; element < list.x + list.y; ++element) press(i, element);
 }

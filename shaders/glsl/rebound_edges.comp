@@ -16,10 +16,10 @@ vec3 impulseOf(EdgePair pair, vec4 bounce, vec2 st) {
 }
 
 void main() {
-    const uint e = itemIndex(push.count), n = counts[e];
+    const uint e = itemIndex(push.count);
+    const uvec2 list = lists[e];
     vec3 onA = vec3(0.0), onB = vec3(0.0);
-    for (uint s = 0u; s < n; ++s) {
-        const uint element = s * push.row + e;
+    for (uint element = list.x; element < list.x + list.y; ++element) {
         const vec4 bounce = bounces[element];
         if (!(bounce.w > 0.0)) continue;
         const EdgePair pair = pairOf(e, contacts[element].x);

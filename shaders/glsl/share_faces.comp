@@ -8,13 +8,15 @@ layout(std430, binding = 6) readonly buffer Velocities { vec4 velocities[]; }; /
 layout(std430, binding = 7) writeonly buffer Shares { float shares[]; };       // S w [1/kg]
 
 void main() {
-    const uint i = itemIndex(push.count), n = counts[i];
+    const uint i = itemIndex(push.count);
+    const uvec2 list = lists[i];
     float sum = 0.0;
-    for (uint s = 0u; s < n; ++s) sum += directions[s * push.row + i].w > 0.0 ? 1.0 : 0.0;
+    for (uint element = list.x; element < list.x + list.y; ++element) sum += directions[element].w > 0.0 ? 1.0 : 0.0;
     for (uint k = corners[i]; k < corners[i + 1u]; ++k) {
-        const uint face = corners[k] / 4u, corner = corners[k] % 4u, points = linkCounts[face];
-        for (uint s = 0u; s < points; ++s) {
-            const uint element = links[s * push.faceRow + face];
+        const uint corner = corners[k] % 4u;
+        const uvec2 points = linkLists[corners[k] / 4u];
+        for (uint link = points.x; link < points.x + points.y; ++link) {
+            const uint element = links[link];
             if (directions[element].w > 0.0) sum += weights[element][corner];
         }
     }

@@ -13,7 +13,7 @@ layout(std430, binding = 0) readonly buffer Predicted { vec4 predicted[]; };
 layout(std430, binding = 1) readonly buffer PredictedVelocities { vec4 predictedVelocities[]; }; // with which they came there [m/s]
 layout(std430, binding = 2) readonly buffer Faces { ContactFace faces[]; };
 layout(std430, binding = 3) readonly buffer Contacts { ContactCandidate contacts[]; };
-layout(std430, binding = 4) readonly buffer Counts { uint counts[]; };
+layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 5) readonly buffer Radii { float radii[]; };       // below 0 = touches no face
 layout(std430, binding = 6) readonly buffer Excluded { uint excluded[]; };  // first of each face, then points, sorted
 layout(std430, binding = 7) buffer Positions { vec4 positions[]; };         // x + thetaH v (remainder.glsl)
@@ -29,7 +29,7 @@ layout(std430, binding = 10) readonly buffer Memory { vec4 memory[]; };     // w
 // one that ends farther off all faces are looked at.
 struct Search {
     bool isListed;
-    uint first, end; // in the list or of all faces
+    uint first, end; // elements of the list, or faces
 };
 
 bool isNearPredicted(uint i, vec3 x) {
@@ -37,8 +37,8 @@ bool isNearPredicted(uint i, vec3 x) {
     return dot(off, off) <= radii[i] * radii[i];
 }
 
-Search searchFor(uint i, uint firstListed, vec3 x) {
-    if (isNearPredicted(i, x)) return Search(true, firstListed, counts[i]);
+Search searchFor(uint i, uint firstListed, uint endListed, vec3 x) {
+    if (isNearPredicted(i, x)) return Search(true, firstListed, endListed);
     return Search(false, push.moving, push.faces);
 }
 
@@ -49,9 +49,9 @@ float leftOf(uint element) { return max(0.0, abs(memory[element].w) - 1.0); }
 Stop stopOf(uint i, Search search, vec3 x0, vec3 x1) {
     Stop first = noStop;
     for (uint s = search.first; s < search.end; ++s) {
-        const uint element = s * push.row + i, f = search.isListed ? contacts[element].other : s;
+        const uint f = search.isListed ? contacts[s].other : s;
         const ContactFace face = faces[f];
-        const float left = search.isListed ? leftOf(element) : 0.0;
+        const float left = search.isListed ? leftOf(s) : 0.0;
         const vec3 seen = search.isListed ? predicted[i].xyz : x1; // what is farther from there may be in no list
         const Stop stop = stopAt(face, radii[i] + face.thickness - left, x0, x1, seen);
         if (stop.urgency > first.urgency && !isExcluded(f, i)) first = stop;
@@ -65,14 +65,15 @@ const uint mostStops = 4u;
 void main() {
     const uint i = itemIndex(push.count);
     if (i == ~0u) return;
-    uint first = counts[i];
-    for (; first > 0u && contacts[(first - 1u) * push.row + i].other >= push.moving; --first) {}
+    const uint begin = lists[i].x, listEnd = begin + lists[i].y;
+    uint first = listEnd;
+    for (; first > begin && contacts[first - 1u].other >= push.moving; --first) {}
     const vec4 velocity = velocities[i];
     const vec3 x = positions[i].xyz - step.thetaH * velocity.xyz, x0 = predicted[i].xyz - step.h * predictedVelocities[i].xyz;
-    if (velocity.w == 0.0 || radii[i] < 0.0 || first == counts[i] && isNearPredicted(i, x)) return;
+    if (velocity.w == 0.0 || radii[i] < 0.0 || first == listEnd && isNearPredicted(i, x)) return;
     vec3 end = x, v = velocity.xyz;
     for (uint stops = 0u; stops <= mostStops; ++stops) {
-        const Stop stop = stopOf(i, searchFor(i, first, end), x0, end);
+        const Stop stop = stopOf(i, searchFor(i, first, listEnd, end), x0, end);
         const bool isLast = stops == mostStops;
         if (stop.urgency <= (isLast ? 1.0 : 0.0)) break;
         const vec3 n = stop.n, stopped = isLast ? stop.carried : end + stop.rise * n;

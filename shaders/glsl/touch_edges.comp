@@ -19,10 +19,10 @@ layout(std140, binding = 9) uniform Step { StepParams step; };
 #include "edge_touch.glsl"
 
 void main() {
-    const uint e = itemIndex(push.count), n = counts[e];
+    const uint e = itemIndex(push.count);
+    const uvec2 list = lists[e];
     vec2 sum = vec2(0.0);
-    for (uint s = 0u; s < n; ++s) {
-        const uint element = s * push.row + e;
+    for (uint element = list.x; element < list.x + list.y; ++element) {
         const uvec2 candidate = contacts[element];
         const EdgePair pair = pairOf(e, candidate.x);
         const Touch touch = touchOf(pair, uintBitsToFloat(candidate.y), memory[element].w);

@@ -14,7 +14,7 @@ layout(std430, binding = 0) readonly buffer Predicted { vec4 predicted[]; };
 layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; };
 layout(std430, binding = 2) readonly buffer Faces { ContactFace faces[]; };
 layout(std430, binding = 3) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
-layout(std430, binding = 4) readonly buffer Counts { uint counts[]; };
+layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 5) readonly buffer Memory { vec4 memory[]; };       // w: side and overlap, 0 = has not touched
 layout(std430, binding = 6) buffer Directions { vec4 directions[]; }; // n, depth [m]; 0 = does not touch; below 0 = see hide
 layout(std430, binding = 7) buffer Weights { vec4 weights[]; };       // b, side
@@ -34,25 +34,25 @@ bool areNeighbours(ContactFace one, ContactFace other) {
 }
 
 void main() {
-    const uint i = itemIndex(push.count), n = counts[i];
+    const uint i = itemIndex(push.count);
+    const uvec2 list = lists[i];
+    const uint end = list.x + list.y;
     uint passed = ~0u;
     Touch passing;
-    for (uint s = 0u; s < n; ++s) {
-        const Touch touch = touchOf(i, s * push.row + i, vec3(0.0));
+    for (uint element = list.x; element < end; ++element) {
+        const Touch touch = touchOf(i, element, vec3(0.0));
         if (touch.isThrough && passed == ~0u) {
-            passed = s;
+            passed = element;
             passing = touch;
         }
-        write(s * push.row + i, touch);
+        write(element, touch);
     }
     if (passed == ~0u) {
-        hide(i, n);
+        hide(list.x, end);
         return;
     }
     // Below a surface the sides of the faces around are those of the face that was passed: what slides below another face
     // must not be pushed out there.
-    for (uint s = 0u; s < n; ++s) {
-        const uint element = s * push.row + i;
-        if (s != passed && areNeighbours(faces[contacts[element].x], passing.face)) write(element, touchOf(i, element, passing.n));
-    }
+    for (uint element = list.x; element < end; ++element)
+        if (element != passed && areNeighbours(faces[contacts[element].x], passing.face)) write(element, touchOf(i, element, passing.n));
 }

@@ -11,7 +11,7 @@ layout(std430, binding = 2) readonly buffer Islands { uint islands[]; };
 layout(std430, binding = 3) buffer Marks { uint marks[]; };
 layout(std430, binding = 4) buffer State { SleepState state; };
 layout(std430, binding = 5) readonly buffer Contacts { ContactCandidate contacts[]; };
-layout(std430, binding = 6) readonly buffer Counts { uint counts[]; };
+layout(std430, binding = 6) readonly buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 7) readonly buffer Directions { vec4 directions[]; }; // w: depth [m]
 layout(push_constant) uniform Push { SleepPush push; };
 #define TOUCHING_BINDING 8
@@ -20,11 +20,11 @@ layout(push_constant) uniform Push { SleepPush push; };
 void main() {
     const uint i = itemIndex(push.count);
     for (uint k = firstList(i); k < lastList(i); ++k) {
-        const uint list = listOf(k);
-        for (uint s = 0u; s < counts[list]; ++s) {
-            const uint element = s * push.faceRow + list;
+        const uint owner = listOf(k);
+        const uvec2 list = lists[owner];
+        for (uint element = list.x; element < list.x + list.y; ++element) {
             if (!(directions[element].w > 0.0)) continue;
-            const uint all[4] = touchingOf(list, contacts[element].other);
+            const uint all[4] = touchingOf(owner, contacts[element].other);
             bool isTouched = false;
             for (uint m = 0u; m < 4u; ++m) isTouched = isTouched || velocities[all[m]].w > 0.0;
             for (uint m = 0u; m < 4u; ++m) {

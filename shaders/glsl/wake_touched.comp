@@ -13,7 +13,7 @@ layout(std430, binding = 3) readonly buffer Islands { uint islands[]; };
 layout(std430, binding = 4) buffer Marks { uint marks[]; };
 layout(std430, binding = 5) buffer State { SleepState state; };
 layout(std430, binding = 6) readonly buffer Contacts { ContactCandidate contacts[]; };
-layout(std430, binding = 7) readonly buffer Counts { uint counts[]; };
+layout(std430, binding = 7) readonly buffer Lists { uvec2 lists[]; };
 layout(std140, binding = 8) uniform Bounds { GridBounds bounds; };
 layout(std140, binding = 9) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { SleepPush push; };
@@ -27,8 +27,9 @@ void main() {
     const uint i = itemIndex(push.count);
     if (weights[i] == 0.0 || velocities[i].w == 0.0) return;
     const vec3 x = predicted[i].xyz;
-    for (uint s = 0u; s < counts[i]; ++s) {
-        const ContactCandidate candidate = contacts[s * push.row + i];
+    const uvec2 list = lists[i];
+    for (uint slot = list.x; slot < list.x + list.y; ++slot) {
+        const ContactCandidate candidate = contacts[slot];
         const uint j = candidate.other;
         if (!isAsleep(weights[j], velocities[j]) || !meets(x - predicted[j].xyz, velocities[i].xyz, candidate.reach)) continue;
         atomicOr(marks[islands[j]], 1u);

@@ -15,7 +15,7 @@ namespace sinew::app {
 
 /// What became of Settings::contactRoom.
 struct ContactRoom {
-    std::uint32_t room = 0;   ///< particles that may be listed with one
+    std::uint32_t room = 0;   ///< candidates of one, on average
     std::uint32_t needed = 0; ///< by a step that had less; 0 = none has
     std::uint32_t grown = 0;  ///< times
 };

@@ -210,7 +210,7 @@ constexpr Key keys[] = {
     {"contacts", "restitution", Kind::number, "", ranges::restitution, "0", "0 = no rebound, 1 = elastic"},
     {"contacts", "recovery_speed", Kind::number, "m/s", ranges::recoverySpeed, "0.5", "with which part what overlaps when the scene is loaded: particles, faces, edges; limits no other contact"},
     {"contacts", "margin", Kind::number, "median radii", ranges::contactMargin, "0.5", "how much farther than touching particles are listed together; changes speed, no result"},
-    {"contacts", "room", Kind::count, "particles", ranges::contactRoom, "24", "that may be listed with one at first; programs make more where it is too little"},
+    {"contacts", "room", Kind::count, "candidates", ranges::contactRoom, "8", "of a particle, a point or an edge that lists have room for at first, on average; one may have far more; programs make more room where it is too little"},
 
     {"mesh_collider", "name", Kind::text, "", {}, "", "name of the body in reports and files; that of the mesh file or shape where it is missing"},
     {"mesh_collider", "file", Kind::text, "", {}, "", "mesh file in the scene's folder or below, or \"argument\": the mesh of the command line"},

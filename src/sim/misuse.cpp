@@ -41,7 +41,7 @@ std::string sentenceOf(Misuse kind, std::uint64_t given, std::uint64_t allowed) 
         return "a blade or a ray is given, but no body may be cut: set Grid::isCuttable of one that shall be";
     case Misuse::contactRoom:
         return "undone, and so is every later one: " + number(given) +
-               " particles are near one, settings.contactRoom is " + number(allowed) +
+               " candidates near one on average, settings.contactRoom is " + number(allowed) +
                ": make a simulation with more room and let it take over (recordTakeOver)";
     case Misuse::count:
         break;

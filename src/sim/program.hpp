@@ -169,17 +169,14 @@ struct CutSurfaceBuffers {
 };
 
 /// What may touch: lists by slot of layout::ContactCandidate (collision/contact_lists.hpp, face_lists.hpp,
-/// edge_lists.hpp), how many each has, and elements from one candidate of a slot to the next. Invalid, 0,
-/// where a scene has none.
+/// edge_lists.hpp), and where each stands in them, layout::ListRange. Invalid, 0, where a scene has none.
 struct ContactBuffers {
-    BufferId pairs, pairCounts; ///< particles near a particle
-    std::uint32_t pairRow = 0;
-    BufferId faces;                 ///< layout::ContactFace, between slots
-    BufferId facePairs, faceCounts; ///< faces near a particle
-    std::uint32_t faceRow = 0;
-    BufferId edges;                 ///< layout::ContactEdge, between slots
-    BufferId edgePairs, edgeCounts; ///< edges near an edge
-    std::uint32_t edgeRow = 0, edgeCount = 0;
+    BufferId pairs, pairLists;     ///< particles near a particle
+    BufferId faces;                ///< layout::ContactFace, between slots
+    BufferId facePairs, faceLists; ///< faces near a particle
+    BufferId edges;                ///< layout::ContactEdge, between slots
+    BufferId edgePairs, edgeLists; ///< edges near an edge
+    std::uint32_t edgeCount = 0;
 };
 
 /// A hash grid, in which contacts are looked for, to be looked at between steps: as it was built last.

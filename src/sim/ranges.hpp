@@ -90,8 +90,10 @@ inline constexpr Range theta{0, 1};
 inline constexpr Range weight{0, 1};
 inline constexpr Range warmStart{0, 1};
 inline constexpr Range contactMargin{.low = 0, .high = 10, .isLowOpen = true};
-inline constexpr std::uint32_t mostContactRoom = 256;
+inline constexpr std::uint32_t mostContactRoom = 1024; // CONTACT_MOST_ROOM in layout.h
 inline constexpr Range contactRoom{1, mostContactRoom};
+/// Particles of other bodies that may lie in one spot of a particle's size when a scene is loaded.
+inline constexpr std::uint32_t mostInOneSpot = 256;
 inline constexpr Range framesInFlight{1, 64};
 inline constexpr std::uint32_t mostCutSurfaceRoom = 16'000'000; // one more is a float too
 inline constexpr Range cutSurfaceRoom{0, mostCutSurfaceRoom};

@@ -313,9 +313,9 @@ struct Settings {
     /// of a median face or edge, if longer); lists are made again when one may have moved half of that.
     /// Changes speed, but no result.
     float contactMargin = 0.5f;
-    /// Particles that may be listed with one, faces with a particle, particles with a face that moves, edges
-    /// with an edge; 1..256
-    std::uint32_t contactRoom = 24;
+    /// Candidates that lists of contacts have room for, on average: particles near a particle, faces near a
+    /// point, edges near an edge. Lists share their room: one may have far more; 1..1024
+    std::uint32_t contactRoom = 8;
     /// Triangles, and as many vertices, that the surface of cuts has room for at least, and the skin of each
     /// sheet for what it falls into; 0 = as much as some cuts through the whole of each body need.
     std::uint32_t cutSurfaceRoom = 0;

@@ -111,10 +111,10 @@ struct Status {
     std::uint32_t nonFinite =
         0; ///< particles with a non-finite state: the step is undone, all goes on from the last finite state
     std::uint32_t firstBadParticle = 0; ///< smallest index among them; meaningful where nonFinite > 0
-    /// 0, or how many particles would have to be listed with one where Settings::contactRoom is less: the
-    /// step is undone, and so is every later one until a simulation with more room takes over
-    /// (Simulation::recordTakeOver; docs/architecture.md has the lines that do so). One more than the most
-    /// that there can be room for = too many anyway.
+    /// 0, or how many candidates lists of contacts would need room for, on average, where
+    /// Settings::contactRoom is less: the step is undone, and so is every later one until a simulation with
+    /// more room takes over (Simulation::recordTakeOver; docs/architecture.md has the lines that do so).
+    /// Counting ends at four times the room. More than there can be room for = too many anyway.
     std::uint32_t contactRoom = 0;
     /// Particles, counted once a substep, that were slowed down to what contacts can be found at: where more
     /// than 256 move farther in a substep than about their radius. Momentum is lost; take more substeps.

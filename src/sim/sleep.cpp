@@ -115,13 +115,6 @@ void closeGate(ProgramBuilder& program, const std::shared_ptr<Sleep>& sleep) {
         [sleep](const vk::ShaderCode& code, std::uint32_t items) { return gated(*sleep, code, items); });
 }
 
-// Of kernels that read lists of edges.
-layout::SleepPush pushOfEdges(const Sleep& sleep) {
-    layout::SleepPush push = sleep.push;
-    push.faceRow = sleep.edges.row;
-    return push;
-}
-
 // After the check of a step: who rests, and who sleeps from now on.
 void addJudgement(ProgramBuilder& program, const Sleep& sleep, const ParticleBuffers& particles) {
     const auto& status = program.program().status;
@@ -142,15 +135,15 @@ void addJudgement(ProgramBuilder& program, const Sleep& sleep, const ParticleBuf
     const auto& edges = sleep.edges;
     if (pairs.contacts != BufferId{})
         add(k::joinIslands,
-            {sleep.weights, velocities, sleep.islands, pairs.contacts, pairs.counts, pairs.touching});
+            {sleep.weights, velocities, sleep.islands, pairs.contacts, pairs.lists, pairs.touching});
     if (faces.contacts != BufferId{})
-        add(k::joinFaces, {sleep.weights, velocities, sleep.islands, faces.contacts, faces.counts,
+        add(k::joinFaces, {sleep.weights, velocities, sleep.islands, faces.contacts, faces.lists,
                            faces.directions, faces.faces});
     if (edges.contacts != BufferId{})
         program.dispatchIndirect(k::joinEdges, wakingItems(sleep, SLEEP_RESTING, sleep.push.count),
-                                 {sleep.weights, velocities, sleep.islands, edges.contacts, edges.counts,
+                                 {sleep.weights, velocities, sleep.islands, edges.contacts, edges.lists,
                                   edges.directions, edges.edges, edges.corners},
-                                 pushOfEdges(sleep));
+                                 sleep.push);
     add(k::findIslands, {sleep.weights, velocities, sleep.rests, sleep.islands, sleep.least});
     program.dispatchIndirect(
         k::fallAsleep, wakingItems(sleep, SLEEP_RESTING, sleep.push.count),
@@ -260,7 +253,7 @@ void addTouches(ProgramBuilder& program, const ParticleBuffers& predicted) {
     Sleep& sleep = *predicted.sleep;
     program.dispatchIndirect(k::wakeTouched, itemsOf(sleep, SLEEP_MIXED, sleep.push.count, GROUP_ITEMS),
                              {sleep.weights, predicted.velocities, predicted.positions, sleep.islands,
-                              sleep.marks, sleep.state, sleep.pairs.contacts, sleep.pairs.counts,
+                              sleep.marks, sleep.state, sleep.pairs.contacts, sleep.pairs.lists,
                               sleep.pairs.bounds, predicted.step, sleep.listed},
                              sleep.push);
     addWakingTouched(program, sleep, predicted.velocities);
@@ -272,7 +265,7 @@ void addFaceTouches(ProgramBuilder& program, const ParticleBuffers& predicted) {
     const auto& faces = sleep.faces;
     program.dispatchIndirect(k::wakeFaces, itemsOf(sleep, SLEEP_MIXED_ALL, sleep.push.count, GROUP_ITEMS),
                              {sleep.weights, predicted.velocities, sleep.islands, sleep.marks, sleep.state,
-                              faces.contacts, faces.counts, faces.directions, faces.faces},
+                              faces.contacts, faces.lists, faces.directions, faces.faces},
                              sleep.push);
     addWakingTouched(program, sleep, predicted.velocities);
 }
@@ -283,8 +276,8 @@ void addEdgeTouches(ProgramBuilder& program, const ParticleBuffers& predicted) {
     const auto& edges = sleep.edges;
     program.dispatchIndirect(k::wakeEdges, itemsOf(sleep, SLEEP_MIXED_ALL, sleep.push.count, GROUP_ITEMS),
                              {sleep.weights, predicted.velocities, sleep.islands, sleep.marks, sleep.state,
-                              edges.contacts, edges.counts, edges.directions, edges.edges, edges.corners},
-                             pushOfEdges(sleep));
+                              edges.contacts, edges.lists, edges.directions, edges.edges, edges.corners},
+                             sleep.push);
     addWakingTouched(program, sleep, predicted.velocities);
 }
 

@@ -19,15 +19,14 @@ struct Sleep {
     BufferId attachments, anchors, seenAnchors, colliders, contactOffsets, ways, seenPoses;
     /// What particles that touch are judged by: their lists, and where contacts are counted. Invalid without.
     struct {
-        BufferId contacts, counts, touching, bounds;
+        BufferId contacts, lists, touching, bounds;
     } pairs;
     /// Likewise for faces; a contact in the list is one where its direction has a depth.
     struct {
-        BufferId faces, contacts, counts, directions;
+        BufferId faces, contacts, lists, directions;
     } faces;
     struct {
-        BufferId edges, contacts, counts, directions, corners;
-        std::uint32_t row = 0;
+        BufferId edges, contacts, lists, directions, corners;
     } edges;
     std::vector<layout::SleepPass> passesSeen; ///< by element of `arguments`
 };

@@ -422,7 +422,7 @@ TEST(Surfaces, ThatAreOneCompileToConstants) {
     EXPECT_FALSE(has("contacts.surfaces")) << "nobody has it";
     for (Particle& particle : scene.particles) particle.surface = 1;
     EXPECT_FALSE(has("contacts.surfaces")) << "all have it";
-    EXPECT_FALSE(has("contacts.slips"));
+    EXPECT_FALSE(has("pairs.memory"));
     EXPECT_FALSE(has("contacts.bouncing")) << "no rebound, no pass";
     scene.particles[1].surface = 0;
     EXPECT_TRUE(has("contacts.surfaces"));

@@ -345,8 +345,8 @@ TEST_F(LoadContacts, TakesWhatHoldsForAllFromTheirTable) {
                 "scene.toml:5: contacts.recovery_speed is 0 m/s: must be above 0");
     expectError(balls + "[contacts]\nmargin = 0\n",
                 "scene.toml:5: contacts.margin is 0 median radii: must be above 0 and at most 10");
-    expectError(balls + "[contacts]\nroom = 257\n",
-                "scene.toml:5: contacts.room is 257 particles: must be from 1");
+    expectError(balls + "[contacts]\nroom = 1025\n",
+                "scene.toml:5: contacts.room is 1025 candidates: must be from 1");
     expectError(balls + "[solver]\nname = \"jacobi\"\n",
                 "scene.toml: solver jacobi has no form for particles that touch each other");
 }

@@ -186,7 +186,7 @@ TEST(Misuse, OfTheNumberOfStepsInFlightIsRefused) {
 
 // The lines of docs/architecture.md, for a host without GrowingSimulation.
 TEST(Misuse, OfRoomForContactsIsLoudAndHasACure) {
-    const Scene scene = crowd(12);
+    const Scene scene = crowd(128);
     Settings settings = fewSubsteps;
     settings.contactRoom = 4;
     settings.contactMargin = 9;
@@ -200,7 +200,7 @@ TEST(Misuse, OfRoomForContactsIsLoudAndHasACure) {
         EXPECT_EQ(status.contactRoom, 10u);
     }
     expectOne(simulation->complaints(),
-              {"undone", "10 particles are near one", "settings.contactRoom is 4", "recordTakeOver"});
+              {"undone", "10 candidates near one on average", "settings.contactRoom is 4", "recordTakeOver"});
     step(*simulation, {.frame = 6});
     EXPECT_EQ(simulation->complaints(), Sentences{});
 

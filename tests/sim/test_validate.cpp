@@ -201,8 +201,8 @@ const Fault faults[] =
              s.particles[3].surface = 2;
          }},
         {"settings.contactMargin: is 0, must be above 0", [](Scene&, Settings& s) { s.contactMargin = 0; }},
-        {"settings.contactRoom: is 257, must be from 1 to 256",
-         [](Scene&, Settings& s) { s.contactRoom = 257; }},
+        {"settings.contactRoom: is 1025, must be from 1 to 1024",
+         [](Scene&, Settings& s) { s.contactRoom = 1025; }},
         {"settings.contactRoom: is 0", [](Scene&, Settings& s) { s.contactRoom = 0; }},
         {"plane[0].friction: is -0.5", [](Scene& s, Settings&) { s.planes[0].friction = -0.5f; }},
         {"plane[0].restitution: is 1.5, must be from 0 to 1",

@@ -1,7 +1,6 @@
 // One function per part of the report, in the order of docs/report.md.
 #include "sinew/report.hpp"
 
-#include "sim/collision/particle_contacts.hpp"
 #include "sim/compile.hpp"
 #include "sim/counted.hpp"
 #include "sinew/json.hpp"
@@ -147,7 +146,8 @@ Json sleepJson(const RunRecord& record) {
 Json overflowJson(const RunRecord& record) {
     Json overflow = Json::object(); // empty: no list of a bounded size is in use
     const app::ContactRoom& contacts = record.contactRoom;
-    if (sim::collision::particle_contacts::areIn(record.loaded.scene))
+    const sim::ContactBuffers& lists = record.program.contacts;
+    if (lists.pairs != sim::BufferId{} || lists.facePairs != sim::BufferId{})
         overflow["contacts"] = {{"room", contacts.room},
                                 {"needed", contacts.needed > 0 ? Json(contacts.needed) : Json(nullptr)},
                                 {"grown", contacts.grown},

@@ -60,11 +60,10 @@ ContactMarks::ContactMarks(const vk::Device& device, const sim::Scene& scene, co
       simulation_(simulation), push_{.count = static_cast<std::uint32_t>(scene.particles.size()),
                                      .walls = wallCount(scene),
                                      .firstWall = 0,
-                                     .pairRow = simulation.program().contacts.pairRow,
-                                     .faceRow = simulation.program().contacts.faceRow,
+                                     .hasPairs = simulation.program().contacts.pairs != sim::BufferId{},
+                                     .hasFaces = simulation.program().contacts.facePairs != sim::BufferId{},
                                      .room = room == Room::many ? mostMarks : 1,
                                      .edges = simulation.program().contacts.edgeCount,
-                                     .edgeRow = simulation.program().contacts.edgeRow,
                                      .only = NO_PARTICLE},
       mesh_(device, shape),
       particles_(filledBuffer(device, "marks.particles",
@@ -103,12 +102,12 @@ vk::BindingSets ContactMarks::bindingSets() const {
     std::vector<vk::BindingRequest> requests{
         {kernel_.get(),
          {simulation_.positions(), particles_.view(), bySlot_.view(), walls_.view(), viewOf(lists.pairs, 8),
-          viewOf(lists.pairCounts, 4), viewOf(lists.faces, 16), viewOf(lists.facePairs, 8),
-          viewOf(lists.faceCounts, 4), marks_.view(), draw_.view(), removedParticles(simulation_)}}};
+          viewOf(lists.pairLists, 8), viewOf(lists.faces, 16), viewOf(lists.facePairs, 8),
+          viewOf(lists.faceLists, 8), marks_.view(), draw_.view(), removedParticles(simulation_)}}};
     if (push_.edges > 0)
         requests.push_back({ofEdges_.get(),
                             {simulation_.positions(), bySlot_.view(), simulation_.view(lists.edges),
-                             simulation_.view(lists.edgePairs), simulation_.view(lists.edgeCounts),
+                             simulation_.view(lists.edgePairs), simulation_.view(lists.edgeLists),
                              marks_.view(), draw_.view(), removedParticles(simulation_)}});
     return {device_, requests};
 }

@@ -9,7 +9,7 @@ void counts(const SceneFacts& scene, const Facts& facts) {
          ImGui::GetStyleColorVec4(ImGuiCol_Text));
     if (facts.sleeping > 0) row("asleep", grouped(facts.sleeping));
     if (facts.contactRoom > 0) {
-        const std::string room = grouped(facts.contactRoom) + " a particle";
+        const std::string room = grouped(facts.contactRoom) + " each, on average";
         row("contacts: room", room);
         if (facts.timesGrown > 0)
             row("contacts: grown",

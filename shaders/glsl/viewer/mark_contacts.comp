@@ -12,10 +12,10 @@ layout(std430, binding = 1) readonly buffer Particles { MarkParticle particles[]
 layout(std430, binding = 2) readonly buffer BySlot { uint bySlot[]; }; // particle, or NO_PARTICLE
 layout(std430, binding = 3) readonly buffer Walls { MarkWall walls[]; };
 layout(std430, binding = 4) readonly buffer Pairs { uvec2 pairs[]; }; // ContactCandidate
-layout(std430, binding = 5) readonly buffer PairCounts { uint pairCounts[]; };
+layout(std430, binding = 5) readonly buffer PairLists { uvec2 pairLists[]; };
 layout(std430, binding = 6) readonly buffer Faces { ContactFace faces[]; };
 layout(std430, binding = 7) readonly buffer FacePairs { uvec2 facePairs[]; }; // ContactCandidate
-layout(std430, binding = 8) readonly buffer FaceCounts { uint faceCounts[]; };
+layout(std430, binding = 8) readonly buffer FaceLists { uvec2 faceLists[]; };
 layout(std430, binding = 9) writeonly buffer Marks { ContactMark marks[]; };
 layout(std430, binding = 10) buffer Draw { MarkDraw draw; };
 layout(std430, binding = 11) readonly buffer Pieces { uint pieces[]; }; // of particles
@@ -35,8 +35,9 @@ void markWall(MarkWall wall, vec3 x, float offset, float nearness) {
 }
 
 void markPairs(uint i, uint slot, vec3 x) {
-    for (uint s = 0u; s < pairCounts[slot]; ++s) {
-        const uvec2 candidate = pairs[s * push.pairRow + slot];
+    const uvec2 list = pairLists[slot];
+    for (uint element = list.x; element < list.x + list.y; ++element) {
+        const uvec2 candidate = pairs[element];
         const vec3 d = x - placeOf(candidate.x);
         const float distance = length(d);
         if (isGone(candidate.x)) continue;
@@ -46,8 +47,9 @@ void markPairs(uint i, uint slot, vec3 x) {
 }
 
 void markFaces(uint slot, vec3 x) {
-    for (uint s = 0u; s < faceCounts[slot]; ++s) {
-        const uvec2 candidate = facePairs[s * push.faceRow + slot];
+    const uvec2 list = faceLists[slot];
+    for (uint element = list.x; element < list.x + list.y; ++element) {
+        const uvec2 candidate = facePairs[element];
         const ContactFace face = faces[candidate.x];
         if (isGone(face.a)) continue;
         const vec3 a = placeOf(face.a);
@@ -68,6 +70,6 @@ void main() {
     const vec3 x = positions[i].xyz;
     if (positions[i].w > 0.0)
         for (uint w = push.firstWall; w < push.firstWall + push.walls; ++w) markWall(walls[w], x, own.contactOffset, own.nearness);
-    if (push.pairRow > 0u) markPairs(i, own.slot, x);
-    if (push.faceRow > 0u) markFaces(own.slot, x);
+    if (push.hasPairs > 0u) markPairs(i, own.slot, x);
+    if (push.hasFaces > 0u) markFaces(own.slot, x);
 }

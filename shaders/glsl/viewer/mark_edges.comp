@@ -10,7 +10,7 @@ layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
 layout(std430, binding = 1) readonly buffer BySlot { uint bySlot[]; }; // particle, or NO_PARTICLE
 layout(std430, binding = 2) readonly buffer Edges { ContactEdge edges[]; };
 layout(std430, binding = 3) readonly buffer Candidates { uvec2 candidates[]; }; // ContactCandidate
-layout(std430, binding = 4) readonly buffer Counts { uint counts[]; };
+layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 5) writeonly buffer Marks { ContactMark marks[]; };
 layout(std430, binding = 6) buffer Draw { MarkDraw draw; };
 layout(std430, binding = 7) readonly buffer Pieces { uint pieces[]; }; // of particles
@@ -25,10 +25,11 @@ bool isWanted(ContactEdge edge) {
 
 void main() {
     const uint e = itemIndex(push.edges);
-    if (e >= push.edges || counts[e] == 0u || !isWanted(edges[e]) || isGone(edges[e].a)) return;
+    if (e >= push.edges || lists[e].y == 0u || !isWanted(edges[e]) || isGone(edges[e].a)) return;
     const vec3 a = placeOf(edges[e].a), ab = placeOf(edges[e].b) - a;
-    for (uint s = 0u; s < counts[e]; ++s) {
-        const uvec2 candidate = candidates[s * push.edgeRow + e];
+    const uvec2 list = lists[e];
+    for (uint element = list.x; element < list.x + list.y; ++element) {
+        const uvec2 candidate = candidates[element];
         if (isGone(edges[candidate.x].a)) continue;
         if (candidate.x <= e && push.only == NO_PARTICLE) continue; // one of the two says it
         const vec3 c = placeOf(edges[candidate.x].a), cd = placeOf(edges[candidate.x].b) - c;

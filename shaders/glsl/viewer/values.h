@@ -84,10 +84,10 @@ struct MarkPush {
     uint count;   // of particles
     uint walls;
     uint firstWall;
-    uint pairRow, faceRow; // of the lists of contacts; 0 = there are none
-    uint room;             // marks
-    uint edges, edgeRow;   // of faces, that may touch each other; 0 = there are none
-    uint only;             // the particle whose contacts are wanted; NO_PARTICLE = all
+    uint hasPairs, hasFaces; // 1 = there are lists of particles, of faces
+    uint room;  // marks
+    uint edges; // of faces, that may touch each other; 0 = there are none
+    uint only;  // the particle whose contacts are wanted; NO_PARTICLE = all
 };
 
 // A cell of a hash grid that holds something.

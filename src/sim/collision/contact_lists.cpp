@@ -59,24 +59,20 @@ const vk::ShaderCode& form(const Lists& lists, const Forms& forms) {
     return *forms[lists.grid.usesTexels ? 1 : 0][lists.excluded != BufferId{} ? 1 : 0];
 }
 
+// Where a list of pairs is sorted, [0] without groups, [1] with; [0] nothing is remembered, [1] something.
+constexpr std::array<std::array<const vk::ShaderCode*, 2>, 2> sorting{
+    {{&k::sortContacts, &k::sortContactsGroups}, {&k::sortContactsMemory, &k::sortContactsMemoryGroups}}};
+
 void addSorting(ProgramBuilder& program, const Lists& lists) {
     const hash_grid::Grid& grid = lists.grid;
-    std::vector<BufferId> buffers{lists.candidates, grid.radii,   lists.found,
-                                  lists.contacts,   lists.counts, program.program().status};
+    std::vector<BufferId> buffers = pooled_lists::sortingBuffers(program, lists.pooled, grid, grid.radii);
     const bool listsGroups = lists.touching != BufferId{};
-    if (listsGroups)
-        buffers.insert(buffers.end(), {grid.bounds, grid.touching.arguments, lists.marks, lists.touching});
-    const std::array<const vk::ShaderCode*, 2> forms =
-        listsGroups ? std::array{&k::sortContactsGroupsLoads, &k::sortContactsGroups}
-                    : std::array{&k::sortContactsLoads, &k::sortContacts};
-    program.dispatchIndirect(*forms[grid.usesTexels ? 1 : 0], grid.particles, buffers, lists.push);
+    if (listsGroups) buffers.insert(buffers.end(), {grid.touching.arguments, lists.marks, lists.touching});
+    program.dispatchIndirect(*sorting[lists.pooled.memory ? 1 : 0][listsGroups ? 1 : 0], grid.particles,
+                             buffers, lists.push);
 }
 
 } // namespace
-
-std::uint32_t rowOf(std::size_t slots) {
-    return static_cast<std::uint32_t>(slots) + CONTACT_ROW_EXTRA;
-}
 
 Lists add(ProgramBuilder& program, const Request& request) {
     const std::size_t count = request.radii.size();
@@ -95,19 +91,14 @@ Lists add(ProgramBuilder& program, const Request& request) {
                   .edge = lists.grid.push.edge,
                   .most = lists.grid.push.most,
                   .margin = request.margin,
-                  .capacity = request.capacity,
-                  .row = rowOf(count),
-                  .limit = request.limit,
                   .large = static_cast<std::uint32_t>(large.size()),
                   .quiet = lists.grid.push.quiet};
-    const std::size_t elements = request.capacity * std::size_t{lists.push.row};
-    lists.contacts = request.contacts.empty()
-                         ? program.scratch<layout::ContactCandidate>("contacts", elements)
-                         : program.upload("contacts", request.contacts);
-    lists.counts = request.counts.empty() ? program.scratch<std::uint32_t>("contacts.counts", count)
-                                          : program.upload("contacts.counts", request.counts);
-    lists.found = program.scratch<std::uint32_t>("contacts.found", count);
-    lists.candidates = program.scratch<std::uint32_t>("contacts.candidates", elements);
+    lists.pooled = pooled_lists::add(program, {.name = "pairs",
+                                               .owners = count,
+                                               .each = request.capacity,
+                                               .hasMemory = request.hasMemory,
+                                               .initial = request.initial});
+    lists.push.room = lists.pooled.room;
     lists.large = program.upload("contacts.large", large);
     if (request.listsGroups) {
         lists.touching = program.scratch<std::uint32_t>("contacts.groups", count / GROUP_ITEMS);
@@ -129,8 +120,12 @@ void addUpdate(ProgramBuilder& program, const Lists& lists, const hash_grid::Mov
 
 void addLists(ProgramBuilder& program, const Lists& lists, const hash_grid::Moved& moved) {
     const hash_grid::Grid& grid = lists.grid;
-    std::vector<BufferId> buffers{grid.sorted, grid.starts, moved.positions,  grid.radii,
-                                  grid.bounds, lists.found, lists.candidates, lists.large};
+    const pooled_lists::Lists& pooled = lists.pooled;
+    if (pooled.memory)
+        program.dispatchIndirect(k::keepLists, grid.particles, pooled_lists::keepingBuffers(pooled),
+                                 layout::CountPush{grid.push.count});
+    std::vector<BufferId> buffers{grid.sorted, grid.starts,   moved.positions, grid.radii,
+                                  grid.bounds, pooled.chains, pooled.pairs,    lists.large};
     if (lists.excluded != BufferId{}) buffers.push_back(lists.excluded);
     const ProgramBuilder::Constants constants{{hasOneRadiusId, lists.hasOneRadius}};
     program.dispatchIndirect(form(lists, unswept), grid.unswept, buffers, lists.push, constants);

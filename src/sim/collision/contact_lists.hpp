@@ -4,7 +4,7 @@
 // ever missed, and no result depends on M.
 #pragma once
 
-#include "sim/collision/hash_grid.hpp"
+#include "sim/collision/pooled_lists.hpp"
 #include "sim/compile.hpp"
 
 #include <vector>
@@ -25,28 +25,22 @@ std::vector<std::uint32_t> linkedBodies(const Scene& scene);
 struct Request {
     std::span<const float> radii; ///< by state slot [m]; below 0 = touches nothing
     float margin = 0;             ///< M [m]
-    std::uint32_t capacity = 0;   ///< candidates of a particle that there is room for
-    std::uint32_t limit = 256;    ///< candidates after which counting stops: bounds the time of a step
+    std::uint32_t capacity = 0;   ///< candidates of a particle that there is room for, on average
     Exclusions exclusions;
     bool usesTexels = true;
     const body_frames::Bodies* bodies = nullptr; ///< as hash_grid::Request has them
     std::uint32_t substeps = 1;                  ///< of a step
-    /// The lists before the first update, capacity x row, and their lengths; empty = nobody is listed.
-    std::vector<layout::ContactCandidate> contacts;
-    std::vector<std::uint32_t> counts;
+    bool hasMemory = false;                      ///< whether contacts remember something
+    pooled_lists::Initial initial;
     bool listsGroups = false; ///< whether groups in which a particle has a candidate are listed
 };
 
-/// Elements from one candidate of a particle to the next.
-std::uint32_t rowOf(std::size_t slots);
-
-/// Directed pairs as layout::ContactCandidate says, `counts` of them a particle. The margin is part of a
-/// list: a pair in it need not touch.
+/// Owners are particles. The margin is part of a list: a pair in it need not touch.
 struct Lists {
     hash_grid::Grid grid;
     layout::FindPush push{};
-    BufferId contacts, counts;
-    BufferId found, candidates, large, excluded;
+    pooled_lists::Lists pooled;
+    BufferId large, excluded;
     bool hasOneRadius = false;
     BufferId touching, marks; ///< work groups in which a particle has a candidate; only where asked for
 };
@@ -58,8 +52,8 @@ Lists add(ProgramBuilder& program, const Request& request);
 /// addBuild() of this substep follows.
 void addBuild(ProgramBuilder& program, const Lists& lists, const hash_grid::Moved& moved, bool isLast = true);
 
-/// Makes the lists where the grid was built. A list that does not fit its room is said in the
-/// status (StatusWords::candidates): what it lacks is lost, so the step must be undone.
+/// Makes the lists where the grid was built. Where they do not fit their room the status says so
+/// (StatusWords::candidates): pairs are lost, so the step must be undone.
 void addLists(ProgramBuilder& program, const Lists& lists, const hash_grid::Moved& moved);
 
 /// Watches particles, and both.

@@ -52,10 +52,10 @@ std::map<Cell, Crowd> crowdedCells(const Scene& scene, const std::vector<float>&
     const auto counted = [&](std::size_t i) { return inverseMass[i] > 0 && scene.particles[i].radius > 0; };
     bool isAny = false;
     for (std::size_t i = 0; i < scene.particles.size(); ++i)
-        if (counted(i)) isAny = ++countOf(scene.particles[i]) > ranges::mostContactRoom || isAny;
+        if (counted(i)) isAny = ++countOf(scene.particles[i]) > ranges::mostInOneSpot || isAny;
     std::map<Cell, Crowd> cells;
     for (std::uint32_t i = 0; isAny && i < scene.particles.size(); ++i)
-        if (counted(i) && countOf(scene.particles[i]) > ranges::mostContactRoom)
+        if (counted(i) && countOf(scene.particles[i]) > ranges::mostInOneSpot)
             cells[cellOf(scene.particles[i])].push_back(i);
     return cells;
 }
@@ -89,7 +89,7 @@ std::string sentence(const Scene& scene, const Crowd& crowd, std::size_t strange
     if (names.empty()) bodies = "there are";
     return bodies + " " + number(crowd.size()) + " particles that touch each other at (" + number(x.x) +
            ", " + number(x.y) + ", " + number(x.z) + ") m, where a particle may touch at most " +
-           number(ranges::mostContactRoom) + " of others and would touch " + number(strangers) +
+           number(ranges::mostInOneSpot) + " of others and would touch " + number(strangers) +
            ": move them apart, by their centers or the pitch of copies, or take fewer";
 }
 
@@ -101,7 +101,7 @@ void checkCrowding(const Scene& scene, Complaints& complaints) {
     if (cells.empty()) return;
     const std::vector<std::uint32_t> components = linkedComponents(scene, inverseMass);
     const Crowd* worst = nullptr;
-    std::size_t most = ranges::mostContactRoom;
+    std::size_t most = ranges::mostInOneSpot;
     for (const auto& [cell, crowd] : cells) {
         const std::size_t strangers = strangersIn(crowd, components);
         if (strangers <= most) continue;

@@ -6,7 +6,7 @@
 
 namespace sinew::sim::collision {
 
-/// Complains of places in which more than ranges::mostContactRoom particles of other bodies lie so near a
+/// Complains of places in which more than ranges::mostInOneSpot particles of other bodies lie so near a
 /// particle that it touches each of them, with the names of the bodies. `scene` is right otherwise. Counts
 /// only what can touch and moves; linear in the number of particles.
 void checkCrowding(const Scene& scene, Complaints& complaints);

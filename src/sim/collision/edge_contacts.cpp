@@ -2,7 +2,6 @@
 #include "sim/collision/edge_contacts.hpp"
 
 #include "kernels.hpp"
-#include "sim/ranges.hpp"
 #include "sim/sleep.hpp"
 
 #include <algorithm>
@@ -50,7 +49,6 @@ edge_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
                                      .exclusions = exclusions,
                                      .margin = margin,
                                      .capacity = settings.contactRoom,
-                                     .limit = ranges::mostContactRoom,
                                      .usesTexels = settings.forms.usesTexels,
                                      .particles = layout.count});
 }
@@ -118,21 +116,16 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
                       .before = faces.before};
     const layout::FaceFindPush& find = contacts.lists.push;
     contacts.push = {.count = find.points,
-                     .row = find.row,
-                     .faceRow = find.faceRow,
                      .surfaces = contacts.surfaces.count,
                      .recoverySpeed = scene.contacts.recoverySpeed,
                      .moving = 0,
                      .sheets = 0};
     ContactBuffers& shown = program.program().contacts;
     shown.edges = contacts.lists.edges;
-    shown.edgePairs = contacts.lists.contacts;
-    shown.edgeCounts = contacts.lists.counts;
-    shown.edgeRow = contacts.push.row;
+    shown.edgePairs = contacts.lists.pooled.contacts;
+    shown.edgeLists = contacts.lists.pooled.ranges;
     shown.edgeCount = contacts.push.count;
-    const std::size_t elements = std::size_t{find.row} * find.capacity;
-    contacts.memory = side_memory::add(program, "edges", contacts.lists.contacts, contacts.lists.counts,
-                                       contacts.lists.grid, contacts.push, elements);
+    const std::size_t elements = contacts.lists.pooled.room;
     contacts.corners = program.upload("edges.corners", cornersOf(edges, layout, inverseMasses(scene)));
     contacts.directions = program.scratch<layout::vec4>("edges.directions", elements);
     contacts.weights = program.scratch<layout::vec4>("edges.weights", elements);
@@ -144,25 +137,25 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
 
 void joinIslands(const Contacts& contacts, sleep::Sleep& sleep) {
     const edge_lists::Lists& lists = contacts.lists;
-    sleep.edges = {lists.edges,         lists.contacts,   lists.counts,
-                   contacts.directions, contacts.corners, contacts.push.row};
+    sleep.edges = {lists.edges, lists.pooled.contacts, lists.pooled.ranges, contacts.directions,
+                   contacts.corners};
 }
 
 void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted) {
     const edge_lists::Lists& lists = contacts.lists;
     edge_lists::addWatch(program, lists, predicted);
-    side_memory::addKeeping(program, contacts.memory);
     edge_lists::addLists(program, lists, predicted);
-    side_memory::addReturning(program, contacts.memory);
     addOverEdges(program, contacts, k::touchEdges,
-                 {predicted.velocities, lists.edges, lists.contacts, lists.counts, predicted.positions,
-                  contacts.memory.memory, contacts.directions, contacts.weights, lists.sums, predicted.step});
+                 {predicted.velocities, lists.edges, lists.pooled.contacts, lists.pooled.ranges,
+                  predicted.positions, lists.pooled.memory->memory, contacts.directions, contacts.weights,
+                  lists.sums, predicted.step});
     sleep::addEdgeTouches(program, predicted);
     addShares(program, contacts, predicted);
     addOverEdges(program, contacts, k::pressEdges,
-                 {predicted.velocities, lists.edges, lists.contacts, lists.counts, contacts.directions,
-                  contacts.weights, contacts.shares, contacts.memory.memory, lists.impulses, contacts.before,
-                  predicted.step, contacts.surfaces.ofParticles, contacts.surfaces.pairs});
+                 {predicted.velocities, lists.edges, lists.pooled.contacts, lists.pooled.ranges,
+                  contacts.directions, contacts.weights, contacts.shares, lists.pooled.memory->memory,
+                  lists.impulses, contacts.before, predicted.step, contacts.surfaces.ofParticles,
+                  contacts.surfaces.pairs});
     addOverEnds(program, contacts, predicted, k::gatherEdges,
                 {contacts.corners, lists.impulses, predicted.velocities, predicted.positions, predicted.step},
                 remainderConstants(predicted.layout));
@@ -173,19 +166,19 @@ void addBounces(ProgramBuilder& program, const Contacts& contacts, const Particl
     const edge_lists::Lists& lists = contacts.lists;
     const surfaces::Surfaces& surfaces = contacts.surfaces;
     addOverEdges(program, contacts, k::bounceEdges,
-                 {contacts.before, lists.edges, lists.contacts, lists.counts, contacts.directions,
-                  contacts.weights, surfaces.ofParticles, surfaces.pairs, state.step, contacts.bounces,
-                  lists.sums});
+                 {contacts.before, lists.edges, lists.pooled.contacts, lists.pooled.ranges,
+                  contacts.directions, contacts.weights, surfaces.ofParticles, surfaces.pairs, state.step,
+                  contacts.bounces, lists.sums});
     addShares(program, contacts, state);
     addOverEdges(program, contacts, k::reboundEdges,
-                 {state.velocities, lists.edges, lists.contacts, lists.counts, contacts.bounces,
+                 {state.velocities, lists.edges, lists.pooled.contacts, lists.pooled.ranges, contacts.bounces,
                   contacts.weights, contacts.shares, lists.impulses});
     addOverEnds(program, contacts, state, k::gatherEdgesRebound,
                 {contacts.corners, lists.impulses, state.velocities, state.positions, state.step});
 }
 
 void addPublishing(ProgramBuilder& program, const Contacts& contacts) {
-    side_memory::addPublishing(program, contacts.memory);
+    pooled_lists::addPublishing(program, contacts.lists.pooled, contacts.lists.grid);
     // Lists stay while all sleeps, and nothing plans how many groups run then.
     if (contacts.sleeps) program.fill(contacts.lists.grid.touching.arguments, 0);
 }

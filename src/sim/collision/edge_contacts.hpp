@@ -10,7 +10,6 @@
 #include "sim/collision/edge_lists.hpp"
 #include "sim/collision/face_contacts.hpp"
 #include "sim/collision/planes.hpp"
-#include "sim/collision/side_memory.hpp"
 #include "sim/collision/surfaces.hpp"
 
 namespace sinew::sim::collision::edge_contacts {
@@ -23,8 +22,7 @@ bool areIn(const Scene& scene);
 struct Contacts {
     edge_lists::Lists lists;
     layout::FacePush push{};
-    bool sleeps = false; ///< whether the scene may
-    side_memory::Memory memory;
+    bool sleeps = false;         ///< whether the scene may
     surfaces::Surfaces surfaces; ///< those of the contacts with faces
     BufferId corners, directions, weights, shares;
     BufferId bounces; ///< only where something rebounds

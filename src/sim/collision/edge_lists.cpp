@@ -38,20 +38,6 @@ Tables tablesOf(const Request& request) {
     return tables;
 }
 
-// What sort_contacts takes.
-layout::FindPush sortPush(const layout::FaceFindPush& push) {
-    return {.count = push.points,
-            .cells = push.cells,
-            .edge = push.edge,
-            .most = push.most,
-            .margin = push.margin,
-            .capacity = push.capacity,
-            .row = push.row,
-            .limit = push.limit,
-            .large = 0,
-            .quiet = 0};
-}
-
 } // namespace
 
 Lists add(ProgramBuilder& program, const Request& request) {
@@ -73,23 +59,17 @@ Lists add(ProgramBuilder& program, const Request& request) {
                   .edge = grid.edge,
                   .most = widestInCells * largest,
                   .margin = request.margin,
-                  .capacity = request.capacity,
-                  .row = grid.count + CONTACT_ROW_EXTRA,
-                  .faceRow = 0,
-                  .limit = request.limit,
                   .moving = 0,
                   .large = 0};
-    const std::size_t elements = request.capacity * std::size_t{lists.push.row};
+    lists.pooled = pooled_lists::add(
+        program, {.name = "edges", .owners = count, .each = request.capacity, .hasMemory = true});
+    lists.push.room = lists.pooled.room;
     lists.edges = program.upload("edges", tables.edges);
-    lists.contacts = program.scratch<layout::ContactCandidate>("edges.contacts", elements);
-    lists.counts = program.scratch<std::uint32_t>("edges.counts", count);
     lists.radii = program.upload("edges.radii", tables.radii);
     lists.thickness = program.upload("edges.thickness", tables.thickness);
     lists.middles = program.scratch<layout::vec4>("edges.middles", count);
     lists.speeds = program.scratch<layout::vec4>("edges.speeds", count);
     lists.ends = program.scratch<layout::vec4>("edges.ends", 2 * count);
-    lists.found = program.scratch<std::uint32_t>("edges.found", count);
-    lists.candidates = program.scratch<std::uint32_t>("edges.candidates", elements);
     lists.excluded = program.upload("edges.excluded", request.exclusions);
     lists.points = program.scratch<layout::FacePoints>("edges.points", 1);
     lists.sums = program.scratch<float>("edges.sums", 2 * count);
@@ -114,21 +94,23 @@ void addWatch(ProgramBuilder& program, const Lists& lists, const ParticleBuffers
 
 void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {
     const hash_grid::Grid& grid = lists.grid;
-    program.dispatchIndirect(k::partPoints, grid.particles,
-                             {lists.speeds, lists.radii, lists.points, lists.apart, particles.step},
-                             lists.push);
+    std::vector<BufferId> buffers{lists.speeds, lists.radii, lists.points, lists.apart, particles.step};
+    const std::vector<BufferId> keeping = pooled_lists::keepingBuffers(lists.pooled);
+    buffers.insert(buffers.end(), keeping.begin(), keeping.end());
+    program.dispatchIndirect(k::partPoints, grid.particles, buffers, lists.push);
     program.dispatchIndirect(grid.usesTexels ? k::findEdges : k::findEdgesLoads, grid.particles,
                              {particles.positions, lists.edges, lists.speeds, lists.thickness, grid.sorted,
                               grid.starts, lists.excluded, grid.bounds, lists.points, lists.apart,
-                              lists.middles, lists.found, lists.candidates, lists.ends,
+                              lists.middles, lists.pooled.chains, lists.pooled.pairs, lists.ends,
                               program.program().status, particles.step},
                              lists.push);
-    program.dispatchIndirect(k::sortEdges, grid.particles,
-                             {lists.candidates, lists.thickness, lists.found, lists.contacts, lists.counts,
-                              program.program().status, grid.bounds, grid.touching.arguments, lists.marks,
-                              lists.touching, lists.particleMarks, lists.touchingParticles, lists.edges,
-                              lists.sums, lists.impulses},
-                             sortPush(lists.push));
+    buffers = pooled_lists::sortingBuffers(program, lists.pooled, grid, lists.thickness);
+    program.dispatchIndirect(k::sortEdges, grid.particles, buffers, lists.push);
+    program.dispatchIndirect(k::listEnds, grid.particles,
+                             {lists.pooled.ranges, lists.edges, lists.sums, lists.impulses, grid.bounds,
+                              grid.touching.arguments, lists.marks, lists.touching, lists.particleMarks,
+                              lists.touchingParticles},
+                             lists.push);
 }
 
 } // namespace sinew::sim::collision::edge_lists

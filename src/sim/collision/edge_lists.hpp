@@ -4,7 +4,7 @@
 // grid of the middles of edges; an edge stands for the ball around it that holds it.
 #pragma once
 
-#include "sim/collision/hash_grid.hpp"
+#include "sim/collision/pooled_lists.hpp"
 #include "sim/compile.hpp"
 
 #include <array>
@@ -26,18 +26,18 @@ struct Request {
     /// the end, then the edges of all, sorted.
     std::span<const std::uint32_t> exclusions;
     float margin = 0;           ///< M [m]
-    std::uint32_t capacity = 0; ///< edges near an edge
-    std::uint32_t limit = 256;  ///< candidates after which counting stops: bounds the time of a step
+    std::uint32_t capacity = 0; ///< edges near an edge, on average
     bool usesTexels = true;
     std::size_t particles = 0; ///< slots of the state
 };
 
-/// Element s x row + e of `contacts` is the other edge s of edge e (layout::ContactCandidate).
+/// Owners are edges.
 struct Lists {
     hash_grid::Grid grid;
     layout::FaceFindPush push{};
-    BufferId edges, contacts, counts;
-    BufferId radii, thickness, middles, speeds, ends, found, candidates, excluded, points, apart;
+    pooled_lists::Lists pooled;
+    BufferId edges;
+    BufferId radii, thickness, middles, speeds, ends, excluded, points, apart;
     /// By end of an edge: sums of the weights of its contacts and of what they do to it. 0 where it has no
     /// candidate; else of whoever solves contacts.
     BufferId sums, impulses;

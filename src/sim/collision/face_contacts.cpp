@@ -3,7 +3,6 @@
 
 #include "kernels.hpp"
 #include "sim/cutting/crumbs.hpp"
-#include "sim/ranges.hpp"
 #include "sim/sleep.hpp"
 
 #include <algorithm>
@@ -117,7 +116,6 @@ face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
                                                         .exclusions = exclusions,
                                                         .margin = settings.contactMargin * length,
                                                         .capacity = settings.contactRoom,
-                                                        .limit = ranges::mostContactRoom,
                                                         .usesTexels = settings.forms.usesTexels,
                                                         .bodies = &bodies,
                                                         .substeps = settings.substeps});
@@ -132,9 +130,7 @@ void addListUpdate(ProgramBuilder& program, const Contacts& contacts, const Part
     const face_lists::Lists& lists = contacts.lists;
     if (isFirst) face_lists::addFit(program, lists, predicted);
     face_lists::addWatch(program, lists, predicted);
-    side_memory::addKeeping(program, contacts.memory);
     face_lists::addLists(program, lists, predicted);
-    side_memory::addReturning(program, contacts.memory);
 }
 
 // Slots, ascending.
@@ -160,8 +156,8 @@ void addShares(ProgramBuilder& program, const Contacts& contacts, BufferId direc
                const ParticleBuffers& particles) {
     const face_lists::Lists& lists = contacts.lists;
     addOverContacts(program, contacts, k::shareFaces,
-                    {lists.counts, directions, contacts.weights, contacts.corners, lists.links,
-                     lists.linkCounts, particles.velocities, contacts.shares});
+                    {lists.pooled.ranges, directions, contacts.weights, contacts.corners, lists.links,
+                     lists.linkLists, particles.velocities, contacts.shares});
 }
 
 } // namespace
@@ -199,21 +195,16 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     const layout::FaceFindPush& find = contacts.lists.push;
     contacts.surfaces = surfaces::addTable(program, scene, layout, "faces.surface");
     contacts.push = {.count = find.points,
-                     .row = find.row,
-                     .faceRow = find.faceRow,
                      .surfaces = contacts.surfaces.count,
                      .recoverySpeed = scene.contacts.recoverySpeed,
                      .moving = find.moving,
                      .sheets = faces.sheets};
     ContactBuffers& shown = program.program().contacts;
     shown.faces = contacts.lists.faces;
-    shown.facePairs = contacts.lists.contacts;
-    shown.faceCounts = contacts.lists.counts;
-    shown.faceRow = contacts.push.row;
-    const std::size_t elements = std::size_t{find.row} * find.capacity;
+    shown.facePairs = contacts.lists.pooled.contacts;
+    shown.faceLists = contacts.lists.pooled.ranges;
+    const std::size_t elements = contacts.lists.pooled.room;
     contacts.corners = program.upload("faces.corners", cornersOf(faces, inverseMass, layout));
-    contacts.memory = side_memory::add(program, "faces", contacts.lists.contacts, contacts.lists.counts,
-                                       contacts.lists.grid, contacts.push, elements);
     contacts.directions = program.scratch<layout::vec4>("faces.directions", elements);
     contacts.weights = program.scratch<layout::vec4>("faces.weights", elements);
     contacts.impulses = program.scratch<layout::vec4>("faces.impulses", elements);
@@ -233,8 +224,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
 
 void joinIslands(const Contacts& contacts, sleep::Sleep& sleep) {
     const face_lists::Lists& lists = contacts.lists;
-    sleep.faces = {lists.faces, lists.contacts, lists.counts, contacts.directions};
-    sleep.push.faceRow = contacts.push.row;
+    sleep.faces = {lists.faces, lists.pooled.contacts, lists.pooled.ranges, contacts.directions};
 }
 
 void addOpening(ProgramBuilder& program, const Contacts& contacts, BufferId velocities) {
@@ -250,19 +240,20 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
         program.copy(predicted.velocities, contacts.linkedVelocities);
     }
     addOverContacts(program, contacts, k::touchFaces,
-                    {predicted.positions, predicted.velocities, lists.faces, lists.contacts, lists.counts,
-                     contacts.memory.memory, contacts.directions, contacts.weights, predicted.step});
+                    {predicted.positions, predicted.velocities, lists.faces, lists.pooled.contacts,
+                     lists.pooled.ranges, lists.pooled.memory->memory, contacts.directions, contacts.weights,
+                     predicted.step});
     sleep::addFaceTouches(program, predicted);
     addShares(program, contacts, contacts.directions, predicted);
     addOverContacts(program, contacts, k::pressFaces,
-                    {predicted.velocities, lists.faces, lists.contacts, lists.counts, contacts.directions,
-                     contacts.weights, contacts.shares, contacts.memory.memory, contacts.impulses,
-                     contacts.before, predicted.step, contacts.surfaces.ofParticles,
+                    {predicted.velocities, lists.faces, lists.pooled.contacts, lists.pooled.ranges,
+                     contacts.directions, contacts.weights, contacts.shares, lists.pooled.memory->memory,
+                     contacts.impulses, contacts.before, predicted.step, contacts.surfaces.ofParticles,
                      contacts.surfaces.pairs});
     addOverContacts(program, contacts, k::gatherFaces,
-                    {lists.counts, contacts.directions, contacts.weights, contacts.corners, lists.links,
-                     lists.linkCounts, contacts.impulses, predicted.velocities, predicted.positions,
-                     predicted.step},
+                    {lists.pooled.ranges, contacts.directions, contacts.weights, contacts.corners,
+                     lists.links, lists.linkLists, contacts.impulses, predicted.velocities,
+                     predicted.positions, predicted.step},
                     remainderConstants(predicted.layout));
 }
 
@@ -271,31 +262,31 @@ void addBounces(ProgramBuilder& program, const Contacts& contacts, const Particl
     const face_lists::Lists& lists = contacts.lists;
     const surfaces::Surfaces& surfaces = contacts.surfaces;
     addOverContacts(program, contacts, k::bounceFaces,
-                    {contacts.before, lists.faces, lists.contacts, lists.counts, contacts.directions,
-                     contacts.weights, surfaces.ofParticles, surfaces.pairs, state.step, contacts.bounces});
+                    {contacts.before, lists.faces, lists.pooled.contacts, lists.pooled.ranges,
+                     contacts.directions, contacts.weights, surfaces.ofParticles, surfaces.pairs, state.step,
+                     contacts.bounces});
     addShares(program, contacts, contacts.bounces, state);
     addOverContacts(program, contacts, k::reboundFaces,
-                    {state.velocities, lists.faces, lists.contacts, lists.counts, contacts.bounces,
-                     contacts.weights, contacts.shares, contacts.impulses});
+                    {state.velocities, lists.faces, lists.pooled.contacts, lists.pooled.ranges,
+                     contacts.bounces, contacts.weights, contacts.shares, contacts.impulses});
     addOverContacts(program, contacts, k::gatherFacesRebound,
-                    {lists.counts, contacts.bounces, contacts.weights, contacts.corners, lists.links,
-                     lists.linkCounts, contacts.impulses, state.velocities, state.positions, state.step});
+                    {lists.pooled.ranges, contacts.bounces, contacts.weights, contacts.corners, lists.links,
+                     lists.linkLists, contacts.impulses, state.velocities, state.positions, state.step});
 }
 
 void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state) {
     if (!contacts.hasStops() || contacts.movingPointCount == 0) return;
     const face_lists::Lists& lists = contacts.lists;
-    const layout::StopPush push{contacts.movingPointCount, contacts.push.row, contacts.push.moving,
-                                contacts.faces};
+    const layout::StopPush push{contacts.movingPointCount, contacts.push.moving, contacts.faces};
     program.dispatch(k::stopAtFaces, push.count,
-                     {contacts.linkedPositions, contacts.linkedVelocities, lists.faces, lists.contacts,
-                      lists.counts, lists.radii, lists.excluded, state.positions, state.velocities,
-                      state.step, contacts.memory.memory, contacts.movingPoints},
+                     {contacts.linkedPositions, contacts.linkedVelocities, lists.faces, lists.pooled.contacts,
+                      lists.pooled.ranges, lists.radii, lists.excluded, state.positions, state.velocities,
+                      state.step, lists.pooled.memory->memory, contacts.movingPoints},
                      push, remainderConstants(state.layout));
 }
 
 void addPublishing(ProgramBuilder& program, const Contacts& contacts) {
-    side_memory::addPublishing(program, contacts.memory);
+    pooled_lists::addPublishing(program, contacts.lists.pooled, contacts.lists.grid);
     // Lists stay while all sleeps, and nothing plans how many groups run then.
     if (contacts.sleeps) program.fill(contacts.lists.grid.touching.arguments, 0);
 }

@@ -13,7 +13,6 @@
 #pragma once
 
 #include "sim/collision/face_lists.hpp"
-#include "sim/collision/side_memory.hpp"
 #include "sim/collision/surfaces.hpp"
 
 namespace sinew::sim::collision::face_contacts {
@@ -30,7 +29,6 @@ struct Contacts {
     layout::FacePush push{};
     std::uint32_t faces = 0; ///< of all kinds
     bool sleeps = false;     ///< whether the scene may
-    side_memory::Memory memory;
     surfaces::Surfaces surfaces;
     BufferId corners, directions, weights, shares, impulses;
     BufferId bounces; ///< only where something rebounds

@@ -31,8 +31,9 @@ std::vector<std::uint32_t> facesWhere(std::span<const float> extents, float edge
 }
 
 std::vector<BufferId> searchBuffers(const Lists& lists, const ParticleBuffers& particles) {
-    return {particles.positions, particles.velocities, lists.radii,          lists.faces,    lists.found,
-            lists.candidates,    lists.faceFound,      lists.faceCandidates, lists.excluded, particles.step};
+    return {particles.positions, particles.velocities, lists.radii,       lists.faces,
+            lists.pooled.chains, lists.faceChains,     lists.grid.bounds, lists.pooled.pairs,
+            lists.excluded,      particles.step};
 }
 
 // By slot: below 0 = neither a point nor a corner.
@@ -78,25 +79,18 @@ Lists add(ProgramBuilder& program, const Request& request) {
                   .edge = grid.edge,
                   .most = edge,
                   .margin = request.margin,
-                  .capacity = request.capacity,
-                  .row = grid.count + CONTACT_ROW_EXTRA,
-                  .faceRow = request.moving + CONTACT_ROW_EXTRA,
-                  .limit = request.limit,
                   .moving = request.moving,
                   .large = static_cast<std::uint32_t>(large.size())};
-    const std::size_t elements = request.capacity * std::size_t{lists.push.row},
-                      linked = request.capacity * std::size_t{lists.push.faceRow};
-    lists.contacts = program.scratch<layout::ContactCandidate>("faces.contacts", elements);
-    lists.counts = program.scratch<std::uint32_t>("faces.counts", count);
-    lists.links = program.scratch<std::uint32_t>("faces.links", linked);
-    lists.linkCounts = program.scratch<std::uint32_t>("faces.link_counts", lists.push.faceRow);
+    lists.pooled = pooled_lists::add(
+        program,
+        {.name = "faces", .owners = count, .each = request.capacity, .entriesOfPair = 1, .hasMemory = true});
+    lists.push.room = lists.pooled.room;
+    lists.links = program.scratch<std::uint32_t>("faces.links", lists.pooled.room);
+    lists.linkLists = program.scratch<layout::ListRange>("faces.link_lists", request.moving + 1);
+    lists.faceChains = program.scratch<std::uint32_t>("faces.chains_of_faces", request.moving + 1);
     lists.radii = program.upload("faces.radii", request.radii);
     lists.inverseMasses = program.upload("faces.inverse_masses", request.inverseMasses);
     lists.faces = program.upload("faces", request.faces);
-    lists.found = program.scratch<std::uint32_t>("faces.found", count);
-    lists.candidates = program.scratch<std::uint32_t>("faces.candidates", elements);
-    lists.faceFound = program.scratch<std::uint32_t>("faces.points.found", lists.push.faceRow);
-    lists.faceCandidates = program.scratch<std::uint32_t>("faces.points.candidates", linked);
     lists.excluded = program.upload("faces.excluded", request.exclusions);
     lists.points = program.scratch<layout::FacePoints>("faces.points", 1);
     lists.apart = program.scratch<std::uint32_t>("faces.points.apart", count);
@@ -125,27 +119,28 @@ void addWatch(ProgramBuilder& program, const Lists& lists, const ParticleBuffers
 
 void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {
     const hash_grid::Grid& grid = lists.grid;
-    program.dispatchIndirect(k::partPoints, grid.particles,
-                             {particles.velocities, lists.radii, lists.points, lists.apart, particles.step},
-                             lists.push);
+    std::vector<BufferId> parting{particles.velocities, lists.radii, lists.points, lists.apart,
+                                  particles.step};
+    const std::vector<BufferId> keeping = pooled_lists::keepingBuffers(lists.pooled);
+    parting.insert(parting.end(), keeping.begin(), keeping.end());
+    program.dispatchIndirect(k::partPoints, grid.particles, parting, lists.push);
     std::vector<BufferId> buffers = searchBuffers(lists, particles);
-    buffers.insert(buffers.end(), {grid.sorted, grid.starts, grid.bounds, lists.points, lists.apart,
-                                   lists.searched, lists.wide, lists.inverseMasses});
+    buffers.insert(buffers.end(), {grid.sorted, grid.starts, lists.points, lists.apart, lists.searched,
+                                   lists.wide, lists.inverseMasses});
     program.dispatchIndirect(grid.usesTexels ? k::findFaces : k::findFacesLoads, grid.others, buffers,
                              lists.push);
     buffers = searchBuffers(lists, particles);
     buffers.insert(buffers.end(),
                    {lists.large, lists.wide, lists.points, program.program().status, lists.inverseMasses});
     program.dispatchIndirect(k::findWideFaces, grid.particles, buffers, lists.push);
-    program.dispatchIndirect(k::sortFaces, grid.particles,
-                             {lists.candidates, lists.radii, lists.faces, lists.found, lists.contacts,
-                              lists.counts, program.program().status, grid.bounds, grid.touching.arguments,
-                              lists.marks, lists.touching},
-                             lists.push);
+    buffers = pooled_lists::sortingBuffers(program, lists.pooled, grid, lists.radii);
+    buffers.insert(buffers.end(), {grid.touching.arguments, lists.marks, lists.touching, lists.faces});
+    program.dispatchIndirect(k::sortFaces, grid.particles, buffers, lists.push);
     program.dispatchIndirect(k::linkFaces, grid.others,
-                             {lists.faceCandidates, lists.contacts, lists.counts, lists.faceFound,
-                              lists.links, lists.linkCounts, lists.points, program.program().status,
-                              grid.bounds, lists.faces, grid.touching.arguments, lists.marks, lists.touching},
+                             {lists.pooled.pairs, lists.faceChains, lists.pooled.contacts,
+                              lists.pooled.ranges, lists.links, lists.linkLists, lists.points, grid.bounds,
+                              lists.faces, program.program().status, grid.touching.arguments, lists.marks,
+                              lists.touching},
                              lists.push);
 }
 

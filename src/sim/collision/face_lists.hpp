@@ -6,7 +6,7 @@
 // point, wide or fast points with every face.
 #pragma once
 
-#include "sim/collision/hash_grid.hpp"
+#include "sim/collision/pooled_lists.hpp"
 #include "sim/compile.hpp"
 
 #include <vector>
@@ -24,20 +24,21 @@ struct Request {
     /// points of all, sorted.
     std::span<const std::uint32_t> exclusions;
     float margin = 0;           ///< M [m]
-    std::uint32_t capacity = 0; ///< faces near a point, and points near a face that moves
-    std::uint32_t limit = 256;  ///< candidates after which counting stops: bounds the time of a step
+    std::uint32_t capacity = 0; ///< faces near a point, on average
     bool usesTexels = true;
     const body_frames::Bodies* bodies = nullptr; ///< as hash_grid::Request has them
     std::uint32_t substeps = 1;                  ///< of a step
 };
 
-/// Element s x row + i of `contacts` is face s of point i (layout::ContactCandidate); element s x faceRow + f
-/// of `links` is where in there point s of face f is.
+/// Owners are points. Element linkLists[f].first + s of `links` is where in the lists of points point s of
+/// face f is.
 struct Lists {
     hash_grid::Grid grid;
     layout::FaceFindPush push{};
-    BufferId contacts, counts, links, linkCounts;
-    BufferId radii, inverseMasses, faces, found, candidates, faceFound, faceCandidates, excluded;
+    pooled_lists::Lists pooled;
+    BufferId links, linkLists;
+    BufferId faceChains; ///< of pairs, by face that moves
+    BufferId radii, inverseMasses, faces, excluded;
     BufferId points, apart, searched, large, wide;
     BufferId touching, marks; ///< work groups of particles of which one is in a list, as point or corner
 };

@@ -113,8 +113,8 @@ void addGrid(const Grid& grid, const StateLayout& layout, Plan& plan) {
 
 // The buffers that both passes over contacts begin with.
 std::vector<BufferId> sharedBuffers(const Interlocks& interlocks, const Shared& shared, BufferId step) {
-    return {shared.lists.contacts, shared.lists.counts, interlocks.normals, interlocks.nodes,
-            interlocks.partners,   interlocks.pairs,    shared.touching,    step};
+    return {shared.lists.pooled.contacts, shared.lists.pooled.ranges, interlocks.normals, interlocks.nodes,
+            interlocks.partners,          interlocks.pairs,           shared.touching,    step};
 }
 
 } // namespace
@@ -144,7 +144,6 @@ std::optional<Interlocks> add(ProgramBuilder& program, const Plan& plan, std::si
     if (plan.pairs == 0) return std::nullopt;
     Interlocks interlocks;
     interlocks.push.count = static_cast<std::uint32_t>(slots);
-    interlocks.push.row = contact_lists::rowOf(slots);
     interlocks.push.recoverySpeed = recoverySpeed;
     interlocks.push.pairs = plan.pairs;
     interlocks.nodes = program.upload("interlocks.nodes", plan.nodes);

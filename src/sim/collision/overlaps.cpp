@@ -97,6 +97,15 @@ Overlaps find(const Request& request) {
     return Search(request).run();
 }
 
+void forget(Overlaps& overlaps, float least) {
+    std::size_t pairs = 0;
+    for (std::vector<Overlap>& list : overlaps) {
+        std::erase_if(list, [least](const Overlap& overlap) { return overlap.depth <= least; });
+        pairs += list.size();
+    }
+    if (pairs == 0) overlaps.clear();
+}
+
 std::uint32_t mostPartners(const Overlaps& overlaps) {
     std::size_t most = 0;
     for (const std::vector<Overlap>& list : overlaps) most = std::max(most, list.size());

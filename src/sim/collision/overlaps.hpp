@@ -29,6 +29,9 @@ struct Overlap {
 using Overlaps = std::vector<std::vector<Overlap>>;
 Overlaps find(const Request& request);
 
+/// Leaves those that overlap by more than `least`.
+void forget(Overlaps& overlaps, float least);
+
 /// The most partners that one particle has.
 std::uint32_t mostPartners(const Overlaps& overlaps);
 

@@ -74,9 +74,10 @@ contact_lists::Exclusions exclusionsOf(const Scene& scene, const StateLayout& la
     return contact_lists::excludedPairs(scene, radii, layout);
 }
 
-// The overlaps of the scene as it is loaded; none where some particle has more than there can be room for.
-overlaps::Overlaps overlapsOf(const Scene& scene, const Settings& settings, const StateLayout& layout,
-                              std::span<const float> radii, const contact_lists::Exclusions& exclusions) {
+// The overlaps of the scene as it is loaded, by more than `least`; none where some particle has more than a
+// list may have.
+overlaps::Overlaps overlapsOf(const Scene& scene, const StateLayout& layout, std::span<const float> radii,
+                              const contact_lists::Exclusions& exclusions, float least) {
     std::vector<std::array<float, 3>> positions(layout.count);
     std::vector<float> inverseMass(layout.count, 0);
     const std::vector<float> ofParticles = inverseMasses(scene);
@@ -85,83 +86,43 @@ overlaps::Overlaps overlapsOf(const Scene& scene, const Settings& settings, cons
         positions[layout.slot[i]] = {x.x, x.y, x.z};
         inverseMass[layout.slot[i]] = ofParticles[i];
     }
-    // What parts within a substep at the speed of recovery needs no help.
-    const float h = scene.dt / static_cast<float>(settings.substeps);
     overlaps::Overlaps found = overlaps::find({.positions = positions,
                                                .radii = radii,
                                                .inverseMasses = inverseMass,
                                                .exclusions = exclusions,
-                                               .least = scene.contacts.recoverySpeed * h,
-                                               .limit = ranges::mostContactRoom});
-    if (overlaps::mostPartners(found) > ranges::mostContactRoom) found.clear();
+                                               .least = least,
+                                               .limit = LIST_MOST});
+    if (overlaps::mostPartners(found) > LIST_MOST) found.clear();
     return found;
 }
 
-// Overlaps as the lists that stand before the first update, which keeps what they remember; in the form in
-// which it is kept too.
-struct FirstLists {
-    std::vector<layout::ContactCandidate> contacts;
-    std::vector<std::uint32_t> counts;
-    std::vector<layout::vec4> slips, saved;
-    std::vector<float> offsets;
-};
+// Entries a particle, on average, so that all overlaps fit: none must be forgotten for want of room. It does
+// not depend on the substeps, so that a simulation with others of them may take over.
+std::uint32_t roomFor(const overlaps::Overlaps& overlaps, std::size_t slots) {
+    std::size_t entries = 0;
+    for (const std::vector<overlaps::Overlap>& list : overlaps) entries += list.size();
+    return static_cast<std::uint32_t>((entries + slots - 1) / slots);
+}
 
-FirstLists firstLists(const overlaps::Overlaps& found, std::span<const float> radii, std::uint32_t room) {
-    const std::uint32_t row = contact_lists::rowOf(radii.size());
-    const std::size_t elements = std::size_t{row} * room;
-    FirstLists lists{std::vector<layout::ContactCandidate>(elements),
-                     std::vector<std::uint32_t>(radii.size()), std::vector<layout::vec4>(elements),
-                     std::vector<layout::vec4>(elements), std::vector<float>(elements)};
+// What parts within a substep at the speed of recovery needs no help.
+float leastOverlap(const Scene& scene, const Settings& settings) {
+    return scene.contacts.recoverySpeed * scene.dt / static_cast<float>(settings.substeps);
+}
+
+// Overlaps as the lists that stand before the first update, which keeps what they remember.
+pooled_lists::Initial firstLists(const overlaps::Overlaps& found, std::span<const float> radii) {
+    pooled_lists::Initial first;
     for (std::size_t i = 0; i < found.size(); ++i) {
-        lists.counts[i] = static_cast<std::uint32_t>(found[i].size());
-        for (std::size_t s = 0; s < found[i].size(); ++s) {
-            const std::uint32_t other = found[i][s].other;
-            const std::size_t slot = s * row + i;
-            const float reach = radii[i] + radii[other];
-            const float depth = std::min(found[i][s].depth, 0.999999f * reach); // all is what interlocks
-            lists.contacts[slot] = {other, reach};
-            lists.slips[slot].w = depth;
-            lists.saved[slot].w = std::bit_cast<float>(other);
-            lists.offsets[slot] = depth;
+        first.ranges.push_back(
+            {static_cast<std::uint32_t>(first.contacts.size()), static_cast<std::uint32_t>(found[i].size())});
+        for (const overlaps::Overlap& overlap : found[i]) {
+            const float reach = radii[i] + radii[overlap.other];
+            first.contacts.push_back({overlap.other, reach});
+            // all of the reach is what interlocks
+            first.memory.push_back({0, 0, 0, std::min(overlap.depth, 0.999999f * reach)});
         }
     }
-    return lists;
-}
-
-// Buffers of what is remembered; `first` is empty where nothing overlaps.
-void addMemory(ProgramBuilder& program, Contacts& contacts, const FirstLists& first) {
-    const std::size_t slots = contacts.lists.push.count;
-    const std::size_t elements = std::size_t{contacts.lists.push.row} * contacts.lists.push.capacity;
-    const auto vectors = [&](const char* label, const std::vector<layout::vec4>& initial) {
-        return initial.empty() ? program.scratch<layout::vec4>(label, elements)
-                               : program.upload(label, initial);
-    };
-    contacts.slips = vectors("contacts.slips", first.slips);
-    contacts.kept = program.scratch<layout::vec4>("contacts.kept", elements);
-    contacts.keptCounts = program.scratch<std::uint32_t>("contacts.kept_counts", slots);
-    contacts.saved = vectors("contacts.slips.saved", first.saved);
-    contacts.savedCounts = first.counts.empty()
-                               ? program.scratch<std::uint32_t>("contacts.counts.saved", slots)
-                               : program.upload("contacts.counts.saved", first.counts);
-    for (const BufferId buffer : {contacts.lists.contacts, contacts.lists.counts, contacts.slips,
-                                  contacts.saved, contacts.savedCounts})
-        program.carry(buffer, buffer);
-    if (!contacts.hasRecovery) return;
-    contacts.keptOffsets = program.scratch<float>("contacts.kept_offsets", elements);
-    contacts.savedOffsets = first.offsets.empty() ? program.scratch<float>("contacts.offsets.saved", elements)
-                                                  : program.upload("contacts.offsets.saved", first.offsets);
-    program.carry(contacts.savedOffsets, contacts.savedOffsets);
-}
-
-// A pass while lists are made again, between them and what is kept.
-void addCarrying(ProgramBuilder& program, const Contacts& contacts, const vk::ShaderCode& slipsOnly,
-                 const vk::ShaderCode& withOffsets) {
-    const contact_lists::Lists& lists = contacts.lists;
-    std::vector<BufferId> buffers{lists.contacts, lists.counts, contacts.slips, contacts.kept,
-                                  contacts.keptCounts};
-    if (contacts.hasRecovery) buffers.push_back(contacts.keptOffsets);
-    program.dispatchIndirect(contacts.hasRecovery ? withOffsets : slipsOnly, lists.grid.particles, buffers,
-                             lists.push);
+    return first;
 }
 
 // Ends the substep for all as if they touched nothing, and watches them; or, for those that were slowed down
@@ -216,17 +177,15 @@ void addListUpdate(ProgramBuilder& program, const Contacts& contacts, const Part
         hash_grid::addWatch(program, contacts.lists.grid, moved);
     contact_lists::addBuild(program, contacts.lists, moved, isLast);
     if (contacts.settles) addSettling(program, contacts, predicted, next, false);
-    if (contacts.hasMemory()) addCarrying(program, contacts, k::keepSlips, k::keepSlipsRecovery);
     contact_lists::addLists(program, contacts.lists, moved);
-    if (contacts.hasMemory()) addCarrying(program, contacts, k::returnSlips, k::returnSlipsRecovery);
 }
 
 void addCount(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted) {
     const contact_lists::Lists& lists = contacts.lists;
-    std::vector<BufferId> buffers{predicted.positions,  lists.contacts,    lists.counts,
-                                  predicted.velocities, contacts.touching, predicted.step,
+    std::vector<BufferId> buffers{predicted.positions,  lists.pooled.contacts, lists.pooled.ranges,
+                                  predicted.velocities, contacts.touching,     predicted.step,
                                   lists.grid.bounds,    contacts.firsts};
-    if (contacts.hasRecovery) buffers.push_back(contacts.slips);
+    if (contacts.hasRecovery) buffers.push_back(contacts.lists.pooled.memory->memory);
     addOverContacts(program, contacts,
                     contacts.hasRecovery
                         ? form(contacts, {&k::countContactsRecoveryLoads, &k::countContactsRecovery})
@@ -237,13 +196,14 @@ void addCount(ProgramBuilder& program, const Contacts& contacts, const ParticleB
 void addGather(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                const ParticleBuffers& next) {
     const contact_lists::Lists& lists = contacts.lists;
-    std::vector<BufferId> buffers{contacts.touching,   lists.contacts, predicted.velocities, lists.counts,
-                                  predicted.positions, next.positions, next.velocities,      predicted.step,
-                                  lists.grid.bounds,   contacts.firsts};
+    std::vector<BufferId> buffers{contacts.touching,   lists.pooled.contacts, predicted.velocities,
+                                  lists.pooled.ranges, predicted.positions,   next.positions,
+                                  next.velocities,     predicted.step,        lists.grid.bounds,
+                                  contacts.firsts};
     ProgramBuilder::Constants constants = remainderConstants(next.layout);
     if (contacts.hasMemory() || contacts.hasRebound) buffers.push_back(contacts.before);
     if (contacts.hasMemory()) {
-        buffers.push_back(contacts.slips);
+        buffers.push_back(contacts.lists.pooled.memory->memory);
         constants.insert(
             {{hasFrictionId, contacts.surfaces.hasFriction}, {hasRecoveryId, contacts.hasRecovery}});
     }
@@ -289,40 +249,38 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
              const StateLayout& layout) {
     const std::vector<float> radii = radiiOf(scene, layout);
     contact_lists::Exclusions exclusions = exclusionsOf(scene, layout);
-    const overlaps::Overlaps overlaps = overlapsOf(scene, settings, layout, radii, exclusions);
+    overlaps::Overlaps overlaps = overlapsOf(scene, layout, radii, exclusions, 0);
+    const std::uint32_t room = std::max(settings.contactRoom, roomFor(overlaps, layout.count));
+    overlaps::forget(overlaps, leastOverlap(scene, settings));
     surfaces::Surfaces surfaces = surfaces::add(program, scene, layout);
     const bool settles =
         !settings.sleeps && areMostlyLinked(scene) && !surfaces.hasRestitution && overlaps.empty();
-    // What overlaps at first must not be forgotten for want of room.
-    const std::uint32_t room = std::max(settings.contactRoom, overlaps::mostPartners(overlaps));
     const bool isCuttable = !exclusions.empty() && cutting::canMeet(program.program(), scene);
+    const bool hasRecovery = !overlaps.empty() || isCuttable;
     BufferId allExcluded;
     if (isCuttable) allExcluded = program.upload("contacts.all_excluded", exclusions);
     const body_frames::Bodies bodies = body_frames::bodiesOf(scene, layout);
-    FirstLists first;
-    if (!overlaps.empty()) first = firstLists(overlaps, radii, room);
+    const pooled_lists::Initial first = firstLists(overlaps, radii);
     Contacts contacts{
         .lists = contact_lists::add(program, {.radii = radii,
                                               .margin = settings.contactMargin * medianRadius(scene),
                                               .capacity = room,
-                                              .limit = ranges::mostContactRoom,
                                               .exclusions = std::move(exclusions),
                                               .usesTexels = settings.forms.usesTexels,
                                               .bodies = &bodies,
                                               .substeps = settings.substeps,
-                                              .contacts = std::move(first.contacts),
-                                              .counts = first.counts,
+                                              .hasMemory = surfaces.hasFriction || hasRecovery,
+                                              .initial = first,
                                               .listsGroups = settles}),
         .planes = planes::addColliders(program, scene, layout),
         .surfaces = std::move(surfaces),
         .settles = settles,
         .hasRebound =
             std::ranges::any_of(scene.planes, [](const Plane& plane) { return plane.restitution > 0; }),
-        .hasRecovery = !overlaps.empty() || isCuttable,
+        .hasRecovery = hasRecovery,
         .allExcluded = allExcluded};
     cutting::letCrumbsLeave(program, contacts.lists.grid.radii, contacts.lists.grid);
     contacts.push = {.count = contacts.lists.push.count,
-                     .row = contacts.lists.push.row,
                      .friction = contacts.surfaces.friction,
                      .staticFriction = contacts.surfaces.staticFriction,
                      .restitution = contacts.surfaces.restitution,
@@ -331,9 +289,8 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
                                           : scene.contacts.recoverySpeed,
                      .surfaces = contacts.surfaces.count};
     ContactBuffers& shown = program.program().contacts;
-    shown.pairs = contacts.lists.contacts;
-    shown.pairCounts = contacts.lists.counts;
-    shown.pairRow = contacts.push.row;
+    shown.pairs = contacts.lists.pooled.contacts;
+    shown.pairLists = contacts.lists.pooled.ranges;
     if (settles) {
         const std::vector<std::uint32_t> slots = slotsInOrder(layout);
         contacts.particles = program.upload("contacts.particles", slots);
@@ -341,7 +298,6 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     }
     contacts.touching = program.scratch<layout::vec4>("contacts.touching", layout.count);
     contacts.firsts = program.scratch<float>("contacts.firsts", layout.count);
-    if (contacts.hasMemory()) addMemory(program, contacts, first);
     contacts.interlocks = interlocks::add(program, interlocks::find(scene, layout, overlaps), layout.count,
                                           scene.contacts.recoverySpeed);
     if (contacts.hasRebound || contacts.surfaces.hasRestitution || contacts.hasMemory())
@@ -354,9 +310,8 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
 }
 
 void joinIslands(const Contacts& contacts, sleep::Sleep& sleep) {
-    sleep.pairs = {contacts.lists.contacts, contacts.lists.counts, contacts.touching,
+    sleep.pairs = {contacts.lists.pooled.contacts, contacts.lists.pooled.ranges, contacts.touching,
                    contacts.lists.grid.bounds};
-    sleep.push.row = contacts.lists.push.row;
 }
 
 void addOpening(ProgramBuilder& program, const Contacts& contacts, BufferId velocities) {
@@ -371,7 +326,8 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
     if (isFirst) cutting::addContactOpening(program, contacts);
     if (contacts.interlocks) {
         interlocks::addPasses(program, *contacts.interlocks,
-                              {contacts.lists, contacts.slips, contacts.touching}, predicted);
+                              {contacts.lists, contacts.lists.pooled.memory->memory, contacts.touching},
+                              predicted);
         addListUpdate(program, contacts, predicted, next, false, true); // they have moved since
     }
     sleep::addTouches(program, predicted);
@@ -383,8 +339,9 @@ void addBounces(ProgramBuilder& program, const Contacts& contacts, const Particl
                 const ParticleBuffers& next) {
     const contact_lists::Lists& lists = contacts.lists;
     const bool isTable = contacts.surfaces.count > 0;
-    std::vector<BufferId> shared{predicted.positions, lists.contacts, contacts.before,   predicted.velocities,
-                                 lists.counts,        next.step,      lists.grid.bounds, contacts.firsts};
+    std::vector<BufferId> shared{predicted.positions,  lists.pooled.contacts, contacts.before,
+                                 predicted.velocities, lists.pooled.ranges,   next.step,
+                                 lists.grid.bounds,    contacts.firsts};
     if (isTable) shared.insert(shared.end(), {contacts.surfaces.ofParticles, contacts.surfaces.pairs});
     shared.push_back(next.velocities);
     shared.push_back(contacts.bouncing);
@@ -398,16 +355,7 @@ void addBounces(ProgramBuilder& program, const Contacts& contacts, const Particl
 }
 
 void addPublishing(ProgramBuilder& program, const Contacts& contacts) {
-    std::vector<BufferId> buffers{program.program().status, contacts.lists.grid.detected,
-                                  contacts.lists.grid.bounds};
-    if (contacts.hasMemory())
-        buffers.insert(buffers.end(), {contacts.lists.contacts, contacts.lists.counts, contacts.slips,
-                                       contacts.saved, contacts.savedCounts});
-    if (contacts.hasRecovery) buffers.push_back(contacts.savedOffsets);
-    program.dispatch(contacts.hasRecovery   ? k::publishSlipsRecovery
-                     : contacts.hasMemory() ? k::publishSlips
-                                            : k::publishLists,
-                     contacts.push.count, buffers, contacts.push);
+    pooled_lists::addPublishing(program, contacts.lists.pooled, contacts.lists.grid);
     if (contacts.interlocks) interlocks::addClosing(program, *contacts.interlocks);
 }
 

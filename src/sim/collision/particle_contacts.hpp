@@ -28,9 +28,6 @@ struct Contacts {
     bool hasRebound = false;         ///< of a plane
     bool hasRecovery = false;        ///< some pair overlaps when the scene is loaded, or may after a cut
     BufferId touching, firsts, before, bouncing, rebounding;
-    /// What is remembered of candidates, from substep to substep, while lists are made again, and from step
-    /// to step; `...Offsets` where hasRecovery.
-    BufferId slips, kept, keptCounts, keptOffsets, saved, savedCounts, savedOffsets;
 
     /// Pairs of the uncut bodies that never touch; invalid where no body that may be cut touches.
     BufferId allExcluded;
@@ -38,7 +35,7 @@ struct Contacts {
     std::optional<interlocks::Interlocks> interlocks; ///< only where hasRecovery
 
     bool isCuttable() const { return allExcluded != BufferId{}; }
-    bool hasMemory() const { return surfaces.hasFriction || hasRecovery; }
+    bool hasMemory() const { return lists.pooled.memory.has_value(); }
 };
 
 /// Only where areIn().

@@ -12,14 +12,13 @@ namespace {
 namespace k = kernels;
 using collision::particle_contacts::Contacts;
 
-layout::CutPush pushOf(const CutRun& run, const Contacts& contacts) {
+layout::CutPush pushOf(const CutRun& run) {
     return {.first = run.first,
             .count = run.count,
             .rowStride = run.rowStride,
             .sliceStride = run.sliceStride,
             .stiffLinks = 0,
             .spacing = 0,
-            .contactRow = contacts.lists.push.row,
             .run = 0};
 }
 
@@ -27,7 +26,7 @@ void addFilter(ProgramBuilder& program, const Contacts& contacts) {
     const CuttingBuffers cutting = program.program().cutting;
     program.beginCut();
     for (std::uint32_t r = 0; r < cutting.runs.size(); ++r) {
-        layout::CutPush push = pushOf(cutting.runs[r], contacts);
+        layout::CutPush push = pushOf(cutting.runs[r]);
         push.run = r;
         program.dispatchIndirect(k::filterExcluded, {cutting.listedArguments, r, push.count},
                                  {cutting.links, cutting.savedLinks, cutting.listedCounts,
@@ -65,9 +64,9 @@ void addContactOpening(ProgramBuilder& program, const Contacts& contacts) {
     program.beginCut();
     for (const CutRun& run : cutting.runs)
         program.dispatch(k::openCutContacts, run.count,
-                         {cutting.links, cutting.savedLinks, cutting.places, contacts.lists.contacts,
-                          contacts.lists.counts, contacts.slips},
-                         pushOf(run, contacts));
+                         {cutting.links, cutting.savedLinks, cutting.places, contacts.lists.pooled.contacts,
+                          contacts.lists.pooled.ranges, contacts.lists.pooled.memory->memory},
+                         pushOf(run));
     program.endCut();
 }
 

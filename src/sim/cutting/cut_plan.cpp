@@ -62,7 +62,6 @@ Run runOf(const Grid& grid, const lattice::Box& box) {
                      .sliceStride = box.sliceStride,
                      .stiffLinks = lattice::stiffLinks(grid),
                      .spacing = grid.restLength[0],
-                     .contactRow = 0,
                      .run = 0},
             .hasVolumes = hasCellVolumes(grid),
             .tearStrain = grid.tearStrain,

@@ -64,6 +64,7 @@ Duration shortest(const vk::Device& device, vk::Queue& queue, std::uint32_t side
         const collision::hash_grid::Moved moved{positions, velocities, parameters};
         collision::hash_grid::addWatch(builder, lists.grid, moved);
         collision::contact_lists::addBuild(builder, lists, moved);
+        if (part == Part::find) builder.fill(lists.pooled.chains, 0); // as sorting leaves them
         if (part != Part::build) collision::contact_lists::addLists(builder, lists, moved);
     }
     StepProgram program = builder.finish();

@@ -223,7 +223,8 @@ TEST(MovingColliders, AreTakenOverWhereTheLastWholeStepLeftThem) {
     const Scene scene = crowd();
     constexpr int steps = 50;
     const std::uint64_t hash = test::hashOfRun(scene, {.substeps = 8, .contactRoom = 64}, steps);
-    const auto run = test::runGrowing(scene, {.substeps = 8}, steps);
+    const auto run = // longer lists, the same bits
+        test::runGrowing(scene, {.substeps = 8, .contactMargin = 5}, steps);
     EXPECT_GE(run.growths, 1);
     EXPECT_EQ(run.hash, hash);
 }

@@ -70,13 +70,13 @@ public:
     }
 
     Neighbours neighbours() const {
-        const auto counts = test::queue().download<std::uint32_t>(executor_->view(lists_.counts));
+        const auto lists = test::queue().download<layout::ListRange>(executor_->view(lists_.pooled.ranges));
         const auto entries =
-            test::queue().download<layout::ContactCandidate>(executor_->view(lists_.contacts));
+            test::queue().download<layout::ContactCandidate>(executor_->view(lists_.pooled.contacts));
         Neighbours result(count_);
         for (std::uint32_t i = 0; i < count_; ++i)
-            for (std::uint32_t s = 0; s < counts[i]; ++s)
-                result[i].push_back(entries[s * lists_.push.row + i].other);
+            for (std::uint32_t s = 0; s < lists[i].count; ++s)
+                result[i].push_back(entries[lists[i].first + s].other);
         return result;
     }
     std::uint32_t builds() const {
@@ -280,27 +280,58 @@ TEST(ContactLists, AreMadeAgainOnlyWhenSomebodyMovesFartherThanHalfTheMargin) {
     EXPECT_EQ(buildsAfterMoving(std::numeric_limits<float>::quiet_NaN()), 3u) << "who knows where";
 }
 
-TEST(ContactLists, ThatAreTooShortSayWhatTheyNeed) {
+TEST(ContactLists, ThatLackRoomSayHowMuchTheyNeedOnAverage) {
     Cloud cloud{.radii = std::vector<float>(256, 0.05f), .margin = 0.01f};
     std::vector<layout::vec4> x(256);
-    for (std::uint32_t i = 0; i < 256; ++i) x[i].x = static_cast<float>(i < 22 ? 0 : i); // 22 in one place
-    for (const auto& [capacity, needed] : {std::pair{1u, 21u}, {2u, 21u}, {20u, 21u}, {21u, 0u}, {22u, 0u}}) {
+    // 64 in one place: 64 x 63 entries, 15.75 a particle
+    for (std::uint32_t i = 0; i < 256; ++i) x[i].x = static_cast<float>(i < 64 ? 0 : i);
+    // The search ends where four times as much as there is room for was found.
+    for (const auto& [capacity, needed] : {std::pair{1u, 5u}, {4u, 16u}, {15u, 16u}, {16u, 0u}, {17u, 0u}}) {
         cloud.capacity = capacity;
         Device device(cloud);
         device.update(x);
         EXPECT_EQ(device.candidatesNeeded(), needed) << "capacity " << capacity;
-        for (const auto& list : device.neighbours()) EXPECT_LE(list.size(), capacity);
+        std::size_t entries = 0;
+        for (const auto& list : device.neighbours()) entries += list.size();
+        EXPECT_LE(entries, std::size_t{capacity} * 256);
+        if (needed == 0) {
+            EXPECT_EQ(device.neighbours()[0].size(), 63u) << "far more than there is room for on average";
+        }
     }
 }
 
-// Hard case 25: counting stops soon after the limit, nothing is overrun, and the same is said every time.
-TEST(ContactLists, OfTenThousandParticlesInOnePlaceStopCountingAtTheLimit) {
+// A large particle among many small ones: its list is sorted in another way than short ones are.
+TEST(ContactLists, OfOneMayHaveUpToTwoThousand) {
+    for (const std::uint32_t small : {1500u, 2048u, 2049u}) {
+        Cloud cloud{.radii = std::vector<float>(2176, 0.001f), .margin = 0.0005f, .capacity = 8};
+        cloud.radii[700] = 1;
+        std::vector<layout::vec4> x(2176);
+        for (std::uint32_t i = 0; i < 2176; ++i) {
+            const float turn = 2.399963f * static_cast<float>(i), // the golden angle
+                height = 1 - 2 * (static_cast<float>(i) + 0.5f) / 2176, ring = std::sqrt(1 - height * height);
+            const float far = i <= small && i != 700 ? 1.0f : 2.0f;
+            x[i] = {far * ring * std::cos(turn), far * ring * std::sin(turn), far * height, 0};
+        }
+        x[700] = {};
+        Device device(cloud);
+        device.update(x);
+        EXPECT_EQ(device.candidatesNeeded(), small > LIST_MOST ? CONTACT_MOST_ROOM + 1u : 0u) << small;
+        if (small > LIST_MOST) continue;
+        const Neighbours found = device.neighbours();
+        ASSERT_EQ(found[700].size(), small);
+        EXPECT_TRUE(std::ranges::is_sorted(found[700]));
+        EXPECT_EQ(std::ranges::adjacent_find(found[700]), found[700].end());
+    }
+}
+
+// Hard case 25: counting stops soon, nothing is overrun, and the same is said every time.
+TEST(ContactLists, OfTenThousandParticlesInOnePlaceStopCounting) {
     Cloud cloud{.radii = std::vector<float>(10112, 0.05f), .margin = 0.01f, .capacity = 16};
     for (const bool isReversed : {false, true}) {
         cloud.isReversed = isReversed;
         Device device(cloud);
         device.update(std::vector<layout::vec4>(10112));
-        EXPECT_EQ(device.candidatesNeeded(), 257u);
+        EXPECT_EQ(device.candidatesNeeded(), 4 * cloud.capacity + 1);
     }
 }
 

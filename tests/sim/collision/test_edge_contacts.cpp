@@ -92,12 +92,10 @@ std::size_t edgesTouching(test::Runner& runner) {
             if (buffers[b].label == label) return test::queue().download<T>(runner.simulation().view({b}));
         return std::vector<T>();
     };
-    const auto counts = read("edges.counts", std::uint32_t{});
     const auto directions = read("edges.directions", layout::vec4{});
-    const std::size_t row = counts.size() + CONTACT_ROW_EXTRA;
     std::size_t touching = 0;
-    for (std::size_t e = 0; e < counts.size(); ++e)
-        for (std::uint32_t s = 0; s < counts[e]; ++s) touching += directions[s * row + e].w > 0 ? 1 : 0;
+    for (const layout::ListRange& list : read("edges.lists", layout::ListRange{}))
+        for (std::uint32_t s = 0; s < list.count; ++s) touching += directions[list.first + s].w > 0 ? 1 : 0;
     return touching;
 }
 

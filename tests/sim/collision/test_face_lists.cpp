@@ -94,24 +94,29 @@ public:
     }
 
     Neighbours facesOfPoints() const {
-        const auto counts = read<std::uint32_t>(lists_.counts);
-        const auto entries = read<layout::ContactCandidate>(lists_.contacts);
+        const auto lists = read<layout::ListRange>(lists_.pooled.ranges);
+        const auto entries = read<layout::ContactCandidate>(lists_.pooled.contacts);
         Neighbours result(count);
         for (std::uint32_t i = 0; i < count; ++i)
-            for (std::uint32_t s = 0; s < counts[i]; ++s)
-                result[i].push_back(entries[s * lists_.push.row + i].other);
+            for (std::uint32_t s = 0; s < lists[i].count; ++s)
+                result[i].push_back(entries[lists[i].first + s].other);
         return result;
     }
     // Of the faces that move; also says where a point's list does not have the face.
     Neighbours pointsOfFaces() const {
-        const auto counts = read<std::uint32_t>(lists_.linkCounts), links = read<std::uint32_t>(lists_.links);
-        const auto entries = read<layout::ContactCandidate>(lists_.contacts);
+        const auto lists = read<layout::ListRange>(lists_.pooled.ranges),
+                   ofFaces = read<layout::ListRange>(lists_.linkLists);
+        const auto links = read<std::uint32_t>(lists_.links);
+        const auto entries = read<layout::ContactCandidate>(lists_.pooled.contacts);
+        std::vector<std::uint32_t> owners(entries.size(), ~0u);
+        for (std::uint32_t i = 0; i < count; ++i)
+            std::fill_n(owners.begin() + lists[i].first, lists[i].count, i);
         Neighbours result(movingFaces);
         for (std::uint32_t f = 0; f < movingFaces; ++f)
-            for (std::uint32_t s = 0; s < counts[f]; ++s) {
-                const std::uint32_t element = links[s * lists_.push.faceRow + f];
+            for (std::uint32_t s = 0; s < ofFaces[f].count; ++s) {
+                const std::uint32_t element = links[ofFaces[f].first + s];
                 EXPECT_EQ(entries[element].other, f);
-                result[f].push_back(element % lists_.push.row);
+                result[f].push_back(owners[element]);
             }
         return result;
     }
@@ -408,22 +413,53 @@ TEST(FaceLists, AreMadeAgainForAParticleThatCameFromFarAway) {
     EXPECT_EQ(builds(), 2u) << "it is where it was, but it began the substep elsewhere";
 }
 
-TEST(FaceLists, ThatAreTooShortSayWhatTheyNeed) {
-    Cloud cloud;
+// Faces in the origin with 50 points there; the others apart.
+State crowdedState(std::uint32_t faces) {
     State state;
-    for (std::uint32_t i = 0; i < count; ++i) { // face 0 in the origin, 22 points there; the others apart
-        const float far = 10.0f * static_cast<float>(i / 3);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const bool isThere = i < 3 * faces || (i >= 200 && i < 250);
         const float side = i < 3 * faceCount ? 0.05f * static_cast<float>(i % 3) : 0;
-        state.x[i] = {i >= 200 && i < 222 ? 0.02f : far, side, side * side, 0};
+        state.x[i] = {isThere ? 0.02f : 10.0f * static_cast<float>(i / 3), side, side * side, 0};
         state.v[i].w = 1;
     }
-    for (const auto& [capacity, needed] : {std::pair{1u, 22u}, {21u, 22u}, {22u, 0u}, {23u, 0u}}) {
+    return state;
+}
+
+std::size_t entriesOf(const Neighbours& lists) {
+    std::size_t entries = 0;
+    for (const auto& list : lists) entries += list.size();
+    return entries;
+}
+
+TEST(FaceLists, ThatLackRoomSayHowMuchTheyNeedOnAverage) {
+    const State state = crowdedState(24);
+    Device all({});
+    all.update(state);
+    const std::size_t entries = entriesOf(all.facesOfPoints());
+    const auto needed = static_cast<std::uint32_t>((entries + count - 1) / count);
+    ASSERT_GT(needed, 8u);
+    EXPECT_EQ(all.needed(), 0u);
+    for (const std::uint32_t capacity : {needed, needed - 1, needed / 2, 1u}) {
+        Cloud cloud;
         cloud.capacity = capacity;
         Device device(cloud);
         device.update(state);
-        EXPECT_EQ(device.needed(), needed) << "capacity " << capacity;
-        for (const auto& list : device.pointsOfFaces()) EXPECT_LE(list.size(), capacity);
+        // The search ends where four times as much as there is room for was found.
+        const std::uint32_t said = std::min(needed, 4 * capacity + 1);
+        EXPECT_EQ(device.needed(), capacity < needed ? said : 0) << "capacity " << capacity;
+        EXPECT_LE(entriesOf(device.facesOfPoints()), std::size_t{capacity} * count);
     }
+}
+
+TEST(FaceLists, GiveOneOwnerAsMuchAsItNeeds) {
+    const State state = crowdedState(faceCount);
+    Cloud cloud;
+    cloud.capacity = 60; // less than a point there has
+    Device device(cloud);
+    device.update(state);
+    EXPECT_EQ(device.needed(), 0u);
+    EXPECT_EQ(device.facesOfPoints()[201].size(), faceCount);
+    expectMutual(device.facesOfPoints(), device.pointsOfFaces());
 }
 
 TEST(FaceLists, LeaveOutPairsThatNeverTouch) {

@@ -153,11 +153,10 @@ TEST(OverlapAtLoad, CostsNothingWhereNothingOverlaps) {
     scene.particles = {ballAt({0, 0, 0}), ballAt({2.0001f * ballRadius, 0, 0}),
                        ballAt({0, 1.9999f * ballRadius, 0})}; // by less than parts in a substep
     const StepProgram program = compile(scene, {.substeps = 4});
-    EXPECT_FALSE(hasBuffer(program, "offsets"));
-    EXPECT_FALSE(hasBuffer(program, "slips"));
+    EXPECT_FALSE(hasBuffer(program, "pairs.memory"));
     EXPECT_FALSE(usesKernel(scene, "count_contacts_recovery", {.substeps = 4}));
     scene.particles[1].position.x = 1.9f * ballRadius;
-    EXPECT_TRUE(hasBuffer(compile(scene, {.substeps = 4}), "offsets"));
+    EXPECT_TRUE(hasBuffer(compile(scene, {.substeps = 4}), "pairs.memory"));
     EXPECT_TRUE(usesKernel(scene, "count_contacts_recovery", {.substeps = 4}));
 }
 
@@ -167,7 +166,7 @@ TEST(OverlapAtLoad, OfLinkedOrFixedParticlesIsNone) {
     for (Particle& particle : scene.particles) particle.radius = 0.06f;
     scene.particles.push_back(fixedBallAt({0, 3, 0}));
     scene.particles.push_back(fixedBallAt({0.02f, 3, 0}));
-    EXPECT_FALSE(hasBuffer(compile(scene, {.substeps = 4}), "offsets"));
+    EXPECT_FALSE(hasBuffer(compile(scene, {.substeps = 4}), "pairs.memory"));
 }
 
 TEST(Overlaps, AreThoseOfBruteForceForRadiiOfEverySize) {

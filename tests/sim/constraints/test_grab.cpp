@@ -277,7 +277,7 @@ TEST(Hand, HoldsOnWhenASimulationWithMoreRoomTakesOver) {
     scene.planes = {{.friction = 0.5f}};
     const Settings roomy{.substeps = 8, .contactRoom = 64, .grabs = 1};
     Settings tight = roomy;
-    tight.contactRoom = 7;
+    tight.contactRoom = 2;
     test::Runner whole(scene, roomy), first(scene, tight), second(scene, roomy);
     Grab grab{.particle = 62, .radius = 0, .target = placeOf(scene, 62)};
     bool isSecond = false;

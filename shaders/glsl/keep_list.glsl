@@ -1,0 +1,11 @@
+// Puts away what contacts of a list remember, with whom. Who does not touch remembers nothing.
+uvec2 keep(uvec2 list) {
+    uint next = list.x;
+    for (uint element = list.x; element < list.x + list.y; ++element) {
+        const vec4 one = memory[element];
+        if (one == vec4(0.0)) continue;
+        kept[next] = one;
+        keptOthers[next++] = contacts[element].other;
+    }
+    return uvec2(list.x, next - list.x);
+}

@@ -1,0 +1,39 @@
+#version 460
+// Ends a step for lists of contacts. Those of an undone step may lack pairs: nobody is where they were made any more, so that they are made
+// again at once. HAS_MEMORY: what contacts remember is saved, or taken back where the step is undone.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+
+layout(std430, binding = 0) readonly buffer Status { StatusWords status; };
+layout(std430, binding = 1) writeonly buffer Detected { vec4 detected[]; };
+layout(std430, binding = 2) buffer Bounds { GridBounds bounds; };
+#ifdef HAS_MEMORY
+layout(std430, binding = 3) buffer Contacts { ContactCandidate contacts[]; };
+layout(std430, binding = 4) buffer Lists { uvec2 lists[]; };
+layout(std430, binding = 5) buffer Memory { vec4 memory[]; };
+layout(std430, binding = 6) buffer Kept { vec4 kept[]; };
+layout(std430, binding = 7) buffer KeptOthers { uint keptOthers[]; };
+layout(std430, binding = 8) buffer KeptLists { uvec2 keptLists[]; };
+#include "keep_list.glsl"
+
+void takeBack(uint i) {
+    const uvec2 list = keptLists[i];
+    lists[i] = list;
+    for (uint element = list.x; element < list.x + list.y; ++element) {
+        memory[element] = kept[element];
+        contacts[element].other = keptOthers[element];
+    }
+}
+#endif
+layout(push_constant) uniform Push { CountPush push; };
+
+void main() {
+    const uint i = itemIndex(push.count);
+    const bool stays = isFinished(status);
+    if (!stays) detected[i] = vec4(1e18);
+    if (i == 0u && status.candidates > 0u) bounds.lacking = status.candidates;
+#ifdef HAS_MEMORY
+    if (stays) keptLists[i] = keep(lists[i]);
+    else takeBack(i);
+#endif
+}

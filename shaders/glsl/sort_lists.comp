@@ -1,0 +1,96 @@
+#version 460
+// Makes the list of every particle's others or, FACES, every point's faces or, EDGES, every edge's others from the pairs that were
+// found: sorted by index, with the distance at which the two touch and, HAS_MEMORY, what is remembered of them. LISTS_OWNERS: lists the
+// groups in which one has a candidate; list_ends does for edges.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#include "kernel.glsl"
+
+#ifdef FACES
+#define ENTRIES_OF_PAIR 1u
+#define LISTS_PARTICLES
+#else
+#define ENTRIES_OF_PAIR 2u
+#endif
+#if defined FACES || defined EDGES
+layout(push_constant) uniform Push { FaceFindPush push; };
+#define OWNERS push.points
+#else
+layout(push_constant) uniform Push { FindPush push; };
+#define OWNERS push.count
+#endif
+#define PAIRS_BINDING 0
+#include "listed_pairs.glsl"
+layout(std430, binding = 1) buffer Chains { uint chains[]; };
+layout(std430, binding = 2) readonly buffer Radii { float radii[]; }; // EDGES: how thick they are
+layout(std430, binding = 3) buffer Contacts { ContactCandidate contacts[]; };
+layout(std430, binding = 4) buffer Lists { uvec2 lists[]; };
+layout(std430, binding = 5) buffer Status { StatusWords status; };
+layout(std430, binding = 6) buffer Bounds { GridBounds bounds; };
+#ifdef HAS_MEMORY
+layout(std430, binding = 7) writeonly buffer Memory { vec4 memory[]; };
+layout(std430, binding = 8) readonly buffer Kept { vec4 kept[]; };
+layout(std430, binding = 9) readonly buffer KeptOthers { uint keptOthers[]; };
+layout(std430, binding = 10) readonly buffer KeptLists { uvec2 keptLists[]; };
+#define GROUPS_BINDING 11
+#else
+#define GROUPS_BINDING 7
+#endif
+#if defined LISTS_OWNERS || defined LISTS_PARTICLES
+#include "listed_groups.glsl"
+#endif
+#ifdef FACES
+layout(std430, binding = PARTICLES_BINDING + 2) readonly buffer Faces { ContactFace faces[]; };
+float sizeOf(uint other) { return faces[other].thickness; }
+#else
+float sizeOf(uint other) { return radii[other]; }
+#endif
+
+void listGroups(uint i) {
+#ifdef LISTS_OWNERS
+    listOwner(i);
+#endif
+#ifdef LISTS_PARTICLES
+    listParticle(i);
+#endif
+}
+
+float own; // radius, or how thick it is [m]
+void put(uint element, uint other) { contacts[element] = ContactCandidate(other, own + sizeOf(other)); }
+#include "sort_pairs.glsl"
+
+// Both lists are sorted.
+void returnMemory(uvec2 list, uint i) {
+#ifdef HAS_MEMORY
+    uint next = keptLists[i].x, end = next + keptLists[i].y;
+    for (uint element = list.x; element < list.x + list.y; ++element) {
+        const uint other = contacts[element].other;
+        while (next < end && keptOthers[next] < other) ++next;
+        const bool isKept = next < end && keptOthers[next] == other;
+        memory[element] = isKept ? kept[next] : vec4(0.0);
+    }
+#endif
+}
+
+// Says how many entries an owner would need room for on average, where that is more than there is, and whether a list is too long. Of the
+// first lists in a step that lack something: what is found after pairs were lost depends on which, as does how far counting goes on from
+// 4 times the room.
+uint checked(uint i, uint n) {
+    const uint room = push.room / ENTRIES_OF_PAIR, found = min(bounds.pairs, 4u * room + 1u);
+    if (found <= room && n > LIST_MOST) atomicMax(status.candidates, CONTACT_MOST_ROOM + 1u);
+    if (i == 0u && found > room && status.candidates == 0u) status.candidates = (ENTRIES_OF_PAIR * found - 1u) / OWNERS + 1u;
+    return min(n, LIST_MOST);
+}
+
+void main() {
+    const uint i = itemIndex(OWNERS);
+    const uint chain = chains[i], n = checked(i, lengthOf(chain));
+    uvec2 list = uvec2(0u, n);
+    if (n > 0u) list.x = atomicAdd(bounds.entries, n);
+    own = radii[i];
+    sortChain(chain, list.x, n);
+    returnMemory(list, i);
+    lists[i] = list;
+    if (n > 0u) listGroups(i);
+    chains[i] = 0u;
+}

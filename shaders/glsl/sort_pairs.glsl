@@ -1,0 +1,57 @@
+// Makes a list of a chain of pairs: sorted by the other owner, so that sums over it do not depend on when and how pairs were found. In the
+// names listed_pairs.glsl, ENTRIES_OF_PAIR; a kernel writes an element by put().
+#define BLOCK 16
+#define SHORT_LIST 256u
+
+uint unsortedAt(uint k) { return pairs[push.room / ENTRIES_OF_PAIR + k / 4u][k % 4u]; }
+void setUnsorted(uint k, uint other) { pairs[push.room / ENTRIES_OF_PAIR + k / 4u][k % 4u] = other; }
+
+// A block is ranked at a time against the whole: registers instead of shifting.
+void sortShort(uint first, uint n) {
+    for (uint start = 0u; start < n; start += BLOCK) {
+        uint mine[BLOCK], rank[BLOCK];
+        [[unroll]] for (uint b = 0u; b < BLOCK; ++b) {
+            mine[b] = unsortedAt(first + min(start + b, n - 1u));
+            rank[b] = 0u;
+        }
+        for (uint s = 0u; s < n; ++s) {
+            const uint other = unsortedAt(first + s);
+            [[unroll]] for (uint b = 0u; b < BLOCK; ++b) rank[b] += other < mine[b] || other == mine[b] && s < start + b ? 1u : 0u;
+        }
+        [[unroll]] for (uint b = 0u; b < BLOCK; ++b)
+            if (start + b < n) put(first + rank[b], mine[b]);
+    }
+}
+
+void sink(uint first, uint place, uint n) {
+    const uint other = unsortedAt(first + place);
+    for (uint child = 2u * place + 1u; child < n; child = 2u * place + 1u) {
+        if (child + 1u < n && unsortedAt(first + child) < unsortedAt(first + child + 1u)) ++child;
+        if (unsortedAt(first + child) <= other) break;
+        setUnsorted(first + place, unsortedAt(first + child));
+        place = child;
+    }
+    setUnsorted(first + place, other);
+}
+
+// A heap: the time of ranks is quadratic.
+void sortLong(uint first, uint n) {
+    for (uint k = n / 2u; k > 0u; --k) sink(first, k - 1u, n);
+    for (uint last = n - 1u; last > 0u; --last) {
+        const uint largest = unsortedAt(first);
+        setUnsorted(first, unsortedAt(first + last));
+        put(first + last, largest);
+        sink(first, 0u, last);
+    }
+    put(first, unsortedAt(first));
+}
+
+// The n of a chain, to elements from `first` on.
+void sortChain(uint chain, uint first, uint n) {
+    for (uint k = first; k < first + n; ++k) {
+        setUnsorted(k, otherIn(chain));
+        chain = nextIn(chain);
+    }
+    if (n > SHORT_LIST) sortLong(first, n);
+    else sortShort(first, n);
+}

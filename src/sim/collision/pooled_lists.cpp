@@ -1,0 +1,86 @@
+// The buffers of lists and of what contacts remember.
+#include "sim/collision/pooled_lists.hpp"
+
+#include "kernels.hpp"
+#include "sim/ranges.hpp"
+
+namespace sinew::sim::collision::pooled_lists {
+
+static_assert(ranges::mostContactRoom == CONTACT_MOST_ROOM);
+
+namespace {
+
+// With what there is at first, in a buffer of `count`.
+template <typename T>
+BufferId bufferOf(ProgramBuilder& program, const std::string& name, std::size_t count,
+                  std::vector<T> initial) {
+    if (initial.empty()) return program.scratch<T>(name, count);
+    initial.resize(count);
+    return program.upload(name, initial);
+}
+
+std::vector<std::uint32_t> othersOf(const Initial& initial) {
+    std::vector<std::uint32_t> others;
+    for (const layout::ContactCandidate& contact : initial.contacts) others.push_back(contact.other);
+    return others;
+}
+
+Memory addMemory(ProgramBuilder& program, const Request& request, std::size_t room) {
+    const auto keptIn = [&](const std::string& suffix, const Initial& first) -> Kept {
+        return {.ranges = bufferOf(program, request.name + ".lists" + suffix, request.owners, first.ranges),
+                .memory = bufferOf(program, request.name + ".memory" + suffix, room, first.memory),
+                .others = bufferOf(program, request.name + ".others" + suffix, room, othersOf(first))};
+    };
+    return {.memory = bufferOf(program, request.name + ".memory", room, request.initial.memory),
+            .kept = keptIn(".kept", {}),
+            .saved = keptIn(".saved", request.initial)};
+}
+
+} // namespace
+
+Lists add(ProgramBuilder& program, const Request& request) {
+    const std::string& name = request.name;
+    const std::size_t room = request.owners * request.each;
+    Lists lists{.room = static_cast<std::uint32_t>(room),
+                .contacts = bufferOf(program, name + ".contacts", room, request.initial.contacts),
+                .ranges = bufferOf(program, name + ".lists", request.owners, request.initial.ranges),
+                .pairs = program.scratch<layout::vec4>(name + ".pairs",
+                                                       room / request.entriesOfPair + (room + 3) / 4),
+                .chains = program.scratch<std::uint32_t>(name + ".chains", request.owners)};
+    if (!request.hasMemory) return lists;
+    lists.memory = addMemory(program, request, room);
+    const Kept& saved = lists.memory->saved;
+    for (const BufferId buffer :
+         {lists.contacts, lists.ranges, lists.memory->memory, saved.ranges, saved.memory, saved.others})
+        program.carry(buffer, buffer);
+    return lists;
+}
+
+std::vector<BufferId> keepingBuffers(const Lists& lists) {
+    const Memory& memory = *lists.memory;
+    return {lists.contacts,     lists.ranges,       memory.memory,
+            memory.kept.memory, memory.kept.others, memory.kept.ranges};
+}
+
+std::vector<BufferId> sortingBuffers(ProgramBuilder& program, const Lists& lists, const hash_grid::Grid& grid,
+                                     BufferId radii) {
+    std::vector<BufferId> buffers{lists.pairs,    lists.chains, radii,
+                                  lists.contacts, lists.ranges, program.program().status,
+                                  grid.bounds};
+    if (lists.memory)
+        buffers.insert(buffers.end(), {lists.memory->memory, lists.memory->kept.memory,
+                                       lists.memory->kept.others, lists.memory->kept.ranges});
+    return buffers;
+}
+
+void addPublishing(ProgramBuilder& program, const Lists& lists, const hash_grid::Grid& grid) {
+    std::vector<BufferId> buffers{program.program().status, grid.detected, grid.bounds};
+    if (lists.memory)
+        buffers.insert(buffers.end(),
+                       {lists.contacts, lists.ranges, lists.memory->memory, lists.memory->saved.memory,
+                        lists.memory->saved.others, lists.memory->saved.ranges});
+    program.dispatch(lists.memory ? kernels::publishKeptLists : kernels::publishLists, grid.push.count,
+                     buffers, layout::CountPush{grid.push.count});
+}
+
+} // namespace sinew::sim::collision::pooled_lists
