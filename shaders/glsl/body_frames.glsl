@@ -1,9 +1,7 @@
 // The expected places of particles of a body (BodyFrame in layout.h).
 
-// The place of a particle that was at r when lists were made.
-vec3 expectedAt(BodyFrame frame, vec3 r) {
-    return vec3(dot3(frame.map[0].xyz, r), dot3(frame.map[1].xyz, r), dot3(frame.map[2].xyz, r)) +
-           vec3(frame.map[0].w, frame.map[1].w, frame.map[2].w);
+vec3 mapped(vec4 rows[3], vec3 r) {
+    return vec3(dot3(rows[0].xyz, r), dot3(rows[1].xyz, r), dot3(rows[2].xyz, r)) + vec3(rows[0].w, rows[1].w, rows[2].w);
 }
 
 mat3 matrixOf(vec4 rows[3]) { return transpose(mat3(rows[0].xyz, rows[1].xyz, rows[2].xyz)); }
@@ -40,22 +38,15 @@ float slackOf(mat3 a, mat3 turnOfSubstep, float reach, float margin) {
     return 0.49 * (s * margin - (1.0 - s) * reach);
 }
 
-// At most |W d| / |d|.
-float normOf(mat3 w) {
-    const mat3 t = transpose(w);
-    return sqrt(squaredNorm(0.5 * (w + t))) + sqrt(0.5 * squaredNorm(0.5 * (w - t)));
-}
-
-// On to the next substep, of length h. A particle that is e away from where it is expected when the substep ends, with the
-// velocity v, was e - h (v - u) away when it began, but for h |W| |x - to| at most: that is taken off here, and what places
-// far from the origin are rounded by.
+// On to the next substep, of length h. Places far from the origin are rounded by what is taken off the slack.
 void advance(inout BodyFrame frame, float h, float reach, float margin) {
     const mat3 w = h * matrixOf(frame.rates);
     const vec3 to = placeOf(frame), u = frame.speed.xyz + h * frame.gravity.xyz, far = abs(to);
     const mat3 before = matrixOf(frame.map), a = before + w * before;
+    frame.before = frame.map;
     setMap(frame, a, to + h * u);
     const float slack = min(slackOf(before, w, reach, margin), slackOf(a, w, reach, margin));
-    frame.speed = vec4(u, slack - normOf(w) * frame.gravity.w - 1e-6 * max(far.x, max(far.y, far.z)));
+    frame.speed = vec4(u, slack - 1e-6 * max(far.x, max(far.y, far.z)));
 }
 
 // Lists have been made of particles where they are expected, or near there: from now on expectations start from it.

@@ -113,12 +113,10 @@ void main() {
     if (changed != 0u) fit = standing(originOf(b));
     const float h = step.h;
     BodyFrame frame;
-    const vec3 lowest = sums[b * FRAME_SUMS + FRAME_SUM_LOW].xyz, highest = sums[b * FRAME_SUMS + FRAME_SUM_HIGH].xyz;
-    const float arm = 0.5 * length(highest - lowest) + length(0.5 * (lowest + highest) - fit.to) + mostDrift();
     // A body that hangs or lies does not fall: one that is slower than a step of falling makes it is expected to stay.
     const vec3 fall = float(push.substeps) * h * step.gravity.xyz;
     const bool falls = !fit.stands && dot(fit.u, fit.u) > dot(fall, fall);
-    frame.gravity = vec4(falls ? step.gravity.xyz : vec3(0.0), fit.stands ? 0.0 : arm);
+    frame.gravity = vec4(falls ? step.gravity.xyz : vec3(0.0), 0.0);
     frame.from = vec4(fit.from, 0.0);
     frame.speed = vec4(fit.u - h * frame.gravity.xyz, 0.0);
     setMap(frame, fit.a - h * fit.w * fit.a, fit.to - h * fit.u); // when the substep began

@@ -4,10 +4,11 @@
 // that was at r when they were made is expected at A (r - from) + to, when the substep ends.
 struct BodyFrame {
     vec4 map[3];    // rows of A; w: to - A from [m]
+    vec4 before[3]; // the same when the substep began
     vec4 speed;     // velocity of `to` [m/s]; w: how far from where it is expected a particle may be [m]; below 0 = no lists stand
     vec4 rates[3];  // rows of dA/dt A^-1 [1/s]; w: to [m]
     vec4 from;      // [m]
-    vec4 gravity;   // [m/s^2], 0 where the frame stands still; w: how far from `to` particles of the body are, at most [m]
+    vec4 gravity;   // [m/s^2], 0 where the frame stands still
 };
 
 // Sums over particles of a body. x: where they are, r: where they were when lists were made, v: velocities; x and r against
@@ -38,7 +39,7 @@ struct FrameBody {
 };
 
 // One work group fits the frames of all bodies.
-#define FRAME_MOST_BODIES 96 // a uniform buffer of them is small enough for any device
+#define FRAME_MOST_BODIES 84 // a uniform buffer of them is small enough for any device
 
 struct FramePush {
     uint chunks, bodies;

@@ -54,11 +54,7 @@ void planPasses(bool isBuilt) {
 // the next step.
 void planFrame(uint b, uint moved, bool stands) {
     BodyFrame frame = frames[b];
-    if (moved > 0u) {
-        const float stray = strayOf(moved);
-        if (stray < 1e15) frame.gravity.w += stray; // else there were no lists
-        restart(frame, stands);
-    }
+    if (moved > 0u) restart(frame, stands);
     advance(frame, step.h, push.reach, push.margin);
     frames[b] = frame;
 }

@@ -7,8 +7,7 @@ layout(constant_id = 4) const bool hasOneBody = false;
 
 // No more than those of `frame`; it is the same for all lanes where there is one body.
 bool hasStrayedFrom(BodyFrame frame, vec3 x, vec3 v, vec3 r, out float farthest) {
-    const vec3 stray = x - expectedAt(frame, r), way = step.h * (v - frame.speed.xyz);
-    const vec3 start = stray - way; // but for what advance() takes off the slack
+    const vec3 stray = x - mapped(frame.map, r), start = x - step.h * v - mapped(frame.before, r);
     farthest = sqrt(max(dot3(stray, stray), dot3(start, start)));
     return !(farthest <= frame.speed.w); // as is what is no number
 }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numeric>
 
 namespace sinew::sim::collision::body_frames {
 
@@ -31,6 +32,18 @@ std::map<std::uint32_t, std::uint32_t> largestOf(std::span<const std::uint32_t> 
     for (const auto& [size, component] : order)
         bodies.emplace(component, firstLinked + static_cast<std::uint32_t>(bodies.size()));
     return bodies;
+}
+
+// By particle: one that moves and is linked to it, or itself.
+std::vector<std::uint32_t> linkedMovers(const Scene& scene, std::span<const float> inverseMass) {
+    std::vector<std::uint32_t> mover(scene.particles.size());
+    std::iota(mover.begin(), mover.end(), 0u);
+    const auto link = [&](std::uint32_t a, std::uint32_t b) {
+        if (inverseMass[a] == 0 && inverseMass[b] != 0) mover[a] = b;
+        if (inverseMass[b] == 0 && inverseMass[a] != 0) mover[b] = a;
+    };
+    for (const DistanceConstraint& d : scene.distances) link(d.a, d.b);
+    return mover;
 }
 
 using AllFrames = std::array<layout::BodyFrame, FRAME_MOST_BODIES>;
@@ -85,6 +98,7 @@ Bodies bodiesOf(const Scene& scene, const StateLayout& layout) {
     const std::vector<bool> isDriven = constraints::driven::areDriven(scene);
     const std::vector<std::uint32_t> components = linkedComponents(scene, inverseMass);
     const std::map<std::uint32_t, std::uint32_t> large = largestOf(components);
+    const std::vector<std::uint32_t> movers = linkedMovers(scene, inverseMass);
     Bodies bodies{std::vector<std::uint32_t>(layout.count, loose),
                   std::vector<std::uint32_t>(firstLinked + large.size(), FRAME_MOVES),
                   std::vector<bool>(layout.count, false)};
@@ -92,7 +106,7 @@ Bodies bodiesOf(const Scene& scene, const StateLayout& layout) {
     for (std::size_t i = 0; i < components.size(); ++i) {
         const std::uint32_t slot = layout.slot[i];
         bodies.isMember[slot] = true;
-        const auto found = large.find(components[i]);
+        const auto found = large.find(components[movers[i]]); // a pin goes with what hangs on it
         if (found != large.end())
             bodies.ofSlots[slot] = found->second;
         else if (inverseMass[i] == 0 && !isDriven[i])
