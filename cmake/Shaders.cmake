@@ -1,7 +1,7 @@
 # GLSL -> SPIR-V 1.5 -> arrays in the library.
 #
 #   add_kernels(<target> NAMESPACE <c++ namespace> HEADER <name.hpp> SOURCES <files...> [VARIANTS <lines...>]
-#               [AWAKE <stems...>])
+#               [AWAKE <stems...>] [NEVER_AWAKE <expression>])
 #
 # compiles every file for Vulkan 1.2, runs spirv-val on it (SINEW_CHECK_KERNELS) and adds one `const vk::ShaderCode` a file to <target>:
 # solve_distance.comp becomes <namespace>::solveDistance, skin.vert becomes <namespace>::skinVert.
@@ -27,9 +27,9 @@ endfunction()
 
 # A variant is one line, "name: file [MACRO...]": the file compiled with these macros defined, under that name. Whatever is
 # compiled from the files named in AWAKE has one more form, <name>_awake, with AWAKE defined: <namespace>::awakeForms pairs
-# all kernels with theirs. A second header, all_<name.hpp>, lists everything as <namespace>::all.
+# all kernels with theirs. Entries that match NEVER_AWAKE have none. A second header, all_<name.hpp>, lists everything as <namespace>::all.
 function(add_kernels target)
-    cmake_parse_arguments(PARSE_ARGV 1 ARG "" "NAMESPACE;HEADER" "SOURCES;VARIANTS;AWAKE")
+    cmake_parse_arguments(PARSE_ARGV 1 ARG "" "NAMESPACE;HEADER;NEVER_AWAKE" "SOURCES;VARIANTS;AWAKE")
     set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}_kernels)
     file(MAKE_DIRECTORY ${folder})
     set(declarations "")
@@ -39,7 +39,7 @@ function(add_kernels target)
     set(embeddings "")
     foreach(entry IN LISTS ARG_SOURCES ARG_VARIANTS)
         string(REGEX REPLACE "^.*/([a-z_]+)\\.comp.*$" "\\1" file "${entry}")
-        if(NOT file IN_LIST ARG_AWAKE)
+        if(NOT file IN_LIST ARG_AWAKE OR (ARG_NEVER_AWAKE AND entry MATCHES "${ARG_NEVER_AWAKE}"))
             continue()
         endif()
         if(entry MATCHES "^([a-z0-9_]+):(.*)$")

@@ -17,12 +17,17 @@ layout(std430, binding = BOUNCE_BINDING) readonly buffer Velocities { vec4 veloc
 layout(std430, binding = BOUNCE_BINDING + 1) readonly buffer Bouncing { float bouncing[]; }; // bounces x inverse mass
 layout(std430, binding = BOUNCE_BINDING + 2) buffer State { vec4 state[]; };                 // x + thetaH v
 layout(std430, binding = BOUNCE_BINDING + 3) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
+#include "forces.glsl"
 
 void main() {
     const uint i = itemIndex(push.count);
     const float own = bouncing[i];
     const uvec2 list = lists[i];
+#ifdef FORCES
+    const uint end = list.x + list.y; // what never moves is struck
+#else
     const uint end = own > 0.0 ? list.x + list.y : list.x; // what never moves rebounds from nothing
+#endif
     const Self self = selfOf(i);
     const vec4 velocity = VELOCITY(i);
     vec3 sum = vec3(0.0);
@@ -33,6 +38,9 @@ void main() {
         const float missing = bounce.speed - dot(bounce.n, velocity.xyz - VELOCITY(candidate.x).xyz);
         sum += max(0.0, missing) / (own + bouncing[candidate.x]) * bounce.n;
     }
+#ifdef FORCES
+    addContactForce(i, sum);
+#endif
     const vec3 change = velocity.w * sum;
     nextVelocities[i] = vec4(velocity.xyz + change, velocity.w);
     state[i].xyz += step.thetaH * change;

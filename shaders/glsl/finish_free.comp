@@ -17,6 +17,8 @@ layout(std430, binding = 5) readonly buffer Before { vec4 before[]; }; // veloci
 #define PLANE_BINDING 6
 #endif
 layout(push_constant) uniform Push { CountPush push; };
+#define FORCES_BINDING 8
+#include "forces.glsl"
 #include "finish_substep.glsl"
 
 void main() {

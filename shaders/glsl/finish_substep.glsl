@@ -1,9 +1,15 @@
 // The end of a substep of `split` where particles touch: planes, and what is stored. In the names predicted, nextPositions,
-// nextVelocities and BEFORE of a kernel, and PLANE_BINDING.
+// nextVelocities and BEFORE of a kernel, and PLANE_BINDING; forces.glsl before it.
 #ifdef HAS_PLANES
 #include "planes.glsl"
 layout(std430, binding = PLANE_BINDING) readonly buffer Planes { PlaneCollider planes[]; };
 layout(std430, binding = PLANE_BINDING + 1) readonly buffer ContactOffsets { float contactOffsets[]; };
+#ifdef FORCES
+void addPlaneForce(uint p, uint i, vec3 impulse, vec3 x) {
+    const vec4 plane = planes[p].normalOffset;
+    addRowForce(p, i, impulse, x - plane.w * plane.xyz);
+}
+#endif
 #endif
 
 // Ends it for particle i, which contacts have moved from `found` by `correction`, to the velocity v; `velocity` is the one before, w its
@@ -17,11 +23,22 @@ void finish(uint i, vec3 found, float last, vec4 velocity, vec3 correction, vec3
         const float offset = contactOffsets[i];
         uint touched = 0u;
         for (uint p = 0u; p < planeCount; ++p) {
+#ifdef FORCES
+            const vec3 before = motion.v;
+#endif
             if (projectOntoPlane(planes[p], offset, h, motion)) touched |= 1u << p;
+#ifdef FORCES
+            if ((touched & 1u << p) != 0u) addPlaneForce(p, i, (motion.v - before) / w, motion.x);
+#endif
         }
 #ifdef HAS_REBOUND
         for (uint p = 0u; p < planeCount; ++p) {
-            if ((touched & 1u << p) != 0u) motion.v += rebound(planes[p], step.restSpeed, BEFORE(i), motion.v);
+            if ((touched & 1u << p) == 0u) continue;
+            const vec3 change = rebound(planes[p], step.restSpeed, BEFORE(i), motion.v);
+            motion.v += change;
+#ifdef FORCES
+            addPlaneForce(p, i, change / w, motion.x);
+#endif
         }
 #endif
         x = motion.x;

@@ -39,6 +39,7 @@ layout(std430, binding = 9) readonly buffer Firsts { float firsts[]; }; // when 
 #include "contact_memory.glsl"
 layout(push_constant) uniform Push { ContactPush push; };
 
+#include "forces.glsl"
 #include "finish_substep.glsl"
 #include "contact_impulses.glsl"
 
@@ -52,6 +53,9 @@ void main() {
     const uint resting = bounds.isSwept != 0u ? list.x : end, sweeping = bounds.isSwept != 0u ? end : list.x; // as in count_contacts
     for (uint slot = list.x; slot < resting; ++slot) sum += impulseFrom(i, slot, self, velocity.xyz);
     for (uint slot = list.x; slot < sweeping; ++slot) addSwept(i, slot, self, velocity.xyz, sum, stopping);
+#ifdef FORCES
+    addContactForce(i, (sum + stopping) / h);
+#endif
     const vec3 correction = w * sum;
     finish(i, self.xyz, predicted[i].w, velocity, correction, velocity.xyz + (correction + w * stopping) / h);
 }

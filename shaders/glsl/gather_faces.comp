@@ -26,19 +26,27 @@ layout(std430, binding = STATE_BINDING + 1) buffer Predicted { vec4 predicted[];
 layout(std140, binding = STATE_BINDING + 2) uniform Step { StepParams step; };
 #endif
 
+#define FORCES_BINDING (STATE_BINDING + 3)
+#include "forces.glsl"
 #include "face_impulses.glsl"
 
 #ifdef REBOUND
 void main() {
     const uint i = itemIndex(push.count);
-    const vec3 change = velocities[i].w * impulseOn(i);
+    const vec3 impulse = impulseOn(i), change = velocities[i].w * impulse;
+#ifdef FORCES
+    addContactForce(i, impulse);
+#endif
     velocities[i].xyz += change;
     state[i].xyz += step.thetaH * change;
 }
 #else
 void main() {
     const uint i = itemIndex(push.count);
-    const vec3 x = predicted[i].xyz, correction = velocities[i].w * impulseOn(i);
+    const vec3 x = predicted[i].xyz, impulse = impulseOn(i), correction = velocities[i].w * impulse;
+#ifdef FORCES
+    addContactForce(i, impulse / step.h);
+#endif
     predicted[i].xyz = x + correction;
     velocities[i].xyz += correction / step.h;
     if (!hasRemainders) return;

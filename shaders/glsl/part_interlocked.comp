@@ -10,6 +10,7 @@ layout(std430, binding = 6) readonly buffer Touching { vec4 touching[]; }; // x,
 layout(std430, binding = 8) readonly buffer Moving { vec4 moving[]; };
 layout(std430, binding = 9) buffer Predicted { vec4 predicted[]; };   // w: passed on
 layout(std430, binding = 10) buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
+#include "forces.glsl"
 
 vec3 impulseFrom(uint i, uvec2 candidate, vec4 self, vec3 velocity) {
     const uint j = candidate.x;
@@ -32,6 +33,9 @@ void main() {
         if (pair == noPair || pairs[pair].state != INTERLOCK_PARTING) continue;
         sum += impulseFrom(i, candidate, self, velocity.xyz);
     }
+#ifdef FORCES
+    addContactForce(i, sum / step.h);
+#endif
     const vec3 correction = velocity.w * sum;
     predicted[i].xyz = self.xyz + correction;
     velocities[i].xyz = velocity.xyz + correction / step.h;

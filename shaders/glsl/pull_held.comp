@@ -24,6 +24,7 @@ layout(std140, binding = 8) uniform Step { StepParams step; };
 layout(std430, binding = 9) buffer Corrections { vec4 corrections[]; }; // ParticleCorrection
 #endif
 layout(push_constant) uniform Push { GrabPush push; };
+#include "forces.glsl"
 
 // What the hand gives to a particle at x that moves at v [kg m/s].
 vec3 impulseOf(uint p, vec3 x, vec3 v, float w) {
@@ -51,7 +52,11 @@ void main() {
 #else
     const vec4 velocity = velocities[slot];
     const vec3 x = positions[slot].xyz - step.thetaH * velocity.xyz;
-    const vec3 kick = velocity.w * impulseOf(p, x, velocity.xyz, velocity.w);
+    const vec3 impulse = impulseOf(p, x, velocity.xyz, velocity.w), kick = velocity.w * impulse;
+#ifdef FORCES
+    const uint k = (grips[p].held >> GRAB_SHARE_BITS) - 1u;
+    if (velocity.w > 0.0) addRowForce(k, slot, impulse, x - mix(hands[k].from.xyz, hands[k].to.xyz, push.fraction));
+#endif
     velocities[slot].xyz = velocity.xyz + kick;
     positions[slot].xyz = x + step.h * kick + step.thetaH * (velocity.xyz + kick);
 #endif

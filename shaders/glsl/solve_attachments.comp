@@ -18,6 +18,7 @@ layout(std430, binding = 3) buffer Velocities { vec4 velocities[]; }; // w = inv
 #endif
 layout(std140, binding = 4) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { AttachmentPush push; };
+#include "forces.glsl"
 
 void main() {
     const uint a = itemIndex(push.count);
@@ -37,6 +38,10 @@ void main() {
     vec3 impulse = way / (w + scaledCompliance(attachment.compliance, h)); // [kg m] = force x h^2
     const float most = min(attachment.maxForce, 1e30) * h * h, size = length(impulse);
     if (size > most) impulse *= most / size;
+#ifdef FORCES
+    addHoldForce(i, impulse / h);
+    addListedForce(a, impulse / h);
+#endif
     const vec3 dx = w * impulse;
 #ifdef OPEN
     corrections[i].xyz = correction + dx;

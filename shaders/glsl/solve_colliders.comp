@@ -30,6 +30,7 @@ layout(std430, binding = 6) readonly buffer Predicted { vec4 predicted[]; }; // 
 layout(std430, binding = 7) readonly buffer PredictedVelocities { vec4 predictedVelocities[]; };
 #endif
 layout(push_constant) uniform Push { ColliderPush push; };
+#include "forces.glsl"
 
 void main() {
     const uint i = itemIndex(push.count);
@@ -63,10 +64,16 @@ void main() {
         const Collider collider = colliders[c];
         if (c < pokeCount && collider.isAbsent != 0u) continue;
         const ColliderPose from = poses[push.before + c], to = poses[push.after + c]; // the same where nothing moves
+#ifdef FORCES
+        const vec3 unforced = movement.v + rebound;
+#endif
         if (!projectOut(collider, contactOffsets[i], from, to, h, movement, n, surfaceVelocity)) continue;
         isTouching = true;
 #if defined OPEN || defined HAS_REBOUND
         rebound += reboundFrom(collider, step.restSpeed, n, surfaceVelocity, velocityBefore, movement.v + rebound);
+#endif
+#ifdef FORCES
+        addRowForce(c, i, (movement.v + rebound - unforced) / velocity.w, movement.x - to.position.xyz);
 #endif
     }
     if (!isTouching) return;

@@ -16,6 +16,7 @@ layout(std430, binding = 3) buffer Velocities { vec4 velocities[]; }; // w = inv
 #endif
 layout(std140, binding = 4) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { CountPush push; };
+#include "forces.glsl"
 
 void main() {
     const uint p = itemIndex(push.count);
@@ -32,7 +33,16 @@ void main() {
     for (uint t = tethered.first; t < tethered.first + tethered.count; ++t) {
         const vec3 anchor = positions[tethers[t].anchor].xyz; // does not move: y = x
         const float distance = length(x - anchor);
-        if (distance > tethers[t].reach) x = anchor + tethers[t].reach / distance * (x - anchor);
+        if (!(distance > tethers[t].reach)) continue;
+#ifdef FORCES
+        const vec3 loose = x;
+#endif
+        x = anchor + tethers[t].reach / distance * (x - anchor);
+#ifdef FORCES
+        const vec3 impulse = (x - loose) / (step.h * velocity.w);
+        addHoldForce(i, impulse);
+        addListedForce(t, impulse);
+#endif
     }
     if (x == before) return;
 #ifdef OPEN

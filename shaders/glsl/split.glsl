@@ -72,6 +72,9 @@ layout(std430, binding = VELOCITY_BINDING + 3) readonly buffer ContactOffsets { 
 layout(std430, binding = NEXT_VELOCITY_BINDING) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
 #endif
 
+// Whether a particle that never moves stores the impulse of its links [N s] as its velocity: take_pulls takes it from there.
+layout(constant_id = 22) const bool keepsPulls = false;
+
 // What is the same for all particles of a substep.
 struct Substep {
     float hh;      // H^2 [s^2]
@@ -131,6 +134,6 @@ void advance(uint i, vec4 y, vec4 velocity, vec3 impulses, Substep substep) {
         way = motion.displacement;
     }
 #endif
-    STORE_VELOCITY(i, vec4(v, w));
+    STORE_VELOCITY(i, vec4(keepsPulls && w == 0.0 ? substep.impulse * impulses : v, w));
     store(i, y, velocity.xyz, x, v, way, substep);
 }

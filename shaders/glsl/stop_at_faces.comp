@@ -21,6 +21,12 @@ layout(std430, binding = 8) buffer Velocities { vec4 velocities[]; };       // w
 layout(std140, binding = 9) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { StopPush push; };
 layout(std430, binding = 10) readonly buffer Memory { vec4 memory[]; };     // w: side and overlap (contact_memory.glsl)
+#ifdef FORCES
+layout(std430, binding = 11) readonly buffer StopRows { uint stopRows[]; }; // of each face: whose it is (sim/forces.hpp)
+#define FORCES_BINDING 12
+#include "forces.glsl"
+uint stoppedBy; // the face of the last stop
+#endif
 #define EXCLUDED(k) excluded[k]
 #include "excluded.glsl"
 #include "face_stop.glsl"
@@ -54,7 +60,11 @@ Stop stopOf(uint i, Search search, vec3 x0, vec3 x1) {
         const float left = search.isListed ? leftOf(s) : 0.0;
         const vec3 seen = search.isListed ? predicted[i].xyz : x1; // what is farther from there may be in no list
         const Stop stop = stopAt(face, radii[i] + face.thickness - left, x0, x1, seen);
-        if (stop.urgency > first.urgency && !isExcluded(f, i)) first = stop;
+        if (!(stop.urgency > first.urgency) || isExcluded(f, i)) continue;
+        first = stop;
+#ifdef FORCES
+        stoppedBy = f;
+#endif
     }
     return first;
 }
@@ -78,7 +88,14 @@ void main() {
         if (stop.urgency <= (isLast ? 1.0 : 0.0)) break;
         const vec3 n = stop.n, stopped = isLast ? stop.carried : end + stop.rise * n;
         const vec3 meanwhile = (stopped - x0) / step.h; // the velocity that brings it there
+#ifdef FORCES
+        const vec3 slower = v;
+#endif
         v = isLast ? meanwhile : v + max(0.0, dot(n, meanwhile - v)) * n;
+#ifdef FORCES
+        addContactForce(i, (v - slower) / velocity.w);
+        addRowForce(stopRows[stoppedBy], i, (v - slower) / velocity.w, stopped);
+#endif
         end = isLast ? stopped : stopped + stop.lift * n;
     }
     if (end == x) return;

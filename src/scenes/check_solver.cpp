@@ -36,9 +36,10 @@ std::string drivenThing(const LoadedScene& loaded) {
     return hold == nullptr ? "this scene" : "hold \"" + hold->name + "\"";
 }
 
-/// validate() names lists of the API: settings are those of [solver], a grid is a body.
+/// validate() names lists of the API: settings are those of [solver] and [report], a grid is a body.
 std::string inWordsOfFiles(std::string sentence) {
-    const std::string settings = "settings", grid = "grid[";
+    const std::string settings = "settings", forces = "settings.keepsForces", grid = "grid[";
+    if (sentence.starts_with(forces)) return "report.forces" + sentence.substr(forces.size());
     if (sentence.starts_with(settings)) return "solver" + sentence.substr(settings.size());
     const std::size_t name = sentence.find("] \"");
     if (sentence.starts_with(grid) && name != std::string::npos) return "body " + sentence.substr(name + 2);
@@ -70,6 +71,8 @@ void requireForms(const LoadedScene& loaded, const std::string& file) {
              "use split, or leave them out");
     if (loaded.settings.sleeps)
         fail(file, none + "bodies that sleep, as solver.sleep asks", "use split, or leave it out");
+    if (loaded.settings.keepsForces)
+        fail(file, none + "forces, as report.forces asks", "use split, or leave it out");
 }
 
 void requireValid(const LoadedScene& loaded, const std::string& file) {

@@ -306,6 +306,7 @@ LoadedScene read(const std::string& text, const Source& source, const Overrides&
     loaded.scene.dampingTime = top.number("damping_time");
     readSettings(loaded, top.child("solver"), source.file);
     readContacts(loaded, top.child("contacts"));
+    loaded.settings.keepsForces = top.child("report").flag("forces");
     loaded.scene.crumbs = top.count("crumbs");
     loaded.settings.cutSurfaceRoom = top.count("cut_surface_room");
     if (!overrides.solver) warnOfForeignKeys(loaded, top.child("solver"));
@@ -318,6 +319,7 @@ LoadedScene read(const std::string& text, const Source& source, const Overrides&
         loaded.camera = Camera{localPoint(camera, "eye", loaded.origin),
                                localPoint(camera, "target", loaded.origin), camera.number("field_of_view")};
     }
+    if (loaded.settings.keepsForces) loaded.scene.holds = loaded.holds;
     requireForms(loaded, source.file);
     requireValid(loaded, source.file);
     loaded.substeps = sim::chooseSubsteps(loaded.scene, loaded.settings);

@@ -68,6 +68,7 @@ constexpr Key keys[] = {
     {"", "plane", Kind::tables, "", {}, "", "half spaces that particles stay in"},
     {"", "collider", Kind::tables, "", {}, "", "spheres, capsules and boxes that particles stay out of, still or moving"},
     {"", "contacts", Kind::table, "", {}, "", "how particles touch each other"},
+    {"", "report", Kind::table, "", {}, "", "what a run finds out beside the motion"},
     {"", "crumbs", Kind::count, "particles", ranges::crumbs, "0", "pieces of a box, a mesh or a cloth of fewer particles than that are removed as they are cut off: nothing touches, holds, draws or exports them any more; 0 = none"},
     {"", "cut_surface_room", Kind::count, "triangles", ranges::cutSurfaceRoom, "0", "that the surface of cuts has room for at first, where that is more than some cuts through the whole of each body need; programs make more where it is too little"},
     {"", "blade", Kind::tables, "", {}, "", "blades that cut at given times"},
@@ -205,6 +206,7 @@ constexpr Key keys[] = {
     {"particles", "restitution", Kind::number, "", ranges::restitution, "", "0 = no rebound, 1 = elastic; a pair has the larger of both; that of [contacts] where it is missing"},
     {"particles", "color", Kind::vector, "", ranges::color, "[0.62, 0.62, 0.6]", "linear red, green and blue"},
 
+    {"report", "forces", Kind::flag, "", {}, "false", "split, without sleep: the forces and torques of contacts, planes, colliders, holds and hands in the last step"},
     {"contacts", "friction", Kind::number, "", ranges::friction, "0", "Coulomb's coefficient between particles and of faces, of what slides"},
     {"contacts", "static_friction", Kind::number, "", ranges::friction, "", "of what does not slide yet; as much as friction where it is missing or less"},
     {"contacts", "restitution", Kind::number, "", ranges::restitution, "0", "0 = no rebound, 1 = elastic"},

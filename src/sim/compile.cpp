@@ -8,6 +8,7 @@
 #include "sim/constraints/fixed.hpp"
 #include "sim/constraints/grab.hpp"
 #include "sim/cutting/cut.hpp"
+#include "sim/forces.hpp"
 #include "sim/hash.hpp"
 #include "sim/lattice/cells.hpp"
 #include "sim/publish.hpp"
@@ -171,17 +172,20 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
             "state.velocities", spread(velocitiesOf(scene, inverseMass), solver.layout, solver.layout.count)),
         .layout = solver.layout,
         .sleep = nullptr,
-        .grabs = nullptr};
+        .grabs = nullptr,
+        .forces = nullptr};
     if (settings.sleeps) particles.sleep = sleep::add(program, scene, settings, particles);
     program.beginPhase("begin");
     program.updateParameters(particles.step);
     program.fill(built.status, 0);
     particles.grabs = constraints::grab::add(program, scene, settings, solver.layout);
+    if (settings.keepsForces) particles.forces = forces::add(program, scene, settings, solver.layout);
     cutting::add(program, scene, settings, particles);
     program.beginPhase("solve");
     solver.addPasses(program, particles);
     program.beginPhase("publish");
     publish::addPasses(program, particles);
+    if (particles.forces) forces::addSums(program, scene, particles);
     if (solver.positionW != inverseMass) addWeights(program, particles);
     sleep::finish(program, particles);
     surface::addSkins(program, scene.skins, settings.forms.usesTexels);
@@ -191,6 +195,7 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     if (scene.planes.empty()) program.skip("boundary planes");
     skipContacts(program, scene);
     if (!settings.sleeps) program.skip("sleep");
+    if (!settings.keepsForces) program.skip("forces");
     if (scene.fixed.empty()) program.skip("fixed constraints");
     if (scene.skins.empty()) program.skip("skins");
     return program.finish();

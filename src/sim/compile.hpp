@@ -25,6 +25,9 @@ struct Sleep;
 namespace constraints::grab {
 struct Grabs;
 }
+namespace forces {
+struct Forces;
+}
 
 /// Where a solver keeps its particles: most in the order of the scene, `split` spreads bodies on a grid over
 /// dense boxes. Slots that hold no particle never move.
@@ -53,6 +56,7 @@ struct ParticleBuffers {
     StateLayout layout;
     std::shared_ptr<sleep::Sleep> sleep;             ///< none where nothing sleeps
     std::shared_ptr<constraints::grab::Grabs> grabs; ///< none without hands
+    std::shared_ptr<const forces::Forces> forces;    ///< none where a step keeps none
 };
 
 /// How much of the h g in its velocities a solver has moved its particles by when links are solved.

@@ -34,11 +34,6 @@ void hold(Scene& scene, std::span<const std::uint32_t> particles);
 void drive(Scene& scene, std::vector<std::uint32_t> particles, std::vector<Keyframe> path,
            PathEnd end = PathEnd::hold);
 
-/// The name that a scene gives to particles that it holds or drives.
-struct NamedHold {
-    std::string name;
-    std::vector<std::uint32_t> particles; ///< ascending
-};
 /// The first that has the particle; null where none has.
 const NamedHold* holdOf(std::span<const NamedHold> holds, std::uint32_t particle);
 

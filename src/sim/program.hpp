@@ -207,6 +207,15 @@ struct SleepBuffers {
     BufferId listed;    ///< work groups in which somebody is: bound last by those that run for them alone
 };
 
+/// Impulses of a step (forces.hpp); invalid where none are kept.
+struct ForceBuffers {
+    BufferId terms; ///< what each particle was given, section by section
+    BufferId parts, rowParts;
+    BufferId sums; ///< layout::ForceSum: FORCE_KINDS for each body, then the rows
+    std::uint32_t bodies = 0, grabs = 0, planes = 0, pokes = 0, colliders = 0, stops = 0, attachments = 0,
+                  holds = 0; ///< how many of each
+};
+
 /// Immutable once built.
 struct StepProgram {
     std::vector<BufferSpec> buffers;
@@ -243,6 +252,7 @@ struct StepProgram {
     std::vector<GridBuffers> grids; ///< by kind of contact that is looked for in one
     SleepBuffers sleep;
     PokeGroups pokes;
+    ForceBuffers forces;
     CuttingBuffers cutting;
     CutSurfaceBuffers cutSurface;
     std::vector<PieceVertices> pieceSkins; ///< by sheet that may be cut and has a skin

@@ -108,6 +108,9 @@ std::vector<BufferId> writtenByStep(const StepProgram& program) {
         for (const BufferUse& use : pass.uses)
             if (use.access != vk::Access::read) isWritten[use.buffer.index] = true;
     std::vector<BufferId> buffers;
+    const ForceBuffers& forces = program.forces; // of one step: no part of what the next one goes on from
+    for (const BufferId buffer : {forces.terms, forces.parts, forces.rowParts, forces.sums})
+        if (buffer != BufferId{}) isWritten[buffer.index] = false;
     for (std::uint32_t b = 0; b < isWritten.size(); ++b)
         if (isWritten[b]) buffers.push_back({b});
     return buffers;

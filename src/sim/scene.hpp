@@ -248,6 +248,12 @@ struct Skin {
     std::size_t vertexCount() const { return particles.empty() ? cells.size() : particles.size(); }
 };
 
+/// The name that a scene gives to particles that it holds or drives.
+struct NamedHold {
+    std::string name;
+    std::vector<std::uint32_t> particles; ///< ascending
+};
+
 struct Scene {
     std::string name;
     Vec3 gravity{0, -9.81f, 0}; ///< [m/s^2]
@@ -276,6 +282,8 @@ struct Scene {
     std::vector<Body> bodies;
     std::vector<Grid> grids;
     std::vector<Skin> skins;
+    /// Of which a step sums up the force (Settings::keepsForces). Holds nothing by itself.
+    std::vector<NamedHold> holds;
 };
 
 enum class Solver { jacobi, split, gaussSeidel };
@@ -322,6 +330,10 @@ struct Settings {
     /// Bodies that rest for half a second sleep: they cost nothing and stay where they are, bit for bit,
     /// until somebody touches them, what holds them moves, or Step::wakes. `split` only.
     bool sleeps = false;
+    /// Sums up which impulse contacts, planes, colliders, holds and hands give in a step
+    /// (Simulation::forces). `split` only, and nothing sleeps. Motion is the same, but for rounding in a
+    /// scene in which no particles and faces touch.
+    bool keepsForces = false;
     std::uint32_t grabs = 0; ///< hands that may hold something at a time (Step::grabs), 0..8; 0 = no passes
     std::uint32_t pokes = 0; ///< rigid things that the host may move at a time (Step::pokes), 0..8; 0 = none
     Forms forms{};

@@ -181,6 +181,48 @@ Status Simulation::status(std::uint64_t frame) const noexcept {
             .cutSurfaceMissing = counts.missing};
 }
 
+namespace {
+
+Impulse impulseOf(const layout::ForceSum& sum) {
+    return {{sum.impulse.x, sum.impulse.y, sum.impulse.z}, {sum.torque.x, sum.torque.y, sum.torque.z}};
+}
+
+} // namespace
+
+Impulses Simulation::forces(std::uint64_t frame) const {
+    const ForceBuffers& buffers = state_->program.forces;
+    if (!state_->ring.isFinished(frame)) return {};
+    Impulses impulses{.isFinished = true};
+    const std::vector<layout::ForceSum> sums = state_->ring.forces(frame);
+    if (sums.empty()) return impulses;
+    for (std::uint32_t b = 0; b < buffers.bodies; ++b) {
+        const auto of = [&](std::uint32_t kind) { return impulseOf(sums[FORCE_KINDS * b + kind]); };
+        impulses.bodies.push_back({.contacts = of(FORCE_CONTACTS),
+                                   .planes = of(FORCE_PLANES),
+                                   .colliders = of(FORCE_COLLIDERS),
+                                   .holds = of(FORCE_HOLDS),
+                                   .grabs = of(FORCE_GRABS)});
+    }
+    auto next = sums.begin() + FORCE_KINDS * buffers.bodies;
+    const auto take = [&](std::uint32_t count) {
+        std::vector<Impulse> list;
+        for (; count > 0; --count) list.push_back(impulseOf(*next++));
+        return list;
+    };
+    impulses.grabs = take(buffers.grabs);
+    impulses.planes = take(buffers.planes);
+    impulses.pokes = take(buffers.pokes);
+    impulses.colliders = take(buffers.colliders);
+    next += buffers.stops; // in the bodies already
+    impulses.attachments = take(buffers.attachments);
+    impulses.holds = take(buffers.holds);
+    return impulses;
+}
+
+vk::BufferView Simulation::forceSums() const noexcept {
+    return state_->executor.view(state_->program.forces.sums);
+}
+
 std::vector<std::string> Simulation::complaints() {
     if (const auto lack = state_->ring.lackOfRoom())
         state_->misuse.note(Misuse::contactRoom, lack->frame, lack->needed, state_->chosen.contactRoom);

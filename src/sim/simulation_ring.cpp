@@ -32,10 +32,12 @@ template <typename Words> Words read(const vk::Buffer& ring, std::uint32_t slot)
 
 } // namespace
 
-StepRing::StepRing(const vk::Device& device, std::uint32_t slots, bool hasCounts)
+StepRing::StepRing(const vk::Device& device, std::uint32_t slots, bool hasCounts, std::size_t forces)
     : status_(ringOf(device, "status.ring", slots, sizeof(layout::StatusWords))),
-      ends_(ringOf(device, "status.ends", slots, sizeof(std::uint32_t))), steps_(slots) {
+      ends_(ringOf(device, "status.ends", slots, sizeof(std::uint32_t))), forceCount_(forces),
+      steps_(slots) {
     if (hasCounts) counts_.emplace(ringOf(device, "cut.counts.ring", slots, sizeof(layout::CutCounts)));
+    if (forces > 0) forces_.emplace(ringOf(device, "forces.ring", slots, forces * sizeof(layout::ForceSum)));
 }
 
 void StepRing::open(const RecordedStep& step) noexcept {
@@ -56,9 +58,10 @@ vk::BufferView StepRing::slotIn(const vk::Buffer& ring, std::uint32_t slot, std:
 }
 
 void StepRing::record(vk::Commands& commands, std::uint64_t frame, const vk::BufferView& status,
-                      const vk::BufferView& counts) const noexcept {
+                      const vk::BufferView& counts, const vk::BufferView& forces) const noexcept {
     commands.copy(status, slotIn(status_, slotOf(frame), status.size));
     if (counts_) commands.copy(counts, slotIn(*counts_, slotOf(frame), counts.size));
+    if (forces_) commands.copy(forces, slotIn(*forces_, slotOf(frame), forces.size));
 }
 
 void StepRing::recordEnd(vk::Commands& commands, std::uint64_t frame,
@@ -75,6 +78,15 @@ layout::StatusWords StepRing::words(std::uint64_t frame) const noexcept {
 
 layout::CutCounts StepRing::counts(std::uint64_t frame) const noexcept {
     return counts_ ? read<layout::CutCounts>(*counts_, slotOf(frame)) : layout::CutCounts{};
+}
+
+std::vector<layout::ForceSum> StepRing::forces(std::uint64_t frame) const {
+    std::vector<layout::ForceSum> sums(forceCount_);
+    if (!forces_) return sums;
+    const std::size_t offset = std::size_t{slotOf(frame)} * forces_->stride();
+    forces_->invalidate(offset, forces_->stride());
+    std::memcpy(sums.data(), forces_->mapped() + offset, sums.size() * sizeof(layout::ForceSum));
+    return sums;
 }
 
 bool StepRing::isFinished(std::uint64_t frame) const noexcept {

@@ -21,8 +21,9 @@ struct RecordedStep {
 
 class StepRing {
 public:
-    /// Makes a ring for `slots` steps. With `hasCounts` it also keeps the counts of cuts.
-    StepRing(const vk::Device& device, std::uint32_t slots, bool hasCounts);
+    /// Makes a ring for `slots` steps. With `hasCounts` it also keeps the counts of cuts, and so many sums of
+    /// forces.
+    StepRing(const vk::Device& device, std::uint32_t slots, bool hasCounts, std::size_t forces);
 
     std::uint32_t slots() const noexcept { return static_cast<std::uint32_t>(steps_.size()); }
     std::uint32_t slotOf(std::uint64_t frame) const noexcept {
@@ -34,7 +35,7 @@ public:
     void open(const RecordedStep& step) noexcept;
     /// Records the copies into the slot of `frame`.
     void record(vk::Commands& commands, std::uint64_t frame, const vk::BufferView& status,
-                const vk::BufferView& counts) const noexcept;
+                const vk::BufferView& counts, const vk::BufferView& forces) const noexcept;
     /// Records the copy after which `frame` has finished. Between the two stands a barrier that makes the
     /// copies of record() visible to the host (vk::Commands::endStepForHost).
     void recordEnd(vk::Commands& commands, std::uint64_t frame, const vk::BufferView& status) const noexcept;
@@ -42,6 +43,8 @@ public:
     /// Words and counts of the step that has the slot of `frame`.
     layout::StatusWords words(std::uint64_t frame) const noexcept;
     layout::CutCounts counts(std::uint64_t frame) const noexcept;
+    /// Sums of forces of that step; empty without.
+    std::vector<layout::ForceSum> forces(std::uint64_t frame) const;
     /// Whether `frame` was recorded, has its slot still and came back from the device.
     bool isFinished(std::uint64_t frame) const noexcept;
     /// True where that step has finished and was undone.
@@ -61,7 +64,8 @@ private:
     static vk::BufferView slotIn(const vk::Buffer& ring, std::uint32_t slot, std::size_t size) noexcept;
 
     vk::Buffer status_, ends_;         // slots are whole atoms: host and device write beside each other
-    std::optional<vk::Buffer> counts_; // likewise
+    std::optional<vk::Buffer> counts_, forces_; // likewise
+    std::size_t forceCount_ = 0;
     std::vector<RecordedStep> steps_;
     std::uint64_t undone_ = 0; // of steps that have a slot no longer
 };

@@ -18,6 +18,7 @@
 #include "sim/simulation.hpp"
 #include "sim/simulation_ring.hpp"
 #include "sim/skin_ranges.hpp"
+#include "sim/solvers/split.hpp"
 #include "sim/substeps.hpp"
 #include "sim/validate.hpp"
 
@@ -89,15 +90,20 @@ struct Simulation::State {
     State(const vk::Device& d, const Scene& scene, const Settings& settings, Resolved)
         : device(d.anchored()), chosen(settings), program(compileFor(d, scene, settings)),
           executor(d, program), written(writtenByStep(program)), sceneKey(sim::sceneKey(scene)),
-          ring(d, settings.framesInFlight, program.cutting.counts != BufferId{}),
+          ring(d, settings.framesInFlight, program.cutting.counts != BufferId{}, forceCount(program)),
           skins(rangesOf(scene.skins, Triangles::all)), wholeSkins(rangesOf(scene.skins, Triangles::whole)),
           mixedSkins(rangesOf(scene.skins, program.mixedRanges)), anchors(scene.attachments),
           hands(settings.grabs, scene.particles.size()),
           colliders(scene.colliders, scene.driven, settings.pokes), budget(dampedBudget(scene, settings)),
           theta(settings.solver == Solver::split ? settings.theta : 0), omega(settings.omega),
           damping(scene.damping), substeps(settings.substeps),
-          hasContacts(collision::particle_contacts::areIn(scene) || collision::face_contacts::areIn(scene)),
+          hasContacts(solvers::split::contactsFollow(scene, settings)),
           unsettled(settings.framesInFlight), untold(warnings(scene)) {}
+
+    // Sums of forces of a step.
+    static std::size_t forceCount(const StepProgram& of) {
+        return of.forces.sums == BufferId{} ? 0 : of.buffers[of.forces.sums.index].count;
+    }
 
     bool mayBeCut() const noexcept { return program.cutting.counts != BufferId{}; }
 
@@ -161,7 +167,8 @@ struct Simulation::State {
 
     // What steps have found out, where the host may read it.
     void recordStatus(vk::Commands& commands, std::uint64_t frame) const noexcept {
-        ring.record(commands, frame, executor.view(program.status), executor.view(program.cutting.counts));
+        ring.record(commands, frame, executor.view(program.status), executor.view(program.cutting.counts),
+                    executor.view(program.forces.sums));
     }
 
     // That it has come to its end: behind a barrier after all that the host reads of it.

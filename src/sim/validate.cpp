@@ -87,6 +87,17 @@ void checkSleep(const Settings& settings, Complaints& complaints) {
                                               " has no form for bodies that sleep: use split");
 }
 
+void checkForces(const Settings& settings, Complaints& complaints) {
+    if (!settings.keepsForces) return;
+    if (settings.solver != Solver::split)
+        complaints.add("settings.keepsForces", std::string("is set, but solver ") +
+                                                   solverName(settings.solver) +
+                                                   " has no form that keeps forces: use split");
+    if (settings.sleeps)
+        complaints.add("settings.keepsForces", "is set, but bodies that sleep have no forces: leave out "
+                                               "one of the two");
+}
+
 void checkSettings(const Settings& settings, Complaints& complaints) {
     checkSolver(settings.solver, complaints);
     if (settings.substeps > 0 && !ranges::substeps.holds(static_cast<double>(settings.substeps)))
@@ -101,6 +112,7 @@ void checkSettings(const Settings& settings, Complaints& complaints) {
                                              number(static_cast<float>(bound)));
     checkHands(settings, complaints);
     checkSleep(settings, complaints);
+    checkForces(settings, complaints);
     if (complaints.isEmpty()) checkSweeps(settings, complaints);
 }
 

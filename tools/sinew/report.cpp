@@ -170,6 +170,42 @@ Json cutJson(const RunRecord& record) {
         {"crumbs", {{"pieces", cuts.crumbs}, {"particles", cuts.crumbParticles}, {"mass", cuts.crumbMass}}}};
 }
 
+Json vectorOver(const sim::Vec3& v, float dt) {
+    return {v.x / dt, v.y / dt, v.z / dt};
+}
+
+// An impulse over the length of the step.
+Json forceJson(const sim::Impulse& impulse, float dt) {
+    return {{"force", vectorOver(impulse.linear, dt)}, {"torque", vectorOver(impulse.angular, dt)}};
+}
+
+Json forcesJson(const std::vector<sim::Impulse>& impulses, float dt) {
+    Json list = Json::array();
+    for (const sim::Impulse& impulse : impulses) list.push_back(forceJson(impulse, dt));
+    return list;
+}
+
+Json forcesJson(const RunRecord& record) {
+    const sim::Impulses& forces = record.forces;
+    if (!forces.isFinished) return nullptr;
+    const sim::Scene& scene = record.loaded.scene;
+    Json bodies = Json::array(), holds = Json::array();
+    for (std::size_t b = 0; b < forces.bodies.size(); ++b) {
+        const sim::BodyImpulses& body = forces.bodies[b];
+        bodies.push_back({{"name", scene.bodies[b].name},
+                          {"contacts", forceJson(body.contacts, scene.dt)},
+                          {"planes", forceJson(body.planes, scene.dt)},
+                          {"colliders", forceJson(body.colliders, scene.dt)},
+                          {"holds", forceJson(body.holds, scene.dt)}});
+    }
+    for (std::size_t h = 0; h < forces.holds.size(); ++h)
+        holds.push_back({{"name", scene.holds[h].name}, {"force", vectorOver(forces.holds[h].linear, scene.dt)}});
+    return {{"bodies", bodies},
+            {"planes", forcesJson(forces.planes, scene.dt)},
+            {"colliders", forcesJson(forces.colliders, scene.dt)},
+            {"holds", holds}};
+}
+
 } // namespace
 
 Json toJson(const Errors& errors) {
@@ -247,6 +283,7 @@ std::string toJson(const RunRecord& record) {
     json["finite"] = !record.divergence || record.divergence->isCrowded;
     json["divergence"] = divergenceJson(record.divergence, double{scene.dt});
     json["cut"] = cutJson(record);
+    json["forces"] = forcesJson(record);
     json["overflow"] = overflowJson(record);
     json["sleeping"] = sleepJson(record);
     json["state_hash"] = fmt::format("{:016x}", stateHash(record.state));

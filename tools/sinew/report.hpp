@@ -30,6 +30,7 @@ struct RunRecord {
     std::uint32_t surfaceMissing = 0; ///< at the end
     std::uint64_t slowed = 0;         ///< as Runner::slowed()
     CutFigures cuts;
+    sim::Impulses forces; ///< of the last step
     bool isInterrupted = false;
     State state;
     SkinMeshes skins;

@@ -115,6 +115,7 @@ bool Runner::finishStep(std::uint64_t frame) {
                  .crumbParticles = status.crumbParticles,
                  .crumbMass = double{status.crumbMass}};
         surfaceMissing_ = status.cutSurfaceMissing;
+        if (settings_.keepsForces) forces_ = simulation().forces(frame);
     }
     return true;
 }

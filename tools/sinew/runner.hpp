@@ -68,6 +68,8 @@ public:
     std::uint32_t surfaceMissing() const { return surfaceMissing_; } ///< Status::cutSurfaceMissing, likewise
     /// Of the newest step with a finite state.
     const CutFigures& cuts() const { return cuts_; }
+    /// Likewise; empty without Settings::keepsForces.
+    const sim::Impulses& forces() const { return forces_; }
 
     /// Complaints of the simulation about its use (sim::Simulation::complaints), after advance(); nothing
     /// where it found too little room for contacts, which the divergence tells.
@@ -108,6 +110,7 @@ private:
     double recordSum_ = 0, lastEnd_ = 0; // [ms]
     std::uint64_t recorded_ = 0, timed_ = 0;
     CutFigures cuts_;
+    sim::Impulses forces_;
     std::uint32_t surfaceMissing_ = 0;
     vk::Drain drain_; // last: steps may be in flight when an exception destroys the rest
 };

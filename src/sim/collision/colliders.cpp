@@ -3,6 +3,7 @@
 
 #include "kernels.hpp"
 #include "sim/collision/collider_paths.hpp"
+#include "sim/forces.hpp"
 
 #include <algorithm>
 #include <array>
@@ -159,17 +160,23 @@ void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Co
     if (colliders.count == 0) return;
     std::vector<BufferId> buffers{colliders.shapes,    colliders.poses,      colliders.contactOffsets,
                                   particles.positions, particles.velocities, particles.step};
-    const vk::ShaderCode* form = &kernels::solveColliders;
+    using Pair = std::array<const vk::ShaderCode*, 2>; // without and with forces
+    Pair forms{&kernels::solveColliders, &kernels::solveCollidersForces};
     if (colliders.hasRebound) {
         buffers.push_back(colliders.before);
-        form = &kernels::solveCollidersRebound;
+        forms = {&kernels::solveCollidersRebound, &kernels::solveCollidersReboundForces};
     } else if (predicted) {
         buffers.insert(buffers.end(), {predicted->positions, predicted->velocities});
-        form = &kernels::solveCollidersContacts;
+        forms = {&kernels::solveCollidersContacts, &kernels::solveCollidersContactsForces};
     }
     ProgramBuilder::Constants constants = constantsOf(colliders);
     constants.merge(remainderConstants(particles.layout));
-    dispatchTouching(program, colliders, *form, buffers, pushOf(colliders, substep, kick), constants);
+    if (particles.forces) {
+        buffers.push_back(particles.forces->terms);
+        constants.merge(particles.forces->ofColliders());
+    }
+    dispatchTouching(program, colliders, *forms[particles.forces ? 1 : 0], buffers,
+                     pushOf(colliders, substep, kick), constants);
 }
 
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,

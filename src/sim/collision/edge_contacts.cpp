@@ -2,6 +2,7 @@
 #include "sim/collision/edge_contacts.hpp"
 
 #include "kernels.hpp"
+#include "sim/forces.hpp"
 #include "sim/sleep.hpp"
 
 #include <algorithm>
@@ -14,13 +15,14 @@ namespace {
 namespace k = kernels;
 using edge_lists::Edge;
 
-// For every slot the first of its entries, one more for the end; an entry is 2 x edge + end.
+// For every slot the first of its entries, one more for the end; an entry is 2 x edge + end. Where forces are kept,
+// ends that never move feel them too.
 std::vector<std::uint32_t> cornersOf(std::span<const Edge> edges, const StateLayout& layout,
-                                     const std::vector<float>& inverseMass) {
+                                     const std::vector<float>& inverseMass, bool keepsForces) {
     std::vector<std::vector<std::uint32_t>> entries(layout.count);
     for (std::uint32_t e = 0; e < edges.size(); ++e)
         for (std::uint32_t end = 0; end < 2; ++end)
-            if (inverseMass[edges[e].ends[end]] > 0)
+            if (keepsForces || inverseMass[edges[e].ends[end]] > 0)
                 entries[layout.slot[edges[e].ends[end]]].push_back(2 * e + end);
     std::vector<std::uint32_t> result(layout.count + 1);
     for (std::size_t i = 0; i <= layout.count; ++i) {
@@ -78,6 +80,17 @@ void addOverEnds(ProgramBuilder& program, const Contacts& contacts, const Partic
                              pushOfParticles(contacts, particles), constants);
 }
 
+// One that gives impulses to them: in the form that keeps these where the step does.
+void addImpulses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& particles,
+                 const vk::ShaderCode& code, const vk::ShaderCode& withForces, std::vector<BufferId> buffers,
+                 ProgramBuilder::Constants constants = {}) {
+    if (!particles.forces)
+        return addOverEnds(program, contacts, particles, code, std::move(buffers), constants);
+    buffers.push_back(particles.forces->terms);
+    constants.merge(particles.forces->ofContacts());
+    addOverEnds(program, contacts, particles, withForces, std::move(buffers), constants);
+}
+
 void addShares(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& particles) {
     addOverEnds(program, contacts, particles, k::shareEdges,
                 {contacts.corners, contacts.lists.sums, particles.velocities, contacts.shares});
@@ -126,7 +139,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     shown.edgeLists = contacts.lists.pooled.ranges;
     shown.edgeCount = contacts.push.count;
     const std::size_t elements = contacts.lists.pooled.room;
-    contacts.corners = program.upload("edges.corners", cornersOf(edges, layout, inverseMasses(scene)));
+    contacts.corners = program.upload("edges.corners", cornersOf(edges, layout, inverseMasses(scene), settings.keepsForces));
     contacts.directions = program.scratch<layout::vec4>("edges.directions", elements);
     contacts.weights = program.scratch<layout::vec4>("edges.weights", elements);
     if (contacts.surfaces.hasRestitution)
@@ -156,7 +169,7 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
                   contacts.directions, contacts.weights, contacts.shares, lists.pooled.memory->memory,
                   lists.impulses, contacts.before, predicted.step, contacts.surfaces.ofParticles,
                   contacts.surfaces.pairs});
-    addOverEnds(program, contacts, predicted, k::gatherEdges,
+    addImpulses(program, contacts, predicted, k::gatherEdges, k::gatherEdgesForces,
                 {contacts.corners, lists.impulses, predicted.velocities, predicted.positions, predicted.step},
                 remainderConstants(predicted.layout));
 }
@@ -173,7 +186,7 @@ void addBounces(ProgramBuilder& program, const Contacts& contacts, const Particl
     addOverEdges(program, contacts, k::reboundEdges,
                  {state.velocities, lists.edges, lists.pooled.contacts, lists.pooled.ranges, contacts.bounces,
                   contacts.weights, contacts.shares, lists.impulses});
-    addOverEnds(program, contacts, state, k::gatherEdgesRebound,
+    addImpulses(program, contacts, state, k::gatherEdgesRebound, k::gatherEdgesReboundForces,
                 {contacts.corners, lists.impulses, state.velocities, state.positions, state.step});
 }
 

@@ -3,6 +3,7 @@
 
 #include "kernels.hpp"
 #include "sim/cutting/crumbs.hpp"
+#include "sim/forces.hpp"
 #include "sim/sleep.hpp"
 
 #include <algorithm>
@@ -30,6 +31,11 @@ struct Faces {
     std::vector<layout::ContactFace> faces;
     std::vector<float> extents;
     std::uint32_t sheets = 0, moving = 0;
+
+    // So many know which points are near them.
+    std::uint32_t linked(bool keepsForces) const {
+        return keepsForces ? static_cast<std::uint32_t>(faces.size()) : moving;
+    }
 };
 
 float extentOf(const Scene& scene, const Face& face) {
@@ -74,15 +80,16 @@ std::vector<float> pointRadii(const Scene& scene, const std::vector<float>& inve
     return radii;
 }
 
-// For every slot the first of its entries, one more for the end; an entry is 4 x face + corner.
+// For every slot the first of its entries, one more for the end; an entry is 4 x face + corner. Where forces are
+// kept, corners that never move feel them too.
 std::vector<std::uint32_t> cornersOf(const Faces& faces, const std::vector<float>& inverseMass,
-                                     const StateLayout& layout) {
+                                     const StateLayout& layout, bool keepsForces) {
     std::vector<std::vector<std::uint32_t>> entries(layout.count);
-    for (std::uint32_t f = 0; f < faces.moving; ++f) {
+    for (std::uint32_t f = 0; f < faces.linked(keepsForces); ++f) {
         const layout::ContactFace& face = faces.faces[f];
         const std::array<std::uint32_t, 3> corners{face.a, face.b, face.c};
         for (std::uint32_t c = 0; c < 3; ++c)
-            if (inverseMass[corners[c]] > 0) entries[layout.slot[corners[c]]].push_back(4 * f + c);
+            if (keepsForces || inverseMass[corners[c]] > 0) entries[layout.slot[corners[c]]].push_back(4 * f + c);
     }
     std::vector<std::uint32_t> result(layout.count + 1);
     for (std::size_t i = 0; i <= layout.count; ++i) {
@@ -112,6 +119,7 @@ face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
                                                         .inverseMasses = masses,
                                                         .faces = faces.faces,
                                                         .moving = faces.moving,
+                                                        .linked = faces.linked(settings.keepsForces),
                                                         .extents = faces.extents,
                                                         .exclusions = exclusions,
                                                         .margin = settings.contactMargin * length,
@@ -143,12 +151,29 @@ std::vector<std::uint32_t> movingPoints(const Scene& scene, const std::vector<fl
     return points;
 }
 
+// By face.
+std::vector<std::uint32_t> stopRowsOf(const Faces& faces, const forces::Stops& stops) {
+    std::vector<std::uint32_t> rows;
+    for (const layout::ContactFace& face : faces.faces) rows.push_back(stops.ofParticle[face.a]);
+    return rows;
+}
+
 // A pass over the particles of groups in which one may touch a face, or a face of one may be touched.
 void addOverContacts(ProgramBuilder& program, const Contacts& contacts, const vk::ShaderCode& code,
                      std::vector<BufferId> buffers, const ProgramBuilder::Constants& constants = {}) {
     const face_lists::Lists& lists = contacts.lists;
     buffers.push_back(lists.touching);
     program.dispatchIndirect(code, lists.grid.touchingParticles, buffers, contacts.push, constants);
+}
+
+// A pass that gives impulses to particles: in the form that keeps them where the step does.
+void addImpulses(ProgramBuilder& program, const Contacts& contacts, const vk::ShaderCode& code,
+                 const vk::ShaderCode& withForces, std::vector<BufferId> buffers,
+                 const ParticleBuffers& particles, ProgramBuilder::Constants constants = {}) {
+    if (!particles.forces) return addOverContacts(program, contacts, code, std::move(buffers), constants);
+    buffers.push_back(particles.forces->terms);
+    constants.merge(particles.forces->ofContacts());
+    addOverContacts(program, contacts, withForces, std::move(buffers), constants);
 }
 
 // How particles are shared among contacts that have something in the last word of `directions`.
@@ -204,7 +229,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     shown.facePairs = contacts.lists.pooled.contacts;
     shown.faceLists = contacts.lists.pooled.ranges;
     const std::size_t elements = contacts.lists.pooled.room;
-    contacts.corners = program.upload("faces.corners", cornersOf(faces, inverseMass, layout));
+    contacts.corners = program.upload("faces.corners", cornersOf(faces, inverseMass, layout, settings.keepsForces));
     contacts.directions = program.scratch<layout::vec4>("faces.directions", elements);
     contacts.weights = program.scratch<layout::vec4>("faces.weights", elements);
     contacts.impulses = program.scratch<layout::vec4>("faces.impulses", elements);
@@ -218,6 +243,8 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
         const std::vector<std::uint32_t> points = movingPoints(scene, inverseMass, layout);
         contacts.movingPoints = program.upload("faces.moving_points", points);
         contacts.movingPointCount = static_cast<std::uint32_t>(points.size());
+        if (particles.forces)
+            contacts.stopRows = program.upload("faces.stop_rows", stopRowsOf(faces, particles.forces->stops));
     }
     return contacts;
 }
@@ -250,11 +277,11 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
                      contacts.directions, contacts.weights, contacts.shares, lists.pooled.memory->memory,
                      contacts.impulses, contacts.before, predicted.step, contacts.surfaces.ofParticles,
                      contacts.surfaces.pairs});
-    addOverContacts(program, contacts, k::gatherFaces,
-                    {lists.pooled.ranges, contacts.directions, contacts.weights, contacts.corners,
-                     lists.links, lists.linkLists, contacts.impulses, predicted.velocities,
-                     predicted.positions, predicted.step},
-                    remainderConstants(predicted.layout));
+    addImpulses(program, contacts, k::gatherFaces, k::gatherFacesForces,
+                {lists.pooled.ranges, contacts.directions, contacts.weights, contacts.corners, lists.links,
+                 lists.linkLists, contacts.impulses, predicted.velocities, predicted.positions,
+                 predicted.step},
+                predicted, remainderConstants(predicted.layout));
 }
 
 void addBounces(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state) {
@@ -269,20 +296,28 @@ void addBounces(ProgramBuilder& program, const Contacts& contacts, const Particl
     addOverContacts(program, contacts, k::reboundFaces,
                     {state.velocities, lists.faces, lists.pooled.contacts, lists.pooled.ranges,
                      contacts.bounces, contacts.weights, contacts.shares, contacts.impulses});
-    addOverContacts(program, contacts, k::gatherFacesRebound,
-                    {lists.pooled.ranges, contacts.bounces, contacts.weights, contacts.corners, lists.links,
-                     lists.linkLists, contacts.impulses, state.velocities, state.positions, state.step});
+    addImpulses(program, contacts, k::gatherFacesRebound, k::gatherFacesReboundForces,
+                {lists.pooled.ranges, contacts.bounces, contacts.weights, contacts.corners, lists.links,
+                 lists.linkLists, contacts.impulses, state.velocities, state.positions, state.step},
+                state);
 }
 
 void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state) {
     if (!contacts.hasStops() || contacts.movingPointCount == 0) return;
     const face_lists::Lists& lists = contacts.lists;
     const layout::StopPush push{contacts.movingPointCount, contacts.push.moving, contacts.faces};
-    program.dispatch(k::stopAtFaces, push.count,
-                     {contacts.linkedPositions, contacts.linkedVelocities, lists.faces, lists.pooled.contacts,
-                      lists.pooled.ranges, lists.radii, lists.excluded, state.positions, state.velocities,
-                      state.step, lists.pooled.memory->memory, contacts.movingPoints},
-                     push, remainderConstants(state.layout));
+    std::vector<BufferId> buffers{contacts.linkedPositions, contacts.linkedVelocities, lists.faces,
+                                  lists.pooled.contacts,    lists.pooled.ranges,       lists.radii,
+                                  lists.excluded,           state.positions,           state.velocities,
+                                  state.step,               lists.pooled.memory->memory};
+    ProgramBuilder::Constants constants = remainderConstants(state.layout);
+    if (state.forces) {
+        buffers.insert(buffers.end(), {contacts.stopRows, state.forces->terms});
+        constants.merge(state.forces->ofStops());
+    }
+    buffers.push_back(contacts.movingPoints);
+    program.dispatch(state.forces ? k::stopAtFacesForces : k::stopAtFaces, push.count, buffers, push,
+                     constants);
 }
 
 void addPublishing(ProgramBuilder& program, const Contacts& contacts) {

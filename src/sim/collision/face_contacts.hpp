@@ -36,6 +36,7 @@ struct Contacts {
     /// Positions and velocities that links have left; only where hasStops().
     BufferId linkedPositions, linkedVelocities;
     BufferId movingPoints; ///< slots of points that move; only where hasStops()
+    BufferId stopRows;     ///< of each face (forces::Stops); only where forces are kept, too
     std::uint32_t movingPointCount = 0;
 
     /// Whether some face never gives way.

@@ -2,6 +2,7 @@
 #include "sim/collision/interlocks.hpp"
 
 #include "kernels.hpp"
+#include "sim/forces.hpp"
 #include "sim/lattice/depths.hpp"
 #include "sim/lattice/placement.hpp"
 
@@ -172,7 +173,10 @@ void addPasses(ProgramBuilder& program, const Interlocks& interlocks, const Shar
     program.dispatchIndirect(k::countInterlocked, items, buffers, interlocks.push);
     buffers = sharedBuffers(interlocks, shared, predicted.step);
     buffers.insert(buffers.end(), {interlocks.moving, predicted.positions, predicted.velocities});
-    program.dispatchIndirect(k::partInterlocked, items, buffers, interlocks.push);
+    if (!predicted.forces) return program.dispatchIndirect(k::partInterlocked, items, buffers, interlocks.push);
+    buffers.push_back(predicted.forces->terms);
+    program.dispatchIndirect(k::partInterlockedForces, items, buffers, interlocks.push,
+                             predicted.forces->ofContacts());
 }
 
 void addClosing(ProgramBuilder& program, const Interlocks& interlocks) {

@@ -6,6 +6,7 @@
 #include "sim/collision/overlaps.hpp"
 #include "sim/cutting/crumbs.hpp"
 #include "sim/cutting/cut_contacts.hpp"
+#include "sim/forces.hpp"
 #include "sim/ranges.hpp"
 #include "sim/sleep.hpp"
 
@@ -36,11 +37,20 @@ constexpr Forms loadForms{
      {&k::gatherContactsSlipsLoads, &k::gatherContactsSlipsPlanesLoads, &k::gatherContactsSlipsReboundLoads},
      {&k::gatherContactsSurfacesLoads, &k::gatherContactsSurfacesPlanesLoads,
       &k::gatherContactsSurfacesReboundLoads}}};
+// Those that also keep what they give, in a scene in which nothing sleeps and fewer kernels will do.
+constexpr Forms forcesForms{
+    {{&k::gatherContactsForces, &k::gatherContactsPlanesForces, &k::gatherContactsReboundForces},
+     {&k::gatherContactsSlipsForces, &k::gatherContactsSlipsPlanesForces,
+      &k::gatherContactsSlipsReboundForces},
+     {&k::gatherContactsSurfacesForces, &k::gatherContactsSurfacesPlanesForces,
+      &k::gatherContactsSurfacesReboundForces}}};
 constexpr std::uint32_t watchesId = 3;                        // constant_id in settle_free.comp
 constexpr std::uint32_t hasFrictionId = 3, hasRecoveryId = 4; // constant_ids in gather_contacts.comp
 
-const vk::ShaderCode& gatherForm(const Contacts& contacts) {
-    const Forms& forms = contacts.lists.grid.usesTexels ? texelForms : loadForms;
+const vk::ShaderCode& gatherForm(const Contacts& contacts, bool keepsForces) {
+    const Forms& forms = keepsForces                       ? forcesForms
+                         : contacts.lists.grid.usesTexels ? texelForms
+                                                           : loadForms;
     const std::size_t planes = contacts.planes.count == 0 ? 0 : contacts.hasRebound ? 2 : 1;
     if (!contacts.hasMemory()) return *forms[0][planes];
     return *forms[hasFrictionTable(contacts) ? 2 : 1][planes];
@@ -213,7 +223,12 @@ void addGather(ProgramBuilder& program, const Contacts& contacts, const Particle
         buffers.insert(buffers.end(), {contacts.planes.planes, contacts.planes.contactOffsets});
         constants.merge(contacts.planes.constants());
     }
-    addOverContacts(program, contacts, gatherForm(contacts), std::move(buffers), constants);
+    if (next.forces) {
+        buffers.push_back(next.forces->terms);
+        constants.merge(next.forces->ofPlanes());
+    }
+    addOverContacts(program, contacts, gatherForm(contacts, next.forces != nullptr), std::move(buffers),
+                    constants);
 }
 
 // Whether most of what touches is of linked bodies: then few of its particles have a candidate at a time.
@@ -253,8 +268,8 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     const std::uint32_t room = std::max(settings.contactRoom, roomFor(overlaps, layout.count));
     overlaps::forget(overlaps, leastOverlap(scene, settings));
     surfaces::Surfaces surfaces = surfaces::add(program, scene, layout);
-    const bool settles =
-        !settings.sleeps && areMostlyLinked(scene) && !surfaces.hasRestitution && overlaps.empty();
+    const bool settles = // forces are kept where a substep ends once
+        !settings.sleeps && !settings.keepsForces && areMostlyLinked(scene) && !surfaces.hasRestitution && overlaps.empty();
     const bool isCuttable = !exclusions.empty() && cutting::canMeet(program.program(), scene);
     const bool hasRecovery = !overlaps.empty() || isCuttable;
     BufferId allExcluded;
@@ -349,6 +364,11 @@ void addBounces(ProgramBuilder& program, const Contacts& contacts, const Particl
                              : form(contacts, {&k::countBouncesLoads, &k::countBounces}),
                      contacts.push.count, shared, contacts.push);
     shared.insert(shared.end(), {next.positions, contacts.rebounding});
+    if (next.forces) {
+        shared.push_back(next.forces->terms);
+        return program.dispatch(isTable ? k::bounceContactsSurfacesForces : k::bounceContactsForces,
+                                contacts.push.count, shared, contacts.push, next.forces->ofContacts());
+    }
     program.dispatch(isTable ? form(contacts, {&k::bounceContactsSurfacesLoads, &k::bounceContactsSurfaces})
                              : form(contacts, {&k::bounceContactsLoads, &k::bounceContacts}),
                      contacts.push.count, shared, contacts.push);

@@ -3,6 +3,7 @@
 
 #include "kernels.hpp"
 #include "sim/constraints/moving_point.hpp"
+#include "sim/forces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -38,10 +39,14 @@ Attachments add(ProgramBuilder& program, const Scene& scene, const StateLayout& 
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Attachments& attachments,
              std::uint32_t substep, std::uint32_t substeps) {
     if (attachments.count == 0) return;
-    program.dispatch(kernels::solveAttachments, attachments.count,
-                     {attachments.particles, attachments.anchors, particles.positions, particles.velocities,
-                      particles.step},
-                     pushOf(attachments, substep, substeps));
+    std::vector<BufferId> buffers{attachments.particles, attachments.anchors, particles.positions,
+                                  particles.velocities, particles.step};
+    const layout::AttachmentPush push = pushOf(attachments, substep, substeps);
+    if (!particles.forces)
+        return program.dispatch(kernels::solveAttachments, attachments.count, buffers, push);
+    buffers.push_back(particles.forces->terms);
+    program.dispatch(kernels::solveAttachmentsForces, attachments.count, buffers, push,
+                     particles.forces->ofAttachments());
 }
 
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,

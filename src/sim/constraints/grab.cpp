@@ -4,6 +4,7 @@
 #include "kernels.hpp"
 #include "sim/components.hpp"
 #include "sim/constraints/moving_point.hpp"
+#include "sim/forces.hpp"
 #include "sim/ranges.hpp"
 
 #include <algorithm>
@@ -88,10 +89,14 @@ void addPass(ProgramBuilder& program, const ParticleBuffers& particles, std::uin
              std::uint32_t substeps, Kick kick) {
     if (!particles.grabs) return;
     const Grabs& grabs = *particles.grabs;
-    program.dispatchIndirect(kernels::pullHeld, itemsOf(grabs),
-                             {grabs.hands, grabs.states, grabs.bodies, grabs.grips, grabs.held, grabs.pulling,
-                              particles.positions, particles.velocities, particles.step},
-                             pushOf(grabs, substep, substeps, kick));
+    std::vector<BufferId> buffers{grabs.hands,   grabs.states,        grabs.bodies,
+                                  grabs.grips,   grabs.held,          grabs.pulling,
+                                  particles.positions, particles.velocities, particles.step};
+    const layout::GrabPush push = pushOf(grabs, substep, substeps, kick);
+    if (!particles.forces) return program.dispatchIndirect(kernels::pullHeld, itemsOf(grabs), buffers, push);
+    buffers.push_back(particles.forces->terms);
+    program.dispatchIndirect(kernels::pullHeldForces, itemsOf(grabs), buffers, push,
+                             particles.forces->ofGrabs());
 }
 
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,

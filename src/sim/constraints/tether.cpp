@@ -3,18 +3,24 @@
 
 #include "kernels.hpp"
 #include "sim/cutting/cut_tethers.hpp"
+#include "sim/forces.hpp"
 
 #include <algorithm>
 
 namespace sinew::sim::constraints::tether {
 
-Tethers add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout) {
+std::vector<Tether> inOrder(const Scene& scene) {
     const std::vector<float> inverseMass = inverseMasses(scene);
     std::vector<Tether> sorted;
     std::ranges::copy_if(scene.tethers, std::back_inserter(sorted),
                          [&](const Tether& tether) { return inverseMass[tether.particle] > 0; });
-    if (sorted.empty()) return {};
     std::ranges::stable_sort(sorted, {}, &Tether::particle);
+    return sorted;
+}
+
+Tethers add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout) {
+    const std::vector<Tether> sorted = inOrder(scene);
+    if (sorted.empty()) return {};
     std::vector<layout::TetheredParticle> particles;
     std::uint32_t last = 0; // particle, while there is one
     std::vector<layout::TetherReach> reaches;
@@ -37,10 +43,13 @@ Tethers add(ProgramBuilder& program, const Scene& scene, const StateLayout& layo
 
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Tethers& tethers) {
     if (tethers.count == 0) return;
-    program.dispatch(
-        kernels::solveTethers, tethers.count,
-        {tethers.particles, tethers.tethers, particles.positions, particles.velocities, particles.step},
-        layout::CountPush{tethers.count});
+    std::vector<BufferId> buffers{tethers.particles, tethers.tethers, particles.positions,
+                                  particles.velocities, particles.step};
+    const layout::CountPush push{tethers.count};
+    if (!particles.forces) return program.dispatch(kernels::solveTethers, tethers.count, buffers, push);
+    buffers.push_back(particles.forces->terms);
+    program.dispatch(kernels::solveTethersForces, tethers.count, buffers, push,
+                     particles.forces->ofTethers());
 }
 
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,

@@ -12,6 +12,9 @@ struct Tethers {
     BufferId particles, tethers;
 };
 
+/// Those of particles that move, sorted by particle: the order that the device has them in.
+std::vector<Tether> inOrder(const Scene& scene);
+
 Tethers add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout);
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Tethers& tethers);
 /// The same in a substep of `gauss_seidel`, which is still open: what moves are the `corrections`.

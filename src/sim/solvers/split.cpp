@@ -17,6 +17,7 @@
 #include "sim/cutting/cut_contacts.hpp"
 #include "sim/cutting/cut_faces.hpp"
 #include "sim/cutting/cut_lists.hpp"
+#include "sim/forces.hpp"
 #include "sim/lattice/batches.hpp"
 #include "sim/sleep.hpp"
 #include "sim/solvers/shares.hpp"
@@ -59,6 +60,7 @@ struct Common {
     }
     Gather gather() const {
         ProgramBuilder::Constants constants = remainderConstants(layout);
+        if (settings.keepsForces) constants.merge(forces::pullConstants());
         if (colliders.count == 0) return {{}, std::move(constants), {}};
         constants.merge(colliders.constants());
         return {{colliders.planes, colliders.contactOffsets}, std::move(constants), {}};
@@ -316,13 +318,16 @@ struct Touching {
     std::optional<collision::face_contacts::Contacts> faces;
     std::optional<collision::edge_contacts::Contacts> edges;
     std::optional<collision::particle_contacts::Contacts> pairs;
-    // Planes, and the slots that hold a particle; only where no particles touch each other.
+    // Planes, velocities before the substep, and the slots that hold a particle; only where no particles touch
+    // each other.
     collision::planes::Colliders planes;
+    BufferId before;
     BufferId particles;
     std::uint32_t particleCount = 0;
 
     void addOpening(ProgramBuilder& program, BufferId velocities) const {
         if (faces) collision::face_contacts::addOpening(program, *faces, velocities);
+        if (!faces && !pairs && planes.count > 0) program.copy(velocities, before);
         if (pairs) collision::particle_contacts::addOpening(program, *pairs, velocities);
     }
     void addPasses(ProgramBuilder& program, const ParticleBuffers& predicted, const ParticleBuffers& next,
@@ -341,12 +346,18 @@ struct Touching {
                                       next.velocities};
         ProgramBuilder::Constants constants = remainderConstants(next.layout);
         if (planes.count > 0) {
-            buffers.insert(buffers.end(), {faces->before, planes.planes, planes.contactOffsets});
+            buffers.insert(buffers.end(),
+                           {faces ? faces->before : before, planes.planes, planes.contactOffsets});
             constants.merge(planes.constants());
         }
+        const vk::ShaderCode* code = planes.count > 0 ? &kernels::finishFreePlanes : &kernels::finishFree;
+        if (next.forces && planes.count > 0) {
+            code = &kernels::finishFreePlanesForces;
+            buffers.push_back(next.forces->terms);
+            constants.merge(next.forces->ofPlanes());
+        }
         buffers.push_back(particles);
-        program.dispatch(planes.count > 0 ? kernels::finishFreePlanes : kernels::finishFree, particleCount,
-                         buffers, layout::CountPush{particleCount}, constants);
+        program.dispatch(*code, particleCount, buffers, layout::CountPush{particleCount}, constants);
     }
     // After all contacts of a substep; velocities alternate.
     void addBounces(ProgramBuilder& program, const ParticleBuffers& met, ParticleBuffers& current) {
@@ -385,6 +396,8 @@ Touching addTouching(const Common& common, const ParticleBuffers& particles) {
         touching.planes = collision::planes::addColliders(common.program, scene, common.layout);
         touching.particles = common.program.upload("state.particles", slots);
         touching.particleCount = static_cast<std::uint32_t>(slots.size());
+        if (!touching.faces && touching.planes.count > 0)
+            touching.before = common.program.scratch<layout::vec4>("state.before", common.layout.count);
     }
     if (hasPairs) touching.pairs = pairs::add(common.program, scene, common.settings, common.layout);
     return touching;
@@ -417,6 +430,7 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
         contacts.addOpening(program, current.velocities);
         predicted.velocities = alternates ? spare : current.velocities;
         addLinks(gathers, current, predicted, substep == 0);
+        if (particles.forces) forces::addPulls(program, predicted);
         constraints::driven::addPass(program, predicted, driven, substep);
         if (!alternates) std::swap(current.velocities, spare);
         contacts.addPasses(program, predicted, current, substep == 0);
@@ -438,7 +452,7 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
 void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& settings,
                const Division& division, const ParticleBuffers& particles) {
     program.program().sweeps = scene.distances.empty() ? 0 : settings.substeps;
-    if (collision::particle_contacts::areIn(scene) || collision::face_contacts::areIn(scene)) {
+    if (contactsFollow(scene, settings)) {
         addTouchingSubsteps({program, scene, settings, division, particles.layout, {}}, particles);
         return;
     }
@@ -452,6 +466,11 @@ void addPasses(ProgramBuilder& program, const Scene& scene, const Settings& sett
 }
 
 } // namespace
+
+bool contactsFollow(const Scene& scene, const Settings& settings) {
+    return collision::particle_contacts::areIn(scene) || collision::face_contacts::areIn(scene) ||
+           settings.keepsForces;
+}
 
 SolverPlan plan(const Scene& scene, const Settings& settings, const std::vector<float>& inverseMass) {
     Division division{inverseMass, lattice::computedGrids(scene, settings),

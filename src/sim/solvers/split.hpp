@@ -11,4 +11,8 @@ namespace sinew::sim::solvers::split {
 /// clamps a particle's links (solvers/shares.hpp).
 SolverPlan plan(const Scene& scene, const Settings& settings, const std::vector<float>& inverseMass);
 
+/// Whether the links of a substep leave predicted positions, x: where something touches or forces are kept,
+/// further passes end the substep.
+bool contactsFollow(const Scene& scene, const Settings& settings);
+
 } // namespace sinew::sim::solvers::split

@@ -1,0 +1,24 @@
+// Adds the impulses that a kernel gives to particles to what a step keeps of them [N s] (sim/forces.hpp). Every invocation writes elements of its
+// own particle alone, so no atomics are needed and sums have one order. Only in forms with FORCES.
+#ifdef FORCES
+#ifndef FORCES_BINDING
+#define FORCES_BINDING LAST_BINDING
+#endif
+layout(constant_id = 20) const uint forceSlots = 1; // elements of a section: slots of the state
+layout(constant_id = 21) const uint firstForce = 0; // first element of the sections, or entries, of this kernel
+layout(std430, binding = FORCES_BINDING) buffer Forces { vec4 forces[]; };
+
+void addContactForce(uint i, vec3 impulse) { forces[i].xyz += impulse; }
+
+void addHoldForce(uint i, vec3 impulse) { forces[forceSlots + i].xyz += impulse; }
+
+// The impulse in one entry of a list.
+void addListedForce(uint entry, vec3 impulse) { forces[firstForce + entry].xyz += impulse; }
+
+// The impulse that plane, collider, hand or body `row` of this kernel gives to particle i, `arm` away from the place of that one [m].
+void addRowForce(uint row, uint i, vec3 impulse, vec3 arm) {
+    const uint element = firstForce + 2u * row * forceSlots + i;
+    forces[element].xyz += impulse;
+    forces[element + forceSlots].xyz += cross(arm, impulse);
+}
+#endif

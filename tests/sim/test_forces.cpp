@@ -1,0 +1,338 @@
+// Forces that a step reports, against what they must be by weight, momentum and Hooke's law. Every scene also moves as it does without them.
+#include "sim/bodies.hpp"
+#include "sim/collision/contact_scenes.hpp"
+#include "sim/compile.hpp"
+#include "sim/hash.hpp"
+#include "sim/holds.hpp"
+#include "sim/runner.hpp"
+#include "sim/scenes.hpp"
+#include "sim/validate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cinttypes>
+#include <cmath>
+#include <numbers>
+
+using namespace sinew;
+using namespace sinew::sim;
+
+namespace {
+
+using Vector = Eigen::Vector3d;
+
+constexpr double gravity = 9.81; // [m/s^2]
+
+Settings withForces(std::uint32_t substeps = 32) {
+    return {.substeps = substeps, .keepsForces = true};
+}
+
+double massOf(const Scene& scene, const Body& body) {
+    double mass = 0;
+    for (std::uint32_t i = body.firstParticle; i < body.firstParticle + body.particleCount; ++i)
+        if (scene.particles[i].inverseMass > 0) mass += 1 / double{scene.particles[i].inverseMass};
+    return mass;
+}
+
+// A block of 3^3 cells of 0.1 m with its lowest corner at (0, height, 0), whose particles are 0.05 m wide.
+void addBlock(Scene& scene, float height, const std::string& name = "block", float x = 0, float young = 2e5f) {
+    addLattice(scene, {.name = name,
+                       .origin = {x, height, 0},
+                       .cells = {3, 3, 3},
+                       .spacing = 0.1f,
+                       .youngModulus = young,
+                       .radius = 0.05f});
+}
+
+Scene quiet() {
+    Scene scene{.name = "forces"};
+    scene.dampingTime = 2e-3f;
+    scene.contacts = {.friction = 0.5f, .staticFriction = 0.5f};
+    return scene;
+}
+
+// Two triangles at that height, far beyond a block; the middle of the mesh is below the block's.
+MeshCollider table(float height) {
+    return {.name = "table",
+            .vertices = {{-1, height, -1}, {1.3f, height, -1}, {1.3f, height, 1.3f}, {-1, height, 1.3f}},
+            .triangles = {{0, 2, 1}, {0, 3, 2}},
+            .thickness = 0.01f};
+}
+
+// The impulses of each of some steps, after others. All of them came to their ends.
+std::vector<Impulses> impulsesOf(test::Runner& runner, int before, int steps) {
+    std::vector<Impulses> impulses;
+    if (before > 0) runner.run(before);
+    for (int s = 0; s < steps; ++s) {
+        const Status status = runner.run(1);
+        EXPECT_FALSE(status.isUndone);
+        impulses.push_back(runner.simulation().forces(status.frame));
+        EXPECT_TRUE(impulses.back().isFinished);
+    }
+    return impulses;
+}
+
+// Each of them by dt is `wanted` within a share, and their mean within half of that.
+template <typename Of>
+void expectForce(const std::vector<Impulses>& all, double dt, const Vector& wanted, double share, const Of& of,
+                 const char* what) {
+    Vector mean = Vector::Zero();
+    for (const Impulses& impulses : all) {
+        const Vector force = test::toVector(of(impulses)) / dt;
+        EXPECT_LE((force - wanted).norm(), share * wanted.norm()) << what << ": " << force.transpose();
+        mean += force / static_cast<double>(all.size());
+    }
+    EXPECT_LE((mean - wanted).norm(), 0.5 * share * wanted.norm()) << what << ": " << mean.transpose();
+}
+
+constexpr double weightShare = 0.005;
+
+Vector up(double force) { return {0, force, 0}; }
+
+Vector momentumOf(const Scene& scene, const std::vector<Vector>& v, const Body& body) {
+    Vector momentum = Vector::Zero();
+    for (std::uint32_t i = body.firstParticle; i < body.firstParticle + body.particleCount; ++i)
+        if (scene.particles[i].inverseMass > 0) momentum += v[i] / double{scene.particles[i].inverseMass};
+    return momentum;
+}
+
+} // namespace
+
+TEST(Weight, OfABlockIsOnAPlane) {
+    Scene scene = quiet();
+    addBlock(scene, 0);
+    scene.planes = {{.friction = 0.5f}, {.normal = {1, 0, 0}, .offset = -5}};
+    test::Runner runner(scene, withForces());
+    const auto all = impulsesOf(runner, 180, 20);
+    const double weight = gravity * massOf(scene, scene.bodies[0]), dt = double{scene.dt};
+    expectForce(all, dt, up(weight), weightShare, [](const Impulses& i) { return i.bodies[0].planes.linear; }, "body");
+    expectForce(all, dt, up(-weight), weightShare, [](const Impulses& i) { return i.planes[0].linear; }, "plane");
+    for (const Impulses& impulses : all) {
+        EXPECT_EQ(impulses.planes[1].linear.x, 0);
+        EXPECT_LT(test::toVector(impulses.bodies[0].contacts.linear).norm(), 1e-5 * weight * dt); // its own cancel
+    }
+}
+
+TEST(Weight, OfABlockIsOnABoxCollider) {
+    Scene scene = quiet();
+    addBlock(scene, 0);
+    scene.colliders = {{.shape = ColliderShape::sphere, .radius = 0.1f, .pose = {.position = {5, 0, 0}}},
+                       {.shape = ColliderShape::box,
+                        .halfExtents = {1, 0.1f, 1},
+                        .friction = 0.5f,
+                        .pose = {.position = {0.15f, -0.1f, 0.15f}}}};
+    for (const bool touches : {true, false}) { // with and without contacts between particles
+        SCOPED_TRACE(touches);
+        for (Particle& particle : scene.particles) particle.radius = touches ? 0.05f : 0;
+        test::Runner runner(scene, withForces());
+        const auto all = impulsesOf(runner, 180, 20);
+        const double weight = gravity * massOf(scene, scene.bodies[0]), dt = double{scene.dt};
+        expectForce(all, dt, up(weight), weightShare, [](const Impulses& i) { return i.bodies[0].colliders.linear; },
+                    "body");
+        expectForce(all, dt, up(-weight), weightShare, [](const Impulses& i) { return i.colliders[1].linear; },
+                    "collider");
+        for (const Impulses& impulses : all) EXPECT_EQ(impulses.colliders[0].linear.y, 0);
+    }
+}
+
+TEST(Weight, OfABlockIsOnAMesh) {
+    Scene scene = quiet();
+    addBlock(scene, 0.06f);
+    addMeshCollider(scene, table(0));
+    test::Runner runner(scene, withForces());
+    const auto all = impulsesOf(runner, 180, 20);
+    const double weight = gravity * massOf(scene, scene.bodies[0]), dt = double{scene.dt};
+    expectForce(all, dt, up(weight), weightShare, [](const Impulses& i) { return i.bodies[0].contacts.linear; },
+                "body");
+    expectForce(all, dt, up(-weight), weightShare, [](const Impulses& i) { return i.bodies[1].contacts.linear; },
+                "mesh");
+    for (const Impulses& impulses : all) // the block stands over the middle of the table
+        EXPECT_LT(test::toVector(impulses.bodies[1].contacts.angular).norm(), 0.01 * weight * dt * 0.3);
+}
+
+TEST(Weight, OfTwoBlocksIsOnThePlaneAndOfOneBetweenThem) {
+    Scene scene = quiet();
+    addBlock(scene, 0, "lower");
+    addBlock(scene, 0.4f, "upper");
+    scene.planes = {{.friction = 0.5f}};
+    test::Runner runner(scene, withForces());
+    const auto all = impulsesOf(runner, 240, 20);
+    const double upper = gravity * massOf(scene, scene.bodies[1]), dt = double{scene.dt};
+    expectForce(all, dt, up(upper), weightShare, [](const Impulses& i) { return i.bodies[1].contacts.linear; },
+                "upper");
+    expectForce(all, dt, up(-upper), weightShare, [](const Impulses& i) { return i.bodies[0].contacts.linear; },
+                "lower");
+    expectForce(all, dt, up(2 * upper), weightShare, [](const Impulses& i) { return i.bodies[0].planes.linear; },
+                "plane");
+}
+
+TEST(Weight, OfABlockOnABlockThatIsHeldIsOnTheHold) {
+    Scene scene = quiet();
+    addBlock(scene, 0, "lower");
+    addBlock(scene, 0.4f, "upper");
+    const Body& lower = scene.bodies[0];
+    hold(scene, select(scene, lower, insideOf(Plane{.normal = {0, -1, 0}, .offset = -0.01f})).particles);
+    NamedHold held{"floor", {}};
+    for (const FixedConstraint& fixed : scene.fixed) held.particles.push_back(fixed.particle);
+    ASSERT_EQ(held.particles.size(), 16u);
+    scene.holds = {held};
+    double lowerMass = massOf(scene, lower);
+    for (const std::uint32_t i : held.particles) lowerMass -= 1 / double{scene.particles[i].inverseMass};
+    test::Runner runner(scene, withForces());
+    const auto all = impulsesOf(runner, 240, 20);
+    const double weight = gravity * (massOf(scene, scene.bodies[1]) + lowerMass), dt = double{scene.dt};
+    expectForce(all, dt, up(weight), weightShare, [](const Impulses& i) { return i.holds[0].linear; }, "hold");
+    expectForce(all, dt, up(weight), weightShare, [](const Impulses& i) { return i.bodies[0].holds.linear; }, "body");
+}
+
+TEST(Weight, HangsOnItsHoldByHookesLaw) {
+    constexpr float stiffness = 200, mass = 0.5f; // [N/m], [kg]
+    Scene scene;
+    scene.dampingTime = 5e-3f;
+    addChain(scene, {.origin = {0, 1, 0}, .particles = 2, .length = 0.2f, .compliance = 1 / stiffness});
+    scene.particles[1].inverseMass = 1 / mass;
+    hold(scene, std::vector<std::uint32_t>{0});
+    scene.holds = {{"hook", {0}}};
+    test::Runner runner(scene, withForces());
+    const auto all = impulsesOf(runner, 1200, 10);
+    const double dt = double{scene.dt};
+    const auto hook = [](const Impulses& i) { return i.holds[0].linear; };
+    expectForce(all, dt, up(mass * gravity), weightShare, hook, "weight");
+    const std::vector<Vector> x = runner.positions();
+    const double length = (x[1] - x[0]).norm();
+    expectForce(all, dt, up(double{stiffness} * (length - 0.2)), weightShare, hook, "Hooke");
+}
+
+TEST(Weight, OfAClothIsSharedByItsTwoPins) {
+    Scene scene = test::sheet(8, 1e-4f);
+    scene.dampingTime = 5e-3f;
+    scene.damping = 0.05f;
+    std::vector<std::uint32_t> pins;
+    double mass = massOf(scene, scene.bodies[0]);
+    const std::vector<float> inverseMass = inverseMasses(scene);
+    for (std::uint32_t i = 0; i < inverseMass.size(); ++i)
+        if (inverseMass[i] == 0) {
+            pins.push_back(i);
+            if (scene.particles[i].inverseMass > 0) mass -= 1 / double{scene.particles[i].inverseMass};
+        }
+    ASSERT_EQ(pins.size(), 2u);
+    scene.holds = {{"left", {pins[0]}}, {"right", {pins[1]}}};
+    test::Runner runner(scene, withForces());
+    const auto all = impulsesOf(runner, 2400, 10);
+    for (const Impulses& impulses : all) {
+        const Vector left = test::toVector(impulses.holds[0].linear) / double{scene.dt},
+                     right = test::toVector(impulses.holds[1].linear) / double{scene.dt};
+        EXPECT_NEAR(left.y(), 0.5 * mass * gravity, weightShare * mass * gravity);
+        EXPECT_NEAR(right.y(), 0.5 * mass * gravity, weightShare * mass * gravity);
+        EXPECT_NEAR(left.x() + right.x(), 0, weightShare * mass * gravity);
+        EXPECT_LT(left.x() * right.x(), 0); // they pull apart
+    }
+}
+
+TEST(Weight, HangsOnATether) {
+    Scene scene = test::particleAt({0, 0, 0});
+    scene.damping = 2;
+    scene.particles[0].inverseMass = 0.5f;
+    scene.particles.push_back({.position = {0, 0.5f, 0}, .inverseMass = 0});
+    scene.tethers = {{0, 1, 0.5f}};
+    scene.bodies = {{"ball", 0, 1}};
+    scene.holds = {{"hook", {1}}};
+    test::Runner runner(scene, withForces(64));
+    const auto all = impulsesOf(runner, 120, 10);
+    const double dt = double{scene.dt}, weight = 2 * gravity;
+    expectForce(all, dt, up(weight), weightShare, [](const Impulses& i) { return i.holds[0].linear; }, "hold");
+    expectForce(all, dt, up(weight), weightShare, [](const Impulses& i) { return i.bodies[0].holds.linear; }, "body");
+}
+
+TEST(Weight, HangsOnAnAttachmentByHookesLaw) {
+    Scene scene = test::particleAt({0, 0, 0});
+    scene.damping = 3;
+    scene.attachments = {{.particle = 0, .anchor = {0, 0, 0}, .compliance = 0.01f}};
+    test::Runner runner(scene, withForces(64));
+    const auto all = impulsesOf(runner, 900, 10);
+    const auto pull = [](const Impulses& i) { return i.attachments[0].linear; };
+    expectForce(all, double{scene.dt}, up(gravity), weightShare, pull, "weight");
+    expectForce(all, double{scene.dt}, up(-runner.positions()[0].y() / 0.01), weightShare, pull, "Hooke");
+}
+
+TEST(Grabbed, FeelsItsStiffnessTimesTheStretch) {
+    Scene scene = quiet();
+    addBlock(scene, 0);
+    Settings settings = withForces();
+    settings.grabs = 2;
+    test::Runner runner(scene, settings);
+    const double mass = massOf(scene, scene.bodies[0]), dt = double{scene.dt};
+    const std::uint32_t particle = scene.bodies[0].particleCount / 2;
+    const Vec3 target = scene.particles[particle].position;
+    const std::array grabs{Grab{.particle = 0, .target = {NAN, 0, 0}}, // holds nothing
+                           Grab{.particle = particle, .radius = 0.2f, .target = target, .maxAcceleration = 1000}};
+    Status status;
+    for (int s = 0; s < 600; ++s)
+        status = runner.step({.dt = scene.dt, .gravity = scene.gravity, .grabs = grabs});
+    const Impulses impulses = runner.simulation().forces(status.frame);
+    const Vector pull = test::toVector(impulses.grabs[1].linear) / dt;
+    EXPECT_LE((pull - up(mass * gravity)).norm(), weightShare * mass * gravity) << pull.transpose();
+    EXPECT_EQ(impulses.grabs[0].linear.y, 0);
+    EXPECT_EQ(impulses.bodies[0].grabs.linear.y, impulses.grabs[1].linear.y);
+    // all of the body hangs lower by what the spring of the hand gives way
+    const double sunk = double{target.y} - runner.positions()[particle].y();
+    EXPECT_NEAR(pull.y(), 400 * mass * sunk, 0.05 * pull.y()); // the share of each held particle gives way differently
+}
+
+TEST(Struck, PlanesAndCollidersFeelTheChangeOfMomentum) {
+    for (const float restitution : {0.0f, 0.8f}) {
+        SCOPED_TRACE(restitution);
+        Scene scene = test::particleAt({0.4f, 0.3f, 0.1f}, {1, -6, 0.5f});
+        scene.gravity = {0, 0, 0};
+        scene.bodies = {{"ball", 0, 1}};
+        scene.planes = {{.friction = 0.2f, .restitution = restitution}};
+        scene.colliders = {{.shape = ColliderShape::box,
+                            .halfExtents = {0.1f, 2, 2},
+                            .friction = 0.3f,
+                            .restitution = restitution,
+                            .pose = {.position = {1, 0, 0}}}};
+        test::Runner runner(scene, withForces(8));
+        Vector before = runner.velocities()[0], onPlane = Vector::Zero(), onCollider = Vector::Zero();
+        for (int s = 0; s < 60; ++s) {
+            const Impulses impulses = impulsesOf(runner, 0, 1).front();
+            const Vector after = runner.velocities()[0];
+            const Vector planes = test::toVector(impulses.bodies[0].planes.linear),
+                         colliders = test::toVector(impulses.bodies[0].colliders.linear);
+            EXPECT_LE((after - before - planes - colliders).norm(), 1e-5);
+            EXPECT_LE((planes + test::toVector(impulses.planes[0].linear)).norm(), 1e-6);
+            EXPECT_LE((colliders + test::toVector(impulses.colliders[0].linear)).norm(), 1e-6);
+            onPlane += planes;
+            onCollider += colliders;
+            before = after;
+        }
+        EXPECT_NEAR(onPlane.y(), 6 * (1 + double{restitution}), 0.01);
+        EXPECT_LT(onCollider.x(), -0.1); // it came there
+    }
+}
+
+TEST(Struck, TwoBlocksFeelOppositeImpulses) {
+    Scene scene = test::weightless();
+    scene.contacts = {.friction = 0.4f, .restitution = 0.5f};
+    addBlock(scene, 0, "left");
+    addBlock(scene, 0.13f, "right", 0.45f);
+    for (std::uint32_t i = scene.bodies[1].firstParticle; i < scene.particles.size(); ++i)
+        scene.particles[i].velocity = {-3, 0, 0};
+    test::Runner runner(scene, withForces());
+    std::vector<Vector> before = runner.velocities();
+    double struck = 0;
+    for (int s = 0; s < 20; ++s) {
+        const Impulses impulses = impulsesOf(runner, 0, 1).front();
+        const std::vector<Vector> after = runner.velocities();
+        const Vector left = test::toVector(impulses.bodies[0].contacts.linear),
+                     right = test::toVector(impulses.bodies[1].contacts.linear);
+        EXPECT_LE((left + right).norm(), 1e-4 * (1 + left.norm()));
+        for (const std::size_t b : {0, 1}) {
+            const Body& body = scene.bodies[b];
+            const Vector change = momentumOf(scene, after, body) - momentumOf(scene, before, body);
+            EXPECT_LE((change - (b == 0 ? left : right)).norm(), 3e-4 * (1 + left.norm())) << s;
+        }
+        struck += right.x();
+        before = after;
+    }
+    EXPECT_GT(struck, 3 * massOf(scene, scene.bodies[0]) * 0.9); // in a plastic impact 0.5 m v, in an elastic one m v
+}
