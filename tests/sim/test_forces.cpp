@@ -205,8 +205,7 @@ TEST(Weight, HangsOnItsHoldByHookesLaw) {
 
 TEST(Weight, OfAClothIsSharedByItsTwoPins) {
     Scene scene = test::sheet(8, 1e-4f);
-    scene.dampingTime = 5e-3f;
-    scene.damping = 0.05f;
+    scene.damping = 1.5f; // takes 0.1 % of the weight, by the speed that gravity gives in a substep
     std::vector<std::uint32_t> pins;
     double mass = massOf(scene, scene.bodies[0]);
     const std::vector<float> inverseMass = inverseMasses(scene);
