@@ -62,6 +62,12 @@ sim::Scene farAway(sim::Scene scene) {
     return scene;
 }
 
+// The forms of kernels that keep forces, where the scene may have them.
+void makeKept(Maker& maker, const sim::Scene& scene, sim::Settings settings) {
+    settings.keepsForces = true;
+    if (sim::validate(scene, settings).empty()) maker.make(scene, settings);
+}
+
 // A scene in all its forms, without and with hands and pokes, which a resident body has not; and far away.
 void makeForms(Maker& maker, const sim::Scene& scene, sim::Settings settings) {
     for (const sim::Forms& forms : formsOf(maker.device, settings)) {
@@ -72,6 +78,7 @@ void makeForms(Maker& maker, const sim::Scene& scene, sim::Settings settings) {
     maker.make(farAway(scene), settings);
     settings.grabs = settings.pokes = settings.solver == sim::Solver::split;
     maker.make(scene, settings);
+    makeKept(maker, scene, settings);
 }
 
 // The scene with pieces too small to stay, and skins as they were before mesh::addMesh split them, or such
@@ -135,6 +142,7 @@ void makeKernelsOfDrawnScenes(Maker& maker) {
         const auto [scene, settings] = test::drawScene(seed);
         if (!sim::validate(scene, settings).empty()) continue;
         maker.make(scene, settings);
+        makeKept(maker, scene, settings);
         ++valid;
     }
     EXPECT_GT(valid, drawnScenes / 2);

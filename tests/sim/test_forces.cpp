@@ -255,27 +255,28 @@ TEST(Weight, HangsOnAnAttachmentByHookesLaw) {
 }
 
 TEST(Grabbed, FeelsItsStiffnessTimesTheStretch) {
-    Scene scene = quiet();
-    addBlock(scene, 0);
-    Settings settings = withForces();
+    Scene scene = test::particleAt({0.1f, 1, 0.2f});
+    addBlock(scene, 3); // is not held
+    scene.particles[0].inverseMass = 0.5f;
+    scene.bodies.push_back({"ball", 0, 1});
+    Settings settings = withForces(8);
     settings.grabs = 2;
     test::Runner runner(scene, settings);
-    const double mass = massOf(scene, scene.bodies[0]), dt = double{scene.dt};
-    const std::uint32_t particle = scene.bodies[0].particleCount / 2;
-    const Vec3 target = scene.particles[particle].position;
+    const double mass = 2, dt = double{scene.dt};
+    const Vec3 target = scene.particles[0].position;
     const std::array grabs{Grab{.particle = 0, .target = {NAN, 0, 0}}, // holds nothing
-                           Grab{.particle = particle, .radius = 0.2f, .target = target, .maxAcceleration = 1000}};
+                           Grab{.particle = 0, .target = target}};
     Status status;
-    for (int s = 0; s < 600; ++s)
+    for (int s = 0; s < 180; ++s)
         status = runner.step({.dt = scene.dt, .gravity = scene.gravity, .grabs = grabs});
     const Impulses impulses = runner.simulation().forces(status.frame);
     const Vector pull = test::toVector(impulses.grabs[1].linear) / dt;
     EXPECT_LE((pull - up(mass * gravity)).norm(), weightShare * mass * gravity) << pull.transpose();
     EXPECT_EQ(impulses.grabs[0].linear.y, 0);
-    EXPECT_EQ(impulses.bodies[0].grabs.linear.y, impulses.grabs[1].linear.y);
-    // all of the body hangs lower by what the spring of the hand gives way
-    const double sunk = double{target.y} - runner.positions()[particle].y();
-    EXPECT_NEAR(pull.y(), 400 * mass * sunk, 0.05 * pull.y()); // the share of each held particle gives way differently
+    EXPECT_EQ(impulses.bodies[0].grabs.linear.y, 0);
+    EXPECT_EQ(impulses.bodies[1].grabs.linear.y, impulses.grabs[1].linear.y);
+    const double sunk = double{target.y} - runner.positions()[0].y();
+    EXPECT_NEAR(pull.y(), 400 * mass * sunk, weightShare * pull.y());
 }
 
 TEST(Struck, PlanesAndCollidersFeelTheChangeOfMomentum) {
@@ -284,9 +285,9 @@ TEST(Struck, PlanesAndCollidersFeelTheChangeOfMomentum) {
         Scene scene = test::particleAt({0.4f, 0.3f, 0.1f}, {1, -6, 0.5f});
         scene.gravity = {0, 0, 0};
         scene.bodies = {{"ball", 0, 1}};
-        scene.planes = {{.friction = 0.2f, .restitution = restitution}};
+        scene.planes = {{.friction = 0.02f, .restitution = restitution}};
         scene.colliders = {{.shape = ColliderShape::box,
-                            .halfExtents = {0.1f, 2, 2},
+                            .halfExtents = {0.1f, 20, 2},
                             .friction = 0.3f,
                             .restitution = restitution,
                             .pose = {.position = {1, 0, 0}}}};
@@ -333,5 +334,90 @@ TEST(Struck, TwoBlocksFeelOppositeImpulses) {
         struck += right.x();
         before = after;
     }
-    EXPECT_GT(struck, 3 * massOf(scene, scene.bodies[0]) * 0.9); // in a plastic impact 0.5 m v, in an elastic one m v
+    EXPECT_GT(struck, 0.5 * 3 * massOf(scene, scene.bodies[0])); // as a plastic impact gives at least
+}
+
+TEST(Struck, AMeshFeelsTheChangeOfMomentumOfWhatIsFast) {
+    for (const bool isDriven : {false, true}) {
+        SCOPED_TRACE(isDriven);
+        Scene scene = test::weightless();
+        scene.particles = {test::ballAt({0.2f, 0.5f, 0.1f}, {3, -80, 1}, 2)};
+        scene.bodies = {{"ball", 0, 1}};
+        scene.contacts = {.friction = 0.2f};
+        MeshCollider mesh = table(0);
+        if (isDriven) mesh.path = {{0, {}}, {10, {.position = {0, 1, 0}}}};
+        addMeshCollider(scene, mesh);
+        MeshCollider other = table(-3); // feels nothing
+        other.name = "other";
+        addMeshCollider(scene, other);
+        test::Runner runner(scene, withForces(4));
+        Vector before = runner.velocities()[0], ball = Vector::Zero();
+        for (int s = 0; s < 30; ++s) {
+            const Impulses impulses = impulsesOf(runner, 0, 1).front();
+            const Vector after = runner.velocities()[0], contacts = test::toVector(impulses.bodies[0].contacts.linear);
+            EXPECT_LE((2 * (after - before) - contacts).norm(), 1e-4);
+            EXPECT_LE((contacts + test::toVector(impulses.bodies[1].contacts.linear)).norm(), 1e-4);
+            EXPECT_EQ(impulses.bodies[2].contacts.linear.y, 0);
+            ball += contacts;
+            before = after;
+        }
+        EXPECT_GT(ball.y(), 2 * 79.9);
+    }
+}
+
+TEST(Friction, CarriesABlockOnAnIncline) {
+    constexpr float angle = 20 * std::numbers::pi_v<float> / 180;
+    Scene scene = quiet();
+    addBlock(scene, 0);
+    scene.gravity = {9.81f * std::sin(angle), -9.81f * std::cos(angle), 0};
+    scene.planes = {{.friction = 0.8f}};
+    test::Runner runner(scene, withForces());
+    const auto all = impulsesOf(runner, 240, 20);
+    const double mass = massOf(scene, scene.bodies[0]);
+    expectForce(all, double{scene.dt}, -mass * test::toVector(scene.gravity), weightShare,
+                [](const Impulses& i) { return i.bodies[0].planes.linear; }, "plane");
+}
+
+TEST(Torque, OfALeverIsItsArmTimesTheWeight) {
+    Scene scene = quiet();
+    addBlock(scene, 0);
+    scene.colliders = {
+        {.shape = ColliderShape::box, .halfExtents = {2, 0.1f, 1}, .friction = 0.5f, .pose = {.position = {-0.85f, -0.1f, 0.15f}}}};
+    scene.planes = {{.offset = -3}};
+    test::Runner runner(scene, withForces());
+    auto all = impulsesOf(runner, 180, 10);
+    const double weight = gravity * massOf(scene, scene.bodies[0]), dt = double{scene.dt};
+    expectForce(all, dt, {0, 0, -weight}, weightShare, [](const Impulses& i) { return i.colliders[0].angular; },
+                "lever of 1 m");
+    scene.colliders.clear();
+    scene.planes = {{.friction = 0.5f}};
+    test::Runner onPlane(scene, withForces());
+    all = impulsesOf(onPlane, 180, 10);
+    expectForce(all, dt, {0.15 * weight, 0, -0.15 * weight}, weightShare,
+                [](const Impulses& i) { return i.planes[0].angular; }, "about the plane's place");
+    for (const Impulses& impulses : all) // it stands
+        EXPECT_LT(test::toVector(impulses.bodies[0].planes.angular).norm(), 0.003 * weight * dt);
+}
+
+TEST(Torque, OnABodyIsTheChangeOfItsAngularMomentum) {
+    Scene scene = test::weightless();
+    addBlock(scene, 0);
+    scene.attachments = {{.particle = 3, .anchor = {0.4f, 0.5f, -0.3f}, .compliance = 1e-2f}};
+    test::Runner runner(scene, withForces());
+    const auto spinOf = [&](const std::vector<Vector>& x, const std::vector<Vector>& v) {
+        Vector middle = Vector::Zero(), spin = Vector::Zero();
+        const double mass = massOf(scene, scene.bodies[0]);
+        for (std::size_t i = 0; i < x.size(); ++i) middle += x[i] / double{scene.particles[i].inverseMass} / mass;
+        for (std::size_t i = 0; i < x.size(); ++i)
+            spin += (x[i] - middle).cross(v[i]) / double{scene.particles[i].inverseMass};
+        return spin;
+    };
+    Vector given = Vector::Zero();
+    for (const Impulses& impulses : impulsesOf(runner, 0, 4)) {
+        given += test::toVector(impulses.bodies[0].holds.angular);
+        EXPECT_EQ(impulses.bodies[0].holds.linear.x, impulses.attachments[0].linear.x);
+    }
+    const Vector spin = spinOf(runner.positions(), runner.velocities());
+    EXPECT_GT(spin.norm(), 0.05);
+    EXPECT_LE((given - spin).norm(), 0.02 * spin.norm()) << given.transpose() << " / " << spin.transpose();
 }
