@@ -12,7 +12,8 @@ namespace {
 
 namespace k = kernels;
 
-constexpr std::uint32_t forceSlotsId = 20, firstForceId = 21, keepsPullsId = 22; // constant_ids in forces.glsl, split.glsl
+constexpr std::uint32_t forceSlotsId = 20, firstForceId = 21,
+                        keepsPullsId = 22; // constant_ids in forces.glsl, split.glsl
 
 // Chunks of one thing behind those of another, and the sums that they become.
 struct Sums {
@@ -24,7 +25,8 @@ struct Sums {
              std::uint32_t stop, float sign) {
         const auto firstPart = static_cast<std::uint32_t>(chunks.size());
         for (std::uint32_t done = 0; done < count; done += FORCE_CHUNK)
-            chunks.push_back({first + done, std::min<std::uint32_t>(FORCE_CHUNK, count - done), origin, moment});
+            chunks.push_back(
+                {first + done, std::min<std::uint32_t>(FORCE_CHUNK, count - done), origin, moment});
         ranges.push_back(
             {firstPart, static_cast<std::uint32_t>(chunks.size()) - firstPart, origin, stop, sign, 0, 0, 0});
     }
@@ -88,10 +90,10 @@ void addRows(ProgramBuilder& program, const Scene& scene, const Forces& forces,
                           program.upload("forces.row_chunks", sums.chunks), built.rowParts},
                          pushed);
     pushed.count = count;
-    program.dispatch(k::addForceRows, count,
-                     {built.rowParts, program.upload("forces.rows", sums.ranges), program.program().status,
-                      built.sums},
-                     pushed);
+    program.dispatch(
+        k::addForceRows, count,
+        {built.rowParts, program.upload("forces.rows", sums.ranges), program.program().status, built.sums},
+        pushed);
 }
 
 void addBodies(ProgramBuilder& program, const Scene& scene, const Forces& forces,
@@ -163,16 +165,16 @@ ProgramBuilder::Constants pullConstants() {
 
 std::shared_ptr<const Forces> add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
                                   const StateLayout& layout) {
-    auto forces = std::make_shared<Forces>(Forces{
-        .slots = static_cast<std::uint32_t>(layout.count),
-        .grabs = settings.grabs,
-        .planes = static_cast<std::uint32_t>(scene.planes.size()),
-        .colliders = settings.pokes + static_cast<std::uint32_t>(scene.colliders.size()),
-        .tethers = static_cast<std::uint32_t>(constraints::tether::inOrder(scene).size()),
-        .attachments = static_cast<std::uint32_t>(scene.attachments.size()),
-        .stops = stopsOf(scene)});
-    const std::uint64_t elements = (2 + 2 * std::uint64_t{forces->rows()}) * forces->slots +
-                                   forces->tethers + forces->attachments;
+    auto forces = std::make_shared<Forces>(
+        Forces{.slots = static_cast<std::uint32_t>(layout.count),
+               .grabs = settings.grabs,
+               .planes = static_cast<std::uint32_t>(scene.planes.size()),
+               .colliders = settings.pokes + static_cast<std::uint32_t>(scene.colliders.size()),
+               .tethers = static_cast<std::uint32_t>(constraints::tether::inOrder(scene).size()),
+               .attachments = static_cast<std::uint32_t>(scene.attachments.size()),
+               .stops = stopsOf(scene)});
+    const std::uint64_t elements =
+        (2 + 2 * std::uint64_t{forces->rows()}) * forces->slots + forces->tethers + forces->attachments;
     forces->terms = program.scratch<layout::vec4>("forces.terms", elements);
     program.fill(forces->terms, 0);
     program.program().forces.terms = forces->terms;

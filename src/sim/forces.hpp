@@ -1,11 +1,13 @@
-// Which impulses a step gives: of contacts, planes, colliders, holds and hands. Kernels that change a velocity by one of
-// these have a form that also adds mass times that change to elements of the particle's own (shaders/glsl/forces.glsl).
-// Small passes at the end of the step sum these up in a fixed order, by body, plane, collider, hold and hand. The buffer
-// of elements consists of sections of one vec4 a slot of the state,
+// Which impulses a step gives: of contacts, planes, colliders, holds and hands. Kernels that change a
+// velocity by one of these have a form that also adds mass times that change to elements of the particle's
+// own (shaders/glsl/forces.glsl). Small passes at the end of the step sum these up in a fixed order, by body,
+// plane, collider, hold and hand. The buffer of elements consists of sections of one vec4 a slot of the
+// state,
 //
 //   contacts | holds | rows: an impulse section and a moment section each | entries: tethers, attachments
 //
-// with a row for each hand, plane, poke, collider, and body with faces that never give way (what these stopped).
+// with a row for each hand, plane, poke, collider, and body with faces that never give way (what these
+// stopped).
 #pragma once
 
 #include "layout.h"
@@ -15,15 +17,16 @@ namespace sinew::sim::forces {
 
 /// Bodies with faces that never give way: a pass of its own keeps particles in front of those.
 struct Stops {
-    std::uint32_t rows = 0;                ///< bodies, then one for faces of no body, if there are such
-    std::vector<std::uint32_t> bodies;     ///< of each row but that one: index into Scene::bodies
-    std::vector<std::uint32_t> ofParticle; ///< the row of faces that begin with the particle; 0 where it has none
+    std::uint32_t rows = 0;            ///< bodies, then one for faces of no body, if there are such
+    std::vector<std::uint32_t> bodies; ///< of each row but that one: index into Scene::bodies
+    std::vector<std::uint32_t>
+        ofParticle; ///< the row of faces that begin with the particle; 0 where it has none
 };
 Stops stopsOf(const Scene& scene);
 
 struct Forces {
     BufferId terms;
-    std::uint32_t slots = 0; ///< elements of a section
+    std::uint32_t slots = 0;                            ///< elements of a section
     std::uint32_t grabs = 0, planes = 0, colliders = 0; ///< rows; pokes are the first of the colliders
     std::uint32_t tethers = 0;                          ///< entries before those of attachments
     std::uint32_t attachments = 0;
@@ -50,7 +53,8 @@ private:
 std::shared_ptr<const Forces> add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
                                   const StateLayout& layout);
 
-/// After the links of a substep of `split`, which has left in the velocities of what never moves what pulls at it.
+/// After the links of a substep of `split`, which has left in the velocities of what never moves what pulls
+/// at it.
 void addPulls(ProgramBuilder& program, const ParticleBuffers& particles);
 /// Specialises the gathers of `split`, so that they do.
 ProgramBuilder::Constants pullConstants();

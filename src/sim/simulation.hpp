@@ -136,8 +136,8 @@ struct Status {
 
 using StepStatus = Status;
 
-/// The impulse of one step, and its moment. Divided by the length of the step these are the mean force [N] and
-/// torque [N m].
+/// The impulse of one step, and its moment. Divided by the length of the step these are the mean force [N]
+/// and torque [N m].
 struct Impulse {
     Vec3 linear{};  ///< [N s]
     Vec3 angular{}; ///< [N m s]
@@ -146,20 +146,21 @@ struct Impulse {
 /// What acted on a body: angular impulses are about its centre of mass at the end of the step, or about the
 /// middle of its particles if none of them moves.
 struct BodyImpulses {
-    Impulse contacts{}; ///< of other particles, faces and edges, those of the body itself among them (they cancel)
+    Impulse contacts{}; ///< of other particles, faces and edges, those of the body itself among them (they
+                        ///< cancel)
     Impulse planes{}, colliders{}; ///< pokes among the colliders
     Impulse holds{};               ///< of particles that never move, attachments and tethers
     Impulse grabs{};
 };
 
 /// The impulses of one step (Settings::keepsForces), as of the velocities that they have changed: damping and
-/// gravity are none of them, and what moves a particle without a velocity has no impulse. All are 0 where the step
-/// was undone.
+/// gravity are none of them, and what moves a particle without a velocity has no impulse. All are 0 where the
+/// step was undone.
 struct Impulses {
     bool isFinished = false;          ///< as Status::isFinished; else the lists are empty
     std::vector<BodyImpulses> bodies; ///< Scene::bodies
-    /// What acted on them: the opposite of what they gave. Angular impulses are about the point of a plane that is
-    /// nearest to the origin, about the middle of a collider.
+    /// What acted on them: the opposite of what they gave. Angular impulses are about the point of a plane
+    /// that is nearest to the origin, about the middle of a collider.
     std::vector<Impulse> planes, colliders, pokes;
     /// What they gave. Angular impulses are about the held point of a hand; 0 of the others.
     std::vector<Impulse> grabs, attachments, holds; ///< by Settings::grabs, Scene::attachments, Scene::holds
@@ -360,12 +361,12 @@ public:
     /// recorded; of any other Status::isFinished is false. Does not wait. Steps before a reset keep theirs
     /// until others take their places.
     Status status(std::uint64_t frame) const noexcept;
-    /// The impulses of a step, ready when its status() is, and for as long. Does not wait; allocates its lists.
-    /// Empty lists without Settings::keepsForces.
+    /// The impulses of a step, ready when its status() is, and for as long. Does not wait; allocates its
+    /// lists. Empty lists without Settings::keepsForces.
     Impulses forces(std::uint64_t frame) const;
-    /// The same on the device, of the newest step: layout::ForceSum (stride 32), FORCE_KINDS of each body, then
-    /// grabs, planes, pokes, colliders, then others; an empty view without Settings::keepsForces. Written by the
-    /// commands of record(), visible as positions() are.
+    /// The same on the device, of the newest step: layout::ForceSum (stride 32), FORCE_KINDS of each body,
+    /// then grabs, planes, pokes, colliders, then others; an empty view without Settings::keepsForces.
+    /// Written by the commands of record(), visible as positions() are.
     vk::BufferView forceSums() const noexcept;
     /// Mistakes in the host's recording that were ignored, in sentences: a step before the first reset,
     /// more steps in flight than Settings::framesInFlight, more grabs, pokes or anchors than there is room

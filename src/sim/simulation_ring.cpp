@@ -34,8 +34,7 @@ template <typename Words> Words read(const vk::Buffer& ring, std::uint32_t slot)
 
 StepRing::StepRing(const vk::Device& device, std::uint32_t slots, bool hasCounts, std::size_t forces)
     : status_(ringOf(device, "status.ring", slots, sizeof(layout::StatusWords))),
-      ends_(ringOf(device, "status.ends", slots, sizeof(std::uint32_t))), forceCount_(forces),
-      steps_(slots) {
+      ends_(ringOf(device, "status.ends", slots, sizeof(std::uint32_t))), forceCount_(forces), steps_(slots) {
     if (hasCounts) counts_.emplace(ringOf(device, "cut.counts.ring", slots, sizeof(layout::CutCounts)));
     if (forces > 0) forces_.emplace(ringOf(device, "forces.ring", slots, forces * sizeof(layout::ForceSum)));
 }

@@ -63,7 +63,7 @@ public:
 private:
     static vk::BufferView slotIn(const vk::Buffer& ring, std::uint32_t slot, std::size_t size) noexcept;
 
-    vk::Buffer status_, ends_;         // slots are whole atoms: host and device write beside each other
+    vk::Buffer status_, ends_; // slots are whole atoms: host and device write beside each other
     std::optional<vk::Buffer> counts_, forces_; // likewise
     std::size_t forceCount_ = 0;
     std::vector<RecordedStep> steps_;

@@ -97,8 +97,8 @@ struct Simulation::State {
           colliders(scene.colliders, scene.driven, settings.pokes), budget(dampedBudget(scene, settings)),
           theta(settings.solver == Solver::split ? settings.theta : 0), omega(settings.omega),
           damping(scene.damping), substeps(settings.substeps),
-          hasContacts(solvers::split::contactsFollow(scene, settings)),
-          unsettled(settings.framesInFlight), untold(warnings(scene)) {}
+          hasContacts(solvers::split::contactsFollow(scene, settings)), unsettled(settings.framesInFlight),
+          untold(warnings(scene)) {}
 
     // Sums of forces of a step.
     static std::size_t forceCount(const StepProgram& of) {

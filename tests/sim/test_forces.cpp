@@ -1,4 +1,5 @@
-// Forces that a step reports, against what they must be by weight, momentum and Hooke's law. Every scene also moves as it does without them.
+// Forces that a step reports, against what they must be by weight, momentum and Hooke's law. Every scene also
+// moves as it does without them.
 #include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/compile.hpp"
@@ -35,7 +36,8 @@ double massOf(const Scene& scene, const Body& body) {
 }
 
 // A block of 3^3 cells of 0.1 m with its lowest corner at (0, height, 0), whose particles are 0.05 m wide.
-void addBlock(Scene& scene, float height, const std::string& name = "block", float x = 0, float young = 2e5f) {
+void addBlock(Scene& scene, float height, const std::string& name = "block", float x = 0,
+              float young = 2e5f) {
     addLattice(scene, {.name = name,
                        .origin = {x, height, 0},
                        .cells = {3, 3, 3},
@@ -74,8 +76,8 @@ std::vector<Impulses> impulsesOf(test::Runner& runner, int before, int steps) {
 
 // Each of them by dt is `wanted` within a share, and their mean within half of that.
 template <typename Of>
-void expectForce(const std::vector<Impulses>& all, double dt, const Vector& wanted, double share, const Of& of,
-                 const char* what) {
+void expectForce(const std::vector<Impulses>& all, double dt, const Vector& wanted, double share,
+                 const Of& of, const char* what) {
     Vector mean = Vector::Zero();
     for (const Impulses& impulses : all) {
         const Vector force = test::toVector(of(impulses)) / dt;
@@ -87,7 +89,9 @@ void expectForce(const std::vector<Impulses>& all, double dt, const Vector& want
 
 constexpr double weightShare = 0.005;
 
-Vector up(double force) { return {0, force, 0}; }
+Vector up(double force) {
+    return {0, force, 0};
+}
 
 Vector momentumOf(const Scene& scene, const std::vector<Vector>& v, const Body& body) {
     Vector momentum = Vector::Zero();
@@ -105,11 +109,15 @@ TEST(Weight, OfABlockIsOnAPlane) {
     test::Runner runner(scene, withForces());
     const auto all = impulsesOf(runner, 180, 20);
     const double weight = gravity * massOf(scene, scene.bodies[0]), dt = double{scene.dt};
-    expectForce(all, dt, up(weight), weightShare, [](const Impulses& i) { return i.bodies[0].planes.linear; }, "body");
-    expectForce(all, dt, up(-weight), weightShare, [](const Impulses& i) { return i.planes[0].linear; }, "plane");
+    expectForce(
+        all, dt, up(weight), weightShare, [](const Impulses& i) { return i.bodies[0].planes.linear; },
+        "body");
+    expectForce(
+        all, dt, up(-weight), weightShare, [](const Impulses& i) { return i.planes[0].linear; }, "plane");
     for (const Impulses& impulses : all) {
         EXPECT_EQ(impulses.planes[1].linear.x, 0);
-        EXPECT_LT(test::toVector(impulses.bodies[0].contacts.linear).norm(), 1e-5 * weight * dt); // its own cancel
+        EXPECT_LT(test::toVector(impulses.bodies[0].contacts.linear).norm(),
+                  1e-5 * weight * dt); // its own cancel
     }
 }
 
@@ -127,10 +135,12 @@ TEST(Weight, OfABlockIsOnABoxCollider) {
         test::Runner runner(scene, withForces());
         const auto all = impulsesOf(runner, 180, 20);
         const double weight = gravity * massOf(scene, scene.bodies[0]), dt = double{scene.dt};
-        expectForce(all, dt, up(weight), weightShare, [](const Impulses& i) { return i.bodies[0].colliders.linear; },
-                    "body");
-        expectForce(all, dt, up(-weight), weightShare, [](const Impulses& i) { return i.colliders[1].linear; },
-                    "collider");
+        expectForce(
+            all, dt, up(weight), weightShare, [](const Impulses& i) { return i.bodies[0].colliders.linear; },
+            "body");
+        expectForce(
+            all, dt, up(-weight), weightShare, [](const Impulses& i) { return i.colliders[1].linear; },
+            "collider");
         for (const Impulses& impulses : all) EXPECT_EQ(impulses.colliders[0].linear.y, 0);
     }
 }
@@ -142,10 +152,12 @@ TEST(Weight, OfABlockIsOnAMesh) {
     test::Runner runner(scene, withForces());
     const auto all = impulsesOf(runner, 180, 20);
     const double weight = gravity * massOf(scene, scene.bodies[0]), dt = double{scene.dt};
-    expectForce(all, dt, up(weight), weightShare, [](const Impulses& i) { return i.bodies[0].contacts.linear; },
-                "body");
-    expectForce(all, dt, up(-weight), weightShare, [](const Impulses& i) { return i.bodies[1].contacts.linear; },
-                "mesh");
+    expectForce(
+        all, dt, up(weight), weightShare, [](const Impulses& i) { return i.bodies[0].contacts.linear; },
+        "body");
+    expectForce(
+        all, dt, up(-weight), weightShare, [](const Impulses& i) { return i.bodies[1].contacts.linear; },
+        "mesh");
     for (const Impulses& impulses : all) // the block stands over the middle of the table
         EXPECT_LT(test::toVector(impulses.bodies[1].contacts.angular).norm(), 0.01 * weight * dt * 0.3);
 }
@@ -158,12 +170,15 @@ TEST(Weight, OfTwoBlocksIsOnThePlaneAndOfOneBetweenThem) {
     test::Runner runner(scene, withForces());
     const auto all = impulsesOf(runner, 240, 20);
     const double upper = gravity * massOf(scene, scene.bodies[1]), dt = double{scene.dt};
-    expectForce(all, dt, up(upper), weightShare, [](const Impulses& i) { return i.bodies[1].contacts.linear; },
-                "upper");
-    expectForce(all, dt, up(-upper), weightShare, [](const Impulses& i) { return i.bodies[0].contacts.linear; },
-                "lower");
-    expectForce(all, dt, up(2 * upper), weightShare, [](const Impulses& i) { return i.bodies[0].planes.linear; },
-                "plane");
+    expectForce(
+        all, dt, up(upper), weightShare, [](const Impulses& i) { return i.bodies[1].contacts.linear; },
+        "upper");
+    expectForce(
+        all, dt, up(-upper), weightShare, [](const Impulses& i) { return i.bodies[0].contacts.linear; },
+        "lower");
+    expectForce(
+        all, dt, up(2 * upper), weightShare, [](const Impulses& i) { return i.bodies[0].planes.linear; },
+        "plane");
 }
 
 TEST(Weight, OfABlockOnABlockThatIsHeldIsOnTheHold) {
@@ -181,8 +196,10 @@ TEST(Weight, OfABlockOnABlockThatIsHeldIsOnTheHold) {
     test::Runner runner(scene, withForces());
     const auto all = impulsesOf(runner, 240, 20);
     const double weight = gravity * (massOf(scene, scene.bodies[1]) + lowerMass), dt = double{scene.dt};
-    expectForce(all, dt, up(weight), weightShare, [](const Impulses& i) { return i.holds[0].linear; }, "hold");
-    expectForce(all, dt, up(weight), weightShare, [](const Impulses& i) { return i.bodies[0].holds.linear; }, "body");
+    expectForce(
+        all, dt, up(weight), weightShare, [](const Impulses& i) { return i.holds[0].linear; }, "hold");
+    expectForce(
+        all, dt, up(weight), weightShare, [](const Impulses& i) { return i.bodies[0].holds.linear; }, "body");
 }
 
 TEST(Weight, HangsOnItsHoldByHookesLaw) {
@@ -239,8 +256,10 @@ TEST(Weight, HangsOnATether) {
     test::Runner runner(scene, withForces(64));
     const auto all = impulsesOf(runner, 120, 10);
     const double dt = double{scene.dt}, weight = 2 * gravity;
-    expectForce(all, dt, up(weight), weightShare, [](const Impulses& i) { return i.holds[0].linear; }, "hold");
-    expectForce(all, dt, up(weight), weightShare, [](const Impulses& i) { return i.bodies[0].holds.linear; }, "body");
+    expectForce(
+        all, dt, up(weight), weightShare, [](const Impulses& i) { return i.holds[0].linear; }, "hold");
+    expectForce(
+        all, dt, up(weight), weightShare, [](const Impulses& i) { return i.bodies[0].holds.linear; }, "body");
 }
 
 TEST(Weight, HangsOnAnAttachmentByHookesLaw) {
@@ -354,7 +373,8 @@ TEST(Struck, AMeshFeelsTheChangeOfMomentumOfWhatIsFast) {
         Vector before = runner.velocities()[0], ball = Vector::Zero();
         for (int s = 0; s < 30; ++s) {
             const Impulses impulses = impulsesOf(runner, 0, 1).front();
-            const Vector after = runner.velocities()[0], contacts = test::toVector(impulses.bodies[0].contacts.linear);
+            const Vector after = runner.velocities()[0],
+                         contacts = test::toVector(impulses.bodies[0].contacts.linear);
             EXPECT_LE((2 * (after - before) - contacts).norm(), 1e-4);
             EXPECT_LE((contacts + test::toVector(impulses.bodies[1].contacts.linear)).norm(), 1e-4);
             EXPECT_EQ(impulses.bodies[2].contacts.linear.y, 0);
@@ -374,27 +394,32 @@ TEST(Friction, CarriesABlockOnAnIncline) {
     test::Runner runner(scene, withForces());
     const auto all = impulsesOf(runner, 240, 20);
     const double mass = massOf(scene, scene.bodies[0]);
-    expectForce(all, double{scene.dt}, -mass * test::toVector(scene.gravity), weightShare,
-                [](const Impulses& i) { return i.bodies[0].planes.linear; }, "plane");
+    expectForce(
+        all, double{scene.dt}, -mass * test::toVector(scene.gravity), weightShare,
+        [](const Impulses& i) { return i.bodies[0].planes.linear; }, "plane");
 }
 
 TEST(Torque, OfALeverIsItsArmTimesTheWeight) {
     Scene scene = quiet();
     addBlock(scene, 0);
-    scene.colliders = {
-        {.shape = ColliderShape::box, .halfExtents = {2, 0.1f, 1}, .friction = 0.5f, .pose = {.position = {-0.85f, -0.1f, 0.15f}}}};
+    scene.colliders = {{.shape = ColliderShape::box,
+                        .halfExtents = {2, 0.1f, 1},
+                        .friction = 0.5f,
+                        .pose = {.position = {-0.85f, -0.1f, 0.15f}}}};
     scene.planes = {{.offset = -3}};
     test::Runner runner(scene, withForces());
     auto all = impulsesOf(runner, 180, 10);
     const double weight = gravity * massOf(scene, scene.bodies[0]), dt = double{scene.dt};
-    expectForce(all, dt, {0, 0, -weight}, weightShare, [](const Impulses& i) { return i.colliders[0].angular; },
-                "lever of 1 m");
+    expectForce(
+        all, dt, {0, 0, -weight}, weightShare, [](const Impulses& i) { return i.colliders[0].angular; },
+        "lever of 1 m");
     scene.colliders.clear();
     scene.planes = {{.friction = 0.5f}};
     test::Runner onPlane(scene, withForces());
     all = impulsesOf(onPlane, 180, 10);
-    expectForce(all, dt, {0.15 * weight, 0, -0.15 * weight}, weightShare,
-                [](const Impulses& i) { return i.planes[0].angular; }, "about the plane's place");
+    expectForce(
+        all, dt, {0.15 * weight, 0, -0.15 * weight}, weightShare,
+        [](const Impulses& i) { return i.planes[0].angular; }, "about the plane's place");
     for (const Impulses& impulses : all) // it stands
         EXPECT_LT(test::toVector(impulses.bodies[0].planes.angular).norm(), 0.003 * weight * dt);
 }
@@ -407,7 +432,8 @@ TEST(Torque, OnABodyIsTheChangeOfItsAngularMomentum) {
     const auto spinOf = [&](const std::vector<Vector>& x, const std::vector<Vector>& v) {
         Vector middle = Vector::Zero(), spin = Vector::Zero();
         const double mass = massOf(scene, scene.bodies[0]);
-        for (std::size_t i = 0; i < x.size(); ++i) middle += x[i] / double{scene.particles[i].inverseMass} / mass;
+        for (std::size_t i = 0; i < x.size(); ++i)
+            middle += x[i] / double{scene.particles[i].inverseMass} / mass;
         for (std::size_t i = 0; i < x.size(); ++i)
             spin += (x[i] - middle).cross(v[i]) / double{scene.particles[i].inverseMass};
         return spin;

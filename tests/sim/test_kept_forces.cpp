@@ -1,4 +1,5 @@
-// What keeping forces does not do: change a motion, be part of a state, depend on the order of work, or count what was undone.
+// What keeping forces does not do: change a motion, be part of a state, depend on the order of work, or count
+// what was undone.
 #include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/collision/face_scenes.hpp"
@@ -52,7 +53,8 @@ Scene clash(bool hasSurfaces, float restitution) {
         for (std::uint32_t i = 64; i < 128; ++i) scene.particles[i].surface = 1;
     }
     scene.planes = {{.normal = {1, 0, 0}, .offset = -0.02f, .friction = 0.3f, .restitution = restitution}};
-    scene.colliders = {{.radius = 0.1f, .restitution = restitution, .pose = {.position = {0.15f, 0.1f, 0.6f}}}};
+    scene.colliders = {
+        {.radius = 0.1f, .restitution = restitution, .pose = {.position = {0.15f, 0.1f, 0.6f}}}};
     scene.holds = {{"corner", {70}}};
     return scene;
 }
@@ -86,7 +88,9 @@ std::vector<std::byte> sumsOf(test::Runner& runner) {
     return test::queue().download<std::byte>(runner.simulation().forceSums());
 }
 
-double norm(const Vec3& v) { return test::toVector(v).norm(); }
+double norm(const Vec3& v) {
+    return test::toVector(v).norm();
+}
 
 void expectNothing(const Impulses& impulses) {
     EXPECT_TRUE(impulses.isFinished);
@@ -122,7 +126,8 @@ TEST(KeptForces, ChangeNoMotionElsewhereButForRounding) {
         with.run(10);
         without.run(10);
         const std::vector<Vector> a = with.positions(), b = without.positions();
-        for (std::size_t i = 0; i < a.size(); ++i) EXPECT_LE((a[i] - b[i]).norm(), 2e-5 * test::sizeOf(named.scene)) << i;
+        for (std::size_t i = 0; i < a.size(); ++i)
+            EXPECT_LE((a[i] - b[i]).norm(), 2e-5 * test::sizeOf(named.scene)) << i;
     }
 }
 
@@ -271,7 +276,8 @@ TEST(KeptForces, AreThoseOfABodyThatWasCut) {
         const Status status = runner.run(1);
         EXPECT_EQ(status.pieces, 2u);
         const Impulses impulses = runner.simulation().forces(status.frame);
-        EXPECT_NEAR(double{impulses.bodies[0].planes.linear.y} / double{scene.dt}, 9.81 * mass, 0.005 * 9.81 * mass);
+        EXPECT_NEAR(double{impulses.bodies[0].planes.linear.y} / double{scene.dt}, 9.81 * mass,
+                    0.005 * 9.81 * mass);
     }
 }
 
@@ -283,12 +289,17 @@ TEST(KeptForces, OfPokesAreOppositeToTheirBodies) {
     test::Runner runner(scene, settings);
     double pushed = 0;
     for (int s = 0; s < 30; ++s) {
-        const std::array pokes{Poke{.radius = NAN}, // is not there
-                               Poke{.radius = 0.1f, .pose = {.position = {-0.3f + 0.01f * static_cast<float>(s), 0.15f, 0.15f}}}};
+        const std::array pokes{
+            Poke{.radius = NAN}, // is not there
+            Poke{.radius = 0.1f,
+                 .pose = {.position = {-0.3f + 0.01f * static_cast<float>(s), 0.15f, 0.15f}}}};
         const Status status = runner.step({.dt = scene.dt, .gravity = scene.gravity, .pokes = pokes});
         const Impulses impulses = runner.simulation().forces(status.frame);
         EXPECT_EQ(norm(impulses.pokes[0].linear), 0);
-        EXPECT_LE((test::toVector(impulses.pokes[1].linear) + test::toVector(impulses.bodies[0].colliders.linear)).norm(), 1e-5);
+        EXPECT_LE(
+            (test::toVector(impulses.pokes[1].linear) + test::toVector(impulses.bodies[0].colliders.linear))
+                .norm(),
+            1e-5);
         pushed += double{impulses.bodies[0].colliders.linear.x};
     }
     Vector momentum = Vector::Zero();

@@ -199,7 +199,8 @@ Json forcesJson(const RunRecord& record) {
                           {"holds", forceJson(body.holds, scene.dt)}});
     }
     for (std::size_t h = 0; h < forces.holds.size(); ++h)
-        holds.push_back({{"name", scene.holds[h].name}, {"force", vectorOver(forces.holds[h].linear, scene.dt)}});
+        holds.push_back(
+            {{"name", scene.holds[h].name}, {"force", vectorOver(forces.holds[h].linear, scene.dt)}});
     return {{"bodies", bodies},
             {"planes", forcesJson(forces.planes, scene.dt)},
             {"colliders", forcesJson(forces.colliders, scene.dt)},

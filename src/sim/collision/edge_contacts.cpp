@@ -15,8 +15,8 @@ namespace {
 namespace k = kernels;
 using edge_lists::Edge;
 
-// For every slot the first of its entries, one more for the end; an entry is 2 x edge + end. Where forces are kept,
-// ends that never move feel them too.
+// For every slot the first of its entries, one more for the end; an entry is 2 x edge + end. Where forces are
+// kept, ends that never move feel them too.
 std::vector<std::uint32_t> cornersOf(std::span<const Edge> edges, const StateLayout& layout,
                                      const std::vector<float>& inverseMass, bool keepsForces) {
     std::vector<std::vector<std::uint32_t>> entries(layout.count);
@@ -139,7 +139,8 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     shown.edgeLists = contacts.lists.pooled.ranges;
     shown.edgeCount = contacts.push.count;
     const std::size_t elements = contacts.lists.pooled.room;
-    contacts.corners = program.upload("edges.corners", cornersOf(edges, layout, inverseMasses(scene), settings.keepsForces));
+    contacts.corners =
+        program.upload("edges.corners", cornersOf(edges, layout, inverseMasses(scene), settings.keepsForces));
     contacts.directions = program.scratch<layout::vec4>("edges.directions", elements);
     contacts.weights = program.scratch<layout::vec4>("edges.weights", elements);
     if (contacts.surfaces.hasRestitution)

@@ -80,8 +80,8 @@ std::vector<float> pointRadii(const Scene& scene, const std::vector<float>& inve
     return radii;
 }
 
-// For every slot the first of its entries, one more for the end; an entry is 4 x face + corner. Where forces are
-// kept, corners that never move feel them too.
+// For every slot the first of its entries, one more for the end; an entry is 4 x face + corner. Where forces
+// are kept, corners that never move feel them too.
 std::vector<std::uint32_t> cornersOf(const Faces& faces, const std::vector<float>& inverseMass,
                                      const StateLayout& layout, bool keepsForces) {
     std::vector<std::vector<std::uint32_t>> entries(layout.count);
@@ -89,7 +89,8 @@ std::vector<std::uint32_t> cornersOf(const Faces& faces, const std::vector<float
         const layout::ContactFace& face = faces.faces[f];
         const std::array<std::uint32_t, 3> corners{face.a, face.b, face.c};
         for (std::uint32_t c = 0; c < 3; ++c)
-            if (keepsForces || inverseMass[corners[c]] > 0) entries[layout.slot[corners[c]]].push_back(4 * f + c);
+            if (keepsForces || inverseMass[corners[c]] > 0)
+                entries[layout.slot[corners[c]]].push_back(4 * f + c);
     }
     std::vector<std::uint32_t> result(layout.count + 1);
     for (std::size_t i = 0; i <= layout.count; ++i) {
@@ -229,7 +230,8 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     shown.facePairs = contacts.lists.pooled.contacts;
     shown.faceLists = contacts.lists.pooled.ranges;
     const std::size_t elements = contacts.lists.pooled.room;
-    contacts.corners = program.upload("faces.corners", cornersOf(faces, inverseMass, layout, settings.keepsForces));
+    contacts.corners =
+        program.upload("faces.corners", cornersOf(faces, inverseMass, layout, settings.keepsForces));
     contacts.directions = program.scratch<layout::vec4>("faces.directions", elements);
     contacts.weights = program.scratch<layout::vec4>("faces.weights", elements);
     contacts.impulses = program.scratch<layout::vec4>("faces.impulses", elements);
@@ -306,10 +308,17 @@ void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleB
     if (!contacts.hasStops() || contacts.movingPointCount == 0) return;
     const face_lists::Lists& lists = contacts.lists;
     const layout::StopPush push{contacts.movingPointCount, contacts.push.moving, contacts.faces};
-    std::vector<BufferId> buffers{contacts.linkedPositions, contacts.linkedVelocities, lists.faces,
-                                  lists.pooled.contacts,    lists.pooled.ranges,       lists.radii,
-                                  lists.excluded,           state.positions,           state.velocities,
-                                  state.step,               lists.pooled.memory->memory};
+    std::vector<BufferId> buffers{contacts.linkedPositions,
+                                  contacts.linkedVelocities,
+                                  lists.faces,
+                                  lists.pooled.contacts,
+                                  lists.pooled.ranges,
+                                  lists.radii,
+                                  lists.excluded,
+                                  state.positions,
+                                  state.velocities,
+                                  state.step,
+                                  lists.pooled.memory->memory};
     ProgramBuilder::Constants constants = remainderConstants(state.layout);
     if (state.forces) {
         buffers.insert(buffers.end(), {contacts.stopRows, state.forces->terms});

@@ -173,7 +173,8 @@ void addPasses(ProgramBuilder& program, const Interlocks& interlocks, const Shar
     program.dispatchIndirect(k::countInterlocked, items, buffers, interlocks.push);
     buffers = sharedBuffers(interlocks, shared, predicted.step);
     buffers.insert(buffers.end(), {interlocks.moving, predicted.positions, predicted.velocities});
-    if (!predicted.forces) return program.dispatchIndirect(k::partInterlocked, items, buffers, interlocks.push);
+    if (!predicted.forces)
+        return program.dispatchIndirect(k::partInterlocked, items, buffers, interlocks.push);
     buffers.push_back(predicted.forces->terms);
     program.dispatchIndirect(k::partInterlockedForces, items, buffers, interlocks.push,
                              predicted.forces->ofContacts());

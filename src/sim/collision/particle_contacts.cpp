@@ -48,9 +48,7 @@ constexpr std::uint32_t watchesId = 3;                        // constant_id in 
 constexpr std::uint32_t hasFrictionId = 3, hasRecoveryId = 4; // constant_ids in gather_contacts.comp
 
 const vk::ShaderCode& gatherForm(const Contacts& contacts, bool keepsForces) {
-    const Forms& forms = keepsForces                       ? forcesForms
-                         : contacts.lists.grid.usesTexels ? texelForms
-                                                           : loadForms;
+    const Forms& forms = keepsForces ? forcesForms : contacts.lists.grid.usesTexels ? texelForms : loadForms;
     const std::size_t planes = contacts.planes.count == 0 ? 0 : contacts.hasRebound ? 2 : 1;
     if (!contacts.hasMemory()) return *forms[0][planes];
     return *forms[hasFrictionTable(contacts) ? 2 : 1][planes];
@@ -269,7 +267,8 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     overlaps::forget(overlaps, leastOverlap(scene, settings));
     surfaces::Surfaces surfaces = surfaces::add(program, scene, layout);
     const bool settles = // forces are kept where a substep ends once
-        !settings.sleeps && !settings.keepsForces && areMostlyLinked(scene) && !surfaces.hasRestitution && overlaps.empty();
+        !settings.sleeps && !settings.keepsForces && areMostlyLinked(scene) && !surfaces.hasRestitution &&
+        overlaps.empty();
     const bool isCuttable = !exclusions.empty() && cutting::canMeet(program.program(), scene);
     const bool hasRecovery = !overlaps.empty() || isCuttable;
     BufferId allExcluded;

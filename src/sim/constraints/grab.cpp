@@ -89,8 +89,8 @@ void addPass(ProgramBuilder& program, const ParticleBuffers& particles, std::uin
              std::uint32_t substeps, Kick kick) {
     if (!particles.grabs) return;
     const Grabs& grabs = *particles.grabs;
-    std::vector<BufferId> buffers{grabs.hands,   grabs.states,        grabs.bodies,
-                                  grabs.grips,   grabs.held,          grabs.pulling,
+    std::vector<BufferId> buffers{grabs.hands,         grabs.states,         grabs.bodies,
+                                  grabs.grips,         grabs.held,           grabs.pulling,
                                   particles.positions, particles.velocities, particles.step};
     const layout::GrabPush push = pushOf(grabs, substep, substeps, kick);
     if (!particles.forces) return program.dispatchIndirect(kernels::pullHeld, itemsOf(grabs), buffers, push);

@@ -176,8 +176,8 @@ StateLayout layoutOf(const Scene& scene, std::span<const std::uint32_t> grids) {
 
 bool isResident(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids) {
     // attachments, hands, tethers, colliders, pokes and driven bodies are passes between substeps
-    if (settings.keepsForces || !scene.attachments.empty() || settings.grabs > 0 || settings.pokes > 0 || !scene.tethers.empty() ||
-        !scene.colliders.empty() || !scene.driven.empty())
+    if (settings.keepsForces || !scene.attachments.empty() || settings.grabs > 0 || settings.pokes > 0 ||
+        !scene.tethers.empty() || !scene.colliders.empty() || !scene.driven.empty())
         return false;
     if (grids.empty() || listedParticles(scene, grids) > 0) return false;
     return std::ranges::all_of(grids, [&](std::uint32_t g) {

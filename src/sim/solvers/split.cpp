@@ -318,8 +318,8 @@ struct Touching {
     std::optional<collision::face_contacts::Contacts> faces;
     std::optional<collision::edge_contacts::Contacts> edges;
     std::optional<collision::particle_contacts::Contacts> pairs;
-    // Planes, velocities before the substep, and the slots that hold a particle; only where no particles touch
-    // each other.
+    // Planes, velocities before the substep, and the slots that hold a particle; only where no particles
+    // touch each other.
     collision::planes::Colliders planes;
     BufferId before;
     BufferId particles;
