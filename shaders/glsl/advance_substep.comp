@@ -47,6 +47,7 @@ layout(std430, binding = PLANE_BINDING + 1) readonly buffer ContactOffsets { flo
 #endif
 layout(push_constant) uniform Push { SubstepPush push; };
 
+#include "forces.glsl"
 #ifdef CLOSES
 #include "close_substep.glsl"
 #endif

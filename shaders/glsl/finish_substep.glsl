@@ -4,12 +4,6 @@
 #include "planes.glsl"
 layout(std430, binding = PLANE_BINDING) readonly buffer Planes { PlaneCollider planes[]; };
 layout(std430, binding = PLANE_BINDING + 1) readonly buffer ContactOffsets { float contactOffsets[]; };
-#ifdef FORCES
-void addPlaneForce(uint p, uint i, vec3 impulse, vec3 x) {
-    const vec4 plane = planes[p].normalOffset;
-    addRowForce(p, i, impulse, x - plane.w * plane.xyz);
-}
-#endif
 #endif
 
 // Ends it for particle i, which contacts have moved from `found` by `correction`, to the velocity v; `velocity` is the one before, w its
@@ -28,7 +22,7 @@ void finish(uint i, vec3 found, float last, vec4 velocity, vec3 correction, vec3
 #endif
             if (projectOntoPlane(planes[p], offset, h, motion)) touched |= 1u << p;
 #ifdef FORCES
-            if ((touched & 1u << p) != 0u) addPlaneForce(p, i, (motion.v - before) / w, motion.x);
+            if ((touched & 1u << p) != 0u) addPlaneForce(planes[p], p, i, (motion.v - before) / w, motion.x);
 #endif
         }
 #ifdef HAS_REBOUND
@@ -37,7 +31,7 @@ void finish(uint i, vec3 found, float last, vec4 velocity, vec3 correction, vec3
             const vec3 change = rebound(planes[p], step.restSpeed, BEFORE(i), motion.v);
             motion.v += change;
 #ifdef FORCES
-            addPlaneForce(p, i, change / w, motion.x);
+            addPlaneForce(planes[p], p, i, change / w, motion.x);
 #endif
         }
 #endif

@@ -21,4 +21,9 @@ void addRowForce(uint row, uint i, vec3 impulse, vec3 arm) {
     forces[element].xyz += impulse;
     forces[element + forceSlots].xyz += cross(arm, impulse);
 }
+
+// The place of a plane is its point that is nearest to the origin.
+void addPlaneForce(PlaneCollider plane, uint p, uint i, vec3 impulse, vec3 x) {
+    addRowForce(p, i, impulse, x - plane.normalOffset.w * plane.normalOffset.xyz);
+}
 #endif

@@ -48,16 +48,18 @@ void main() {
 #ifdef OPEN
     const vec3 correction = corrections[slot].xyz, v = velocities[slot].xyz + correction / step.h;
     const float w = velocities[slot].w;
-    corrections[slot].xyz = correction + step.h * w * impulseOf(p, positions[slot].xyz + correction, v, w);
+    const vec3 x = positions[slot].xyz + correction, impulse = impulseOf(p, x, v, w);
+    corrections[slot].xyz = correction + step.h * w * impulse;
 #else
     const vec4 velocity = velocities[slot];
     const vec3 x = positions[slot].xyz - step.thetaH * velocity.xyz;
-    const vec3 impulse = impulseOf(p, x, velocity.xyz, velocity.w), kick = velocity.w * impulse;
-#ifdef FORCES
-    const uint k = (grips[p].held >> GRAB_SHARE_BITS) - 1u;
-    if (velocity.w > 0.0) addRowForce(k, slot, impulse, x - mix(hands[k].from.xyz, hands[k].to.xyz, push.fraction));
-#endif
+    const float w = velocity.w;
+    const vec3 impulse = impulseOf(p, x, velocity.xyz, w), kick = w * impulse;
     velocities[slot].xyz = velocity.xyz + kick;
     positions[slot].xyz = x + step.h * kick + step.thetaH * (velocity.xyz + kick);
+#endif
+#ifdef FORCES
+    const uint k = (grips[p].held >> GRAB_SHARE_BITS) - 1u;
+    if (w > 0.0) addRowForce(k, slot, impulse, x - mix(hands[k].from.xyz, hands[k].to.xyz, push.fraction));
 #endif
 }

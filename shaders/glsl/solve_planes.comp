@@ -11,6 +11,7 @@ layout(std430, binding = 3) readonly buffer Planes { PlaneCollider planes[]; };
 layout(std430, binding = 4) readonly buffer ContactOffsets { float contactOffsets[]; };
 layout(std140, binding = 5) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { CountPush push; };
+#include "forces.glsl"
 
 void main() {
     const uint i = itemIndex(push.count);
@@ -20,7 +21,14 @@ void main() {
     Motion motion = Motion(positions[i].xyz, v, step.h * (v - 0.5 * step.h * step.gravity.xyz));
     uint touched = 0u;
     for (uint p = 0u; p < planeCount; ++p) {
-        if (projectOntoPlane(planes[p], contactOffsets[i], step.h, motion)) touched |= 1u << p;
+#ifdef FORCES
+        const vec3 free = motion.v;
+#endif
+        if (!projectOntoPlane(planes[p], contactOffsets[i], step.h, motion)) continue;
+        touched |= 1u << p;
+#ifdef FORCES
+        addPlaneForce(planes[p], p, i, (motion.v - free) / positions[i].w, motion.x);
+#endif
     }
     if (touched == 0u) return;
     positions[i].xyz = motion.x;

@@ -25,9 +25,11 @@ void main() {
     const uint i = tethered.particle;
 #ifdef OPEN
     const vec3 correction = corrections[i].xyz, before = positions[i].xyz + correction;
+    const float w = positions[i].w;
 #else
     const vec4 velocity = velocities[i];
     const vec3 before = positions[i].xyz - step.thetaH * velocity.xyz;
+    const float w = velocity.w;
 #endif
     vec3 x = before;
     for (uint t = tethered.first; t < tethered.first + tethered.count; ++t) {
@@ -39,7 +41,7 @@ void main() {
 #endif
         x = anchor + tethers[t].reach / distance * (x - anchor);
 #ifdef FORCES
-        const vec3 impulse = (x - loose) / (step.h * velocity.w);
+        const vec3 impulse = (x - loose) / (step.h * w);
         addHoldForce(i, impulse);
         addListedForce(t, impulse);
 #endif

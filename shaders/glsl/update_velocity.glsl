@@ -7,8 +7,12 @@ layout(std140, binding = 1) uniform Step { StepParams step; };
 #include "planes.glsl"
 layout(std430, binding = 2) readonly buffer Contacts { PlaneContact contacts[]; };
 layout(std430, binding = 3) readonly buffer Planes { PlaneCollider planes[]; };
+#ifdef FORCES
+layout(std430, binding = 4) readonly buffer Positions { vec4 positions[]; };
+#endif
 #endif
 layout(push_constant) uniform Push { CountPush push; };
+#include "forces.glsl"
 
 void main() {
     const uint i = itemIndex(push.count);
@@ -21,7 +25,12 @@ void main() {
     const PlaneContact contact = contacts[i];
     const vec3 before = vec3(contact.vx, contact.vy, contact.vz);
     for (uint p = 0u; p < planeCount; ++p) {
-        if ((contact.touched & 1u << p) != 0u) v += rebound(planes[p], step.restSpeed, before, v);
+        if ((contact.touched & 1u << p) == 0u) continue;
+        const vec3 change = rebound(planes[p], step.restSpeed, before, v);
+        v += change;
+#ifdef FORCES
+        addPlaneForce(planes[p], p, i, change / velocity.w, positions[i].xyz);
+#endif
     }
 #endif
     velocities[i].xyz = v;

@@ -71,8 +71,6 @@ void requireForms(const LoadedScene& loaded, const std::string& file) {
              "use split, or leave them out");
     if (loaded.settings.sleeps)
         fail(file, none + "bodies that sleep, as solver.sleep asks", "use split, or leave it out");
-    if (loaded.settings.keepsForces)
-        fail(file, none + "forces, as report.forces asks", "use split, or leave it out");
 }
 
 void requireValid(const LoadedScene& loaded, const std::string& file) {

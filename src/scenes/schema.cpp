@@ -206,7 +206,7 @@ constexpr Key keys[] = {
     {"particles", "restitution", Kind::number, "", ranges::restitution, "", "0 = no rebound, 1 = elastic; a pair has the larger of both; that of [contacts] where it is missing"},
     {"particles", "color", Kind::vector, "", ranges::color, "[0.62, 0.62, 0.6]", "linear red, green and blue"},
 
-    {"report", "forces", Kind::flag, "", {}, "false", "split, without sleep: the forces and torques of contacts, planes, colliders, holds and hands in the last step"},
+    {"report", "forces", Kind::flag, "", {}, "false", "without sleep: the forces and torques of contacts, planes, colliders, holds and hands in the last step"},
     {"contacts", "friction", Kind::number, "", ranges::friction, "0", "Coulomb's coefficient between particles and of faces, of what slides"},
     {"contacts", "static_friction", Kind::number, "", ranges::friction, "", "of what does not slide yet; as much as friction where it is missing or less"},
     {"contacts", "restitution", Kind::number, "", ranges::restitution, "0", "0 = no rebound, 1 = elastic"},

@@ -195,7 +195,6 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     if (scene.planes.empty()) program.skip("boundary planes");
     skipContacts(program, scene);
     if (!settings.sleeps) program.skip("sleep");
-    if (!settings.keepsForces) program.skip("forces");
     if (scene.fixed.empty()) program.skip("fixed constraints");
     if (scene.skins.empty()) program.skip("skins");
     return program.finish();

@@ -122,7 +122,34 @@ void addBodies(ProgramBuilder& program, const Scene& scene, const Forces& forces
                      pushed);
 }
 
+// Whether a link or a bend pulls at a particle that never moves.
+bool areLinksHeld(const Scene& scene) {
+    const std::vector<float> inverseMass = inverseMasses(scene);
+    const auto isHeld = [&](std::uint32_t i) { return inverseMass[i] == 0; };
+    return std::ranges::any_of(
+               scene.distances,
+               [&](const DistanceConstraint& link) { return isHeld(link.a) || isHeld(link.b); }) ||
+           std::ranges::any_of(scene.bends, [&](const BendConstraint& bend) {
+               return isHeld(bend.a) || isHeld(bend.b) || isHeld(bend.c);
+           });
+}
+
 } // namespace
+
+void check(const Scene& scene, const Settings& settings, Complaints& complaints) {
+    for (std::size_t h = 0; h < scene.holds.size(); ++h)
+        for (const std::uint32_t particle : scene.holds[h].particles)
+            complaints.checkIndex(particle, scene.particles.size(), "particles",
+                                  [h] { return element("hold", h) + ".particles"; });
+    if (!settings.keepsForces) return;
+    if (settings.sleeps)
+        complaints.add("settings.keepsForces",
+                       "is set, but bodies that sleep have no forces: leave out one of the two");
+    if (settings.solver != Solver::split && areLinksHeld(scene))
+        complaints.add("settings.keepsForces",
+                       std::string("is set, but solver ") + solverName(settings.solver) +
+                           " does not know with which force links are held: use split");
+}
 
 Stops stopsOf(const Scene& scene) {
     const std::vector<float> inverseMass = inverseMasses(scene);

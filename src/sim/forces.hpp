@@ -12,8 +12,12 @@
 
 #include "layout.h"
 #include "sim/compile.hpp"
+#include "sim/complaints.hpp"
 
 namespace sinew::sim::forces {
+
+/// What keeps forces from being kept, and holds of particles that do not exist.
+void check(const Scene& scene, const Settings& settings, Complaints& complaints);
 
 /// Bodies with faces that never give way: a pass of its own keeps particles in front of those.
 struct Stops {

@@ -9,6 +9,7 @@
 #include "sim/compile.hpp"
 #include "sim/complaints.hpp"
 #include "sim/cutting/cut_lists.hpp"
+#include "sim/forces.hpp"
 #include "sim/lattice/batches.hpp"
 #include "sim/lattice/check_grid.hpp"
 #include "sim/ranges.hpp"
@@ -87,17 +88,6 @@ void checkSleep(const Settings& settings, Complaints& complaints) {
                                               " has no form for bodies that sleep: use split");
 }
 
-void checkForces(const Settings& settings, Complaints& complaints) {
-    if (!settings.keepsForces) return;
-    if (settings.solver != Solver::split)
-        complaints.add("settings.keepsForces", std::string("is set, but solver ") +
-                                                   solverName(settings.solver) +
-                                                   " has no form that keeps forces: use split");
-    if (settings.sleeps)
-        complaints.add("settings.keepsForces", "is set, but bodies that sleep have no forces: leave out "
-                                               "one of the two");
-}
-
 void checkSettings(const Settings& settings, Complaints& complaints) {
     checkSolver(settings.solver, complaints);
     if (settings.substeps > 0 && !ranges::substeps.holds(static_cast<double>(settings.substeps)))
@@ -112,7 +102,6 @@ void checkSettings(const Settings& settings, Complaints& complaints) {
                                              number(static_cast<float>(bound)));
     checkHands(settings, complaints);
     checkSleep(settings, complaints);
-    checkForces(settings, complaints);
     if (complaints.isEmpty()) checkSweeps(settings, complaints);
 }
 
@@ -565,6 +554,7 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings) 
     checkTethers(scene, complaints);
     checkFaces(scene, complaints);
     if (complaints.isEmpty()) checkContacts(scene, settings, complaints);
+    if (complaints.isEmpty()) forces::check(scene, settings, complaints);
     checkLinks(scene, settings, complaints);
     checkSurfaces(scene.contacts, complaints);
     checkPlanes(scene, complaints);

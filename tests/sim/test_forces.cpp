@@ -447,3 +447,115 @@ TEST(Torque, OnABodyIsTheChangeOfItsAngularMomentum) {
     EXPECT_GT(spin.norm(), 0.05);
     EXPECT_LE((given - spin).norm(), 0.02 * spin.norm()) << given.transpose() << " / " << spin.transpose();
 }
+
+// The solvers without contacts between particles.
+class ForcesOf : public testing::TestWithParam<Solver> {
+protected:
+    Settings settings(const Scene& scene) const {
+        Settings result = withForces();
+        result.solver = GetParam();
+        result.iterations = result.solver == Solver::jacobi ? 8 : 2;
+        EXPECT_TRUE(validate(scene, result).empty());
+        return result;
+    }
+};
+
+TEST_P(ForcesOf, ABlockAreItsWeight) {
+    for (const bool isOnPlane : {true, false})
+        for (const float warmStart : {0.9f, 0.0f}) {
+            SCOPED_TRACE(testing::Message() << isOnPlane << ' ' << warmStart);
+            Scene scene = quiet();
+            scene.damping = 1;
+            scene.dampingTime = 0;
+            addBlock(scene, 0);
+            for (Particle& particle : scene.particles) particle.radius = 0;
+            if (isOnPlane)
+                scene.planes = {{.friction = 0.5f, .restitution = 0.2f}, {.offset = -2}};
+            else
+                scene.colliders = {{.shape = ColliderShape::box,
+                                    .halfExtents = {1, 0.1f, 1},
+                                    .friction = 0.5f,
+                                    .pose = {.position = {0.15f, -0.1f, 0.15f}}}};
+            Settings chosen = settings(scene);
+            chosen.warmStart = warmStart;
+            test::Runner runner(scene, chosen);
+            const auto all = impulsesOf(runner, 240, 10);
+            const double weight = gravity * massOf(scene, scene.bodies[0]), dt = double{scene.dt};
+            expectForce(
+                all, dt, up(weight), weightShare,
+                [&](const Impulses& i) {
+                    return isOnPlane ? i.bodies[0].planes.linear : i.bodies[0].colliders.linear;
+                },
+                "body");
+            expectForce(
+                all, dt, up(-weight), weightShare,
+                [&](const Impulses& i) { return isOnPlane ? i.planes[0].linear : i.colliders[0].linear; },
+                "what it stands on");
+        }
+}
+
+TEST_P(ForcesOf, ABallAreTheChangeOfItsMomentum) {
+    Scene scene = test::particleAt({0.4f, 0.3f, 0.1f}, {1, -6, 0.5f});
+    scene.gravity = {0, 0, 0};
+    scene.bodies = {{"ball", 0, 1}};
+    scene.planes = {{.friction = 0.02f, .restitution = 0.8f}};
+    scene.colliders = {{.shape = ColliderShape::box,
+                        .halfExtents = {0.1f, 20, 2},
+                        .friction = 0.3f,
+                        .restitution = 0.5f,
+                        .pose = {.position = {1, 0, 0}}}};
+    test::Runner runner(scene, settings(scene));
+    Vector before = runner.velocities()[0], onPlane = Vector::Zero(), onCollider = Vector::Zero();
+    for (int s = 0; s < 60; ++s) {
+        const Impulses impulses = impulsesOf(runner, 0, 1).front();
+        const Vector after = runner.velocities()[0];
+        const Vector planes = test::toVector(impulses.bodies[0].planes.linear),
+                     colliders = test::toVector(impulses.bodies[0].colliders.linear);
+        EXPECT_LE((after - before - planes - colliders).norm(), 2e-5) << s;
+        onPlane += planes;
+        onCollider += colliders;
+        before = after;
+    }
+    EXPECT_NEAR(onPlane.y(), 6 * 1.8, 0.01);
+    EXPECT_LT(onCollider.x(), -0.1);
+}
+
+TEST_P(ForcesOf, WhatHangsAreItsWeight) {
+    Scene scene;
+    scene.damping = 3;
+    for (const float x : {0.0f, 1.0f, 2.0f})
+        scene.particles.push_back({.position = {x, 0, 0}, .inverseMass = 0.5f});
+    scene.particles.push_back({.position = {1, 0.5f, 0}, .inverseMass = 0});
+    scene.attachments = {{.particle = 0, .anchor = {0, 0, 0}, .compliance = 0.01f}};
+    scene.tethers = {{1, 3, 0.5f}};
+    scene.holds = {{"hook", {3}}};
+    Settings chosen = settings(scene);
+    chosen.grabs = 1;
+    test::Runner runner(scene, chosen);
+    const std::array grabs{Grab{.particle = 2, .target = {2, 0, 0}}};
+    Status status;
+    for (int s = 0; s < 600; ++s)
+        status = runner.step({.dt = scene.dt, .gravity = scene.gravity, .grabs = grabs});
+    const Impulses impulses = runner.simulation().forces(status.frame);
+    const double weight = 2 * gravity * double{scene.dt};
+    EXPECT_NEAR(double{impulses.attachments[0].linear.y}, weight, weightShare * weight);
+    EXPECT_NEAR(double{impulses.holds[0].linear.y}, weight, weightShare * weight);
+    EXPECT_NEAR(double{impulses.grabs[0].linear.y}, weight, weightShare * weight);
+}
+
+TEST_P(ForcesOf, ChangeNoMotion) {
+    for (const test::NamedScene& named : test::allScenes()) {
+        Settings with = withForces(6);
+        with.solver = GetParam();
+        with.grabs = 1;
+        with.iterations = 2;
+        if (named.scene.particles.empty() || !validate(named.scene, with).empty()) continue;
+        SCOPED_TRACE(named.name);
+        Settings without = with;
+        without.keepsForces = false;
+        EXPECT_EQ(test::hashOfRun(named.scene, with, 10), test::hashOfRun(named.scene, without, 10));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(, ForcesOf, testing::Values(Solver::jacobi, Solver::gaussSeidel),
+                         [](const auto& solver) { return std::string(solverName(solver.param)); });

@@ -310,7 +310,8 @@ TEST(KeptForces, OfPokesAreOppositeToTheirBodies) {
 }
 
 TEST(KeptForces, AreRefusedWhereThereAreNone) {
-    const Scene scene = test::chain(3);
+    Scene scene = test::chain(3);
+    scene.fixed = {{0}};
     for (const Solver solver : {Solver::jacobi, Solver::gaussSeidel}) {
         Settings settings = withForces();
         settings.solver = solver;
@@ -320,4 +321,6 @@ TEST(KeptForces, AreRefusedWhereThereAreNone) {
     settings.sleeps = true;
     ASSERT_EQ(validate(scene, settings).size(), 1u);
     EXPECT_NE(validate(scene, settings)[0].find("sleep"), std::string::npos);
+    scene.holds = {{"nobody", {7}}};
+    EXPECT_EQ(validate(scene, withForces()).size(), 1u);
 }

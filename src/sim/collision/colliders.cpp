@@ -182,11 +182,17 @@ void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Co
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
                  const Colliders& colliders, std::uint32_t substep) {
     if (colliders.count == 0) return;
-    const std::array buffers{colliders.shapes,    colliders.poses,      colliders.contactOffsets,
-                             particles.positions, particles.velocities, particles.step,
-                             corrections};
-    dispatchTouching(program, colliders, kernels::solveCollidersOpen, buffers,
-                     pushOf(colliders, substep, Kick::half), constantsOf(colliders));
+    std::vector<BufferId> buffers{colliders.shapes,    colliders.poses,      colliders.contactOffsets,
+                                  particles.positions, particles.velocities, particles.step,
+                                  corrections};
+    ProgramBuilder::Constants constants = constantsOf(colliders);
+    const vk::ShaderCode* form = &kernels::solveCollidersOpen;
+    if (particles.forces) {
+        buffers.push_back(particles.forces->terms);
+        constants.merge(particles.forces->ofColliders());
+        form = &kernels::solveCollidersOpenForces;
+    }
+    dispatchTouching(program, colliders, *form, buffers, pushOf(colliders, substep, Kick::half), constants);
 }
 
 } // namespace sinew::sim::collision::colliders

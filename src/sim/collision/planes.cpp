@@ -2,6 +2,7 @@
 #include "sim/collision/planes.hpp"
 
 #include "kernels.hpp"
+#include "sim/forces.hpp"
 
 #include <algorithm>
 
@@ -10,6 +11,18 @@ namespace sinew::sim::collision::planes {
 namespace {
 
 constexpr std::uint32_t planeCountId = 2; // constant_id in planes.glsl
+
+// A pass over all particles, in the form that keeps forces where the step does.
+void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const vk::ShaderCode& code,
+             const vk::ShaderCode& withForces, std::vector<BufferId> buffers,
+             ProgramBuilder::Constants constants) {
+    if (particles.forces) {
+        buffers.push_back(particles.forces->terms);
+        constants.merge(particles.forces->ofPlanes());
+    }
+    program.dispatch(particles.forces ? withForces : code, particles.count, buffers,
+                     layout::CountPush{particles.count}, constants);
+}
 
 } // namespace
 
@@ -39,10 +52,10 @@ Colliders addColliders(ProgramBuilder& program, const Scene& scene, const StateL
 void addTouch(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
               const Colliders& colliders) {
     if (colliders.count == 0) return;
-    program.dispatch(kernels::touchPlanes, particles.count,
-                     {particles.positions, particles.velocities, corrections, colliders.planes,
-                      colliders.contactOffsets, particles.step},
-                     layout::CountPush{particles.count}, colliders.constants());
+    addPass(program, particles, kernels::touchPlanes, kernels::touchPlanesForces,
+            {particles.positions, particles.velocities, corrections, colliders.planes,
+             colliders.contactOffsets, particles.step},
+            colliders.constants());
 }
 
 Contacts addContacts(ProgramBuilder& program, const Scene& scene) {
@@ -59,21 +72,22 @@ void addOpen(ProgramBuilder& program, const ParticleBuffers& particles, const Co
 
 void addSolve(ProgramBuilder& program, const ParticleBuffers& particles, const Contacts& contacts) {
     if (contacts.colliders.count == 0) return;
-    program.dispatch(kernels::solvePlanes, particles.count,
-                     {particles.positions, particles.velocities, contacts.contacts, contacts.colliders.planes,
-                      contacts.colliders.contactOffsets, particles.step},
-                     layout::CountPush{particles.count}, contacts.colliders.constants());
+    addPass(program, particles, kernels::solvePlanes, kernels::solvePlanesForces,
+            {particles.positions, particles.velocities, contacts.contacts, contacts.colliders.planes,
+             contacts.colliders.contactOffsets, particles.step},
+            contacts.colliders.constants());
 }
 
 void addVelocityUpdate(ProgramBuilder& program, const ParticleBuffers& particles, const Contacts& contacts) {
-    const layout::CountPush push{particles.count};
     if (contacts.colliders.count == 0) {
         program.dispatch(kernels::updateVelocity, particles.count, {particles.velocities, particles.step},
-                         push);
+                         layout::CountPush{particles.count});
     } else {
-        program.dispatch(kernels::updateVelocityPlanes, particles.count,
-                         {particles.velocities, particles.step, contacts.contacts, contacts.colliders.planes},
-                         push, contacts.colliders.constants());
+        std::vector<BufferId> buffers{particles.velocities, particles.step, contacts.contacts,
+                                      contacts.colliders.planes};
+        if (particles.forces) buffers.push_back(particles.positions);
+        addPass(program, particles, kernels::updateVelocityPlanes, kernels::updateVelocityPlanesForces,
+                std::move(buffers), contacts.colliders.constants());
     }
 }
 

@@ -52,10 +52,14 @@ void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const At
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
                  const Attachments& attachments, std::uint32_t substep, std::uint32_t substeps) {
     if (attachments.count == 0) return;
-    program.dispatch(
-        kernels::solveAttachmentsOpen, attachments.count,
-        {attachments.particles, attachments.anchors, particles.positions, corrections, particles.step},
-        pushOf(attachments, substep, substeps));
+    std::vector<BufferId> buffers{attachments.particles, attachments.anchors, particles.positions,
+                                  corrections, particles.step};
+    const layout::AttachmentPush push = pushOf(attachments, substep, substeps);
+    if (!particles.forces)
+        return program.dispatch(kernels::solveAttachmentsOpen, attachments.count, buffers, push);
+    buffers.push_back(particles.forces->terms);
+    program.dispatch(kernels::solveAttachmentsOpenForces, attachments.count, buffers, push,
+                     particles.forces->ofAttachments());
 }
 
 Anchors::Anchors(const std::vector<Attachment>& attachments)

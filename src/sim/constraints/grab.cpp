@@ -103,10 +103,15 @@ void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, Buff
                  std::uint32_t substep, std::uint32_t substeps) {
     if (!particles.grabs) return;
     const Grabs& grabs = *particles.grabs;
-    program.dispatchIndirect(kernels::pullHeldOpen, itemsOf(grabs),
-                             {grabs.hands, grabs.states, grabs.bodies, grabs.grips, grabs.held, grabs.pulling,
-                              particles.positions, particles.velocities, particles.step, corrections},
-                             pushOf(grabs, substep, substeps, Kick::half));
+    std::vector<BufferId> buffers{grabs.hands,    grabs.states,  grabs.bodies,        grabs.grips,
+                                  grabs.held,     grabs.pulling, particles.positions, particles.velocities,
+                                  particles.step, corrections};
+    const layout::GrabPush push = pushOf(grabs, substep, substeps, Kick::half);
+    if (!particles.forces)
+        return program.dispatchIndirect(kernels::pullHeldOpen, itemsOf(grabs), buffers, push);
+    buffers.push_back(particles.forces->terms);
+    program.dispatchIndirect(kernels::pullHeldOpenForces, itemsOf(grabs), buffers, push,
+                             particles.forces->ofGrabs());
 }
 
 void Hands::advance(std::span<const Grab> grabs, float dt) noexcept {

@@ -55,9 +55,13 @@ void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Te
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
                  const Tethers& tethers) {
     if (tethers.count == 0) return;
-    program.dispatch(kernels::solveTethersOpen, tethers.count,
-                     {tethers.particles, tethers.tethers, particles.positions, corrections, particles.step},
-                     layout::CountPush{tethers.count});
+    std::vector<BufferId> buffers{tethers.particles, tethers.tethers, particles.positions, corrections,
+                                  particles.step};
+    const layout::CountPush push{tethers.count};
+    if (!particles.forces) return program.dispatch(kernels::solveTethersOpen, tethers.count, buffers, push);
+    buffers.push_back(particles.forces->terms);
+    program.dispatch(kernels::solveTethersOpenForces, tethers.count, buffers, push,
+                     particles.forces->ofTethers());
 }
 
 } // namespace sinew::sim::constraints::tether

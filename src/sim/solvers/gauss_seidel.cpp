@@ -11,24 +11,28 @@
 #include "sim/constraints/distance.hpp"
 #include "sim/constraints/grab.hpp"
 #include "sim/constraints/tether.hpp"
+#include "sim/forces.hpp"
 
 namespace sinew::sim::solvers::gaussSeidel {
 
 namespace {
 
-// A pass between sweeps, without and with boundary planes.
+// A pass between sweeps, without and with boundary planes, and with those where forces are kept.
 struct Form {
-    const vk::ShaderCode *plain, *planes;
+    const vk::ShaderCode *plain, *planes, *forces;
     bool isWarm;
 };
-constexpr Form openCold{&kernels::openSubstep, nullptr, false};
-constexpr Form openWarm{&kernels::openSubstepWarm, nullptr, true};
-constexpr Form openWarmLoads{&kernels::openSubstepWarmLoads, nullptr, true};
-constexpr Form advanceCold{&kernels::advanceSubstep, &kernels::advanceSubstepPlanes, false};
-constexpr Form advanceWarm{&kernels::advanceSubstepWarm, &kernels::advanceSubstepWarmPlanes, true};
+constexpr Form openCold{&kernels::openSubstep, nullptr, nullptr, false};
+constexpr Form openWarm{&kernels::openSubstepWarm, nullptr, nullptr, true};
+constexpr Form openWarmLoads{&kernels::openSubstepWarmLoads, nullptr, nullptr, true};
+constexpr Form advanceCold{&kernels::advanceSubstep, &kernels::advanceSubstepPlanes,
+                           &kernels::advanceSubstepPlanesForces, false};
+constexpr Form advanceWarm{&kernels::advanceSubstepWarm, &kernels::advanceSubstepWarmPlanes,
+                           &kernels::advanceSubstepWarmPlanesForces, true};
 constexpr Form advanceWarmLoads{&kernels::advanceSubstepWarmLoads, &kernels::advanceSubstepWarmLoadsPlanes,
-                                true};
-constexpr Form close{&kernels::closeSubstep, &kernels::closeSubstepPlanes, false};
+                                &kernels::advanceSubstepWarmPlanesForces, true};
+constexpr Form close{&kernels::closeSubstep, &kernels::closeSubstepPlanes, &kernels::closeSubstepPlanesForces,
+                     false};
 
 // What the passes of a step work on.
 struct Work {
@@ -57,8 +61,15 @@ void addBetween(ProgramBuilder& program, const Work& work, const Form& form, boo
         constants.merge(work.colliders.constants());
         if (work.hasColliders) constants[hasCollidersId] = 1;
     }
-    program.dispatch(hasPlanes ? *form.planes : *form.plain, particles.count, buffers,
-                     layout::SubstepPush{particles.count, isFirst}, constants);
+    const bool keepsForces = hasPlanes && particles.forces;
+    if (keepsForces) {
+        buffers.push_back(particles.forces->terms);
+        constants.merge(particles.forces->ofPlanes());
+    }
+    program.dispatch(keepsForces ? *form.forces
+                     : hasPlanes ? *form.planes
+                                 : *form.plain,
+                     particles.count, buffers, layout::SubstepPush{particles.count, isFirst}, constants);
 }
 
 // In a substep. Without constraints there is nothing to repeat.

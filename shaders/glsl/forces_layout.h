@@ -1,0 +1,47 @@
+// Part of layout.h: what the sums of impulses are made of (sim/forces.hpp).
+
+// Impulses of a step (sim/forces.hpp): their sum [N s], and that of their moments [N m s].
+struct ForceSum {
+    vec4 impulse;
+    vec4 torque;
+};
+
+// What acts on a body: contacts, planes, colliders, holds, hands.
+#define FORCE_CONTACTS 0
+#define FORCE_PLANES 1
+#define FORCE_COLLIDERS 2
+#define FORCE_HOLDS 3
+#define FORCE_GRABS 4
+#define FORCE_KINDS 5
+
+// So many particles or elements one invocation adds up.
+#define FORCE_CHUNK 64
+
+// What one invocation adds up: of a body so many particles from the first on; of a row elements.
+struct ForceChunk {
+    uint first, count;
+    uint origin; // of a body: its first particle, about which moments are taken
+    uint moment; // of a row: how many elements behind an impulse its moment stands; 0 = it has none
+};
+
+// Sums over a chunk of a body; moments are about its origin.
+struct BodyForcePart {
+    ForceSum sums[FORCE_KINDS];
+    vec4 massMoment; // sum of mass x place from the origin, mass [kg m], [kg]
+    vec4 places;     // sum of places from the origin, number of particles
+};
+
+// How the chunks of a body, or of a row, become its sums.
+struct ForceRange {
+    uint firstPart, parts;
+    uint origin; // as of its chunks
+    uint stop;   // of a body: one more than the row of what its faces have stopped; 0 = none
+    float sign;  // of a row
+    uint unused0, unused1, unused2;
+};
+
+struct ForcePush {
+    uint count;
+    uint grabs, planes, colliders; // rows
+    uint firstRow; // element of the sums that has the first row, behind all bodies
+};
