@@ -249,7 +249,10 @@ TEST(KeptForces, OfAnUndoneStepAreNone) {
     // without room for contacts
     Settings narrow = withForces();
     narrow.contactRoom = 1;
-    test::Runner crowded(scene, narrow);
+    Scene dense = test::weightless();
+    test::addBalls(dense, 5, 0.11f, 0.001f);
+    dense.bodies = {{"balls", 0, static_cast<std::uint32_t>(dense.particles.size())}};
+    test::Runner crowded(dense, narrow);
     bool hasLacked = false;
     for (int s = 0; s < 30 && !hasLacked; ++s) {
         status = crowded.run(1);
@@ -261,7 +264,7 @@ TEST(KeptForces, OfAnUndoneStepAreNone) {
 
 TEST(KeptForces, AreThoseOfABodyThatWasCut) {
     Scene scene{.name = "cut"};
-    scene.damping = 0.5f;
+    scene.damping = 2; // takes 0.2 % of the weight
     addLattice(scene, blockAt({0, 0, 0}, true));
     scene.planes = {{.friction = 0.5f}};
     test::Runner runner(scene, withForces());
@@ -269,7 +272,7 @@ TEST(KeptForces, AreThoseOfABodyThatWasCut) {
     const std::array from{Vec3{0.16f, 0.5f, -0.1f}, Vec3{0.16f, 0.5f, 0.5f}},
         to{Vec3{0.16f, -0.1f, -0.1f}, Vec3{0.16f, -0.1f, 0.5f}};
     EXPECT_GT(runner.cut({.from = from, .to = to}).linksCut, 0u);
-    runner.run(240);
+    runner.run(180);
     double mass = 0;
     for (const Particle& particle : scene.particles) mass += 1 / double{particle.inverseMass};
     for (int s = 0; s < 10; ++s) {
