@@ -24,15 +24,23 @@ std::vector<long> usersOf(const Simulation& simulation) {
 
 } // namespace
 
-TEST(KernelUse, IsSharedBySimulations) {
-    const Scene scene = test::sheet(6, 1e-5f);
-    test::Runner first(scene);
+class KernelUsed : public testing::TestWithParam<bool> {};
+
+TEST_P(KernelUsed, IsSharedBySimulations) {
+    Scene scene = test::sheet(6, 1e-5f);
+    test::addRoom(scene);
+    const Settings settings{.substeps = 2, .keepsForces = GetParam()};
+    test::Runner first(scene, settings);
     const std::vector<long> before = usersOf(first.simulation());
     {
-        test::Runner second(scene);
+        test::Runner second(scene, settings);
         const std::vector<long> during = usersOf(second.simulation());
         ASSERT_EQ(during.size(), before.size());
         for (std::size_t k = 0; k < before.size(); ++k) EXPECT_EQ(during[k], before[k] + 1) << k;
     }
     EXPECT_EQ(usersOf(first.simulation()), before);
 }
+
+INSTANTIATE_TEST_SUITE_P(, KernelUsed, testing::Bool(), [](const auto& keepsForces) {
+    return std::string(keepsForces.param ? "with_forces" : "without_forces");
+});
