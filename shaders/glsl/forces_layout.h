@@ -1,4 +1,4 @@
-// Part of layout.h: what the sums of impulses are made of (sim/forces.hpp).
+// The part of layout.h, which alone includes it, that is about the sums of impulses (sim/forces.hpp).
 
 // Impulses of a step (sim/forces.hpp): their sum [N s], and that of their moments [N m s].
 struct ForceSum {
@@ -6,7 +6,7 @@ struct ForceSum {
     vec4 torque;
 };
 
-// What acts on a body: contacts, planes, colliders, holds, hands.
+// Kinds of forces on a body: contacts, planes, colliders, holds, hands.
 #define FORCE_CONTACTS 0
 #define FORCE_PLANES 1
 #define FORCE_COLLIDERS 2
@@ -14,10 +14,10 @@ struct ForceSum {
 #define FORCE_GRABS 4
 #define FORCE_KINDS 5
 
-// So many particles or elements one invocation adds up.
+// Particles or elements that one invocation adds up, at most.
 #define FORCE_CHUNK 64
 
-// What one invocation adds up: of a body so many particles from the first on; of a row elements.
+// A run that one invocation adds up: particles of a body, or elements of a row.
 struct ForceChunk {
     uint first, count;
     uint origin; // of a body: its first particle, about which moments are taken

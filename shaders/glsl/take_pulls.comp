@@ -1,6 +1,6 @@
 #version 460
-// Takes what the links of a substep have pulled at particles that never move from their velocities, where the gathers of `split` have stored it
-// (split.glsl), and gives those back: 0, which driven particles replace. What is held by a particle feels the opposite.
+// Moves the impulses of links on particles that never move out of their velocities, where the gathers of `split` have stored them (split.glsl).
+// The velocities become 0 again; drive_particles sets those of driven particles. The hold gives the opposite impulse to what hangs on it.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 

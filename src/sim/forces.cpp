@@ -32,7 +32,7 @@ struct Sums {
     }
 };
 
-// What a kernel reads must not be empty.
+// A kernel must not read an empty buffer.
 template <typename T> BufferId uploadAny(ProgramBuilder& program, const char* label, std::vector<T> items) {
     if (items.empty()) items.push_back(T{});
     return program.upload(label, items);

@@ -1,4 +1,4 @@
-// Which impulses a step gives: of contacts, planes, colliders, holds and hands. Kernels that change a
+// The impulses of a step: of contacts, planes, colliders, holds and hands. Kernels that change a
 // velocity by one of these have a form that also adds mass times that change to elements of the particle's
 // own (shaders/glsl/forces.glsl). Small passes at the end of the step sum these up in a fixed order, by body,
 // plane, collider, hold and hand. The buffer of elements consists of sections of one vec4 a slot of the
@@ -16,7 +16,7 @@
 
 namespace sinew::sim::forces {
 
-/// What keeps forces from being kept, and holds of particles that do not exist.
+/// Complains about settings with which forces cannot be kept, and about holds of particles that do not exist.
 void check(const Scene& scene, const Settings& settings, Complaints& complaints);
 
 /// Bodies with faces that never give way: a pass of its own keeps particles in front of those.
@@ -28,6 +28,7 @@ struct Stops {
 };
 Stops stopsOf(const Scene& scene);
 
+/// The place of each impulse in the buffer of elements.
 struct Forces {
     BufferId terms;
     std::uint32_t slots = 0;                            ///< elements of a section
@@ -40,7 +41,7 @@ struct Forces {
     std::uint32_t elementOf(std::uint32_t row) const { return (2 + 2 * row) * slots; }
     std::uint32_t firstEntry() const { return elementOf(rows()); }
 
-    // What specialises the forms of kernels.
+    // Constants that specialise the forms of kernels.
     ProgramBuilder::Constants ofContacts() const { return constants(0); }
     ProgramBuilder::Constants ofGrabs() const { return constants(elementOf(0)); }
     ProgramBuilder::Constants ofPlanes() const { return constants(elementOf(grabs)); }

@@ -282,7 +282,8 @@ struct Scene {
     std::vector<Body> bodies;
     std::vector<Grid> grids;
     std::vector<Skin> skins;
-    /// Of which a step sums up the force (Settings::keepsForces). Holds nothing by itself.
+    /// Names for particles that are held, each with a force of its own (Settings::keepsForces). They hold
+    /// nothing by themselves: FixedConstraint and DrivenBody do.
     std::vector<NamedHold> holds;
 };
 

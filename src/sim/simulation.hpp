@@ -143,7 +143,7 @@ struct Impulse {
     Vec3 angular{}; ///< [N m s]
 };
 
-/// What acted on a body: angular impulses are about its centre of mass at the end of the step, or about the
+/// Impulses on a body. Angular ones are about its centre of mass at the end of the step, or about the
 /// middle of its particles if none of them moves.
 struct BodyImpulses {
     Impulse contacts{}; ///< of other particles, faces and edges, those of the body itself among them (they
@@ -159,10 +159,10 @@ struct BodyImpulses {
 struct Impulses {
     bool isFinished = false;          ///< as Status::isFinished; else the lists are empty
     std::vector<BodyImpulses> bodies; ///< Scene::bodies
-    /// What acted on them: the opposite of what they gave. Angular impulses are about the point of a plane
+    /// Impulses on them, the opposite of those that they gave. Angular ones are about the point of a plane
     /// that is nearest to the origin, about the middle of a collider.
     std::vector<Impulse> planes, colliders, pokes;
-    /// What they gave. Angular impulses are about the held point of a hand; 0 of the others.
+    /// Impulses that they gave. Angular ones are about the held point of a hand, and 0 otherwise.
     std::vector<Impulse> grabs, attachments, holds; ///< by Settings::grabs, Scene::attachments, Scene::holds
 };
 
@@ -364,7 +364,7 @@ public:
     /// The impulses of a step, ready when its status() is, and for as long. Does not wait; allocates its
     /// lists. Empty lists without Settings::keepsForces.
     Impulses forces(std::uint64_t frame) const;
-    /// The same on the device, of the newest step: layout::ForceSum (stride 32), FORCE_KINDS of each body,
+    /// These sums on the device, of the newest step: layout::ForceSum (stride 32), FORCE_KINDS of each body,
     /// then grabs, planes, pokes, colliders, then others; an empty view without Settings::keepsForces.
     /// Written by the commands of record(), visible as positions() are.
     vk::BufferView forceSums() const noexcept;

@@ -1,5 +1,5 @@
-// What keeping forces does not do: change a motion, be part of a state, depend on the order of work, or count
-// what was undone.
+// Keeping forces changes no motion, is no part of a state, does not depend on the order of work, and counts
+// no undone step.
 #include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/collision/face_scenes.hpp"

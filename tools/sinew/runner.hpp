@@ -68,7 +68,7 @@ public:
     std::uint32_t surfaceMissing() const { return surfaceMissing_; } ///< Status::cutSurfaceMissing, likewise
     /// Of the newest step with a finite state.
     const CutFigures& cuts() const { return cuts_; }
-    /// Likewise; empty without Settings::keepsForces.
+    /// Forces of that step; empty without Settings::keepsForces.
     const sim::Impulses& forces() const { return forces_; }
 
     /// Complaints of the simulation about its use (sim::Simulation::complaints), after advance(); nothing

@@ -80,7 +80,7 @@ std::vector<float> pointRadii(const Scene& scene, const std::vector<float>& inve
     return radii;
 }
 
-// For every slot the first of its entries, one more for the end; an entry is 4 x face + corner. Where forces
+// For every slot the first of its entries, one more for the end; an entry is 4 x face + corner. If forces
 // are kept, corners that never move feel them too.
 std::vector<std::uint32_t> cornersOf(const Faces& faces, const std::vector<float>& inverseMass,
                                      const StateLayout& layout, bool keepsForces) {
