@@ -32,11 +32,10 @@ void main() {
     const vec4 velocity = VELOCITY(i);
     vec3 sum = vec3(0.0);
     for (uint slot = list.x; slot < end; ++slot) {
-        const uvec2 candidate = CONTACT(slot);
-        const Bounce bounce = bounceFrom(i, candidate, self);
+        const Bounce bounce = bounceFrom(i, slot, self);
         if (bounce.speed == 0.0) continue;
-        const float missing = bounce.speed - dot(bounce.n, velocity.xyz - VELOCITY(candidate.x).xyz);
-        sum += max(0.0, missing) / (own + bouncing[candidate.x]) * bounce.n;
+        const float missing = bounce.speed - dot(bounce.n, velocity.xyz - VELOCITY(CONTACT(slot).x).xyz);
+        sum += max(0.0, missing) / (own + bouncing[CONTACT(slot).x]) * bounce.n;
     }
 #ifdef FORCES
     addContactForce(i, sum);

@@ -28,11 +28,14 @@ layout(std430, binding = 7) readonly buffer Firsts { float firsts[]; }; // when 
 layout(std430, binding = 8) readonly buffer Surfaces { uint surfaces[]; }; // of each particle
 layout(std430, binding = 9) readonly buffer Pairs { SurfacePair pairs[]; };
 #define RESTITUTION(i, j) pairs[surfaces[i] * push.surfaces + surfaces[j]].restitution
-#define BOUNCE_BINDING 10
+#define SLIPS_BINDING 10
 #else
 #define RESTITUTION(i, j) push.restitution
-#define BOUNCE_BINDING 8
+#define SLIPS_BINDING 8
 #endif
+layout(std430, binding = SLIPS_BINDING) readonly buffer Slips { vec4 slips[]; }; // as in contact_memory.glsl, where a rest distance is kept
+#define BOUNCE_BINDING (SLIPS_BINDING + 1)
+layout(constant_id = 5) const bool keepsRest = false;
 layout(push_constant) uniform Push { ContactPush push; };
 
 // Of particle i.
@@ -49,12 +52,13 @@ struct Bounce {
     float speed; // at which the two must part [m/s]; 0 = they do not rebound
 };
 
-Bounce bounceFrom(uint i, uvec2 candidate, Self self) {
+Bounce bounceFrom(uint i, uint slot, Self self) {
+    const uvec2 candidate = CONTACT(slot);
     const uint j = candidate.x;
     const vec4 xj = POSITION(j);
     const vec3 d = self.x.xyz - xj.xyz, change = self.before - BEFORE(j);
     const vec3 way = step.h * (self.predicted - PREDICTED(j));
-    const float reach = uintBitsToFloat(candidate.y);
+    const float reach = uintBitsToFloat(candidate.y) - (keepsRest ? nearerBy(slips[slot].w) : 0.0);
     Contact contact = Contact(touches(d, reach), false, d);
     if (bounds.isSwept != 0u)
         contact = contactOf(d, way, reach, min(firsts[i], firsts[j]), areFreeOf(self.x.w, xj.w));

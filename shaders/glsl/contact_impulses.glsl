@@ -34,6 +34,14 @@ float offsetOf(uint slot) {
 #endif
 }
 
+bool keepsRestOf(float offset) {
+#ifdef HAS_MEMORY
+    return keepsRest && isKept(offset);
+#else
+    return false;
+#endif
+}
+
 // The impulse on particle i from another that is `depth` too near along n [kg m].
 vec3 impulseAlong(vec3 n, float depth, uint i, uint other, uint slot, vec3 velocity, float split, float offset) {
     const float share = 1.0 / max(split, 1e-30); // two that never move: nothing times w = 0
@@ -54,12 +62,19 @@ vec3 impulseFrom(uint i, uint slot, vec4 self, vec3 velocity) {
     const uvec2 candidate = CONTACT(slot);
     const vec4 other = TOUCHING(candidate.x);
     const vec3 d = self.xyz - other.xyz;
-    const float offset = offsetOf(slot), reach = uintBitsToFloat(candidate.y) - offset;
-    if (!touches(d, reach)) {
+    const float offset = offsetOf(slot), reach = uintBitsToFloat(candidate.y) - nearerBy(offset);
+    vec3 way = vec3(0.0);
+    bool hasPassed = false;
+    if (keepsRestOf(offset) && reach > 0.0) {
+        way = step.h * (velocity - VELOCITY(candidate.x).xyz);
+        hasPassed = passes(d, way);
+    }
+    if (!touches(d, reach) && !hasPassed) {
         forget(slot, offset);
         return vec3(0.0);
     }
-    const Direction direction = directionOf(d, i, candidate.x);
+    Direction direction = directionOf(d, i, candidate.x);
+    if (hasPassed) direction = passedDirection(d, way);
     return impulseAlong(direction.n, reach - direction.distance, i, candidate.x, slot, velocity, self.w + other.w, offset);
 }
 
@@ -69,7 +84,7 @@ void addSwept(uint i, uint slot, vec4 self, vec3 velocity, inout vec3 moving, in
     const uint j = candidate.x;
     const vec4 xi = predicted[i], xj = predicted[j];
     const vec3 d = xi.xyz - xj.xyz, way = step.h * (velocity - VELOCITY(j).xyz);
-    const float offset = offsetOf(slot), reach = uintBitsToFloat(candidate.y) - offset;
+    const float offset = offsetOf(slot), reach = uintBitsToFloat(candidate.y) - nearerBy(offset);
     const Contact contact = contactOf(d, way, reach, min(firsts[i], firsts[j]), areFreeOf(xi.w, xj.w));
     if (!contact.exists) {
         forget(slot, offset);

@@ -9,9 +9,10 @@ layout(std430, binding = 10) readonly buffer Before { vec4 before[]; }; // veloc
 #endif
 #endif
 #ifdef HAS_MEMORY
-layout(std430, binding = 11) buffer Slips { vec4 slips[]; }; // of each candidate: t [m]; what is left of an overlap [m]
+layout(std430, binding = 11) buffer Slips { vec4 slips[]; }; // of each candidate: t [m]; what is left of an overlap [m], below 0 = stays
 layout(constant_id = 3) const bool hasFriction = true;
 layout(constant_id = 4) const bool hasRecovery = false;
+layout(constant_id = 5) const bool keepsRest = false;
 #ifdef HAS_SURFACES
 layout(std430, binding = 12) readonly buffer Surfaces { uint surfaces[]; }; // of each particle
 layout(std430, binding = 13) readonly buffer Pairs { SurfacePair pairs[]; };

@@ -8,15 +8,29 @@ void recover(uint slot, vec3 x) {
     const uvec2 candidate = CONTACT(slot);
     const float reach = uintBitsToFloat(candidate.y), overlap = reach - length(x - PREDICTED(candidate.x).xyz);
     if (before == reach) return; // interlocked bodies part in passes of their own
+    if (keepsRest && isKept(before)) {
+        if (overlap <= -REST_SLACK * reach) slips[slot].w = 0.0;
+        return;
+    }
     slips[slot].w = recovering(before, push.recoverySpeed * step.h, overlap);
 }
 #endif
 
 float reachOf(uint slot, float reach) {
 #ifdef HAS_RECOVERY
-    return reach - slips[slot].w;
+    return reach - nearerBy(slips[slot].w);
 #else
     return reach;
+#endif
+}
+
+// Whether the candidate in a slot keeps its rest distance and has passed itself, at difference d. Two in one place have no way out.
+bool hasPassed(uint slot, vec3 d, vec3 velocity) {
+#ifdef HAS_RECOVERY
+    const float reach = uintBitsToFloat(CONTACT(slot).y) - nearerBy(slips[slot].w);
+    return keepsRest && isKept(slips[slot].w) && reach > 0.0 && passes(d, step.h * (velocity - VELOCITY(CONTACT(slot).x).xyz));
+#else
+    return false;
 #endif
 }
 

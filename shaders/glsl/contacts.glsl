@@ -2,6 +2,7 @@
 // compute equal bits, or exactly opposite ones.
 
 #include "math.glsl"
+#include "rest_slack.h"
 
 // d = x_i - x_j. Of a pair in a list; the sign of |d| - reach, without a root.
 // Exact: passes that disagreed about it would divide a particle among fewer contacts than it has.
@@ -12,6 +13,18 @@ bool touches(vec3 d, float reach) {
 // What is left after a substep of the overlap that a pair had when the scene was loaded (contacts: 3). As much as remains
 // is taken for touching, so that the pair parts at the speed with which it recovers, `way` a substep, whatever it carries.
 float recovering(float offset, float way, float overlap) { return max(0.0, min(offset - way, overlap)); }
+
+// How much nearer than others a pair comes before it touches, from what it remembers of an overlap. Below 0 it keeps that as its rest
+// distance, until it is farther apart than others that touch.
+float nearerBy(float remembered) { return abs(remembered); }
+bool isKept(float remembered) { return remembered < 0.0; }
+
+// A pair with a small rest distance can pass itself in a substep in which others cannot. `d` after it, `way` in it. The pair then stands
+// on the line of the start of the substep, at a distance below 0.
+bool passes(vec3 d, vec3 way) {
+    const vec3 start = d - way;
+    return dot3(d, start) < 0.0;
+}
 
 // Unit vector for two particles in one place: any, but the same every time, and opposite for the other of the two.
 vec3 axisFor(uint i, uint j) {
@@ -27,6 +40,12 @@ struct Direction {
     vec3 n;         // unit, from j to i
     float distance; // [m]
 };
+
+// The direction of a pair that passes itself.
+Direction passedDirection(vec3 d, vec3 way) {
+    const vec3 start = d - way, n = start / length3(start);
+    return Direction(n, dot3(d, n));
+}
 
 Direction directionOf(vec3 d, uint i, uint j) {
     const float squared = dot3(d, d);

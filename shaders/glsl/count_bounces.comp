@@ -13,6 +13,6 @@ void main() {
     const Self self = selfOf(i);
     float bounces = 0.0;
     for (uint slot = list.x; slot < list.x + list.y; ++slot)
-        bounces += float(bounceFrom(i, CONTACT(slot), self).speed > 0.0);
+        bounces += float(bounceFrom(i, slot, self).speed > 0.0);
     bouncing[i] = bounces * velocities[i].w;
 }

@@ -27,7 +27,8 @@ layout(std140, binding = 5) uniform Step { StepParams step; };
 layout(std140, binding = 6) uniform Bounds { GridBounds bounds; };
 layout(std430, binding = 7) writeonly buffer Firsts { float firsts[]; }; // when each first met another; only if isSwept
 #ifdef HAS_RECOVERY
-layout(std430, binding = 8) buffer Slips { vec4 slips[]; }; // w: what is left of an overlap [m]
+layout(std430, binding = 8) buffer Slips { vec4 slips[]; }; // w: what is left of an overlap [m], below 0 = stays
+layout(constant_id = 5) const bool keepsRest = false;
 #endif
 layout(push_constant) uniform Push { ContactPush push; };
 
@@ -49,7 +50,7 @@ void main() {
     for (uint slot = list.x; slot < resting; ++slot) {
         const uvec2 candidate = CONTACT(slot);
         const vec3 d = x - PREDICTED(candidate.x).xyz;
-        contactCount += float(touches(d, reachOf(slot, uintBitsToFloat(candidate.y))));
+        contactCount += float(touches(d, reachOf(slot, uintBitsToFloat(candidate.y))) || hasPassed(slot, d, velocity.xyz));
     }
     for (uint slot = list.x; slot < sweeping; ++slot) {
         const Pair pair = pairOf(slot, start, velocity.xyz);

@@ -36,7 +36,24 @@ bool hasPassed(Lines lines, Lines rates, out vec2 st) {
     return isInside(crossing, 1e-3);
 }
 
-Touch touchOf(EdgePair pair, float reach, float remembered) {
+// The most that contacts of an edge keep of an overlap [m].
+float mostKeptBy(uint e) {
+    const uvec2 list = lists[e];
+    float most = 0.0;
+    for (uint element = list.x; element < list.x + list.y; ++element) most = max(most, abs(memory[element].w) - 1.0);
+    return most;
+}
+
+// The part of its overlap that a pair with a kept rest distance still has. Two that come to lie over each other from beside, where ends met other
+// edges, keep no more of it than those did: else they would be thrown apart.
+float keptOf(uvec2 both, float remembered, float overlap, float before, float reach) {
+    if (remembered == 0.0 && step.hPrevious != 0.0 && before > 0.0 && overlap > 0.0)
+        return min(before + REST_SLACK * reach, max(mostKeptBy(both.x), mostKeptBy(both.y)));
+    return overlapKept(remembered, overlap, before, reach);
+}
+
+// `both`: the two edges.
+Touch touchOf(EdgePair pair, uvec2 both, float reach, float remembered) {
     const uint a = pair.first.a, b = pair.first.b, c = pair.second.a, d = pair.second.b;
     const float h = step.h;
     const vec3 xa = predicted[a].xyz, xc = predicted[c].xyz, va = velocities[a].xyz, vc = velocities[c].xyz;
@@ -52,7 +69,8 @@ Touch touchOf(EdgePair pair, float reach, float remembered) {
     const float outer = pair.first.radius + pair.second.radius + h * (wayFirst + waySecond);
     if (!now.exists || !before.exists || dot(now.n, before.n) <= 0.0 || dot(middles, middles) >= outer * outer) return touch;
     float side = remembered != 0.0 ? sideOf(remembered) : before.height < 0.0 ? -1.0 : 1.0;
-    bool isInReach = isInside(now, 0.0) && abs(now.height) < reach;
+    const bool isKept = keeps(a, c);
+    bool isInReach = isInside(now, 0.0) && abs(now.height) < (isKept ? (1.0 + REST_SLACK) * reach : reach);
     if (side * now.height < 0.0 && !(remembered != 0.0 && side * before.height < 0.0 && isInReach)) {
         vec2 passed = touch.st;
         // Beyond reach and through since before: let go, it may be in no list.
@@ -67,8 +85,9 @@ Touch touchOf(EdgePair pair, float reach, float remembered) {
     if (!isInReach) return touch;
     const float overlap = reach - side * now.height;
     const float approach = -dot(touch.n, rates.ca + touch.st.x * rates.ab - touch.st.y * rates.cd);
-    const float left = overlapLeft(remembered, overlap, approach, push.recoverySpeed * h);
+    float left = overlapLeft(remembered, overlap, approach, push.recoverySpeed * h);
+    if (isKept) left = keptOf(both, remembered, overlap, reach - side * before.height, reach);
     touch.depth = max(0.0, overlap - left);
-    touch.remembered = rememberedOf(side, touch.depth, left);
+    touch.remembered = isKept ? rememberedKept(side, touch.depth, left) : rememberedOf(side, touch.depth, left);
     return touch;
 }

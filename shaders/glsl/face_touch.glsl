@@ -28,6 +28,7 @@ struct Meeting {
     Nearest nearest;
     vec3 normal;               // unit
     float height, heightBefore; // [m]
+    bool isKept;               // the pair keeps its rest distance
 };
 
 Meeting meetingOf(uint i, uvec2 candidate) {
@@ -44,12 +45,23 @@ Meeting meetingOf(uint i, uvec2 candidate) {
     m.height = dot(m.normal, m.ap);
     const Triangle before = triangleOf(m.ab - h * m.vb, m.ac - h * m.vc);
     m.heightBefore = dot(before.normal, m.ap - h * m.vp) / max(length(before.normal), 1e-30);
+    m.isKept = keeps(i, m.face.a);
     return m;
 }
 
 bool wentThrough(Meeting m, out vec3 b) {
     const float back = step.h * m.height / (m.height - m.heightBefore); // since it was in the plane [s]
     return hasPassed(m.ap - back * m.vp, m.ab - back * m.vb, m.ac - back * m.vc, m.reach, b);
+}
+
+Nearest nearestBefore(Meeting m) {
+    return nearestOf(m.ap - step.h * m.vp, triangleOf(m.ab - step.h * m.vb, m.ac - step.h * m.vc));
+}
+
+// By how much the two overlapped when the substep began, measured as at its end.
+float overlapBefore(Meeting m, float side, bool isThrough) {
+    const Nearest before = nearestBefore(m);
+    return m.reach - (isThrough || before.isInside ? side * m.heightBefore : length(before.d));
 }
 
 bool isWithinReach(Meeting m) { return dot(m.nearest.d, m.nearest.d) < m.reach * m.reach; }
@@ -62,9 +74,11 @@ Touch touchAt(Meeting m, uint element, float side, vec3 b, bool isThrough, bool 
     touch.n = isAbove ? side * m.normal : m.nearest.d / distance;
     const float overlap = m.reach - (isAbove ? side * m.height : distance);
     const float approach = -h * dot(touch.n, m.vp - b.y * m.vb - b.z * m.vc), part = push.recoverySpeed * h;
-    const float left = isLetOut ? max(0.0, overlap - part) : overlapLeft(memory[element].w, overlap, approach, part);
+    float left = isLetOut ? max(0.0, overlap - part) : overlapLeft(memory[element].w, overlap, approach, part);
+    if (m.isKept && isLetOut) left = max(0.0, overlap);
+    else if (m.isKept) left = overlapKept(memory[element].w, overlap, step.hPrevious == 0.0 ? overlapBefore(m, side, isThrough) : 0.0, m.reach);
     touch.depth = max(0.0, overlap - left);
-    touch.remembered = rememberedOf(side, touch.depth, left);
+    touch.remembered = m.isKept ? rememberedKept(side, touch.depth, left) : rememberedOf(side, touch.depth, left);
     if (contacts[element].x < push.sheets) return touch;
     // what parts by itself does not push, nor do the faces beside it
     const float shown = withCorners(left > 0.0 ? max(touch.depth, 2e-30) : touch.depth, b, m.triangle, m.reach);

@@ -20,6 +20,9 @@ bool has(ContactFace other, ContactFace face, uint corners) {
            ((corners & 4u) == 0u || isCorner(face.c, other));
 }
 
+// A point that comes from above one face to above the next keeps the rest distance that it had: the hidden face takes it over.
+float withRestOf(float remembered, float other) { return sign(remembered) * max(abs(remembered), abs(other)); }
+
 // A face of which an edge or a corner is nearest says nothing that a face beside it does not, which has that edge or corner
 // too, and something nearer, or the same: then the first of them. Pushed from inner edges of a flat surface as well, what hits
 // it would be pushed aslant, too softly, and be thrown as it comes out. So such a contact does not push: its depth is below
@@ -35,6 +38,7 @@ void hide(uint first, uint end) {
             if (beside == element || directions[beside].w == 0.0 || contacts[beside].x < push.sheets) continue;
             const ContactFace other = faces[contacts[beside].x];
             isHidden = has(other, face, corners) && (beside < element || !has(face, other, cornersIn(directions[beside].w)));
+            if (isHidden && keepsRest) weights[element].w = withRestOf(weights[element].w, weights[beside].w);
         }
         if (isHidden) directions[element].w = -directions[element].w;
     }

@@ -15,6 +15,8 @@ layout(std430, binding = 6) writeonly buffer Directions { vec4 directions[]; }; 
 layout(std430, binding = 7) writeonly buffer Weights { vec4 weights[]; };       // s of the own, of the other edge; remembered
 layout(std430, binding = 8) writeonly buffer Sums { float sums[]; };            // of the weights of each end
 layout(std140, binding = 9) uniform Step { StepParams step; };
+#define KEEPERS_BINDING 10
+#include "keeps_rest.glsl"
 #include "recovery.glsl"
 #include "edge_touch.glsl"
 
@@ -25,7 +27,7 @@ void main() {
     for (uint element = list.x; element < list.x + list.y; ++element) {
         const uvec2 candidate = contacts[element];
         const EdgePair pair = pairOf(e, candidate.x);
-        const Touch touch = touchOf(pair, uintBitsToFloat(candidate.y), memory[element].w);
+        const Touch touch = touchOf(pair, uvec2(e, candidate.x), uintBitsToFloat(candidate.y), memory[element].w);
         const vec2 st = pair.isFirst ? touch.st : touch.st.yx;
         directions[element] = vec4(pair.isFirst ? touch.n : -touch.n, touch.depth);
         weights[element] = vec4(st, 0.0, touch.remembered);

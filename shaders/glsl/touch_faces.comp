@@ -20,9 +20,12 @@ layout(std430, binding = 6) buffer Directions { vec4 directions[]; }; // n, dept
 layout(std430, binding = 7) buffer Weights { vec4 weights[]; };       // b, side
 layout(std140, binding = 8) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { FacePush push; };
+#define KEEPERS_BINDING 9
+#include "keeps_rest.glsl"
 #include "recovery.glsl"
 #include "hidden_faces.glsl"
 #include "face_touch.glsl"
+#include "held_behind.glsl"
 
 void write(uint element, Touch touch) {
     directions[element] = vec4(touch.n, touch.depth);
@@ -39,8 +42,11 @@ void main() {
     const uint end = list.x + list.y;
     uint passed = ~0u;
     Touch passing;
+    Held held = noHeld;
+    if (keepsRest) held = heldBehind(i, list);
     for (uint element = list.x; element < end; ++element) {
-        const Touch touch = touchOf(i, element, vec3(0.0));
+        Touch touch = touchOf(i, element, vec3(0.0));
+        if (keepsRest) touch = heldTouch(i, element, held, touch);
         if (touch.isThrough && passed == ~0u) {
             passed = element;
             passing = touch;

@@ -40,6 +40,10 @@ struct Particle {
     /// What others feel that touch it: 0 = ContactSettings::friction and restitution, k = its surfaces[k -
     /// 1].
     std::uint32_t surface = 0;
+    /// Whether what it touches or overlaps when the scene is loaded keeps that distance, as its rest
+    /// distance: see ContactSettings::recoverySpeed. Of a face its first corner says so. A pair keeps it
+    /// where either of the two does.
+    bool keepsRest = false;
 };
 
 /// What a particle or a face is like to touch. A pair has the geometric mean of both frictions, so that what
@@ -73,7 +77,10 @@ struct ContactSettings {
     float staticFriction = 0; ///< likewise
     /// With which particles, faces and edges part that overlap when the scene is loaded [m/s]. Does not limit
     /// what a contact carries, but for bodies that interlock: of which one reaches the inside of another's
-    /// lattice.
+    /// lattice. A pair that keeps its rest distance (Particle::keepsRest) does not part: the distance at load
+    /// is the one at which the two touch, until they are as far from each other as any two that do not touch.
+    /// From then on they touch as any two do. A point behind the surface of something solid has a distance
+    /// below 0; one that is deeper than it would have to be far in front touches nothing there.
     float recoverySpeed = 0.5f;
     std::vector<Surface> surfaces; ///< further ones, at most 64
 };

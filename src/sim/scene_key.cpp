@@ -32,8 +32,9 @@ private:
 };
 
 void addLinks(Key& key, const Scene& scene) {
-    key.each(scene.particles,
-             [&](const Particle& p) { key.addAll(p.position, p.inverseMass, p.radius, p.contactOffset); });
+    key.each(scene.particles, [&](const Particle& p) {
+        key.addAll(p.position, p.inverseMass, p.radius, p.contactOffset, p.keepsRest);
+    });
     key.each(scene.distances, [&](const DistanceConstraint& d) { key.addAll(d.a, d.b, d.restLength); });
     key.each(scene.bends, [&](const BendConstraint& bend) { key.addAll(bend.a, bend.b, bend.c); });
     key.each(scene.attachments, [&](const Attachment& a) { key.add(a.particle); });

@@ -31,7 +31,8 @@ const std::vector<std::string> exactFunctions{// math.glsl
                                               "wayOf(f1;vf3", "frameOf(", "cellOf(", "isHurrying(",
                                               // contacts, restitution, interlocked bodies
                                               "isApart(", "touches(", "meetingOf(vf3", "axisFor(",
-                                              "directionOf(vf3", "bounceFrom(", "partingOf(",
+                                              "directionOf(vf3", "passes(vf3", "passedDirection(",
+                                              "bounceFrom(", "partingOf(",
                                               // blades
                                               "volumeOf(", "edgeHit(", "rayHit(", "hitOf(", "isNearBlade(",
                                               // forms of `split`

@@ -2,6 +2,7 @@
 #include "sim/collision/contact_lists.hpp"
 
 #include "kernels.hpp"
+#include "rest_slack.h"
 
 #include <algorithm>
 #include <array>
@@ -90,7 +91,7 @@ Lists add(ProgramBuilder& program, const Request& request) {
                   .cells = lists.grid.push.cells,
                   .edge = lists.grid.push.edge,
                   .most = lists.grid.push.most,
-                  .margin = request.margin,
+                  .margin = request.margin + (request.isKept ? 3 * REST_SLACK * largestOf(request.radii) : 0),
                   .large = static_cast<std::uint32_t>(large.size()),
                   .quiet = lists.grid.push.quiet};
     lists.pooled = pooled_lists::add(program, {.name = "pairs",

@@ -25,6 +25,7 @@ std::vector<std::uint32_t> linkedBodies(const Scene& scene);
 struct Request {
     std::span<const float> radii; ///< by state slot [m]; below 0 = touches nothing
     float margin = 0;             ///< M [m]
+    bool isKept = false;          ///< some pair keeps its rest distance: lists reach farther by its slack
     std::uint32_t capacity = 0;   ///< candidates of a particle that there is room for, on average
     Exclusions exclusions;
     bool usesTexels = true;

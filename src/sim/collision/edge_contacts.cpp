@@ -2,6 +2,7 @@
 #include "sim/collision/edge_contacts.hpp"
 
 #include "kernels.hpp"
+#include "rest_slack.h"
 #include "sim/forces.hpp"
 #include "sim/sleep.hpp"
 
@@ -14,6 +15,8 @@ namespace {
 
 namespace k = kernels;
 using edge_lists::Edge;
+
+constexpr std::uint32_t keepsRestId = 1; // constant_id in keeps_rest.glsl
 
 // For every slot the first of its entries, one more for the end; an entry is 2 x edge + end. Where forces are
 // kept, ends that never move feel them too.
@@ -42,14 +45,16 @@ float marginLength(std::span<const Edge> edges) {
 }
 
 edge_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Settings& settings,
-                           const StateLayout& layout, std::vector<Edge> edges) {
+                           const StateLayout& layout, std::vector<Edge> edges, bool keepsRest) {
     const std::vector<std::uint32_t> exclusions = excludedEdges(scene, edges);
     const float margin = settings.contactMargin * marginLength(edges);
+    const float thickest = std::ranges::max(edges, {}, &Edge::thickness).thickness;
     for (Edge& edge : edges)
         for (std::uint32_t& end : edge.ends) end = layout.slot[end];
     return edge_lists::add(program, {.edges = edges,
                                      .exclusions = exclusions,
                                      .margin = margin,
+                                     .beyond = keepsRest ? 3 * REST_SLACK * thickest : 0,
                                      .capacity = settings.contactRoom,
                                      .usesTexels = settings.forms.usesTexels,
                                      .particles = layout.count});
@@ -57,10 +62,10 @@ edge_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
 
 // A pass over the edges of groups in which one may touch another.
 void addOverEdges(ProgramBuilder& program, const Contacts& contacts, const vk::ShaderCode& code,
-                  std::vector<BufferId> buffers) {
+                  std::vector<BufferId> buffers, const ProgramBuilder::Constants& constants = {}) {
     const edge_lists::Lists& lists = contacts.lists;
     buffers.push_back(lists.touching);
-    program.dispatchIndirect(code, lists.grid.touching, buffers, contacts.push);
+    program.dispatchIndirect(code, lists.grid.touching, buffers, contacts.push, constants);
 }
 
 // Of kernels over particles instead of edges.
@@ -123,10 +128,12 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
              const ParticleBuffers& particles, const face_contacts::Contacts& faces) {
     const StateLayout& layout = particles.layout;
     const std::vector<Edge> edges = edgesOf(scene);
-    Contacts contacts{.lists = addLists(program, scene, settings, layout, edges),
+    Contacts contacts{.lists = addLists(program, scene, settings, layout, edges, faces.keepsRest),
                       .sleeps = particles.sleep != nullptr,
                       .surfaces = faces.surfaces,
-                      .before = faces.before};
+                      .before = faces.before,
+                      .keepers = faces.keepers,
+                      .keepsRest = faces.keepsRest};
     const layout::FaceFindPush& find = contacts.lists.push;
     contacts.push = {.count = find.points,
                      .surfaces = contacts.surfaces.count,
@@ -162,7 +169,8 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
     addOverEdges(program, contacts, k::touchEdges,
                  {predicted.velocities, lists.edges, lists.pooled.contacts, lists.pooled.ranges,
                   predicted.positions, lists.pooled.memory->memory, contacts.directions, contacts.weights,
-                  lists.sums, predicted.step});
+                  lists.sums, predicted.step, contacts.keepers},
+                 {{keepsRestId, contacts.keepsRest}});
     sleep::addEdgeTouches(program, predicted);
     addShares(program, contacts, predicted);
     addOverEdges(program, contacts, k::pressEdges,

@@ -27,6 +27,8 @@ struct Contacts {
     BufferId corners, directions, weights, shares;
     BufferId bounces; ///< only where something rebounds
     BufferId before;  ///< velocities when the substep began, of the contacts with faces
+    BufferId keepers; ///< likewise
+    bool keepsRest = false;
 };
 
 /// Only where areIn(), beside `faces`.

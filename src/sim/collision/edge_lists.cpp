@@ -58,7 +58,7 @@ Lists add(ProgramBuilder& program, const Request& request) {
                   .cells = grid.cells,
                   .edge = grid.edge,
                   .most = widestInCells * largest,
-                  .margin = request.margin,
+                  .margin = request.margin + request.beyond,
                   .moving = 0,
                   .large = 0};
     lists.pooled = pooled_lists::add(

@@ -26,6 +26,7 @@ struct Request {
     /// the end, then the edges of all, sorted.
     std::span<const std::uint32_t> exclusions;
     float margin = 0;           ///< M [m]
+    float beyond = 0;           ///< how much farther than touching and M pairs are listed besides [m]
     std::uint32_t capacity = 0; ///< edges near an edge, on average
     bool usesTexels = true;
     std::size_t particles = 0; ///< slots of the state

@@ -2,6 +2,8 @@
 #include "sim/collision/face_contacts.hpp"
 
 #include "kernels.hpp"
+#include "rest_slack.h"
+#include "sim/collision/contact_lists.hpp"
 #include "sim/cutting/crumbs.hpp"
 #include "sim/forces.hpp"
 #include "sim/sleep.hpp"
@@ -13,6 +15,8 @@ namespace sinew::sim::collision::face_contacts {
 namespace {
 
 namespace k = kernels;
+
+constexpr std::uint32_t keepsRestId = 1; // constant_id in keeps_rest.glsl
 
 bool moves(const Face& face, const std::vector<float>& inverseMass) {
     return std::ranges::any_of(face.particles, [&](std::uint32_t i) { return inverseMass[i] > 0; });
@@ -80,6 +84,32 @@ std::vector<float> pointRadii(const Scene& scene, const std::vector<float>& inve
     return radii;
 }
 
+bool keepRest(const Scene& scene) {
+    return std::ranges::any_of(scene.particles, &Particle::keepsRest);
+}
+
+// How much farther than touching pairs are listed where some keep their rest distance. Points that lie behind
+// what is solid and keep that are held up to twice the reach behind it.
+float heldBeyond(const Scene& scene, const Faces& faces, std::span<const float> radii) {
+    if (!keepRest(scene)) return 0;
+    const auto thickest = [&](std::uint32_t first, std::size_t end) {
+        float thickness = 0;
+        for (std::size_t f = first; f < end; ++f) thickness = std::max(thickness, faces.faces[f].thickness);
+        return thickness;
+    };
+    const float radius = std::max(0.0f, std::ranges::max(radii));
+    const float solid = faces.sheets < faces.moving ? thickest(faces.sheets, faces.moving) + radius : 0;
+    return std::max(solid, 2 * REST_SLACK * (thickest(0, faces.faces.size()) + radius));
+}
+
+std::vector<std::uint32_t> keepersOf(const Scene& scene, const StateLayout& layout) {
+    std::vector<std::uint32_t> keepers(layout.count, 0);
+    const std::vector<std::uint32_t> bodies = contact_lists::linkedBodies(scene);
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        keepers[layout.slot[i]] = 2 * bodies[i] + (scene.particles[i].keepsRest ? 1 : 0);
+    return keepers;
+}
+
 // For every slot the first of its entries, one more for the end; an entry is 4 x face + corner. If forces
 // are kept, corners that never move feel them too.
 std::vector<std::uint32_t> cornersOf(const Faces& faces, const std::vector<float>& inverseMass,
@@ -104,6 +134,7 @@ face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
                            const StateLayout& layout, const std::vector<float>& inverseMass, Faces faces) {
     const std::vector<float> byParticle = pointRadii(scene, inverseMass, faces);
     const std::vector<std::uint32_t> exclusions = excludedPoints(scene, faces.faces, byParticle, layout);
+    const float beyond = heldBeyond(scene, faces, byParticle);
     std::vector<float> radii(layout.count, -1), masses(layout.count, 0), wide;
     for (std::size_t i = 0; i < byParticle.size(); ++i) {
         radii[layout.slot[i]] = byParticle[i];
@@ -124,6 +155,7 @@ face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
                                                         .extents = faces.extents,
                                                         .exclusions = exclusions,
                                                         .margin = settings.contactMargin * length,
+                                                        .beyond = beyond,
                                                         .capacity = settings.contactRoom,
                                                         .usesTexels = settings.forms.usesTexels,
                                                         .bodies = &bodies,
@@ -238,6 +270,9 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     if (contacts.surfaces.hasRestitution)
         contacts.bounces = program.scratch<layout::vec4>("faces.bounces", elements);
     contacts.shares = program.scratch<float>("faces.shares", layout.count);
+    contacts.keepsRest = keepRest(scene);
+    contacts.keepers = contacts.keepsRest ? program.upload("faces.keepers", keepersOf(scene, layout))
+                                          : contacts.surfaces.ofParticles;
     contacts.before = program.scratch<layout::vec4>("faces.before", layout.count);
     if (contacts.hasStops()) {
         contacts.linkedPositions = program.scratch<layout::vec4>("faces.positions", positionCount(layout));
@@ -271,7 +306,8 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
     addOverContacts(program, contacts, k::touchFaces,
                     {predicted.positions, predicted.velocities, lists.faces, lists.pooled.contacts,
                      lists.pooled.ranges, lists.pooled.memory->memory, contacts.directions, contacts.weights,
-                     predicted.step});
+                     predicted.step, contacts.keepers},
+                    {{keepsRestId, contacts.keepsRest}});
     sleep::addFaceTouches(program, predicted);
     addShares(program, contacts, contacts.directions, predicted);
     addOverContacts(program, contacts, k::pressFaces,

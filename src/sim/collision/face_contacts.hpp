@@ -31,8 +31,10 @@ struct Contacts {
     bool sleeps = false;     ///< whether the scene may
     surfaces::Surfaces surfaces;
     BufferId corners, directions, weights, shares, impulses;
-    BufferId bounces; ///< only where something rebounds
-    BufferId before;  ///< velocities when the substep began
+    BufferId keepers;       ///< of each particle: 2 x linked body, + 1 = Particle::keepsRest
+    bool keepsRest = false; ///< of any; else no kernel reads them
+    BufferId bounces;       ///< only where something rebounds
+    BufferId before;        ///< velocities when the substep began
     /// Positions and velocities that links have left; only where hasStops().
     BufferId linkedPositions, linkedVelocities;
     BufferId movingPoints; ///< slots of points that move; only where hasStops()

@@ -78,7 +78,7 @@ Lists add(ProgramBuilder& program, const Request& request) {
                   .cells = grid.cells,
                   .edge = grid.edge,
                   .most = edge,
-                  .margin = request.margin,
+                  .margin = request.margin + request.beyond,
                   .moving = request.moving,
                   .large = static_cast<std::uint32_t>(large.size()),
                   .linked = request.linked};

@@ -25,6 +25,7 @@ struct Request {
     /// points of all, sorted.
     std::span<const std::uint32_t> exclusions;
     float margin = 0;           ///< M [m]
+    float beyond = 0;           ///< how much farther than touching and M pairs are listed besides [m]
     std::uint32_t capacity = 0; ///< faces near a point, on average
     bool usesTexels = true;
     const body_frames::Bodies* bodies = nullptr; ///< as hash_grid::Request has them

@@ -44,6 +44,7 @@ std::set<BodyPair> pairsOf(const Places& places, const overlaps::Overlaps& overl
     std::set<BodyPair> pairs;
     for (std::size_t i = 0; i < overlaps.size(); ++i)
         for (const overlaps::Overlap& overlap : overlaps[i]) {
+            if (overlap.isKept) continue;
             const std::uint32_t a = places.body[i], b = places.body[overlap.other];
             if (a != b && (places.isInside[i] || places.isInside[overlap.other]))
                 pairs.insert({std::min(a, b), std::max(a, b)});

@@ -24,7 +24,7 @@ struct Plan {
     std::uint32_t pairs = 0;
 };
 
-/// Bodies of which particles overlap, one of them inside a lattice.
+/// Bodies of which particles overlap and part, one of them inside a lattice.
 Plan find(const Scene& scene, const StateLayout& layout, const overlaps::Overlaps& overlaps);
 
 struct Interlocks {

@@ -2,6 +2,7 @@
 // ones.
 #include "sim/collision/overlaps.hpp"
 
+#include "rest_slack.h"
 #include "sim/collision/hash_grid.hpp"
 
 #include <algorithm>
@@ -78,10 +79,13 @@ private:
         const auto &a = request_.positions[i], &b = request_.positions[j];
         const double distance =
             std::hypot(double{a[0]} - double{b[0]}, double{a[1]} - double{b[1]}, double{a[2]} - double{b[2]});
-        const double depth = double{request_.radii[i]} + double{request_.radii[j]} - distance;
-        if (i == j || depth <= double{request_.least}) return;
+        const double reach = double{request_.radii[i]} + double{request_.radii[j]}, depth = reach - distance;
+        const bool isKept =
+            !request_.keepsRest.empty() && (request_.keepsRest[i] | request_.keepsRest[j]) != 0;
+        if (i == j || depth <= (isKept ? -double{REST_SLACK} / 2 * reach : double{request_.least})) return;
         if (request_.inverseMasses[i] == 0 && request_.inverseMasses[j] == 0) return;
-        if (!isExcluded(request_.exclusions, i, j)) found_[i].push_back({j, static_cast<float>(depth)});
+        if (!isExcluded(request_.exclusions, i, j))
+            found_[i].push_back({j, static_cast<float>(depth), isKept});
     }
 
     const Request& request_;
@@ -100,10 +104,21 @@ Overlaps find(const Request& request) {
 void forget(Overlaps& overlaps, float least) {
     std::size_t pairs = 0;
     for (std::vector<Overlap>& list : overlaps) {
-        std::erase_if(list, [least](const Overlap& overlap) { return overlap.depth <= least; });
+        std::erase_if(list,
+                      [least](const Overlap& overlap) { return !overlap.isKept && overlap.depth <= least; });
         pairs += list.size();
     }
     if (pairs == 0) overlaps.clear();
+}
+
+bool haveKept(const Overlaps& overlaps) {
+    return std::ranges::any_of(overlaps,
+                               [](const auto& list) { return std::ranges::any_of(list, &Overlap::isKept); });
+}
+
+bool haveParting(const Overlaps& overlaps) {
+    return std::ranges::any_of(overlaps,
+                               [](const auto& list) { return !std::ranges::all_of(list, &Overlap::isKept); });
 }
 
 std::uint32_t mostPartners(const Overlaps& overlaps) {

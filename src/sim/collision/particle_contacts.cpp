@@ -2,6 +2,7 @@
 #include "sim/collision/particle_contacts.hpp"
 
 #include "kernels.hpp"
+#include "rest_slack.h"
 #include "sim/collision/face_contacts.hpp"
 #include "sim/collision/overlaps.hpp"
 #include "sim/cutting/crumbs.hpp"
@@ -46,6 +47,7 @@ constexpr Forms forcesForms{
       &k::gatherContactsSurfacesReboundForces}}};
 constexpr std::uint32_t watchesId = 3;                        // constant_id in settle_free.comp
 constexpr std::uint32_t hasFrictionId = 3, hasRecoveryId = 4; // constant_ids in gather_contacts.comp
+constexpr std::uint32_t keepsRestId = 5; // likewise, in count_contacts.comp and in those of bounces
 
 const vk::ShaderCode& gatherForm(const Contacts& contacts, bool keepsForces) {
     const Forms& forms = keepsForces ? forcesForms : contacts.lists.grid.usesTexels ? texelForms : loadForms;
@@ -88,16 +90,19 @@ overlaps::Overlaps overlapsOf(const Scene& scene, const StateLayout& layout, std
                               const contact_lists::Exclusions& exclusions, float least) {
     std::vector<std::array<float, 3>> positions(layout.count);
     std::vector<float> inverseMass(layout.count, 0);
+    std::vector<std::uint8_t> keepsRest(layout.count, 0);
     const std::vector<float> ofParticles = inverseMasses(scene);
     for (std::size_t i = 0; i < scene.particles.size(); ++i) {
         const Vec3& x = scene.particles[i].position;
         positions[layout.slot[i]] = {x.x, x.y, x.z};
         inverseMass[layout.slot[i]] = ofParticles[i];
+        keepsRest[layout.slot[i]] = scene.particles[i].keepsRest ? 1 : 0;
     }
     overlaps::Overlaps found = overlaps::find({.positions = positions,
                                                .radii = radii,
                                                .inverseMasses = inverseMass,
                                                .exclusions = exclusions,
+                                               .keepsRest = keepsRest,
                                                .least = least,
                                                .limit = LIST_MOST});
     if (overlaps::mostPartners(found) > LIST_MOST) found.clear();
@@ -117,6 +122,12 @@ float leastOverlap(const Scene& scene, const Settings& settings) {
     return scene.contacts.recoverySpeed * scene.dt / static_cast<float>(settings.substeps);
 }
 
+// Memory of an overlap. All of the reach is what interlocks. Below 0 it stays.
+float rememberedOf(const overlaps::Overlap& overlap, float reach) {
+    if (overlap.isKept) return -std::min(overlap.depth + REST_SLACK * reach, reach);
+    return std::min(overlap.depth, 0.999999f * reach);
+}
+
 // Overlaps as the lists that stand before the first update, which keeps what they remember.
 pooled_lists::Initial firstLists(const overlaps::Overlaps& found, std::span<const float> radii) {
     pooled_lists::Initial first;
@@ -126,8 +137,7 @@ pooled_lists::Initial firstLists(const overlaps::Overlaps& found, std::span<cons
         for (const overlaps::Overlap& overlap : found[i]) {
             const float reach = radii[i] + radii[overlap.other];
             first.contacts.push_back({overlap.other, reach});
-            // all of the reach is what interlocks
-            first.memory.push_back({0, 0, 0, std::min(overlap.depth, 0.999999f * reach)});
+            first.memory.push_back({0, 0, 0, rememberedOf(overlap, reach)});
         }
     }
     return first;
@@ -198,7 +208,9 @@ void addCount(ProgramBuilder& program, const Contacts& contacts, const ParticleB
                     contacts.hasRecovery
                         ? form(contacts, {&k::countContactsRecoveryLoads, &k::countContactsRecovery})
                         : form(contacts, {&k::countContactsLoads, &k::countContacts}),
-                    std::move(buffers));
+                    std::move(buffers),
+                    contacts.hasRecovery ? ProgramBuilder::Constants{{keepsRestId, contacts.hasKept}}
+                                         : ProgramBuilder::Constants{});
 }
 
 void addGather(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
@@ -214,6 +226,7 @@ void addGather(ProgramBuilder& program, const Contacts& contacts, const Particle
         buffers.push_back(contacts.lists.pooled.memory->memory);
         constants.insert(
             {{hasFrictionId, contacts.surfaces.hasFriction}, {hasRecoveryId, contacts.hasRecovery}});
+        constants.insert({keepsRestId, contacts.hasKept});
     }
     if (hasFrictionTable(contacts))
         buffers.insert(buffers.end(), {contacts.surfaces.ofParticles, contacts.surfaces.pairs});
@@ -268,7 +281,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     surfaces::Surfaces surfaces = surfaces::add(program, scene, layout);
     const bool settles = // forces are kept where a substep ends once
         !settings.sleeps && !settings.keepsForces && areMostlyLinked(scene) && !surfaces.hasRestitution &&
-        overlaps.empty();
+        !overlaps::haveParting(overlaps);
     const bool isCuttable = !exclusions.empty() && cutting::canMeet(program.program(), scene);
     const bool hasRecovery = !overlaps.empty() || isCuttable;
     BufferId allExcluded;
@@ -278,6 +291,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     Contacts contacts{
         .lists = contact_lists::add(program, {.radii = radii,
                                               .margin = settings.contactMargin * medianRadius(scene),
+                                              .isKept = overlaps::haveKept(overlaps),
                                               .capacity = room,
                                               .exclusions = std::move(exclusions),
                                               .usesTexels = settings.forms.usesTexels,
@@ -292,6 +306,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
         .hasRebound =
             std::ranges::any_of(scene.planes, [](const Plane& plane) { return plane.restitution > 0; }),
         .hasRecovery = hasRecovery,
+        .hasKept = overlaps::haveKept(overlaps),
         .allExcluded = allExcluded};
     cutting::letCrumbsLeave(program, contacts.lists.grid.radii, contacts.lists.grid);
     contacts.push = {.count = contacts.lists.push.count,
@@ -357,20 +372,25 @@ void addBounces(ProgramBuilder& program, const Contacts& contacts, const Particl
                                  predicted.velocities, lists.pooled.ranges,   next.step,
                                  lists.grid.bounds,    contacts.firsts};
     if (isTable) shared.insert(shared.end(), {contacts.surfaces.ofParticles, contacts.surfaces.pairs});
+    // where no rest distance is kept, no kernel reads it
+    shared.push_back(contacts.hasKept ? lists.pooled.memory->memory : contacts.before);
     shared.push_back(next.velocities);
     shared.push_back(contacts.bouncing);
+    const ProgramBuilder::Constants constants{{keepsRestId, contacts.hasKept}};
     program.dispatch(isTable ? form(contacts, {&k::countBouncesSurfacesLoads, &k::countBouncesSurfaces})
                              : form(contacts, {&k::countBouncesLoads, &k::countBounces}),
-                     contacts.push.count, shared, contacts.push);
+                     contacts.push.count, shared, contacts.push, constants);
     shared.insert(shared.end(), {next.positions, contacts.rebounding});
     if (next.forces) {
         shared.push_back(next.forces->terms);
+        ProgramBuilder::Constants both = next.forces->ofContacts();
+        both.insert(constants.begin(), constants.end());
         return program.dispatch(isTable ? k::bounceContactsSurfacesForces : k::bounceContactsForces,
-                                contacts.push.count, shared, contacts.push, next.forces->ofContacts());
+                                contacts.push.count, shared, contacts.push, both);
     }
     program.dispatch(isTable ? form(contacts, {&k::bounceContactsSurfacesLoads, &k::bounceContactsSurfaces})
                              : form(contacts, {&k::bounceContactsLoads, &k::bounceContacts}),
-                     contacts.push.count, shared, contacts.push);
+                     contacts.push.count, shared, contacts.push, constants);
 }
 
 void addPublishing(ProgramBuilder& program, const Contacts& contacts) {

@@ -27,6 +27,7 @@ struct Contacts {
     std::uint32_t particleCount = 0; ///< how many
     bool hasRebound = false;         ///< of a plane
     bool hasRecovery = false;        ///< some pair overlaps when the scene is loaded, or may after a cut
+    bool hasKept = false;            ///< some pair keeps the distance that it has when the scene is loaded
     BufferId touching, firsts, before, bouncing, rebounding;
 
     /// Pairs of the uncut bodies that never touch; invalid where no body that may be cut touches.

@@ -33,7 +33,8 @@ private:
 
 void addBodies(Hash& hash, const sim::Scene& scene) {
     for (const sim::Particle& p : scene.particles)
-        hash.addValues(p.position, p.velocity, p.inverseMass, p.contactOffset, p.radius, p.surface);
+        hash.addValues(p.position, p.velocity, p.inverseMass, p.contactOffset, p.radius, p.surface,
+                       p.keepsRest);
     for (const sim::DistanceConstraint& d : scene.distances)
         hash.addValues(d.a, d.b, d.restLength, d.compliance);
     for (const sim::BendConstraint& b : scene.bends) hash.addValues(b.a, b.b, b.c, b.compliance);

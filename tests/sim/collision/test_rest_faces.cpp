@@ -1,0 +1,342 @@
+// Rest distances between particles and faces, and between edges: in the measure of the contact, whatever
+// radii and thicknesses the two have, and on either side of what is solid.
+#include "sim/bodies.hpp"
+#include "sim/collision/contact_scenes.hpp"
+#include "sim/collision/face_scenes.hpp"
+#include "sim/runner.hpp"
+#include "sim/scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+using namespace sinew;
+using namespace sinew::sim;
+using namespace sinew::test;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr float spacing = 0.05f;
+const Settings settings{.substeps = 8, .contactRoom = 64};
+
+double moved(const std::vector<Vector3d>& x, const Scene& scene) {
+    double most = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const Vec3& p = scene.particles[i].position;
+        most = std::max(most, (x[i] - Vector3d(double{p.x}, double{p.y}, double{p.z})).norm());
+    }
+    return most;
+}
+
+// Without contacts bodies tremble by rounding; with those that keep their rest distance they do as well.
+void expectStill(const Scene& scene, double radius, const std::string& what) {
+    constexpr int steps = 100;
+    Scene untouched = scene;
+    untouched.faces.clear();
+    for (Particle& particle : untouched.particles) particle.radius = 0;
+    Runner runner(scene, settings), alone(untouched, settings);
+    const Status status = runner.run(steps);
+    alone.run(steps);
+    EXPECT_EQ(status.nonFinite + status.contactRoom, 0u) << what;
+    const auto x = runner.positions(), x0 = alone.positions();
+    double way = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) way = std::max(way, (x[i] - x0[i]).norm() / radius);
+    const double energy = kineticEnergy(scene, runner.velocities()),
+                 energyAlone = kineticEnergy(scene, alone.velocities());
+    std::printf("%s: off by %.2e radii after %d steps (%.2e moved alone), %.1e J (%.1e J)\n", what.c_str(),
+                way, steps, moved(x0, scene) / radius, energy, energyAlone);
+    EXPECT_LT(way, 1e-4) << what;
+    EXPECT_LE(energy, 1.1 * energyAlone + 1e-12) << what << " [J]";
+}
+
+// A plate of triangles about 0.07 m long in the plane y = 0, from -half to half.
+MeshCollider plate(float half, std::uint32_t count, float thickness) {
+    MeshCollider mesh{.name = "plate", .thickness = thickness};
+    const auto at = [&](std::uint32_t k) {
+        return half * (2 * static_cast<float>(k) / static_cast<float>(count) - 1);
+    };
+    for (std::uint32_t z = 0; z <= count; ++z)
+        for (std::uint32_t x = 0; x <= count; ++x) mesh.vertices.push_back({at(x), 0, at(z)});
+    for (std::uint32_t z = 0; z < count; ++z)
+        for (std::uint32_t x = 0; x < count; ++x) {
+            const std::uint32_t a = z * (count + 1) + x, b = a + 1, c = a + count + 1;
+            mesh.triangles.push_back({a, c, b});
+            mesh.triangles.push_back({b, c, c + 1});
+        }
+    return mesh;
+}
+
+std::uint32_t addBall(Scene& scene, const Vec3& position, float radius, float mass = 0.01f) {
+    scene.particles.push_back({.position = position, .inverseMass = 1 / mass, .radius = radius});
+    scene.particles.back().keepsRest = true;
+    return static_cast<std::uint32_t>(scene.particles.size() - 1);
+}
+
+// A voxel body from (0, 0, 0) on with faces, of which nothing moves but what is loose.
+struct Block {
+    Scene scene = weightless();
+    std::size_t count = 0; // of its particles
+};
+
+Block block(std::array<std::uint32_t, 3> cells, std::vector<float> fill = {}) {
+    Block made;
+    addLattice(made.scene, {.name = "block",
+                            .cells = cells,
+                            .spacing = spacing,
+                            .fill = std::move(fill),
+                            .youngModulus = 5e6f,
+                            .radius = 0.3f * spacing});
+    addSurfaceFaces(made.scene, made.scene.grids[0]);
+    made.count = made.scene.particles.size();
+    return made;
+}
+
+// Its lowest layer never moves. (A face of which no corner moves would have two sides.)
+void hold(Block& made) {
+    for (std::uint32_t i = 0; i < made.count; ++i)
+        if (made.scene.particles[i].position.y == 0) made.scene.fixed.push_back({i});
+}
+
+// How far what of the body is nearest to particle `i` at the start has moved [m].
+Vector3d sagBeside(const Block& made, const std::vector<Vector3d>& x, std::uint32_t i) {
+    const auto at = [&](std::size_t k) {
+        const Vec3& p = made.scene.particles[k].position;
+        return Vector3d(double{p.x}, double{p.y}, double{p.z});
+    };
+    std::vector<std::pair<double, std::size_t>> near;
+    for (std::size_t k = 0; k < made.count; ++k) near.push_back({(at(k) - at(i)).norm(), k});
+    std::ranges::sort(near);
+    Vector3d sum = Vector3d::Zero();
+    for (std::size_t n = 0; n < 4; ++n) sum += x[near[n].second] - at(near[n].second);
+    return sum / 4;
+}
+
+} // namespace
+
+TEST(RestOfFaces, KeepsBallsOfAnyRadiusInAMeshWall) {
+    for (const float radius : {0.004f, 0.02f, 0.06f}) {
+        Scene scene = weightless();
+        addMeshCollider(scene, plate(0.5f, 12, 0.01f));
+        const float reach = radius + 0.01f;
+        float x = -0.4f;
+        std::vector<std::uint32_t> balls;
+        for (const float part : {0.999f, 0.8f, 0.2f, -0.2f, -0.8f}) {
+            balls.push_back(addBall(scene, {x, part * reach, 0.013f}, radius));
+            x += 0.17f;
+        }
+        expectStill(scene, double{radius}, "balls of " + std::to_string(radius) + " m in a wall");
+        // pressed against the wall from their side
+        for (const float down : {98.1f, -98.1f}) {
+            Scene pressed = scene;
+            pressed.gravity = {0, -down, 0};
+            Runner runner(pressed, settings);
+            runner.run(20);
+            for (const std::uint32_t ball : balls) {
+                const double start = double{scene.particles[ball].position.y},
+                             end = runner.positions()[ball].y();
+                if (start * double{down} > 0)
+                    EXPECT_NEAR(end, start, 5e-3 * double{reach}) << radius << ", from " << start;
+                else
+                    EXPECT_GT(std::abs(end), 1.0) << "what is on the other side is free";
+            }
+        }
+    }
+}
+
+// A ball that is kept 0.2 of its reach in a wall slides over its faces and keeps that.
+TEST(RestOfFaces, GoesWithAPointFromFaceToFace) {
+    Scene scene = weightless();
+    scene.gravity = {0, -9.81f, 0};
+    addMeshCollider(scene, plate(0.5f, 12, 0.01f));
+    const float reach = 0.03f;
+    const std::uint32_t ball = addBall(scene, {-0.3f, 0.8f * reach, 0.013f}, 0.02f);
+    scene.particles[ball].velocity = {0.5f, 0, 0.21f};
+    Runner runner(scene, settings);
+    double lowest = 1, highest = -1, fastest = 0;
+    for (int step = 0; step < 60; ++step) {
+        runner.run(1);
+        const double y = runner.positions()[ball].y() / double{reach};
+        lowest = std::min(lowest, y);
+        highest = std::max(highest, y);
+        fastest = std::max(fastest, std::abs(runner.velocities()[ball].y()));
+    }
+    std::printf("height from %.4f to %.4f of the reach, %.4f m/s up or down\n", lowest, highest, fastest);
+    EXPECT_GT(runner.positions()[ball].x(), 0.15) << "[m]";
+    EXPECT_GT(lowest, 0.79);
+    EXPECT_LT(highest, 0.81);
+    EXPECT_LT(fastest, 0.02) << "nothing is thrown [m/s]";
+}
+
+TEST(RestOfFaces, HoldsByFriction) {
+    for (const float friction : {0.6f, 0.2f}) {
+        Scene scene = weightless();
+        scene.contacts.friction = friction;
+        scene.gravity = {4, -9, 0}; // a slope of 0.44
+        addMeshCollider(scene, plate(0.5f, 12, 0.01f));
+        const std::uint32_t ball = addBall(scene, {-0.3f, 0.8f * 0.03f, 0.013f}, 0.02f);
+        Runner runner(scene, settings);
+        runner.run(30);
+        const double way = runner.positions()[ball].x() + 0.3, free = 0.5 * (4 - 9 * double{friction}) * 0.25;
+        std::printf("friction %.1f: slid by %.4f m\n", double{friction}, way);
+        EXPECT_NEAR(way, std::max(0.0, free), 0.05 * std::max(0.0, free) + 1e-4);
+    }
+}
+
+TEST(RestOfFaces, PartsByDefaultAndTouchesAsAnyOtherWhenItHasParted) {
+    const float reach = 0.03f;
+    for (const bool isKept : {false, true}) {
+        Scene scene = weightless();
+        addMeshCollider(scene, plate(0.5f, 12, 0.01f));
+        const std::uint32_t ball = addBall(scene, {0, 0.8f * reach, 0.013f}, 0.02f);
+        scene.particles[ball].keepsRest = isKept;
+        scene.gravity = {0, -9.81f, 0};
+        Runner runner(scene, settings);
+        runner.run(60);
+        EXPECT_NEAR(runner.positions()[ball].y(), (isKept ? 0.8 : 1.0) * double{reach}, 5e-3 * double{reach});
+        for (int step = 0; step < 6; ++step) runner.step({.dt = 1.0f / 60, .gravity = {0, 9.81f, 0}});
+        EXPECT_GT(runner.positions()[ball].y(), 1.1 * double{reach}) << "pulled away it is free";
+        runner.run(90);
+        EXPECT_NEAR(runner.positions()[ball].y(), double{reach}, 5e-3 * double{reach});
+    }
+}
+
+// Points in front of the surface of a voxel body and behind it: nothing moves, and a load takes none of them
+// deeper, also where the rest distance is below 0. Small balls, that particles of the body do not hold.
+TEST(RestOfFaces, HoldsWhatLiesBehindTheSurfaceOfSomethingSolid) {
+    constexpr float small = 0.004f, reach = 0.3f * spacing + small;
+    for (const float part : {0.5f, -0.1f, -0.9f}) {
+        Block made = block({6, 4, 6});
+        hold(made);
+        const float top = 4 * spacing, y = top + part * reach;
+        const std::array<Vec3, 3> places{Vec3{2.5f * spacing, y, 2.5f * spacing},
+                                         Vec3{3.4f * spacing, y, 3.6f * spacing},
+                                         Vec3{1.5f * spacing, y, 4.2f * spacing}};
+        std::vector<std::uint32_t> balls;
+        for (const Vec3& place : places) balls.push_back(addBall(made.scene, place, small, 1e-3f));
+        expectStill(made.scene, double{small},
+                    "balls at " + std::to_string(part) + " of the reach above a surface");
+        made.scene.gravity = {0, -98.1f, 0};
+        made.scene.damping = 20;
+        Runner runner(made.scene, {.substeps = 32, .contactRoom = 64}); // so that the body hardly sags
+        runner.run(20);
+        const auto x = runner.positions();
+        for (const std::uint32_t ball : balls) {
+            const double deep = double{y} - x[ball].y() + sagBeside(made, x, ball).y();
+            std::printf("at %.1f of the reach: %.4f of it deeper under 10 weights\n", double{part},
+                        deep / double{reach});
+            EXPECT_LT(deep, 0.05 * double{reach})
+                << part; // beside what the surface bends between its corners
+        }
+    }
+}
+
+// Over steps of voxels: a point below an inner edge has no face straight above it.
+TEST(RestOfFaces, HoldsWhatLiesBehindAnInnerEdge) {
+    std::vector<float> fill(6 * 4 * 6, 1.0f);
+    for (std::size_t z = 0; z < 6; ++z)
+        for (std::size_t x = 3; x < 6; ++x) fill[x + 6 * (3 + 4 * z)] = 0; // a step down at x = 3 spacings
+    constexpr float small = 0.004f, reach = 0.3f * spacing + small;
+    Block made = block({6, 4, 6}, fill);
+    const float edge = 3 * spacing, deep = 0.5f * reach;
+    const std::uint32_t ball = addBall(made.scene, {edge - deep, edge - deep, 2.5f * spacing}, small,
+                                       1e-3f); // aslant below the edge
+    expectStill(made.scene, double{small}, "a ball behind an inner edge");
+    hold(made);
+    made.scene.gravity = {-3, -6, 0};
+    made.scene.damping = 5;
+    Runner runner(made.scene, settings);
+    runner.run(60);
+    const auto all = runner.positions();
+    const Vector3d x = all[ball] - sagBeside(made, all, ball);
+    // how deep it is: below the inner edge the distance to it, beside that the distance to a face
+    const double aside = double{edge} - x.x(), below = double{edge} - x.y();
+    const double depth = aside > 0 && below > 0 ? std::hypot(aside, below) : std::max(aside, below);
+    const double start = std::hypot(double{deep}, double{deep});
+    std::printf("behind an inner edge: %.3f of the reach deep at first, %.3f under load\n",
+                start / double{reach}, std::min(depth, 4 * spacing - x.y()) / double{reach});
+    EXPECT_LT(std::min(depth, 4.0 * double{spacing} - x.y()), 1.03 * start);
+}
+
+// It may come out, and is then in front.
+TEST(RestOfFaces, LetsOutWhatLiesBehind) {
+    constexpr float small = 0.004f, reach = 0.3f * spacing + small;
+    Block made = block({6, 4, 6});
+    const float top = 4 * spacing;
+    const std::uint32_t ball =
+        addBall(made.scene, {2.5f * spacing, top - 0.5f * reach, 2.5f * spacing}, small, 1e-3f);
+    hold(made);
+    made.scene.gravity = {0, 9.81f, 0};
+    made.scene.damping = 5;
+    Runner runner(made.scene, {.substeps = 16, .contactRoom = 64});
+    runner.run(12);
+    EXPECT_GT(runner.positions()[ball].y(), double{top} + double{reach});
+    for (int step = 0; step < 60; ++step) runner.step({.dt = 1.0f / 60, .gravity = {0, -9.81f, 0}});
+    const auto x = runner.positions();
+    const double sag = sagBeside(made, x, ball).y();
+    EXPECT_NEAR(x[ball].y() - sag, double{top} + double{reach}, 0.05 * double{reach});
+}
+
+// Cloth over a body that it overlaps, of any thickness.
+TEST(RestOfFaces, KeepsClothInABody) {
+    for (const float thickness : {0.01f, 0.03f}) {
+        Scene scene = weightless();
+        addLattice(scene, {.name = "body", .cells = {6, 3, 6}, .spacing = spacing, .radius = spacing / 2});
+        const std::size_t body = scene.particles.size();
+        const float reach = thickness / 2 + spacing / 2;
+        addCloth(scene, {.origin = {-0.05f, 3 * spacing + 0.8f * reach, -0.05f},
+                         .size = {12, 12},
+                         .spacing = 0.035f,
+                         .membraneStiffness = 50,
+                         .thickness = thickness});
+        for (std::size_t i = body; i < scene.particles.size(); ++i) scene.particles[i].keepsRest = true;
+        expectStill(scene, double{reach}, "cloth " + std::to_string(thickness) + " m thick in a body");
+    }
+}
+
+// Sheets whose edges are nearer than they are thick.
+TEST(RestOfEdges, KeepsCrossedSheets) {
+    Scene scene = crossedSheets(0.15f);
+    scene.gravity = {0, 0, 0};
+    double gap = 1;
+    const std::size_t half = scene.bodies[1].firstParticle;
+    for (std::size_t i = half; i < scene.particles.size(); ++i)
+        gap = std::min(gap, double{scene.particles[i].position.y} - double{scene.particles[0].position.y});
+    const float thick = 2 * scene.faces[0].thickness;
+    for (std::size_t i = half; i < scene.particles.size(); ++i)
+        scene.particles[i].position.y -= static_cast<float>(gap) - 0.7f * thick;
+    Scene parting = scene;
+    for (Particle& particle : scene.particles) particle.keepsRest = true;
+    ASSERT_TRUE(usesKernel(scene, "touch_edges"));
+    expectStill(scene, double{thick} / 2, "crossed sheets");
+    Runner runner(parting, settings);
+    runner.run(30);
+    EXPECT_GT(moved(runner.positions(), parting), 0.05 * double{thick}) << "by default they part";
+}
+
+TEST(RestOfFaces, EndsInTheSameBitsForAnyMarginOrderAndForm) {
+    Block made = block({6, 4, 6});
+    hold(made);
+    const float top = 4 * spacing;
+    for (float n = 0; n < 12; ++n)
+        addBall(made.scene,
+                {(0.7f + 0.4f * n) * spacing, top + (0.01f - 0.002f * n), (0.9f + 0.37f * n) * spacing},
+                0.004f, 1e-3f);
+    made.scene.gravity = {3, -20, 1};
+    made.scene.contacts.friction = 0.3f;
+    addMeshCollider(made.scene, plate(0.2f, 5, 0.01f));
+    const auto hash = [&](const Settings& s) { return hashOfRun(made.scene, s, 30); };
+    Settings narrow = settings, reversed = settings, loads = settings;
+    narrow.contactMargin = 0.2f;
+    reversed.isReversed = true;
+    loads.forms.usesTexels = false;
+    const std::uint64_t first = hash(settings);
+    std::printf("state_hash %016llx\n", static_cast<unsigned long long>(first));
+    EXPECT_EQ(hash(narrow), first) << "another margin";
+    EXPECT_EQ(hash(reversed), first) << "reversed";
+    EXPECT_EQ(hash(loads), first) << "without texels";
+}
