@@ -72,6 +72,7 @@ void readContacts(LoadedScene& loaded, const Section& contacts) {
     loaded.scene.contacts.restitution = contacts.number("restitution");
     loaded.scene.contacts.staticFriction = staticFrictionOf(contacts);
     loaded.scene.contacts.recoverySpeed = contacts.number("recovery_speed");
+    loaded.keepsRest = isRestKept(contacts);
     loaded.settings.contactMargin = contacts.number("margin");
     loaded.settings.contactRoom = contacts.count("room");
 }

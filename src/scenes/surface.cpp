@@ -37,7 +37,18 @@ float staticFrictionOf(const Section& section) {
     return section.has("static_friction") ? section.number("static_friction") : 0;
 }
 
+bool isRestKept(const Section& section) {
+    const std::string how = section.text("rest_contact");
+    if (how != "keep" && how != "part")
+        section.fail("rest_contact", "is \"" + how.substr(0, 64) + "\"", "possible are keep, part");
+    return how == "keep";
+}
+
 void addSurface(LoadedScene& loaded, const Section& body, std::size_t first) {
+    if (body.has("rest_contact")) requireContacts(loaded, body, "rest_contact", first);
+    const bool keepsRest = body.has("rest_contact") ? isRestKept(body) : loaded.keepsRest;
+    for (std::size_t i = first; i < loaded.scene.particles.size(); ++i)
+        loaded.scene.particles[i].keepsRest = keepsRest;
     const char* key = nullptr;
     for (const char* candidate : {"friction", "static_friction", "restitution"})
         if (!key && body.has(candidate)) key = candidate;
