@@ -111,9 +111,9 @@ void clampFaces(sim::Scene& scene, const Section& box, const sim::LatticeCorners
 }
 
 /// Of particles that touch others [m]; 0 = they do not.
-float radiusOf(const Section& body) {
+float radiusOf(const LoadedScene& loaded, const Section& body) {
     const float most = body.number("spacing") / 2;
-    if (!body.flag("collides")) {
+    if (!isColliding(loaded, body)) {
         if (body.has("radius"))
             body.fail("radius", "is given, but the body touches nothing", "write collides = true");
         return 0;
@@ -220,6 +220,11 @@ void requireUnit(const Section& section, const char* key) {
         section.fail(key, "has length " + std::to_string(length), "give a direction of length 1");
 }
 
+bool isColliding(const LoadedScene& loaded, const Section& body) {
+    if (body.has("collides")) return body.flag("collides");
+    return body.flag("cuttable") && loaded.settings.solver == sim::Solver::split;
+}
+
 float tearStrainOf(const Section& body) {
     if (body.number("tear") > 0 && !body.flag("cuttable"))
         body.fail("tear", "is given, but the body may not be cut", "add cuttable = true");
@@ -251,7 +256,7 @@ void addCloth(LoadedScene& loaded, const Section& cloth) {
                           .bendingStiffness = cloth.number("bending_stiffness"),
                           .thickness = cloth.has("thickness") ? cloth.number("thickness") : 0,
                           .tethers = cloth.count("tethers"),
-                          .radius = radiusOf(cloth),
+                          .radius = cloth.has("thickness") ? 0 : radiusOf(loaded, cloth),
                           .pinned = {},
                           .isCuttable = cloth.flag("cuttable"),
                           .tearStrain = tearStrainOf(cloth),
@@ -297,7 +302,7 @@ void addBox(LoadedScene& loaded, const Section& box, FaceChoices& faces) {
                                .poissonRatio = box.number("poisson_ratio"),
                                .recovery = box.number("recovery"),
                                .density = box.number("density"),
-                               .radius = radiusOf(box),
+                               .radius = radiusOf(loaded, box),
                                .isCuttable = box.flag("cuttable"),
                                .tearStrain = tearStrainOf(box),
                                .tearsPerStep = box.count("tears_per_step")};

@@ -19,6 +19,10 @@ struct Source {
 /// Fails where the value of `key` has not length 1.
 void requireUnit(const Section& section, const char* key);
 
+/// Whether the particles of a body touch others: `collides`, and where it is missing `cuttable`, so that what
+/// a cut parts touches. Only `split` has contacts: without it, a body that says nothing touches nothing.
+bool isColliding(const LoadedScene& loaded, const Section& body);
+
 /// As sim::Grid has it; 0 = never tears.
 float tearStrainOf(const Section& body);
 

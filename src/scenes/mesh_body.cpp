@@ -141,11 +141,11 @@ void checkVoxelKeys(const Section& section) {
                      "give voxel or resolution");
 }
 
-mesh::MeshBody bodyOf(const Section& section, std::optional<float> voxel) {
+mesh::MeshBody bodyOf(const LoadedScene& loaded, const Section& section, std::optional<float> voxel) {
     mesh::MeshBody body{.youngModulus = section.number("young_modulus"),
                         .poissonRatio = section.number("poisson_ratio"),
                         .density = section.number("density"),
-                        .touchesParticles = section.flag("collides"),
+                        .touchesParticles = isColliding(loaded, section),
                         .isCuttable = section.flag("cuttable"),
                         .tearStrain = tearStrainOf(section),
                         .tearsPerStep = section.count("tears_per_step"),
@@ -268,7 +268,7 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
     const std::string called = calledIn(loaded, section, "mesh", found.file);
     if (isDropped) loaded.notes.push_back(called + " " + scaledText(longest, section.value("size")));
     sayFound(loaded, called, found.repairs, found.notes, section.has("object") || components.size() > 1);
-    const mesh::MeshBody body = bodyOf(section, voxel);
+    const mesh::MeshBody body = bodyOf(loaded, section, voxel);
     const std::size_t first = loaded.scene.particles.size(), firstGrid = loaded.scene.grids.size();
     if (isApart(section) && components.size() > 1)
         addApart(loaded, section, called, found, given, components, body);

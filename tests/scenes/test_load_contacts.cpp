@@ -53,6 +53,45 @@ TEST_F(LoadContacts, GivesParticlesOfABodyARadiusOnlyWhereItCollides) {
     EXPECT_EQ(radiiOf(load(smallCloth + "collides = true\nradius = 0.01\n").scene), std::set<float>{0.01f});
 }
 
+// What a cut parts must not fall through itself. Only `split` has contacts, and knows cuts.
+TEST_F(LoadContacts, LetsWhatIsCuttableCollideByDefault) {
+    const std::string mesh =
+        "[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\nvoxel = 0.25\ncuttable = true\n";
+    for (const auto& [body, radius] :
+         {std::pair{smallCloth + "cuttable = true\n", 0.05f}, std::pair{box + "cuttable = true\n", 0.05f},
+          std::pair{mesh, 0.125f}}) {
+        EXPECT_EQ(radiiOf(load(body).scene), std::set<float>{radius}) << body;
+        EXPECT_EQ(radiiOf(load(body + "collides = false\n").scene), std::set<float>{0}) << body;
+        EXPECT_TRUE(load(body + "collides = false\n").scene.grids[0].isCuttable);
+        scenes::Overrides jacobi;
+        jacobi.solver = "jacobi";
+        EXPECT_EQ(radiiOf(scenes::load(write("other.toml", body), jacobi).scene), std::set<float>{0}) << body;
+    }
+    const scenes::LoadedScene thick = load(smallCloth + "thickness = 0.02\ncuttable = true\n");
+    EXPECT_EQ(radiiOf(thick.scene), std::set<float>{0.01f})
+        << "a sheet with a thickness touches by its faces";
+    EXPECT_FALSE(thick.scene.faces.empty());
+}
+
+TEST_F(LoadContacts, TakesRestContactOfABodyOrOfAll) {
+    const auto keeping = [&](const std::string& text) {
+        std::set<bool> keeps;
+        for (const sim::Particle& particle : load(text).scene.particles) keeps.insert(particle.keepsRest);
+        return keeps;
+    };
+    const std::string body = box + "collides = true\n", keep = "rest_contact = \"keep\"\n";
+    EXPECT_EQ(keeping(body), std::set<bool>{false});
+    EXPECT_EQ(keeping(body + keep), std::set<bool>{true});
+    EXPECT_EQ(keeping(body + keep + balls), (std::set<bool>{false, true}));
+    EXPECT_EQ(keeping(body + balls + "[contacts]\n" + keep), std::set<bool>{true});
+    EXPECT_EQ(keeping(body + "rest_contact = \"part\"\n" + balls + "[contacts]\n" + keep),
+              (std::set<bool>{false, true}));
+    expectError(body + "rest_contact = \"stay\"\n",
+                "scene.toml:6: box[0].rest_contact is \"stay\": possible are keep, part");
+    expectError(box + keep, "scene.toml:5: box[0].rest_contact is given, but the body touches nothing: write "
+                            "collides = true");
+}
+
 TEST_F(LoadContacts, RefusesRadiiThatABodyCannotHave) {
     expectError(
         box + "collides = true\nradius = 0.051\n",
