@@ -3,8 +3,10 @@
 // excluded partners those that it is still linked with. Rows stay sorted and as long as they were: the last one is repeated.
 // Where links were cut, or given back, all lists of contacts are made again.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "cut.glsl"
 #include "link_masks.glsl"
+#include "link_ways.glsl"
 
 layout(std430, binding = 0) readonly buffer Links { uint links[]; };
 layout(std430, binding = 1) readonly buffer SavedLinks { uint savedLinks[]; };
@@ -16,8 +18,8 @@ layout(std430, binding = 6) readonly buffer Listed { uint listed[]; };
 #include "listed_slot.glsl"
 
 bool staysExcluded(uint i, uint partner) {
-    const int bit = bitTo(int(partner) - int(i), push.rowStride, push.sliceStride);
-    return bit < 0 || (links[i] >> bit & 1u) != 0u;
+    const uint ways = linksTo(int(partner) - int(i), push.rowStride, push.sliceStride);
+    return ways == 0u || (links[i] & ways) != 0u;
 }
 
 void main() {

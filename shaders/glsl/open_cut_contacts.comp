@@ -2,8 +2,10 @@
 // In the first substep after a cut, when contacts are listed anew: pairs that a link held until now may overlap, and part at a
 // limited speed, as pairs do that overlap when a scene is loaded (contacts: 3). Both copies of a pair get the same bits.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "cut.glsl"
 #include "link_masks.glsl"
+#include "link_ways.glsl"
 
 layout(std430, binding = 0) readonly buffer Links { uint links[]; };
 layout(std430, binding = 1) readonly buffer SavedLinks { uint savedLinks[]; };
@@ -20,8 +22,7 @@ void main() {
     const uvec2 list = lists[i];
     for (uint slot = list.x; slot < list.x + list.y; ++slot) {
         const ContactCandidate candidate = contacts[slot];
-        const int bit = bitTo(int(candidate.other) - int(i), push.rowStride, push.sliceStride);
-        if (bit < 0 || (dead >> bit & 1u) == 0u) continue;
+        if ((dead & linksTo(int(candidate.other) - int(i), push.rowStride, push.sliceStride)) == 0u) continue;
         const float overlap = candidate.reach - length(places[i].xyz - places[candidate.other].xyz);
         slips[slot].w = clamp(overlap, 0.0, 0.999999 * candidate.reach); // all of it would be what interlocks
     }
