@@ -315,10 +315,11 @@ struct CutFace {
     uint isLarge; // of the list of large ones
 };
 
-// A contact face on the outside of a voxel body, its corners from the lowest over a middle one to the highest.
+// A contact face that is half of a square between four nodes of a voxel body. It lies between two cells.
 struct CutSolidFace {
-    uint low, middle; // slots
-    uint bits;        // of the links low - middle, << 8 low - high, << 16 middle - high
+    uint low;       // lowest corner of the square, which is that of the cell above it [slot]
+    uint below;     // that many slots lower is the lowest corner of the cell below it
+    uint isFrontUp; // 1: the order of its corners makes the side of the cell above its front
     uint place, face;
     uint isLarge;
 };
@@ -332,6 +333,7 @@ struct CutEdge {
 struct CutFacesPush {
     uint count;
     uint sliceStride;
+    uint rowStride; // 0 in a sheet
 };
 
 // A link or bend in a list of `split`, and the one or two links of the masks that it leads over.

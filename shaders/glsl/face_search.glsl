@@ -55,12 +55,35 @@ Searched searchedOf(uint f) {
     const float way = step.h * sqrt(max(dot(va, va), max(dot(vb, vb), dot(vc, vc))));
     const vec3 low = min(a, min(b, c)), high = max(a, max(b, c)), size = high - low;
     const Triangle triangle = triangleOf(b - a, c - a);
-    float still = face.thickness + push.margin;
+    float still = abs(face.thickness) + push.margin;
     if (isSliver(triangle)) still += 1e-3 * length(size); // as thick as its edges may be apart
     return Searched(f, face, a, triangle, low, high, still + way, still, va, vb, vc);
 }
 
 #include "excluded.glsl"
+
+#ifdef LINKS
+layout(std430, binding = LINKS_BINDING) readonly buffer Links { uint links[]; }; // that are alive, of each node of a lattice
+#include "link_masks.glsl"
+#include "link_ways.glsl"
+
+// A row of a body that may be cut ends with where its strides stand in the table.
+bool isLinkedToFace(Searched face, uint i) {
+    const uint end = EXCLUDED(face.index + 1u), last = end > EXCLUDED(face.index) ? EXCLUDED(end - 1u) : 0u;
+    if ((last & EXCLUDED_LINKED) == 0u) return false;
+    const uint strides = last & ~EXCLUDED_LINKED, rowStride = EXCLUDED(strides), sliceStride = EXCLUDED(strides + 1u);
+    uint alive = 0u;
+    [[dont_unroll]] for (uint c = 0u; c < 3u; ++c) {
+        const uint corner = c == 0u ? face.face.a : c == 1u ? face.face.b : face.face.c;
+        alive |= links[corner] & linksTo(int(i) - int(corner), rowStride, sliceStride);
+    }
+    return alive != 0u;
+}
+#else
+bool isLinkedToFace(Searched face, uint i) { return false; }
+#endif
+
+bool neverTouch(Searched face, uint i) { return isExcluded(face.index, i) || isLinkedToFace(face, i); }
 
 // `reach` with radius and way of the point.
 bool isInBox(Searched face, vec3 x, float reach) {

@@ -1,4 +1,6 @@
 // How a point touches a face in a substep, and on which side. In the names and buffers of touch_faces.
+#include "face_meeting.glsl"
+
 struct Touch {
     vec3 n;
     float depth;    // > 0 where they touch [m]
@@ -8,54 +10,10 @@ struct Touch {
     ContactFace face;
 };
 
-// Whether a point that has passed a plane went through the face in it: on straight ways, where it was in the plane. A face
-// that turns was not quite there; what it never was within reach of may be in no list.
-bool hasPassed(vec3 ap, vec3 ab, vec3 ac, float reach, out vec3 b) {
-    b = weightsOf(ap, triangleOf(ab, ac));
-    const bool isInside = min(b.x, min(b.y, b.z)) >= -1e-3; // of two faces at an edge at least one sees it
-    b = max(b, vec3(0.0));
-    b /= b.x + b.y + b.z;
-    const vec3 d = ap - b.y * ab - b.z * ac;
-    return isInside && dot(d, d) < reach * reach;
-}
-
-// A point and a face at the end of a substep, and on which side of its plane the point then is and was at its beginning.
-struct Meeting {
-    ContactFace face;
-    float reach;               // [m]
-    vec3 ap, ab, ac, vp, vb, vc; // from corner a, and relative to its velocity
-    Triangle triangle;
-    Nearest nearest;
-    vec3 normal;               // unit
-    float height, heightBefore; // [m]
-    bool isKept;               // the pair keeps its rest distance
-};
-
-Meeting meetingOf(uint i, uvec2 candidate) {
-    Meeting m;
-    m.face = faces[candidate.x];
-    m.reach = uintBitsToFloat(candidate.y);
-    const float h = step.h;
-    const vec3 a = predicted[m.face.a].xyz, va = velocities[m.face.a].xyz;
-    m.ap = predicted[i].xyz - a, m.ab = predicted[m.face.b].xyz - a, m.ac = predicted[m.face.c].xyz - a;
-    m.vp = velocities[i].xyz - va, m.vb = velocities[m.face.b].xyz - va, m.vc = velocities[m.face.c].xyz - va;
-    m.triangle = triangleOf(m.ab, m.ac);
-    m.nearest = nearestOf(m.ap, m.triangle);
-    m.normal = normalize(m.triangle.normal);
-    m.height = dot(m.normal, m.ap);
-    const Triangle before = triangleOf(m.ab - h * m.vb, m.ac - h * m.vc);
-    m.heightBefore = dot(before.normal, m.ap - h * m.vp) / max(length(before.normal), 1e-30);
+Meeting keptMeetingOf(uint i, uvec2 candidate) {
+    Meeting m = meetingOf(i, candidate);
     m.isKept = keeps(i, m.face.a);
     return m;
-}
-
-bool wentThrough(Meeting m, out vec3 b) {
-    const float back = step.h * m.height / (m.height - m.heightBefore); // since it was in the plane [s]
-    return hasPassed(m.ap - back * m.vp, m.ab - back * m.vb, m.ac - back * m.vc, m.reach, b);
-}
-
-Nearest nearestBefore(Meeting m) {
-    return nearestOf(m.ap - step.h * m.vp, triangleOf(m.ab - step.h * m.vb, m.ac - step.h * m.vc));
 }
 
 // By how much the two overlapped when the substep began, measured as at its end.
@@ -63,8 +21,6 @@ float overlapBefore(Meeting m, float side, bool isThrough) {
     const Nearest before = nearestBefore(m);
     return m.reach - (isThrough || before.isInside ? side * m.heightBefore : length(before.d));
 }
-
-bool isWithinReach(Meeting m) { return dot(m.nearest.d, m.nearest.d) < m.reach * m.reach; }
 
 // On `side` of the face, at the place with the weights b.
 Touch touchAt(Meeting m, uint element, float side, vec3 b, bool isThrough, bool isLetOut) {
@@ -89,16 +45,16 @@ Touch touchAt(Meeting m, uint element, float side, vec3 b, bool isThrough, bool 
 // The surface of something solid holds what is in front of it, or comes from there. What is behind it may come out. Where an edge
 // is nearest and the point is behind one of its faces, it is in front of another, or has none to do with them.
 Touch touchOfSolid(uint element, Meeting m) {
-    const bool hasTouched = memory[element].w != 0.0, wasBehind = m.heightBefore < 0.0;
+    const bool hasTouched = memory[element].w != 0.0, wasBehind = m.front * m.heightBefore < 0.0;
     vec3 b = m.nearest.weights, passed;
-    if (m.height >= 0.0) return touchAt(m, element, 1.0, b, false, wasBehind && !hasTouched);
+    if (m.front * m.height >= 0.0) return touchAt(m, element, m.front, b, false, wasBehind && !hasTouched);
     bool isThrough = hasTouched && m.nearest.isInside && isWithinReach(m);
     if (!wasBehind) {
         isThrough = wentThrough(m, passed);
         if (isThrough && !m.nearest.isInside) b = passed;
     }
     Touch touch = Touch(vec3(0.0), 0.0, b, 0.0, false, m.face);
-    if (isThrough) touch = touchAt(m, element, 1.0, b, true, false);
+    if (isThrough) touch = touchAt(m, element, m.front, b, true, false);
     touch.isThrough = false; // faces around it have the same front
     return touch;
 }
@@ -106,7 +62,7 @@ Touch touchOfSolid(uint element, Meeting m) {
 // `through`: the side that a neighbouring face is being passed from, as a unit vector; 0 = none.
 Touch touchOf(uint i, uint element, vec3 through) {
     const uvec2 candidate = contacts[element];
-    const Meeting m = meetingOf(i, candidate);
+    const Meeting m = keptMeetingOf(i, candidate);
     if (isSliver(m.triangle)) return Touch(vec3(0.0), 0.0, vec3(0.0), 0.0, false, m.face);
     if (candidate.x >= push.sheets && candidate.x < push.moving) return touchOfSolid(element, m);
     const bool isForced = dot(through, through) > 0.0;

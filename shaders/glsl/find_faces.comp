@@ -3,7 +3,8 @@
 // order: sort_lists and link_faces sort. A face with too much around it is left to find_wide_faces.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-#define WEIGHT_BINDING 16
+#define WEIGHT_BINDING 15
+#define LINKS_BINDING 16
 #include "face_search.glsl"
 #include "hash_grid.glsl"
 
@@ -19,10 +20,8 @@ layout(std430, binding = 11) readonly buffer Starts { uint starts[]; };
 #define START(slot) starts[slot]
 #endif
 layout(std430, binding = 12) buffer Points { FacePoints points; };
-layout(std430, binding = 13) readonly buffer Apart { uint apart[]; };
+layout(std430, binding = 13) buffer Apart { uint apart[]; }; // points; from push.points on, wide faces
 layout(std430, binding = 14) readonly buffer SearchedFaces { uint searchedFaces[]; }; // ~0 in padding
-
-layout(std430, binding = 15) writeonly buffer Wide { uint wide[]; };
 
 #include "face_cells.glsl"
 #include "grid_rows.glsl"
@@ -33,7 +32,7 @@ bool isNearby(Searched face, uint i, vec3 x, bool isApart) {
 }
 
 void listUnlessExcluded(Searched face, uint i) {
-    if (!isExcluded(face.index, i)) list(i, face.index);
+    if (!neverTouch(face, i)) list(i, face.index);
 }
 
 // Of up to 32 visits from `from` on, the points near the box of the face: bit v for visit from + v.
@@ -91,7 +90,7 @@ void main() {
     Cells cells = Cells(ivec3(0), ivec3(-1), 0u);
     if (total > 0u) cells = cellsAround(face, frame);
     if (max(cells.points, points.apart) > FACE_MOST_POINTS) {
-        wide[atomicAdd(points.wide, 1u)] = f;
+        apart[push.points + atomicAdd(points.wide, 1u)] = f;
         return;
     }
     searchGrid(face, cells, frame, total);

@@ -1,11 +1,13 @@
 #version 460
 // Every point is compared with the few faces that are much larger than the others or have too much around them.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define WEIGHT_BINDING 14
+#define LINKS_BINDING 15
 #include "face_search.glsl"
 
 layout(std430, binding = 10) readonly buffer Large { uint large[]; };
-layout(std430, binding = 11) readonly buffer Wide { uint wide[]; };
+layout(std430, binding = 11) readonly buffer Apart { uint apart[]; }; // from push.points on, wide faces
 layout(std430, binding = 12) readonly buffer Points { FacePoints points; };
 layout(std430, binding = 13) buffer Status { StatusWords status; };
 
@@ -17,11 +19,11 @@ void main() {
     const uint all = push.large + points.wide;
     if (all > FACE_MOST_WIDE) atomicMax(status.candidates, CONTACT_MOST_ROOM + 1u); // more than can be done: said, not lost
     for (uint l = 0u; l < min(all, FACE_MOST_WIDE) && !isFull(); ++l) {
-        const uint f = l < push.large ? large[l] : wide[l - push.large];
+        const uint f = l < push.large ? large[l] : apart[push.points + l - push.large];
         if (f == ~0u) continue; // a cut has parted it
         const Searched face = searchedOf(f);
         const float reach = face.reach + size;
-        if (!isInBox(face, x, reach) || !isNear(face, i, x) || isExcluded(f, i)) continue;
+        if (!isInBox(face, x, reach) || !isNear(face, i, x) || neverTouch(face, i)) continue;
         list(i, face.index);
     }
 }

@@ -24,18 +24,18 @@ Behind behindOf(uint i, uvec2 list) {
     Behind behind = Behind(~0u, ~0u, 0.0, far, far, 0.0, false);
     for (uint element = list.x; element < list.x + list.y; ++element) {
         if (!isSolid(contacts[element].x) || areOfOneBody(i, faces[contacts[element].x].a)) continue;
-        const Meeting m = meetingOf(i, contacts[element]);
+        const Meeting m = keptMeetingOf(i, contacts[element]);
         if (!isHoldable(m)) continue;
         const float remembered = memory[element].w;
         behind.remembers = behind.remembers || remembered != 0.0;
         if (remembered != 0.0) behind.rest = min(behind.rest, m.reach - (abs(remembered) - 1.0));
         const float depth = length(m.nearest.d);
-        if (m.height >= 0.0 || depth >= behind.depth) continue;
+        if (m.front * m.height >= 0.0 || depth >= behind.depth) continue;
         behind.element = element;
         behind.corner = m.face.a;
         behind.reach = m.reach;
         behind.depth = depth;
-        behind.depthBefore = m.heightBefore < 0.0 ? length(nearestBefore(m).d) : far;
+        behind.depthBefore = m.front * m.heightBefore < 0.0 ? length(nearestBefore(m).d) : far;
         if (behind.depthBefore >= m.reach) behind.depthBefore = far; // too deep to be a pair
     }
     return behind;
@@ -46,8 +46,8 @@ float frontOf(uint i, uvec2 list, uint corner) {
     float front = far;
     for (uint element = list.x; element < list.x + list.y; ++element) {
         if (!isSolid(contacts[element].x) || !areOfOneBody(corner, faces[contacts[element].x].a)) continue;
-        const Meeting m = meetingOf(i, contacts[element]);
-        if (isHoldable(m) && m.height >= 0.0) front = min(front, length(m.nearest.d));
+        const Meeting m = keptMeetingOf(i, contacts[element]);
+        if (isHoldable(m) && m.front * m.height >= 0.0) front = min(front, length(m.nearest.d));
     }
     return front;
 }
@@ -66,18 +66,18 @@ Held heldBehind(uint i, uvec2 list) {
 Touch heldTouch(uint i, uint element, Held held, Touch touch) {
     if (!isSolid(contacts[element].x)) return touch;
     if (element != held.element) {
-        const float reach = uintBitsToFloat(contacts[element].y);
+        const float reach = abs(uintBitsToFloat(contacts[element].y));
         if (abs(touch.remembered) - 1.0 <= reach) return touch;
         if (held.element != ~0u) return Touch(vec3(0.0), 0.0, touch.b, 0.0, false, touch.face); // another face holds now
         touch.remembered = sign(touch.remembered) * (1.0 + reach); // out in front: 0 is the least rest distance there
         return touch;
     }
-    const Meeting m = meetingOf(i, contacts[element]);
+    const Meeting m = keptMeetingOf(i, contacts[element]);
     const float distance = length(m.nearest.d), left = m.reach - held.rest;
-    touch.n = m.nearest.isInside || distance < 1e-15 ? m.normal : -m.nearest.d / distance;
+    touch.n = m.nearest.isInside || distance < 1e-15 ? m.front * m.normal : -m.nearest.d / distance;
     touch.b = m.nearest.weights;
     const float depth = max(0.0, distance + held.rest);
-    touch.remembered = rememberedKept(1.0, depth, left);
+    touch.remembered = rememberedKept(m.front, depth, left);
     // as with all corners nearest: it hides what is beside it
     const float shown = uintBitsToFloat(floatBitsToUint(max(depth, 2e-30)) | 7u);
     touch.depth = depth > 0.0 ? shown : -shown;

@@ -373,8 +373,9 @@ struct SurfacePair {
 // A triangle between particles that others touch.
 struct ContactFace {
     uint a, b, c;
-    float thickness; // [m]
+    float thickness; // [m]; below 0 where the front of something solid is the other side
 };
+#define EXCLUDED_LINKED 0x80000000u // in the last word of a row of points that a face never touches, beside where strides stand
 
 // Of all particles that may touch faces: those too wide or too fast for the grid are listed apart. Of all faces: those with
 // too much around them are listed as wide. Some devices end a kernel's loops silently at 65,535 turns in all.

@@ -1,29 +1,36 @@
 #version 460
-// Likewise of voxel bodies: a face of which a cut has parted a corner from the others leaves the list of those that look for points
-// near them, and so do the faces of crumbs.
+// Faces of voxel bodies after a cut. A square is part of the surface where the cell on one side alone is whole: then it faces away from
+// that cell, and looks for points near it. So what a cut lays open has faces in the same step. Faces of crumbs have none.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
+#include "link_masks.glsl"
 
 layout(std430, binding = 0) readonly buffer Links { uint links[]; };
 layout(std430, binding = 1) readonly buffer SavedLinks { uint savedLinks[]; };
-layout(std430, binding = 2) readonly buffer Faces { CutSolidFace faces[]; };
-layout(std430, binding = 3) writeonly buffer Searched { uint searched[]; }; // ~0 = none
-layout(std430, binding = 4) writeonly buffer Large { uint large[]; };       // likewise
+layout(std430, binding = 2) readonly buffer Parts { CutSolidFace parts[]; };
+layout(std430, binding = 3) buffer Searched { uint searched[]; }; // ~0 = none
+layout(std430, binding = 4) buffer Large { uint large[]; };       // likewise
 layout(std430, binding = 5) buffer Bounds { GridBounds bounds; };
 layout(std430, binding = 6) readonly buffer Particles { uint particles[]; }; // of each slot
 layout(std430, binding = 7) readonly buffer Pieces { uint pieces[]; };
+layout(std430, binding = 8) buffer Faces { ContactFace faces[]; };
 layout(push_constant) uniform Push { CutFacesPush push; };
 
-uint isDead(uint slot, uint bit) { return 1u - (links[slot] >> (bit & 255u) & 1u); }
+#include "whole_cell.glsl"
 
 void main() {
     const uint item = itemIndex(push.count);
     if (item >= push.count) return;
-    const CutSolidFace face = faces[item];
-    const uint dead = isDead(face.low, face.bits) + isDead(face.low, face.bits >> 8) + isDead(face.middle, face.bits >> 16);
-    const uint left = dead < 2u && pieces[particles[face.low]] != REMOVED_PIECE ? face.face : ~0u;
-    if (face.isLarge != 0u) large[face.place] = left;
-    else searched[face.place] = left;
-    const bool isNew = links[face.low] != savedLinks[face.low] || links[face.middle] != savedLinks[face.middle];
-    if (isNew && bounds.moved == 0u) atomicMax(bounds.moved, 1u);
+    const CutSolidFace part = parts[item];
+    const bool isAbove = isWholeCell(part.low), isBelow = isWholeCell(part.low - part.below);
+    const uint left = isAbove != isBelow && pieces[particles[part.low]] != REMOVED_PIECE ? part.face : ~0u;
+    const uint before = part.isLarge != 0u ? large[part.place] : searched[part.place];
+    const ContactFace face = faces[part.face];
+    const bool isNew = left != before || links[face.a] != savedLinks[face.a] || links[face.b] != savedLinks[face.b] ||
+                       links[face.c] != savedLinks[face.c];
+    if (!isNew) return;
+    if (left != ~0u) faces[part.face].thickness = isBelow == (part.isFrontUp != 0u) ? abs(face.thickness) : -abs(face.thickness);
+    if (part.isLarge != 0u) large[part.place] = left;
+    else searched[part.place] = left;
+    if (bounds.moved == 0u) atomicMax(bounds.moved, 1u);
 }

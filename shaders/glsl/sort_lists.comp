@@ -41,9 +41,13 @@ layout(std430, binding = 10) readonly buffer KeptLists { uvec2 keptLists[]; };
 #endif
 #ifdef FACES
 layout(std430, binding = PARTICLES_BINDING + 2) readonly buffer Faces { ContactFace faces[]; };
-float sizeOf(uint other) { return faces[other].thickness; }
+// Below 0 where the thickness is.
+float reachOf(float own, uint other) {
+    const float thickness = faces[other].thickness;
+    return thickness < 0.0 ? thickness - own : own + thickness;
+}
 #else
-float sizeOf(uint other) { return radii[other]; }
+float reachOf(float own, uint other) { return own + radii[other]; }
 #endif
 
 void listGroups(uint i) {
@@ -56,7 +60,7 @@ void listGroups(uint i) {
 }
 
 float own; // radius, or how thick it is [m]
-void put(uint element, uint other) { contacts[element] = ContactCandidate(other, own + sizeOf(other)); }
+void put(uint element, uint other) { contacts[element] = ContactCandidate(other, reachOf(own, other)); }
 #include "sort_pairs.glsl"
 
 // Both lists are sorted.

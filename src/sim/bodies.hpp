@@ -161,8 +161,8 @@ void addLatticeSkin(Scene& scene, const Lattice& lattice, const LatticeCorners& 
 bool showsInside(const Scene& scene, std::size_t skin, std::size_t grid);
 
 /// Appends the outer faces of a voxel body that `grid` is of as triangles between its particles, solid and as
-/// thick as these are wide: what is too small for the voxels then stays outside. They go where a blade parts
-/// their corners; what it lays open is touched by particles alone.
+/// thick as these are wide: what is too small for the voxels then stays outside, and the body touches itself.
+/// A blade that breaks cells makes the surface that of all others in the same step.
 void addSurfaceFaces(Scene& scene, const Grid& grid);
 
 /// Which of the scene's grids are of voxel bodies between whose particles something could pass that moves and

@@ -1,8 +1,8 @@
-// The surface of a voxel body as faces that others touch. A square between four particles is split along the
-// diagonal from its lowest corner to its highest, as the tetrahedra of its cells are: all edges are links.
+// The surface of a voxel body as faces that others touch.
 #include "sim/bodies.hpp"
 #include "sim/compile.hpp"
 #include "sim/lattice/placement.hpp"
+#include "sim/lattice/squares.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,21 +17,21 @@ using Node = std::array<std::uint32_t, 3>;
 constexpr double mostStretch = 1.2; // of a surface, that nothing passes through
 
 // The squares between four neighbouring particles of a grid.
-class Squares {
+class SquareList {
 public:
-    explicit Squares(const Grid& grid) : grid_(grid) {
+    explicit SquareList(const Grid& grid) : grid_(grid) {
         particle_.resize(std::size_t{grid.nodes[0]} * grid.nodes[1] * grid.nodes[2]);
         for (std::uint32_t i = 0; i < grid.node.size(); ++i) particle_[grid.node[i]] = grid.firstParticle + i;
     }
 
-    // Appends the two halves of every square above `low` that has a full cell on one side alone.
-    void addTo(std::vector<Face>& faces, const Node& low, float thickness) const {
+    // Appends the two halves of every such square of which `low` is the lowest corner.
+    void addTo(std::vector<Face>& faces, const Node& low, float thickness, lattice::Squares squares) const {
         const std::uint32_t fill = lattice::fillAround(grid_, low);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
             const bool isAbove = (fill >> 28 & 15) > 0;
             const bool isBelow = (fill >> (4 * (7 ^ 1u << axis)) & 15) > 0;
-            if (isAbove == isBelow) continue;
+            if (squares == lattice::Squares::outer ? isAbove == isBelow : !isAbove || !isBelow) continue;
             Node alongU = low, alongV = low, high = low;
             ++alongU[u], ++alongV[v], ++high[u], ++high[v];
             // u x v is the axis: counter-clockwise seen from above it
@@ -73,11 +73,14 @@ std::vector<double> leastBeside(const Scene& scene) {
 
 } // namespace
 
+void lattice::appendSquares(std::vector<Face>& faces, const Grid& grid, float thickness, Squares squares) {
+    const SquareList list(grid);
+    for (const std::uint32_t node : grid.node) list.addTo(faces, coordinates(grid, node), thickness, squares);
+}
+
 void addSurfaceFaces(Scene& scene, const Grid& grid) {
-    const Squares squares(grid);
-    const float thickness = scene.particles[grid.firstParticle].radius;
-    for (const std::uint32_t node : grid.node)
-        squares.addTo(scene.faces, lattice::coordinates(grid, node), thickness);
+    lattice::appendSquares(scene.faces, grid, scene.particles[grid.firstParticle].radius,
+                           lattice::Squares::outer);
 }
 
 std::vector<std::uint32_t> gridsWithHoles(const Scene& scene) {

@@ -55,7 +55,7 @@ void markFaces(uint slot, vec3 x) {
         const vec3 a = placeOf(face.a);
         const Nearest nearest = nearestOf(x - a, triangleOf(placeOf(face.b) - a, placeOf(face.c) - a));
         const float distance = length(nearest.d);
-        if (distance > 1.02 * uintBitsToFloat(candidate.y)) continue;
+        if (distance > 1.02 * abs(uintBitsToFloat(candidate.y))) continue;
         mark(x - nearest.d, nearest.d / max(distance, 1e-20), 2.0);
     }
 }

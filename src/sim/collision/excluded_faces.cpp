@@ -1,12 +1,15 @@
-// Which points of a linked body may not touch which of its faces, from the scene at rest: what is so near
-// there is kept apart by links.
+// The points of a linked body that may not touch its faces, from the scene at rest: links keep apart what is
+// so near there.
 #include "sim/collision/contact_lists.hpp"
 #include "sim/collision/face_contacts.hpp"
 #include "sim/collision/vectors.hpp"
+#include "sim/lattice/depths.hpp"
+#include "sim/lattice/link_masks.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 namespace sinew::sim::collision::face_contacts {
@@ -84,6 +87,55 @@ private:
     double widest_ = 0, edge_ = 1;
 };
 
+// The particles of one voxel body, and which of them its links join at first.
+class Nodes {
+public:
+    explicit Nodes(const Grid& grid) : grid_(grid), first_(grid.firstParticle) {
+        particle_.resize(std::size_t{grid.nodes[0]} * grid.nodes[1] * grid.nodes[2]);
+        for (std::uint32_t n = 0; n < grid.node.size(); ++n) {
+            particle_[grid.node[n]] = first_ + n;
+            const auto at = lattice::coordinates(grid, grid.node[n]);
+            links_.push_back(lattice::linksAt(grid, at));
+            isInside_.push_back(lattice::isInside(lattice::fillAround(grid, at)));
+        }
+    }
+
+    bool has(std::uint32_t i) const { return i >= first_ && i - first_ < links_.size(); }
+
+    void addLinked(std::uint32_t i, std::vector<std::uint32_t>& linked) const {
+        const auto at = lattice::coordinates(grid_, grid_.node[i - first_]);
+        for (std::uint32_t bit = 0; bit < lattice::directionCount; ++bit) {
+            if ((links_[i - first_] >> bit & 1) == 0) continue;
+            const auto [x, y, z] = lattice::directionOf(bit);
+            linked.push_back(
+                particle_[at[0] + static_cast<std::uint32_t>(x) +
+                          grid_.nodes[0] * (at[1] + static_cast<std::uint32_t>(y) +
+                                            grid_.nodes[1] * (at[2] + static_cast<std::uint32_t>(z)))]);
+        }
+    }
+
+    // Whether all that is nearer than this to a corner of a face is linked with it.
+    bool isDeep(const layout::ContactFace& face, double reach) const {
+        const auto deep = [&](std::uint32_t i) { return isInside_[i - first_]; };
+        return reach < 2 * double{grid_.restLength[0]} && deep(face.a) && deep(face.b) && deep(face.c);
+    }
+
+    const Grid& grid() const { return grid_; }
+
+private:
+    const Grid& grid_;
+    std::uint32_t first_;
+    std::vector<std::uint32_t> particle_, links_; // by node; by particle
+    std::vector<bool> isInside_;
+};
+
+std::vector<Nodes> bodiesOfVoxels(const Scene& scene) {
+    std::vector<Nodes> bodies;
+    for (const Grid& grid : scene.grids)
+        if (!lattice::isSheet(grid)) bodies.emplace_back(grid);
+    return bodies;
+}
+
 double extentOf(const Scene& scene, const layout::ContactFace& face) {
     const Vector a = toVector(scene.particles[face.a].position);
     double extent = 0;
@@ -94,35 +146,86 @@ double extentOf(const Scene& scene, const layout::ContactFace& face) {
     return extent;
 }
 
-} // namespace
+// A linked body with faces: its points in cells, and how large and thick its faces are.
+struct Body {
+    Points points;
+    double extent = 0, thickness = 0;
+};
 
-std::vector<std::uint32_t> excludedPoints(const Scene& scene, std::span<const layout::ContactFace> faces,
-                                          std::span<const float> radii, const StateLayout& layout) {
-    const std::vector<std::uint32_t> bodies = contact_lists::linkedBodies(scene);
-    struct Body {
-        Points points;
-        double extent = 0, thickness = 0;
-    };
-    std::map<std::uint32_t, Body> ofFaces;
+std::map<std::uint32_t, Body> bodiesWithFaces(const Scene& scene, std::span<const layout::ContactFace> faces,
+                                              std::span<const float> radii,
+                                              std::span<const std::uint32_t> bodyOf) {
+    std::map<std::uint32_t, Body> bodies;
     for (const layout::ContactFace& face : faces) {
-        Body& body = ofFaces.try_emplace(bodies[face.a], Body{Points(scene, radii)}).first->second;
+        Body& body = bodies.try_emplace(bodyOf[face.a], Body{Points(scene, radii)}).first->second;
         body.extent = std::max(body.extent, extentOf(scene, face));
         body.thickness = std::max(body.thickness, double{face.thickness});
     }
-    for (std::uint32_t i = 0; i < bodies.size(); ++i)
-        if (const auto found = ofFaces.find(bodies[i]); found != ofFaces.end() && radii[i] >= 0)
+    for (std::uint32_t i = 0; i < bodyOf.size(); ++i)
+        if (const auto found = bodies.find(bodyOf[i]); found != bodies.end() && radii[i] >= 0)
             found->second.points.add(i);
-    for (auto& [first, body] : ofFaces) body.points.sort(body.extent, body.thickness);
+    for (auto& [first, body] : bodies) body.points.sort(body.extent, body.thickness);
+    return bodies;
+}
+
+const Nodes* nodesOf(std::span<const Nodes> voxels, const layout::ContactFace& face) {
+    const auto found = std::ranges::find_if(
+        voxels, [&](const Nodes& each) { return each.has(face.a) && each.has(face.b) && each.has(face.c); });
+    return found == voxels.end() ? nullptr : &*found;
+}
+
+// Particles that links join to a corner at first, ascending, some several times.
+std::vector<std::uint32_t> linkedTo(const Nodes& nodes, const layout::ContactFace& face) {
+    std::vector<std::uint32_t> linked;
+    for (const std::uint32_t corner : {face.a, face.b, face.c}) nodes.addLinked(corner, linked);
+    std::ranges::sort(linked);
+    return linked;
+}
+
+} // namespace
+
+std::vector<std::uint32_t> excludedPoints(const Scene& scene, std::span<const layout::ContactFace> faces,
+                                          std::span<const float> radii, const StateLayout& layout,
+                                          std::span<const CutRun> runs) {
+    const std::vector<std::uint32_t> bodyOf = contact_lists::linkedBodies(scene);
+    const std::map<std::uint32_t, Body> bodies = bodiesWithFaces(scene, faces, radii, bodyOf);
+    const std::vector<Nodes> voxels = bodiesOfVoxels(scene);
+    const float widest = radii.empty() ? 0.0f : *std::ranges::max_element(radii);
     std::vector<std::uint32_t> result(faces.size() + 1), near;
+    std::vector<std::size_t> marks; // words with a run, to be replaced by where its strides stand
     for (std::size_t f = 0; f < faces.size(); ++f) {
+        const layout::ContactFace& face = faces[f];
         result[f] = static_cast<std::uint32_t>(result.size());
+        const Nodes* nodes = nodesOf(voxels, face);
+        const auto run = std::ranges::find_if(runs, [&](const CutRun& each) {
+            return nodes && nodes->grid().isCuttable && layout.slot[face.a] - each.first < each.count;
+        });
+        const bool goesByLinks = run != runs.end();
         near.clear();
-        ofFaces.at(bodies[faces[f].a]).points.addNear(faces[f], near);
+        if (!goesByLinks || !nodes->isDeep(face, nearness * (double{widest} + double{face.thickness})))
+            bodies.at(bodyOf[face.a]).points.addNear(face, near);
+        if (nodes) {
+            const std::vector<std::uint32_t> linked = linkedTo(*nodes, face);
+            if (goesByLinks)
+                std::erase_if(near, [&](std::uint32_t i) { return std::ranges::binary_search(linked, i); });
+            else
+                std::ranges::copy_if(linked, std::back_inserter(near), [&](std::uint32_t i) {
+                    return radii[i] >= 0 && i != face.a && i != face.b && i != face.c;
+                });
+        }
         for (std::uint32_t& i : near) i = layout.slot[i];
         std::ranges::sort(near);
+        near.erase(std::unique(near.begin(), near.end()), near.end());
         result.insert(result.end(), near.begin(), near.end());
+        if (!goesByLinks) continue;
+        marks.push_back(result.size());
+        result.push_back(static_cast<std::uint32_t>(run - runs.begin()));
     }
     result[faces.size()] = static_cast<std::uint32_t>(result.size());
+    const std::size_t strides = result.size();
+    for (const CutRun& run : runs) result.insert(result.end(), {run.rowStride, run.sliceStride});
+    for (const std::size_t word : marks)
+        result[word] = EXCLUDED_LINKED | static_cast<std::uint32_t>(strides + 2 * result[word]);
     return result;
 }
 

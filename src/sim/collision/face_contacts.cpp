@@ -4,8 +4,12 @@
 #include "kernels.hpp"
 #include "rest_slack.h"
 #include "sim/collision/contact_lists.hpp"
+#include "sim/collision/insides.hpp"
 #include "sim/cutting/crumbs.hpp"
+#include "sim/cutting/cut_contacts.hpp"
+#include "sim/cutting/cut_faces.hpp"
 #include "sim/forces.hpp"
+#include "sim/lattice/squares.hpp"
 #include "sim/sleep.hpp"
 
 #include <algorithm>
@@ -29,12 +33,13 @@ float median(std::vector<float> values) {
     return *middle;
 }
 
-// Faces between particles: sheets with a corner that moves, what is solid and has one, and those that never
-// move.
+// Faces between particles: sheets with a corner that moves, what is solid and has one, those that a cut may
+// lay open, and those that never move.
 struct Faces {
     std::vector<layout::ContactFace> faces;
     std::vector<float> extents;
     std::uint32_t sheets = 0, moving = 0;
+    std::uint32_t firstInner = 0; ///< of those that a cut may lay open; all up to `moving` are
 
     // So many know which points are near them.
     std::uint32_t linked(bool keepsForces) const {
@@ -52,24 +57,45 @@ float extentOf(const Scene& scene, const Face& face) {
     return extent;
 }
 
-Faces facesOf(const Scene& scene, const std::vector<float>& inverseMass) {
+// Squares inside of voxel bodies that have faces and may be cut.
+std::vector<Face> innerFaces(const Scene& scene) {
+    std::vector<bool> isCorner(scene.particles.size());
+    for (const Face& face : scene.faces)
+        for (const std::uint32_t i : face.particles) isCorner[i] = isCorner[i] || face.isSolid;
+    std::vector<Face> faces;
+    for (const Grid& grid : scene.grids) {
+        const auto first = isCorner.begin() + grid.firstParticle;
+        if (!grid.isCuttable || lattice::isSheet(grid) ||
+            std::none_of(first, first + static_cast<std::ptrdiff_t>(grid.node.size()), std::identity{}))
+            continue;
+        const float thickness = scene.particles[grid.firstParticle].radius;
+        lattice::appendSquares(faces, grid, thickness, lattice::Squares::inner);
+    }
+    return faces;
+}
+
+Faces facesOf(const Scene& scene, const std::vector<float>& inverseMass, bool canBeCut) {
     enum class Kind : std::uint8_t { sheet, solid, still };
     const auto kindOf = [&](const Face& face) {
         if (!moves(face, inverseMass)) return Kind::still;
         return face.isSolid ? Kind::solid : Kind::sheet;
     };
     Faces faces;
+    const auto addOne = [&](const Face& face) {
+        const auto [a, b, c] = face.particles;
+        faces.faces.push_back({a, b, c, face.thickness});
+        faces.extents.push_back(extentOf(scene, face));
+    };
     const auto add = [&](Kind kind) {
-        for (const Face& face : scene.faces) {
-            if (kindOf(face) != kind) continue;
-            const auto [a, b, c] = face.particles;
-            faces.faces.push_back({a, b, c, face.thickness});
-            faces.extents.push_back(extentOf(scene, face));
-        }
+        for (const Face& face : scene.faces)
+            if (kindOf(face) == kind) addOne(face);
         return static_cast<std::uint32_t>(faces.faces.size());
     };
     faces.sheets = add(Kind::sheet);
-    faces.moving = add(Kind::solid);
+    faces.firstInner = add(Kind::solid);
+    if (canBeCut)
+        for (const Face& face : innerFaces(scene)) addOne(face);
+    faces.moving = static_cast<std::uint32_t>(faces.faces.size());
     add(Kind::still);
     return faces;
 }
@@ -94,7 +120,7 @@ float heldBeyond(const Scene& scene, const Faces& faces, std::span<const float> 
     if (!keepRest(scene)) return 0;
     const auto thickest = [&](std::uint32_t first, std::size_t end) {
         float thickness = 0;
-        for (std::size_t f = first; f < end; ++f) thickness = std::max(thickness, faces.faces[f].thickness);
+        for (std::size_t f = first; f < end; ++f) thickness = std::max(thickness, std::abs(faces.faces[f].thickness));
         return thickness;
     };
     const float radius = std::max(0.0f, std::ranges::max(radii));
@@ -133,7 +159,10 @@ std::vector<std::uint32_t> cornersOf(const Faces& faces, const std::vector<float
 face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Settings& settings,
                            const StateLayout& layout, const std::vector<float>& inverseMass, Faces faces) {
     const std::vector<float> byParticle = pointRadii(scene, inverseMass, faces);
-    const std::vector<std::uint32_t> exclusions = excludedPoints(scene, faces.faces, byParticle, layout);
+    const CuttingBuffers& cutting = program.program().cutting;
+    const bool hasInner = faces.firstInner < faces.moving;
+    const std::vector<std::uint32_t> exclusions = excludedPoints(
+        scene, faces.faces, byParticle, layout, hasInner ? cutting.runs : std::vector<CutRun>{});
     const float beyond = heldBeyond(scene, faces, byParticle);
     std::vector<float> radii(layout.count, -1), masses(layout.count, 0), wide;
     for (std::size_t i = 0; i < byParticle.size(); ++i) {
@@ -147,13 +176,17 @@ face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
     // Thin cloth of coarse faces may wait longer than its radius says: an eighth of a face costs few
     // candidates.
     const float length = std::max(median(wide), median(faces.extents) / 8);
+    const std::vector<bool> isInside = insides::find(scene);
+    const std::vector<float> closed = insides::closed(radii, isInside, layout);
     face_lists::Lists lists = face_lists::add(program, {.radii = radii,
+                                                        .closed = closed,
                                                         .inverseMasses = masses,
                                                         .faces = faces.faces,
                                                         .moving = faces.moving,
                                                         .linked = faces.linked(settings.keepsForces),
                                                         .extents = faces.extents,
                                                         .exclusions = exclusions,
+                                                        .liveLinks = hasInner ? cutting.links : BufferId{},
                                                         .margin = settings.contactMargin * length,
                                                         .beyond = beyond,
                                                         .capacity = settings.contactRoom,
@@ -163,6 +196,12 @@ face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
     cutting::letCrumbsLeave(program, lists.grid.radii, lists.grid);
     cutting::letCrumbsLeave(program, lists.grid.watched, lists.grid);
     cutting::letCrumbsLeave(program, lists.radii, lists.grid);
+    if (hasInner && std::ranges::find(isInside, true) != isInside.end()) {
+        std::vector<float> points;
+        for (const float radius : radii) points.push_back(radius < 0 ? -1.0f : 0.0f); // as the grid has them
+        insides::addOpening(program, lists.grid.radii, points, lists.grid);
+        insides::addOpening(program, lists.radii, radii, lists.grid);
+    }
     return lists;
 }
 
@@ -246,15 +285,19 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
              const ParticleBuffers& particles) {
     const StateLayout& layout = particles.layout;
     const std::vector<float> inverseMass = inverseMasses(scene);
-    const Faces faces = facesOf(scene, inverseMass);
+    const bool canBeCut = program.program().cutting.links != BufferId{};
+    const Faces faces = facesOf(scene, inverseMass, canBeCut);
     Contacts contacts{.lists = addLists(program, scene, settings, layout, inverseMass, faces),
                       .faces = static_cast<std::uint32_t>(faces.faces.size()),
+                      .firstInner = faces.firstInner,
                       .sleeps = particles.sleep != nullptr};
     const layout::FaceFindPush& find = contacts.lists.push;
     contacts.surfaces = surfaces::addTable(program, scene, layout, "faces.surface");
     contacts.push = {.count = find.points,
                      .surfaces = contacts.surfaces.count,
-                     .recoverySpeed = scene.contacts.recoverySpeed,
+                     .recoverySpeed = faces.firstInner < faces.moving
+                                          ? std::min(scene.contacts.recoverySpeed, cutting::recoverySpeed)
+                                          : scene.contacts.recoverySpeed,
                      .moving = find.moving,
                      .sheets = faces.sheets};
     ContactBuffers& shown = program.program().contacts;
@@ -299,6 +342,7 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
                bool isFirst) {
     const face_lists::Lists& lists = contacts.lists;
     addListUpdate(program, contacts, predicted, isFirst);
+    if (isFirst) cutting::addFaceOpening(program, contacts, predicted);
     if (contacts.hasStops()) {
         program.copy(predicted.positions, contacts.linkedPositions);
         program.copy(predicted.velocities, contacts.linkedVelocities);

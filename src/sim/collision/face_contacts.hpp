@@ -27,8 +27,9 @@ std::vector<float> looseRadii(const Scene& scene);
 struct Contacts {
     face_lists::Lists lists;
     layout::FacePush push{};
-    std::uint32_t faces = 0; ///< of all kinds
-    bool sleeps = false;     ///< whether the scene may
+    std::uint32_t faces = 0;      ///< of all kinds
+    std::uint32_t firstInner = 0; ///< from there to push.moving: there only once a cut lays them open
+    bool sleeps = false;          ///< whether the scene may
     surfaces::Surfaces surfaces;
     BufferId corners, directions, weights, shares, impulses;
     BufferId keepers;       ///< of each particle: 2 x linked body, + 1 = Particle::keepsRest
@@ -41,6 +42,7 @@ struct Contacts {
     BufferId stopRows;     ///< of each face (forces::Stops); only where forces are kept, too
     std::uint32_t movingPointCount = 0;
 
+    bool hasInner() const { return firstInner < push.moving; }
     /// Whether some face never gives way.
     bool hasStops() const { return lists.push.moving < faces; }
 };
@@ -70,8 +72,11 @@ void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleB
 void addPublishing(ProgramBuilder& program, const Contacts& contacts);
 
 /// Points that a face never touches though they are not its corners, as face_lists::Request says: those of
-/// its own linked body that are nearer than 1.05 times touching at rest. `faces` between particles.
+/// its own linked body that are nearer than 1.05 times touching at rest, and of a voxel body those that a
+/// link joins to a corner: they are 1.73 spacings away at most and all others at least 2. `faces` between
+/// particles; `runs` = bodies whose links may be cut.
 std::vector<std::uint32_t> excludedPoints(const Scene& scene, std::span<const layout::ContactFace> faces,
-                                          std::span<const float> radii, const StateLayout& layout);
+                                          std::span<const float> radii, const StateLayout& layout,
+                                          std::span<const CutRun> runs = {});
 
 } // namespace sinew::sim::collision::face_contacts

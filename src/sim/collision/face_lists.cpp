@@ -11,6 +11,10 @@ namespace {
 
 namespace k = kernels;
 
+// find_faces from loads and from texels; [0] where no body may be cut, [1] where some may.
+constexpr std::array<std::array<const vk::ShaderCode*, 2>, 2> finding{
+    {{&k::findFacesLoads, &k::findFacesLinksLoads}, {&k::findFaces, &k::findFacesLinks}}};
+
 // Half of the margin is what a point and a face may come nearer by each; a little less for rounding.
 constexpr float slackShare = 0.49f;
 
@@ -38,7 +42,9 @@ std::vector<BufferId> searchBuffers(const Lists& lists, const ParticleBuffers& p
 
 // By slot: below 0 = neither a point nor a corner.
 std::vector<float> watchedOf(const Request& request) {
-    std::vector<float> watched(request.radii.begin(), request.radii.end());
+    const bool mayOpen = request.liveLinks != BufferId{};
+    const std::span<const float> points = mayOpen || request.closed.empty() ? request.radii : request.closed;
+    std::vector<float> watched(points.begin(), points.end());
     for (const layout::ContactFace& face : request.faces)
         for (const std::uint32_t corner : {face.a, face.b, face.c}) watched[corner] = 0;
     return watched;
@@ -57,7 +63,8 @@ Lists add(ProgramBuilder& program, const Request& request) {
     const std::size_t count = request.radii.size(), faces = request.faces.size();
     const float edge = std::max(hash_grid::largestInGrid(request.extents),
                                 2 * hash_grid::largestInGrid(request.radii) + request.margin);
-    const std::vector<float> points = pointsOf(request.radii);
+    const std::span<const float> closed = request.closed.empty() ? request.radii : request.closed;
+    const std::vector<float> points = pointsOf(closed);
     const std::vector<float> watched = watchedOf(request);
     const std::vector<std::uint32_t> large = facesWhere(request.extents, edge, true);
     Lists lists{.grid = hash_grid::add(program, {.radii = points,
@@ -89,17 +96,17 @@ Lists add(ProgramBuilder& program, const Request& request) {
     lists.links = program.scratch<std::uint32_t>("faces.links", lists.pooled.room);
     lists.linkLists = program.scratch<layout::ListRange>("faces.link_lists", request.linked + 1);
     lists.faceChains = program.scratch<std::uint32_t>("faces.chains_of_faces", request.linked + 1);
-    lists.radii = program.upload("faces.radii", request.radii);
+    lists.radii = program.upload("faces.radii", closed);
     lists.inverseMasses = program.upload("faces.inverse_masses", request.inverseMasses);
     lists.faces = program.upload("faces", request.faces);
     lists.excluded = program.upload("faces.excluded", request.exclusions);
     lists.points = program.scratch<layout::FacePoints>("faces.points", 1);
-    lists.apart = program.scratch<std::uint32_t>("faces.points.apart", count);
+    lists.apart = program.scratch<std::uint32_t>("faces.points.apart", count + faces);
+    lists.liveLinks = request.liveLinks;
     lists.searched = program.upload("faces.searched", facesWhere(request.extents, edge, false));
     lists.large = program.upload("faces.large", large);
     lists.touching = program.scratch<std::uint32_t>("faces.groups", count / GROUP_ITEMS);
     lists.marks = program.scratch<std::uint32_t>("faces.groups.listed", count / GROUP_ITEMS);
-    lists.wide = program.scratch<std::uint32_t>("faces.wide", faces);
     return lists;
 }
 
@@ -126,14 +133,18 @@ void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers
     parting.insert(parting.end(), keeping.begin(), keeping.end());
     program.dispatchIndirect(k::partPoints, grid.particles, parting, lists.push);
     std::vector<BufferId> buffers = searchBuffers(lists, particles);
+    const bool hasLinks = lists.liveLinks != BufferId{};
     buffers.insert(buffers.end(), {grid.sorted, grid.starts, lists.points, lists.apart, lists.searched,
-                                   lists.wide, lists.inverseMasses});
-    program.dispatchIndirect(grid.usesTexels ? k::findFaces : k::findFacesLoads, grid.others, buffers,
+                                   lists.inverseMasses});
+    if (hasLinks) buffers.push_back(lists.liveLinks);
+    program.dispatchIndirect(*finding[grid.usesTexels ? 1 : 0][hasLinks ? 1 : 0], grid.others, buffers,
                              lists.push);
     buffers = searchBuffers(lists, particles);
     buffers.insert(buffers.end(),
-                   {lists.large, lists.wide, lists.points, program.program().status, lists.inverseMasses});
-    program.dispatchIndirect(k::findWideFaces, grid.particles, buffers, lists.push);
+                   {lists.large, lists.apart, lists.points, program.program().status, lists.inverseMasses});
+    if (hasLinks) buffers.push_back(lists.liveLinks);
+    program.dispatchIndirect(hasLinks ? k::findWideFacesLinks : k::findWideFaces, grid.particles, buffers,
+                             lists.push);
     buffers = pooled_lists::sortingBuffers(program, lists.pooled, grid, lists.radii);
     buffers.insert(buffers.end(), {grid.touching.arguments, lists.marks, lists.touching, lists.faces});
     program.dispatchIndirect(k::sortFaces, grid.particles, buffers, lists.push);

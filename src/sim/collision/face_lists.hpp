@@ -16,14 +16,18 @@ namespace sinew::sim::collision::face_lists {
 /// What can touch what, between state slots.
 struct Request {
     std::span<const float> radii;         ///< by state slot, whole work groups [m]; below 0 = touches no face
+    std::span<const float> closed;        ///< the same without insides (insides.hpp); empty = no inside
     std::span<const float> inverseMasses; ///< likewise; 0 = never moves [1/kg]
     std::span<const layout::ContactFace> faces;
     std::uint32_t moving = 0;       ///< faces before that one have a corner that moves
     std::uint32_t linked = 0;       ///< faces before that one know the points near them; at least `moving`
     std::span<const float> extents; ///< of each face: the longest side of its box at first [m]
     /// Points that a face never touches: for each face the first of them, one more for the end, then the
-    /// points of all, sorted.
+    /// points of all, sorted. A row that ends with EXCLUDED_LINKED | k is of a body that may be cut: its face
+    /// does not touch what a live link joins to a corner either, and words k and k + 1 are the strides
+    /// between rows and slices of its slots.
     std::span<const std::uint32_t> exclusions;
+    BufferId liveLinks;         ///< CuttingBuffers::links; only where there are such rows
     float margin = 0;           ///< M [m]
     float beyond = 0;           ///< how much farther than touching and M pairs are listed besides [m]
     std::uint32_t capacity = 0; ///< faces near a point, on average
@@ -41,7 +45,9 @@ struct Lists {
     BufferId links, linkLists;
     BufferId faceChains; ///< of pairs, by face that moves
     BufferId radii, inverseMasses, faces, excluded;
-    BufferId points, apart, searched, large, wide;
+    BufferId points, searched, large;
+    BufferId apart;           ///< points that the grid is too fine for; behind them faces that are
+    BufferId liveLinks;       ///< as Request has it
     BufferId touching, marks; ///< work groups of particles of which one is in a list, as point or corner
 };
 

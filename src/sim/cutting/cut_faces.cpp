@@ -7,6 +7,7 @@
 #include "sim/lattice/link_masks.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <functional>
 #include <optional>
 
@@ -31,25 +32,31 @@ std::optional<layout::CutFace> halfOf(const CutRun& run, const layout::ContactFa
     return layout::CutFace{slots[0], middle == 1 ? 1u : 0u, 0, 0, 0};
 }
 
-// The bit of the link that leads so many slots further in a lattice.
-std::optional<std::uint32_t> bitTo(const CutRun& run, std::uint32_t slots) {
+// The step in a lattice that leads so many slots further.
+std::optional<std::array<int, 3>> stepOf(const CutRun& run, std::uint32_t slots) {
     for (std::uint32_t bit = lattice::firstOwned; bit < lattice::directionCount; ++bit) {
         const auto [x, y, z] = lattice::directionOf(bit);
         const std::int64_t way = x + y * std::int64_t{run.rowStride} + z * std::int64_t{run.sliceStride};
-        if (way == slots) return bit;
+        if (way == slots) return std::array{x, y, z};
     }
     return std::nullopt;
 }
 
-// Between nodes of a lattice; none between others.
+// Half of a square between nodes of a lattice; none between others.
 std::optional<layout::CutSolidFace> solidOf(const CutRun& run, const layout::ContactFace& face) {
     std::array<std::uint32_t, 3> slots{face.a, face.b, face.c};
-    std::ranges::sort(slots);
-    if (!isIn(run, slots[0]) || !isIn(run, slots[2])) return std::nullopt;
-    const auto first = bitTo(run, slots[1] - slots[0]), across = bitTo(run, slots[2] - slots[0]),
-               last = bitTo(run, slots[2] - slots[1]);
-    if (!first || !across || !last) return std::nullopt;
-    return layout::CutSolidFace{slots[0], slots[1], *first | *across << 8 | *last << 16, 0, 0, 0};
+    std::ranges::rotate(slots, std::ranges::min_element(slots));
+    if (!isIn(run, slots[0]) || !isIn(run, std::max(slots[1], slots[2]))) return std::nullopt;
+    const auto b = stepOf(run, slots[1] - slots[0]), c = stepOf(run, slots[2] - slots[0]);
+    if (!b || !c) return std::nullopt;
+    const std::array<std::uint32_t, 3> strides{1, run.rowStride, run.sliceStride};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+        const int normal = (*b)[u] * (*c)[v] - (*b)[v] * (*c)[u];
+        if ((*b)[axis] != 0 || (*c)[axis] != 0 || normal == 0) continue;
+        return layout::CutSolidFace{slots[0], strides[axis], normal > 0 ? 1u : 0u, 0, 0, 0};
+    }
+    return std::nullopt;
 }
 
 // Faces of one run, as `partOf` has them, with where they stand in the lists that they are searched by.
@@ -115,15 +122,27 @@ void addFilter(ProgramBuilder& program, const collision::face_lists::Lists& list
                const vk::ShaderCode& code, const PartOf& partOf) {
     const auto faces = facesOf<Part>(program, lists, [&](const auto& face) { return partOf(run, face); });
     if (faces.empty()) return;
-    makeTopology(program, lists.grid.detected, {lists.searched, lists.large});
+    makeTopology(program, lists.grid.detected, {lists.searched, lists.large, lists.faces});
     const CuttingBuffers& cutting = program.program().cutting;
-    const std::vector<BufferId> buffers{
-        cutting.links,     cutting.savedLinks, program.upload("cut.faces", faces),
-        lists.searched,    lists.large,        lists.grid.bounds,
-        cutting.particles, cutting.pieces};
-    const layout::CutFacesPush push{static_cast<std::uint32_t>(faces.size()), run.sliceStride};
+    std::vector<BufferId> buffers{cutting.links,     cutting.savedLinks, program.upload("cut.faces", faces),
+                                  lists.searched,    lists.large,        lists.grid.bounds,
+                                  cutting.particles, cutting.pieces};
+    if (run.rowStride > 0) buffers.push_back(lists.faces);
+    const layout::CutFacesPush push{static_cast<std::uint32_t>(faces.size()), run.sliceStride, run.rowStride};
     addTwice(program,
              [&program, &code, buffers, push] { program.dispatch(code, push.count, buffers, push); });
+}
+
+// Faces inside of uncut bodies look for nothing.
+void hideInner(ProgramBuilder& program, const collision::face_contacts::Contacts& contacts) {
+    for (const BufferId list : {contacts.lists.searched, contacts.lists.large}) {
+        auto faces = firstContents<std::uint32_t>(program, list);
+        for (std::uint32_t& face : faces)
+            if (face >= contacts.firstInner && face < contacts.push.moving) face = ~0u;
+        if (!faces.empty())
+            std::memcpy(program.program().buffers[list.index].initial.data(), faces.data(),
+                        faces.size() * sizeof(faces[0]));
+    }
 }
 
 } // namespace
@@ -135,6 +154,19 @@ void addFaceFilter(ProgramBuilder& program, const collision::face_contacts::Cont
             addFilter<layout::CutSolidFace>(program, contacts.lists, run, k::partSolidFaces, solidOf);
         else
             addFilter<layout::CutFace>(program, contacts.lists, run, k::partFaces, halfOf);
+    hideInner(program, contacts);
+}
+
+void addFaceOpening(ProgramBuilder& program, const collision::face_contacts::Contacts& contacts,
+                    const ParticleBuffers& predicted) {
+    if (!contacts.hasInner()) return;
+    const collision::face_lists::Lists& lists = contacts.lists;
+    program.beginCut();
+    program.dispatch(k::openCutFaces, contacts.push.count,
+                     {predicted.positions, predicted.velocities, lists.faces, lists.pooled.contacts,
+                      lists.pooled.ranges, lists.pooled.memory->memory, predicted.step},
+                     contacts.push);
+    program.endCut();
 }
 
 void addEdgeFilter(ProgramBuilder& program, const collision::edge_contacts::Contacts& contacts) {
@@ -146,7 +178,7 @@ void addEdgeFilter(ProgramBuilder& program, const collision::edge_contacts::Cont
         if (edges.empty()) continue;
         makeTopology(program, lists.grid.detected, {lists.edges});
         const BufferId uploaded = program.upload("cut.edges", edges);
-        const layout::CutFacesPush push{static_cast<std::uint32_t>(edges.size()), run.sliceStride};
+        const layout::CutFacesPush push{static_cast<std::uint32_t>(edges.size()), run.sliceStride, 0};
         addTwice(program, [&program, cutting, lists, uploaded, push] {
             program.dispatch(k::partEdges, push.count,
                              {cutting.links, cutting.savedLinks, uploaded, lists.radii, lists.edges,

@@ -1,0 +1,56 @@
+// A point and a face at the end of a substep and at its beginning. Uses the names and buffers of touch_faces.
+
+// Whether a point that has passed a plane went through the face in it: on straight ways, where it was in the plane. A face
+// that turns was not quite there; what it never was within reach of may be in no list.
+bool hasPassed(vec3 ap, vec3 ab, vec3 ac, float reach, out vec3 b) {
+    b = weightsOf(ap, triangleOf(ab, ac));
+    const bool isInside = min(b.x, min(b.y, b.z)) >= -1e-3; // of two faces at an edge at least one sees it
+    b = max(b, vec3(0.0));
+    b /= b.x + b.y + b.z;
+    const vec3 d = ap - b.y * ab - b.z * ac;
+    return isInside && dot(d, d) < reach * reach;
+}
+
+// A point and a face at the end of a substep, and on which side of its plane the point then is and was at its beginning.
+struct Meeting {
+    ContactFace face;
+    float reach;               // [m]
+    float front;               // of something solid: 1 = where the normal points, -1 = the other side
+    vec3 ap, ab, ac, vp, vb, vc; // from corner a, and relative to its velocity
+    Triangle triangle;
+    Nearest nearest;
+    vec3 normal;               // unit
+    float height, heightBefore; // [m]
+    bool isKept;               // the pair keeps its rest distance: said by those who ask
+};
+
+Meeting meetingOf(uint i, uvec2 candidate) {
+    Meeting m;
+    m.face = faces[candidate.x];
+    const float reach = uintBitsToFloat(candidate.y); // below 0 as the thickness is
+    m.reach = abs(reach);
+    m.front = reach < 0.0 ? -1.0 : 1.0;
+    const float h = step.h;
+    const vec3 a = predicted[m.face.a].xyz, va = velocities[m.face.a].xyz;
+    m.ap = predicted[i].xyz - a, m.ab = predicted[m.face.b].xyz - a, m.ac = predicted[m.face.c].xyz - a;
+    m.vp = velocities[i].xyz - va, m.vb = velocities[m.face.b].xyz - va, m.vc = velocities[m.face.c].xyz - va;
+    m.triangle = triangleOf(m.ab, m.ac);
+    m.nearest = nearestOf(m.ap, m.triangle);
+    m.normal = normalize(m.triangle.normal);
+    m.height = dot(m.normal, m.ap);
+    const Triangle before = triangleOf(m.ab - h * m.vb, m.ac - h * m.vc);
+    m.heightBefore = dot(before.normal, m.ap - h * m.vp) / max(length(before.normal), 1e-30);
+    m.isKept = false;
+    return m;
+}
+
+bool wentThrough(Meeting m, out vec3 b) {
+    const float back = step.h * m.height / (m.height - m.heightBefore); // since it was in the plane [s]
+    return hasPassed(m.ap - back * m.vp, m.ab - back * m.vb, m.ac - back * m.vc, m.reach, b);
+}
+
+Nearest nearestBefore(Meeting m) {
+    return nearestOf(m.ap - step.h * m.vp, triangleOf(m.ab - step.h * m.vb, m.ac - step.h * m.vc));
+}
+
+bool isWithinReach(Meeting m) { return dot(m.nearest.d, m.nearest.d) < m.reach * m.reach; }

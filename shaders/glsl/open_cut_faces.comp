@@ -1,0 +1,37 @@
+#version 460
+// In the first substep after a cut, when contacts are listed anew: points that a new face is nearer to than touching part from it at a
+// limited speed, as they do that overlap when a scene is loaded. Links may have held them so near, or particles alone.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "triangle.glsl"
+
+layout(std430, binding = 0) readonly buffer Predicted { vec4 predicted[]; };
+layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; };
+layout(std430, binding = 2) readonly buffer Faces { ContactFace faces[]; };
+layout(std430, binding = 3) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
+layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };
+layout(std430, binding = 5) buffer Memory { vec4 memory[]; }; // w: side and overlap, 0 = has not touched
+layout(std140, binding = 6) uniform Step { StepParams step; };
+layout(push_constant) uniform Push { FacePush push; };
+#include "face_meeting.glsl"
+
+// When the substep began; 0 behind the face [m].
+float overlapBefore(Meeting m) {
+    const float h = step.h;
+    if (m.front * m.height < 0.0 || m.front * m.heightBefore < 0.0) return 0.0;
+    const Nearest nearest = nearestOf(m.ap - h * m.vp, triangleOf(m.ab - h * m.vb, m.ac - h * m.vc));
+    return m.reach - length(nearest.d);
+}
+
+void main() {
+    const uint i = itemIndex(push.count);
+    const uvec2 list = lists[i];
+    for (uint element = list.x; element < list.x + list.y; ++element) {
+        const uvec2 candidate = contacts[element];
+        if (memory[element].w != 0.0 || candidate.x < push.sheets || candidate.x >= push.moving) continue;
+        const Meeting m = meetingOf(i, candidate);
+        if (isSliver(m.triangle)) continue;
+        const float overlap = overlapBefore(m);
+        if (overlap > 0.0) memory[element] = vec4(vec3(0.0), m.front * (1.0 + overlap));
+    }
+}
