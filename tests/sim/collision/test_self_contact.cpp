@@ -1,0 +1,513 @@
+// Voxel bodies with faces that touch themselves: folded, knotted, and across what a cut has laid open. Gaps
+// are measured on the host against every triangle of the surface, which is found from the live links alone.
+#include "layout.h"
+#include "sim/bodies.hpp"
+#include "sim/collision/face_contacts.hpp"
+#include "sim/compile.hpp"
+#include "sim/cutting/cut_body.hpp"
+#include "sim/cutting/cut_gaps.hpp"
+#include "sim/holds.hpp"
+#include "sim/lattice/link_masks.hpp"
+#include "sim/scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <set>
+
+using namespace sinew;
+using namespace sinew::sim;
+using Eigen::Vector3d;
+using test::CutBody;
+using test::deepest;
+using test::distanceTo;
+using test::surfaceOf;
+using test::sweepOf;
+using test::Triangle;
+
+namespace {
+
+constexpr float spacing = 0.05f;
+constexpr double voxel = double{spacing};
+
+Lattice latticeOf(std::array<std::uint32_t, 3> cells, float youngModulus, bool isCuttable = false) {
+    return {.cells = cells,
+            .spacing = spacing,
+            .youngModulus = youngModulus,
+            .radius = spacing / 2,
+            .isCuttable = isCuttable};
+}
+
+std::vector<Triangle> facesIn(const Scene& scene) {
+    std::vector<Triangle> faces;
+    for (const Face& face : scene.faces) faces.push_back(face.particles);
+    return faces;
+}
+
+std::vector<std::uint32_t> particlesWhere(const Scene& scene, const std::function<bool(const Vec3&)>& isIn) {
+    std::vector<std::uint32_t> result;
+    for (std::uint32_t i = 0; i < scene.particles.size(); ++i)
+        if (isIn(scene.particles[i].position)) result.push_back(i);
+    return result;
+}
+
+Pose poseAt(const Vec3& position, double turn = 0) { // [rad] about x
+    return {position, {static_cast<float>(std::sin(turn / 2)), 0, 0, static_cast<float>(std::cos(turn / 2))}};
+}
+
+// A strip of 3 x 3 x 40 cells along z on a plane, of which one end stands still and the other is turned over
+// onto it, a fifth of a voxel above where both halves touch.
+Scene foldedStrip(bool isCuttable) {
+    Scene scene{.name = "strip", .damping = 4};
+    addLattice(scene, latticeOf({3, 3, 40}, 4e4f, isCuttable));
+    addSurfaceFaces(scene, scene.grids[0]);
+    const float plane = -spacing / 2, pivot = 0.15f + 0.6f * spacing;
+    scene.planes = {{.normal = {0, 1, 0}, .offset = plane, .friction = 0.5f}};
+    hold(scene, particlesWhere(scene, [](const Vec3& x) { return x.z < 3.5f * spacing; }));
+    std::vector<Keyframe> path;
+    for (int n = 0; n <= 8; ++n)
+        path.push_back(
+            {0.1f * static_cast<float>(n), poseAt({0, pivot, 20 * spacing}, -std::numbers::pi * n / 8)});
+    drive(scene, particlesWhere(scene, [](const Vec3& x) { return x.z > 36.5f * spacing; }), path);
+    return scene;
+}
+
+// Whether a particle is of one half and a triangle of the other, without the fold between.
+bool areOfHalves(const Scene& scene, std::uint32_t i, const Triangle& t) {
+    const float a = scene.particles[i].position.z / spacing - 20,
+                b = scene.particles[t[0]].position.z / spacing - 20;
+    return a * b < 0 && std::abs(a) > 4 && std::abs(b) > 4;
+}
+
+} // namespace
+
+TEST(SelfContact, KeepsTheHalvesOfAFoldedStripApart) {
+    for (const bool isCuttable : {false, true}) {
+        const Scene scene = foldedStrip(isCuttable);
+        test::Runner runner(scene, {.substeps = 24, .contactRoom = 32});
+        double most = -9, end = 0;
+        for (int step = 0; step < 90; ++step) {
+            const Status status = runner.run(1);
+            ASSERT_EQ(status.nonFinite, 0u);
+            ASSERT_EQ(status.contactRoom, 0u);
+            end = deepest(voxel, runner.positions(), facesIn(scene),
+                          [&](std::uint32_t i, const Triangle& t) { return areOfHalves(scene, i, t); });
+            most = std::max(most, end);
+        }
+        std::printf("%s: halves at most %.4f voxels nearer than touching, %.4f at the end\n",
+                    isCuttable ? "may be cut" : "whole", most, end);
+        EXPECT_LT(most, 0.02);
+        EXPECT_GT(end, -0.02) << "they touch";
+    }
+}
+
+// At rest, turned by a right angle with a third of its length taken away, and squeezed: in the same bits as
+// without faces.
+TEST(SelfContact, IsNotFeltByABodyThatIsBentOrSqueezed) {
+    for (const bool isCuttable : {false, true})
+        for (const double turn : {0.0, std::numbers::pi / 3}) {
+            std::vector<Vector3d> x[2];
+            double shortest = 9;
+            for (const bool hasFaces : {false, true}) {
+                Scene scene{.name = "beam", .damping = 3};
+                scene.gravity = {};
+                addLattice(scene, latticeOf({3, 3, 12}, 1e5f, isCuttable));
+                if (hasFaces) addSurfaceFaces(scene, scene.grids[0]);
+                hold(scene, particlesWhere(scene, [](const Vec3& p) { return p.z < 0.5f * spacing; }));
+                const Vec3 end{0, 1.5f * spacing, 12 * spacing};
+                const Vec3 last =
+                    turn == 0 ? Vec3{end.x, end.y, 0.7f * end.z} : Vec3{0, 4.6f * spacing, 10.8f * spacing};
+                drive(scene, particlesWhere(scene, [](const Vec3& p) { return p.z > 11.5f * spacing; }),
+                      {{0, poseAt(end)}, {0.5f, poseAt(last, -turn)}});
+                scene.particles.push_back({.position = {9, 9, 9}, .radius = spacing / 2}); // both have pairs
+                test::Runner runner(scene, {.substeps = 16});
+                ASSERT_EQ(runner.run(45).nonFinite, 0u);
+                x[hasFaces ? 1 : 0] = runner.positions();
+            }
+            double most = 0;
+            for (std::size_t i = 0; i < x[0].size(); ++i) most = std::max(most, (x[1][i] - x[0][i]).norm());
+            for (std::size_t i = 0; i + 17 < x[0].size(); ++i)
+                shortest = std::min(shortest, (x[0][i + 16] - x[0][i]).norm() / voxel);
+            std::printf("turned by %.1f: cells are %.2f of their length; %.1e m elsewhere for faces\n", turn,
+                        shortest, most);
+            EXPECT_NEAR(shortest, 0.68, 0.06);
+            EXPECT_EQ(most, 0);
+        }
+}
+
+// A link of a chain in another, at right angles, both ends of one body that a long strand joins.
+TEST(SelfContact, HoldsTwoStrandsThatHookIntoEachOther) {
+    constexpr std::uint32_t nx = 14, ny = 13, nz = 9;
+    Lattice lattice = latticeOf({nx, ny, nz}, 1e5f);
+    lattice.fill.assign(std::size_t{nx} * ny * nz, 0);
+    const auto fill = [&](std::array<std::uint32_t, 3> low, std::array<std::uint32_t, 3> high) {
+        for (std::uint32_t z = low[2]; z < high[2]; ++z)
+            for (std::uint32_t y = low[1]; y < high[1]; ++y)
+                for (std::uint32_t x = low[0]; x < high[0]; ++x)
+                    lattice.fill[x + nx * (y + std::size_t{ny} * z)] = 1;
+    };
+    fill({3, 4, 4}, {10, 5, 5}); // hangs from above, in the plane z = 4
+    fill({3, 4, 4}, {4, 13, 5});
+    fill({9, 4, 4}, {10, 13, 5});
+    fill({0, 12, 4}, {10, 13, 5});
+    fill({6, 8, 1}, {7, 9, 8}); // stands on the floor, in the plane x = 6
+    fill({6, 0, 1}, {7, 9, 2});
+    fill({6, 0, 7}, {7, 9, 8});
+    fill({0, 0, 7}, {7, 1, 8});
+    fill({0, 0, 4}, {1, 1, 8});
+    fill({0, 0, 4}, {1, 13, 5}); // the strand
+    Scene scene{.name = "hooks", .damping = 2};
+    scene.gravity = {};
+    addLattice(scene, lattice);
+    addSurfaceFaces(scene, scene.grids[0]);
+    const auto isUpper = [](const Vec3& x) {
+        return x.x > 2.5f * spacing && x.z > 3.5f * spacing && x.z < 5.5f * spacing && x.y > 3.5f * spacing &&
+               (x.x < 4.5f * spacing || x.x > 8.5f * spacing || x.y < 5.5f * spacing ||
+                x.y > 11.5f * spacing);
+    };
+    hold(scene,
+         particlesWhere(scene, [](const Vec3& x) { return x.y < 1.5f * spacing && x.x > 0.5f * spacing; }));
+    drive(scene,
+          particlesWhere(scene, [](const Vec3& x) { return x.y > 11.5f * spacing && x.x > 2.5f * spacing; }),
+          {{0, poseAt({})}, {1, poseAt({0, 5 * spacing, 0})}});
+    std::vector<bool> isOfUpper(scene.particles.size());
+    for (const std::uint32_t i : particlesWhere(scene, isUpper)) isOfUpper[i] = true;
+    std::vector<bool> isOfLower(scene.particles.size());
+    for (const std::uint32_t i : particlesWhere(scene, [](const Vec3& x) {
+             return x.x > 5.5f * spacing && x.x < 7.5f * spacing && x.y > 1.5f * spacing &&
+                    x.y < 9.5f * spacing &&
+                    (x.y > 7.5f * spacing || x.z < 2.5f * spacing || x.z > 6.5f * spacing);
+         }))
+        isOfLower[i] = !isOfUpper[i];
+    test::Runner runner(scene, {.substeps = 32, .contactRoom = 32});
+    double most = -9, end = -9;
+    for (int step = 0; step < 90; ++step) {
+        const Status status = runner.run(1);
+        ASSERT_EQ(status.nonFinite, 0u);
+        ASSERT_EQ(status.contactRoom, 0u);
+        end = deepest(voxel, runner.positions(), facesIn(scene), [&](std::uint32_t i, const Triangle& t) {
+            return (isOfUpper[i] && isOfLower[t[0]]) || (isOfLower[i] && isOfUpper[t[0]]);
+        });
+        most = std::max(most, end);
+    }
+    const auto x = runner.positions();
+    double upper = 9, lower = -9; // of the bars that hold each other
+    for (std::uint32_t i = 0; i < x.size(); ++i) {
+        const Vec3& p = scene.particles[i].position;
+        if (isOfUpper[i] && p.x > 5.5f * spacing && p.x < 7.5f * spacing && p.y < 5.5f * spacing)
+            upper = std::min(upper, x[i].y());
+        if (isOfLower[i] && p.z > 3.5f * spacing && p.z < 5.5f * spacing) lower = std::max(lower, x[i].y());
+    }
+    std::printf("strands at most %.4f voxels nearer than touching, %.4f at the end; bars %.2f voxels\n", most,
+                end, (lower - upper) / voxel);
+    EXPECT_LT(most, 0.02);
+    EXPECT_GT(end, -0.05) << "they hold each other";
+    EXPECT_GT(lower, upper) << "one still hangs in the other";
+}
+
+namespace {
+
+// A cube cut flat in the middle. The upper half is lifted, moved by half a voxel along both axes and pressed
+// down by a fifth of one.
+Scene offsetHalves(bool hasFaces) {
+    Scene scene{.name = "halves", .damping = 4};
+    scene.gravity = {};
+    addLattice(scene, latticeOf({6, 6, 6}, 1e5f, true));
+    if (hasFaces) addSurfaceFaces(scene, scene.grids[0]);
+    hold(scene, particlesWhere(scene, [](const Vec3& x) { return x.y < 0.5f * spacing; }));
+    const float half = spacing / 2;
+    drive(scene, particlesWhere(scene, [](const Vec3& x) { return x.y > 5.5f * spacing; }),
+          {{0, poseAt({})},
+           {0.1f, poseAt({})},
+           {0.3f, poseAt({0, spacing, 0})},
+           {0.5f, poseAt({half, spacing, half})},
+           {0.9f, poseAt({half, -0.2f * spacing, half})}});
+    return scene;
+}
+
+const test::CutPlane acrossTheMiddle{Vector3d(0.15, 3.45 * voxel, 0.15), Vector3d::UnitY()};
+
+double deepestOfHalves(CutBody& body, const std::vector<Triangle>& surface) {
+    const auto isUpper = [&](std::uint32_t i) {
+        return body.scene().particles[i].position.y > 3.45f * spacing;
+    };
+    return deepest(voxel, body.runner().positions(), surface,
+                   [&](std::uint32_t i, const Triangle& t) { return isUpper(i) != isUpper(t[0]); });
+}
+
+} // namespace
+
+TEST(SelfContact, CarriesWhatACutLaysOpenByItsFaces) {
+    for (const bool hasFaces : {false, true}) {
+        CutBody body(offsetHalves(hasFaces), {.substeps = 24, .contactRoom = 32});
+        body.runner().run(2);
+        ASSERT_EQ(body.cut(sweepOf(acrossTheMiddle, 1)).pieces, 2u);
+        const std::vector<Triangle> surface = surfaceOf(body);
+        double most = -9, end = 0, atOnce = 0;
+        for (int step = 0; step < 70; ++step) {
+            const Status status = body.runner().run(1);
+            ASSERT_EQ(status.nonFinite, 0u);
+            ASSERT_EQ(status.contactRoom, 0u);
+            end = deepestOfHalves(body, surface);
+            if (step == 0) atOnce = end;
+            most = std::max(most, end);
+        }
+        std::printf("%s faces: halves at most %.4f voxels nearer than touching, %.4f at the end, %.4f after "
+                    "the cut\n",
+                    hasFaces ? "with" : "without", most, end, atOnce);
+        if (hasFaces) {
+            EXPECT_LT(most, 0.05);
+            EXPECT_GT(end, -0.01) << "they touch";
+        } else {
+            EXPECT_GT(most, 0.2) << "particles stand in the gaps of others";
+        }
+    }
+}
+
+namespace {
+
+template <typename T> std::vector<T> contentsOf(CutBody& body, const std::string& label) {
+    const StepProgram& program = body.runner().simulation().program();
+    const auto found =
+        std::ranges::find_if(program.buffers, [&](const auto& buffer) { return buffer.label == label; });
+    const BufferId id{static_cast<std::uint32_t>(found - program.buffers.begin())};
+    return test::queue().download<T>(body.runner().simulation().view(id));
+}
+
+// Turns the corners of a triangle so that the lowest comes first.
+Triangle fromLowest(Triangle t) {
+    std::ranges::rotate(t, std::ranges::min_element(t));
+    return t;
+}
+
+// Faces that look for points, by particles, with the front that they have.
+std::set<Triangle> facesOnDevice(CutBody& body, const Settings& settings) {
+    const auto slots = stateLayout(body.scene(), settings).slot;
+    std::map<std::uint32_t, std::uint32_t> particles;
+    for (std::uint32_t i = 0; i < slots.size(); ++i) particles[slots[i]] = i;
+    const auto faces = contentsOf<layout::ContactFace>(body, "faces");
+    std::set<Triangle> result;
+    for (const std::uint32_t f : contentsOf<std::uint32_t>(body, "faces.searched")) {
+        if (f == ~0u) continue;
+        const auto& [a, b, c, thickness] = faces[f];
+        Triangle t{particles[a], particles[b], particles[c]};
+        if (thickness < 0) std::swap(t[1], t[2]);
+        result.insert(fromLowest(t));
+    }
+    return result;
+}
+
+// By the middles of triangles, since a square may be split along either diagonal: twice its middle and its
+// normal.
+using Square = std::array<long, 6>;
+
+std::set<Square> squaresOf(const CutBody& body, const auto& triangles) {
+    std::map<Square, int> halves;
+    for (const Triangle& t : triangles) {
+        const Vector3d a = body.at(t[0]) / voxel, b = body.at(t[1]) / voxel, c = body.at(t[2]) / voxel;
+        const Vector3d n = (b - a).cross(c - a),
+                       middle = a.cwiseMin(b).cwiseMin(c) + a.cwiseMax(b).cwiseMax(c);
+        Square square;
+        for (int axis = 0; axis < 3; ++axis) {
+            square[axis] = std::lround(middle[axis]);
+            square[axis + 3] = std::lround(n[axis]);
+        }
+        ++halves[square];
+    }
+    std::set<Square> squares;
+    for (const auto& [square, count] : halves) {
+        EXPECT_EQ(count, 2);
+        squares.insert(square);
+    }
+    return squares;
+}
+
+} // namespace
+
+// Against the surface of all whole cells, after flat, slanting and partial cuts of a body with a cavity; an
+// undo brings the first back.
+TEST(SelfContact, HasTheFacesOfTheCellsThatAreWhole) {
+    Lattice lattice = latticeOf({6, 5, 7}, 1e5f, true);
+    lattice.fill = test::raggedFill(6 * 5 * 7);
+    Scene scene{.name = "ragged"};
+    scene.gravity = {};
+    addLattice(scene, lattice);
+    addSurfaceFaces(scene, scene.grids[0]);
+    const Settings settings{.substeps = 4, .contactRoom = 64};
+    CutBody body(scene, settings);
+    const vk::Buffer uncut = body.runner().saveTopology();
+    const auto expectFaces = [&](const char* what) {
+        const auto onDevice = squaresOf(body, facesOnDevice(body, settings)),
+                   expected = squaresOf(body, surfaceOf(body));
+        std::printf("%s: %zu squares\n", what, expected.size());
+        EXPECT_TRUE(onDevice == expected) << what;
+    };
+    expectFaces("uncut");
+    const double reaches[] = {1, 1, 0.06};
+    const test::CutPlane planes[] = {{{0.15, 3.45 * voxel, 0.15}, Vector3d::UnitY()},
+                                     {{0.14, 0.12, 0.17}, Vector3d(1, 0.6, -0.8).normalized()},
+                                     {{0.2, 0.06, 0.3}, Vector3d(0.1, 0.2, 1).normalized()}};
+    for (int n = 0; n < 3; ++n) {
+        const std::size_t before = surfaceOf(body).size();
+        body.cut(sweepOf(planes[n], reaches[n]));
+        EXPECT_NE(surfaceOf(body).size(), before);
+        expectFaces("cut");
+    }
+    body.runner().loadTopology(uncut);
+    body.runner().run(1);
+    expectFaces("undone");
+}
+
+TEST(SelfContact, EndsInTheSameBitsForAnyOrderAndMarginAndAfterASavedState) {
+    const Scene scene = offsetHalves(true);
+    const test::CutPlane slanting{Vector3d(0.15, 3.3 * voxel, 0.15), Vector3d(0.3, 1, 0.2).normalized()};
+    const Settings settings[] = {{.substeps = 12, .contactRoom = 64},
+                                 {.substeps = 12, .contactRoom = 64, .isReversed = true},
+                                 {.substeps = 12, .contactMargin = 0.8f, .contactRoom = 64},
+                                 {.substeps = 12, .contactRoom = 64, .forms = {.usesTexels = false}}};
+    std::vector<std::uint64_t> hashes;
+    for (const Settings& each : settings) {
+        CutBody body(scene, each);
+        body.runner().run(2);
+        body.cut(sweepOf(slanting, 1));
+        ASSERT_EQ(body.runner().run(20).contactRoom, 0u);
+        const auto saved = body.runner().save();
+        ASSERT_EQ(body.runner().run(30).contactRoom, 0u);
+        hashes.push_back(body.runner().stateHash());
+        body.runner().load(saved);
+        body.runner().run(30);
+        EXPECT_EQ(body.runner().stateHash(), hashes.back()) << "saved";
+    }
+    for (const std::uint64_t hash : hashes) EXPECT_EQ(hash, hashes[0]);
+    CutBody body(scene, settings[0]), other(scene, settings[0]);
+    body.runner().run(3);
+    other.runner().run(3);
+    body.runner().writePosition(60, std::numeric_limits<float>::quiet_NaN());
+    EXPECT_GT(body.cut(sweepOf(slanting, 1)).nonFinite, 0u) << "a step that is undone, with its faces";
+    other.runner().run(1);
+    for (CutBody* each : {&body, &other}) {
+        each->runner().run(4);
+        each->cut(sweepOf(slanting, 1));
+        each->runner().run(30);
+    }
+    EXPECT_EQ(facesOnDevice(body, settings[0]), facesOnDevice(other, settings[0]));
+}
+
+namespace {
+
+// A block of 8 x 4 x 8 cells on a plane, with balls as wide as its particles that come down over
+// the gaps between them.
+Scene struckBlock(float speed, float mass) {
+    Scene scene{.name = "block", .damping = 1};
+    addLattice(scene, latticeOf({8, 4, 8}, 2e6f));
+    addSurfaceFaces(scene, scene.grids[0]);
+    scene.planes = {{.normal = {0, 1, 0}, .offset = -spacing / 2, .friction = 0.5f}};
+    for (int n = 0; n < 9; ++n)
+        scene.particles.push_back({.position = {(1.5f + 2.5f * static_cast<float>(n % 3)) * spacing,
+                                                6 * spacing + 0.01f * static_cast<float>(n),
+                                                (1.5f + 2.5f * static_cast<float>(n / 3)) * spacing},
+                                   .velocity = {0, -speed, 0},
+                                   .inverseMass = 1 / mass,
+                                   .radius = spacing / 2});
+    return scene;
+}
+
+// How often the surface winds around a point: 1 inside of it.
+double winding(const std::vector<Vector3d>& x, const std::vector<Triangle>& surface, const Vector3d& p) {
+    double angle = 0;
+    for (const Triangle& t : surface) {
+        const Vector3d a = x[t[0]] - p, b = x[t[1]] - p, c = x[t[2]] - p;
+        const double la = a.norm(), lb = b.norm(), lc = c.norm();
+        angle +=
+            2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+    }
+    return angle / (4 * std::numbers::pi);
+}
+
+} // namespace
+
+// Particles of the inside are in no grid, and what is stopped with them comes in without them no more than
+// before.
+TEST(SelfContact, LeavesOutTheInsideThatNothingReaches) {
+    for (const float mass : {0.02f, 0.1f})
+        for (const float speed : {3.0f, 30.0f, 100.0f}) {
+            const Scene scene = struckBlock(speed, mass);
+            test::Runner runner(scene, {.substeps = 24, .contactRoom = 64});
+            int inside = 0;
+            double lowest = 9;
+            for (int step = 0; step < 10; ++step) {
+                ASSERT_EQ(runner.run(1).nonFinite, 0u);
+                const auto x = runner.positions();
+                for (std::size_t i = x.size() - 9; i < x.size(); ++i) {
+                    inside += winding(x, facesIn(scene), x[i]) > 0.5 ? 1 : 0;
+                    lowest = std::min(lowest, x[i].y() / voxel);
+                }
+            }
+            std::printf("%.2f kg at %.0f m/s: %d times inside, down to %.2f voxels of 4\n", double{mass},
+                        double{speed}, inside, lowest);
+            EXPECT_EQ(inside, 0);
+        }
+}
+
+// In a body two nodes wide a slot that is one further on may be the next node along x or another one along z.
+TEST(SelfContact, LeavesOutWhatIsStillLinkedInABodyOfOneLayerThatIsCut) {
+    Scene scene{.name = "plate"};
+    scene.gravity = {};
+    addLattice(scene, latticeOf({1, 6, 6}, 1e5f, true));
+    const Settings settings{.substeps = 4};
+    CutBody body(scene, settings);
+    const std::size_t uncut = body.links().size();
+    ASSERT_EQ(body.cut(sweepOf({Vector3d(0.02, 3.45 * voxel, 0.15), Vector3d::UnitY()}, 1)).pieces, 2u);
+    const std::vector<test::LiveLink> links = body.links();
+    ASSERT_LT(links.size(), uncut);
+    const auto slots = stateLayout(scene, settings).slot;
+    const auto excluded = contentsOf<std::uint32_t>(body, "contacts.excluded");
+    const auto has = [&](std::uint32_t of, std::uint32_t partner) {
+        const auto first = excluded.begin() + excluded[slots[of]],
+                   end = excluded.begin() + excluded[slots[of] + 1];
+        return std::find(first, end, slots[partner]) != end;
+    };
+    std::size_t missing = 0, dead = 0;
+    for (const test::LiveLink& link : links) {
+        const bool isStiff = (body.at(link.a) - body.at(link.b)).norm() < 1.5 * voxel; // a constraint too
+        missing += !isStiff || (has(link.a, link.b) && has(link.b, link.a)) ? 0 : 1;
+    }
+    for (std::uint32_t z = 0; z < 7; ++z)
+        dead += has(body.particleAt(0, 3, z), body.particleAt(0, 4, z)) ? 1 : 0;
+    EXPECT_EQ(missing, 0u);
+    EXPECT_EQ(dead, 0u) << "what the blade has parted may touch";
+}
+
+// Particles that links join to a corner of a face are at most 1.73 spacings away from it, all others at least
+// two.
+TEST(SelfContact, LeavesOutWhatIsLinkedToACornerAndNothingElse) {
+    Scene scene;
+    addLattice(scene, latticeOf({4, 3, 3}, 1e5f));
+    addSurfaceFaces(scene, scene.grids[0]);
+    std::vector<layout::ContactFace> faces;
+    for (const Face& face : scene.faces)
+        faces.push_back({face.particles[0], face.particles[1], face.particles[2], face.thickness});
+    const std::size_t count = scene.particles.size();
+    const auto rows = collision::face_contacts::excludedPoints(
+        scene, faces, std::vector<float>(count, spacing / 2), orderedLayout(count));
+    const auto at = [&](std::uint32_t i) { return test::toVector(scene.particles[i].position); };
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        for (std::uint32_t i = 0; i < count; ++i) {
+            bool isLinked = false, isCorner = false;
+            for (const std::uint32_t corner : scene.faces[f].particles) {
+                const Vector3d d = (at(i) - at(corner)) / voxel;
+                const bool isKuhn = d.minCoeff() > -0.1 || d.maxCoeff() < 0.1; // of the longest diagonals one
+                isLinked = isLinked || d.norm() < 1.5 || (d.cwiseAbs().maxCoeff() < 1.1 && isKuhn);
+                isCorner = isCorner || i == corner;
+            }
+            const bool isListed = std::binary_search(rows.begin() + rows[f], rows.begin() + rows[f + 1], i);
+            ASSERT_EQ(isListed, isLinked && !isCorner) << f << " " << i;
+        }
+}
