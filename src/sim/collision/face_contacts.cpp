@@ -13,6 +13,7 @@
 #include "sim/sleep.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sinew::sim::collision::face_contacts {
 
@@ -120,7 +121,8 @@ float heldBeyond(const Scene& scene, const Faces& faces, std::span<const float> 
     if (!keepRest(scene)) return 0;
     const auto thickest = [&](std::uint32_t first, std::size_t end) {
         float thickness = 0;
-        for (std::size_t f = first; f < end; ++f) thickness = std::max(thickness, std::abs(faces.faces[f].thickness));
+        for (std::size_t f = first; f < end; ++f)
+            thickness = std::max(thickness, std::abs(faces.faces[f].thickness));
         return thickness;
     };
     const float radius = std::max(0.0f, std::ranges::max(radii));

@@ -1,6 +1,6 @@
-// Shots at a target of each kind, still and moving: at 1 to 1,000 m/s, with 4 to 64 substeps, aslant by up to
-// half a radian. None passes. A free cloth, of which a thousandth of the ball's mass is in its way, is shot
-// at by up to 100 m/s with at least 24 substeps: beyond that its links stretch until the ball is through.
+// Shots at a rigid target of each kind and at a ball, still and moving: at 1 to 1,000 m/s, with 4 to 64
+// substeps, aslant by up to half a radian. None passes. Deformable bodies, rows and beds have tests of their
+// own: what may go around or through what it has scattered needs another measure.
 #include "sim/bodies.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
@@ -40,11 +40,11 @@ std::string nameOf(const testing::TestParamInfo<Kind>& info) {
     return name + (info.param.isMoving ? "Moving" : "Still");
 }
 
-// What a shot is judged against: particles, or a rigid front.
+// A shot is judged against another ball, or against the middle of something rigid.
 struct Target {
-    std::size_t first = 0, count = 0; // particles
-    double front = 0;                 // before the middle of a rigid one [m]
-    double width = 0;                 // nobody who is nearer to its line than that has gone around it [m]
+    std::size_t ball = 0;
+    bool isBall = false;
+    double width = 0; // of something rigid: nobody who is nearer to its line has gone around it [m]
 };
 
 struct Shot {
@@ -72,34 +72,10 @@ void addCollider(Scene& scene, Collider collider, const Shot& shot) {
     scene.colliders.push_back(collider);
 }
 
-void addBody(Scene& scene, const std::string& kind, const Shot& shot) {
-    const Vec3 middle = test::toFloats(shot.middle);
-    const auto at = [&](float x, float y, float z) { return Vec3{middle.x + x, middle.y + y, middle.z + z}; };
-    if (kind == "ball" || kind == "row")
-        for (int i = 0; i < (kind == "row" ? 6 : 1); ++i)
-            scene.particles.push_back({.position = at(0.1f * static_cast<float>(i), 0, 0), .radius = 0.05f});
-    if (kind == "cloth")
-        addCloth(scene, {.origin = at(0, -0.3f, -0.3f),
-                         .right = {0, 1, 0},
-                         .down = {0, 0, 1},
-                         .size = {21, 21},
-                         .spacing = 0.03f,
-                         .thickness = 0.02f});
-    if (kind == "voxels" || kind == "surface") {
-        addLattice(scene, {.origin = at(0, -0.25f, -0.25f),
-                           .cells = {5, 5, 5},
-                           .spacing = 0.1f,
-                           .youngModulus = 1e6f,
-                           .radius = 0.05f});
-        if (kind == "surface") addSurfaceFaces(scene, scene.grids.back());
-    }
-}
-
 Target addTarget(Scene& scene, const std::string& kind, const Shot& shot) {
-    Target target{.first = scene.particles.size()};
     if (kind == "wall") {
         addWall(scene, shot);
-        return {.front = 0, .width = 1.4};
+        return {.width = 1.4};
     }
     if (kind == "box" || kind == "sphere" || kind == "capsule") {
         Collider collider{.shape = ColliderShape::box, .halfExtents = {0.01f, 1, 1}};
@@ -107,23 +83,19 @@ Target addTarget(Scene& scene, const std::string& kind, const Shot& shot) {
         if (kind == "capsule")
             collider = {.shape = ColliderShape::capsule, .radius = 0.3f, .halfLength = 0.5f};
         addCollider(scene, collider, shot);
-        return {.front = 0, .width = kind == "box" ? 0.9 : 0.29};
+        return {.width = kind == "box" ? 0.9 : 0.29};
     }
-    addBody(scene, kind, shot);
-    target.count = scene.particles.size() - target.first;
-    for (std::size_t i = target.first; i < scene.particles.size(); ++i)
-        scene.particles[i].velocity = test::toFloats(shot.targetVelocity);
-    return target;
+    scene.particles.push_back({.position = test::toFloats(shot.middle),
+                               .velocity = test::toFloats(shot.targetVelocity),
+                               .radius = static_cast<float>(ballRadius)});
+    return {.ball = scene.particles.size() - 1, .isBall = true};
 }
 
 class Shots : public testing::TestWithParam<Kind> {
 protected:
     // The ball reaches the target within the first two steps.
     Shot shotAt(int place) {
-        // Beside a row that it has scattered a ball may well be where it could not have gone before.
-        const double most = GetParam().name == std::string("row") ? 0.02 : 0.5;
-        const double speed = std::pow(10, (isCloth() ? 2 : 3) * unit()), angle = most * unit(),
-                     turn = 2 * M_PI * unit();
+        const double speed = std::pow(10, 3 * unit()), angle = 0.5 * unit(), turn = 2 * M_PI * unit();
         const Vector3d way(std::cos(angle), std::sin(angle) * std::cos(turn),
                            std::sin(angle) * std::sin(turn));
         Shot shot;
@@ -153,29 +125,21 @@ protected:
         return shots;
     }
 
-    bool isCloth() const { return GetParam().name == std::string("cloth"); }
     double unit() { return std::uniform_real_distribution<double>(0, 1)(random_); }
     std::mt19937 random_{29};
 };
 
-// The particle of the target that the ball is in line with, and how far from the line it is.
-std::pair<Vector3d, double> inLine(const Target& target, const std::vector<Vector3d>& x, const Vector3d& ball,
-                                   const Vector3d& way) {
-    std::pair<Vector3d, double> best{Vector3d::Zero(), 1e9};
-    for (std::size_t i = target.first; i < target.first + target.count; ++i) {
-        const Vector3d d = ball - x[i];
-        const double aside = (d - d.dot(way) * way).norm();
-        if (aside < best.second) best = {x[i], aside};
-    }
-    return best;
+// Whether the ball has struck something.
+bool hasHit(const Shot& shot, const std::vector<Vector3d>& v) {
+    return (v[shot.ball] - shot.velocity).norm() > 0.01 * (shot.velocity - shot.targetVelocity).norm();
 }
 
 bool hasPassed(const Shot& shot, const std::vector<Vector3d>& x, double time) {
     const Vector3d way = (shot.velocity - shot.targetVelocity).normalized(), ball = x[shot.ball];
     const Target& target = shot.target;
-    if (target.count > 0) {
-        const auto [nearest, aside] = inLine(target, x, ball, way);
-        return aside < 0.03 && (ball - nearest).dot(way) > 0;
+    if (target.isBall) {
+        const Vector3d d = ball - x[target.ball];
+        return d.dot(way) > 0 && (d - d.dot(way) * way).norm() < 0.03;
     }
     const Vector3d d = ball - shot.middle - time * shot.targetVelocity;
     return d.x() > 0 && std::hypot(d.y(), d.z()) < target.width;
@@ -184,9 +148,8 @@ bool hasPassed(const Shot& shot, const std::vector<Vector3d>& x, double time) {
 } // namespace
 
 TEST_P(Shots, NonePasses) {
-    int shots = 0, passed = 0, stopped = 0;
-    const std::vector<std::uint32_t> substeps =
-        isCloth() ? std::vector{24u, 64u} : std::vector{4u, 8u, 16u, 24u, 64u};
+    int shots = 0, passed = 0, hit = 0;
+    const std::vector<std::uint32_t> substeps = {4u, 8u, 16u, 24u, 64u};
     const int shotsOfKind = test::isFull() ? 500 : 100;
     for (int trial = 0; shots < shotsOfKind; ++trial) {
         Scene scene;
@@ -210,21 +173,19 @@ TEST_P(Shots, NonePasses) {
         const auto v = runner.velocities();
         for (std::size_t s = 0; s < all.size(); ++s) {
             passed += has[s] ? 1 : 0;
-            stopped += (v[all[s].ball] - all[s].velocity).norm() > 0.01 * all[s].velocity.norm() ? 1 : 0;
+            hit += hasHit(all[s], v) ? 1 : 0;
         }
         shots += shotsOfScene;
     }
-    std::printf("%d shots, %d hit, %d passed\n", shots, stopped, passed);
+    std::printf("%d shots, %d hit, %d passed\n", shots, hit, passed);
     EXPECT_EQ(passed, 0);
-    EXPECT_GE(stopped, shots * 95 / 100) << "shots that hit nothing show nothing";
+    EXPECT_GE(hit, shots * 95 / 100) << "shots that hit nothing show nothing";
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Kinds, Shots,
-    testing::Values(Kind{"wall", false, 0.01}, Kind{"wall", true, 0.01}, Kind{"box", false, 0.01},
-                    Kind{"box", true, 0.01}, Kind{"sphere", false, 0.4}, Kind{"sphere", true, 0.4},
-                    Kind{"capsule", false, 0.3}, Kind{"capsule", true, 0.3}, Kind{"ball", false, 0.05},
-                    Kind{"ball", true, 0.05}, Kind{"row", false, 0.05}, Kind{"row", true, 0.05},
-                    Kind{"cloth", false, 0.02}, Kind{"cloth", true, 0.02}, Kind{"voxels", false, 0.05},
-                    Kind{"voxels", true, 0.05}, Kind{"surface", false, 0.05}, Kind{"surface", true, 0.05}),
-    nameOf);
+INSTANTIATE_TEST_SUITE_P(Kinds, Shots,
+                         testing::Values(Kind{"wall", false, 0.01}, Kind{"wall", true, 0.01},
+                                         Kind{"box", false, 0.01}, Kind{"box", true, 0.01},
+                                         Kind{"sphere", false, 0.4}, Kind{"sphere", true, 0.4},
+                                         Kind{"capsule", false, 0.3}, Kind{"capsule", true, 0.3},
+                                         Kind{"ball", false, 0.05}, Kind{"ball", true, 0.05}),
+                         nameOf);
