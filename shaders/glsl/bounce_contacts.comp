@@ -33,9 +33,10 @@ void main() {
     vec3 sum = vec3(0.0);
     for (uint slot = list.x; slot < end; ++slot) {
         const Bounce bounce = bounceFrom(i, slot, self);
-        if (bounce.speed == 0.0) continue;
+        const float both = own + bouncing[CONTACT(slot).x];
+        if (bounce.speed == 0.0 || both == 0.0) continue; // two that never move give each other nothing
         const float missing = bounce.speed - dot(bounce.n, velocity.xyz - VELOCITY(CONTACT(slot).x).xyz);
-        sum += max(0.0, missing) / (own + bouncing[CONTACT(slot).x]) * bounce.n;
+        sum += max(0.0, missing) / both * bounce.n;
     }
 #ifdef FORCES
     addContactForce(i, sum);

@@ -44,7 +44,11 @@ bool keepsRestOf(float offset) {
 
 // The impulse on particle i from another that is `depth` too near along n [kg m].
 vec3 impulseAlong(vec3 n, float depth, uint i, uint other, uint slot, vec3 velocity, float split, float offset) {
+#ifdef FORCES
+    const float share = split > 0.0 ? 1.0 / split : 0.0; // two that never move give each other nothing
+#else
     const float share = 1.0 / max(split, 1e-30); // two that never move: nothing times w = 0
+#endif
     const float lambda = depth * share;
     vec3 impulse = lambda * n;
 #ifdef HAS_MEMORY

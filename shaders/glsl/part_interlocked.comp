@@ -19,6 +19,9 @@ vec3 impulseFrom(uint i, uvec2 candidate, vec4 self, vec3 velocity) {
     const float reach = uintBitsToFloat(candidate.y);
     if (!touches(d, reach)) return vec3(0.0);
     const vec3 n = normalOf(i, j, d), way = step.h * (velocity - moving[j].xyz);
+#ifdef FORCES
+    if (self.w + other.w == 0.0) return vec3(0.0); // two that never move give each other nothing
+#endif
     return partingOf(n, d, way, reach, step.h * push.recoverySpeed) / max(self.w + other.w, 1e-30) * n;
 }
 
