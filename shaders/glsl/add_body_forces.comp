@@ -1,6 +1,7 @@
 #version 460
 // Second pass of the forces on bodies: the sums of their parts, in order, with moments about the centre of mass; of a body that never moves about the
-// middle of its particles. Its faces have also felt what they stopped. A step that is undone has none.
+// middle of its particles. What its faces that never move feel is in rows of their own; holds give
+// the opposite. A step that is undone has none.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
@@ -33,10 +34,11 @@ void main() {
             moment += parts[p].sums[kind].torque.xyz;
         }
         moment -= cross(center, impulse);
-        if (kind == FORCE_CONTACTS && range.stop > 0u) {
-            const ForceSum stopped = sums[push.firstRow + range.stop - 1u]; // about the origin of the world
-            impulse += stopped.impulse.xyz;
-            moment += stopped.torque.xyz - cross(origin + center, stopped.impulse.xyz);
+        const float sign = kind == FORCE_CONTACTS ? 1.0 : kind == FORCE_HOLDS ? -1.0 : 0.0;
+        for (uint s = range.firstStop; sign != 0.0 && s < range.firstStop + range.stops; ++s) {
+            const ForceSum stopped = sums[push.firstRow + s];
+            impulse += sign * stopped.impulse.xyz;
+            moment += sign * (stopped.torque.xyz + cross(positions[range.stopOrigin].xyz - origin - center, stopped.impulse.xyz));
         }
         if (!isCounted) impulse = moment = vec3(0.0);
         sums[FORCE_KINDS * b + kind] = ForceSum(vec4(impulse, 0.0), vec4(moment, 0.0));

@@ -121,6 +121,6 @@ void list(uint i, uint f) {
     const uint pair = newPair();
     if (pair == noPair) return;
     const uint next = atomicExchange(pointChains[i], 2u * pair + 1u);
-    const uint nextOfFace = f < push.linked ? atomicExchange(faceChains[f], 2u * pair + 2u) : 0u;
+    const uint nextOfFace = f < push.moving ? atomicExchange(faceChains[f], 2u * pair + 2u) : 0u;
     pairs[pair] = uvec4(i, f, next, nextOfFace);
 }

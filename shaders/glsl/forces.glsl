@@ -22,6 +22,18 @@ void addRowForce(uint row, uint i, vec3 impulse, vec3 arm) {
     forces[element + forceSlots].xyz += cross(arm, impulse);
 }
 
+#ifdef STOPS
+// A face that never moves: the row of what acts on it (forces::Stops), and the particle about which its moments are.
+layout(std430, binding = FORCES_BINDING + 1) readonly buffer StopRows { uvec2 stopRows[]; };
+layout(std430, binding = FORCES_BINDING + 2) readonly buffer Places { vec4 places[]; }; // of what never moves, in this substep [m]
+
+// The impulse that face f, which never moves, gives to particle i at x.
+void addStopForce(uint f, uint i, vec3 impulse, vec3 x) {
+    const uvec2 row = stopRows[f];
+    addRowForce(row.x, i, impulse, x - places[row.y].xyz);
+}
+#endif
+
 // The place of a plane is its point that is nearest to the origin.
 void addPlaneForce(PlaneCollider plane, uint p, uint i, vec3 impulse, vec3 x) {
     addRowForce(p, i, impulse, x - plane.normalOffset.w * plane.normalOffset.xyz);

@@ -17,6 +17,9 @@ struct ForceSum {
 // Particles or elements that one invocation adds up, at most.
 #define FORCE_CHUNK 64
 
+// Marks an element of a hold that counts negative.
+#define FORCE_SUBTRACTED 0x80000000u
+
 // A run that one invocation adds up: particles of a body, or elements of a row.
 struct ForceChunk {
     uint first, count;
@@ -35,9 +38,10 @@ struct BodyForcePart {
 struct ForceRange {
     uint firstPart, parts;
     uint origin; // as of its chunks
-    uint stop;   // of a body: one more than the row of what its faces have stopped; 0 = none
     float sign;  // of a row
-    uint unused0, unused1, unused2;
+    uint firstStop, stops; // of a body: rows of what its faces that never move give
+    uint stopOrigin;       // of a body: the particle about which moments of these are taken
+    uint unused0;
 };
 
 struct ForcePush {

@@ -408,7 +408,6 @@ struct FaceFindPush {
     uint room;     // entries of the pool, of all lists together
     uint moving;   // faces before that one have a corner that moves
     uint large;    // faces that every point is compared with, beside wide ones
-    uint linked;   // faces before that one know the points near them: those that move, or all where forces are kept
 };
 
 // An edge of faces that other edges touch. In the grid it is its middle.

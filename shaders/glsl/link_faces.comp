@@ -1,5 +1,5 @@
 #version 460
-// Makes the list of every linked face's points, sorted by index: where in a point's list the face is. There its corners find what
+// Makes the list of every moving face's points, sorted by index: where in a point's list the face is. There its corners find what
 // the contact does to them.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -35,9 +35,9 @@ void put(uint element, uint point) {
 #include "sort_pairs.glsl"
 
 void main() {
-    const uint f = itemIndex(push.linked);
+    const uint f = itemIndex(push.moving);
     if (f == 0u) points = FacePoints(0u, 0u, 0u, 0u); // for the next time
-    if (f >= push.linked) return;
+    if (f >= push.moving) return;
     const uint chain = chains[f], all = lengthOf(chain), n = min(all, LIST_MOST);
     if (all > LIST_MOST) atomicMax(status.candidates, CONTACT_MOST_ROOM + 1u); // said, not lost
     uvec2 list = uvec2(0u, n);

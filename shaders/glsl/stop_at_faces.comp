@@ -22,8 +22,8 @@ layout(std140, binding = 9) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { StopPush push; };
 layout(std430, binding = 10) readonly buffer Memory { vec4 memory[]; };     // w: side and overlap (contact_memory.glsl)
 #ifdef FORCES
-layout(std430, binding = 11) readonly buffer StopRows { uint stopRows[]; }; // of each face: whose it is (sim/forces.hpp)
-#define FORCES_BINDING 12
+#define FORCES_BINDING 11
+#define STOPS
 #include "forces.glsl"
 uint stoppedBy; // the face of the last stop
 #endif
@@ -72,6 +72,14 @@ Stop stopOf(uint i, Search search, vec3 x0, vec3 x1) {
 // In a corner of faces a particle that was put in front of one may be behind the next. One that finds no place goes with the last.
 const uint mostStops = 4u;
 
+#ifdef FORCES
+// What one stop gives, kept until it is known that the particle takes it.
+struct Given {
+    uint face;
+    vec3 change, x; // of the velocity [m/s]; where [m]
+};
+#endif
+
 void main() {
     const uint i = itemIndex(push.count);
     if (i == ~0u) return;
@@ -82,6 +90,10 @@ void main() {
     const vec3 x = positions[i].xyz - step.thetaH * velocity.xyz, x0 = predicted[i].xyz - step.h * predictedVelocities[i].xyz;
     if (velocity.w == 0.0 || radii[i] < 0.0 || first == listEnd && isNearPredicted(i, x)) return;
     vec3 end = x, v = velocity.xyz;
+#ifdef FORCES
+    Given given[mostStops + 1u];
+    uint givenCount = 0u;
+#endif
     for (uint stops = 0u; stops <= mostStops; ++stops) {
         const Stop stop = stopOf(i, searchFor(i, first, listEnd, end), x0, end);
         const bool isLast = stops == mostStops;
@@ -93,12 +105,17 @@ void main() {
 #endif
         v = isLast ? meanwhile : v + max(0.0, dot(n, meanwhile - v)) * n;
 #ifdef FORCES
-        addContactForce(i, (v - slower) / velocity.w);
-        addRowForce(stopRows[stoppedBy], i, (v - slower) / velocity.w, stopped);
+        given[givenCount++] = Given(stoppedBy, v - slower, stopped);
 #endif
         end = isLast ? stopped : stopped + stop.lift * n;
     }
     if (end == x) return;
+#ifdef FORCES
+    for (uint s = 0u; s < givenCount; ++s) {
+        addContactForce(i, given[s].change / velocity.w);
+        addStopForce(given[s].face, i, given[s].change / velocity.w, given[s].x);
+    }
+#endif
     velocities[i].xyz = v;
     const vec3 change = end - x + step.thetaH * (v - velocity.xyz);
     if (hasRemainders) {

@@ -14,14 +14,14 @@ layout(constant_id = 20) const uint forceSlots = 1;
 
 vec3 impulses[FORCE_KINDS], moments[FORCE_KINDS];
 
-void add(uint kind, uint element, vec3 x) {
-    const vec3 impulse = forces[element].xyz;
+void add(uint kind, uint element, float sign, vec3 x) {
+    const vec3 impulse = sign * forces[element].xyz;
     impulses[kind] += impulse;
     moments[kind] += cross(x, impulse);
 }
 
 void addRows(uint kind, uint first, uint count, uint slot, vec3 x) {
-    for (uint row = first; row < first + count; ++row) add(kind, (2u + 2u * row) * forceSlots + slot, x);
+    for (uint row = first; row < first + count; ++row) add(kind, (2u + 2u * row) * forceSlots + slot, 1.0, x);
 }
 
 void main() {
@@ -35,8 +35,9 @@ void main() {
         const uint slot = slots[p];
         const vec4 position = positions[p];
         const vec3 x = position.xyz - origin;
-        add(FORCE_CONTACTS, slot, x);
-        add(FORCE_HOLDS, forceSlots + slot, x);
+        add(FORCE_CONTACTS, slot, 1.0, x);
+        add(FORCE_HOLDS, forceSlots + slot, 1.0, x);
+        if (position.w == 0.0) add(FORCE_HOLDS, slot, -1.0, x); // what touches it, too, has its hold against it
         addRows(FORCE_GRABS, 0u, push.grabs, slot, x);
         addRows(FORCE_PLANES, push.grabs, push.planes, slot, x);
         addRows(FORCE_COLLIDERS, push.grabs + push.planes, push.colliders, slot, x);

@@ -16,7 +16,9 @@ void main() {
     const bool isListed = chunk.moment == 0u; // holds have no moments
     vec3 impulse = vec3(0.0), moment = vec3(0.0);
     for (uint k = chunk.first; k < chunk.first + chunk.count; ++k) {
-        impulse += forces[isListed ? elements[k] : k].xyz;
+        const uint element = isListed ? elements[k] : k;
+        const vec3 given = forces[element & ~FORCE_SUBTRACTED].xyz;
+        impulse += (element & FORCE_SUBTRACTED) != 0u ? -given : given;
         if (!isListed) moment += forces[k + chunk.moment].xyz;
     }
     parts[c] = ForceSum(vec4(impulse, 0.0), vec4(moment, 0.0));

@@ -5,6 +5,7 @@
 #include "sim/constraints/tether.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace sinew::sim::forces {
 
@@ -22,13 +23,13 @@ struct Sums {
 
     // Elements from `first` on; see layout::ForceChunk and layout::ForceRange.
     void add(std::uint32_t first, std::uint32_t count, std::uint32_t origin, std::uint32_t moment,
-             std::uint32_t stop, float sign) {
+             float sign) {
         const auto firstPart = static_cast<std::uint32_t>(chunks.size());
         for (std::uint32_t done = 0; done < count; done += FORCE_CHUNK)
             chunks.push_back(
                 {first + done, std::min<std::uint32_t>(FORCE_CHUNK, count - done), origin, moment});
         ranges.push_back(
-            {firstPart, static_cast<std::uint32_t>(chunks.size()) - firstPart, origin, stop, sign, 0, 0, 0});
+            {firstPart, static_cast<std::uint32_t>(chunks.size()) - firstPart, origin, sign, 0, 0, 0, 0});
     }
 };
 
@@ -38,27 +39,46 @@ template <typename T> BufferId uploadAny(ProgramBuilder& program, const char* la
     return program.upload(label, items);
 }
 
-// One more than the row of what the faces of each body have stopped, 0 where it has none.
-std::vector<std::uint32_t> stopOfBodies(const Scene& scene, const Forces& forces) {
-    std::vector<std::uint32_t> result(scene.bodies.size(), 0);
-    for (std::uint32_t s = 0; s < forces.stops.bodies.size(); ++s)
-        result[forces.stops.bodies[s]] = forces.grabs + forces.planes + forces.colliders + s + 1;
-    return result;
+// Whether what touches faces can push it.
+bool isMovingPoint(const Particle& particle, float inverseMass) {
+    return particle.radius > 0 && inverseMass > 0;
 }
 
-// The elements of what a hold pulls with: at its particles, and by tethers to them.
-std::vector<std::uint32_t> elementsOf(const NamedHold& hold, const Scene& scene, const Forces& forces,
+// The rows of what faces of each body that never move give, behind all rows of the kinds before.
+void setStops(std::vector<layout::ForceRange>& bodies, const Forces& forces) {
+    for (std::uint32_t r = 0; r < forces.stops.rows.size(); ++r) {
+        const Stops::Row& row = forces.stops.rows[r];
+        if (row.body == Stops::noBody) continue;
+        layout::ForceRange& range = bodies[row.body];
+        if (range.stops++ == 0) range.firstStop = forces.firstStop() + r;
+        range.stopOrigin = row.origin;
+    }
+}
+
+// The elements of what hold `h` gives: links at its particles, tethers to them, and the opposite of what
+// touches them and their faces.
+std::vector<std::uint32_t> elementsOf(std::uint32_t h, const Scene& scene, const Forces& forces,
                                       const std::vector<std::uint32_t>& slots,
                                       std::span<const Tether> tethers) {
     std::vector<bool> isHeld(scene.particles.size());
     const std::vector<float> inverseMass = inverseMasses(scene);
     std::vector<std::uint32_t> elements;
-    for (const std::uint32_t particle : hold.particles) {
+    for (const std::uint32_t particle : scene.holds[h].particles) {
+        if (isHeld[particle]) continue;
         isHeld[particle] = true;
-        if (inverseMass[particle] == 0) elements.push_back(forces.slots + slots[particle]);
+        if (inverseMass[particle] == 0) {
+            elements.push_back(forces.slots + slots[particle]);
+            elements.push_back(slots[particle] | FORCE_SUBTRACTED);
+        }
     }
     for (std::uint32_t t = 0; t < tethers.size(); ++t)
         if (isHeld[tethers[t].anchor]) elements.push_back(forces.firstEntry() + t);
+    for (std::uint32_t r = 0; r < forces.stops.rows.size(); ++r) {
+        if (!std::ranges::binary_search(forces.stops.rows[r].holds, h)) continue;
+        for (std::size_t i = 0; i < scene.particles.size(); ++i) // it has those of the points
+            if (isMovingPoint(scene.particles[i], inverseMass[i]))
+                elements.push_back(forces.elementOf(forces.firstStop() + r) + slots[i]);
+    }
     return elements;
 }
 
@@ -66,17 +86,18 @@ void addRows(ProgramBuilder& program, const Scene& scene, const Forces& forces,
              const std::vector<std::uint32_t>& slots, const layout::ForcePush& push) {
     Sums sums;
     for (std::uint32_t row = 0; row < forces.rows(); ++row)
-        sums.add(forces.elementOf(row), forces.slots, 0, forces.slots, 0, row < forces.grabs ? 1.0f : -1.0f);
+        sums.add(forces.elementOf(row), forces.slots, 0, forces.slots, row < forces.grabs ? 1.0f : -1.0f);
     std::vector<std::uint32_t> elements;
     const auto addListed = [&](const std::vector<std::uint32_t>& listed) {
         sums.add(static_cast<std::uint32_t>(elements.size()), static_cast<std::uint32_t>(listed.size()), 0, 0,
-                 0, 1);
+                 1);
         elements.insert(elements.end(), listed.begin(), listed.end());
     };
     for (std::uint32_t a = 0; a < forces.attachments; ++a)
         addListed({forces.firstEntry() + forces.tethers + a});
     const std::vector<Tether> tethers = constraints::tether::inOrder(scene);
-    for (const NamedHold& hold : scene.holds) addListed(elementsOf(hold, scene, forces, slots, tethers));
+    for (std::uint32_t h = 0; h < scene.holds.size(); ++h)
+        addListed(elementsOf(h, scene, forces, slots, tethers));
     if (sums.ranges.empty()) return;
     ForceBuffers& built = program.program().forces;
     const auto chunks = static_cast<std::uint32_t>(sums.chunks.size());
@@ -100,11 +121,9 @@ void addBodies(ProgramBuilder& program, const Scene& scene, const Forces& forces
                const std::vector<std::uint32_t>& slots, const layout::ForcePush& push) {
     if (scene.bodies.empty()) return;
     Sums sums;
-    const std::vector<std::uint32_t> stops = stopOfBodies(scene, forces);
-    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-        const Body& body = scene.bodies[b];
-        sums.add(body.firstParticle, body.particleCount, body.firstParticle, 0, stops[b], 1);
-    }
+    for (const Body& body : scene.bodies)
+        sums.add(body.firstParticle, body.particleCount, body.firstParticle, 0, 1);
+    setStops(sums.ranges, forces);
     ForceBuffers& built = program.program().forces;
     const BufferId positions = program.program().positions;
     const auto chunks = static_cast<std::uint32_t>(sums.chunks.size());
@@ -134,6 +153,17 @@ bool areLinksHeld(const Scene& scene) {
            });
 }
 
+// All but the buffer.
+Forces placesOf(const Scene& scene, const Settings& settings, const StateLayout& layout) {
+    return {.slots = static_cast<std::uint32_t>(layout.count),
+            .grabs = settings.grabs,
+            .planes = static_cast<std::uint32_t>(scene.planes.size()),
+            .colliders = settings.pokes + static_cast<std::uint32_t>(scene.colliders.size()),
+            .tethers = static_cast<std::uint32_t>(constraints::tether::inOrder(scene).size()),
+            .attachments = static_cast<std::uint32_t>(scene.attachments.size()),
+            .stops = stopsOf(scene, settings)};
+}
+
 } // namespace
 
 void check(const Scene& scene, const Settings& settings, Complaints& complaints) {
@@ -151,33 +181,34 @@ void check(const Scene& scene, const Settings& settings, Complaints& complaints)
                            " does not know with which force links are held: use split");
 }
 
-Stops stopsOf(const Scene& scene) {
+Stops stopsOf(const Scene& scene, const Settings& settings) {
     const std::vector<float> inverseMass = inverseMasses(scene);
-    const auto neverMoves = [&](const Face& face) {
-        return std::ranges::all_of(face.particles, [&](std::uint32_t i) { return inverseMass[i] == 0; });
-    };
-    constexpr std::uint32_t none = ~0u;
-    std::vector<std::uint32_t> bodyOf(scene.particles.size(), none), rowOf(scene.bodies.size(), none);
+    Stops stops{.ofParticle = std::vector<std::uint32_t>(scene.particles.size(), 0)};
+    bool hasPoint = false;
+    for (std::size_t i = 0; i < scene.particles.size(); ++i)
+        hasPoint = hasPoint || isMovingPoint(scene.particles[i], inverseMass[i]);
+    if (!hasPoint || settings.solver != Solver::split) return stops;
+    std::vector<std::uint32_t> bodyOf(scene.particles.size(), Stops::noBody);
     for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
         const Body& body = scene.bodies[b];
-        for (std::uint32_t i = 0; i < body.particleCount; ++i) bodyOf[body.firstParticle + i] = b;
+        std::fill_n(bodyOf.begin() + body.firstParticle, body.particleCount, b);
     }
-    Stops stops{.ofParticle = std::vector<std::uint32_t>(scene.particles.size(), 0)};
-    bool hasOthers = false;
-    for (const Face& face : scene.faces) {
-        if (!neverMoves(face)) continue;
-        const std::uint32_t body = bodyOf[face.particles[0]];
-        hasOthers = hasOthers || body == none;
-        if (body == none || rowOf[body] != none) continue;
-        rowOf[body] = static_cast<std::uint32_t>(stops.bodies.size());
-        stops.bodies.push_back(body);
-    }
-    const auto last = static_cast<std::uint32_t>(stops.bodies.size());
-    stops.rows = last + (hasOthers ? 1 : 0);
-    for (const Face& face : scene.faces) {
-        if (!neverMoves(face)) continue;
-        const std::uint32_t body = bodyOf[face.particles[0]];
-        stops.ofParticle[face.particles[0]] = body == none ? last : rowOf[body];
+    std::vector<std::vector<std::uint32_t>> holdsOf(scene.particles.size());
+    for (std::uint32_t h = 0; h < scene.holds.size(); ++h)
+        for (const std::uint32_t i : scene.holds[h].particles)
+            if (holdsOf[i].empty() || holdsOf[i].back() != h) holdsOf[i].push_back(h);
+    using Key = std::pair<std::uint32_t, std::vector<std::uint32_t>>; // body and holds
+    std::map<Key, std::vector<std::uint32_t>> corners;
+    for (const Face& face : scene.faces)
+        if (std::ranges::all_of(face.particles, [&](std::uint32_t i) { return inverseMass[i] == 0; })) {
+            const std::uint32_t first = face.particles[0];
+            corners[{bodyOf[first], holdsOf[first]}].push_back(first);
+        }
+    for (const auto& [key, firsts] : corners) {
+        const bool isSameBody = !stops.rows.empty() && stops.rows.back().body == key.first;
+        for (const std::uint32_t i : firsts)
+            stops.ofParticle[i] = static_cast<std::uint32_t>(stops.rows.size());
+        stops.rows.push_back({key.first, key.second, isSameBody ? stops.rows.back().origin : firsts.front()});
     }
     return stops;
 }
@@ -192,17 +223,8 @@ ProgramBuilder::Constants pullConstants() {
 
 std::shared_ptr<const Forces> add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
                                   const StateLayout& layout) {
-    auto forces = std::make_shared<Forces>(
-        Forces{.slots = static_cast<std::uint32_t>(layout.count),
-               .grabs = settings.grabs,
-               .planes = static_cast<std::uint32_t>(scene.planes.size()),
-               .colliders = settings.pokes + static_cast<std::uint32_t>(scene.colliders.size()),
-               .tethers = static_cast<std::uint32_t>(constraints::tether::inOrder(scene).size()),
-               .attachments = static_cast<std::uint32_t>(scene.attachments.size()),
-               .stops = stopsOf(scene)});
-    const std::uint64_t elements =
-        (2 + 2 * std::uint64_t{forces->rows()}) * forces->slots + forces->tethers + forces->attachments;
-    forces->terms = program.scratch<layout::vec4>("forces.terms", elements);
+    auto forces = std::make_shared<Forces>(placesOf(scene, settings, layout));
+    forces->terms = program.scratch<layout::vec4>("forces.terms", forces->elements());
     program.fill(forces->terms, 0);
     program.program().forces.terms = forces->terms;
     return forces;
@@ -222,7 +244,7 @@ void addSums(ProgramBuilder& program, const Scene& scene, const ParticleBuffers&
     built.planes = forces.planes;
     built.colliders = static_cast<std::uint32_t>(scene.colliders.size());
     built.pokes = forces.colliders - built.colliders;
-    built.stops = forces.stops.rows;
+    built.stops = static_cast<std::uint32_t>(forces.stops.rows.size());
     built.attachments = forces.attachments;
     built.holds = static_cast<std::uint32_t>(scene.holds.size());
     const std::uint32_t firstRow = FORCE_KINDS * built.bodies;

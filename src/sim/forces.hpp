@@ -6,8 +6,9 @@
 //
 //   contacts | holds | rows: an impulse section and a moment section each | entries: tethers, attachments
 //
-// with a row for each hand, plane, poke, collider, and body with faces that never give way (what these
-// stopped).
+// with a row for each hand, plane, poke and collider, and rows for bodies with faces that never move. Such
+// faces do not know the points near them: each point adds what they give to it to an element of its own in a
+// row.
 #pragma once
 
 #include "layout.h"
@@ -19,14 +20,21 @@ namespace sinew::sim::forces {
 /// Complains about settings with which forces cannot be kept, and about holds of particles that do not exist.
 void check(const Scene& scene, const Settings& settings, Complaints& complaints);
 
-/// Bodies with faces that never give way: a pass of its own keeps particles in front of those.
+/// Faces that never move, by body and holds.
 struct Stops {
-    std::uint32_t rows = 0;            ///< bodies, then one for faces of no body, if there are such
-    std::vector<std::uint32_t> bodies; ///< of each row but that one: index into Scene::bodies
+    static constexpr std::uint32_t noBody = ~0u;
+    /// Faces of one body, the first corners of which are in the same holds.
+    struct Row {
+        std::uint32_t body;               ///< index into Scene::bodies, or noBody
+        std::vector<std::uint32_t> holds; ///< indices into Scene::holds, ascending
+        std::uint32_t origin; ///< a particle of the body that never moves: moments are about its place
+    };
+    std::vector<Row> rows; ///< those of a body side by side; none where no particle can touch a face
     std::vector<std::uint32_t>
         ofParticle; ///< the row of faces that begin with the particle; 0 where it has none
 };
-Stops stopsOf(const Scene& scene);
+/// Indices of particles and faces must be right.
+Stops stopsOf(const Scene& scene, const Settings& settings);
 
 /// The place of each impulse in the buffer of elements.
 struct Forces {
@@ -37,16 +45,20 @@ struct Forces {
     std::uint32_t attachments = 0;
     Stops stops;
 
-    std::uint32_t rows() const { return grabs + planes + colliders + stops.rows; }
+    std::uint32_t rows() const {
+        return grabs + planes + colliders + static_cast<std::uint32_t>(stops.rows.size());
+    }
+    std::uint32_t firstStop() const { return grabs + planes + colliders; }
     std::uint32_t elementOf(std::uint32_t row) const { return (2 + 2 * row) * slots; }
     std::uint32_t firstEntry() const { return elementOf(rows()); }
+    std::uint64_t elements() const { return (2 + 2 * std::uint64_t{rows()}) * slots + tethers + attachments; }
 
     // Constants that specialise the forms of kernels.
     ProgramBuilder::Constants ofContacts() const { return constants(0); }
     ProgramBuilder::Constants ofGrabs() const { return constants(elementOf(0)); }
     ProgramBuilder::Constants ofPlanes() const { return constants(elementOf(grabs)); }
     ProgramBuilder::Constants ofColliders() const { return constants(elementOf(grabs + planes)); }
-    ProgramBuilder::Constants ofStops() const { return constants(elementOf(grabs + planes + colliders)); }
+    ProgramBuilder::Constants ofStops() const { return constants(elementOf(firstStop())); }
     ProgramBuilder::Constants ofTethers() const { return constants(firstEntry()); }
     ProgramBuilder::Constants ofAttachments() const { return constants(firstEntry() + tethers); }
 

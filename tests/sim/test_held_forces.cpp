@@ -2,6 +2,7 @@
 // what touches what it holds, and faces that never move feel any number of points.
 #include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
+#include "sim/hash.hpp"
 #include "sim/holds.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
@@ -15,8 +16,34 @@ using namespace sinew::sim;
 
 namespace {
 
+using Vector = Eigen::Vector3d;
+
+constexpr double gravity = 9.81, weightShare = 0.005; // [m/s^2]
+
 Settings withForces(std::uint32_t substeps = 16) {
     return {.substeps = substeps, .keepsForces = true};
+}
+
+Vector forceOf(const Impulse& impulse, const Scene& scene) {
+    return test::toVector(impulse.linear) / double{scene.dt};
+}
+
+// Of a scene at rest, over ten steps.
+std::vector<Impulses> after(test::Runner& runner, int steps) {
+    std::vector<Impulses> all;
+    runner.run(steps);
+    for (int s = 0; s < 10; ++s) {
+        const Status status = runner.run(1);
+        EXPECT_FALSE(status.isUndone);
+        all.push_back(runner.simulation().forces(status.frame));
+    }
+    return all;
+}
+
+// What is upwards, of this size, within a share of the weight of all.
+void expectUp(const Impulse& impulse, double force, const Scene& scene, double weight) {
+    const Vector found = forceOf(impulse, scene);
+    EXPECT_LE((found - Vector(0, force, 0)).norm(), weightShare * weight) << found.transpose();
 }
 
 // A block of 3^3 cells of 0.1 m.
@@ -27,6 +54,40 @@ void addBlock(Scene& scene, const Vec3& origin) {
                        .spacing = 0.1f,
                        .youngModulus = 2e5f,
                        .radius = 0.05f});
+}
+
+Scene quiet() {
+    Scene scene;
+    scene.dampingTime = 2e-3f;
+    scene.contacts = {.friction = 0.5f, .staticFriction = 0.5f};
+    return scene;
+}
+
+double weightOf(const Scene& scene) {
+    double mass = 0;
+    for (const Particle& particle : scene.particles)
+        if (particle.inverseMass > 0) mass += 1 / double{particle.inverseMass};
+    return gravity * mass;
+}
+
+MeshCollider meshOf(std::vector<Vec3> vertices, std::vector<std::array<std::uint32_t, 3>> triangles) {
+    return {.name = "floor",
+            .vertices = std::move(vertices),
+            .triangles = std::move(triangles),
+            .thickness = 0.01f};
+}
+
+// Two squares beside each other, both of half extent 0.6.
+MeshCollider twoTables() {
+    return meshOf({{-0.6f, 0, -0.6f},
+                   {0.6f, 0, -0.6f},
+                   {0.6f, 0, 0.6f},
+                   {-0.6f, 0, 0.6f},
+                   {1.4f, 0, -0.6f},
+                   {2.6f, 0, -0.6f},
+                   {2.6f, 0, 0.6f},
+                   {1.4f, 0, 0.6f}},
+                  {{0, 2, 1}, {0, 3, 2}, {4, 6, 5}, {4, 7, 6}});
 }
 
 double largest(const BodyImpulses& body) {
@@ -77,4 +138,110 @@ TEST(HeldForces, OfInterlockedBodiesThatAreHeldAreFinite) {
     }
     EXPECT_GT(most, 0);
     EXPECT_LT(most, 1e6);
+}
+
+// 2,500 small balls fall onto one triangle: more than a face that moves may know.
+TEST(HeldForces, FeelAnyNumberOfPointsOnOneFace) {
+    Scene scene;
+    scene.damping = 1;
+    constexpr float radius = 0.004f, mass = 1e-3f;
+    for (int i = 0; i < 50; ++i)
+        for (int k = 0; k < 50; ++k)
+            scene.particles.push_back({.position = {0.012f * static_cast<float>(i - 25), 0.016f,
+                                                    0.012f * static_cast<float>(k - 25)},
+                                       .inverseMass = 1 / mass,
+                                       .contactOffset = radius,
+                                       .radius = radius});
+    scene.bodies = {{"grains", 0, 2500}};
+    addMeshCollider(scene, meshOf({{-3, 0, -3}, {3, 0, -3}, {0, 0, 4}}, {{0, 2, 1}}));
+    const Settings with = withForces();
+    test::Runner runner(scene, with);
+    const double weight = weightOf(scene);
+    for (const Impulses& impulses : after(runner, 60)) {
+        expectUp(impulses.bodies[0].contacts, weight, scene, weight);
+        expectUp(impulses.bodies[1].contacts, -weight, scene, weight);
+        expectUp(impulses.bodies[1].holds, weight, scene, weight);
+    }
+    Settings without = with;
+    without.keepsForces = false;
+    EXPECT_EQ(test::hashOfRun(scene, with, 20), test::hashOfRun(scene, without, 20));
+}
+
+TEST(HeldForces, OfAHoldAreThoseOfWhatStandsOnItsParticles) {
+    Scene scene = quiet();
+    addBlock(scene, {0, 0.1f, 0});
+    NamedHold held{"pegs", {}};
+    const auto first = static_cast<std::uint32_t>(scene.particles.size());
+    for (const float x : {0.0f, 0.1f, 0.2f, 0.3f})
+        for (const float z : {0.0f, 0.1f, 0.2f, 0.3f}) {
+            held.particles.push_back(static_cast<std::uint32_t>(scene.particles.size()));
+            Particle peg = test::fixedBallAt({x, 0, z});
+            peg.radius = peg.contactOffset = 0.05f;
+            scene.particles.push_back(peg);
+        }
+    scene.bodies.push_back({"pegs", first, 16});
+    scene.holds = {held};
+    test::Runner runner(scene, withForces(32));
+    const double weight = weightOf(scene);
+    for (const Impulses& impulses : after(runner, 240)) {
+        expectUp(impulses.bodies[1].contacts, -weight, scene, weight);
+        expectUp(impulses.bodies[1].holds, weight, scene, weight);
+        expectUp(impulses.holds[0], weight, scene, weight);
+    }
+}
+
+TEST(HeldForces, OfAHoldAreThoseOfWhatStandsOnItsFaces) {
+    Scene scene = quiet();
+    addBlock(scene, {-0.15f, 0.06f, -0.15f});
+    addMeshCollider(scene, twoTables());
+    const std::uint32_t first = scene.bodies[1].firstParticle;
+    NamedHold loaded{"loaded", {}}, empty{"empty", {}}, both{"both", {}};
+    for (std::uint32_t i = 0; i < 8; ++i) {
+        (i < 4 ? loaded : empty).particles.push_back(first + i);
+        both.particles.push_back(first + i);
+    }
+    scene.holds = {loaded, empty, both};
+    test::Runner runner(scene, withForces(32));
+    const double weight = weightOf(scene);
+    for (const Impulses& impulses : after(runner, 240)) {
+        expectUp(impulses.bodies[1].contacts, -weight, scene, weight);
+        expectUp(impulses.bodies[1].holds, weight, scene, weight);
+        expectUp(impulses.holds[0], weight, scene, weight);
+        expectUp(impulses.holds[1], 0, scene, weight);
+        expectUp(impulses.holds[2], weight, scene, weight);
+        // the block stands 1 m from the middle of both squares: a torque about z
+        EXPECT_NEAR(double{impulses.bodies[1].contacts.angular.z} / double{scene.dt}, weight, 0.02 * weight);
+        EXPECT_NEAR(double{impulses.bodies[1].holds.angular.z} / double{scene.dt}, -weight, 0.02 * weight);
+    }
+}
+
+// A ball falls onto a cloth of which only the middle moves: it touches faces with corners that never do. The
+// hold gives all changes of momentum but those of gravity.
+TEST(HeldForces, OfABorderAreTheChangesOfMomentum) {
+    Scene scene;
+    addCloth(scene, {.origin = {-0.2f, 0, -0.2f}, .size = {3, 3}, .spacing = 0.2f, .thickness = 0.02f});
+    const std::vector<std::uint32_t> border{0, 1, 2, 3, 5, 6, 7, 8}; // all but the middle
+    hold(scene, border);
+    scene.holds = {{"border", border}};
+    scene.particles.push_back(test::ballAt({0.06f, 0.12f, 0.04f}, {}, 2));
+    scene.bodies.push_back({"ball", 9, 1});
+    test::Runner runner(scene, withForces());
+    const double middle = 1 / double{scene.particles[4].inverseMass}, dt = double{scene.dt};
+    const auto momentum = [&] {
+        return Vector(2 * runner.velocities()[9] + middle * runner.velocities()[4]);
+    };
+    runner.run(2);
+    Vector before = momentum(), given = Vector::Zero();
+    for (int s = 0; s < 60; ++s) {
+        const Status status = runner.run(1);
+        const Impulses impulses = runner.simulation().forces(status.frame);
+        const Vector now = momentum(), held = test::toVector(impulses.holds[0].linear),
+                     weight = Vector(0, -gravity * (2 + middle) * dt, 0);
+        EXPECT_LE((now - before - weight - held).norm(), 2e-4 * (1 + held.norm())) << s;
+        EXPECT_LE((held - test::toVector(impulses.bodies[0].holds.linear)).norm(), 1e-5 * (1 + held.norm()))
+            << s;
+        given += held;
+        before = now;
+    }
+    EXPECT_GT(given.y(), 0.5 * 2 * gravity * 60 * dt);
 }

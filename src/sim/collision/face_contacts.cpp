@@ -41,11 +41,6 @@ struct Faces {
     std::vector<float> extents;
     std::uint32_t sheets = 0, moving = 0;
     std::uint32_t firstInner = 0; ///< of those that a cut may lay open; all up to `moving` are
-
-    // So many know which points are near them.
-    std::uint32_t linked(bool keepsForces) const {
-        return keepsForces ? static_cast<std::uint32_t>(faces.size()) : moving;
-    }
 };
 
 float extentOf(const Scene& scene, const Face& face) {
@@ -139,11 +134,11 @@ std::vector<std::uint32_t> keepersOf(const Scene& scene, const StateLayout& layo
 }
 
 // For every slot the first of its entries, one more for the end; an entry is 4 x face + corner. If forces
-// are kept, corners that never move feel them too.
+// are kept, corners that never move of faces that do feel them too.
 std::vector<std::uint32_t> cornersOf(const Faces& faces, const std::vector<float>& inverseMass,
                                      const StateLayout& layout, bool keepsForces) {
     std::vector<std::vector<std::uint32_t>> entries(layout.count);
-    for (std::uint32_t f = 0; f < faces.linked(keepsForces); ++f) {
+    for (std::uint32_t f = 0; f < faces.moving; ++f) {
         const layout::ContactFace& face = faces.faces[f];
         const std::array<std::uint32_t, 3> corners{face.a, face.b, face.c};
         for (std::uint32_t c = 0; c < 3; ++c)
@@ -185,7 +180,6 @@ face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
                                                         .inverseMasses = masses,
                                                         .faces = faces.faces,
                                                         .moving = faces.moving,
-                                                        .linked = faces.linked(settings.keepsForces),
                                                         .extents = faces.extents,
                                                         .exclusions = exclusions,
                                                         .liveLinks = hasInner ? cutting.links : BufferId{},
@@ -225,10 +219,14 @@ std::vector<std::uint32_t> movingPoints(const Scene& scene, const std::vector<fl
     return points;
 }
 
-// By face.
-std::vector<std::uint32_t> stopRowsOf(const Faces& faces, const forces::Stops& stops) {
-    std::vector<std::uint32_t> rows;
-    for (const layout::ContactFace& face : faces.faces) rows.push_back(stops.ofParticle[face.a]);
+// By face: its row, and the slot about which moments are.
+std::vector<std::array<std::uint32_t, 2>> stopRowsOf(const Faces& faces, const forces::Stops& stops,
+                                                     const StateLayout& layout) {
+    std::vector<std::array<std::uint32_t, 2>> rows(faces.faces.size(), {0, 0});
+    for (std::size_t f = faces.moving; f < faces.faces.size(); ++f) {
+        const std::uint32_t row = stops.ofParticle[faces.faces[f].a];
+        rows[f] = {row, layout.slot[stops.rows[row].origin]};
+    }
     return rows;
 }
 
@@ -245,8 +243,12 @@ void addImpulses(ProgramBuilder& program, const Contacts& contacts, const vk::Sh
                  const vk::ShaderCode& withForces, std::vector<BufferId> buffers,
                  const ParticleBuffers& particles, ProgramBuilder::Constants constants = {}) {
     if (!particles.forces) return addOverContacts(program, contacts, code, std::move(buffers), constants);
-    buffers.push_back(particles.forces->terms);
-    constants.merge(particles.forces->ofContacts());
+    // without a face that can stop something no kernel reads the last but one
+    const bool hasRows = contacts.stopRows != BufferId{};
+    buffers.insert(buffers.end(),
+                   {particles.forces->terms, hasRows ? contacts.stopRows : contacts.lists.pooled.ranges,
+                    hasRows ? contacts.linkedPositions : contacts.before, contacts.lists.pooled.contacts});
+    constants.merge(particles.forces->ofStops());
     addOverContacts(program, contacts, withForces, std::move(buffers), constants);
 }
 
@@ -325,8 +327,9 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
         const std::vector<std::uint32_t> points = movingPoints(scene, inverseMass, layout);
         contacts.movingPoints = program.upload("faces.moving_points", points);
         contacts.movingPointCount = static_cast<std::uint32_t>(points.size());
-        if (particles.forces)
-            contacts.stopRows = program.upload("faces.stop_rows", stopRowsOf(faces, particles.forces->stops));
+        if (particles.forces && !particles.forces->stops.rows.empty())
+            contacts.stopRows =
+                program.upload("faces.stop_rows", stopRowsOf(faces, particles.forces->stops, layout));
     }
     return contacts;
 }
@@ -403,7 +406,7 @@ void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleB
                                   lists.pooled.memory->memory};
     ProgramBuilder::Constants constants = remainderConstants(state.layout);
     if (state.forces) {
-        buffers.insert(buffers.end(), {contacts.stopRows, state.forces->terms});
+        buffers.insert(buffers.end(), {state.forces->terms, contacts.stopRows, contacts.linkedPositions});
         constants.merge(state.forces->ofStops());
     }
     buffers.push_back(contacts.movingPoints);

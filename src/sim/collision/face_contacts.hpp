@@ -39,7 +39,7 @@ struct Contacts {
     /// Positions and velocities that links have left; only where hasStops().
     BufferId linkedPositions, linkedVelocities;
     BufferId movingPoints; ///< slots of points that move; only where hasStops()
-    BufferId stopRows;     ///< of each face (forces::Stops); only where forces are kept, too
+    BufferId stopRows; ///< of each face (forces::Stops); only where forces are kept and a point moves, too
     std::uint32_t movingPointCount = 0;
 
     bool hasInner() const { return firstInner < push.moving; }

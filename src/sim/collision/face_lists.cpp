@@ -87,15 +87,14 @@ Lists add(ProgramBuilder& program, const Request& request) {
                   .most = edge,
                   .margin = request.margin + request.beyond,
                   .moving = request.moving,
-                  .large = static_cast<std::uint32_t>(large.size()),
-                  .linked = request.linked};
+                  .large = static_cast<std::uint32_t>(large.size())};
     lists.pooled = pooled_lists::add(
         program,
         {.name = "faces", .owners = count, .each = request.capacity, .entriesOfPair = 1, .hasMemory = true});
     lists.push.room = lists.pooled.room;
     lists.links = program.scratch<std::uint32_t>("faces.links", lists.pooled.room);
-    lists.linkLists = program.scratch<layout::ListRange>("faces.link_lists", request.linked + 1);
-    lists.faceChains = program.scratch<std::uint32_t>("faces.chains_of_faces", request.linked + 1);
+    lists.linkLists = program.scratch<layout::ListRange>("faces.link_lists", request.moving + 1);
+    lists.faceChains = program.scratch<std::uint32_t>("faces.chains_of_faces", request.moving + 1);
     lists.radii = program.upload("faces.radii", closed);
     lists.inverseMasses = program.upload("faces.inverse_masses", request.inverseMasses);
     lists.faces = program.upload("faces", request.faces);

@@ -20,7 +20,6 @@ struct Request {
     std::span<const float> inverseMasses; ///< likewise; 0 = never moves [1/kg]
     std::span<const layout::ContactFace> faces;
     std::uint32_t moving = 0;       ///< faces before that one have a corner that moves
-    std::uint32_t linked = 0;       ///< faces before that one know the points near them; at least `moving`
     std::span<const float> extents; ///< of each face: the longest side of its box at first [m]
     /// Points that a face never touches: for each face the first of them, one more for the end, then the
     /// points of all, sorted. A row that ends with EXCLUDED_LINKED | k is of a body that may be cut: its face
