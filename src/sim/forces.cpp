@@ -175,7 +175,12 @@ void check(const Scene& scene, const Settings& settings, Complaints& complaints)
     if (settings.sleeps)
         complaints.add("settings.keepsForces",
                        "is set, but bodies that sleep have no forces: leave out one of the two");
-    if (settings.solver != Solver::split && areLinksHeld(scene))
+    if (settings.solver == Solver::jacobi && !(scene.distances.empty() && scene.bends.empty()))
+        complaints.add(
+            "settings.keepsForces",
+            "is set, but solver jacobi averages what links do to a particle, so that the forces on a "
+            "body are not those that it gives: use split");
+    else if (settings.solver != Solver::split && areLinksHeld(scene))
         complaints.add("settings.keepsForces",
                        std::string("is set, but solver ") + solverName(settings.solver) +
                            " does not know with which force links are held: use split");

@@ -62,9 +62,14 @@ sim::Scene farAway(sim::Scene scene) {
     return scene;
 }
 
-// The forms of kernels that keep forces, where the scene may have them.
-void makeKept(Maker& maker, const sim::Scene& scene, sim::Settings settings) {
+// The forms of kernels that keep forces, where the scene may have them: with `jacobi` without links.
+void makeKept(Maker& maker, sim::Scene scene, sim::Settings settings) {
     settings.keepsForces = true;
+    if (settings.solver == sim::Solver::jacobi) {
+        scene.distances.clear();
+        scene.bends.clear();
+        scene.grids.clear();
+    }
     if (sim::validate(scene, settings).empty()) maker.make(scene, settings);
 }
 

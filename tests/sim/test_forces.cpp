@@ -460,8 +460,7 @@ protected:
     }
 };
 
-// `jacobi` averages what links do to a particle, which does not keep momentum: its planes carry more than the
-// weight of a body. Here it has loose particles.
+// With `jacobi` the particles are loose: it keeps no forces of bodies with links.
 TEST_P(ForcesOf, WhatStandsAreItsWeight) {
     struct Case {
         bool isOnPlane;

@@ -320,10 +320,33 @@ TEST(KeptForces, AreRefusedWhereThereAreNone) {
         settings.solver = solver;
         EXPECT_EQ(validate(scene, settings).size(), 1u) << solverName(solver);
     }
+    Scene free = test::chain(3);
+    free.fixed.clear();
+    for (Particle& particle : free.particles) particle.inverseMass = 1;
     Settings settings = withForces();
+    settings.solver = Solver::gaussSeidel;
+    EXPECT_TRUE(validate(free, settings).empty());
+    settings.solver = Solver::jacobi; // averages what links do
+    ASSERT_EQ(validate(free, settings).size(), 1u);
+    EXPECT_NE(validate(free, settings)[0].find("jacobi averages"), std::string::npos);
+    free.distances.clear();
+    EXPECT_TRUE(validate(free, settings).empty());
+    settings = withForces();
     settings.sleeps = true;
     ASSERT_EQ(validate(scene, settings).size(), 1u);
     EXPECT_NE(validate(scene, settings)[0].find("sleep"), std::string::npos);
     scene.holds = {{"nobody", {7}}};
     EXPECT_EQ(validate(scene, withForces()).size(), 1u);
+}
+
+// A row for what faces give is there only where a point can touch them.
+TEST(KeptForces, HaveNoRowsOfFacesThatStopNothing) {
+    const auto rows = [](float radius) {
+        Scene scene = test::particleAt({0, 1, 0});
+        scene.particles[0].radius = radius;
+        addMeshCollider(scene, {.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, .triangles = {{0, 2, 1}}});
+        return compile(scene, withForces()).forces.stops;
+    };
+    EXPECT_EQ(rows(0.1f), 1u);
+    EXPECT_EQ(rows(0), 0u);
 }
