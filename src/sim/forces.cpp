@@ -16,6 +16,10 @@ namespace k = kernels;
 constexpr std::uint32_t forceSlotsId = 20, firstForceId = 21,
                         keepsPullsId = 22; // constant_ids in forces.glsl, split.glsl
 
+// A vec4 each, in a buffer with sizes in 32 bits: VkPhysicalDeviceLimits::maxStorageBufferRange is one.
+constexpr std::uint64_t mostElements = ((std::uint64_t{1} << 32) - 1) / sizeof(layout::vec4);
+static_assert(mostElements < FORCE_SUBTRACTED);
+
 // Chunks of one thing behind those of another, and the sums that they become.
 struct Sums {
     std::vector<layout::ForceChunk> chunks;
@@ -184,6 +188,18 @@ void check(const Scene& scene, const Settings& settings, Complaints& complaints)
         complaints.add("settings.keepsForces",
                        std::string("is set, but solver ") + solverName(settings.solver) +
                            " does not know with which force links are held: use split");
+}
+
+void checkRoom(const Scene& scene, const Settings& settings, Complaints& complaints) {
+    if (!settings.keepsForces || scene.particles.empty()) return;
+    const std::uint64_t elements = placesOf(scene, settings, stateLayout(scene, settings)).elements();
+    if (elements <= mostElements) return;
+    complaints.add(
+        "settings.keepsForces",
+        "is set, but " + number(elements) + " impulses of particles have no room in a buffer, at most " +
+            number(mostElements) +
+            " do: leave out planes, colliders, bodies with faces that never move, hands or pokes, or take "
+            "fewer particles");
 }
 
 Stops stopsOf(const Scene& scene, const Settings& settings) {

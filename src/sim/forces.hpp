@@ -20,6 +20,10 @@ namespace sinew::sim::forces {
 /// Complains about settings with which forces cannot be kept, and about holds of particles that do not exist.
 void check(const Scene& scene, const Settings& settings, Complaints& complaints);
 
+/// Complains where forces are kept and their elements do not fit into one buffer of 32 bits. All else must be
+/// right.
+void checkRoom(const Scene& scene, const Settings& settings, Complaints& complaints);
+
 /// Faces that never move, by body and holds.
 struct Stops {
     static constexpr std::uint32_t noBody = ~0u;

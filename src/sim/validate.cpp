@@ -569,6 +569,7 @@ std::vector<std::string> validate(const Scene& scene, const Settings& settings) 
     if (complaints.isEmpty()) collision::checkCrowding(scene, complaints);
     if (complaints.isEmpty()) checkChosenSweeps(scene, settings, complaints);
     if (complaints.isEmpty()) checkColors(scene, settings, complaints);
+    if (complaints.isEmpty()) forces::checkRoom(scene, settings, complaints);
     return complaints.finish();
 }
 

@@ -339,6 +339,19 @@ TEST(KeptForces, AreRefusedWhereThereAreNone) {
     EXPECT_EQ(validate(scene, withForces()).size(), 1u);
 }
 
+TEST(KeptForces, AreRefusedWhereTheyHaveNoRoom) {
+    Scene scene{.particles = std::vector<Particle>(1'200'000, {.inverseMass = 1})};
+    scene.planes.resize(32);
+    scene.colliders.resize(64, {.radius = 1});
+    Settings settings = withForces();
+    EXPECT_TRUE(validate(scene, settings).empty()); // 194 elements of 16 B for each
+    settings.grabs = settings.pokes = 8;
+    ASSERT_EQ(validate(scene, settings).size(), 1u); // 226
+    EXPECT_NE(validate(scene, settings)[0].find("no room in a buffer"), std::string::npos);
+    settings.keepsForces = false;
+    EXPECT_TRUE(validate(scene, settings).empty());
+}
+
 // A row for what faces give is there only where a point can touch them.
 TEST(KeptForces, HaveNoRowsOfFacesThatStopNothing) {
     const auto rows = [](float radius) {
