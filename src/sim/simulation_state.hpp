@@ -65,7 +65,9 @@ struct Simulation::State {
     SplitBudget budget;
     float theta, omega, damping;
     std::uint32_t substeps;
-    bool hasContacts;    // between particles: gathers of `split` then store x, not x + theta h v
+    bool storesPlaces; // gathers of `split` store x, not x + theta h v: where contacts follow, or forces are
+                       // kept
+    bool hasContacts;  // of particles or faces
     float previousH = 0; // 0 before the first step: the half-kick that starts the leapfrog
     // A step that came to its end: its h, and where it left colliders and pokes.
     struct Settled {
@@ -97,8 +99,9 @@ struct Simulation::State {
           colliders(scene.colliders, scene.driven, settings.pokes), budget(dampedBudget(scene, settings)),
           theta(settings.solver == Solver::split ? settings.theta : 0), omega(settings.omega),
           damping(scene.damping), substeps(settings.substeps),
-          hasContacts(solvers::split::contactsFollow(scene, settings)), unsettled(settings.framesInFlight),
-          untold(warnings(scene)) {}
+          storesPlaces(solvers::split::contactsFollow(scene, settings)),
+          hasContacts(collision::particle_contacts::areIn(scene) || collision::face_contacts::areIn(scene)),
+          unsettled(settings.framesInFlight), untold(warnings(scene)) {}
 
     // Sums of forces of a step.
     static std::size_t forceCount(const StepProgram& of) {
@@ -122,7 +125,7 @@ struct Simulation::State {
                 .dampingShare =
                     static_cast<float>(dampingBudget(budget, double{theta}, longest) / double{omega}),
                 .multiplierScale = previousH > 0 ? std::min(1.0f, h * h / (previousH * previousH)) : 0,
-                .thetaHStored = hasContacts ? 0 : theta * h,
+                .thetaHStored = storesPlaces ? 0 : theta * h,
                 .wakes = step.wakes || hasNewTopology || isChanged ? 1u : 0u};
     }
 

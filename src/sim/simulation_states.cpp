@@ -46,7 +46,8 @@ void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from, 
                                 const SavedState* saved) {
     const State& other = *from.state_;
     const bool isAlike =
-        state_->chosen.solver == other.chosen.solver && state_->program.order == other.program.order;
+        state_->chosen.solver == other.chosen.solver && state_->program.order == other.program.order &&
+        (state_->chosen.solver != Solver::split || state_->storesPlaces == other.storesPlaces);
     state_->requireSameScene(other, copy, from.handOverSize(), isAlike);
     recordReset(buffer);
     vk::Commands commands(state_->device, buffer);

@@ -245,3 +245,41 @@ TEST(HeldForces, OfABorderAreTheChangesOfMomentum) {
     }
     EXPECT_GT(given.y(), 0.5 * 2 * gravity * 60 * dt);
 }
+
+// The first step after it is undone: all goes on where the other one stood.
+TEST(HeldForces, MayBeAskedForLater) {
+    Scene scene;
+    addBlock(scene, {0, 1, 0});
+    for (Particle& particle : scene.particles) particle.radius = 0;
+    hold(scene, std::vector<std::uint32_t>{0});
+    Settings with = withForces(), without = with;
+    without.keepsForces = false;
+    for (const bool isFirst : {false, true}) {
+        SCOPED_TRACE(isFirst);
+        test::Runner from(scene, isFirst ? with : without), to(scene, isFirst ? without : with);
+        from.run(30);
+        to.takeOver(from);
+        const std::vector<Vector> before = from.positions();
+        to.writePosition(5, NAN);
+        ASSERT_TRUE(to.run(1).isUndone);
+        std::vector<Vector> now = to.positions();
+        for (std::size_t i = 0; i < now.size(); ++i) ASSERT_LE((now[i] - before[i]).norm(), 1e-6) << i;
+        to.run(1);
+        from.run(1);
+        now = to.positions();
+        const std::vector<Vector> undisturbed = from.positions();
+        for (std::size_t i = 0; i < now.size(); ++i)
+            ASSERT_LE((now[i] - undisturbed[i]).norm(), 2e-3) << i; // a substep of its velocity
+    }
+}
+
+TEST(HeldForces, NeedNoRoomForContactsWhereThereAreNone) {
+    Scene scene;
+    addBlock(scene, {0, 1, 0});
+    for (Particle& particle : scene.particles) particle.radius = 0;
+    Settings roomy = withForces(), narrow = withForces();
+    roomy.contactRoom = 2 * narrow.contactRoom;
+    test::Runner from(scene, roomy), to(scene, narrow);
+    from.run(2);
+    EXPECT_NO_THROW(to.takeOver(from));
+}
