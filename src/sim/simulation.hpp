@@ -149,13 +149,15 @@ struct BodyImpulses {
     Impulse contacts{}; ///< of other particles, faces and edges, those of the body itself among them (they
                         ///< cancel)
     Impulse planes{}, colliders{}; ///< pokes among the colliders
-    Impulse holds{};               ///< of particles that never move, attachments and tethers
+    Impulse holds{};               ///< of what keeps particles where they are against links and contacts, of
+                                   ///< attachments and tethers
     Impulse grabs{};
 };
 
-/// The impulses of one step (Settings::keepsForces), as of the velocities that they have changed: damping and
-/// gravity are none of them, and what moves a particle without a velocity has no impulse. All are 0 where the
-/// step was undone.
+/// The impulses of one step (Settings::keepsForces): masses times changes of velocities. Gravity and damping
+/// are not among them. A pass that moves a particle without a change of its velocity gives no impulse. All
+/// are 0 where the step was undone. Scene::damping also takes its part of what gravity gives in a substep of
+/// length h, so weights at rest are too small by a part of at most 1 - exp(-damping h).
 struct Impulses {
     bool isFinished = false;          ///< as Status::isFinished; else the lists are empty
     std::vector<BodyImpulses> bodies; ///< Scene::bodies
@@ -259,8 +261,8 @@ public:
     /// must live until the commands have finished, and its device is this one's; or that is another one, and
     /// `copy` what recordHandOver() of it has copied, brought to this device by the host. Colliders on a
     /// path, and pokes, are where they were at the end of the last step that was not undone. Of the same
-    /// solver (and the same Forms::usesGrids) all is carried that a step leaves behind. Of another solver
-    /// positions and velocities are, both with Settings::publishesVelocities: a velocity half a substep
+    /// solver (and the same Forms::usesGrids) all is carried that a step leaves behind. Of another solver, or
+    /// where one of two of `split` keeps forces in a scene without contacts, positions and velocities are, both with Settings::publishesVelocities: a velocity half a substep
     /// before the end is taken as that of the end, hands take hold anew, and what slept is awake.
     /// With `saved`, `copy` is what recordHandOver() has copied of a state that `from` saved, on this device
     /// or another one: it goes on from that, and hands take hold anew.
