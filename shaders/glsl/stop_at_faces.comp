@@ -73,7 +73,7 @@ Stop stopOf(uint i, Search search, vec3 x0, vec3 x1) {
 const uint mostStops = 4u;
 
 #ifdef FORCES
-// What one stop gives, kept until it is known that the particle takes it.
+// The impulse of one stop, kept until it is known that the particle takes it.
 struct Given {
     uint face;
     vec3 change, x; // of the velocity [m/s]; where [m]

@@ -28,7 +28,7 @@ Vector forceOf(const Impulse& impulse, const Scene& scene) {
     return test::toVector(impulse.linear) / double{scene.dt};
 }
 
-// Of a scene at rest, over ten steps.
+// The impulses of ten steps, after `steps` others.
 std::vector<Impulses> after(test::Runner& runner, int steps) {
     std::vector<Impulses> all;
     runner.run(steps);
@@ -40,7 +40,7 @@ std::vector<Impulses> after(test::Runner& runner, int steps) {
     return all;
 }
 
-// What is upwards, of this size, within a share of the weight of all.
+// Expects a force that points up and has this size, within a share of the weight of all.
 void expectUp(const Impulse& impulse, double force, const Scene& scene, double weight) {
     const Vector found = forceOf(impulse, scene);
     EXPECT_LE((found - Vector(0, force, 0)).norm(), weightShare * weight) << found.transpose();
@@ -120,7 +120,7 @@ TEST(HeldForces, OfTwoThatNeverMoveAreNone) {
         }
 }
 
-// Of interlocked bodies every other particle is held, so that some that never move touch.
+// Every other particle of two interlocked bodies is held, so that some that never move touch.
 TEST(HeldForces, OfInterlockedBodiesThatAreHeldAreFinite) {
     Scene scene = test::weightless();
     addBlock(scene, {0, 0, 0});
