@@ -83,7 +83,6 @@ Lists add(ProgramBuilder& program, const Request& request) {
                                                  .quiet = quietWay(request),
                                                  .usesTexels = request.usesTexels,
                                                  .bodies = request.bodies,
-                                                 .watched = request.watched,
                                                  .reach = 2 * largestOf(request.radii),
                                                  .substeps = request.substeps}),
                 .hasOneRadius = hasOneRadius(request.radii)};

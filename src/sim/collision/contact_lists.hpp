@@ -23,11 +23,10 @@ Exclusions excludedPairs(const Scene& scene, std::span<const float> radii, const
 std::vector<std::uint32_t> linkedBodies(const Scene& scene);
 
 struct Request {
-    std::span<const float> radii;   ///< by state slot [m]; below 0 = touches nothing
-    std::span<const float> watched; ///< as hash_grid::Request has them
-    float margin = 0;               ///< M [m]
-    bool isKept = false;            ///< some pair keeps its rest distance: lists reach farther by its slack
-    std::uint32_t capacity = 0;     ///< candidates of a particle that there is room for, on average
+    std::span<const float> radii; ///< by state slot [m]; below 0 = touches nothing
+    float margin = 0;             ///< M [m]
+    bool isKept = false;          ///< some pair keeps its rest distance: lists reach farther by its slack
+    std::uint32_t capacity = 0;   ///< candidates of a particle that there is room for, on average
     Exclusions exclusions;
     bool usesTexels = true;
     const body_frames::Bodies* bodies = nullptr; ///< as hash_grid::Request has them

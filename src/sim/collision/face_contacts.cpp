@@ -4,7 +4,6 @@
 #include "kernels.hpp"
 #include "rest_slack.h"
 #include "sim/collision/contact_lists.hpp"
-#include "sim/collision/insides.hpp"
 #include "sim/cutting/crumbs.hpp"
 #include "sim/cutting/cut_contacts.hpp"
 #include "sim/cutting/cut_faces.hpp"
@@ -173,10 +172,7 @@ face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
     // Thin cloth of coarse faces may wait longer than its radius says: an eighth of a face costs few
     // candidates.
     const float length = std::max(median(wide), median(faces.extents) / 8);
-    const std::vector<bool> isInside = insides::find(scene);
-    const std::vector<float> closed = insides::closed(radii, isInside, layout);
     face_lists::Lists lists = face_lists::add(program, {.radii = radii,
-                                                        .closed = closed,
                                                         .inverseMasses = masses,
                                                         .faces = faces.faces,
                                                         .moving = faces.moving,
@@ -192,12 +188,6 @@ face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
     cutting::letCrumbsLeave(program, lists.grid.radii, lists.grid);
     cutting::letCrumbsLeave(program, lists.grid.watched, lists.grid);
     cutting::letCrumbsLeave(program, lists.radii, lists.grid);
-    if (hasInner && std::ranges::find(isInside, true) != isInside.end()) {
-        std::vector<float> points;
-        for (const float radius : radii) points.push_back(radius < 0 ? -1.0f : 0.0f); // as the grid has them
-        insides::addOpening(program, lists.grid.radii, points, lists.grid);
-        insides::addOpening(program, lists.radii, radii, lists.grid);
-    }
     return lists;
 }
 

@@ -42,9 +42,7 @@ std::vector<BufferId> searchBuffers(const Lists& lists, const ParticleBuffers& p
 
 // By slot: below 0 = neither a point nor a corner.
 std::vector<float> watchedOf(const Request& request) {
-    const bool mayOpen = request.liveLinks != BufferId{};
-    const std::span<const float> points = mayOpen || request.closed.empty() ? request.radii : request.closed;
-    std::vector<float> watched(points.begin(), points.end());
+    std::vector<float> watched(request.radii.begin(), request.radii.end());
     for (const layout::ContactFace& face : request.faces)
         for (const std::uint32_t corner : {face.a, face.b, face.c}) watched[corner] = 0;
     return watched;
@@ -63,8 +61,7 @@ Lists add(ProgramBuilder& program, const Request& request) {
     const std::size_t count = request.radii.size(), faces = request.faces.size();
     const float edge = std::max(hash_grid::largestInGrid(request.extents),
                                 2 * hash_grid::largestInGrid(request.radii) + request.margin);
-    const std::span<const float> closed = request.closed.empty() ? request.radii : request.closed;
-    const std::vector<float> points = pointsOf(closed);
+    const std::vector<float> points = pointsOf(request.radii);
     const std::vector<float> watched = watchedOf(request);
     const std::vector<std::uint32_t> large = facesWhere(request.extents, edge, true);
     Lists lists{.grid = hash_grid::add(program, {.radii = points,
@@ -95,7 +92,7 @@ Lists add(ProgramBuilder& program, const Request& request) {
     lists.links = program.scratch<std::uint32_t>("faces.links", lists.pooled.room);
     lists.linkLists = program.scratch<layout::ListRange>("faces.link_lists", request.moving + 1);
     lists.faceChains = program.scratch<std::uint32_t>("faces.chains_of_faces", request.moving + 1);
-    lists.radii = program.upload("faces.radii", closed);
+    lists.radii = program.upload("faces.radii", request.radii);
     lists.inverseMasses = program.upload("faces.inverse_masses", request.inverseMasses);
     lists.faces = program.upload("faces", request.faces);
     lists.excluded = program.upload("faces.excluded", request.exclusions);

@@ -16,7 +16,6 @@ namespace sinew::sim::collision::face_lists {
 /// What can touch what, between state slots.
 struct Request {
     std::span<const float> radii;         ///< by state slot, whole work groups [m]; below 0 = touches no face
-    std::span<const float> closed;        ///< the same without insides (insides.hpp); empty = no inside
     std::span<const float> inverseMasses; ///< likewise; 0 = never moves [1/kg]
     std::span<const layout::ContactFace> faces;
     std::uint32_t moving = 0;       ///< faces before that one have a corner that moves

@@ -4,7 +4,6 @@
 #include "kernels.hpp"
 #include "rest_slack.h"
 #include "sim/collision/face_contacts.hpp"
-#include "sim/collision/insides.hpp"
 #include "sim/collision/overlaps.hpp"
 #include "sim/cutting/crumbs.hpp"
 #include "sim/cutting/cut_contacts.hpp"
@@ -289,24 +288,18 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     if (isCuttable) allExcluded = program.upload("contacts.all_excluded", exclusions);
     const body_frames::Bodies bodies = body_frames::bodiesOf(scene, layout);
     const pooled_lists::Initial first = firstLists(overlaps, radii);
-    // What stands in another body when the scene is loaded may stand in its inside.
-    const std::vector<bool> isInside = overlaps.empty() ? insides::find(scene) : std::vector<bool>{};
-    const bool mayOpen = isCuttable && std::ranges::find(isInside, true) != isInside.end();
-    const std::vector<float> touching = insides::closed(radii, isInside, layout);
     Contacts contacts{
-        .lists = contact_lists::add(
-            program, {.radii = touching,
-                      .watched = mayOpen ? std::span<const float>(radii) : std::span<const float>{},
-                      .margin = settings.contactMargin * medianRadius(scene),
-                      .isKept = overlaps::haveKept(overlaps),
-                      .capacity = room,
-                      .exclusions = std::move(exclusions),
-                      .usesTexels = settings.forms.usesTexels,
-                      .bodies = &bodies,
-                      .substeps = settings.substeps,
-                      .hasMemory = surfaces.hasFriction || hasRecovery,
-                      .initial = first,
-                      .listsGroups = settles}),
+        .lists = contact_lists::add(program, {.radii = radii,
+                                              .margin = settings.contactMargin * medianRadius(scene),
+                                              .isKept = overlaps::haveKept(overlaps),
+                                              .capacity = room,
+                                              .exclusions = std::move(exclusions),
+                                              .usesTexels = settings.forms.usesTexels,
+                                              .bodies = &bodies,
+                                              .substeps = settings.substeps,
+                                              .hasMemory = surfaces.hasFriction || hasRecovery,
+                                              .initial = first,
+                                              .listsGroups = settles}),
         .planes = planes::addColliders(program, scene, layout),
         .surfaces = std::move(surfaces),
         .settles = settles,
@@ -315,9 +308,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
         .hasRecovery = hasRecovery,
         .hasKept = overlaps::haveKept(overlaps),
         .allExcluded = allExcluded};
-    const hash_grid::Grid& grid = contacts.lists.grid;
-    cutting::letCrumbsLeave(program, grid.radii, grid);
-    if (mayOpen) insides::addOpening(program, grid.radii, radii, grid);
+    cutting::letCrumbsLeave(program, contacts.lists.grid.radii, contacts.lists.grid);
     contacts.push = {.count = contacts.lists.push.count,
                      .friction = contacts.surfaces.friction,
                      .staticFriction = contacts.surfaces.staticFriction,
