@@ -114,10 +114,12 @@ public:
         }
     }
 
-    // Whether all that is nearer than this to a corner of a face is linked with it.
+    // Whether all that is nearer than this to a corner of a face is linked with it. What no link joins to a
+    // node inside is sqrt(kinds + 1) spacings away at least.
     bool isDeep(const layout::ContactFace& face, double reach) const {
         const auto deep = [&](std::uint32_t i) { return isInside_[i - first_]; };
-        return reach < 2 * double{grid_.restLength[0]} && deep(face.a) && deep(face.b) && deep(face.c);
+        const double unlinked = std::sqrt(grid_.kinds + 1.0) * double{grid_.restLength[0]};
+        return reach < unlinked && deep(face.a) && deep(face.b) && deep(face.c);
     }
 
     const Grid& grid() const { return grid_; }
