@@ -12,7 +12,7 @@ vec3 impulseOn(uint i) {
     vec3 sum = vec3(0.0);
     for (uint element = list.x; element < list.x + list.y; ++element)
         if (directions[element].w > 0.0) sum += impulses[element].xyz;
-    for (uint k = corners[i]; k < corners[i + 1u]; ++k) {
+    for (uint k = corners[i]; k < cornerEnds[i]; ++k) {
         const uint corner = corners[k] % 4u;
         const uvec2 points = linkLists[corners[k] / 4u];
         for (uint link = points.x; link < points.x + points.y; ++link) {

@@ -27,9 +27,8 @@ struct Meeting {
 Meeting meetingOf(uint i, uvec2 candidate) {
     Meeting m;
     m.face = faces[candidate.x];
-    const float reach = uintBitsToFloat(candidate.y); // below 0 as the thickness is
-    m.reach = abs(reach);
-    m.front = reach < 0.0 ? -1.0 : 1.0;
+    m.reach = abs(uintBitsToFloat(candidate.y));
+    m.front = candidate.y >> 31 != 0u ? -1.0 : 1.0; // the sign bit is that of the thickness
     const float h = step.h;
     const vec3 a = predicted[m.face.a].xyz, va = velocities[m.face.a].xyz;
     m.ap = predicted[i].xyz - a, m.ab = predicted[m.face.b].xyz - a, m.ac = predicted[m.face.c].xyz - a;

@@ -13,8 +13,8 @@ layout(push_constant) uniform Push { FacePush push; };
 #define STATE_BINDING 2
 #else
 #include "face_shares.glsl"
-layout(std430, binding = 6) readonly buffer Impulses { vec4 impulses[]; };   // [kg m]
-#define STATE_BINDING 7
+layout(std430, binding = 7) readonly buffer Impulses { vec4 impulses[]; };   // [kg m]
+#define STATE_BINDING 8
 #endif
 #ifdef REBOUND
 layout(std430, binding = STATE_BINDING) buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]

@@ -1,6 +1,6 @@
 #version 460
-// In the first substep after a cut, when contacts are listed anew: points that a new face is nearer to than touching part from it at a
-// limited speed, as they do that overlap when a scene is loaded. Links may have held them so near, or particles alone.
+// In the first substep after a cut, when contacts are listed anew: points that are nearer than touching to a face that this step has
+// opened part from it at a limited speed, as overlaps do that a scene is loaded with. Links may have held them so near, or particles alone.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "triangle.glsl"
@@ -12,6 +12,7 @@ layout(std430, binding = 3) readonly buffer Contacts { uvec2 contacts[]; }; // C
 layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 5) buffer Memory { vec4 memory[]; }; // w: side and overlap, 0 = has not touched
 layout(std140, binding = 6) uniform Step { StepParams step; };
+layout(std430, binding = 7) readonly buffer Opened { uint opened[]; }; // by face, as part_solid_faces has it
 layout(push_constant) uniform Push { FacePush push; };
 #include "face_meeting.glsl"
 
@@ -28,7 +29,7 @@ void main() {
     const uvec2 list = lists[i];
     for (uint element = list.x; element < list.x + list.y; ++element) {
         const uvec2 candidate = contacts[element];
-        if (memory[element].w != 0.0 || candidate.x < push.sheets || candidate.x >= push.moving) continue;
+        if (memory[element].w != 0.0 || opened[candidate.x] == 0u) continue;
         const Meeting m = meetingOf(i, candidate);
         if (isSliver(m.triangle)) continue;
         const float overlap = overlapBefore(m);

@@ -14,6 +14,9 @@ layout(std430, binding = 5) buffer Bounds { GridBounds bounds; };
 layout(std430, binding = 6) readonly buffer Particles { uint particles[]; }; // of each slot
 layout(std430, binding = 7) readonly buffer Pieces { uint pieces[]; };
 layout(std430, binding = 8) buffer Faces { ContactFace faces[]; };
+layout(std430, binding = 9) writeonly buffer Opened { uint opened[]; }; // by face: 1 = new, or a link at a corner of it has died
+layout(std430, binding = 10) readonly buffer Corners { uint corners[]; }; // as in face_shares.glsl
+layout(std430, binding = 11) writeonly buffer CornerEnds { uint cornerEnds[]; };
 layout(push_constant) uniform Push { CutFacesPush push; };
 
 #include "whole_cell.glsl"
@@ -28,8 +31,16 @@ void main() {
     const ContactFace face = faces[part.face];
     const bool isNew = left != before || links[face.a] != savedLinks[face.a] || links[face.b] != savedLinks[face.b] ||
                        links[face.c] != savedLinks[face.c];
+    opened[part.face] = isNew && left != ~0u ? 1u : 0u;
     if (!isNew) return;
-    if (left != ~0u) faces[part.face].thickness = isBelow == (part.isFrontUp != 0u) ? abs(face.thickness) : -abs(face.thickness);
+    if (left != ~0u) { // all faces around these corners count from now on
+        cornerEnds[face.a] = corners[face.a + 1u];
+        cornerEnds[face.b] = corners[face.b + 1u];
+        cornerEnds[face.c] = corners[face.c + 1u];
+    }
+    // The sign of a thickness of 0 counts, too.
+    const uint front = isBelow == (part.isFrontUp != 0u) ? 0u : 0x80000000u;
+    if (left != ~0u) faces[part.face].thickness = uintBitsToFloat(floatBitsToUint(face.thickness) & 0x7fffffffu | front);
     if (part.isLarge != 0u) large[part.place] = left;
     else searched[part.place] = left;
     if (bounds.moved == 0u) atomicMax(bounds.moved, 1u);

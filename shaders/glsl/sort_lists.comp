@@ -41,10 +41,10 @@ layout(std430, binding = 10) readonly buffer KeptLists { uvec2 keptLists[]; };
 #endif
 #ifdef FACES
 layout(std430, binding = PARTICLES_BINDING + 2) readonly buffer Faces { ContactFace faces[]; };
-// Below 0 where the thickness is.
+// Has the sign bit of the thickness, which may be that of a 0.
 float reachOf(float own, uint other) {
     const float thickness = faces[other].thickness;
-    return thickness < 0.0 ? thickness - own : own + thickness;
+    return uintBitsToFloat(floatBitsToUint(own + abs(thickness)) | floatBitsToUint(thickness) & 0x80000000u);
 }
 #else
 float reachOf(float own, uint other) { return own + radii[other]; }

@@ -59,7 +59,7 @@ Stop stopOf(uint i, Search search, vec3 x0, vec3 x1) {
         const ContactFace face = faces[f];
         const float left = search.isListed ? leftOf(s) : 0.0;
         const vec3 seen = search.isListed ? predicted[i].xyz : x1; // what is farther from there may be in no list
-        const Stop stop = stopAt(face, radii[i] + face.thickness - left, x0, x1, seen);
+        const Stop stop = stopAt(face, radii[i] + abs(face.thickness) - left, x0, x1, seen);
         if (!(stop.urgency > first.urgency) || isExcluded(f, i)) continue;
         first = stop;
 #ifdef FORCES

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace sinew::sim::collision::face_contacts {
 
@@ -26,7 +27,9 @@ bool moves(const Face& face, const std::vector<float>& inverseMass) {
     return std::ranges::any_of(face.particles, [&](std::uint32_t i) { return inverseMass[i] > 0; });
 }
 
+// The median of all values that are not below 0.
 float median(std::vector<float> values) {
+    std::erase_if(values, [](float value) { return value < 0; });
     if (values.empty()) return 0;
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::ranges::nth_element(values, middle);
@@ -37,7 +40,8 @@ float median(std::vector<float> values) {
 // lay open, and those that never move.
 struct Faces {
     std::vector<layout::ContactFace> faces;
-    std::vector<float> extents;
+    std::vector<float> extents; ///< below 0 of those that a cut may lay open
+    std::vector<bool> isOfCells;
     std::uint32_t sheets = 0, moving = 0;
     std::uint32_t firstInner = 0; ///< of those that a cut may lay open; all up to `moving` are
 };
@@ -52,21 +56,37 @@ float extentOf(const Scene& scene, const Face& face) {
     return extent;
 }
 
-// Squares inside of voxel bodies that have faces and may be cut.
-std::vector<Face> innerFaces(const Scene& scene) {
-    std::vector<bool> isCorner(scene.particles.size());
+using Corners = std::array<std::uint32_t, 3>;
+
+Corners fromLowest(Corners corners) {
+    std::ranges::rotate(corners, std::ranges::min_element(corners));
+    return corners;
+}
+
+// Faces of voxel bodies that may be cut, each between two of their cells or beside one.
+struct CellFaces {
+    std::set<Corners> outer; ///< of the scene, from the lowest corner on
+    std::vector<Face> inner; ///< of bodies that have outer ones
+};
+
+CellFaces cellFacesOf(const Scene& scene) {
+    std::set<Corners> solid;
     for (const Face& face : scene.faces)
-        for (const std::uint32_t i : face.particles) isCorner[i] = isCorner[i] || face.isSolid;
-    std::vector<Face> faces;
+        if (face.isSolid) solid.insert(fromLowest(face.particles));
+    CellFaces result;
     for (const Grid& grid : scene.grids) {
-        const auto first = isCorner.begin() + grid.firstParticle;
-        if (!grid.isCuttable || lattice::isSheet(grid) ||
-            std::none_of(first, first + static_cast<std::ptrdiff_t>(grid.node.size()), std::identity{}))
-            continue;
+        if (!grid.isCuttable || lattice::isSheet(grid) || solid.empty()) continue;
+        std::vector<Face> squares;
+        lattice::appendSquares(squares, grid, 0, lattice::Squares::outer);
+        const std::size_t before = result.outer.size();
+        for (const Face& face : squares)
+            if (const Corners corners = fromLowest(face.particles); solid.contains(corners))
+                result.outer.insert(corners);
+        if (result.outer.size() == before) continue;
         const float thickness = scene.particles[grid.firstParticle].radius;
-        lattice::appendSquares(faces, grid, thickness, lattice::Squares::inner);
+        lattice::appendSquares(result.inner, grid, thickness, lattice::Squares::inner);
     }
-    return faces;
+    return result;
 }
 
 Faces facesOf(const Scene& scene, const std::vector<float>& inverseMass, bool canBeCut) {
@@ -76,26 +96,29 @@ Faces facesOf(const Scene& scene, const std::vector<float>& inverseMass, bool ca
         return face.isSolid ? Kind::solid : Kind::sheet;
     };
     Faces faces;
-    const auto addOne = [&](const Face& face) {
+    const CellFaces cells = canBeCut ? cellFacesOf(scene) : CellFaces{};
+    const auto addOne = [&](const Face& face, float extent, bool isOfCells) {
         const auto [a, b, c] = face.particles;
         faces.faces.push_back({a, b, c, face.thickness});
-        faces.extents.push_back(extentOf(scene, face));
+        faces.extents.push_back(extent);
+        faces.isOfCells.push_back(isOfCells);
     };
     const auto add = [&](Kind kind) {
         for (const Face& face : scene.faces)
-            if (kindOf(face) == kind) addOne(face);
+            if (kindOf(face) == kind)
+                addOne(face, extentOf(scene, face),
+                       face.isSolid && cells.outer.contains(fromLowest(face.particles)));
         return static_cast<std::uint32_t>(faces.faces.size());
     };
     faces.sheets = add(Kind::sheet);
     faces.firstInner = add(Kind::solid);
-    if (canBeCut)
-        for (const Face& face : innerFaces(scene)) addOne(face);
+    for (const Face& face : cells.inner) addOne(face, -1, true);
     faces.moving = static_cast<std::uint32_t>(faces.faces.size());
     add(Kind::still);
     return faces;
 }
 
-// What never gives way can touch only faces that do: where there are none it is no point.
+// A particle that never gives way can touch only faces that do: where there are none it is no point.
 std::vector<float> pointRadii(const Scene& scene, const std::vector<float>& inverseMass, const Faces& faces) {
     std::vector<float> radii;
     for (std::size_t i = 0; i < scene.particles.size(); ++i) {
@@ -132,24 +155,37 @@ std::vector<std::uint32_t> keepersOf(const Scene& scene, const StateLayout& layo
     return keepers;
 }
 
-// For every slot the first of its entries, one more for the end; an entry is 4 x face + corner. If forces
-// are kept, corners that never move of faces that do feel them too.
-std::vector<std::uint32_t> cornersOf(const Faces& faces, const std::vector<float>& inverseMass,
-                                     const StateLayout& layout, bool keepsForces) {
+// The faces around each slot. Those that a cut may lay open come last, and stand behind the end until then.
+struct CornerTable {
+    std::vector<std::uint32_t> corners; ///< first entry of each slot, one more for the end; 4 x face + corner
+    std::vector<std::uint32_t> ends;    ///< by slot: behind its entries that count
+};
+
+// If forces are kept, corners that never move of faces that do feel them too.
+CornerTable cornersOf(const Faces& faces, const std::vector<float>& inverseMass, const StateLayout& layout,
+                      bool keepsForces) {
     std::vector<std::vector<std::uint32_t>> entries(layout.count);
-    for (std::uint32_t f = 0; f < faces.moving; ++f) {
-        const layout::ContactFace& face = faces.faces[f];
-        const std::array<std::uint32_t, 3> corners{face.a, face.b, face.c};
-        for (std::uint32_t c = 0; c < 3; ++c)
-            if (keepsForces || inverseMass[corners[c]] > 0)
-                entries[layout.slot[corners[c]]].push_back(4 * f + c);
+    const auto add = [&](std::uint32_t first, std::uint32_t end) {
+        for (std::uint32_t f = first; f < end; ++f) {
+            const layout::ContactFace& face = faces.faces[f];
+            const Corners corners{face.a, face.b, face.c};
+            for (std::uint32_t c = 0; c < 3; ++c)
+                if (keepsForces || inverseMass[corners[c]] > 0)
+                    entries[layout.slot[corners[c]]].push_back(4 * f + c);
+        }
+    };
+    add(0, faces.firstInner);
+    std::vector<std::size_t> outer;
+    for (const std::vector<std::uint32_t>& each : entries) outer.push_back(each.size());
+    add(faces.firstInner, faces.moving);
+    CornerTable table{.corners = std::vector<std::uint32_t>(layout.count + 1), .ends = {}};
+    for (std::size_t i = 0; i < layout.count; ++i) {
+        table.corners[i] = static_cast<std::uint32_t>(table.corners.size());
+        table.ends.push_back(table.corners[i] + static_cast<std::uint32_t>(outer[i]));
+        table.corners.insert(table.corners.end(), entries[i].begin(), entries[i].end());
     }
-    std::vector<std::uint32_t> result(layout.count + 1);
-    for (std::size_t i = 0; i <= layout.count; ++i) {
-        result[i] = static_cast<std::uint32_t>(result.size());
-        if (i < layout.count) result.insert(result.end(), entries[i].begin(), entries[i].end());
-    }
-    return result;
+    table.corners[layout.count] = static_cast<std::uint32_t>(table.corners.size());
+    return table;
 }
 
 face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Settings& settings,
@@ -248,7 +284,7 @@ void addShares(ProgramBuilder& program, const Contacts& contacts, BufferId direc
     const face_lists::Lists& lists = contacts.lists;
     addOverContacts(program, contacts, k::shareFaces,
                     {lists.pooled.ranges, directions, contacts.weights, contacts.corners, lists.links,
-                     lists.linkLists, particles.velocities, contacts.shares});
+                     lists.linkLists, contacts.cornerEnds, particles.velocities, contacts.shares});
 }
 
 } // namespace
@@ -284,6 +320,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     Contacts contacts{.lists = addLists(program, scene, settings, layout, inverseMass, faces),
                       .faces = static_cast<std::uint32_t>(faces.faces.size()),
                       .firstInner = faces.firstInner,
+                      .isOfCells = faces.isOfCells,
                       .sleeps = particles.sleep != nullptr};
     const layout::FaceFindPush& find = contacts.lists.push;
     contacts.surfaces = surfaces::addTable(program, scene, layout, "faces.surface");
@@ -299,8 +336,11 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     shown.facePairs = contacts.lists.pooled.contacts;
     shown.faceLists = contacts.lists.pooled.ranges;
     const std::size_t elements = contacts.lists.pooled.room;
-    contacts.corners =
-        program.upload("faces.corners", cornersOf(faces, inverseMass, layout, settings.keepsForces));
+    const CornerTable corners = cornersOf(faces, inverseMass, layout, settings.keepsForces);
+    contacts.corners = program.upload("faces.corners", corners.corners);
+    contacts.cornerEnds = program.upload("faces.corners.ends", corners.ends);
+    if (std::ranges::find(faces.isOfCells, true) != faces.isOfCells.end())
+        contacts.opened = program.scratch<std::uint32_t>("faces.opened", faces.faces.size());
     contacts.directions = program.scratch<layout::vec4>("faces.directions", elements);
     contacts.weights = program.scratch<layout::vec4>("faces.weights", elements);
     contacts.impulses = program.scratch<layout::vec4>("faces.impulses", elements);
@@ -356,8 +396,8 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
                      contacts.surfaces.pairs});
     addImpulses(program, contacts, k::gatherFaces, k::gatherFacesForces,
                 {lists.pooled.ranges, contacts.directions, contacts.weights, contacts.corners, lists.links,
-                 lists.linkLists, contacts.impulses, predicted.velocities, predicted.positions,
-                 predicted.step},
+                 lists.linkLists, contacts.cornerEnds, contacts.impulses, predicted.velocities,
+                 predicted.positions, predicted.step},
                 predicted, remainderConstants(predicted.layout));
 }
 
@@ -375,7 +415,8 @@ void addBounces(ProgramBuilder& program, const Contacts& contacts, const Particl
                      contacts.bounces, contacts.weights, contacts.shares, contacts.impulses});
     addImpulses(program, contacts, k::gatherFacesRebound, k::gatherFacesReboundForces,
                 {lists.pooled.ranges, contacts.bounces, contacts.weights, contacts.corners, lists.links,
-                 lists.linkLists, contacts.impulses, state.velocities, state.positions, state.step},
+                 lists.linkLists, contacts.cornerEnds, contacts.impulses, state.velocities, state.positions,
+                 state.step},
                 state);
 }
 

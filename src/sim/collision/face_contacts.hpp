@@ -29,9 +29,13 @@ struct Contacts {
     layout::FacePush push{};
     std::uint32_t faces = 0;      ///< of all kinds
     std::uint32_t firstInner = 0; ///< from there to push.moving: there only once a cut lays them open
-    bool sleeps = false;          ///< whether the scene may
+    /// By face: a half of a square between two cells of a voxel body that may be cut, or beside one.
+    std::vector<bool> isOfCells;
+    BufferId opened;     ///< by face: whether this step has opened it; only where some are of cells
+    bool sleeps = false; ///< whether the scene may
     surfaces::Surfaces surfaces;
     BufferId corners, directions, weights, shares, impulses;
+    BufferId cornerEnds;    ///< by slot: behind the last face of it in `corners` that counts
     BufferId keepers;       ///< of each particle: 2 x linked body, + 1 = Particle::keepsRest
     bool keepsRest = false; ///< of any; else no kernel reads them
     BufferId bounces;       ///< only where something rebounds
@@ -51,7 +55,7 @@ struct Contacts {
 Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
              const ParticleBuffers& particles);
 
-/// What touches sleeps together.
+/// Particles and faces that touch sleep together.
 void joinIslands(const Contacts& contacts, sleep::Sleep& sleep);
 
 /// Before the links of a substep, whose velocities are `velocities`.
@@ -73,8 +77,8 @@ void addPublishing(ProgramBuilder& program, const Contacts& contacts);
 
 /// Points that a face never touches though they are not its corners, as face_lists::Request says: those of
 /// its own linked body that are nearer than 1.05 times touching at rest, and of a voxel body those that a
-/// link joins to a corner: they are 1.73 spacings away at most and all others at least 2. `faces` between
-/// particles; `runs` = bodies whose links may be cut.
+/// link joins to a corner. Those are 1.73 spacings away from the corner at most, and all others from 1.41 to
+/// 2, by kind of links. `faces` between particles; `runs` = bodies whose links may be cut.
 std::vector<std::uint32_t> excludedPoints(const Scene& scene, std::span<const layout::ContactFace> faces,
                                           std::span<const float> radii, const StateLayout& layout,
                                           std::span<const CutRun> runs = {});

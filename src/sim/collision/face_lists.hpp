@@ -13,13 +13,15 @@
 
 namespace sinew::sim::collision::face_lists {
 
-/// What can touch what, between state slots.
+/// Points and faces that can touch, between state slots.
 struct Request {
     std::span<const float> radii;         ///< by state slot, whole work groups [m]; below 0 = touches no face
     std::span<const float> inverseMasses; ///< likewise; 0 = never moves [1/kg]
     std::span<const layout::ContactFace> faces;
-    std::uint32_t moving = 0;       ///< faces before that one have a corner that moves
-    std::span<const float> extents; ///< of each face: the longest side of its box at first [m]
+    std::uint32_t moving = 0; ///< faces before that one have a corner that moves
+    /// By face: the longest side of its box at first [m]. Below 0 of one that a cut may lay open: it has
+    /// no part in how large cells are, and is searched in the grid.
+    std::span<const float> extents;
     /// Points that a face never touches: for each face the first of them, one more for the end, then the
     /// points of all, sorted. A row that ends with EXCLUDED_LINKED | k is of a body that may be cut: its face
     /// does not touch what a live link joins to a corner either, and words k and k + 1 are the strides

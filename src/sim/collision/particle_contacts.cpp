@@ -117,7 +117,7 @@ std::uint32_t roomFor(const overlaps::Overlaps& overlaps, std::size_t slots) {
     return static_cast<std::uint32_t>((entries + slots - 1) / slots);
 }
 
-// What parts within a substep at the speed of recovery needs no help.
+// An overlap that parts within a substep at the speed of recovery needs no help.
 float leastOverlap(const Scene& scene, const Settings& settings) {
     return scene.contacts.recoverySpeed * scene.dt / static_cast<float>(settings.substeps);
 }

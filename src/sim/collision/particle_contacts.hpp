@@ -43,7 +43,7 @@ struct Contacts {
 Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
              const StateLayout& layout);
 
-/// What touches sleeps together.
+/// Particles that touch sleep together.
 void joinIslands(const Contacts& contacts, sleep::Sleep& sleep);
 
 /// Before the links of a substep, whose velocities are `velocities`.

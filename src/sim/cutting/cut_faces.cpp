@@ -1,5 +1,5 @@
-// Which faces and edges are halves of cells of a sheet and their sides, or halves of squares of a lattice,
-// follows from the slots of their corners.
+// Faces and edges are told by the slots of their corners: halves of cells of a sheet and their sides, and
+// halves of squares of a lattice.
 #include "sim/cutting/cut_faces.hpp"
 
 #include "kernels.hpp"
@@ -70,7 +70,7 @@ std::vector<Part> facesOf(ProgramBuilder& program, const collision::face_lists::
         for (std::uint32_t place = 0; place < searched.size(); ++place) {
             const std::uint32_t face = searched[place];
             if (face >= all.size()) continue; // padding
-            std::optional<Part> part = partOf(all[face]);
+            std::optional<Part> part = partOf(face, all[face]);
             if (!part) continue;
             part->place = place;
             part->face = face;
@@ -103,12 +103,12 @@ void addTwice(ProgramBuilder& program, const std::function<void()>& addPass) {
     program.atEnd(add);
 }
 
-void makeTopology(ProgramBuilder& program, BufferId seen, std::initializer_list<BufferId> buffers) {
+void makeTopology(ProgramBuilder& program, BufferId seen, const std::vector<BufferId>& buffers) {
     CuttingBuffers& cutting = program.program().cutting;
     const auto has = [](const std::vector<BufferId>& list, BufferId buffer) {
         return std::ranges::find(list, buffer) != list.end();
     };
-    if (has(cutting.topology, *buffers.begin())) return;                        // by another run
+    if (has(cutting.topology, buffers.front())) return;                         // by another run
     if (!has(cutting.contactsSeen, seen)) cutting.contactsSeen.push_back(seen); // else crumbs leave it too
     for (const BufferId buffer : buffers) {
         cutting.topology.push_back(buffer);
@@ -116,18 +116,22 @@ void makeTopology(ProgramBuilder& program, BufferId seen, std::initializer_list<
     }
 }
 
-// Of the faces of one run, which `code` looks after.
+// Those of the faces of one run that `code` takes out of the search and puts into it.
 template <typename Part, typename PartOf>
-void addFilter(ProgramBuilder& program, const collision::face_lists::Lists& lists, const CutRun& run,
+void addFilter(ProgramBuilder& program, const collision::face_contacts::Contacts& contacts, const CutRun& run,
                const vk::ShaderCode& code, const PartOf& partOf) {
-    const auto faces = facesOf<Part>(program, lists, [&](const auto& face) { return partOf(run, face); });
+    const collision::face_lists::Lists& lists = contacts.lists;
+    const auto faces = facesOf<Part>(program, lists, partOf);
     if (faces.empty()) return;
-    makeTopology(program, lists.grid.detected, {lists.searched, lists.large, lists.faces});
+    std::vector<BufferId> topology{lists.searched, lists.large, lists.faces};
+    if (contacts.hasInner()) topology.push_back(contacts.cornerEnds);
+    makeTopology(program, lists.grid.detected, topology);
     const CuttingBuffers& cutting = program.program().cutting;
     std::vector<BufferId> buffers{cutting.links,     cutting.savedLinks, program.upload("cut.faces", faces),
                                   lists.searched,    lists.large,        lists.grid.bounds,
                                   cutting.particles, cutting.pieces};
-    if (run.rowStride > 0) buffers.push_back(lists.faces);
+    if (run.rowStride > 0)
+        buffers.insert(buffers.end(), {lists.faces, contacts.opened, contacts.corners, contacts.cornerEnds});
     const layout::CutFacesPush push{static_cast<std::uint32_t>(faces.size()), run.sliceStride, run.rowStride};
     addTwice(program,
              [&program, &code, buffers, push] { program.dispatch(code, push.count, buffers, push); });
@@ -135,14 +139,13 @@ void addFilter(ProgramBuilder& program, const collision::face_lists::Lists& list
 
 // Faces inside of uncut bodies look for nothing.
 void hideInner(ProgramBuilder& program, const collision::face_contacts::Contacts& contacts) {
-    for (const BufferId list : {contacts.lists.searched, contacts.lists.large}) {
-        auto faces = firstContents<std::uint32_t>(program, list);
-        for (std::uint32_t& face : faces)
-            if (face >= contacts.firstInner && face < contacts.push.moving) face = ~0u;
-        if (!faces.empty())
-            std::memcpy(program.program().buffers[list.index].initial.data(), faces.data(),
-                        faces.size() * sizeof(faces[0]));
-    }
+    if (!contacts.hasInner()) return;
+    const BufferId list = contacts.lists.searched;
+    auto faces = firstContents<std::uint32_t>(program, list);
+    for (std::uint32_t& face : faces)
+        if (face >= contacts.firstInner && face < contacts.push.moving) face = ~0u;
+    std::memcpy(program.program().buffers[list.index].initial.data(), faces.data(),
+                faces.size() * sizeof(faces[0]));
 }
 
 } // namespace
@@ -151,9 +154,15 @@ void addFaceFilter(ProgramBuilder& program, const collision::face_contacts::Cont
     const std::vector<CutRun> runs = program.program().cutting.runs;
     for (const CutRun& run : runs)
         if (run.rowStride > 0)
-            addFilter<layout::CutSolidFace>(program, contacts.lists, run, k::partSolidFaces, solidOf);
+            addFilter<layout::CutSolidFace>(program, contacts, run, k::partSolidFaces,
+                                            [&](std::uint32_t f, const layout::ContactFace& face) {
+                                                return contacts.isOfCells[f] ? solidOf(run, face)
+                                                                             : std::nullopt;
+                                            });
         else
-            addFilter<layout::CutFace>(program, contacts.lists, run, k::partFaces, halfOf);
+            addFilter<layout::CutFace>(
+                program, contacts, run, k::partFaces,
+                [&](std::uint32_t, const layout::ContactFace& face) { return halfOf(run, face); });
     hideInner(program, contacts);
 }
 
@@ -164,7 +173,7 @@ void addFaceOpening(ProgramBuilder& program, const collision::face_contacts::Con
     program.beginCut();
     program.dispatch(k::openCutFaces, contacts.push.count,
                      {predicted.positions, predicted.velocities, lists.faces, lists.pooled.contacts,
-                      lists.pooled.ranges, lists.pooled.memory->memory, predicted.step},
+                      lists.pooled.ranges, lists.pooled.memory->memory, predicted.step, contacts.opened},
                      contacts.push);
     program.endCut();
 }

@@ -1,7 +1,7 @@
 // Contacts of faces and of their edges on a body that a cut has parted. A face of a sheet between corners
 // that no longer hang together touches nothing, as its triangle is drawn no more, and neither does an edge of
-// which the link is dead, nor a face of a crumb. Of a voxel body with faces the surface is that of the cells
-// of which no edge is dead: squares that were inside become faces where a cut lays them open. Particles still
+// which the link is dead, nor a face of a crumb. The surface of a voxel body with faces is that of its cells
+// without a dead edge: squares that were inside become faces where a cut lays them open. Particles still
 // touch the faces of others. Lists of contacts are made again in the same step.
 #pragma once
 

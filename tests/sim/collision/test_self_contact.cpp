@@ -7,7 +7,6 @@
 #include "sim/cutting/cut_body.hpp"
 #include "sim/cutting/cut_gaps.hpp"
 #include "sim/holds.hpp"
-#include "sim/lattice/link_masks.hpp"
 #include "sim/scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -17,17 +16,13 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <limits>
-#include <map>
 #include <numbers>
-#include <set>
 
 using namespace sinew;
 using namespace sinew::sim;
 using Eigen::Vector3d;
 using test::CutBody;
 using test::deepest;
-using test::distanceTo;
 using test::surfaceOf;
 using test::sweepOf;
 using test::Triangle;
@@ -271,135 +266,6 @@ TEST(SelfContact, CarriesWhatACutLaysOpenByItsFaces) {
     }
 }
 
-namespace {
-
-template <typename T> std::vector<T> contentsOf(CutBody& body, const std::string& label) {
-    const StepProgram& program = body.runner().simulation().program();
-    const auto found =
-        std::ranges::find_if(program.buffers, [&](const auto& buffer) { return buffer.label == label; });
-    const BufferId id{static_cast<std::uint32_t>(found - program.buffers.begin())};
-    return test::queue().download<T>(body.runner().simulation().view(id));
-}
-
-// Turns the corners of a triangle so that the lowest comes first.
-Triangle fromLowest(Triangle t) {
-    std::ranges::rotate(t, std::ranges::min_element(t));
-    return t;
-}
-
-// Faces that look for points, by particles, with the front that they have.
-std::set<Triangle> facesOnDevice(CutBody& body, const Settings& settings) {
-    const auto slots = stateLayout(body.scene(), settings).slot;
-    std::map<std::uint32_t, std::uint32_t> particles;
-    for (std::uint32_t i = 0; i < slots.size(); ++i) particles[slots[i]] = i;
-    const auto faces = contentsOf<layout::ContactFace>(body, "faces");
-    std::set<Triangle> result;
-    for (const std::uint32_t f : contentsOf<std::uint32_t>(body, "faces.searched")) {
-        if (f == ~0u) continue;
-        const auto& [a, b, c, thickness] = faces[f];
-        Triangle t{particles[a], particles[b], particles[c]};
-        if (thickness < 0) std::swap(t[1], t[2]);
-        result.insert(fromLowest(t));
-    }
-    return result;
-}
-
-// By the middles of triangles, since a square may be split along either diagonal: twice its middle and its
-// normal.
-using Square = std::array<long, 6>;
-
-std::set<Square> squaresOf(const CutBody& body, const auto& triangles) {
-    std::map<Square, int> halves;
-    for (const Triangle& t : triangles) {
-        const Vector3d a = body.at(t[0]) / voxel, b = body.at(t[1]) / voxel, c = body.at(t[2]) / voxel;
-        const Vector3d n = (b - a).cross(c - a),
-                       middle = a.cwiseMin(b).cwiseMin(c) + a.cwiseMax(b).cwiseMax(c);
-        Square square;
-        for (int axis = 0; axis < 3; ++axis) {
-            square[axis] = std::lround(middle[axis]);
-            square[axis + 3] = std::lround(n[axis]);
-        }
-        ++halves[square];
-    }
-    std::set<Square> squares;
-    for (const auto& [square, count] : halves) {
-        EXPECT_EQ(count, 2);
-        squares.insert(square);
-    }
-    return squares;
-}
-
-} // namespace
-
-// Against the surface of all whole cells, after flat, slanting and partial cuts of a body with a cavity; an
-// undo brings the first back.
-TEST(SelfContact, HasTheFacesOfTheCellsThatAreWhole) {
-    Lattice lattice = latticeOf({6, 5, 7}, 1e5f, true);
-    lattice.fill = test::raggedFill(6 * 5 * 7);
-    Scene scene{.name = "ragged"};
-    scene.gravity = {};
-    addLattice(scene, lattice);
-    addSurfaceFaces(scene, scene.grids[0]);
-    const Settings settings{.substeps = 4, .contactRoom = 64};
-    CutBody body(scene, settings);
-    const vk::Buffer uncut = body.runner().saveTopology();
-    const auto expectFaces = [&](const char* what) {
-        const auto onDevice = squaresOf(body, facesOnDevice(body, settings)),
-                   expected = squaresOf(body, surfaceOf(body));
-        std::printf("%s: %zu squares\n", what, expected.size());
-        EXPECT_TRUE(onDevice == expected) << what;
-    };
-    expectFaces("uncut");
-    const double reaches[] = {1, 1, 0.06};
-    const test::CutPlane planes[] = {{{0.15, 3.45 * voxel, 0.15}, Vector3d::UnitY()},
-                                     {{0.14, 0.12, 0.17}, Vector3d(1, 0.6, -0.8).normalized()},
-                                     {{0.2, 0.06, 0.3}, Vector3d(0.1, 0.2, 1).normalized()}};
-    for (int n = 0; n < 3; ++n) {
-        const std::size_t before = surfaceOf(body).size();
-        body.cut(sweepOf(planes[n], reaches[n]));
-        EXPECT_NE(surfaceOf(body).size(), before);
-        expectFaces("cut");
-    }
-    body.runner().loadTopology(uncut);
-    body.runner().run(1);
-    expectFaces("undone");
-}
-
-TEST(SelfContact, EndsInTheSameBitsForAnyOrderAndMarginAndAfterASavedState) {
-    const Scene scene = offsetHalves(true);
-    const test::CutPlane slanting{Vector3d(0.15, 3.3 * voxel, 0.15), Vector3d(0.3, 1, 0.2).normalized()};
-    const Settings settings[] = {{.substeps = 12, .contactRoom = 64},
-                                 {.substeps = 12, .contactRoom = 64, .isReversed = true},
-                                 {.substeps = 12, .contactMargin = 0.8f, .contactRoom = 64},
-                                 {.substeps = 12, .contactRoom = 64, .forms = {.usesTexels = false}}};
-    std::vector<std::uint64_t> hashes;
-    for (const Settings& each : settings) {
-        CutBody body(scene, each);
-        body.runner().run(2);
-        body.cut(sweepOf(slanting, 1));
-        ASSERT_EQ(body.runner().run(20).contactRoom, 0u);
-        const auto saved = body.runner().save();
-        ASSERT_EQ(body.runner().run(30).contactRoom, 0u);
-        hashes.push_back(body.runner().stateHash());
-        body.runner().load(saved);
-        body.runner().run(30);
-        EXPECT_EQ(body.runner().stateHash(), hashes.back()) << "saved";
-    }
-    for (const std::uint64_t hash : hashes) EXPECT_EQ(hash, hashes[0]);
-    CutBody body(scene, settings[0]), other(scene, settings[0]);
-    body.runner().run(3);
-    other.runner().run(3);
-    body.runner().writePosition(60, std::numeric_limits<float>::quiet_NaN());
-    EXPECT_GT(body.cut(sweepOf(slanting, 1)).nonFinite, 0u) << "a step that is undone, with its faces";
-    other.runner().run(1);
-    for (CutBody* each : {&body, &other}) {
-        each->runner().run(4);
-        each->cut(sweepOf(slanting, 1));
-        each->runner().run(30);
-    }
-    EXPECT_EQ(facesOnDevice(body, settings[0]), facesOnDevice(other, settings[0]));
-}
-
 // A ball that comes to lie in the middle of a cell deep inside, as a ridge would that came in between the
 // particles of the surface.
 TEST(SelfContact, PushesOutWhatIsInsideByItsInnerParticles) {
@@ -425,37 +291,8 @@ TEST(SelfContact, PushesOutWhatIsInsideByItsInnerParticles) {
     }
 }
 
-// In a body two nodes wide a slot that is one further on may be the next node along x or another one along z.
-TEST(SelfContact, LeavesOutWhatIsStillLinkedInABodyOfOneLayerThatIsCut) {
-    Scene scene{.name = "plate"};
-    scene.gravity = {};
-    addLattice(scene, latticeOf({1, 6, 6}, 1e5f, true));
-    const Settings settings{.substeps = 4};
-    CutBody body(scene, settings);
-    const std::size_t uncut = body.links().size();
-    ASSERT_EQ(body.cut(sweepOf({Vector3d(0.02, 3.45 * voxel, 0.15), Vector3d::UnitY()}, 1)).pieces, 2u);
-    const std::vector<test::LiveLink> links = body.links();
-    ASSERT_LT(links.size(), uncut);
-    const auto slots = stateLayout(scene, settings).slot;
-    const auto excluded = contentsOf<std::uint32_t>(body, "contacts.excluded");
-    const auto has = [&](std::uint32_t of, std::uint32_t partner) {
-        const auto first = excluded.begin() + excluded[slots[of]],
-                   end = excluded.begin() + excluded[slots[of] + 1];
-        return std::find(first, end, slots[partner]) != end;
-    };
-    std::size_t missing = 0, dead = 0;
-    for (const test::LiveLink& link : links) {
-        const bool isStiff = (body.at(link.a) - body.at(link.b)).norm() < 1.5 * voxel; // a constraint too
-        missing += !isStiff || (has(link.a, link.b) && has(link.b, link.a)) ? 0 : 1;
-    }
-    for (std::uint32_t z = 0; z < 7; ++z)
-        dead += has(body.particleAt(0, 3, z), body.particleAt(0, 4, z)) ? 1 : 0;
-    EXPECT_EQ(missing, 0u);
-    EXPECT_EQ(dead, 0u) << "what the blade has parted may touch";
-}
-
 // Particles that links join to a corner of a face are at most 1.73 spacings away from it, all others at least
-// two.
+// that far in a body without body diagonals.
 TEST(SelfContact, LeavesOutWhatIsLinkedToACornerAndNothingElse) {
     Scene scene;
     addLattice(scene, latticeOf({4, 3, 3}, 1e5f));

@@ -1,0 +1,456 @@
+// Faces of voxel bodies that a cut or a tear lays open: which there are, and what they do to everything that
+// was not cut.
+#include "layout.h"
+#include "sim/bodies.hpp"
+#include "sim/compile.hpp"
+#include "sim/cutting/cut_body.hpp"
+#include "sim/cutting/cut_gaps.hpp"
+#include "sim/holds.hpp"
+#include "sim/scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <map>
+#include <set>
+
+using namespace sinew;
+using namespace sinew::sim;
+using Eigen::Vector3d;
+using test::CutBody;
+using test::surfaceOf;
+using test::sweepOf;
+using test::Triangle;
+
+namespace {
+
+constexpr float spacing = 0.05f;
+constexpr double voxel = double{spacing};
+
+Lattice latticeOf(std::array<std::uint32_t, 3> cells, float youngModulus) {
+    return {.cells = cells,
+            .spacing = spacing,
+            .youngModulus = youngModulus,
+            .radius = spacing / 2,
+            .isCuttable = true};
+}
+
+std::vector<std::uint32_t> particlesWhere(const Scene& scene, const std::function<bool(const Vec3&)>& isIn) {
+    std::vector<std::uint32_t> result;
+    for (std::uint32_t i = 0; i < scene.particles.size(); ++i)
+        if (isIn(scene.particles[i].position)) result.push_back(i);
+    return result;
+}
+
+Pose poseAt(const Vec3& position) {
+    return {position, {0, 0, 0, 1}};
+}
+
+template <typename T> std::vector<T> contentsOf(CutBody& body, const std::string& label) {
+    const StepProgram& program = body.runner().simulation().program();
+    const auto found =
+        std::ranges::find_if(program.buffers, [&](const auto& buffer) { return buffer.label == label; });
+    const BufferId id{static_cast<std::uint32_t>(found - program.buffers.begin())};
+    return test::queue().download<T>(body.runner().simulation().view(id));
+}
+
+// Turns the corners of a triangle so that the lowest comes first.
+Triangle fromLowest(Triangle t) {
+    std::ranges::rotate(t, std::ranges::min_element(t));
+    return t;
+}
+
+// Faces that look for points, by particles, with the front that they have.
+std::set<Triangle> facesOnDevice(CutBody& body, const Settings& settings) {
+    const auto slots = stateLayout(body.scene(), settings).slot;
+    std::map<std::uint32_t, std::uint32_t> particles;
+    for (std::uint32_t i = 0; i < slots.size(); ++i) particles[slots[i]] = i;
+    const auto faces = contentsOf<layout::ContactFace>(body, "faces");
+    std::set<Triangle> result;
+    for (const std::uint32_t f : contentsOf<std::uint32_t>(body, "faces.searched")) {
+        if (f == ~0u) continue;
+        const auto& [a, b, c, thickness] = faces[f];
+        Triangle t{particles[a], particles[b], particles[c]};
+        if (thickness < 0) std::swap(t[1], t[2]);
+        result.insert(fromLowest(t));
+    }
+    return result;
+}
+
+// By the middles of triangles, since a square may be split along either diagonal: twice its middle and its
+// normal.
+using Square = std::array<long, 6>;
+
+std::set<Square> squaresOf(const CutBody& body, const auto& triangles) {
+    std::map<Square, int> halves;
+    for (const Triangle& t : triangles) {
+        const Vector3d a = body.at(t[0]) / voxel, b = body.at(t[1]) / voxel, c = body.at(t[2]) / voxel;
+        const Vector3d n = (b - a).cross(c - a),
+                       middle = a.cwiseMin(b).cwiseMin(c) + a.cwiseMax(b).cwiseMax(c);
+        Square square;
+        for (int axis = 0; axis < 3; ++axis) {
+            square[axis] = std::lround(middle[axis]);
+            square[axis + 3] = std::lround(n[axis]);
+        }
+        ++halves[square];
+    }
+    std::set<Square> squares;
+    for (const auto& [square, count] : halves) {
+        EXPECT_EQ(count, 2);
+        squares.insert(square);
+    }
+    return squares;
+}
+
+// Whether the device searches just the faces of the cells that are whole.
+void expectFaces(CutBody& body, const Settings& settings, const char* what) {
+    const auto onDevice = squaresOf(body, facesOnDevice(body, settings)),
+               expected = squaresOf(body, surfaceOf(body));
+    std::printf("%s: %zu squares\n", what, expected.size());
+    EXPECT_TRUE(onDevice == expected) << what;
+}
+
+// A block on a plane, cut aslant: its upper half slides down on the lower one. No time is in it.
+Scene slidingHalves() {
+    Scene scene{.name = "halves", .damping = 1};
+    addLattice(scene, latticeOf({5, 5, 5}, 1e5f));
+    addSurfaceFaces(scene, scene.grids[0]);
+    scene.planes = {{.normal = {0, 1, 0}, .offset = -spacing / 2, .friction = 0.5f}};
+    return scene;
+}
+
+const test::CutPlane aslant{Vector3d(0.12, 2.4 * voxel, 0.12), Vector3d(0.3, 1, 0.2).normalized()};
+const test::CutPlane across{Vector3d(0.12, 0.12, 2.4 * voxel), Vector3d::UnitZ()};
+
+} // namespace
+
+// Against the surface of all whole cells, after flat, slanting and partial cuts of a body with a cavity; an
+// undo brings the first back.
+TEST(CutFaces, HasTheFacesOfTheCellsThatAreWhole) {
+    Lattice lattice = latticeOf({6, 5, 7}, 1e5f);
+    lattice.fill = test::raggedFill(6 * 5 * 7);
+    Scene scene{.name = "ragged"};
+    scene.gravity = {};
+    addLattice(scene, lattice);
+    addSurfaceFaces(scene, scene.grids[0]);
+    const Settings settings{.substeps = 4, .contactRoom = 64};
+    CutBody body(scene, settings);
+    const vk::Buffer uncut = body.runner().saveTopology();
+    expectFaces(body, settings, "uncut");
+    const double reaches[] = {1, 1, 0.06};
+    const test::CutPlane planes[] = {{{0.15, 3.45 * voxel, 0.15}, Vector3d::UnitY()},
+                                     {{0.14, 0.12, 0.17}, Vector3d(1, 0.6, -0.8).normalized()},
+                                     {{0.2, 0.06, 0.3}, Vector3d(0.1, 0.2, 1).normalized()}};
+    for (int n = 0; n < 3; ++n) {
+        const std::size_t before = surfaceOf(body).size();
+        body.cut(sweepOf(planes[n], reaches[n]));
+        EXPECT_NE(surfaceOf(body).size(), before);
+        expectFaces(body, settings, "cut");
+    }
+    body.runner().loadTopology(uncut);
+    body.runner().run(1);
+    expectFaces(body, settings, "undone");
+}
+
+// State hashes after a cut, a state that was loaded, a cut that was taken back and a second one; after a
+// reset the same again.
+TEST(CutFaces, EndInTheSameBitsForAnyOrderAndMarginAndAfterAReset) {
+    const Scene scene = slidingHalves();
+    const Settings settings[] = {{.substeps = 12, .contactRoom = 64},
+                                 {.substeps = 12, .contactRoom = 64, .isReversed = true},
+                                 {.substeps = 12, .contactMargin = 0.8f, .contactRoom = 64},
+                                 {.substeps = 12, .contactRoom = 64, .forms = {.usesTexels = false}}};
+    std::vector<std::vector<std::uint64_t>> hashes;
+    const auto play = [&](CutBody& body) {
+        std::vector<std::uint64_t>& all = hashes.emplace_back();
+        const auto run = [&](int steps) {
+            const Status status = body.runner().run(steps);
+            EXPECT_EQ(status.nonFinite, 0u);
+            EXPECT_EQ(status.contactRoom, 0u);
+            all.push_back(body.runner().stateHash());
+        };
+        run(2);
+        const vk::Buffer uncut = body.runner().saveTopology();
+        EXPECT_EQ(body.cut(sweepOf(aslant, 1)).pieces, 2u);
+        run(12);
+        const auto saved = body.runner().save();
+        run(12);
+        body.runner().load(saved);
+        run(12);
+        EXPECT_EQ(all[3], all[2]) << "a state that was loaded";
+        body.runner().loadTopology(uncut);
+        run(6);
+        EXPECT_NE(body.cut(sweepOf(across, 1)).linksCut, 0u);
+        run(12);
+    };
+    for (const Settings& each : settings) {
+        CutBody body(scene, each);
+        play(body);
+        if (hashes.size() > 1) continue;
+        body.runner().reset();
+        play(body);
+    }
+    for (const auto& each : hashes) EXPECT_EQ(each, hashes[0]);
+}
+
+TEST(CutFaces, EndInTheSameBitsAfterACutThatWasUndone) {
+    const Settings settings{.substeps = 12, .contactRoom = 64};
+    CutBody body(slidingHalves(), settings), other(slidingHalves(), settings);
+    for (CutBody* each : {&body, &other}) {
+        each->runner().run(2);
+        each->cut(sweepOf(aslant, 1));
+        each->runner().run(4);
+    }
+    body.runner().writePosition(60, std::numeric_limits<float>::quiet_NaN());
+    EXPECT_GT(body.cut(sweepOf(across, 1)).nonFinite, 0u);
+    EXPECT_EQ(facesOnDevice(body, settings), facesOnDevice(other, settings));
+    EXPECT_EQ(body.runner().stateHash(), other.runner().stateHash()) << "undone";
+    for (CutBody* each : {&body, &other}) {
+        each->runner().run(6);
+        EXPECT_EQ(each->cut(sweepOf(across, 1)).nonFinite, 0u);
+        each->runner().run(10);
+    }
+    EXPECT_EQ(facesOnDevice(body, settings), facesOnDevice(other, settings));
+    EXPECT_EQ(body.runner().stateHash(), other.runner().stateHash());
+}
+
+// A blade that moves through air while one block falls aslant onto another changes no bit: no contact becomes
+// softer for it.
+TEST(CutFaces, AreNoSofterForABladeThatMeetsNothing) {
+    std::vector<Vector3d> x[2];
+    for (const bool hasBlade : {false, true}) {
+        Scene scene{.name = "blocks", .damping = 1};
+        for (const float height : {0.0f, 3.6f}) {
+            Lattice lattice = latticeOf({3, 2, 3}, 1e5f);
+            lattice.origin = {0.3f * height * spacing / 3, height * spacing, 0.4f * height * spacing / 3};
+            addLattice(scene, lattice);
+            addSurfaceFaces(scene, scene.grids.back());
+        }
+        scene.planes = {{.normal = {0, 1, 0}, .offset = -spacing / 2, .friction = 0.5f}};
+        for (std::size_t i = scene.particles.size() / 2; i < scene.particles.size(); ++i)
+            scene.particles[i].velocity = {0.3f, -6, 0};
+        test::Runner runner(scene, {.substeps = 12, .contactRoom = 64});
+        const test::Sweep air = sweepOf({Vector3d(3, 3, 3), Vector3d::UnitY()}, 0.1);
+        for (int step = 0; step < 24; ++step) {
+            const Status status = hasBlade ? runner.cut(air.blade()) : runner.run(1);
+            ASSERT_EQ(status.nonFinite, 0u);
+            ASSERT_EQ(status.linksCutInAll, 0u);
+        }
+        x[hasBlade ? 1 : 0] = runner.positions();
+    }
+    double most = 0;
+    for (std::size_t i = 0; i < x[0].size(); ++i) most = std::max(most, (x[1][i] - x[0][i]).norm());
+    std::printf("%.1e m elsewhere for a blade in air\n", most);
+    EXPECT_EQ(most, 0);
+}
+
+// A face of the scene's own between cells of a body is no face of those cells.
+TEST(CutFaces, LeaveAFaceOfTheScenesOwnInsideOfABody) {
+    Scene scene{.name = "cube"};
+    scene.gravity = {};
+    addLattice(scene, latticeOf({4, 4, 4}, 1e5f));
+    addSurfaceFaces(scene, scene.grids[0]);
+    const auto own = static_cast<std::uint32_t>(scene.faces.size());
+    const auto node = [](std::uint32_t px, std::uint32_t py, std::uint32_t pz) {
+        return px + 5 * (py + 5 * pz);
+    };
+    scene.faces.push_back({{node(2, 2, 2), node(3, 2, 2), node(3, 3, 2)}, spacing / 2, true});
+    CutBody body(scene, {.substeps = 4, .contactRoom = 64});
+    const auto isSearched = [&] {
+        const auto searched = contentsOf<std::uint32_t>(body, "faces.searched");
+        return std::ranges::find(searched, own) != searched.end();
+    };
+    EXPECT_TRUE(isSearched());
+    EXPECT_EQ(body.cut(sweepOf({Vector3d(3, 3, 3), Vector3d::UnitY()}, 0.1)).linksCut, 0u);
+    EXPECT_TRUE(isSearched()) << "a blade that cuts nothing";
+    EXPECT_GT(body.cut(sweepOf({Vector3d(0.1, 0.6 * voxel, 0.1), Vector3d::UnitY()}, 1)).linksCut, 0u);
+    EXPECT_TRUE(isSearched()) << "a blade that cuts elsewhere";
+}
+
+// Balls meet the lower side of a half that was lifted, whose faces are as thick as its particles: not at all.
+TEST(CutFaces, OfNoThicknessKnowTheirFront) {
+    Scene scene{.name = "open"};
+    scene.gravity = {};
+    Lattice lattice = latticeOf({6, 6, 6}, 1e5f);
+    lattice.radius = 0;
+    addLattice(scene, lattice);
+    addSurfaceFaces(scene, scene.grids[0]);
+    hold(scene, particlesWhere(scene, [](const Vec3& p) { return p.y < 3.45f * spacing; }));
+    drive(scene, particlesWhere(scene, [](const Vec3& p) { return p.y > 3.45f * spacing; }),
+          {{0, poseAt({})}, {0.05f, poseAt({})}, {0.15f, poseAt({0, 3 * spacing, 0})}});
+    const auto ball = static_cast<std::uint32_t>(scene.particles.size());
+    const float radius = 0.3f * spacing;
+    scene.particles.push_back({.position = {-0.15f, 0.25f, 0.13f},
+                               .velocity = {0.8f, 0.3f, 0},
+                               .inverseMass = 1e2f,
+                               .radius = radius});
+    const Settings settings{.substeps = 8, .contactRoom = 64};
+    CutBody body(scene, settings);
+    ASSERT_EQ(body.cut(sweepOf({Vector3d(0.15, 3.45 * voxel, 0.15), Vector3d::UnitY()}, 1)).pieces, 2u);
+    double highest = 0;
+    for (int step = 0; step < 28; ++step) {
+        ASSERT_EQ(body.runner().run(1).nonFinite, 0u);
+        const Vector3d p = body.runner().positions()[ball];
+        if (p.x() > 0 && p.x() < 0.3) highest = std::max(highest, p.y());
+    }
+    const double below = 7 * voxel - double{radius};
+    std::printf("ball up to %.4f m, touches at %.4f m\n", highest, below);
+    EXPECT_NEAR(highest, below, 1e-3);
+}
+
+// A tear lays open new faces, too.
+TEST(CutFaces, AreThereOnTheEndsOfABarThatTears) {
+    Scene scene{.name = "bar", .gravity = {0, 0, 0}, .damping = 2};
+    Lattice lattice = latticeOf({3, 10, 3}, 2e4f);
+    lattice.tearStrain = 0.3f;
+    lattice.tearsPerStep = 8;
+    addLattice(scene, lattice);
+    addSurfaceFaces(scene, scene.grids[0]);
+    std::vector<std::uint32_t> ends =
+        particlesWhere(scene, [](const Vec3& p) { return p.y < 0.5f * spacing || p.y > 9.5f * spacing; });
+    for (const std::uint32_t i : ends) scene.fixed.push_back({i});
+    for (Particle& particle : scene.particles) particle.position.y *= 1.35f;
+    const Settings settings{.substeps = 16, .contactRoom = 64};
+    CutBody body(scene, settings);
+    const std::size_t before = surfaceOf(body).size();
+    Status status;
+    for (int step = 0; step < 60; ++step) {
+        status = body.runner().run(1);
+        ASSERT_EQ(status.nonFinite, 0u);
+        ASSERT_EQ(status.contactRoom, 0u);
+    }
+    EXPECT_GE(status.pieces, 2u);
+    EXPECT_NE(surfaceOf(body).size(), before);
+    expectFaces(body, settings, "torn");
+}
+
+// The faces of pieces that are removed go with them.
+TEST(CutFaces, OfCrumbsAreGone) {
+    Scene scene{.name = "cube", .gravity = {0, 0, 0}};
+    addLattice(scene, latticeOf({4, 4, 4}, 1e5f));
+    addSurfaceFaces(scene, scene.grids[0]);
+    scene.crumbs = 60;
+    const Settings settings{.substeps = 4, .contactRoom = 64};
+    CutBody body(scene, settings);
+    const Status status = body.cut(sweepOf({Vector3d(0.1, 2.5 * voxel, 0.1), Vector3d::UnitY()}, 1));
+    EXPECT_EQ(status.crumbs, 1u) << "50 of 125 particles";
+    body.runner().run(1);
+    const auto pieces = body.pieces();
+    std::vector<Triangle> triangles;
+    for (const Triangle& t : surfaceOf(body))
+        if (pieces[t[0]] != REMOVED_PIECE) triangles.push_back(t);
+    EXPECT_TRUE(squaresOf(body, facesOnDevice(body, settings)) == squaresOf(body, triangles));
+    EXPECT_LT(triangles.size(), surfaceOf(body).size());
+}
+
+namespace {
+
+// One block with faces on a plane, half a voxel aside on it one without, both cut by one blade.
+Scene mixedBlocks() {
+    Scene scene{.name = "blocks", .damping = 2};
+    for (const bool isUpper : {false, true}) {
+        Lattice lattice = latticeOf({5, 3, 4}, 1e5f);
+        if (isUpper) lattice.origin = {spacing / 2, 4 * spacing, spacing / 2};
+        addLattice(scene, lattice);
+    }
+    addSurfaceFaces(scene, scene.grids[0]);
+    scene.planes = {{.normal = {0, 1, 0}, .offset = -spacing / 2, .friction = 0.8f}};
+    return scene;
+}
+
+} // namespace
+
+TEST(CutFaces, HoldABodyWithoutFaces) {
+    const Scene scene = mixedBlocks();
+    test::Runner runner(scene, {.substeps = 16, .contactRoom = 64});
+    runner.run(2);
+    const Status cut = runner.cut(sweepOf({Vector3d(2.4 * voxel, 0.1, 0.1), Vector3d::UnitX()}, 1).blade());
+    EXPECT_EQ(cut.pieces, 4u);
+    std::vector<Triangle> faces;
+    for (const Face& face : scene.faces)
+        if (std::ranges::none_of(face.particles, [&](std::uint32_t i) {
+                const float place = scene.particles[i].position.x;
+                return place > 1.5f * spacing && place < 3.5f * spacing; // cells that the blade has broken
+            }))
+            faces.push_back(face.particles);
+    const std::uint32_t upper = scene.grids[1].firstParticle;
+    double most = -9, end = -9;
+    for (int step = 0; step < 60; ++step) {
+        const Status status = runner.run(1);
+        ASSERT_EQ(status.nonFinite, 0u);
+        ASSERT_EQ(status.contactRoom, 0u);
+        end = test::deepest(voxel, runner.positions(), faces,
+                            [&](std::uint32_t i, const Triangle&) { return i >= upper; });
+        most = std::max(most, end);
+    }
+    std::printf("block at most %.4f voxels nearer than touching, %.4f at the end\n", most, end);
+    EXPECT_LT(most, 0.05);
+    EXPECT_GT(end, -0.02) << "it lies on the faces";
+}
+
+namespace {
+
+// The numbers with which faces are searched in the grid.
+layout::FaceFindPush searchOf(bool isCuttable) {
+    Scene scene{.name = "mixed"};
+    addCloth(scene, {.size = {12, 12}, .spacing = 0.2f, .thickness = 0.01f});
+    Lattice lattice = latticeOf({6, 6, 6}, 1e5f);
+    lattice.isCuttable = isCuttable;
+    addLattice(scene, lattice);
+    addSurfaceFaces(scene, scene.grids.back());
+    const StepProgram program = compile(scene, {.substeps = 4});
+    const auto pass = std::ranges::find_if(
+        program.passes, [](const Pass& each) { return each.label.starts_with("find_faces"); });
+    EXPECT_NE(pass, program.passes.end());
+    layout::FaceFindPush push;
+    EXPECT_EQ(pass->push.size(), sizeof(push));
+    std::memcpy(&push, pass->push.data(), sizeof(push));
+    return push;
+}
+
+} // namespace
+
+// Faces that are not yet there change no margin and no grid of others, and are not compared with every point.
+TEST(CutFaces, ChangeNoSearchUntilTheyAreThere) {
+    const layout::FaceFindPush whole = searchOf(false), cuttable = searchOf(true);
+    EXPECT_EQ(cuttable.edge, whole.edge);
+    EXPECT_EQ(cuttable.most, whole.most);
+    EXPECT_EQ(cuttable.margin, whole.margin);
+    EXPECT_EQ(cuttable.large, whole.large);
+    EXPECT_GT(cuttable.moving, whole.moving);
+}
+
+// In a body two nodes wide a slot that is one further on may be the next node along x or another one along z.
+TEST(CutFaces, LeavesOutWhatIsStillLinkedInABodyOfOneLayerThatIsCut) {
+    Scene scene{.name = "plate"};
+    scene.gravity = {};
+    addLattice(scene, latticeOf({1, 6, 6}, 1e5f));
+    const Settings settings{.substeps = 4};
+    CutBody body(scene, settings);
+    const std::size_t uncut = body.links().size();
+    ASSERT_EQ(body.cut(sweepOf({Vector3d(0.02, 3.45 * voxel, 0.15), Vector3d::UnitY()}, 1)).pieces, 2u);
+    const std::vector<test::LiveLink> links = body.links();
+    ASSERT_LT(links.size(), uncut);
+    const auto slots = stateLayout(scene, settings).slot;
+    const auto excluded = contentsOf<std::uint32_t>(body, "contacts.excluded");
+    const auto has = [&](std::uint32_t of, std::uint32_t partner) {
+        const auto first = excluded.begin() + excluded[slots[of]],
+                   end = excluded.begin() + excluded[slots[of] + 1];
+        return std::find(first, end, slots[partner]) != end;
+    };
+    std::size_t missing = 0, dead = 0;
+    for (const test::LiveLink& link : links) {
+        const bool isStiff = (body.at(link.a) - body.at(link.b)).norm() < 1.5 * voxel; // a constraint too
+        missing += !isStiff || (has(link.a, link.b) && has(link.b, link.a)) ? 0 : 1;
+    }
+    for (std::uint32_t z = 0; z < 7; ++z)
+        dead += has(body.particleAt(0, 3, z), body.particleAt(0, 4, z)) ? 1 : 0;
+    EXPECT_EQ(missing, 0u);
+    EXPECT_EQ(dead, 0u) << "what the blade has parted may touch";
+}
