@@ -14,6 +14,7 @@
 using namespace sinew;
 
 TEST(Lobes, OfAnIncisedOrganDoNotEnterIt) {
+    double without = -9, withFaces = -9;
     for (const bool hasFaces : {false, true}) {
         scenes::Overrides overrides;
         overrides.voxel = 0.03f;
@@ -52,9 +53,14 @@ TEST(Lobes, OfAnIncisedOrganDoNotEnterIt) {
         std::printf("%s faces: at most %.3f voxels nearer than touching, %.3f at the end\n",
                     hasFaces ? "with" : "without", most, end);
         EXPECT_GT(cut, 100u);
+        EXPECT_GT(end, -0.1) << "the lobe lies on its wound";
+        (hasFaces ? withFaces : without) = most;
         if (hasFaces) {
             EXPECT_LT(most, 0.2) << "what was pressed together when it was cut parts slowly";
             EXPECT_LT(end, 0.05);
+        } else {
+            EXPECT_GT(most, 0.1) << "particles alone let it in";
         }
     }
+    EXPECT_LT(withFaces, without);
 }
