@@ -361,6 +361,7 @@ Scene mixedBlocks() {
     }
     addSurfaceFaces(scene, scene.grids[0]);
     scene.planes = {{.normal = {0, 1, 0}, .offset = -spacing / 2, .friction = 0.8f}};
+    scene.contacts.friction = 0.8f;
     return scene;
 }
 
