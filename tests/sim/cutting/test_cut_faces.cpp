@@ -220,24 +220,31 @@ TEST(CutFaces, EndInTheSameBitsAfterACutThatWasUndone) {
     EXPECT_EQ(body.runner().stateHash(), other.runner().stateHash());
 }
 
-// A blade that moves through air while one block falls aslant onto another changes no bit: no contact becomes
-// softer for it.
+// Balls lie just above the faces of a block, and others strike them at different times: what the blow presses
+// into a face between two steps leaves it in the same bits, whether a blade moves through air meanwhile or
+// not.
 TEST(CutFaces, AreNoSofterForABladeThatMeetsNothing) {
     std::vector<Vector3d> x[2];
     for (const bool hasBlade : {false, true}) {
-        Scene scene{.name = "blocks", .damping = 1};
-        for (const float height : {0.0f, 3.6f}) {
-            Lattice lattice = latticeOf({3, 2, 3}, 1e5f);
-            lattice.origin = {0.3f * height * spacing / 3, height * spacing, 0.4f * height * spacing / 3};
-            addLattice(scene, lattice);
-            addSurfaceFaces(scene, scene.grids.back());
+        Scene scene{.name = "block"};
+        scene.gravity = {};
+        addLattice(scene, latticeOf({8, 2, 8}, 1e6f));
+        addSurfaceFaces(scene, scene.grids[0]);
+        for (int n = 0; n < 16; ++n) {
+            const float right = (0.7f + 2 * static_cast<float>(n % 4)) * spacing,
+                        ahead = (0.6f + 2 * static_cast<float>(n / 4)) * spacing,
+                        height = 3 * spacing + 1e-3f; // touches at 3 voxels
+            scene.particles.push_back(
+                {.position = {right, height, ahead}, .inverseMass = 1e2f, .radius = spacing / 2});
+            scene.particles.push_back(
+                {.position = {right, height + spacing + 0.01f + 0.006f * static_cast<float>(n), ahead},
+                 .velocity = {0, -5, 0},
+                 .inverseMass = 1e2f,
+                 .radius = spacing / 2});
         }
-        scene.planes = {{.normal = {0, 1, 0}, .offset = -spacing / 2, .friction = 0.5f}};
-        for (std::size_t i = scene.particles.size() / 2; i < scene.particles.size(); ++i)
-            scene.particles[i].velocity = {0.3f, -6, 0};
-        test::Runner runner(scene, {.substeps = 12, .contactRoom = 64});
+        test::Runner runner(scene, {.substeps = 4, .contactRoom = 64});
         const test::Sweep air = sweepOf({Vector3d(3, 3, 3), Vector3d::UnitY()}, 0.1);
-        for (int step = 0; step < 24; ++step) {
+        for (int step = 0; step < 3; ++step) {
             const Status status = hasBlade ? runner.cut(air.blade()) : runner.run(1);
             ASSERT_EQ(status.nonFinite, 0u);
             ASSERT_EQ(status.linksCutInAll, 0u);
@@ -400,8 +407,8 @@ namespace {
 // The numbers with which faces are searched in the grid.
 layout::FaceFindPush searchOf(bool isCuttable) {
     Scene scene{.name = "mixed"};
-    addCloth(scene, {.size = {12, 12}, .spacing = 0.2f, .thickness = 0.01f});
-    Lattice lattice = latticeOf({6, 6, 6}, 1e5f);
+    addCloth(scene, {.size = {12, 12}, .spacing = 0.4f, .thickness = 0.01f});
+    Lattice lattice = latticeOf({4, 4, 4}, 1e5f);
     lattice.isCuttable = isCuttable;
     addLattice(scene, lattice);
     addSurfaceFaces(scene, scene.grids.back());
