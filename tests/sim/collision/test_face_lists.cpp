@@ -72,7 +72,6 @@ public:
                                        .inverseMasses = masses,
                                        .faces = cloud.faces(),
                                        .moving = movingFaces,
-                                       .linked = movingFaces,
                                        .extents = cloud.extents,
                                        .exclusions = cloud.excluded(),
                                        .margin = cloud.margin,
