@@ -36,19 +36,23 @@ bool hasPassed(Lines lines, Lines rates, out vec2 st) {
     return isInside(crossing, 1e-3);
 }
 
-// The most that contacts of an edge keep of an overlap [m].
-float mostKeptBy(uint e) {
+// The least distance that contacts of an edge keep at which they overlap [m].
+float leastRestOf(uint e) {
     const uvec2 list = lists[e];
-    float most = 0.0;
-    for (uint element = list.x; element < list.x + list.y; ++element) most = max(most, abs(memory[element].w) - 1.0);
-    return most;
+    float least = 3e38;
+    for (uint element = list.x; element < list.x + list.y; ++element) {
+        const uvec2 candidate = contacts[element];
+        const float remembered = memory[element].w;
+        if (abs(remembered) > 1.0 && keeps(edges[e].a, edges[candidate.x].a)) least = min(least, restOf(uintBitsToFloat(candidate.y), remembered));
+    }
+    return least;
 }
 
 // The part of its overlap that a pair with a kept rest distance still has. Two that come to lie over each other from beside, where ends met other
 // edges, keep no more of it than those did: else they would be thrown apart.
 float keptOf(uvec2 both, float remembered, float overlap, float before, float reach) {
-    if (remembered == 0.0 && step.hPrevious != 0.0 && before > 0.0 && overlap > 0.0)
-        return min(before + REST_SLACK * reach, max(mostKeptBy(both.x), mostKeptBy(both.y)));
+    if (remembered == 0.0 && !isAtLoad() && before > 0.0 && overlap > 0.0)
+        return min(before + REST_SLACK * reach, max(0.0, reach - min(leastRestOf(both.x), leastRestOf(both.y))));
     return overlapKept(remembered, overlap, before, reach);
 }
 

@@ -22,19 +22,55 @@ float overlapBefore(Meeting m, float side, bool isThrough) {
     return m.reach - (isThrough || before.isInside ? side * m.heightBefore : length(before.d));
 }
 
+// The most that the point keeps of its overlap with a face of that body, in front of it, as the overlap of a pair with this reach [m]. Two with
+// a rest distance below 0 give more than the reach.
+float mostKept(uint i, uvec2 list, uint body, float reach) {
+    float most = 0.0;
+    for (uint element = list.x; element < list.x + list.y; ++element) {
+        const uvec2 candidate = contacts[element];
+        const float remembered = memory[element].w, signedReach = uintBitsToFloat(candidate.y);
+        if (abs(remembered) <= 1.0 || remembered * signedReach < 0.0 || !isSolid(candidate.x)) continue;
+        const uint corner = faces[candidate.x].a;
+        if (bodyOf(corner) == body && keeps(i, corner)) most = max(most, reach - restOf(abs(signedReach), remembered));
+    }
+    return most;
+}
+
+// How a point has come in front of a face of something solid.
+struct Exit {
+    bool isLetOut; // from behind
+    float kept;    // of such an overlap, the part that is a rest distance [m]
+};
+const Exit noExit = Exit(false, 0.0);
+
+// A pair that keeps its rest distance has that of the other faces of the body. All else of an overlap parts. The sign of what is remembered says
+// so: it is not that of the front, the only side of something solid.
+Exit exitOf(uint i, uvec2 list, uint element, Meeting m, bool wasBehind) {
+    const float remembered = memory[element].w;
+    if (!m.isKept) return Exit(wasBehind && remembered == 0.0, 0.0);
+    if (isAtLoad() || remembered * m.front > 0.0) return noExit;
+    const float kept = mostKept(i, list, bodyOf(m.face.a), m.reach);
+    return Exit(remembered != 0.0 || wasBehind || kept > m.reach, min(kept, m.reach));
+}
+
 // On `side` of the face, at the place with the weights b.
-Touch touchAt(Meeting m, uint element, float side, vec3 b, bool isThrough, bool isLetOut) {
+Touch touchAt(Meeting m, uint element, float side, vec3 b, bool isThrough, Exit outcome) {
     Touch touch = Touch(vec3(0.0), 0.0, b, 0.0, isThrough, m.face);
     const float h = step.h, distance = length(m.nearest.d);
     const bool isAbove = isThrough || m.nearest.isInside || distance < 1e-15;
     touch.n = isAbove ? side * m.normal : m.nearest.d / distance;
     const float overlap = m.reach - (isAbove ? side * m.height : distance);
     const float approach = -h * dot(touch.n, m.vp - b.y * m.vb - b.z * m.vc), part = push.recoverySpeed * h;
-    float left = isLetOut ? max(0.0, overlap - part) : overlapLeft(memory[element].w, overlap, approach, part);
-    if (m.isKept && isLetOut) left = max(0.0, overlap);
-    else if (m.isKept) left = overlapKept(memory[element].w, overlap, step.hPrevious == 0.0 ? overlapBefore(m, side, isThrough) : 0.0, m.reach);
+    const float remembered = memory[element].w;
+    float left = outcome.isLetOut ? max(0.0, overlap - part) : overlapLeft(remembered, overlap, approach, part), restSide = side;
+    if (m.isKept && outcome.isLetOut) {
+        left = overlapLetOut(remembered, overlap, outcome.kept, part, m.reach);
+        if (left > outcome.kept) restSide = -side;
+    } else if (m.isKept) {
+        left = overlapKept(remembered, overlap, isAtLoad() ? overlapBefore(m, side, isThrough) : 0.0, m.reach);
+    }
     touch.depth = max(0.0, overlap - left);
-    touch.remembered = m.isKept ? rememberedKept(side, touch.depth, left) : rememberedOf(side, touch.depth, left);
+    touch.remembered = m.isKept ? rememberedKept(restSide, touch.depth, left) : rememberedOf(side, touch.depth, left);
     if (contacts[element].x < push.sheets) return touch;
     // what parts by itself does not push, nor do the faces beside it
     const float shown = withCorners(left > 0.0 ? max(touch.depth, 2e-30) : touch.depth, b, m.triangle, m.reach);
@@ -44,27 +80,27 @@ Touch touchAt(Meeting m, uint element, float side, vec3 b, bool isThrough, bool 
 
 // The surface of something solid holds what is in front of it, or comes from there. What is behind it may come out. Where an edge
 // is nearest and the point is behind one of its faces, it is in front of another, or has none to do with them.
-Touch touchOfSolid(uint element, Meeting m) {
+Touch touchOfSolid(uint i, uvec2 list, uint element, Meeting m) {
     const bool hasTouched = memory[element].w != 0.0, wasBehind = m.front * m.heightBefore < 0.0;
     vec3 b = m.nearest.weights, passed;
-    if (m.front * m.height >= 0.0) return touchAt(m, element, m.front, b, false, wasBehind && !hasTouched);
+    if (m.front * m.height >= 0.0) return touchAt(m, element, m.front, b, false, exitOf(i, list, element, m, wasBehind));
     bool isThrough = hasTouched && m.nearest.isInside && isWithinReach(m);
     if (!wasBehind) {
         isThrough = wentThrough(m, passed);
         if (isThrough && !m.nearest.isInside) b = passed;
     }
     Touch touch = Touch(vec3(0.0), 0.0, b, 0.0, false, m.face);
-    if (isThrough) touch = touchAt(m, element, m.front, b, true, false);
+    if (isThrough) touch = touchAt(m, element, m.front, b, true, hasTouched ? exitOf(i, list, element, m, false) : noExit);
     touch.isThrough = false; // faces around it have the same front
     return touch;
 }
 
 // `through`: the side that a neighbouring face is being passed from, as a unit vector; 0 = none.
-Touch touchOf(uint i, uint element, vec3 through) {
+Touch touchOf(uint i, uvec2 list, uint element, vec3 through) {
     const uvec2 candidate = contacts[element];
     const Meeting m = keptMeetingOf(i, candidate);
     if (isSliver(m.triangle)) return Touch(vec3(0.0), 0.0, vec3(0.0), 0.0, false, m.face);
-    if (candidate.x >= push.sheets && candidate.x < push.moving) return touchOfSolid(element, m);
+    if (isSolid(candidate.x)) return touchOfSolid(i, list, element, m);
     const bool isForced = dot(through, through) > 0.0;
     float side = isForced ? (dot(m.normal, through) < 0.0 ? -1.0 : 1.0) : sideOf(memory[element].w);
     const bool hasTouched = side != 0.0;
@@ -81,5 +117,5 @@ Touch touchOf(uint i, uint element, vec3 through) {
         }
         if (!isThrough) side = -side; // it went around, or is far beyond
     }
-    return touchAt(m, element, side, b, isThrough, false);
+    return touchAt(m, element, side, b, isThrough, noExit);
 }

@@ -1,78 +1,124 @@
 // Points that lie behind the surface of something solid when the scene is loaded and keep that: they go no deeper. Their rest distance is
-// below 0. It is the point's, not that of one face: whichever face of that surface is nearest holds it. One that has come out in front of
-// the surface is a point like any other. In the names and buffers of touch_faces.
+// below 0. It is that of the point and the body, not of one face: the nearest face of the body holds the point. One that has come out in front of
+// the surface is a point like any other. A point that is pressed through the surface is held at the rest distance that it had in front. At most
+// four bodies hold a point. In the names and buffers of touch_faces.
 struct Held {
+    uint body;
     uint element; // of the face that holds; ~0 = none
-    float rest;   // below 0 [m]
+    float rest;   // [m]
+    vec3 d;       // to the point from the nearest place [m]
+    float off;    // faces of the body are as near whose d differs by less [m]
 };
-const Held noHeld = Held(~0u, 0.0);
 const float far = 3e38;
-
-bool isSolid(uint face) { return face >= push.sheets && face < push.moving; }
+const uint mostHolders = 4u;
+Held holders[mostHolders];
+uint holderCount = 0u;
 
 // Up to where faces hold a point: lists reach as far.
 bool isHoldable(Meeting m) { return m.isKept && !isSliver(m.triangle) && length(m.nearest.d) < 2.0 * m.reach; }
 
-// The nearest face behind which the point is. Rest distances, and how deep the point was before, come with it.
-struct Behind {
-    uint element, corner; // a corner of the face
-    float reach, depth, depthBefore, rest;
-    bool remembers; // some face
+bool isOf(uint element, uint body) {
+    const uint face = contacts[element].x;
+    return isSolid(face) && bodyOf(faces[face].a) == body;
+}
+
+// The nearest face of a body, and what the point remembers of all of them.
+struct Nearby {
+    uint element;
+    float reach, distance;
+    vec3 d, before;        // from the nearest place, at the end of the substep and at its beginning [m]
+    float rest;            // the least
+    bool remembers;        // some face
 };
 
-Behind behindOf(uint i, uvec2 list) {
-    Behind behind = Behind(~0u, ~0u, 0.0, far, far, 0.0, false);
+Nearby nearbyOf(uint i, uvec2 list, uint body) {
+    Nearby nearby = Nearby(~0u, 0.0, far, vec3(0.0), vec3(0.0), far, false);
     for (uint element = list.x; element < list.x + list.y; ++element) {
-        if (!isSolid(contacts[element].x) || areOfOneBody(i, faces[contacts[element].x].a)) continue;
+        if (!isOf(element, body)) continue;
         const Meeting m = keptMeetingOf(i, contacts[element]);
         if (!isHoldable(m)) continue;
-        const float remembered = memory[element].w;
-        behind.remembers = behind.remembers || remembered != 0.0;
-        if (remembered != 0.0) behind.rest = min(behind.rest, m.reach - (abs(remembered) - 1.0));
-        const float depth = length(m.nearest.d);
-        if (m.front * m.height >= 0.0 || depth >= behind.depth) continue;
-        behind.element = element;
-        behind.corner = m.face.a;
-        behind.reach = m.reach;
-        behind.depth = depth;
-        behind.depthBefore = m.front * m.heightBefore < 0.0 ? length(nearestBefore(m).d) : far;
-        if (behind.depthBefore >= m.reach) behind.depthBefore = far; // too deep to be a pair
+        const float remembered = memory[element].w, distance = length(m.nearest.d);
+        nearby.remembers = nearby.remembers || remembered != 0.0;
+        if (remembered * m.front > 0.0) nearby.rest = min(nearby.rest, restOf(m.reach, remembered));
+        if (distance >= nearby.distance) continue;
+        nearby.element = element;
+        nearby.reach = m.reach;
+        nearby.distance = distance;
+        nearby.d = m.nearest.d;
+        nearby.before = nearestBefore(m).d;
     }
-    return behind;
+    return nearby;
 }
 
-// How near the point is to a face of that body in front of which it is [m].
-float frontOf(uint i, uvec2 list, uint corner) {
-    float front = far;
+// The angle that a face has at the nearest place on it.
+float angleOf(Meeting m) {
+    const vec3 w = m.nearest.weights, bc = m.ac - m.ab;
+    vec3 one = m.ab, other = -m.ab; // an edge
+    if (w.x > 0.999) other = m.ac;
+    else if (w.y > 0.999) one = bc;
+    else if (w.z > 0.999) {
+        one = -bc;
+        other = -m.ac;
+    }
+    return acos(clamp(dot(normalize(one), normalize(other)), -1.0, 1.0));
+}
+
+float offOf(Nearby nearby) { return 1e-3 * nearby.distance + REST_SLACK * nearby.reach; }
+
+// The normal of the surface at the nearest place, where several faces may meet: the sum over them by their angles says on which side a point is
+// (Baerentzen and Aanaes 2005). `rest`: the least distance that the point remembers of them [m].
+vec3 normalAt(uint i, uvec2 list, Nearby nearby, uint body, out float rest) {
+    vec3 sum = vec3(0.0);
+    rest = far;
     for (uint element = list.x; element < list.x + list.y; ++element) {
-        if (!isSolid(contacts[element].x) || !areOfOneBody(corner, faces[contacts[element].x].a)) continue;
+        if (!isOf(element, body)) continue;
         const Meeting m = keptMeetingOf(i, contacts[element]);
-        if (isHoldable(m) && m.front * m.height >= 0.0) front = min(front, length(m.nearest.d));
+        if (!isHoldable(m) || distance(m.nearest.d, nearby.d) > offOf(nearby)) continue;
+        sum += angleOf(m) * m.front * m.normal;
+        if (memory[element].w * m.front > 0.0) rest = min(rest, restOf(m.reach, memory[element].w));
     }
-    return front;
+    return sum;
 }
 
-Held heldBehind(uint i, uvec2 list) {
-    const Behind behind = behindOf(i, list);
-    const bool isNew = step.hPrevious == 0.0 && !behind.remembers && behind.depthBefore < far;
-    if (behind.element == ~0u || !isNew && behind.rest >= 0.0) return noHeld;
-    const float front = frontOf(i, list, behind.corner);
-    // as near to a face in front as to one behind: at an edge, where whoever was behind still is
-    if (isNew ? behind.depth > 0.999 * front : behind.depth > 1.001 * front) return noHeld;
-    return Held(behind.element, isNew ? -behind.depthBefore - REST_SLACK * behind.reach : behind.rest);
+Held heldBy(uint i, uvec2 list, uint body) {
+    const Nearby nearby = nearbyOf(i, list, body);
+    Held held = Held(body, ~0u, 0.0, nearby.d, offOf(nearby));
+    if (nearby.element == ~0u) return held;
+    float rest;
+    const vec3 normal = normalAt(i, list, nearby, body, rest);
+    if (!(dot(nearby.d, normal) < 0.0)) return held;
+    if (nearby.rest < 0.0) rest = nearby.rest;
+    const float depthBefore = length(nearby.before);
+    if (isAtLoad() && !nearby.remembers && depthBefore < nearby.reach && dot(nearby.before, normal) < 0.0)
+        rest = -depthBefore - REST_SLACK * nearby.reach;
+    held.rest = rest;
+    if (rest < far) held.element = nearby.element;
+    return held;
 }
 
-// A contact of a point that may be held: as it is, but for the face that holds and others behind which the point is.
-Touch heldTouch(uint i, uint element, Held held, Touch touch) {
-    if (!isSolid(contacts[element].x)) return touch;
-    if (element != held.element) {
-        const float reach = abs(uintBitsToFloat(contacts[element].y));
-        if (abs(touch.remembered) - 1.0 <= reach) return touch;
-        if (held.element != ~0u) return Touch(vec3(0.0), 0.0, touch.b, 0.0, false, touch.face); // another face holds now
-        touch.remembered = sign(touch.remembered) * (1.0 + reach); // out in front: 0 is the least rest distance there
-        return touch;
+bool isKnown(uint body) {
+    for (uint k = 0u; k < holderCount; ++k)
+        if (holders[k].body == body) return true;
+    return false;
+}
+
+// Of the bodies behind a face of which the point is.
+void findHolders(uint i, uvec2 list) {
+    uint seen = ~0u; // faces of a body follow each other
+    for (uint element = list.x; element < list.x + list.y && holderCount < mostHolders; ++element) {
+        if (!isSolid(contacts[element].x)) continue;
+        const uint body = bodyOf(faces[contacts[element].x].a);
+        if (body == bodyOf(i) || body == seen || isKnown(body)) continue;
+        const Meeting m = keptMeetingOf(i, contacts[element]);
+        if (!isHoldable(m) || m.front * m.height >= 0.0) continue;
+        seen = body;
+        const Held held = heldBy(i, list, body);
+        if (held.element != ~0u) holders[holderCount++] = held;
     }
-    const Meeting m = keptMeetingOf(i, contacts[element]);
+}
+
+// That of the face that holds.
+Touch touchOfHolder(Meeting m, Held held, Touch touch) {
     const float distance = length(m.nearest.d), left = m.reach - held.rest;
     touch.n = m.nearest.isInside || distance < 1e-15 ? m.front * m.normal : -m.nearest.d / distance;
     touch.b = m.nearest.weights;
@@ -82,5 +128,27 @@ Touch heldTouch(uint i, uint element, Held held, Touch touch) {
     const float shown = uintBitsToFloat(floatBitsToUint(max(depth, 2e-30)) | 7u);
     touch.depth = depth > 0.0 ? shown : -shown;
     touch.isThrough = false;
+    return touch;
+}
+
+// What a face of the same body remembers that does not push: the same rest distance where it is as near, and its own where the point is in front.
+float rememberedBeside(Meeting m, Held held, float remembered) {
+    if (isHoldable(m) && distance(m.nearest.d, held.d) <= held.off) return rememberedKept(m.front, 0.0, m.reach - held.rest);
+    return m.isKept && m.front * m.height >= 0.0 ? remembered : 0.0;
+}
+
+// A contact of a point that may be held: as it is, but for the faces of bodies that hold it. Of these one alone pushes.
+Touch heldTouch(uint i, uint element, Touch touch) {
+    if (!isSolid(contacts[element].x)) return touch;
+    const uint body = bodyOf(faces[contacts[element].x].a);
+    for (uint k = 0u; k < holderCount; ++k) {
+        if (holders[k].body != body) continue;
+        const Meeting m = keptMeetingOf(i, contacts[element]);
+        if (holders[k].element == element) return touchOfHolder(m, holders[k], touch);
+        return Touch(vec3(0.0), 0.0, touch.b, rememberedBeside(m, holders[k], touch.remembered), false, touch.face);
+    }
+    const float reach = abs(uintBitsToFloat(contacts[element].y));
+    if (abs(touch.remembered) - 1.0 <= reach) return touch;
+    touch.remembered = sign(touch.remembered) * (1.0 + reach); // out in front: 0 is the least rest distance there
     return touch;
 }

@@ -1,5 +1,7 @@
 // Which of the faces that a point touches push it, of those that never move or are solid. Inner edges of a flat surface must not: a
 // point over one face is near an edge of the next one too. Needs faces, contacts, directions and push.
+bool isSolid(uint face) { return face >= push.sheets && face < push.moving; }
+
 bool isCorner(uint i, ContactFace face) { return i == face.a || i == face.b || i == face.c; }
 
 // Corners of a face between which its nearest place lies, bit k for corner k: all three, or those of an edge or a corner that
@@ -20,15 +22,27 @@ bool has(ContactFace other, ContactFace face, uint corners) {
            ((corners & 4u) == 0u || isCorner(face.c, other));
 }
 
+// Whether an overlap with a face of something solid parts (exitOf).
+bool isParting(uint element) { return isSolid(contacts[element].x) && weights[element].w * uintBitsToFloat(contacts[element].y) < 0.0; }
+
 // A point that comes from above one face to above the next keeps the rest distance that it had: the hidden face takes it over.
-float withRestOf(float remembered, float other) { return sign(remembered) * max(abs(remembered), abs(other)); }
+float withRestOf(uint i, uint element, uint beside) {
+    const float own = weights[element].w, other = weights[beside].w;
+    if (abs(other) <= 1.0 || !keeps(i, faces[contacts[beside].x].a) || !keeps(i, faces[contacts[element].x].a)) return own;
+    const bool parts = isParting(beside);
+    if (parts && abs(own) > 1.0) return own;
+    const float nearer = abs(uintBitsToFloat(contacts[element].y)) - abs(uintBitsToFloat(contacts[beside].y)); // 0 for equal thickness
+    const float taken = abs(other) + nearer;
+    if (taken <= abs(own)) return own;
+    return (parts != isParting(element) ? -taken : taken) * sign(own);
+}
 
 // A face of which an edge or a corner is nearest says nothing that a face beside it does not, which has that edge or corner
 // too, and something nearer, or the same: then the first of them. Pushed from inner edges of a flat surface as well, what hits
 // it would be pushed aslant, too softly, and be thrown as it comes out. So such a contact does not push: its depth is below
 // 0. What it remembers goes on, for the nearest place may change from one face to the other. Not among those of sheets that move:
 // where cloth lies on cloth, to push its neighbours as well spreads what a point presses with, and folds rest sooner for it.
-void hide(uint first, uint end) {
+void hide(uint i, uint first, uint end) {
     for (uint element = first; element < end; ++element) {
         const uint corners = cornersIn(directions[element].w);
         if (!(directions[element].w > 0.0) || corners == 7u || contacts[element].x < push.sheets) continue;
@@ -38,7 +52,7 @@ void hide(uint first, uint end) {
             if (beside == element || directions[beside].w == 0.0 || contacts[beside].x < push.sheets) continue;
             const ContactFace other = faces[contacts[beside].x];
             isHidden = has(other, face, corners) && (beside < element || !has(face, other, cornersIn(directions[beside].w)));
-            if (isHidden && keepsRest) weights[element].w = withRestOf(weights[element].w, weights[beside].w);
+            if (isHidden && keepsRest) weights[element].w = withRestOf(i, element, beside);
         }
         if (isHidden) directions[element].w = -directions[element].w;
     }

@@ -14,15 +14,24 @@ float overlapLeft(float remembered, float overlap, float approach, float part) {
     return max(0.0, min(left - part, overlap));
 }
 
-// A pair that keeps its rest distance keeps all that it overlapped by when the first step began, until it parts. `before`: by how much
+// A pair that keeps its rest distance keeps all that it overlapped by when the first substep began, until it parts. `before`: by how much
 // it overlapped when the substep began.
 float overlapKept(float remembered, float overlap, float before, float reach) {
     const float slack = REST_SLACK * reach;
     float left = 0.0;
     if (remembered != 0.0) left = abs(remembered) - 1.0;
-    else if (step.hPrevious == 0.0) left = max(0.0, before + slack);
+    else if (isAtLoad()) left = max(0.0, before + slack);
     return overlap > -slack ? left : 0.0;
 }
+
+// Of a pair that came out from behind a face: `kept` of it stays, all else parts.
+float overlapLetOut(float remembered, float overlap, float kept, float part, float reach) {
+    const float before = remembered != 0.0 ? abs(remembered) - 1.0 : overlap;
+    return overlap > -REST_SLACK * reach ? max(min(before - part, overlap), kept) : 0.0;
+}
+
+// Distance at which a pair with that memory touches [m].
+float restOf(float reach, float remembered) { return reach - (abs(remembered) - 1.0); }
 
 // Memory of such a pair, rounded up: one that has not moved must not touch.
 float rememberedKept(float side, float depth, float left) {

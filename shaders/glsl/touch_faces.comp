@@ -42,11 +42,10 @@ void main() {
     const uint end = list.x + list.y;
     uint passed = ~0u;
     Touch passing;
-    Held held = noHeld;
-    if (keepsRest) held = heldBehind(i, list);
+    if (keepsRest) findHolders(i, list);
     for (uint element = list.x; element < end; ++element) {
-        Touch touch = touchOf(i, element, vec3(0.0));
-        if (keepsRest) touch = heldTouch(i, element, held, touch);
+        Touch touch = touchOf(i, list, element, vec3(0.0));
+        if (keepsRest) touch = heldTouch(i, element, touch);
         if (touch.isThrough && passed == ~0u) {
             passed = element;
             passing = touch;
@@ -54,11 +53,11 @@ void main() {
         write(element, touch);
     }
     if (passed == ~0u) {
-        hide(list.x, end);
+        hide(i, list.x, end);
         return;
     }
     // Below a surface the sides of the faces around are those of the face that was passed: what slides below another face
     // must not be pushed out there.
     for (uint element = list.x; element < end; ++element)
-        if (element != passed && areNeighbours(faces[contacts[element].x], passing.face)) write(element, touchOf(i, element, passing.n));
+        if (element != passed && areNeighbours(faces[contacts[element].x], passing.face)) write(element, touchOf(i, list, element, passing.n));
 }

@@ -16,8 +16,6 @@ namespace {
 namespace k = kernels;
 using edge_lists::Edge;
 
-constexpr std::uint32_t keepsRestId = 1; // constant_id in keeps_rest.glsl
-
 // For every slot the first of its entries, one more for the end; an entry is 2 x edge + end. Where forces are
 // kept, ends that never move feel them too.
 std::vector<std::uint32_t> cornersOf(std::span<const Edge> edges, const StateLayout& layout,
@@ -162,7 +160,8 @@ void joinIslands(const Contacts& contacts, sleep::Sleep& sleep) {
                    contacts.corners};
 }
 
-void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted) {
+void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
+               bool isFirst) {
     const edge_lists::Lists& lists = contacts.lists;
     edge_lists::addWatch(program, lists, predicted);
     edge_lists::addLists(program, lists, predicted);
@@ -170,7 +169,7 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
                  {predicted.velocities, lists.edges, lists.pooled.contacts, lists.pooled.ranges,
                   predicted.positions, lists.pooled.memory->memory, contacts.directions, contacts.weights,
                   lists.sums, predicted.step, contacts.keepers},
-                 {{keepsRestId, contacts.keepsRest}});
+                 face_contacts::restConstants(contacts.keepsRest, isFirst));
     sleep::addEdgeTouches(program, predicted);
     addShares(program, contacts, predicted);
     addOverEdges(program, contacts, k::pressEdges,

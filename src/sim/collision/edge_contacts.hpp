@@ -38,8 +38,9 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
 /// What touches sleeps together.
 void joinIslands(const Contacts& contacts, sleep::Sleep& sleep);
 
-/// Changes predicted positions and velocities where they stand.
-void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted);
+/// Changes predicted positions and velocities where they stand. `isFirst`: of the substeps of a step.
+void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
+               bool isFirst);
 
 /// Restitution, after all contacts of a substep, which `state` then is of; nothing where nothing rebounds.
 void addBounces(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state);

@@ -21,8 +21,6 @@ namespace {
 
 namespace k = kernels;
 
-constexpr std::uint32_t keepsRestId = 1; // constant_id in keeps_rest.glsl
-
 bool moves(const Face& face, const std::vector<float>& inverseMass) {
     return std::ranges::any_of(face.particles, [&](std::uint32_t i) { return inverseMass[i] > 0; });
 }
@@ -302,6 +300,12 @@ bool areIn(const Scene& scene) {
            std::ranges::any_of(scene.faces, [&](const Face& f) { return moves(f, inverseMass); });
 }
 
+ProgramBuilder::Constants restConstants(bool keepsRest, bool isFirst) {
+    constexpr std::uint32_t keepsRestId = 1, isFirstId = 2; // constant_ids in keeps_rest.glsl
+    if (!keepsRest) return {{keepsRestId, false}};
+    return {{keepsRestId, true}, {isFirstId, isFirst}};
+}
+
 std::vector<float> looseRadii(const Scene& scene) {
     std::vector<float> radii;
     for (const Particle& particle : scene.particles) radii.push_back(particle.radius);
@@ -386,7 +390,7 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
                     {predicted.positions, predicted.velocities, lists.faces, lists.pooled.contacts,
                      lists.pooled.ranges, lists.pooled.memory->memory, contacts.directions, contacts.weights,
                      predicted.step, contacts.keepers},
-                    {{keepsRestId, contacts.keepsRest}});
+                    restConstants(contacts.keepsRest, isFirst));
     sleep::addFaceTouches(program, predicted);
     addShares(program, contacts, contacts.directions, predicted);
     addOverContacts(program, contacts, k::pressFaces,

@@ -55,6 +55,9 @@ struct Contacts {
 Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
              const ParticleBuffers& particles);
 
+/// Constants of kernels in which pairs may keep their rest distance. `isFirst`: of the substeps of a step.
+ProgramBuilder::Constants restConstants(bool keepsRest, bool isFirst);
+
 /// Particles and faces that touch sleep together.
 void joinIslands(const Contacts& contacts, sleep::Sleep& sleep);
 

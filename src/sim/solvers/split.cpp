@@ -333,7 +333,7 @@ struct Touching {
     void addPasses(ProgramBuilder& program, const ParticleBuffers& predicted, const ParticleBuffers& next,
                    bool isFirst) const {
         if (faces) collision::face_contacts::addPasses(program, *faces, predicted, isFirst);
-        if (edges) collision::edge_contacts::addPasses(program, *edges, predicted);
+        if (edges) collision::edge_contacts::addPasses(program, *edges, predicted, isFirst);
         if (pairs)
             collision::particle_contacts::addPasses(program, *pairs, predicted, next, isFirst);
         else

@@ -102,18 +102,48 @@ void hold(Block& made) {
         if (made.scene.particles[i].position.y == 0) made.scene.fixed.push_back({i});
 }
 
-// How far what of the body is nearest to particle `i` at the start has moved [m].
-Vector3d sagBeside(const Block& made, const std::vector<Vector3d>& x, std::uint32_t i) {
+// Every other particle never moves, so that all faces have a corner that does and the body hardly bends.
+void holdTightly(Block& made) {
+    for (std::uint32_t i = 0; i < made.count; ++i) {
+        const Vec3& x = made.scene.particles[i].position;
+        if (std::lround((x.x + x.y + x.z) / spacing) % 2 != 0) made.scene.fixed.push_back({i});
+    }
+}
+
+// How far what of the body is nearest to particle `i` at the start has moved [m]: the mean of four of its
+// particles from `first` to before `end`.
+Vector3d sagBeside(const Block& made, const std::vector<Vector3d>& x, std::uint32_t i, std::size_t first,
+                   std::size_t end) {
     const auto at = [&](std::size_t k) {
         const Vec3& p = made.scene.particles[k].position;
         return Vector3d(double{p.x}, double{p.y}, double{p.z});
     };
     std::vector<std::pair<double, std::size_t>> near;
-    for (std::size_t k = 0; k < made.count; ++k) near.push_back({(at(k) - at(i)).norm(), k});
+    for (std::size_t k = first; k < end; ++k) near.push_back({(at(k) - at(i)).norm(), k});
     std::ranges::sort(near);
     Vector3d sum = Vector3d::Zero();
     for (std::size_t n = 0; n < 4; ++n) sum += x[near[n].second] - at(near[n].second);
     return sum / 4;
+}
+
+Vector3d sagBeside(const Block& made, const std::vector<Vector3d>& x, std::uint32_t i) {
+    return sagBeside(made, x, i, 0, made.count);
+}
+
+// A step down at x = 3 spacings, to a height of 3.
+Block steps() {
+    std::vector<float> fill(6 * 4 * 6, 1.0f);
+    for (std::size_t z = 0; z < 6; ++z)
+        for (std::size_t x = 3; x < 6; ++x) fill[x + 6 * (3 + 4 * z)] = 0;
+    return block({6, 4, 6}, fill);
+}
+
+// Of a ball near the inner edge of steps(), beside what the body sags [m]. Below the edge it is the distance
+// to it, beside that the distance to a face; a ball that fell on through is as deep as it fell.
+double depthBehindStep(const Block& made, const std::vector<Vector3d>& all, std::uint32_t ball, double edge) {
+    const Vector3d x = all[ball] - sagBeside(made, all, ball);
+    const double aside = edge - x.x(), below = edge - x.y();
+    return aside > 0 && below > 0 ? std::hypot(aside, below) : std::max(aside, below);
 }
 
 } // namespace
@@ -235,31 +265,125 @@ TEST(RestOfFaces, HoldsWhatLiesBehindTheSurfaceOfSomethingSolid) {
     }
 }
 
-// Over steps of voxels: a point below an inner edge has no face straight above it.
+// Over steps of voxels, (edge, edge) in x and y: a point below an inner edge may have no face straight above
+// it, or one whose neighbor is as near and has the point in front.
 TEST(RestOfFaces, HoldsWhatLiesBehindAnInnerEdge) {
-    std::vector<float> fill(6 * 4 * 6, 1.0f);
-    for (std::size_t z = 0; z < 6; ++z)
-        for (std::size_t x = 3; x < 6; ++x) fill[x + 6 * (3 + 4 * z)] = 0; // a step down at x = 3 spacings
-    constexpr float small = 0.004f, reach = 0.3f * spacing + small;
-    Block made = block({6, 4, 6}, fill);
-    const float edge = 3 * spacing, deep = 0.5f * reach;
-    const std::uint32_t ball = addBall(made.scene, {edge - deep, edge - deep, 2.5f * spacing}, small,
-                                       1e-3f); // aslant below the edge
-    expectStill(made.scene, double{small}, "a ball behind an inner edge");
-    hold(made);
-    made.scene.gravity = {-3, -6, 0};
+    constexpr float small = 0.004f, reach = 0.3f * spacing + small, edge = 3 * spacing, deep = 0.5f * reach;
+    for (const float aside : {-1.0f, 0.0f, 0.02f, 0.1f}) { // so many depths
+        Block made = steps();
+        const std::uint32_t ball =
+            addBall(made.scene, {edge + aside * deep, edge - deep, 2.5f * spacing}, small, 1e-3f);
+        expectStill(made.scene, double{small},
+                    "a ball behind an inner edge, aside by " + std::to_string(aside));
+        hold(made);
+        made.scene.gravity = {-3, -6, 0};
+        made.scene.damping = 5;
+        Runner runner(made.scene, settings);
+        runner.run(60);
+        const double start = aside < 0 ? std::sqrt(2.0) * double{deep} : double{deep};
+        const double end = depthBehindStep(made, runner.positions(), ball, double{edge});
+        std::printf("behind an inner edge, aside by %.2f of the depth: %.3f of the reach deep at first, %.3f "
+                    "under load\n",
+                    double{aside}, start / double{reach}, end / double{reach});
+        EXPECT_LT(end, 1.03 * start) << aside;
+    }
+}
+
+// A point that stands just in front of both faces of an inner edge is pressed behind the edge.
+TEST(RestOfFaces, HoldsWhatIsPressedBehindAnInnerEdge) {
+    constexpr float small = 0.004f, reach = 0.3f * spacing + small, edge = 3 * spacing,
+                    front = 0.004f * reach;
+    Block made = steps();
+    const std::uint32_t ball =
+        addBall(made.scene, {edge + front, edge + front, 2.5f * spacing}, small, 1e-3f);
+    holdTightly(made);
+    made.scene.gravity = {-20, -20, 0};
     made.scene.damping = 5;
     Runner runner(made.scene, settings);
-    runner.run(60);
-    const auto all = runner.positions();
-    const Vector3d x = all[ball] - sagBeside(made, all, ball);
-    // how deep it is: below the inner edge the distance to it, beside that the distance to a face
-    const double aside = double{edge} - x.x(), below = double{edge} - x.y();
-    const double depth = aside > 0 && below > 0 ? std::hypot(aside, below) : std::max(aside, below);
-    const double start = std::hypot(double{deep}, double{deep});
-    std::printf("behind an inner edge: %.3f of the reach deep at first, %.3f under load\n",
-                start / double{reach}, std::min(depth, 4 * spacing - x.y()) / double{reach});
-    EXPECT_LT(std::min(depth, 4.0 * double{spacing} - x.y()), 1.03 * start);
+    double deepest = 0;
+    for (int step = 0; step < 60; ++step) {
+        runner.run(1);
+        deepest = std::max(deepest, depthBehindStep(made, runner.positions(), ball, double{edge}));
+    }
+    std::printf("pressed behind an inner edge: %.4f of the reach deep\n", deepest / double{reach});
+    EXPECT_LT(deepest, 0.1 * double{reach});
+}
+
+// Behind the top of one body and the bottom of another one: whichever a load presses it into holds it.
+TEST(RestOfFaces, HoldsWhatLiesBehindTwoBodies) {
+    constexpr float small = 0.004f, reach = 0.3f * spacing + small, top = 3 * spacing, overlap = 0.6f * reach;
+    for (const float down : {98.1f, -98.1f}) {
+        Block made = block({6, 3, 6});
+        const std::size_t lower = made.count;
+        addLattice(made.scene, {.name = "upper",
+                                .origin = {0.3f * spacing, top - overlap, 0.4f * spacing},
+                                .cells = {6, 3, 6},
+                                .spacing = spacing,
+                                .youngModulus = 5e6f,
+                                .radius = 0.3f * spacing});
+        addSurfaceFaces(made.scene, made.scene.grids[1]);
+        made.count = made.scene.particles.size();
+        for (Particle& particle : made.scene.particles) particle.keepsRest = true;
+        const float y = top - overlap / 2, highest = top - overlap + 3 * spacing;
+        const std::uint32_t ball = addBall(made.scene, {2.6f * spacing, y, 2.7f * spacing}, small, 1e-3f);
+        for (std::uint32_t i = 0; i < made.count; ++i) {
+            const float height = made.scene.particles[i].position.y;
+            if (height == 0 || height > highest - 0.01f) made.scene.fixed.push_back({i});
+        }
+        made.scene.gravity = {0, -down, 0};
+        made.scene.damping = 20;
+        Runner runner(made.scene, {.substeps = 32, .contactRoom = 64});
+        runner.run(20);
+        const auto x = runner.positions();
+        const double sag = sagBeside(made, x, ball, down > 0 ? 0 : lower, down > 0 ? lower : made.count).y();
+        const double deep = std::abs(x[ball].y() - double{y} - sag);
+        std::printf("behind two bodies: %.4f of the reach deeper under a load of %.0f m/s^2\n",
+                    deep / double{reach}, double{down});
+        EXPECT_LT(deep, 0.1 * double{reach}) << down;
+    }
+}
+
+// To and fro over an edge of a body, pressed against it: rest distances are those of the scene as it is
+// loaded.
+TEST(RestOfFaces, DoesNotWearAwayOverAnOuterEdge) {
+    constexpr float small = 0.004f, reach = 0.3f * spacing + small, top = 4 * spacing, beside = 6 * spacing;
+    for (const float part : {1.2f, 0.8f}) {
+        Block made = block({6, 4, 6});
+        holdTightly(made);
+        const float start = part * reach;
+        const double z = 2.7 * double{spacing}; // it stays there
+        const std::uint32_t ball =
+            addBall(made.scene, {beside - 0.05f, top + start, 2.7f * spacing}, small, 1e-3f);
+        Runner runner(made.scene, {.substeps = 8, .contactRoom = 64});
+        const auto outward = [&](const Vector3d& x) {
+            const Vector3d off = x - Vector3d(double{beside}, double{top}, x.z());
+            if (off.x() < 0) return Vector3d(0, 1, 0);
+            if (off.y() < 0) return Vector3d(1, 0, 0);
+            return Vector3d(off.normalized());
+        };
+        const auto go = [&](double speed, double press,
+                            int steps) { // over the edge where the speed is above 0
+            for (int step = 0; step < steps; ++step) {
+                const Vector3d x = runner.positions()[ball], n = outward(x), along(n.y(), -n.x(), 0);
+                const Vector3d v = runner.velocities()[ball];
+                const Vector3d g = -press * n + 20 * (speed - v.dot(along)) * along - 5 * v.dot(n) * n -
+                                   (200 * (x.z() - z) + 20 * v.z()) * Vector3d::UnitZ();
+                runner.step({.dt = 1.0f / 120,
+                             .gravity = {static_cast<float>(g.x()), static_cast<float>(g.y()),
+                                         static_cast<float>(g.z())}});
+            }
+        };
+        go(0, 100, 20);
+        for (int swing = 0; swing < 6; ++swing) go(swing % 2 == 0 ? 0.3 : -0.3, 100, 60);
+        go(0.3, 10, 60);
+        go(0, 1, 60);
+        const Vector3d x = runner.positions()[ball];
+        const double gap = x.x() - double{beside}, rest = std::min(1.0, double{part}) * double{reach};
+        std::printf("over an outer edge six times: %.4f of the reach beside it, at first %.2f\n",
+                    gap / double{reach}, double{part});
+        EXPECT_LT(x.y(), double{top} - 0.01) << "it is beside the body";
+        EXPECT_NEAR(gap, rest, 0.02 * double{reach});
+    }
 }
 
 // It may come out, and is then in front.
