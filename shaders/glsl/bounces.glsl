@@ -62,9 +62,10 @@ Bounce bounceFrom(uint i, uint slot, Self self) {
     Contact contact = Contact(touches(d, reach), false, d);
     if (bounds.isSwept != 0u)
         contact = contactOf(d, way, reach, min(firsts[i], firsts[j]), areFreeOf(self.x.w, xj.w));
+    const bool hasPassed = keepsRest && !contact.isMet && isKept(slips[slot].w) && reach > 0.0 && passes(d, way);
     Bounce bounce = Bounce(vec3(0.0), 0.0);
-    if (!contact.exists) return bounce;
-    bounce.n = directionOf(contact.at, i, j).n;
+    if (!contact.exists && !hasPassed) return bounce;
+    bounce.n = hasPassed ? passedDirection(d, way).n : directionOf(contact.at, i, j).n;
     const float speed = dot3(bounce.n, change), rebound = -RESTITUTION(i, j) * speed;
     if (speed < -step.restSpeed) bounce.speed = rebound;
     return bounce;

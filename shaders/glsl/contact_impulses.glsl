@@ -90,11 +90,13 @@ void addSwept(uint i, uint slot, vec4 self, vec3 velocity, inout vec3 moving, in
     const vec3 d = xi.xyz - xj.xyz, way = step.h * (velocity - VELOCITY(j).xyz);
     const float offset = offsetOf(slot), reach = uintBitsToFloat(candidate.y) - nearerBy(offset);
     const Contact contact = contactOf(d, way, reach, min(firsts[i], firsts[j]), areFreeOf(xi.w, xj.w));
-    if (!contact.exists) {
+    const bool hasPassed = !contact.isMet && keepsRestOf(offset) && reach > 0.0 && passes(d, way);
+    if (!contact.exists && !hasPassed) {
         forget(slot, offset);
         return;
     }
-    const Direction direction = directionOf(contact.at, i, j);
+    Direction direction = directionOf(contact.at, i, j);
+    if (hasPassed) direction = passedDirection(d, way);
     const float depth = contact.isMet ? max(0.0, -dot(direction.n, way)) : reach - direction.distance;
     const vec3 impulse = impulseAlong(direction.n, depth, i, j, slot, velocity, self.w + TOUCHING(j).w, offset);
     if (contact.isMet) stopping += impulse;

@@ -58,7 +58,8 @@ void main() {
     }
     for (uint slot = list.x; slot < sweeping; ++slot) {
         const Pair pair = pairOf(slot, start, velocity.xyz);
-        contactCount += float(contactOf(pair.d, pair.way, pair.reach, first, pair.areFree).exists);
+        const Contact contact = contactOf(pair.d, pair.way, pair.reach, first, pair.areFree);
+        contactCount += float(contact.exists || !contact.isMet && hasPassed(slot, pair.d, velocity.xyz));
     }
     if (sweeping > list.x) {
         firsts[i] = first;

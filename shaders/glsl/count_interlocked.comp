@@ -22,6 +22,7 @@ bool pushes(uint i, uint slot, uint pair, vec3 x, vec4 velocity) {
     const uvec2 candidate = contacts[slot];
     const float reach = uintBitsToFloat(candidate.y);
     const uint state = pairs[pair].state;
+    if (slips[slot].w < 0.0) return false; // keeps its rest distance, in ordinary contacts
     // An overlap of all of the reach is what ordinary contacts never touch in; a little less recovers there.
     if (state == INTERLOCK_PARTING) slips[slot] = vec4(0.0, 0.0, 0.0, reach);
     else if (state == INTERLOCK_LEFT && slips[slot].w == reach) slips[slot].w = 0.999999 * reach;

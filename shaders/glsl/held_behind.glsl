@@ -88,9 +88,8 @@ Held heldBy(uint i, uvec2 list, uint body) {
     const vec3 normal = normalAt(i, list, nearby, body, rest);
     if (!(dot(nearby.d, normal) < 0.0)) return held;
     if (nearby.rest < 0.0) rest = nearby.rest;
-    const float depthBefore = length(nearby.before);
-    if (isAtLoad() && !nearby.remembers && depthBefore < nearby.reach && dot(nearby.before, normal) < 0.0)
-        rest = -depthBefore - REST_SLACK * nearby.reach;
+    const float before = length(nearby.before);
+    if (isAtLoad() && !nearby.remembers && before < nearby.reach && dot(nearby.before, normal) < 0.0) rest = -before - REST_SLACK * nearby.reach;
     held.rest = rest;
     if (rest < far) held.element = nearby.element;
     return held;
@@ -102,22 +101,19 @@ bool isKnown(uint body) {
     return false;
 }
 
-// Of the bodies behind a face of which the point is.
+// A body that does not hold is asked again at its next face behind which the point is.
 void findHolders(uint i, uvec2 list) {
-    uint seen = ~0u; // faces of a body follow each other
     for (uint element = list.x; element < list.x + list.y && holderCount < mostHolders; ++element) {
         if (!isSolid(contacts[element].x)) continue;
         const uint body = bodyOf(faces[contacts[element].x].a);
-        if (body == bodyOf(i) || body == seen || isKnown(body)) continue;
+        if (body == bodyOf(i) || isKnown(body)) continue;
         const Meeting m = keptMeetingOf(i, contacts[element]);
         if (!isHoldable(m) || m.front * m.height >= 0.0) continue;
-        seen = body;
-        const Held held = heldBy(i, list, body);
-        if (held.element != ~0u) holders[holderCount++] = held;
+        holders[holderCount] = heldBy(i, list, body);
+        if (holders[holderCount].element != ~0u) ++holderCount;
     }
 }
 
-// That of the face that holds.
 Touch touchOfHolder(Meeting m, Held held, Touch touch) {
     const float distance = length(m.nearest.d), left = m.reach - held.rest;
     touch.n = m.nearest.isInside || distance < 1e-15 ? m.front * m.normal : -m.nearest.d / distance;
@@ -131,7 +127,7 @@ Touch touchOfHolder(Meeting m, Held held, Touch touch) {
     return touch;
 }
 
-// What a face of the same body remembers that does not push: the same rest distance where it is as near, and its own where the point is in front.
+// A face of the same body that does not push remembers the same rest distance where it is as near, and its own where the point is in front.
 float rememberedBeside(Meeting m, Held held, float remembered) {
     if (isHoldable(m) && distance(m.nearest.d, held.d) <= held.off) return rememberedKept(m.front, 0.0, m.reach - held.rest);
     return m.isKept && m.front * m.height >= 0.0 ? remembered : 0.0;

@@ -57,9 +57,9 @@ Stop stopOf(uint i, Search search, vec3 x0, vec3 x1) {
     for (uint s = search.first; s < search.end; ++s) {
         const uint f = search.isListed ? contacts[s].other : s;
         const ContactFace face = faces[f];
-        const float left = search.isListed ? leftOf(s) : 0.0;
+        const float touching = radii[i] + abs(face.thickness), left = search.isListed ? min(leftOf(s), touching) : 0.0; // a rest distance is rounded
         const vec3 seen = search.isListed ? predicted[i].xyz : x1; // what is farther from there may be in no list
-        const Stop stop = stopAt(face, radii[i] + abs(face.thickness) - left, x0, x1, seen);
+        const Stop stop = stopAt(face, touching - left, x0, x1, seen);
         if (!(stop.urgency > first.urgency) || isExcluded(f, i)) continue;
         first = stop;
 #ifdef FORCES

@@ -85,7 +85,7 @@ contact_lists::Exclusions exclusionsOf(const Scene& scene, const StateLayout& la
 }
 
 // The overlaps of the scene as it is loaded, by more than `least`; none where some particle has more than a
-// list may have.
+// list may have. The first step is then undone as too crowded, so no rest distance is lost silently.
 overlaps::Overlaps overlapsOf(const Scene& scene, const StateLayout& layout, std::span<const float> radii,
                               const contact_lists::Exclusions& exclusions, float least) {
     std::vector<std::array<float, 3>> positions(layout.count);

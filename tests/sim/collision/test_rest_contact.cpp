@@ -189,6 +189,52 @@ TEST(RestContact, StopsWhatComesFast) {
     }
 }
 
+// A pair that a link drives through itself in one substep, also while something elsewhere is fast.
+TEST(RestContact, StopsWhatPassesWhileOthersAreFast) {
+    constexpr float h = 1.0f / 960, start = 0.2f * ballRadius, length = 4 * ballRadius;
+    for (const bool othersAreFast : {false, true})
+        for (const float restitution : {0.0f, 1.0f}) {
+            Scene scene = weightless();
+            scene.contacts.restitution = restitution;
+            const Vec3 down{0, -0.5f * ballRadius / h, 0}; // half a radius a substep
+            scene.particles = {
+                fixedBallAt({0, 0, 0}), ballAt({0, start, 0}, down), ballAt({0, start + length, 0}, down),
+                ballAt({100 * ballRadius, 0, 0}, {othersAreFast ? 4 * ballRadius / h : 0, 0, 0})};
+            scene.distances = {{1, 2, length, 0}};
+            keep(scene);
+            Runner runner(scene, {.substeps = 16});
+            double lowest = 9, fastest = 0;
+            for (int step = 0; step < 10; ++step) {
+                runner.run(1);
+                lowest = std::min(lowest, runner.positions()[1].y() / double{ballRadius});
+                fastest = std::max(fastest, runner.velocities()[2].y() / double{-down.y});
+            }
+            std::printf("driven through itself%s: lowest at %.3f radii, back at %.3f of the speed\n",
+                        othersAreFast ? " while others are fast" : "", lowest, fastest);
+            EXPECT_GT(lowest, 0) << othersAreFast << ", " << restitution;
+            EXPECT_LT(fastest, 1.02) << othersAreFast << ", " << restitution;
+            if (restitution > 0) {
+                EXPECT_GT(fastest, 0.45) << othersAreFast;
+            }
+        }
+}
+
+// More than one particle can remember: no step is done with rest distances lost.
+TEST(RestContact, IsRefusedWhereAParticleOverlapsTooMany) {
+    Scene scene = weightless();
+    scene.particles = {ballAt({0, 0, 0})};
+    scene.particles[0].radius = 1;
+    for (int k = 0; k < 48 * 48; ++k) {
+        scene.particles.push_back(
+            ballAt({0.025f * static_cast<float>(k % 48 - 24), 0, 0.025f * static_cast<float>(k / 48 - 24)}));
+        scene.particles.back().radius = 0.01f;
+    }
+    keep(scene);
+    Runner runner(scene, {.substeps = 16, .contactRoom = 64});
+    EXPECT_GT(runner.run(1).contactRoom, 0u);
+    EXPECT_EQ(moved(runner.positions(), scene), 0) << "the step is undone";
+}
+
 // A pair stays at its rest distance whatever moves it to and fro inside of touching; one that has parted
 // touches at the ordinary distance.
 TEST(RestContact, IsKeptUntilAPairHasParted) {
@@ -343,6 +389,7 @@ TEST(RestContact, SleepsAndWakesAtItsRestDistance) {
     EXPECT_EQ(awake(), 0);
     const auto x = runner.positions();
     runner.step({.dt = made.scene.dt, .gravity = {1, -9.81f, 0}}); // another gravity wakes
+    EXPECT_EQ(awake(), static_cast<std::ptrdiff_t>(made.scene.particles.size())) << "all of it wakes";
     runner.run(30);
     EXPECT_LT((runner.positions()[made.upper] - x[made.upper]).norm(), 0.05 * double{wide});
 }
