@@ -114,8 +114,7 @@ void clampFaces(sim::Scene& scene, const Section& box, const sim::LatticeCorners
 float radiusOf(const LoadedScene& loaded, const Section& body) {
     const float most = body.number("spacing") / 2;
     if (!isColliding(loaded, body)) {
-        if (body.has("radius"))
-            body.fail("radius", "is given, but the body touches nothing", "write collides = true");
+        if (body.has("radius")) refuseUntouching(loaded, body, "radius");
         return 0;
     }
     const float radius = body.has("radius") ? body.number("radius") : most;
@@ -218,6 +217,12 @@ void requireUnit(const Section& section, const char* key) {
     const double length = std::sqrt(dot(direction, direction));
     if (!sim::ranges::normalLength.holds(length))
         section.fail(key, "has length " + std::to_string(length), "give a direction of length 1");
+}
+
+void refuseUntouching(const LoadedScene& loaded, const Section& body, const char* key) {
+    const bool hasContacts = loaded.settings.solver == sim::Solver::split;
+    body.fail(key, "is given, but the body touches nothing",
+              hasContacts ? "write collides = true" : "only the solver split has contacts");
 }
 
 bool isColliding(const LoadedScene& loaded, const Section& body) {

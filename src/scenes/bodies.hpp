@@ -23,6 +23,9 @@ void requireUnit(const Section& section, const char* key);
 /// a cut parts touches. Only `split` has contacts: without it, a body that says nothing touches nothing.
 bool isColliding(const LoadedScene& loaded, const Section& body);
 
+/// Throws SceneError for `key`, which says how a body touches that touches nothing.
+[[noreturn]] void refuseUntouching(const LoadedScene& loaded, const Section& body, const char* key);
+
 /// As sim::Grid has it; 0 = never tears.
 float tearStrainOf(const Section& body);
 

@@ -10,8 +10,7 @@ namespace sinew::scenes {
 void FaceChoices::add(LoadedScene& loaded, const Section& body, std::size_t first) {
     sim::Scene& scene = loaded.scene;
     const bool isAsked = body.has("faces") && body.flag("faces");
-    if (isAsked && !isColliding(loaded, body))
-        body.fail("faces", "is given, but the body touches nothing", "write collides = true");
+    if (isAsked && !isColliding(loaded, body)) refuseUntouching(loaded, body, "faces");
     if (isAsked && first == scene.grids.size())
         body.fail("faces", "cannot be had so far from the origin", "move the body nearer to it");
     for (std::size_t g = first; g < scene.grids.size(); ++g)

@@ -1,6 +1,8 @@
 // Equal surfaces are one: a scene has a table of pairs only where bodies differ.
 #include "scenes/surface.hpp"
 
+#include "scenes/bodies.hpp"
+
 #include <algorithm>
 
 namespace sinew::scenes {
@@ -12,8 +14,7 @@ bool isSame(const sim::Surface& a, const sim::Surface& b) {
 }
 
 void requireContacts(const LoadedScene& loaded, const Section& body, const char* key, std::size_t first) {
-    if (loaded.scene.particles[first].radius <= 0)
-        body.fail(key, "is given, but the body touches nothing", "write collides = true");
+    if (loaded.scene.particles[first].radius <= 0) refuseUntouching(loaded, body, key);
 }
 
 /// As Particle::surface has it.

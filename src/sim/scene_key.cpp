@@ -1,6 +1,7 @@
 // FNV-1a over 32-bit words, list by list; each begins with its length.
 #include "sim/scene_key.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <concepts>
 
@@ -32,9 +33,10 @@ private:
 };
 
 void addLinks(Key& key, const Scene& scene) {
-    key.each(scene.particles, [&](const Particle& p) {
-        key.addAll(p.position, p.inverseMass, p.radius, p.contactOffset, p.keepsRest);
-    });
+    key.each(scene.particles,
+             [&](const Particle& p) { key.addAll(p.position, p.inverseMass, p.radius, p.contactOffset); });
+    if (std::ranges::any_of(scene.particles, &Particle::keepsRest))
+        key.each(scene.particles, [&](const Particle& p) { key.add(p.keepsRest); });
     key.each(scene.distances, [&](const DistanceConstraint& d) { key.addAll(d.a, d.b, d.restLength); });
     key.each(scene.bends, [&](const BendConstraint& bend) { key.addAll(bend.a, bend.b, bend.c); });
     key.each(scene.attachments, [&](const Attachment& a) { key.add(a.particle); });

@@ -4,6 +4,7 @@
 #include "kernels.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sinew::sim::collision::face_lists {
 
@@ -48,11 +49,13 @@ std::vector<float> watchedOf(const Request& request) {
     return watched;
 }
 
+// Up to where lists must be complete: where some pair keeps its rest distance, farther than touching.
 float reachOf(const Request& request) {
     float radius = 0, thickness = 0;
     for (const float one : request.radii) radius = std::max(radius, one);
-    for (const layout::ContactFace& face : request.faces) thickness = std::max(thickness, face.thickness);
-    return radius + thickness;
+    for (const layout::ContactFace& face : request.faces)
+        thickness = std::max(thickness, std::abs(face.thickness));
+    return radius + thickness + request.beyond;
 }
 
 } // namespace

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 
 namespace sinew::tools::study {
@@ -33,8 +34,11 @@ private:
 
 void addBodies(Hash& hash, const sim::Scene& scene) {
     for (const sim::Particle& p : scene.particles)
-        hash.addValues(p.position, p.velocity, p.inverseMass, p.contactOffset, p.radius, p.surface,
-                       p.keepsRest);
+        hash.addValues(p.position, p.velocity, p.inverseMass, p.contactOffset, p.radius, p.surface);
+    if (std::ranges::any_of(scene.particles,
+                            &sim::Particle::keepsRest)) // else it is the hash of a scene from before there
+                                                        // were rest distances
+        for (const sim::Particle& p : scene.particles) hash.addValues(p.keepsRest);
     for (const sim::DistanceConstraint& d : scene.distances)
         hash.addValues(d.a, d.b, d.restLength, d.compliance);
     for (const sim::BendConstraint& b : scene.bends) hash.addValues(b.a, b.b, b.c, b.compliance);
