@@ -340,7 +340,8 @@ struct Settings {
     bool sleeps = false;
     /// Sums up which impulse contacts, planes, colliders, holds and hands give in a step
     /// (Simulation::forces). Not where bodies sleep; `jacobi` only where the scene has neither links nor
-    /// bends, `gauss_seidel` only where none ends at a particle that never moves. Motion is the same, but for rounding where `split` has no contacts.
+    /// bends, `gauss_seidel` only where none ends at a particle that never moves. Motion is the same, but for
+    /// rounding where `split` has no contacts.
     bool keepsForces = false;
     std::uint32_t grabs = 0; ///< hands that may hold something at a time (Step::grabs), 0..8; 0 = no passes
     std::uint32_t pokes = 0; ///< rigid things that the host may move at a time (Step::pokes), 0..8; 0 = none
