@@ -261,13 +261,13 @@ public:
     /// must live until the commands have finished, and its device is this one's; or that is another one, and
     /// `copy` what recordHandOver() of it has copied, brought to this device by the host. Colliders on a
     /// path, and pokes, are where they were at the end of the last step that was not undone. Of the same
-    /// solver (and the same Forms::usesGrids) all is carried that a step leaves behind. Of another solver, or
-    /// where one of two of `split` keeps forces in a scene without contacts, positions and velocities are,
-    /// both with Settings::publishesVelocities: a velocity half a substep before the end is taken as that of
-    /// the end, hands take hold anew, and what slept is awake. With `saved`, `copy` is what recordHandOver()
-    /// has copied of a state that `from` saved, on this device or another one: it goes on from that, and
-    /// hands take hold anew. Throws std::invalid_argument, and nothing is recorded, where the scenes differ
-    /// in more than material, where this one has less room than `from`, or where `copy` is too small.
+    /// solver (and the same Forms::usesGrids) all is carried that a step leaves behind. Of another solver
+    /// positions and velocities are, both with Settings::publishesVelocities: a velocity half a substep
+    /// before the end is taken as that of the end, hands take hold anew, and what slept is awake.
+    /// With `saved`, `copy` is what recordHandOver() has copied of a state that `from` saved, on this device
+    /// or another one: it goes on from that, and hands take hold anew.
+    /// Throws std::invalid_argument, and nothing is recorded, where the scenes differ in more than material,
+    /// where this one has less room than `from`, or where `copy` is too small.
     void recordTakeOver(VkCommandBuffer commands, const Simulation& from, const vk::BufferView& copy = {},
                         const SavedState* saved = nullptr);
     /// Size of what recordTakeOver() copies from this [B].

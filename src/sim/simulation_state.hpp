@@ -239,7 +239,7 @@ struct Simulation::State {
                 origin = place;
                 place.offset += place.size;
             }
-            BufferId own = index == 0 ? program.positions : program.velocities;
+            BufferId own = index == 0 ? program.positions : program.velocities, saved;
             if (index > 1) {
                 std::size_t found = next;
                 while (found < program.carried.size() &&
@@ -248,10 +248,16 @@ struct Simulation::State {
                 if (!isAlike || found == program.carried.size()) return;
                 own = program.carried[found].to;
                 next = found + 1;
+                // what is saved here alone, where forces are kept, is saved as it is taken
+                const Carried& theirs = other.program.carried[index - 2];
+                if (theirs.from == theirs.to && program.carried[found].from != own)
+                    saved = program.carried[found].from;
             }
-            vk::BufferView target = executor.view(own);
-            target.size = origin.size = std::min(target.size, origin.size);
-            if (target.size > 0) commands.copy(origin, target);
+            for (const BufferId copied : {own, saved}) {
+                vk::BufferView target = executor.view(copied);
+                target.size = origin.size = std::min(target.size, origin.size);
+                if (target.size > 0) commands.copy(origin, target);
+            }
         });
     }
 

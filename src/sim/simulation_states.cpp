@@ -46,8 +46,7 @@ void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from, 
                                 const SavedState* saved) {
     const State& other = *from.state_;
     const bool isAlike =
-        state_->chosen.solver == other.chosen.solver && state_->program.order == other.program.order &&
-        (state_->chosen.solver != Solver::split || state_->storesPlaces == other.storesPlaces);
+        state_->chosen.solver == other.chosen.solver && state_->program.order == other.program.order;
     state_->requireSameScene(other, copy, from.handOverSize(), isAlike);
     recordReset(buffer);
     vk::Commands commands(state_->device, buffer);
