@@ -230,17 +230,16 @@ TEST(CutFaces, AreNoSofterForABladeThatMeetsNothing) {
         scene.gravity = {};
         addLattice(scene, latticeOf({8, 2, 8}, 1e6f));
         addSurfaceFaces(scene, scene.grids[0]);
+        const float radius = 0.25f * spacing, height = 2.5f * spacing + radius + 1e-4f;
         for (int n = 0; n < 16; ++n) {
-            const float right = (0.7f + 2 * static_cast<float>(n % 4)) * spacing,
-                        ahead = (0.6f + 2 * static_cast<float>(n / 4)) * spacing,
-                        height = 3 * spacing + 1e-3f; // touches at 3 voxels
-            scene.particles.push_back(
-                {.position = {right, height, ahead}, .inverseMass = 1e2f, .radius = spacing / 2});
-            scene.particles.push_back(
-                {.position = {right, height + spacing + 0.01f + 0.006f * static_cast<float>(n), ahead},
-                 .velocity = {0, -5, 0},
-                 .inverseMass = 1e2f,
-                 .radius = spacing / 2});
+            const Vec3 place{(0.7f + 2 * static_cast<float>(n % 4)) * spacing, height,
+                             (0.6f + 2 * static_cast<float>(n / 4)) * spacing};
+            const float above = 2 * radius + 5e-4f * static_cast<float>(n + 1);
+            scene.particles.push_back({.position = place, .inverseMass = 1e2f, .radius = radius});
+            scene.particles.push_back({.position = {place.x, height + above, place.z},
+                                       .velocity = {0, -0.5f, 0},
+                                       .inverseMass = 1e2f,
+                                       .radius = radius});
         }
         test::Runner runner(scene, {.substeps = 4, .contactRoom = 64});
         const test::Sweep air = sweepOf({Vector3d(3, 3, 3), Vector3d::UnitY()}, 0.1);
