@@ -53,3 +53,16 @@ Nearest nearestBefore(Meeting m) {
 }
 
 bool isWithinReach(Meeting m) { return dot(m.nearest.d, m.nearest.d) < m.reach * m.reach; }
+
+// The angle that a face has at the nearest place on it.
+float angleOf(Meeting m) {
+    const vec3 w = m.nearest.weights, bc = m.ac - m.ab;
+    vec3 one = m.ab, other = -m.ab; // an edge
+    if (w.x > 0.999) other = m.ac;
+    else if (w.y > 0.999) one = bc;
+    else if (w.z > 0.999) {
+        one = -bc;
+        other = -m.ac;
+    }
+    return acos(clamp(dot(normalize(one), normalize(other)), -1.0, 1.0));
+}

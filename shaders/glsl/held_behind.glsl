@@ -50,19 +50,6 @@ Nearby nearbyOf(uint i, uvec2 list, uint body) {
     return nearby;
 }
 
-// The angle that a face has at the nearest place on it.
-float angleOf(Meeting m) {
-    const vec3 w = m.nearest.weights, bc = m.ac - m.ab;
-    vec3 one = m.ab, other = -m.ab; // an edge
-    if (w.x > 0.999) other = m.ac;
-    else if (w.y > 0.999) one = bc;
-    else if (w.z > 0.999) {
-        one = -bc;
-        other = -m.ac;
-    }
-    return acos(clamp(dot(normalize(one), normalize(other)), -1.0, 1.0));
-}
-
 float offOf(Nearby nearby) { return 1e-3 * nearby.distance + REST_SLACK * nearby.reach; }
 
 // The normal of the surface at the nearest place, where several faces may meet: the sum over them by their angles says on which side a point is
@@ -101,7 +88,7 @@ bool isKnown(uint body) {
     return false;
 }
 
-// A body that does not hold is asked again at its next face behind which the point is.
+// Looks at each body behind a face of which the point is. One that does not hold is asked again at its next such face.
 void findHolders(uint i, uvec2 list) {
     for (uint element = list.x; element < list.x + list.y && holderCount < mostHolders; ++element) {
         if (!isSolid(contacts[element].x)) continue;
@@ -127,13 +114,13 @@ Touch touchOfHolder(Meeting m, Held held, Touch touch) {
     return touch;
 }
 
-// A face of the same body that does not push remembers the same rest distance where it is as near, and its own where the point is in front.
+// The memory of a face of the same body that does not push: the same rest distance where it is as near, and its own where the point is in front.
 float rememberedBeside(Meeting m, Held held, float remembered) {
     if (isHoldable(m) && distance(m.nearest.d, held.d) <= held.off) return rememberedKept(m.front, 0.0, m.reach - held.rest);
     return m.isKept && m.front * m.height >= 0.0 ? remembered : 0.0;
 }
 
-// A contact of a point that may be held: as it is, but for the faces of bodies that hold it. Of these one alone pushes.
+// A contact of a point that may be held: as it is, but for the faces of bodies that hold it: one of these alone pushes.
 Touch heldTouch(uint i, uint element, Touch touch) {
     if (!isSolid(contacts[element].x)) return touch;
     const uint body = bodyOf(faces[contacts[element].x].a);

@@ -24,7 +24,7 @@ float overlapKept(float remembered, float overlap, float before, float reach) {
     return overlap > -slack ? left : 0.0;
 }
 
-// Of a pair that came out from behind a face: `kept` of it stays, all else parts.
+// The overlap left of a pair that came out from behind a face: `kept` of it stays, all else parts.
 float overlapLetOut(float remembered, float overlap, float kept, float part, float reach) {
     const float before = remembered != 0.0 ? abs(remembered) - 1.0 : overlap;
     return overlap > -REST_SLACK * reach ? max(min(before - part, overlap), kept) : 0.0;

@@ -100,7 +100,7 @@ constexpr Key keys[] = {
     {"cloth", "bending_stiffness", Kind::number, "N m", bending, "0", "of rows and columns against bending; 0 = none"},
     {"cloth", "tethers", Kind::count, "", tethers, "0", "of each particle to the nearest pinned ones, so that a heavy sheet does not stretch"},
     {"cloth", "pinned", Kind::pins, "", {}, "[]", "particles held where they are"},
-    {"cloth", "collides", Kind::flag, "", {}, "", "whether its particles touch others; where it is missing, what is cuttable, and which gives no thickness does"},
+    {"cloth", "collides", Kind::flag, "", {}, "", "whether its particles touch others, in split; where it is missing, a cuttable sheet without thickness does"},
     {"cloth", "radius", Kind::number, "m", length, "", "of a particle that touches others, at most half of the spacing; half of it where it is missing"},
     {"cloth", "friction", Kind::number, "", ranges::friction, "", "Coulomb's coefficient of a pair: the geometric mean of both; that of [contacts] where it is missing"},
     {"cloth", "static_friction", Kind::number, "", ranges::friction, "", "of what does not slide yet, likewise of a pair; as much as friction where it is missing or less"},

@@ -1,4 +1,4 @@
-// What is cuttable touches by default: an organ cut flat lies on itself.
+// Cuttable bodies touch by default: an organ cut flat lies on itself.
 #include "scenes/load.hpp"
 #include "sim/cutting/cut_body.hpp"
 

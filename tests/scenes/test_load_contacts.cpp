@@ -1,6 +1,7 @@
 // Scene files about particles that touch each other: bodies that collide, loose particles, [contacts].
 #include "scenes/load_fixture.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -53,7 +54,7 @@ TEST_F(LoadContacts, GivesParticlesOfABodyARadiusOnlyWhereItCollides) {
     EXPECT_EQ(radiiOf(load(smallCloth + "collides = true\nradius = 0.01\n").scene), std::set<float>{0.01f});
 }
 
-// What a cut parts must not fall through itself. Only `split` has contacts, and knows cuts.
+// Pieces that a cut parts must not fall through itself. Only `split` has contacts, and knows cuts.
 TEST_F(LoadContacts, LetsWhatIsCuttableCollideByDefault) {
     const std::string mesh =
         "[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\nvoxel = 0.25\ncuttable = true\n";
@@ -73,6 +74,26 @@ TEST_F(LoadContacts, LetsWhatIsCuttableCollideByDefault) {
     EXPECT_FALSE(thick.scene.faces.empty());
 }
 
+// All scenes in which something may be cut.
+TEST_F(LoadContacts, LetsAllCuttableBodiesOfTheScenesTouch) {
+    std::size_t count = 0;
+    for (const fs::directory_entry& file : fs::directory_iterator(SINEW_SOURCE_FOLDER "/scenes")) {
+        if (file.path().extension() != ".toml") continue;
+        const scenes::LoadedScene loaded = scenes::load(file.path());
+        if (loaded.settings.solver != sim::Solver::split) continue;
+        for (const sim::Grid& grid : loaded.scene.grids) {
+            if (!grid.isCuttable) continue;
+            ++count;
+            const auto first = loaded.scene.particles.begin() + grid.firstParticle;
+            const auto touching =
+                std::count_if(first, first + static_cast<std::ptrdiff_t>(grid.node.size()),
+                              [](const sim::Particle& particle) { return particle.radius > 0; });
+            EXPECT_EQ(touching, static_cast<std::ptrdiff_t>(grid.node.size())) << file.path().filename();
+        }
+    }
+    EXPECT_GT(count, 3u);
+}
+
 TEST_F(LoadContacts, TakesRestContactOfABodyOrOfAll) {
     const auto keeping = [&](const std::string& text) {
         std::set<bool> keeps;
@@ -90,6 +111,9 @@ TEST_F(LoadContacts, TakesRestContactOfABodyOrOfAll) {
                 "scene.toml:6: box[0].rest_contact is \"stay\": possible are keep, part");
     expectError(box + keep, "scene.toml:5: box[0].rest_contact is given, but the body touches nothing: write "
                             "collides = true");
+    expectError(
+        "[solver]\nname = \"jacobi\"\n" + box + "cuttable = true\n" + keep,
+        "box[0].rest_contact is given, but the body touches nothing: only the solver split has contacts");
 }
 
 TEST_F(LoadContacts, RefusesRadiiThatABodyCannotHave) {
@@ -411,7 +435,8 @@ TEST_F(LoadContacts, ReadsEveryShippedSceneOfContacts) {
     }
 }
 
-// Where something smaller than the holes between its particles collides, or the file asks for them.
+// A body has them if something smaller than the holes between its particles collides, or the file asks for
+// them.
 TEST_F(LoadContacts, GivesVoxelBodiesFacesWhereTheyNeedThem) {
     const std::string
         touching = box + "collides = true\n",

@@ -175,7 +175,7 @@ TEST(RestContact, IsTheDistanceAtWhichALoadedPairStands) {
         }
 }
 
-// What a substep takes it through does not let it out on the other side.
+// A pair that passes itself in a substep is put back, not let out on the other side.
 TEST(RestContact, StopsWhatComesFast) {
     for (const float speed : {1.0f, 10.0f, 100.0f}) {
         Scene scene = weightless();
@@ -371,7 +371,7 @@ TEST(RestContact, IsKeptByThePiecesOfACut) {
     }
 }
 
-// What lies still in each other sleeps, and all of it wakes.
+// Bodies that lie still in each other sleep, and all of it wakes.
 TEST(RestContact, SleepsAndWakesAtItsRestDistance) {
     Cubes made = cubes(0.8f * spacing, 0.3f * spacing);
     keep(made.scene);

@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string>
 
 using namespace sinew;
@@ -138,8 +139,8 @@ Block steps() {
     return block({6, 4, 6}, fill);
 }
 
-// Of a ball near the inner edge of steps(), beside what the body sags [m]. Below the edge it is the distance
-// to it, beside that the distance to a face; a ball that fell on through is as deep as it fell.
+// Depth of a ball near the inner edge of steps(), beside what the body sags [m]. Below the edge it is the
+// distance to it, beside that the distance to a face; a ball that fell on through is as deep as it fell.
 double depthBehindStep(const Block& made, const std::vector<Vector3d>& all, std::uint32_t ball, double edge) {
     const Vector3d x = all[ball] - sagBeside(made, all, ball);
     const double aside = edge - x.x(), below = edge - x.y();
@@ -463,4 +464,44 @@ TEST(RestOfFaces, EndsInTheSameBitsForAnyMarginOrderAndForm) {
     EXPECT_EQ(hash(narrow), first) << "another margin";
     EXPECT_EQ(hash(reversed), first) << "reversed";
     EXPECT_EQ(hash(loads), first) << "without texels";
+}
+
+// An undone step, a saved state, a simulation with more room: all remember, in front of faces and behind
+// them.
+TEST(RestOfFaces, IsRememberedAcrossStatesAndUndoneSteps) {
+    Block made = block({4, 3, 4});
+    hold(made);
+    for (float n = 0; n < 6; ++n)
+        addBall(
+            made.scene,
+            {(0.7f + 0.4f * n) * spacing, 3 * spacing + 0.003f * (2.5f - n), (0.9f + 0.37f * n) * spacing},
+            0.004f, 1e-3f);
+    made.scene.gravity = {1, -9.81f, 0};
+    Runner plain(made.scene, settings);
+    plain.run(16);
+    const std::uint64_t hash = plain.stateHash();
+
+    Runner undone(made.scene, settings);
+    undone.run(7);
+    undone.writePosition(3, std::numeric_limits<float>::quiet_NaN());
+    EXPECT_GT(undone.run(1).nonFinite, 0u);
+    undone.run(9);
+    EXPECT_EQ(undone.stateHash(), hash) << "an undone step";
+
+    Runner saved(made.scene, settings);
+    saved.run(8);
+    const Runner::Saved state = saved.save();
+    saved.run(5);
+    saved.load(state);
+    saved.run(8);
+    EXPECT_EQ(saved.stateHash(), hash) << "a saved state";
+
+    Runner first(made.scene, settings);
+    first.run(8);
+    Settings roomy = settings;
+    roomy.contactRoom = 80;
+    Runner larger(made.scene, roomy);
+    larger.takeOver(first);
+    larger.run(8);
+    EXPECT_EQ(larger.stateHash(), hash) << "more room";
 }
