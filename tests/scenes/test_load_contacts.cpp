@@ -79,6 +79,7 @@ TEST_F(LoadContacts, LetsAllCuttableBodiesOfTheScenesTouch) {
     std::size_t count = 0;
     for (const fs::directory_entry& file : fs::directory_iterator(SINEW_SOURCE_FOLDER "/scenes")) {
         if (file.path().extension() != ".toml") continue;
+        if (file.path().stem() == "drop_mesh") continue; // has the mesh of the command line
         const scenes::LoadedScene loaded = scenes::load(file.path());
         if (loaded.settings.solver != sim::Solver::split) continue;
         for (const sim::Grid& grid : loaded.scene.grids) {
@@ -111,9 +112,9 @@ TEST_F(LoadContacts, TakesRestContactOfABodyOrOfAll) {
                 "scene.toml:6: box[0].rest_contact is \"stay\": possible are keep, part");
     expectError(box + keep, "scene.toml:5: box[0].rest_contact is given, but the body touches nothing: write "
                             "collides = true");
-    expectError(
-        "[solver]\nname = \"jacobi\"\n" + box + "cuttable = true\n" + keep,
-        "box[0].rest_contact is given, but the body touches nothing: only the solver split has contacts");
+    expectError("[solver]\nname = \"jacobi\"\n" + box + "cuttable = true\n" + keep,
+                "scene.toml:8: box[0].rest_contact is given, but the body touches nothing: only the solver "
+                "split has contacts");
 }
 
 TEST_F(LoadContacts, RefusesRadiiThatABodyCannotHave) {
