@@ -41,7 +41,7 @@ struct Particle {
     /// 1].
     std::uint32_t surface = 0;
     /// Whether what it touches or overlaps when the scene is loaded keeps that distance, as its rest
-    /// distance: see ContactSettings::recoverySpeed. Of a face its first corner says so. A pair keeps it
+    /// distance: see ContactSettings::recoverySpeed. The first corner of a face says so. A pair keeps it
     /// where either of the two does.
     bool keepsRest = false;
 };
