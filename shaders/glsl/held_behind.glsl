@@ -53,16 +53,18 @@ Nearby nearbyOf(uint i, uvec2 list, uint body) {
 float offOf(Nearby nearby) { return 1e-3 * nearby.distance + REST_SLACK * nearby.reach; }
 
 // The normal of the surface at the nearest place, where several faces may meet: the sum over them by their angles says on which side a point is
-// (Baerentzen and Aanaes 2005). `rest`: the least distance that the point remembers of them [m].
+// (Baerentzen and Aanaes 2005). `rest`: the least distance that the point remembers of the nearest face and its neighbours, which are not across a
+// thin wall [m].
 vec3 normalAt(uint i, uvec2 list, Nearby nearby, uint body, out float rest) {
     vec3 sum = vec3(0.0);
     rest = far;
+    const ContactFace nearest = faces[contacts[nearby.element].x];
     for (uint element = list.x; element < list.x + list.y; ++element) {
         if (!isOf(element, body)) continue;
         const Meeting m = keptMeetingOf(i, contacts[element]);
-        if (!isHoldable(m) || distance(m.nearest.d, nearby.d) > offOf(nearby)) continue;
-        sum += angleOf(m) * m.front * m.normal;
-        if (memory[element].w * m.front > 0.0) rest = min(rest, restOf(m.reach, memory[element].w));
+        if (!isHoldable(m)) continue;
+        if (memory[element].w * m.front > 0.0 && areNeighbours(m.face, nearest)) rest = min(rest, restOf(m.reach, memory[element].w));
+        if (distance(m.nearest.d, nearby.d) <= offOf(nearby)) sum += angleOf(m) * m.front * m.normal;
     }
     return sum;
 }

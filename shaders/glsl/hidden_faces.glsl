@@ -4,6 +4,10 @@ bool isSolid(uint face) { return face >= push.sheets && face < push.moving; }
 
 bool isCorner(uint i, ContactFace face) { return i == face.a || i == face.b || i == face.c; }
 
+bool areNeighbours(ContactFace one, ContactFace other) {
+    return isCorner(one.a, other) || isCorner(one.b, other) || isCorner(one.c, other);
+}
+
 // Corners of a face between which its nearest place lies, bit k for corner k: all three, or those of an edge or a corner that
 // is as near to that place as rounding may decide where it lies. They stand in the lowest bits of a depth.
 float withCorners(float depth, vec3 b, Triangle triangle, float reach) {

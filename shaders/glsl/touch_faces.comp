@@ -32,10 +32,6 @@ void write(uint element, Touch touch) {
     weights[element] = vec4(touch.b, touch.remembered);
 }
 
-bool areNeighbours(ContactFace one, ContactFace other) {
-    return isCorner(one.a, other) || isCorner(one.b, other) || isCorner(one.c, other);
-}
-
 void main() {
     const uint i = itemIndex(push.count);
     const uvec2 list = lists[i];
