@@ -55,7 +55,8 @@ Duration shortest(const vk::Device& device, vk::Queue& queue, std::uint32_t side
     std::vector<float> radii(a.size(), -1);
     std::fill_n(radii.begin(), side * side * side, radius);
     const BufferId here = builder.upload("here", a), there = builder.upload("there", b);
-    const auto lists = collision::contact_lists::add(builder, {radii, margin, 24});
+    const auto lists =
+        collision::contact_lists::add(builder, {.radii = radii, .margin = margin, .capacity = 24});
     const layout::StepParams step{};
     const BufferId velocities = builder.scratch<layout::vec4>("velocities", a.size()),
                    parameters = builder.upload("step", std::span(&step, 1));
