@@ -58,9 +58,9 @@ struct Surface {
 /// collider. Kept at the sum of radius and thickness; corners feel it by the weights of the place that is
 /// touched. Its edges touch those of other faces, at the sum of both thicknesses. A face and a particle, or
 /// two edges, of one linked body that are nearer than 1.05 times that at rest never touch, nor does what
-/// shares a corner, nor a solid face and what a link joins to a corner of it. A face has the surface of its
-/// first corner. Where a face is at least as thick as a corner is wide, others touch the face instead of the
-/// corner. A face thinner than a thousandth of its length touches nothing.
+/// shares a corner, nor, in what may be cut, a solid face and what a link joins to a corner of it. A face has
+/// the surface of its first corner. Where a face is at least as thick as a corner is wide, others touch the
+/// face instead of the corner. A face thinner than a thousandth of its length touches nothing.
 struct Face {
     std::array<std::uint32_t, 3> particles{};
     float thickness = 0; ///< from its middle [m]

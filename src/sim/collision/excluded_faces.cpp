@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <map>
 
 namespace sinew::sim::collision::face_contacts {
@@ -206,14 +205,9 @@ std::vector<std::uint32_t> excludedPoints(const Scene& scene, std::span<const la
         near.clear();
         if (!goesByLinks || !nodes->isDeep(face, nearness * (double{widest} + double{face.thickness})))
             bodies.at(bodyOf[face.a]).points.addNear(face, near);
-        if (nodes) {
+        if (goesByLinks) {
             const std::vector<std::uint32_t> linked = linkedTo(*nodes, face);
-            if (goesByLinks)
-                std::erase_if(near, [&](std::uint32_t i) { return std::ranges::binary_search(linked, i); });
-            else
-                std::ranges::copy_if(linked, std::back_inserter(near), [&](std::uint32_t i) {
-                    return radii[i] >= 0 && i != face.a && i != face.b && i != face.c;
-                });
+            std::erase_if(near, [&](std::uint32_t i) { return std::ranges::binary_search(linked, i); });
         }
         for (std::uint32_t& i : near) i = layout.slot[i];
         std::ranges::sort(near);
