@@ -225,6 +225,12 @@ void refuseUntouching(const LoadedScene& loaded, const Section& body, const char
               hasContacts ? "write collides = true" : "only the solver split has contacts");
 }
 
+void noteDefaultContacts(LoadedScene& loaded, const Section& body, std::size_t first) {
+    if (body.has("collides") || !isColliding(loaded, body)) return;
+    for (std::size_t b = first; b < loaded.scene.bodies.size(); ++b)
+        loaded.defaultContacts.push_back(static_cast<std::uint32_t>(b));
+}
+
 bool isColliding(const LoadedScene& loaded, const Section& body) {
     if (body.has("collides")) return body.flag("collides");
     return body.flag("cuttable") && loaded.settings.solver == sim::Solver::split;
@@ -271,6 +277,7 @@ void addCloth(LoadedScene& loaded, const Section& cloth) {
     addPins(cloth, sheet);
     const std::size_t first = loaded.scene.particles.size();
     sim::addCloth(loaded.scene, sheet);
+    if (!cloth.has("thickness")) noteDefaultContacts(loaded, cloth, loaded.scene.bodies.size() - 1);
     addSurface(loaded, cloth, first);
 }
 
@@ -318,6 +325,7 @@ void addBox(LoadedScene& loaded, const Section& box, FaceChoices& faces) {
         one.origin = rows.origin(i, copies);
         if (count > 1) one.name.append(" ").append(std::to_string(i + 1));
         addOneBox(loaded, box, one);
+        noteDefaultContacts(loaded, box, loaded.scene.bodies.size() - 1);
     }
     addSurface(loaded, box, first);
     faces.add(loaded, box, firstGrid);

@@ -23,6 +23,10 @@ void requireUnit(const Section& section, const char* key);
 /// a cut parts touches. Only `split` has contacts: without it, a body that says nothing touches nothing.
 bool isColliding(const LoadedScene& loaded, const Section& body);
 
+/// Notes in LoadedScene::defaultContacts the bodies of a section, those from `first` on, if they touch by
+/// default.
+void noteDefaultContacts(LoadedScene& loaded, const Section& body, std::size_t first);
+
 /// Throws SceneError for `key`, which says how a body touches that touches nothing.
 [[noreturn]] void refuseUntouching(const LoadedScene& loaded, const Section& body, const char* key);
 

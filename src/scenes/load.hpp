@@ -55,6 +55,8 @@ struct LoadedScene {
     /// Indices of scene.grids that have recovery (Grid::recoveryPressure) by default, not because the scene
     /// asks for it.
     std::vector<std::uint32_t> defaultRecovery;
+    /// Indices of scene.bodies that touch others by default, not because the scene asks for it.
+    std::vector<std::uint32_t> defaultContacts;
     /// [contacts] rest_contact, for bodies that do not say it (Particle::keepsRest).
     bool keepsRest = false;
     std::vector<std::string> warnings; ///< sentences, such as "mesh bunny.obj is open: 72 boundary edges ..."

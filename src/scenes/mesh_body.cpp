@@ -270,11 +270,13 @@ void addMesh(LoadedScene& loaded, const Section& section, const Source& source, 
     sayFound(loaded, called, found.repairs, found.notes, section.has("object") || components.size() > 1);
     const mesh::MeshBody body = bodyOf(loaded, section, voxel);
     const std::size_t first = loaded.scene.particles.size(), firstGrid = loaded.scene.grids.size();
+    const std::size_t firstBody = loaded.scene.bodies.size();
     if (isApart(section) && components.size() > 1)
         addApart(loaded, section, called, found, given, components, body);
     else
         addJoined(loaded, section, called, found, components, body);
     addSurface(loaded, section, first);
+    noteDefaultContacts(loaded, section, firstBody);
     faces.add(loaded, section, firstGrid);
 }
 
