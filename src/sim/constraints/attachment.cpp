@@ -6,6 +6,7 @@
 #include "sim/forces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -19,6 +20,18 @@ bool isFinite(const Vec3& v) {
 
 layout::AttachmentPush pushOf(const Attachments& attachments, std::uint32_t substep, std::uint32_t substeps) {
     return {attachments.count, static_cast<float>(substep + 1) / static_cast<float>(substeps)};
+}
+
+// The kernel without forces, and with them. `velocities`: of the particles, or the corrections to them.
+void dispatchForm(ProgramBuilder& program, const std::array<const vk::ShaderCode*, 2>& forms,
+                  const ParticleBuffers& particles, BufferId velocities, const Attachments& attachments,
+                  const layout::AttachmentPush& push) {
+    if (attachments.count == 0) return;
+    std::vector<BufferId> buffers{attachments.particles, attachments.anchors, particles.positions, velocities,
+                                  particles.step};
+    if (!particles.forces) return program.dispatch(*forms[0], attachments.count, buffers, push);
+    buffers.push_back(particles.forces->terms);
+    program.dispatch(*forms[1], attachments.count, buffers, push, particles.forces->ofAttachments());
 }
 
 } // namespace
@@ -38,28 +51,14 @@ Attachments add(ProgramBuilder& program, const Scene& scene, const StateLayout& 
 
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Attachments& attachments,
              std::uint32_t substep, std::uint32_t substeps) {
-    if (attachments.count == 0) return;
-    std::vector<BufferId> buffers{attachments.particles, attachments.anchors, particles.positions,
-                                  particles.velocities, particles.step};
-    const layout::AttachmentPush push = pushOf(attachments, substep, substeps);
-    if (!particles.forces)
-        return program.dispatch(kernels::solveAttachments, attachments.count, buffers, push);
-    buffers.push_back(particles.forces->terms);
-    program.dispatch(kernels::solveAttachmentsForces, attachments.count, buffers, push,
-                     particles.forces->ofAttachments());
+    dispatchForm(program, {&kernels::solveAttachments, &kernels::solveAttachmentsForces}, particles,
+                 particles.velocities, attachments, pushOf(attachments, substep, substeps));
 }
 
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
                  const Attachments& attachments, std::uint32_t substep, std::uint32_t substeps) {
-    if (attachments.count == 0) return;
-    std::vector<BufferId> buffers{attachments.particles, attachments.anchors, particles.positions,
-                                  corrections, particles.step};
-    const layout::AttachmentPush push = pushOf(attachments, substep, substeps);
-    if (!particles.forces)
-        return program.dispatch(kernels::solveAttachmentsOpen, attachments.count, buffers, push);
-    buffers.push_back(particles.forces->terms);
-    program.dispatch(kernels::solveAttachmentsOpenForces, attachments.count, buffers, push,
-                     particles.forces->ofAttachments());
+    dispatchForm(program, {&kernels::solveAttachmentsOpen, &kernels::solveAttachmentsOpenForces}, particles,
+                 corrections, attachments, pushOf(attachments, substep, substeps));
 }
 
 Anchors::Anchors(const std::vector<Attachment>& attachments)
