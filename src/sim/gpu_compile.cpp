@@ -20,15 +20,28 @@ std::uint64_t mostTexels(const StepProgram& program) {
     return most;
 }
 
+/// Phases named like the passes of the step, in the order of their first turns.
+void makePhasesOfPasses(StepProgram& program) {
+    program.phases.clear();
+    for (Pass& pass : program.step) {
+        const auto phase = std::ranges::find(program.phases, pass.label);
+        pass.phase = static_cast<std::uint32_t>(phase - program.phases.begin());
+        if (phase == program.phases.end()) program.phases.push_back(pass.label);
+    }
+}
+
 } // namespace
 
 StepProgram compileFor(const vk::Device& device, const Scene& scene, Settings settings) {
     std::uint32_t& residentBytes = settings.forms.residentBytes;
     residentBytes = std::min(residentBytes, device.limits().maxSharedMemory);
     StepProgram program = compile(scene, settings);
-    if (mostTexels(program) <= device.limits().maxTexels) return program;
-    settings.forms.usesTexels = false;
-    return compile(scene, settings);
+    if (mostTexels(program) > device.limits().maxTexels) {
+        settings.forms.usesTexels = false;
+        program = compile(scene, settings);
+    }
+    if (settings.timesPasses) makePhasesOfPasses(program);
+    return program;
 }
 
 } // namespace sinew::sim

@@ -349,6 +349,8 @@ struct Settings {
     /// False saves 16 bytes a particle: there is no buffer of public velocities, and a step that is undone
     /// leaves what it holds at rest.
     bool publishesVelocities = true;
+    /// Makes each kind of pass a phase of its own, for the `timestamps` of a step (Simulation::phases).
+    bool timesPasses = false;
     bool isReversed = false; ///< runs every kernel in reversed invocation order; the state must not change
     /// Steps that may be recorded and not finished at a time, 1..64: frames in flight times steps a frame.
     /// As many statuses are kept (Simulation::status), 64 to 256 bytes each.

@@ -2,6 +2,7 @@
 #include "tools/program.hpp"
 
 #include <fstream>
+#include <set>
 
 using namespace sinew;
 using test::shippedScene;
@@ -72,4 +73,20 @@ TEST_F(SameState, IsAnotherStateWithAnotherSolverOrNumberOfSubsteps) {
     const std::string split = hash(scene, "split");
     EXPECT_NE(hash(scene, "jacobi"), split);
     EXPECT_NE(hash(scene, "split", {"--substeps", "65"}), split);
+}
+
+// --pass-times puts timestamps around every pass, and changes nothing else.
+TEST_F(SameState, WithEveryKindOfPassTimedByItself) {
+    const std::vector<std::string> arguments{shippedScene("cube"), "--frames", "3"};
+    std::vector<std::string> timing = arguments;
+    timing.push_back("--pass-times");
+    const nlohmann::json report = this->report(timing);
+    std::set<std::string> timed, passes;
+    for (const auto& [name, ms] : report["phase_ms"].items()) {
+        timed.insert(name);
+        EXPECT_GT(ms, 0.0) << name;
+    }
+    for (const auto& name : report["passes"]) passes.insert(name.get<std::string>());
+    EXPECT_EQ(timed, passes);
+    EXPECT_EQ(this->report(arguments)["state_hash"], report["state_hash"]);
 }

@@ -54,7 +54,10 @@ Json frameJson(const std::optional<Statistics>& frame) {
 
 Json phaseJson(const RunRecord& record) {
     Json phases = Json::object();
-    for (std::size_t i = 0; i < record.phaseMs.size(); ++i) phases[record.phases[i]] = record.phaseMs[i];
+    for (std::size_t i = 0; i < record.phaseMs.size(); ++i) { // a name has as many spans as a step has turns
+        Json& ms = phases[record.phases[i]];
+        ms = (ms.is_null() ? 0.0 : ms.get<double>()) + record.phaseMs[i];
+    }
     return phases;
 }
 

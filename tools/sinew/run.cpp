@@ -27,6 +27,7 @@ struct RunOptions {
     DeviceOptions device;
     std::uint64_t frames = 240;
     std::uint64_t traceEvery = 10;
+    bool timesPasses = false;
     std::optional<std::string> folder, json, trace, save;
 };
 
@@ -180,6 +181,7 @@ int run(const RunOptions& options) {
     constexpr std::uint64_t worthTuning = 100; // frames: below, measuring forms costs more than it gains
     if (options.frames >= worthTuning && !start.run)
         loaded.settings = sim::tuned(session.device, session.queue, loaded.scene, loaded.settings);
+    loaded.settings.timesPasses = options.timesPasses;
     Runner runner(session, loaded.scene, loaded.settings, {loaded.blades, loaded.scene.dt});
     if (start.run) runner.load(*start.run);
     std::vector<Sample> samples;
@@ -210,6 +212,9 @@ void addRun(CLI::App& app, Chosen& chosen) {
     command.add_option("--frames", options->frames, "steps to simulate")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
         ->capture_default_str();
+    command.add_flag(
+        "--pass-times", options->timesPasses,
+        "time every pass by itself: phase_ms of the report then has one entry a kind of pass (slower)");
     command.add_option(
         "--out", options->folder,
         "folder for report.json, state.ply, and an OBJ, a PLY and a GLB of every skin at the end");
