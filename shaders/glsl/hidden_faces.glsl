@@ -41,6 +41,34 @@ float withRestOf(uint i, uint element, uint beside) {
     return (parts != isParting(element) ? -taken : taken) * sign(own);
 }
 
+// On which side of a face's plane the particle j is: above 0 = in front. 0 for a sliver, which has no plane.
+float sideOfFront(uint j, uint element) {
+    const ContactFace face = faces[contacts[element].x];
+    const vec3 a = predicted[face.a].xyz;
+    const Triangle triangle = triangleOf(predicted[face.b].xyz - a, predicted[face.c].xyz - a);
+    const float height = dot(triangle.normal, predicted[j].xyz - a);
+    return isSliver(triangle) ? 0.0 : contacts[element].y >> 31 != 0u ? -height : height; // the sign bit is that of the thickness
+}
+
+uint cornerBeside(ContactFace face, ContactFace other) {
+    return !isCorner(other.a, face) ? other.a : !isCorner(other.b, face) ? other.b : other.c;
+}
+
+// Whether the edge that is nearest is that of a hollow fold, and the point is behind the face on its other side, `beside`. Seen from there, the
+// direction from the edge does not lead out of what is solid, but along its surface: what comes out would be pushed aside.
+bool isBehind(uint i, uint element, uint corners, uint beside) {
+    if (bitCount(corners) != 2 || !isSolid(contacts[element].x) || !isSolid(contacts[beside].x)) return false;
+    if (!(sideOfFront(i, beside) < 0.0 && sideOfFront(i, element) >= 0.0)) return false;
+    return sideOfFront(cornerBeside(faces[contacts[element].x], faces[contacts[beside].x]), element) > 0.0;
+}
+
+// An overlap that such an edge did not push apart parts at the speed of recovery once it pushes again.
+void leaveOverlap(uint i, uint element) {
+    const float own = weights[element].w;
+    if (keepsRest && keeps(i, faces[contacts[element].x].a)) return;
+    weights[element].w = rememberedOf(sign(own), 0.0, max(0.0, abs(own) - 1.0) + directions[element].w);
+}
+
 // A face of which an edge or a corner is nearest says nothing that a face beside it does not, which has that edge or corner
 // too, and something nearer, or the same: then the first of them. Pushed from inner edges of a flat surface as well, what hits
 // it would be pushed aslant, too softly, and be thrown as it comes out. So such a contact does not push: its depth is below
@@ -53,9 +81,15 @@ void hide(uint i, uint first, uint end) {
         const ContactFace face = faces[contacts[element].x];
         bool isHidden = false;
         for (uint beside = first; beside < end && !isHidden; ++beside) {
-            if (beside == element || directions[beside].w == 0.0 || contacts[beside].x < push.sheets) continue;
+            if (beside == element || contacts[beside].x < push.sheets) continue;
             const ContactFace other = faces[contacts[beside].x];
-            isHidden = has(other, face, corners) && (beside < element || !has(face, other, cornersIn(directions[beside].w)));
+            if (!has(other, face, corners)) continue;
+            if (directions[beside].w == 0.0) {
+                isHidden = isBehind(i, element, corners, beside);
+                if (isHidden) leaveOverlap(i, element);
+                continue;
+            }
+            isHidden = beside < element || !has(face, other, cornersIn(directions[beside].w));
             if (isHidden && keepsRest) weights[element].w = withRestOf(i, element, beside);
         }
         if (isHidden) directions[element].w = -directions[element].w;
