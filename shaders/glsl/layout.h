@@ -503,6 +503,7 @@ struct PlacePush {
 // What rests for so long, no faster than that, sleeps (contacts: 6).
 #define SLEEP_TIME 0.5   // [s]
 #define SLEEP_SPEED 0.03 // [m/s]
+#define SLEEP_MOST_SPEED 0.1 // [m/s], of large particles (watch_rest)
 #define SLEEP_DRIVEN -1.0f // stands for the inverse mass of what is driven
 
 // Indices into the arguments of waking and falling asleep: all particles, or one group, when a step begins, in a substep,

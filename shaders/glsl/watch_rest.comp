@@ -28,7 +28,10 @@ void main() {
         return;
     }
     const vec4 rest = rests[i];
-    const bool isSlow = dot(velocity.xyz, velocity.xyz) <= SLEEP_SPEED * SLEEP_SPEED;
+    // Contacts move a particle that lies on others up and down by its fall in some substeps, and it does not leave its place. A vibration
+    // by more than the limit that steps see at one phase only is faster than that.
+    const float dt = float(push.substeps) * step.h, most = clamp(6.2832 * limits[i] / dt, SLEEP_SPEED, SLEEP_MOST_SPEED);
+    const bool isSlow = dot(velocity.xyz, velocity.xyz) <= most * most;
     const bool rests_ = rest.w >= 0.0 && isSlow && distance(x, rest.xyz) <= limits[i]; // below 0: it woke in this step
-    rests[i] = rests_ ? vec4(rest.xyz, rest.w + float(push.substeps) * step.h) : vec4(x, 0.0);
+    rests[i] = rests_ ? vec4(rest.xyz, rest.w + dt) : vec4(x, 0.0);
 }

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <random>
 #include <regex>
 #include <set>
 
@@ -371,6 +372,24 @@ TEST(Sleep, ComesOverClothOnAMeshAndEndsWhenABallFallsOntoIt) {
     EXPECT_EQ(stepsUntilAsleep(runner, cloth + 1) > 0, true) << "all rest again";
     const auto x = runner.positions();
     for (std::size_t i = 4; i + 1 < x.size(); ++i) EXPECT_GE(x[i].y(), 0.0195) << "particle " << i;
+}
+
+// Wherever its particles lie: in most places, contacts of sheets with each other go on moving them by
+// hundredths of a millimetre.
+TEST(Sleep, ComesOverClothWhereverItLies) {
+    std::mt19937 random(1);
+    std::uniform_int_distribution<int> nudge(-4, 4);
+    for (int trial = 0; trial < 8; ++trial) {
+        Scene scene = clothOnTable(2);
+        const std::uint32_t cloth = countOf(scene) - 4;
+        for (std::size_t i = 4; i < scene.particles.size(); ++i) {
+            scene.particles[i].position.x += 1e-6f * static_cast<float>(trial * nudge(random));
+            scene.particles[i].position.z += 1e-6f * static_cast<float>(trial * nudge(random));
+        }
+        test::Runner runner(scene, roomy);
+        const int steps = stepsUntilAsleep(runner, cloth, 70);
+        EXPECT_GT(steps, 30) << "trial " << trial;
+    }
 }
 
 // Lists are made again for a ball that falls beside it: what sleeps must stay listed with what it lies on.
