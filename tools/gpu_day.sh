@@ -1,0 +1,150 @@
+#!/usr/bin/env bash
+# tools/gpu_day.sh pack FILE                 packs the programs of build/release, and all that they load but a driver, in FILE (.tar.zst)
+# tools/gpu_day.sh run FILE FOLDER [PART...] on a bare machine with a Vulkan GPU, in a copy of this tree: unpacks FILE and FILE.unpack, and
+#     writes results into FOLDER. Takes under nine minutes on 16 cores. Nothing is installed: bash, tar, coreutils, awk and glibc 2.36 are enough.
+# PART, all of them by default:
+#     runs      each scene in both invocation orders: whether the bits are equal, time of a step, and of its passes
+#     tests     all tests that use a device, under validation as ctest runs them
+#     bench     sinew bench; forms, kernels and contacts: sinew bench --by-form, --kernels and --contacts
+# Environment: JOBS (one a core) and SHARDS (4) of tests; SECONDS_OF_TESTS (300): no test program starts later than that;
+#     SECONDS_OF_TEST (150): the most that one takes; FRAMES (200) of a scene; VK_DRIVER_FILES, where the driver's JSON file is not where loaders look.
+set -euo pipefail
+tree=$(cd "$(dirname "$0")/.." && pwd)
+[[ ${1:-} == pack || ${1:-} == run ]] && file=$(realpath -m "${2:?no FILE}") && folder=$(realpath -m "${3:-.}")
+cd "$tree"
+
+scenes=(cloth cloth_study cube organ organ_held clutter pile_8000 pile_100k clutter_bodies cloth_fold stirrer stack organ_incision cube_quarters tube_slice beam)
+# They start first, since the longest of their tests takes a minute or more.
+longest=(test_contact_lists test_face_lists test_edge_lists test_hard_cases test_cases test_same_state test_forces test_rest_contact test_run)
+# They read what the build has left beside the programs.
+not_here='ExactKernels.*:Kernels.BindAsManyStorageBuffersAsIsSaid:KernelInterface.AgreesWithSpirvCrossOnEveryKernelInTheBuild'
+
+# libraries PROGRAM...: files that they load, but for the C library's own
+libraries() {
+    ldd "$@" | sed -n 's/.*=> \(\/[^ ]*\) .*/\1/p' | sort -u | grep -vE '/(libc|libm|libdl|librt|libpthread|ld-linux[^/]*)\.so'
+}
+
+pack() { # FILE
+    local folder program name tests=(test_run test_same_state) # these start a program that makes a device
+    folder=$(mktemp -d)
+    mkdir "$folder/bin" "$folder/lib" "$folder/layers"
+    for program in build/release/bin/test_*; do
+        name=$(basename "$program")
+        [[ $name == test_viewer_* || $name == test_gpu_compiler ]] && continue # a window; a GPU that is not there
+        if [[ $(nm -C "$program") == *' sinew::test::device()'* ]]; then tests+=("$name"); fi
+    done
+    for program in "${tests[@]}" sinew; do strip -o "$folder/bin/$program" "build/release/bin/$program"; done
+    sed -nE 's/^ *sinew_test\((test_[a-z_0-9]+) PLAYED.*/\1/p' tests/*/CMakeLists.txt >"$folder/played"
+    pwd -P >"$folder/source"
+    mapfile -t loaded < <(libraries "$folder"/bin/*)
+    cp "${loaded[@]}" /usr/lib/*/libVkLayer_khronos_validation.so "$folder/lib/"
+    cp -L /usr/lib/*/libvulkan.so.1 "$folder/lib/"
+    cp /usr/share/vulkan/explicit_layer.d/VkLayer_khronos_validation.json "$folder/layers/"
+    mkdir -p "$(dirname "$1")"
+    # programs hold the same kernels: a window as long as all of them finds that
+    tar -C "$folder" -cf - . | zstd -q -12 --long=31 -T0 -f -o "$1"
+    cp "$(command -v zstd)" "$1.unpack"
+    rm -rf "$folder"
+    ls -l "$1" "$1.unpack"
+}
+
+# one TEST SHARD SHARDS: runs a part of a test program. A line of tests.txt: tenths of a second, how it ended, tests that passed, tests that
+# failed, its name and shard.
+one() {
+    local log=$FOLDER/logs/$1.$2.log start=$EPOCHREALTIME state=0 passed failed
+    if ((EPOCHSECONDS > LAST_START)); then
+        echo "0 left-out 0 0 $1.$2"
+        return
+    fi
+    if grep -qx "$1" "$PACK/played"; then export SINEW_PLAYED=1; fi
+    GTEST_TOTAL_SHARDS=$3 GTEST_SHARD_INDEX=$2 VK_LAYER_ENABLES=VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT \
+        timeout -k 5 "${SECONDS_OF_TEST:-150}" "$PACK/bin/$1" "--gtest_filter=-$not_here" --gtest_color=no >"$log" 2>&1 || state=$?
+    passed=$(grep -c '^\[       OK \]' "$log" || true)
+    failed=$(grep -cE '^\[  FAILED  \] .*\([0-9]+ ms\)$' "$log" || true)
+    echo "$(((${EPOCHREALTIME/./} - ${start/./}) / 100000)) $state $passed $failed $1.$2"
+}
+
+timed() { # PART COMMAND...: says how long it took
+    local part=$1 start=$SECONDS state=0
+    shift
+    "$@" || state=$?
+    echo "$part: $((SECONDS - start)) s, exit $state"
+}
+
+tests() {
+    local shards=${SHARDS:-4} test i
+    export LAST_START=$((EPOCHSECONDS + ${SECONDS_OF_TESTS:-300}))
+    {
+        for test in "${longest[@]}"; do
+            for ((i = 0; i < shards; ++i)); do echo "$test $i $shards"; done
+        done
+        for ((i = 0; i < shards; ++i)); do
+            for test in "$PACK"/bin/test_*; do
+                test=$(basename "$test")
+                [[ " ${longest[*]} " == *" $test "* ]] || echo "$test $i $shards"
+            done
+        done
+    } | xargs -P "${JOBS:-$(nproc)}" -L 1 tools/gpu_day.sh one >"$FOLDER/tests.txt" || true
+    awk '{ passed += $3; failed += $4; if ($2 == "left-out") left += 1; else if ($2 != 0 && $4 == 0) bad += 1 }
+        END { printf "tests: %d passed, %d failed; shards that ended otherwise: %d, that did not start: %d\n", passed, failed, bad, left }' "$FOLDER/tests.txt"
+    {
+        grep -hE '^\[  FAILED  \] .*\([0-9]+ ms\)$' "$FOLDER"/logs/*.log | sort || true
+        awk '$2 != 0' "$FOLDER/tests.txt"
+    } >"$FOLDER/failed.txt"
+    head -n 60 "$FOLDER/failed.txt"
+    tar -C "$FOLDER" -czf "$FOLDER/logs.tar.gz" logs
+}
+
+runs() {
+    local scene order file
+    for scene in "${scenes[@]}"; do
+        for order in '' '--reversed --pass-times'; do
+            file=$FOLDER/runs/$scene${order:+.reversed}
+            # shellcheck disable=SC2086 # options
+            timeout 60 "$PACK/bin/sinew" run "scenes/$scene.toml" --frames "${FRAMES:-200}" $order --json "$file.json" >"$file.out" 2>&1 ||
+                echo "$scene $order: exit $?: $(tail -n 1 "$file.out")"
+        done
+        printf '%-16s %s; %s\n' "$scene" "$(grep -ohE '"state_hash": "[0-9a-f]*"' "$FOLDER/runs/$scene"{,.reversed}.json | sort -u | wc -l) hash(es) of both orders" \
+            "$(grep -hE 'ms each' "$FOLDER/runs/$scene.out" || true)"
+    done
+    tar -C "$FOLDER" -czf "$FOLDER/runs.tar.gz" runs
+}
+
+run() { # FILE FOLDER [PART...]
+    export PACK FOLDER
+    FOLDER=$2
+    PACK=$(mktemp -d)
+    mkdir -p "$FOLDER/logs" "$FOLDER/runs"
+    "$1.unpack" -q -d --long=31 "$1" -c | tar -C "$PACK" -xf -
+    export LD_LIBRARY_PATH=$PACK/lib VK_LAYER_PATH=$PACK/layers
+    # tests look for scenes and programs where they were built
+    local source
+    source=$(<"$PACK/source")
+    if [[ ! -e $source ]]; then
+        mkdir -p "$(dirname "$source")"
+        ln -s "$PWD" "$source"
+    fi
+    mkdir -p build/release
+    if [[ ! -d build/release/bin || -L build/release/bin ]]; then ln -sfn "$PACK/bin" build/release/bin; fi
+    "$PACK/bin/sinew" devices | tee "$FOLDER/device.txt"
+    shift 2
+    (($#)) || set -- runs tests bench forms kernels contacts
+    local part
+    for part; do
+        case $part in
+            tests | runs) timed "$part" "$part" ;;
+            bench) timed bench timeout 60 "$PACK/bin/sinew" bench --seconds 4 --json "$FOLDER/bench.json" ;;
+            forms) timed forms timeout 90 "$PACK/bin/sinew" bench --by-form --json "$FOLDER/forms.json" ;;
+            kernels | contacts) timed "$part" timeout 90 "$PACK/bin/sinew" bench "--$part" --json "$FOLDER/$part.json" ;;
+            *) echo "error: no part is named $part" >&2; exit 2 ;;
+        esac
+    done
+    rm -rf "$FOLDER/logs" "$FOLDER/runs" "$PACK"
+}
+
+case ${1:-} in
+    pack) pack "$file" ;;
+    run) shift 3; run "$file" "$folder" "$@" ;;
+    one) shift; one "$@" ;;
+    *) sed -n '2,11p' "$0"; exit 2 ;;
+esac
