@@ -62,12 +62,10 @@ void add(std::vector<PassLine>& lines, const sim::StepProgram& program, const si
 }
 
 void addProgram(SceneFacts& facts, const sim::StepProgram& program) {
-    for (const sim::Pass& pass : program.step) {
-        add(facts.passes, program, pass);
-        if (pass.isOfCut) continue;
-        facts.dispatches += pass.kind == sim::PassKind::dispatch ? 1 : 0;
-        facts.barriers += pass.barrierWithoutCut ? 1 : 0;
-    }
+    for (const sim::Pass& pass : program.step) add(facts.passes, program, pass);
+    const sim::PassCounts counts = sim::countPasses(program, sim::plainStep);
+    facts.dispatches += counts.dispatches;
+    facts.barriers += counts.barriers;
     facts.skipped = program.skipped;
 }
 

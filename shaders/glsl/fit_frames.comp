@@ -122,5 +122,6 @@ void main() {
     setMap(frame, fit.a - h * fit.w * fit.a, fit.to - h * fit.u); // when the substep began
     setRates(frame, fit.w);
     advance(frame, h, push.reach, push.margin);
+    if ((step.lists & LISTS_REPEATS) != 0u) frame.speed.w *= LISTS_EARLY; // in the first substep
     frames[b] = frame;
 }

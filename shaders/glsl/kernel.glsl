@@ -10,7 +10,7 @@ layout(local_size_x = GROUP_SIZE) in;
 layout(constant_id = 0) const bool isReversed = false;
 
 // Whether a step came to its end: all is finite, and there was room for all contacts. Else it is undone.
-bool isFinished(StatusWords status) { return (status.nonFinite | status.candidates) == 0u; }
+bool isFinished(StatusWords status) { return (status.nonFinite | status.candidates | status.lacksLists) == 0u; }
 
 // The item of this invocation; the caller returns where it is >= count.
 #ifdef AWAKE

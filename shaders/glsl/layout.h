@@ -38,8 +38,17 @@ struct StepParams {
     float multiplierScale; // `gauss_seidel`: of the multipliers kept from the step before, min(1, (h / hPrevious)^2)
     float thetaHStored; // `split`: thetaH, or 0 where contacts follow the gather: it then stores x
     uint wakes; // 1 = the host wakes all that sleep
-    float unused0;
+    uint lists; // bits of LISTS_...
 };
+
+// When a step may make lists of contacts. REPEATS: the host repeats a step that is undone because it lacked lists. CALM: the step was
+// recorded without the passes that make lists in substeps after the first. RESUMES: it is such a step, or lists need not be kept from
+// steps before.
+#define LISTS_REPEATS 1u
+#define LISTS_CALM 2u
+#define LISTS_RESUMES 4u
+// Part of its slack at which a list is made again in the first substep of a step that may be repeated: it then lasts the step.
+#define LISTS_EARLY 0.7
 
 // `split` keeps the links of a work group's particles together, slot by slot: link s of particle i is element
 // (i / LINK_BLOCK * degree + s) * LINK_BLOCK + i % LINK_BLOCK. Slots of the whole scene behind one another would lie a power
@@ -226,7 +235,8 @@ struct StatusWords {
     uint candidates;       // the most that a particle needs room for, where its list was too short; else 0
     uint slowed;           // particles slowed down by cap_speeds, in all substeps
     uint sleeping;         // particles
-    uint unused0, unused1;
+    uint laterLists;       // times that lists had to be made, or particles slowed down, in substeps after the first
+    uint lacksLists;       // 1 = one of those was needed in a calm step, or in one before it that was not repeated
 };
 
 // A skin vertex in a lattice cell; corner k has the offset (k & 1, k >> 1 & 1, k >> 2).
@@ -277,7 +287,7 @@ struct GridBounds {
     // Of the lists that were made last (pooled_lists): pairs that were found, also those that there was no room for; entries of all lists;
     // links of faces to entries.
     uint pairs, entries, links;
-    uint unused0;
+    uint lacksLists; // StatusWords::lacksLists of the last step
 };
 
 #include "frames_layout.h"
@@ -310,6 +320,7 @@ struct GridPush {
     float quiet; // way in a substep up to which nobody meets anybody on it [m]
     uint bodies; // with a frame
     float reach, margin; // as in FramePush
+    uint isLater; // 1 = in a substep after the first
 };
 
 // Element of a list, which stands in one piece in the pool of all lists (ListRange).

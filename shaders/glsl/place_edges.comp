@@ -32,6 +32,7 @@ void main() {
     if (edge.radius < 0.0) return;
     const vec3 left = middle - detected[e].xyz;
     const float squared = max(dot(left, left), max(movedOf(a, va, ends[2u * e].xyz), movedOf(b, vb, ends[2u * e + 1u].xyz)));
-    if (!(squared <= push.slack * push.slack)) // what is no number has gone far
+    const float slack = push.isLater == 0u && (step.lists & LISTS_REPEATS) != 0u ? LISTS_EARLY * push.slack : push.slack;
+    if (!(squared <= slack * slack)) // what is no number has gone far
         atomicMax(bounds.moved, floatBitsToUint(min(sqrt(squared), 1e30)));
 }

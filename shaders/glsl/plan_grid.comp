@@ -1,6 +1,7 @@
 #version 460
 // Says how many groups the passes that build the grid have: none while lists are still complete. And those that depend on
-// how fast particles are. Moves the frames of bodies on to the next substep.
+// how fast particles are. Moves the frames of bodies on to the next substep. A calm step has those passes in its first substep only:
+// it is undone where a later one needs them.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "math.glsl"
@@ -23,9 +24,23 @@ void plan(uint element, bool runs, uint items) {
 // How far particles may have strayed when lists are made: those that were not noticed by less than half of the margin.
 float strayOf(uint moved) { return max(uintBitsToFloat(moved), 0.49 * push.margin); }
 
-void planPasses(bool isBuilt) {
+bool isCalm() { return push.isLater != 0u && (step.lists & LISTS_CALM) != 0u; }
+
+// Steps behind one that lacked lists are undone as well, until that one is repeated.
+void noteLists(bool needsPasses) {
+    if (push.isLater == 0u) {
+        if ((step.lists & LISTS_RESUMES) != 0u) bounds.lacksLists = 0u;
+        atomicMax(status.lacksLists, bounds.lacksLists);
+    } else if (needsPasses) {
+        atomicAdd(status.laterLists, 1u);
+        if (isCalm()) atomicMax(status.lacksLists, 1u);
+    }
+}
+
+void planPasses(bool isBuilt, bool isComplete) {
     atomicMax(status.candidates, bounds.lacking);
     const bool isSwept = bounds.sweeping > 0u, isSlowed = bounds.hurrying > MOST_FAST;
+    noteLists(!isComplete || isSlowed);
     plan(GRID_PARTICLES, isBuilt, push.count);
     plan(GRID_PARTICLE_CHUNKS, isBuilt, (push.count - 1u) / GRID_CHUNK + 1u);
     plan(GRID_CELL_CHUNKS, isBuilt, push.cells / GRID_CHUNK);
@@ -61,10 +76,11 @@ void planFrame(uint b, uint moved, bool stands) {
 
 void main() {
     const uint b = gl_LocalInvocationID.x;
-    const uint moved = bounds.moved; // watch_motion writes only what is too far
+    const uint strayed = bounds.moved; // watch_motion writes only what is too far
+    const uint moved = isCalm() ? 0u : strayed;
     const bool stands = bounds.drift < strayOf(moved);
     memoryBarrierBuffer();
     barrier();
-    if (b == 0u) planPasses(moved > 0u);
+    if (b == 0u) planPasses(moved > 0u, strayed == 0u);
     if (b < push.bodies) planFrame(b, moved, stands);
 }

@@ -32,6 +32,7 @@ void main() {
     const bool stays = isFinished(status);
     if (!stays) detected[i] = vec4(1e18);
     if (i == 0u && status.candidates > 0u) bounds.lacking = status.candidates;
+    if (i == 0u) bounds.lacksLists = status.lacksLists;
 #ifdef HAS_MEMORY
     if (stays) keptLists[i] = keep(lists[i]);
     else takeBack(i);

@@ -27,6 +27,7 @@ std::string line(const StepProgram& program, const Pass& pass) {
     if (pass.isIndirect)
         text << ' ' << program.buffers[pass.uses.back().buffer.index].label << '[' << pass.value << "]:i";
     if (pass.isOfCut) text << "  (with a blade)";
+    if (pass.isOfLists) text << "  (not in a calm step)";
     return text.str();
 }
 
@@ -43,7 +44,7 @@ std::vector<Block> blocks(const StepProgram& program, const std::vector<Pass>& p
         if (result.empty() || result.back().substep != pass.substep || result.back().phase != phase) {
             result.push_back({pass.substep, phase, {}});
         }
-        if (pass.barrierBefore) result.back().text += "  -- barrier\n";
+        if (hasBarrier({}, pass)) result.back().text += "  -- barrier\n";
         result.back().text += line(program, pass) + "\n";
     }
     return result;
@@ -119,6 +120,17 @@ std::uint64_t keyOf(const StepProgram& program) noexcept {
     return key;
 }
 
+PassCounts countPasses(const StepProgram& program, Recording recording) {
+    PassCounts counts;
+    for (const Pass& pass : program.step) {
+        if (!isIn(recording, pass)) continue;
+        ++counts.passes;
+        counts.dispatches += pass.kind == PassKind::dispatch ? 1 : 0;
+        counts.barriers += hasBarrier(recording, pass) ? 1 : 0;
+    }
+    return counts;
+}
+
 std::uint64_t declaredBytes(const StepProgram& program) {
     std::uint64_t bytes = 0;
     for (const Pass& pass : program.step) {
@@ -149,17 +161,13 @@ std::string describe(const StepProgram& program) {
     if (!program.skin.empty()) print(text, program, program.skin);
     if (!program.wholeSkin.empty()) print(text, program, program.wholeSkin);
     if (!program.mixedSkin.empty()) print(text, program, program.mixedSkin);
-    std::size_t passes = 0, dispatches = 0, barriers = 0;
-    for (const Pass& pass : program.step) {
-        if (pass.isOfCut) continue;
-        ++passes;
-        dispatches += pass.kind == PassKind::dispatch;
-        barriers += pass.barrierWithoutCut;
-    }
-    text << "\nper step: " << dispatches << " dispatches, " << passes - dispatches
-         << " fills, copies and updates, " << barriers << " barriers, " << megabytes(declaredBytes(program))
-         << " declared, " << program.sweeps << " sweeps\n"
-         << sleepText(program);
+    const PassCounts counts = countPasses(program, plainStep), calm = countPasses(program, calmStep);
+    text << "\nper step: " << counts.dispatches << " dispatches, " << counts.passes - counts.dispatches
+         << " fills, copies and updates, " << counts.barriers << " barriers, "
+         << megabytes(declaredBytes(program)) << " declared, " << program.sweeps << " sweeps\n";
+    if (calm.passes < counts.passes)
+        text << "per calm step: " << calm.dispatches << " dispatches, " << calm.barriers << " barriers\n";
+    text << sleepText(program);
     for (const std::string& feature : program.skipped) text << "skipped: " << feature << '\n';
     return text.str();
 }

@@ -148,10 +148,9 @@ std::vector<GpuExecutor::Recorded> GpuExecutor::resolve(const std::vector<Pass>&
     result.reserve(passes.size());
     for (const Pass& pass : passes) {
         Recorded recorded{.kind = pass.kind,
-                          .isOfCut = pass.isOfCut,
+                          .isIn = {},
+                          .hasBarrier = {},
                           .isOfSurface = pass.isOfSurface,
-                          .barrierBefore = pass.barrierBefore,
-                          .barrierWithoutCut = pass.barrierWithoutCut,
                           .isIndirect = pass.isIndirect,
                           .phase = pass.phase,
                           .groups = 0,
@@ -161,6 +160,10 @@ std::vector<GpuExecutor::Recorded> GpuExecutor::resolve(const std::vector<Pass>&
                           .push = &pass.push,
                           .first = view(pass.isIndirect ? pass.uses.back().buffer : pass.uses[0].buffer),
                           .second = pass.uses.size() > 1 ? view(pass.uses[1].buffer) : vk::BufferView{}};
+        for (const Recording recording : allRecordings) {
+            recorded.isIn[recording.index()] = isIn(recording, pass);
+            recorded.hasBarrier[recording.index()] = sim::hasBarrier(recording, pass);
+        }
         if (pass.kind == PassKind::dispatch) {
             recorded.kernel = kernels_[pass.kernel].get();
             recorded.set = sets_[0][setOfPass_[nextSet++]];
@@ -186,28 +189,28 @@ void GpuExecutor::upload(vk::Commands& commands) noexcept {
 }
 
 void GpuExecutor::step(vk::Commands& commands, const HostBytes& host, vk::Timestamps* timestamps,
-                       bool hasBlade) noexcept {
-    record(commands, step_, host, timestamps, hasBlade);
+                       Recording recording) noexcept {
+    record(commands, step_, host, timestamps, recording);
 }
 
 void GpuExecutor::skin(vk::Commands& commands) noexcept {
-    record(commands, skin_, {}, nullptr, true);
+    record(commands, skin_, {}, nullptr);
 }
 
 void GpuExecutor::wholeSkin(vk::Commands& commands) noexcept {
-    record(commands, wholeSkin_, {}, nullptr, true);
+    record(commands, wholeSkin_, {}, nullptr);
 }
 
 void GpuExecutor::mixedSkin(vk::Commands& commands) noexcept {
-    record(commands, mixedSkin_, {}, nullptr, true);
+    record(commands, mixedSkin_, {}, nullptr);
 }
 
 void GpuExecutor::settle(vk::Commands& commands) noexcept {
-    record(commands, settle_, {}, nullptr, true);
+    record(commands, settle_, {}, nullptr);
 }
 
 void GpuExecutor::adopt(vk::Commands& commands) noexcept {
-    record(commands, adopt_, {}, nullptr, true);
+    record(commands, adopt_, {}, nullptr);
 }
 
 const vk::Buffer* GpuExecutor::stagingOf(BufferId buffer) const noexcept {
@@ -235,14 +238,15 @@ void GpuExecutor::surface(vk::Commands& commands) noexcept {
 }
 
 void GpuExecutor::record(vk::Commands& commands, const std::vector<Recorded>& passes, const HostBytes& host,
-                         vk::Timestamps* timestamps, bool hasBlade) noexcept {
+                         vk::Timestamps* timestamps, Recording recording) noexcept {
+    const std::size_t way = recording.index();
     std::uint32_t span = 0;
     for (std::size_t p = 0; p < passes.size(); ++p) {
         const bool opensPhase = p == 0 || passes[p - 1].phase != passes[p].phase;
         const bool closesPhase = p + 1 == passes.size() || passes[p + 1].phase != passes[p].phase;
         if (timestamps && opensPhase) timestamps->begin(commands, span);
-        if (hasBlade || !passes[p].isOfCut) {
-            if (hasBlade ? passes[p].barrierBefore : passes[p].barrierWithoutCut) commands.barrier();
+        if (passes[p].isIn[way]) {
+            if (passes[p].hasBarrier[way]) commands.barrier();
             recordPass(commands, passes[p], host);
         }
         if (timestamps && closesPhase) timestamps->end(commands, span++);

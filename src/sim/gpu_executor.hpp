@@ -22,9 +22,9 @@ public:
     /// What update passes write, by HostData (<= 64 KiB each).
     using HostBytes = std::array<std::span<const std::byte>, hostDataCount>;
     /// Records a list with its planned barriers.
-    /// With `timestamps`, one span per phase of the step list. Passes of cuts are left out unless `hasBlade`.
+    /// With `timestamps`, one span per phase of the step list.
     void step(vk::Commands& commands, const HostBytes& host, vk::Timestamps* timestamps,
-              bool hasBlade = true) noexcept;
+              Recording recording = {}) noexcept;
     void skin(vk::Commands& commands) noexcept;
     void wholeSkin(vk::Commands& commands) noexcept;
     void mixedSkin(vk::Commands& commands) noexcept;
@@ -48,7 +48,8 @@ private:
     // A pass with everything looked up, so that recording is a plain walk.
     struct Recorded {
         PassKind kind;
-        bool isOfCut, isOfSurface, barrierBefore, barrierWithoutCut, isIndirect;
+        std::array<bool, recordingCount> isIn, hasBarrier; // by Recording
+        bool isOfSurface, isIndirect;
         std::uint32_t phase, groups, value;
         const vk::Kernel* kernel;
         VkDescriptorSet set;
@@ -58,7 +59,7 @@ private:
     std::vector<Recorded> resolve(const std::vector<Pass>& passes, std::size_t& nextSet) const;
     static void checkGroups(const std::vector<Recorded>& passes, std::uint32_t most);
     void record(vk::Commands& commands, const std::vector<Recorded>& passes, const HostBytes& host,
-                vk::Timestamps* timestamps, bool hasBlade) noexcept;
+                vk::Timestamps* timestamps, Recording recording = {}) noexcept;
     void recordPass(vk::Commands& commands, const Recorded& pass, const HostBytes& host) noexcept;
     const vk::Buffer* stagingOf(BufferId buffer) const noexcept;
 

@@ -37,15 +37,17 @@ void checkAliases(const vk::ShaderCode& code, const vk::KernelInterface& interfa
 
 } // namespace
 
-void planBarriers(std::span<Pass> passes, std::size_t bufferCount) {
+void planBarriers(std::span<Pass> passes, std::size_t bufferCount, Recording recording) {
     std::vector<bool> isRead(bufferCount), isWritten(bufferCount);
     for (Pass& pass : passes) {
-        pass.barrierBefore = false;
+        bool& hasBarrier = pass.barriers[recording.index()];
+        hasBarrier = false;
+        if (!isIn(recording, pass)) continue;
         for (const BufferUse& use : pass.uses) {
             const bool writes = touches(use.access, vk::Access::write);
-            pass.barrierBefore |= isWritten[use.buffer.index] || (writes && isRead[use.buffer.index]);
+            hasBarrier |= isWritten[use.buffer.index] || (writes && isRead[use.buffer.index]);
         }
-        if (pass.barrierBefore) {
+        if (hasBarrier) {
             isRead.assign(bufferCount, false);
             isWritten.assign(bufferCount, false);
         }
@@ -55,21 +57,6 @@ void planBarriers(std::span<Pass> passes, std::size_t bufferCount) {
         }
     }
 }
-
-namespace {
-
-// The list without the passes of cuts has barriers of its own.
-void planWithoutCut(std::vector<Pass>& passes, std::size_t bufferCount) {
-    std::vector<Pass> others;
-    for (const Pass& pass : passes)
-        if (!pass.isOfCut) others.push_back({.uses = pass.uses});
-    planBarriers(others, bufferCount);
-    auto other = others.begin();
-    for (Pass& pass : passes)
-        if (!pass.isOfCut) pass.barrierWithoutCut = (other++)->barrierBefore;
-}
-
-} // namespace
 
 BufferId ProgramBuilder::add(BufferSpec spec) {
     program_.buffers.push_back(std::move(spec));
@@ -162,6 +149,7 @@ void ProgramBuilder::makeLastIndirect(const IndirectItems& items) {
         if (use.buffer == items.arguments && use.access != vk::Access::read)
             refuse(code, "writes its own arguments " + spec.label);
     pass.isIndirect = true;
+    pass.isOfLists = items.isOfLists && isAfterFirstSubstep();
     pass.value = items.element;
     pass.uses.push_back({items.arguments, vk::Access::read});
 }
@@ -193,8 +181,8 @@ void ProgramBuilder::update(BufferId buffer, HostData data) {
 }
 
 StepProgram ProgramBuilder::finish() {
-    planBarriers(program_.step, program_.buffers.size());
-    planWithoutCut(program_.step, program_.buffers.size());
+    for (const Recording recording : allRecordings)
+        planBarriers(program_.step, program_.buffers.size(), recording);
     planBarriers(program_.skin, program_.buffers.size());
     planBarriers(program_.wholeSkin, program_.buffers.size());
     planBarriers(program_.mixedSkin, program_.buffers.size());

@@ -5,6 +5,7 @@
 
 #include "vk/spirv.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -68,6 +69,18 @@ enum class HostData : std::uint32_t {
 };
 constexpr std::size_t hostDataCount = 8;
 
+/// A step is recorded in one of several ways, each with barriers of its own.
+struct Recording {
+    bool hasBlade = true; ///< with passes of cuts
+    bool isCalm = false;  ///< without passes that make lists of contacts after the first substep
+    constexpr std::size_t index() const { return std::size_t{!hasBlade} + 2 * std::size_t{isCalm}; }
+};
+constexpr std::size_t recordingCount = 4;
+constexpr std::array<Recording, recordingCount> allRecordings{
+    {{true, false}, {false, false}, {true, true}, {false, true}}};
+/// What a step without a blade records while lists of contacts are made in any substep, and while they last.
+constexpr Recording plainStep{.hasBlade = false, .isCalm = false}, calmStep{.hasBlade = false, .isCalm = true};
+
 /// One entry of the list.
 struct Pass {
     PassKind kind = PassKind::dispatch;
@@ -82,9 +95,18 @@ struct Pass {
     std::uint32_t substep = 0;      ///< 1-based; 0 = outside the substeps
     bool isOfCut = false;           ///< recorded only in a step with a blade
     bool isOfSurface = false;       ///< among those: writes the surface of cuts from what is known of cells
-    bool barrierBefore = false;     ///< set by planBarriers
-    bool barrierWithoutCut = false; ///< the same in a step without a blade
+    bool isOfLists = false;         ///< makes lists of contacts after the first substep: not in a calm step
+    /// By Recording, set by planBarriers: whether a barrier stands before the pass.
+    std::array<bool, recordingCount> barriers{};
 };
+
+/// Whether `pass` is recorded at all, and with a barrier before it.
+inline bool isIn(Recording recording, const Pass& pass) {
+    return (recording.hasBlade || !pass.isOfCut) && (!recording.isCalm || !pass.isOfLists);
+}
+inline bool hasBarrier(Recording recording, const Pass& pass) {
+    return isIn(recording, pass) && pass.barriers[recording.index()];
+}
 
 /// The uses that a dispatch binds to its kernel: all but the arguments.
 inline std::span<const BufferUse> boundUses(const Pass& pass) {
@@ -97,6 +119,7 @@ struct IndirectItems {
     BufferId arguments;
     std::uint32_t element = 0;
     std::uint32_t most = 0; ///< invocations that the arguments ever ask for
+    bool isOfLists = false; ///< none unless lists of contacts are made
 };
 
 /// A direct dispatch turned into one of which a kernel decides: the form of the kernel to use, its groups,
@@ -263,15 +286,21 @@ struct StepProgram {
     std::uint64_t sweeps = 0; ///< times every constraint is read in one step
 };
 
-/// Walks a list that runs front to back on one queue and says which passes need a barrier before them. Keeps
-/// the buffers read and written since the last barrier: a pass that touches a written one, or writes a read
-/// one, gets one and both sets are cleared; right because every barrier covers all earlier work with the same
-/// masks.
-void planBarriers(std::span<Pass> passes, std::size_t bufferCount);
+/// Walks the passes of a recording, which run front to back on one queue, and says which need a barrier before
+/// them. Keeps the buffers read and written since the last barrier: a pass that touches a written one, or
+/// writes a read one, gets one and both sets are cleared; right because every barrier covers all earlier work
+/// with the same masks.
+void planBarriers(std::span<Pass> passes, std::size_t bufferCount, Recording recording = {});
 
 /// The printed form: `label xitems buffer:access ...`, barriers in between, equal substeps folded, then
 /// totals.
 std::string describe(const StepProgram& program);
+
+/// How much a recording of a step consists of.
+struct PassCounts {
+    std::size_t passes = 0, dispatches = 0, barriers = 0;
+};
+PassCounts countPasses(const StepProgram& program, Recording recording);
 
 /// Tells programs apart: a hash of names, sizes and first contents of buffers and of the passes of a step.
 std::uint64_t keyOf(const StepProgram& program) noexcept;
@@ -308,6 +337,7 @@ public:
     void beginPhase(std::string name);
     void beginSubstep() { ++substep_; }
     void endSubsteps() { substep_ = 0; }
+    bool isAfterFirstSubstep() const { return substep_ > 1; }
 
     using Constants = std::map<std::uint32_t, std::uint32_t>;
     /// `items` > 0 invocations; `buffers` in binding order; `push` is the kernel's push constant struct.

@@ -43,6 +43,55 @@ Simulation::~Simulation() {
 #endif
 }
 
+// Hands that change in a step that is undone would take hold anew when it is repeated: no step is calm in
+// which one holds something, nor where there is nothing to leave out.
+bool Simulation::State::mayBeCalm() const noexcept {
+    return calmSteps.areCalm() && hands.areFree() && !program.grids.empty();
+}
+
+void Simulation::State::readSteps() noexcept {
+    for (std::uint64_t i = 0; i < ring.slots(); ++i) { // from the oldest on
+        RecordedStep& step = ring.step(nextFrame + i);
+        if (step.isRead || step.generation != generation || !ring.isFinished(step.frame)) continue;
+        step.isRead = true;
+        const layout::StatusWords words = ring.words(step.frame);
+        if (lackedLists) continue; // undone as well
+        if (lackLists(words)) {
+            lackedLists = step.frame;
+            calmSteps.lacked();
+        } else {
+            calmSteps.finished(words.laterLists, step.isCalm);
+        }
+    }
+}
+
+void Simulation::State::noteBefore(std::uint64_t frame) noexcept {
+    Before& slot = befores[ring.slotOf(frame)];
+    const collision::Pokes& pokes = colliders.pokes();
+    slot.h = previousH;
+    slot.time = colliders.time();
+    slot.pokes = pokes.states();
+    std::ranges::copy(anchors.values(), slot.anchors.begin());
+    slot.hands = hands;
+    slot.isUncut = isUncut;
+    slot.hasNewTopology = hasNewTopology;
+    slot.isChanged = isChanged;
+    slot.changes = changes;
+    slot.topologies = topologies;
+}
+
+void Simulation::State::goBackBefore(std::uint64_t frame) noexcept {
+    const Before& slot = befores[ring.slotOf(frame)];
+    previousH = slot.h;
+    colliders.moveTo(slot.time, slot.pokes);
+    anchors.restore(slot.anchors);
+    hands = *slot.hands;
+    isUncut = slot.isUncut && topologies == slot.topologies;
+    hasNewTopology = slot.hasNewTopology || topologies != slot.topologies;
+    isChanged = slot.isChanged || changes != slot.changes;
+    beginGeneration();
+}
+
 void Simulation::recordReset(VkCommandBuffer buffer) noexcept {
     vk::Commands commands(state_->device, buffer);
     state_->executor.upload(commands);
@@ -61,12 +110,24 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     const bool isBlade = state_->blade.read(step) && state_->mayBeCut();
     const bool hasBlade = isBlade || state_->program.cutting.tears;
     state_->noteMisuse(step);
-    const layout::StepParams parameters = state_->parameters(step, dt);
+    state_->readSteps();
+    const bool isAgain = state_->lackedLists == step.frame;
+    if (isAgain) state_->goBackBefore(step.frame);
+    if (step.repeats) state_->noteBefore(step.frame);
     state_->settledEnd = state_->settled(step.frame, state_->settledEnd); // of the slot that is opened next
-    state_->ring.open({true, step.frame, std::max(0.0f, step.dt - dt), hasBlade});
     state_->nextFrame = step.frame + 1;
     state_->anchors.advance(step.anchors, dt);
     state_->hands.advance(step.grabs, dt);
+    const bool isCalm = step.repeats && !isAgain && !isBlade && state_->mayBeCalm();
+    const std::uint32_t lists = (step.repeats ? LISTS_REPEATS : 0) | (isCalm ? LISTS_CALM : 0) |
+                                (isAgain || !step.repeats || state_->isNewState ? LISTS_RESUMES : 0);
+    const layout::StepParams parameters = state_->parameters(step, dt, lists);
+    state_->ring.open({.isRecorded = true,
+                       .frame = step.frame,
+                       .lostTime = std::max(0.0f, step.dt - dt),
+                       .hasBlade = hasBlade,
+                       .isCalm = isCalm,
+                       .generation = state_->generation});
     state_->colliders.advance(dt, step.pokes);
     const collision::ColliderPaths& colliders = state_->colliders;
     const auto pokeArguments = state_->pokeArguments();
@@ -81,14 +142,14 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
                            std::as_bytes(colliders.ways()), std::as_bytes(colliders.pokes().shapes()),
                            std::as_bytes(std::span(pokeArguments)), std::as_bytes(state_->hands.values()),
                            state_->blade.head(), state_->blade.points()},
-                          timestamps, hasBlade);
+                          timestamps, {.hasBlade = hasBlade, .isCalm = isCalm});
     commands.barrier();
     state_->recordStatus(commands, step.frame);
     commands.endStepForHost();
     state_->recordEnd(commands, step.frame);
     commands.hostBarrier();
     state_->previousH = parameters.h;
-    state_->hasNewTopology = state_->isChanged = false;
+    state_->hasNewTopology = state_->isChanged = state_->isNewState = false;
 }
 
 void Simulation::recordSkin(VkCommandBuffer buffer, SkinDetail detail, Overlap overlap) noexcept {
@@ -162,13 +223,17 @@ Status Simulation::status(std::uint64_t frame) const noexcept {
     const layout::StatusWords words = ring.words(frame);
     const RecordedStep& step = ring.step(frame);
     const layout::CutCounts counts = ring.counts(frame);
+    const bool lacksLists = State::lackLists(words);
     return {.frame = words.frame,
             .isFinished = true,
             .isUndone = ring.isUndone(frame),
             .stepsUndone = ring.undoneUntil(frame),
-            .nonFinite = words.nonFinite,
+            .nonFinite = lacksLists ? 0 : words.nonFinite, // of a state that lacks contacts
             .firstBadParticle = ~words.invertedFirstBad,
             .contactRoom = words.candidates,
+            .lacksLists = lacksLists,
+            .isCalm = step.isCalm,
+            .laterLists = words.laterLists,
             .slowed = words.slowed,
             .sleeping = words.sleeping,
             .lostTime = step.lostTime,

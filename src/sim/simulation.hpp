@@ -95,6 +95,10 @@ struct Step {
     /// Wakes all that sleeps (Settings::sleeps). Not needed for what a step itself says: another gravity or
     /// dt wakes all, an anchor, a collider or a poke that moves wakes what it holds or comes near.
     bool wakes = false;
+    /// True where the host looks at Status::lacksLists of every step. Once all that it has recorded has
+    /// finished, it then records the first step that lacked lists again, of the same frame and with the same
+    /// input, and all steps behind it. In return most steps have fewer passes. No result depends on it.
+    bool repeats = false;
     Blade blade{}; ///< read by record() only; repeat it where the step was undone
     RayCut ray{};
 };
@@ -105,7 +109,7 @@ struct Status {
     /// False where the step has not come back from the device, was never recorded, or is so old that another
     /// one has its place (Settings::framesInFlight): nothing else is known then, and all else is 0.
     bool isFinished = false;
-    /// All goes on from the state before this step: see nonFinite and contactRoom.
+    /// All goes on from the state before this step: see nonFinite, contactRoom and lacksLists.
     bool isUndone = false;
     std::uint64_t stepsUndone = 0; ///< with this one, since the simulation was made
     std::uint32_t nonFinite =
@@ -116,6 +120,13 @@ struct Status {
     /// more room takes over (Simulation::recordTakeOver; docs/architecture.md has the lines that do so).
     /// Counting ends at four times the room. More than there can be room for = too many anyway.
     std::uint32_t contactRoom = 0;
+    /// The step is undone because contacts had to be listed anew in a substep for which it had no passes
+    /// (Step::repeats), and so is every later one until it is recorded again. nonFinite is then 0.
+    bool lacksLists = false;
+    bool isCalm = false; ///< recorded without those passes
+    /// Times that contacts had to be listed anew, or particles slowed down, after the first substep; each
+    /// grid counts.
+    std::uint32_t laterLists = 0;
     /// Particles, counted once a substep, that were slowed down to what contacts can be found at: where more
     /// than 256 move farther in a substep than about their radius. Momentum is lost; take more substeps.
     std::uint32_t slowed = 0;

@@ -99,7 +99,7 @@ bool StepRing::isFinished(std::uint64_t frame) const noexcept {
 bool StepRing::isUndone(std::uint64_t frame) const noexcept {
     if (!isFinished(frame)) return false;
     const layout::StatusWords found = words(frame);
-    return found.nonFinite > 0 || found.candidates > 0;
+    return found.nonFinite > 0 || found.candidates > 0 || found.lacksLists > 0;
 }
 
 std::uint64_t StepRing::undoneUntil(std::uint64_t frame) const noexcept {

@@ -17,6 +17,9 @@ struct RecordedStep {
     std::uint64_t frame = 0;
     float lostTime = 0; ///< [s]
     bool hasBlade = false;
+    bool isCalm = false;          ///< Recording::isCalm
+    bool isRead = false;          ///< its status was taken into account
+    std::uint32_t generation = 0; ///< of steps: the next one begins where a state comes from elsewhere
 };
 
 class StepRing {
@@ -47,6 +50,8 @@ public:
     std::vector<layout::ForceSum> forces(std::uint64_t frame) const;
     /// Whether `frame` was recorded, has its slot still and came back from the device.
     bool isFinished(std::uint64_t frame) const noexcept;
+    /// The same, to be changed by who looks at it.
+    RecordedStep& step(std::uint64_t frame) noexcept { return steps_[slotOf(frame)]; }
     /// True where that step has finished and was undone.
     bool isUndone(std::uint64_t frame) const noexcept;
     /// Steps that were undone until `frame` came back.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "layout.h"
+#include "sim/calm_steps.hpp"
 #include "sim/collision/collider_paths.hpp"
 #include "sim/collision/face_contacts.hpp"
 #include "sim/collision/particle_contacts.hpp"
@@ -84,6 +85,22 @@ struct Simulation::State {
     std::vector<std::string> untold;  // warnings of the scene
     std::uint64_t nextFrame = 0;
     Settled settledEnd;
+    // The host's part of the state before a step, by slot of the ring, where the host repeats steps.
+    struct Before {
+        float h = 0;
+        double time = 0;
+        collision::PokeStates pokes{};
+        std::vector<layout::vec4> anchors;
+        std::optional<constraints::grab::Hands> hands;
+        bool isUncut = false, hasNewTopology = false, isChanged = false;
+        std::uint32_t changes = 0, topologies = 0;
+    };
+    std::vector<Before> befores;
+    std::uint32_t topologies = 0; // that were loaded
+    CalmSteps calmSteps;
+    bool isNewState = true; // no step was recorded since it came from elsewhere
+    std::uint32_t generation = 0;             // of steps
+    std::optional<std::uint64_t> lackedLists; // the first step of this generation that did
 
     State(const vk::Device& d, const Scene& scene, const Settings& asked)
         : State(d, scene, withSubsteps(valid(scene, asked), asked), {}) {}
@@ -101,7 +118,9 @@ struct Simulation::State {
           damping(scene.damping), substeps(settings.substeps),
           storesPlaces(solvers::split::contactsFollow(scene, settings)),
           hasContacts(collision::particle_contacts::areIn(scene) || collision::face_contacts::areIn(scene)),
-          unsettled(settings.framesInFlight), untold(warnings(scene)) {}
+          unsettled(settings.framesInFlight), untold(warnings(scene)), befores(settings.framesInFlight) {
+        for (Before& one : befores) one.anchors.resize(anchors.values().size());
+    }
 
     // Sums of forces of a step.
     static std::size_t forceCount(const StepProgram& of) {
@@ -110,7 +129,7 @@ struct Simulation::State {
 
     bool mayBeCut() const noexcept { return program.cutting.counts != BufferId{}; }
 
-    layout::StepParams parameters(const Step& step, float dt) const {
+    layout::StepParams parameters(const Step& step, float dt, std::uint32_t lists) const {
         const float h = dt / static_cast<float>(substeps);
         const double longest = double{std::max(h, previousH)};
         const Vec3& g = step.gravity;
@@ -126,7 +145,8 @@ struct Simulation::State {
                     static_cast<float>(dampingBudget(budget, double{theta}, longest) / double{omega}),
                 .multiplierScale = previousH > 0 ? std::min(1.0f, h * h / (previousH * previousH)) : 0,
                 .thetaHStored = storesPlaces ? 0 : theta * h,
-                .wakes = step.wakes || hasNewTopology || isChanged ? 1u : 0u};
+                .wakes = step.wakes || hasNewTopology || isChanged ? 1u : 0u,
+                .lists = lists};
     }
 
     // The last step before `frame` that settled has this `end`; where the one that this slot of the ring held
@@ -272,7 +292,28 @@ struct Simulation::State {
         return executor.view(buffer);
     }
 
-    void forgetUnsettled() noexcept { std::ranges::fill(unsettled, Unsettled{}); }
+    void forgetUnsettled() noexcept {
+        std::ranges::fill(unsettled, Unsettled{});
+        calmSteps = {};
+        isNewState = true;
+        beginGeneration();
+    }
+
+    void beginGeneration() noexcept {
+        ++generation;
+        lackedLists.reset();
+    }
+
+    // A step with too little room for contacts needs another simulation first.
+    static bool lackLists(const layout::StatusWords& words) noexcept {
+        return words.lacksLists > 0 && words.candidates == 0;
+    }
+    bool mayBeCalm() const noexcept;
+    // What steps that have come back say of lists, from the oldest on.
+    void readSteps() noexcept;
+    // Before `frame` is recorded, which then is a step that lacked lists, or may lack them.
+    void goBackBefore(std::uint64_t frame) noexcept;
+    void noteBefore(std::uint64_t frame) noexcept;
 
     // The host's part of a state.
     void moveTo(const SavedState& saved) noexcept {

@@ -196,6 +196,7 @@ void Simulation::recordLoadTopology(VkCommandBuffer buffer, const vk::BufferView
     if (state_->changes > 0) state_->recordSettling(commands);
     commands.endStep();
     state_->hasNewTopology = true;
+    ++state_->topologies;
     state_->isUncut = false; // for all that the host knows
 }
 

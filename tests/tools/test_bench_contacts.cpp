@@ -11,7 +11,9 @@ using namespace sinew;
 namespace {
 
 sim::Pass passOf(sim::PassKind kind, std::uint32_t substep, bool isIndirect = false, bool hasBarrier = true) {
-    return {.kind = kind, .isIndirect = isIndirect, .substep = substep, .barrierWithoutCut = hasBarrier};
+    sim::Pass pass{.kind = kind, .isIndirect = isIndirect, .substep = substep};
+    pass.barriers[sim::plainStep.index()] = hasBarrier;
+    return pass;
 }
 
 // Two substeps of two direct dispatches, an indirect one and a copy; the second with one indirect more.
@@ -26,6 +28,8 @@ sim::StepProgram program() {
         program.step.push_back(passOf(dispatch, substep, true));
     }
     program.step.push_back(passOf(dispatch, 2, true));
+    program.step.back().isOfLists = true;
+    program.step.back().barriers[sim::calmStep.index()] = true; // of no recording that has the pass
     program.step.push_back(passOf(dispatch, 0));
     sim::Pass ofCut = passOf(dispatch, 1);
     ofCut.isOfCut = true;
@@ -46,6 +50,15 @@ TEST(BenchContacts, CountsTheMeanOfSubstepsWithoutABlade) {
 
 TEST(BenchContacts, PredictsTimeFromDispatchesOfAStep) {
     EXPECT_EQ(tools::predictedUs(program()), 5 * 2.5 + 3 * 2.0);
+}
+
+TEST(BenchContacts, LeavesPassesOfListsOutOfCalmSteps) {
+    const tools::SubstepCounts counts = tools::countSubstep(program(), sim::calmStep);
+    EXPECT_EQ(counts.direct, 2);
+    EXPECT_EQ(counts.indirect, 1);
+    EXPECT_EQ(counts.passes, 4);
+    EXPECT_EQ(counts.barriers, 0) << "none was planned";
+    EXPECT_EQ(tools::predictedUs(program(), sim::calmStep), 5 * 2.5 + 2 * 2.0);
 }
 
 TEST(BenchContacts, NamesItsRowsApart) {

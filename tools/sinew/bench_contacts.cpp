@@ -132,6 +132,7 @@ public:
         runner_.restart();
         runner_.advance(settle, 1); // one step in flight: each time is that of a whole step
         builds_ = builds();
+        lists_ = runner_.lists();
     }
     void takeTurn(std::uint64_t count) { runner_.advance(count, 1); }
     void end(std::uint64_t settle) {
@@ -139,6 +140,8 @@ public:
         for (std::size_t i = settle; i < ms.size(); ++i) stepMs_.push_back(ms[i]);
         const std::uint64_t now = builds(); // one that has got more room began to count anew
         listBuilds_ += now < builds_ ? now : now - builds_;
+        calm_ += runner_.lists().calm - lists_.calm;
+        repeated_ += runner_.lists().repeated - lists_.repeated;
     }
     const sim::StepProgram& program() const { return runner_.simulation().program(); }
     Json toJson() const;
@@ -156,12 +159,14 @@ private:
     sim::Scene scene_;
     Runner runner_;
     std::uint64_t builds_ = 0, listBuilds_ = 0;
+    ListFigures lists_; // when its steps began
+    std::uint64_t calm_ = 0, repeated_ = 0;
     std::vector<double> stepMs_;
 };
 
 Json ContactRun::toJson() const {
     const Statistics step = summarise(stepMs_).value_or(Statistics{});
-    const SubstepCounts counts = countSubstep(program());
+    const SubstepCounts counts = countSubstep(program()), calm = countSubstep(program(), sim::calmStep);
     return {{"steps", stepMs_.size()},
             {"ms_p50", step.p50},
             {"ms_min", step.min},
@@ -172,6 +177,13 @@ Json ContactRun::toJson() const {
             {"barriers_per_substep", counts.barriers},
             {"list_builds", listBuilds_},
             {"gpu_dispatch_us_predicted", predictedUs(program())},
+            {"calm",
+             {{"steps", calm_},
+              {"repeated_steps", repeated_},
+              {"passes_per_substep", calm.passes},
+              {"indirect_dispatches_per_substep", calm.indirect},
+              {"barriers_per_substep", calm.barriers},
+              {"gpu_dispatch_us_predicted", predictedUs(program(), sim::calmStep)}}},
             {"finite", !runner_.divergence()}};
 }
 
@@ -212,27 +224,27 @@ Json measureRow(Session& session, const ContactRow& row, double seconds) {
 
 } // namespace
 
-SubstepCounts countSubstep(const sim::StepProgram& program) {
+SubstepCounts countSubstep(const sim::StepProgram& program, sim::Recording recording) {
     SubstepCounts counts;
     std::uint32_t substeps = 0;
     for (const sim::Pass& pass : program.step) {
-        if (pass.substep == 0 || pass.isOfCut) continue;
+        if (pass.substep == 0 || !isIn(recording, pass)) continue;
         const bool isDispatch = pass.kind == sim::PassKind::dispatch;
         substeps = std::max(substeps, pass.substep);
         counts.passes += 1;
         counts.direct += isDispatch && !pass.isIndirect ? 1 : 0;
         counts.indirect += isDispatch && pass.isIndirect ? 1 : 0;
-        counts.barriers += pass.barrierWithoutCut ? 1 : 0;
+        counts.barriers += hasBarrier(recording, pass) ? 1 : 0;
     }
     for (double* count : {&counts.passes, &counts.direct, &counts.indirect, &counts.barriers})
         *count /= std::max(1u, substeps);
     return counts;
 }
 
-double predictedUs(const sim::StepProgram& program) {
+double predictedUs(const sim::StepProgram& program, sim::Recording recording) {
     double us = 0;
     for (const sim::Pass& pass : program.step)
-        if (pass.kind == sim::PassKind::dispatch && !pass.isOfCut) us += pass.isIndirect ? emptyUs : directUs;
+        if (pass.kind == sim::PassKind::dispatch && isIn(recording, pass)) us += pass.isIndirect ? emptyUs : directUs;
     return us;
 }
 
@@ -251,9 +263,10 @@ Json measureContacts(Session& session, const std::string& only, double seconds) 
 }
 
 std::string contactsTable(const Json& measured) {
-    std::string text = fmt::format("{:<30} {:>10} {:>10} {:>6} {:>7} {:>7} {:>9} {:>9} {:>9} {:>8} {:>9}\n",
+    std::string text = fmt::format("{:<30} {:>10} {:>10} {:>6} {:>7} {:>7} {:>11} {:>11} {:>7} {:>8} {:>11} {:>7} {:>7}\n",
                                    "p50 of a step", "without ms", "ms", "ratio", "passes", "direct",
-                                   "indirect", "barriers", "builds", "B/part.", "GPU us");
+                                   "indirect", "barriers", "builds", "B/part.", "GPU us", "calm %",
+                                   "again");
     for (const Json& row : measured) {
         const Json& with = row["with"];
         const auto number = [&](const char* key) { return with[key].get<double>(); };
@@ -261,19 +274,27 @@ std::string contactsTable(const Json& measured) {
             return value.is_null() ? std::string("-") : fmt::format("{:.2f}{}", value.get<double>(), unit);
         };
         const Json without = row["without"].is_null() ? Json(nullptr) : row["without"]["ms_p50"];
+        const Json& calm = with["calm"];
+        const auto both = [&](const char* key, int digits) {
+            return fmt::format("{:.{}f}/{:.{}f}", number(key), digits, calm[key].get<double>(), digits);
+        };
         text += fmt::format(
-            "{:<30} {:>10} {:>10.2f} {:>6} {:>7.1f} {:>7.1f} {:>9.1f} {:>9.1f} {:>9.2f} {:>8.0f} "
-            "{:>9.0f}{}\n",
+            "{:<30} {:>10} {:>10.2f} {:>6} {:>7.1f} {:>7.1f} {:>11} {:>11} {:>7.2f} {:>8.0f} "
+            "{:>11} {:>7.0f} {:>7}{}\n",
             row["scene"].get<std::string>(), optional(without, ""), number("ms_p50"),
             optional(row["ratio"], ""), number("passes_per_substep"), number("dispatches_per_substep"),
-            number("indirect_dispatches_per_substep"), number("barriers_per_substep"),
+            both("indirect_dispatches_per_substep", 1), both("barriers_per_substep", 1),
             number("list_builds") / std::max(1.0, number("steps")),
-            row["contact_bytes_per_particle"].get<double>(), number("gpu_dispatch_us_predicted"),
+            row["contact_bytes_per_particle"].get<double>(), both("gpu_dispatch_us_predicted", 0),
+            100 * calm["steps"].get<double>() / std::max(1.0, number("steps")),
+            calm["repeated_steps"].get<std::uint64_t>(),
             with["finite"].get<bool>() ? "" : " diverged");
     }
     return text +
-           fmt::format("passes, dispatches (direct, indirect) and barriers: of a substep; builds: of "
-                       "lists, a step; B/part.: contact buffers, a particle\n"
+           fmt::format("passes, dispatches (direct, indirect) and barriers: of a substep; a/b: of a step with all "
+                       "passes, of a calm one; builds: of lists, a step; B/part.: contact buffers, a particle\n"
+                       "calm %: steps without passes that make lists after their first substep; again: steps "
+                       "that were repeated, since such a pass was needed or room was short\n"
                        "GPU us: predicted, not measured: dispatches of a step x {} us + indirect ones, "
                        "as if empty, x {} us\n",
                        directUs, emptyUs);

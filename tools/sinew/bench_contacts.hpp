@@ -11,7 +11,7 @@
 
 namespace sinew::tools {
 
-/// The work of a program in a substep without a blade, the mean over the substeps of a step.
+/// The work of a recording of a program in a substep, the mean over the substeps of a step.
 struct SubstepCounts {
     double passes = 0; ///< dispatches, fills, copies and updates
     double direct = 0; ///< dispatches of which the program says how many groups they have
@@ -20,11 +20,11 @@ struct SubstepCounts {
     double indirect = 0;
     double barriers = 0;
 };
-SubstepCounts countSubstep(const sim::StepProgram& program);
+SubstepCounts countSubstep(const sim::StepProgram& program, sim::Recording recording = sim::plainStep);
 
 /// Time of a GPU that is predicted for the dispatches of a step [us]: 2.5 for a direct one, 2 for an indirect
 /// one, as if none of these had a group. The computing of kernels is not in it.
-double predictedUs(const sim::StepProgram& program);
+double predictedUs(const sim::StepProgram& program, sim::Recording recording = sim::plainStep);
 
 /// The names of the rows.
 std::vector<std::string> contactRows();

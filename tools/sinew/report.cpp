@@ -25,13 +25,6 @@ std::vector<std::string> distinctPasses(const sim::StepProgram& program) {
     return labels;
 }
 
-// Of a step without a blade.
-std::size_t dispatches(const sim::StepProgram& program) {
-    return static_cast<std::size_t>(std::ranges::count_if(program.step, [](const sim::Pass& pass) {
-        return pass.kind == sim::PassKind::dispatch && !pass.isOfCut;
-    }));
-}
-
 double peakMemoryMib() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -40,8 +33,9 @@ double peakMemoryMib() {
 
 Json stepJson(const RunRecord& record) {
     const sim::StepProgram& program = record.program;
-    return {{"dispatches", dispatches(program)},
-            {"barriers", std::ranges::count(program.step, true, &sim::Pass::barrierWithoutCut)},
+    const sim::PassCounts counts = sim::countPasses(program, sim::plainStep); // without a blade
+    return {{"dispatches", counts.dispatches},
+            {"barriers", counts.barriers},
             {"declared_bytes", sim::declaredBytes(program)},
             {"sweeps", program.sweeps},
             {"record_ms", record.recordMs}};
@@ -154,7 +148,9 @@ Json overflowJson(const RunRecord& record) {
         overflow["contacts"] = {{"room", contacts.room},
                                 {"needed", contacts.needed > 0 ? Json(contacts.needed) : Json(nullptr)},
                                 {"grown", contacts.grown},
-                                {"slowed", record.slowed}};
+                                {"slowed", record.slowed},
+                                {"calm_steps", record.lists.calm},
+                                {"repeated_steps", record.lists.repeated}};
     const app::SurfaceRoom& surface = record.surfaceRoom;
     if (record.program.cutting.counts != sim::BufferId{})
         overflow["cut_surface"] = {{"needed", surface.needed > 0 ? Json(surface.needed) : Json(nullptr)},
@@ -344,6 +340,9 @@ std::string toText(const RunRecord& record) {
     if (record.contactRoom.grown > 0)
         text += fmt::format("room for contacts: grown {}, to {}\n",
                             sim::counted(record.contactRoom.grown, "time"), record.contactRoom.room);
+    if (record.lists.calm > 0)
+        text += fmt::format("contacts: {} needed lists in the first substep at most; repeated: {}\n",
+                            sim::counted(record.lists.calm, "step"), record.lists.repeated);
     if (record.surfaceRoom.grown > 0)
         text += fmt::format("room for the surface of cuts: grown {}, {} triangles were needed\n",
                             sim::counted(record.surfaceRoom.grown, "time"), record.surfaceRoom.needed);

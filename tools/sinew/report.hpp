@@ -29,6 +29,7 @@ struct RunRecord {
     app::SurfaceRoom surfaceRoom;
     std::uint32_t surfaceMissing = 0; ///< at the end
     std::uint64_t slowed = 0;         ///< as Runner::slowed()
+    ListFigures lists;
     CutFigures cuts;
     sim::Impulses forces; ///< of the last step
     bool isInterrupted = false;

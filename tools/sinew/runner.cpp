@@ -50,6 +50,7 @@ void Runner::restart() {
     session_.queue.waitIdle();
     done_ = slowed_ = timed_ = recorded_ = played_ = 0;
     surfaceMissing_ = 0;
+    lists_ = {};
     recordSum_ = 0;
     divergence_.reset();
     frameMs_.clear();
@@ -83,6 +84,7 @@ void Runner::submitStep(std::uint64_t frame) {
                                   .gravity = scene_.gravity,
                                   .frame = frame,
                                   .anchors = {},
+                                  .repeats = true,
                                   .blade = blades_.at(played_ + frame)},
                                  &timestamps_[slot]);
     submitted_[slot] = session_.queue.submit(commands);
@@ -100,6 +102,10 @@ bool Runner::finishStep(std::uint64_t frame) {
     if (status.frame != static_cast<std::uint32_t>(frame))
         throw std::logic_error("the status of step " + std::to_string(frame) + " is that of another");
     if (status.contactRoom > 0 && growing_.grow(status.contactRoom, session_.queue)) return false;
+    if (status.lacksLists) {
+        session_.queue.waitIdle(); // for those behind it
+        return false;
+    }
     countTime(slot, end);
     if (status.contactRoom > 0)
         divergence_ = {.step = frame + 1, .isCrowded = true};
@@ -108,6 +114,7 @@ bool Runner::finishStep(std::uint64_t frame) {
                        bodyOf(scene_, status.firstBadParticle)};
     else {
         ++done_;
+        lists_.calm += status.isCalm ? 1 : 0;
         slowed_ += status.slowed;
         cuts_ = {.links = status.linksCutInAll,
                  .pieces = status.pieces,
@@ -152,6 +159,7 @@ void Runner::advance(std::uint64_t count, std::uint32_t inFlight,
         if (mayGoOn && next - waiting < inFlight) {
             submitStep(next++);
         } else if (waiting < next && !finishStep(waiting)) {
+            lists_.repeated += next - waiting;
             next = waiting;
         } else if (waiting < next) {
             ++waiting;

@@ -36,6 +36,12 @@ struct CutFigures {
     double crumbMass = 0;                         ///< [kg]
 };
 
+/// What became of passes that make lists of contacts.
+struct ListFigures {
+    std::uint64_t calm = 0;     ///< steps that had none after their first substep (sim::Status::isCalm)
+    std::uint64_t repeated = 0; ///< steps that were undone and taken again, for lists or for room
+};
+
 class Runner {
 public:
     /// Creates the simulation and runs one step that is thrown away, so that drivers which compile late do so
@@ -44,7 +50,7 @@ public:
            scenes::ScriptedBlades blades = {});
 
     /// Steps until `count` more are done, isInterrupted() or there is a divergence(). A step without room for
-    /// its contacts is done again with more. `inFlight` is 1 to Simulation::framesInFlight. `onStep` gets the
+    /// its contacts is done again with more, one that lacked lists of them with all passes. `inFlight` is 1 to Simulation::framesInFlight. `onStep` gets the
     /// number of steps done.
     void advance(std::uint64_t count, std::uint32_t inFlight,
                  const std::function<void(std::uint64_t)>& onStep = {});
@@ -63,6 +69,7 @@ public:
     const std::optional<Divergence>& divergence() const { return divergence_; }
     std::uint64_t slowed() const { return slowed_; } ///< sum of Status::slowed over those steps
     const sim::Simulation& simulation() const { return growing_.simulation(); }
+    const ListFigures& lists() const { return lists_; }
     const app::ContactRoom& contactRoom() const { return growing_.contactRoom(); }
     const app::SurfaceRoom& surfaceRoom() const { return growing_.surfaceRoom(); }
     std::uint32_t surfaceMissing() const { return surfaceMissing_; } ///< Status::cutSurfaceMissing, likewise
@@ -110,6 +117,7 @@ private:
     double recordSum_ = 0, lastEnd_ = 0; // [ms]
     std::uint64_t recorded_ = 0, timed_ = 0;
     CutFigures cuts_;
+    ListFigures lists_;
     sim::Impulses forces_;
     std::uint32_t surfaceMissing_ = 0;
     vk::Drain drain_; // last: steps may be in flight when an exception destroys the rest

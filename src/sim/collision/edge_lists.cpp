@@ -85,10 +85,12 @@ Lists add(ProgramBuilder& program, const Request& request) {
 
 void addWatch(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {
     const hash_grid::Grid& grid = lists.grid;
+    layout::GridPush push = grid.push;
+    push.isLater = program.isAfterFirstSubstep() ? 1 : 0;
     program.dispatch(k::placeEdges, grid.push.count,
                      {particles.positions, particles.velocities, lists.edges, lists.ends, grid.detected,
                       lists.middles, lists.speeds, grid.bounds, lists.points, particles.step},
-                     grid.push);
+                     push);
     hash_grid::addSort(program, grid, lists.middles, particles.step);
 }
 

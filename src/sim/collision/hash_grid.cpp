@@ -24,8 +24,15 @@ const vk::ShaderCode& form(const Grid& grid, const vk::ShaderCode& texels, const
     return grid.usesTexels ? texels : loads;
 }
 
-void addPlan(ProgramBuilder& program, const Grid& grid, BufferId step, bool isLast = true) {
+// Of kernels that care which substep it is.
+layout::GridPush pushOf(const ProgramBuilder& program, const Grid& grid) {
     layout::GridPush push = grid.push;
+    push.isLater = program.isAfterFirstSubstep() ? 1 : 0;
+    return push;
+}
+
+void addPlan(ProgramBuilder& program, const Grid& grid, BufferId step, bool isLast = true) {
+    layout::GridPush push = pushOf(program, grid);
     if (!isLast) push.bodies = 0; // frames go on once a substep
     program.dispatch(kernels::planGrid, GROUP_ITEMS,
                      {grid.bounds, grid.arguments, grid.frames.frames, step, grid.touching.arguments,
@@ -86,19 +93,19 @@ Grid add(ProgramBuilder& program, const Request& request) {
               .places = program.scratch<std::array<std::uint32_t, 2>>(name + ".places", count),
               .sorted = program.scratch<layout::vec4>(name + ".sorted", count),
               .detected = program.upload(name + ".detected", nowhere)};
-    grid.particles = {grid.arguments, GRID_PARTICLES, grid.push.count};
-    grid.particleChunks = {grid.arguments, GRID_PARTICLE_CHUNKS, (grid.push.count - 1) / GRID_CHUNK + 1};
-    grid.cellChunks = {grid.arguments, GRID_CELL_CHUNKS, cells / GRID_CHUNK};
-    grid.oneGroup = {grid.arguments, GRID_ONE_GROUP, GROUP_ITEMS};
-    grid.others = {grid.arguments, GRID_OTHERS, request.others};
-    grid.swept = {grid.arguments, GRID_SWEPT, grid.push.count};
-    grid.unswept = {grid.arguments, GRID_UNSWEPT, grid.push.count};
+    grid.particles = {grid.arguments, GRID_PARTICLES, grid.push.count, true};
+    grid.particleChunks = {grid.arguments, GRID_PARTICLE_CHUNKS, (grid.push.count - 1) / GRID_CHUNK + 1, true};
+    grid.cellChunks = {grid.arguments, GRID_CELL_CHUNKS, cells / GRID_CHUNK, true};
+    grid.oneGroup = {grid.arguments, GRID_ONE_GROUP, GROUP_ITEMS, true};
+    grid.others = {grid.arguments, GRID_OTHERS, request.others, true};
+    grid.swept = {grid.arguments, GRID_SWEPT, grid.push.count, true};
+    grid.unswept = {grid.arguments, GRID_UNSWEPT, grid.push.count, true};
     const BufferId touching = program.scratch<layout::DispatchArguments>(name + ".touching", 2);
     grid.touching = {touching, 0, grid.push.count};
     grid.touchingParticles = {touching, 1, static_cast<std::uint32_t>(std::max(count, request.particles))};
     grid.watched =
         request.watched.empty() ? grid.radii : program.upload(name + ".watched_radii", request.watched);
-    grid.slowed = {grid.arguments, GRID_SLOWED, grid.push.count};
+    grid.slowed = {grid.arguments, GRID_SLOWED, grid.push.count, true};
     const body_frames::Request frames{.radii = request.watched.empty() ? request.radii : request.watched,
                                       .reach = request.reach,
                                       .margin = request.margin,

@@ -5,6 +5,8 @@
 #include "layout.h"
 #include "sim/compile.hpp"
 
+#include <algorithm>
+
 namespace sinew::sim::constraints::attachment {
 
 struct Attachments {
@@ -36,6 +38,10 @@ public:
     std::vector<Vec3> places() const;
     /// One an attachment; at once.
     void moveTo(std::span<const Vec3> places) noexcept;
+    /// Likewise, values() of another time.
+    void restore(std::span<const layout::vec4> values) noexcept {
+        std::copy(values.begin(), values.end(), values_.begin());
+    }
     std::size_t count() const noexcept { return attachments_.size(); }
     /// From and to of every attachment.
     std::span<const layout::vec4> values() const noexcept { return values_; }

@@ -114,6 +114,10 @@ void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, Buff
                              particles.forces->ofGrabs());
 }
 
+bool Hands::areFree() const noexcept {
+    return std::ranges::all_of(values(), [](const layout::GrabHand& hand) { return hand.serial == 0; });
+}
+
 void Hands::advance(std::span<const Grab> grabs, float dt) noexcept {
     for (std::size_t k = 0; k < count_; ++k) {
         layout::GrabHand& hand = hands_[k];

@@ -38,6 +38,7 @@ public:
     void reset() noexcept { hands_ = {}; }
     /// A step of `dt` [s].
     void advance(std::span<const Grab> grabs, float dt) noexcept;
+    bool areFree() const noexcept; ///< none holds anything
     std::span<const layout::GrabHand> values() const noexcept { return std::span(hands_).first(count_); }
 
 private:

@@ -34,8 +34,7 @@ Trial prepare(const StudyScene& scene, const sim::Settings& settings, const vk::
     trial.identity = identityOf(scene, settings, program, device);
     // Without links a sweep is one over what touches.
     trial.sweeps = std::max(program.sweeps, std::uint64_t{settings.substeps} * settings.iterations);
-    trial.barriers =
-        static_cast<std::uint64_t>(std::ranges::count(program.step, true, &sim::Pass::barrierBefore));
+    trial.barriers = sim::countPasses(program, {}).barriers;
     trial.clamped = clampedShare(scene.loaded.scene, settings);
     return trial;
 }

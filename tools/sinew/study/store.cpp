@@ -81,7 +81,7 @@ std::string hashOf(const sim::StepProgram& program) {
         hash.add(buffer.initial);
     }
     for (const sim::Pass& pass : program.step) {
-        hash.addValues(pass.kind, pass.kernel, pass.items, pass.value, pass.barrierBefore);
+        hash.addValues(pass.kind, pass.kernel, pass.items, pass.value, hasBarrier({}, pass));
         for (const sim::BufferUse& use : pass.uses) hash.addValues(use.buffer.index);
         hash.add(pass.push);
     }

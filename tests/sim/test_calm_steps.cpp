@@ -1,0 +1,236 @@
+// Calm steps, which make lists of contacts in their first substep alone: the same bits as those that make them
+// in any, whatever of them was undone and repeated, with several in flight.
+#include "sim/bodies.hpp"
+#include "sim/calm_steps.hpp"
+#include "sim/collision/contact_scenes.hpp"
+#include "sim/collision/face_scenes.hpp"
+#include "sim/hash.hpp"
+#include "sim/scenes.hpp"
+#include "sim/start.hpp"
+#include "support/device.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <functional>
+
+namespace sinew::sim {
+namespace {
+
+constexpr float spacing = 0.05f;
+
+void addBox(Scene& scene, Vec3 origin, std::array<std::uint32_t, 3> cells, const Start& how = {},
+            bool isCuttable = false) {
+    const std::size_t first = scene.bodies.size();
+    addLattice(scene, {.origin = origin,
+                       .cells = cells,
+                       .spacing = spacing,
+                       .youngModulus = 2e5f,
+                       .radius = 0.45f * spacing,
+                       .isCuttable = isCuttable});
+    start(scene, first, how);
+}
+
+// What the host says of a step, by its frame.
+using Input = std::function<void(Step&)>;
+
+// Steps of a scene with some of them in flight, each recorded again where it lacked lists.
+class Steps {
+public:
+    Steps(const Scene& scene, const Settings& settings, bool repeats, std::uint32_t inFlight = 1,
+          Input input = {})
+        : simulation_(test::device(), scene, settings), scene_(scene), input_(std::move(input)),
+          repeats_(repeats), inFlight_(inFlight) {
+        submit([&](VkCommandBuffer commands) { simulation_.recordReset(commands); });
+    }
+
+    void run(std::uint64_t steps) {
+        const std::uint64_t end = settled_ + steps;
+        std::uint64_t next = settled_;
+        while (settled_ < end) {
+            while (next < end && next - settled_ < inFlight_) record(next++);
+            test::queue().wait(values_[settled_ % values_.size()]);
+            const Status status = simulation_.status(settled_);
+            ASSERT_TRUE(status.isFinished);
+            ASSERT_EQ(status.nonFinite + status.contactRoom, 0u) << "step " << settled_;
+            if (!status.lacksLists) {
+                ASSERT_FALSE(status.isUndone);
+                calm_ += status.isCalm ? 1 : 0;
+                later_ += status.laterLists > 0 ? 1 : 0;
+                forces_ = simulation_.forces(settled_);
+                if (++settled_; inFlight_ == 1) hashes_.push_back(hash());
+                continue;
+            }
+            test::queue().waitIdle();
+            expectAllUndone(next);
+            repeated_ += next - settled_;
+            next = settled_;
+        }
+    }
+
+    std::uint64_t hash() const {
+        std::uint64_t hash = fnv1a({});
+        for (const vk::BufferView& view : {simulation_.positions(), simulation_.velocities()})
+            hash = fnv1a(test::queue().download<std::byte>(view), hash);
+        return hash;
+    }
+
+    template <typename Record> void submit(const Record& record) {
+        const VkCommandBuffer commands = test::queue().begin();
+        record(commands);
+        test::queue().wait(test::queue().submit(commands));
+    }
+
+    Simulation& simulation() { return simulation_; }
+    const std::vector<std::uint64_t>& hashes() const { return hashes_; }
+    std::uint64_t calm() const { return calm_; }
+    std::uint64_t repeated() const { return repeated_; }
+    std::uint64_t later() const { return later_; } // steps that needed lists after their first substep
+    const Impulses& forces() const { return forces_; }
+
+private:
+    void record(std::uint64_t frame) {
+        Step step{.dt = scene_.dt, .gravity = scene_.gravity, .frame = frame, .repeats = repeats_};
+        if (input_) input_(step);
+        const VkCommandBuffer commands = test::queue().begin();
+        simulation_.record(commands, step);
+        values_[frame % values_.size()] = test::queue().submit(commands);
+    }
+
+    // All that was recorded from the step that lacked lists on.
+    void expectAllUndone(std::uint64_t next) {
+        for (std::uint64_t frame = settled_; frame < next; ++frame) {
+            const Status status = simulation_.status(frame);
+            EXPECT_TRUE(status.isUndone && status.lacksLists) << frame << " of " << settled_;
+            const Impulses forces = simulation_.forces(frame);
+            for (const BodyImpulses& body : forces.bodies)
+                for (const Impulse& impulse : {body.contacts, body.planes, body.colliders, body.holds})
+                    EXPECT_TRUE(impulse.linear.x == 0 && impulse.linear.y == 0 && impulse.linear.z == 0);
+        }
+        if (!hashes_.empty()) {
+            EXPECT_EQ(hash(), hashes_.back()) << "before step " << settled_;
+        }
+    }
+
+    Simulation simulation_;
+    const Scene scene_;
+    Input input_;
+    bool repeats_;
+    std::uint32_t inFlight_;
+    std::array<std::uint64_t, Simulation::framesInFlight> values_{};
+    std::uint64_t settled_ = 0, calm_ = 0, repeated_ = 0, later_ = 0;
+    std::vector<std::uint64_t> hashes_;
+    Impulses forces_;
+};
+
+struct Case {
+    const char* name;
+    Scene scene;
+    Settings settings;
+    std::uint64_t steps = 40;
+    Input input = {};
+};
+
+Scene onFloor() {
+    Scene scene;
+    scene.planes = {{.friction = 0.4f}};
+    return scene;
+}
+
+// Falls until a floor meets it.
+Case landing() {
+    Case one{"a box that lands", onFloor(), {.substeps = 16, .contactRoom = 64}};
+    addBox(one.scene, {0, 0.6f, 0}, {4, 4, 4});
+    return one;
+}
+
+// Two that fly until they meet.
+Case collision() {
+    Case one{"boxes that collide", {}, {.substeps = 12, .contactRoom = 64}};
+    one.scene.gravity = {0, 0, 0};
+    one.scene.contacts = {.friction = 0.3f, .restitution = 0.4f};
+    addBox(one.scene, {0, 0, 0}, {3, 3, 3}, {.velocity = {1.5f, 0, 0}});
+    addBox(one.scene, {1, 0.05f, 0}, {3, 3, 3}, {.velocity = {-1.5f, 0, 0}, .spin = {0, 1, 2}});
+    return one;
+}
+
+Case stack() {
+    Case one{"a stack", onFloor(), {.substeps = 16, .contactRoom = 64}};
+    for (const int b : {0, 1, 2}) addBox(one.scene, {0.01f * static_cast<float>(b), 0.03f + 0.24f * static_cast<float>(b), 0}, {4, 4, 4});
+    one.scene.contacts.friction = 0.5f;
+    return one;
+}
+
+Case slide() {
+    Case one{"a box that slides on another", onFloor(), {.substeps = 16, .contactRoom = 64}};
+    one.scene.contacts.friction = 0.05f;
+    addBox(one.scene, {0, 0.03f, 0}, {10, 2, 4});
+    addBox(one.scene, {0, 0.18f, 0}, {3, 3, 3}, {.velocity = {0.6f, 0, 0}});
+    return one;
+}
+
+Case balls() {
+    Case one{"loose balls", onFloor(), {.substeps = 12, .contactRoom = 32}};
+    one.scene.contacts = {.friction = 0.3f, .restitution = 0.2f};
+    test::addBalls(one.scene, 4, 0.12f, 0.01f, {0, 0.9f, 0});
+    return one;
+}
+
+Case cut() {
+    Case one{"a box that is cut", onFloor(), {.substeps = 12, .contactRoom = 96}, 36};
+    addBox(one.scene, {0, 0.25f, 0}, {6, 4, 4}, {}, true);
+    static constexpr std::array<Vec3, 2> from{{{0.151f, -1, -1}, {0.151f, 2, -1}}},
+        to{{{0.161f, -1, 1}, {0.161f, 2, 1}}};
+    one.input = [](Step& step) {
+        if (step.frame == 12) step.blade = {.from = from, .to = to};
+    };
+    return one;
+}
+
+std::vector<Case> cases() {
+    const Settings few{.substeps = 10, .contactRoom = 96};
+    return {landing(),
+            collision(),
+            stack(),
+            slide(),
+            balls(),
+            cut(),
+            {"cloth on a ball", test::clothOnBall(), few, 40},
+            {"cloth on a box", test::clothOnBox(0.2f), few, 40},
+            {"crossed sheets", test::crossedSheets(0.2f), few, 40}};
+}
+
+} // namespace
+
+TEST(CalmSteps, AndThoseThatAreRepeatedLeaveTheBitsOfAllOthers) {
+    std::uint64_t calm = 0, repeated = 0, later = 0;
+    for (const Case& one : cases()) {
+        SCOPED_TRACE(one.name);
+        Steps plain(one.scene, one.settings, false, 1, one.input);
+        Steps alone(one.scene, one.settings, true, 1, one.input);
+        Steps together(one.scene, one.settings, true, 3, one.input);
+        for (Steps* steps : {&plain, &alone, &together}) ASSERT_NO_FATAL_FAILURE(steps->run(one.steps));
+        std::printf("%s: %llu of %llu steps calm, %llu repeated; three in flight: %llu, %llu; without: %llu "
+                    "needed later lists\n",
+                    one.name, static_cast<unsigned long long>(alone.calm()),
+                    static_cast<unsigned long long>(one.steps),
+                    static_cast<unsigned long long>(alone.repeated()),
+                    static_cast<unsigned long long>(together.calm()),
+                    static_cast<unsigned long long>(together.repeated()),
+                    static_cast<unsigned long long>(plain.later()));
+        EXPECT_EQ(plain.calm() + plain.repeated(), 0u);
+        EXPECT_EQ(alone.hashes(), plain.hashes());
+        EXPECT_EQ(together.hash(), plain.hash());
+        calm += alone.calm();
+        repeated += alone.repeated();
+        later += plain.later();
+        const Status last = together.simulation().status(one.steps - 1);
+        EXPECT_GE(last.stepsUndone, together.repeated()) << "some are told apart no more";
+    }
+    EXPECT_GT(calm, 60u);
+    EXPECT_GT(repeated, 1u) << "no step was broken";
+    EXPECT_GT(later, 20u) << "no scene needs lists in the midst of a step";
+}
+
+} // namespace sinew::sim
