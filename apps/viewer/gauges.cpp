@@ -158,6 +158,7 @@ void Gauges::restart() {
     facts_.strainRms.clear();
     facts_.strainMax.clear();
     facts_.slowed = facts_.sleeping = facts_.linksCut = 0;
+    facts_.stepsRepeated = 0;
     facts_.pieces = {};
     facts_.crumbs = facts_.crumbParticles = 0;
     facts_.crumbMass = 0;

@@ -34,6 +34,7 @@ public:
     /// GPU time of a step, by phase [ms].
     void stepTimed(std::span<const double> milliseconds);
     void stepFinished(const sim::Status& status);
+    void stepsRepeated(std::uint64_t steps) { facts_.stepsRepeated += steps; }
     void strainMeasured(const Strain& strain);
     /// Sets the number of pieces that is shown until the next call.
     void piecesCounted(const app::PieceCount& count) { facts_.pieces = count; }

@@ -110,6 +110,7 @@ public:
           offscreen_(device, options.size, opening.light), layers_(options.layers), queue_(device) {
         stage_.setDefaultRecovery(opening.loaded.defaultRecovery);
         stage_.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
+        stage_.setRepeats(!input);
         if (options.isTimed) times_.emplace(device, stage_);
         if (input) {
             replay_.emplace(std::move(*input));
@@ -387,10 +388,15 @@ private:
     void redoFrom(const Submission& first) {
         std::deque<Submission> undone = std::exchange(submissions_, {});
         undone.push_front(first);
-        if (!stage_.makeRoom(first.frame, queue_, bring()))
-            throw app::Failure(app::diverged, app::tooCrowded(first.frame));
-        inspection_.reset(); // there is another simulation now
-        if (tools_) forgetUndone(undone);
+        if (stage_.lacksLists(first.frame)) { // no tools are there then
+            queue_.waitIdle();
+            stage_.goBackBefore(first.frame);
+        } else {
+            if (!stage_.makeRoom(first.frame, queue_, bring()))
+                throw app::Failure(app::diverged, app::tooCrowded(first.frame));
+            inspection_.reset(); // there is another simulation now
+            if (tools_) forgetUndone(undone);
+        }
         goOnBeside(); // it has taken those steps
         for (Submission& again : undone) {
             VkCommandBuffer commands = queue_.begin();
@@ -423,7 +429,7 @@ private:
         waitFor(oldest.value);
         if (oldest.frame == 0) return;
         if (times_) times_->stepFinished(oldest.frame);
-        if (stage_.neededRoom(oldest.frame) > 0) return redoFrom(oldest);
+        if (stage_.neededRoom(oldest.frame) > 0 || stage_.lacksLists(oldest.frame)) return redoFrom(oldest);
         if (const std::optional<Divergence> divergence = stage_.check(oldest.frame))
             throw app::Failure(app::diverged, divergence->sentence());
         if (beside_) checkBeside(slotOf(oldest.frame));

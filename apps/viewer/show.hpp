@@ -182,6 +182,8 @@ private:
     std::uint32_t halvesWidth() const;
     void stop(const std::string& why);
     void makeRoom(std::uint64_t step, const InFlight& undone);
+    void repeatFrom(std::uint64_t step, const InFlight& undone);
+    std::vector<Sweep> forgetUndone(const InFlight& undone);
     void settleAll();
     void warnOfMistakes();
     void reportFiles(PictureWriter::Wait wait);

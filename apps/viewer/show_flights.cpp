@@ -41,6 +41,7 @@ void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
         isBesideOut_ = true; // it goes on from there, too
     }
     if (replay_ && plan.steps > 0 && !playInput(frame)) plan.steps = 0;
+    stage_.setRepeats(!replay_); // a log has no such steps
     flight.firstStep = stage_.steps() + 1;
     flight.steps = plan.steps;
     for (std::uint32_t step = 0; step < plan.steps; ++step) {
@@ -150,6 +151,11 @@ void Show::settle(std::uint32_t slot) {
             makeRoom(step, flight);
             isUndone = true;
             break; // what came after it was undone as well
+        }
+        if (stage_.lacksLists(step)) {
+            repeatFrom(step, flight);
+            isUndone = true;
+            break;
         }
         if (const std::optional<Divergence> divergence = stage_.check(step)) stop(divergence->sentence());
         const sim::Status status = stage_.simulation().status(step);
@@ -303,20 +309,36 @@ void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
         stage_.keepShape();
         screen_.warn("the replay ends here: contacts need more room than when it was recorded");
     }
+    tools_.restart(stage_, forgetUndone(undone), newest - stage_.steps());
+}
+
+// In the simulation that there is: the next frame takes the step again.
+void Show::repeatFrom(std::uint64_t step, const InFlight& undone) {
+    screen_.presenter().waitIdle();
+    const std::uint64_t newest = stage_.steps();
+    stage_.goBackBefore(step);
+    isBesideOut_ = true; // it has taken those steps
+    gauges_.stepsRepeated(newest - stage_.steps());
+    tools_.takeBack(stage_, forgetUndone(undone), newest - stage_.steps());
+}
+
+// Returns the cuts of `undone`, which was settled, and of later frames: all of those steps were undone.
+std::vector<Sweep> Show::forgetUndone(const InFlight& undone) {
     std::vector<Sweep> sweeps = undone.sweeps;
     for (const InFlight& later : inFlight_) // at most one has some
         sweeps.insert(sweeps.end(), later.sweeps.begin(), later.sweeps.end());
-    tools_.restart(stage_, sweeps, newest - stage_.steps());
     for (InFlight& other : inFlight_) {
         other.steps = 0;
         other.sweeps.clear();
         other.isRecorded = false;
     }
+    return sweeps;
 }
 
 void Show::settleAll() {
     screen_.presenter().waitIdle();
-    for (std::uint32_t slot = 0; slot < Presenter::framesInFlight; ++slot) settle(slot);
+    for (std::uint32_t i = 0; i < Presenter::framesInFlight; ++i) // from the oldest on
+        settle((screen_.presenter().nextSlot() + i) % Presenter::framesInFlight);
     warnOfMistakes();
 }
 

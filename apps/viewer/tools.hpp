@@ -98,6 +98,9 @@ public:
     void moveOn();
     /// Likewise, where so many steps were undone. `undone`, in their order, are cut again.
     void restart(const Stage& stage, std::span<const Sweep> undone, std::uint64_t steps);
+    /// Takes back so many steps, which the same simulation takes again. `undone`, in their order, are cut
+    /// again.
+    void takeBack(const Stage& stage, std::span<const Sweep> undone, std::uint64_t steps);
     /// What can be undone of those sweeps was never done: takeStep(), or who takes those steps again,
     /// remembers anew.
     void forgetUndone(const Stage& stage, std::span<const Sweep> undone);
@@ -111,7 +114,7 @@ public:
     bool isPokeOn() const { return poke_.isOn(); }
     const History& history() const { return history_; }
     /// How many steps there is a way back of.
-    std::size_t stepsBack() const { return steps_.undos(); }
+    std::size_t stepsBack() const { return std::min(steps_.undos(), keptSteps_); }
     std::size_t pins() const { return pins_.count(); }
     Overlay overlay() const { return {hand_.hand(), pins_.shown(), blade_.path(), blade_.gauge()}; }
     /// What they said last, once: also a line on stderr.
@@ -133,7 +136,10 @@ private:
     Pins pins_;
     CutTool blade_;
     PokeTool poke_;
-    History history_, steps_; // of cuts; of all steps
+    // Steps that may be taken back at once, which is to leave as many behind as elsewhere.
+    static constexpr std::size_t mostTakenBack = sim::Simulation::framesInFlight;
+    History history_, steps_;   // of cuts; of all steps
+    std::size_t keptSteps_ = 0; // of those at most, in which there are more: some may be taken back
     std::string note_;
     void rememberStep(VkCommandBuffer commands, const Stage& stage);
     bool goBack(VkCommandBuffer commands, Stage& stage);

@@ -21,6 +21,7 @@ void recordStep(VkCommandBuffer commands, Stage& stage, const StepHands& hands,
 // What hands hold stays behind, as after an undo. A cut that has not been yet cannot be undone.
 bool Tools::goBack(VkCommandBuffer commands, Stage& stage) {
     const std::uint32_t wanted = std::exchange(stepsBack_, 0);
+    steps_.limit(keptSteps_); // as many as where none was taken back
     if (steps_.undos() == 0) {
         note_ = "there is no earlier step to go back to";
         return false;
@@ -58,6 +59,7 @@ void Tools::remember(VkCommandBuffer commands, const Stage& stage) {
 void Tools::rememberStep(VkCommandBuffer commands, const Stage& stage) {
     constexpr std::size_t worthIt = 8;
     if (isForgetfulOfSteps_ || steps_.room(stage) < worthIt) return;
+    keptSteps_ = steps_.room(stage) - mostTakenBack;
     try {
         steps_.recordBefore(commands, stage);
     } catch (const vk::Error&) { // no memory: those that there are stay
@@ -86,6 +88,13 @@ void Tools::moveOn() {
 void Tools::restart(const Stage& stage, std::span<const Sweep> undone, std::uint64_t steps) {
     log_.takeBack(steps);
     moveOn();
+    forgetUndone(stage, undone);
+    blade_.putBack(undone);
+}
+
+void Tools::takeBack(const Stage& stage, std::span<const Sweep> undone, std::uint64_t steps) {
+    log_.takeBack(steps);
+    steps_.forgetFrom(stage.played());
     forgetUndone(stage, undone);
     blade_.putBack(undone);
 }

@@ -41,14 +41,7 @@ struct StepParams {
     uint lists; // bits of LISTS_...
 };
 
-// When a step may make lists of contacts. REPEATS: the host repeats a step that is undone because it lacked lists. CALM: the step was
-// recorded without the passes that make lists in substeps after the first. RESUMES: it is such a step, or lists need not be kept from
-// steps before.
-#define LISTS_REPEATS 1u
-#define LISTS_CALM 2u
-#define LISTS_RESUMES 4u
-// Part of its slack at which a list is made again in the first substep of a step that may be repeated: it then lasts the step.
-#define LISTS_EARLY 0.7
+#include "lists_layout.h"
 
 // `split` keeps the links of a work group's particles together, slot by slot: link s of particle i is element
 // (i / LINK_BLOCK * degree + s) * LINK_BLOCK + i % LINK_BLOCK. Slots of the whole scene behind one another would lie a power

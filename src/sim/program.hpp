@@ -78,8 +78,9 @@ struct Recording {
 constexpr std::size_t recordingCount = 4;
 constexpr std::array<Recording, recordingCount> allRecordings{
     {{true, false}, {false, false}, {true, true}, {false, true}}};
-/// What a step without a blade records while lists of contacts are made in any substep, and while they last.
-constexpr Recording plainStep{.hasBlade = false, .isCalm = false}, calmStep{.hasBlade = false, .isCalm = true};
+/// A step without a blade: one that may make lists of contacts in any substep, and a calm one.
+constexpr Recording plainStep{.hasBlade = false, .isCalm = false},
+    calmStep{.hasBlade = false, .isCalm = true};
 
 /// One entry of the list.
 struct Pass {
@@ -90,12 +91,12 @@ struct Pass {
     std::vector<BufferUse> uses; ///< in binding order; then the arguments of an indirect dispatch
     std::vector<std::byte> push;
     std::uint32_t value = 0;
-    bool isIndirect = false;        ///< a kernel decides how many groups: element `value` of the last use
-    std::uint32_t phase = 0;        ///< index into StepProgram::phases
-    std::uint32_t substep = 0;      ///< 1-based; 0 = outside the substeps
-    bool isOfCut = false;           ///< recorded only in a step with a blade
-    bool isOfSurface = false;       ///< among those: writes the surface of cuts from what is known of cells
-    bool isOfLists = false;         ///< makes lists of contacts after the first substep: not in a calm step
+    bool isIndirect = false;   ///< a kernel decides how many groups: element `value` of the last use
+    std::uint32_t phase = 0;   ///< index into StepProgram::phases
+    std::uint32_t substep = 0; ///< 1-based; 0 = outside the substeps
+    bool isOfCut = false;      ///< recorded only in a step with a blade
+    bool isOfSurface = false;  ///< among those: writes the surface of cuts from what is known of cells
+    bool isOfLists = false;    ///< makes lists of contacts after the first substep: not in a calm step
     /// By Recording, set by planBarriers: whether a barrier stands before the pass.
     std::array<bool, recordingCount> barriers{};
 };
@@ -286,10 +287,10 @@ struct StepProgram {
     std::uint64_t sweeps = 0; ///< times every constraint is read in one step
 };
 
-/// Walks the passes of a recording, which run front to back on one queue, and says which need a barrier before
-/// them. Keeps the buffers read and written since the last barrier: a pass that touches a written one, or
-/// writes a read one, gets one and both sets are cleared; right because every barrier covers all earlier work
-/// with the same masks.
+/// Walks the passes of a recording, which run front to back on one queue, and says which need a barrier
+/// before them. Keeps the buffers read and written since the last barrier: a pass that touches a written one,
+/// or writes a read one, gets one and both sets are cleared; right because every barrier covers all earlier
+/// work with the same masks.
 void planBarriers(std::span<Pass> passes, std::size_t bufferCount, Recording recording = {});
 
 /// The printed form: `label xitems buffer:access ...`, barriers in between, equal substeps folded, then

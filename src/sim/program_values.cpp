@@ -23,8 +23,8 @@ bool isSamePass(const Pass& a, const Pass& b) {
         return x.buffer == y.buffer && x.access == y.access;
     };
     return a.kind == b.kind && a.kernel == b.kernel && a.items == b.items && a.value == b.value &&
-           a.isIndirect == b.isIndirect && a.isOfCut == b.isOfCut && a.isOfLists == b.isOfLists && a.isOfSurface == b.isOfSurface &&
-           a.phase == b.phase && a.push.size() == b.push.size() &&
+           a.isIndirect == b.isIndirect && a.isOfCut == b.isOfCut && a.isOfLists == b.isOfLists &&
+           a.isOfSurface == b.isOfSurface && a.phase == b.phase && a.push.size() == b.push.size() &&
            std::ranges::equal(a.uses, b.uses, isSameUse);
 }
 

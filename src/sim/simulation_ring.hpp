@@ -50,7 +50,7 @@ public:
     std::vector<layout::ForceSum> forces(std::uint64_t frame) const;
     /// Whether `frame` was recorded, has its slot still and came back from the device.
     bool isFinished(std::uint64_t frame) const noexcept;
-    /// The same, to be changed by who looks at it.
+    /// That step, for its reader to mark.
     RecordedStep& step(std::uint64_t frame) noexcept { return steps_[slotOf(frame)]; }
     /// True where that step has finished and was undone.
     bool isUndone(std::uint64_t frame) const noexcept;

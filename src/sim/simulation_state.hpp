@@ -98,7 +98,7 @@ struct Simulation::State {
     std::vector<Before> befores;
     std::uint32_t topologies = 0; // that were loaded
     CalmSteps calmSteps;
-    bool isNewState = true; // no step was recorded since it came from elsewhere
+    bool isNewState = true;                   // no step was recorded since it came from elsewhere
     std::uint32_t generation = 0;             // of steps
     std::optional<std::uint64_t> lackedLists; // the first step of this generation that did
 
@@ -309,7 +309,7 @@ struct Simulation::State {
         return words.lacksLists > 0 && words.candidates == 0;
     }
     bool mayBeCalm() const noexcept;
-    // What steps that have come back say of lists, from the oldest on.
+    // Reads from steps that have come back how long lists last, from the oldest on.
     void readSteps() noexcept;
     // Before `frame` is recorded, which then is a step that lacked lists, or may lack them.
     void goBackBefore(std::uint64_t frame) noexcept;

@@ -1,5 +1,5 @@
-// Calm steps, which make lists of contacts in their first substep alone: the same bits as those that make them
-// in any, whatever of them was undone and repeated, with several in flight.
+// Calm steps, which make lists of contacts in their first substep alone: the same bits as those that make
+// them in any, whatever of them was undone and repeated, with several in flight.
 #include "sim/bodies.hpp"
 #include "sim/calm_steps.hpp"
 #include "sim/collision/contact_scenes.hpp"
@@ -32,7 +32,7 @@ void addBox(Scene& scene, Vec3 origin, std::array<std::uint32_t, 3> cells, const
     start(scene, first, how);
 }
 
-// What the host says of a step, by its frame.
+// Fills in the host's part of a step, by its frame.
 using Input = std::function<void(Step&)>;
 
 // Steps of a scene with some of them in flight, each recorded again where it lacked lists.
@@ -157,7 +157,9 @@ Case collision() {
 
 Case stack() {
     Case one{"a stack", onFloor(), {.substeps = 16, .contactRoom = 64}};
-    for (const int b : {0, 1, 2}) addBox(one.scene, {0.01f * static_cast<float>(b), 0.03f + 0.24f * static_cast<float>(b), 0}, {4, 4, 4});
+    for (const int b : {0, 1, 2})
+        addBox(one.scene, {0.01f * static_cast<float>(b), 0.03f + 0.24f * static_cast<float>(b), 0},
+               {4, 4, 4});
     one.scene.contacts.friction = 0.5f;
     return one;
 }
@@ -188,6 +190,58 @@ Case cut() {
     return one;
 }
 
+// Points that follow no faster than they may, a collider on a path and a poke: the host's part of the state.
+Case ledByTheHost() {
+    Case one{"a box that is led and pushed", onFloor(), {.substeps = 12, .contactRoom = 64, .pokes = 1}, 60};
+    addBox(one.scene, {0, 0.9f, 0}, {4, 4, 4});
+    addBox(one.scene, {-0.4f, 1.2f, 0}, {3, 3, 3});
+    const auto last = static_cast<std::uint32_t>(one.scene.particles.size() - 1);
+    one.scene.attachments = {
+        {.particle = last, .anchor = one.scene.particles[last].position, .maxSpeed = 0.7f}};
+    one.scene.colliders = {{.radius = 0.1f,
+                            .path = {{.time = 0, .pose = {.position = {0.5f, 0.3f, 0.1f}}},
+                                     {.time = 1, .pose = {.position = {-0.5f, 0.3f, 0.1f}}}}}};
+    static std::array<Vec3, 1> anchors;
+    static std::array<Poke, 1> pokes;
+    one.input = [](Step& step) {
+        const auto time = static_cast<float>(step.frame) * step.dt;
+        anchors = {{{-0.4f + 2 * time, 1, 0}}};
+        pokes = {{{.radius = 0.08f, .pose = {.position = {0.1f, 0.2f + time, 0.1f}}, .maxSpeed = 0.8f}}};
+        step.anchors = anchors;
+        if (step.frame > 20 && step.frame < 50) step.pokes = pokes;
+    };
+    return one;
+}
+
+// A hand takes hold of what falls, and lets go.
+Case held() {
+    Case one{"a box that is held", onFloor(), {.substeps = 12, .contactRoom = 64, .grabs = 1}, 60};
+    addBox(one.scene, {0, 0.9f, 0}, {4, 4, 4});
+    addBox(one.scene, {0.05f, 1.3f, 0.03f}, {3, 3, 3});
+    static constexpr std::array<Grab, 1> grabs{{{.particle = 3, .radius = 0.1f, .target = {0.1f, 0.5f, 0}}}};
+    one.input = [](Step& step) {
+        if (step.frame > 24 && step.frame < 32) step.grabs = grabs;
+    };
+    return one;
+}
+
+Case asleep() {
+    Case one = landing();
+    one.name = "boxes that fall asleep";
+    one.settings.sleeps = true;
+    one.scene.damping = 4;
+    addBox(one.scene, {0.01f, 2, 0.02f}, {3, 3, 3});
+    one.steps = 90;
+    return one;
+}
+
+Case withForces() {
+    Case one = landing();
+    one.name = "forces of a box that lands";
+    one.settings.keepsForces = true;
+    return one;
+}
+
 std::vector<Case> cases() {
     const Settings few{.substeps = 10, .contactRoom = 96};
     return {landing(),
@@ -196,9 +250,17 @@ std::vector<Case> cases() {
             slide(),
             balls(),
             cut(),
+            ledByTheHost(),
+            held(),
+            asleep(),
             {"cloth on a ball", test::clothOnBall(), few, 40},
             {"cloth on a box", test::clothOnBox(0.2f), few, 40},
             {"crossed sheets", test::crossedSheets(0.2f), few, 40}};
+}
+
+bool areEqual(const Impulse& a, const Impulse& b) {
+    const auto isSame = [](const Vec3& x, const Vec3& y) { return x.x == y.x && x.y == y.y && x.z == y.z; };
+    return isSame(a.linear, b.linear) && isSame(a.angular, b.angular);
 }
 
 } // namespace
@@ -231,6 +293,75 @@ TEST(CalmSteps, AndThoseThatAreRepeatedLeaveTheBitsOfAllOthers) {
     EXPECT_GT(calm, 60u);
     EXPECT_GT(repeated, 1u) << "no step was broken";
     EXPECT_GT(later, 20u) << "no scene needs lists in the midst of a step";
+}
+
+// Impulses of a step that was repeated are those of the step that was not undone.
+TEST(CalmSteps, KeepTheForcesOfOthers) {
+    const Case one = withForces();
+    Steps plain(one.scene, one.settings, false), calm(one.scene, one.settings, true, 2);
+    for (Steps* steps : {&plain, &calm}) ASSERT_NO_FATAL_FAILURE(steps->run(one.steps));
+    EXPECT_GT(calm.calm(), 0u);
+    EXPECT_GT(calm.repeated(), 0u);
+    ASSERT_EQ(calm.forces().bodies.size(), 1u);
+    const BodyImpulses &with = calm.forces().bodies[0], &without = plain.forces().bodies[0];
+    EXPECT_GT(without.planes.linear.y, 0);
+    for (const Impulse BodyImpulses::*of : {&BodyImpulses::contacts, &BodyImpulses::planes})
+        EXPECT_TRUE(areEqual(with.*of, without.*of));
+}
+
+// Until a step that lacks lists is on the device, and not looked at yet: what is saved then, and what goes on
+// from a reset, goes on as if nothing was.
+TEST(CalmSteps, LeaveNothingBehindInStatesOfTheirOwn) {
+    const Case one = landing();
+    Simulation simulation(test::device(), one.scene, one.settings);
+    const vk::Buffer saved(test::device(),
+                           {.name = "saved", .count = simulation.stateSize() / 4, .stride = 4});
+    SavedState host;
+    const auto submit = [&](const auto& record) {
+        const VkCommandBuffer commands = test::queue().begin();
+        record(commands);
+        test::queue().wait(test::queue().submit(commands));
+    };
+    const auto step = [&](std::uint64_t frame, bool repeats) {
+        submit([&](VkCommandBuffer commands) {
+            simulation.record(commands, {.dt = one.scene.dt, .frame = frame, .repeats = repeats});
+        });
+        return simulation.status(frame);
+    };
+    submit([&](VkCommandBuffer commands) { simulation.recordReset(commands); });
+    std::uint64_t frame = 0;
+    while (frame < one.steps && !step(frame, true).lacksLists) ++frame;
+    ASSERT_LT(frame, one.steps) << "none lacks lists";
+    EXPECT_TRUE(step(frame + 1, true).lacksLists) << "as all behind it";
+    submit([&](VkCommandBuffer commands) { host = simulation.recordSaveState(commands, saved.view()); });
+
+    submit([&](VkCommandBuffer commands) { simulation.recordReset(commands); });
+    EXPECT_FALSE(step(frame, true).isUndone) << "of another generation";
+    submit([&](VkCommandBuffer commands) { simulation.recordLoadState(commands, saved.view(), host); });
+    EXPECT_FALSE(step(frame, true).isUndone) << "it goes on before the step that lacked lists";
+    EXPECT_FALSE(step(frame + 1, true).isUndone);
+    // one that does not repeat steps goes on, too
+    submit([&](VkCommandBuffer commands) { simulation.recordLoadState(commands, saved.view(), host); });
+    EXPECT_FALSE(step(frame, false).isUndone);
+}
+
+TEST(CalmSteps, ComeAfterEnoughOthersAndTwiceAsManyOnceOneFailed) {
+    CalmSteps steps;
+    const auto untilCalm = [&] {
+        std::uint32_t count = 0;
+        for (; !steps.areCalm(); ++count) steps.finished(0, false);
+        return count;
+    };
+    EXPECT_EQ(untilCalm(), CalmSteps::fewest);
+    steps.finished(1, false);
+    EXPECT_EQ(untilCalm(), CalmSteps::fewest) << "in a row";
+    steps.lacked();
+    EXPECT_EQ(untilCalm(), 2 * CalmSteps::fewest);
+    for (int i = 0; i < 20; ++i) steps.lacked();
+    EXPECT_EQ(untilCalm(), CalmSteps::most);
+    for (std::uint32_t i = 0; i < CalmSteps::most; ++i) steps.finished(0, true);
+    steps.finished(1, false);
+    EXPECT_EQ(untilCalm(), CalmSteps::most / 2) << "after as many calm ones";
 }
 
 } // namespace sinew::sim

@@ -170,13 +170,16 @@ TEST_F(Run, DoesAStepWithoutRoomForItsContactsAgainWithMore) {
         write("tight.toml", balls + "[contacts]\nroom = 1\n" + friction);
         const json roomy = report({"roomy.toml", "--frames", "40", "--validation"});
         const json tight = report({"tight.toml", "--frames", "40", "--validation"});
-        EXPECT_EQ(roomy["overflow"]["contacts"],
-                  (json{{"room", 64}, {"needed", nullptr}, {"grown", 0}, {"slowed", 0}}));
+        json enough = roomy["overflow"]["contacts"];
+        EXPECT_LE(enough["calm_steps"], 40);
+        for (const char* key : {"calm_steps", "repeated_steps"}) enough.erase(key);
+        EXPECT_EQ(enough, (json{{"room", 64}, {"needed", nullptr}, {"grown", 0}, {"slowed", 0}}));
         EXPECT_EQ(roomy["warnings"], json::array());
         const json& grown = tight["overflow"]["contacts"];
         EXPECT_GE(grown["grown"], 1);
         EXPECT_GE(grown["needed"], 2);
         EXPECT_GE(grown["room"], grown["needed"]);
+        EXPECT_GE(grown["repeated_steps"], grown["grown"]);
         EXPECT_EQ(tight["frames"], 40);
         EXPECT_EQ(tight["state_hash"], roomy["state_hash"]) << "nothing was dropped";
         EXPECT_EQ(tight["validation_messages"], json::array());

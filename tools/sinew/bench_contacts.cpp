@@ -244,7 +244,8 @@ SubstepCounts countSubstep(const sim::StepProgram& program, sim::Recording recor
 double predictedUs(const sim::StepProgram& program, sim::Recording recording) {
     double us = 0;
     for (const sim::Pass& pass : program.step)
-        if (pass.kind == sim::PassKind::dispatch && isIn(recording, pass)) us += pass.isIndirect ? emptyUs : directUs;
+        if (pass.kind == sim::PassKind::dispatch && isIn(recording, pass))
+            us += pass.isIndirect ? emptyUs : directUs;
     return us;
 }
 
@@ -263,10 +264,10 @@ Json measureContacts(Session& session, const std::string& only, double seconds) 
 }
 
 std::string contactsTable(const Json& measured) {
-    std::string text = fmt::format("{:<30} {:>10} {:>10} {:>6} {:>7} {:>7} {:>11} {:>11} {:>7} {:>8} {:>11} {:>7} {:>7}\n",
-                                   "p50 of a step", "without ms", "ms", "ratio", "passes", "direct",
-                                   "indirect", "barriers", "builds", "B/part.", "GPU us", "calm %",
-                                   "again");
+    std::string text =
+        fmt::format("{:<30} {:>10} {:>10} {:>6} {:>7} {:>7} {:>11} {:>11} {:>7} {:>8} {:>11} {:>7} {:>7}\n",
+                    "p50 of a step", "without ms", "ms", "ratio", "passes", "direct", "indirect", "barriers",
+                    "builds", "B/part.", "GPU us", "calm %", "again");
     for (const Json& row : measured) {
         const Json& with = row["with"];
         const auto number = [&](const char* key) { return with[key].get<double>(); };
@@ -287,17 +288,17 @@ std::string contactsTable(const Json& measured) {
             number("list_builds") / std::max(1.0, number("steps")),
             row["contact_bytes_per_particle"].get<double>(), both("gpu_dispatch_us_predicted", 0),
             100 * calm["steps"].get<double>() / std::max(1.0, number("steps")),
-            calm["repeated_steps"].get<std::uint64_t>(),
-            with["finite"].get<bool>() ? "" : " diverged");
+            calm["repeated_steps"].get<std::uint64_t>(), with["finite"].get<bool>() ? "" : " diverged");
     }
     return text +
-           fmt::format("passes, dispatches (direct, indirect) and barriers: of a substep; a/b: of a step with all "
-                       "passes, of a calm one; builds: of lists, a step; B/part.: contact buffers, a particle\n"
-                       "calm %: steps without passes that make lists after their first substep; again: steps "
-                       "that were repeated, since such a pass was needed or room was short\n"
-                       "GPU us: predicted, not measured: dispatches of a step x {} us + indirect ones, "
-                       "as if empty, x {} us\n",
-                       directUs, emptyUs);
+           fmt::format(
+               "passes, dispatches (direct, indirect) and barriers: of a substep; a/b: of a step with all "
+               "passes, of a calm one; builds: of lists, a step; B/part.: contact buffers, a particle\n"
+               "calm %: steps without passes that make lists after their first substep; again: steps "
+               "that were repeated, since such a pass was needed or room was short\n"
+               "GPU us: predicted, not measured: dispatches of a step x {} us + indirect ones, "
+               "as if empty, x {} us\n",
+               directUs, emptyUs);
 }
 
 } // namespace sinew::tools

@@ -36,7 +36,7 @@ struct CutFigures {
     double crumbMass = 0;                         ///< [kg]
 };
 
-/// What became of passes that make lists of contacts.
+/// How steps were recorded and repeated.
 struct ListFigures {
     std::uint64_t calm = 0;     ///< steps that had none after their first substep (sim::Status::isCalm)
     std::uint64_t repeated = 0; ///< steps that were undone and taken again, for lists or for room
@@ -50,8 +50,8 @@ public:
            scenes::ScriptedBlades blades = {});
 
     /// Steps until `count` more are done, isInterrupted() or there is a divergence(). A step without room for
-    /// its contacts is done again with more, one that lacked lists of them with all passes. `inFlight` is 1 to Simulation::framesInFlight. `onStep` gets the
-    /// number of steps done.
+    /// its contacts is done again with more, one that lacked lists of them with all passes. `inFlight` is 1
+    /// to Simulation::framesInFlight. `onStep` gets the number of steps done.
     void advance(std::uint64_t count, std::uint32_t inFlight,
                  const std::function<void(std::uint64_t)>& onStep = {});
 

@@ -69,6 +69,7 @@ void Stage::recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps, std
     sim::Step step{.dt = scene_.dt, .gravity = gravity_, .frame = ++steps_};
     step.grabs = grabs;
     step.pokes = pokes;
+    step.repeats = repeats_;
     step.blade = scripted.from.empty() ? blade : scripted;
     growing_.simulation().record(commands, step, timestamps);
 }
@@ -243,6 +244,11 @@ std::optional<Divergence> Stage::check(std::uint64_t step) const {
 std::uint32_t Stage::neededRoom(std::uint64_t step) const {
     const sim::Status status = simulation().status(step);
     return status.frame == static_cast<std::uint32_t>(step) ? status.contactRoom : 0;
+}
+
+bool Stage::lacksLists(std::uint64_t step) const {
+    const sim::Status status = simulation().status(step);
+    return status.frame == static_cast<std::uint32_t>(step) && status.lacksLists;
 }
 
 // Of the steps that were undone.

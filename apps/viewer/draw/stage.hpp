@@ -121,6 +121,13 @@ public:
 
     /// Status::contactRoom of such a step: more than 0 where it was undone, and all after it.
     std::uint32_t neededRoom(std::uint64_t step) const;
+    /// Whether later steps are recorded so that they may lack lists of contacts (sim::Step::repeats): who
+    /// asks for that looks at lacksLists() of each, from the oldest on. At first not.
+    void setRepeats(bool repeats) noexcept { repeats_ = repeats; }
+    /// Status::lacksLists of such a step: it was undone, and all after it.
+    bool lacksLists(std::uint64_t step) const;
+    /// The next step is that one, which was undone, again. All that were recorded have finished.
+    void goBackBefore(std::uint64_t step) noexcept;
     /// Goes back before that step with room for it, in another simulation(). Waits for `queue`, in which all
     /// was submitted. False where there can be no such room. Throws vk::Error.
     bool makeRoom(std::uint64_t step, vk::Queue& queue, const app::Bring& bring = {});
@@ -194,7 +201,6 @@ private:
     void beginShape();
     void beginGrowth(const sim::Settings& settings, bool isOfContacts);
     void beginWanted();
-    void goBackBefore(std::uint64_t step) noexcept;
 
     const sim::Scene given_;
     std::vector<std::uint32_t> defaultRecovery_; // of given_
@@ -205,6 +211,7 @@ private:
     scenes::ScriptedBlades blades_;
     sim::Vec3 gravity_, down_{0, -1, 0};
     std::uint64_t steps_ = 0, played_ = 0, recordedSteps_ = 0;
+    bool repeats_ = false;
     sim::Material material_;
     std::optional<sim::Material> wanted_; // after what is being prepared
     std::optional<Turned> ready_;

@@ -118,6 +118,10 @@ void History::forgetFrom(std::uint64_t played, std::size_t most) {
         spare_.push_back(std::move(before_.back().buffer));
 }
 
+void History::limit(std::size_t states) {
+    for (; before_.size() > states; before_.pop_front()) spare_.push_back(std::move(before_.front().buffer));
+}
+
 bool History::recordUndo(VkCommandBuffer commands, Stage& stage) {
     return recordSwap(commands, stage, before_, after_);
 }

@@ -40,6 +40,9 @@ public:
     void bring(const History& other, const sim::Simulation& from, vk::Queue& giving, sim::Simulation& to,
                vk::Queue& taking);
 
+    /// Forgets the oldest to go back to, but for so many.
+    void limit(std::size_t states);
+
     std::size_t undos() const { return before_.size(); }
     std::size_t redos() const { return after_.size(); }
     /// When the states are of, as Stage::played(): those to go back to from the oldest on, then those to go

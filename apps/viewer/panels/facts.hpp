@@ -132,6 +132,7 @@ struct Facts {
     Curve strainRms, strainMax; ///< of links that hold; empty where nothing was measured
     std::uint32_t contactRoom = 0, contactsNeeded = 0, timesGrown = 0, slowed = 0;
     bool isContactRoomShort = false;
+    std::uint64_t stepsRepeated = 0; ///< that lacked lists of contacts
     std::uint32_t sleeping = 0, linksCut = 0;
     app::PieceCount pieces;
     std::uint32_t crumbs = 0, crumbParticles = 0; ///< pieces that were removed, and theirs

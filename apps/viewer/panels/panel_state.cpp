@@ -17,6 +17,7 @@ void counts(const SceneFacts& scene, const Facts& facts) {
         if (facts.isContactRoomShort)
             row("contacts: OVERFLOW", grouped(facts.contactsNeeded) + " needed", bad());
     }
+    if (facts.stepsRepeated > 0) row("contacts: steps repeated", grouped(facts.stepsRepeated));
     if (facts.slowed > 0) row("slowed down", grouped(facts.slowed), bad());
     ImGui::Dummy({0, 2});
     wrapped(scene.substepsWhy, quiet());

@@ -24,7 +24,7 @@ const vk::ShaderCode& form(const Grid& grid, const vk::ShaderCode& texels, const
     return grid.usesTexels ? texels : loads;
 }
 
-// Of kernels that care which substep it is.
+// For kernels that care which substep it is.
 layout::GridPush pushOf(const ProgramBuilder& program, const Grid& grid) {
     layout::GridPush push = grid.push;
     push.isLater = program.isAfterFirstSubstep() ? 1 : 0;
@@ -94,7 +94,8 @@ Grid add(ProgramBuilder& program, const Request& request) {
               .sorted = program.scratch<layout::vec4>(name + ".sorted", count),
               .detected = program.upload(name + ".detected", nowhere)};
     grid.particles = {grid.arguments, GRID_PARTICLES, grid.push.count, true};
-    grid.particleChunks = {grid.arguments, GRID_PARTICLE_CHUNKS, (grid.push.count - 1) / GRID_CHUNK + 1, true};
+    grid.particleChunks = {grid.arguments, GRID_PARTICLE_CHUNKS, (grid.push.count - 1) / GRID_CHUNK + 1,
+                           true};
     grid.cellChunks = {grid.arguments, GRID_CELL_CHUNKS, cells / GRID_CHUNK, true};
     grid.oneGroup = {grid.arguments, GRID_ONE_GROUP, GROUP_ITEMS, true};
     grid.others = {grid.arguments, GRID_OTHERS, request.others, true};

@@ -38,7 +38,7 @@ public:
     std::vector<Vec3> places() const;
     /// One an attachment; at once.
     void moveTo(std::span<const Vec3> places) noexcept;
-    /// Likewise, values() of another time.
+    /// Puts back values() of another time.
     void restore(std::span<const layout::vec4> values) noexcept {
         std::copy(values.begin(), values.end(), values_.begin());
     }
