@@ -6,20 +6,15 @@ viewer=$1 scene=$2 folder=$3 layers=$4
 here=$(cd "$(dirname "$0")" && pwd)
 extent=320x240 options=(--no-validation)
 . "$here/window.sh"
+. "$here/signals.sh"
 mkdir bin # stands in for ffmpeg: its last argument is the file
 printf '#!/bin/sh\nfor last; do :; done\nexec cat >"${last#file:}"\n' >bin/ffmpeg
 chmod +x bin/ffmpeg
 PATH=$folder/bin:$PATH
 
 endsSoon() { # SIGNAL
-    local code=0 from
-    from=$(date +%s%N)
-    kill -"$1" "$running" || fail "it has ended before the signal"
-    wait "$running" || code=$?
-    (($(date +%s%N) - from < 6000000000)) || fail "SIG$1 took longer than 6 s"
-    [[ $code == 130 ]] || fail "SIG$1: exit code $code, expected 130"
+    endsWithin 6 "$1" "$running"
     (($(grep -c '^error: interrupted' viewer.err) == 1)) || fail "SIG$1: nothing, or more than a line, is said of it"
-    [[ -z $(find . -name '*.tmp*' -o -name '*.part*' -o -name '.*.png*') ]] || fail "SIG$1: partial files: $(find .)"
 }
 expectFilm() {
     local film bytes
@@ -44,16 +39,13 @@ for signal in INT TERM; do
     expectSettings 'vsync = false'
 
     echo "signals: SIG$signal while the first scene is prepared"
-    "$viewer" slow.toml --size $extent >viewer.out 2>viewer.err &
-    running=$!
-    processes+=("$running")
-    for _ in {1..200}; do grep -q ' on ' viewer.out && break; sleep 0.05; done # loaded, and pipelines are made
+    launch "$viewer" slow.toml --size $extent
+    for _ in {1..1200}; do grep -q ' on ' viewer.out && break; sleep 0.05; done # loaded, and pipelines are made
+    grep -q ' on ' viewer.out || fail "the scene is not loaded"
     endsSoon $signal
 
     echo "signals: SIG$signal in a step that takes seconds"
-    "$viewer" slow.toml "${options[@]}" --size $extent >viewer.out 2>viewer.err &
-    running=$!
-    processes+=("$running")
+    launch "$viewer" slow.toml "${options[@]}" --size $extent
     awaitWindow '^Sinew.*particles'
     sleep 3 # a step is under way
     endsSoon $signal

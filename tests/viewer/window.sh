@@ -29,17 +29,22 @@ for _ in {1..100}; do [[ -s display ]] && break; sleep 0.1; done
 export XDG_CONFIG_HOME=$folder/config
 export DISPLAY=:$(tr -d '[:space:]' <display)
 
-awaitWindow() { # NAME, within two minutes
+awaitWindow() { # NAME, within two minutes. That of the program before may stand for a while
     for _ in {1..1200}; do
-        window=$(xdotool search --name "$1" 2>/dev/null | head -n 1) && [[ -n $window ]] && break
+        window=$(xdotool search --all --pid "$running" --name "$1" 2>/dev/null | head -n 1) && [[ -n $window ]] && break
         kill -0 "$running" 2>/dev/null || fail "the viewer ended at once"
         sleep 0.1
     done
 }
-start() {
-    "$viewer" ${scene:+"$scene"} "${options[@]}" --size "$extent" "$@" >viewer.out 2>viewer.err &
+launch() { # PROGRAM ARGUMENTS...: with no output yet. The shell in the background makes its files later than this one goes on
+    rm -f viewer.out viewer.err
+    touch viewer.out viewer.err
+    "$@" >>viewer.out 2>>viewer.err &
     running=$!
     processes+=("$running")
+}
+start() {
+    launch "$viewer" ${scene:+"$scene"} "${options[@]}" --size "$extent" "$@"
     awaitWindow '^Sinew'
     awaitTitle fps
 }
