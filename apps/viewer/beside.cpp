@@ -26,7 +26,7 @@ sim::Settings chosenFor(const sim::Scene& scene, const sim::Settings& settings) 
 }
 
 sim::Scene sceneFor(const scenes::LoadedScene& loaded, const sim::Settings& settings) {
-    return scenes::withoutDefaults(loaded.scene, loaded.defaultRecovery, settings);
+    return scenes::withoutDefaults(loaded.scene, loaded.defaults, settings);
 }
 
 BesideShape shapeOf(const sim::Settings& settings) {

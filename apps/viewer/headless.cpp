@@ -108,7 +108,7 @@ public:
         : opening_(opening), device_(device), camera_(opening.camera),
           stage_(device, opening.loaded.scene, opening.loaded.settings, firstMaterial(opening)),
           offscreen_(device, options.size, opening.light), layers_(options.layers), queue_(device) {
-        stage_.setDefaultRecovery(opening.loaded.defaultRecovery);
+        stage_.setDefaults(opening.loaded.defaults);
         stage_.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
         stage_.setRepeats(!input);
         if (options.isTimed) times_.emplace(device, stage_);

@@ -39,7 +39,7 @@ PreparedShow::PreparedShow(const vk::Device& device, const Opening& opening, VkF
     : stage(device, opening.loaded.scene, fastest(device, opening), firstMaterial(opening)),
       facts(sceneFacts(opening, stage, device)),
       moving(device, format, isSoftware(device) ? reducedQuality() : Quality{}, opening.light) {
-    stage.setDefaultRecovery(opening.loaded.defaultRecovery);
+    stage.setDefaults(opening.loaded.defaults);
     stage.setBlades({opening.loaded.blades, opening.loaded.scene.dt});
     if (isSoftware(device)) {
         still.emplace(device, format, Quality{}, opening.light);

@@ -228,7 +228,7 @@ void refuseUntouching(const LoadedScene& loaded, const Section& body, const char
 void noteDefaultContacts(LoadedScene& loaded, const Section& body, std::size_t first) {
     if (body.has("collides") || !isColliding(loaded, body)) return;
     for (std::size_t b = first; b < loaded.scene.bodies.size(); ++b)
-        loaded.defaultContacts.push_back(static_cast<std::uint32_t>(b));
+        loaded.defaults.contacts.push_back(static_cast<std::uint32_t>(b));
 }
 
 bool isColliding(const LoadedScene& loaded, const Section& body) {

@@ -23,7 +23,7 @@ void requireUnit(const Section& section, const char* key);
 /// a cut parts touches. Only `split` has contacts: without it, a body that says nothing touches nothing.
 bool isColliding(const LoadedScene& loaded, const Section& body);
 
-/// Notes in LoadedScene::defaultContacts the bodies of a section, those from `first` on, if they touch by
+/// Notes in LoadedScene::defaults the bodies of a section, those from `first` on, if they touch by
 /// default.
 void noteDefaultContacts(LoadedScene& loaded, const Section& body, std::size_t first);
 

@@ -41,6 +41,13 @@ struct BladeMotion {
     std::vector<std::vector<sim::Vec3>> edges; ///< one a time, of equally many points [m]
 };
 
+/// What bodies of a scene have that the scene does not ask for. A solver without a form for it does without.
+struct Defaults {
+    std::vector<std::uint32_t> recovery; ///< indices of Scene::grids: Grid::recoveryPressure
+    std::vector<std::uint32_t>
+        contacts; ///< indices of Scene::bodies: Particle::radius of all their particles
+};
+
 struct LoadedScene {
     sim::Scene scene;
     sim::Settings settings;      ///< substeps is a number
@@ -52,11 +59,7 @@ struct LoadedScene {
     std::vector<MeshSummary> meshes;
     std::vector<sim::NamedHold> holds; ///< those with a path first
     std::vector<BladeMotion> blades;   ///< no two of them in one step; ScriptedBlades plays them
-    /// Indices of scene.grids that have recovery (Grid::recoveryPressure) by default, not because the scene
-    /// asks for it.
-    std::vector<std::uint32_t> defaultRecovery;
-    /// Indices of scene.bodies that touch others by default, not because the scene asks for it.
-    std::vector<std::uint32_t> defaultContacts;
+    Defaults defaults;
     /// [contacts] rest_contact, for bodies that do not say it (Particle::keepsRest).
     bool keepsRest = false;
     std::vector<std::string> warnings; ///< sentences, such as "mesh bunny.obj is open: 72 boundary edges ..."

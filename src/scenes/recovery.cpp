@@ -35,6 +35,13 @@ std::string whyNot(const sim::Scene& scene, const sim::Settings& settings) {
     return text.data();
 }
 
+void untouch(sim::Scene& scene, const sim::Body& body) {
+    for (std::uint32_t i = 0; i < body.particleCount; ++i) {
+        scene.particles[body.firstParticle + i].radius = 0;
+        scene.particles[body.firstParticle + i].keepsRest = false;
+    }
+}
+
 } // namespace
 
 float recoveryOf(LoadedScene& loaded, const Section& section, const std::string& name) {
@@ -44,17 +51,18 @@ float recoveryOf(LoadedScene& loaded, const Section& section, const std::string&
     return 0;
 }
 
-sim::Scene withoutDefaults(sim::Scene scene, std::span<const std::uint32_t> defaultRecovery,
-                           const sim::Settings& settings) {
-    if (!defaultRecovery.empty() && !sim::canRecover(scene, settings))
-        for (const std::uint32_t grid : defaultRecovery) scene.grids[grid].recoveryPressure = 0;
+sim::Scene withoutDefaults(sim::Scene scene, const Defaults& defaults, const sim::Settings& settings) {
+    if (!defaults.recovery.empty() && !sim::canRecover(scene, settings))
+        for (const std::uint32_t grid : defaults.recovery) scene.grids[grid].recoveryPressure = 0;
+    if (settings.solver != sim::Solver::split)
+        for (const std::uint32_t body : defaults.contacts) untouch(scene, scene.bodies[body]);
     return scene;
 }
 
 std::vector<std::string> recoveryLeftOut(const LoadedScene& loaded, const sim::Settings& settings) {
     std::vector<std::string> notes;
-    if (loaded.defaultRecovery.empty() || sim::canRecover(loaded.scene, settings)) return notes;
-    for (const std::uint32_t grid : loaded.defaultRecovery)
+    if (loaded.defaults.recovery.empty() || sim::canRecover(loaded.scene, settings)) return notes;
+    for (const std::uint32_t grid : loaded.defaults.recovery)
         notes.push_back(sentence(loaded.scene.grids[grid].name, whyNot(loaded.scene, settings)));
     return notes;
 }
@@ -66,7 +74,7 @@ mesh::AddedMesh addWithRecovery(LoadedScene& loaded, const Section& section, con
     try {
         mesh::AddedMesh added = mesh::addMesh(scene, mesh, body);
         if (!section.has("recovery") && body.recovery > 0)
-            loaded.defaultRecovery.push_back(static_cast<std::uint32_t>(scene.grids.size() - 1));
+            loaded.defaults.recovery.push_back(static_cast<std::uint32_t>(scene.grids.size() - 1));
         return added;
     } catch (const std::domain_error&) {
         const bool isAsked = section.has("recovery") || body.isCuttable;

@@ -4,18 +4,16 @@
 #include "scenes/load.hpp"
 #include "scenes/section.hpp"
 
-#include <span>
-
 namespace sinew::scenes {
 
 /// As sim::Lattice::recovery has it. The default is 0 where the scene or its solver has no form for it, which
 /// is noted; what the section itself says is left to sim::validate.
 float recoveryOf(LoadedScene& loaded, const Section& section, const std::string& name);
 
-/// `scene` as it can be played with `settings`, which may be others than it was loaded with: where it cannot
-/// recover, the grids of LoadedScene::defaultRecovery do without.
-sim::Scene withoutDefaults(sim::Scene scene, std::span<const std::uint32_t> defaultRecovery,
-                           const sim::Settings& settings);
+/// `scene` as it can be played with `settings`, which may be others than it was loaded with: grids of
+/// `defaults` do without recovery where the scene cannot recover, and bodies without contacts in another
+/// solver than split.
+sim::Scene withoutDefaults(sim::Scene scene, const Defaults& defaults, const sim::Settings& settings);
 
 /// Notes on the bodies of `loaded` that recover as it was loaded, but not with `settings`.
 std::vector<std::string> recoveryLeftOut(const LoadedScene& loaded, const sim::Settings& settings);

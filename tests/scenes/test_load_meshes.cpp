@@ -584,7 +584,7 @@ TEST_F(Load, SaysWhyAMeshDoesNotRecover) {
             std::ranges::count(loaded.notes, "mesh sphere: no recovery, cells that fold may stay so: " + why),
             1)
             << before;
-        EXPECT_TRUE(loaded.defaultRecovery.empty()) << before;
+        EXPECT_TRUE(loaded.defaults.recovery.empty()) << before;
     }
 }
 
@@ -592,8 +592,8 @@ TEST_F(Load, KnowsWhichMeshesRecoverByDefault) {
     const std::string mesh = "[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\nvoxel = 0.25\n",
                       asks = mesh + "center = [5, 0, 0]\nrecovery = 2\n";
     using Grids = std::vector<std::uint32_t>;
-    EXPECT_EQ(load(mesh).defaultRecovery, Grids{0});
-    EXPECT_EQ(load(asks + mesh).defaultRecovery, Grids{1});
-    EXPECT_EQ(load(smallCloth + mesh + asks).defaultRecovery, Grids{1});
-    EXPECT_EQ(load(asks).defaultRecovery, Grids{});
+    EXPECT_EQ(load(mesh).defaults.recovery, Grids{0});
+    EXPECT_EQ(load(asks + mesh).defaults.recovery, Grids{1});
+    EXPECT_EQ(load(smallCloth + mesh + asks).defaults.recovery, Grids{1});
+    EXPECT_EQ(load(asks).defaults.recovery, Grids{});
 }

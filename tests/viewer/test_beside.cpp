@@ -140,8 +140,31 @@ TEST(Beside, GoesOnWithTheRoomAndTheMaterialThatTheFirstHas) {
         EXPECT_TRUE(here[i].x == there[i].x && here[i].y == there[i].y && here[i].z == there[i].z) << i;
 }
 
+template <typename Act> std::string refusalOf(const Act& act) {
+    try {
+        act();
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
+    return "none";
+}
+
+// The scene asks for a block that may be cut. Its contacts come by default and are no reason.
+const std::string cuts = "grid[0] \"block\": may be cut, which solver jacobi has no form for: use split";
+
 TEST(Beside, RefusesWhatItsSolverHasNoFormFor) {
-    EXPECT_THROW(Pair({sim::Solver::jacobi, 8}, block), std::invalid_argument) << "cuts";
+    EXPECT_EQ(refusalOf([] { Pair({sim::Solver::jacobi, 8}, block); }), cuts);
+    const std::string touching = refusalOf([] {
+        Pair({sim::Solver::jacobi, 8}, changed(hanging, "young_", "collides = true\nyoung_"));
+    });
+    EXPECT_NE(touching.find("no form for particles that touch each other"), std::string::npos) << touching;
+}
+
+TEST(Stage, RefusesAShapeForWhatTheSceneAsksForAlone) {
+    Scene scene;
+    scene.stage.setDefaults(scene.opening.loaded.defaults);
+    scene.stage.wantShape(sim::Solver::jacobi, 4);
+    EXPECT_EQ(refusalOf([&] { scene.stage.reshape(test::queue()); }), cuts);
 }
 
 const std::string sphere = "[solver]\nsubsteps = 4\n[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\n"
@@ -204,7 +227,7 @@ TEST(Stage, LeavesDefaultRecoveryOutOfShapesWithoutAFormForIt) {
         for (int i = 0; i < steps; ++i)
             scene.run([&](VkCommandBuffer commands) { stage.recordStep(commands); });
     };
-    stage.setDefaultRecovery(scene.opening.loaded.defaultRecovery);
+    stage.setDefaults(scene.opening.loaded.defaults);
     play(3);
     stage.wantShape(sim::Solver::gaussSeidel, 6);
     ASSERT_NO_THROW(stage.reshape(test::queue()));

@@ -82,7 +82,7 @@ void Stage::setGravity(float gravity) noexcept {
 }
 
 sim::Scene Stage::sceneOf(const sim::Material& material, const sim::Settings& settings) const {
-    return scenes::withoutDefaults(sim::withMaterial(given_, material), defaultRecovery_, settings);
+    return scenes::withoutDefaults(sim::withMaterial(given_, material), defaults_, settings);
 }
 
 // Of the step program only what does not change meanwhile is read: recordTurn() waits for this.

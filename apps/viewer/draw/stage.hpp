@@ -4,6 +4,7 @@
 #include "app/growing_simulation.hpp"
 #include "app/state_file.hpp"
 #include "scenes/blades.hpp"
+#include "scenes/load.hpp"
 #include "sim/material.hpp"
 #include "sim/substeps.hpp"
 #include "viewer/draw/camera.hpp"
@@ -53,9 +54,9 @@ public:
     /// As app::GrowingSimulation::widen.
     void widen(const sim::Settings& roomy, vk::Queue& queue) { growing_.widen(roomy, queue); }
 
-    /// scenes::LoadedScene::defaultRecovery of the scene: bodies do without it in a shape that has no form
-    /// for it.
-    void setDefaultRecovery(std::vector<std::uint32_t> grids) { defaultRecovery_ = std::move(grids); }
+    /// scenes::LoadedScene::defaults of the scene: bodies do without them in a shape that has no form for
+    /// them.
+    void setDefaults(scenes::Defaults defaults) { defaults_ = std::move(defaults); }
 
     /// Blades that cut by themselves, from the reset on; in their steps no other one does.
     void setBlades(scenes::ScriptedBlades blades) { blades_ = std::move(blades); }
@@ -203,8 +204,8 @@ private:
     void beginWanted();
 
     const sim::Scene given_;
-    std::vector<std::uint32_t> defaultRecovery_; // of given_
-    sim::Scene scene_;                           // of the material that it has now
+    scenes::Defaults defaults_; // of given_
+    sim::Scene scene_;          // of the material that it has now
     sim::Settings settings_;
     sim::StiffnessReport stiffness_;
     app::GrowingSimulation growing_;

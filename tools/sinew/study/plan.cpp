@@ -83,28 +83,18 @@ std::string withName(const std::string& names, const std::string& name) {
     return names + (names.empty() ? "\"" : ", \"") + name + "\"";
 }
 
-/// Takes the contacts from a body that has them by default.
-void untouch(sim::Scene& scene, const sim::Body& body) {
-    for (std::uint32_t i = 0; i < body.particleCount; ++i) {
-        scene.particles[body.firstParticle + i].radius = 0;
-        scene.particles[body.firstParticle + i].keepsRest = false;
-    }
-}
-
 /// See studyScenes().
 StudyScene forEverySolver(StudyScene study) {
     const sim::Settings other = settingsOfContacts(study, {.solver = sim::Solver::jacobi, .substeps = 1});
-    const std::vector<std::uint32_t>& defaults = study.loaded.defaultRecovery;
+    const scenes::Defaults& defaults = study.loaded.defaults;
     sim::Scene common = scenes::withoutDefaults(study.loaded.scene, defaults, other);
     for (sim::Grid& grid : common.grids)
         if (grid.tearStrain == 0) grid.isCuttable = false;
     std::string names, untouched;
-    for (const std::uint32_t body : study.loaded.defaultContacts) {
-        untouch(common, common.bodies[body]);
+    for (const std::uint32_t body : defaults.contacts)
         untouched = withName(untouched, common.bodies[body].name);
-    }
     if (!sim::validate(common, other).empty()) return study; // something else keeps it to split
-    for (const std::uint32_t grid : defaults) names = withName(names, common.grids[grid].name);
+    for (const std::uint32_t grid : defaults.recovery) names = withName(names, common.grids[grid].name);
     if (!names.empty())
         study.notes.push_back("studied without the recovery that " + names +
                               " would have by default: jacobi and gauss_seidel have no form for it");
