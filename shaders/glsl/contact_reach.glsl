@@ -2,7 +2,7 @@
 // count_contacts.
 #ifdef HAS_RECOVERY
 // Goes on with what is left of an overlap. Once a substep.
-void recover(uint slot, vec3 x) {
+void recover(uint i, uint slot, vec3 x) {
     const float before = slips[slot].w;
     if (before == 0.0) return;
     const uvec2 candidate = CONTACT(slot);
@@ -12,7 +12,8 @@ void recover(uint slot, vec3 x) {
         if (overlap <= -REST_SLACK * reach) slips[slot].w = 0.0;
         return;
     }
-    slips[slot].w = recovering(before, push.recoverySpeed * step.h, overlap);
+    const bool isOpened = canOpen && areParted(i, candidate.x);
+    slips[slot].w = recovering(before, (isOpened ? min(push.recoverySpeed, CUT_RECOVERY_SPEED) : push.recoverySpeed) * step.h, overlap);
 }
 #endif
 

@@ -29,6 +29,9 @@ layout(std430, binding = 7) writeonly buffer Firsts { float firsts[]; }; // when
 #ifdef HAS_RECOVERY
 layout(std430, binding = 8) buffer Slips { vec4 slips[]; }; // w: what is left of an overlap [m], below 0 = stays
 layout(constant_id = 5) const bool keepsRest = false;
+layout(constant_id = 6) const bool canOpen = false; // a cut can let pairs touch
+#define MARKS_BINDING 9
+#include "linked_marks.glsl"
 #endif
 layout(push_constant) uniform Push { ContactPush push; };
 
@@ -45,7 +48,7 @@ void main() {
     const vec4 velocity = VELOCITY(i);
     float contactCount = 0.0, first = 1.0;
 #ifdef HAS_RECOVERY
-    for (uint slot = list.x; slot < end; ++slot) recover(slot, x);
+    for (uint slot = list.x; slot < end; ++slot) recover(i, slot, x);
 #endif
     for (uint slot = list.x; slot < resting; ++slot) {
         const uvec2 candidate = CONTACT(slot);

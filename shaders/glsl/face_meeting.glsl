@@ -21,7 +21,7 @@ struct Meeting {
     Nearest nearest;
     vec3 normal;               // unit
     float height, heightBefore; // [m]
-    bool isKept;               // the pair keeps its rest distance: said by those who ask
+    bool isKept, isOpened;     // the pair keeps its rest distance, a cut has let it touch: said by those who ask
 };
 
 Meeting meetingOf(uint i, uvec2 candidate) {
@@ -39,7 +39,7 @@ Meeting meetingOf(uint i, uvec2 candidate) {
     m.height = dot(m.normal, m.ap);
     const Triangle before = triangleOf(m.ab - h * m.vb, m.ac - h * m.vc);
     m.heightBefore = dot(before.normal, m.ap - h * m.vp) / max(length(before.normal), 1e-30);
-    m.isKept = false;
+    m.isKept = m.isOpened = false;
     return m;
 }
 

@@ -12,6 +12,8 @@ struct Touch {
 
 Meeting keptMeetingOf(uint i, uvec2 candidate) {
     Meeting m = meetingOf(i, candidate);
+    const bool canOpen = firstInner != ~0u, isParted = canOpen && areParted(i, m.face.a);
+    m.isOpened = isParted || canOpen && candidate.x >= firstInner && candidate.x < push.moving;
     m.isKept = keeps(i, m.face.a);
     return m;
 }
@@ -60,7 +62,8 @@ Touch touchAt(Meeting m, uint element, float side, vec3 b, bool isThrough, Exit 
     const bool isAbove = isThrough || m.nearest.isInside || distance < 1e-15;
     touch.n = isAbove ? side * m.normal : m.nearest.d / distance;
     const float overlap = m.reach - (isAbove ? side * m.height : distance);
-    const float approach = -h * dot(touch.n, m.vp - b.y * m.vb - b.z * m.vc), part = push.recoverySpeed * h;
+    const float approach = -h * dot(touch.n, m.vp - b.y * m.vb - b.z * m.vc);
+    const float part = h * (m.isOpened ? min(push.recoverySpeed, CUT_RECOVERY_SPEED) : push.recoverySpeed);
     const float remembered = memory[element].w;
     float left = outcome.isLetOut ? max(0.0, overlap - part) : overlapLeft(remembered, overlap, approach, part), restSide = side;
     if (m.isKept && outcome.isLetOut) {

@@ -15,7 +15,7 @@ layout(std430, binding = 6) writeonly buffer Directions { vec4 directions[]; }; 
 layout(std430, binding = 7) writeonly buffer Weights { vec4 weights[]; };       // s of the own, of the other edge; remembered
 layout(std430, binding = 8) writeonly buffer Sums { float sums[]; };            // of the weights of each end
 layout(std140, binding = 9) uniform Step { StepParams step; };
-#define KEEPERS_BINDING 10
+#define MARKS_BINDING 10
 #include "keeps_rest.glsl"
 #include "recovery.glsl"
 #include "edge_touch.glsl"

@@ -20,7 +20,8 @@ layout(std430, binding = 6) buffer Directions { vec4 directions[]; }; // n, dept
 layout(std430, binding = 7) buffer Weights { vec4 weights[]; };       // b, side
 layout(std140, binding = 8) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { FacePush push; };
-#define KEEPERS_BINDING 9
+#define MARKS_BINDING 9
+layout(constant_id = 3) const uint firstInner = ~0u; // faces from there to before push.moving a cut has laid open; ~0 = none can be
 #include "keeps_rest.glsl"
 #include "recovery.glsl"
 #include "hidden_faces.glsl"

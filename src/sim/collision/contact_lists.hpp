@@ -22,6 +22,10 @@ Exclusions excludedPairs(const Scene& scene, std::span<const float> radii, const
 /// The smallest particle of each one's linked body.
 std::vector<std::uint32_t> linkedBodies(const Scene& scene);
 
+/// By state slot, as linked_marks.glsl has them: the linked body, whether a cut may part it, and
+/// Particle::keepsRest.
+std::vector<std::uint32_t> linkedMarks(const Scene& scene, const StateLayout& layout);
+
 struct Request {
     std::span<const float> radii; ///< by state slot [m]; below 0 = touches nothing
     float margin = 0;             ///< M [m]

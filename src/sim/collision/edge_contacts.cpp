@@ -130,7 +130,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
                       .sleeps = particles.sleep != nullptr,
                       .surfaces = faces.surfaces,
                       .before = faces.before,
-                      .keepers = faces.keepers,
+                      .marks = faces.marks,
                       .keepsRest = faces.keepsRest};
     const layout::FaceFindPush& find = contacts.lists.push;
     contacts.push = {.count = find.points,
@@ -168,7 +168,7 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
     addOverEdges(program, contacts, k::touchEdges,
                  {predicted.velocities, lists.edges, lists.pooled.contacts, lists.pooled.ranges,
                   predicted.positions, lists.pooled.memory->memory, contacts.directions, contacts.weights,
-                  lists.sums, predicted.step, contacts.keepers},
+                  lists.sums, predicted.step, contacts.marks},
                  face_contacts::restConstants(contacts.keepsRest, isFirst));
     sleep::addEdgeTouches(program, predicted);
     addShares(program, contacts, predicted);

@@ -27,7 +27,7 @@ struct Contacts {
     BufferId corners, directions, weights, shares;
     BufferId bounces; ///< only where something rebounds
     BufferId before;  ///< velocities when the substep began, of the contacts with faces
-    BufferId keepers; ///< likewise
+    BufferId marks;   ///< likewise
     bool keepsRest = false;
 };
 

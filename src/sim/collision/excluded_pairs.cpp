@@ -117,6 +117,17 @@ std::vector<std::uint32_t> linkedBodies(const Scene& scene) {
     return bodiesOf(scene.particles.size(), linkedPairs(scene));
 }
 
+std::vector<std::uint32_t> linkedMarks(const Scene& scene, const StateLayout& layout) {
+    std::vector<std::uint32_t> marks(layout.count, 0);
+    const std::vector<std::uint32_t> bodies = linkedBodies(scene);
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        marks[layout.slot[i]] = 4 * bodies[i] + (scene.particles[i].keepsRest ? 1 : 0);
+    for (const Grid& grid : scene.grids)
+        for (std::uint32_t i = 0; grid.isCuttable && i < grid.node.size(); ++i)
+            marks[layout.slot[grid.firstParticle + i]] |= 2;
+    return marks;
+}
+
 Exclusions excludedPairs(const Scene& scene, std::span<const float> radii, const StateLayout& layout) {
     std::vector<Pair> pairs = linkedPairs(scene);
     if (pairs.empty()) return {};

@@ -145,14 +145,6 @@ float heldBeyond(const Scene& scene, const Faces& faces, std::span<const float> 
     return std::max(solid, 2 * REST_SLACK * (thickest(0, faces.faces.size()) + radius));
 }
 
-std::vector<std::uint32_t> keepersOf(const Scene& scene, const StateLayout& layout) {
-    std::vector<std::uint32_t> keepers(layout.count, 0);
-    const std::vector<std::uint32_t> bodies = contact_lists::linkedBodies(scene);
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-        keepers[layout.slot[i]] = 2 * bodies[i] + (scene.particles[i].keepsRest ? 1 : 0);
-    return keepers;
-}
-
 // The faces around each slot. Those that a cut may lay open come last, and stand behind the end until then.
 struct CornerTable {
     std::vector<std::uint32_t> corners; ///< first entry of each slot, one more for the end; 4 x face + corner
@@ -254,6 +246,13 @@ std::vector<std::array<std::uint32_t, 2>> stopRowsOf(const Faces& faces, const f
     return rows;
 }
 
+ProgramBuilder::Constants touchConstants(const Contacts& contacts, bool isFirst) {
+    constexpr std::uint32_t firstInnerId = 3; // constant_id in touch_faces.comp
+    ProgramBuilder::Constants constants = restConstants(contacts.keepsRest, isFirst);
+    if (contacts.hasInner()) constants[firstInnerId] = contacts.firstInner;
+    return constants;
+}
+
 // A pass over the particles of groups in which one may touch a face, or a face of one may be touched.
 void addOverContacts(ProgramBuilder& program, const Contacts& contacts, const vk::ShaderCode& code,
                      std::vector<BufferId> buffers, const ProgramBuilder::Constants& constants = {}) {
@@ -330,9 +329,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     contacts.surfaces = surfaces::addTable(program, scene, layout, "faces.surface");
     contacts.push = {.count = find.points,
                      .surfaces = contacts.surfaces.count,
-                     .recoverySpeed = faces.firstInner < faces.moving
-                                          ? std::min(scene.contacts.recoverySpeed, cutting::recoverySpeed)
-                                          : scene.contacts.recoverySpeed,
+                     .recoverySpeed = scene.contacts.recoverySpeed,
                      .moving = find.moving,
                      .sheets = faces.sheets};
     ContactBuffers& shown = program.program().contacts;
@@ -352,8 +349,9 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
         contacts.bounces = program.scratch<layout::vec4>("faces.bounces", elements);
     contacts.shares = program.scratch<float>("faces.shares", layout.count);
     contacts.keepsRest = keepRest(scene);
-    contacts.keepers = contacts.keepsRest ? program.upload("faces.keepers", keepersOf(scene, layout))
-                                          : contacts.surfaces.ofParticles;
+    contacts.marks = contacts.keepsRest || contacts.hasInner()
+                         ? program.upload("faces.marks", contact_lists::linkedMarks(scene, layout))
+                         : contacts.surfaces.ofParticles;
     contacts.before = program.scratch<layout::vec4>("faces.before", layout.count);
     if (contacts.hasStops()) {
         contacts.linkedPositions = program.scratch<layout::vec4>("faces.positions", positionCount(layout));
@@ -389,8 +387,8 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
     addOverContacts(program, contacts, k::touchFaces,
                     {predicted.positions, predicted.velocities, lists.faces, lists.pooled.contacts,
                      lists.pooled.ranges, lists.pooled.memory->memory, contacts.directions, contacts.weights,
-                     predicted.step, contacts.keepers},
-                    restConstants(contacts.keepsRest, isFirst));
+                     predicted.step, contacts.marks},
+                    touchConstants(contacts, isFirst));
     sleep::addFaceTouches(program, predicted);
     addShares(program, contacts, contacts.directions, predicted);
     addOverContacts(program, contacts, k::pressFaces,

@@ -36,8 +36,8 @@ struct Contacts {
     surfaces::Surfaces surfaces;
     BufferId corners, directions, weights, shares, impulses;
     BufferId cornerEnds;    ///< by slot: behind the last face of it in `corners` that counts
-    BufferId keepers;       ///< of each particle: 2 x linked body, + 1 = Particle::keepsRest
-    bool keepsRest = false; ///< of any; else no kernel reads them
+    BufferId marks;         ///< contact_lists::linkedMarks; only where something keeps its rest or hasInner()
+    bool keepsRest = false; ///< of any particle
     BufferId bounces;       ///< only where something rebounds
     BufferId before;        ///< velocities when the substep began
     /// Positions and velocities that links have left; only where hasStops().

@@ -48,6 +48,7 @@ constexpr Forms forcesForms{
 constexpr std::uint32_t watchesId = 3;                        // constant_id in settle_free.comp
 constexpr std::uint32_t hasFrictionId = 3, hasRecoveryId = 4; // constant_ids in gather_contacts.comp
 constexpr std::uint32_t keepsRestId = 5; // likewise, in count_contacts.comp and in those of bounces
+constexpr std::uint32_t canOpenId = 6;   // in count_contacts.comp
 
 const vk::ShaderCode& gatherForm(const Contacts& contacts, bool keepsForces) {
     const Forms& forms = keepsForces ? forcesForms : contacts.lists.grid.usesTexels ? texelForms : loadForms;
@@ -203,14 +204,17 @@ void addCount(ProgramBuilder& program, const Contacts& contacts, const ParticleB
     std::vector<BufferId> buffers{predicted.positions,  lists.pooled.contacts, lists.pooled.ranges,
                                   predicted.velocities, contacts.touching,     predicted.step,
                                   lists.grid.bounds,    contacts.firsts};
-    if (contacts.hasRecovery) buffers.push_back(contacts.lists.pooled.memory->memory);
-    addOverContacts(program, contacts,
-                    contacts.hasRecovery
-                        ? form(contacts, {&k::countContactsRecoveryLoads, &k::countContactsRecovery})
-                        : form(contacts, {&k::countContactsLoads, &k::countContacts}),
-                    std::move(buffers),
-                    contacts.hasRecovery ? ProgramBuilder::Constants{{keepsRestId, contacts.hasKept}}
-                                         : ProgramBuilder::Constants{});
+    if (contacts.hasRecovery) // where no cut lets pairs touch, no kernel reads the last
+        buffers.insert(buffers.end(), {contacts.lists.pooled.memory->memory,
+                                       contacts.isCuttable() ? contacts.marks : lists.grid.radii});
+    addOverContacts(
+        program, contacts,
+        contacts.hasRecovery ? form(contacts, {&k::countContactsRecoveryLoads, &k::countContactsRecovery})
+                             : form(contacts, {&k::countContactsLoads, &k::countContacts}),
+        std::move(buffers),
+        contacts.hasRecovery
+            ? ProgramBuilder::Constants{{keepsRestId, contacts.hasKept}, {canOpenId, contacts.isCuttable()}}
+            : ProgramBuilder::Constants{});
 }
 
 void addGather(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
@@ -285,7 +289,11 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     const bool isCuttable = !exclusions.empty() && cutting::canMeet(program.program(), scene);
     const bool hasRecovery = !overlaps.empty() || isCuttable;
     BufferId allExcluded;
-    if (isCuttable) allExcluded = program.upload("contacts.all_excluded", exclusions);
+    BufferId marks;
+    if (isCuttable) {
+        allExcluded = program.upload("contacts.all_excluded", exclusions);
+        marks = program.upload("contacts.marks", contact_lists::linkedMarks(scene, layout));
+    }
     const body_frames::Bodies bodies = body_frames::bodiesOf(scene, layout);
     const pooled_lists::Initial first = firstLists(overlaps, radii);
     Contacts contacts{
@@ -307,15 +315,14 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
             std::ranges::any_of(scene.planes, [](const Plane& plane) { return plane.restitution > 0; }),
         .hasRecovery = hasRecovery,
         .hasKept = overlaps::haveKept(overlaps),
-        .allExcluded = allExcluded};
+        .allExcluded = allExcluded,
+        .marks = marks};
     cutting::letCrumbsLeave(program, contacts.lists.grid.radii, contacts.lists.grid);
     contacts.push = {.count = contacts.lists.push.count,
                      .friction = contacts.surfaces.friction,
                      .staticFriction = contacts.surfaces.staticFriction,
                      .restitution = contacts.surfaces.restitution,
-                     .recoverySpeed = isCuttable
-                                          ? std::min(scene.contacts.recoverySpeed, cutting::recoverySpeed)
-                                          : scene.contacts.recoverySpeed,
+                     .recoverySpeed = scene.contacts.recoverySpeed,
                      .surfaces = contacts.surfaces.count};
     ContactBuffers& shown = program.program().contacts;
     shown.pairs = contacts.lists.pooled.contacts;

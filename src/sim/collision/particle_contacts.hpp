@@ -32,6 +32,7 @@ struct Contacts {
 
     /// Pairs of the uncut bodies that never touch; invalid where no body that may be cut touches.
     BufferId allExcluded;
+    BufferId marks; ///< contact_lists::linkedMarks; likewise
 
     std::optional<interlocks::Interlocks> interlocks; ///< only where hasRecovery
 

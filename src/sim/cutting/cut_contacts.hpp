@@ -7,9 +7,6 @@
 
 namespace sinew::sim::cutting {
 
-/// Pairs that a link held part no faster than that [m/s].
-inline constexpr float recoverySpeed = 0.1f;
-
 /// Whether particles of bodies that may be cut are among what touches. After cutting::add.
 bool canMeet(const StepProgram& program, const Scene& scene);
 

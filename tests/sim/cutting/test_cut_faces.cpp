@@ -256,6 +256,34 @@ TEST(CutFaces, AreNoSofterForABladeThatMeetsNothing) {
     EXPECT_EQ(most, 0);
 }
 
+// What overlaps when the scene is loaded parts as fast as the scene says, also beside a body that may be cut.
+TEST(CutFaces, LeaveTheSpeedAtWhichOthersRecover) {
+    Scene scene{.name = "balls"};
+    scene.gravity = {};
+    constexpr float radius = 0.03f;
+    for (const Vec3& corner : {Vec3{-1, 0, -1}, Vec3{0, 0, 1}, Vec3{1, 0, -1}})
+        scene.particles.push_back({.position = corner, .inverseMass = 0});
+    scene.faces = {{.particles = {0, 1, 2}, .thickness = 0.01f}};
+    for (const Vec3& place : {Vec3{0.01f, 0.02f, 0.013f}, Vec3{2, 0, 0}, Vec3{2, 0.04f, 0}})
+        scene.particles.push_back({.position = place, .inverseMass = 1, .radius = radius});
+    const auto ball = static_cast<std::uint32_t>(scene.particles.size() - 3);
+    Lattice block = latticeOf({3, 3, 3}, 1e5f);
+    block.origin = {3, 0, 0};
+    addLattice(scene, block);
+    addSurfaceFaces(scene, scene.grids[0]);
+    test::Runner runner(scene, {.substeps = 16, .contactRoom = 64});
+    double fromFace = 0, fromEachOther = 0;
+    for (int step = 0; step < 8; ++step) {
+        ASSERT_EQ(runner.run(1).nonFinite, 0u);
+        const auto v = runner.velocities();
+        fromFace = std::max(fromFace, v[ball].norm());
+        fromEachOther = std::max(fromEachOther, (v[ball + 2] - v[ball + 1]).norm());
+    }
+    const double speed = double{scene.contacts.recoverySpeed};
+    EXPECT_NEAR(fromFace, speed, 1e-2 * speed);
+    EXPECT_NEAR(fromEachOther, speed, 1e-2 * speed);
+}
+
 // A face of the scene's own between cells of a body is no face of those cells.
 TEST(CutFaces, LeaveAFaceOfTheScenesOwnInsideOfABody) {
     Scene scene{.name = "cube"};
