@@ -10,11 +10,12 @@ struct Touch {
     ContactFace face;
 };
 
+// What a cut parts keeps no distance: it touched nothing when the scene was loaded.
 Meeting keptMeetingOf(uint i, uvec2 candidate) {
     Meeting m = meetingOf(i, candidate);
     const bool canOpen = firstInner != ~0u, isParted = canOpen && areParted(i, m.face.a);
     m.isOpened = isParted || canOpen && candidate.x >= firstInner && candidate.x < push.moving;
-    m.isKept = keeps(i, m.face.a);
+    m.isKept = keeps(i, m.face.a) && !isParted;
     return m;
 }
 

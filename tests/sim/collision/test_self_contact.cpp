@@ -264,6 +264,35 @@ TEST(SelfContact, CarriesWhatACutLaysOpenByItsFaces) {
     }
 }
 
+// Halves of a cube that is squeezed by a tenth when it is cut, and whose upper half then slides by half a
+// voxel along both axes, no higher than it was. What a cut parts keeps no distance, also in a body that keeps
+// those that it has when it is loaded.
+TEST(SelfContact, PartsWhatACutLetsTouchThoughItKeepsItsRestDistance) {
+    Scene scene = offsetHalves(true);
+    const float half = spacing / 2, lower = -0.6f * spacing;
+    scene.driven.front().path = {{0, poseAt({})},
+                                 {0.1f, poseAt({0, lower, 0})},
+                                 {0.4f, poseAt({0, lower, 0})},
+                                 {0.8f, poseAt({half, lower, half})}};
+    for (Particle& particle : scene.particles) particle.keepsRest = true;
+    CutBody body(scene, {.substeps = 24, .contactRoom = 64});
+    body.runner().run(15);
+    ASSERT_EQ(body.cut(sweepOf({Vector3d(0.15, 3.15 * voxel, 0.15), Vector3d::UnitY()}, 1)).pieces, 2u);
+    const std::vector<Triangle> surface = surfaceOf(body);
+    const double atOnce = deepestOfHalves(body, surface);
+    double fastest = 0;
+    for (int step = 0; step < 50; ++step) {
+        ASSERT_EQ(body.runner().run(1).nonFinite, 0u);
+        for (const Vector3d& v : body.runner().velocities()) fastest = std::max(fastest, v.norm());
+    }
+    const double end = deepestOfHalves(body, surface);
+    std::printf("halves %.4f voxels nearer than touching after the cut, %.4f at the end, fastest %.3f m/s\n",
+                atOnce, end, fastest);
+    EXPECT_GT(atOnce, 0.05);
+    EXPECT_LT(end, 0.05);
+    EXPECT_LT(fastest, 0.5) << "they part slowly";
+}
+
 // A ball that comes to lie in the middle of a cell deep inside, as a ridge would that came in between the
 // particles of the surface.
 TEST(SelfContact, PushesOutWhatIsInsideByItsInnerParticles) {
