@@ -251,6 +251,15 @@ std::shared_ptr<const Forces> add(ProgramBuilder& program, const Scene& scene, c
     return forces;
 }
 
+const vk::ShaderCode& formFor(const ParticleBuffers& particles, const Forms& forms,
+                              ProgramBuilder::Constants (Forces::*of)() const, std::vector<BufferId>& buffers,
+                              ProgramBuilder::Constants& constants) {
+    if (!particles.forces) return *forms[0];
+    buffers.push_back(particles.forces->terms);
+    constants.merge(((*particles.forces).*of)());
+    return *forms[1];
+}
+
 void addPulls(ProgramBuilder& program, const ParticleBuffers& particles) {
     const Forces& forces = *particles.forces;
     program.dispatch(k::takePulls, forces.slots, {particles.velocities, forces.terms},

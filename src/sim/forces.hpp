@@ -15,6 +15,8 @@
 #include "sim/compile.hpp"
 #include "sim/complaints.hpp"
 
+#include <array>
+
 namespace sinew::sim::forces {
 
 /// Complains about settings with which forces cannot be kept, and about holds of particles that do not exist.
@@ -73,6 +75,15 @@ private:
 /// Before the substeps: room for all impulses, none so far.
 std::shared_ptr<const Forces> add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
                                   const StateLayout& layout);
+
+/// A kernel, and its form that also keeps the impulses that it gives.
+using Forms = std::array<const vk::ShaderCode*, 2>;
+
+/// The one that `particles` ask for. For the second, `buffers` end with the elements, and `constants` say
+/// where in them its own begin: `of` is Forces::ofPlanes or another of these.
+const vk::ShaderCode& formFor(const ParticleBuffers& particles, const Forms& forms,
+                              ProgramBuilder::Constants (Forces::*of)() const, std::vector<BufferId>& buffers,
+                              ProgramBuilder::Constants& constants);
 
 /// After the links of a substep of `split`, which has left in the velocities of what never moves what pulls
 /// at it.

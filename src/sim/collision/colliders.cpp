@@ -160,8 +160,7 @@ void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Co
     if (colliders.count == 0) return;
     std::vector<BufferId> buffers{colliders.shapes,    colliders.poses,      colliders.contactOffsets,
                                   particles.positions, particles.velocities, particles.step};
-    using Pair = std::array<const vk::ShaderCode*, 2>; // without and with forces
-    Pair forms{&kernels::solveColliders, &kernels::solveCollidersForces};
+    forces::Forms forms{&kernels::solveColliders, &kernels::solveCollidersForces};
     if (colliders.hasRebound) {
         buffers.push_back(colliders.before);
         forms = {&kernels::solveCollidersRebound, &kernels::solveCollidersReboundForces};
@@ -171,12 +170,9 @@ void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Co
     }
     ProgramBuilder::Constants constants = constantsOf(colliders);
     constants.merge(remainderConstants(particles.layout));
-    if (particles.forces) {
-        buffers.push_back(particles.forces->terms);
-        constants.merge(particles.forces->ofColliders());
-    }
-    dispatchTouching(program, colliders, *forms[particles.forces ? 1 : 0], buffers,
-                     pushOf(colliders, substep, kick), constants);
+    const vk::ShaderCode& code =
+        forces::formFor(particles, forms, &forces::Forces::ofColliders, buffers, constants);
+    dispatchTouching(program, colliders, code, buffers, pushOf(colliders, substep, kick), constants);
 }
 
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
@@ -186,13 +182,10 @@ void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, Buff
                                   particles.positions, particles.velocities, particles.step,
                                   corrections};
     ProgramBuilder::Constants constants = constantsOf(colliders);
-    const vk::ShaderCode* form = &kernels::solveCollidersOpen;
-    if (particles.forces) {
-        buffers.push_back(particles.forces->terms);
-        constants.merge(particles.forces->ofColliders());
-        form = &kernels::solveCollidersOpenForces;
-    }
-    dispatchTouching(program, colliders, *form, buffers, pushOf(colliders, substep, Kick::half), constants);
+    const vk::ShaderCode& code =
+        forces::formFor(particles, {&kernels::solveCollidersOpen, &kernels::solveCollidersOpenForces},
+                        &forces::Forces::ofColliders, buffers, constants);
+    dispatchTouching(program, colliders, code, buffers, pushOf(colliders, substep, Kick::half), constants);
 }
 
 } // namespace sinew::sim::collision::colliders

@@ -85,13 +85,11 @@ void addOverEnds(ProgramBuilder& program, const Contacts& contacts, const Partic
 
 // One that gives impulses to them: in the form that keeps these where the step does.
 void addImpulses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& particles,
-                 const vk::ShaderCode& code, const vk::ShaderCode& withForces, std::vector<BufferId> buffers,
+                 const forces::Forms& forms, std::vector<BufferId> buffers,
                  ProgramBuilder::Constants constants = {}) {
-    if (!particles.forces)
-        return addOverEnds(program, contacts, particles, code, std::move(buffers), constants);
-    buffers.push_back(particles.forces->terms);
-    constants.merge(particles.forces->ofContacts());
-    addOverEnds(program, contacts, particles, withForces, std::move(buffers), constants);
+    const vk::ShaderCode& code =
+        forces::formFor(particles, forms, &forces::Forces::ofContacts, buffers, constants);
+    addOverEnds(program, contacts, particles, code, std::move(buffers), constants);
 }
 
 void addShares(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& particles) {
@@ -177,7 +175,7 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
                   contacts.directions, contacts.weights, contacts.shares, lists.pooled.memory->memory,
                   lists.impulses, contacts.before, predicted.step, contacts.surfaces.ofParticles,
                   contacts.surfaces.pairs});
-    addImpulses(program, contacts, predicted, k::gatherEdges, k::gatherEdgesForces,
+    addImpulses(program, contacts, predicted, {&k::gatherEdges, &k::gatherEdgesForces},
                 {contacts.corners, lists.impulses, predicted.velocities, predicted.positions, predicted.step},
                 remainderConstants(predicted.layout));
 }
@@ -194,7 +192,7 @@ void addBounces(ProgramBuilder& program, const Contacts& contacts, const Particl
     addOverEdges(program, contacts, k::reboundEdges,
                  {state.velocities, lists.edges, lists.pooled.contacts, lists.pooled.ranges, contacts.bounces,
                   contacts.weights, contacts.shares, lists.impulses});
-    addImpulses(program, contacts, state, k::gatherEdgesRebound, k::gatherEdgesReboundForces,
+    addImpulses(program, contacts, state, {&k::gatherEdgesRebound, &k::gatherEdgesReboundForces},
                 {contacts.corners, lists.impulses, state.velocities, state.positions, state.step});
 }
 

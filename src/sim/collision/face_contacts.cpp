@@ -262,17 +262,18 @@ void addOverContacts(ProgramBuilder& program, const Contacts& contacts, const vk
 }
 
 // A pass that gives impulses to particles: in the form that keeps them where the step does.
-void addImpulses(ProgramBuilder& program, const Contacts& contacts, const vk::ShaderCode& code,
-                 const vk::ShaderCode& withForces, std::vector<BufferId> buffers,
-                 const ParticleBuffers& particles, ProgramBuilder::Constants constants = {}) {
-    if (!particles.forces) return addOverContacts(program, contacts, code, std::move(buffers), constants);
+void addImpulses(ProgramBuilder& program, const Contacts& contacts, const forces::Forms& forms,
+                 std::vector<BufferId> buffers, const ParticleBuffers& particles,
+                 ProgramBuilder::Constants constants = {}) {
+    const vk::ShaderCode& code =
+        forces::formFor(particles, forms, &forces::Forces::ofStops, buffers, constants);
     // without a face that can stop something no kernel reads the last but one
     const bool hasRows = contacts.stopRows != BufferId{};
-    buffers.insert(buffers.end(),
-                   {particles.forces->terms, hasRows ? contacts.stopRows : contacts.lists.pooled.ranges,
-                    hasRows ? contacts.linkedPositions : contacts.before, contacts.lists.pooled.contacts});
-    constants.merge(particles.forces->ofStops());
-    addOverContacts(program, contacts, withForces, std::move(buffers), constants);
+    if (particles.forces)
+        buffers.insert(buffers.end(), {hasRows ? contacts.stopRows : contacts.lists.pooled.ranges,
+                                       hasRows ? contacts.linkedPositions : contacts.before,
+                                       contacts.lists.pooled.contacts});
+    addOverContacts(program, contacts, code, std::move(buffers), constants);
 }
 
 // How particles are shared among contacts that have something in the last word of `directions`.
@@ -396,7 +397,7 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
                      contacts.directions, contacts.weights, contacts.shares, lists.pooled.memory->memory,
                      contacts.impulses, contacts.before, predicted.step, contacts.surfaces.ofParticles,
                      contacts.surfaces.pairs});
-    addImpulses(program, contacts, k::gatherFaces, k::gatherFacesForces,
+    addImpulses(program, contacts, {&k::gatherFaces, &k::gatherFacesForces},
                 {lists.pooled.ranges, contacts.directions, contacts.weights, contacts.corners, lists.links,
                  lists.linkLists, contacts.cornerEnds, contacts.impulses, predicted.velocities,
                  predicted.positions, predicted.step},
@@ -415,7 +416,7 @@ void addBounces(ProgramBuilder& program, const Contacts& contacts, const Particl
     addOverContacts(program, contacts, k::reboundFaces,
                     {state.velocities, lists.faces, lists.pooled.contacts, lists.pooled.ranges,
                      contacts.bounces, contacts.weights, contacts.shares, contacts.impulses});
-    addImpulses(program, contacts, k::gatherFacesRebound, k::gatherFacesReboundForces,
+    addImpulses(program, contacts, {&k::gatherFacesRebound, &k::gatherFacesReboundForces},
                 {lists.pooled.ranges, contacts.bounces, contacts.weights, contacts.corners, lists.links,
                  lists.linkLists, contacts.cornerEnds, contacts.impulses, state.velocities, state.positions,
                  state.step},
@@ -438,13 +439,11 @@ void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleB
                                   state.step,
                                   lists.pooled.memory->memory};
     ProgramBuilder::Constants constants = remainderConstants(state.layout);
-    if (state.forces) {
-        buffers.insert(buffers.end(), {state.forces->terms, contacts.stopRows, contacts.linkedPositions});
-        constants.merge(state.forces->ofStops());
-    }
+    const vk::ShaderCode& code = forces::formFor(state, {&k::stopAtFaces, &k::stopAtFacesForces},
+                                                 &forces::Forces::ofStops, buffers, constants);
+    if (state.forces) buffers.insert(buffers.end(), {contacts.stopRows, contacts.linkedPositions});
     buffers.push_back(contacts.movingPoints);
-    program.dispatch(state.forces ? k::stopAtFacesForces : k::stopAtFaces, push.count, buffers, push,
-                     constants);
+    program.dispatch(code, push.count, buffers, push, constants);
 }
 
 void addPublishing(ProgramBuilder& program, const Contacts& contacts) {

@@ -174,11 +174,10 @@ void addPasses(ProgramBuilder& program, const Interlocks& interlocks, const Shar
     program.dispatchIndirect(k::countInterlocked, items, buffers, interlocks.push);
     buffers = sharedBuffers(interlocks, shared, predicted.step);
     buffers.insert(buffers.end(), {interlocks.moving, predicted.positions, predicted.velocities});
-    if (!predicted.forces)
-        return program.dispatchIndirect(k::partInterlocked, items, buffers, interlocks.push);
-    buffers.push_back(predicted.forces->terms);
-    program.dispatchIndirect(k::partInterlockedForces, items, buffers, interlocks.push,
-                             predicted.forces->ofContacts());
+    ProgramBuilder::Constants constants;
+    const vk::ShaderCode& code = forces::formFor(predicted, {&k::partInterlocked, &k::partInterlockedForces},
+                                                 &forces::Forces::ofContacts, buffers, constants);
+    program.dispatchIndirect(code, items, buffers, interlocks.push, constants);
 }
 
 void addClosing(ProgramBuilder& program, const Interlocks& interlocks) {

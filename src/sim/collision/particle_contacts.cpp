@@ -238,12 +238,10 @@ void addGather(ProgramBuilder& program, const Contacts& contacts, const Particle
         buffers.insert(buffers.end(), {contacts.planes.planes, contacts.planes.contactOffsets});
         constants.merge(contacts.planes.constants());
     }
-    if (next.forces) {
-        buffers.push_back(next.forces->terms);
-        constants.merge(next.forces->ofPlanes());
-    }
-    addOverContacts(program, contacts, gatherForm(contacts, next.forces != nullptr), std::move(buffers),
-                    constants);
+    const vk::ShaderCode& code =
+        forces::formFor(next, {&gatherForm(contacts, false), &gatherForm(contacts, true)},
+                        &forces::Forces::ofPlanes, buffers, constants);
+    addOverContacts(program, contacts, code, std::move(buffers), constants);
 }
 
 // Whether most of what touches is of linked bodies: then few of its particles have a candidate at a time.
@@ -383,21 +381,18 @@ void addBounces(ProgramBuilder& program, const Contacts& contacts, const Particl
     shared.push_back(contacts.hasKept ? lists.pooled.memory->memory : contacts.before);
     shared.push_back(next.velocities);
     shared.push_back(contacts.bouncing);
-    const ProgramBuilder::Constants constants{{keepsRestId, contacts.hasKept}};
+    ProgramBuilder::Constants constants{{keepsRestId, contacts.hasKept}};
     program.dispatch(isTable ? form(contacts, {&k::countBouncesSurfacesLoads, &k::countBouncesSurfaces})
                              : form(contacts, {&k::countBouncesLoads, &k::countBounces}),
                      contacts.push.count, shared, contacts.push, constants);
     shared.insert(shared.end(), {next.positions, contacts.rebounding});
-    if (next.forces) {
-        shared.push_back(next.forces->terms);
-        ProgramBuilder::Constants both = next.forces->ofContacts();
-        both.insert(constants.begin(), constants.end());
-        return program.dispatch(isTable ? k::bounceContactsSurfacesForces : k::bounceContactsForces,
-                                contacts.push.count, shared, contacts.push, both);
-    }
-    program.dispatch(isTable ? form(contacts, {&k::bounceContactsSurfacesLoads, &k::bounceContactsSurfaces})
-                             : form(contacts, {&k::bounceContactsLoads, &k::bounceContacts}),
-                     contacts.push.count, shared, contacts.push, constants);
+    const forces::Forms tabled{&form(contacts, {&k::bounceContactsSurfacesLoads, &k::bounceContactsSurfaces}),
+                               &k::bounceContactsSurfacesForces};
+    const forces::Forms plain{&form(contacts, {&k::bounceContactsLoads, &k::bounceContacts}),
+                              &k::bounceContactsForces};
+    const vk::ShaderCode& code =
+        forces::formFor(next, isTable ? tabled : plain, &forces::Forces::ofContacts, shared, constants);
+    program.dispatch(code, contacts.push.count, shared, contacts.push, constants);
 }
 
 void addPublishing(ProgramBuilder& program, const Contacts& contacts) {

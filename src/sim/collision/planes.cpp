@@ -13,15 +13,11 @@ namespace {
 constexpr std::uint32_t planeCountId = 2; // constant_id in planes.glsl
 
 // A pass over all particles, in the form that keeps forces where the step does.
-void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const vk::ShaderCode& code,
-             const vk::ShaderCode& withForces, std::vector<BufferId> buffers,
-             ProgramBuilder::Constants constants) {
-    if (particles.forces) {
-        buffers.push_back(particles.forces->terms);
-        constants.merge(particles.forces->ofPlanes());
-    }
-    program.dispatch(particles.forces ? withForces : code, particles.count, buffers,
-                     layout::CountPush{particles.count}, constants);
+void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const forces::Forms& forms,
+             std::vector<BufferId> buffers, ProgramBuilder::Constants constants) {
+    const vk::ShaderCode& code =
+        forces::formFor(particles, forms, &forces::Forces::ofPlanes, buffers, constants);
+    program.dispatch(code, particles.count, buffers, layout::CountPush{particles.count}, constants);
 }
 
 } // namespace
@@ -52,7 +48,7 @@ Colliders addColliders(ProgramBuilder& program, const Scene& scene, const StateL
 void addTouch(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
               const Colliders& colliders) {
     if (colliders.count == 0) return;
-    addPass(program, particles, kernels::touchPlanes, kernels::touchPlanesForces,
+    addPass(program, particles, {&kernels::touchPlanes, &kernels::touchPlanesForces},
             {particles.positions, particles.velocities, corrections, colliders.planes,
              colliders.contactOffsets, particles.step},
             colliders.constants());
@@ -72,7 +68,7 @@ void addOpen(ProgramBuilder& program, const ParticleBuffers& particles, const Co
 
 void addSolve(ProgramBuilder& program, const ParticleBuffers& particles, const Contacts& contacts) {
     if (contacts.colliders.count == 0) return;
-    addPass(program, particles, kernels::solvePlanes, kernels::solvePlanesForces,
+    addPass(program, particles, {&kernels::solvePlanes, &kernels::solvePlanesForces},
             {particles.positions, particles.velocities, contacts.contacts, contacts.colliders.planes,
              contacts.colliders.contactOffsets, particles.step},
             contacts.colliders.constants());
@@ -86,7 +82,7 @@ void addVelocityUpdate(ProgramBuilder& program, const ParticleBuffers& particles
         std::vector<BufferId> buffers{particles.velocities, particles.step, contacts.contacts,
                                       contacts.colliders.planes};
         if (particles.forces) buffers.push_back(particles.positions);
-        addPass(program, particles, kernels::updateVelocityPlanes, kernels::updateVelocityPlanesForces,
+        addPass(program, particles, {&kernels::updateVelocityPlanes, &kernels::updateVelocityPlanesForces},
                 std::move(buffers), contacts.colliders.constants());
     }
 }

@@ -23,15 +23,15 @@ layout::AttachmentPush pushOf(const Attachments& attachments, std::uint32_t subs
 }
 
 // The kernel without forces, and with them. `velocities`: of the particles, or the corrections to them.
-void dispatchForm(ProgramBuilder& program, const std::array<const vk::ShaderCode*, 2>& forms,
-                  const ParticleBuffers& particles, BufferId velocities, const Attachments& attachments,
-                  const layout::AttachmentPush& push) {
+void dispatchForm(ProgramBuilder& program, const forces::Forms& forms, const ParticleBuffers& particles,
+                  BufferId velocities, const Attachments& attachments, const layout::AttachmentPush& push) {
     if (attachments.count == 0) return;
     std::vector<BufferId> buffers{attachments.particles, attachments.anchors, particles.positions, velocities,
                                   particles.step};
-    if (!particles.forces) return program.dispatch(*forms[0], attachments.count, buffers, push);
-    buffers.push_back(particles.forces->terms);
-    program.dispatch(*forms[1], attachments.count, buffers, push, particles.forces->ofAttachments());
+    ProgramBuilder::Constants constants;
+    const vk::ShaderCode& code =
+        forces::formFor(particles, forms, &forces::Forces::ofAttachments, buffers, constants);
+    program.dispatch(code, attachments.count, buffers, push, constants);
 }
 
 } // namespace

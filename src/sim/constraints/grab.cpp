@@ -93,10 +93,10 @@ void addPass(ProgramBuilder& program, const ParticleBuffers& particles, std::uin
                                   grabs.grips,         grabs.held,           grabs.pulling,
                                   particles.positions, particles.velocities, particles.step};
     const layout::GrabPush push = pushOf(grabs, substep, substeps, kick);
-    if (!particles.forces) return program.dispatchIndirect(kernels::pullHeld, itemsOf(grabs), buffers, push);
-    buffers.push_back(particles.forces->terms);
-    program.dispatchIndirect(kernels::pullHeldForces, itemsOf(grabs), buffers, push,
-                             particles.forces->ofGrabs());
+    ProgramBuilder::Constants constants;
+    const vk::ShaderCode& code = forces::formFor(particles, {&kernels::pullHeld, &kernels::pullHeldForces},
+                                                 &forces::Forces::ofGrabs, buffers, constants);
+    program.dispatchIndirect(code, itemsOf(grabs), buffers, push, constants);
 }
 
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
@@ -107,11 +107,11 @@ void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, Buff
                                   grabs.held,     grabs.pulling, particles.positions, particles.velocities,
                                   particles.step, corrections};
     const layout::GrabPush push = pushOf(grabs, substep, substeps, Kick::half);
-    if (!particles.forces)
-        return program.dispatchIndirect(kernels::pullHeldOpen, itemsOf(grabs), buffers, push);
-    buffers.push_back(particles.forces->terms);
-    program.dispatchIndirect(kernels::pullHeldOpenForces, itemsOf(grabs), buffers, push,
-                             particles.forces->ofGrabs());
+    ProgramBuilder::Constants constants;
+    const vk::ShaderCode& code =
+        forces::formFor(particles, {&kernels::pullHeldOpen, &kernels::pullHeldOpenForces},
+                        &forces::Forces::ofGrabs, buffers, constants);
+    program.dispatchIndirect(code, itemsOf(grabs), buffers, push, constants);
 }
 
 bool Hands::areFree() const noexcept {

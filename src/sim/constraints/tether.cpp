@@ -46,10 +46,11 @@ void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Te
     std::vector<BufferId> buffers{tethers.particles, tethers.tethers, particles.positions,
                                   particles.velocities, particles.step};
     const layout::CountPush push{tethers.count};
-    if (!particles.forces) return program.dispatch(kernels::solveTethers, tethers.count, buffers, push);
-    buffers.push_back(particles.forces->terms);
-    program.dispatch(kernels::solveTethersForces, tethers.count, buffers, push,
-                     particles.forces->ofTethers());
+    ProgramBuilder::Constants constants;
+    const vk::ShaderCode& code =
+        forces::formFor(particles, {&kernels::solveTethers, &kernels::solveTethersForces},
+                        &forces::Forces::ofTethers, buffers, constants);
+    program.dispatch(code, tethers.count, buffers, push, constants);
 }
 
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
@@ -58,10 +59,11 @@ void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, Buff
     std::vector<BufferId> buffers{tethers.particles, tethers.tethers, particles.positions, corrections,
                                   particles.step};
     const layout::CountPush push{tethers.count};
-    if (!particles.forces) return program.dispatch(kernels::solveTethersOpen, tethers.count, buffers, push);
-    buffers.push_back(particles.forces->terms);
-    program.dispatch(kernels::solveTethersOpenForces, tethers.count, buffers, push,
-                     particles.forces->ofTethers());
+    ProgramBuilder::Constants constants;
+    const vk::ShaderCode& code =
+        forces::formFor(particles, {&kernels::solveTethersOpen, &kernels::solveTethersOpenForces},
+                        &forces::Forces::ofTethers, buffers, constants);
+    program.dispatch(code, tethers.count, buffers, push, constants);
 }
 
 } // namespace sinew::sim::constraints::tether

@@ -61,15 +61,11 @@ void addBetween(ProgramBuilder& program, const Work& work, const Form& form, boo
         constants.merge(work.colliders.constants());
         if (work.hasColliders) constants[hasCollidersId] = 1;
     }
-    const bool keepsForces = hasPlanes && particles.forces;
-    if (keepsForces) {
-        buffers.push_back(particles.forces->terms);
-        constants.merge(particles.forces->ofPlanes());
-    }
-    program.dispatch(keepsForces ? *form.forces
-                     : hasPlanes ? *form.planes
-                                 : *form.plain,
-                     particles.count, buffers, layout::SubstepPush{particles.count, isFirst}, constants);
+    const vk::ShaderCode& code = hasPlanes ? forces::formFor(particles, {form.planes, form.forces},
+                                                             &forces::Forces::ofPlanes, buffers, constants)
+                                           : *form.plain;
+    program.dispatch(code, particles.count, buffers, layout::SubstepPush{particles.count, isFirst},
+                     constants);
 }
 
 // In a substep. Without constraints there is nothing to repeat.

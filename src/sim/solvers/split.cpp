@@ -350,12 +350,10 @@ struct Touching {
                            {faces ? faces->before : before, planes.planes, planes.contactOffsets});
             constants.merge(planes.constants());
         }
-        const vk::ShaderCode* code = planes.count > 0 ? &kernels::finishFreePlanes : &kernels::finishFree;
-        if (next.forces && planes.count > 0) {
-            code = &kernels::finishFreePlanesForces;
-            buffers.push_back(next.forces->terms);
-            constants.merge(next.forces->ofPlanes());
-        }
+        const vk::ShaderCode* code = &kernels::finishFree;
+        if (planes.count > 0)
+            code = &forces::formFor(next, {&kernels::finishFreePlanes, &kernels::finishFreePlanesForces},
+                                    &forces::Forces::ofPlanes, buffers, constants);
         buffers.push_back(particles);
         program.dispatch(*code, particleCount, buffers, layout::CountPush{particleCount}, constants);
     }
