@@ -466,6 +466,43 @@ TEST(RestOfFaces, EndsInTheSameBitsForAnyMarginOrderAndForm) {
     EXPECT_EQ(hash(loads), first) << "without texels";
 }
 
+// A rest distance that grew by one rounding in each substep would have gone by 2.4 mm.
+TEST(RestOfFaces, DoesNotDriftInTwentyThousandSubsteps) {
+    const auto driftOf = [](const Scene& scene, std::size_t first, float aside) {
+        Runner runner(scene, {.substeps = 100, .contactRoom = 64});
+        int step = 0;
+        const auto placesAfter = [&](int steps) { // to and fro in 40 steps
+            for (const int end = step + steps; step < end; ++step)
+                runner.step({.dt = scene.dt, .gravity = {step % 40 < 20 ? aside : -aside, -9.81f, 0}});
+            return runner.positions();
+        };
+        const auto before = placesAfter(40), away = placesAfter(10), after = placesAfter(190);
+        double drift = 0;
+        for (std::size_t i = first; i < after.size(); ++i)
+            drift = std::max(drift, std::abs(after[i].y() - before[i].y()));
+        const double way = std::abs(away.back().x() - before.back().x());
+        std::printf("%.1e m lower or higher, %.3f m to and fro\n", drift, way);
+        if (aside > 0) {
+            EXPECT_GT(way, 0.05) << "over several faces";
+        }
+        return drift;
+    };
+    const float small = 0.004f, reach = 0.3f * spacing + small;
+    Block made = block({2, 2, 2});
+    holdTightly(made);
+    made.scene.contacts.friction = 0.8f;
+    for (float n = 0; n < 6; ++n)
+        addBall(made.scene,
+                {(0.4f + 0.23f * n) * spacing, 2 * spacing + (0.9f - 0.31f * n) * reach,
+                 (1.6f - 0.2f * n) * spacing},
+                small, 1e-3f);
+    EXPECT_LT(driftOf(made.scene, made.count, 0), 1e-5) << "in front of a surface, and behind it";
+    Scene slope = weightless();
+    addMeshCollider(slope, plate(0.25f, 6, 0.01f));
+    slope.particles[addBall(slope, {0.01f, 0.8f * 0.03f, 0.013f}, 0.02f)].velocity.x = -2.0f / 3;
+    EXPECT_LT(driftOf(slope, slope.particles.size() - 1, 4), 1e-5) << "from face to face";
+}
+
 // An undone step, a saved state, a simulation with more room: all remember, in front of faces and behind
 // them.
 TEST(RestOfFaces, IsRememberedAcrossStatesAndUndoneSteps) {
