@@ -93,6 +93,14 @@ Vector up(double force) {
     return {0, force, 0};
 }
 
+// A weight that something carries, and what that feels of it.
+template <typename Carried, typename Carrier>
+void expectWeight(const std::vector<Impulses>& all, double dt, double weight, const Carried& carried,
+                  const Carrier& carrier) {
+    expectForce(all, dt, up(weight), weightShare, carried, "what is carried");
+    expectForce(all, dt, up(-weight), weightShare, carrier, "what carries");
+}
+
 Vector momentumOf(const Scene& scene, const std::vector<Vector>& v, const Body& body) {
     Vector momentum = Vector::Zero();
     for (std::uint32_t i = body.firstParticle; i < body.firstParticle + body.particleCount; ++i)
@@ -109,11 +117,9 @@ TEST(Weight, OfABlockIsOnAPlane) {
     test::Runner runner(scene, withForces());
     const auto all = impulsesOf(runner, 180, 20);
     const double weight = gravity * massOf(scene, scene.bodies[0]), dt = double{scene.dt};
-    expectForce(
-        all, dt, up(weight), weightShare, [](const Impulses& i) { return i.bodies[0].planes.linear; },
-        "body");
-    expectForce(
-        all, dt, up(-weight), weightShare, [](const Impulses& i) { return i.planes[0].linear; }, "plane");
+    expectWeight(
+        all, dt, weight, [](const Impulses& i) { return i.bodies[0].planes.linear; },
+        [](const Impulses& i) { return i.planes[0].linear; });
     for (const Impulses& impulses : all) {
         EXPECT_EQ(impulses.planes[1].linear.x, 0);
         EXPECT_LT(test::toVector(impulses.bodies[0].contacts.linear).norm(),
@@ -135,12 +141,9 @@ TEST(Weight, OfABlockIsOnABoxCollider) {
         test::Runner runner(scene, withForces());
         const auto all = impulsesOf(runner, 180, 20);
         const double weight = gravity * massOf(scene, scene.bodies[0]), dt = double{scene.dt};
-        expectForce(
-            all, dt, up(weight), weightShare, [](const Impulses& i) { return i.bodies[0].colliders.linear; },
-            "body");
-        expectForce(
-            all, dt, up(-weight), weightShare, [](const Impulses& i) { return i.colliders[1].linear; },
-            "collider");
+        expectWeight(
+            all, dt, weight, [](const Impulses& i) { return i.bodies[0].colliders.linear; },
+            [](const Impulses& i) { return i.colliders[1].linear; });
         for (const Impulses& impulses : all) EXPECT_EQ(impulses.colliders[0].linear.y, 0);
     }
 }
@@ -152,12 +155,9 @@ TEST(Weight, OfABlockIsOnAMesh) {
     test::Runner runner(scene, withForces());
     const auto all = impulsesOf(runner, 180, 20);
     const double weight = gravity * massOf(scene, scene.bodies[0]), dt = double{scene.dt};
-    expectForce(
-        all, dt, up(weight), weightShare, [](const Impulses& i) { return i.bodies[0].contacts.linear; },
-        "body");
-    expectForce(
-        all, dt, up(-weight), weightShare, [](const Impulses& i) { return i.bodies[1].contacts.linear; },
-        "mesh");
+    expectWeight(
+        all, dt, weight, [](const Impulses& i) { return i.bodies[0].contacts.linear; },
+        [](const Impulses& i) { return i.bodies[1].contacts.linear; });
     for (const Impulses& impulses : all) // the block stands over the middle of the table
         EXPECT_LT(test::toVector(impulses.bodies[1].contacts.angular).norm(), 0.01 * weight * dt * 0.3);
 }
@@ -170,12 +170,9 @@ TEST(Weight, OfTwoBlocksIsOnThePlaneAndOfOneBetweenThem) {
     test::Runner runner(scene, withForces());
     const auto all = impulsesOf(runner, 240, 20);
     const double upper = gravity * massOf(scene, scene.bodies[1]), dt = double{scene.dt};
-    expectForce(
-        all, dt, up(upper), weightShare, [](const Impulses& i) { return i.bodies[1].contacts.linear; },
-        "upper");
-    expectForce(
-        all, dt, up(-upper), weightShare, [](const Impulses& i) { return i.bodies[0].contacts.linear; },
-        "lower");
+    expectWeight(
+        all, dt, upper, [](const Impulses& i) { return i.bodies[1].contacts.linear; },
+        [](const Impulses& i) { return i.bodies[0].contacts.linear; });
     expectForce(
         all, dt, up(2 * upper), weightShare, [](const Impulses& i) { return i.bodies[0].planes.linear; },
         "plane");

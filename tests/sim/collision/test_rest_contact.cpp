@@ -2,6 +2,7 @@
 // (Particle::keepsRest): nothing moves, nothing leaks under load, and what has parted is as any other.
 #include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
+#include "sim/collision/rest_checks.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
 
@@ -55,40 +56,10 @@ Cubes cubes(float overlap, float aside = 0) {
     return made;
 }
 
-double moved(const std::vector<Vector3d>& x, const Scene& scene) {
-    double most = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        const Vec3& p = scene.particles[i].position;
-        most = std::max(most, (x[i] - Vector3d(double{p.x}, double{p.y}, double{p.z})).norm());
-    }
-    return most;
-}
-
 double middle(const std::vector<Vector3d>& x, std::size_t first) {
     double sum = 0;
     for (std::size_t i = first; i < x.size(); ++i) sum += x[i].y();
     return sum / static_cast<double>(x.size() - first);
-}
-
-// Without contacts bodies tremble by rounding; with those that keep their rest distance they do as well.
-void expectStill(const Scene& scene, const Settings& settings, double radius, const std::string& what) {
-    constexpr int steps = 200;
-    Scene untouched = scene;
-    untouched.faces.clear();
-    for (Particle& particle : untouched.particles) particle.radius = 0;
-    Runner runner(scene, settings), alone(untouched, settings);
-    const Status status = runner.run(steps);
-    alone.run(steps);
-    EXPECT_EQ(status.nonFinite + status.contactRoom, 0u) << what;
-    const auto x = runner.positions(), x0 = alone.positions();
-    double way = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) way = std::max(way, (x[i] - x0[i]).norm() / radius);
-    const double energy = kineticEnergy(scene, runner.velocities()),
-                 energyAlone = kineticEnergy(scene, alone.velocities());
-    std::printf("%s: off by %.2e radii after %d steps (%.2e moved alone), %.1e J (%.1e J)\n", what.c_str(),
-                way, steps, moved(x0, scene) / radius, energy, energyAlone);
-    EXPECT_LT(way, 1e-4) << what;
-    EXPECT_LE(energy, 1.1 * energyAlone + 1e-12) << what << " [J]";
 }
 
 // Presses what is from `first` on down with `weights` of its own, and lets go.
@@ -123,7 +94,7 @@ TEST(RestContact, OfCubesThatTouchOrOverlapKeepsThemStill) {
         for (const float aside : {0.0f, 0.4f * spacing}) {
             Cubes made = cubes(overlap, aside);
             keep(made.scene, made.upper);
-            expectStill(made.scene, {.substeps = 8, .contactRoom = 64}, double{wide},
+            expectStill(made.scene, {.substeps = 8, .contactRoom = 64}, double{wide}, 200,
                         "cubes in each other by " + std::to_string(overlap / wide) + " radii, beside by " +
                             std::to_string(aside / wide));
         }
@@ -306,37 +277,7 @@ TEST(RestContact, IsRememberedAcrossStatesAndUndoneSteps) {
     keep(made.scene);
     made.scene.gravity = {2, -9.81f, 0};
     made.scene.planes = {{.offset = -0.04f}};
-    const Settings settings{.substeps = 8, .contactRoom = 64};
-    Runner plain(made.scene, settings);
-    plain.run(20);
-    const std::uint64_t hash = plain.stateHash();
-
-    Runner undone(made.scene, settings);
-    undone.run(7);
-    undone.writePosition(3, std::numeric_limits<float>::quiet_NaN());
-    EXPECT_GT(undone.run(1).nonFinite, 0u);
-    undone.run(13);
-    EXPECT_EQ(undone.stateHash(), hash) << "an undone step";
-
-    Runner saved(made.scene, settings);
-    saved.run(10);
-    const Runner::Saved state = saved.save();
-    saved.run(5);
-    saved.load(state);
-    saved.run(10);
-    EXPECT_EQ(saved.stateHash(), hash) << "a saved state";
-
-    Runner first(made.scene, settings);
-    first.run(10);
-    Settings roomy = settings;
-    roomy.contactRoom = 80;
-    Runner larger(made.scene, roomy);
-    larger.takeOver(first);
-    larger.run(10);
-    EXPECT_EQ(larger.stateHash(), hash) << "more room";
-    larger.reset();
-    larger.run(20);
-    EXPECT_EQ(larger.stateHash(), hash) << "a reset";
+    expectRemembered(made.scene, {.substeps = 8, .contactRoom = 64}, 10);
 }
 
 // Pieces of a body that is cut keep what it kept.
@@ -402,7 +343,7 @@ TEST(RestContact, KeepsThreeOrgansInEachOther) {
     addCube(scene, {0.06f, 0.2f, 0.05f}, 0.03f, 6);
     const Settings settings{.substeps = 8, .contactRoom = 256};
     keep(scene);
-    expectStill(scene, settings, 0.015, "three organs");
+    expectStill(scene, settings, 0.015, 200, "three organs");
     scene.gravity = {0, -9.81f, 0};
     scene.planes = {{.offset = -0.04f}};
     Runner runner(scene, settings);
@@ -440,5 +381,5 @@ TEST(RestContact, HoldsBetweenPartsOfOneBody) {
             for (std::uint32_t x = 0; x <= 3; ++x)
                 scene.particles[corners.at(x, y, z)].position.y -= 0.4f * wide;
     keep(scene);
-    expectStill(scene, {.substeps = 16, .contactRoom = 64}, double{wide}, "two parts of one body");
+    expectStill(scene, {.substeps = 16, .contactRoom = 64}, double{wide}, 200, "two parts of one body");
 }

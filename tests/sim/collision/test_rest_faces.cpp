@@ -3,6 +3,7 @@
 #include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/collision/face_scenes.hpp"
+#include "sim/collision/rest_checks.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
 
@@ -24,36 +25,6 @@ namespace {
 
 constexpr float spacing = 0.05f;
 const Settings settings{.substeps = 8, .contactRoom = 64};
-
-double moved(const std::vector<Vector3d>& x, const Scene& scene) {
-    double most = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        const Vec3& p = scene.particles[i].position;
-        most = std::max(most, (x[i] - Vector3d(double{p.x}, double{p.y}, double{p.z})).norm());
-    }
-    return most;
-}
-
-// Without contacts bodies tremble by rounding; with those that keep their rest distance they do as well.
-void expectStill(const Scene& scene, double radius, const std::string& what) {
-    constexpr int steps = 100;
-    Scene untouched = scene;
-    untouched.faces.clear();
-    for (Particle& particle : untouched.particles) particle.radius = 0;
-    Runner runner(scene, settings), alone(untouched, settings);
-    const Status status = runner.run(steps);
-    alone.run(steps);
-    EXPECT_EQ(status.nonFinite + status.contactRoom, 0u) << what;
-    const auto x = runner.positions(), x0 = alone.positions();
-    double way = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) way = std::max(way, (x[i] - x0[i]).norm() / radius);
-    const double energy = kineticEnergy(scene, runner.velocities()),
-                 energyAlone = kineticEnergy(scene, alone.velocities());
-    std::printf("%s: off by %.2e radii after %d steps (%.2e moved alone), %.1e J (%.1e J)\n", what.c_str(),
-                way, steps, moved(x0, scene) / radius, energy, energyAlone);
-    EXPECT_LT(way, 1e-4) << what;
-    EXPECT_LE(energy, 1.1 * energyAlone + 1e-12) << what << " [J]";
-}
 
 // A plate of triangles about 0.07 m long in the plane y = 0, from -half to half.
 MeshCollider plate(float half, std::uint32_t count, float thickness) {
@@ -160,7 +131,8 @@ TEST(RestOfFaces, KeepsBallsOfAnyRadiusInAMeshWall) {
             balls.push_back(addBall(scene, {x, part * reach, 0.013f}, radius));
             x += 0.17f;
         }
-        expectStill(scene, double{radius}, "balls of " + std::to_string(radius) + " m in a wall");
+        expectStill(scene, settings, double{radius}, 100,
+                    "balls of " + std::to_string(radius) + " m in a wall");
         // pressed against the wall from their side
         for (const float down : {98.1f, -98.1f}) {
             Scene pressed = scene;
@@ -249,7 +221,7 @@ TEST(RestOfFaces, HoldsWhatLiesBehindTheSurfaceOfSomethingSolid) {
                                          Vec3{1.5f * spacing, y, 4.2f * spacing}};
         std::vector<std::uint32_t> balls;
         for (const Vec3& place : places) balls.push_back(addBall(made.scene, place, small, 1e-3f));
-        expectStill(made.scene, double{small},
+        expectStill(made.scene, settings, double{small}, 100,
                     "balls at " + std::to_string(part) + " of the reach above a surface");
         made.scene.gravity = {0, -98.1f, 0};
         made.scene.damping = 20;
@@ -274,7 +246,7 @@ TEST(RestOfFaces, HoldsWhatLiesBehindAnInnerEdge) {
         Block made = steps();
         const std::uint32_t ball =
             addBall(made.scene, {edge + aside * deep, edge - deep, 2.5f * spacing}, small, 1e-3f);
-        expectStill(made.scene, double{small},
+        expectStill(made.scene, settings, double{small}, 100,
                     "a ball behind an inner edge, aside by " + std::to_string(aside));
         hold(made);
         made.scene.gravity = {-3, -6, 0};
@@ -419,7 +391,8 @@ TEST(RestOfFaces, KeepsClothInABody) {
                          .membraneStiffness = 50,
                          .thickness = thickness});
         for (std::size_t i = body; i < scene.particles.size(); ++i) scene.particles[i].keepsRest = true;
-        expectStill(scene, double{reach}, "cloth " + std::to_string(thickness) + " m thick in a body");
+        expectStill(scene, settings, double{reach}, 100,
+                    "cloth " + std::to_string(thickness) + " m thick in a body");
     }
 }
 
@@ -437,7 +410,7 @@ TEST(RestOfEdges, KeepsCrossedSheets) {
     Scene parting = scene;
     for (Particle& particle : scene.particles) particle.keepsRest = true;
     ASSERT_TRUE(usesKernel(scene, "touch_edges"));
-    expectStill(scene, double{thick} / 2, "crossed sheets");
+    expectStill(scene, settings, double{thick} / 2, 100, "crossed sheets");
     Runner runner(parting, settings);
     runner.run(30);
     EXPECT_GT(moved(runner.positions(), parting), 0.05 * double{thick}) << "by default they part";
@@ -514,31 +487,5 @@ TEST(RestOfFaces, IsRememberedAcrossStatesAndUndoneSteps) {
             {(0.7f + 0.4f * n) * spacing, 3 * spacing + 0.003f * (2.5f - n), (0.9f + 0.37f * n) * spacing},
             0.004f, 1e-3f);
     made.scene.gravity = {1, -9.81f, 0};
-    Runner plain(made.scene, settings);
-    plain.run(16);
-    const std::uint64_t hash = plain.stateHash();
-
-    Runner undone(made.scene, settings);
-    undone.run(7);
-    undone.writePosition(3, std::numeric_limits<float>::quiet_NaN());
-    EXPECT_GT(undone.run(1).nonFinite, 0u);
-    undone.run(9);
-    EXPECT_EQ(undone.stateHash(), hash) << "an undone step";
-
-    Runner saved(made.scene, settings);
-    saved.run(8);
-    const Runner::Saved state = saved.save();
-    saved.run(5);
-    saved.load(state);
-    saved.run(8);
-    EXPECT_EQ(saved.stateHash(), hash) << "a saved state";
-
-    Runner first(made.scene, settings);
-    first.run(8);
-    Settings roomy = settings;
-    roomy.contactRoom = 80;
-    Runner larger(made.scene, roomy);
-    larger.takeOver(first);
-    larger.run(8);
-    EXPECT_EQ(larger.stateHash(), hash) << "more room";
+    expectRemembered(made.scene, settings, 8);
 }

@@ -6,6 +6,7 @@
 #include "sim/compile.hpp"
 #include "sim/cutting/cut_body.hpp"
 #include "sim/cutting/cut_gaps.hpp"
+#include "sim/cutting/faced_bodies.hpp"
 #include "sim/holds.hpp"
 #include "sim/scenes.hpp"
 
@@ -23,38 +24,25 @@ using namespace sinew::sim;
 using Eigen::Vector3d;
 using test::CutBody;
 using test::deepest;
+using test::particlesWhere;
+using test::poseAt;
 using test::surfaceOf;
 using test::sweepOf;
 using test::Triangle;
 
 namespace {
 
-constexpr float spacing = 0.05f;
+constexpr float spacing = test::facedSpacing;
 constexpr double voxel = double{spacing};
 
 Lattice latticeOf(std::array<std::uint32_t, 3> cells, float youngModulus, bool isCuttable = false) {
-    return {.cells = cells,
-            .spacing = spacing,
-            .youngModulus = youngModulus,
-            .radius = spacing / 2,
-            .isCuttable = isCuttable};
+    return test::facedLattice(cells, youngModulus, isCuttable);
 }
 
 std::vector<Triangle> facesIn(const Scene& scene) {
     std::vector<Triangle> faces;
     for (const Face& face : scene.faces) faces.push_back(face.particles);
     return faces;
-}
-
-std::vector<std::uint32_t> particlesWhere(const Scene& scene, const std::function<bool(const Vec3&)>& isIn) {
-    std::vector<std::uint32_t> result;
-    for (std::uint32_t i = 0; i < scene.particles.size(); ++i)
-        if (isIn(scene.particles[i].position)) result.push_back(i);
-    return result;
-}
-
-Pose poseAt(const Vec3& position, double turn = 0) { // [rad] about x
-    return {position, {static_cast<float>(std::sin(turn / 2)), 0, 0, static_cast<float>(std::cos(turn / 2))}};
 }
 
 // A strip of 3 x 3 x 40 cells along z on a plane, of which one end stands still and the other is turned over

@@ -5,6 +5,7 @@
 #include "sim/compile.hpp"
 #include "sim/cutting/cut_body.hpp"
 #include "sim/cutting/cut_gaps.hpp"
+#include "sim/cutting/faced_bodies.hpp"
 #include "sim/holds.hpp"
 #include "sim/scenes.hpp"
 
@@ -24,32 +25,19 @@ using namespace sinew;
 using namespace sinew::sim;
 using Eigen::Vector3d;
 using test::CutBody;
+using test::particlesWhere;
+using test::poseAt;
 using test::surfaceOf;
 using test::sweepOf;
 using test::Triangle;
 
 namespace {
 
-constexpr float spacing = 0.05f;
+constexpr float spacing = test::facedSpacing;
 constexpr double voxel = double{spacing};
 
 Lattice latticeOf(std::array<std::uint32_t, 3> cells, float youngModulus) {
-    return {.cells = cells,
-            .spacing = spacing,
-            .youngModulus = youngModulus,
-            .radius = spacing / 2,
-            .isCuttable = true};
-}
-
-std::vector<std::uint32_t> particlesWhere(const Scene& scene, const std::function<bool(const Vec3&)>& isIn) {
-    std::vector<std::uint32_t> result;
-    for (std::uint32_t i = 0; i < scene.particles.size(); ++i)
-        if (isIn(scene.particles[i].position)) result.push_back(i);
-    return result;
-}
-
-Pose poseAt(const Vec3& position) {
-    return {position, {0, 0, 0, 1}};
+    return test::facedLattice(cells, youngModulus, true);
 }
 
 template <typename T> std::vector<T> contentsOf(CutBody& body, const std::string& label) {
