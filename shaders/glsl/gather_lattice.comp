@@ -9,8 +9,12 @@
 // link: this is the assembly per cell, and a link that no cell holds is absent. SHEET: one layer of nodes in y; a link is
 // whole where any cell holds it. VOLUME: every cell also resists a change of its signed volume. HAS_MASKS: a second word says
 // which of a node's links no blade has cut yet, with VOLUME a third which cells are whole.
+//
+// ONE_NODE: an invocation computes one node. A GPU needs many short invocations; a CPU would load each node 27 times.
 #extension GL_GOOGLE_include_directive : require
+#ifndef ONE_NODE
 #define GROUP_SIZE LATTICE_GROUP
+#endif
 #include "split.glsl"
 #include "lattice_window.glsl"
 #include "cell_fill.glsl"
@@ -19,7 +23,11 @@
 #ifdef VOLUME
 #include "cell_volume.glsl"
 #endif
+#ifdef ONE_NODE
+#include "lattice_node.glsl"
+#else
 #include "march_lattice.glsl"
+#endif
 
 #ifdef RESIDENT
 // All substeps of one body a work group. Chunks are padded with empty ones to the same whole number for every lane.
@@ -39,6 +47,14 @@ void main() {
         back = residentSlots - back;
     }
     for (uint i = lane; i < push.bodySlots; i += GROUP_SIZE) positions[firstSlot + i] = resident[front + i];
+}
+#elif defined ONE_NODE
+void main() {
+    const uint item = itemIndex(push.count);
+    if (item >= push.count) return;
+    const LatticeChunk run = chunks[item / LATTICE_GROUP];
+    const uint place = item % LATTICE_GROUP;
+    if (place < run.layers) moveNode(run.origin + place, substepOf(push.isFirst != 0u));
 }
 #else
 void main() {

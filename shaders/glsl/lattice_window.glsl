@@ -25,3 +25,13 @@ layout(constant_id = 6) const bool hasBodyDiagonals = false;
 #define WIDTH (COLUMNS_X + 2)
 #define SLICE (WIDTH * (COLUMNS_Y + 2 * RIM_Y))
 #define NODES (COLUMNS_X * COLUMNS_Y)
+
+int homeOf(int n) {
+    return n % COLUMNS_X + 1 + WIDTH * (n / COLUMNS_X + RIM_Y);
+}
+
+// The window of a slice; `origin` is the slot of the block's first node there.
+void loadSlice(uint origin, out vec4 slice[SLICE]) {
+    [[unroll]] for (int s = 0; s < SLICE; ++s)
+        slice[s] = POSITION(origin + (s / WIDTH - RIM_Y) * push.rowStride + s % WIDTH - 1);
+}

@@ -5,15 +5,6 @@ uint nodeAt(uint origin, int n) {
     return origin + n % COLUMNS_X + n / COLUMNS_X * push.rowStride;
 }
 
-int homeOf(int n) {
-    return n % COLUMNS_X + 1 + WIDTH * (n / COLUMNS_X + RIM_Y);
-}
-
-void loadSlice(uint origin, out vec4 slice[SLICE]) {
-    [[unroll]] for (int s = 0; s < SLICE; ++s)
-        slice[s] = POSITION(origin + (s / WIDTH - RIM_Y) * push.rowStride + s % WIDTH - 1);
-}
-
 void march(LatticeChunk chunk, Substep substep) {
     uint origin = chunk.origin;
     vec4 slice[SLICE], above[SLICE];

@@ -37,6 +37,7 @@ std::vector<sim::Forms> formsOf(const vk::Device& device, const sim::Settings& s
     if (settings.solver != sim::Solver::split) return forms;
     forms.push_back({.columns = 1});
     forms.push_back({.usesTexels = false, .columns = 1});
+    forms.push_back({.columns = 1, .chunk = 1});
     forms.push_back({.residentBytes = device.limits().maxSharedMemory});
     return forms;
 }

@@ -116,9 +116,12 @@ TEST(Grid, FormsGiveTheSameBits) {
     const Forms forms[] = {{.chunk = 3},
                            {.columns = 1, .chunk = 5},
                            {.usesTexels = false, .chunk = 64},
-                           {.usesTexels = false, .columns = 1, .chunk = 1},
+                           {.usesTexels = false, .columns = 1, .chunk = 2},
+                           {.columns = 1, .chunk = 1},
                            {.residentBytes = 32768}};
-    ASSERT_TRUE(test::usesKernel(bodies(), "resident_sheet", {.substeps = 5, .forms = forms[4]}));
+    ASSERT_TRUE(test::usesKernel(bodies(), "gather_node", {.substeps = 5, .forms = forms[4]}));
+    ASSERT_TRUE(test::usesKernel(bodies(), "gather_node_sheet", {.substeps = 5, .forms = forms[4]}));
+    ASSERT_TRUE(test::usesKernel(bodies(), "resident_sheet", {.substeps = 5, .forms = forms[5]}));
     for (auto& [name, scene] : {std::pair{"bodies", bodies()}, std::pair{"mixture", disturbed(mixture())}})
         for (const bool isInRoom : {false, true}) {
             Scene each = scene;

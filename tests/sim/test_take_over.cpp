@@ -123,6 +123,7 @@ TEST(TakeOver, ByOtherFormsHasTheSameBits) {
     const Settings settings = settingsOf(Solver::split, 9);
     const Forms forms[] = {{.usesTexels = false},
                            {.columns = 1, .chunk = 3},
+                           {.columns = 1, .chunk = 1},
                            {.residentBytes = test::device().limits().maxSharedMemory}};
     for (const Forms& before : forms)
         for (const Forms& after : forms) {

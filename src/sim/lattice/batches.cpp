@@ -87,7 +87,11 @@ std::size_t wholeGroups(std::size_t chunks) {
     return (chunks + LATTICE_GROUP - 1) / LATTICE_GROUP * LATTICE_GROUP;
 }
 
-void finish(Batch& batch) {
+void finish(Batch& batch, bool isOneNode) {
+    if (isOneNode) {
+        batch.push.count = static_cast<std::uint32_t>(batch.chunks.size()) * LATTICE_GROUP;
+        return;
+    }
     batch.push.count = static_cast<std::uint32_t>(batch.chunks.size());
     batch.chunks.resize(wholeGroups(batch.chunks.size()), {batch.chunks.front().origin, 0});
 }
@@ -99,6 +103,13 @@ std::uint32_t residentChunk(const Grid& grid) {
         ((grid.nodes[0] + columnsX - 1) / columnsX) * ((grid.nodes[1] + columnsY - 1) / columnsY);
     const std::uint32_t runs = std::max(LATTICE_GROUP / blocks, 1u);
     return (grid.nodes[2] + runs - 1) / runs;
+}
+
+std::vector<layout::LatticeChunk> chunksFor(const Grid& grid, const Box& box, const Forms& forms,
+                                            bool isResident) {
+    if (!isResident && isOneNode(forms)) return runsOf(grid, box);
+    const auto [columnsX, columnsY] = blockOf(grid, isResident ? 2 : forms.columns);
+    return chunksOf(grid, box, columnsX, columnsY, isResident ? residentChunk(grid) : forms.chunk);
 }
 
 // Bodies of one dispatch have equally many chunks: those of the others are padded where they stand.
@@ -202,9 +213,7 @@ Batches batchesOf(const Scene& scene, const Settings& settings, std::span<const 
             push.substeps = settings.substeps;
             push.bodySlots = box.slots;
         }
-        const auto [columnsX, columnsY] = blockOf(grid, resident ? 2 : settings.forms.columns);
-        const auto chunks =
-            chunksOf(grid, box, columnsX, columnsY, resident ? residentChunk(grid) : settings.forms.chunk);
+        const auto chunks = chunksFor(grid, box, settings.forms, resident);
         Batch& batch = batchFor(result.batches, grid, push);
         if (resident)
             appendBody(batch, box, chunks);
@@ -215,7 +224,7 @@ Batches batchesOf(const Scene& scene, const Settings& settings, std::span<const 
         if (resident)
             batch.push.count = static_cast<std::uint32_t>(batch.bodies.size()) * LATTICE_GROUP;
         else
-            finish(batch);
+            finish(batch, isOneNode(settings.forms));
     }
     return result;
 }

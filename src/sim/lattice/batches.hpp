@@ -20,13 +20,19 @@ StateLayout layoutOf(const Scene& scene, std::span<const std::uint32_t> grids);
 /// Where each of `grids` is in the state.
 std::vector<Box> boxesOf(const Scene& scene, std::span<const std::uint32_t> grids);
 
+/// Whether an invocation computes one node: the form with one column and chunks of one slice.
+constexpr bool isOneNode(const Forms& forms) {
+    return forms.columns == 1 && forms.chunk == 1;
+}
+
 /// One dispatch of a substep, or of all substeps of a step where the bodies are resident.
 struct Batch {
     bool isSheet = false, hasBodyDiagonals = false, hasVolumes = false, hasRecovery = false,
          isCuttable = false;
-    layout::LatticePush push{}; ///< count = chunks, or lanes of all bodies
-    std::vector<layout::LatticeChunk>
-        chunks;                        ///< padded with empty ones, to whole work groups (for each body)
+    layout::LatticePush push{}; ///< count = chunks, or lanes of all bodies, or nodes in whole runs
+    /// What invocations march, padded with empty ones to whole work groups (for each body); where each
+    /// computes one node, runs of LATTICE_GROUP nodes.
+    std::vector<layout::LatticeChunk> chunks;
     std::vector<std::uint32_t> bodies; ///< resident: first slot of each
 };
 

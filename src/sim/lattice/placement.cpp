@@ -106,4 +106,19 @@ std::vector<layout::LatticeChunk> chunksOf(const Grid& grid, const Box& box, std
     return chunks;
 }
 
+std::vector<layout::LatticeChunk> runsOf(const Grid& grid, const Box& box) {
+    std::vector<std::uint32_t> slots;
+    for (const std::uint32_t node : grid.node) {
+        const auto at = coordinates(grid, node);
+        slots.push_back(box.slot(at[0], at[1], at[2]));
+    }
+    std::ranges::sort(slots);
+    std::vector<layout::LatticeChunk> runs;
+    for (const std::uint32_t slot : slots) {
+        if (runs.empty() || slot - runs.back().origin >= LATTICE_GROUP) runs.push_back({slot, 0});
+        runs.back().layers = slot - runs.back().origin + 1;
+    }
+    return runs;
+}
+
 } // namespace sinew::sim::lattice

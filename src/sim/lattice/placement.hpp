@@ -48,4 +48,8 @@ void writeCells(const Grid& grid, const Box& box, std::span<std::uint32_t> words
 std::vector<layout::LatticeChunk> chunksOf(const Grid& grid, const Box& box, std::uint32_t columnsX,
                                            std::uint32_t columnsY, std::uint32_t longest);
 
+/// The slots of `grid` that hold particles in runs of at most LATTICE_GROUP slots (`layers` counts slots), in
+/// order. Slots without a particle between two of a run belong to it; the state has zeros there.
+std::vector<layout::LatticeChunk> runsOf(const Grid& grid, const Box& box);
+
 } // namespace sinew::sim::lattice

@@ -243,7 +243,7 @@ std::vector<Gather> addGathers(const Common& common) {
     const auto [batches, cells] = uploadGrids(common);
     for (const lattice::Batch& batch : batches.batches) {
         gathers.push_back(gridGather(common, batch, cells));
-        setDispatch(common, gathers.back(), kernelFor(batch, common.settings.forms.columns), batch.push);
+        setDispatch(common, gathers.back(), kernelFor(batch, common.settings.forms), batch.push);
     }
     return gathers;
 }

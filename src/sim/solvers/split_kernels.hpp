@@ -62,6 +62,15 @@ inline constexpr Kernel cuttableVolume{&k::gatherCuttableVolume, &k::gatherCutta
                                        &k::gatherCuttableVolumeLoads, &k::gatherCuttableVolumeLoadsPlanes};
 inline constexpr Kernel cuttableSheet{&k::gatherCuttableSheet, &k::gatherCuttableSheetPlanes,
                                       &k::gatherCuttableSheetLoads, &k::gatherCuttableSheetLoadsPlanes};
+// One node an invocation. Loads alone: a texel unit fetches 16 bytes several times slower than a load does.
+inline constexpr Kernel node = inOneForm(k::gatherNode, k::gatherNodePlanes);
+inline constexpr Kernel nodeVolume = inOneForm(k::gatherNodeVolume, k::gatherNodeVolumePlanes);
+inline constexpr Kernel nodeSheet = inOneForm(k::gatherNodeSheet, k::gatherNodeSheetPlanes);
+inline constexpr Kernel nodeCuttable = inOneForm(k::gatherNodeCuttable, k::gatherNodeCuttablePlanes);
+inline constexpr Kernel nodeCuttableVolume =
+    inOneForm(k::gatherNodeCuttableVolume, k::gatherNodeCuttableVolumePlanes);
+inline constexpr Kernel nodeCuttableSheet =
+    inOneForm(k::gatherNodeCuttableSheet, k::gatherNodeCuttableSheetPlanes);
 
 // Gathers links in the general form, with what else the scene has.
 inline const Kernel& generalKernel(bool isRanged, bool bends, bool damps) {
@@ -70,8 +79,16 @@ inline const Kernel& generalKernel(bool isRanged, bool bends, bool damps) {
     return damps ? (bends ? bendingDamped : damped) : bends ? bending : general;
 }
 
-// Marches a batch once a substep.
-inline const Kernel& kernelFor(const lattice::Batch& batch, std::uint32_t columns) {
+inline const Kernel& nodeKernelFor(const lattice::Batch& batch) {
+    if (batch.isCuttable)
+        return batch.isSheet ? nodeCuttableSheet : batch.hasVolumes ? nodeCuttableVolume : nodeCuttable;
+    return batch.isSheet ? nodeSheet : batch.hasVolumes ? nodeVolume : node;
+}
+
+// Moves a batch once a substep.
+inline const Kernel& kernelFor(const lattice::Batch& batch, const Forms& forms) {
+    if (lattice::isOneNode(forms)) return nodeKernelFor(batch);
+    const std::uint32_t columns = forms.columns;
     if (batch.isCuttable) return batch.isSheet ? cuttableSheet : batch.hasVolumes ? cuttableVolume : cuttable;
     if (batch.isSheet) return sheet;
     if (batch.hasVolumes) return columns == 2 ? volumePairs : volumeSingle;

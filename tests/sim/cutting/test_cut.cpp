@@ -121,6 +121,7 @@ TEST(Cut, GivesTheSameBitsInReversedOrderAndInEveryForm) {
     const Settings forms[] = {{.substeps = 3},
                               {.substeps = 3, .isReversed = true},
                               {.substeps = 3, .forms = {.usesTexels = false, .columns = 1, .chunk = 3}},
+                              {.substeps = 3, .forms = {.columns = 1, .chunk = 1}},
                               {.substeps = 3, .forms = {.residentBytes = 32768}}};
     std::vector<std::vector<std::uint32_t>> words, pieces, cells;
     std::vector<std::uint64_t> hashes;
