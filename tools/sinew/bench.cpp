@@ -7,6 +7,7 @@
 #include "sim/gpu_tune.hpp"
 #include "sinew/bench_clutter.hpp"
 #include "sinew/bench_contacts.hpp"
+#include "sinew/bench_forms.hpp"
 #include "sinew/bench_kernels.hpp"
 #include "sinew/commands.hpp"
 #include "sinew/json.hpp"
@@ -34,8 +35,9 @@ using Clock = std::chrono::steady_clock;
 struct BenchOptions {
     std::string scene = "all";
     double seconds = 10; // of measuring per scene
-    bool hasPeers = false, hasKernels = false, hasContacts = false;
+    bool hasPeers = false, hasKernels = false, hasContacts = false, isByForm = false;
     std::string only; // rows of contacts whose name contains it
+    FormOptions forms;
     DeviceOptions device;
     std::optional<std::string> json;
 };
@@ -224,8 +226,12 @@ int bench(const BenchOptions& options) {
         return app::isInterrupted() ? app::interrupted : app::done;
     };
     if (options.hasKernels) {
-        const Json rows = measureKernels(session);
+        const Json rows = measureKernels(session, options.forms);
         return finish({{"schema", reportSchema}, {"kernels", rows}}, kernelsTable(rows));
+    }
+    if (options.isByForm) {
+        const Json rows = measureForms(session);
+        return finish({{"schema", reportSchema}, {"forms", rows}}, formsTable(rows));
     }
     if (options.hasContacts) {
         const Json rows = measureContacts(session, options.only, options.seconds);
@@ -274,10 +280,17 @@ void addBench(CLI::App& app, Chosen& chosen) {
                      "also compare with Bullet: its soft bodies at equal error on elastic scenes, its rigid "
                      "spheres on the "
                      "clutter (takes minutes)");
+    CLI::Option* kernels = command
+                               .add_flag("--kernels", options->hasKernels,
+                                         "instead: what a substep of split costs on bodies of many sizes")
+                               ->excludes("--peers");
+    addFormOptions(command, options->forms);
+    command.get_option("--forms")->needs(kernels);
     command
-        .add_flag("--kernels", options->hasKernels,
-                  "instead: what a substep of split costs on bodies of many sizes")
-        ->excludes("--peers");
+        .add_flag("--by-form", options->isByForm,
+                  "instead: a step of bodies of many sizes in each form that the device may be given")
+        ->excludes("--peers")
+        ->excludes(kernels);
     CLI::Option* contacts =
         command
             .add_flag("--contacts", options->hasContacts,

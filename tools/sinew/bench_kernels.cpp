@@ -84,10 +84,13 @@ std::string formOf(const sim::Forms& forms, bool isListed) {
     return fmt::format("{}, columns {}, chunk {}", loads, forms.columns, forms.chunk);
 }
 
-Json measure(Session& session, const Body& body) {
+Json measure(Session& session, const Body& body, const FormOptions& forms) {
     sim::Settings settings{.substeps = body.scene.particles.size() >= largeBody ? shortStep : longStep};
     settings.forms.usesGrids = !body.isListed;
-    settings = sim::tuned(session.device, session.queue, body.scene, settings);
+    if (forms.isGiven())
+        settings.forms = forms.in(settings.forms);
+    else
+        settings = sim::tuned(session.device, session.queue, body.scene, settings);
     sim::Simulation simulation(session.device, body.scene, settings);
     VkCommandBuffer commands = session.queue.begin();
     simulation.recordReset(commands);
@@ -115,7 +118,7 @@ Json measure(Session& session, const Body& body) {
 
 } // namespace
 
-Json measureKernels(Session& session) {
+Json measureKernels(Session& session, const FormOptions& forms) {
     struct Entry {
         const char* name;
         sim::Scene (*make)();
@@ -135,7 +138,7 @@ Json measureKernels(Session& session) {
     Json rows = Json::array();
     for (const Entry& entry : entries) {
         if (app::isInterrupted()) break;
-        Json row = measure(session, {entry.name, entry.make(), entry.isListed});
+        Json row = measure(session, {entry.name, entry.make(), entry.isListed}, forms);
         if (!row.empty()) rows.push_back(std::move(row));
     }
     return rows;

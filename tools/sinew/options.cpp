@@ -24,6 +24,32 @@ std::string checkSubsteps(const std::string& text) {
     return complaint.empty() ? "" : "is " + text + ", must be " + toText(sim::ranges::substeps) + ", or auto";
 }
 
+// Sets one "key=number" of --forms. Throws CLI::ValidationError.
+void setForm(FormOptions& options, const std::string& text) {
+    const std::size_t sign = text.find('=');
+    const std::string key = text.substr(0, sign);
+    std::uint32_t value = 0;
+    const auto take = [&](auto& option, const sim::Range& range) {
+        if (sign == std::string::npos || !CLI::detail::lexical_cast(text.substr(sign + 1), value) ||
+            !range.holds(value))
+            throw CLI::ValidationError("--forms", key + " must be " + toText(range));
+        option = value;
+    };
+    constexpr sim::Range flag{0, 1}, bytes{0, 1 << 20};
+    if (key == "texels")
+        take(options.usesTexels, flag);
+    else if (key == "grids")
+        take(options.usesGrids, flag);
+    else if (key == "columns")
+        take(options.columns, sim::ranges::columns);
+    else if (key == "chunk")
+        take(options.chunk, sim::ranges::chunk);
+    else if (key == "resident")
+        take(options.residentBytes, bytes);
+    else
+        throw CLI::ValidationError("--forms", key + " is none of texels, grids, columns, chunk, resident");
+}
+
 void sayNews(const scenes::LoadedScene& loaded) {
     for (const std::string& note : loaded.notes) std::fprintf(stderr, "%s\n", note.c_str());
     for (const std::string& warning : loaded.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
@@ -35,6 +61,35 @@ std::string checkPositive(const std::string& text) {
     double number = 0;
     const bool isRight = CLI::detail::lexical_cast(text, number) && number > 0 && number <= 1e6;
     return isRight ? "" : text + " is no number above 0 and at most 1e6";
+}
+
+sim::Forms FormOptions::in(sim::Forms forms) const {
+    forms.usesTexels = usesTexels.value_or(forms.usesTexels);
+    forms.usesGrids = usesGrids.value_or(forms.usesGrids);
+    forms.columns = columns.value_or(forms.columns);
+    forms.chunk = chunk.value_or(forms.chunk);
+    forms.residentBytes = residentBytes.value_or(forms.residentBytes);
+    return forms;
+}
+
+std::string toText(const sim::Forms& forms) {
+    return "columns=" + std::to_string(forms.columns) + ",chunk=" + std::to_string(forms.chunk) +
+           ",texels=" + std::to_string(forms.usesTexels) + ",grids=" + std::to_string(forms.usesGrids) +
+           ",resident=" + std::to_string(forms.residentBytes);
+}
+
+void addFormOptions(CLI::App& command, FormOptions& options) {
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--forms",
+            [&options](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) setForm(options, text);
+            },
+            "forms of kernels, as columns=1,chunk=1,texels=0,grids=1,resident=0, instead of the fastest; "
+            "columns=1 "
+            "with chunk=1 computes one node an invocation")
+        ->delimiter(',')
+        ->type_name("KEY=N,...");
 }
 
 void addSceneOptions(CLI::App& command, SceneOptions& options) {
@@ -63,6 +118,7 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
         ->check(checkPositive);
     command.add_flag("--reversed", overrides.isReversed,
                      "run kernels in reversed invocation order; the result must not change");
+    addFormOptions(command, options.forms);
 }
 
 void addDeviceOptions(CLI::App& command, DeviceOptions& options) {
@@ -74,6 +130,7 @@ void addDeviceOptions(CLI::App& command, DeviceOptions& options) {
 
 scenes::LoadedScene loadScene(const SceneOptions& options) {
     scenes::LoadedScene loaded = scenes::load(options.file, options.overrides);
+    loaded.settings.forms = options.forms.in(loaded.settings.forms);
     sayNews(loaded);
     return loaded;
 }
@@ -93,6 +150,7 @@ Start loadStart(const SceneOptions& options) {
     start.loaded.scene = sim::withMaterial(std::move(start.loaded.scene), run.material);
     start.loaded.scene.gravity = run.gravity;
     start.loaded.settings = app::withRun(start.loaded.settings, run);
+    start.loaded.settings.forms = options.forms.in(start.loaded.settings.forms);
     app::addHands(start.loaded.settings);
     return start;
 }

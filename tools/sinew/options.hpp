@@ -3,6 +3,7 @@
 
 #include "app/state_file.hpp"
 #include "scenes/load.hpp"
+#include "sim/scene.hpp"
 
 #include <optional>
 #include <string>
@@ -13,12 +14,29 @@ class App;
 
 namespace sinew::tools {
 
+/// The forms of kernels that the user asks for, each nothing where not: then defaults or tune() choose.
+struct FormOptions {
+    std::optional<bool> usesTexels, usesGrids;
+    std::optional<std::uint32_t> columns, chunk, residentBytes;
+
+    bool isGiven() const { return usesTexels || usesGrids || columns || chunk || residentBytes; }
+    /// `forms` with what is asked for.
+    sim::Forms in(sim::Forms forms) const;
+};
+
+/// --forms.
+void addFormOptions(CLI::App& command, FormOptions& options);
+
+/// As --forms takes them.
+std::string toText(const sim::Forms& forms);
+
 struct SceneOptions {
     std::string file;
     scenes::Overrides overrides;
+    FormOptions forms;
 };
 
-/// SCENE|MESH, --solver, --substeps, --iterations, --voxel, --reversed.
+/// SCENE|MESH, --solver, --substeps, --iterations, --voxel, --reversed, --forms.
 void addSceneOptions(CLI::App& command, SceneOptions& options);
 
 /// A scene to simulate, and the state that it begins in.

@@ -180,7 +180,7 @@ int run(const RunOptions& options) {
     if (options.folder) folder.emplace(*options.folder);
     Session session(options.device);
     constexpr std::uint64_t worthTuning = 100; // frames: below, measuring forms costs more than it gains
-    if (options.frames >= worthTuning && !start.run)
+    if (options.frames >= worthTuning && !start.run && !options.scene.forms.isGiven())
         loaded.settings = sim::tuned(session.device, session.queue, loaded.scene, loaded.settings);
     loaded.settings.timesPasses = options.timesPasses;
     Runner runner(session, loaded.scene, loaded.settings, {loaded.blades, loaded.scene.dt});
