@@ -14,6 +14,8 @@
 #extension GL_GOOGLE_include_directive : require
 #ifndef ONE_NODE
 #define GROUP_SIZE LATTICE_GROUP
+#elif defined RESIDENT
+#define GROUP_SIZE 512 // of a whole body, each invocation one node at a time; C++ reads it here
 #endif
 #include "split.glsl"
 #include "lattice_window.glsl"
@@ -29,35 +31,45 @@
 #include "march_lattice.glsl"
 #endif
 
+#ifdef ONE_NODE
+#define CHUNK_ITEMS LATTICE_GROUP
+void moveItem(uint item, Substep substep) {
+    const LatticeChunk run = chunks[item / CHUNK_ITEMS];
+    const uint place = item % CHUNK_ITEMS;
+    if (place < run.layers) moveNode(run.origin + place, substep);
+}
+#else
+#define CHUNK_ITEMS 1u
+void moveItem(uint item, Substep substep) {
+    march(chunks[item], substep); // padding has no layers
+}
+#endif
+
 #ifdef RESIDENT
-// All substeps of one body a work group. Chunks are padded with empty ones to the same whole number for every lane.
+// All substeps of one body a work group. Bodies have equally many chunks; those of small ones are padded with empty ones.
 void main() {
     const uint lane = isReversed ? GROUP_SIZE - 1u - gl_LocalInvocationID.x : gl_LocalInvocationID.x;
-    const uint body = itemIndex(push.count) / GROUP_SIZE;
+    const uint body = itemIndex(push.count) / GROUP_SIZE, items = push.bodyChunks * CHUNK_ITEMS;
     firstSlot = bodies[body];
     lastSlot = firstSlot + push.bodySlots - 1u;
     for (uint i = lane; i < push.bodySlots; i += GROUP_SIZE)
-        resident[i] = resident[residentSlots + i] = positions[firstSlot + i]; // what nobody marches stays in both
+        resident[i] = resident[residentSlots + i] = positions[firstSlot + i]; // what nobody moves stays in both
     barrier();
     for (uint s = 0u; s < push.substeps; ++s) {
         const Substep substep = substepOf(s == 0u);
-        for (uint c = lane; c < push.bodyChunks; c += GROUP_SIZE) march(chunks[body * push.bodyChunks + c], substep);
+        for (uint item = lane; item < items; item += GROUP_SIZE) moveItem(body * items + item, substep);
         barrier();
         front = residentSlots - front;
         back = residentSlots - back;
     }
     for (uint i = lane; i < push.bodySlots; i += GROUP_SIZE) positions[firstSlot + i] = resident[front + i];
 }
-#elif defined ONE_NODE
-void main() {
-    const uint item = itemIndex(push.count);
-    if (item >= push.count) return;
-    const LatticeChunk run = chunks[item / LATTICE_GROUP];
-    const uint place = item % LATTICE_GROUP;
-    if (place < run.layers) moveNode(run.origin + place, substepOf(push.isFirst != 0u));
-}
 #else
 void main() {
-    march(chunks[itemIndex(push.count)], substepOf(push.isFirst != 0u)); // padding has no layers
+    const uint item = itemIndex(push.count);
+#ifdef ONE_NODE
+    if (item >= push.count) return;
+#endif
+    moveItem(item, substepOf(push.isFirst != 0u));
 }
 #endif

@@ -1,30 +1,43 @@
 // Part of gather_lattice: one node an invocation. Neighbours in x are neighbours in a work group, so that loads of a window
-// come from the same lines. The sum has the order of the march, so that both give the same bits. Slices are used one after
-// another, so that registers hold two at most.
+// come from the same lines. Sums have the order of the march, so that both give the same bits. One slice or one cell is in
+// registers at a time: a GPU hides the time of loads behind other invocations, and it has room for the more of these the
+// fewer registers each needs.
+
+#ifdef VOLUME
+// The impulses on node i of four of the cells around it, `first` and on; `cells` is their fill.
+vec3 pressedBy(uint i, uint cells, uint first, float hh) {
+    vec3 sum = vec3(0.0);
+    [[dont_unroll]] for (uint k = first; k < first + 4u; ++k) {
+        const uint lowest = i - 1u - push.rowStride - push.sliceStride + (k & 1u) + (k >> 1 & 1u) * push.rowStride
+                            + (k >> 2) * push.sliceStride;
+        vec4 p[8];
+        [[unroll]] for (uint c = 0u; c < 8u; ++c)
+            p[c] = POSITION(lowest + (c & 1u) + (c >> 1 & 1u) * push.rowStride + (c >> 2) * push.sliceStride);
+        sum += ofCorner(pressCell(p, float(bitfieldExtract(cells, int(4u * k), 4)), hh), int(7u - k));
+    }
+    return sum;
+}
+#endif
 
 void moveNode(uint i, Substep substep) {
-    const Fill fill = unpack(CELLS(i));
-    const uint alive = LINKS(i);
+    const uint cellWord = CELLS(i), alive = LINKS(i);
+    const Fill fill = unpack(cellWord);
     const int home = homeOf(0);
-    vec4 slice[SLICE], other[SLICE];
-    loadSlice(i, slice);
+    vec4 slice[SLICE], other[SLICE]; // of the first, the node alone
+    slice[home] = POSITION(i);
     loadSlice(i - push.sliceStride, other);
     vec3 sum = gather(slice, other, home, fill, alive, -1, substep.hh);
-#ifdef VOLUME
-#ifdef HAS_WHOLE_CELLS
-    const Fill cellFill[NODES] = Fill[NODES](unpack(wholeCells[i]));
-#else
-    const Fill cellFill[NODES] = Fill[NODES](fill);
-#endif
-    vec3 onOthers[NODES], pressedBelow[NODES], pressedAbove[NODES];
-    pressCells(other, slice, cellFill, false, substep.hh, onOthers, pressedBelow);
-#endif
-    sum += gather(slice, slice, home, fill, alive, 0, substep.hh);
+    loadSlice(i, other);
+    sum += gather(slice, other, home, fill, alive, 0, substep.hh);
     loadSlice(i + push.sliceStride, other);
     sum += gather(slice, other, home, fill, alive, 1, substep.hh);
 #ifdef VOLUME
-    pressCells(slice, other, cellFill, true, substep.hh, pressedAbove, onOthers);
-    sum += pressedBelow[0] + pressedAbove[0];
+#ifdef HAS_WHOLE_CELLS
+    const uint pressed = wholeCells[i];
+#else
+    const uint pressed = cellWord;
+#endif
+    sum += pressedBy(i, pressed, 0u, substep.hh) + pressedBy(i, pressed, 4u, substep.hh);
 #endif
     advance(i, slice[home], velocities[i], sum, substep);
 }

@@ -447,17 +447,19 @@ struct PackedSubstepPush {
     float shares[PACKED_GROUPS];      // of shares [N/m]
 };
 
-// Bodies on a regular grid: work-group size, and one unit in the fill of a cell.
+// Bodies on a regular grid: the invocations of a work group that march, as well the slots of a run where an invocation
+// computes one node; and one unit in the fill of a cell.
 #define LATTICE_GROUP 32
 #define LATTICE_FULL 15
 
 // The part of its volume below which a cell is unfolded, with all pressure from 0 on.
 #define RECOVERY_START 0.5
 
-// A run of slices of a block of columns: what one invocation marches.
+// A run of slices of a block of columns: what one invocation marches. Where an invocation computes one node, a run of
+// slots.
 struct LatticeChunk {
     uint origin; // slot of its first node
-    uint layers; // 0 = nothing to do
+    uint layers; // 0 = nothing to do; of a run of slots, their number
 };
 
 // Kinds of link: along an edge, a face diagonal, a body diagonal.

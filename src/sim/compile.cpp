@@ -145,7 +145,8 @@ StateLayout stateLayout(const Scene& scene, const Settings& settings) {
 
 StepProgram compile(const Scene& scene, const Settings& asked) {
     requireNone(validate(asked));
-    const Settings settings = withSubsteps(scene, asked);
+    Settings settings = withSubsteps(scene, asked);
+    settings.forms = completed(settings.forms, DeviceKind::software);
     if (asked.substeps == 0) requireNone(validate(settings)); // sweeps are bounded with the number chosen
     ProgramBuilder program(settings.isReversed);
     StepProgram& built = program.program();

@@ -74,8 +74,9 @@ struct SolverPlan {
 /// `particles` rounded up to whole work groups.
 std::size_t paddedCount(std::size_t particles);
 
-/// `scene` must be valid (validate returned nothing). Throws std::invalid_argument for settings that are not,
-/// and std::logic_error for faults of ours.
+/// `scene` must be valid (validate returned nothing). Forms that the settings leave open are those of a
+/// software device. Throws std::invalid_argument for settings that are not, and std::logic_error for faults
+/// of ours.
 StepProgram compile(const Scene& scene, const Settings& settings);
 
 /// Where the solver of `settings` keeps the particles, in any program compiled from both.

@@ -30,12 +30,27 @@ void makePhasesOfPasses(StepProgram& program) {
     }
 }
 
+std::uint32_t largestGroup(const StepProgram& program) {
+    std::uint32_t largest = 0;
+    for (const KernelUse& use : program.kernels) largest = std::max(largest, use.interface.groupSize[0]);
+    return largest;
+}
+
 } // namespace
 
+DeviceKind kindOf(const vk::Device& device) {
+    return device.description().type == "software" ? DeviceKind::software : DeviceKind::gpu;
+}
+
 StepProgram compileFor(const vk::Device& device, const Scene& scene, Settings settings) {
+    settings.forms = completed(settings.forms, kindOf(device));
     std::uint32_t& residentBytes = settings.forms.residentBytes;
     residentBytes = std::min(residentBytes, device.limits().maxSharedMemory);
     StepProgram program = compile(scene, settings);
+    if (residentBytes > 0 && largestGroup(program) > device.limits().maxGroupInvocations) {
+        residentBytes = 0;
+        program = compile(scene, settings);
+    }
     if (mostTexels(program) > device.limits().maxTexels) {
         settings.forms.usesTexels = false;
         program = compile(scene, settings);

@@ -2,35 +2,44 @@
 #include "sim/gpu_tune.hpp"
 
 #include "sim/compile.hpp"
+#include "sim/gpu_compile.hpp"
 #include "sim/lattice/batches.hpp"
 #include "sim/ranges.hpp"
+#include "sim/solvers/split.hpp"
 #include "sim/substeps.hpp"
 #include "vk/kernel_store.hpp"
+#include "vk/timestamps.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
 
 namespace sinew::sim {
 
 namespace {
 
-constexpr int trialSteps = 4;
+constexpr std::uint64_t trialSteps = 4;
+
+// Steps before those that count: the first may compile, and a GPU that was idle takes a while to run at its
+// full clock.
+constexpr std::uint64_t firstSteps = 1, wakingSteps = 32;
 
 double shortestStep(const vk::Device& device, const Scene& scene, const Settings& settings,
-                    const TimedSubmit& submit) {
+                    const TimedSubmit& submit, std::uint64_t stepsBefore) {
     Simulation simulation(device, scene, settings);
     submit([&](VkCommandBuffer commands) { simulation.recordReset(commands); });
     double shortest = std::numeric_limits<double>::infinity();
-    for (std::uint64_t frame = 0; frame <= trialSteps; ++frame) {
+    for (std::uint64_t frame = 0; frame < stepsBefore + trialSteps; ++frame) {
         const double ms = submit(
             [&](VkCommandBuffer commands) { simulation.record(commands, {.dt = scene.dt, .frame = frame}); });
-        if (frame > 0) shortest = std::min(shortest, ms); // the first may compile
+        if (frame >= stepsBefore) shortest = std::min(shortest, ms);
     }
     return shortest;
 }
 
 bool isGrantable(const vk::Device& device, const Scene& scene, const Settings& settings,
                  std::span<const std::uint32_t> grids) {
+    if (solvers::split::contactsFollow(scene, settings)) return false;
     Settings resident = settings;
     resident.forms.residentBytes = device.limits().maxSharedMemory;
     return lattice::isResident(scene, resident, grids);
@@ -54,24 +63,41 @@ bool hasTexelForms(const Scene& scene, Settings settings) {
     return given != codesOfStep(scene, settings);
 }
 
+using Change = std::function<void(Forms&)>;
+
+/// Other marches, from the form that suits the device on.
+std::vector<Change> marches(const Scene& scene, std::span<const std::uint32_t> grids, DeviceKind kind) {
+    std::vector<Change> result;
+    if (kind == DeviceKind::gpu) {
+        for (const auto& [columns, chunk] : {std::pair{1u, 1u}, {1u, 4u}}) // longer ones never won
+            result.push_back([columns, chunk](Forms& forms) {
+                forms.columns = columns;
+                forms.chunk = chunk;
+            });
+        return result;
+    }
+    result.push_back([](Forms& forms) { forms.chunk /= 2; });
+    result.push_back([](Forms& forms) { forms.chunk *= 2; });
+    const bool hasLattice =
+        std::ranges::any_of(grids, [&](std::uint32_t g) { return !lattice::isSheet(scene.grids[g]); });
+    if (hasLattice) result.push_back([](Forms& forms) { forms.columns = 3 - forms.columns; });
+    return result;
+}
+
 /// What may be changed about the forms of this scene on this device.
-std::vector<std::function<void(Forms&)>> changes(const vk::Device& device, const Scene& scene,
-                                                 const Settings& settings) {
-    std::vector<std::function<void(Forms&)>> result;
+std::vector<Change> changes(const vk::Device& device, const Scene& scene, const Settings& settings,
+                            DeviceKind kind) {
+    std::vector<Change> result;
     if (hasTexelForms(scene, settings))
         result.push_back([](Forms& forms) { forms.usesTexels = !forms.usesTexels; });
     if (settings.solver != Solver::split || scene.distances.empty()) return result;
     const std::vector<std::uint32_t> grids = lattice::computedGrids(scene, settings);
-    if (!grids.empty()) {
-        result.push_back([](Forms& forms) { forms.chunk /= 2; });
-        result.push_back([](Forms& forms) { forms.chunk *= 2; });
-        const bool hasLattice =
-            std::ranges::any_of(grids, [&](std::uint32_t g) { return !lattice::isSheet(scene.grids[g]); });
-        if (hasLattice) result.push_back([](Forms& forms) { forms.columns = 3 - forms.columns; });
-    }
+    if (!grids.empty()) std::ranges::move(marches(scene, grids, kind), std::back_inserter(result));
     if (isGrantable(device, scene, settings, grids))
-        result.push_back(
-            [most = device.limits().maxSharedMemory](Forms& forms) { forms.residentBytes = most; });
+        result.push_back([most = device.limits().maxSharedMemory, kind](Forms& forms) {
+            forms.residentBytes = most;
+            if (kind == DeviceKind::gpu) forms.columns = forms.chunk = 1; // the form of a whole group
+        });
     return result;
 }
 
@@ -79,29 +105,54 @@ std::vector<std::function<void(Forms&)>> changes(const vk::Device& device, const
 
 Tuning tune(const vk::Device& device, const Scene& scene, const Settings& settings,
             const TimedSubmit& submit) {
+    return tune(device, scene, settings, submit, kindOf(device));
+}
+
+Tuning tune(const vk::Device& device, const Scene& scene, const Settings& settings, const TimedSubmit& submit,
+            DeviceKind kind) {
     constexpr std::uint32_t trialSubsteps = 8;
     constexpr double gain = 0.97;
     const vk::KeptKernels kept(device); // forms share most of them
-    Tuning tuning{.fastest = settings.forms};
     Settings trial = withSubsteps(scene, settings);
     trial.substeps = std::min(trial.substeps, trialSubsteps);
+    trial.forms = completed(settings.forms, kind);
+    Tuning tuning{.fastest = trial.forms};
     double best = std::numeric_limits<double>::infinity();
-    const auto attempt = [&](const Forms& forms) {
+    const auto attempt = [&](const Forms& forms, std::uint64_t stepsBefore) {
         trial.forms = forms;
-        tuning.trials.push_back({forms, shortestStep(device, scene, trial, submit)});
+        tuning.trials.push_back({forms, shortestStep(device, scene, trial, submit, stepsBefore)});
         if (tuning.trials.back().ms >= gain * best) return;
         best = tuning.trials.back().ms;
         tuning.fastest = forms;
     };
-    const auto candidates = changes(device, scene, settings);
+    const auto isNew = [&](const Forms& forms) {
+        return std::ranges::find(tuning.trials, forms, &Trial::forms) == tuning.trials.end();
+    };
+    const auto candidates = changes(device, scene, trial, kind);
     if (candidates.empty()) return tuning;
-    attempt(settings.forms);
-    for (const auto& change : candidates) {
+    attempt(trial.forms, kind == DeviceKind::gpu ? wakingSteps : firstSteps);
+    for (const Change& change : candidates) {
         Forms forms = tuning.fastest;
         change(forms);
-        if (ranges::chunk.holds(forms.chunk)) attempt(forms);
+        if (forms.chunk > 0 && ranges::chunk.holds(forms.chunk) && isNew(forms)) attempt(forms, firstSteps);
     }
     return tuning;
+}
+
+double timed(const vk::Device& device, VkCommandBuffer commands,
+             const std::function<void(VkCommandBuffer)>& record, const std::function<void()>& submitAndWait) {
+    using Clock = std::chrono::steady_clock;
+    vk::Timestamps timestamps(device, kindOf(device) == DeviceKind::gpu ? 1 : 0);
+    vk::Commands recorder(device, commands);
+    timestamps.reset(recorder);
+    timestamps.begin(recorder, 0);
+    record(commands);
+    timestamps.end(recorder, 0);
+    const Clock::time_point start = Clock::now();
+    submitAndWait();
+    const std::chrono::duration<double, std::milli> taken = Clock::now() - start;
+    const std::vector<double> ofDevice = timestamps.milliseconds();
+    return ofDevice.empty() ? taken.count() : ofDevice.front();
 }
 
 } // namespace sinew::sim

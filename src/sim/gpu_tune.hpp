@@ -4,7 +4,6 @@
 
 #include "sim/simulation.hpp"
 
-#include <chrono>
 #include <functional>
 
 namespace sinew::sim {
@@ -33,17 +32,23 @@ struct Tuning {
 Tuning tune(const vk::Device& device, const Scene& scene, const Settings& settings,
             const TimedSubmit& submit);
 
-/// `settings` with the forms that ran fastest just now, timed by the host's clock, submission included.
+/// The same with the forms that are tried on a device of that kind.
+Tuning tune(const vk::Device& device, const Scene& scene, const Settings& settings, const TimedSubmit& submit,
+            DeviceKind kind);
+
+/// The time [ms] of what `record` records into `commands`: on a GPU by its timestamps, where the queue has
+/// them; else by the host's clock, submission included, since timestamps cost a software device a flush.
+/// `submitAndWait` returns when `commands` have finished.
+double timed(const vk::Device& device, VkCommandBuffer commands,
+             const std::function<void(VkCommandBuffer)>& record, const std::function<void()>& submitAndWait);
+
+/// `settings` with the forms that ran fastest just now, as timed() sees it.
 /// `queue` has begin(), submit() and wait() as vk::Queue; nothing may be in flight on it.
 template <typename Queue>
 Settings tuned(const vk::Device& device, Queue& queue, const Scene& scene, Settings settings) {
-    using Clock = std::chrono::steady_clock;
     const auto submit = [&](const std::function<void(VkCommandBuffer)>& record) {
         const VkCommandBuffer commands = queue.begin();
-        record(commands);
-        const Clock::time_point start = Clock::now();
-        queue.wait(queue.submit(commands));
-        return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+        return timed(device, commands, record, [&] { queue.wait(queue.submit(commands)); });
     };
     settings.forms = tune(device, scene, settings, submit).fastest;
     return settings;

@@ -102,8 +102,8 @@ inline constexpr Range crumbs{0, 1'000'000};
 inline constexpr double provenRelaxation = 4.0 / 3;
 inline constexpr Range overRelaxation{.low = 0, .high = 2, .isLowOpen = true, .isHighOpen = true};
 
-inline constexpr Range columns{1, 2};   // of Settings::forms: kernels exist for these
-inline constexpr Range chunk{1, 65535}; // likewise
+inline constexpr Range columns{0, 2};   // of Settings::forms: kernels exist for these; 0 = by the device
+inline constexpr Range chunk{0, 65535}; // likewise
 /// Nodes of all grids of a scene: their padded boxes are counted in 32 bits.
 inline constexpr double mostGridNodes = 1 << 30;
 

@@ -303,12 +303,26 @@ struct Forms {
     bool usesTexels =
         true;              ///< fetch positions, skins and cuts through the texture path, not by storage loads
     bool usesGrids = true; ///< compute the neighbours of bodies on a grid instead of listing them
-    std::uint32_t columns = 2; ///< of a lattice, marched by one invocation in x and in y: 1 or 2
-    std::uint32_t chunk = 16;  ///< slices marched at most, 1..65535
+    /// Columns of a lattice, marched by one invocation in x and in y, 1 or 2, and slices marched at most,
+    /// 1..65535. One of both: an invocation computes one node. 0 = as suits the device (completed()).
+    std::uint32_t columns = 0, chunk = 0;
     /// Bytes of shared memory in which a work group may keep a small body on a grid through all substeps of a
     /// step, as far as the device has them; 0 = none. Used where a scene has nothing else than such bodies.
     std::uint32_t residentBytes = 0;
+    bool operator==(const Forms&) const = default;
 };
+
+/// What runs kernels: few threads with wide vectors, or many invocations at a time.
+enum class DeviceKind { software, gpu };
+
+/// `forms` with what they leave open as it suits such a device, before anything is measured. A long march
+/// leaves a GPU idle; a CPU loads less by it.
+constexpr Forms completed(Forms forms, DeviceKind kind) {
+    const bool isGpu = kind == DeviceKind::gpu;
+    if (forms.columns == 0) forms.columns = isGpu ? 1 : 2;
+    if (forms.chunk == 0) forms.chunk = isGpu ? 1 : 16;
+    return forms;
+}
 
 /// Settings::framesInFlight where nobody says otherwise.
 inline constexpr std::uint32_t usualFramesInFlight = 4;

@@ -80,8 +80,10 @@ const Count counts[] = {
     {"settings.substeps", [](Settings& s) -> std::uint32_t& { return s.substeps; }, {1001}}, // 0: chosen
     {"settings.iterations", [](Settings& s) -> std::uint32_t& { return s.iterations; }, {0, 1001}},
     {"settings.contactRoom", [](Settings& s) -> std::uint32_t& { return s.contactRoom; }, {0, 1025}},
-    {"settings.forms.columns", [](Settings& s) -> std::uint32_t& { return s.forms.columns; }, {0, 3}},
-    {"settings.forms.chunk", [](Settings& s) -> std::uint32_t& { return s.forms.chunk; }, {0, 65536}},
+    {"settings.forms.columns",
+     [](Settings& s) -> std::uint32_t& { return s.forms.columns; },
+     {3}}, // 0: by the device
+    {"settings.forms.chunk", [](Settings& s) -> std::uint32_t& { return s.forms.chunk; }, {65536}},
 };
 
 Scene sceneOfAll() {

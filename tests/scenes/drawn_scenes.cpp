@@ -182,6 +182,7 @@ Settings drawSettings(Lots& lots) {
 DrawnScene drawScene(std::uint32_t seed) {
     Lots lots(seed);
     DrawnScene drawn{.scene = {}, .settings = drawSettings(lots)};
+    drawn.settings.forms.chunk = 16;
     addBodies(drawn.scene, lots, drawn.settings.solver == Solver::split);
     addWorld(drawn.scene, lots);
     return drawn;

@@ -35,10 +35,13 @@ std::vector<sim::Forms> formsOf(const vk::Device& device, const sim::Settings& s
     if (settings.solver == sim::Solver::jacobi) return forms;
     forms.push_back({.usesTexels = false});
     if (settings.solver != sim::Solver::split) return forms;
-    forms.push_back({.columns = 1});
-    forms.push_back({.usesTexels = false, .columns = 1});
-    forms.push_back({.columns = 1, .chunk = 1});
-    forms.push_back({.residentBytes = device.limits().maxSharedMemory});
+    for (const std::uint32_t columns : {1u, 2u})
+        for (const bool usesTexels : {false, true})
+            forms.push_back({.usesTexels = usesTexels, .columns = columns, .chunk = 16});
+    for (const std::uint32_t columns : {1u, 2u})
+        forms.push_back({.columns = columns,
+                         .chunk = columns == 1 ? 1u : 16u,
+                         .residentBytes = device.limits().maxSharedMemory});
     return forms;
 }
 
@@ -145,8 +148,10 @@ void makeKernelsOfDrawnScenes(Maker& maker) {
     std::size_t valid = 0;
     for (std::uint32_t seed = 0; seed < drawnScenes; ++seed) {
         SCOPED_TRACE(seed);
-        const auto [scene, settings] = test::drawScene(seed);
+        auto [scene, settings] = test::drawScene(seed);
         if (!sim::validate(scene, settings).empty()) continue;
+        maker.make(scene, settings);
+        settings.forms.columns = settings.forms.chunk = 1; // one node an invocation
         maker.make(scene, settings);
         makeKept(maker, scene, settings);
         ++valid;

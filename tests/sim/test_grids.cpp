@@ -118,10 +118,12 @@ TEST(Grid, FormsGiveTheSameBits) {
                            {.usesTexels = false, .chunk = 64},
                            {.usesTexels = false, .columns = 1, .chunk = 2},
                            {.columns = 1, .chunk = 1},
-                           {.residentBytes = 32768}};
+                           {.residentBytes = 32768},
+                           {.columns = 1, .chunk = 1, .residentBytes = 32768}};
     ASSERT_TRUE(test::usesKernel(bodies(), "gather_node", {.substeps = 5, .forms = forms[4]}));
     ASSERT_TRUE(test::usesKernel(bodies(), "gather_node_sheet", {.substeps = 5, .forms = forms[4]}));
     ASSERT_TRUE(test::usesKernel(bodies(), "resident_sheet", {.substeps = 5, .forms = forms[5]}));
+    ASSERT_TRUE(test::usesKernel(bodies(), "resident_node", {.substeps = 5, .forms = forms[6]}));
     for (auto& [name, scene] : {std::pair{"bodies", bodies()}, std::pair{"mixture", disturbed(mixture())}})
         for (const bool isInRoom : {false, true}) {
             Scene each = scene;
@@ -143,6 +145,16 @@ TEST(Grid, IsKeptResidentOnlyWithinTheSharedMemoryOfTheDevice) {
     const std::uint64_t expected = test::hashOfRun(scene, settings);
     settings.forms.residentBytes = 0xffffffff;
     EXPECT_EQ(test::hashOfRun(scene, settings), expected);
+}
+
+// Its 49 blocks of columns are more than a work group of the march has invocations.
+TEST(Grid, IsNotResidentWhereContactsFollow) {
+    Scene scene = disturbed(body({12, 12, 3}));
+    for (Particle& particle : scene.particles) particle.radius = 0.01f;
+    const std::uint64_t expected = test::hashOfRun(scene, {.substeps = 5});
+    for (const Forms& forms :
+         {Forms{.residentBytes = 32768}, Forms{.columns = 1, .chunk = 1, .residentBytes = 32768}})
+        EXPECT_EQ(test::hashOfRun(scene, {.substeps = 5, .forms = forms}), expected);
 }
 
 TEST(Grid, AgreesWithDoubleAfterAStep) {

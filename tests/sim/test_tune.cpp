@@ -2,6 +2,7 @@
 // bit.
 #include "sim/bodies.hpp"
 #include "sim/compile.hpp"
+#include "sim/gpu_compile.hpp"
 #include "sim/gpu_tune.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
@@ -34,34 +35,52 @@ private:
     std::size_t submissions_ = 0;
 };
 
-bool operator==(const Forms& a, const Forms& b) {
-    return a.usesTexels == b.usesTexels && a.usesGrids == b.usesGrids && a.columns == b.columns &&
-           a.chunk == b.chunk && a.residentBytes == b.residentBytes;
-}
-
 } // namespace
 
 TEST(Tuning, TakesTheFastestTrial) {
     const Scene scene = test::block(6, 0.05f, 1e5f);
     for (std::size_t fastest = 0; fastest < 5; ++fastest) {
         Clock clock([&](std::size_t trial) { return trial == fastest ? 1.0 : 2.0; });
-        const Tuning tuning = tune(test::device(), scene, {}, clock.submit());
-        ASSERT_GE(tuning.trials.size(), 5u) << "texels, two chunks, columns, shared memory";
-        EXPECT_TRUE(tuning.fastest == tuning.trials[fastest].forms) << "trial " << fastest;
+        const Tuning tuning = tune(test::device(), scene, {}, clock.submit(), DeviceKind::software);
+        ASSERT_GE(tuning.trials.size(), 5u) << "as given and: texels, two chunks, columns, shared memory; on "
+                                               "a GPU: three marches, shared memory";
+        EXPECT_EQ(tuning.fastest, tuning.trials[fastest].forms) << "trial " << fastest;
     }
 }
 
 TEST(Tuning, TriesNoFormOutOfRange) {
     Clock clock([](std::size_t) { return 1.0; });
-    const Tuning tuning =
-        tune(test::device(), test::block(2, 0.05f, 1e5f), {.forms = {.chunk = 65535}}, clock.submit());
+    const Tuning tuning = tune(test::device(), test::block(2, 0.05f, 1e5f), {.forms = {.chunk = 65535}},
+                               clock.submit(), DeviceKind::software);
     EXPECT_EQ(tuning.trials.size(), 5u) << "as given, texels, half the chunk, columns, shared memory";
+}
+
+TEST(Tuning, OfAGpuBeginsWithOneNodeAnInvocation) {
+    Clock clock([](std::size_t) { return 1.0; });
+    const Tuning tuning =
+        tune(test::device(), test::block(3, 0.05f, 1e5f), {}, clock.submit(), DeviceKind::gpu);
+    EXPECT_EQ(tuning.fastest, (Forms{.columns = 1, .chunk = 1}));
+    const auto triesNode = [](const Trial& trial) {
+        return trial.forms.columns == 1 && trial.forms.chunk == 1;
+    };
+    EXPECT_EQ(std::ranges::count_if(tuning.trials, triesNode), 2) << "from global and from shared memory";
+    const Tuning given = tune(test::device(), test::block(3, 0.05f, 1e5f),
+                              {.forms = {.columns = 2, .chunk = 16}}, clock.submit(), DeviceKind::gpu);
+    EXPECT_EQ(given.fastest, (Forms{.columns = 2, .chunk = 16})) << "what a host gives is kept";
+    EXPECT_TRUE(std::ranges::any_of(given.trials, triesNode)) << "and more is tried";
+}
+
+TEST(Tuning, LeavesOpenFormsToTheDevice) {
+    EXPECT_EQ(completed({}, DeviceKind::software), (Forms{.columns = 2, .chunk = 16}));
+    EXPECT_EQ(completed({}, DeviceKind::gpu), (Forms{.columns = 1, .chunk = 1}));
+    EXPECT_EQ(completed({.chunk = 3}, DeviceKind::gpu), (Forms{.columns = 1, .chunk = 3}));
+    EXPECT_EQ(completed({.columns = 2, .chunk = 5}, DeviceKind::gpu), (Forms{.columns = 2, .chunk = 5}));
 }
 
 TEST(Tuning, KeepsWhatWasGivenWithinTheNoise) {
     Clock clock([](std::size_t trial) { return trial == 0 ? 1.0 : 0.98; });
     const Tuning tuning = tune(test::device(), test::block(6, 0.05f, 1e5f), {}, clock.submit());
-    EXPECT_TRUE(tuning.fastest == Forms{});
+    EXPECT_EQ(tuning.fastest, completed({}, kindOf(test::device())));
 }
 
 TEST(Tuning, TriesNothingWhereThereIsNoChoice) {
@@ -83,7 +102,7 @@ TEST(Tuning, ChoosesForColoredSweepsToo) {
                      clock.submit());
             ASSERT_EQ(tuning.trials.size(), 2u) << "texels or loads";
             EXPECT_NE(tuning.trials[0].forms.usesTexels, tuning.trials[1].forms.usesTexels);
-            EXPECT_TRUE(tuning.fastest == tuning.trials[fastest].forms) << "trial " << fastest;
+            EXPECT_EQ(tuning.fastest, tuning.trials[fastest].forms) << "trial " << fastest;
         }
 }
 

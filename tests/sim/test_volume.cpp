@@ -113,7 +113,8 @@ TEST(CellVolume, FormsGiveTheSameBits) {
                            {.usesTexels = false, .chunk = 64},
                            {.usesTexels = false, .columns = 1, .chunk = 2},
                            {.columns = 1, .chunk = 1},
-                           {.residentBytes = 32768}}; // where bodies fit
+                           {.residentBytes = 32768},
+                           {.columns = 1, .chunk = 1, .residentBytes = 32768}}; // where bodies fit
     ASSERT_TRUE(test::usesKernel(body({3, 3, 3}, {0.3f, 0}), "gather_node_volume", {.forms = forms[4]}));
     bool isInRoom = false;
     for (auto& [name, scene] : scenes()) {

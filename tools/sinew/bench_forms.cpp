@@ -5,6 +5,7 @@
 #include "app/guard.hpp"
 #include "scenes/load.hpp"
 #include "sim/bodies.hpp"
+#include "sim/gpu_compile.hpp"
 #include "sim/lattice/batches.hpp"
 #include "sim/program.hpp"
 #include "sim/simulation.hpp"
@@ -53,12 +54,13 @@ bool mayBeListed(const sim::Scene& scene) {
 // Of large bodies few: a program of one takes seconds to make.
 std::vector<sim::Forms> formsOf(const vk::Device& device, const sim::Scene& scene) {
     constexpr std::size_t largeBody = 100'000; // particles
-    std::vector<sim::Forms> forms{
-        {}, {.usesTexels = false, .columns = 1, .chunk = 4}, {.usesTexels = false, .columns = 1, .chunk = 1}};
+    std::vector<sim::Forms> forms{{.columns = 2, .chunk = 16},
+                                  {.usesTexels = false, .columns = 1, .chunk = 4},
+                                  {.usesTexels = false, .columns = 1, .chunk = 1}};
     if (scene.particles.size() >= largeBody) return forms;
-    forms.push_back({.columns = 1});
-    forms.push_back({.usesTexels = false});
-    forms.push_back({.usesTexels = false, .columns = 1});
+    forms.push_back({.columns = 1, .chunk = 16});
+    forms.push_back({.usesTexels = false, .columns = 2, .chunk = 16});
+    forms.push_back({.usesTexels = false, .columns = 1, .chunk = 16});
     const sim::Settings resident{.forms = {.residentBytes = device.limits().maxSharedMemory}};
     const std::vector<std::uint32_t> grids = sim::lattice::computedGrids(scene, resident);
     if (sim::lattice::isResident(scene, resident, grids)) forms.push_back(resident.forms);
@@ -107,7 +109,7 @@ Json rowOf(Session& session, const Body& body, const sim::Forms& forms) {
     const bool hasDevice = !times.device.empty();
     const std::vector<double>& ms = hasDevice ? times.device : times.host;
     return {{"body", body.name},
-            {"form", toText(forms)},
+            {"form", toText(sim::completed(forms, sim::kindOf(session.device)))},
             {"particles", body.scene.particles.size()},
             {"substeps", body.substeps},
             {"steps", ms.size()},

@@ -5,6 +5,7 @@
 
 #include "app/guard.hpp"
 #include "sim/bodies.hpp"
+#include "sim/gpu_compile.hpp"
 #include "sim/gpu_tune.hpp"
 #include "sim/program.hpp"
 
@@ -88,7 +89,7 @@ Json measure(Session& session, const Body& body, const FormOptions& forms) {
     sim::Settings settings{.substeps = body.scene.particles.size() >= largeBody ? shortStep : longStep};
     settings.forms.usesGrids = !body.isListed;
     if (forms.isGiven())
-        settings.forms = forms.in(settings.forms);
+        settings.forms = sim::completed(forms.in(settings.forms), sim::kindOf(session.device));
     else
         settings = sim::tuned(session.device, session.queue, body.scene, settings);
     sim::Simulation simulation(session.device, body.scene, settings);

@@ -3,6 +3,7 @@
 #include "app/progress.hpp"
 #include "mesh/export.hpp"
 #include "sim/counted.hpp"
+#include "sim/gpu_compile.hpp"
 #include "sim/gpu_tune.hpp"
 #include "sim/ranges.hpp"
 #include "sim/substeps.hpp"
@@ -179,6 +180,7 @@ int run(const RunOptions& options) {
     if (options.save) app::addHands(loaded.settings);
     if (options.folder) folder.emplace(*options.folder);
     Session session(options.device);
+    loaded.settings.forms = sim::completed(loaded.settings.forms, sim::kindOf(session.device));
     constexpr std::uint64_t worthTuning = 100; // frames: below, measuring forms costs more than it gains
     if (options.frames >= worthTuning && !start.run && !options.scene.forms.isGiven())
         loaded.settings = sim::tuned(session.device, session.queue, loaded.scene, loaded.settings);

@@ -107,14 +107,15 @@ std::uint32_t residentChunk(const Grid& grid) {
 
 std::vector<layout::LatticeChunk> chunksFor(const Grid& grid, const Box& box, const Forms& forms,
                                             bool isResident) {
-    if (!isResident && isOneNode(forms)) return runsOf(grid, box);
+    if (isOneNode(forms)) return runsOf(grid, box);
     const auto [columnsX, columnsY] = blockOf(grid, isResident ? 2 : forms.columns);
     return chunksOf(grid, box, columnsX, columnsY, isResident ? residentChunk(grid) : forms.chunk);
 }
 
 // Bodies of one dispatch have equally many chunks: those of the others are padded where they stand.
-void appendBody(Batch& batch, const Box& box, std::vector<layout::LatticeChunk> chunks) {
-    const std::size_t before = batch.push.bodyChunks, now = std::max(before, wholeGroups(chunks.size()));
+void appendBody(Batch& batch, const Box& box, std::vector<layout::LatticeChunk> chunks, bool isOneNode) {
+    const std::size_t before = batch.push.bodyChunks,
+                      now = std::max(before, isOneNode ? chunks.size() : wholeGroups(chunks.size()));
     std::vector<layout::LatticeChunk> all;
     for (std::size_t body = 0; body < batch.bodies.size(); ++body) {
         const auto first = batch.chunks.begin() + static_cast<std::ptrdiff_t>(body * before);
@@ -199,9 +200,9 @@ bool isResident(const Scene& scene, const Settings& settings, std::span<const st
 }
 
 Batches batchesOf(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids,
-                  const solvers::Shares& shares) {
+                  const solvers::Shares& shares, Residence residence) {
     const std::vector<Box> boxes = boxesOf(scene, grids);
-    const bool resident = isResident(scene, settings, grids);
+    const bool resident = residence == Residence::sharedMemory;
     Batches result;
     result.cells.resize(paddedCount(boxes.back().end), 0);
     for (std::size_t g = 0; g < grids.size(); ++g) {
@@ -216,16 +217,12 @@ Batches batchesOf(const Scene& scene, const Settings& settings, std::span<const 
         const auto chunks = chunksFor(grid, box, settings.forms, resident);
         Batch& batch = batchFor(result.batches, grid, push);
         if (resident)
-            appendBody(batch, box, chunks);
+            appendBody(batch, box, chunks, isOneNode(settings.forms));
         else
             batch.chunks.insert(batch.chunks.end(), chunks.begin(), chunks.end());
     }
-    for (Batch& batch : result.batches) {
-        if (resident)
-            batch.push.count = static_cast<std::uint32_t>(batch.bodies.size()) * LATTICE_GROUP;
-        else
-            finish(batch, isOneNode(settings.forms));
-    }
+    if (!resident)
+        for (Batch& batch : result.batches) finish(batch, isOneNode(settings.forms));
     return result;
 }
 

@@ -29,7 +29,8 @@ constexpr bool isOneNode(const Forms& forms) {
 struct Batch {
     bool isSheet = false, hasBodyDiagonals = false, hasVolumes = false, hasRecovery = false,
          isCuttable = false;
-    layout::LatticePush push{}; ///< count = chunks, or lanes of all bodies, or nodes in whole runs
+    layout::LatticePush push{}; ///< count = chunks, or nodes in whole runs; the kernel of a whole step
+                                ///< decides it for resident bodies
     /// What invocations march, padded with empty ones to whole work groups (for each body); where each
     /// computes one node, runs of LATTICE_GROUP nodes.
     std::vector<layout::LatticeChunk> chunks;
@@ -42,10 +43,14 @@ struct Batches {
 };
 
 /// Whether all of the scene fits into the shared memory that the settings grant, body by body. Bodies that
-/// may be cut never do: their kernels have no resident form.
+/// may be cut never do: their kernels have no resident form. The caller knows whether contacts follow in each
+/// substep, which leave no body there.
 bool isResident(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids);
 
+/// Where bodies stay between substeps.
+enum class Residence { memory, sharedMemory };
+
 Batches batchesOf(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids,
-                  const solvers::Shares& shares);
+                  const solvers::Shares& shares, Residence residence);
 
 } // namespace sinew::sim::lattice

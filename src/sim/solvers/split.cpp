@@ -212,9 +212,9 @@ struct Grids {
     BufferId cells;
 };
 
-Grids uploadGrids(const Common& common) {
+Grids uploadGrids(const Common& common, lattice::Residence residence) {
     Grids grids{.batches = lattice::batchesOf(common.scene, common.settings, common.division.grids,
-                                              common.division.shares)};
+                                              common.division.shares, residence)};
     grids.cells = common.program.upload("grid.cells", grids.batches.cells);
     return grids;
 }
@@ -240,7 +240,7 @@ std::vector<Gather> addGathers(const Common& common) {
     const std::uint32_t listed = lattice::listedParticles(common.scene, common.division.grids);
     if (listed > 0) gathers.push_back(listedGather(common, listed));
     if (common.division.grids.empty()) return gathers;
-    const auto [batches, cells] = uploadGrids(common);
+    const auto [batches, cells] = uploadGrids(common, lattice::Residence::memory);
     for (const lattice::Batch& batch : batches.batches) {
         gathers.push_back(gridGather(common, batch, cells));
         setDispatch(common, gathers.back(), kernelFor(batch, common.settings.forms), batch.push);
@@ -250,7 +250,7 @@ std::vector<Gather> addGathers(const Common& common) {
 
 // One dispatch a kind of body, for the whole step: positions stay in shared memory (platform: residency).
 void addResident(const Common& common, const ParticleBuffers& particles) {
-    const auto [batches, cells] = uploadGrids(common);
+    const auto [batches, cells] = uploadGrids(common, lattice::Residence::sharedMemory);
     sleep::addOpening(common.program, particles);
     for (const lattice::Batch& batch : batches.batches) {
         Gather gather = gridGather(common, batch, cells);
@@ -258,8 +258,10 @@ void addResident(const Common& common, const ParticleBuffers& particles) {
         std::vector<BufferId> buffers{particles.positions, particles.velocities, particles.step};
         buffers.insert(buffers.end(), gather.buffers.begin(), gather.buffers.end());
         buffers.push_back(common.program.upload("grid.bodies", batch.bodies));
-        common.program.dispatch(common.form(residentKernelFor(batch)), batch.push.count, buffers, batch.push,
-                                gather.constants);
+        const vk::ShaderCode& code = common.form(residentKernelFor(batch, common.settings.forms));
+        layout::LatticePush push = batch.push;
+        push.count = static_cast<std::uint32_t>(batch.bodies.size()) * vk::readInterface(code).groupSize[0];
+        common.program.dispatch(code, push.count, buffers, push, gather.constants);
     }
 }
 

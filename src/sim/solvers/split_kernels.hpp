@@ -72,6 +72,10 @@ inline constexpr Kernel nodeCuttableVolume =
 inline constexpr Kernel nodeCuttableSheet =
     inOneForm(k::gatherNodeCuttableSheet, k::gatherNodeCuttableSheetPlanes);
 
+inline constexpr Kernel residentNode = inOneForm(k::residentNode, k::residentNodePlanes);
+inline constexpr Kernel residentNodeVolume = inOneForm(k::residentNodeVolume, k::residentNodeVolumePlanes);
+inline constexpr Kernel residentNodeSheet = inOneForm(k::residentNodeSheet, k::residentNodeSheetPlanes);
+
 // Gathers links in the general form, with what else the scene has.
 inline const Kernel& generalKernel(bool isRanged, bool bends, bool damps) {
     if (isRanged)
@@ -96,7 +100,9 @@ inline const Kernel& kernelFor(const lattice::Batch& batch, const Forms& forms) 
 }
 
 // Keeps a batch in shared memory for a whole step.
-inline const Kernel& residentKernelFor(const lattice::Batch& batch) {
+inline const Kernel& residentKernelFor(const lattice::Batch& batch, const Forms& forms) {
+    if (lattice::isOneNode(forms))
+        return batch.isSheet ? residentNodeSheet : batch.hasVolumes ? residentNodeVolume : residentNode;
     if (batch.isSheet) return residentSheet;
     return batch.hasVolumes ? residentVolume : residentLattice;
 }
