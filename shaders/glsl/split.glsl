@@ -11,6 +11,8 @@
 // in the whole kick. tau_i = omega / (2 w_i sum_c k~_c) is stored in positions.w: a link's share of a particle is
 // k~_c / sum k~ (solvers/shares.hpp).
 #extension GL_EXT_control_flow_attributes : require
+#extension GL_EXT_spirv_intrinsics : require
+#define ALIASED spirv_decorate(20) // its buffer is bound once more, and written by one of both: Aliased
 #include "kernel.glsl"
 #include "remainder.glsl"
 
@@ -40,36 +42,32 @@ layout(std430, binding = 1) writeonly buffer NextPositions { vec4 nextPositions[
 #define STORE_REMAINDER(i, value) nextPositions[remainderOf(nextPositions.length(), i)] = value
 #define VELOCITY_BINDING 2
 #endif
-#ifdef HAS_DAMPING
-// Neighbours read velocities, so that they alternate like positions.
-layout(std430, binding = VELOCITY_BINDING) readonly buffer Velocities { vec4 velocities[]; }; // v [m/s], w [1/kg]
-#define STORE_VELOCITY(i, value) nextVelocities[i] = value
-#else
+#ifdef RESIDENT
 layout(std430, binding = VELOCITY_BINDING) buffer Velocities { vec4 velocities[]; }; // v [m/s], w [1/kg]
 #define STORE_VELOCITY(i, value) velocities[i] = value
+#define STEP_BINDING (VELOCITY_BINDING + 1)
+#else
+// Two buffers where something reads what velocities were before (contacts, damped links); else the same buffer twice: a particle reads its own
+// and then writes it.
+ALIASED layout(std430, binding = VELOCITY_BINDING) readonly buffer Velocities { vec4 velocities[]; }; // v [m/s], w [1/kg]
+ALIASED layout(std430, binding = VELOCITY_BINDING + 1) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
+#define STORE_VELOCITY(i, value) nextVelocities[i] = value
+#define STEP_BINDING (VELOCITY_BINDING + 2)
 #endif
-layout(std140, binding = VELOCITY_BINDING + 1) uniform Step { StepParams step; };
+layout(std140, binding = STEP_BINDING) uniform Step { StepParams step; };
 #ifdef HAS_PLANES
 #include "planes.glsl"
-layout(std430, binding = VELOCITY_BINDING + 2) readonly buffer Planes { PlaneCollider planes[]; };
-layout(std430, binding = VELOCITY_BINDING + 3) readonly buffer ContactOffsets { float contactOffsets[]; };
-#define LINK_BINDING (VELOCITY_BINDING + 4)
+layout(std430, binding = STEP_BINDING + 1) readonly buffer Planes { PlaneCollider planes[]; };
+layout(std430, binding = STEP_BINDING + 2) readonly buffer ContactOffsets { float contactOffsets[]; };
+#define LINK_BINDING (STEP_BINDING + 3)
 #else
-#define LINK_BINDING (VELOCITY_BINDING + 2)
+#define LINK_BINDING (STEP_BINDING + 1)
 #endif
 
 #ifdef LINKS_RANGED
 #define BEND_BINDING (LINK_BINDING + 2)
 #else
 #define BEND_BINDING (LINK_BINDING + 1)
-#endif
-#ifdef HAS_BENDS
-#define NEXT_VELOCITY_BINDING (BEND_BINDING + 1)
-#else
-#define NEXT_VELOCITY_BINDING BEND_BINDING
-#endif
-#ifdef HAS_DAMPING
-layout(std430, binding = NEXT_VELOCITY_BINDING) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
 #endif
 
 // Whether a particle that never moves stores the impulse of its links [N s] as its velocity: take_pulls takes it from there.

@@ -127,7 +127,6 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     Contacts contacts{.lists = addLists(program, scene, settings, layout, edges, faces.keepsRest),
                       .sleeps = particles.sleep != nullptr,
                       .surfaces = faces.surfaces,
-                      .before = faces.before,
                       .marks = faces.marks,
                       .keepsRest = faces.keepsRest};
     const layout::FaceFindPush& find = contacts.lists.push;

@@ -26,7 +26,7 @@ struct Contacts {
     surfaces::Surfaces surfaces; ///< those of the contacts with faces
     BufferId corners, directions, weights, shares;
     BufferId bounces; ///< only where something rebounds
-    BufferId before;  ///< velocities when the substep began, of the contacts with faces
+    BufferId before;  ///< velocities when the substep began, set in each
     BufferId marks;   ///< likewise
     bool keepsRest = false;
 };

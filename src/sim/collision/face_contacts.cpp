@@ -353,7 +353,6 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     contacts.marks = contacts.keepsRest || contacts.hasInner()
                          ? program.upload("faces.marks", contact_lists::linkedMarks(scene, layout))
                          : contacts.surfaces.ofParticles;
-    contacts.before = program.scratch<layout::vec4>("faces.before", layout.count);
     if (contacts.hasStops()) {
         contacts.linkedPositions = program.scratch<layout::vec4>("faces.positions", positionCount(layout));
         contacts.linkedVelocities = program.scratch<layout::vec4>("faces.velocities", layout.count);
@@ -370,10 +369,6 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
 void joinIslands(const Contacts& contacts, sleep::Sleep& sleep) {
     const face_lists::Lists& lists = contacts.lists;
     sleep.faces = {lists.faces, lists.pooled.contacts, lists.pooled.ranges, contacts.directions};
-}
-
-void addOpening(ProgramBuilder& program, const Contacts& contacts, BufferId velocities) {
-    program.copy(velocities, contacts.before);
 }
 
 void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,

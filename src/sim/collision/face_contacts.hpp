@@ -39,7 +39,7 @@ struct Contacts {
     BufferId marks;         ///< contact_lists::linkedMarks; only where something keeps its rest or hasInner()
     bool keepsRest = false; ///< of any particle
     BufferId bounces;       ///< only where something rebounds
-    BufferId before;        ///< velocities when the substep began
+    BufferId before;        ///< velocities when the substep began, set in each
     /// Positions and velocities that links have left; only where hasStops().
     BufferId linkedPositions, linkedVelocities;
     BufferId movingPoints; ///< slots of points that move; only where hasStops()
@@ -60,9 +60,6 @@ ProgramBuilder::Constants restConstants(bool keepsRest, bool isFirst);
 
 /// Particles and faces that touch sleep together.
 void joinIslands(const Contacts& contacts, sleep::Sleep& sleep);
-
-/// Before the links of a substep, whose velocities are `velocities`.
-void addOpening(ProgramBuilder& program, const Contacts& contacts, BufferId velocities);
 
 /// Changes predicted positions and velocities where they stand. `isFirst`: of a step.
 void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,

@@ -334,8 +334,6 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     contacts.firsts = program.scratch<float>("contacts.firsts", layout.count);
     contacts.interlocks = interlocks::add(program, interlocks::find(scene, layout, overlaps), layout.count,
                                           scene.contacts.recoverySpeed);
-    if (contacts.hasRebound || contacts.surfaces.hasRestitution || contacts.hasMemory())
-        contacts.before = program.scratch<layout::vec4>("contacts.before", layout.count);
     if (contacts.surfaces.hasRestitution) {
         contacts.bouncing = program.scratch<float>("contacts.bouncing", layout.count);
         contacts.rebounding = program.scratch<layout::vec4>("contacts.rebounding", layout.count);
@@ -346,12 +344,6 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
 void joinIslands(const Contacts& contacts, sleep::Sleep& sleep) {
     sleep.pairs = {contacts.lists.pooled.contacts, contacts.lists.pooled.ranges, contacts.touching,
                    contacts.lists.grid.bounds};
-}
-
-void addOpening(ProgramBuilder& program, const Contacts& contacts, BufferId velocities) {
-    const bool isRead =
-        contacts.hasRebound || contacts.surfaces.hasRestitution || contacts.surfaces.hasFriction;
-    if (isRead) program.copy(velocities, contacts.before);
 }
 
 void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,

@@ -28,7 +28,8 @@ struct Contacts {
     bool hasRebound = false;         ///< of a plane
     bool hasRecovery = false;        ///< some pair overlaps when the scene is loaded, or may after a cut
     bool hasKept = false;            ///< some pair keeps the distance that it has when the scene is loaded
-    BufferId touching, firsts, before, bouncing, rebounding;
+    BufferId touching, firsts, bouncing, rebounding;
+    BufferId before; ///< velocities when the substep began, set in each
 
     /// Pairs of the uncut bodies that never touch; invalid where no body that may be cut touches.
     BufferId allExcluded;
@@ -46,9 +47,6 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
 
 /// Particles that touch sleep together.
 void joinIslands(const Contacts& contacts, sleep::Sleep& sleep);
-
-/// Before the links of a substep, whose velocities are `velocities`.
-void addOpening(ProgramBuilder& program, const Contacts& contacts, BufferId velocities);
 
 /// The end of a substep, the first of a step or not: from predicted positions and velocities to those of
 /// `next`.

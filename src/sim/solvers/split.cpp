@@ -270,9 +270,9 @@ void addResident(const Common& common, const ParticleBuffers& particles) {
 void addLinks(const std::vector<Gather>& gathers, const ParticleBuffers& current, const ParticleBuffers& next,
               bool isFirst) {
     for (const Gather& gather : gathers) {
-        std::vector<BufferId> buffers{current.positions, next.positions, current.velocities, current.step};
+        std::vector<BufferId> buffers{current.positions, next.positions, current.velocities, next.velocities,
+                                      current.step};
         buffers.insert(buffers.end(), gather.buffers.begin(), gather.buffers.end());
-        if (next.velocities != current.velocities) buffers.push_back(next.velocities);
         gather.dispatch(buffers, isFirst);
     }
 }
@@ -320,17 +320,18 @@ struct Touching {
     std::optional<collision::face_contacts::Contacts> faces;
     std::optional<collision::edge_contacts::Contacts> edges;
     std::optional<collision::particle_contacts::Contacts> pairs;
-    // Planes, velocities before the substep, and the slots that hold a particle; only where no particles
-    // touch each other.
+    BufferId before; // velocities when the substep began
+    // Planes and the slots that hold a particle; only where no particles touch each other.
     collision::planes::Colliders planes;
-    BufferId before;
     BufferId particles;
     std::uint32_t particleCount = 0;
 
-    void addOpening(ProgramBuilder& program, BufferId velocities) const {
-        if (faces) collision::face_contacts::addOpening(program, *faces, velocities);
-        if (!faces && !pairs && planes.count > 0) program.copy(velocities, before);
-        if (pairs) collision::particle_contacts::addOpening(program, *pairs, velocities);
+    // A substep begins with these velocities, which stay until its contacts are solved.
+    void begin(BufferId velocities) {
+        before = velocities;
+        if (faces) faces->before = velocities;
+        if (edges) edges->before = velocities;
+        if (pairs) pairs->before = velocities;
     }
     void addPasses(ProgramBuilder& program, const ParticleBuffers& predicted, const ParticleBuffers& next,
                    bool isFirst) const {
@@ -348,8 +349,7 @@ struct Touching {
                                       next.velocities};
         ProgramBuilder::Constants constants = remainderConstants(next.layout);
         if (planes.count > 0) {
-            buffers.insert(buffers.end(),
-                           {faces ? faces->before : before, planes.planes, planes.contactOffsets});
+            buffers.insert(buffers.end(), {before, planes.planes, planes.contactOffsets});
             constants.merge(planes.constants());
         }
         const vk::ShaderCode* code = &kernels::finishFree;
@@ -396,15 +396,14 @@ Touching addTouching(const Common& common, const ParticleBuffers& particles) {
         touching.planes = collision::planes::addColliders(common.program, scene, common.layout);
         touching.particles = common.program.upload("state.particles", slots);
         touching.particleCount = static_cast<std::uint32_t>(slots.size());
-        if (!touching.faces && touching.planes.count > 0)
-            touching.before = common.program.scratch<layout::vec4>("state.before", common.layout.count);
     }
     if (hasPairs) touching.pairs = pairs::add(common.program, scene, common.settings, common.layout);
     return touching;
 }
 
-// The same where particles touch: gathers leave predicted positions, and the passes of the contacts make of
-// them the state after the substep, in the buffers that it began in; velocities alternate.
+// Substeps in which particles touch: gathers leave predicted positions, and the passes of the contacts make
+// of them the state after the substep. Positions end in the buffer that they began in; velocities in another,
+// so that contacts know what they were.
 void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles) {
     ProgramBuilder& program = common.program;
     const StateLayout& layout = common.layout;
@@ -415,7 +414,6 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
     if (contacts.edges) cutting::addEdgeFilter(program, *contacts.edges);
     if (contacts.pairs) cutting::addContactFilter(program, *contacts.pairs);
     const std::vector<Gather> gathers = addGathers(common);
-    const bool alternates = std::ranges::any_of(gathers, &Gather::alternatesVelocities);
     const auto attachments = constraints::attachment::add(program, common.scene, layout);
     const auto tethers = constraints::tether::add(program, common.scene, layout);
     const auto rigid = addRigid(common);
@@ -423,16 +421,16 @@ void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles)
     sleep::addOpening(program, particles, attachments, rigid);
     ParticleBuffers current = particles, predicted = particles;
     predicted.positions = program.scratch<layout::vec4>("state.next_positions", positionCount(layout));
+    predicted.velocities = program.scratch<layout::vec4>("state.linked_velocities", layout.count);
     BufferId spare = program.scratch<layout::vec4>("state.next_velocities", layout.count);
     for (std::uint32_t substep = 0; substep < substeps; ++substep) {
         program.beginSubstep();
         collision::colliders::addOpening(program, current, rigid, substep == 0);
-        contacts.addOpening(program, current.velocities);
-        predicted.velocities = alternates ? spare : current.velocities;
+        contacts.begin(current.velocities);
         addLinks(gathers, current, predicted, substep == 0);
         if (particles.forces) forces::addPulls(program, predicted);
         constraints::driven::addPass(program, predicted, driven, substep);
-        if (!alternates) std::swap(current.velocities, spare);
+        std::swap(current.velocities, spare);
         contacts.addPasses(program, predicted, current, substep == 0);
         contacts.addBounces(program, predicted, current);
         constraints::attachment::addPass(program, current, attachments, substep, substeps);
