@@ -297,7 +297,8 @@ void addBench(CLI::App& app, Chosen& chosen) {
                       "instead: what contacts cost where nothing touches, where bodies rest, and in shipped "
                       "scenes (takes minutes)")
             ->excludes("--peers")
-            ->excludes("--kernels");
+            ->excludes("--kernels")
+            ->excludes("--by-form");
     command.add_option("--only", options->only, "of the rows of --contacts those with this in their names")
         ->needs(contacts)
         ->check(checkRow);
