@@ -78,18 +78,22 @@ void Simulation::State::noteBefore(std::uint64_t frame) noexcept {
     slot.isChanged = isChanged;
     slot.changes = changes;
     slot.topologies = topologies;
+    slot.frame = frame;
 }
 
-void Simulation::State::goBackBefore(std::uint64_t frame) noexcept {
-    const Before& slot = befores[ring.slotOf(frame)];
+void Simulation::State::goBack() noexcept {
+    readSteps();
+    if (!lackedLists || isBack) return;
+    const Before& slot = befores[ring.slotOf(*lackedLists)];
+    if (slot.frame != lackedLists) return; // more steps were in flight than there may be
+    isBack = true;
     previousH = slot.h;
     colliders.moveTo(slot.time, slot.pokes);
     anchors.restore(slot.anchors);
-    hands = *slot.hands;
+    hands.restore(*slot.hands);
     isUncut = slot.isUncut && topologies == slot.topologies;
     hasNewTopology = slot.hasNewTopology || topologies != slot.topologies;
     isChanged = slot.isChanged || changes != slot.changes;
-    beginGeneration();
 }
 
 void Simulation::recordReset(VkCommandBuffer buffer) noexcept {
@@ -112,7 +116,11 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     state_->noteMisuse(step);
     state_->readSteps();
     const bool isAgain = state_->lackedLists == step.frame;
-    if (isAgain) state_->goBackBefore(step.frame);
+    if (isAgain) {
+        state_->goBack();
+        state_->beginGeneration();
+    }
+    state_->isBack = false;
     if (step.repeats) state_->noteBefore(step.frame);
     state_->settledEnd = state_->settled(step.frame, state_->settledEnd); // of the slot that is opened next
     state_->nextFrame = step.frame + 1;
@@ -204,9 +212,11 @@ vk::BufferView Simulation::pieceDraws() const noexcept {
     return state_->executor.view(state_->program.pieceDraws);
 }
 std::span<const Pose> Simulation::colliderPoses() const noexcept {
+    state_->goBack();
     return state_->colliders.poses();
 }
 std::span<const PokeState> Simulation::pokes() const noexcept {
+    state_->goBack();
     const collision::Pokes& pokes = state_->colliders.pokes();
     return std::span(pokes.states()).first(pokes.count());
 }

@@ -304,7 +304,9 @@ public:
     /// Size of a copy of the whole state between steps [B].
     std::uint64_t stateSize() const noexcept;
     /// Records the copy of the state after the newest recorded step into `to`, of stateSize() bytes, and
-    /// returns the rest of it. `commands` as in recordReset().
+    /// returns the rest of it. `commands` as in recordReset(). Behind a step that has lacked lists and was
+    /// not repeated yet, this is the state before that step. While steps with Step::repeats are in flight it
+    /// is not known which state that is: throw the copy away where one of them lacked lists.
     SavedState recordSaveState(VkCommandBuffer commands, const vk::BufferView& to) const;
     /// Records the copy back: what follows has the same bits as what followed the save, but hands take hold
     /// anew and what a step says of frames goes on. Of this very simulation, or of one with its stateKey();
@@ -364,8 +366,9 @@ public:
     /// triangles that pieces stand for are degenerate from then on. An empty view where no skin of a sheet
     /// may be cut.
     vk::BufferView pieceDraws() const noexcept;
-    /// Where the scene's colliders are at the end of the newest recorded step, one each in their order. Valid
-    /// until the next one is recorded.
+    /// Where the scene's colliders are at the end of the newest recorded step, one each in their order;
+    /// before a step that has lacked lists, until it is repeated. Valid until the next call of this or of
+    /// pokes(), and until the next step is recorded.
     std::span<const Pose> colliderPoses() const noexcept;
     /// Likewise the pokes, Settings::pokes of them.
     std::span<const PokeState> pokes() const noexcept;

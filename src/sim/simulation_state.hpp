@@ -94,6 +94,7 @@ struct Simulation::State {
         std::optional<constraints::grab::Hands> hands;
         bool isUncut = false, hasNewTopology = false, isChanged = false;
         std::uint32_t changes = 0, topologies = 0;
+        std::optional<std::uint64_t> frame; // of that step
     };
     std::vector<Before> befores;
     std::uint32_t topologies = 0; // that were loaded
@@ -101,6 +102,7 @@ struct Simulation::State {
     bool isNewState = true;                   // no step was recorded since it came from elsewhere
     std::uint32_t generation = 0;             // of steps
     std::optional<std::uint64_t> lackedLists; // the first step of this generation that did
+    bool isBack = false;                      // the host's part is as it was before that step
 
     State(const vk::Device& d, const Scene& scene, const Settings& asked)
         : State(d, scene, withSubsteps(valid(scene, asked), asked), {}) {}
@@ -302,6 +304,7 @@ struct Simulation::State {
     void beginGeneration() noexcept {
         ++generation;
         lackedLists.reset();
+        isBack = false;
     }
 
     // A step with too little room for contacts needs another simulation first.
@@ -311,9 +314,16 @@ struct Simulation::State {
     bool mayBeCalm() const noexcept;
     // Reads from steps that have come back how long lists last, from the oldest on.
     void readSteps() noexcept;
-    // Before `frame` is recorded, which then is a step that lacked lists, or may lack them.
-    void goBackBefore(std::uint64_t frame) noexcept;
+    // Puts the host's part of the state where the device has it, once a step is known to have lacked lists:
+    // all steps behind that one are undone, too.
+    void goBack() noexcept;
+    // Before `frame` is recorded, which may lack lists.
     void noteBefore(std::uint64_t frame) noexcept;
+    // Whether the host can no longer repeat the step that lacked lists: `frame` takes the place of its
+    // status.
+    bool missesRepetition(std::uint64_t frame) const noexcept {
+        return lackedLists && frame - *lackedLists >= ring.slots();
+    }
 
     // The host's part of a state.
     void moveTo(const SavedState& saved) noexcept {

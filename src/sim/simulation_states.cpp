@@ -44,6 +44,7 @@ SceneChange::~SceneChange() = default;
 
 void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from, const vk::BufferView& copy,
                                 const SavedState* saved) {
+    from.state_->goBack();
     const State& other = *from.state_;
     const bool isAlike =
         state_->chosen.solver == other.chosen.solver && state_->program.order == other.program.order;
@@ -154,7 +155,7 @@ SavedState Simulation::recordSaveState(VkCommandBuffer buffer, const vk::BufferV
     commands.beginStep();
     state_->copy(commands, state_->written, to, State::Way::out);
     commands.endStep();
-    const auto pokes = this->pokes();
+    const auto pokes = this->pokes(); // goes back where steps are to be repeated
     return {state_->previousH,        state_->colliders.time(),
             state_->anchors.places(), {pokes.begin(), pokes.end()},
             state_->hasNewTopology,   state_->changes,

@@ -34,6 +34,8 @@ public:
     /// `count` of them, for a scene of that many particles.
     Hands(std::uint32_t count, std::size_t particles) : count_(count), particles_(particles) {}
 
+    /// Those of another time. A grab that begins later differs from all that there ever were.
+    void restore(const Hands& before) noexcept { hands_ = before.hands_; }
     /// All let go.
     void reset() noexcept { hands_ = {}; }
     /// A step of `dt` [s].
