@@ -31,7 +31,7 @@ void main() {
     const uint i = itemIndex(push.count);
     const bool stays = isFinished(status);
     if (!stays) detected[i] = vec4(1e18);
-    if (i == 0u && status.candidates > 0u) bounds.lacking = status.candidates;
+    if (i == 0u && status.candidates > 0u && bounds.lacksLists == 0u) bounds.lacking = status.candidates; // else it may need less
     if (i == 0u) bounds.lacksLists = status.lacksLists;
 #ifdef HAS_MEMORY
     if (stays) keptLists[i] = keep(lists[i]);

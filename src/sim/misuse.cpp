@@ -43,6 +43,14 @@ std::string sentenceOf(Misuse kind, std::uint64_t given, std::uint64_t allowed) 
         return "undone, and so is every later one: " + number(given) +
                " candidates near one on average, settings.contactRoom is " + number(allowed) +
                ": make a simulation with more room and let it take over (recordTakeOver)";
+    case Misuse::notRepeated:
+        return "recorded, but step " + number(given) +
+               " lacked lists of contacts and was not repeated: all steps with repeats behind it are undone: "
+               "look at Status::lacksLists of every step, and record that frame again, or leave out "
+               "Step::repeats";
+    case Misuse::mayBeRepeated:
+        return "in flight with Step::repeats while a change or a topology is recorded behind it: if it lacks "
+               "lists, it is repeated with that: wait for it, and repeat it where it lacked lists, first";
     case Misuse::count:
         break;
     }

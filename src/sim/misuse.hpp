@@ -19,6 +19,8 @@ enum class Misuse {
     badBlade,        ///< of `given` points, and `allowed` points of where it goes, or not finite
     nothingToCut,    ///< a blade or a ray, and no body may be cut
     contactRoom,     ///< undone: `given` particles need room, `allowed` have it
+    notRepeated,     ///< recorded after step `given`, which lacked lists and was not repeated
+    mayBeRepeated,   ///< in flight while the topology or the material changed behind it
     count
 };
 

@@ -115,8 +115,10 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     const bool hasBlade = isBlade || state_->program.cutting.tears;
     state_->noteMisuse(step);
     state_->readSteps();
+    state_->noteRepetition(step.frame);
     const bool isAgain = state_->lackedLists == step.frame;
-    if (isAgain) {
+    const bool givesUp = !step.repeats && state_->missesRepetition(step.frame);
+    if (isAgain || givesUp) {
         state_->goBack();
         state_->beginGeneration();
     }
@@ -128,13 +130,14 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     state_->hands.advance(step.grabs, dt);
     const bool isCalm = step.repeats && !isAgain && !isBlade && state_->mayBeCalm();
     const std::uint32_t lists = (step.repeats ? LISTS_REPEATS : 0) | (isCalm ? LISTS_CALM : 0) |
-                                (isAgain || !step.repeats || state_->isNewState ? LISTS_RESUMES : 0);
+                                (isAgain || givesUp || state_->isNewState ? LISTS_RESUMES : 0);
     const layout::StepParams parameters = state_->parameters(step, dt, lists);
     state_->ring.open({.isRecorded = true,
                        .frame = step.frame,
                        .lostTime = std::max(0.0f, step.dt - dt),
                        .hasBlade = hasBlade,
                        .isCalm = isCalm,
+                       .repeats = step.repeats,
                        .generation = state_->generation});
     state_->colliders.advance(dt, step.pokes);
     const collision::ColliderPaths& colliders = state_->colliders;

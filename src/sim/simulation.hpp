@@ -97,7 +97,9 @@ struct Step {
     bool wakes = false;
     /// True where the host looks at Status::lacksLists of every step. Once all that it has recorded has
     /// finished, it then records the first step that lacked lists again, of the same frame and with the same
-    /// input, and all steps behind it. In return most steps have fewer passes. No result depends on it.
+    /// input, and all steps behind it. In return most steps have fewer passes. No result depends on it. It
+    /// may change from step to step; until the step that lacked lists is recorded again, others are undone
+    /// whatever they say here.
     bool repeats = false;
     Blade blade{}; ///< read by record() only; repeat it where the step was undone
     RayCut ray{};
@@ -297,8 +299,8 @@ public:
     std::optional<SceneChange> prepareChange(const Scene& scene) const;
     /// Records the copies that make it so from the next step on, and after every reset; state, cuts and hands
     /// stay, what sleeps wakes. `change` must live until `commands` have finished. `commands` as in
-    /// recordReset(). False, and nothing is recorded, where another change was recorded since it was
-    /// prepared.
+    /// recordReset(). Steps with Step::repeats must have finished, and those that lacked lists must have been
+    /// repeated. False, and nothing is recorded, where another change was recorded since it was prepared.
     bool recordChange(VkCommandBuffer commands, SceneChange& change) noexcept;
 
     /// Size of a copy of the whole state between steps [B].
@@ -321,6 +323,8 @@ public:
     std::uint64_t topologySize() const noexcept;
     /// Records the copy of it into `to`, or back from `from`, both of topologySize(): an undo of cuts.
     /// Positions are not in it. Between steps; `commands` as in recordReset(). Afterwards begin a new stroke.
+    /// Before recordLoadTopology() steps with Step::repeats must have finished and been repeated, as before
+    /// recordChange().
     void recordSaveTopology(VkCommandBuffer commands, const vk::BufferView& to) const noexcept;
     void recordLoadTopology(VkCommandBuffer commands, const vk::BufferView& from) noexcept;
 

@@ -18,6 +18,7 @@ struct RecordedStep {
     float lostTime = 0; ///< [s]
     bool hasBlade = false;
     bool isCalm = false;          ///< Recording::isCalm
+    bool repeats = false;         ///< Step::repeats
     bool isRead = false;          ///< its status was taken into account
     std::uint32_t generation = 0; ///< of steps: the next one begins where a state comes from elsewhere
 };

@@ -190,6 +190,21 @@ struct Simulation::State {
             misuse.note(Misuse::badBlade, frame, step.blade.from.size(), step.blade.to.size());
     }
 
+    // Call readSteps() first.
+    void noteRepetition(std::uint64_t frame) noexcept {
+        if (missesRepetition(frame)) misuse.note(Misuse::notRepeated, frame, *lackedLists);
+    }
+
+    // Before something is recorded that steps must not go back behind.
+    void noteUnsettled() noexcept {
+        goBack();
+        for (std::uint64_t i = 0; i < ring.slots(); ++i) {
+            const RecordedStep& step = ring.step(nextFrame + i);
+            if (step.repeats && !step.isRead && step.generation == generation)
+                return misuse.note(Misuse::mayBeRepeated, step.frame);
+        }
+    }
+
     // What steps have found out, where the host may read it.
     void recordStatus(vk::Commands& commands, std::uint64_t frame) const noexcept {
         ring.record(commands, frame, executor.view(program.status), executor.view(program.cutting.counts),

@@ -124,6 +124,7 @@ std::optional<SceneChange> Simulation::prepareChange(const Scene& scene) const {
 bool Simulation::recordChange(VkCommandBuffer buffer, SceneChange& change) noexcept {
     SceneChange::Parts& parts = *change.parts_;
     if (parts.changes != state_->changes) return false;
+    state_->noteUnsettled();
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
     for (std::size_t b = 0; b < parts.contents.size(); ++b) {
@@ -189,6 +190,7 @@ void Simulation::recordSaveTopology(VkCommandBuffer buffer, const vk::BufferView
 }
 
 void Simulation::recordLoadTopology(VkCommandBuffer buffer, const vk::BufferView& from) noexcept {
+    state_->noteUnsettled();
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
     state_->copy(commands, state_->program.cutting.topology, from, State::Way::back);

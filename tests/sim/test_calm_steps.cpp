@@ -5,6 +5,7 @@
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/collision/face_scenes.hpp"
 #include "sim/hash.hpp"
+#include "sim/material.hpp"
 #include "sim/scenes.hpp"
 #include "sim/start.hpp"
 #include "support/device.hpp"
@@ -194,6 +195,22 @@ Case cut() {
     return one;
 }
 
+// Two that fly until they meet, of which one may tear: all its steps have the passes of cuts, and calm ones,
+// too.
+Case torn() {
+    Case one = collision();
+    one.name = "boxes that may tear";
+    one.settings.contactRoom = 96;
+    addLattice(one.scene, {.origin = {0, 2, 0},
+                           .cells = {3, 3, 3},
+                           .spacing = spacing,
+                           .youngModulus = 2e5f,
+                           .radius = 0.45f * spacing,
+                           .isCuttable = true,
+                           .tearStrain = 0.5f});
+    return one;
+}
+
 // Two boxes meet while a point that follows no faster than it may leads a third one, and a collider on a path
 // and a poke move beside it: the host's part of the state.
 Case ledByTheHost() {
@@ -245,6 +262,15 @@ Case asleep() {
     return one;
 }
 
+// So few substeps that few, or none, come after the first one.
+Case inSubsteps(std::uint32_t substeps, bool isBroken) {
+    Case one = landing();
+    one.name = substeps == 1 ? "a box that lands, in one substep" : "a box that lands, in an odd number";
+    one.settings.substeps = substeps;
+    one.isBroken = isBroken;
+    return one;
+}
+
 Case withForces() {
     Case one = landing();
     one.name = "forces of a box that lands";
@@ -263,6 +289,9 @@ std::vector<Case> cases() {
             ledByTheHost(),
             held(),
             asleep(),
+            torn(),
+            inSubsteps(1, false),
+            inSubsteps(7, true),
             {"cloth on a ball", test::clothOnBall(), few, 20},
             {"cloth on a box", test::clothOnBox(0.2f), few, 20},
             {"crossed sheets", test::crossedSheets(0.2f), few, 20}};
@@ -478,6 +507,76 @@ TEST(CalmSteps, TakeHoldOfWhatTheRepetitionSays) {
         for (ByHand* each : {&plain, &calm})
             EXPECT_FALSE(each->step(frame, [&](Step& step) { step.grabs = second; }).isUndone);
     EXPECT_EQ(calm.hash(), plain.hash());
+}
+
+// A step that may not be repeated, recorded while one is in flight that may, is taken once.
+TEST(CalmSteps, AreNotDoubledWhereTheHostNoLongerRepeats) {
+    const Case one = landing();
+    ByHand plain(one, false), calm(one, true);
+    const std::uint64_t broken = calm.untilBroken();
+    const auto noMore = [](Step& step) { step.repeats = false; };
+    EXPECT_TRUE(calm.step(broken + 2, noMore).lacksLists) << "behind one that lacked lists";
+    for (std::uint64_t frame = 0; frame < broken; ++frame) plain.step(frame);
+    EXPECT_EQ(calm.hash(), plain.hash());
+    for (std::uint64_t frame = broken; frame < broken + 3; ++frame) {
+        EXPECT_FALSE(calm.step(frame, noMore).isUndone);
+        plain.step(frame);
+    }
+    EXPECT_EQ(calm.hash(), plain.hash());
+    EXPECT_EQ(calm.simulation.complaints(), std::vector<std::string>{});
+}
+
+// One that asks for steps that may be repeated and repeats none is told; without asking, steps go on.
+TEST(CalmSteps, ThatNobodyRepeatsAreSaid) {
+    const Case one = landing();
+    ByHand plain(one, false), calm(one, true);
+    const std::uint64_t broken = calm.untilBroken(), slots = one.settings.framesInFlight;
+    for (std::uint64_t frame = broken + 2; frame < broken + slots; ++frame) calm.step(frame);
+    EXPECT_EQ(calm.simulation.complaints(), std::vector<std::string>{}) << "there is still time";
+    EXPECT_TRUE(calm.step(broken + slots).isUndone);
+    const std::vector<std::string> said = calm.simulation.complaints();
+    ASSERT_EQ(said.size(), 1u);
+    for (const std::string& part : {"step " + std::to_string(broken + slots),
+                                    "step " + std::to_string(broken) + " lacked", std::string("lacksLists")})
+        EXPECT_NE(said[0].find(part), std::string::npos) << said[0];
+    calm.step(broken + slots + 1);
+    EXPECT_EQ(calm.simulation.complaints(), std::vector<std::string>{}) << "once";
+    const auto noMore = [](Step& step) { step.repeats = false; };
+    EXPECT_FALSE(calm.step(broken + slots + 2, noMore).isUndone) << "from before the step that lacked lists";
+    for (std::uint64_t frame = 0; frame <= broken; ++frame) plain.step(frame);
+    EXPECT_EQ(calm.hash(), plain.hash());
+}
+
+// Another material behind a step in flight that may be repeated is said; once all came back it is not, and
+// the repetition has that material.
+TEST(CalmSteps, AreSettledBeforeTheMaterialChanges) {
+    const Case one = landing();
+    ByHand plain(one, false), calm(one, true);
+    const Scene soft = withMaterial(one.scene, {.stiffness = 0.5f});
+    std::optional<SceneChange> ofCalm = calm.simulation.prepareChange(soft),
+                               ofPlain = plain.simulation.prepareChange(soft);
+    ASSERT_TRUE(ofCalm && ofPlain);
+    const std::uint64_t broken = calm.untilBroken();
+    for (std::uint64_t frame = 0; frame < broken; ++frame) plain.step(frame);
+    calm.submit([&](VkCommandBuffer commands) { calm.simulation.recordChange(commands, *ofCalm); });
+    plain.submit([&](VkCommandBuffer commands) { plain.simulation.recordChange(commands, *ofPlain); });
+    EXPECT_EQ(calm.simulation.complaints(), std::vector<std::string>{});
+    for (std::uint64_t frame = broken; frame < broken + 3; ++frame)
+        for (ByHand* each : {&plain, &calm}) EXPECT_FALSE(each->step(frame).isUndone);
+    EXPECT_EQ(calm.hash(), plain.hash());
+
+    std::optional<SceneChange> later = calm.simulation.prepareChange(one.scene);
+    ASSERT_TRUE(later);
+    const Step step{.dt = one.scene.dt, .gravity = one.scene.gravity, .frame = broken + 3, .repeats = true};
+    calm.submit([&](VkCommandBuffer commands) {
+        calm.simulation.record(commands, step);
+        calm.simulation.recordChange(commands, *later);
+    });
+    const std::vector<std::string> said = calm.simulation.complaints();
+    ASSERT_EQ(said.size(), 1u);
+    EXPECT_NE(said[0].find("step " + std::to_string(broken + 3) + ": in flight with Step::repeats"),
+              std::string::npos)
+        << said[0];
 }
 
 TEST(CalmSteps, ComeAfterEnoughOthersAndTwiceAsManyOnceOneFailed) {
