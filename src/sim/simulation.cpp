@@ -44,9 +44,11 @@ Simulation::~Simulation() {
 }
 
 // Hands that change in a step that is undone would take hold anew when it is repeated: no step is calm in
-// which one holds something, nor where there is nothing to leave out.
-bool Simulation::State::mayBeCalm() const noexcept {
-    return calmSteps.areCalm() && hands.areFree() && !program.grids.empty();
+// which one holds something, nor where there is nothing to leave out. A step that is undone must leave the
+// state as it was before, in bits: it does not with a substep of another length.
+bool Simulation::State::mayBeCalm(float h) const noexcept {
+    return isKeptWhereUndone && h == previousH && calmSteps.areCalm() && hands.areFree() &&
+           !program.grids.empty();
 }
 
 void Simulation::State::readSteps() noexcept {
@@ -87,6 +89,7 @@ void Simulation::State::goBack() noexcept {
     const Before& slot = befores[ring.slotOf(*lackedLists)];
     if (slot.frame != lackedLists) return; // more steps were in flight than there may be
     isBack = true;
+    undoneH = previousH;
     previousH = slot.h;
     colliders.moveTo(slot.time, slot.pokes);
     anchors.restore(slot.anchors);
@@ -120,7 +123,9 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     const bool givesUp = !step.repeats && state_->missesRepetition(step.frame);
     if (isAgain || givesUp) {
         state_->goBack();
+        const std::optional<float> undoneH = state_->undoneH;
         state_->beginGeneration();
+        state_->undoneH = undoneH;
     }
     state_->isBack = false;
     if (step.repeats) state_->noteBefore(step.frame);
@@ -128,7 +133,8 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     state_->nextFrame = step.frame + 1;
     state_->anchors.advance(step.anchors, dt);
     state_->hands.advance(step.grabs, dt);
-    const bool isCalm = step.repeats && !isAgain && !isBlade && state_->mayBeCalm();
+    const bool isCalm =
+        step.repeats && !isAgain && !isBlade && state_->mayBeCalm(dt / static_cast<float>(state_->substeps));
     const std::uint32_t lists = (step.repeats ? LISTS_REPEATS : 0) | (isCalm ? LISTS_CALM : 0) |
                                 (isAgain || givesUp || state_->isNewState ? LISTS_RESUMES : 0);
     const layout::StepParams parameters = state_->parameters(step, dt, lists);
@@ -160,6 +166,7 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     state_->recordEnd(commands, step.frame);
     commands.hostBarrier();
     state_->previousH = parameters.h;
+    state_->undoneH.reset();
     state_->hasNewTopology = state_->isChanged = state_->isNewState = false;
 }
 

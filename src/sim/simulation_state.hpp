@@ -15,6 +15,7 @@
 #include "sim/misuse.hpp"
 #include "sim/program_values.hpp"
 #include "sim/ranges.hpp"
+#include "sim/rounding.hpp"
 #include "sim/scene_key.hpp"
 #include "sim/simulation.hpp"
 #include "sim/simulation_ring.hpp"
@@ -97,6 +98,9 @@ struct Simulation::State {
         std::optional<std::uint64_t> frame; // of that step
     };
     std::vector<Before> befores;
+    const bool
+        isKeptWhereUndone; // all of the state; else a step that is undone loses velocities or remainders
+    std::optional<float> undoneH; // substep of the undone steps, if the next one begins behind them [s]
     std::uint32_t topologies = 0; // that were loaded
     CalmSteps calmSteps;
     bool isNewState = true;                   // no step was recorded since it came from elsewhere
@@ -120,7 +124,8 @@ struct Simulation::State {
           damping(scene.damping), substeps(settings.substeps),
           storesPlaces(solvers::split::contactsFollow(scene, settings)),
           hasContacts(collision::particle_contacts::areIn(scene) || collision::face_contacts::areIn(scene)),
-          unsettled(settings.framesInFlight), untold(warnings(scene)), befores(settings.framesInFlight) {
+          unsettled(settings.framesInFlight), untold(warnings(scene)), befores(settings.framesInFlight),
+          isKeptWhereUndone(settings.publishesVelocities && !keepsRemainders(scene, settings.substeps)) {
         for (Before& one : befores) one.anchors.resize(anchors.values().size());
     }
 
@@ -139,7 +144,7 @@ struct Simulation::State {
                 .h = h,
                 .hPrevious = previousH,
                 .thetaH = theta * h,
-                .thetaHPrevious = theta * previousH,
+                .thetaHPrevious = theta * undoneH.value_or(previousH),
                 .velocityFactor = std::exp(-damping * h),
                 .restSpeed = 2 * std::sqrt(g.x * g.x + g.y * g.y + g.z * g.z) * h,
                 .frame = static_cast<std::uint32_t>(step.frame),
@@ -320,13 +325,14 @@ struct Simulation::State {
         ++generation;
         lackedLists.reset();
         isBack = false;
+        undoneH.reset();
     }
 
     // A step with too little room for contacts needs another simulation first.
     static bool lackLists(const layout::StatusWords& words) noexcept {
         return words.lacksLists > 0 && words.candidates == 0;
     }
-    bool mayBeCalm() const noexcept;
+    bool mayBeCalm(float h) const noexcept;
     // Reads from steps that have come back how long lists last, from the oldest on.
     void readSteps() noexcept;
     // Puts the host's part of the state where the device has it, once a step is known to have lacked lists:
