@@ -428,8 +428,8 @@ private:
         submissions_.pop_front();
         waitFor(oldest.value);
         if (oldest.frame == 0) return;
-        if (times_) times_->stepFinished(oldest.frame);
         if (stage_.neededRoom(oldest.frame) > 0 || stage_.lacksLists(oldest.frame)) return redoFrom(oldest);
+        if (times_) times_->stepFinished(oldest.frame);
         if (const std::optional<Divergence> divergence = stage_.check(oldest.frame))
             throw app::Failure(app::diverged, divergence->sentence());
         if (beside_) checkBeside(slotOf(oldest.frame));

@@ -240,7 +240,7 @@ bool Show::prepareSwapchain() {
 
 void Show::draw(Plan plan, View& view) {
     screen_.presenter().waitForSlot();
-    settle(screen_.presenter().nextSlot());
+    settleNext();
     if (surfaceMissing_ > 0) makeSurfaceRoom();
     if (isDiverged_ && !plan.isReset) plan.steps = 0; // keeps the last finite picture
     if (stage_.lacksContactRoom()) plan.steps = 0;    // since settle()

@@ -185,6 +185,7 @@ private:
     void repeatFrom(std::uint64_t step, const InFlight& undone);
     std::vector<Sweep> forgetUndone(const InFlight& undone);
     void settleAll();
+    void settleNext();
     void warnOfMistakes();
     void reportFiles(PictureWriter::Wait wait);
 

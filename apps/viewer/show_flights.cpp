@@ -309,6 +309,7 @@ void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
         stage_.keepShape();
         screen_.warn("the replay ends here: contacts need more room than when it was recorded");
     }
+    controller_.playback.owe(newest - stage_.steps());
     tools_.restart(stage_, forgetUndone(undone), newest - stage_.steps());
 }
 
@@ -319,7 +320,15 @@ void Show::repeatFrom(std::uint64_t step, const InFlight& undone) {
     stage_.goBackBefore(step);
     isBesideOut_ = true; // it has taken those steps
     gauges_.stepsRepeated(newest - stage_.steps());
+    controller_.playback.owe(newest - stage_.steps());
     tools_.takeBack(stage_, forgetUndone(undone), newest - stage_.steps());
+}
+
+// A step that lacked lists is to be repeated before anything that it must not go back behind.
+void Show::settleNext() {
+    const bool isTurning = tools_.wantsHistory() || stage_.isTurnReady();
+    if (stage_.repeats() && isTurning) return settleAll();
+    settle(screen_.presenter().nextSlot());
 }
 
 // Returns the cuts of `undone`, which was settled, and of later frames: all of those steps were undone.

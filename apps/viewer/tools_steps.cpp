@@ -59,9 +59,9 @@ void Tools::remember(VkCommandBuffer commands, const Stage& stage) {
 void Tools::rememberStep(VkCommandBuffer commands, const Stage& stage) {
     constexpr std::size_t worthIt = 8;
     if (isForgetfulOfSteps_ || steps_.room(stage) < worthIt) return;
-    keptSteps_ = steps_.room(stage) - mostTakenBack;
+    keptSteps_ = steps_.room(stage);
     try {
-        steps_.recordBefore(commands, stage);
+        steps_.recordBefore(commands, stage, stage.repeats() ? mostTakenBack : 0);
     } catch (const vk::Error&) { // no memory: those that there are stay
         isForgetfulOfSteps_ = true;
     }

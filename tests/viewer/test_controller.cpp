@@ -147,6 +147,23 @@ TEST(Playback, StepPausesAndTakesExactlyOne) {
     EXPECT_EQ(playback.plan(1).steps, 0u);
 }
 
+TEST(Playback, TakesStepsAgainThatWereUndoneWhilePaused) {
+    Playback playback(dt);
+    playback.step();
+    EXPECT_EQ(playback.plan(1).steps, 1u);
+    playback.owe(1);
+    EXPECT_EQ(playback.plan(1).steps, 1u) << "the step that was asked for";
+    EXPECT_EQ(playback.plan(1).steps, 0u);
+    playback.owe(3);
+    EXPECT_EQ(playback.plan(1, 2).steps, 2u);
+    EXPECT_EQ(playback.plan(1, 2).steps, 1u);
+    playback.toggle();
+    playback.owe(3);
+    EXPECT_EQ(playback.plan(dt).steps, 1u) << "time goes on by itself";
+    playback.toggle();
+    EXPECT_EQ(playback.plan(1).steps, 0u);
+}
+
 TEST(Playback, ResetComesOnceAndAlsoWhilePaused) {
     Playback playback(dt);
     playback.pause();

@@ -445,6 +445,23 @@ TEST(StepBack, KeepsTheNewestAsFarAsThereIsRoom) {
     EXPECT_EQ(walk.stage.played(), played - History::mostSteps);
 }
 
+// Where there is room for few, all of them are kept, and steps that are taken back cost none.
+TEST(StepBack, KeepsAsManyAsThereIsRoomFor) {
+    constexpr std::size_t room = 9, more = 4;
+    Walk walk;
+    History exact(test::device(), room), spare(test::device(), room);
+    for (int turn = 0; turn < 20; ++turn)
+        walk.run([&](VkCommandBuffer commands) {
+            exact.recordBefore(commands, walk.stage);
+            spare.recordBefore(commands, walk.stage, more);
+            walk.step(commands);
+        });
+    EXPECT_EQ(exact.undos(), room);
+    EXPECT_EQ(spare.undos(), room + more);
+    spare.forgetFrom(walk.stage.played() - more);
+    EXPECT_EQ(spare.undos(), room);
+}
+
 // Steps that lacked lists of contacts are no steps: the way back and the log are as without them.
 TEST(StepBack, KnowsNothingOfStepsThatWereTakenBack) {
     const std::string falling = R"([solver]

@@ -125,6 +125,9 @@ public:
     /// Whether later steps are recorded so that they may lack lists of contacts (sim::Step::repeats): who
     /// asks for that looks at lacksLists() of each, from the oldest on. At first not.
     void setRepeats(bool repeats) noexcept { repeats_ = repeats; }
+    bool repeats() const noexcept { return repeats_; }
+    /// Whether the next step is of another material, which recordTurn() records.
+    bool isTurnReady() const noexcept { return ready_.has_value(); }
     /// Status::lacksLists of such a step: it was undone, and all after it.
     bool lacksLists(std::uint64_t step) const;
     /// The next step is that one, which was undone, again. All that were recorded have finished.

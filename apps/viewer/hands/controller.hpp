@@ -21,6 +21,10 @@ public:
 
     explicit Playback(double dt) : dt_(dt) {}
 
+    /// So many steps were undone that had been taken: while paused they are taken again like single steps.
+    void owe(std::uint64_t steps) {
+        if (isPaused_) singleSteps_ += static_cast<std::uint32_t>(steps);
+    }
     /// `elapsed` is the time since the last call [s].
     Plan plan(double elapsed, std::uint32_t mostSteps = maxSteps);
 

@@ -82,8 +82,8 @@ void History::bring(const History& other, const sim::Simulation& from, vk::Queue
     after_ = std::move(brought.after_);
 }
 
-void History::recordBefore(VkCommandBuffer commands, const Stage& stage) {
-    const std::size_t most = room(stage);
+void History::recordBefore(VkCommandBuffer commands, const Stage& stage, std::size_t more) {
+    const std::size_t most = room(stage) + more;
     const auto forget = [this](States& states) {
         spare_.push_back(std::move(states.front().buffer));
         states.pop_front();

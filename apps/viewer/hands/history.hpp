@@ -25,8 +25,9 @@ public:
     std::size_t room(const Stage& stage) const { return room(stage.simulation()); }
 
     /// Records a copy of the state as it is, to come back to. What was undone is forgotten. Throws vk::Error
-    /// where there is no memory for it.
-    void recordBefore(VkCommandBuffer commands, const Stage& stage);
+    /// where there is no memory for it. Keeps so many `more` than there is room for: the newest of them may
+    /// be forgotten (forgetFrom) without loss of older ones.
+    void recordBefore(VkCommandBuffer commands, const Stage& stage, std::size_t more = 0);
     /// Records the way back to the newest of those states, or forwards again; false where there is none.
     bool recordUndo(VkCommandBuffer commands, Stage& stage);
     bool recordRedo(VkCommandBuffer commands, Stage& stage);
