@@ -1,13 +1,11 @@
 // Calm steps, which make lists of contacts in their first substep alone: the same bits as those that make
 // them in any, whatever of them was undone and repeated, with several in flight.
-#include "sim/bodies.hpp"
+#include "sim/calm_cases.hpp"
 #include "sim/calm_steps.hpp"
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/collision/face_scenes.hpp"
 #include "sim/hash.hpp"
-#include "sim/material.hpp"
 #include "sim/scenes.hpp"
-#include "sim/start.hpp"
 #include "support/device.hpp"
 
 #include <gtest/gtest.h>
@@ -18,23 +16,6 @@
 
 namespace sinew::sim {
 namespace {
-
-constexpr float spacing = 0.05f;
-
-void addBox(Scene& scene, Vec3 origin, std::array<std::uint32_t, 3> cells, const Start& how = {},
-            bool isCuttable = false) {
-    const std::size_t first = scene.bodies.size();
-    addLattice(scene, {.origin = origin,
-                       .cells = cells,
-                       .spacing = spacing,
-                       .youngModulus = 2e5f,
-                       .radius = 0.45f * spacing,
-                       .isCuttable = isCuttable});
-    start(scene, first, how);
-}
-
-// Fills in the host's part of a step, by its frame.
-using Input = std::function<void(Step&)>;
 
 // Steps of a scene with some of them in flight, each recorded again where it lacked lists.
 class Steps {
@@ -128,38 +109,6 @@ private:
     std::vector<Impulses> forces_;
 };
 
-struct Case {
-    const char* name;
-    Scene scene;
-    Settings settings;
-    std::uint64_t steps = 40;
-    Input input = {};
-    bool isBroken = false; // some calm step lacks lists
-};
-
-Scene onFloor() {
-    Scene scene;
-    scene.planes = {{.friction = 0.4f}};
-    return scene;
-}
-
-// Falls until a floor meets it.
-Case landing() {
-    Case one{"a box that lands", onFloor(), {.substeps = 16, .contactRoom = 64}, 30, {}, true};
-    addBox(one.scene, {0, 0.6f, 0}, {4, 4, 4});
-    return one;
-}
-
-// Two that fly until they meet.
-Case collision() {
-    Case one{"boxes that collide", {}, {.substeps = 12, .contactRoom = 64, .pokes = 1}, 30, {}, true};
-    one.scene.gravity = {0, 0, 0};
-    one.scene.contacts = {.friction = 0.3f, .restitution = 0.4f};
-    addBox(one.scene, {0, 0, 0}, {3, 3, 3}, {.velocity = {1.5f, 0, 0}});
-    addBox(one.scene, {1, 0.05f, 0}, {3, 3, 3}, {.velocity = {-1.5f, 0, 0}, .spin = {0, 1, 2}});
-    return one;
-}
-
 Case stack() {
     Case one{"a stack", onFloor(), {.substeps = 16, .contactRoom = 64}};
     for (const int b : {0, 1, 2})
@@ -208,32 +157,6 @@ Case torn() {
                            .radius = 0.45f * spacing,
                            .isCuttable = true,
                            .tearStrain = 0.5f});
-    return one;
-}
-
-// Two boxes meet while a point that follows no faster than it may leads a third one, and a collider on a path
-// and a poke move beside it: the host's part of the state.
-Case ledByTheHost() {
-    Case one = collision();
-    one.name = "a box that is led";
-    addBox(one.scene, {0, 1, 0}, {3, 3, 3});
-    const auto last = static_cast<std::uint32_t>(one.scene.particles.size() - 1);
-    const Vec3 place = one.scene.particles[last].position;
-    one.scene.attachments = {{.particle = last, .anchor = place, .maxSpeed = 0.04f}};
-    one.scene.colliders = {{.radius = 0.1f,
-                            .path = {{.time = 0, .pose = {.position = {0.28f, 1.1f, 0.1f}}},
-                                     {.time = 1, .pose = {.position = {0.2f, 1.1f, 0.1f}}}}}};
-    one.input = [place](Step& step) {
-        static std::array<Vec3, 1> anchors;
-        static std::array<Poke, 1> pokes;
-        const auto frame = static_cast<float>(step.frame);
-        anchors = {{{place.x + 0.01f * frame, place.y, place.z}}};
-        pokes = {{{.radius = 0.08f,
-                   .pose = {.position = {0.1f, 0.905f + 0.002f * frame, 0.1f}},
-                   .maxSpeed = 0.05f}}};
-        step.anchors = anchors;
-        step.pokes = pokes;
-    };
     return one;
 }
 
@@ -420,219 +343,6 @@ TEST(CalmSteps, LeaveNothingBehindInStatesOfTheirOwn) {
     // one that does not repeat steps goes on, too
     submit([&](VkCommandBuffer commands) { simulation.recordLoadState(commands, saved.view(), host); });
     EXPECT_FALSE(step(frame, false).isUndone);
-}
-
-// Steps one by one, for what happens between a step that lacked lists and its repetition.
-class ByHand {
-public:
-    ByHand(const Case& one, bool repeats)
-        : simulation(test::device(), one.scene, one.settings), one_(one), repeats_(repeats) {
-        submit([&](VkCommandBuffer commands) { simulation.recordReset(commands); });
-    }
-
-    template <typename Record> void submit(const Record& record) {
-        const VkCommandBuffer commands = test::queue().begin();
-        record(commands);
-        test::queue().wait(test::queue().submit(commands));
-    }
-    Status step(std::uint64_t frame, const std::function<void(Step&)>& change = {}) {
-        Step step{.dt = one_.scene.dt, .gravity = one_.scene.gravity, .frame = frame, .repeats = repeats_};
-        if (one_.input) one_.input(step);
-        if (change) change(step);
-        submit([&](VkCommandBuffer commands) { simulation.record(commands, step); });
-        return simulation.status(frame);
-    }
-    // The first step that lacks lists, which was recorded, and the one behind it.
-    std::uint64_t untilBroken() {
-        std::uint64_t frame = 0;
-        while (frame < one_.steps && !step(frame).lacksLists) ++frame;
-        EXPECT_LT(frame, one_.steps) << "none lacks lists";
-        EXPECT_TRUE(step(frame + 1).lacksLists);
-        return frame;
-    }
-    SavedState save(const vk::Buffer& buffer) {
-        SavedState host;
-        submit([&](VkCommandBuffer commands) { host = simulation.recordSaveState(commands, buffer.view()); });
-        return host;
-    }
-    std::uint64_t hash() const { return hashOf(simulation); }
-    static std::uint64_t hashOf(const Simulation& of) {
-        std::uint64_t hash = fnv1a({});
-        for (const vk::BufferView& view : {of.positions(), of.velocities()})
-            hash = fnv1a(test::queue().download<std::byte>(view), hash);
-        return hash;
-    }
-
-    Simulation simulation;
-
-private:
-    const Case& one_;
-    bool repeats_;
-};
-
-bool areSame(const Vec3& a, const Vec3& b) {
-    return a.x == b.x && a.y == b.y && a.z == b.z;
-}
-
-void expectSameHost(const SavedState& a, const SavedState& b) {
-    EXPECT_EQ(a.h, b.h);
-    EXPECT_EQ(a.colliderTime, b.colliderTime);
-    EXPECT_EQ(a.isUncut, b.isUncut);
-    EXPECT_EQ(a.hasNewTopology, b.hasNewTopology);
-    ASSERT_EQ(a.anchors.size(), b.anchors.size());
-    for (std::size_t i = 0; i < a.anchors.size(); ++i) EXPECT_TRUE(areSame(a.anchors[i], b.anchors[i]));
-    ASSERT_EQ(a.pokes.size(), b.pokes.size());
-    for (std::size_t i = 0; i < a.pokes.size(); ++i)
-        EXPECT_TRUE(areSame(a.pokes[i].poke.pose.position, b.pokes[i].poke.pose.position));
-}
-
-double farthest(const ByHand& a, const ByHand& b) {
-    const auto first = test::queue().download<float>(a.simulation.positions()),
-               second = test::queue().download<float>(b.simulation.positions());
-    double most = 0;
-    for (std::size_t i = 0; i < first.size(); ++i)
-        most = std::max(most, std::abs(double{first[i]} - double{second[i]}));
-    return most;
-}
-
-// What is saved, seen or taken over before the repetition is the state before the step, on the host as well.
-TEST(CalmSteps, AreSavedAndTakenOverAsBeforeTheOneThatLackedLists) {
-    const Case one = ledByTheHost();
-    ByHand plain(one, false), calm(one, true);
-    const std::uint64_t broken = calm.untilBroken();
-    for (std::uint64_t frame = 0; frame < broken; ++frame) plain.step(frame);
-    EXPECT_TRUE(
-        areSame(calm.simulation.colliderPoses()[0].position, plain.simulation.colliderPoses()[0].position));
-    EXPECT_TRUE(areSame(calm.simulation.pokes()[0].poke.pose.position,
-                        plain.simulation.pokes()[0].poke.pose.position));
-
-    ByHand ofCalm(one, false), ofPlain(one, false); // those that take over
-    ofCalm.submit([&](VkCommandBuffer c) { ofCalm.simulation.recordTakeOver(c, calm.simulation); });
-    ofPlain.submit([&](VkCommandBuffer c) { ofPlain.simulation.recordTakeOver(c, plain.simulation); });
-
-    const vk::BufferRequest request{.name = "saved", .count = calm.simulation.stateSize() / 4, .stride = 4};
-    const vk::Buffer saved(test::device(), request), other(test::device(), request);
-    const SavedState host = calm.save(saved);
-    expectSameHost(host, plain.save(other));
-    const auto goOn = [&](ByHand& from) {
-        for (std::uint64_t frame = broken; frame < one.steps; ++frame)
-            while (from.step(frame).lacksLists) {
-            }
-        return from.hash();
-    };
-    const std::uint64_t hash = goOn(plain);
-    EXPECT_EQ(goOn(calm), hash) << "which was looked at and saved in between";
-    calm.submit([&](VkCommandBuffer c) { calm.simulation.recordLoadState(c, saved.view(), host); });
-    EXPECT_EQ(goOn(calm), hash) << "of what was saved";
-    EXPECT_EQ(goOn(ofCalm), goOn(ofPlain));
-}
-
-// The hand that took hold behind the step that lacked lists holds something else in its repetition.
-TEST(CalmSteps, TakeHoldOfWhatTheRepetitionSays) {
-    Case one = landing();
-    one.settings.grabs = 1;
-    ByHand plain(one, false), calm(one, true);
-    const std::array<Grab, 1> first{{{.particle = 3, .radius = 0.1f, .target = {0.3f, 0.5f, 0}}}},
-        second{{{.particle = 120, .radius = 0.1f, .target = {-0.3f, 0.8f, 0}}}};
-    std::uint64_t frame = 0;
-    while (frame < one.steps && !calm.step(frame).lacksLists) ++frame;
-    ASSERT_LT(frame, one.steps);
-    EXPECT_TRUE(calm.step(frame + 1, [&](Step& step) { step.grabs = first; }).lacksLists);
-    for (std::uint64_t before = 0; before < frame; ++before) plain.step(before);
-    for (int i = 0; i < 3; ++i, ++frame)
-        for (ByHand* each : {&plain, &calm})
-            EXPECT_FALSE(each->step(frame, [&](Step& step) { step.grabs = second; }).isUndone);
-    EXPECT_EQ(calm.hash(), plain.hash());
-}
-
-// A step that may not be repeated, recorded while one is in flight that may, is taken once.
-TEST(CalmSteps, AreNotDoubledWhereTheHostNoLongerRepeats) {
-    const Case one = landing();
-    ByHand plain(one, false), calm(one, true);
-    const std::uint64_t broken = calm.untilBroken();
-    const auto noMore = [](Step& step) { step.repeats = false; };
-    EXPECT_TRUE(calm.step(broken + 2, noMore).lacksLists) << "behind one that lacked lists";
-    for (std::uint64_t frame = 0; frame < broken; ++frame) plain.step(frame);
-    EXPECT_EQ(calm.hash(), plain.hash());
-    for (std::uint64_t frame = broken; frame < broken + 3; ++frame) {
-        EXPECT_FALSE(calm.step(frame, noMore).isUndone);
-        plain.step(frame);
-    }
-    EXPECT_EQ(calm.hash(), plain.hash());
-    EXPECT_EQ(calm.simulation.complaints(), std::vector<std::string>{});
-}
-
-// One that asks for steps that may be repeated and repeats none is told; without asking, steps go on.
-TEST(CalmSteps, ThatNobodyRepeatsAreSaid) {
-    const Case one = landing();
-    ByHand plain(one, false), calm(one, true);
-    const std::uint64_t broken = calm.untilBroken(), slots = one.settings.framesInFlight;
-    for (std::uint64_t frame = broken + 2; frame < broken + slots; ++frame) calm.step(frame);
-    EXPECT_EQ(calm.simulation.complaints(), std::vector<std::string>{}) << "there is still time";
-    EXPECT_TRUE(calm.step(broken + slots).isUndone);
-    const std::vector<std::string> said = calm.simulation.complaints();
-    ASSERT_EQ(said.size(), 1u);
-    for (const std::string& part : {"step " + std::to_string(broken + slots),
-                                    "step " + std::to_string(broken) + " lacked", std::string("lacksLists")})
-        EXPECT_NE(said[0].find(part), std::string::npos) << said[0];
-    calm.step(broken + slots + 1);
-    EXPECT_EQ(calm.simulation.complaints(), std::vector<std::string>{}) << "once";
-    const auto noMore = [](Step& step) { step.repeats = false; };
-    EXPECT_FALSE(calm.step(broken + slots + 2, noMore).isUndone) << "from before the step that lacked lists";
-    for (std::uint64_t frame = 0; frame <= broken; ++frame) plain.step(frame);
-    EXPECT_EQ(calm.hash(), plain.hash());
-}
-
-// What a step needs that goes on from the wrong state is no lack of room.
-TEST(CalmSteps, BehindOneThatLackedListsAskForNoRoom) {
-    Case one = collision();
-    one.settings.contactRoom = 1;
-    one.settings.substeps = 4;
-    ByHand plain(one, false), calm(one, true);
-    std::uint64_t frame = 0;
-    while (frame < one.steps && !calm.step(frame).lacksLists) ++frame;
-    ASSERT_LT(frame, one.steps);
-    const Status behind = calm.step(frame + 1, [](Step& step) { step.dt = 0.1f; });
-    EXPECT_TRUE(behind.isUndone);
-    EXPECT_GT(behind.contactRoom, 0u) << "it goes far, and needs none";
-    EXPECT_EQ(calm.simulation.complaints(), std::vector<std::string>{});
-    const Status again = calm.step(frame);
-    EXPECT_EQ(again.contactRoom, 0u);
-    EXPECT_FALSE(again.isUndone);
-    for (std::uint64_t before = 0; before <= frame; ++before) EXPECT_FALSE(plain.step(before).isUndone);
-    EXPECT_LT(farthest(calm, plain), 1e-5) << "the undone step had longer substeps";
-}
-
-// Another material behind a step in flight that may be repeated is said; once all came back it is not, and
-// the repetition has that material.
-TEST(CalmSteps, AreSettledBeforeTheMaterialChanges) {
-    const Case one = landing();
-    ByHand plain(one, false), calm(one, true);
-    const Scene soft = withMaterial(one.scene, {.stiffness = 0.5f});
-    std::optional<SceneChange> ofCalm = calm.simulation.prepareChange(soft),
-                               ofPlain = plain.simulation.prepareChange(soft);
-    ASSERT_TRUE(ofCalm && ofPlain);
-    const std::uint64_t broken = calm.untilBroken();
-    for (std::uint64_t frame = 0; frame < broken; ++frame) plain.step(frame);
-    calm.submit([&](VkCommandBuffer commands) { calm.simulation.recordChange(commands, *ofCalm); });
-    plain.submit([&](VkCommandBuffer commands) { plain.simulation.recordChange(commands, *ofPlain); });
-    EXPECT_EQ(calm.simulation.complaints(), std::vector<std::string>{});
-    for (std::uint64_t frame = broken; frame < broken + 3; ++frame)
-        for (ByHand* each : {&plain, &calm}) EXPECT_FALSE(each->step(frame).isUndone);
-    EXPECT_EQ(calm.hash(), plain.hash());
-
-    std::optional<SceneChange> later = calm.simulation.prepareChange(one.scene);
-    ASSERT_TRUE(later);
-    const Step step{.dt = one.scene.dt, .gravity = one.scene.gravity, .frame = broken + 3, .repeats = true};
-    calm.submit([&](VkCommandBuffer commands) {
-        calm.simulation.record(commands, step);
-        calm.simulation.recordChange(commands, *later);
-    });
-    const std::vector<std::string> said = calm.simulation.complaints();
-    ASSERT_EQ(said.size(), 1u);
-    EXPECT_NE(said[0].find("step " + std::to_string(broken + 3) + ": in flight with Step::repeats"),
-              std::string::npos)
-        << said[0];
 }
 
 TEST(CalmSteps, ComeAfterEnoughOthersAndTwiceAsManyOnceOneFailed) {
