@@ -97,9 +97,9 @@ struct Step {
     bool wakes = false;
     /// True where the host looks at Status::lacksLists of every step. Once all that it has recorded has
     /// finished, it then records the first step that lacked lists again, of the same frame and with the same
-    /// input, and all steps behind it. In return most steps have fewer passes. No result depends on it. It
-    /// may change from step to step; until the step that lacked lists is recorded again, others are undone
-    /// whatever they say here.
+    /// input, and all steps behind it. In return most steps have fewer passes. No result depends on it, to
+    /// the bit where dt is the same in all that is in flight. It may change from step to step; until the step
+    /// that lacked lists is recorded again, others are undone whatever they say here.
     bool repeats = false;
     Blade blade{}; ///< read by record() only; repeat it where the step was undone
     RayCut ray{};
