@@ -21,8 +21,8 @@ constexpr const char* lost =
 
 Tools::Tools(const vk::Device& device, const Opening& opening)
     : blade_(opening.light.bounds), poke_(opening.light.radius(), opening.loaded.scene.planes),
-      history_(device, History::mostCuts), steps_(device, History::mostSteps),
-      holds_(opening.loaded.holds), pinReach_(0.04f * opening.light.radius()),
+      history_(device, History::mostCuts), steps_(device, History::mostSteps), holds_(opening.loaded.holds),
+      pinReach_(0.04f * opening.light.radius()),
       canCut_(std::ranges::any_of(opening.loaded.scene.grids, &sim::Grid::isCuttable)) {
     setDepth(opening.bladeDepth);
     for (const float inverseMass : sim::inverseMasses(opening.loaded.scene))
