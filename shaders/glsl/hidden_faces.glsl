@@ -55,9 +55,11 @@ uint cornerBeside(ContactFace face, ContactFace other) {
 }
 
 // Whether the edge that is nearest is that of a hollow fold, and the point is behind the face on its other side, `beside`. Seen from there, the
-// direction from the edge does not lead out of what is solid, but along its surface: what comes out would be pushed aside.
+// direction from the edge does not lead out of what is solid, but along its surface: what comes out would be pushed aside. A body that crumples
+// has many such folds: its own points are held by them.
 bool isBehind(uint i, uint element, uint corners, uint beside) {
     if (bitCount(corners) != 2 || !isSolid(contacts[element].x) || !isSolid(contacts[beside].x)) return false;
+    if (bodyOf(i) == bodyOf(faces[contacts[beside].x].a)) return false;
     if (!(sideOfFront(i, beside) < 0.0 && sideOfFront(i, element) >= 0.0)) return false;
     return sideOfFront(cornerBeside(faces[contacts[element].x], faces[contacts[beside].x]), element) > 0.0;
 }

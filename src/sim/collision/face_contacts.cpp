@@ -350,7 +350,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
         contacts.bounces = program.scratch<layout::vec4>("faces.bounces", elements);
     contacts.shares = program.scratch<float>("faces.shares", layout.count);
     contacts.keepsRest = keepRest(scene);
-    contacts.marks = contacts.keepsRest || contacts.hasInner()
+    contacts.marks = contacts.keepsRest || contacts.hasSolid()
                          ? program.upload("faces.marks", contact_lists::linkedMarks(scene, layout))
                          : contacts.surfaces.ofParticles;
     if (contacts.hasStops()) {

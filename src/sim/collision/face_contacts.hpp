@@ -36,7 +36,7 @@ struct Contacts {
     surfaces::Surfaces surfaces;
     BufferId corners, directions, weights, shares, impulses;
     BufferId cornerEnds;    ///< by slot: behind the last face of it in `corners` that counts
-    BufferId marks;         ///< contact_lists::linkedMarks; only where something keeps its rest or hasInner()
+    BufferId marks;         ///< contact_lists::linkedMarks; only where something keeps its rest or hasSolid()
     bool keepsRest = false; ///< of any particle
     BufferId bounces;       ///< only where something rebounds
     BufferId before;        ///< velocities when the substep began, set in each
@@ -47,6 +47,7 @@ struct Contacts {
     std::uint32_t movingPointCount = 0;
 
     bool hasInner() const { return firstInner < push.moving; }
+    bool hasSolid() const { return push.sheets < push.moving; }
     /// Whether some face never gives way.
     bool hasStops() const { return lists.push.moving < faces; }
 };
