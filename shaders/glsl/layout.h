@@ -455,8 +455,7 @@ struct PackedSubstepPush {
 // The part of its volume below which a cell is unfolded, with all pressure from 0 on.
 #define RECOVERY_START 0.5
 
-// A run of slices of a block of columns: what one invocation marches. Where an invocation computes one node, a run of
-// slots.
+// A run of slices of a block of columns, which one invocation marches; or a run of slots, each the node of an invocation.
 struct LatticeChunk {
     uint origin; // slot of its first node
     uint layers; // 0 = nothing to do; of a run of slots, their number

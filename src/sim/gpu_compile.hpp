@@ -9,8 +9,8 @@ namespace sinew::sim {
 /// Every device that is not a software one counts as a GPU.
 DeviceKind kindOf(const vk::Device& device);
 
-/// As the settings say, with the forms that they leave open as suits the device, but with no more shared
-/// memory and no longer texel buffers than the device has. Throws as compile().
+/// Compiles with the forms of the settings, with the forms that they leave open as suits the device, but with
+/// no more shared memory and no longer texel buffers than the device has. Throws as compile().
 StepProgram compileFor(const vk::Device& device, const Scene& scene, Settings settings);
 
 } // namespace sinew::sim

@@ -32,7 +32,7 @@ struct Tuning {
 Tuning tune(const vk::Device& device, const Scene& scene, const Settings& settings,
             const TimedSubmit& submit);
 
-/// The same with the forms that are tried on a device of that kind.
+/// Tries the forms that suit a device of that kind.
 Tuning tune(const vk::Device& device, const Scene& scene, const Settings& settings, const TimedSubmit& submit,
             DeviceKind kind);
 

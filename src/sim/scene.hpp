@@ -312,7 +312,7 @@ struct Forms {
     bool operator==(const Forms&) const = default;
 };
 
-/// What runs kernels: few threads with wide vectors, or many invocations at a time.
+/// Kinds of devices: few threads with wide vectors, or many invocations at a time.
 enum class DeviceKind { software, gpu };
 
 /// `forms` with what they leave open as it suits such a device, before anything is measured. A long march

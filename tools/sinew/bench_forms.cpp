@@ -54,7 +54,7 @@ bool mayBeListed(const sim::Scene& scene) {
     });
 }
 
-// Of large bodies few: a program of one takes seconds to make.
+// Large bodies have few: their programs take seconds to make.
 std::vector<sim::Forms> formsOf(const vk::Device& device, const sim::Scene& scene) {
     constexpr std::size_t largeBody = 200'000; // particles
     std::vector<sim::Forms> forms{{.columns = 2, .chunk = 16},

@@ -27,7 +27,7 @@ struct FormOptions {
 /// --forms.
 void addFormOptions(CLI::App& command, FormOptions& options);
 
-/// As --forms takes them.
+/// The words of --forms.
 std::string toText(const sim::Forms& forms);
 
 struct SceneOptions {

@@ -31,7 +31,7 @@ struct Batch {
          isCuttable = false;
     layout::LatticePush push{}; ///< count = chunks, or nodes in whole runs; the kernel of a whole step
                                 ///< decides it for resident bodies
-    /// What invocations march, padded with empty ones to whole work groups (for each body); where each
+    /// Chunks to march, padded with empty ones to whole work groups (for each body); where each
     /// computes one node, runs of LATTICE_GROUP nodes.
     std::vector<layout::LatticeChunk> chunks;
     std::vector<std::uint32_t> bodies; ///< resident: first slot of each
@@ -47,7 +47,7 @@ struct Batches {
 /// substep, which leave no body there.
 bool isResident(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids);
 
-/// Where bodies stay between substeps.
+/// The memory that holds bodies between substeps.
 enum class Residence { memory, sharedMemory };
 
 Batches batchesOf(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids,
