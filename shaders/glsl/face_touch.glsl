@@ -10,7 +10,7 @@ struct Touch {
     ContactFace face;
 };
 
-// What a cut parts keeps no distance: it touched nothing when the scene was loaded.
+// Pairs that a cut parts keep no distance: they touched nothing when the scene was loaded.
 Meeting keptMeetingOf(uint i, uvec2 candidate) {
     Meeting m = meetingOf(i, candidate);
     const bool canOpen = firstInner != ~0u, isParted = canOpen && areParted(i, m.face.a);

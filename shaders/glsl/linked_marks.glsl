@@ -1,4 +1,4 @@
-// Which linked body a particle is of, and what pairs of it do. In the name MARKS_BINDING.
+// The linked body of a particle, and the treatment of its pairs. In the name MARKS_BINDING.
 layout(std430, binding = MARKS_BINDING) readonly buffer Marks { uint marks[]; }; // 4 x body, + 2 = may be cut, + 1 = keeps its rest distance
 
 uint bodyOf(uint i) { return marks[i] / 4u; }

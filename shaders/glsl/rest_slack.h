@@ -3,6 +3,6 @@
 #ifndef REST_SLACK
 #define REST_SLACK 1e-4f
 
-// What a cut has let touch parts no faster than that [m/s].
+// Speed at which pairs part, at most, that a cut has let touch [m/s].
 #define CUT_RECOVERY_SPEED 0.1f
 #endif

@@ -41,7 +41,8 @@ struct BladeMotion {
     std::vector<std::vector<sim::Vec3>> edges; ///< one a time, of equally many points [m]
 };
 
-/// What bodies of a scene have that the scene does not ask for. A solver without a form for it does without.
+/// Properties that bodies have by default, though the scene does not ask for them. A solver without a form
+/// for it does without.
 struct Defaults {
     std::vector<std::uint32_t> recovery; ///< indices of Scene::grids: Grid::recoveryPressure
     std::vector<std::uint32_t>

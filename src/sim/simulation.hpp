@@ -370,7 +370,7 @@ public:
     /// triangles that pieces stand for are degenerate from then on. An empty view where no skin of a sheet
     /// may be cut.
     vk::BufferView pieceDraws() const noexcept;
-    /// Where the scene's colliders are at the end of the newest recorded step, one each in their order;
+    /// Poses of the scene's colliders at the end of the newest recorded step, one each in their order;
     /// before a step that has lacked lists, until it is repeated. Valid until the next call of this or of
     /// pokes(), and until the next step is recorded.
     std::span<const Pose> colliderPoses() const noexcept;
