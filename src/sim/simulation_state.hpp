@@ -343,7 +343,7 @@ struct Simulation::State {
     // Whether the host can no longer repeat the step that lacked lists: `frame` takes the place of its
     // status.
     bool missesRepetition(std::uint64_t frame) const noexcept {
-        return lackedLists && frame - *lackedLists >= ring.slots();
+        return lackedLists && frame >= *lackedLists + ring.slots();
     }
 
     // The host's part of a state.

@@ -1,4 +1,4 @@
-// What happens between a step that lacked lists of contacts and its repetition, and what a host may do wrong.
+// The time between a step that lacked lists of contacts and its repetition, and mistakes of hosts.
 #include "sim/calm_cases.hpp"
 #include "sim/hash.hpp"
 #include "sim/material.hpp"
@@ -86,7 +86,8 @@ double farthest(const ByHand& a, const ByHand& b) {
     return most;
 }
 
-// What is saved, seen or taken over before the repetition is the state before the step, on the host as well.
+// Before the repetition, the state that is saved, seen or taken over is that before the step, on the host as
+// well.
 TEST(RepeatedSteps, AreSavedAndTakenOverAsBeforeTheOneThatLackedLists) {
     const Case one = ledByTheHost();
     ByHand plain(one, false), calm(one, true);
@@ -153,6 +154,19 @@ TEST(RepeatedSteps, AreNotDoubledWhereTheHostNoLongerRepeats) {
     EXPECT_EQ(calm.simulation.complaints(), std::vector<std::string>{});
 }
 
+// A host may record earlier frames first, and comes to the one that lacked lists in time.
+TEST(RepeatedSteps, MayBeginBeforeTheOneThatLackedLists) {
+    const Case one = landing();
+    ByHand plain(one, false), calm(one, true);
+    const std::uint64_t broken = calm.untilBroken();
+    const auto noMore = [](Step& step) { step.repeats = false; };
+    EXPECT_TRUE(calm.step(broken - 1, noMore).lacksLists) << "it is not given up";
+    EXPECT_EQ(calm.simulation.complaints(), std::vector<std::string>{});
+    EXPECT_FALSE(calm.step(broken).isUndone);
+    for (std::uint64_t frame = 0; frame <= broken; ++frame) plain.step(frame);
+    EXPECT_EQ(calm.hash(), plain.hash());
+}
+
 // One that asks for steps that may be repeated and repeats none is told; without asking, steps go on.
 TEST(RepeatedSteps, ThatNobodyRepeatsAreSaid) {
     const Case one = landing();
@@ -174,7 +188,7 @@ TEST(RepeatedSteps, ThatNobodyRepeatsAreSaid) {
     EXPECT_EQ(calm.hash(), plain.hash());
 }
 
-// What a step needs that goes on from the wrong state is no lack of room.
+// A step that goes on from the wrong state asks for no room.
 TEST(RepeatedSteps, BehindOneThatLackedListsAskForNoRoom) {
     Case one = collision();
     one.settings.contactRoom = 1;
