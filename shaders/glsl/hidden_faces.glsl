@@ -67,7 +67,7 @@ bool isBehind(uint i, uint element, uint corners, uint beside) {
 // An overlap that such an edge did not push apart parts at the speed of recovery once it pushes again.
 void leaveOverlap(uint i, uint element) {
     const float own = weights[element].w;
-    if (keepsRest && keeps(i, faces[contacts[element].x].a)) return;
+    if (keeps(i, faces[contacts[element].x].a)) return;
     weights[element].w = rememberedOf(sign(own), 0.0, max(0.0, abs(own) - 1.0) + directions[element].w);
 }
 
