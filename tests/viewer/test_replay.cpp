@@ -445,7 +445,7 @@ TEST(StepBack, KeepsTheNewestAsFarAsThereIsRoom) {
     EXPECT_EQ(walk.stage.played(), played - History::mostSteps);
 }
 
-// Where there is room for few, all of them are kept, and steps that are taken back cost none.
+// Room for a few states keeps that many, and steps that are taken back cost none.
 TEST(StepBack, KeepsAsManyAsThereIsRoomFor) {
     constexpr std::size_t room = 9, more = 4;
     Walk walk;

@@ -1,4 +1,4 @@
-// What is expected of contacts that keep the distance that they have when the scene is loaded.
+// Checks of contacts that keep the distance that they have when the scene is loaded.
 #pragma once
 
 #include "sim/runner.hpp"

@@ -244,7 +244,7 @@ TEST(CutFaces, AreNoSofterForABladeThatMeetsNothing) {
     EXPECT_EQ(most, 0);
 }
 
-// What overlaps when the scene is loaded parts as fast as the scene says, also beside a body that may be cut.
+// Overlaps at load part as fast as the scene says, also beside a body that may be cut.
 TEST(CutFaces, LeaveTheSpeedAtWhichOthersRecover) {
     Scene scene{.name = "balls"};
     scene.gravity = {};
