@@ -14,8 +14,9 @@ case ${1:-} in
     --sanitize) mode=asan; shift ;;
 esac
 need "${build_packages[@]}" "${test_packages[@]}"
-echo "checking layers and format"
+echo "checking layers, documents and format"
 python3 tools/check_layers.py
+python3 tools/figures.py --check
 find src apps tools tests \( -name '*.cpp' -o -name '*.hpp' \) -print0 | xargs -0 clang-format --dry-run --Werror
 # on the software device, whatever else the machine has
 for icd in /usr/share/vulkan/icd.d/lvp_icd.*.json; do export VK_ICD_FILENAMES=$icd; done
