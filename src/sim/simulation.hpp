@@ -119,7 +119,7 @@ struct Status {
     std::uint32_t firstBadParticle = 0; ///< smallest index among them; meaningful where nonFinite > 0
     /// 0, or how many candidates lists of contacts would need room for, on average, where
     /// Settings::contactRoom is less: the step is undone, and so is every later one until a simulation with
-    /// more room takes over (Simulation::recordTakeOver; docs/architecture.md has the lines that do so).
+    /// more room takes over (Simulation::recordTakeOver; docs/embedding.md has the lines that do so).
     /// Counting ends at four times the room. More than there can be room for = too many anyway.
     std::uint32_t contactRoom = 0;
     /// The step is undone because contacts had to be listed anew in a substep for which it had no passes

@@ -184,7 +184,7 @@ TEST(Misuse, OfTheNumberOfStepsInFlightIsRefused) {
                   std::string::npos);
 }
 
-// The lines of docs/architecture.md, for a host without GrowingSimulation.
+// The lines of docs/embedding.md, for a host without GrowingSimulation.
 TEST(Misuse, OfRoomForContactsIsLoudAndHasACure) {
     const Scene scene = crowd(128);
     Settings settings = fewSubsteps;
