@@ -209,7 +209,8 @@ Plan Show::plan(double elapsed) {
     const bool isOneByOne = recording_ || replay_;
     const std::uint32_t most = isOneByOne ? 1 : budget_.steps(Playback::maxSteps);
     const bool isWaiting = stage_.lacksContactRoom() || stage_.wantsShape(); // until that is there
-    Plan plan = controller_.playback.plan(elapsed, isWaiting ? 0 : most);
+    const std::uint64_t undone = isDiverged_ ? 0 : stage_.undoneSteps();
+    Plan plan = controller_.playback.plan(elapsed, isWaiting ? 0 : most, undone);
     if (recording_ && !isWaiting && !controller_.playback.isPaused() && !plan.isReset) plan.steps = 1;
     if (plan.isReset && replay_ && from_) { // the state is put in anew, beside what plays
         if (mayOpen()) library_.playAgain(replay_->file(), pictureAspect());
@@ -242,8 +243,11 @@ void Show::draw(Plan plan, View& view) {
     screen_.presenter().waitForSlot();
     settleNext();
     if (surfaceMissing_ > 0) makeSurfaceRoom();
-    if (isDiverged_ && !plan.isReset) plan.steps = 0; // keeps the last finite picture
-    if (stage_.lacksContactRoom()) plan.steps = 0;    // since settle()
+    if (isDiverged_ && !plan.isReset) { // keeps the last finite picture
+        plan.steps = 0;
+        controller_.playback.dropSingleSteps();
+    }
+    if (stage_.lacksContactRoom()) plan.steps = 0; // since settle()
     const std::optional<Presenter::Frame> frame = screen_.presenter().begin();
     if (!frame) {
         if (plan.isReset) controller_.playback.reset();

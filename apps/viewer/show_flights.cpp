@@ -34,7 +34,8 @@ void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
         forgetFlights();
         isDiverged_ = isBroken_ = false;
     }
-    if (!stage_.lacksContactRoom() && !stage_.wantsShape() &&
+    const bool isWhole = stage_.undoneSteps() == 0 || isDiverged_; // else those steps are taken again first
+    if (!stage_.lacksContactRoom() && !stage_.wantsShape() && isWhole &&
         tools_.recordHistory(frame.commands, stage_)) { // else later, from where steps go on
         forgetFlights();
         isDiverged_ = false;
@@ -43,6 +44,10 @@ void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
     if (replay_ && plan.steps > 0 && !playInput(frame)) plan.steps = 0;
     stage_.setRepeats(!replay_); // a log has no such steps
     flight.firstStep = stage_.steps() + 1;
+    if (const std::uint64_t undone = stage_.undoneSteps(); undone > 0) // alone: what waits for them comes later
+        plan.steps = static_cast<std::uint32_t>(std::min<std::uint64_t>(plan.steps, undone));
+    else
+        controller_.playback.taken(plan.steps);
     flight.steps = plan.steps;
     for (std::uint32_t step = 0; step < plan.steps; ++step) {
         if (const auto material = stage_.recordTurn(frame.commands)) {
@@ -309,7 +314,6 @@ void Show::makeRoom(std::uint64_t step, const InFlight& undone) {
         stage_.keepShape();
         screen_.warn("the replay ends here: contacts need more room than when it was recorded");
     }
-    controller_.playback.owe(newest - stage_.steps());
     tools_.restart(stage_, forgetUndone(undone), newest - stage_.steps());
 }
 
@@ -320,7 +324,6 @@ void Show::repeatFrom(std::uint64_t step, const InFlight& undone) {
     stage_.goBackBefore(step);
     isBesideOut_ = true; // it has taken those steps
     gauges_.stepsRepeated(newest - stage_.steps());
-    controller_.playback.owe(newest - stage_.steps());
     tools_.takeBack(stage_, forgetUndone(undone), newest - stage_.steps());
 }
 

@@ -120,14 +120,21 @@ TEST(Playback, TakesItsTimeInSlowMotion) {
     EXPECT_EQ(playback.pace(), 1) << "and round again";
 }
 
+// Steps of a plan, all of which are recorded.
+std::uint32_t take(Playback& playback, double elapsed, std::uint32_t most = Playback::maxSteps) {
+    const std::uint32_t steps = playback.plan(elapsed, most).steps;
+    playback.taken(steps);
+    return steps;
+}
+
 TEST(Playback, TakesNoMoreStepsThanAskedFor) {
     Playback playback(dt);
-    EXPECT_EQ(playback.plan(1, 1).steps, 1u);
+    EXPECT_EQ(take(playback, 1, 1), 1u);
     playback.step();
     playback.step();
-    EXPECT_EQ(playback.plan(0, 1).steps, 1u);
-    EXPECT_EQ(playback.plan(0, 1).steps, 1u);
-    EXPECT_EQ(playback.plan(0, 1).steps, 0u);
+    EXPECT_EQ(take(playback, 0, 1), 1u);
+    EXPECT_EQ(take(playback, 0, 1), 1u);
+    EXPECT_EQ(take(playback, 0, 1), 0u);
 }
 
 TEST(Playback, StandsStillWhilePausedAndDoesNotJumpAfterwards) {
@@ -143,25 +150,48 @@ TEST(Playback, StepPausesAndTakesExactlyOne) {
     Playback playback(dt);
     playback.step();
     EXPECT_TRUE(playback.isPaused());
-    EXPECT_EQ(playback.plan(1).steps, 1u);
-    EXPECT_EQ(playback.plan(1).steps, 0u);
+    EXPECT_EQ(take(playback, 1), 1u);
+    EXPECT_EQ(take(playback, 1), 0u);
 }
 
 TEST(Playback, TakesStepsAgainThatWereUndoneWhilePaused) {
     Playback playback(dt);
+    playback.pause();
+    EXPECT_EQ(playback.plan(1, 2, 3).steps, 2u);
+    EXPECT_EQ(playback.plan(1, 2, 1).steps, 1u);
+    playback.step();
+    EXPECT_EQ(playback.plan(1, 2, 1).steps, 2u) << "and the one that was asked for";
+    playback.taken(0);
+    EXPECT_EQ(playback.plan(1, 2, 0).steps, 1u) << "which is still to come";
+    playback.toggle();
+    EXPECT_EQ(playback.plan(dt, 2, 3).steps, 1u) << "time goes on by itself";
+    playback.toggle();
+    EXPECT_EQ(playback.plan(1, 2, 0).steps, 0u);
+}
+
+TEST(Playback, KeepsSingleStepsUntilTheyAreTaken) {
+    Playback playback(dt);
     playback.step();
     EXPECT_EQ(playback.plan(1).steps, 1u);
-    playback.owe(1);
-    EXPECT_EQ(playback.plan(1).steps, 1u) << "the step that was asked for";
+    EXPECT_EQ(playback.plan(1, 0).steps, 0u) << "no step may be taken now";
+    EXPECT_EQ(playback.plan(1).steps, 1u) << "the plans before came to nothing";
+    playback.taken(1);
     EXPECT_EQ(playback.plan(1).steps, 0u);
-    playback.owe(3);
-    EXPECT_EQ(playback.plan(1, 2).steps, 2u);
-    EXPECT_EQ(playback.plan(1, 2).steps, 1u);
-    playback.toggle();
-    playback.owe(3);
-    EXPECT_EQ(playback.plan(dt).steps, 1u) << "time goes on by itself";
-    playback.toggle();
+    playback.step();
+    playback.dropSingleSteps();
     EXPECT_EQ(playback.plan(1).steps, 0u);
+}
+
+TEST(Playback, DropsStepsThatWereUndoneAtAReset) {
+    Playback playback(dt);
+    playback.pause();
+    playback.reset();
+    const Plan plan = playback.plan(1, 2, 2);
+    EXPECT_TRUE(plan.isReset);
+    EXPECT_EQ(plan.steps, 0u);
+    playback.reset();
+    playback.step();
+    EXPECT_EQ(playback.plan(1, 2, 2).steps, 1u) << "asked for after the reset";
 }
 
 TEST(Playback, ResetComesOnceAndAlsoWhilePaused) {

@@ -36,7 +36,7 @@ Stage::~Stage() {
 
 void Stage::recordReset(VkCommandBuffer commands) noexcept {
     growing_.simulation().recordReset(commands);
-    steps_ = played_ = 0;
+    steps_ = newest_ = played_ = 0;
 }
 
 app::SavedRun Stage::save(const vk::Device& device, vk::Queue& queue) const {
@@ -57,7 +57,7 @@ void Stage::load(const vk::Device& device, const app::SavedRun& run, vk::Queue& 
     }
     app::loadRun(device, growing_, run, queue);
     gravity_ = run.gravity;
-    steps_ = 0;
+    steps_ = newest_ = 0;
     played_ = run.played;
 }
 
@@ -67,6 +67,7 @@ void Stage::recordStep(VkCommandBuffer commands, vk::Timestamps* timestamps, std
     ++recordedSteps_;
     const sim::Blade scripted = blades_.at(played_++);
     sim::Step step{.dt = scene_.dt, .gravity = gravity_, .frame = ++steps_};
+    newest_ = std::max(newest_, steps_);
     step.grabs = grabs;
     step.pokes = pokes;
     step.repeats = repeats_;
@@ -174,6 +175,7 @@ void Stage::takeOver(const Stage& from, const app::Bring& bring) {
     growing_.takeOver(from.growing_, bring);
     gravity_ = from.gravity_;
     steps_ = from.steps_;
+    newest_ = from.newest_;
     played_ = from.played_;
 }
 
@@ -187,6 +189,7 @@ void Stage::recordTakeOver(VkCommandBuffer commands, const Stage& from) {
     simulation().recordTakeOver(commands, from.simulation());
     gravity_ = from.gravity_;
     steps_ = from.steps_;
+    newest_ = from.newest_;
     played_ = from.played_;
 }
 
@@ -205,7 +208,7 @@ Stage::Turn Stage::takeTurn(bool isPaused) {
 std::optional<sim::Material> Stage::recordTurn(VkCommandBuffer commands) noexcept {
     while (!recorded_.empty() && recorded_.front().step + sim::Simulation::framesInFlight < recordedSteps_)
         recorded_.pop_front();
-    if (!ready_) return std::nullopt;
+    if (!isTurnReady()) return std::nullopt;
     Turned turned = *std::exchange(ready_, std::nullopt);
     simulation().recordChange(commands, *turned.change);
     recorded_.push_back({std::move(*turned.change), recordedSteps_});

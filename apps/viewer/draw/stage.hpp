@@ -76,8 +76,8 @@ public:
     /// are needed for. Throws likewise: all is then as it was.
     enum class Turn { none, ready, refused };
     Turn takeTurn(bool isPaused);
-    /// Records what is ready: the next step has that material. Nothing where nothing is. Steps do so
-    /// themselves.
+    /// Records what is ready: the next step has that material. Nothing where nothing is, or where undoneSteps()
+    /// come first. Steps do so themselves.
     std::optional<sim::Material> recordTurn(VkCommandBuffer commands) noexcept;
     const sim::Material& material() const noexcept { return material_; }
     /// Of the scene as it is.
@@ -111,10 +111,17 @@ public:
 
     /// Steps of the time that blades cut by themselves in: steps() where no earlier state was gone back to.
     std::uint64_t played() const noexcept { return played_; }
-    void setPlayed(std::uint64_t steps) noexcept { played_ = steps; }
+    /// After the state of so many of them was loaded: steps that were undone before are not taken again.
+    void setPlayed(std::uint64_t steps) noexcept {
+        played_ = steps;
+        newest_ = steps_;
+    }
 
     /// Taken since the reset.
     std::uint64_t steps() const noexcept { return steps_; }
+    /// Steps behind steps() that had been taken, were undone and are to be taken again, before another
+    /// material or an earlier state may come.
+    std::uint64_t undoneSteps() const noexcept { return newest_ - steps_; }
 
     /// What a finished step found: nothing where all is well, or where a step after a reset has taken its
     /// place. It must be one of the last Simulation::framesInFlight recorded.
@@ -127,7 +134,7 @@ public:
     void setRepeats(bool repeats) noexcept { repeats_ = repeats; }
     bool repeats() const noexcept { return repeats_; }
     /// Whether the next step is of another material, which recordTurn() records.
-    bool isTurnReady() const noexcept { return ready_.has_value(); }
+    bool isTurnReady() const noexcept { return ready_ && undoneSteps() == 0; }
     /// Status::lacksLists of such a step: it was undone, and all after it.
     bool lacksLists(std::uint64_t step) const;
     /// The next step is that one, which was undone, again. All that were recorded have finished.
@@ -215,6 +222,7 @@ private:
     scenes::ScriptedBlades blades_;
     sim::Vec3 gravity_, down_{0, -1, 0};
     std::uint64_t steps_ = 0, played_ = 0, recordedSteps_ = 0;
+    std::uint64_t newest_ = 0; // of the steps that were recorded, undone or not: steps_ or more
     bool repeats_ = false;
     sim::Material material_;
     std::optional<sim::Material> wanted_; // after what is being prepared

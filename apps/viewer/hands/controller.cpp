@@ -7,12 +7,12 @@
 
 namespace sinew::viewer {
 
-Plan Playback::plan(double elapsed, std::uint32_t mostSteps) {
+Plan Playback::plan(double elapsed, std::uint32_t mostSteps, std::uint64_t undone) {
     Plan plan{.isReset = std::exchange(wantsReset_, false)};
     if (isPaused_ || plan.isReset) {
         owed_ = 0;
-        plan.steps = isPaused_ ? std::min(singleSteps_, mostSteps) : 0;
-        singleSteps_ -= plan.steps;
+        const std::uint64_t wanted = singleSteps_ + (plan.isReset ? 0 : undone);
+        if (isPaused_) plan.steps = static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, mostSteps));
         return plan;
     }
     owed_ += pace_ * elapsed;

@@ -4,6 +4,7 @@
 #include "viewer/draw/camera.hpp"
 #include "viewer/hands/bindings.hpp"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace sinew::viewer {
@@ -21,12 +22,14 @@ public:
 
     explicit Playback(double dt) : dt_(dt) {}
 
-    /// So many steps were undone that had been taken: while paused they are taken again like single steps.
-    void owe(std::uint64_t steps) {
-        if (isPaused_) singleSteps_ += static_cast<std::uint32_t>(steps);
-    }
-    /// `elapsed` is the time since the last call [s].
-    Plan plan(double elapsed, std::uint32_t mostSteps = maxSteps);
+    /// `elapsed` is the time since the last call [s]. `undone` steps had been taken and are to be taken again:
+    /// while paused the plan has them before single steps, and a reset drops them.
+    Plan plan(double elapsed, std::uint32_t mostSteps = maxSteps, std::uint64_t undone = 0);
+    /// So many steps were recorded that were not taken before. Single steps stay in plans until then, because
+    /// a plan may come to nothing.
+    void taken(std::uint32_t steps) { singleSteps_ -= std::min(singleSteps_, steps); }
+    /// No single step is taken after all.
+    void dropSingleSteps() { singleSteps_ = 0; }
 
     /// Seconds of the scene in a second of the clock, from now on.
     void setPace(double pace) { pace_ = pace; }

@@ -1,0 +1,120 @@
+// Steps of a stage that lacked lists of contacts and are taken again: what must come after them comes after
+// them, and times count them once.
+#include "sim/calm_cases.hpp"
+#include "sim/hash.hpp"
+#include "support/device.hpp"
+#include "viewer/headless_times.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <regex>
+#include <string>
+#include <thread>
+
+namespace sinew::viewer {
+namespace {
+
+// A box that falls on a floor: some calm step lacks lists.
+struct Landing {
+    sim::Case one = sim::landing();
+    Stage stage{test::device(), one.scene, one.settings};
+
+    explicit Landing(bool repeats) {
+        run([&](VkCommandBuffer commands) { stage.recordReset(commands); });
+        stage.setRepeats(repeats);
+    }
+    template <typename Record> void run(const Record& record) {
+        const VkCommandBuffer commands = test::queue().begin();
+        record(commands);
+        test::queue().wait(test::queue().submit(commands));
+    }
+    void step(vk::Timestamps* timestamps = nullptr) {
+        run([&](VkCommandBuffer commands) { stage.recordStep(commands, timestamps); });
+    }
+    // Steps until one has lacked lists, and `more` behind it; the stage is then before that one.
+    std::uint64_t untilUndone(std::uint64_t more) {
+        do step();
+        while (!stage.lacksLists(stage.steps()) && stage.steps() < one.steps);
+        const std::uint64_t undone = stage.steps();
+        EXPECT_TRUE(stage.lacksLists(undone)) << "none lacks lists";
+        for (std::uint64_t i = 0; i < more; ++i) step();
+        stage.goBackBefore(undone);
+        return undone;
+    }
+    void prepare(const sim::Material& material) {
+        stage.turn(material);
+        while (stage.takeTurn(false) == Stage::Turn::none)
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    std::uint64_t hash() const {
+        std::uint64_t hash = sim::fnv1a({});
+        for (const vk::BufferView& view : {stage.simulation().positions(), stage.simulation().velocities()})
+            hash = sim::fnv1a(test::queue().download<std::byte>(view), hash);
+        return hash;
+    }
+};
+
+TEST(StageRepeats, TakesAnotherMaterialBehindStepsThatWereUndone) {
+    const sim::Material soft{.stiffness = 0.5f};
+    Landing calm(true), plain(false);
+    const std::uint64_t undone = calm.untilUndone(2), newest = undone + 2;
+    calm.prepare(soft); // while the repetition is still to come
+    EXPECT_EQ(calm.stage.undoneSteps(), 3u);
+    EXPECT_FALSE(calm.stage.isTurnReady());
+    for (std::uint64_t left = 3; left > 0; --left) {
+        calm.step();
+        EXPECT_EQ(calm.stage.undoneSteps(), left - 1);
+        EXPECT_EQ(calm.stage.material(), sim::Material{}) << "step " << calm.stage.steps();
+    }
+    EXPECT_TRUE(calm.stage.isTurnReady());
+    while (plain.stage.steps() < newest) plain.step();
+    EXPECT_EQ(calm.hash(), plain.hash());
+    plain.prepare(soft);
+    for (int i = 0; i < 3; ++i)
+        for (Landing* each : {&calm, &plain}) each->step();
+    EXPECT_EQ(calm.stage.material(), soft);
+    EXPECT_EQ(calm.hash(), plain.hash());
+}
+
+TEST(StageRepeats, AreDroppedWithTheStateThatTheyLedFrom) {
+    Landing reset(true), loaded(true);
+    reset.untilUndone(1);
+    EXPECT_EQ(reset.stage.undoneSteps(), 2u);
+    reset.run([&](VkCommandBuffer commands) { reset.stage.recordReset(commands); });
+    EXPECT_EQ(reset.stage.undoneSteps(), 0u);
+    reset.step();
+    EXPECT_EQ(reset.stage.undoneSteps(), 0u);
+    loaded.untilUndone(1);
+    loaded.stage.setPlayed(1); // as History does with the state that it loads
+    EXPECT_EQ(loaded.stage.undoneSteps(), 0u);
+}
+
+// As viewer --headless --timing does.
+TEST(HeadlessTimes, CountEachStepOnceThatWasTakenAgain) {
+    Landing landing(true);
+    Stage& stage = landing.stage;
+    HeadlessTimes times(test::device(), stage);
+    constexpr std::uint64_t inFlight = 3;
+    std::uint64_t settled = 0, repeated = 0;
+    while (settled < landing.one.steps) {
+        while (stage.steps() < std::min(settled + inFlight, landing.one.steps))
+            landing.step(times.ofStep(stage.steps() + 1));
+        if (stage.lacksLists(settled + 1)) {
+            repeated += stage.steps() - settled;
+            stage.goBackBefore(settled + 1);
+            continue;
+        }
+        times.stepFinished(++settled);
+    }
+    EXPECT_GE(repeated, inFlight) << "no step was taken again";
+    const std::string table = times.table();
+    std::smatch found;
+    ASSERT_TRUE(std::regex_search(table, found, std::regex("step, on the device \\[ms\\] +([0-9]+)")))
+        << table;
+    EXPECT_EQ(std::stoull(found[1]), landing.one.steps) << table;
+}
+
+} // namespace
+} // namespace sinew::viewer
