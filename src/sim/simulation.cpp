@@ -309,7 +309,9 @@ vk::BufferView Simulation::forceSums() const noexcept {
 }
 
 std::vector<std::string> Simulation::complaints() {
-    if (const auto lack = state_->ring.lackOfRoom())
+    state_->readSteps();
+    const std::uint64_t end = state_->lackedLists.value_or(~std::uint64_t{0}); // those behind it are undone
+    if (const auto lack = state_->ring.lackOfRoom(state_->generation, end))
         state_->misuse.note(Misuse::contactRoom, lack->frame, lack->needed, state_->chosen.contactRoom);
     std::vector<std::string> sentences = std::exchange(state_->untold, {});
     std::ranges::move(state_->misuse.take(), std::back_inserter(sentences));

@@ -116,18 +116,14 @@ std::optional<std::uint64_t> StepRing::oldestUnfinished() const noexcept {
     return oldest;
 }
 
-// Steps behind one that lacked lists go on from another state: what they need is not known.
-std::optional<StepRing::Lack> StepRing::lackOfRoom() const noexcept {
+std::optional<StepRing::Lack> StepRing::lackOfRoom(std::uint32_t generation,
+                                                   std::uint64_t end) const noexcept {
     std::optional<Lack> oldest;
-    std::uint64_t end = ~std::uint64_t{0};
-    for (const RecordedStep& one : steps_)
-        if (one.isRecorded && isFinished(one.frame) && words(one.frame).lacksLists > 0)
-            end = std::min(end, one.frame);
     for (const RecordedStep& one : steps_) {
-        if (!one.isRecorded || !isFinished(one.frame)) continue;
+        const bool isOwn = one.generation == generation && one.frame < end;
+        if (!isOwn || !one.isRecorded || !isFinished(one.frame)) continue;
         const std::uint32_t needed = words(one.frame).candidates;
-        if (needed > 0 && one.frame <= end && (!oldest || one.frame < oldest->frame))
-            oldest = Lack{one.frame, needed};
+        if (needed > 0 && (!oldest || one.frame < oldest->frame)) oldest = Lack{one.frame, needed};
     }
     return oldest;
 }

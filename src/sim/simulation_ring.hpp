@@ -59,12 +59,13 @@ public:
     std::uint64_t undoneUntil(std::uint64_t frame) const noexcept;
     /// The oldest step that was recorded and has not come back.
     std::optional<std::uint64_t> oldestUnfinished() const noexcept;
-    /// The oldest step in a slot that was undone for lack of room, and how many particles need it.
+    /// The oldest step of `generation` in a slot that was undone for lack of room, and how many particles need
+    /// it. Steps from `end` on do not count: they go on from the state of a step that lacked lists.
     struct Lack {
         std::uint64_t frame = 0;
         std::uint32_t needed = 0;
     };
-    std::optional<Lack> lackOfRoom() const noexcept;
+    std::optional<Lack> lackOfRoom(std::uint32_t generation, std::uint64_t end) const noexcept;
 
 private:
     static vk::BufferView slotIn(const vk::Buffer& ring, std::uint32_t slot, std::size_t size) noexcept;

@@ -203,9 +203,30 @@ TEST(RepeatedSteps, BehindOneThatLackedListsAskForNoRoom) {
     EXPECT_EQ(calm.simulation.complaints(), std::vector<std::string>{});
     const Status again = calm.step(frame);
     EXPECT_EQ(again.contactRoom, 0u);
+    EXPECT_GT(calm.simulation.status(frame + 1).contactRoom, 0u) << "its status still has its slot";
+    EXPECT_EQ(calm.simulation.complaints(), std::vector<std::string>{}) << "of steps before the repetition";
     EXPECT_FALSE(again.isUndone);
     for (std::uint64_t before = 0; before <= frame; ++before) EXPECT_FALSE(plain.step(before).isUndone);
     EXPECT_LT(farthest(calm, plain), 1e-5) << "the undone step had longer substeps";
+}
+
+// One that took the place of the step that lacked lists, and goes on from the wrong state.
+TEST(RepeatedSteps, ThatNobodyRepeatsAskForNoRoom) {
+    Case one = collision();
+    one.settings.contactRoom = 1;
+    one.settings.substeps = 4;
+    ByHand calm(one, true);
+    std::uint64_t frame = 0;
+    while (frame < one.steps && !calm.step(frame).lacksLists) ++frame;
+    ASSERT_LT(frame, one.steps);
+    const std::uint64_t slots = one.settings.framesInFlight;
+    Status behind;
+    for (std::uint64_t next = frame + 1; next <= frame + slots; ++next)
+        behind = calm.step(next, [](Step& step) { step.dt = 0.1f; });
+    EXPECT_GT(behind.contactRoom, 0u);
+    const std::vector<std::string> said = calm.simulation.complaints();
+    ASSERT_EQ(said.size(), 1u) << said.back();
+    EXPECT_NE(said[0].find("was not repeated"), std::string::npos) << said[0];
 }
 
 // Another material behind a step in flight that may be repeated is said; once all came back it is not, and
