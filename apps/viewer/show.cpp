@@ -241,7 +241,7 @@ bool Show::prepareSwapchain() {
 
 void Show::draw(Plan plan, View& view) {
     screen_.presenter().waitForSlot();
-    settleNext();
+    settleNext(plan);
     if (surfaceMissing_ > 0) makeSurfaceRoom();
     if (isDiverged_ && !plan.isReset) { // keeps the last finite picture
         plan.steps = 0;

@@ -185,7 +185,7 @@ private:
     void repeatFrom(std::uint64_t step, const InFlight& undone);
     std::vector<Sweep> forgetUndone(const InFlight& undone);
     void settleAll();
-    void settleNext();
+    void settleNext(const Plan& plan);
     void warnOfMistakes();
     void reportFiles(PictureWriter::Wait wait);
 

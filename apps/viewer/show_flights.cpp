@@ -327,10 +327,13 @@ void Show::repeatFrom(std::uint64_t step, const InFlight& undone) {
     tools_.takeBack(stage_, forgetUndone(undone), newest - stage_.steps());
 }
 
-// A step that lacked lists is to be repeated before anything that it must not go back behind.
-void Show::settleNext() {
-    const bool isTurning = tools_.wantsHistory() || stage_.isTurnReady();
-    if (stage_.repeats() && isTurning) return settleAll();
+// A step that lacked lists is to be repeated before anything that it must not go back behind. Nothing is
+// waited for while no such step is on its way, or while a material is there that no step asks for.
+void Show::settleNext(const Plan& plan) {
+    const bool isTurning = tools_.wantsHistory() || (stage_.isTurnReady() && plan.steps > 0);
+    const bool areOnTheirWay =
+        std::ranges::any_of(inFlight_, [](const InFlight& flight) { return flight.steps > 0; });
+    if (stage_.repeats() && isTurning && areOnTheirWay) return settleAll();
     settle(screen_.presenter().nextSlot());
 }
 
