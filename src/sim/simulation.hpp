@@ -194,9 +194,10 @@ struct SavedState {
     double colliderTime = 0;     ///< how far colliders have gone along their paths [s]
     std::vector<Vec3> anchors{}; ///< of the scene's attachments [m]
     std::vector<PokeState> pokes{};
-    bool hasNewTopology = false; ///< recordLoadTopology() since the last step
-    std::uint32_t changes = 0;   ///< recordChange() before it
-    bool isUncut = false;        ///< nothing can have been cut since the reset
+    bool hasNewTopology = false;    ///< recordLoadTopology() since the last step
+    std::uint32_t changes = 0;      ///< recordChange() before it
+    bool isUncut = false;           ///< nothing can have been cut since the reset
+    std::optional<float> undoneH{}; ///< substep of steps behind that one, which were undone [s]
 };
 
 /// What recordSkin() makes of skins that were split so that they may be cut: all of their triangles, or those

@@ -353,6 +353,7 @@ struct Simulation::State {
         std::copy_n(saved.pokes.begin(), std::min(saved.pokes.size(), pokes.size()), pokes.begin());
         settledEnd = {saved.h, saved.colliderTime, pokes};
         forgetUnsettled();
+        undoneH = saved.undoneH;
         anchors.moveTo(saved.anchors);
         hasNewTopology = saved.hasNewTopology;
         isUncut = saved.isUncut;

@@ -71,6 +71,7 @@ void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from, 
         end = other.settled(other.nextFrame + frame, end);
     state_->settledEnd = end;
     state_->previousH = isAlike ? end.h : 0;
+        state_->undoneH.reset(); // what it has kept of the last step that came to its end is handed over
     state_->anchors = other.anchors;
     if (isAlike) state_->hands = other.hands;
     state_->isUncut = other.isUncut;
@@ -160,7 +161,7 @@ SavedState Simulation::recordSaveState(VkCommandBuffer buffer, const vk::BufferV
     return {state_->previousH,        state_->colliders.time(),
             state_->anchors.places(), {pokes.begin(), pokes.end()},
             state_->hasNewTopology,   state_->changes,
-            state_->isUncut};
+            state_->isUncut,          state_->undoneH};
 }
 
 void Simulation::recordLoadState(VkCommandBuffer buffer, const vk::BufferView& from,

@@ -210,6 +210,27 @@ TEST(RepeatedSteps, BehindOneThatLackedListsAskForNoRoom) {
     EXPECT_LT(farthest(calm, plain), 1e-5) << "the undone step had longer substeps";
 }
 
+// Steps behind the one that lacked lists were longer, and left positions as such steps do.
+TEST(RepeatedSteps, BehindWhichStepsWereLongerAreSavedAndTakenOver) {
+    const Case one = collision();
+    ByHand plain(one, false), calm(one, true), other(one, true);
+    std::uint64_t frame = 0;
+    while (frame < one.steps && !calm.step(frame).lacksLists) ++frame;
+    ASSERT_LT(frame, one.steps);
+    EXPECT_TRUE(calm.step(frame + 1, [](Step& step) { step.dt = 0.1f; }).isUndone);
+    other.submit([&](VkCommandBuffer c) { other.simulation.recordTakeOver(c, calm.simulation); });
+    const vk::Buffer saved(test::device(),
+                           {.name = "saved", .count = calm.simulation.stateSize() / 4, .stride = 4});
+    const SavedState host = calm.save(saved);
+    calm.submit([&](VkCommandBuffer c) { calm.simulation.recordReset(c); });
+    calm.step(0);
+    calm.submit([&](VkCommandBuffer c) { calm.simulation.recordLoadState(c, saved.view(), host); });
+    for (std::uint64_t before = 0; before < frame; ++before) plain.step(before);
+    for (ByHand* each : {&plain, &calm, &other}) EXPECT_FALSE(each->step(frame).isUndone);
+    EXPECT_LT(farthest(calm, plain), 1e-5) << "what was saved";
+    EXPECT_LT(farthest(other, plain), 1e-5) << "what took over";
+}
+
 // One that took the place of the step that lacked lists, and goes on from the wrong state.
 TEST(RepeatedSteps, ThatNobodyRepeatsAskForNoRoom) {
     Case one = collision();
