@@ -3,6 +3,7 @@
 
 #include "app/guard.hpp"
 #include "mesh/export.hpp"
+#include "sim/gpu_compile.hpp"
 #include "sim/hash.hpp"
 #include "sim/ranges.hpp"
 #include "vk/commands.hpp"
@@ -150,6 +151,7 @@ SavedRun saveRun(const vk::Device& device, const GrowingSimulation& growing, vk:
     const vk::Buffer copy = bufferFor(device, simulation.stateSize(), vk::MemoryKind::readback);
     const VkCommandBuffer commands = queue.begin();
     SavedRun run{.settings = growing.settings(), .key = simulation.stateKey()};
+    run.settings.forms = sim::completed(run.settings.forms, sim::kindOf(device)); // on other kinds as well
     run.host = simulation.recordSaveState(commands, copy.view());
     run.host.pokes.clear();
     vk::Commands(device, commands).hostBarrier();

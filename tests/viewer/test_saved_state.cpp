@@ -2,6 +2,7 @@
 // refused.
 #include "app/guard.hpp"
 #include "app/state_file.hpp"
+#include "sim/gpu_compile.hpp"
 #include "sim/hash.hpp"
 #include "support/device.hpp"
 #include "viewer/draw/stage.hpp"
@@ -117,6 +118,18 @@ TEST_F(SavedState, GoesOnWithTheSameBits) {
         EXPECT_EQ(again.status().pieces, played.status().pieces);
     }
     EXPECT_GT(played.status().linksCutInAll, 0u) << "the blade met nothing";
+}
+
+// A device of another kind would complete open forms otherwise, and come to a simulation that the state does
+// not fit.
+TEST_F(SavedState, SaysTheFormsThatTheDeviceHasChosen) {
+    Played played(scene);
+    ASSERT_EQ(played.stage.settings().forms.columns, 0u) << "left open";
+    save(played);
+    const sim::Forms forms = app::readRun(file).settings.forms;
+    EXPECT_EQ(forms, sim::completed(played.stage.settings().forms, sim::kindOf(test::device())));
+    EXPECT_GT(forms.columns, 0u);
+    EXPECT_GT(forms.chunk, 0u);
 }
 
 TEST_F(SavedState, KeepsWhatTheSceneWasTurnedTo) {
