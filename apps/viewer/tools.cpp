@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <stdexcept>
 #include <utility>
 
 namespace sinew::viewer {
@@ -172,6 +173,9 @@ app::Bring Tools::bringOf(const Tools& before) {
         try {
             history_.bring(before.history_, from, giving, to, taking);
         } catch (const vk::Error&) {
+            history_.clear();
+            isLost_ = true;
+        } catch (const std::invalid_argument&) { // states with cuts, for a solver without
             history_.clear();
             isLost_ = true;
         }

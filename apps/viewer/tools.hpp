@@ -50,7 +50,8 @@ public:
     void shape(Stage& stage, const Shaped& shaped);
     void reshaped();
     /// For what gives a stage another simulation: brings over what can be undone; that of `before`, for a
-    /// stage that takes over from another one. Without memory for it nothing can be undone any more.
+    /// stage that takes over from another one. Without memory for it, or with cuts for
+    /// a solver that has no form for them, nothing can be undone any more.
     app::Bring bring() { return bringOf(*this); }
     app::Bring bringOf(const Tools& before);
     /// Instead of reset(): the stage has come to where it is without them.

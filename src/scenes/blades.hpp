@@ -31,6 +31,7 @@ public:
     ScriptedBlades() = default;
     ScriptedBlades(std::vector<BladeMotion> motions, float dt);
 
+    bool areAny() const noexcept { return !motions_.empty(); }
     /// What cuts in step `frame`, counted from 0: a blade that cuts nothing where none is on its way. Good
     /// until the next call. Never allocates.
     sim::Blade at(std::uint64_t frame) noexcept;

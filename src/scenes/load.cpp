@@ -8,6 +8,7 @@
 #include "scenes/check_solver.hpp"
 #include "scenes/origin.hpp"
 #include "scenes/path.hpp"
+#include "scenes/recovery.hpp"
 #include "scenes/sentences.hpp"
 #include "scenes/surface.hpp"
 #include "scenes/untouched.hpp"
@@ -122,12 +123,8 @@ void readBodies(LoadedScene& loaded, const Section& top, const Source& source, s
 
 // A solver to compare with is asked for from outside and knows no cuts. That must not keep a scene from it
 // that is only offered for cutting; one that cuts or tears by itself would be another scene, and is refused.
-void leaveWhole(const Overrides& overrides, LoadedScene& loaded) {
-    if (!overrides.solver || loaded.settings.solver == sim::Solver::split || !loaded.blades.empty()) return;
-    std::vector<sim::Grid>& grids = loaded.scene.grids;
-    if (std::ranges::any_of(grids, [](const sim::Grid& grid) { return grid.tearStrain > 0; })) return;
-    if (std::ranges::none_of(grids, &sim::Grid::isCuttable)) return;
-    for (sim::Grid& grid : grids) grid.isCuttable = false;
+void leaveWholeAsAsked(const Overrides& overrides, LoadedScene& loaded) {
+    if (!overrides.solver || !loaded.blades.empty() || !leaveWhole(loaded.scene, loaded.settings)) return;
     loaded.warnings.push_back("nothing can be cut with solver " + *overrides.solver + ": use split");
 }
 
@@ -314,7 +311,7 @@ LoadedScene read(const std::string& text, const Source& source, const Overrides&
     apply(overrides, loaded);
     loaded.origin = originOf(top);
     readBodies(loaded, top, source, overrides.voxel);
-    leaveWhole(overrides, loaded);
+    leaveWholeAsAsked(overrides, loaded);
     if (top.has("camera")) {
         const Section camera = top.child("camera");
         loaded.camera = Camera{localPoint(camera, "eye", loaded.origin),

@@ -5,6 +5,7 @@
 #include "sim/ranges.hpp"
 #include "sim/validate.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <stdexcept>
@@ -57,6 +58,14 @@ sim::Scene withoutDefaults(sim::Scene scene, const Defaults& defaults, const sim
     if (settings.solver != sim::Solver::split)
         for (const std::uint32_t body : defaults.contacts) untouch(scene, scene.bodies[body]);
     return scene;
+}
+
+bool leaveWhole(sim::Scene& scene, const sim::Settings& settings) {
+    const auto tears = [](const sim::Grid& grid) { return grid.tearStrain > 0; };
+    const bool isRefused = settings.solver == sim::Solver::split || std::ranges::any_of(scene.grids, tears);
+    if (isRefused || std::ranges::none_of(scene.grids, &sim::Grid::isCuttable)) return false;
+    for (sim::Grid& grid : scene.grids) grid.isCuttable = false;
+    return true;
 }
 
 std::vector<std::string> recoveryLeftOut(const LoadedScene& loaded, const sim::Settings& settings) {

@@ -15,6 +15,10 @@ float recoveryOf(LoadedScene& loaded, const Section& section, const std::string&
 /// solver than split.
 sim::Scene withoutDefaults(sim::Scene scene, const Defaults& defaults, const sim::Settings& settings);
 
+/// Makes bodies that may be cut whole where the solver is not split, unless one of them tears by itself.
+/// Returns whether any was. `scene` must have no blades of its own.
+bool leaveWhole(sim::Scene& scene, const sim::Settings& settings);
+
 /// Notes on the bodies of `loaded` that recover as it was loaded, but not with `settings`.
 std::vector<std::string> recoveryLeftOut(const LoadedScene& loaded, const sim::Settings& settings);
 

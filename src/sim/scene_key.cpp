@@ -32,11 +32,21 @@ private:
     std::uint64_t value_ = 0xcbf29ce484222325u;
 };
 
-void addLinks(Key& key, const Scene& scene) {
-    key.each(scene.particles,
-             [&](const Particle& p) { key.addAll(p.position, p.inverseMass, p.radius, p.contactOffset); });
+// Contacts and cuts, for which `split` alone has forms.
+void addOfSplit(Key& key, const Scene& scene) {
+    key.each(scene.particles, [&](const Particle& p) { key.add(p.radius); });
     if (std::ranges::any_of(scene.particles, &Particle::keepsRest))
         key.each(scene.particles, [&](const Particle& p) { key.add(p.keepsRest); });
+    key.each(scene.faces, [&](const Face& face) {
+        key.addAll(face.particles[0], face.particles[1], face.particles[2], face.thickness, face.isSolid);
+    });
+    key.each(scene.grids, [&](const Grid& grid) { key.addAll(grid.isCuttable, grid.tearStrain); });
+    key.add(scene.crumbs);
+}
+
+void addLinks(Key& key, const Scene& scene) {
+    key.each(scene.particles,
+             [&](const Particle& p) { key.addAll(p.position, p.inverseMass, p.contactOffset); });
     key.each(scene.distances, [&](const DistanceConstraint& d) { key.addAll(d.a, d.b, d.restLength); });
     key.each(scene.bends, [&](const BendConstraint& bend) { key.addAll(bend.a, bend.b, bend.c); });
     key.each(scene.attachments, [&](const Attachment& a) { key.add(a.particle); });
@@ -61,9 +71,6 @@ void addSurroundings(Key& key, const Scene& scene) {
         key.all(body.particles);
         addPath(key, body.path, body.pathEnd);
     });
-    key.each(scene.faces, [&](const Face& face) {
-        key.addAll(face.particles[0], face.particles[1], face.particles[2], face.thickness, face.isSolid);
-    });
 }
 
 void addBodies(Key& key, const Scene& scene) {
@@ -71,7 +78,7 @@ void addBodies(Key& key, const Scene& scene) {
         key.all(grid.nodes);
         key.all(grid.node);
         key.all(grid.fill);
-        key.addAll(grid.firstParticle, grid.kinds, grid.isCuttable, grid.tearStrain);
+        key.addAll(grid.firstParticle, grid.kinds);
     });
     key.each(scene.skins, [&](const Skin& skin) {
         key.addAll(std::uint64_t{skin.triangles.size()}, std::uint64_t{skin.vertexCount()},
@@ -81,13 +88,14 @@ void addBodies(Key& key, const Scene& scene) {
 
 } // namespace
 
-std::uint64_t sceneKey(const Scene& scene) {
+SceneKey sceneKey(const Scene& scene) {
     Key key;
     addLinks(key, scene);
     addSurroundings(key, scene);
     addBodies(key, scene);
-    key.add(scene.crumbs);
-    return key.value();
+    const std::uint64_t ofAnySolver = key.value();
+    addOfSplit(key, scene);
+    return {ofAnySolver, key.value()};
 }
 
 } // namespace sinew::sim

@@ -5,10 +5,15 @@
 
 namespace sinew::sim {
 
-/// A hash of where particles are at first, how heavy, and how far from what they touch; of what links, holds
-/// and surrounds them; of which bodies may be cut or tear, and what a cut removes: of all that
-/// recordTakeOver() takes for granted. Stiffness, compliance, friction, restitution, damping, gravity,
-/// colors, names and velocities are not in it.
-std::uint64_t sceneKey(const Scene& scene);
+/// Hashes of all that recordTakeOver() takes for granted. Stiffness, compliance, friction, restitution,
+/// damping, gravity, colors, names and velocities are not in them.
+struct SceneKey {
+    /// Where particles are at first, and how heavy; what links, holds and surrounds them.
+    std::uint64_t ofAnySolver = 0;
+    /// That, and what `split` alone has forms for: how far particles are from what they touch, their faces,
+    /// which bodies may be cut or tear, and what a cut removes.
+    std::uint64_t ofSplit = 0;
+};
+SceneKey sceneKey(const Scene& scene);
 
 } // namespace sinew::sim

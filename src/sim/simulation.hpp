@@ -280,8 +280,10 @@ public:
     /// before the end is taken as that of the end, hands take hold anew, and what slept is awake.
     /// With `saved`, `copy` is what recordHandOver() has copied of a state that `from` saved, on this device
     /// or another one: it goes on from that, and hands take hold anew.
-    /// Throws std::invalid_argument, and nothing is recorded, where the scenes differ in more than material,
-    /// where this one has less room than `from`, or where `copy` is too small.
+    /// The scene of another solver may also differ in contacts and in what may be cut, which `split` alone
+    /// has forms for. Throws std::invalid_argument, and nothing is recorded, where the scenes differ in more
+    /// than that, where a body of `from` may have been cut and none of this one can be, where this one has
+    /// less room than `from`, or where `copy` is too small.
     void recordTakeOver(VkCommandBuffer commands, const Simulation& from, const vk::BufferView& copy = {},
                         const SavedState* saved = nullptr);
     /// Size of what recordTakeOver() copies from this [B].

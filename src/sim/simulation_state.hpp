@@ -51,7 +51,7 @@ struct Simulation::State {
     StepProgram program;
     GpuExecutor executor;
     std::vector<BufferId> written;
-    std::uint64_t sceneKey;
+    SceneKey sceneKey;
     StepRing ring;
     MisuseLog misuse;
     bool hasState = false; // reset or taken over
@@ -222,8 +222,8 @@ struct Simulation::State {
     }
 
     // Throws std::invalid_argument where this state cannot go on from one of `other`, with the reason.
-    void requireSameScene(const State& other, const vk::BufferView& copy, std::uint64_t copied,
-                          bool isAlike) const;
+    void requireSameScene(const State& other, const vk::BufferView& copy, std::uint64_t copied, bool isAlike,
+                          bool isUncut) const;
 
     // For the surface of cuts.
     bool hasMoreRoom(const State& other) const noexcept {

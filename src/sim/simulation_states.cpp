@@ -1,5 +1,6 @@
 // States of a simulation that come from elsewhere: of another simulation, of what was saved, of another
 // material, of earlier topology.
+#include "sim/compile.hpp"
 #include "sim/simulation_state.hpp"
 
 #include <stdexcept>
@@ -14,7 +15,7 @@ constexpr std::uint32_t farAwayBits = 0x5d5e0b6b;
 } // namespace
 
 void Simulation::State::requireSameScene(const State& other, const vk::BufferView& copy, std::uint64_t copied,
-                                         bool isAlike) const {
+                                         bool isAlike, bool wasUncut) const {
     const auto refuse = [](const std::string& why) {
         throw std::invalid_argument("a simulation cannot take over: " + why);
     };
@@ -22,10 +23,15 @@ void Simulation::State::requireSameScene(const State& other, const vk::BufferVie
     if (program.particleCount != other.program.particleCount)
         refuse("the other one has " + number(other.program.particleCount) + " particles, this one has " +
                number(program.particleCount) + ": make both of one scene");
-    if (sceneKey != other.sceneKey)
+    const bool isOfOneSolver = chosen.solver == other.chosen.solver;
+    if (isOfOneSolver ? sceneKey.ofSplit != other.sceneKey.ofSplit
+                      : sceneKey.ofAnySolver != other.sceneKey.ofAnySolver)
         refuse(
             "its particles, links, surroundings or bodies differ from those of the other one: make both of "
             "one scene, which may differ in material alone");
+    if (!isOfOneSolver && !wasUncut && !mayBeCut())
+        refuse(std::string("bodies of the other one may have been cut, which solver ") +
+               solverName(chosen.solver) + " has no form for: undo the cuts, or use split");
     if (isAlike && hasContacts && chosen.contactRoom < other.chosen.contactRoom)
         refuse("its settings.contactRoom is " + number(chosen.contactRoom) + ", that of the other one " +
                number(other.chosen.contactRoom) + ": give it at least as much");
@@ -48,7 +54,8 @@ void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from, 
     const State& other = *from.state_;
     const bool isAlike =
         state_->chosen.solver == other.chosen.solver && state_->program.order == other.program.order;
-    state_->requireSameScene(other, copy, from.handOverSize(), isAlike);
+    state_->requireSameScene(other, copy, from.handOverSize(), isAlike,
+                             saved != nullptr ? saved->isUncut : other.isUncut);
     recordReset(buffer);
     vk::Commands commands(state_->device, buffer);
     commands.beginStep();
@@ -64,6 +71,7 @@ void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from, 
     if (saved != nullptr) {
         state_->moveTo(*saved);
         if (!isAlike) state_->previousH = state_->settledEnd.h = 0;
+        state_->undoneH.reset(); // what it has kept of the last step that came to its end is handed over
         return;
     }
     State::Settled end = other.settledEnd;
@@ -71,7 +79,6 @@ void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from, 
         end = other.settled(other.nextFrame + frame, end);
     state_->settledEnd = end;
     state_->previousH = isAlike ? end.h : 0;
-        state_->undoneH.reset(); // what it has kept of the last step that came to its end is handed over
     state_->anchors = other.anchors;
     if (isAlike) state_->hands = other.hands;
     state_->isUncut = other.isUncut;

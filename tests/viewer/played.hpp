@@ -32,11 +32,11 @@ eye = [0, 0.5, 2]
 target = [0, 0.4, 0]
 )";
 
-inline Opening openText(const std::string& text) {
+inline Opening openText(const std::string& text, const scenes::Overrides& overrides = {}) {
     const std::filesystem::path file =
         std::filesystem::temp_directory_path() / ("sinew-replay-" + std::to_string(::getpid()) + ".toml");
     std::ofstream(file) << text;
-    Opening opening = open({.scene = file.string()}, 1.6f);
+    Opening opening = open({.scene = file.string(), .overrides = overrides}, 1.6f);
     std::filesystem::remove(file);
     prepareForReplay(opening, {});
     return opening;
@@ -63,6 +63,7 @@ struct Scene {
     explicit Scene(Opening opened, const std::optional<sim::Material>& material = {})
         : opening(std::move(opened)), stage(test::device(), opening.loaded.scene, opening.loaded.settings,
                                             material.value_or(firstMaterial(opening))) {
+        stage.setDefaults(opening.loaded.defaults);
         if (opening.run) {
             stage.load(test::device(), *opening.run, test::queue());
             tools.begin(stage);

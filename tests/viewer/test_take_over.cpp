@@ -263,6 +263,32 @@ TEST(StageTakeOver, ByAnotherSolverAndBackIsDoneAgainByAReplay) {
     expectTheSameBitsAgain(third, falling);
 }
 
+// A body that may be cut collides by default: another solver has neither, as long as nothing was cut.
+TEST(StageTakeOver, ByAnotherSolverDoesWithoutDefaultContactsAndCuts) {
+    const auto byJacobi = [] { return openText(block, {.solver = "jacobi", .substeps = 12}); };
+    Played first, second(byJacobi()), third;
+    ASSERT_GT(first.stage.scene().particles[0].radius, 0);
+    ASSERT_EQ(second.stage.scene().particles[0].radius, 0);
+    first.turn({}, 8);
+    takeOver(second, first);
+    EXPECT_TRUE(areInTheSamePlaces(second, first));
+    second.turn({}, 6);
+    EXPECT_EQ(second.stage.simulation().status(second.stage.steps()).nonFinite, 0u);
+    takeOver(third, second);
+    EXPECT_TRUE(areInTheSamePlaces(third, second));
+    third.tools.pull(third.stage, 3);
+    cutAt(third, 0.1f);
+    EXPECT_GT(third.stage.simulation().status(third.stage.steps()).linksCutInAll, 0u);
+    expectTheSameBitsAgain(third, block);
+
+    Played fourth(byJacobi());
+    EXPECT_THROW(fourth.stage.takeOver(third.stage), std::invalid_argument) << "which would heal the cut";
+    third.turn({.actions = {Action::undo}}, 1);
+    takeOver(fourth, third);
+    EXPECT_TRUE(areInTheSamePlaces(fourth, third));
+    EXPECT_EQ(fourth.tools.history().redos(), 0u) << "the state with the cut stays behind";
+}
+
 TEST(StageTakeOver, HasAMaterialThatNeedsOtherPasses) {
     Played before(jacobi);
     before.turn({}, 6);
@@ -334,8 +360,9 @@ TEST(StageTakeOver, HasAllRoomThatThereIs) {
 }
 
 TEST(StageReshape, ThatCannotBeHadLeavesAllAsItIs) {
-    Played played; // of a block that may be cut, which one solver alone can do
-    played.turn({}, 5);
+    Played played;
+    played.tools.pull(played.stage, 3);
+    cutAt(played, 0.1f); // which one solver alone can do
     const std::uint64_t hash = played.hash();
     played.stage.wantShape(sim::Solver::jacobi, 4);
     EXPECT_TRUE(played.stage.wantsShape());

@@ -83,7 +83,9 @@ void Stage::setGravity(float gravity) noexcept {
 }
 
 sim::Scene Stage::sceneOf(const sim::Material& material, const sim::Settings& settings) const {
-    return scenes::withoutDefaults(sim::withMaterial(given_, material), defaults_, settings);
+    sim::Scene scene = scenes::withoutDefaults(sim::withMaterial(given_, material), defaults_, settings);
+    if (!blades_.areAny()) scenes::leaveWhole(scene, settings);
+    return scene;
 }
 
 // Of the step program only what does not change meanwhile is read: recordTurn() waits for this.
