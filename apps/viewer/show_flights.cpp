@@ -44,7 +44,8 @@ void Show::recordSteps(const Presenter::Frame& frame, Plan& plan) {
     if (replay_ && plan.steps > 0 && !playInput(frame)) plan.steps = 0;
     stage_.setRepeats(!replay_); // a log has no such steps
     flight.firstStep = stage_.steps() + 1;
-    if (const std::uint64_t undone = stage_.undoneSteps(); undone > 0) // alone: what waits for them comes later
+    if (const std::uint64_t undone = stage_.undoneSteps();
+        undone > 0) // alone: what waits for them comes later
         plan.steps = static_cast<std::uint32_t>(std::min<std::uint64_t>(plan.steps, undone));
     else
         controller_.playback.taken(plan.steps);

@@ -59,8 +59,8 @@ public:
     std::uint64_t undoneUntil(std::uint64_t frame) const noexcept;
     /// The oldest step that was recorded and has not come back.
     std::optional<std::uint64_t> oldestUnfinished() const noexcept;
-    /// The oldest step of `generation` in a slot that was undone for lack of room, and how many particles need
-    /// it. Steps from `end` on do not count: they go on from the state of a step that lacked lists.
+    /// The oldest step of `generation` in a slot that was undone for lack of room, and how many particles
+    /// need it. Steps from `end` on do not count: they go on from the state of a step that lacked lists.
     struct Lack {
         std::uint64_t frame = 0;
         std::uint32_t needed = 0;

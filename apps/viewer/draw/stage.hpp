@@ -76,8 +76,8 @@ public:
     /// are needed for. Throws likewise: all is then as it was.
     enum class Turn { none, ready, refused };
     Turn takeTurn(bool isPaused);
-    /// Records what is ready: the next step has that material. Nothing where nothing is, or where undoneSteps()
-    /// come first. Steps do so themselves.
+    /// Records what is ready: the next step has that material. Nothing where nothing is, or where
+    /// undoneSteps() come first. Steps do so themselves.
     std::optional<sim::Material> recordTurn(VkCommandBuffer commands) noexcept;
     const sim::Material& material() const noexcept { return material_; }
     /// Of the scene as it is.

@@ -22,8 +22,8 @@ public:
 
     explicit Playback(double dt) : dt_(dt) {}
 
-    /// `elapsed` is the time since the last call [s]. `undone` steps had been taken and are to be taken again:
-    /// while paused the plan has them before single steps, and a reset drops them.
+    /// `elapsed` is the time since the last call [s]. `undone` steps had been taken and are to be taken
+    /// again: while paused the plan has them before single steps, and a reset drops them.
     Plan plan(double elapsed, std::uint32_t mostSteps = maxSteps, std::uint64_t undone = 0);
     /// So many steps were recorded that were not taken before. Single steps stay in plans until then, because
     /// a plan may come to nothing.
