@@ -7,7 +7,7 @@ struct Lines {
 };
 
 struct Touch {
-    vec3 n; // of the first edge
+    vec3 n; // to the first edge
     float depth, remembered;
     vec2 st;
 };
@@ -36,15 +36,19 @@ bool hasPassed(Lines lines, Lines rates, out vec2 st) {
     return isInside(crossing, 1e-3);
 }
 
-// The least distance that contacts of an edge keep at which they overlap [m].
+// The distance that a contact of an edge with another keeps [m]; far where they do not overlap.
+float restWith(uint e, uint other, uint element) {
+    const float remembered = memory[element].w;
+    if (abs(remembered) <= 1.0 || !keeps(edges[e].a, edges[other].a)) return 3e38;
+    return restOf(uintBitsToFloat(contacts[element].y), remembered);
+}
+
+// The least of all of its contacts.
 float leastRestOf(uint e) {
-    const uvec2 list = lists[e];
+    const uvec2 list = lists[e], linked = linkLists[e];
     float least = 3e38;
-    for (uint element = list.x; element < list.x + list.y; ++element) {
-        const uvec2 candidate = contacts[element];
-        const float remembered = memory[element].w;
-        if (abs(remembered) > 1.0 && keeps(edges[e].a, edges[candidate.x].a)) least = min(least, restOf(uintBitsToFloat(candidate.y), remembered));
-    }
+    for (uint element = list.x; element < list.x + list.y; ++element) least = min(least, restWith(e, contacts[element].x, element));
+    for (uint link = linked.x; link < linked.x + linked.y; ++link) least = min(least, restWith(e, owners[links[link]], links[link]));
     return least;
 }
 
@@ -57,8 +61,9 @@ float keptOf(uvec2 both, float remembered, float overlap, float before, float re
 }
 
 // `both`: the two edges.
-Touch touchOf(EdgePair pair, uvec2 both, float reach, float remembered) {
-    const uint a = pair.first.a, b = pair.first.b, c = pair.second.a, d = pair.second.b;
+Touch touchOf(uvec2 both, float reach, float remembered) {
+    const ContactEdge first = edges[both.x], second = edges[both.y];
+    const uint a = first.a, b = first.b, c = second.a, d = second.b;
     const float h = step.h;
     const vec3 xa = predicted[a].xyz, xc = predicted[c].xyz, va = velocities[a].xyz, vc = velocities[c].xyz;
     const Lines lines = Lines(xa - xc, predicted[b].xyz - xa, predicted[d].xyz - xc);
@@ -70,7 +75,7 @@ Touch touchOf(EdgePair pair, uvec2 both, float reach, float remembered) {
     const vec3 middles = lines.ca + 0.5 * (lines.ab - lines.cd);
     const float wayFirst = max(length(velocities[a].xyz), length(velocities[b].xyz));
     const float waySecond = max(length(velocities[c].xyz), length(velocities[d].xyz));
-    const float outer = pair.first.radius + pair.second.radius + h * (wayFirst + waySecond);
+    const float outer = first.radius + second.radius + h * (wayFirst + waySecond);
     if (!now.exists || !before.exists || dot(now.n, before.n) <= 0.0 || dot(middles, middles) >= outer * outer) return touch;
     float side = remembered != 0.0 ? sideOf(remembered) : before.height < 0.0 ? -1.0 : 1.0;
     const bool isKept = keeps(a, c);

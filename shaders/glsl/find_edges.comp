@@ -1,6 +1,6 @@
 #version 460
-// Every edge looks for others near it, in the cells around it and among those that stand apart, and lists them, in any order:
-// sort_lists sorts. A pair is listed where the two are nearer than touching, a margin, and what both move in this substep,
+// Every edge looks for others near it, in the cells around it and among those that stand apart, and lists each pair once, in any order:
+// sort_lists and link_rows sort. A pair is listed where the two are nearer than touching, a margin, and what both move in this substep,
 // and their balls likewise, at both.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -46,14 +46,15 @@ layout(std430, binding = 7) coherent volatile buffer Bounds { GridBounds bounds;
 layout(std430, binding = 8) readonly buffer Points { FacePoints points; };
 layout(std430, binding = 9) readonly buffer Apart { uint apart[]; };
 layout(std430, binding = 10) readonly buffer Middles { vec4 middles[]; };
-layout(std430, binding = 11) buffer Chains { uint chains[]; };
+layout(std430, binding = 11) buffer Chains { uint chains[]; }; // of owners
 #define PAIRS_BINDING 12
 layout(std430, binding = 13) writeonly buffer Ends { vec4 ends[]; };
 layout(std430, binding = 14) buffer Status { StatusWords status; };
+layout(std430, binding = 16) buffer LinkChains { uint linkChains[]; };
 layout(std140, binding = 15) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { FaceFindPush push; };
 #define FINDS_PAIRS
-#define ENTRIES_OF_PAIR 2u
+#define ENTRIES_OF_PAIR 1u
 #include "listed_pairs.glsl"
 
 #include "near_edges.glsl"
@@ -94,7 +95,7 @@ void searchRows(Searched one, float range, Rows rows, Frame frame, uint total) {
         uint near = nearOf(one, around(one, range, rows, from, total), rows, from, frame, total);
         for (; near != 0u; near &= near - 1u) {
             const uint f = SORTED(placeOf(rows, from + uint(findLSB(near)), total)).w;
-            if (!isExcluded(one.index, f)) list(one.index, f);
+            if (!isExcluded(one.index, f)) list(one, f);
         }
     }
 }
@@ -127,8 +128,8 @@ void main() {
     if (points.apart > FACE_MOST_POINTS) atomicMax(status.candidates, CONTACT_MOST_ROOM + 1u);
     for (uint k = 0u; k < min(points.apart, FACE_MOST_POINTS) && !isFull(); ++k) {
         const uint f = apart[k];
-        // of two apart the first lists both
+        // of two apart the first lists the pair
         if ((standsApart && f < e) || !isNear(one, f, edgeAt(f), wayOf(f), middles[f].xyz) || isExcluded(e, f)) continue;
-        list(e, f);
+        list(one, f);
     }
 }

@@ -38,9 +38,17 @@ bool isNear(Searched one, uint f, ContactEdge edge, float way, vec3 middle) {
 // Which of two edges in the grid looks for the other: half of all do so for each, and near ones as many as far ones.
 bool looksFor(uint e, uint f) { return ((e ^ f) & 1u) == 0u ? e < f : f < e; }
 
-void list(uint e, uint f) {
+// The owner of a pair, in whose list it stands: an edge that moves, if the other never does.
+bool owns(Searched one, uint f, bool isMoving) {
+    const bool moves = one.edge.isMoving != 0u;
+    return moves == isMoving ? looksFor(one.index, f) : moves;
+}
+
+void list(Searched one, uint f) {
     const uint pair = newPair();
     if (pair == noPair) return;
-    const uint next = atomicExchange(chains[e], 2u * pair + 1u), nextOfOther = atomicExchange(chains[f], 2u * pair + 2u);
-    pairs[pair] = uvec4(e, f, next, nextOfOther);
+    const bool isFirst = owns(one, f, edgeAt(f).isMoving != 0u);
+    const uint owner = isFirst ? one.index : f, other = isFirst ? f : one.index;
+    const uint next = atomicExchange(chains[owner], 2u * pair + 1u), nextOfOther = atomicExchange(linkChains[other], 2u * pair + 2u);
+    pairs[pair] = uvec4(owner, other, next, nextOfOther);
 }

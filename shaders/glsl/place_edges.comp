@@ -12,8 +12,7 @@ layout(std430, binding = 4) readonly buffer Detected { vec4 detected[]; }; // mi
 layout(std430, binding = 5) writeonly buffer Middles { vec4 middles[]; };
 layout(std430, binding = 6) writeonly buffer Speeds { vec4 speeds[]; };    // x [m/s]
 layout(std430, binding = 7) buffer Bounds { GridBounds bounds; };
-layout(std430, binding = 8) writeonly buffer Points { FacePoints points; };
-layout(std140, binding = 9) uniform Step { StepParams step; };
+layout(std140, binding = 8) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { GridPush push; };
 
 float movedOf(vec3 x, vec3 v, vec3 before) {
@@ -23,7 +22,6 @@ float movedOf(vec3 x, vec3 v, vec3 before) {
 
 void main() {
     const uint e = itemIndex(push.count);
-    if (e == 0u) points = FacePoints(0u, 0u, 0u, 0u);
     const ContactEdge edge = edges[e];
     const vec3 a = positions[edge.a].xyz, b = positions[edge.b].xyz;
     const vec3 va = velocities[edge.a].xyz, vb = velocities[edge.b].xyz, middle = 0.5 * (a + b);

@@ -1,21 +1,20 @@
 #version 460
-// Makes the list of every particle's others or, FACES, every point's faces or, EDGES, every edge's others from the pairs that were
-// found: sorted by index, with the distance at which the two touch and, HAS_MEMORY, what is remembered of them. LISTS_OWNERS: lists the
-// groups in which one has a candidate; list_ends does for edges.
+// Makes the list of every particle's others or, FACES, every point's faces or, EDGES, the edges of which an edge owns the rows, from the
+// pairs that were found: sorted by index, with the distance at which the two touch and, HAS_MEMORY, what is remembered of them.
+// LISTS_OWNERS: lists the groups in which one has a candidate; link_rows does for edges.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "kernel.glsl"
 
 #ifdef FACES
-#define ENTRIES_OF_PAIR 1u
 #define LISTS_PARTICLES
-#else
-#define ENTRIES_OF_PAIR 2u
 #endif
 #if defined FACES || defined EDGES
+#define ENTRIES_OF_PAIR 1u
 layout(push_constant) uniform Push { FaceFindPush push; };
 #define OWNERS push.points
 #else
+#define ENTRIES_OF_PAIR 2u
 layout(push_constant) uniform Push { FindPush push; };
 #define OWNERS push.count
 #endif
@@ -49,6 +48,9 @@ float reachOf(float own, uint other) {
 #else
 float reachOf(float own, uint other) { return own + radii[other]; }
 #endif
+#ifdef EDGES
+layout(std430, binding = GROUPS_BINDING) writeonly buffer Owners { uint owners[]; }; // of each element
+#endif
 
 void listGroups(uint i) {
 #ifdef LISTS_OWNERS
@@ -59,8 +61,14 @@ void listGroups(uint i) {
 #endif
 }
 
+uint owner;
 float own; // radius, or how thick it is [m]
-void put(uint element, uint other) { contacts[element] = ContactCandidate(other, reachOf(own, other)); }
+void put(uint element, uint other) {
+    contacts[element] = ContactCandidate(other, reachOf(own, other));
+#ifdef EDGES
+    owners[element] = owner;
+#endif
+}
 #include "sort_pairs.glsl"
 
 // Both lists are sorted.
@@ -91,6 +99,7 @@ void main() {
     const uint chain = chains[i], n = checked(i, lengthOf(chain));
     uvec2 list = uvec2(0u, n);
     if (n > 0u) list.x = atomicAdd(bounds.entries, n);
+    owner = i;
     own = radii[i];
     sortChain(chain, list.x, n);
     returnMemory(list, i);

@@ -8,31 +8,32 @@
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "segments.glsl"
-#include "edges.glsl"
-layout(std430, binding = 4) readonly buffer Predicted { vec4 predicted[]; };
+
+layout(std430, binding = 0) readonly buffer Predicted { vec4 predicted[]; };
+layout(std430, binding = 1) readonly buffer Velocities { vec4 velocities[]; };
+layout(std430, binding = 2) readonly buffer Edges { ContactEdge edges[]; };
+layout(std430, binding = 3) readonly buffer Contacts { uvec2 contacts[]; };     // ContactCandidate, in one load
+layout(std430, binding = 4) readonly buffer Lists { uvec2 lists[]; };           // of each edge: the first element that it owns, how many
 layout(std430, binding = 5) readonly buffer Memory { vec4 memory[]; };          // w: side and overlap, 0 = has not touched
-layout(std430, binding = 6) writeonly buffer Directions { vec4 directions[]; }; // n from the other, depth [m]; 0 = none
-layout(std430, binding = 7) writeonly buffer Weights { vec4 weights[]; };       // s of the own, of the other edge; remembered
-layout(std430, binding = 8) writeonly buffer Sums { float sums[]; };            // of the weights of each end
-layout(std140, binding = 9) uniform Step { StepParams step; };
-#define MARKS_BINDING 10
+layout(std430, binding = 6) writeonly buffer Directions { vec4 directions[]; }; // n from the other to the owner, depth [m]; 0 = none
+layout(std430, binding = 7) writeonly buffer Weights { vec4 weights[]; };       // s of the owner, t of the other edge; remembered
+layout(std140, binding = 8) uniform Step { StepParams step; };
+layout(push_constant) uniform Push { FacePush push; };
+#define MARKS_BINDING 9
 #include "keeps_rest.glsl"
 #include "recovery.glsl"
+layout(std430, binding = 10) readonly buffer Owners { uint owners[]; };        // of each element
+layout(std430, binding = 11) readonly buffer Links { uint links[]; };          // elements that others own
+layout(std430, binding = 12) readonly buffer LinkLists { uvec2 linkLists[]; }; // of each edge, in links
 #include "edge_touch.glsl"
 
 void main() {
     const uint e = itemIndex(push.count);
     const uvec2 list = lists[e];
-    vec2 sum = vec2(0.0);
     for (uint element = list.x; element < list.x + list.y; ++element) {
         const uvec2 candidate = contacts[element];
-        const EdgePair pair = pairOf(e, candidate.x);
-        const Touch touch = touchOf(pair, uvec2(e, candidate.x), uintBitsToFloat(candidate.y), memory[element].w);
-        const vec2 st = pair.isFirst ? touch.st : touch.st.yx;
-        directions[element] = vec4(pair.isFirst ? touch.n : -touch.n, touch.depth);
-        weights[element] = vec4(st, 0.0, touch.remembered);
-        if (touch.depth > 0.0) sum += vec2(1.0 - st.x, st.x);
+        const Touch touch = touchOf(uvec2(e, candidate.x), uintBitsToFloat(candidate.y), memory[element].w);
+        directions[element] = vec4(touch.n, touch.depth);
+        weights[element] = vec4(touch.st, 0.0, touch.remembered);
     }
-    sums[2u * e] = sum.x;
-    sums[2u * e + 1u] = sum.y;
 }

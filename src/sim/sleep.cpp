@@ -119,7 +119,7 @@ void closeGate(ProgramBuilder& program, const std::shared_ptr<Sleep>& sleep) {
 void addJudgement(ProgramBuilder& program, const Sleep& sleep, const ParticleBuffers& particles) {
     const auto& status = program.program().status;
     const BufferId positions = particles.positions, velocities = particles.velocities;
-    const auto add = [&](const vk::ShaderCode& code, std::initializer_list<BufferId> buffers) {
+    const auto add = [&](const vk::ShaderCode& code, const std::vector<BufferId>& buffers) {
         program.dispatchIndirect(code, wakingItems(sleep, SLEEP_RESTING, sleep.push.count), buffers,
                                  sleep.push);
     };
@@ -131,19 +131,14 @@ void addJudgement(ProgramBuilder& program, const Sleep& sleep, const ParticleBuf
     add(k::watchRest, {sleep.weights, sleep.limits, positions, velocities, particles.step, sleep.rests,
                        sleep.components, sleep.islands, sleep.least});
     const auto& pairs = sleep.pairs;
-    const auto& faces = sleep.faces;
-    const auto& edges = sleep.edges;
     if (pairs.contacts != BufferId{})
         add(k::joinIslands,
             {sleep.weights, velocities, sleep.islands, pairs.contacts, pairs.lists, pairs.touching});
-    if (faces.contacts != BufferId{})
-        add(k::joinFaces, {sleep.weights, velocities, sleep.islands, faces.contacts, faces.lists,
-                           faces.directions, faces.faces});
-    if (edges.contacts != BufferId{})
-        program.dispatchIndirect(k::joinEdges, wakingItems(sleep, SLEEP_RESTING, sleep.push.count),
-                                 {sleep.weights, velocities, sleep.islands, edges.contacts, edges.lists,
-                                  edges.directions, edges.edges, edges.corners},
-                                 sleep.push);
+    for (const SeenRows& rows : sleep.rows) {
+        std::vector<BufferId> buffers{sleep.weights, velocities, sleep.islands};
+        buffers.insert(buffers.end(), rows.buffers.begin(), rows.buffers.end());
+        add(*rows.join, buffers);
+    }
     add(k::findIslands, {sleep.weights, velocities, sleep.rests, sleep.islands, sleep.least});
     program.dispatchIndirect(
         k::fallAsleep, wakingItems(sleep, SLEEP_RESTING, sleep.push.count),
@@ -259,25 +254,14 @@ void addTouches(ProgramBuilder& program, const ParticleBuffers& predicted) {
     addWakingTouched(program, sleep, predicted.velocities);
 }
 
-void addFaceTouches(ProgramBuilder& program, const ParticleBuffers& predicted) {
+void addRowTouches(ProgramBuilder& program, const ParticleBuffers& predicted, const SeenRows& rows) {
     if (!predicted.sleep) return;
     Sleep& sleep = *predicted.sleep;
-    const auto& faces = sleep.faces;
-    program.dispatchIndirect(k::wakeFaces, itemsOf(sleep, SLEEP_MIXED_ALL, sleep.push.count, GROUP_ITEMS),
-                             {sleep.weights, predicted.velocities, sleep.islands, sleep.marks, sleep.state,
-                              faces.contacts, faces.lists, faces.directions, faces.faces},
-                             sleep.push);
-    addWakingTouched(program, sleep, predicted.velocities);
-}
-
-void addEdgeTouches(ProgramBuilder& program, const ParticleBuffers& predicted) {
-    if (!predicted.sleep) return;
-    Sleep& sleep = *predicted.sleep;
-    const auto& edges = sleep.edges;
-    program.dispatchIndirect(k::wakeEdges, itemsOf(sleep, SLEEP_MIXED_ALL, sleep.push.count, GROUP_ITEMS),
-                             {sleep.weights, predicted.velocities, sleep.islands, sleep.marks, sleep.state,
-                              edges.contacts, edges.lists, edges.directions, edges.edges, edges.corners},
-                             sleep.push);
+    std::vector<BufferId> buffers{sleep.weights, predicted.velocities, sleep.islands, sleep.marks,
+                                  sleep.state};
+    buffers.insert(buffers.end(), rows.buffers.begin(), rows.buffers.end());
+    program.dispatchIndirect(*rows.wake, itemsOf(sleep, SLEEP_MIXED_ALL, sleep.push.count, GROUP_ITEMS),
+                             buffers, sleep.push);
     addWakingTouched(program, sleep, predicted.velocities);
 }
 

@@ -12,6 +12,14 @@
 
 namespace sinew::sim::sleep {
 
+/// Contacts by which particles are judged, between faces and points or between edges: kernels that wake and
+/// join their islands, and the buffers that both end with.
+struct SeenRows {
+    const vk::ShaderCode* wake = nullptr;
+    const vk::ShaderCode* join = nullptr;
+    std::vector<BufferId> buffers;
+};
+
 struct Sleep {
     layout::SleepPush push{};
     BufferId state, weights, limits, rests, components, islands, least, marks;
@@ -21,13 +29,7 @@ struct Sleep {
     struct {
         BufferId contacts, lists, touching, bounds;
     } pairs;
-    /// Likewise for faces; a contact in the list is one where its direction has a depth.
-    struct {
-        BufferId faces, contacts, lists, directions;
-    } faces;
-    struct {
-        BufferId edges, contacts, lists, directions, corners;
-    } edges;
+    std::vector<SeenRows> rows;                ///< likewise of contacts with faces and between edges
     std::vector<layout::SleepPass> passesSeen; ///< by element of `arguments`
 };
 
@@ -47,8 +49,7 @@ const vk::ShaderCode& listedForm(const vk::ShaderCode& code);
 /// In a substep, before contacts of `predicted` are counted: what is touched wakes.
 void addTouches(ProgramBuilder& program, const ParticleBuffers& predicted);
 /// Likewise, after contacts with faces, or between edges, were found.
-void addFaceTouches(ProgramBuilder& program, const ParticleBuffers& predicted);
-void addEdgeTouches(ProgramBuilder& program, const ParticleBuffers& predicted);
+void addRowTouches(ProgramBuilder& program, const ParticleBuffers& predicted, const SeenRows& rows);
 
 /// After publishing: ends what addOpening began.
 void finish(ProgramBuilder& program, const ParticleBuffers& particles);

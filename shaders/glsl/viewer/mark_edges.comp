@@ -25,13 +25,12 @@ bool isWanted(ContactEdge edge) {
 
 void main() {
     const uint e = itemIndex(push.edges);
-    if (e >= push.edges || lists[e].y == 0u || !isWanted(edges[e]) || isGone(edges[e].a)) return;
+    if (e >= push.edges || lists[e].y == 0u || isGone(edges[e].a)) return;
     const vec3 a = placeOf(edges[e].a), ab = placeOf(edges[e].b) - a;
     const uvec2 list = lists[e];
     for (uint element = list.x; element < list.x + list.y; ++element) {
         const uvec2 candidate = candidates[element];
-        if (isGone(edges[candidate.x].a)) continue;
-        if (candidate.x <= e && push.only == NO_PARTICLE) continue; // one of the two says it
+        if (isGone(edges[candidate.x].a) || !isWanted(edges[e]) && !isWanted(edges[candidate.x])) continue;
         const vec3 c = placeOf(edges[candidate.x].a), cd = placeOf(edges[candidate.x].b) - c;
         const Crossing crossing = crossingOf(a - c, ab, cd, leastSine);
         if (!isInside(crossing, 0.0) || abs(crossing.height) > 1.02 * uintBitsToFloat(candidate.y)) continue;

@@ -1,16 +1,11 @@
 // Edges of faces that touch each other, in `split`: temporary constraints, solved after contacts of points
 // with faces and before those between particles. Without them two faces may cross where no corner comes near:
-// coarse cloth on a ridge, cloth on cloth. How the four ends of a contact are moved, what they give of
-// themselves, and why that is stable, is as for faces (face_contacts.hpp), with the weights 1 - s and s of
-// the places on both edges. Each edge sums up what its own contacts do to its two ends, and a particle then
-// sums up its edges: both in a fixed order, without float atomics. A scene in which no two edges can meet has
-// none of this.
+// coarse cloth on a ridge, cloth on cloth. How contacts are solved: row_contacts.hpp. A scene in which no two
+// edges can meet has none of this.
 #pragma once
 
 #include "sim/collision/edge_lists.hpp"
 #include "sim/collision/face_contacts.hpp"
-#include "sim/collision/planes.hpp"
-#include "sim/collision/surfaces.hpp"
 
 namespace sinew::sim::collision::edge_contacts {
 
@@ -21,32 +16,16 @@ bool areIn(const Scene& scene);
 
 struct Contacts {
     edge_lists::Lists lists;
-    layout::FacePush push{};
-    bool sleeps = false;         ///< whether the scene may
-    surfaces::Surfaces surfaces; ///< those of the contacts with faces
-    BufferId corners, directions, weights, shares;
-    BufferId bounces; ///< only where something rebounds
-    BufferId before;  ///< velocities when the substep began, set in each
-    BufferId marks;   ///< likewise
-    bool keepsRest = false;
+    row_contacts::Rows rows; ///< of the surfaces of contacts with faces
 };
 
 /// Only where areIn(), beside `faces`.
 Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
              const ParticleBuffers& particles, const face_contacts::Contacts& faces);
 
-/// What touches sleeps together.
-void joinIslands(const Contacts& contacts, sleep::Sleep& sleep);
-
 /// Changes predicted positions and velocities where they stand. `isFirst`: of the substeps of a step.
 void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                bool isFirst);
-
-/// Restitution, after all contacts of a substep, which `state` then is of; nothing where nothing rebounds.
-void addBounces(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state);
-
-/// The end of a step: what contacts remember is saved, or taken back with an undone step.
-void addPublishing(ProgramBuilder& program, const Contacts& contacts);
 
 /// All edges that may touch others, between particles, in ascending order: those of faces, but for one in the
 /// plane of two that never move.

@@ -59,10 +59,11 @@ Lists add(ProgramBuilder& program, const Request& request) {
                   .edge = grid.edge,
                   .most = widestInCells * largest,
                   .margin = request.margin + request.beyond,
-                  .moving = 0,
+                  .moving = grid.count,
                   .large = 0};
     lists.pooled = pooled_lists::add(
-        program, {.name = "edges", .owners = count, .each = request.capacity, .hasMemory = true});
+        program,
+        {.name = "edges", .owners = count, .each = request.capacity, .others = count, .hasMemory = true});
     lists.push.room = lists.pooled.room;
     lists.edges = program.upload("edges", tables.edges);
     lists.radii = program.upload("edges.radii", tables.radii);
@@ -72,8 +73,7 @@ Lists add(ProgramBuilder& program, const Request& request) {
     lists.ends = program.scratch<layout::vec4>("edges.ends", 2 * count);
     lists.excluded = program.upload("edges.excluded", request.exclusions);
     lists.points = program.scratch<layout::FacePoints>("edges.points", 1);
-    lists.sums = program.scratch<float>("edges.sums", 2 * count);
-    lists.impulses = program.scratch<layout::vec4>("edges.impulses", 2 * count);
+    lists.owners = program.scratch<std::uint32_t>("edges.owners", lists.pooled.room);
     lists.touching = program.scratch<std::uint32_t>("edges.groups", count / GROUP_ITEMS);
     lists.marks = program.scratch<std::uint32_t>("edges.groups.listed", count / GROUP_ITEMS);
     const std::size_t groups = request.particles / GROUP_ITEMS;
@@ -89,7 +89,7 @@ void addWatch(ProgramBuilder& program, const Lists& lists, const ParticleBuffers
     push.isLater = program.isAfterFirstSubstep() ? 1 : 0;
     program.dispatch(k::placeEdges, grid.push.count,
                      {particles.positions, particles.velocities, lists.edges, lists.ends, grid.detected,
-                      lists.middles, lists.speeds, grid.bounds, lists.points, particles.step},
+                      lists.middles, lists.speeds, grid.bounds, particles.step},
                      push);
     hash_grid::addSort(program, grid, lists.middles, particles.step);
 }
@@ -104,14 +104,17 @@ void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers
                              {particles.positions, lists.edges, lists.speeds, lists.thickness, grid.sorted,
                               grid.starts, lists.excluded, grid.bounds, lists.points, lists.apart,
                               lists.middles, lists.pooled.chains, lists.pooled.pairs, lists.ends,
-                              program.program().status, particles.step},
+                              program.program().status, particles.step, lists.pooled.links->chains},
                              lists.push);
     buffers = pooled_lists::sortingBuffers(program, lists.pooled, grid, lists.thickness);
+    buffers.push_back(lists.owners);
     program.dispatchIndirect(k::sortEdges, grid.particles, buffers, lists.push);
-    program.dispatchIndirect(k::listEnds, grid.particles,
-                             {lists.pooled.ranges, lists.edges, lists.sums, lists.impulses, grid.bounds,
-                              grid.touching.arguments, lists.marks, lists.touching, lists.particleMarks,
-                              lists.touchingParticles},
+    const pooled_lists::Links& links = *lists.pooled.links;
+    program.dispatchIndirect(k::linkEdges, grid.particles,
+                             {lists.pooled.pairs, links.chains, lists.pooled.contacts, lists.pooled.ranges,
+                              links.elements, links.ranges, lists.points, grid.bounds, lists.edges,
+                              program.program().status, grid.touching.arguments, lists.marks, lists.touching,
+                              lists.particleMarks, lists.touchingParticles},
                              lists.push);
 }
 

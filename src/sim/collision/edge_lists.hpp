@@ -32,16 +32,15 @@ struct Request {
     std::size_t particles = 0; ///< slots of the state
 };
 
-/// Owners are edges.
+/// Owners are edges. A pair is in the list of one that moves, if the other never does; else half of all edges
+/// own it for each. The other has a link.
 struct Lists {
     hash_grid::Grid grid;
     layout::FaceFindPush push{};
     pooled_lists::Lists pooled;
     BufferId edges;
     BufferId radii, thickness, middles, speeds, ends, excluded, points, apart;
-    /// By end of an edge: sums of the weights of its contacts and of what they do to it. 0 where it has no
-    /// candidate; else of whoever solves contacts.
-    BufferId sums, impulses;
+    BufferId owners;                           ///< by element of the pool
     BufferId touching, marks;                  ///< work groups of edges of which one has a candidate
     BufferId touchingParticles, particleMarks; ///< those of ends of such edges
 };

@@ -145,17 +145,11 @@ float heldBeyond(const Scene& scene, const Faces& faces, std::span<const float> 
     return std::max(solid, 2 * REST_SLACK * (thickest(0, faces.faces.size()) + radius));
 }
 
-// The faces around each slot. Those that a cut may lay open come last, and stand behind the end until then.
-struct CornerTable {
-    std::vector<std::uint32_t> corners; ///< first entry of each slot, one more for the end; 4 x face + corner
-    std::vector<std::uint32_t> ends;    ///< by slot: behind its entries that count
-};
-
 // If forces are kept, corners that never move of faces that do feel them too.
-CornerTable cornersOf(const Faces& faces, const std::vector<float>& inverseMass, const StateLayout& layout,
-                      bool keepsForces) {
-    std::vector<std::vector<std::uint32_t>> entries(layout.count);
-    const auto add = [&](std::uint32_t first, std::uint32_t end) {
+row_contacts::Corners cornersOf(const Faces& faces, const std::vector<float>& inverseMass,
+                                const StateLayout& layout, bool keepsForces) {
+    const auto around = [&](std::uint32_t first, std::uint32_t end) {
+        std::vector<std::vector<std::uint32_t>> entries(layout.count);
         for (std::uint32_t f = first; f < end; ++f) {
             const layout::ContactFace& face = faces.faces[f];
             const Corners corners{face.a, face.b, face.c};
@@ -163,19 +157,9 @@ CornerTable cornersOf(const Faces& faces, const std::vector<float>& inverseMass,
                 if (keepsForces || inverseMass[corners[c]] > 0)
                     entries[layout.slot[corners[c]]].push_back(4 * f + c);
         }
+        return entries;
     };
-    add(0, faces.firstInner);
-    std::vector<std::size_t> outer;
-    for (const std::vector<std::uint32_t>& each : entries) outer.push_back(each.size());
-    add(faces.firstInner, faces.moving);
-    CornerTable table{.corners = std::vector<std::uint32_t>(layout.count + 1), .ends = {}};
-    for (std::size_t i = 0; i < layout.count; ++i) {
-        table.corners[i] = static_cast<std::uint32_t>(table.corners.size());
-        table.ends.push_back(table.corners[i] + static_cast<std::uint32_t>(outer[i]));
-        table.corners.insert(table.corners.end(), entries[i].begin(), entries[i].end());
-    }
-    table.corners[layout.count] = static_cast<std::uint32_t>(table.corners.size());
-    return table;
+    return row_contacts::cornersOf(around(0, faces.firstInner), around(faces.firstInner, faces.moving));
 }
 
 face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Settings& settings,
@@ -248,41 +232,48 @@ std::vector<std::array<std::uint32_t, 2>> stopRowsOf(const Faces& faces, const f
 
 ProgramBuilder::Constants touchConstants(const Contacts& contacts, bool isFirst) {
     constexpr std::uint32_t firstInnerId = 3; // constant_id in touch_faces.comp
-    ProgramBuilder::Constants constants = restConstants(contacts.keepsRest, isFirst);
+    ProgramBuilder::Constants constants = row_contacts::restConstants(contacts.rows.keepsRest, isFirst);
     if (contacts.hasInner()) constants[firstInnerId] = contacts.firstInner;
     return constants;
 }
 
-// A pass over the particles of groups in which one may touch a face, or a face of one may be touched.
-void addOverContacts(ProgramBuilder& program, const Contacts& contacts, const vk::ShaderCode& code,
-                     std::vector<BufferId> buffers, const ProgramBuilder::Constants& constants = {}) {
-    const face_lists::Lists& lists = contacts.lists;
-    buffers.push_back(lists.touching);
-    program.dispatchIndirect(code, lists.grid.touchingParticles, buffers, contacts.push, constants);
+row_contacts::Rows addRows(ProgramBuilder& program, const Scene& scene, const Settings& settings,
+                           const ParticleBuffers& particles, const Faces& faces,
+                           const face_lists::Lists& lists) {
+    const layout::FaceFindPush& find = lists.push;
+    const row_contacts::Groups groups{lists.grid.touchingParticles, lists.touching};
+    row_contacts::Rows rows{.kind = &row_contacts::faces,
+                            .lists = lists.pooled,
+                            .shapes = lists.faces,
+                            .owners = groups,
+                            .particles = groups,
+                            .surfaces = surfaces::addTable(program, scene, particles.layout, "faces.surface"),
+                            .keepsRest = keepRest(scene)};
+    rows.push = {.count = find.points,
+                 .surfaces = rows.surfaces.count,
+                 .recoverySpeed = scene.contacts.recoverySpeed,
+                 .moving = find.moving,
+                 .sheets = faces.sheets};
+    rows.marks = rows.keepsRest || faces.sheets < faces.moving
+                     ? program.upload("faces.marks", contact_lists::linkedMarks(scene, particles.layout))
+                     : rows.surfaces.ofParticles;
+    row_contacts::add(program, rows,
+                      cornersOf(faces, inverseMasses(scene), particles.layout, settings.keepsForces),
+                      particles);
+    return rows;
 }
 
-// A pass that gives impulses to particles: in the form that keeps them where the step does.
-void addImpulses(ProgramBuilder& program, const Contacts& contacts, const forces::Forms& forms,
-                 std::vector<BufferId> buffers, const ParticleBuffers& particles,
-                 ProgramBuilder::Constants constants = {}) {
-    const vk::ShaderCode& code =
-        forces::formFor(particles, forms, &forces::Forces::ofStops, buffers, constants);
-    // without a face that can stop something no kernel reads the last but one
-    const bool hasRows = contacts.stopRows != BufferId{};
-    if (particles.forces)
-        buffers.insert(buffers.end(), {hasRows ? contacts.stopRows : contacts.lists.pooled.ranges,
-                                       hasRows ? contacts.linkedPositions : contacts.before,
-                                       contacts.lists.pooled.contacts});
-    addOverContacts(program, contacts, code, std::move(buffers), constants);
-}
-
-// How particles are shared among contacts that have something in the last word of `directions`.
-void addShares(ProgramBuilder& program, const Contacts& contacts, BufferId directions,
-               const ParticleBuffers& particles) {
-    const face_lists::Lists& lists = contacts.lists;
-    addOverContacts(program, contacts, k::shareFaces,
-                    {lists.pooled.ranges, directions, contacts.weights, contacts.corners, lists.links,
-                     lists.linkLists, contacts.cornerEnds, particles.velocities, contacts.shares});
+void addStopBuffers(ProgramBuilder& program, const Scene& scene, const ParticleBuffers& particles,
+                    const Faces& faces, Contacts& contacts) {
+    const StateLayout& layout = particles.layout;
+    contacts.linkedPositions = program.scratch<layout::vec4>("faces.positions", positionCount(layout));
+    contacts.linkedVelocities = program.scratch<layout::vec4>("faces.velocities", layout.count);
+    const std::vector<std::uint32_t> points = movingPoints(scene, inverseMasses(scene), layout);
+    contacts.movingPoints = program.upload("faces.moving_points", points);
+    contacts.movingPointCount = static_cast<std::uint32_t>(points.size());
+    if (particles.forces && !particles.forces->stops.rows.empty())
+        contacts.stopRows =
+            program.upload("faces.stop_rows", stopRowsOf(faces, particles.forces->stops, layout));
 }
 
 } // namespace
@@ -300,12 +291,6 @@ bool areIn(const Scene& scene) {
            std::ranges::any_of(scene.faces, [&](const Face& f) { return moves(f, inverseMass); });
 }
 
-ProgramBuilder::Constants restConstants(bool keepsRest, bool isFirst) {
-    constexpr std::uint32_t keepsRestId = 1, isFirstId = 2; // constant_ids in keeps_rest.glsl
-    if (!keepsRest) return {{keepsRestId, false}};
-    return {{keepsRestId, true}, {isFirstId, isFirst}};
-}
-
 std::vector<float> looseRadii(const Scene& scene) {
     std::vector<float> radii;
     for (const Particle& particle : scene.particles) radii.push_back(particle.radius);
@@ -317,111 +302,44 @@ std::vector<float> looseRadii(const Scene& scene) {
 
 Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
              const ParticleBuffers& particles) {
-    const StateLayout& layout = particles.layout;
     const std::vector<float> inverseMass = inverseMasses(scene);
     const bool canBeCut = program.program().cutting.links != BufferId{};
     const Faces faces = facesOf(scene, inverseMass, canBeCut);
-    Contacts contacts{.lists = addLists(program, scene, settings, layout, inverseMass, faces),
+    Contacts contacts{.lists = addLists(program, scene, settings, particles.layout, inverseMass, faces),
                       .faces = static_cast<std::uint32_t>(faces.faces.size()),
                       .firstInner = faces.firstInner,
-                      .isOfCells = faces.isOfCells,
-                      .sleeps = particles.sleep != nullptr};
-    const layout::FaceFindPush& find = contacts.lists.push;
-    contacts.surfaces = surfaces::addTable(program, scene, layout, "faces.surface");
-    contacts.push = {.count = find.points,
-                     .surfaces = contacts.surfaces.count,
-                     .recoverySpeed = scene.contacts.recoverySpeed,
-                     .moving = find.moving,
-                     .sheets = faces.sheets};
+                      .isOfCells = faces.isOfCells};
+    contacts.rows = addRows(program, scene, settings, particles, faces, contacts.lists);
     ContactBuffers& shown = program.program().contacts;
     shown.faces = contacts.lists.faces;
     shown.facePairs = contacts.lists.pooled.contacts;
     shown.faceLists = contacts.lists.pooled.ranges;
-    const std::size_t elements = contacts.lists.pooled.room;
-    const CornerTable corners = cornersOf(faces, inverseMass, layout, settings.keepsForces);
-    contacts.corners = program.upload("faces.corners", corners.corners);
-    contacts.cornerEnds = program.upload("faces.corners.ends", corners.ends);
     if (std::ranges::find(faces.isOfCells, true) != faces.isOfCells.end())
         contacts.opened = program.scratch<std::uint32_t>("faces.opened", faces.faces.size());
-    contacts.directions = program.scratch<layout::vec4>("faces.directions", elements);
-    contacts.weights = program.scratch<layout::vec4>("faces.weights", elements);
-    contacts.impulses = program.scratch<layout::vec4>("faces.impulses", elements);
-    if (contacts.surfaces.hasRestitution)
-        contacts.bounces = program.scratch<layout::vec4>("faces.bounces", elements);
-    contacts.shares = program.scratch<float>("faces.shares", layout.count);
-    contacts.keepsRest = keepRest(scene);
-    contacts.marks = contacts.keepsRest || contacts.hasSolid()
-                         ? program.upload("faces.marks", contact_lists::linkedMarks(scene, layout))
-                         : contacts.surfaces.ofParticles;
-    if (contacts.hasStops()) {
-        contacts.linkedPositions = program.scratch<layout::vec4>("faces.positions", positionCount(layout));
-        contacts.linkedVelocities = program.scratch<layout::vec4>("faces.velocities", layout.count);
-        const std::vector<std::uint32_t> points = movingPoints(scene, inverseMass, layout);
-        contacts.movingPoints = program.upload("faces.moving_points", points);
-        contacts.movingPointCount = static_cast<std::uint32_t>(points.size());
-        if (particles.forces && !particles.forces->stops.rows.empty())
-            contacts.stopRows =
-                program.upload("faces.stop_rows", stopRowsOf(faces, particles.forces->stops, layout));
-    }
+    if (contacts.hasStops()) addStopBuffers(program, scene, particles, faces, contacts);
+    // Without a face that can stop something no kernel reads the first two.
+    const bool hasRows = contacts.stopRows != BufferId{};
+    contacts.rows.forceRows = {hasRows ? contacts.stopRows : contacts.lists.pooled.ranges,
+                               hasRows ? contacts.linkedPositions : contacts.rows.weights,
+                               contacts.lists.pooled.contacts};
     return contacts;
-}
-
-void joinIslands(const Contacts& contacts, sleep::Sleep& sleep) {
-    const face_lists::Lists& lists = contacts.lists;
-    sleep.faces = {lists.faces, lists.pooled.contacts, lists.pooled.ranges, contacts.directions};
 }
 
 void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                bool isFirst) {
-    const face_lists::Lists& lists = contacts.lists;
     addListUpdate(program, contacts, predicted, isFirst);
     if (isFirst) cutting::addFaceOpening(program, contacts, predicted);
     if (contacts.hasStops()) {
         program.copy(predicted.positions, contacts.linkedPositions);
         program.copy(predicted.velocities, contacts.linkedVelocities);
     }
-    addOverContacts(program, contacts, k::touchFaces,
-                    {predicted.positions, predicted.velocities, lists.faces, lists.pooled.contacts,
-                     lists.pooled.ranges, lists.pooled.memory->memory, contacts.directions, contacts.weights,
-                     predicted.step, contacts.marks},
-                    touchConstants(contacts, isFirst));
-    sleep::addFaceTouches(program, predicted);
-    addShares(program, contacts, contacts.directions, predicted);
-    addOverContacts(program, contacts, k::pressFaces,
-                    {predicted.velocities, lists.faces, lists.pooled.contacts, lists.pooled.ranges,
-                     contacts.directions, contacts.weights, contacts.shares, lists.pooled.memory->memory,
-                     contacts.impulses, contacts.before, predicted.step, contacts.surfaces.ofParticles,
-                     contacts.surfaces.pairs});
-    addImpulses(program, contacts, {&k::gatherFaces, &k::gatherFacesForces},
-                {lists.pooled.ranges, contacts.directions, contacts.weights, contacts.corners, lists.links,
-                 lists.linkLists, contacts.cornerEnds, contacts.impulses, predicted.velocities,
-                 predicted.positions, predicted.step},
-                predicted, remainderConstants(predicted.layout));
-}
-
-void addBounces(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state) {
-    if (!contacts.surfaces.hasRestitution) return;
-    const face_lists::Lists& lists = contacts.lists;
-    const surfaces::Surfaces& surfaces = contacts.surfaces;
-    addOverContacts(program, contacts, k::bounceFaces,
-                    {contacts.before, lists.faces, lists.pooled.contacts, lists.pooled.ranges,
-                     contacts.directions, contacts.weights, surfaces.ofParticles, surfaces.pairs, state.step,
-                     contacts.bounces});
-    addShares(program, contacts, contacts.bounces, state);
-    addOverContacts(program, contacts, k::reboundFaces,
-                    {state.velocities, lists.faces, lists.pooled.contacts, lists.pooled.ranges,
-                     contacts.bounces, contacts.weights, contacts.shares, contacts.impulses});
-    addImpulses(program, contacts, {&k::gatherFacesRebound, &k::gatherFacesReboundForces},
-                {lists.pooled.ranges, contacts.bounces, contacts.weights, contacts.corners, lists.links,
-                 lists.linkLists, contacts.cornerEnds, contacts.impulses, state.velocities, state.positions,
-                 state.step},
-                state);
+    row_contacts::addPasses(program, contacts.rows, predicted, touchConstants(contacts, isFirst));
 }
 
 void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state) {
     if (!contacts.hasStops() || contacts.movingPointCount == 0) return;
     const face_lists::Lists& lists = contacts.lists;
-    const layout::StopPush push{contacts.movingPointCount, contacts.push.moving, contacts.faces};
+    const layout::StopPush push{contacts.movingPointCount, contacts.rows.push.moving, contacts.faces};
     std::vector<BufferId> buffers{contacts.linkedPositions,
                                   contacts.linkedVelocities,
                                   lists.faces,
@@ -439,12 +357,6 @@ void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleB
     if (state.forces) buffers.insert(buffers.end(), {contacts.stopRows, contacts.linkedPositions});
     buffers.push_back(contacts.movingPoints);
     program.dispatch(code, push.count, buffers, push, constants);
-}
-
-void addPublishing(ProgramBuilder& program, const Contacts& contacts) {
-    pooled_lists::addPublishing(program, contacts.lists.pooled, contacts.lists.grid);
-    // Lists stay while all sleeps, and nothing plans how many groups run then.
-    if (contacts.sleeps) program.fill(contacts.lists.grid.touching.arguments, 0);
 }
 
 } // namespace sinew::sim::collision::face_contacts

@@ -36,9 +36,10 @@ std::vector<std::uint32_t> facesWhere(std::span<const float> extents, float edge
 }
 
 std::vector<BufferId> searchBuffers(const Lists& lists, const ParticleBuffers& particles) {
-    return {particles.positions, particles.velocities, lists.radii,       lists.faces,
-            lists.pooled.chains, lists.faceChains,     lists.grid.bounds, lists.pooled.pairs,
-            lists.excluded,      particles.step};
+    return {particles.positions, particles.velocities, lists.radii,
+            lists.faces,         lists.pooled.chains,  lists.pooled.links->chains,
+            lists.grid.bounds,   lists.pooled.pairs,   lists.excluded,
+            particles.step};
 }
 
 // By slot: below 0 = neither a point nor a corner.
@@ -88,13 +89,12 @@ Lists add(ProgramBuilder& program, const Request& request) {
                   .margin = request.margin + request.beyond,
                   .moving = request.moving,
                   .large = static_cast<std::uint32_t>(large.size())};
-    lists.pooled = pooled_lists::add(
-        program,
-        {.name = "faces", .owners = count, .each = request.capacity, .entriesOfPair = 1, .hasMemory = true});
+    lists.pooled = pooled_lists::add(program, {.name = "faces",
+                                               .owners = count,
+                                               .each = request.capacity,
+                                               .others = request.moving + 1,
+                                               .hasMemory = true});
     lists.push.room = lists.pooled.room;
-    lists.links = program.scratch<std::uint32_t>("faces.links", lists.pooled.room);
-    lists.linkLists = program.scratch<layout::ListRange>("faces.link_lists", request.moving + 1);
-    lists.faceChains = program.scratch<std::uint32_t>("faces.chains_of_faces", request.moving + 1);
     lists.radii = program.upload("faces.radii", request.radii);
     lists.inverseMasses = program.upload("faces.inverse_masses", request.inverseMasses);
     lists.faces = program.upload("faces", request.faces);
@@ -148,10 +148,10 @@ void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers
     buffers.insert(buffers.end(), {grid.touching.arguments, lists.marks, lists.touching, lists.faces});
     program.dispatchIndirect(k::sortFaces, grid.particles, buffers, lists.push);
     program.dispatchIndirect(k::linkFaces, grid.others,
-                             {lists.pooled.pairs, lists.faceChains, lists.pooled.contacts,
-                              lists.pooled.ranges, lists.links, lists.linkLists, lists.points, grid.bounds,
-                              lists.faces, program.program().status, grid.touching.arguments, lists.marks,
-                              lists.touching},
+                             {lists.pooled.pairs, lists.pooled.links->chains, lists.pooled.contacts,
+                              lists.pooled.ranges, lists.pooled.links->elements, lists.pooled.links->ranges,
+                              lists.points, grid.bounds, lists.faces, program.program().status,
+                              grid.touching.arguments, lists.marks, lists.touching},
                              lists.push);
 }
 

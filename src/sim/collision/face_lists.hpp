@@ -36,14 +36,11 @@ struct Request {
     std::uint32_t substeps = 1;                  ///< of a step
 };
 
-/// Owners are points. Element linkLists[f].first + s of `links` is where in the lists of points point s of
-/// face f is.
+/// Owners are points, and faces that move have links.
 struct Lists {
     hash_grid::Grid grid;
     layout::FaceFindPush push{};
     pooled_lists::Lists pooled;
-    BufferId links, linkLists;
-    BufferId faceChains; ///< of pairs, by face that moves
     BufferId radii, inverseMasses, faces, excluded;
     BufferId points, searched, large;
     BufferId apart;           ///< points that the grid is too fine for; behind them faces that are

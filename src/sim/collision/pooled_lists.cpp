@@ -40,13 +40,17 @@ Memory addMemory(ProgramBuilder& program, const Request& request, std::size_t ro
 
 Lists add(ProgramBuilder& program, const Request& request) {
     const std::string& name = request.name;
-    const std::size_t room = request.owners * request.each;
+    const std::size_t room = request.owners * request.each, entriesOfPair = request.others > 0 ? 1 : 2;
     Lists lists{.room = static_cast<std::uint32_t>(room),
                 .contacts = bufferOf(program, name + ".contacts", room, request.initial.contacts),
                 .ranges = bufferOf(program, name + ".lists", request.owners, request.initial.ranges),
-                .pairs = program.scratch<layout::vec4>(name + ".pairs",
-                                                       room / request.entriesOfPair + (room + 3) / 4),
+                .pairs =
+                    program.scratch<layout::vec4>(name + ".pairs", room / entriesOfPair + (room + 3) / 4),
                 .chains = program.scratch<std::uint32_t>(name + ".chains", request.owners)};
+    if (request.others > 0)
+        lists.links = {.elements = program.scratch<std::uint32_t>(name + ".links", room),
+                       .ranges = program.scratch<layout::ListRange>(name + ".link_lists", request.others),
+                       .chains = program.scratch<std::uint32_t>(name + ".link_chains", request.others)};
     if (!request.hasMemory) return lists;
     lists.memory = addMemory(program, request, room);
     const Kept& saved = lists.memory->saved;

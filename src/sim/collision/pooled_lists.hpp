@@ -25,8 +25,10 @@ struct Initial {
 struct Request {
     std::string name; ///< of buffers: `name`.pairs and so on
     std::size_t owners = 0;
-    std::uint32_t each = 0;          ///< entries of a list that there is room for, on average
-    std::uint32_t entriesOfPair = 2; ///< in how many lists a pair is
+    std::uint32_t each = 0; ///< entries of a list that there is room for, on average
+    /// A pair is in the list of one owner, the other of this many others has a link to it; 0 = a pair is in
+    /// the lists of both.
+    std::size_t others = 0;
     bool hasMemory = false;
     Initial initial;
 };
@@ -42,6 +44,12 @@ struct Memory {
     Kept saved;      ///< of the last step that came to its end
 };
 
+/// Where pairs stand in the lists of others: element elements[ranges[f].first + s] is pair s of f.
+struct Links {
+    BufferId elements, ranges;
+    BufferId chains; ///< of pairs
+};
+
 /// Element ranges[i].first + s of `contacts` is candidate s of owner i (layout::ListRange,
 /// layout::ContactCandidate).
 struct Lists {
@@ -50,6 +58,7 @@ struct Lists {
     BufferId pairs;  ///< uvec4 each; behind them, entries while they are sorted
     BufferId chains; ///< by owner
     std::optional<Memory> memory;
+    std::optional<Links> links;
 };
 
 Lists add(ProgramBuilder& program, const Request& request);

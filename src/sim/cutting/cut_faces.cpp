@@ -124,14 +124,15 @@ void addFilter(ProgramBuilder& program, const collision::face_contacts::Contacts
     const auto faces = facesOf<Part>(program, lists, partOf);
     if (faces.empty()) return;
     std::vector<BufferId> topology{lists.searched, lists.large, lists.faces};
-    if (contacts.hasInner()) topology.push_back(contacts.cornerEnds);
+    if (contacts.hasInner()) topology.push_back(contacts.rows.cornerEnds);
     makeTopology(program, lists.grid.detected, topology);
     const CuttingBuffers& cutting = program.program().cutting;
     std::vector<BufferId> buffers{cutting.links,     cutting.savedLinks, program.upload("cut.faces", faces),
                                   lists.searched,    lists.large,        lists.grid.bounds,
                                   cutting.particles, cutting.pieces};
     if (run.rowStride > 0)
-        buffers.insert(buffers.end(), {lists.faces, contacts.opened, contacts.corners, contacts.cornerEnds});
+        buffers.insert(buffers.end(),
+                       {lists.faces, contacts.opened, contacts.rows.corners, contacts.rows.cornerEnds});
     const layout::CutFacesPush push{static_cast<std::uint32_t>(faces.size()), run.sliceStride, run.rowStride};
     addTwice(program,
              [&program, &code, buffers, push] { program.dispatch(code, push.count, buffers, push); });
@@ -143,7 +144,7 @@ void hideInner(ProgramBuilder& program, const collision::face_contacts::Contacts
     const BufferId list = contacts.lists.searched;
     auto faces = firstContents<std::uint32_t>(program, list);
     for (std::uint32_t& face : faces)
-        if (face >= contacts.firstInner && face < contacts.push.moving) face = ~0u;
+        if (face >= contacts.firstInner && face < contacts.rows.push.moving) face = ~0u;
     std::memcpy(program.program().buffers[list.index].initial.data(), faces.data(),
                 faces.size() * sizeof(faces[0]));
 }
@@ -171,10 +172,10 @@ void addFaceOpening(ProgramBuilder& program, const collision::face_contacts::Con
     if (!contacts.hasInner()) return;
     const collision::face_lists::Lists& lists = contacts.lists;
     program.beginCut();
-    program.dispatch(k::openCutFaces, contacts.push.count,
+    program.dispatch(k::openCutFaces, contacts.rows.push.count,
                      {predicted.positions, predicted.velocities, lists.faces, lists.pooled.contacts,
                       lists.pooled.ranges, lists.pooled.memory->memory, predicted.step, contacts.opened},
-                     contacts.push);
+                     contacts.rows.push);
     program.endCut();
 }
 

@@ -329,8 +329,8 @@ struct Touching {
     // A substep begins with these velocities, which stay until its contacts are solved.
     void begin(BufferId velocities) {
         before = velocities;
-        if (faces) faces->before = velocities;
-        if (edges) edges->before = velocities;
+        if (faces) faces->rows.before = velocities;
+        if (edges) edges->rows.before = velocities;
         if (pairs) pairs->before = velocities;
     }
     void addPasses(ProgramBuilder& program, const ParticleBuffers& predicted, const ParticleBuffers& next,
@@ -361,8 +361,8 @@ struct Touching {
     }
     // After all contacts of a substep; velocities alternate.
     void addBounces(ProgramBuilder& program, const ParticleBuffers& met, ParticleBuffers& current) {
-        if (faces) collision::face_contacts::addBounces(program, *faces, current);
-        if (edges) collision::edge_contacts::addBounces(program, *edges, current);
+        if (faces) collision::row_contacts::addBounces(program, faces->rows, current);
+        if (edges) collision::row_contacts::addBounces(program, edges->rows, current);
         if (!pairs || !pairs->surfaces.hasRestitution) return;
         collision::particle_contacts::addBounces(program, *pairs, met, current);
         std::swap(current.velocities, pairs->rebounding);
@@ -370,13 +370,13 @@ struct Touching {
     // Whether some may end a substep where their velocity has not brought them.
     bool moveUnseen() const { return pairs || (faces && faces->hasStops()); }
     void joinIslands(sleep::Sleep& sleep) const {
-        if (faces) collision::face_contacts::joinIslands(*faces, sleep);
-        if (edges) collision::edge_contacts::joinIslands(*edges, sleep);
+        if (faces) collision::row_contacts::joinIslands(faces->rows, sleep);
+        if (edges) collision::row_contacts::joinIslands(edges->rows, sleep);
         if (pairs) collision::particle_contacts::joinIslands(*pairs, sleep);
     }
     void addPublishing(ProgramBuilder& program) const {
-        if (faces) collision::face_contacts::addPublishing(program, *faces);
-        if (edges) collision::edge_contacts::addPublishing(program, *edges);
+        if (faces) collision::row_contacts::addPublishing(program, faces->rows, faces->lists.grid);
+        if (edges) collision::row_contacts::addPublishing(program, edges->rows, edges->lists.grid);
         if (pairs) collision::particle_contacts::addPublishing(program, *pairs);
     }
 };

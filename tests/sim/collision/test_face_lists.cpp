@@ -105,8 +105,8 @@ public:
     // Of the faces that move; also says where a point's list does not have the face.
     Neighbours pointsOfFaces() const {
         const auto lists = read<layout::ListRange>(lists_.pooled.ranges),
-                   ofFaces = read<layout::ListRange>(lists_.linkLists);
-        const auto links = read<std::uint32_t>(lists_.links);
+                   ofFaces = read<layout::ListRange>(lists_.pooled.links->ranges);
+        const auto links = read<std::uint32_t>(lists_.pooled.links->elements);
         const auto entries = read<layout::ContactCandidate>(lists_.pooled.contacts);
         std::vector<std::uint32_t> owners(entries.size(), ~0u);
         for (std::uint32_t i = 0; i < count; ++i)

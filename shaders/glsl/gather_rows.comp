@@ -1,32 +1,24 @@
 #version 460
-// Contacts with faces, last pass: a particle is moved by all of its contacts at once, x_i += w_i sum beta_ic l_c n_c, as a
-// point and as a corner. Momentum is exact to rounding, for impulses are the same bits wherever they are read.
-// Predicted positions and velocities are changed where they stand, of groups in which somebody has a candidate. EDGES: as an
-// end of edges, whose impulses are summed up already. FORCES: what a point gets of faces that never move is also theirs; these know no points. REBOUND: what velocities get of impulses [kg m/s] after all contacts of a substep.
+// Contacts with faces and between edges, last pass: a particle is moved by all of its rows at once, x_i += w_i sum beta_ic l_c n_c.
+// Momentum is exact to rounding, for impulses are the same bits wherever they are read.
+// Predicted positions and velocities are changed where they stand, of groups in which somebody has a candidate. FORCES: what a point gets
+// of faces that never move is also theirs; these know no points. REBOUND: what velocities get of impulses [kg m/s] after all contacts of a substep.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "remainder.glsl"
-#ifdef EDGES
-layout(std430, binding = 0) readonly buffer Corners { uint corners[]; };   // first of each particle; then 2 x edge + end
-layout(std430, binding = 1) readonly buffer Impulses { vec4 impulses[]; }; // on each end of all edges [kg m]
-layout(push_constant) uniform Push { FacePush push; };
-#define STATE_BINDING 2
-#else
-#include "face_shares.glsl"
+#include "rows_of.glsl"
 layout(std430, binding = 7) readonly buffer Impulses { vec4 impulses[]; };   // [kg m]
-#define STATE_BINDING 8
-#endif
 #ifdef REBOUND
-layout(std430, binding = STATE_BINDING) buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
-layout(std430, binding = STATE_BINDING + 1) buffer State { vec4 state[]; };       // x + thetaH v
-layout(std140, binding = STATE_BINDING + 2) uniform Step { StepParams step; };
+layout(std430, binding = 8) buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
+layout(std430, binding = 9) buffer State { vec4 state[]; };       // x + thetaH v
+layout(std140, binding = 10) uniform Step { StepParams step; };
 #else
-layout(std430, binding = STATE_BINDING) buffer Velocities { vec4 velocities[]; };   // w = inverse mass [1/kg]
-layout(std430, binding = STATE_BINDING + 1) buffer Predicted { vec4 predicted[]; }; // remainder.glsl
-layout(std140, binding = STATE_BINDING + 2) uniform Step { StepParams step; };
+layout(std430, binding = 8) buffer Velocities { vec4 velocities[]; };   // w = inverse mass [1/kg]
+layout(std430, binding = 9) buffer Predicted { vec4 predicted[]; }; // remainder.glsl
+layout(std140, binding = 10) uniform Step { StepParams step; };
 #endif
 
-#define FORCES_BINDING (STATE_BINDING + 3)
+#define FORCES_BINDING 11
 #ifndef EDGES
 #define STOPS
 #endif
@@ -34,7 +26,16 @@ layout(std140, binding = STATE_BINDING + 2) uniform Step { StepParams step; };
 #if defined FORCES && defined STOPS
 layout(std430, binding = FORCES_BINDING + 3) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate
 #endif
-#include "face_impulses.glsl"
+
+vec3 sum = vec3(0.0);
+void visit(uint element, uint place) {
+    if (directions[element].w > 0.0) sum += betaOf(element, place) * impulses[element].xyz;
+}
+
+vec3 impulseOn(uint i) {
+    visitRows(i);
+    return sum;
+}
 
 #ifdef FORCES
 // Adds what faces that never move give to particle i at x: `scale` times the impulses.

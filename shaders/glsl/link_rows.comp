@@ -1,6 +1,6 @@
 #version 460
-// Makes the list of every moving face's points, sorted by index: where in a point's list the face is. There its corners find what
-// the contact does to them.
+// Makes the links of every moving face, EDGES: of every edge, to its rows in the lists of others, sorted by owner. There its corners find
+// what these do to them. Lists the groups of particles, and of edges, that contacts are solved for.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "kernel.glsl"
@@ -9,25 +9,46 @@ layout(push_constant) uniform Push { FaceFindPush push; };
 #define PAIRS_BINDING 0
 #define ENTRIES_OF_PAIR 1u
 #include "listed_pairs.glsl"
-layout(std430, binding = 1) buffer Chains { uint chains[]; }; // of faces
+layout(std430, binding = 1) buffer Chains { uint chains[]; }; // of links
 layout(std430, binding = 2) readonly buffer Contacts { ContactCandidate contacts[]; };
 layout(std430, binding = 3) readonly buffer Lists { uvec2 lists[]; };
 layout(std430, binding = 4) writeonly buffer Links { uint links[]; }; // elements of contacts
 layout(std430, binding = 5) writeonly buffer LinkLists { uvec2 linkLists[]; };
 layout(std430, binding = 6) writeonly buffer Points { FacePoints points; };
 layout(std430, binding = 7) buffer Bounds { GridBounds bounds; };
+#ifdef EDGES
+layout(std430, binding = 8) readonly buffer Edges { ContactEdge edges[]; };
+#define LISTS_OWNERS
+#else
 layout(std430, binding = 8) readonly buffer Faces { ContactFace faces[]; };
+#endif
 layout(std430, binding = 9) buffer Status { StatusWords status; };
 #define GROUPS_BINDING 10
 #define LISTS_PARTICLES
 #include "listed_groups.glsl"
 
-uint face;
-void put(uint element, uint point) {
-    uint low = lists[point].x, high = low + lists[point].y;
+// A point lists its own group in sort_lists.
+void listGroups(uint shape, bool isLinked) {
+#ifdef EDGES
+    const bool owns = lists[shape].y > 0u;
+    if (owns) listOwner(shape);
+    if (!owns && !isLinked) return;
+    listParticle(edges[shape].a);
+    listParticle(edges[shape].b);
+#else
+    if (!isLinked) return;
+    listParticle(faces[shape].a);
+    listParticle(faces[shape].b);
+    listParticle(faces[shape].c);
+#endif
+}
+
+uint shape;
+void put(uint element, uint owner) {
+    uint low = lists[owner].x, high = low + lists[owner].y;
     while (low < high) {
         const uint middle = (low + high) / 2u;
-        if (contacts[middle].other < face) low = middle + 1u;
+        if (contacts[middle].other < shape) low = middle + 1u;
         else high = middle;
     }
     links[element] = min(low, push.room - 1u); // not there only where the step will be undone
@@ -41,13 +62,9 @@ void main() {
     const uint chain = chains[f], all = lengthOf(chain), n = min(all, LIST_MOST);
     if (all > LIST_MOST) atomicMax(status.candidates, CONTACT_MOST_ROOM + 1u); // said, not lost
     uvec2 list = uvec2(0u, n);
-    if (n > 0u) {
-        list.x = atomicAdd(bounds.links, n);
-        listParticle(faces[f].a);
-        listParticle(faces[f].b);
-        listParticle(faces[f].c);
-    }
-    face = f;
+    if (n > 0u) list.x = atomicAdd(bounds.links, n);
+    listGroups(f, n > 0u);
+    shape = f;
     sortChain(chain, list.x, n);
     linkLists[f] = list;
     chains[f] = 0u;

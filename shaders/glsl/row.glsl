@@ -1,0 +1,49 @@
+// A contact as its passes see it: a row of four particles, each with a weight beta. It stands once, in the list of its owner, with whom it met.
+// A point and a face: the point owns it. 1 for the point, -b for the corners. EDGES: one of the two owns it (near_edges.glsl). 1 - s and s for
+// the ends of that one, -(1 - t) and -t for those of the other. In the name `weights` of a kernel: b, or s and t; w: what is remembered.
+// SHAPES_BINDING: of the faces, or edges; only where a kernel needs the particles.
+#ifdef EDGES
+#define OTHER_PLACE 2u // of the first particle of the other
+float betaOf(uint element, uint place) {
+    const float along = weights[element][place / 2u], beta = (place & 1u) != 0u ? along : 1.0 - along;
+    return place < OTHER_PLACE ? beta : -beta;
+}
+#else
+#define OTHER_PLACE 1u
+float betaOf(uint element, uint place) { return place == 0u ? 1.0 : -weights[element][place - 1u]; }
+#endif
+
+#ifdef SHAPES_BINDING
+struct Row {
+    uint particles[4];
+    vec4 beta;
+};
+
+#ifdef EDGES
+layout(std430, binding = SHAPES_BINDING) readonly buffer Edges { ContactEdge edges[]; };
+Row rowOf(uint owner, uint other, vec4 weight) {
+    const ContactEdge own = edges[owner], one = edges[other];
+    return Row(uint[](own.a, own.b, one.a, one.b), vec4(1.0 - weight.x, weight.x, -(1.0 - weight.y), -weight.y));
+}
+#else
+layout(std430, binding = SHAPES_BINDING) readonly buffer Faces { ContactFace faces[]; };
+Row rowOf(uint owner, uint other, vec4 weight) {
+    const ContactFace face = faces[other];
+    return Row(uint[](owner, face.a, face.b, face.c), vec4(1.0, -weight.xyz));
+}
+#endif
+
+// What the owner has more of than the other.
+vec3 between(Row row, vec3 a, vec3 b, vec3 c, vec3 d) { return row.beta.x * a + (row.beta.y * b + row.beta.z * c + row.beta.w * d); }
+
+#define BETWEEN(row, of) \
+    between(row, of[row.particles[0]].xyz, of[row.particles[1]].xyz, of[row.particles[2]].xyz, of[row.particles[3]].xyz)
+
+// D = sum_k |beta_k| S_k w_k, of what the particles give of themselves (share_rows).
+#define SHARED(row, shares) \
+    (abs(row.beta.x) * shares[row.particles[0]] + abs(row.beta.y) * shares[row.particles[1]] + \
+     abs(row.beta.z) * shares[row.particles[2]] + abs(row.beta.w) * shares[row.particles[3]])
+
+// Both bodies have the surface of their first particle.
+#define SURFACES(row) pairs[surfaces[row.particles[0]] * push.surfaces + surfaces[row.particles[OTHER_PLACE]]]
+#endif

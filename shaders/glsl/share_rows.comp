@@ -1,0 +1,19 @@
+#version 460
+// Contacts with faces and between edges, second pass: how a particle is shared among them. It gives each the part |beta| / S of itself,
+// S = the sum of |beta| over all rows that it takes part in: parts sum to 1. Written here: S w.
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "rows_of.glsl"
+layout(std430, binding = 7) readonly buffer Velocities { vec4 velocities[]; }; // w = inverse mass [1/kg]
+layout(std430, binding = 8) writeonly buffer Shares { float shares[]; };       // S w [1/kg]
+
+float sum = 0.0;
+void visit(uint element, uint place) {
+    if (directions[element].w > 0.0) sum += abs(betaOf(element, place));
+}
+
+void main() {
+    const uint i = itemIndex(push.count);
+    visitRows(i);
+    shares[i] = sum * velocities[i].w;
+}
