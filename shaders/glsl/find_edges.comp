@@ -48,9 +48,8 @@ layout(std430, binding = 9) readonly buffer Apart { uint apart[]; };
 layout(std430, binding = 10) readonly buffer Middles { vec4 middles[]; };
 layout(std430, binding = 11) buffer Chains { uint chains[]; }; // of owners
 #define PAIRS_BINDING 12
-layout(std430, binding = 13) writeonly buffer Ends { vec4 ends[]; };
-layout(std430, binding = 14) buffer Status { StatusWords status; };
-layout(std430, binding = 16) buffer LinkChains { uint linkChains[]; };
+layout(std430, binding = 13) buffer Status { StatusWords status; };
+layout(std430, binding = 14) buffer LinkChains { uint linkChains[]; };
 layout(std140, binding = 15) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { FaceFindPush push; };
 #define FINDS_PAIRS
@@ -119,8 +118,6 @@ void searchGrid(Searched one, uint total) {
 void main() {
     const uint e = itemIndex(push.points);
     const Searched one = searchedOf(e);
-    ends[2u * e] = vec4(one.a, 0.0);
-    ends[2u * e + 1u] = vec4(POSITION(one.edge.b).xyz, 0.0);
     if (one.edge.radius < 0.0) return;
     const uint total = START(push.cells);
     const bool standsApart = isApart(one.edge, one.way);

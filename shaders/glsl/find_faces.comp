@@ -1,6 +1,6 @@
 #version 460
 // Every small face looks for points near it, in the cells around it and among those that stand apart, and lists the pairs in any
-// order: sort_lists and link_faces sort. A face with too much around it is left to find_wide_faces.
+// order: sort_lists and link_rows sort. A face with too much around it is left to find_wide_faces.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #define WEIGHT_BINDING 15

@@ -308,7 +308,6 @@ struct GridPush {
     uint cells;  // a power of two
     float edge;  // of a cell, at least [m]
     float most;  // radius in the grid [m]; particles with more are searched one by one
-    float slack; // how far an end of an edge may move before the grid is built again [m]; other grids have frames of bodies
     uint others; // items of further passes that run with a build; 0 = none
     float quiet; // way in a substep up to which nobody meets anybody on it [m]
     uint bodies; // with a frame
@@ -419,6 +418,10 @@ struct ContactEdge {
     uint a, b;
     uint isMoving; // 1 = one of its ends may move
     float radius;  // of the ball around its middle that holds all of it; below 0 in padding [m]
+};
+
+struct PlaceEdgesPush {
+    uint items, edges, members; // the larger, whole work groups; edges; ends that are watched
 };
 
 struct FacePush {

@@ -4,7 +4,7 @@ struct Searched {
     ContactEdge edge;
     vec3 middle;
     vec3 a, ab;
-    float way, thickness; // way of the faster end in this substep [m]
+    float way, thickness; // way of the faster end in this substep, and what it is stretched by (place_edges) [m]
 };
 
 float wayOf(uint e) { return sizeOf(0.0, step.h, SPEED(e).xyz); }

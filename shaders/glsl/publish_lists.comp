@@ -5,7 +5,7 @@
 #include "kernel.glsl"
 
 layout(std430, binding = 0) readonly buffer Status { StatusWords status; };
-layout(std430, binding = 1) writeonly buffer Detected { vec4 detected[]; };
+layout(std430, binding = 1) writeonly buffer Detected { vec4 detected[]; }; // of each particle: where it was when lists were made
 layout(std430, binding = 2) buffer Bounds { GridBounds bounds; };
 #ifdef HAS_MEMORY
 layout(std430, binding = 3) buffer Contacts { ContactCandidate contacts[]; };
@@ -30,10 +30,11 @@ layout(push_constant) uniform Push { CountPush push; };
 void main() {
     const uint i = itemIndex(push.count);
     const bool stays = isFinished(status);
-    if (!stays) detected[i] = vec4(1e18);
+    if (!stays && i < detected.length()) detected[i] = vec4(1e18);
     if (i == 0u && status.candidates > 0u && bounds.lacksLists == 0u) bounds.lacking = status.candidates; // else it may need less
     if (i == 0u) bounds.lacksLists = status.lacksLists;
 #ifdef HAS_MEMORY
+    if (i >= push.count) return;
     if (stays) keptLists[i] = keep(lists[i]);
     else takeBack(i);
 #endif

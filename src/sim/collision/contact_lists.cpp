@@ -79,7 +79,6 @@ Lists add(ProgramBuilder& program, const Request& request) {
     const std::size_t count = request.radii.size();
     Lists lists{.grid = hash_grid::add(program, {.radii = request.radii,
                                                  .margin = request.margin,
-                                                 .slack = slackShare * request.margin,
                                                  .quiet = quietWay(request),
                                                  .usesTexels = request.usesTexels,
                                                  .bodies = request.bodies,

@@ -2,6 +2,7 @@
 #include "sim/collision/edge_contacts.hpp"
 
 #include "rest_slack.h"
+#include "sim/cutting/crumbs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -39,13 +40,18 @@ edge_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
     const float thickest = std::ranges::max(edges, {}, &Edge::thickness).thickness;
     for (Edge& edge : edges)
         for (std::uint32_t& end : edge.ends) end = layout.slot[end];
-    return edge_lists::add(program, {.edges = edges,
-                                     .exclusions = exclusions,
-                                     .margin = margin,
-                                     .beyond = keepsRest ? 3 * REST_SLACK * thickest : 0,
-                                     .capacity = settings.contactRoom,
-                                     .usesTexels = settings.forms.usesTexels,
-                                     .particles = layout.count});
+    const body_frames::Bodies bodies = body_frames::bodiesOf(scene, layout);
+    edge_lists::Lists lists = edge_lists::add(program, {.edges = edges,
+                                                        .exclusions = exclusions,
+                                                        .margin = margin,
+                                                        .beyond = keepsRest ? 3 * REST_SLACK * thickest : 0,
+                                                        .capacity = settings.contactRoom,
+                                                        .usesTexels = settings.forms.usesTexels,
+                                                        .particles = layout.count,
+                                                        .bodies = &bodies,
+                                                        .substeps = settings.substeps});
+    cutting::letCrumbsLeave(program, lists.grid.watched, lists.grid);
+    return lists;
 }
 
 // Where corners stand this near to each other, the points of one sheet keep the edges of another out, and
@@ -104,6 +110,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
 
 void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                bool isFirst) {
+    if (isFirst) edge_lists::addFit(program, contacts.lists, predicted);
     edge_lists::addWatch(program, contacts.lists, predicted);
     edge_lists::addLists(program, contacts.lists, predicted);
     row_contacts::addPasses(program, contacts.rows, predicted,

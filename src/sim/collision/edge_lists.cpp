@@ -11,9 +11,6 @@ namespace {
 
 namespace k = kernels;
 
-// Half of the margin is what two edges may come nearer by each; a little less for rounding.
-constexpr float slackShare = 0.49f;
-
 // Edges whose ball, with their way in a substep, is at most so many times that of most others are searched
 // for in cells.
 constexpr float widestInCells = 2;
@@ -38,20 +35,40 @@ Tables tablesOf(const Request& request) {
     return tables;
 }
 
+// By slot: below 0 = no end.
+std::vector<float> watchedOf(const Request& request) {
+    std::vector<float> watched(request.particles, -1);
+    for (const Edge& edge : request.edges)
+        for (const std::uint32_t end : edge.ends) watched[end] = 0;
+    return watched;
+}
+
+// Up to where lists must be complete.
+float reachOf(const Request& request) {
+    return 2 * std::ranges::max(request.edges, {}, &Edge::thickness).thickness + request.beyond;
+}
+
 } // namespace
 
 Lists add(ProgramBuilder& program, const Request& request) {
     Tables tables = tablesOf(request);
     const std::size_t count = tables.edges.size();
     const float largest = hash_grid::largestInGrid(tables.radii);
-    Lists lists{.grid = hash_grid::add(program, {.radii = tables.points,
-                                                 .margin = request.margin,
-                                                 .slack = slackShare * request.margin,
-                                                 .edge = 2 * largest + request.margin,
-                                                 .usesTexels = request.usesTexels,
-                                                 .particles = request.particles,
-                                                 .name = "edges.grid",
-                                                 .radiiName = "edges.grid.radii"})};
+    const std::vector<float> watched = watchedOf(request);
+    const auto ends = static_cast<std::size_t>(std::ranges::count(watched, 0.0f));
+    Lists lists{.grid = hash_grid::add(
+                    program, {.radii = tables.points,
+                              .margin = request.margin,
+                              .edge = 2 * largest + request.margin,
+                              .others = static_cast<std::uint32_t>(paddedCount(std::max(count, ends))),
+                              .usesTexels = request.usesTexels,
+                              .bodies = request.bodies,
+                              .particles = request.particles,
+                              .watched = watched,
+                              .reach = reachOf(request),
+                              .substeps = request.substeps,
+                              .name = "edges.grid",
+                              .radiiName = "edges.grid.radii"})};
     const layout::GridPush& grid = lists.grid.push;
     lists.push = {.points = grid.count,
                   .searched = 0,
@@ -70,7 +87,6 @@ Lists add(ProgramBuilder& program, const Request& request) {
     lists.thickness = program.upload("edges.thickness", tables.thickness);
     lists.middles = program.scratch<layout::vec4>("edges.middles", count);
     lists.speeds = program.scratch<layout::vec4>("edges.speeds", count);
-    lists.ends = program.scratch<layout::vec4>("edges.ends", 2 * count);
     lists.excluded = program.upload("edges.excluded", request.exclusions);
     lists.points = program.scratch<layout::FacePoints>("edges.points", 1);
     lists.owners = program.scratch<std::uint32_t>("edges.owners", lists.pooled.room);
@@ -83,15 +99,19 @@ Lists add(ProgramBuilder& program, const Request& request) {
     return lists;
 }
 
+void addFit(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {
+    hash_grid::addFit(program, lists.grid, {particles.positions, particles.velocities, particles.step});
+}
+
 void addWatch(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {
     const hash_grid::Grid& grid = lists.grid;
-    layout::GridPush push = grid.push;
-    push.isLater = program.isAfterFirstSubstep() ? 1 : 0;
-    program.dispatch(k::placeEdges, grid.push.count,
-                     {particles.positions, particles.velocities, lists.edges, lists.ends, grid.detected,
-                      lists.middles, lists.speeds, grid.bounds, particles.step},
-                     push);
-    hash_grid::addSort(program, grid, lists.middles, particles.step);
+    hash_grid::addWatchOfMembers(program, grid, {particles.positions, particles.velocities, particles.step});
+    program.dispatchIndirect(
+        k::placeEdges, grid.others,
+        {particles.positions, particles.velocities, lists.edges, lists.thickness, lists.middles, lists.speeds,
+         grid.detected, grid.frames.ofSlots, grid.watched, grid.frames.members, particles.step},
+        layout::PlaceEdgesPush{grid.push.others, grid.push.count, grid.frames.memberCount});
+    hash_grid::addCells(program, grid, lists.middles);
 }
 
 void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {
@@ -103,8 +123,8 @@ void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers
     program.dispatchIndirect(grid.usesTexels ? k::findEdges : k::findEdgesLoads, grid.particles,
                              {particles.positions, lists.edges, lists.speeds, lists.thickness, grid.sorted,
                               grid.starts, lists.excluded, grid.bounds, lists.points, lists.apart,
-                              lists.middles, lists.pooled.chains, lists.pooled.pairs, lists.ends,
-                              program.program().status, particles.step, lists.pooled.links->chains},
+                              lists.middles, lists.pooled.chains, lists.pooled.pairs,
+                              program.program().status, lists.pooled.links->chains, particles.step},
                              lists.push);
     buffers = pooled_lists::sortingBuffers(program, lists.pooled, grid, lists.thickness);
     buffers.push_back(lists.owners);

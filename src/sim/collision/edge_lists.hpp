@@ -29,7 +29,9 @@ struct Request {
     float beyond = 0;           ///< how much farther than touching and M pairs are listed besides [m]
     std::uint32_t capacity = 0; ///< edges near an edge, on average
     bool usesTexels = true;
-    std::size_t particles = 0; ///< slots of the state
+    std::size_t particles = 0;                   ///< slots of the state
+    const body_frames::Bodies* bodies = nullptr; ///< as hash_grid::Request has them
+    std::uint32_t substeps = 1;                  ///< of a step
 };
 
 /// Owners are edges. A pair is in the list of one that moves, if the other never does; else half of all edges
@@ -39,13 +41,16 @@ struct Lists {
     layout::FaceFindPush push{};
     pooled_lists::Lists pooled;
     BufferId edges;
-    BufferId radii, thickness, middles, speeds, ends, excluded, points, apart;
+    BufferId radii, thickness, middles, speeds, excluded, points, apart;
     BufferId owners;                           ///< by element of the pool
     BufferId touching, marks;                  ///< work groups of edges of which one has a candidate
     BufferId touchingParticles, particleMarks; ///< those of ends of such edges
 };
 
 Lists add(ProgramBuilder& program, const Request& request);
+
+/// Once a step, at the end of its first substep, before addWatch().
+void addFit(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles);
 
 /// Watches where the ends of edges have gone, and builds the grid where lists are no longer complete. Until
 /// addLists() the old lists stand.

@@ -16,9 +16,6 @@ namespace k = kernels;
 constexpr std::array<std::array<const vk::ShaderCode*, 2>, 2> finding{
     {{&k::findFacesLoads, &k::findFacesLinksLoads}, {&k::findFaces, &k::findFacesLinks}}};
 
-// Half of the margin is what a point and a face may come nearer by each; a little less for rounding.
-constexpr float slackShare = 0.49f;
-
 // In the grid all points are alike: cells are as large as faces.
 std::vector<float> pointsOf(std::span<const float> radii) {
     std::vector<float> points;
@@ -70,7 +67,6 @@ Lists add(ProgramBuilder& program, const Request& request) {
     const std::vector<std::uint32_t> large = facesWhere(request.extents, edge, true);
     Lists lists{.grid = hash_grid::add(program, {.radii = points,
                                                  .margin = request.margin,
-                                                 .slack = slackShare * request.margin,
                                                  .edge = edge,
                                                  .others = static_cast<std::uint32_t>(paddedCount(faces)),
                                                  .usesTexels = request.usesTexels,
@@ -114,14 +110,9 @@ void addFit(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& 
 }
 
 void addWatch(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {
-    const hash_grid::Grid& grid = lists.grid;
-    layout::GridPush push = grid.push;
-    push.count = grid.frames.memberCount;
-    program.dispatch(k::watchFaces, push.count,
-                     {particles.positions, particles.velocities, grid.detected, grid.bounds, particles.step,
-                      grid.frames.frames, grid.frames.members},
-                     push, grid.frames.constants());
-    hash_grid::addSort(program, grid, particles.positions, particles.step);
+    hash_grid::addWatchOfMembers(program, lists.grid,
+                                 {particles.positions, particles.velocities, particles.step});
+    hash_grid::addCells(program, lists.grid, particles.positions);
 }
 
 void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers& particles) {

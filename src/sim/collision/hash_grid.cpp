@@ -40,22 +40,6 @@ void addPlan(ProgramBuilder& program, const Grid& grid, BufferId step, bool isLa
                      push);
 }
 
-void addCells(ProgramBuilder& program, const Grid& grid, BufferId positions) {
-    namespace k = kernels;
-    program.dispatchIndirect(form(grid, k::measureBounds, k::measureBoundsLoads), grid.particleChunks,
-                             {positions, grid.radii, grid.bounds}, grid.push);
-    program.dispatchIndirect(form(grid, k::countCells, k::countCellsLoads), grid.particles,
-                             {positions, grid.radii, grid.bounds, grid.counts, grid.places, grid.detected,
-                              grid.frames.ofSlots, grid.watched},
-                             grid.push);
-    program.dispatchIndirect(k::sumCells, grid.cellChunks, {grid.counts, grid.sums}, grid.push);
-    program.dispatchIndirect(k::scanSums, grid.oneGroup, {grid.sums}, grid.push);
-    program.dispatchIndirect(k::startCells, grid.cellChunks, {grid.counts, grid.sums, grid.starts},
-                             grid.push);
-    program.dispatchIndirect(form(grid, k::fillCells, k::fillCellsLoads), grid.particles,
-                             {positions, grid.places, grid.starts, grid.sorted}, grid.push);
-}
-
 } // namespace
 
 float largestInGrid(std::span<const float> radii) {
@@ -74,13 +58,13 @@ Grid add(ProgramBuilder& program, const Request& request) {
     const std::uint32_t cells = cellsFor(count);
     const float most = largestInGrid(request.radii);
     // Nowhere: so far away that the first watch finds everybody gone.
-    const std::vector<layout::vec4> nowhere(count, {1e18f, 1e18f, 1e18f, 0});
+    const std::vector<layout::vec4> nowhere(request.particles > 0 ? request.particles : count,
+                                            {1e18f, 1e18f, 1e18f, 0});
     const std::string name = request.name;
     Grid grid{.push = {.count = static_cast<std::uint32_t>(count),
                        .cells = cells,
                        .edge = std::max(2 * most + request.margin, request.edge),
                        .most = most,
-                       .slack = request.slack,
                        .others = request.others,
                        .quiet = std::max(request.quiet, 0.0f)},
               .usesTexels = request.usesTexels,
@@ -114,6 +98,9 @@ Grid add(ProgramBuilder& program, const Request& request) {
                                       .name = request.name};
     grid.frames = request.bodies ? body_frames::add(program, *request.bodies, frames)
                                  : body_frames::addStanding(program, frames);
+    grid.counted = {grid.detected, grid.frames.ofSlots, grid.watched};
+    if (request.particles > 0)
+        grid.counted = {program.scratch<layout::vec4>(name + ".placed", count), grid.radii, grid.radii};
     grid.push.bodies = grid.frames.push.bodies;
     grid.push.reach = request.reach;
     grid.push.margin = request.margin;
@@ -150,9 +137,30 @@ void addFit(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
         {moved.positions, moved.velocities, grid.detected, grid.watched, grid.bounds, moved.step});
 }
 
-void addSort(ProgramBuilder& program, const Grid& grid, BufferId positions, BufferId step) {
-    addPlan(program, grid, step);
-    addCells(program, grid, positions);
+void addWatchOfMembers(ProgramBuilder& program, const Grid& grid, const Moved& moved) {
+    layout::GridPush push = pushOf(program, grid);
+    push.count = grid.frames.memberCount;
+    program.dispatch(kernels::watchParticles, push.count,
+                     {moved.positions, moved.velocities, grid.detected, grid.bounds, moved.step,
+                      grid.frames.frames, grid.frames.members},
+                     push, grid.frames.constants());
+    addPlan(program, grid, moved.step);
+}
+
+void addCells(ProgramBuilder& program, const Grid& grid, BufferId positions) {
+    namespace k = kernels;
+    program.dispatchIndirect(form(grid, k::measureBounds, k::measureBoundsLoads), grid.particleChunks,
+                             {positions, grid.radii, grid.bounds}, grid.push);
+    program.dispatchIndirect(form(grid, k::countCells, k::countCellsLoads), grid.particles,
+                             {positions, grid.radii, grid.bounds, grid.counts, grid.places, grid.counted[0],
+                              grid.counted[1], grid.counted[2]},
+                             grid.push);
+    program.dispatchIndirect(k::sumCells, grid.cellChunks, {grid.counts, grid.sums}, grid.push);
+    program.dispatchIndirect(k::scanSums, grid.oneGroup, {grid.sums}, grid.push);
+    program.dispatchIndirect(k::startCells, grid.cellChunks, {grid.counts, grid.sums, grid.starts},
+                             grid.push);
+    program.dispatchIndirect(form(grid, k::fillCells, k::fillCellsLoads), grid.particles,
+                             {positions, grid.places, grid.starts, grid.sorted}, grid.push);
 }
 
 } // namespace sinew::sim::collision::hash_grid

@@ -7,6 +7,7 @@
 #include "sim/collision/body_frames.hpp"
 #include "sim/program.hpp"
 
+#include <array>
 #include <span>
 
 namespace sinew::sim::collision::hash_grid {
@@ -15,7 +16,6 @@ namespace sinew::sim::collision::hash_grid {
 struct Request {
     std::span<const float> radii; ///< by state slot, whole work groups [m]; below 0 = no particle there
     float margin = 0; ///< how much farther than touching two particles may be and must still be found [m]
-    float slack = 0;  ///< how far a particle may move before the grid is built again [m]
     float edge = 0;   ///< of a cell, at least [m]
     std::uint32_t others = 0; ///< items of further passes that run with a build; 0 = none
     /// How far a particle may move in a substep before contacts are looked for on its way [m]; below 0 where
@@ -24,11 +24,13 @@ struct Request {
     bool usesTexels = true;
     /// The bodies whose motion particles are expected to share; null = they are expected to stay.
     const body_frames::Bodies* bodies = nullptr;
-    std::size_t particles = 0;      ///< slots of the state, where items of the grid are something else
-    std::span<const float> watched; ///< by state slot: below 0 = never watched; empty = `radii`
-    float reach = 0;                ///< the largest at which two touch [m]
-    std::uint32_t substeps = 1;     ///< of a step
-    const char* name = "grid";      ///< of its buffers
+    /// Slots of the state, where items of the grid are something else. `detected` is then written by whoever
+    /// asks, when the grid is built.
+    std::size_t particles = 0;
+    std::span<const float> watched;           ///< by state slot: below 0 = never watched; empty = `radii`
+    float reach = 0;                          ///< the largest at which two touch [m]
+    std::uint32_t substeps = 1;               ///< of a step
+    const char* name = "grid";                ///< of its buffers
     const char* radiiName = "contacts.radii"; ///< of that one
 };
 
@@ -52,7 +54,9 @@ struct Grid {
         others; ///< of passes that run with a build
     /// Items in work groups of which one has a candidate: owners of lists, particles.
     IndirectItems touching, touchingParticles;
-    BufferId watched;             ///< by item: below 0 = nothing can touch it, nor what it is a corner of
+    BufferId watched; ///< by slot: below 0 = nothing can touch it, nor what it is a corner of
+    /// What the pass that counts cells sees of items: where it writes them, their bodies, who is watched.
+    std::array<BufferId, 3> counted;
     IndirectItems swept, unswept; ///< likewise, a particle each, where contacts may or cannot lie on the way
     IndirectItems slowed;         ///< where too many are too fast
     body_frames::Frames frames;
@@ -63,8 +67,11 @@ Grid add(ProgramBuilder& program, const Request& request);
 /// Fits frames to particles at the end of the first substep of a step, before they are watched.
 void addFit(ProgramBuilder& program, const Grid& grid, const Moved& moved);
 
-/// Builds the grid of moved.positions where bounds.moved says that somebody has gone too far.
-void addSort(ProgramBuilder& program, const Grid& grid, BufferId positions, BufferId step);
+/// Watches all particles that are members of frames, and says whether the grid is built.
+void addWatchOfMembers(ProgramBuilder& program, const Grid& grid, const Moved& moved);
+
+/// After it: builds the grid of items at `positions`, where it is.
+void addCells(ProgramBuilder& program, const Grid& grid, BufferId positions);
 
 /// Watches particles.
 void addWatch(ProgramBuilder& program, const Grid& grid, const Moved& moved);

@@ -4,6 +4,8 @@
 #include "kernels.hpp"
 #include "sim/ranges.hpp"
 
+#include <algorithm>
+
 namespace sinew::sim::collision::pooled_lists {
 
 static_assert(ranges::mostContactRoom == CONTACT_MOST_ROOM);
@@ -83,8 +85,9 @@ void addPublishing(ProgramBuilder& program, const Lists& lists, const hash_grid:
         buffers.insert(buffers.end(),
                        {lists.contacts, lists.ranges, lists.memory->memory, lists.memory->saved.memory,
                         lists.memory->saved.others, lists.memory->saved.ranges});
-    program.dispatch(lists.memory ? kernels::publishKeptLists : kernels::publishLists, grid.push.count,
-                     buffers, layout::CountPush{grid.push.count});
+    const std::uint32_t items = std::max(grid.push.count, grid.touchingParticles.most);
+    program.dispatch(lists.memory ? kernels::publishKeptLists : kernels::publishLists, items, buffers,
+                     layout::CountPush{grid.push.count});
 }
 
 } // namespace sinew::sim::collision::pooled_lists
