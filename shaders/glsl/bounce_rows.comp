@@ -7,13 +7,14 @@
 
 layout(std430, binding = 0) readonly buffer Before { vec4 before[]; };     // velocities when the substep began [m/s]
 layout(std430, binding = 2) readonly buffer Contacts { uvec2 contacts[]; };
-layout(std430, binding = 3) readonly buffer Lists { uvec2 lists[]; };
+layout(std430, binding = 3) readonly buffer Owners { uint owners[]; };      // of each element
 layout(std430, binding = 4) readonly buffer Directions { vec4 directions[]; };
 layout(std430, binding = 5) readonly buffer Weights { vec4 weights[]; };
 layout(std430, binding = 6) readonly buffer Surfaces { uint surfaces[]; }; // of each particle
 layout(std430, binding = 7) readonly buffer Pairs { SurfacePair pairs[]; };
 layout(std140, binding = 8) uniform Step { StepParams step; };
 layout(std430, binding = 9) writeonly buffer Bounces { vec4 bounces[]; };  // n, speed [m/s]; 0 = does not rebound
+layout(std140, binding = 10) uniform Bounds { GridBounds bounds; };
 layout(push_constant) uniform Push { FacePush push; };
 #define SHAPES_BINDING 1
 #include "row.glsl"
@@ -25,10 +26,8 @@ float speedOf(uint owner, uint element) {
 }
 
 void main() {
-    const uint owner = itemIndex(push.count);
-    const uvec2 list = lists[owner];
-    for (uint element = list.x; element < list.x + list.y; ++element) {
-        const vec4 direction = directions[element];
-        bounces[element] = vec4(direction.xyz, direction.w > 0.0 ? speedOf(owner, element) : 0.0);
-    }
+    const uint element = itemIndex(bounds.entries);
+    if (element >= bounds.entries) return;
+    const vec4 direction = directions[element];
+    bounces[element] = vec4(direction.xyz, direction.w > 0.0 ? speedOf(owners[element], element) : 0.0);
 }

@@ -1,6 +1,6 @@
 #version 460
 // Makes the links of every moving face, EDGES: of every edge, to its rows in the lists of others, sorted by owner. There its corners find
-// what these do to them. Lists the groups of particles, and of edges, that contacts are solved for.
+// what these do to them. Lists the groups of particles that contacts are solved for, and says how many groups of elements there are.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "kernel.glsl"
@@ -18,7 +18,6 @@ layout(std430, binding = 6) writeonly buffer Points { FacePoints points; };
 layout(std430, binding = 7) buffer Bounds { GridBounds bounds; };
 #ifdef EDGES
 layout(std430, binding = 8) readonly buffer Edges { ContactEdge edges[]; };
-#define LISTS_OWNERS
 #else
 layout(std430, binding = 8) readonly buffer Faces { ContactFace faces[]; };
 #endif
@@ -30,9 +29,7 @@ layout(std430, binding = 9) buffer Status { StatusWords status; };
 // A point lists its own group in sort_lists.
 void listGroups(uint shape, bool isLinked) {
 #ifdef EDGES
-    const bool owns = lists[shape].y > 0u;
-    if (owns) listOwner(shape);
-    if (!owns && !isLinked) return;
+    if (lists[shape].y == 0u && !isLinked) return;
     listParticle(edges[shape].a);
     listParticle(edges[shape].b);
 #else
@@ -57,7 +54,10 @@ void put(uint element, uint owner) {
 
 void main() {
     const uint f = itemIndex(push.moving);
-    if (f == 0u) points = FacePoints(0u, 0u, 0u, 0u); // for the next time
+    if (f == 0u) {
+        points = FacePoints(0u, 0u, 0u, 0u); // for the next time
+        arguments[2] = DispatchArguments((bounds.entries + GROUP_SIZE - 1u) / GROUP_SIZE, 1u, 1u, 0u);
+    }
     if (f >= push.moving) return;
     const uint chain = chains[f], all = lengthOf(chain), n = min(all, LIST_MOST);
     if (all > LIST_MOST) atomicMax(status.candidates, CONTACT_MOST_ROOM + 1u); // said, not lost

@@ -11,7 +11,7 @@
 
 layout(std430, binding = 0) readonly buffer Velocities { vec4 velocities[]; };
 layout(std430, binding = 2) readonly buffer Contacts { uvec2 contacts[]; }; // ContactCandidate, in one load
-layout(std430, binding = 3) readonly buffer Lists { uvec2 lists[]; };
+layout(std430, binding = 3) readonly buffer Owners { uint owners[]; };      // of each element
 layout(std430, binding = 4) readonly buffer Directions { vec4 directions[]; }; // n, depth [m]; 0 = does not touch
 layout(std430, binding = 5) readonly buffer Weights { vec4 weights[]; };
 layout(std430, binding = 6) readonly buffer Shares { float shares[]; };
@@ -21,6 +21,7 @@ layout(std430, binding = 9) readonly buffer Before { vec4 before[]; };      // v
 layout(std140, binding = 10) uniform Step { StepParams step; };
 layout(std430, binding = 11) readonly buffer Surfaces { uint surfaces[]; }; // of each particle
 layout(std430, binding = 12) readonly buffer Pairs { SurfacePair pairs[]; };
+layout(std140, binding = 13) uniform Bounds { GridBounds bounds; };
 layout(push_constant) uniform Push { FacePush push; };
 #define SHAPES_BINDING 1
 #include "row.glsl"
@@ -48,7 +49,6 @@ void press(uint owner, uint element) {
 }
 
 void main() {
-    const uint owner = itemIndex(push.count);
-    const uvec2 list = lists[owner];
-    for (uint element = list.x; element < list.x + list.y; ++element) press(owner, element);
+    const uint element = itemIndex(bounds.entries);
+    if (element < bounds.entries) press(owners[element], element);
 }

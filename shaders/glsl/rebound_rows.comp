@@ -7,11 +7,12 @@
 
 layout(std430, binding = 0) readonly buffer Velocities { vec4 velocities[]; }; // after all contacts of the substep
 layout(std430, binding = 2) readonly buffer Contacts { uvec2 contacts[]; };
-layout(std430, binding = 3) readonly buffer Lists { uvec2 lists[]; };
+layout(std430, binding = 3) readonly buffer Owners { uint owners[]; };      // of each element
 layout(std430, binding = 4) readonly buffer Bounces { vec4 bounces[]; };
 layout(std430, binding = 5) readonly buffer Weights { vec4 weights[]; };
 layout(std430, binding = 6) readonly buffer Shares { float shares[]; };
 layout(std430, binding = 7) writeonly buffer Impulses { vec4 impulses[]; };    // [kg m/s]
+layout(std140, binding = 8) uniform Bounds { GridBounds bounds; };
 layout(push_constant) uniform Push { FacePush push; };
 #define SHAPES_BINDING 1
 #include "row.glsl"
@@ -24,9 +25,7 @@ vec3 impulseOf(uint owner, uint element) {
 }
 
 void main() {
-    const uint owner = itemIndex(push.count);
-    const uvec2 list = lists[owner];
-    for (uint element = list.x; element < list.x + list.y; ++element) {
-        if (bounces[element].w > 0.0) impulses[element] = vec4(impulseOf(owner, element), 0.0);
-    }
+    const uint element = itemIndex(bounds.entries);
+    if (element >= bounds.entries) return;
+    if (bounces[element].w > 0.0) impulses[element] = vec4(impulseOf(owners[element], element), 0.0);
 }

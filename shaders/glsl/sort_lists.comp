@@ -48,8 +48,13 @@ float reachOf(float own, uint other) {
 #else
 float reachOf(float own, uint other) { return own + radii[other]; }
 #endif
-#ifdef EDGES
-layout(std430, binding = GROUPS_BINDING) writeonly buffer Owners { uint owners[]; }; // of each element
+#ifdef FACES
+#define OWNERS_BINDING (PARTICLES_BINDING + 3)
+#elif defined EDGES
+#define OWNERS_BINDING GROUPS_BINDING
+#endif
+#ifdef OWNERS_BINDING
+layout(std430, binding = OWNERS_BINDING) writeonly buffer Owners { uint owners[]; }; // of each element
 #endif
 
 void listGroups(uint i) {
@@ -65,7 +70,7 @@ uint owner;
 float own; // radius, or how thick it is [m]
 void put(uint element, uint other) {
     contacts[element] = ContactCandidate(other, reachOf(own, other));
-#ifdef EDGES
+#ifdef OWNERS_BINDING
     owners[element] = owner;
 #endif
 }

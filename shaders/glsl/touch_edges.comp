@@ -18,6 +18,7 @@ layout(std430, binding = 5) readonly buffer Memory { vec4 memory[]; };          
 layout(std430, binding = 6) writeonly buffer Directions { vec4 directions[]; }; // n from the other to the owner, depth [m]; 0 = none
 layout(std430, binding = 7) writeonly buffer Weights { vec4 weights[]; };       // s of the owner, t of the other edge; remembered
 layout(std140, binding = 8) uniform Step { StepParams step; };
+layout(std140, binding = 13) uniform Bounds { GridBounds bounds; };
 layout(push_constant) uniform Push { FacePush push; };
 #define MARKS_BINDING 9
 #include "keeps_rest.glsl"
@@ -28,12 +29,10 @@ layout(std430, binding = 12) readonly buffer LinkLists { uvec2 linkLists[]; }; /
 #include "edge_touch.glsl"
 
 void main() {
-    const uint e = itemIndex(push.count);
-    const uvec2 list = lists[e];
-    for (uint element = list.x; element < list.x + list.y; ++element) {
-        const uvec2 candidate = contacts[element];
-        const Touch touch = touchOf(uvec2(e, candidate.x), uintBitsToFloat(candidate.y), memory[element].w);
-        directions[element] = vec4(touch.n, touch.depth);
-        weights[element] = vec4(touch.st, 0.0, touch.remembered);
-    }
+    const uint element = itemIndex(bounds.entries);
+    if (element >= bounds.entries) return;
+    const uvec2 candidate = contacts[element];
+    const Touch touch = touchOf(uvec2(owners[element], candidate.x), uintBitsToFloat(candidate.y), memory[element].w);
+    directions[element] = vec4(touch.n, touch.depth);
+    weights[element] = vec4(touch.st, 0.0, touch.remembered);
 }

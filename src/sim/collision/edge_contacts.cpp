@@ -92,14 +92,16 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
                               .sheets = 0},
                      .lists = lists.pooled,
                      .shapes = lists.edges,
-                     .owners = {lists.grid.touching, lists.touching},
-                     .particles = {lists.grid.touchingParticles, lists.touchingParticles},
+                     .elements = lists.grid.entries,
+                     .bounds = lists.grid.bounds,
+                     .particles = {lists.grid.touchingParticles, lists.touching},
                      .surfaces = faces.rows.surfaces,
                      .marks = faces.rows.marks,
                      .keepsRest = faces.rows.keepsRest};
     row_contacts::add(program, contacts.rows,
                       cornersOf(edges, layout, inverseMasses(scene), settings.keepsForces), particles);
-    contacts.rows.touching = {lists.owners, lists.pooled.links->elements, lists.pooled.links->ranges};
+    contacts.rows.touching = {lists.pooled.links->owners, lists.pooled.links->elements,
+                              lists.pooled.links->ranges};
     ContactBuffers& shown = program.program().contacts;
     shown.edges = lists.edges;
     shown.edgePairs = lists.pooled.contacts;

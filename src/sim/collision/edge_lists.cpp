@@ -89,12 +89,10 @@ Lists add(ProgramBuilder& program, const Request& request) {
     lists.speeds = program.scratch<layout::vec4>("edges.speeds", count);
     lists.excluded = program.upload("edges.excluded", request.exclusions);
     lists.points = program.scratch<layout::FacePoints>("edges.points", 1);
-    lists.owners = program.scratch<std::uint32_t>("edges.owners", lists.pooled.room);
-    lists.touching = program.scratch<std::uint32_t>("edges.groups", count / GROUP_ITEMS);
-    lists.marks = program.scratch<std::uint32_t>("edges.groups.listed", count / GROUP_ITEMS);
     const std::size_t groups = request.particles / GROUP_ITEMS;
-    lists.touchingParticles = program.scratch<std::uint32_t>("edges.particles.groups", groups);
-    lists.particleMarks = program.scratch<std::uint32_t>("edges.particles.groups.listed", groups);
+    lists.touching = program.scratch<std::uint32_t>("edges.groups", groups);
+    lists.marks = program.scratch<std::uint32_t>("edges.groups.listed", groups);
+    lists.grid.entries = {lists.grid.touching.arguments, 2, lists.pooled.room};
     lists.apart = program.scratch<std::uint32_t>("edges.apart", count);
     return lists;
 }
@@ -127,14 +125,13 @@ void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers
                               program.program().status, lists.pooled.links->chains, particles.step},
                              lists.push);
     buffers = pooled_lists::sortingBuffers(program, lists.pooled, grid, lists.thickness);
-    buffers.push_back(lists.owners);
+    buffers.push_back(lists.pooled.links->owners);
     program.dispatchIndirect(k::sortEdges, grid.particles, buffers, lists.push);
     const pooled_lists::Links& links = *lists.pooled.links;
     program.dispatchIndirect(k::linkEdges, grid.particles,
                              {lists.pooled.pairs, links.chains, lists.pooled.contacts, lists.pooled.ranges,
                               links.elements, links.ranges, lists.points, grid.bounds, lists.edges,
-                              program.program().status, grid.touching.arguments, lists.marks, lists.touching,
-                              lists.particleMarks, lists.touchingParticles},
+                              program.program().status, grid.touching.arguments, lists.marks, lists.touching},
                              lists.push);
 }
 

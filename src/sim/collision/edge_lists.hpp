@@ -42,9 +42,7 @@ struct Lists {
     pooled_lists::Lists pooled;
     BufferId edges;
     BufferId radii, thickness, middles, speeds, excluded, points, apart;
-    BufferId owners;                           ///< by element of the pool
-    BufferId touching, marks;                  ///< work groups of edges of which one has a candidate
-    BufferId touchingParticles, particleMarks; ///< those of ends of such edges
+    BufferId touching, marks; ///< work groups of particles of which one is an end of an edge with a candidate
 };
 
 Lists add(ProgramBuilder& program, const Request& request);

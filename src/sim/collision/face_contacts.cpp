@@ -241,12 +241,12 @@ row_contacts::Rows addRows(ProgramBuilder& program, const Scene& scene, const Se
                            const ParticleBuffers& particles, const Faces& faces,
                            const face_lists::Lists& lists) {
     const layout::FaceFindPush& find = lists.push;
-    const row_contacts::Groups groups{lists.grid.touchingParticles, lists.touching};
     row_contacts::Rows rows{.kind = &row_contacts::faces,
                             .lists = lists.pooled,
                             .shapes = lists.faces,
-                            .owners = groups,
-                            .particles = groups,
+                            .elements = lists.grid.entries,
+                            .bounds = lists.grid.bounds,
+                            .particles = {lists.grid.touchingParticles, lists.touching},
                             .surfaces = surfaces::addTable(program, scene, particles.layout, "faces.surface"),
                             .keepsRest = keepRest(scene)};
     rows.push = {.count = find.points,

@@ -91,6 +91,7 @@ Lists add(ProgramBuilder& program, const Request& request) {
                                                .others = request.moving + 1,
                                                .hasMemory = true});
     lists.push.room = lists.pooled.room;
+    lists.grid.entries = {lists.grid.touching.arguments, 2, lists.pooled.room};
     lists.radii = program.upload("faces.radii", request.radii);
     lists.inverseMasses = program.upload("faces.inverse_masses", request.inverseMasses);
     lists.faces = program.upload("faces", request.faces);
@@ -136,7 +137,8 @@ void addLists(ProgramBuilder& program, const Lists& lists, const ParticleBuffers
     program.dispatchIndirect(hasLinks ? k::findWideFacesLinks : k::findWideFaces, grid.particles, buffers,
                              lists.push);
     buffers = pooled_lists::sortingBuffers(program, lists.pooled, grid, lists.radii);
-    buffers.insert(buffers.end(), {grid.touching.arguments, lists.marks, lists.touching, lists.faces});
+    buffers.insert(buffers.end(), {grid.touching.arguments, lists.marks, lists.touching, lists.faces,
+                                   lists.pooled.links->owners});
     program.dispatchIndirect(k::sortFaces, grid.particles, buffers, lists.push);
     program.dispatchIndirect(k::linkFaces, grid.others,
                              {lists.pooled.pairs, lists.pooled.links->chains, lists.pooled.contacts,

@@ -85,7 +85,7 @@ Grid add(ProgramBuilder& program, const Request& request) {
     grid.others = {grid.arguments, GRID_OTHERS, request.others, true};
     grid.swept = {grid.arguments, GRID_SWEPT, grid.push.count, true};
     grid.unswept = {grid.arguments, GRID_UNSWEPT, grid.push.count, true};
-    const BufferId touching = program.scratch<layout::DispatchArguments>(name + ".touching", 2);
+    const BufferId touching = program.scratch<layout::DispatchArguments>(name + ".touching", 3);
     grid.touching = {touching, 0, grid.push.count};
     grid.touchingParticles = {touching, 1, static_cast<std::uint32_t>(std::max(count, request.particles))};
     grid.watched =

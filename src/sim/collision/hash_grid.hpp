@@ -54,7 +54,8 @@ struct Grid {
         others; ///< of passes that run with a build
     /// Items in work groups of which one has a candidate: owners of lists, particles.
     IndirectItems touching, touchingParticles;
-    BufferId watched; ///< by slot: below 0 = nothing can touch it, nor what it is a corner of
+    IndirectItems entries; ///< all entries of the pool that are in use; only where pairs have links
+    BufferId watched;      ///< by slot: below 0 = nothing can touch it, nor what it is a corner of
     /// What the pass that counts cells sees of items: where it writes them, their bodies, who is watched.
     std::array<BufferId, 3> counted;
     IndirectItems swept, unswept; ///< likewise, a particle each, where contacts may or cannot lie on the way

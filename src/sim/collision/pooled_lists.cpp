@@ -52,7 +52,8 @@ Lists add(ProgramBuilder& program, const Request& request) {
     if (request.others > 0)
         lists.links = {.elements = program.scratch<std::uint32_t>(name + ".links", room),
                        .ranges = program.scratch<layout::ListRange>(name + ".link_lists", request.others),
-                       .chains = program.scratch<std::uint32_t>(name + ".link_chains", request.others)};
+                       .chains = program.scratch<std::uint32_t>(name + ".link_chains", request.others),
+                       .owners = program.scratch<std::uint32_t>(name + ".owners", room)};
     if (!request.hasMemory) return lists;
     lists.memory = addMemory(program, request, room);
     const Kept& saved = lists.memory->saved;

@@ -48,6 +48,7 @@ struct Memory {
 struct Links {
     BufferId elements, ranges;
     BufferId chains; ///< of pairs
+    BufferId owners; ///< by element of `contacts`
 };
 
 /// Element ranges[i].first + s of `contacts` is candidate s of owner i (layout::ListRange,

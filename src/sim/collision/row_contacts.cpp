@@ -15,6 +15,12 @@ void addOver(ProgramBuilder& program, const Rows& rows, const Groups& groups, co
     program.dispatchIndirect(code, groups.items, buffers, rows.push, constants);
 }
 
+void addOverRows(ProgramBuilder& program, const Rows& rows, const vk::ShaderCode& code,
+                 std::vector<BufferId> buffers, const ProgramBuilder::Constants& constants = {}) {
+    buffers.push_back(rows.bounds);
+    program.dispatchIndirect(code, rows.elements, buffers, rows.push, constants);
+}
+
 // How particles are shared among rows that have something in the last word of `directions`.
 void addShares(ProgramBuilder& program, const Rows& rows, BufferId directions,
                const ParticleBuffers& particles) {
@@ -54,6 +60,7 @@ sleep::SeenRows seenOf(const Rows& rows) {
 
 constinit const Kind faces{.name = "faces",
                            .touch = &k::touchFaces,
+                           .touchesLists = true,
                            .share = &k::shareFaces,
                            .press = &k::pressFaces,
                            .bounce = &k::bounceFaces,
@@ -121,13 +128,16 @@ void addPasses(ProgramBuilder& program, const Rows& rows, const ParticleBuffers&
         predicted.positions,  predicted.velocities, rows.shapes,  lists.contacts, lists.ranges,
         lists.memory->memory, rows.directions,      rows.weights, predicted.step, rows.marks};
     buffers.insert(buffers.end(), rows.touching.begin(), rows.touching.end());
-    addOver(program, rows, rows.owners, *rows.kind->touch, std::move(buffers), constants);
+    if (rows.kind->touchesLists)
+        addOver(program, rows, rows.particles, *rows.kind->touch, std::move(buffers), constants);
+    else
+        addOverRows(program, rows, *rows.kind->touch, std::move(buffers), constants);
     sleep::addRowTouches(program, predicted, seenOf(rows));
     addShares(program, rows, rows.directions, predicted);
-    addOver(program, rows, rows.owners, *rows.kind->press,
-            {predicted.velocities, rows.shapes, lists.contacts, lists.ranges, rows.directions, rows.weights,
-             rows.shares, lists.memory->memory, rows.impulses, rows.before, predicted.step,
-             rows.surfaces.ofParticles, rows.surfaces.pairs});
+    addOverRows(program, rows, *rows.kind->press,
+                {predicted.velocities, rows.shapes, lists.contacts, lists.links->owners, rows.directions,
+                 rows.weights, rows.shares, lists.memory->memory, rows.impulses, rows.before, predicted.step,
+                 rows.surfaces.ofParticles, rows.surfaces.pairs});
     addImpulses(program, rows, rows.directions, rows.kind->gather, predicted,
                 remainderConstants(predicted.layout));
 }
@@ -135,13 +145,13 @@ void addPasses(ProgramBuilder& program, const Rows& rows, const ParticleBuffers&
 void addBounces(ProgramBuilder& program, const Rows& rows, const ParticleBuffers& state) {
     if (!rows.surfaces.hasRestitution) return;
     const pooled_lists::Lists& lists = rows.lists;
-    addOver(program, rows, rows.owners, *rows.kind->bounce,
-            {rows.before, rows.shapes, lists.contacts, lists.ranges, rows.directions, rows.weights,
-             rows.surfaces.ofParticles, rows.surfaces.pairs, state.step, rows.bounces});
+    addOverRows(program, rows, *rows.kind->bounce,
+                {rows.before, rows.shapes, lists.contacts, lists.links->owners, rows.directions, rows.weights,
+                 rows.surfaces.ofParticles, rows.surfaces.pairs, state.step, rows.bounces});
     addShares(program, rows, rows.bounces, state);
-    addOver(program, rows, rows.owners, *rows.kind->rebound,
-            {state.velocities, rows.shapes, lists.contacts, lists.ranges, rows.bounces, rows.weights,
-             rows.shares, rows.impulses});
+    addOverRows(program, rows, *rows.kind->rebound,
+                {state.velocities, rows.shapes, lists.contacts, lists.links->owners, rows.bounces,
+                 rows.weights, rows.shares, rows.impulses});
     addImpulses(program, rows, rows.bounces, rows.kind->gatherRebound, state);
 }
 

@@ -26,6 +26,7 @@ namespace sinew::sim::collision::row_contacts {
 struct Kind {
     const char* name = nullptr; ///< of buffers
     const vk::ShaderCode* touch = nullptr;
+    bool touchesLists = false; ///< whether that runs over owners of lists, not over single rows
     const vk::ShaderCode* share = nullptr;
     const vk::ShaderCode* press = nullptr;
     const vk::ShaderCode* bounce = nullptr;
@@ -58,8 +59,10 @@ struct Rows {
     const Kind* kind = nullptr;
     layout::FacePush push{};
     pooled_lists::Lists lists;
-    BufferId shapes;          ///< of layout::ContactFace or layout::ContactEdge
-    Groups owners, particles; ///< owners of lists; whoever is in a row
+    BufferId shapes;        ///< of layout::ContactFace or layout::ContactEdge
+    IndirectItems elements; ///< of `lists`, those in use
+    BufferId bounds;        ///< of the grid: how many these are
+    Groups particles;       ///< whoever is in a row
     surfaces::Surfaces surfaces;
     BufferId marks;         ///< contact_lists::linkedMarks, or anything where nothing needs them
     bool keepsRest = false; ///< any particle

@@ -98,7 +98,7 @@ public:
     Neighbours linked() const {
         const auto ranges = read<layout::ListRange>(lists_.pooled.links->ranges);
         const auto elements = read<std::uint32_t>(lists_.pooled.links->elements);
-        const auto owners = read<std::uint32_t>(lists_.owners);
+        const auto owners = read<std::uint32_t>(lists_.pooled.links->owners);
         const auto entries = read<layout::ContactCandidate>(lists_.pooled.contacts);
         Neighbours result(edgeCount);
         for (std::uint32_t e = 0; e < edgeCount; ++e)
