@@ -4,6 +4,7 @@
 #include "kernel.glsl"
 #include "math.glsl"
 #include "triangle.glsl"
+#include "linked_reach.h"
 
 #ifdef TEXELS
 layout(binding = 0) uniform samplerBuffer positions;
@@ -62,28 +63,33 @@ Searched searchedOf(uint f) {
 
 #include "excluded.glsl"
 
+// What joins a point to a face: nothing, a diagonal link alone, so that they touch at LINKED_REACH, or so much that they never touch.
+#define BOND_NONE 0u
+#define BOND_DIAGONAL 1u
+#define BOND_EXCLUDED 2u
+
 #ifdef LINKS
 layout(std430, binding = LINKS_BINDING) readonly buffer Links { uint links[]; }; // that are alive, of each node of a lattice
 #include "link_masks.glsl"
 #include "link_ways.glsl"
 
-// A row of a body that may be cut ends with where its strides stand in the table.
-bool isLinkedToFace(Searched face, uint i) {
+// A row of a body that may be cut ends with where its strides stand in the table, and whether diagonals let it feel itself.
+uint bondOf(Searched face, uint i) {
+    if (isExcluded(face.index, i)) return BOND_EXCLUDED;
     const uint end = EXCLUDED(face.index + 1u), last = end > EXCLUDED(face.index) ? EXCLUDED(end - 1u) : 0u;
-    if ((last & EXCLUDED_LINKED) == 0u) return false;
+    if ((last & EXCLUDED_LINKED) == 0u) return BOND_NONE;
     const uint strides = last & ~EXCLUDED_LINKED, rowStride = EXCLUDED(strides), sliceStride = EXCLUDED(strides + 1u);
     uint alive = 0u;
     [[dont_unroll]] for (uint c = 0u; c < 3u; ++c) {
         const uint corner = c == 0u ? face.face.a : c == 1u ? face.face.b : face.face.c;
         alive |= links[corner] & linksTo(int(i) - int(corner), rowStride, sliceStride);
     }
-    return alive != 0u;
+    if (alive == 0u) return BOND_NONE;
+    return (alive & EDGE_LINKS) != 0u || EXCLUDED(strides + 2u) == 0u ? BOND_EXCLUDED : BOND_DIAGONAL;
 }
 #else
-bool isLinkedToFace(Searched face, uint i) { return false; }
+uint bondOf(Searched face, uint i) { return isExcluded(face.index, i) ? BOND_EXCLUDED : BOND_NONE; }
 #endif
-
-bool neverTouch(Searched face, uint i) { return isExcluded(face.index, i) || isLinkedToFace(face, i); }
 
 // `reach` with radius and way of the point.
 bool isInBox(Searched face, vec3 x, float reach) {
@@ -106,21 +112,26 @@ bool isBesideWay(Searched face, uint i, vec3 x) {
     return dot(apart, apart) > reach * reach;
 }
 
-// But for excluded pairs, of which whoever asks must look in a table.
-bool isNear(Searched face, uint i, vec3 x) {
+// But for excluded pairs, of which whoever asks must look in a table. `less`: by how much nearer the two touch than others [m].
+bool isNear(Searched face, uint i, vec3 x, float less) {
     const uint f = face.index;
     if (i == face.face.a || i == face.face.b || i == face.face.c) return false;
     if (f >= push.moving && inverseMass[i] == 0.0) return false; // neither ever moves
     if (isBesideWay(face, i, x)) return false;
     const vec3 v = VELOCITY(i).xyz, d = nearestOf(x - face.a, face.triangle).d;
-    const float reach = face.still + RADIUS(i) + step.h * longestOf(v - face.va, v - face.vb, v - face.vc);
+    const float reach = face.still + RADIUS(i) + step.h * longestOf(v - face.va, v - face.vb, v - face.vc) - less;
     return dot(d, d) < reach * reach;
 }
 
-void list(uint i, uint f) {
+// Of a pair that isNear().
+void listUnlessExcluded(Searched face, uint i) {
+    const uint bond = bondOf(face, i), f = face.index;
+    if (bond == BOND_EXCLUDED) return;
+    const float less = (1.0 - LINKED_REACH) * (RADIUS(i) + abs(face.face.thickness));
+    if (bond == BOND_DIAGONAL && !isNear(face, i, POSITION(i).xyz, less)) return;
     const uint pair = newPair();
     if (pair == noPair) return;
     const uint next = atomicExchange(pointChains[i], 2u * pair + 1u);
     const uint nextOfFace = f < push.moving ? atomicExchange(faceChains[f], 2u * pair + 2u) : 0u;
-    pairs[pair] = uvec4(i, f, next, nextOfFace);
+    pairs[pair] = uvec4(i, 2u * f + bond, next, nextOfFace);
 }

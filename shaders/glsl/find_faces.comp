@@ -28,11 +28,7 @@ layout(std430, binding = 14) readonly buffer SearchedFaces { uint searchedFaces[
 
 bool isNearby(Searched face, uint i, vec3 x, bool isApart) {
     const float size = sizeOf(RADIUS(i), step.h, VELOCITY(i).xyz), reach = face.reach + size;
-    return isInBox(face, x, reach) && (size <= push.most) != isApart && isNear(face, i, x);
-}
-
-void listUnlessExcluded(Searched face, uint i) {
-    if (!neverTouch(face, i)) list(i, face.index);
+    return isInBox(face, x, reach) && (size <= push.most) != isApart && isNear(face, i, x, 0.0);
 }
 
 // Of up to 32 visits from `from` on, the points near the box of the face: bit v for visit from + v.

@@ -23,7 +23,7 @@ void main() {
         if (f == ~0u) continue; // a cut has parted it
         const Searched face = searchedOf(f);
         const float reach = face.reach + size;
-        if (!isInBox(face, x, reach) || !isNear(face, i, x) || neverTouch(face, i)) continue;
-        list(i, face.index);
+        if (!isInBox(face, x, reach) || !isNear(face, i, x, 0.0)) continue;
+        listUnlessExcluded(face, i);
     }
 }

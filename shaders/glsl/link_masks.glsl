@@ -10,6 +10,9 @@ int bitOf(int dx, int dy, int dz) {
     return s < FIRST_OWNED ? s : s - 1;
 }
 
+// Those along the axes.
+#define EDGE_LINKS (1u << 4 | 1u << 10 | 1u << 12 | 1u << 13 | 1u << 15 | 1u << 21)
+
 // Corner k of a box, as everywhere.
 ivec3 cornerOf(int k) { return ivec3(k & 1, k >> 1 & 1, k >> 2); }
 

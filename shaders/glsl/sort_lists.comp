@@ -40,12 +40,16 @@ layout(std430, binding = 10) readonly buffer KeptLists { uvec2 keptLists[]; };
 #endif
 #ifdef FACES
 layout(std430, binding = PARTICLES_BINDING + 2) readonly buffer Faces { ContactFace faces[]; };
-// Has the sign bit of the thickness, which may be that of a 0.
-float reachOf(float own, uint other) {
-    const float thickness = faces[other].thickness;
-    return uintBitsToFloat(floatBitsToUint(own + abs(thickness)) | floatBitsToUint(thickness) & 0x80000000u);
+#include "linked_reach.h"
+// Entries are 2 x face, + 1 where a link joins the two. Has the sign bit of the thickness, which may be that of a 0.
+uint otherOf(uint entry) { return entry / 2u; }
+float reachOf(float own, uint entry) {
+    const float thickness = faces[otherOf(entry)].thickness, reach = own + abs(thickness);
+    const float linked = (entry & 1u) != 0u ? LINKED_REACH * reach : reach;
+    return uintBitsToFloat(floatBitsToUint(linked) | floatBitsToUint(thickness) & 0x80000000u);
 }
 #else
+uint otherOf(uint entry) { return entry; }
 float reachOf(float own, uint other) { return own + radii[other]; }
 #endif
 #ifdef FACES
@@ -68,8 +72,8 @@ void listGroups(uint i) {
 
 uint owner;
 float own; // radius, or how thick it is [m]
-void put(uint element, uint other) {
-    contacts[element] = ContactCandidate(other, reachOf(own, other));
+void put(uint element, uint entry) {
+    contacts[element] = ContactCandidate(otherOf(entry), reachOf(own, entry));
 #ifdef OWNERS_BINDING
     owners[element] = owner;
 #endif

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 namespace sinew::sim::collision::face_contacts {
 
@@ -89,13 +90,14 @@ private:
 // The particles of one voxel body, and which of them its links join at first.
 class Nodes {
 public:
-    explicit Nodes(const Grid& grid) : grid_(grid), first_(grid.firstParticle) {
+    Nodes(const Grid& grid, std::span<const float> radii) : grid_(grid), first_(grid.firstParticle) {
         particle_.resize(std::size_t{grid.nodes[0]} * grid.nodes[1] * grid.nodes[2]);
         for (std::uint32_t n = 0; n < grid.node.size(); ++n) {
             particle_[grid.node[n]] = first_ + n;
             const auto at = lattice::coordinates(grid, grid.node[n]);
             links_.push_back(lattice::linksAt(grid, at));
             isInside_.push_back(lattice::isInside(lattice::fillAround(grid, at)));
+            widest_ = std::max(widest_, radii[first_ + n]);
         }
     }
 
@@ -121,6 +123,12 @@ public:
         return reach < unlinked && deep(face.a) && deep(face.b) && deep(face.c);
     }
 
+    // Whether the ends of a diagonal link are farther from each other than what touches.
+    bool areDiagonalsApart(const layout::ContactFace& face) const {
+        const double reach = nearness * (double{widest_} + double{face.thickness});
+        return reach < std::numbers::sqrt2 * double{grid_.restLength[0]};
+    }
+
     const Grid& grid() const { return grid_; }
 
 private:
@@ -128,12 +136,13 @@ private:
     std::uint32_t first_;
     std::vector<std::uint32_t> particle_, links_; // by node; by particle
     std::vector<bool> isInside_;
+    float widest_ = 0; // [m]
 };
 
-std::vector<Nodes> bodiesOfVoxels(const Scene& scene) {
+std::vector<Nodes> bodiesOfVoxels(const Scene& scene, std::span<const float> radii) {
     std::vector<Nodes> bodies;
     for (const Grid& grid : scene.grids)
-        if (!lattice::isSheet(grid)) bodies.emplace_back(grid);
+        if (!lattice::isSheet(grid)) bodies.emplace_back(grid, radii);
     return bodies;
 }
 
@@ -190,9 +199,10 @@ std::vector<std::uint32_t> excludedPoints(const Scene& scene, std::span<const la
                                           std::span<const CutRun> runs) {
     const std::vector<std::uint32_t> bodyOf = contact_lists::linkedBodies(scene);
     const std::map<std::uint32_t, Body> bodies = bodiesWithFaces(scene, faces, radii, bodyOf);
-    const std::vector<Nodes> voxels = bodiesOfVoxels(scene);
+    const std::vector<Nodes> voxels = bodiesOfVoxels(scene, radii);
     const float widest = radii.empty() ? 0.0f : *std::ranges::max_element(radii);
     std::vector<std::uint32_t> result(faces.size() + 1), near;
+    std::vector<bool> feels(runs.size(), true);
     std::vector<std::size_t> marks; // words with a run, to be replaced by where its strides stand
     for (std::size_t f = 0; f < faces.size(); ++f) {
         const layout::ContactFace& face = faces[f];
@@ -214,14 +224,17 @@ std::vector<std::uint32_t> excludedPoints(const Scene& scene, std::span<const la
         near.erase(std::unique(near.begin(), near.end()), near.end());
         result.insert(result.end(), near.begin(), near.end());
         if (!goesByLinks) continue;
+        const auto r = static_cast<std::size_t>(run - runs.begin());
+        feels[r] = feels[r] && nodes->areDiagonalsApart(face);
         marks.push_back(result.size());
         result.push_back(static_cast<std::uint32_t>(run - runs.begin()));
     }
     result[faces.size()] = static_cast<std::uint32_t>(result.size());
     const std::size_t strides = result.size();
-    for (const CutRun& run : runs) result.insert(result.end(), {run.rowStride, run.sliceStride});
+    for (std::size_t r = 0; r < runs.size(); ++r)
+        result.insert(result.end(), {runs[r].rowStride, runs[r].sliceStride, feels[r] ? 1u : 0u});
     for (const std::size_t word : marks)
-        result[word] = EXCLUDED_LINKED | static_cast<std::uint32_t>(strides + 2 * result[word]);
+        result[word] = EXCLUDED_LINKED | static_cast<std::uint32_t>(strides + 3 * result[word]);
     return result;
 }
 

@@ -24,8 +24,9 @@ struct Request {
     std::span<const float> extents;
     /// Points that a face never touches: for each face the first of them, one more for the end, then the
     /// points of all, sorted. A row that ends with EXCLUDED_LINKED | k is of a body that may be cut: its face
-    /// does not touch what a live link joins to a corner either, and words k and k + 1 are the strides
-    /// between rows and slices of its slots.
+    /// does not touch what a live link joins to a corner either. Words k and k + 1 are the strides between
+    /// rows and slices of its slots. Word k + 2 = 1: what diagonals alone join to corners touches at
+    /// LINKED_REACH.
     std::span<const std::uint32_t> exclusions;
     BufferId liveLinks;         ///< CuttingBuffers::links; only where there are such rows
     float margin = 0;           ///< M [m]
