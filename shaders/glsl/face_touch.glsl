@@ -10,12 +10,11 @@ struct Touch {
     ContactFace face;
 };
 
-// Pairs that a cut parts keep no distance: they touched nothing when the scene was loaded.
 Meeting keptMeetingOf(uint i, uvec2 candidate) {
     Meeting m = meetingOf(i, candidate);
-    const bool canOpen = firstInner != ~0u, isParted = canOpen && areParted(i, m.face.a);
-    m.isOpened = isParted || canOpen && candidate.x >= firstInner && candidate.x < push.moving;
-    m.isKept = keeps(i, m.face.a) && !isParted;
+    const bool canOpen = firstInner != ~0u;
+    m.isOpened = canOpen && (areParted(i, m.face.a) || candidate.x >= firstInner && candidate.x < push.moving);
+    m.isKept = keepsUncut(i, m.face.a);
     return m;
 }
 
@@ -34,7 +33,7 @@ float mostKept(uint i, uvec2 list, uint body, float reach) {
         const float remembered = memory[element].w, signedReach = uintBitsToFloat(candidate.y);
         if (abs(remembered) <= 1.0 || remembered * signedReach < 0.0 || !isSolid(candidate.x)) continue;
         const uint corner = faces[candidate.x].a;
-        if (bodyOf(corner) == body && keeps(i, corner)) most = max(most, reach - restOf(abs(signedReach), remembered));
+        if (bodyOf(corner) == body && keepsUncut(i, corner)) most = max(most, reach - restOf(abs(signedReach), remembered));
     }
     return most;
 }
@@ -50,7 +49,7 @@ const Exit noExit = Exit(false, 0.0);
 // so: it is not that of the front, the only side of something solid.
 Exit exitOf(uint i, uvec2 list, uint element, Meeting m, bool wasBehind) {
     const float remembered = memory[element].w;
-    if (!m.isKept) return Exit(wasBehind && remembered == 0.0, 0.0);
+    if (!m.isKept) return Exit(wasBehind && remembered * m.front <= 0.0, 0.0);
     if (isAtLoad() || remembered * m.front > 0.0) return noExit;
     const float kept = mostKept(i, list, bodyOf(m.face.a), m.reach);
     return Exit(remembered != 0.0 || wasBehind || kept > m.reach, min(kept, m.reach));
@@ -83,9 +82,11 @@ Touch touchAt(Meeting m, uint element, float side, vec3 b, bool isThrough, Exit 
 }
 
 // The surface of something solid holds what is in front of it, or comes from there. What is behind it may come out. Where an edge
-// is nearest and the point is behind one of its faces, it is in front of another, or has none to do with them.
+// is nearest and the point is behind one of its faces, it is in front of another, or has none to do with them. A pair without a rest distance
+// remembers that the point was behind, by the sign: contacts may bring the point in front after this pass, so that the next one finds it there.
 Touch touchOfSolid(uint i, uvec2 list, uint element, Meeting m) {
-    const bool hasTouched = memory[element].w != 0.0, wasBehind = m.front * m.heightBefore < 0.0;
+    const bool isFromBehind = !m.isKept && memory[element].w * m.front < 0.0;
+    const bool hasTouched = memory[element].w != 0.0 && !isFromBehind, wasBehind = isFromBehind || m.front * m.heightBefore < 0.0;
     vec3 b = m.nearest.weights, passed;
     if (m.front * m.height >= 0.0) return touchAt(m, element, m.front, b, false, exitOf(i, list, element, m, wasBehind));
     bool isThrough = hasTouched && m.nearest.isInside && isWithinReach(m);
@@ -93,7 +94,7 @@ Touch touchOfSolid(uint i, uvec2 list, uint element, Meeting m) {
         isThrough = wentThrough(m, passed);
         if (isThrough && !m.nearest.isInside) b = passed;
     }
-    Touch touch = Touch(vec3(0.0), 0.0, b, 0.0, false, m.face);
+    Touch touch = Touch(vec3(0.0), 0.0, b, !m.isKept && isWithinReach(m) ? -m.front : 0.0, false, m.face);
     if (isThrough) touch = touchAt(m, element, m.front, b, true, hasTouched ? exitOf(i, list, element, m, false) : noExit);
     touch.isThrough = false; // faces around it have the same front
     return touch;

@@ -29,10 +29,13 @@ bool has(ContactFace other, ContactFace face, uint corners) {
 // Whether an overlap with a face of something solid parts (exitOf).
 bool isParting(uint element) { return isSolid(contacts[element].x) && weights[element].w * uintBitsToFloat(contacts[element].y) < 0.0; }
 
+// Pairs that a cut parts keep no distance: they touched nothing when the scene was loaded.
+bool keepsUncut(uint i, uint j) { return keeps(i, j) && !(firstInner != ~0u && areParted(i, j)); }
+
 // A point that comes from above one face to above the next keeps the rest distance that it had: the hidden face takes it over.
 float withRestOf(uint i, uint element, uint beside) {
     const float own = weights[element].w, other = weights[beside].w;
-    if (abs(other) <= 1.0 || !keeps(i, faces[contacts[beside].x].a) || !keeps(i, faces[contacts[element].x].a)) return own;
+    if (abs(other) <= 1.0 || !keepsUncut(i, faces[contacts[beside].x].a) || !keepsUncut(i, faces[contacts[element].x].a)) return own;
     const bool parts = isParting(beside);
     if (parts && abs(own) > 1.0) return own;
     const float nearer = abs(uintBitsToFloat(contacts[element].y)) - abs(uintBitsToFloat(contacts[beside].y)); // 0 for equal thickness
@@ -67,7 +70,7 @@ bool isBehind(uint i, uint element, uint corners, uint beside) {
 // An overlap that such an edge did not push apart parts at the speed of recovery once it pushes again.
 void leaveOverlap(uint i, uint element) {
     const float own = weights[element].w;
-    if (keeps(i, faces[contacts[element].x].a)) return;
+    if (keepsUncut(i, faces[contacts[element].x].a)) return;
     weights[element].w = rememberedOf(sign(own), 0.0, max(0.0, abs(own) - 1.0) + directions[element].w);
 }
 

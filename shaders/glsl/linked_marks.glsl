@@ -3,5 +3,5 @@ layout(std430, binding = MARKS_BINDING) readonly buffer Marks { uint marks[]; };
 
 uint bodyOf(uint i) { return marks[i] / 4u; }
 
-// Whether a cut alone can have let two touch that are so near: both are of one body that may be cut.
+// Whether both are of one body that may be cut: links hold them nearer than touching, and a cut lets them touch.
 bool areParted(uint i, uint j) { return (marks[i] & 2u) != 0u && bodyOf(i) == bodyOf(j); }

@@ -1,6 +1,8 @@
 #version 460
 // In the first substep after a cut, when contacts are listed anew: points that are nearer than touching to a face that this step has
 // opened part from it at a limited speed, as overlaps do that a scene is loaded with. Links may have held them so near, or particles alone.
+// So do points of a body that may be cut from its own faces: one that diagonals alone joined to a face touched it at a part of the distance
+// (linked_reach.h), and touches it at all of it once they are dead.
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "triangle.glsl"
@@ -14,6 +16,8 @@ layout(std430, binding = 5) buffer Memory { vec4 memory[]; }; // w: side and ove
 layout(std140, binding = 6) uniform Step { StepParams step; };
 layout(std430, binding = 7) readonly buffer Opened { uint opened[]; }; // by face, as part_solid_faces has it
 layout(push_constant) uniform Push { FacePush push; };
+#define MARKS_BINDING 8
+#include "linked_marks.glsl"
 #include "face_meeting.glsl"
 
 // When the substep began; 0 behind the face [m].
@@ -29,10 +33,11 @@ void main() {
     const uvec2 list = lists[i];
     for (uint element = list.x; element < list.x + list.y; ++element) {
         const uvec2 candidate = contacts[element];
-        if (memory[element].w != 0.0 || opened[candidate.x] == 0u) continue;
+        const bool isOwn = areParted(i, faces[candidate.x].a);
+        if (!isOwn && (memory[element].w != 0.0 || opened[candidate.x] == 0u)) continue;
         const Meeting m = meetingOf(i, candidate);
         if (isSliver(m.triangle)) continue;
         const float overlap = overlapBefore(m);
-        if (overlap > 0.0) memory[element] = vec4(vec3(0.0), m.front * (1.0 + overlap));
+        if (overlap > max(0.0, abs(memory[element].w) - 1.0)) memory[element].w = m.front * (1.0 + overlap);
     }
 }

@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 namespace sinew::sim::collision::face_contacts {
 
@@ -115,18 +114,16 @@ public:
         }
     }
 
-    // Whether all that is nearer than this to a corner of a face is linked with it. What no link joins to a
-    // node inside is sqrt(kinds + 1) spacings away at least.
+    // Whether all that is nearer than this to a face is linked with a corner of it.
     bool isDeep(const layout::ContactFace& face, double reach) const {
         const auto deep = [&](std::uint32_t i) { return isInside_[i - first_]; };
-        const double unlinked = std::sqrt(grid_.kinds + 1.0) * double{grid_.restLength[0]};
-        return reach < unlinked && deep(face.a) && deep(face.b) && deep(face.c);
+        return reach < leastUnlinked(grid_.kinds) * double{grid_.restLength[0]} && deep(face.a) && deep(face.b) && deep(face.c);
     }
 
-    // Whether the ends of a diagonal link are farther from each other than what touches.
+    // Whether points that only diagonals join to a face are farther from it than what touches.
     bool areDiagonalsApart(const layout::ContactFace& face) const {
         const double reach = nearness * (double{widest_} + double{face.thickness});
-        return reach < std::numbers::sqrt2 * double{grid_.restLength[0]};
+        return reach < leastUnlinked(1) * double{grid_.restLength[0]};
     }
 
     const Grid& grid() const { return grid_; }
@@ -193,6 +190,10 @@ std::vector<std::uint32_t> linkedTo(const Nodes& nodes, const layout::ContactFac
 }
 
 } // namespace
+
+double leastUnlinked(std::uint32_t kinds) {
+    return std::sqrt(kinds == 1 ? 1.5 : kinds + 1.0);
+}
 
 std::vector<std::uint32_t> excludedPoints(const Scene& scene, std::span<const layout::ContactFace> faces,
                                           std::span<const float> radii, const StateLayout& layout,

@@ -174,7 +174,8 @@ void addFaceOpening(ProgramBuilder& program, const collision::face_contacts::Con
     program.beginCut();
     program.dispatch(k::openCutFaces, contacts.rows.push.count,
                      {predicted.positions, predicted.velocities, lists.faces, lists.pooled.contacts,
-                      lists.pooled.ranges, lists.pooled.memory->memory, predicted.step, contacts.opened},
+                      lists.pooled.ranges, lists.pooled.memory->memory, predicted.step, contacts.opened,
+                      contacts.rows.marks},
                      contacts.rows.push);
     program.endCut();
 }
