@@ -366,7 +366,7 @@ SubstepCure cureOf(const SubstepChoice& choice, const Settings& settings) {
     case SubstepReason::contacts:
         return {"would let contacts give by no more than 1 % of a radius", "lower heaps or larger radii"};
     case SubstepReason::folds:
-        return {"would let no sheet fall onto itself by more than 0.35 thicknesses",
+        return {"would keep a falling sheet from passing through its own folds",
                 "a larger thickness or more damping"};
     default:
         return {"would keep the tolerance of " + percentOf(settings),
@@ -403,7 +403,7 @@ std::string toText(const SubstepChoice& choice, const Settings& settings) {
         why = "what rests on contacts presses them in by no more than 1 % of a radius";
         break;
     case SubstepReason::folds:
-        why = "no sheet falls onto itself by more than 0.35 thicknesses in one";
+        why = "no falling sheet passes through its own folds";
         break;
     case SubstepReason::fewest:
         why = "fewer would do for the stiffness";

@@ -42,7 +42,7 @@ enum class SubstepReason : std::uint8_t {
     damping,   ///< `split`: dampingTime in full
     drag,      ///< Scene::damping: terminal speeds within dragTolerance
     contacts,  ///< what rests on particles or faces presses them in by no more than 1 % of a radius
-    folds,     ///< no sheet with faces falls onto itself by more than 0.35 of its thickness in a substep
+    folds,     ///< no sheet with faces falls onto itself by more than a part of its thickness in a substep
     fewest,    ///< nothing asked for more than ranges::fewestChosen
     most,      ///< more than ranges::mostChosen were wanted
 };
@@ -76,7 +76,7 @@ std::uint32_t dragSubsteps(const Scene& scene);
 /// - `split` is stable with the whole of dampingTime,
 /// - what falls against Scene::damping has its terminal speed within dragTolerance (dragSubsteps()),
 /// - what may rest on particles or faces presses them in by at most 1 % of a radius (collision/loads.hpp),
-/// - no sheet with faces falls onto itself by more than 0.35 of its thickness in a substep
+/// - no sheet with faces falls onto itself by more than a part of its thickness in a substep
 ///   (stiffness/folds.hpp),
 ///   and there are ranges::fewestTouching where particles may touch each other or faces,
 /// but from fewestChosen to mostChosen; where a scene has nothing but free particles, as many as drag asks

@@ -87,7 +87,7 @@ TEST_F(LoadWarnings, SaysWhatContactsAskForWhereANumberIsGiven) {
     };
     const std::string said = few("4");
     const std::string start = "4 substeps are few for what may touch: ",
-                      end = " substeps would let no sheet fall onto itself by more than 0.35 thicknesses";
+                      end = " substeps would keep a falling sheet from passing through its own folds";
     ASSERT_TRUE(said.starts_with(start) && said.ends_with(end)) << said;
     const std::string wanted = said.substr(start.size(), said.size() - start.size() - end.size());
     EXPECT_GT(std::stoul(wanted), 8u);

@@ -1,4 +1,5 @@
 // The figures of a report against states whose answer is known.
+#include "sinew/crossings.hpp"
 #include "sinew/measure.hpp"
 #include "sinew/overlap.hpp"
 #include "sinew/skin_mesh.hpp"
@@ -205,6 +206,73 @@ TEST(Overlap, SurvivesAStateThatIsNoLongerFinite) {
     state.positions[0][1] = NAN;
     state.positions[1][0] = 1e38f;
     EXPECT_EQ(tools::overlapOf(scene, state)->max, 0);
+}
+
+// Against all edges and all faces, by signs of volumes.
+TEST(Crossings, AreThoseOfEveryEdgeThroughEveryFace) {
+    using Vector = std::array<double, 3>;
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> place(0, 1);
+    std::size_t most = 0;
+    for (int configuration = 0; configuration < 40; ++configuration) {
+        sim::Scene scene;
+        const int faces = 1 + configuration % 20;
+        for (int f = 0; f < faces; ++f) {
+            const float x = place(random), y = place(random), z = place(random), size = 0.6f * place(random);
+            for (int k = 0; k < 3; ++k)
+                scene.particles.push_back(
+                    {{x + size * place(random), y + size * place(random), z + size * place(random)}});
+            const auto a = static_cast<std::uint32_t>(3 * f);
+            scene.faces.push_back({{a, a + 1, a + 2}, 0.01f});
+        }
+        const auto at = [&](std::size_t i) {
+            const sim::Vec3& p = scene.particles[i].position;
+            return Vector{double{p.x}, double{p.y}, double{p.z}};
+        };
+        const auto volume = [&](std::size_t i, std::size_t j, std::size_t k, std::size_t l) {
+            const Vector a = at(i), b = at(j), c = at(k), d = at(l);
+            const auto e = [&](const Vector& v, std::size_t axis) { return v[axis] - a[axis]; };
+            return e(b, 0) * (e(c, 1) * e(d, 2) - e(c, 2) * e(d, 1)) -
+                   e(b, 1) * (e(c, 0) * e(d, 2) - e(c, 2) * e(d, 0)) +
+                   e(b, 2) * (e(c, 0) * e(d, 1) - e(c, 1) * e(d, 0));
+        };
+        std::size_t expected = 0;
+        const std::size_t corners = scene.particles.size();
+        for (std::size_t f = 0; f < corners; f += 3)
+            for (std::size_t i = 0; i < corners; ++i) {
+                if (i / 3 == f / 3) continue;
+                const std::size_t j = i / 3 * 3 + (i + 1) % 3, a = f, b = f + 1, c = f + 2;
+                const bool isAbove = volume(a, b, c, i) > 0;
+                if (isAbove == (volume(a, b, c, j) > 0)) continue;
+                const bool ab = volume(i, j, a, b) > 0, bc = volume(i, j, b, c) > 0;
+                expected += ab == bc && bc == (volume(i, j, c, a) > 0) ? 1 : 0;
+            }
+        EXPECT_EQ(tools::crossingsOf(scene, stateOf(scene)), expected) << faces;
+        most = std::max(most, expected);
+    }
+    EXPECT_GT(most, 5u);
+}
+
+TEST(Crossings, LeaveOutWhatIsCutRemovedOrNeverMoves) {
+    sim::Scene scene;
+    scene.particles = {{{0, 0, 0}},        {{1, 0, 0}},       {{0, 1, 0}},
+                       {{0.2f, 0.2f, -1}}, {{0.2f, 0.2f, 1}}, {{3, 3, 0}}};
+    scene.faces = {{{0, 1, 2}, 0.01f}, {{3, 4, 5}, 0.01f}};
+    scene.distances = {{0, 1, 1, 0}};
+    EXPECT_EQ(tools::crossingsOf(scene, stateOf(scene)), 1u);
+    EXPECT_EQ(tools::measure(scene, stateOf(scene), {}, 0).crossings, 1u);
+    State cut = stateOf(scene);
+    cut.isCut = {true};
+    EXPECT_EQ(tools::crossingsOf(scene, cut), 0u);
+    State removed = stateOf(scene);
+    removed.isRemoved = {false, true, false, false, false, false};
+    EXPECT_EQ(tools::crossingsOf(scene, removed), 0u);
+    State broken = stateOf(scene);
+    broken.positions[5][0] = std::nanf("");
+    EXPECT_EQ(tools::crossingsOf(scene, broken), 0u);
+    for (sim::Particle& particle : scene.particles) particle.inverseMass = 0;
+    EXPECT_FALSE(tools::crossingsOf(scene, stateOf(scene)).has_value());
+    EXPECT_FALSE(tools::crossingsOf(cube(), stateOf(cube())).has_value()) << "no faces";
 }
 
 TEST(Penetration, IsCountedWhereACollidersPathHasLedIt) {

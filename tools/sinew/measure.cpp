@@ -4,6 +4,7 @@
 #include "app/cut_links.hpp"
 #include "sim/colliders.hpp"
 #include "sim/hash.hpp"
+#include "sinew/crossings.hpp"
 #include "sinew/overlap.hpp"
 #include "sinew/skin_mesh.hpp"
 
@@ -131,6 +132,7 @@ Errors measurePenetration(const sim::Scene& scene, const State& state, std::uint
 Errors measure(const sim::Scene& scene, const State& state, std::span<const mesh::TriangleMesh> skins,
                std::uint64_t frames) {
     Errors errors = measurePenetration(scene, state, frames);
+    errors.crossings = crossingsOf(scene, state);
     measureStrain(scene, state, errors);
     measureVolume(scene, skins, errors);
     measureMomentum(scene, state, frames, errors);

@@ -32,6 +32,7 @@ struct Errors {
         momentum; ///< change across gravity over sum m |v|; only where nothing holds a particle
     std::optional<double> penetrationMax; ///< deepest particle behind a plane or in another [m]
     std::optional<double> penetrationRms; ///< over particles that are in each other, by pairs [m]
+    std::optional<std::size_t> crossings; ///< edges through faces (crossings.hpp)
 };
 
 /// `frames` steps led to `state`; `skins` are the meshes of the scene's skins now, in order, or empty where

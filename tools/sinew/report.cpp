@@ -214,7 +214,8 @@ Json toJson(const Errors& errors) {
             {"volume", orNull(errors.volume)},
             {"momentum", orNull(errors.momentum)},
             {"penetration_max", orNull(errors.penetrationMax)},
-            {"penetration_rms", orNull(errors.penetrationRms)}};
+            {"penetration_rms", orNull(errors.penetrationRms)},
+            {"edges_through_faces", orNull(errors.crossings)}};
 }
 
 Json toJson(const sim::Vec3& v) {
@@ -337,6 +338,8 @@ std::string toText(const RunRecord& record) {
         text += fmt::format("deepest penetration: {:.3g} mm\n", 1000 * *errors.penetrationMax);
     if (errors.penetrationRms)
         text += fmt::format("overlap of touching particles: {:.3g} mm rms\n", 1000 * *errors.penetrationRms);
+    if (errors.crossings)
+        text += fmt::format("surfaces: {} through a face\n", sim::counted(*errors.crossings, "edge"));
     if (record.contactRoom.grown > 0)
         text += fmt::format("room for contacts: grown {}, to {}\n",
                             sim::counted(record.contactRoom.grown, "time"), record.contactRoom.room);

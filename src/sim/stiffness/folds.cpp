@@ -19,9 +19,9 @@ using collision::Vector;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// Share of its thickness that a sheet may fall in a substep. Sheets that fold over capsules cross themselves
-// from about 0.45 on (docs/accuracy.md).
-constexpr double mostOfThickness = 0.35;
+// Shares of its thickness that a sheet may fall in a substep: where it folds over a capsule it crosses itself
+// from about 0.45 on, where it crumples from about 0.15 on (docs/accuracy.md).
+constexpr double mostOfFold = 0.35, mostOfCrumple = 0.12;
 
 struct Sheet {
     std::vector<std::uint32_t> corners; // each as often as faces have it
@@ -29,15 +29,23 @@ struct Sheet {
     double halfThickness = infinite;
     bool isHeld = false;
 
-    double reach(const Scene& scene) const {
+    // How far it extends [m].
+    struct Extent {
+        double reach = 0;       // from its middle
+        double uprightness = 0; // its height over its longest extent
+    };
+
+    Extent extent(const Scene& scene, const Vector& down) const {
         const double count = static_cast<double>(corners.size());
         const Vector middle{sum[0] / count, sum[1] / count, sum[2] / count};
-        double most = 0;
+        double most = 0, highest = -infinite, lowest = infinite;
         for (const std::uint32_t i : corners) {
             const Vector away = minus(toVector(scene.particles[i].position), middle);
             most = std::max(most, std::sqrt(dot(away, away)));
+            highest = std::max(highest, -dot(away, down));
+            lowest = std::min(lowest, -dot(away, down));
         }
-        return most;
+        return {most, most > 0 ? (highest - lowest) / (2 * most) : 0};
     }
 };
 
@@ -89,15 +97,21 @@ double longestSubstepOfFolds(const Scene& scene, std::span<const float> inverseM
     const Support support = Supports(scene, components, down, asked).at(0);
     double longest = infinite;
     for (const auto& [component, sheet] : sheets) {
-        const double reach = sheet.reach(scene);
-        double fall = 0;
+        const auto [reach, uprightness] = sheet.extent(scene, down);
+        double fold = 0, crumple = 0;
         for (const std::uint32_t i : sheet.corners) {
             const Vector place = toVector(scene.particles[i].position);
-            fall = std::max(fall, std::min({reach, support.ways[i], wayToPlanes(scene, place, down)}));
+            const double fall = std::min(support.ways[i], wayToPlanes(scene, place, down));
+            fold = std::max(fold, std::min(reach, fall));
+            if (fall < infinite) crumple = std::max(crumple, uprightness * fall);
         }
-        double speed = std::sqrt(2 * g * fall);
-        if (scene.damping > 0) speed = std::min(speed, g / double{scene.damping});
-        if (speed > 0) longest = std::min(longest, mostOfThickness * 2 * sheet.halfThickness / speed);
+        const auto limit = [&](double fall, double mostOfThickness) {
+            double speed = std::sqrt(2 * g * fall);
+            if (scene.damping > 0) speed = std::min(speed, g / double{scene.damping});
+            if (speed > 0) longest = std::min(longest, mostOfThickness * 2 * sheet.halfThickness / speed);
+        };
+        limit(fold, mostOfFold);
+        limit(crumple, mostOfCrumple);
     }
     return longest;
 }

@@ -8,11 +8,17 @@
 
 namespace sinew::sim::stiffness {
 
-/// The longest substep [s] in which no sheet, a component with faces that touch, falls onto itself by more
-/// than 0.35 of its thickness; infinite where no sheet falls. One part of a sheet meets another at the speed
-/// of a fall as deep as the sheet reaches from its middle, but no deeper than there is room above colliders,
-/// planes and other bodies at the start, and no faster than Scene::damping lets fall. Sheets that hang on
-/// something are not regarded. `components` says which particles hang together (componentsOf).
+/// The longest substep [s] in which no sheet, a component with faces that touch, moves toward itself by more
+/// than a part of its thickness; infinite where no sheet falls:
+/// - 0.35 at the speed of a fall as deep as the sheet reaches from its middle, as one half of a fold meets
+/// the
+///   other, and
+/// - 0.12 at the speed of the whole fall of a sheet that stands upright, since its upper part falls onto
+///   the lower one in many folds; for an inclined sheet, of the part of that fall by which it is upright
+///   (its height over its longest extent).
+/// No fall is deeper than there is room above colliders, planes and other bodies at the start, or faster than
+/// Scene::damping allows. Sheets that hang on something are not regarded. `components` says which particles
+/// hang together (componentsOf).
 double longestSubstepOfFolds(const Scene& scene, std::span<const float> inverseMass,
                              std::span<const std::uint32_t> components);
 
