@@ -170,8 +170,8 @@ def contacts():
     heads = ["did a particle stray?", "how many groups", "only if incomplete", "only groups with candidates"]
     for (x, w, name), head in zip(columns, heads):
         f.lines(x + w / 2, 98, [name, head], 12)
-    rows = [("faces", "point", "triangle", 120, ["watch_faces"], "touch, share, press, gather"),
-            ("edges", "edge", "edge", 240, ["place_edges"], "touch, share, press, gather"),
+    rows = [("faces", "point", "triangle", 120, ["watch_particles"], "touch, share, press, gather"),
+            ("edges", "edge", "edge", 240, ["watch_particles"], "touch, share, press, gather"),
             ("pairs", "particle", "particle", 360, ["settle_free or", "watch_motion"], "count_contacts, gather_contacts")]
     solving = {"faces": ["which, on which side", "parts of a particle sum to 1", "impulses and friction",
                          "each end sums its own, in order"],

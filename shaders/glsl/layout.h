@@ -420,9 +420,7 @@ struct ContactEdge {
     float radius;  // of the ball around its middle that holds all of it; below 0 in padding [m]
 };
 
-struct PlaceEdgesPush {
-    uint items, edges, members; // the larger, whole work groups; edges; ends that are watched
-};
+struct PlaceEdgesPush { uint items, edges, members; }; // the larger, whole work groups; edges; ends that are watched
 
 struct FacePush {
     uint count;   // of particles, or edges; whole work groups

@@ -1,4 +1,4 @@
-// Bits of StepParams::lists: when a step makes lists of contacts. Part of layout.h.
+// Constants of contacts: bits of StepParams::lists, which say when a step makes lists, and how long impacts are remembered. Part of layout.h.
 
 // The host repeats a step that is undone because it lacked lists.
 #define LISTS_REPEATS 1u
@@ -10,3 +10,6 @@
 // The part of the slack of a particle at which lists are made anew in the first substep, if the host repeats steps. A particle that has
 // strayed less then seldom uses up the rest in the same step.
 #define LISTS_EARLY 0.7
+
+// How many substeps without a fast particle pass until no pair is asked whether it remembers an impact (GridBounds::impacts).
+#define IMPACTS_LAST 4

@@ -117,7 +117,8 @@ public:
     // Whether all that is nearer than this to a face is linked with a corner of it.
     bool isDeep(const layout::ContactFace& face, double reach) const {
         const auto deep = [&](std::uint32_t i) { return isInside_[i - first_]; };
-        return reach < leastUnlinked(grid_.kinds) * double{grid_.restLength[0]} && deep(face.a) && deep(face.b) && deep(face.c);
+        return reach < leastUnlinked(grid_.kinds) * double{grid_.restLength[0]} && deep(face.a) &&
+               deep(face.b) && deep(face.c);
     }
 
     // Whether points that only diagonals join to a face are farther from it than what touches.

@@ -46,9 +46,10 @@ void addPasses(ProgramBuilder& program, const Contacts& contacts, const Particle
 /// colliders, on `state`. Nothing where there is no such face.
 void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state);
 
-/// How far from a face between four nodes of a lattice all points are at least that no link joins to a corner,
-/// in spacings, where a node is linked along its edges (`kinds` 1), also along diagonals of faces (2), also
-/// along those of cells (3). With edges alone it is that of (1, 1, 1) from the longest edge of the face.
+/// How far from a face between four nodes of a lattice all points are at least that no link joins to a
+/// corner, in spacings, where a node is linked along its edges (`kinds` 1), also along diagonals of faces
+/// (2), also along those of cells (3). With edges alone it is that of (1, 1, 1) from the longest edge of the
+/// face.
 double leastUnlinked(std::uint32_t kinds);
 
 /// Points that a face never touches though they are not its corners, as face_lists::Request says: those of
