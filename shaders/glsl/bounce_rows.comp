@@ -15,6 +15,7 @@ layout(std430, binding = 7) readonly buffer Pairs { SurfacePair pairs[]; };
 layout(std140, binding = 8) uniform Step { StepParams step; };
 layout(std430, binding = 9) writeonly buffer Bounces { vec4 bounces[]; };  // n, speed [m/s]; 0 = does not rebound
 layout(std140, binding = 10) uniform Bounds { GridBounds bounds; };
+#include "row_items.glsl"
 layout(push_constant) uniform Push { FacePush push; };
 #define SHAPES_BINDING 1
 #include "row.glsl"
@@ -26,8 +27,9 @@ float speedOf(uint owner, uint element) {
 }
 
 void main() {
-    const uint element = itemIndex(bounds.entries);
-    if (element >= bounds.entries) return;
-    const vec4 direction = directions[element];
-    bounces[element] = vec4(direction.xyz, direction.w > 0.0 ? speedOf(owners[element], element) : 0.0);
+    FOR_EACH_ROW(row) {
+        const uint element = elementOf(row);
+        const vec4 direction = directions[element];
+        bounces[element] = vec4(direction.xyz, direction.w > 0.0 ? speedOf(owners[element], element) : 0.0);
+    }
 }

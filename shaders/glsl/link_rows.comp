@@ -56,7 +56,7 @@ void main() {
     const uint f = itemIndex(push.moving);
     if (f == 0u) {
         points = FacePoints(0u, 0u, 0u, 0u); // for the next time
-        arguments[2] = DispatchArguments((bounds.entries + GROUP_SIZE - 1u) / GROUP_SIZE, 1u, 1u, 0u);
+        arguments[2] = DispatchArguments(min((bounds.entries + GROUP_SIZE - 1u) / GROUP_SIZE, uint(ROWS_MOST_GROUPS)), 1u, 1u, 0u);
     }
     if (f >= push.moving) return;
     const uint chain = chains[f], all = lengthOf(chain), n = min(all, LIST_MOST);

@@ -1,4 +1,4 @@
-// Constants of contacts: bits of StepParams::lists, which say when a step makes lists, and how long impacts are remembered. Part of layout.h.
+// Constants of contacts: bits of StepParams::lists, which say when a step makes lists. Part of layout.h.
 
 // The host repeats a step that is undone because it lacked lists.
 #define LISTS_REPEATS 1u
@@ -11,5 +11,5 @@
 // strayed less then seldom uses up the rest in the same step.
 #define LISTS_EARLY 0.7
 
-// How many substeps without a fast particle pass until no pair is asked whether it remembers an impact (GridBounds::impacts).
-#define IMPACTS_LAST 4
+// Work groups of a pass over the entries of a pool: as many as every device can dispatch.
+#define ROWS_MOST_GROUPS 65535

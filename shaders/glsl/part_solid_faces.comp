@@ -15,7 +15,7 @@ layout(std430, binding = 6) readonly buffer Particles { uint particles[]; }; // 
 layout(std430, binding = 7) readonly buffer Pieces { uint pieces[]; };
 layout(std430, binding = 8) buffer Faces { ContactFace faces[]; };
 layout(std430, binding = 9) writeonly buffer Opened { uint opened[]; }; // by face: 1 = new, or a link at a corner of it has died
-layout(std430, binding = 10) readonly buffer Corners { uint corners[]; }; // as in face_shares.glsl
+layout(std430, binding = 10) readonly buffer Corners { uint corners[]; }; // as in rows_of.glsl
 layout(std430, binding = 11) writeonly buffer CornerEnds { uint cornerEnds[]; };
 layout(push_constant) uniform Push { CutFacesPush push; };
 

@@ -17,8 +17,9 @@ layout(std430, binding = 9) readonly buffer Members { uint members[]; };    // p
 layout(std140, binding = 10) uniform Step { StepParams step; };
 layout(push_constant) uniform Push { PlaceEdgesPush push; };
 
-// The ball around an edge that was stretched is wider by that. It is searched as if that was a way of its ends.
-float stretchOf(float len, uint e) { return max(0.0, 0.5 * len + thickness[e] - edges[e].radius); }
+// The ball around an edge that was stretched is wider by that. It is searched as if that was a way of its ends. An edge that a cut has taken
+// away touches nothing: its radius is below 0.
+float stretchOf(float len, uint e) { return edges[e].radius < 0.0 ? 0.0 : max(0.0, 0.5 * len + thickness[e] - edges[e].radius); }
 
 void placeEdge(uint e) {
     const ContactEdge edge = edges[e];

@@ -59,7 +59,7 @@ void planPasses(bool isBuilt, bool isComplete) {
     }
     touching[0] = DispatchArguments(bounds.listed, 1u, 1u, 0u);
     touching[1] = DispatchArguments(bounds.listedParticles, 1u, 1u, 0u);
-    touching[2] = DispatchArguments((bounds.entries + GROUP_SIZE - 1u) / GROUP_SIZE, 1u, 1u, 0u);
+    touching[2] = DispatchArguments(min((bounds.entries + GROUP_SIZE - 1u) / GROUP_SIZE, uint(ROWS_MOST_GROUPS)), 1u, 1u, 0u);
     bounds.moved = bounds.sweeping = 0u;
     bounds.isSwept = isSwept ? 1u : 0u;
     bounds.fast = isSlowed ? 0u : bounds.hurrying;

@@ -22,6 +22,7 @@ layout(std140, binding = 10) uniform Step { StepParams step; };
 layout(std430, binding = 11) readonly buffer Surfaces { uint surfaces[]; }; // of each particle
 layout(std430, binding = 12) readonly buffer Pairs { SurfacePair pairs[]; };
 layout(std140, binding = 13) uniform Bounds { GridBounds bounds; };
+#include "row_items.glsl"
 layout(push_constant) uniform Push { FacePush push; };
 #define SHAPES_BINDING 1
 #include "row.glsl"
@@ -49,6 +50,8 @@ void press(uint owner, uint element) {
 }
 
 void main() {
-    const uint element = itemIndex(bounds.entries);
-    if (element < bounds.entries) press(owners[element], element);
+    FOR_EACH_ROW(row) {
+        const uint element = elementOf(row);
+        press(owners[element], element);
+    }
 }

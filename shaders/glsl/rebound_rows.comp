@@ -13,6 +13,7 @@ layout(std430, binding = 5) readonly buffer Weights { vec4 weights[]; };
 layout(std430, binding = 6) readonly buffer Shares { float shares[]; };
 layout(std430, binding = 7) writeonly buffer Impulses { vec4 impulses[]; };    // [kg m/s]
 layout(std140, binding = 8) uniform Bounds { GridBounds bounds; };
+#include "row_items.glsl"
 layout(push_constant) uniform Push { FacePush push; };
 #define SHAPES_BINDING 1
 #include "row.glsl"
@@ -25,7 +26,8 @@ vec3 impulseOf(uint owner, uint element) {
 }
 
 void main() {
-    const uint element = itemIndex(bounds.entries);
-    if (element >= bounds.entries) return;
-    if (bounces[element].w > 0.0) impulses[element] = vec4(impulseOf(owners[element], element), 0.0);
+    FOR_EACH_ROW(row) {
+        const uint element = elementOf(row);
+        if (bounces[element].w > 0.0) impulses[element] = vec4(impulseOf(owners[element], element), 0.0);
+    }
 }

@@ -19,6 +19,7 @@ layout(std430, binding = 6) writeonly buffer Directions { vec4 directions[]; }; 
 layout(std430, binding = 7) writeonly buffer Weights { vec4 weights[]; };       // s of the owner, t of the other edge; remembered
 layout(std140, binding = 8) uniform Step { StepParams step; };
 layout(std140, binding = 13) uniform Bounds { GridBounds bounds; };
+#include "row_items.glsl"
 layout(push_constant) uniform Push { FacePush push; };
 #define MARKS_BINDING 9
 #include "keeps_rest.glsl"
@@ -29,10 +30,11 @@ layout(std430, binding = 12) readonly buffer LinkLists { uvec2 linkLists[]; }; /
 #include "edge_touch.glsl"
 
 void main() {
-    const uint element = itemIndex(bounds.entries);
-    if (element >= bounds.entries) return;
-    const uvec2 candidate = contacts[element];
-    const Touch touch = touchOf(uvec2(owners[element], candidate.x), uintBitsToFloat(candidate.y), memory[element].w);
-    directions[element] = vec4(touch.n, touch.depth);
-    weights[element] = vec4(touch.st, 0.0, touch.remembered);
+    FOR_EACH_ROW(row) {
+        const uint element = elementOf(row);
+        const uvec2 candidate = contacts[element];
+        const Touch touch = touchOf(uvec2(owners[element], candidate.x), uintBitsToFloat(candidate.y), memory[element].w);
+        directions[element] = vec4(touch.n, touch.depth);
+        weights[element] = vec4(touch.st, 0.0, touch.remembered);
+    }
 }

@@ -54,7 +54,7 @@ double leastUnlinked(std::uint32_t kinds);
 
 /// Points that a face never touches though they are not its corners, as face_lists::Request says: those of
 /// its own linked body that are nearer than 1.05 times touching at rest, and of a voxel body those that a
-/// link joins to a corner. Those are 1.73 spacings away from the corner at most, and all others from 1.41 to
+/// link joins to a corner. Those are 1.73 spacings away from the corner at most, and all others from 1.22 to
 /// 2, by kind of links. `faces` between particles; `runs` = bodies whose links may be cut.
 std::vector<std::uint32_t> excludedPoints(const Scene& scene, std::span<const layout::ContactFace> faces,
                                           std::span<const float> radii, const StateLayout& layout,
