@@ -19,6 +19,7 @@ layout(push_constant) uniform Push { FacePush push; };
 #define MARKS_BINDING 8
 #include "linked_marks.glsl"
 #include "face_meeting.glsl"
+#include "linked_reach.h"
 
 // When the substep began; 0 behind the face [m].
 float overlapBefore(Meeting m) {
@@ -38,6 +39,8 @@ void main() {
         const Meeting m = meetingOf(i, candidate);
         if (isSliver(m.triangle)) continue;
         const float overlap = overlapBefore(m);
+        // A pair that touched already did so at LINKED_REACH, or else rests on the face at its whole distance, and is to go on resting.
+        if (memory[element].w != 0.0 && overlap < (1.0 - LINKED_REACH) * m.reach) continue;
         if (overlap > max(0.0, abs(memory[element].w) - 1.0)) memory[element].w = m.front * (1.0 + overlap);
     }
 }
