@@ -70,13 +70,16 @@ std::unordered_map<std::uint32_t, Sheet> sheetsOf(const Scene& scene, std::span<
     return sheets;
 }
 
+// A plane that is steeper than this is a wall, on which nothing comes to lie.
+constexpr double steepest = 0.1;
+
 // From a place to the nearest plane below.
 double wayToPlanes(const Scene& scene, const Vector& place, const Vector& down) {
     double way = infinite;
     for (const Plane& plane : scene.planes) {
         const Vector normal = toVector(plane.normal);
         const double toward = -dot(normal, down), gap = dot(normal, place) - double{plane.offset};
-        if (toward > 0) way = std::min(way, std::max(0.0, gap) / toward);
+        if (toward > steepest) way = std::min(way, std::max(0.0, gap) / toward);
     }
     return way;
 }

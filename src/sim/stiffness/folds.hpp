@@ -13,9 +13,10 @@ namespace sinew::sim::stiffness {
 /// - 0.35 at the speed of a fall as deep as the sheet reaches from its middle, as one half of a fold meets
 /// the
 ///   other, and
-/// - 0.12 at the speed of the whole fall of a sheet that stands upright, since its upper part falls onto
-///   the lower one in many folds; for an inclined sheet, of the part of that fall by which it is upright
-///   (its height over its longest extent).
+/// - 0.12 at the speed of the fall of a sheet that stands upright, since its upper part falls onto the lower
+/// one
+///   in many folds. Only a part of the fall counts, by which the sheet is upright: its height over twice its
+///   reach (0.71 of a square).
 /// No fall is deeper than there is room above colliders, planes and other bodies at the start, or faster than
 /// Scene::damping allows. Sheets that hang on something are not regarded. `components` says which particles
 /// hang together (componentsOf).
