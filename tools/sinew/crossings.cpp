@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -54,55 +53,74 @@ Surface surfaceOf(const sim::Scene& scene, const State& state) {
     return surface;
 }
 
-// Cells of equal size over the box of all faces: at most 128 along an axis.
+using GridCell = Eigen::Vector<std::int64_t, 3>;
+
+// Cells as wide as an edge is long, in the mean. What meets more than a few of them is compared with all.
 class Grid {
 public:
-    explicit Grid(const Surface& surface) : low_(Vector::Constant(std::numeric_limits<double>::max())) {
-        Vector high = -low_;
+    explicit Grid(const Surface& surface) {
         double lengths = 0;
         for (const Corners& face : surface.faces)
-            for (std::size_t k = 0; k < 3; ++k) {
-                low_ = low_.cwiseMin(surface.x[face[k]]);
-                high = high.cwiseMax(surface.x[face[k]]);
+            for (std::size_t k = 0; k < 3; ++k)
                 lengths += (surface.x[face[k]] - surface.x[face[(k + 1) % 3]]).norm();
-            }
-        const double mean = lengths / (3.0 * static_cast<double>(surface.faces.size()));
-        edge_ = std::max({mean, (high - low_).maxCoeff() / 128, 1e-12});
+        edge_ = std::max(lengths / (3.0 * static_cast<double>(surface.faces.size())), 1e-12);
         for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
             const auto& [a, b, c] = surface.faces[f];
             const Vector &p = surface.x[a], &q = surface.x[b], &r = surface.x[c];
-            forEachCell(p.cwiseMin(q).cwiseMin(r), p.cwiseMax(q).cwiseMax(r),
-                        [&](std::uint64_t cell) { faces_[cell].push_back(f); });
+            const Vector low = p.cwiseMin(q).cwiseMin(r), high = p.cwiseMax(q).cwiseMax(r);
+            boxes_.push_back({low, high});
+            if (isWide(low, high))
+                wide_.push_back(f);
+            else
+                forEachCell(low, high, [&](std::uint64_t cell) { faces_[cell].push_back(f); });
         }
     }
 
-    // Each once, in order.
-    std::vector<std::uint32_t> facesNear(const Vector& low, const Vector& high) const {
-        std::vector<std::uint32_t> near;
+    // Calls visit(face) once for each whose box meets this one.
+    template <typename Visit>
+    void forEachNear(const Vector& low, const Vector& high, const Visit& visit) const {
+        const auto look = [&](std::uint32_t f) {
+            const auto& [first, last] = boxes_[f];
+            if ((first.array() <= high.array()).all() && (low.array() <= last.array()).all()) visit(f);
+        };
+        if (isWide(low, high)) {
+            for (std::uint32_t f = 0; f < boxes_.size(); ++f) look(f);
+            return;
+        }
+        std::vector<std::uint32_t> near = wide_;
         forEachCell(low, high, [&](std::uint64_t cell) {
             if (const auto found = faces_.find(cell); found != faces_.end())
                 near.insert(near.end(), found->second.begin(), found->second.end());
         });
         std::ranges::sort(near);
         near.erase(std::unique(near.begin(), near.end()), near.end());
-        return near;
+        for (const std::uint32_t f : near) look(f);
     }
 
 private:
+    static constexpr double mostCells = 6; // along an axis
+
+    bool isWide(const Vector& low, const Vector& high) const {
+        return (high - low).maxCoeff() > mostCells * edge_;
+    }
+
+    // Far cells share keys, which costs time alone.
     template <typename Visit>
     void forEachCell(const Vector& low, const Vector& high, const Visit& visit) const {
-        const auto cellOf = [&](const Vector& p) -> Eigen::Vector<std::int64_t, 3> {
-            return ((p - low_) / edge_).array().floor().cast<std::int64_t>().matrix();
+        const auto cellOf = [&](const Vector& p) -> GridCell {
+            return (p / edge_).array().floor().max(-1e15).min(1e15).cast<std::int64_t>().matrix();
         };
-        const auto first = cellOf(low), last = cellOf(high);
+        const GridCell first = cellOf(low), last = cellOf(high);
         for (std::int64_t x = first[0]; x <= last[0]; ++x)
             for (std::int64_t y = first[1]; y <= last[1]; ++y)
                 for (std::int64_t z = first[2]; z <= last[2]; ++z)
-                    visit(static_cast<std::uint64_t>((z * 256 + y) * 256 + x));
+                    visit(keyOf(x) << 42 | keyOf(y) << 21 | keyOf(z));
     }
+    static std::uint64_t keyOf(std::int64_t index) { return static_cast<std::uint64_t>(index) & 0x1fffffu; }
 
-    Vector low_;
     double edge_ = 1;
+    std::vector<std::array<Vector, 2>> boxes_; // of faces
+    std::vector<std::uint32_t> wide_;
     std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> faces_;
 };
 
@@ -123,13 +141,15 @@ std::optional<std::size_t> crossingsOf(const sim::Scene& scene, const State& sta
     if (surface.edges.empty()) return {};
     const Grid grid(surface);
     std::size_t count = 0;
-    for (const auto& [i, j] : surface.edges) {
+    for (const auto& edge : surface.edges) {
+        const std::uint32_t i = edge[0], j = edge[1];
         const Vector &from = surface.x[i], &to = surface.x[j];
-        for (const std::uint32_t f : grid.facesNear(from.cwiseMin(to), from.cwiseMax(to))) {
+        grid.forEachNear(from.cwiseMin(to), from.cwiseMax(to), [&](std::uint32_t f) {
             const Corners& face = surface.faces[f];
-            if (std::ranges::any_of(face, [&](std::uint32_t k) { return k == i || k == j; })) continue;
-            count += passesThrough(from, to, surface.x[face[0]], surface.x[face[1]], surface.x[face[2]]);
-        }
+            if (std::ranges::any_of(face, [&](std::uint32_t k) { return k == i || k == j; })) return;
+            count +=
+                passesThrough(from, to, surface.x[face[0]], surface.x[face[1]], surface.x[face[2]]) ? 1 : 0;
+        });
     }
     return count;
 }
