@@ -161,10 +161,15 @@ TEST(Beside, RefusesWhatItsSolverHasNoFormFor) {
 }
 
 TEST(Stage, RefusesAShapeForWhatTheSceneAsksForAlone) {
-    Scene scene;
-    scene.stage.setDefaults(scene.opening.loaded.defaults);
-    scene.stage.wantShape(sim::Solver::jacobi, 4);
-    EXPECT_EQ(refusalOf([&] { scene.stage.reshape(test::queue()); }), cuts);
+    const auto refusal = [](const std::string& text) {
+        Scene scene(text);
+        scene.stage.setDefaults(scene.opening.loaded.defaults);
+        scene.stage.wantShape(sim::Solver::jacobi, 4);
+        return refusalOf([&] { scene.stage.reshape(test::queue()); });
+    };
+    EXPECT_EQ(refusal(block), "none") << "it may be cut, and collides by default, but nothing has cut it";
+    const std::string touching = refusal(changed(block, "young_", "collides = true\nyoung_"));
+    EXPECT_NE(touching.find("no form for particles that touch each other"), std::string::npos) << touching;
 }
 
 const std::string sphere = "[solver]\nsubsteps = 4\n[[mesh]]\ngenerate = \"sphere\"\ndetail = 8\nsize = 1\n"
