@@ -8,8 +8,8 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # Pages that explain: at most so many lines and columns.
 PAGES = ["README.md"] + [f"docs/{name}.md" for name in (
-    "overview", "step", "features", "contact-rules", "cutting", "skins", "import", "embedding", "viewer", "viewer-inside",
-    "extending", "limits", "glossary")]
+    "overview", "step", "features", "contacts", "contact-lists", "self-contact", "contact-rules", "cutting", "skins", "import",
+    "embedding", "viewer", "viewer-inside", "extending", "limits", "glossary")]
 MOST_LINES, MOST_COLUMNS = 150, 110
 # A sentence says its subject first.
 FIRST_WORDS = re.compile(r"(?:^|[.:;!?]\s+|\|\s+)(?:[*]+ ?)?(Of|What|Which|Likewise|Where|Who|As|The same)\b")
