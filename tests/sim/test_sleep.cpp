@@ -103,18 +103,24 @@ TEST(Sleep, ComesOverAHeapThatThenStaysWhereItIsBitForBit) {
     EXPECT_EQ(farthest(runner.positions(), x), 0);
 }
 
+// With a margin so small that the last substep before sleep makes lists, too.
 TEST(Sleep, CostsNoGroupButThoseOfAFewSmallPasses) {
-    test::Runner runner(heap(), sleeping);
-    const Groups awake = groupsOf(runner);
-    ASSERT_GT(stepsUntilAsleep(runner, 125), 0);
-    runner.run(3);
-    const Groups asleep = groupsOf(runner);
-    std::printf(
-        "groups: awake %llu, asleep %llu, and %llu always\n", static_cast<unsigned long long>(awake.indirect),
-        static_cast<unsigned long long>(asleep.indirect), static_cast<unsigned long long>(asleep.direct));
-    EXPECT_EQ(asleep.indirect, 0u);
-    EXPECT_LE(asleep.direct, 3u) << "whether anything wakes, and whether anything was judged";
-    EXPECT_GE(awake.indirect, 16u * 5);
+    for (const float margin : {0.5f, 1e-7f}) {
+        Settings settings = sleeping;
+        settings.contactMargin = margin;
+        test::Runner runner(heap(), settings);
+        const Groups awake = groupsOf(runner);
+        ASSERT_GT(stepsUntilAsleep(runner, 125), 0);
+        runner.run(3);
+        const Groups asleep = groupsOf(runner);
+        std::printf("groups: awake %llu, asleep %llu, and %llu always\n",
+                    static_cast<unsigned long long>(awake.indirect),
+                    static_cast<unsigned long long>(asleep.indirect),
+                    static_cast<unsigned long long>(asleep.direct));
+        EXPECT_EQ(asleep.indirect, 0u) << margin;
+        EXPECT_LE(asleep.direct, 3u) << "whether anything wakes, and whether anything was judged";
+        EXPECT_GE(awake.indirect, 16u * 5);
+    }
 }
 
 TEST(Sleep, EndsInTheSameBitsForAnyOrderAndMarginAndForm) {

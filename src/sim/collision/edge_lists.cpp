@@ -92,8 +92,7 @@ Lists add(ProgramBuilder& program, const Request& request) {
     const std::size_t groups = request.particles / GROUP_ITEMS;
     lists.touching = program.scratch<std::uint32_t>("edges.groups", groups);
     lists.marks = program.scratch<std::uint32_t>("edges.groups.listed", groups);
-    lists.grid.entries = {lists.grid.touching.arguments, 2,
-                          std::min<std::uint32_t>(lists.pooled.room, ROWS_MOST_GROUPS * GROUP_ITEMS)};
+    lists.grid.entries = pooled_lists::entriesInUse(lists.pooled, lists.grid);
     lists.apart = program.scratch<std::uint32_t>("edges.apart", count);
     return lists;
 }

@@ -91,8 +91,7 @@ Lists add(ProgramBuilder& program, const Request& request) {
                                                .others = request.moving + 1,
                                                .hasMemory = true});
     lists.push.room = lists.pooled.room;
-    lists.grid.entries = {lists.grid.touching.arguments, 2,
-                          std::min<std::uint32_t>(lists.pooled.room, ROWS_MOST_GROUPS * GROUP_ITEMS)};
+    lists.grid.entries = pooled_lists::entriesInUse(lists.pooled, lists.grid);
     lists.radii = program.upload("faces.radii", request.radii);
     lists.inverseMasses = program.upload("faces.inverse_masses", request.inverseMasses);
     lists.faces = program.upload("faces", request.faces);

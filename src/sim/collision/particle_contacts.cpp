@@ -309,7 +309,6 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
         .planes = planes::addColliders(program, scene, layout),
         .surfaces = std::move(surfaces),
         .settles = settles,
-        .sleeps = settings.sleeps,
         .hasRebound =
             std::ranges::any_of(scene.planes, [](const Plane& plane) { return plane.restitution > 0; }),
         .hasRecovery = hasRecovery,
@@ -391,8 +390,6 @@ void addBounces(ProgramBuilder& program, const Contacts& contacts, const Particl
 void addPublishing(ProgramBuilder& program, const Contacts& contacts) {
     pooled_lists::addPublishing(program, contacts.lists.pooled, contacts.lists.grid);
     if (contacts.interlocks) interlocks::addClosing(program, *contacts.interlocks);
-    // Lists stay while all sleeps, and nothing plans how many groups run then.
-    if (contacts.sleeps) program.fill(contacts.lists.grid.arguments, 0);
 }
 
 } // namespace sinew::sim::collision::particle_contacts

@@ -23,7 +23,6 @@ struct Contacts {
     /// Whether the substep ends for all as if they touched nothing, and then anew for groups in which
     /// somebody has a candidate; else for all in one pass.
     bool settles = false;
-    bool sleeps = false;             ///< whether the scene may
     BufferId particles;              ///< slots that hold a particle; only where it settles
     std::uint32_t particleCount = 0; ///< how many
     bool hasRebound = false;         ///< of a plane

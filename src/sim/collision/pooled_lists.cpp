@@ -89,6 +89,12 @@ void addPublishing(ProgramBuilder& program, const Lists& lists, const hash_grid:
     const std::uint32_t items = std::max(grid.push.count, grid.touchingParticles.most);
     program.dispatch(lists.memory ? kernels::publishKeptLists : kernels::publishLists, items, buffers,
                      layout::CountPush{grid.push.count});
+    // While all sleeps nothing plans how many groups run, and lists must not be made again.
+    if (program.program().sleep.arguments != BufferId{}) program.fill(grid.arguments, 0);
+}
+
+IndirectItems entriesInUse(const Lists& lists, const hash_grid::Grid& grid) {
+    return {grid.touching.arguments, 2, std::min<std::uint32_t>(lists.room, ROWS_MOST_GROUPS * GROUP_ITEMS)};
 }
 
 } // namespace sinew::sim::collision::pooled_lists

@@ -157,10 +157,8 @@ void addBounces(ProgramBuilder& program, const Rows& rows, const ParticleBuffers
 
 void addPublishing(ProgramBuilder& program, const Rows& rows, const hash_grid::Grid& grid) {
     pooled_lists::addPublishing(program, rows.lists, grid);
-    if (!rows.sleeps) return;
     // Lists stay while all sleeps, and nothing plans how many groups run then.
-    program.fill(grid.touching.arguments, 0);
-    program.fill(grid.arguments, 0);
+    if (rows.sleeps) program.fill(grid.touching.arguments, 0);
 }
 
 } // namespace sinew::sim::collision::row_contacts
