@@ -228,3 +228,30 @@ TEST(CutSheet, IsRefusedForOtherSolversAndTearingForWhatMayNotBeCut) {
     scene.grids[0].isCuttable = false;
     EXPECT_NE(complaint(scene).find("which only a body with isCuttable can"), std::string::npos);
 }
+
+// An edge that a cut has taken away stands in the grid of edges where it is, and no wider: else every search
+// of edges would look at it.
+TEST(CutSheet, ThatIsCoarseHasNoWiderEdgesForACut) {
+    Scene scene;
+    addCloth(scene, {.size = {14, 9},
+                     .spacing = spacing,
+                     .membraneStiffness = 100,
+                     .thickness = spacing / 10,
+                     .isCuttable = true});
+    constexpr std::uint32_t substeps = 4;
+    CutBody body(scene, {.substeps = substeps});
+    const CutPlane plane{0.5 * (body.at(0) + body.at(14 * 9 - 1)) + Vector3d(0.01, 0, 0), {1, 0, 0}};
+    const auto dead = [&] { // and padding
+        const auto edges = listOf<layout::ContactEdge>(body, "edges");
+        return std::ranges::count_if(edges, [](const layout::ContactEdge& edge) { return edge.radius < 0; });
+    };
+    const auto padding = dead();
+    ASSERT_GT(body.cut(sweepOf(plane, 1)).linksCut, 8u);
+    ASSERT_GT(dead(), padding + 8);
+    const float h = scene.dt / substeps;
+    double widest = 0;
+    for (const layout::vec4& speed : listOf<layout::vec4>(body, "edges.speeds"))
+        widest = std::max(widest, double{speed.x} * double{h});
+    EXPECT_GT(widest, 0) << "it falls";
+    EXPECT_LT(widest, 0.5 * double{spacing});
+}
