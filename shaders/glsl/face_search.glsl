@@ -63,7 +63,7 @@ Searched searchedOf(uint f) {
 
 #include "excluded.glsl"
 
-// What joins a point to a face: nothing, a diagonal link alone, so that they touch at LINKED_REACH, or so much that they never touch.
+// Links from a point to the corners of a face: none; diagonals alone, so that the two touch at LINKED_REACH; or such that they never touch.
 #define BOND_NONE 0u
 #define BOND_DIAGONAL 1u
 #define BOND_EXCLUDED 2u
@@ -123,7 +123,7 @@ bool isNear(Searched face, uint i, vec3 x, float less) {
     return dot(d, d) < reach * reach;
 }
 
-// Of a pair that isNear().
+// Lists a pair that isNear().
 void listUnlessExcluded(Searched face, uint i) {
     const uint bond = bondOf(face, i), f = face.index;
     if (bond == BOND_EXCLUDED) return;

@@ -33,7 +33,7 @@ Row rowOf(uint owner, uint other, vec4 weight) {
 }
 #endif
 
-// What the owner has more of than the other.
+// The weighted sum over a row: the place, or velocity, of the owner relative to the other.
 vec3 between(Row row, vec3 a, vec3 b, vec3 c, vec3 d) { return row.beta.x * a + (row.beta.y * b + row.beta.z * c + row.beta.w * d); }
 
 #define BETWEEN(row, of) \

@@ -8,7 +8,7 @@ namespace sinew::sim {
 /// Hashes of all that recordTakeOver() takes for granted. Stiffness, compliance, friction, restitution,
 /// damping, gravity, colors, names and velocities are not in them.
 struct SceneKey {
-    /// Where particles are at first, and how heavy; what links, holds and surrounds them.
+    /// First places and masses of particles, their links, holds and surroundings.
     std::uint64_t ofAnySolver = 0;
     /// That, and what `split` alone has forms for: how far particles are from what they touch, their faces,
     /// which bodies may be cut or tear, and what a cut removes.

@@ -13,7 +13,7 @@ namespace {
 
 using edge_lists::Edge;
 
-// Where forces are kept, ends that never move feel them too.
+// Ends of edges by slot. Ends that never move count only in scenes that keep forces.
 row_contacts::Corners cornersOf(std::span<const Edge> edges, const StateLayout& layout,
                                 const std::vector<float>& inverseMass, bool keepsForces) {
     std::vector<std::vector<std::uint32_t>> entries(layout.count);

@@ -56,7 +56,8 @@ struct Grid {
     IndirectItems touching, touchingParticles;
     IndirectItems entries; ///< all entries of the pool that are in use; only where pairs have links
     BufferId watched;      ///< by slot: below 0 = nothing can touch it, nor what it is a corner of
-    /// What the pass that counts cells sees of items: where it writes them, their bodies, who is watched.
+    /// Bound by the pass that counts cells: places of items (it writes them), their bodies, which are
+    /// watched.
     std::array<BufferId, 3> counted;
     IndirectItems swept, unswept; ///< likewise, a particle each, where contacts may or cannot lie on the way
     IndirectItems slowed;         ///< where too many are too fast

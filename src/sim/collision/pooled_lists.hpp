@@ -44,7 +44,7 @@ struct Memory {
     Kept saved;      ///< of the last step that came to its end
 };
 
-/// Where pairs stand in the lists of others: element elements[ranges[f].first + s] is pair s of f.
+/// Index from the other of a pair to its entries: elements[ranges[f].first + s] is the entry of pair s of f.
 struct Links {
     BufferId elements, ranges;
     BufferId chains; ///< of pairs
@@ -71,7 +71,10 @@ std::vector<BufferId> keepingBuffers(const Lists& lists);
 std::vector<BufferId> sortingBuffers(ProgramBuilder& program, const Lists& lists, const hash_grid::Grid& grid,
                                      BufferId radii);
 
-/// The end of a step. Lists of an undone step are made again.
+/// The entries of a pool that are in use, as items of a pass; plan_grid and link_rows say how many.
+IndirectItems entriesInUse(const Lists& lists, const hash_grid::Grid& grid);
+
+/// The end of a step. Lists of an undone step are made again; while all sleeps none are.
 void addPublishing(ProgramBuilder& program, const Lists& lists, const hash_grid::Grid& grid);
 
 } // namespace sinew::sim::collision::pooled_lists

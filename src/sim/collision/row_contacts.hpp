@@ -22,7 +22,7 @@
 
 namespace sinew::sim::collision::row_contacts {
 
-/// What differs between kinds of contacts: their kernels.
+/// A kind of contacts: its kernels.
 struct Kind {
     const char* name = nullptr; ///< of buffers
     const vk::ShaderCode* touch = nullptr;
@@ -51,7 +51,7 @@ struct Corners {
     std::vector<std::uint32_t> entries, ends;
 };
 
-/// Of entries by slot.
+/// The table of entries by slot; those of `later` count only once a cut has laid them open.
 Corners cornersOf(std::span<const std::vector<std::uint32_t>> first,
                   std::span<const std::vector<std::uint32_t>> later = {});
 
@@ -83,7 +83,7 @@ void add(ProgramBuilder& program, Rows& rows, const Corners& corners, const Part
 /// Constants of kernels in which pairs may keep their rest distance. `isFirst`: of the substeps of a step.
 ProgramBuilder::Constants restConstants(bool keepsRest, bool isFirst);
 
-/// What touches sleeps together.
+/// Joins particles of a row into one island of sleep.
 void joinIslands(const Rows& rows, sleep::Sleep& sleep);
 
 /// Finds what touches in the lists that there are, and changes predicted positions and velocities where they
