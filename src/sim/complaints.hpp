@@ -1,4 +1,4 @@
-// How complaints about a scene are worded and collected: for validate.cpp and the checks it calls.
+// Wording and collection of complaints about a scene: for validate.cpp and the checks it calls.
 #pragma once
 
 #include "sim/ranges.hpp"
@@ -21,7 +21,7 @@ template <typename Number> std::string number(Number value) {
     return {text, end};
 }
 
-/// Most values were float32: 0.1f shall read "0.1", not "0.10000000149011612".
+/// Writes a value that was float32 with its shortest digits: 0.1f reads "0.1", not "0.10000000149011612".
 inline std::string asWritten(double value) {
     const auto narrow = static_cast<float>(value);
     return double{narrow} == value || std::isnan(value) ? number(narrow) : number(value);
@@ -38,7 +38,7 @@ inline std::string element(std::string_view list, std::size_t index) {
     return std::string(list) + "[" + number(index) + "]";
 }
 
-/// The name of a particle's body; "" in a scene of one body, and for a particle of none.
+/// The name of a particle's body; "" in a scene of one body, and for a particle without a body.
 inline std::string bodyOf(const Scene& scene, std::uint32_t particle) {
     if (scene.bodies.size() < 2) return {};
     const auto found = std::ranges::find_if(scene.bodies, [particle](const Body& body) {
@@ -54,7 +54,7 @@ public:
         if (++count_ <= most) sentences_.push_back(item + ": " + why);
     }
 
-    // Members by pointer, so that no name is put together for the values that are right.
+    // `name` is a function, so that no name is built for valid values.
     void check(double value, const Range& range, const auto& name) {
         if (!range.holds(value)) add(name(), "is " + asWritten(value) + ", must be " + toText(range));
     }

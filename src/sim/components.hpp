@@ -1,4 +1,4 @@
-// What is linked, as the scene has it: by whom sleep and hands find the rest of a body.
+// Connected components by links, as the scene has them: sleep and grabs find the rest of a body with them.
 #pragma once
 
 #include "sim/scene.hpp"
@@ -7,8 +7,8 @@
 
 namespace sinew::sim {
 
-/// The smallest index among the particles that distance and bend constraints link each one to. What never
-/// moves (inverse mass 0) links nothing.
+/// For each particle the smallest index in its component, connected by distance and bend constraints. Static
+/// particles (inverse mass 0) do not connect others.
 std::vector<std::uint32_t> linkedComponents(const Scene& scene, std::span<const float> inverseMass);
 
 } // namespace sinew::sim

@@ -1,4 +1,4 @@
-// Numbers of things in sentences.
+// Counts with nouns in sentences.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,7 @@
 
 namespace sinew::sim {
 
-/// "1 piece", "2 pieces": `many` is what more than one and none are called, `one` with an s where it is
-/// empty.
+/// "1 piece", "2 pieces": `many` is the plural, also used for 0; if empty, the plural is `one` with an s.
 inline std::string counted(std::uint64_t count, std::string_view one, std::string_view many = {}) {
     std::string text = std::to_string(count) + " ";
     if (count == 1) return text.append(one);

@@ -1,12 +1,13 @@
-// The impulses of a step: of contacts, planes, colliders, holds and hands. Kernels that change a
-// velocity by one of these have a form that also adds mass times that change to elements of the particle's
-// own (shaders/glsl/forces.glsl). Small passes at the end of the step sum these up in a fixed order, by body,
-// plane, collider, hold and hand. The buffer of elements consists of sections of one vec4 a slot of the
-// state,
+// Impulses of a step: of contacts, planes, colliders, holds and grabs. Kernels that change a velocity by such
+// an impulse have a form that also adds mass times this change to elements owned by the particle
+// (shaders/glsl/forces.glsl). Small passes at the end of the step sum the elements in a fixed order, by body,
+// plane, collider, hold and grab. The buffer of elements consists of sections of one vec4 for each slot of
+// the state,
 //
 //   contacts | holds | rows: an impulse section and a moment section each | entries: tethers, attachments
 //
-// with a row for each hand, plane, poke and collider, and rows for bodies with faces that never move. Such
+// with a row for each grab, plane, poke and collider, and rows for bodies with static faces. Static faces
+// have no list of the points near them: each point adds its impulse on them to its own element in a row.
 // faces do not know the points near them: each point adds what they give to it to an element of its own in a
 // row.
 #pragma once
@@ -19,30 +20,30 @@
 
 namespace sinew::sim::forces {
 
-/// Complains about settings with which forces cannot be kept, and about holds of particles that do not exist.
+/// Complains about settings that exclude forces, and about holds of particles that do not exist.
 void check(const Scene& scene, const Settings& settings, Complaints& complaints);
 
-/// Complains where forces are kept and their elements do not fit into one buffer of 32 bits. All else must be
-/// right.
+/// Complains if forces are kept and their elements exceed one buffer of 32 bits. Everything else must be
+/// valid.
 void checkRoom(const Scene& scene, const Settings& settings, Complaints& complaints);
 
-/// Faces that never move, by body and holds.
+/// Rows of static faces, by body and holds.
 struct Stops {
     static constexpr std::uint32_t noBody = ~0u;
-    /// Faces of one body, the first corners of which are in the same holds.
+    /// Faces of one body whose first corners are in the same holds.
     struct Row {
         std::uint32_t body;               ///< index into Scene::bodies, or noBody
         std::vector<std::uint32_t> holds; ///< indices into Scene::holds, ascending
-        std::uint32_t origin; ///< a particle of the body that never moves: moments are about its place
+        std::uint32_t origin;             ///< a static particle of the body: moments are about its position
     };
-    std::vector<Row> rows; ///< those of a body side by side; none where no particle can touch a face
+    std::vector<Row> rows; ///< those of a body side by side; none if no particle can touch a face
     std::vector<std::uint32_t>
-        ofParticle; ///< the row of faces that begin with the particle; 0 where it has none
+        ofParticle; ///< row of the faces whose first corner is the particle; 0 if there is none
 };
-/// Indices of particles and faces must be right.
+/// The rows of a scene, whose indices of particles and faces must be valid.
 Stops stopsOf(const Scene& scene, const Settings& settings);
 
-/// The place of each impulse in the buffer of elements.
+/// Layout of the buffer of elements.
 struct Forces {
     BufferId terms;
     std::uint32_t slots = 0;                            ///< elements of a section
@@ -59,7 +60,7 @@ struct Forces {
     std::uint32_t firstEntry() const { return elementOf(rows()); }
     std::uint64_t elements() const { return (2 + 2 * std::uint64_t{rows()}) * slots + tethers + attachments; }
 
-    // Constants that specialise the forms of kernels.
+    // Constants that specialise the forms of kernels that keep forces.
     ProgramBuilder::Constants ofContacts() const { return constants(0); }
     ProgramBuilder::Constants ofGrabs() const { return constants(elementOf(0)); }
     ProgramBuilder::Constants ofPlanes() const { return constants(elementOf(grabs)); }
@@ -72,26 +73,26 @@ private:
     ProgramBuilder::Constants constants(std::uint32_t first) const;
 };
 
-/// Before the substeps: room for all impulses, none so far.
+/// Creates the buffer of elements, and appends the pass before the substeps that clears it.
 std::shared_ptr<const Forces> add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
                                   const StateLayout& layout);
 
-/// A kernel, and its form that also keeps the impulses that it gives.
+/// A kernel, and its form that also keeps the impulses that it applies.
 using Forms = std::array<const vk::ShaderCode*, 2>;
 
-/// The one that `particles` ask for. For the second, `buffers` end with the elements, and `constants` say
-/// where in them its own begin: `of` is Forces::ofPlanes or another of these.
+/// The form that `particles` need. For the second form, `buffers` get the elements appended, and `constants`
+/// the start of the section that `of` names: Forces::ofPlanes or a similar function.
 const vk::ShaderCode& formFor(const ParticleBuffers& particles, const Forms& forms,
                               ProgramBuilder::Constants (Forces::*of)() const, std::vector<BufferId>& buffers,
                               ProgramBuilder::Constants& constants);
 
-/// After the links of a substep of `split`, which has left in the velocities of what never moves what pulls
-/// at it.
+/// Appends the passes after the links of a substep of `split`, which has left the forces on static particles
+/// in their velocities.
 void addPulls(ProgramBuilder& program, const ParticleBuffers& particles);
-/// Specialises the gathers of `split`, so that they do.
+/// Specialises the gathers of `split` to leave these forces.
 ProgramBuilder::Constants pullConstants();
 
-/// After public positions are those of the end of the step.
+/// Appends the sums, after public positions have their values at the end of the step.
 void addSums(ProgramBuilder& program, const Scene& scene, const ParticleBuffers& particles);
 
 } // namespace sinew::sim::forces

@@ -1,4 +1,4 @@
-// A scene compiled for a device.
+// Compilation of a scene for a device.
 #pragma once
 
 #include "sim/compile.hpp"
@@ -6,11 +6,11 @@
 
 namespace sinew::sim {
 
-/// Every device that is not a software one counts as a GPU.
+/// The kind of a device; every device that is not a software one counts as a GPU.
 DeviceKind kindOf(const vk::Device& device);
 
-/// Compiles with the forms of the settings, with the forms that they leave open as suits the device, but with
-/// no more shared memory and no longer texel buffers than the device has. Throws as compile().
+/// Compiles with the forms of the settings; open ones are chosen for the device, within its limits of shared
+/// memory and of texel buffers. Throws as compile().
 StepProgram compileFor(const vk::Device& device, const Scene& scene, Settings settings);
 
 } // namespace sinew::sim

@@ -1,4 +1,5 @@
-// Turns a StepProgram into buffers, pipelines and descriptor sets once, then records it any number of times.
+// Executor of a StepProgram: creates buffers, pipelines and descriptor sets once, then records any number of
+// times.
 #pragma once
 
 #include "sim/program.hpp"
@@ -10,42 +11,42 @@
 
 namespace sinew::sim {
 
-/// Owns every device object of one program. Must not outlive the Device nor the program.
+/// Owns every device object of one program. Must not outlive the Device or the program.
 class GpuExecutor {
 public:
-    /// Creates everything; throws vk::Error naming the buffer or kernel. Submits nothing: contents come with
-    /// upload().
+    /// Creates everything; throws vk::Error naming the buffer or kernel. Submits nothing: upload() fills the
+    /// buffers.
     GpuExecutor(const vk::Device& device, const StepProgram& program);
 
     /// Records the copies that put every buffer into its initial state (also a reset). Ends with a barrier.
     void upload(vk::Commands& commands) noexcept;
-    /// What update passes write, by HostData (<= 64 KiB each).
+    /// Host data of update passes, by HostData (<= 64 KiB each).
     using HostBytes = std::array<std::span<const std::byte>, hostDataCount>;
-    /// Records a list with its planned barriers.
-    /// With `timestamps`, one span per phase of the step list.
+    /// Records the passes of a step with the planned barriers. `timestamps` receives one span per phase.
     void step(vk::Commands& commands, const HostBytes& host, vk::Timestamps* timestamps,
               Recording recording = {}) noexcept;
     void skin(vk::Commands& commands) noexcept;
     void wholeSkin(vk::Commands& commands) noexcept;
     void mixedSkin(vk::Commands& commands) noexcept;
-    /// Makes of a state that was put into the buffers one of this program (StepProgram::settle).
+    /// Records the passes that recompute what follows from the scene alone (StepProgram::settle).
     void settle(vk::Commands& commands) noexcept;
-    /// Makes of the public state that of this program (StepProgram::adopt).
+    /// Records the passes that initialise this program's state from the public state (StepProgram::adopt).
     void adopt(vk::Commands& commands) noexcept;
-    /// A buffer as it begins, if it begins with something.
+    /// Copies a buffer's initial contents into it, if it has some.
     void restore(vk::Commands& commands, BufferId buffer) noexcept;
-    /// What a buffer begins with from now on, and has at once unless it `isOfState`: `contents` has its size.
+    /// Replaces a buffer's initial contents by `contents`, of equal size; the buffer itself changes too
+    /// unless it `isOfState`.
     void replace(vk::Commands& commands, BufferId buffer, const vk::BufferView& contents,
                  bool isOfState) noexcept;
-    /// Those of a step that write the surface of cuts, by themselves.
+    /// Records only those passes of a step that write the surface of cuts.
     void surface(vk::Commands& commands) noexcept;
 
     vk::BufferView view(BufferId buffer) const noexcept; ///< empty for an invalid id
-    /// Phases of the step list that hold a pass, in order: the spans of `timestamps`.
+    /// Phases of the step list that contain a pass, in order: the spans of `timestamps`.
     const std::vector<std::uint32_t>& timedPhases() const noexcept { return timedPhases_; }
 
 private:
-    // A pass with everything looked up, so that recording is a plain walk.
+    // A pass with all lookups done, so that recording is a plain loop.
     struct Recorded {
         PassKind kind;
         std::array<bool, recordingCount> isIn, hasBarrier; // by Recording
@@ -54,7 +55,7 @@ private:
         const vk::Kernel* kernel;
         VkDescriptorSet set;
         const std::vector<std::byte>* push;
-        vk::BufferView first, second; // of an indirect dispatch the first is its arguments
+        vk::BufferView first, second; // the first of an indirect dispatch is its arguments
     };
     std::vector<Recorded> resolve(const std::vector<Pass>& passes, std::size_t& nextSet) const;
     static void checkGroups(const std::vector<Recorded>& passes, std::uint32_t most);

@@ -1,5 +1,5 @@
-// FNV-1a [Fowler, Noll, Vo 1991], 64 bits: says whether two runs ended alike, and tells programs and files
-// apart.
+// FNV-1a [Fowler, Noll, Vo 1991], 64 bits: compares the final states of runs, and identifies programs and
+// files.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace sinew::sim {
 
-/// Of all bytes; `before` goes on from a hash of those before them.
+/// Hash of all bytes; `before` is the hash of the bytes that precede them.
 constexpr std::uint64_t fnv1a(std::span<const std::byte> bytes, std::uint64_t before = 0xcbf29ce484222325u) {
     for (const std::byte byte : bytes) before = (before ^ static_cast<std::uint64_t>(byte)) * 0x100000001b3u;
     return before;

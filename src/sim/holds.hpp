@@ -1,4 +1,4 @@
-// Holding: particles that stay where the scene has them, or go along a path, chosen by where they are.
+// Holding of particles that are chosen by position: they stay fixed, or follow a path.
 #pragma once
 
 #include "sim/scene.hpp"
@@ -8,16 +8,16 @@
 
 namespace sinew::sim {
 
-/// How far a point is outside of a place [m]; at most 0 within it. Any function will do: a host may ask a
-/// distance field of its own.
+/// Distance of a point from a region [m]; at most 0 inside. Any function is allowed, such as a host's own
+/// distance field.
 using Gap = std::function<double(const Vec3&)>;
 
-/// A sphere, capsule or box where it stands; its margin counts, its path does not.
+/// The inside of a sphere, capsule or box at its pose; its margin counts, its path does not.
 Gap insideOf(const Collider& shape);
 /// The free side of a plane: normal . x >= offset.
 Gap insideOf(const Plane& halfSpace);
 
-/// Particles of a body that are in a place, and how near the nearest one is to it.
+/// The particles of a body that are in a region, and the distance of the nearest one.
 struct Selection {
     std::vector<std::uint32_t> particles; ///< ascending
     std::uint32_t nearest = 0;            ///< the particle with the smallest gap
@@ -25,16 +25,16 @@ struct Selection {
 };
 Selection select(const Scene& scene, const Body& body, const Gap& gap);
 
-/// Adds a FixedConstraint for each particle that has none, and ends its velocity. For every solver. Throws
+/// Adds a FixedConstraint for each particle that has none, and zeroes its velocity. For every solver. Throws
 /// std::invalid_argument for a particle that does not exist.
 void hold(Scene& scene, std::span<const std::uint32_t> particles);
 
-/// Holds the particles, and takes them along a path from where they are (DrivenBody). For `split` alone: a
-/// particle may be driven once. Throws likewise.
+/// Holds the particles, and moves them along a path from their present positions (DrivenBody). `split` only:
+/// a particle may be driven once. Throws std::invalid_argument for a particle that does not exist.
 void drive(Scene& scene, std::vector<std::uint32_t> particles, std::vector<Keyframe> path,
            PathEnd end = PathEnd::hold);
 
-/// The first that has the particle; null where none has.
+/// The first hold that contains the particle; null if none does.
 const NamedHold* holdOf(std::span<const NamedHold> holds, std::uint32_t particle);
 
 } // namespace sinew::sim

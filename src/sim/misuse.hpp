@@ -1,5 +1,5 @@
-// Mistakes of a host while it recorded, each kind told once. Recording may neither throw nor allocate: it
-// notes numbers, and the sentences are made when the host asks for them.
+// Log of a host's mistakes during recording; each kind is reported once. Recording may neither throw nor
+// allocate: it notes numbers, and the sentences are made when the host asks for them.
 #pragma once
 
 #include <array>
@@ -12,24 +12,24 @@ namespace sinew::sim {
 
 enum class Misuse {
     noReset,         ///< a step or a skin before recordReset() or recordTakeOver()
-    tooManyInFlight, ///< `frame` took the place of step `given`, which had not finished
+    tooManyInFlight, ///< `frame` took the slot of step `given`, which had not finished
     tooManyGrabs,    ///< `given` listed, `allowed` by Settings
-    tooManyPokes,    ///< likewise
+    tooManyPokes,    ///< `given` listed, `allowed` by Settings
     tooManyAnchors,  ///< more than the scene's attachments
-    badBlade,        ///< of `given` points, and `allowed` points of where it goes, or not finite
-    nothingToCut,    ///< a blade or a ray, and no body may be cut
-    contactRoom,     ///< undone: `given` particles need room, `allowed` have it
+    badBlade,        ///< `given` points in `from` and `allowed` points in `to`, or not finite
+    nothingToCut,    ///< a blade or a ray, but no cuttable body
+    contactRoom,     ///< undone: `given` candidates a particle need room, `allowed` have it
     notRepeated,     ///< recorded after step `given`, which lacked lists and was not repeated
-    mayBeRepeated,   ///< in flight while the topology or the material changed behind it
+    mayBeRepeated,   ///< in flight while the topology or the material changed
     count
 };
 
 class MisuseLog {
 public:
-    /// Keeps the first of each kind.
+    /// Keeps the first note of each kind.
     void note(Misuse kind, std::uint64_t frame, std::uint64_t given = 0, std::uint64_t allowed = 0) noexcept;
     bool isNoted(Misuse kind) const noexcept { return notes_[static_cast<std::size_t>(kind)].isNoted; }
-    /// A sentence for each kind that was noted since the last call and never before.
+    /// Returns a sentence for each kind noted since the last call and never before.
     std::vector<std::string> take();
 
 private:

@@ -1,5 +1,6 @@
-// What two programs of one shape differ in: numbers in buffers and push constants. A scene whose material is
-// turned compiles to such a program, mostly; the executor then takes over the numbers and nothing is built.
+// Differences between two programs of equal structure: numbers in buffers and push constants. A scene with
+// changed material usually compiles to such a program; the executor then takes the numbers over and builds
+// nothing.
 #pragma once
 
 #include "sim/program.hpp"
@@ -8,33 +9,33 @@
 
 namespace sinew::sim {
 
-/// The numbers of the other program, where they are not those of the first.
+/// Values of the second program that differ from those of the first.
 struct ProgramValues {
     struct Contents {
         BufferId buffer;
         std::vector<std::byte> initial; ///< as BufferSpec::initial
-        bool isOfState = false; ///< steps write it, and StepProgram::settle what of it follows from the scene
+        bool isOfState = false;         ///< steps write it; `settle` recomputes what follows from the scene
     };
     struct Push {
-        std::size_t pass = 0; ///< of the list
+        std::size_t pass = 0; ///< index in the list
         std::vector<std::byte> bytes;
     };
     std::vector<Contents> buffers;
     std::vector<Push> step, skin, wholeSkin, mixedSkin, settle;
 };
 
-/// Nothing where `to` has other buffers, kernels or passes than `from`, or begins with another state: only a
-/// simulation of its own makes steps of it.
+/// The differences from `from` to `to`. Empty if the programs have different buffers, kernels or passes, or
+/// start in different states: then only a new simulation can run `to`.
 std::optional<ProgramValues> valuesOf(const StepProgram& from, const StepProgram& to);
 
-/// Puts them into `program`, which they were made from: what it begins with and pushes from now on.
+/// Puts the differences into the first program, `program`: initial contents and push constants.
 void take(StepProgram& program, ProgramValues values) noexcept;
 
-/// A change leaves the state where it is. Throws std::invalid_argument where `to` begins with other particles
-/// than `from`.
+/// Throws std::invalid_argument if `to` starts with other particles than `from`: a change of material keeps
+/// the state.
 void requireSameParticles(const StepProgram& from, const StepProgram& to);
 
-/// All that passes of a step write: the state between steps is among it.
+/// All buffers that passes of a step write; these contain the state between steps.
 std::vector<BufferId> writtenByStep(const StepProgram& program);
 
 /// By buffer: whether passes of a step, of the skins or of settling write it.

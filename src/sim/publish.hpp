@@ -1,12 +1,12 @@
-// The end of a step: the public copy of the state, or the step undone.
+// The end of a step: copies the state to the public buffers, or undoes the step.
 #pragma once
 
 #include "sim/compile.hpp"
 
 namespace sinew::sim::publish {
 
-/// Adds the check that the state is finite, the copy into program().positions and, where that is a buffer,
-/// velocities, and the same for what solvers remember. Public copies hold the last finite state.
+/// Appends the check that the state is finite, the copy into program().positions and, if that buffer exists,
+/// velocities, and the same for buffers that solvers remember. The public buffers hold the last finite state.
 void addPasses(ProgramBuilder& program, const ParticleBuffers& particles);
 
 } // namespace sinew::sim::publish

@@ -1,5 +1,5 @@
-// Random numbers that are the same with every standard library: its distributions differ, its generator does
-// not.
+// Random numbers that are equal with every standard library: its generator is specified exactly, its
+// distributions are not.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace sinew::sim {
 class Random {
 public:
     explicit Random(std::uint32_t seed) : bits_(seed) {}
-    /// Evenly from -1 to 1.
+    /// Uniform from -1 to 1.
     double symmetric() { return (static_cast<double>(bits_()) + 0.5) / 2147483648.0 - 1; }
 
 private:

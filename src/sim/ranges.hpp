@@ -1,4 +1,4 @@
-// The one table of allowed numbers: validate.cpp checks scenes against it, scene files and their
+// The only table of allowed numbers: validate.cpp checks scenes against it, and scene files and their
 // documentation read it.
 #pragma once
 
@@ -14,18 +14,18 @@ struct Range {
     double high = std::numeric_limits<double>::max();
     bool isLowOpen = false, isHighOpen = false;
 
-    /// False for NaN and infinities.
+    /// Whether `value` is allowed; false for NaN and infinities.
     constexpr bool holds(double value) const {
         return (isLowOpen ? value > low : value >= low) && (isHighOpen ? value < high : value <= high);
     }
 };
 
-/// As in "must be ...": "from 1 to 1000", "above 0 and at most 0.1", "at least 0", "a finite number".
+/// Text after "must be": "from 1 to 1000", "above 0 and at most 0.1", "at least 0", "a finite number".
 std::string toText(const Range& range);
 
 namespace ranges {
 
-inline constexpr double largest = std::numeric_limits<float>::max(); // what the device can hold
+inline constexpr double largest = std::numeric_limits<float>::max(); // that the device can represent
 
 // Scene
 inline constexpr Range finite{-largest, largest};
@@ -39,7 +39,7 @@ inline constexpr Range skipStiffness{0, largest};                              /
 inline constexpr Range maxForce{.low = 0, .high = largest, .isLowOpen = true}; // [N]
 inline constexpr Range maxSpeed{.low = 0, .high = largest, .isLowOpen = true}; // [m/s]
 inline constexpr Range tetherLength{0, largest};                               // [m]
-/// Their moving points travel in the command buffer, which takes 64 KiB at a time.
+/// Limit of attachments: their moving points travel in the command buffer, 64 KiB at a time.
 inline constexpr std::size_t mostAttachments = 1024;
 /// Points of each of the two poly-lines of a blade.
 inline constexpr std::size_t mostBladePoints = 256;
@@ -51,7 +51,7 @@ inline constexpr Range colliderLength{0, largest};                              
 inline constexpr Range margin{0, largest};                                         // [m]
 inline constexpr Range pathTime{0, largest};                                       // [s]
 inline constexpr std::uint32_t mostGrabs = 8, mostPokes = 8;
-/// Every particle looks at all of them.
+/// Limit of colliders: every particle tests all of them.
 inline constexpr std::size_t mostColliders = 64;
 inline constexpr Range recoverySpeed{.low = 0, .high = largest, .isLowOpen = true}; // [m/s]
 inline constexpr std::size_t mostSurfaces = 64;    // a table of their pairs goes to the device
@@ -70,20 +70,22 @@ inline constexpr std::size_t mostPlanes = 32; // bits of the touched set in plan
 
 // Settings
 inline constexpr Range substeps{1, 1000};
-/// Between these many substeps are chosen where nobody says how many.
+/// Range of the automatic choice of substeps.
 inline constexpr std::uint32_t fewestChosen = 4, mostChosen = 256;
-/// And at least these where particles may touch each other: falling clutter presses itself in by 0.1 radii.
+/// Lower limit of that choice if particles may touch each other: falling clutter then overlaps by 0.1 radii.
 inline constexpr std::uint32_t fewestTouching = 16;
 inline constexpr Range tolerance{.low = 0, .high = 1, .isLowOpen = true, .isHighOpen = true};
 inline constexpr Range iterations{1, 1000};
-/// Sweeps in one step: bounds the pass list, and the work of one submission where a device has a watchdog.
+/// Limit of sweeps in one step: bounds the pass list, and the duration of one submission for devices with a
+/// watchdog.
 inline constexpr std::uint64_t mostSweeps = 20'000;
-/// Passes that `gauss_seidel` makes of those, one a color: as many as `jacobi` makes of mostSweeps.
+/// Limit of passes of `gauss_seidel`, one for each color and sweep: the number that `jacobi` has with
+/// mostSweeps.
 inline constexpr std::uint64_t mostColorPasses = 3 * mostSweeps;
-/// Links of one particle. The warm start of `gauss_seidel` unrolls those of what moves; others loop, and some
-/// devices end a loop silently at 65,535.
+/// Limits of links of one particle. The warm start of `gauss_seidel` unrolls the links of moving particles;
+/// other kernels loop, and some devices silently end a loop at 65,535.
 inline constexpr std::uint32_t mostLinksUnrolled = 128, mostLinks = 60'000;
-/// Bends of one particle: `split` unrolls them and keeps room for as many of every particle.
+/// Limit of bends of one particle: `split` unrolls them and reserves room for so many at every particle.
 inline constexpr std::uint32_t mostBends = 128;
 inline constexpr Range omega{.low = 0, .high = 10, .isLowOpen = true, .isHighOpen = true};
 inline constexpr Range theta{0, 1};
@@ -92,22 +94,23 @@ inline constexpr Range warmStart{0, 1};
 inline constexpr Range contactMargin{.low = 0, .high = 10, .isLowOpen = true};
 inline constexpr std::uint32_t mostContactRoom = 1024; // CONTACT_MOST_ROOM in layout.h
 inline constexpr Range contactRoom{1, mostContactRoom};
-/// Particles of other bodies that may lie in one spot of a particle's size when a scene is loaded.
+/// Limit of particles of other bodies within a space of a particle's size when a scene is loaded.
 inline constexpr std::uint32_t mostInOneSpot = 256;
 inline constexpr Range framesInFlight{1, 64};
-inline constexpr std::uint32_t mostCutSurfaceRoom = 16'000'000; // one more is a float too
+inline constexpr std::uint32_t mostCutSurfaceRoom = 16'000'000; // the next number is exact in float too
 inline constexpr Range cutSurfaceRoom{0, mostCutSurfaceRoom};
 inline constexpr Range crumbs{0, 1'000'000};
-/// `jacobi` converges on any graph where its factor on averaged corrections is below this.
+/// `jacobi` converges on any graph if its factor on averaged corrections is below this.
 inline constexpr double provenRelaxation = 4.0 / 3;
 inline constexpr Range overRelaxation{.low = 0, .high = 2, .isLowOpen = true, .isHighOpen = true};
 
 inline constexpr Range columns{0, 2};   // of Settings::forms: kernels exist for these; 0 = by the device
-inline constexpr Range chunk{0, 65535}; // likewise
-/// Nodes of all grids of a scene: their padded boxes are counted in 32 bits.
+inline constexpr Range chunk{0, 65535}; // of Settings::forms; 0 = by the device
+/// Limit of the nodes of all grids of a scene: their padded boxes are counted in 32 bits.
 inline constexpr double mostGridNodes = 1 << 30;
 
-/// `split` is stable on any graph below this (methods: D).
+/// Largest omega with which `split` is stable on any graph: a mode with h^2 K = s is stable for s (1 + 2
+/// theta) <= 4.
 constexpr double omegaBound(double thetaValue) {
     return 4 / (1 + 2 * thetaValue);
 }

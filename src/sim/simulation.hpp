@@ -1,4 +1,5 @@
-// The public face of the core: construct from a Scene, record steps into a command buffer, read views.
+// The public interface of the core: construct a Simulation from a Scene, record steps into a command buffer,
+// read views.
 #pragma once
 
 #include "sim/scene.hpp"
@@ -19,14 +20,14 @@ namespace sinew::sim {
 struct StepProgram;
 struct BufferId;
 
-/// A hand that holds what is near a particle and linked to it, and pulls that towards a target. In the first
-/// step of a grab the held point is the target, so taking hold moves nothing; what is nearest to the particle
-/// is held most. Gains are accelerations of all that is linked, so light and heavy bodies feel alike; the
-/// pull is implicit and limited, so it is stable for any target up to 1e9 m; gains are taken as at most 1e8.
-/// What never moves is not held.
+/// A grab: holds the particles near one particle and linked to it, and pulls them towards a target. In the
+/// first step of a grab the held point is at the target, so that the grab starts without motion. Particles
+/// nearer to the first one are held more strongly. Gains are accelerations of all linked particles, so that
+/// light and heavy bodies feel alike. The pull is implicit and limited, hence stable for any target up to 1e9
+/// m; gains are taken as at most 1e8. Particles that never move are not held.
 struct Grab {
     std::uint32_t particle = 0;
-    float radius = 0;            ///< [m] at first, around the particle; 0 = it alone
+    float radius = 0;            ///< [m] around the particle when the grab begins; 0 = this particle alone
     Vec3 target{};               ///< of the held point at the end of the step [m]
     float stiffness = 400;       ///< [1/s^2]; acceleration over distance
     float damping = 40;          ///< [1/s]; acceleration over speed; critical at 2 sqrt(stiffness)
@@ -34,200 +35,201 @@ struct Grab {
     float maxSpeed = 10;         ///< of the held point on its way to the target [m/s]
 };
 
-/// A rigid thing that the host moves through the scene. Particles stay out of it as of a Collider, whatever
-/// else they touch: it pushes and carries them, and what is fast does not pass through. It moves and turns
-/// evenly during a step. In the first step that has it, it stands where it shall be: what is inside, or comes
-/// to be by another shape, leaves by the nearest side at 1 m/s and keeps no speed of that. What it leads
-/// through a plane is put back by that, and a particle between it and a collider is in front of the collider.
+/// A kinematic collider that the host moves. Particles stay out of it as of a Collider, whatever else they
+/// touch: it pushes and carries them, and fast particles do not pass through. It moves and turns at constant
+/// speed during a step. In its first step it stands at `pose`. A particle that is inside then, or inside
+/// after a change of shape, leaves by the nearest side at 1 m/s and keeps no velocity from that. Planes take
+/// precedence: a particle pushed through a plane is put back. A particle between it and a Collider is put in
+/// front of the Collider.
 struct Poke {
     ColliderShape shape = ColliderShape::sphere;
-    float radius = 0; ///< [m]; sizes as those of a Collider
+    float radius = 0; ///< [m]; sizes as in Collider
     float halfLength = 0;
     Vec3 halfExtents{};
-    float friction = 0.3f;    ///< Coulomb coefficient of what slides, >= 0
-    float staticFriction = 0; ///< of what does not slide yet; less than `friction` is as much
-    Pose pose{};              ///< where it shall be at the end of the step; the rotation has unit length
+    float friction = 0.3f;    ///< Coulomb coefficient while sliding, >= 0
+    float staticFriction = 0; ///< coefficient before sliding starts; below `friction` = `friction`
+    Pose pose{};              ///< at the end of the step; the rotation has unit length
     float maxSpeed = 10;      ///< of any of its points on the way there [m/s]
 };
 
-/// Where a poke has come to.
+/// The state of a poke after a step.
 struct PokeState {
-    Poke poke{}; ///< as it was when it was last there, its pose that at the end of that step
+    Poke poke{}; ///< as last listed, with its pose at the end of that step
     bool isThere = false;
-    std::uint32_t changes = 0; ///< how often it came, left, or took another shape
+    std::uint32_t changes = 0; ///< how often it appeared, disappeared, or changed its shape
 };
 
-/// The surface that the edge of a blade sweeps in a step: quads between two poly-lines, each of two triangles
-/// that share the edge from a point of `from` to the next of `to`. It cuts the links of bodies that may be
-/// cut (Grid::isCuttable) where these are as the step begins, and it may end inside of a body. Both [m],
-/// equally many points, 2 to ranges::mostBladePoints; anything else is no blade.
+/// The surface that the edge of a blade sweeps in a step: quads between two poly-lines, each split into two
+/// triangles by the diagonal from a point of `from` to the next point of `to`. It cuts links of cuttable
+/// bodies (Grid::isCuttable) at their positions at the start of the step, and may end inside a body. Both
+/// poly-lines [m] have the same number of points, 2 to ranges::mostBladePoints; any other blade is ignored.
 struct Blade {
     std::span<const Vec3> from{}, to{};
-    /// `from` is where the last blade's `to` was, and goes on from there wherever the material has moved
-    /// since: a stroke over several steps then leaves no link between its sweeps. False begins a stroke.
+    /// True if `from` continues from the last blade's `to`, moved with the material since then: a stroke over
+    /// several steps then leaves no link between its sweeps. False begins a stroke.
     bool isCarried = false;
 };
 
-/// Cuts every link that comes nearer than `radius` to a segment, as a pointer's ray of a certain depth: the
-/// plain cut, without a surface. [m]; radius 0 = none.
+/// Cuts every link that is nearer than `radius` to a segment, such as a pointer's ray of limited depth: the
+/// simple cut, without a surface. [m]; radius 0 = none.
 struct RayCut {
     Vec3 from{}, to{};
     float radius = 0;
 };
 
-/// What changes from step to step.
+/// Input of one step.
 struct Step {
     float dt =
-        1.0f / 60.0f; ///< length of the step [s], 1e-6 to 0.1; what is outside is taken as the nearer end
+        1.0f / 60.0f; ///< length of the step [s], 1e-6 to 0.1; a value outside is taken as the nearer end
     Vec3 gravity{0, -9.81f, 0}; ///< [m/s^2]
-    std::uint64_t frame = 0;    ///< grows by one from step to step
-    /// Where the points of the scene's attachments are at the end of the step [m], in their order; the points
-    /// move there evenly, but not faster than Attachment::maxSpeed. Those left out stay. Read by record()
-    /// only.
+    std::uint64_t frame = 0;    ///< increases by one with every step
+    /// Targets of the scene's attachments at the end of the step [m], in their order; the points move there
+    /// at constant speed, limited by Attachment::maxSpeed. Points that are left out stay. Read only during
+    /// record().
     std::span<const Vec3> anchors{};
-    /// What hand 0, 1, ... holds in this step, at most Settings::grabs; one that is not listed, or whose
-    /// numbers are not finite, lets go. A hand that held another particle, or nothing, takes hold. Read by
-    /// record() only.
+    /// Grabs 0, 1, ... in this step, at most Settings::grabs; a grab that is not listed, or has a non-finite
+    /// number, releases its particles. An entry with another particle than before begins a new grab. Read
+    /// only during record().
     std::span<const Grab> grabs{};
-    /// Poke 0, 1, ..., at most Settings::pokes; one that is not listed, or whose numbers are not finite or no
-    /// sizes, is not there and touches nothing. Read by record() only.
+    /// Pokes 0, 1, ..., at most Settings::pokes; a poke that is not listed, has a non-finite number or an
+    /// invalid size, is absent and touches nothing. Read only during record().
     std::span<const Poke> pokes{};
-    /// Wakes all that sleeps (Settings::sleeps). Not needed for what a step itself says: another gravity or
-    /// dt wakes all, an anchor, a collider or a poke that moves wakes what it holds or comes near.
+    /// Wakes all sleeping particles (Settings::sleeps). Not needed for changes that the step itself contains:
+    /// another gravity or dt wakes all; a moving anchor, collider or poke wakes what it holds or comes near.
     bool wakes = false;
-    /// True where the host looks at Status::lacksLists of every step. Once all that it has recorded has
-    /// finished, it then records the first step that lacked lists again, of the same frame and with the same
-    /// input, and all steps behind it. In return most steps have fewer passes. No result depends on it, to
-    /// the bit where dt is the same in all that is in flight. It may change from step to step; until the step
-    /// that lacked lists is recorded again, others are undone whatever they say here.
+    /// Declares that the host reads Status::lacksLists of every step. When all recorded steps have finished,
+    /// it must record the first step with lacksLists again, with the same frame and input, and all steps
+    /// after it. In return most steps have fewer passes. Results do not depend on it, to the bit if dt is the
+    /// same in all steps in flight. It may change from step to step; until the step with lacksLists is
+    /// recorded again, all other steps are undone, whatever their `repeats` says.
     bool repeats = false;
-    Blade blade{}; ///< read by record() only; repeat it where the step was undone
+    Blade blade{}; ///< read only during record(); pass it again if the step was undone
     RayCut ray{};
 };
 
-/// What a finished step found out about itself.
+/// Results of a finished step that the host can read.
 struct Status {
     std::uint32_t frame = 0; ///< low 32 bits of Step::frame
-    /// False where the step has not come back from the device, was never recorded, or is so old that another
-    /// one has its place (Settings::framesInFlight): nothing else is known then, and all else is 0.
+    /// False if the step has not finished on the device, was never recorded, or is so old that another one
+    /// has its slot (Settings::framesInFlight); all other members are then 0.
     bool isFinished = false;
-    /// All goes on from the state before this step: see nonFinite, contactRoom and lacksLists.
+    /// The simulation continues from the state before this step: see nonFinite, contactRoom and lacksLists.
     bool isUndone = false;
-    std::uint64_t stepsUndone = 0; ///< with this one, since the simulation was made
+    std::uint64_t stepsUndone = 0; ///< this one included, since the simulation was made
     std::uint32_t nonFinite =
-        0; ///< particles with a non-finite state: the step is undone, all goes on from the last finite state
-    std::uint32_t firstBadParticle = 0; ///< smallest index among them; meaningful where nonFinite > 0
-    /// 0, or how many candidates lists of contacts would need room for, on average, where
-    /// Settings::contactRoom is less: the step is undone, and so is every later one until a simulation with
-    /// more room takes over (Simulation::recordTakeOver; docs/embedding.md has the lines that do so).
-    /// Counting ends at four times the room. More than there can be room for = too many anyway.
+        0; ///< particles with a non-finite state: the step is undone, and the last finite state stays
+    std::uint32_t firstBadParticle = 0; ///< smallest index of these particles; meaningful if nonFinite > 0
+    /// 0, or the mean capacity of contact lists that the step needed, in candidates, if Settings::contactRoom
+    /// is less. The step is then undone, and so is every later one until a simulation with more room takes
+    /// over (Simulation::recordTakeOver; docs/embedding.md has the code). Counting stops at four times the
+    /// room. A value above the largest possible room only says that there are too many.
     std::uint32_t contactRoom = 0;
-    /// The step is undone because contacts had to be listed anew in a substep for which it had no passes
-    /// (Step::repeats), and so is every later one until it is recorded again. nonFinite is then 0.
+    /// The step is undone because contact lists had to be rebuilt in a substep that has no passes for it
+    /// (Step::repeats), and so is every later one until this step is recorded again. nonFinite is then 0.
     bool lacksLists = false;
     bool isCalm = false; ///< recorded without those passes
-    /// Times that contacts had to be listed anew, or particles slowed down, after the first substep; each
-    /// grid counts.
+    /// Rebuilds of contact lists, or slow-downs of particles, after the first substep; each hash grid counts.
     std::uint32_t laterLists = 0;
-    /// Particles, counted once a substep, that were slowed down to what contacts can be found at: where more
-    /// than 256 move farther in a substep than about their radius. Momentum is lost; take more substeps.
+    /// Particles, counted once a substep, that were slowed down to the largest speed for which contacts can
+    /// be found: where more than 256 particles move farther in a substep than about their radius. Momentum is
+    /// lost; use more substeps.
     std::uint32_t slowed = 0;
     std::uint32_t sleeping = 0; ///< particles that sleep at the end of the step
-    float lostTime = 0;         ///< how much longer than the longest step Step::dt was [s]
-    /// In this step, or torn; links that only serve the surface of a cut do not count.
+    float lostTime = 0;         ///< Step::dt minus the longest allowed step, where that is positive [s]
+    /// Links cut or torn in this step, without those that only serve the surface of a cut.
     std::uint32_t linksCut = 0;
-    std::uint32_t linksCutInAll = 0; ///< since the uncut bodies, or those of recordLoadTopology()
-    std::uint32_t pieces = 0;        ///< of bodies that may be cut, single particles among them
-    std::uint32_t crumbs = 0;        ///< pieces that were removed (Scene::crumbs), which are not among those
+    std::uint32_t linksCutInAll = 0; ///< since the uncut bodies, or since recordLoadTopology()
+    std::uint32_t pieces = 0;        ///< of cuttable bodies, single particles included
+    std::uint32_t crumbs = 0;        ///< removed pieces (Scene::crumbs); not counted in `pieces`
     std::uint32_t crumbParticles = 0;
-    float crumbMass = 0; ///< of those that are not without one for good [kg]
-    /// Triangles and vertices that the surface of cuts needs, where that is more than there is room for; else
-    /// 0. The surface is not drawn then, and skins are not clipped; nothing else is missing, and no step is
-    /// undone. A simulation with more room (Settings::cutSurfaceRoom) that takes over draws it.
+    float crumbMass = 0; ///< of removed particles, without those that never move [kg]
+    /// Triangles and vertices that the surface of cuts needs, if that exceeds its capacity; else 0. The
+    /// surface is then not drawn and skins are not clipped; nothing else is missing, and no step is undone. A
+    /// simulation with more room (Settings::cutSurfaceRoom) that takes over draws the surface.
     std::uint32_t cutSurfaceMissing = 0;
 };
 
 using StepStatus = Status;
 
-/// The impulse of one step, and its moment. Divided by the length of the step these are the mean force [N]
-/// and torque [N m].
+/// Impulse of one step and its moment. Divided by the length of the step they are the mean force [N] and
+/// torque [N m].
 struct Impulse {
     Vec3 linear{};  ///< [N s]
     Vec3 angular{}; ///< [N m s]
 };
 
-/// Impulses on a body. Angular ones are about its centre of mass at the end of the step, or about the
-/// middle of its particles if none of them moves.
+/// Impulses on a body. Angular ones are about its centre of mass at the end of the step, or about the mean
+/// position of its particles if none of them moves.
 struct BodyImpulses {
-    Impulse contacts{}; ///< of other particles, faces and edges, those of the body itself among them (they
+    Impulse contacts{}; ///< of other particles, faces and edges, including those of the same body (which
                         ///< cancel)
-    Impulse planes{}, colliders{}; ///< pokes among the colliders
-    Impulse holds{};               ///< of what keeps particles where they are against links and contacts, of
-                                   ///< attachments and tethers
+    Impulse planes{}, colliders{}; ///< pokes count as colliders
+    Impulse holds{};               ///< of constraints that fix particles against links and contacts, of
+                                   ///< attachments and of tethers
     Impulse grabs{};
 };
 
-/// The impulses of one step (Settings::keepsForces): masses times changes of velocities. Gravity and damping
-/// are not among them. A pass that moves a particle without a change of its velocity gives no impulse. All
-/// are 0 where the step was undone. Scene::damping also takes its part of what gravity gives in a substep of
-/// length h, so weights at rest are too small by a part of at most 1 - exp(-damping h).
+/// Impulses of one step (Settings::keepsForces): masses times changes of velocities, without gravity and
+/// damping. A pass that moves a particle without changing its velocity contributes no impulse. All are 0 if
+/// the step was undone. Scene::damping also reduces what gravity adds in a substep of length h, so that
+/// weights at rest are too small by a share of at most 1 - exp(-damping h).
 struct Impulses {
-    bool isFinished = false;          ///< as Status::isFinished; else the lists are empty
-    std::vector<BodyImpulses> bodies; ///< Scene::bodies
-    /// Impulses on them, the opposite of those that they gave. Angular ones are about the point of a plane
-    /// that is nearest to the origin, about the middle of a collider.
+    bool isFinished = false;          ///< as Status::isFinished; if false the lists are empty
+    std::vector<BodyImpulses> bodies; ///< one for each of Scene::bodies
+    /// Impulses on planes, colliders and pokes, opposite to those on the particles. Angular ones are about
+    /// the point of a plane nearest to the origin, or about the middle of a collider.
     std::vector<Impulse> planes, colliders, pokes;
-    /// Impulses that they gave. Angular ones are about the held point of a hand, and 0 otherwise.
+    /// Impulses on the particles. Angular ones are about the held point of a grab, and 0 for the others.
     std::vector<Impulse> grabs, attachments, holds; ///< by Settings::grabs, Scene::attachments, Scene::holds
 };
 
-/// A range of the skin buffers that is one Skin of the scene.
+/// The range of one Skin of the scene in the skin buffers.
 struct SkinRange {
     std::string name{};
     Vec3 color{};
     std::uint32_t firstIndex = 0, indexCount = 0;
 };
 
-/// What the host has of a state between steps, beside what recordSaveState() copies.
+/// The host's part of a saved state, in addition to the copy that recordSaveState() makes.
 struct SavedState {
-    float h = 0;                 ///< substep of the step before [s]; 0 = none was taken
-    double colliderTime = 0;     ///< how far colliders have gone along their paths [s]
+    float h = 0;                 ///< substep of the last step [s]; 0 = before the first step
+    double colliderTime = 0;     ///< time of the colliders on their paths [s]
     std::vector<Vec3> anchors{}; ///< of the scene's attachments [m]
     std::vector<PokeState> pokes{};
     bool hasNewTopology = false;    ///< recordLoadTopology() since the last step
-    std::uint32_t changes = 0;      ///< recordChange() before it
+    std::uint32_t changes = 0;      ///< number of recordChange() before it
     bool isUncut = false;           ///< nothing can have been cut since the reset
-    std::optional<float> undoneH{}; ///< substep of steps behind that one, which were undone [s]
+    std::optional<float> undoneH{}; ///< substep of the undone steps after that one [s]
 };
 
-/// What recordSkin() makes of skins that were split so that they may be cut: all of their triangles, or those
-/// that are to be drawn (drawnSkins()), which are fewer.
+/// Triangles that recordSkin() updates for skins that were split for cutting: all of them, or only those to
+/// be drawn (drawnSkins()), which are fewer.
 enum class SkinDetail { all, drawn };
 
-/// Whether some triangles of a skin may be drawn in two forms, one over the other, so that there are fewer of
-/// them once something is cut: not for what counts, mixes or outlines them.
+/// Whether triangles of a skin may be drawn as overlapping coarse and fine triangles, which makes them fewer
+/// after a cut. Not for rendering that counts, blends or outlines triangles.
 enum class Overlap { none, some };
 
-/// The surface of cuts, to be drawn beside the skins after recordSkin(): the inside that a blade laid open,
-/// and the pieces of skins beside it. Those of the skin's own triangles that pieces stand for are degenerate
-/// from then on. Closed where both are taken together, two-sided: each piece has its own side. Views are
-/// empty where no skin is clipped: bodies that may be cut have such a surface where their skin is the outer
-/// faces of their cells (addLatticeSkin), or a closed mesh with Skin::anchors (mesh::addMesh).
+/// The surface of cuts, drawn in addition to the skins after recordSkin(): the cut surface inside the body
+/// and the clipped pieces of skins beside it. The skin's own triangles that the pieces replace become
+/// degenerate. Both parts together form a closed two-sided surface: each piece has its own side. Views are
+/// empty if no skin is clipped. Cuttable bodies have such a surface if their skin is the outer faces of their
+/// cells (addLatticeSkin), or a closed mesh with Skin::anchors (mesh::addMesh).
 struct CutSurface {
     vk::BufferView vertices{}; ///< layout::SkinVertex (position, normal; stride 32)
-    /// layout::CutVertex of each (stride 64), of which the first vec4 is for a solid texture: where the point
-    /// is in the body as the scene was loaded [m], w = index of the skin that it belongs to.
+    /// layout::CutVertex of each vertex (stride 64). Its first vec4 is for a solid texture: position in the
+    /// body when the scene was loaded [m], w = index of the skin that the vertex belongs to.
     vk::BufferView rest{};
     vk::BufferView indices{}; ///< 32 bits, of triangles
     /// Two VkDrawIndexedIndirectCommand, stride 20: the inside, then the pieces of skins. Both draw nothing
     /// while nothing is cut.
     vk::BufferView draws{};
-    vk::BufferView counts{};    ///< one layout::SurfaceState: how much of the buffers above there is
-    vk::BufferView particles{}; ///< 32 bits: of each slot (CutVertex::corners) the particle in it
+    vk::BufferView counts{};    ///< one layout::SurfaceState: counts of what the buffers above hold
+    vk::BufferView particles{}; ///< 32 bits: the particle in each slot (CutVertex::corners)
 };
 
-/// Another material for a simulation, ready to be copied (Simulation::prepareChange). Holds buffers of the
-/// device, which must outlive it.
+/// New material values for a simulation, ready to be copied (Simulation::prepareChange). Owns device buffers;
+/// the device must outlive it.
 class SceneChange {
 public:
     SceneChange(SceneChange&&) noexcept;
@@ -241,111 +243,112 @@ private:
     std::unique_ptr<Parts> parts_;
 };
 
-/// Owns the buffers and pipelines of one scene. Must not outlive the Device, which may move. Never submits,
-/// waits or owns a queue, and therefore must not be destroyed before all that was recorded with it has
-/// finished or been thrown away: wait for the submissions first, by a fence, vkQueueWaitIdle() or, with a
-/// vk::Queue, a vk::Drain that is declared after the simulation. oldestInFlight() says what is missing; a
-/// debug build says so on stderr. One thread per Simulation; different ones are independent. What was
-/// recorded must be submitted once, in order, on one queue family.
+/// The simulation of one scene; owns its buffers and pipelines. Must not outlive the Device, which may be
+/// moved. Never submits, waits or owns a queue, and therefore must not be destroyed before all commands
+/// recorded with it have finished or been discarded: wait for the submissions first, by a fence,
+/// vkQueueWaitIdle() or, with a vk::Queue, a vk::Drain that is declared after the simulation.
+/// oldestInFlight() names the missing step; a debug build reports it on stderr. One thread per Simulation;
+/// different ones are independent. Recorded commands must be submitted once, in order, on one queue family.
 class Simulation {
 public:
-    /// Settings::framesInFlight where nobody says otherwise.
+    /// Default of Settings::framesInFlight.
     static constexpr std::uint32_t framesInFlight = usualFramesInFlight;
 
     /// Throws std::invalid_argument with the sentences of validate(), one a line, or vk::Error. Creates every
-    /// buffer and pipeline; contents arrive with the first recordReset().
+    /// buffer and pipeline; the first recordReset() fills the buffers.
     Simulation(const vk::Device& device, const Scene& scene, const Settings& settings);
     ~Simulation();
     Simulation(const Simulation&) = delete;
     Simulation& operator=(const Simulation&) = delete;
 
-    /// Records the copies that put the simulation into the state of its scene. Must be recorded once before
-    /// the first step; later it is a reset. `commands` must be recording and outside a render pass.
+    /// Records the copies that put the simulation into the initial state of its scene. Must be recorded once
+    /// before the first step; later it is a reset. `commands` must be recording and outside a render pass.
     void recordReset(VkCommandBuffer commands) noexcept;
 
     /// Records one step. Never submits, waits or allocates. Afterwards positions() and velocities() are
-    /// visible to vertex input, compute and transfer on the same queue. With `timestamps`, one span per entry
-    /// of phases().
+    /// visible to vertex input, compute and transfer on the same queue. `timestamps` receives one span per
+    /// entry of phases().
     void record(VkCommandBuffer commands, const Step& step, vk::Timestamps* timestamps = nullptr) noexcept;
 
-    /// Records the copies that put this simulation into the state of `from`, which was made of the same
-    /// scene, of whatever material, and of settings that may differ in solver, substeps, iterations,
-    /// contactRoom and cutSurfaceRoom, the last two at most as much as here: the next step goes on where
-    /// `from` stands. Instead of recordReset(), which it contains. All steps of `from` must have finished. It
-    /// must live until the commands have finished, and its device is this one's; or that is another one, and
-    /// `copy` what recordHandOver() of it has copied, brought to this device by the host. Colliders on a
-    /// path, and pokes, are where they were at the end of the last step that was not undone. Of the same
-    /// solver (and the same Forms::usesGrids) all is carried that a step leaves behind. Of another solver
-    /// positions and velocities are, both with Settings::publishesVelocities: a velocity half a substep
-    /// before the end is taken as that of the end, hands take hold anew, and what slept is awake.
-    /// With `saved`, `copy` is what recordHandOver() has copied of a state that `from` saved, on this device
-    /// or another one: it goes on from that, and hands take hold anew.
-    /// The scene of another solver may also differ in contacts and in what may be cut, which `split` alone
-    /// has forms for. Throws std::invalid_argument, and nothing is recorded, where the scenes differ in more
-    /// than that, where a body of `from` may have been cut and none of this one can be, where this one has
-    /// less room than `from`, or where `copy` is too small.
+    /// Records the copies that put this simulation into the state of `from`; the next step continues from
+    /// there. Use it instead of recordReset(), which it contains. `from` must have been made of the same
+    /// scene, of any material, and of settings that may differ in solver, substeps, iterations, contactRoom
+    /// and cutSurfaceRoom, the last two at most as large as here. All steps of `from` must have finished, and
+    /// `from` must live until the commands have finished. `from` either is on the same device; or it is on
+    /// another one, and `copy` holds the output of its recordHandOver(), moved to this device by the host.
+    /// Colliders on a path, and pokes, have their poses at the end of the last step that was not undone. If
+    /// both have the same solver (and the same Forms::usesGrids), the whole state between steps is copied.
+    /// Otherwise only positions and velocities are copied, and both simulations need
+    /// Settings::publishesVelocities; a velocity half a substep before the end is taken as that of the end,
+    /// grabs begin anew, and sleeping particles wake.
+    /// With `saved`, `copy` is the output of recordHandOver() for a state that `from` saved, on this device
+    /// or another one: this simulation continues from that state, and grabs begin anew.
+    /// With another solver the scenes may also differ in contacts and in which bodies are cuttable, for which
+    /// only `split` has forms. Throws std::invalid_argument, and records nothing, if the scenes differ in
+    /// more than that, if a body of `from` may have been cut and none here is cuttable, if this simulation
+    /// has less room than `from`, or if `copy` is too small.
     void recordTakeOver(VkCommandBuffer commands, const Simulation& from, const vk::BufferView& copy = {},
                         const SavedState* saved = nullptr);
-    /// Size of what recordTakeOver() copies from this [B].
+    /// Size of the data that recordTakeOver() copies from this simulation [B].
     std::uint64_t handOverSize() const noexcept;
-    /// Records the copy of it into `to`, of handOverSize() bytes, after which the host may read it; or the
-    /// same of a state that this has saved into `saved`, of stateSize().
+    /// Records the copy of that data into `to`, of handOverSize() bytes, which the host may read afterwards.
+    /// With `saved`, of stateSize() bytes, the data is that of a state that this simulation saved there.
     void recordHandOver(VkCommandBuffer commands, const vk::BufferView& to,
                         const vk::BufferView& saved = {}) const noexcept;
 
-    /// What turns this into the simulation of `scene`: its own but for the material, which is stiffness and
-    /// compliance, friction, restitution, damping (withMaterial(), or by hand). Nothing where that needs
-    /// other passes, such as friction where there was none: a new Simulation does that. The number of
-    /// substeps stays what it is. Takes as long as compiling the scene and creates buffers, no pipelines.
-    /// Any one thread, also while steps are recorded, but not during recordChange(). Throws as the
-    /// constructor does, and std::invalid_argument where particles differ.
+    /// Compiles the changes that turn this simulation into that of `scene`, which may differ in material
+    /// alone: stiffness and compliance, friction, restitution, damping (made by withMaterial(), or by hand).
+    /// Returns nothing if the new material needs other passes, such as friction where there was none: make a
+    /// new Simulation then. The number of substeps is kept. Takes as long as compiling the scene; creates
+    /// buffers but no pipelines. May run on any one thread, also while steps are recorded, but not during
+    /// recordChange(). Throws as the constructor does, and std::invalid_argument if particles differ.
     std::optional<SceneChange> prepareChange(const Scene& scene) const;
-    /// Records the copies that make it so from the next step on, and after every reset; state, cuts and hands
-    /// stay, what sleeps wakes. `change` must live until `commands` have finished. `commands` as in
-    /// recordReset(). Steps with Step::repeats must have finished, and those that lacked lists must have been
-    /// repeated. False, and nothing is recorded, where another change was recorded since it was prepared.
+    /// Records the copies that apply a change from the next step on, and after every reset; state, cuts and
+    /// grabs stay, sleeping particles wake. `change` must live until `commands` have finished. `commands` as
+    /// in recordReset(). Steps with Step::repeats must have finished, and those that lacked lists must have
+    /// been repeated. Returns false, and records nothing, if another change was recorded since this one was
+    /// prepared.
     bool recordChange(VkCommandBuffer commands, SceneChange& change) noexcept;
 
     /// Size of a copy of the whole state between steps [B].
     std::uint64_t stateSize() const noexcept;
     /// Records the copy of the state after the newest recorded step into `to`, of stateSize() bytes, and
-    /// returns the rest of it. `commands` as in recordReset(). Behind a step that has lacked lists and was
-    /// not repeated yet, this is the state before that step. While steps with Step::repeats are in flight it
-    /// is not known which state that is: throw the copy away where one of them lacked lists.
+    /// returns the host's part of the state. `commands` as in recordReset(). After a step that lacked lists
+    /// and was not repeated yet, the copy holds the state before that step. While steps with Step::repeats
+    /// are in flight it is unknown which state is copied: discard the copy if one of them lacked lists.
     SavedState recordSaveState(VkCommandBuffer commands, const vk::BufferView& to) const;
-    /// Records the copy back: what follows has the same bits as what followed the save, but hands take hold
-    /// anew and what a step says of frames goes on. Of this very simulation, or of one with its stateKey();
-    /// its material stays what it is.
+    /// Records the copy back: the following steps have the same bits as those that followed the save, except
+    /// that grabs begin anew and frame numbers go on. For this very simulation, or for one with the same
+    /// stateKey(); the material is kept.
     void recordLoadState(VkCommandBuffer commands, const vk::BufferView& from,
                          const SavedState& saved) noexcept;
-    /// What says whether a copy fits: the same for simulations of the same scene and settings, whichever
-    /// program made them, unless devices or versions differ in what a step consists of. Reads all that
-    /// buffers begin with.
+    /// Key that tells whether a copy of the state fits: equal for simulations of the same scene and settings
+    /// in every process, unless devices or versions differ in the passes of a step. Reads the initial
+    /// contents of all buffers.
     std::uint64_t stateKey() const noexcept;
-    /// Size of a copy of what cuts have done: links, pieces and counts; 0 where no body may be cut [B].
+    /// Size of a copy of the cuts: links, pieces and counts [B]; 0 if no body is cuttable.
     std::uint64_t topologySize() const noexcept;
-    /// Records the copy of it into `to`, or back from `from`, both of topologySize(): an undo of cuts.
-    /// Positions are not in it. Between steps; `commands` as in recordReset(). Afterwards begin a new stroke.
-    /// Before recordLoadTopology() steps with Step::repeats must have finished and been repeated, as before
-    /// recordChange().
+    /// Records the copy of the cuts into `to`, or back from `from`, both of topologySize() bytes: an undo of
+    /// cuts. Positions are not part of it. Between steps; `commands` as in recordReset(). Begin a new stroke
+    /// afterwards. Before recordLoadTopology() steps with Step::repeats must have finished and been repeated,
+    /// as before recordChange().
     void recordSaveTopology(VkCommandBuffer commands, const vk::BufferView& to) const noexcept;
     void recordLoadTopology(VkCommandBuffer commands, const vk::BufferView& from) noexcept;
 
     /// Records the skins of the newest recorded state; afterwards skinVertices() is visible to vertex input.
-    /// With SkinDetail::drawn only vertices of drawnSkins(overlap) are those of this state.
+    /// With SkinDetail::drawn only the vertices of drawnSkins(overlap) are updated.
     void recordSkin(VkCommandBuffer commands, SkinDetail detail = SkinDetail::all,
                     Overlap overlap = Overlap::none) noexcept;
 
     /// Public state [m], [m/s]: particleCount x vec4, stride 16, w = inverse mass [1/kg], 0 while the
-    /// particle sleeps. `split` reports the velocity half a substep before the step's end (leapfrog). No
-    /// velocities, an empty view, without Settings::publishesVelocities.
+    /// particle sleeps. `split` reports the velocity half a substep before the step's end (leapfrog). Without
+    /// Settings::publishesVelocities the view of velocities is empty.
     vk::BufferView positions() const noexcept;
     vk::BufferView velocities() const noexcept;
-    /// Pieces of bodies that may be cut, as of the newest step: for each particle a uint32, the particle that
-    /// its piece is named after (one of them; 0xffffffff in other bodies, 0xfffffffe in pieces that were
-    /// removed, Scene::crumbs), and for each particle the number
-    /// of particles of the piece that is named after it, 0 where none is. Empty views where no body may be
-    /// cut.
+    /// Pieces of cuttable bodies after the newest step. pieces() has for each particle a uint32, the particle
+    /// that names its piece (one of its particles; 0xffffffff in other bodies, 0xfffffffe in removed pieces,
+    /// Scene::crumbs). pieceSizes() has for each particle the size of the piece that it names, in particles,
+    /// or 0. Empty views if no body is cuttable.
     vk::BufferView pieces() const noexcept;
     vk::BufferView pieceSizes() const noexcept;
     /// layout::SkinVertex (position, normal; stride 32) and 32-bit triangle indices; empty views without
@@ -353,59 +356,58 @@ public:
     vk::BufferView skinVertices() const noexcept;
     vk::BufferView skinIndices() const noexcept;
     const std::vector<SkinRange>& skins() const noexcept;
-    /// What to draw of the skins after recordSkin(), with SkinDetail::all or the same overlap: 32-bit indices
-    /// into skinVertices(), and the range of each skin in them. Valid for what was recorded until then;
-    /// another step, reset or state may change it. With Overlap::some, after a cut, Skin::wholeTriangles away
-    /// from it and `triangles` beside it, where the scene has no sheet that may be cut: how many, the device
-    /// knows.
+    /// The skins to draw after recordSkin(), with SkinDetail::all or the same overlap: 32-bit indices into
+    /// skinVertices(), and the range of each skin in them. Valid for commands recorded until then; another
+    /// step, reset or state may change it. After a cut, Overlap::some gives Skin::wholeTriangles away from
+    /// the cut and `triangles` beside it, if the scene has no cuttable sheet; only the device knows how many.
     struct DrawnSkins {
         vk::BufferView indices{};
         std::span<const SkinRange> ranges{};
-        bool areWhole = false; ///< Skin::wholeTriangles, where a skin has some
-        /// If not empty, one VkDrawIndexedIndirectCommand a skin, stride 20, to be drawn in place of its
-        /// range, which is room: it begins there, and behind its end stands what was drawn before.
+        bool areWhole = false; ///< Skin::wholeTriangles, for skins that have them
+        /// If not empty: one VkDrawIndexedIndirectCommand a skin, stride 20, to be drawn in place of the
+        /// skin's range. It begins where the range begins. The range is its capacity; entries after its end
+        /// are stale.
         vk::BufferView draws = {};
     };
     DrawnSkins drawnSkins(Overlap overlap = Overlap::none) const noexcept;
     CutSurface cutSurface() const noexcept;
-    /// What the skins of sheets fall into along cuts, to be drawn beside skins() with the same two buffers:
-    /// one VkDrawIndexedIndirectCommand a skin, stride 20, of nothing where nothing is cut. The skin's own
-    /// triangles that pieces stand for are degenerate from then on. An empty view where no skin of a sheet
-    /// may be cut.
+    /// The torn parts of the skins of sheets along cuts, drawn in addition to skins() with the same two
+    /// buffers: one VkDrawIndexedIndirectCommand a skin, stride 20, which draws nothing while nothing is cut.
+    /// The skin's own triangles that these parts replace become degenerate. An empty view if no skin belongs
+    /// to a cuttable sheet.
     vk::BufferView pieceDraws() const noexcept;
-    /// Poses of the scene's colliders at the end of the newest recorded step, one each in their order;
-    /// before a step that has lacked lists, until it is repeated. Valid until the next call of this or of
-    /// pokes(), and until the next step is recorded.
+    /// Poses of the scene's colliders at the end of the newest recorded step, in their order; if that step
+    /// lacked lists, before that step until it is repeated. Valid until the next call of this or of pokes(),
+    /// and until the next step is recorded.
     std::span<const Pose> colliderPoses() const noexcept;
-    /// Likewise the pokes, Settings::pokes of them.
+    /// States of the Settings::pokes pokes, at the same time and valid as long.
     std::span<const PokeState> pokes() const noexcept;
 
-    /// The status of a step that has finished on the device and is one of the last Settings::framesInFlight
-    /// recorded; of any other Status::isFinished is false. Does not wait. Steps before a reset keep theirs
-    /// until others take their places.
+    /// The status of a finished step that is one of the last Settings::framesInFlight recorded; for any other
+    /// step Status::isFinished is false. Does not wait. Steps before a reset keep their status until others
+    /// take their slots.
     Status status(std::uint64_t frame) const noexcept;
-    /// The impulses of a step, ready when its status() is, and for as long. Does not wait; allocates its
+    /// The impulses of a step, available when its status() is, and as long. Does not wait; allocates its
     /// lists. Empty lists without Settings::keepsForces.
     Impulses forces(std::uint64_t frame) const;
-    /// These sums on the device, of the newest step: layout::ForceSum (stride 32), FORCE_KINDS of each body,
-    /// then grabs, planes, pokes, colliders, then others; an empty view without Settings::keepsForces.
-    /// Written by the commands of record(), visible as positions() are.
+    /// The sums behind forces() on the device, of the newest step: layout::ForceSum (stride 32), FORCE_KINDS
+    /// for each body, then one for each grab, plane, poke, collider, then the others; an empty view without
+    /// Settings::keepsForces. Written by the commands of record(), visible as positions() are.
     vk::BufferView forceSums() const noexcept;
-    /// Mistakes in the host's recording that were ignored, in sentences: a step before the first reset,
-    /// more steps in flight than Settings::framesInFlight, more grabs, pokes or anchors than there is room
-    /// for, a blade that is none or that nothing may be cut by, and steps undone for lack of
-    /// Settings::contactRoom; at first also warnings() of validate.hpp. Each kind is told once, by the next
-    /// call after it came up; show it to who writes the host. Allocates only where there is something to
-    /// tell.
+    /// Sentences about mistakes in the host's recording that were ignored: a step before the first reset,
+    /// more steps in flight than Settings::framesInFlight, more grabs, pokes or anchors than allowed, an
+    /// invalid blade or one without a cuttable body, and steps undone for lack of Settings::contactRoom. The
+    /// first call also returns warnings() of validate.hpp. Each kind is returned once, by the next call after
+    /// it occurred; show it to the host's developer. Allocates only if there is something to return.
     std::vector<std::string> complaints();
-    /// The oldest of the last Settings::framesInFlight steps that was recorded and has not finished. Nothing
-    /// where all have, and after a recorded step was thrown away it names that one until others take its
-    /// place. For finding what is missing: only the host's own fence says when the simulation may be
-    /// destroyed.
+    /// The oldest of the last Settings::framesInFlight steps that was recorded and has not finished. Empty if
+    /// all have finished; after a recorded step was discarded it names that step until others take its slot.
+    /// For diagnosis: only the host's own fence says when the simulation may be destroyed.
     std::optional<std::uint64_t> oldestInFlight() const noexcept;
 
     const StepProgram& program() const noexcept;
-    /// Any buffer of program(), to inspect; empty for an invalid id. Contents between steps are the solver's.
+    /// Any buffer of program(), for inspection; empty for an invalid id. Contents between steps are private
+    /// to the solver.
     vk::BufferView view(BufferId buffer) const noexcept;
     std::vector<std::string> phases() const; ///< names of the spans of `timestamps`
 

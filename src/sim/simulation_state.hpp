@@ -1,5 +1,5 @@
-// What a Simulation holds: for the files of the façade alone. simulation.cpp makes it and records steps,
-// simulation_states.cpp takes states over, saves, loads and changes them.
+// The private state of a Simulation, for the files of the façade alone. simulation.cpp constructs it and
+// records steps; simulation_states.cpp takes states over, saves, loads and changes them.
 #pragma once
 
 #include "layout.h"
@@ -33,60 +33,60 @@
 
 namespace sinew::sim {
 
-/// `scene`. Throws what there is to complain about.
+/// Returns `scene`. Throws std::invalid_argument with the complaints of validate(), if any.
 const Scene& valid(const Scene& scene, const Settings& settings);
 SplitBudget dampedBudget(const Scene& scene, const Settings& settings);
 
 struct SceneChange::Parts {
     ProgramValues values;
-    std::vector<vk::Buffer> contents; // one for each of its buffers
+    std::vector<vk::Buffer> contents; // new initial contents, one for each of values.buffers
     SplitBudget budget;
     float damping;
-    std::uint32_t changes; // of the simulation, when it was prepared
+    std::uint32_t changes; // State::changes when it was prepared
 };
 
 struct Simulation::State {
     const vk::Device& device;
-    Settings chosen; // with a number of substeps
+    Settings chosen; // with a resolved number of substeps
     StepProgram program;
     GpuExecutor executor;
     std::vector<BufferId> written;
     SceneKey sceneKey;
     StepRing ring;
     MisuseLog misuse;
-    bool hasState = false; // reset or taken over
+    bool hasState = false; // after a reset or take-over
     std::vector<SkinRange> skins, wholeSkins, mixedSkins;
     constraints::attachment::Anchors anchors;
     constraints::grab::Hands hands;
     collision::ColliderPaths colliders;
     cutting::BladeWords blade;
     bool hasNewTopology = false; // loaded since the last step
-    bool isUncut = false;        // since the last reset, whatever comes of its steps
-    std::uint32_t changes = 0;   // of the material
+    bool isUncut = false;        // since the last reset: no step can have cut anything
+    std::uint32_t changes = 0;   // number of material changes
     bool isChanged = false;      // since the last step
     SplitBudget budget;
     float theta, omega, damping;
     std::uint32_t substeps;
-    bool storesPlaces; // gathers of `split` store x, not x + theta h v: where contacts follow, or forces are
-                       // kept
-    bool hasContacts;  // of particles or faces
-    float previousH = 0; // 0 before the first step: the half-kick that starts the leapfrog
-    // A step that came to its end: its h, and where it left colliders and pokes.
+    bool storesPlaces;   // gathers of `split` store x, not x + theta h v: if contacts follow, or forces are
+                         // kept
+    bool hasContacts;    // of particles or faces
+    float previousH = 0; // 0 before the first step: the leapfrog starts with a half kick
+    // A finished step: its h, and the poses of colliders and pokes at its end.
     struct Settled {
         float h = 0;
         double time = 0;
         collision::PokeStates pokes{};
     };
-    // Steps of which the host has not yet looked whether they came to their end, and the last that has.
+    // A step whose result the host has not read yet, and the state of the host at its end.
     struct Unsettled {
         bool isRecorded = false;
         Settled end;
     };
-    std::vector<Unsettled> unsettled; // a slot of the ring each
+    std::vector<Unsettled> unsettled; // by slot of the ring
     std::vector<std::string> untold;  // warnings of the scene
     std::uint64_t nextFrame = 0;
     Settled settledEnd;
-    // The host's part of the state before a step, by slot of the ring, where the host repeats steps.
+    // The host's part of the state before a step, by slot of the ring, for hosts that repeat steps.
     struct Before {
         float h = 0;
         double time = 0;
@@ -99,13 +99,13 @@ struct Simulation::State {
     };
     std::vector<Before> befores;
     const bool
-        isKeptWhereUndone; // all of the state; else a step that is undone loses velocities or remainders
-    std::optional<float> undoneH; // substep of the undone steps, if the next one begins behind them [s]
-    std::uint32_t topologies = 0; // that were loaded
+        isKeptWhereUndone; // the whole state is restored; else an undone step loses velocities or remainders
+    std::optional<float> undoneH; // substep of the undone steps, if the next step follows these [s]
+    std::uint32_t topologies = 0; // number of loaded topologies
     CalmSteps calmSteps;
     bool isNewState = true;                   // no step was recorded since it came from elsewhere
-    std::uint32_t generation = 0;             // of steps
-    std::optional<std::uint64_t> lackedLists; // the first step of this generation that did
+    std::uint32_t generation = 0;             // of steps: see beginGeneration()
+    std::optional<std::uint64_t> lackedLists; // the first step of this generation that lacked lists
     bool isBack = false;                      // the host's part is as it was before that step
 
     State(const vk::Device& d, const Scene& scene, const Settings& asked)
@@ -129,7 +129,7 @@ struct Simulation::State {
         for (Before& one : befores) one.anchors.resize(anchors.values().size());
     }
 
-    // Sums of forces of a step.
+    // Number of sums of forces that a step reads back.
     static std::size_t forceCount(const StepProgram& of) {
         return of.forces.sums == BufferId{} ? 0 : of.buffers[of.forces.sums.index].count;
     }
@@ -156,8 +156,8 @@ struct Simulation::State {
                 .lists = lists};
     }
 
-    // The last step before `frame` that settled has this `end`; where the one that this slot of the ring held
-    // came to its end, that counts.
+    // The last finished step before `frame`: the one in this slot of the ring if it has finished and was not
+    // undone, else `end`.
     Settled settled(std::uint64_t frame, const Settled& end) const {
         const Unsettled& step = unsettled[ring.slotOf(frame)];
         if (!step.isRecorded) return end;
@@ -165,7 +165,7 @@ struct Simulation::State {
         return ring.isFinished(recorded) && !ring.isUndone(recorded) ? step.end : end;
     }
 
-    // Of the passes that only pokes need.
+    // Dispatch arguments of the passes that run only for pokes: 0 groups without one.
     std::array<layout::DispatchArguments, POKE_ARGUMENTS> pokeArguments() const {
         const std::uint32_t one = colliders.pokes().areAny() ? 1 : 0;
         const auto arguments = [one](std::uint32_t groups) {
@@ -195,12 +195,12 @@ struct Simulation::State {
             misuse.note(Misuse::badBlade, frame, step.blade.from.size(), step.blade.to.size());
     }
 
-    // Call readSteps() first.
+    // Requires readSteps() first.
     void noteRepetition(std::uint64_t frame) noexcept {
         if (missesRepetition(frame)) misuse.note(Misuse::notRepeated, frame, *lackedLists);
     }
 
-    // Before something is recorded that steps must not go back behind.
+    // To be called before something is recorded that a repeated step must not go back beyond.
     void noteUnsettled() noexcept {
         goBack();
         for (std::uint64_t i = 0; i < ring.slots(); ++i) {
@@ -210,29 +210,29 @@ struct Simulation::State {
         }
     }
 
-    // What steps have found out, where the host may read it.
+    // Records the copy of a step's results to host-visible memory.
     void recordStatus(vk::Commands& commands, std::uint64_t frame) const noexcept {
         ring.record(commands, frame, executor.view(program.status), executor.view(program.cutting.counts),
                     executor.view(program.forces.sums));
     }
 
-    // That it has come to its end: behind a barrier after all that the host reads of it.
+    // Records the mark that a step has finished: after a barrier that follows all its results for the host.
     void recordEnd(vk::Commands& commands, std::uint64_t frame) const noexcept {
         ring.recordEnd(commands, frame, executor.view(program.status));
     }
 
-    // Throws std::invalid_argument where this state cannot go on from one of `other`, with the reason.
+    // Throws std::invalid_argument, with the reason, if this state cannot continue from one of `other`.
     void requireSameScene(const State& other, const vk::BufferView& copy, std::uint64_t copied, bool isAlike,
                           bool isUncut) const;
 
-    // For the surface of cuts.
+    // Whether the surface of cuts has more room here.
     bool hasMoreRoom(const State& other) const noexcept {
         return executor.view(program.cutSurface.rest).size >
                    other.executor.view(other.program.cutSurface.rest).size ||
                program.pieceVertices > other.program.pieceVertices;
     }
 
-    // Writes what is missing of it, or has another place here.
+    // Rewrites the parts of the surface of cuts that are missing or have another place here.
     void recordSurface(vk::Commands& commands) noexcept {
         const auto setMissing = [&](BufferId buffer, std::size_t offset) {
             vk::BufferView word = executor.view(buffer);
@@ -241,23 +241,24 @@ struct Simulation::State {
             word.size = sizeof(std::uint32_t);
             commands.fill(word, 1);
         };
-        commands.barrier(); // they were copied
+        commands.barrier(); // both were copied
         setMissing(program.cutSurface.state, offsetof(layout::SurfaceState, missing));
         for (const BufferId state : program.sheetStates)
             setMissing(state, offsetof(layout::SheetState, missing));
         executor.surface(commands);
     }
 
-    // What the scene alone says of a state that was put into the buffers.
+    // Records the passes that recompute values which follow from the scene alone, after a state was put into
+    // the buffers.
     void recordSettling(vk::Commands& commands) noexcept {
         if (program.settle.empty()) return;
-        commands.barrier(); // they were copied
+        commands.barrier(); // the state was copied
         for (const BufferId list : program.cutting.lists) executor.restore(commands, list);
         commands.barrier();
         executor.settle(commands);
     }
 
-    // Public positions and velocities, then all that is carried: calls use(index, buffer).
+    // Calls use(index, buffer) for public positions and velocities, then for all carried buffers.
     template <typename Use> void forEachHanded(const Use& use) const {
         std::size_t index = 0;
         use(index++, program.positions);
@@ -265,11 +266,12 @@ struct Simulation::State {
         for (const Carried& carried : program.carried) use(index++, carried.from);
     }
 
-    // Copies what `other` hands over, from where it is or from `copy`; what is carried, too, if they are
-    // alike: buffers of one name, of which there may be several, and the head of what has more room here.
+    // Copies the state of `other`, from its buffers or from `copy`. If both are alike, carried buffers are
+    // copied too, matched by name (several may have the same one); a smaller buffer fills the head of a
+    // larger one.
     void recordTaking(vk::Commands& commands, const State& other, const vk::BufferView& copy,
                       bool isAlike) const noexcept {
-        std::size_t next = 0; // of the own that are carried
+        std::size_t next = 0; // next candidate among own carried buffers
         vk::BufferView place = copy;
         const auto nameOf = [](const StepProgram& of, std::size_t c) -> const std::string& {
             return of.buffers[of.carried[c].to.index].label;
@@ -290,7 +292,8 @@ struct Simulation::State {
                 if (!isAlike || found == program.carried.size()) return;
                 own = program.carried[found].to;
                 next = found + 1;
-                // what is saved here alone, where forces are kept, is saved as it is taken
+                // a saved copy that only this program has, because it keeps forces, starts as the value taken
+                // over
                 const Carried& theirs = other.program.carried[index - 2];
                 if (theirs.from == theirs.to && program.carried[found].from != own)
                     saved = program.carried[found].from;
@@ -303,7 +306,7 @@ struct Simulation::State {
         });
     }
 
-    // Where a copy of the state has a buffer; the buffer itself where it is no part of the state.
+    // The place of a buffer in a copy of the state; the buffer itself if it is not part of the state.
     vk::BufferView placeIn(const vk::BufferView& saved, BufferId buffer) const noexcept {
         vk::BufferView place = saved;
         for (const BufferId one : written) {
@@ -328,25 +331,25 @@ struct Simulation::State {
         undoneH.reset();
     }
 
-    // A step with too little room for contacts needs another simulation first.
+    // True if repeating the step helps. A step that lacks room for contacts needs another simulation first.
     static bool lackLists(const layout::StatusWords& words) noexcept {
         return words.lacksLists > 0 && words.candidates == 0;
     }
     bool mayBeCalm(float h) const noexcept;
-    // Reads from steps that have come back how long lists last, from the oldest on.
+    // Reads from finished steps how long lists stay valid, oldest step first.
     void readSteps() noexcept;
-    // Puts the host's part of the state where the device has it, once a step is known to have lacked lists:
-    // all steps behind that one are undone, too.
+    // Restores the host's part of the state to match the device once a step is known to have lacked lists;
+    // all later steps are undone too.
     void goBack() noexcept;
-    // Before `frame` is recorded, which may lack lists.
+    // Saves the host's part of the state before `frame`, which may lack lists, is recorded.
     void noteBefore(std::uint64_t frame) noexcept;
-    // Whether the host can no longer repeat the step that lacked lists: `frame` takes the place of its
-    // status.
+    // Whether the host can no longer repeat the step that lacked lists, because `frame` takes its slot of the
+    // ring.
     bool missesRepetition(std::uint64_t frame) const noexcept {
         return lackedLists && frame >= *lackedLists + ring.slots();
     }
 
-    // The host's part of a state.
+    // Sets the host's part of the state.
     void moveTo(const SavedState& saved) noexcept {
         previousH = saved.h;
         collision::PokeStates pokes{};
@@ -361,7 +364,7 @@ struct Simulation::State {
         colliders.moveTo(saved.colliderTime, pokes);
     }
 
-    // Copies buffers out to where they stand one behind the other, or back from there.
+    // Copies buffers into consecutive ranges of `copies`, or back from there.
     enum class Way { out, back };
     void copy(vk::Commands& commands, const std::vector<BufferId>& buffers, vk::BufferView copies,
               Way way) const noexcept {

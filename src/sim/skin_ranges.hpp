@@ -1,4 +1,4 @@
-// Where the skins of a scene are in its index buffers.
+// Ranges of the scene's skins in its index buffers.
 #pragma once
 
 #include "sim/program.hpp"
@@ -8,10 +8,10 @@ namespace sinew::sim {
 
 enum class Triangles { all, whole };
 
-/// One behind the other, of all triangles or of those that are drawn while nothing is cut.
+/// Consecutive ranges, of all triangles or of those that are drawn while nothing is cut.
 std::vector<SkinRange> rangesOf(const std::vector<Skin>& skins, Triangles which);
 
-/// Where `ranges` says, one a skin; none where there are none.
+/// The given ranges with the names and colors of the skins, one a skin; empty if `ranges` is.
 std::vector<SkinRange> rangesOf(const std::vector<Skin>& skins,
                                 const std::vector<StepProgram::IndexRange>& ranges);
 

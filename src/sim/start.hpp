@@ -1,4 +1,4 @@
-// How bodies are when a simulation begins: turned, moving, spinning.
+// Initial motion of bodies: rotation, velocity, spin.
 #pragma once
 
 #include "sim/scene.hpp"
@@ -11,9 +11,9 @@ struct Start {
     Quaternion rotation; ///< about the middle of the body's bounding box
 };
 
-/// Turns each of scene.bodies from `firstBody` on, and sets the velocities of its particles, each body about
-/// its own middle and centre of mass. Held particles are turned and stay at rest; centres of mass are those
-/// of the particles that move. Links keep their lengths at rest, and loose particles their distances.
+/// Rotates each of scene.bodies from `firstBody` on, and sets the velocities of its particles, each body
+/// about its own middle and centre of mass. Fixed particles are rotated and stay at rest; the centre of mass
+/// is that of the moving particles. Links keep their rest lengths, and loose particles their distances.
 void start(Scene& scene, std::size_t firstBody, const Start& how);
 
 } // namespace sinew::sim

@@ -1,23 +1,24 @@
-// Turns frames of any length into steps of one length, so that h never changes: the stretch of a loaded link
-// that a solver leaves depends on h, and a body at rest would tremble with the frame rate.
+// Turns frames of any length into steps of one length, so that h never changes: the stretch that a solver
+// leaves in a loaded link depends on h, and a body at rest would tremble with the frame rate.
 #pragma once
 
 #include <cstdint>
 
 namespace sinew::sim {
 
-/// One clock a simulation. Never throws.
+/// A clock for one simulation. Never throws.
 class StepClock {
 public:
-    /// Steps of `dt` [s], at most `mostSteps` a frame, or a slow device would fall behind without end.
+    /// `dt` is the length of a step [s]; `mostSteps` limits the steps of a frame, without which a slow device
+    /// would fall behind ever further.
     StepClock(double dt, std::uint32_t mostSteps) : dt_(dt), mostSteps_(mostSteps) {}
 
     struct Due {
         std::uint32_t steps = 0; ///< to record now
-        double ahead = 0;        ///< share of a step that has begun [0, 1): to draw between two states
-        double lostTime = 0;     ///< what the limit dropped [s]
+        double ahead = 0;        ///< elapsed share of the next step [0, 1): to interpolate between two states
+        double lostTime = 0;     ///< dropped by the limit [s]
     };
-    /// `frameTime` [s] has passed; what is negative or no number is no time.
+    /// Adds `frameTime` [s]; a negative time or NaN counts as 0.
     Due advance(double frameTime) noexcept;
 
 private:

@@ -1,14 +1,14 @@
-// Parts of a scene that may touch: contacts that only `split` has a form for.
+// Whether parts of a scene may touch, in contacts that only `split` has a form for.
 #pragma once
 
 #include "sim/scene.hpp"
 
 namespace sinew::sim {
 
-/// Whether two particles with a radius may touch each other, of which one moves.
+/// Whether two particles with a radius may touch each other, at least one of which moves.
 bool particlesTouch(const Scene& scene);
 
-/// Whether particles with a radius may touch faces, of which one moves.
+/// Whether particles with a radius may touch faces, with a particle or a face that moves.
 bool facesTouch(const Scene& scene);
 
 } // namespace sinew::sim
