@@ -1,4 +1,4 @@
-// Bends, tethers and drags in physical units: what bodies.hpp offers besides bodies.
+// Bends, tethers and drags in physical units: the functions of bodies.hpp that make no body.
 #include "sim/bodies.hpp"
 
 #include <algorithm>
@@ -17,7 +17,8 @@ struct Edge {
     double length;
 };
 
-// The way to a held particle, the shortest first; equal ways by index, so that every run ties alike.
+// A path to a fixed particle, shortest first; equal lengths are ordered by index, so that the result is
+// deterministic.
 struct Way {
     double length;
     std::uint32_t particle, anchor;
@@ -57,7 +58,7 @@ float bendComplianceOfRod(float stiffness, float spacing) {
     return spacing * spacing * spacing / stiffness;
 }
 
-// Dijkstra from all held particles at once, in which a particle is settled once for each of its nearest
+// Dijkstra's algorithm from all fixed particles at once: a particle is settled once for each of its nearest
 // anchors.
 void addTethers(Scene& scene, const TetherPlan& plan) {
     if (std::uint64_t{plan.first} + plan.count > scene.particles.size())

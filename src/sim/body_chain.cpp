@@ -1,6 +1,5 @@
-// Chains: equal masses in a line, one link from each to the next, and a last mass of its own. The plainest
-// body on which a solver can fail: stiff, long, and as unequal in mass as one likes (cases: 6, 8; hard cases
-// 1, 8).
+// Chains: equal masses in a line, one link from each to the next, and a last mass of its own. The simplest
+// body on which a solver can fail: stiff, long, and with any ratio of masses.
 #include "sim/bodies.hpp"
 
 #include <cmath>

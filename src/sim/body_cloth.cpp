@@ -1,5 +1,5 @@
-// Cloth sheets: a grid of particles, an edge link to each neighbour in the row and in the column, two
-// diagonal links per cell, on request a link to the next but one. Mass is assembled per cell, a quarter to
+// Cloth sheets: a grid of particles with an edge link to each neighbour in the row and in the column, two
+// diagonal links per cell, and optional links over two spacings. Mass is assembled per cell, a quarter to
 // each corner, so that the sheet weighs areaDensity x area exactly.
 #include "sim/bodies.hpp"
 
@@ -36,8 +36,8 @@ void check(const ClothSheet& sheet) {
                                         std::to_string(pinned) + " is outside the sheet");
 }
 
-// Edges k1 and diagonals k2 of a square net make C11 = k1 + k2, C12 = C66 = k2 [N/m]: isotropic at k1 = 2 k2,
-// where the stiffness of a free strip is C11 - C12^2 / C11 = 8/3 k2. (A rim's edges carry as much as those
+// Edges k1 and diagonals k2 of a square net give C11 = k1 + k2, C12 = C66 = k2 [N/m]: isotropic at k1 = 2 k2,
+// where the stiffness of a free strip is C11 - C12^2 / C11 = 8/3 k2. (Edges on the rim carry as much as those
 // inside: a strip of n cells is stiffer by 3 / (4 n).)
 ClothSheet withMembrane(ClothSheet sheet) {
     if (sheet.membraneStiffness == 0) return sheet;
@@ -52,7 +52,7 @@ float at(const ClothSheet& sheet, std::uint32_t column, std::uint32_t row, float
                               double{sheet.spacing} * row * sheet.down.*axis);
 }
 
-/// 1 inside a row, 1/2 at its ends: how many of the two cells beside a particle exist, halved.
+/// The number of cells beside a particle along one axis, halved: 1 inside a row, 1/2 at its ends.
 double half(std::uint32_t index, std::uint32_t size) {
     return index == 0 || index + 1 == size ? 0.5 : 1.0;
 }
@@ -108,7 +108,7 @@ void addGrid(Scene& scene, const ClothSheet& sheet, std::uint32_t first, std::si
     scene.grids.push_back(std::move(grid));
 }
 
-/// After the others: the sheet without them keeps its order.
+/// Appends the skip links after all others, so that the other links keep their order.
 void addSkipLinks(Scene& scene, const ClothSheet& sheet, std::uint32_t first) {
     if (sheet.skipStiffness == 0) return;
     const float compliance = 1 / sheet.skipStiffness;
@@ -135,7 +135,7 @@ void addBends(Scene& scene, const ClothSheet& sheet, std::uint32_t first) {
         }
 }
 
-/// Every particle carries two skin vertices, one a side, so that each side has normals of its own.
+/// Every particle has two skin vertices, one on each side, so that each side has its own normals.
 Skin makeSkin(const ClothSheet& sheet, std::uint32_t first) {
     Skin skin{.name = sheet.name, .color = sheet.color};
     const auto [columns, rows] = sheet.size;

@@ -1,4 +1,4 @@
-// A triangle mesh as faces between particles that never move, or as a path says.
+// A triangle mesh as faces between particles that are static or follow a path.
 #include "sim/bodies.hpp"
 
 #include "sim/colliders.hpp"

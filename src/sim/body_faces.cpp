@@ -14,7 +14,7 @@ namespace {
 
 using Node = std::array<std::uint32_t, 3>;
 
-constexpr double mostStretch = 1.2; // of a surface, that nothing passes through
+constexpr double mostStretch = 1.2; // of a surface that must stay impassable
 
 // The squares between four neighbouring particles of a grid.
 class SquareList {
@@ -24,7 +24,7 @@ public:
         for (std::uint32_t i = 0; i < grid.node.size(); ++i) particle_[grid.node[i]] = grid.firstParticle + i;
     }
 
-    // Appends the two halves of every such square of which `low` is the lowest corner.
+    // Appends the two triangles of every such square whose lowest corner is `low`.
     void addTo(std::vector<Face>& faces, const Node& low, float thickness, lattice::Squares squares) const {
         const std::uint32_t fill = lattice::fillAround(grid_, low);
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -34,7 +34,7 @@ public:
             if (squares == lattice::Squares::outer ? isAbove == isBelow : !isAbove || !isBelow) continue;
             Node alongU = low, alongV = low, high = low;
             ++alongU[u], ++alongV[v], ++high[u], ++high[v];
-            // u x v is the axis: counter-clockwise seen from above it
+            // u x v is the axis: counter-clockwise seen from its positive side
             const std::uint32_t a = at(low), b = at(alongU), c = at(high), d = at(alongV);
             faces.push_back({isBelow ? std::array{a, b, c} : std::array{a, c, b}, thickness, true});
             faces.push_back({isBelow ? std::array{a, c, d} : std::array{a, d, c}, thickness, true});
@@ -50,11 +50,11 @@ private:
     std::vector<std::uint32_t> particle_;
 };
 
-// By grid the smallest radius of what moves and is not of it [m].
+// By grid the smallest radius of moving particles outside this grid [m].
 std::vector<double> leastBeside(const Scene& scene) {
     constexpr double none = std::numeric_limits<double>::infinity();
     const std::vector<float> inverseMass = inverseMasses(scene);
-    const auto others = static_cast<std::uint32_t>(scene.grids.size()); // what is of no grid
+    const auto others = static_cast<std::uint32_t>(scene.grids.size()); // index if in no grid
     std::vector<std::uint32_t> gridOf(scene.particles.size(), others);
     for (std::uint32_t g = 0; g < others; ++g)
         std::fill_n(gridOf.begin() + scene.grids[g].firstParticle, scene.grids[g].node.size(), g);
@@ -90,7 +90,7 @@ std::vector<std::uint32_t> gridsWithHoles(const Scene& scene) {
         const Grid& grid = scene.grids[g];
         const double radius = double{scene.particles[grid.firstParticle].radius};
         if (lattice::isSheet(grid) || radius <= 0) continue;
-        // the middle of a square is half of a diagonal away from its corners
+        // the middle of a square is half a diagonal away from its corners
         if (least[g] < mostStretch * std::sqrt(0.5) * double{grid.restLength[0]} - radius)
             result.push_back(g);
     }

@@ -1,13 +1,13 @@
-// Voxel lattices, assembled per cell: an 18-neighbour central-force lattice whose links take their stiffness
-// from the cells that hold them. Uniform instead of per-cell constants would make a one-cell plate up to 6
-// times too stiff.
+// Voxel lattices, assembled per cell: an 18-neighbour central-force lattice whose links have the stiffness of
+// the cells that contain them. Constants that are uniform instead of per cell would make a one-cell plate up
+// to 6 times too stiff.
 //
 // A link in direction d lies in every cell beside it: 4 cells for an edge, 2 for a face diagonal. A full cell
-// gives k1/4 to each of its edges and k2/2 to each of its face diagonals, so either way a link's stiffness is
-// k x (mean fill of the cells that may hold it), with k1 = k2 = 0.4 E a (isotropic, Poisson ratio 1/4).
+// gives k1/4 to each of its edges and k2/2 to each of its face diagonals, so in both cases a link's stiffness
+// is k x (mean fill of the cells that can contain it), with k1 = k2 = 0.4 E a (isotropic, Poisson ratio 1/4).
 //
-// With volumes of cells lambda = mu + lambda_v, and E = mu (3 lambda + 2 mu) / (lambda + mu) = 2 mu (1 + nu)
-// is what was asked for when k1 = k2 = mu a with mu = E / (2 (1 + nu)) (methods: G).
+// With volumes of cells lambda = mu + lambda_v. Then E = mu (3 lambda + 2 mu) / (lambda + mu) = 2 mu (1 + nu)
+// is the requested modulus if k1 = k2 = mu a with mu = E / (2 (1 + nu)).
 #include "sim/bodies.hpp"
 
 #include "sim/ranges.hpp"
@@ -24,7 +24,7 @@ namespace {
 using Index3 = std::array<std::int32_t, 3>;
 
 constexpr std::uint8_t fullCell = 15, smallestFill = 2; // in 1/15
-constexpr double leastShare = 0.125;                    // of a cell's mass that its corners have
+constexpr double leastShare = 0.125;                    // of a cell's mass, given to its corners
 
 /// One of each pair of opposite directions, the one that leads to the higher grid index: 3 edges, 6 face
 /// diagonals, 4 body diagonals.
@@ -61,7 +61,7 @@ std::vector<std::uint8_t> quantisedFill(const Lattice& lattice) {
     return result;
 }
 
-/// Read access to the cells of a lattice, with clamped fill and empty space all around.
+/// Read access to the cells of a lattice, with clamped fill, and empty outside the grid.
 class Cells {
 public:
     explicit Cells(const Lattice& lattice) : lattice_(lattice), fill_(quantisedFill(lattice)) {}
@@ -75,8 +75,8 @@ public:
         return fill_[indexOf(cell)];
     }
 
-    /// Mean over the eight cells around `corner` of the fill as given, but of each filled cell no less than
-    /// leastShare: stiffness has such a floor too, and a lighter node would need shorter substeps.
+    /// Mean over the eight cells around `corner` of the fill as given, with a floor of leastShare for filled
+    /// cells: stiffness has such a floor too, and a lighter node would need shorter substeps.
     double massShare(Index3 corner) const {
         double sum = 0;
         for (int side = 0; side < 8; ++side) {
@@ -88,7 +88,7 @@ public:
         return sum / 8;
     }
 
-    /// Mean fill of the cells that hold the link from `corner` in `direction`.
+    /// Mean fill of the cells that contain the link from `corner` in `direction`.
     double meanFill(Index3 corner, Index3 direction) const {
         int sum = 0, count = 0;
         for (int side = 0; side < 8; ++side) {
@@ -165,8 +165,8 @@ double volumeOf(const Lattice& lattice) {
     return cells * std::pow(double{lattice.spacing}, 3);
 }
 
-/// Mass of every corner [kg], 0 where no cell is filled: shares of density times volume of the body. Fills
-/// are samples and shares have a floor, so that their sum alone would not be the mass of the body.
+/// Mass of every corner [kg], 0 if no cell around it is filled: a share of density times volume of the body.
+/// The shares are normalised, because fills are samples and shares have a floor.
 std::vector<double> cornerMasses(const Lattice& lattice, const Cells& cells) {
     std::vector<double> masses;
     double shares = 0;
@@ -198,26 +198,26 @@ std::vector<std::uint32_t> addParticles(Scene& scene, const Lattice& lattice, co
     return particle;
 }
 
-/// What links are made of: by kind, for a link between full cells.
+/// Stiffness and length of links between full cells, by kind.
 struct LinkKinds {
     std::uint32_t count = 0;
     std::array<double, 3> stiffness{}; ///< [N/m]
     std::array<float, 3> restLength{}; ///< [m]
 };
 
-/// mu = E / (2 (1 + nu)), C44 of the lattice [Pa]. Volumes of cells add nothing to it.
+/// mu = E / (2 (1 + nu)), C44 of the lattice [Pa]. Volumes of cells do not contribute to it.
 double shearModulus(const Lattice& lattice) {
     return double{lattice.youngModulus} / (2 * (1 + double{lattice.poissonRatio}));
 }
 
-/// lambda = 2 mu nu / (1 - 2 nu), less what the links give: mu [Pa].
+/// lambda = 2 mu nu / (1 - 2 nu), minus the share of the links, mu [Pa].
 double volumeStiffness(const Lattice& lattice) {
     const double nu = double{lattice.poissonRatio};
     return shearModulus(lattice) * (2 * nu / (1 - 2 * nu) - 1);
 }
 
 LinkKinds linkKinds(const Lattice& lattice) {
-    // Of a body with Poisson ratio 1/4 and the same shear modulus; exactly E at 1/4.
+    // Young's modulus of the body with Poisson ratio 1/4 and the same shear modulus; exactly E at 1/4.
     const double scale =
         double{lattice.youngModulus} * (1.25 / (1 + double{lattice.poissonRatio})) * lattice.spacing;
     LinkKinds kinds;
@@ -236,9 +236,9 @@ double distanceBetween(const Scene& scene, std::uint32_t a, std::uint32_t b) {
     return std::hypot(double{q.x} - p.x, double{q.y} - p.y, double{q.z} - p.z);
 }
 
-/// Rest lengths are the spacing and its diagonals, so that a whole body has two or three and its links pack
-/// well. Where float32 rounds positions so far from the origin that this would stress the body (strain above
-/// 1e-4), what is stored counts. Returns whether all rest lengths are nominal.
+/// Rest lengths are the spacing and its diagonals, so that a whole body has two or three values and its links
+/// pack well. If the body is so far from the origin that rounding to float32 would stress it (strain above
+/// 1e-4), the distances of the stored positions are used. Returns whether all rest lengths are nominal.
 bool addLinks(Scene& scene, const Lattice& lattice, const Cells& cells, const LatticeCorners& corners,
               const LinkKinds& kinds) {
     bool isRegular = true;
@@ -246,7 +246,7 @@ bool addLinks(Scene& scene, const Lattice& lattice, const Cells& cells, const La
         for (const Index3& direction : directions) {
             const std::size_t kind = kindOf(direction);
             const double share = kind < kinds.count ? cells.meanFill(corner, direction) : 0;
-            if (share == 0) continue; // also where the link would leave the grid
+            if (share == 0) continue; // also if the link would leave the grid
             const std::uint32_t a = corners.at(corner[0], corner[1], corner[2]);
             const std::uint32_t b =
                 corners.at(corner[0] + direction[0], corner[1] + direction[1], corner[2] + direction[2]);

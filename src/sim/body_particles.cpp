@@ -1,6 +1,5 @@
-// Loose particles: balls in rows, each a little off its place where that is asked for, or at random places,
-// one after another wherever none is in the way (random sequential addition, which jams at 38 % of the
-// volume).
+// Loose particles: spheres in rows, with an optional random displacement, or at random positions, placed one
+// after another where there is no overlap (random sequential addition, which jams at 38 % of the volume).
 #include "sim/bodies.hpp"
 
 #include "sim/random.hpp"
@@ -14,7 +13,7 @@
 namespace sinew::sim {
 namespace {
 
-constexpr std::uint32_t mostTries = 1000; // for one place
+constexpr std::uint32_t mostTries = 1000; // for one position
 
 float spacingOf(const LooseParticles& p) {
     return p.spacing > 0 ? p.spacing : 2 * (p.radius + p.jitter);
@@ -29,7 +28,7 @@ void check(const LooseParticles& p) {
     const double count = p.random > 0 ? double(p.random) : double(p.count[0]) * p.count[1] * p.count[2];
     if (!(count >= 1)) throw std::invalid_argument(head + "there is none");
     if (count > std::numeric_limits<std::int32_t>::max()) throw std::length_error(head + "are too many");
-    // a millionth: 2 x 0.05 + 0 as a file writes it may be more than 0.1 in float32
+    // a relative 1e-6: 2 x 0.05 + 0 as written in a file may exceed 0.1 in float32
     if (p.random == 0 && double{spacingOf(p)} < 2 * (double{p.radius} + double{p.jitter}) * (1 - 1e-6))
         throw std::invalid_argument(head +
                                     "neighbours could overlap: spacing must be at least 2 (radius + jitter)");
@@ -51,7 +50,7 @@ void addRows(Scene& scene, const LooseParticles& p) {
         const double off = p.jitter > 0 ? random.symmetric() * double{p.jitter} : 0;
         return double{center} + (index - 0.5 * (count - 1.0)) * spacing + off;
     };
-    for (std::uint32_t y = 0; y < p.count[1]; ++y) // from below: neighbours in a layer are near in memory
+    for (std::uint32_t y = 0; y < p.count[1]; ++y) // bottom to top: neighbours in a layer are near in memory
         for (std::uint32_t z = 0; z < p.count[2]; ++z)
             for (std::uint32_t x = 0; x < p.count[0]; ++x) {
                 const double first = at(p.center.x, x, p.count[0]), second = at(p.center.y, y, p.count[1]);
@@ -59,7 +58,7 @@ void addRows(Scene& scene, const LooseParticles& p) {
             }
 }
 
-// The places taken so far, in cells of a ball's diameter.
+// The occupied positions, hashed in cells of a sphere's diameter.
 class Places {
 public:
     explicit Places(double diameter) : diameter_(diameter) {}
@@ -77,7 +76,7 @@ public:
     void take(const std::array<double, 3>& x) { cells_[keyOf(x, {0, 0, 0})].push_back(x); }
 
 private:
-    // Cells that share a key only make more to compare.
+    // Two cells with equal keys only cost more comparisons.
     std::uint64_t keyOf(const std::array<double, 3>& x, const std::array<int, 3>& offset) const {
         std::uint64_t key = 0;
         for (std::size_t axis = 0; axis < 3; ++axis)

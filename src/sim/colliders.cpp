@@ -1,4 +1,4 @@
-// Keyframes in double: positions evenly, rotations as slerp [Shoemake 1985].
+// Keyframe paths in double: positions linear in time, rotations by slerp [Shoemake 1985].
 #include "sim/colliders.hpp"
 
 #include "sim/simulation.hpp"
@@ -29,7 +29,7 @@ Quaternion between(const Quaternion& a, const Quaternion& b, double part) noexce
 
 using Point = std::array<double, 3>;
 
-// `sign` -1 turns back.
+// With `sign` -1 the inverse rotation.
 Point rotated(const Quaternion& q, double sign, const Point& x) {
     const double w = double{q.w};
     const Point u{sign * double{q.x}, sign * double{q.y}, sign * double{q.z}};
@@ -42,7 +42,7 @@ Point rotated(const Quaternion& q, double sign, const Point& x) {
     return {x[0] + 2 * turned[0], x[1] + 2 * turned[1], x[2] + 2 * turned[2]};
 }
 
-// In the frame of `pose`.
+// `point` in the frame of `pose`.
 Point localOf(const Pose& pose, const Vec3& point) {
     return rotated(pose.rotation, -1,
                    {double{point.x} - double{pose.position.x}, double{point.y} - double{pose.position.y},
@@ -65,7 +65,7 @@ Pose poseOn(const std::vector<Keyframe>& path, PathEnd end, double time) noexcep
                    (time - double{last.time}) / (double{next->time} - double{last.time}));
 }
 
-// Half extents of the box that the shape's radius goes around.
+// Half extents of the box that the shape's radius encloses.
 Point coreOf(const Collider& collider) {
     const Vec3& e = collider.halfExtents;
     if (collider.shape == ColliderShape::box) return {double{e.x}, double{e.y}, double{e.z}};

@@ -1,7 +1,8 @@
-// First-fit edge coloring, tried in several orders for each connected body; the one with the fewest colors
-// wins. In a grid or lattice the constraints of one direction form straight chains, served by two colors in
-// turn: direction by direction, a body needs as many colors as an inner particle has constraints. A direction
-// shows in the difference of the two indices (a full grid) or in where the ends are (voxels of any shape).
+// First-fit edge coloring, tried in several orders for each connected body; the order with the fewest colors
+// wins. In a grid or lattice the constraints of one direction form straight chains, which need two
+// alternating colors: colored direction by direction, a body needs as many colors as an inner particle has
+// constraints. A direction is recognised by the difference of the two indices (a full grid) or by the
+// positions of the ends (voxels of any shape).
 #include "sim/coloring.hpp"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t none = 0xffffffffu;
 
-// The constraints on each moving particle, and the connected bodies they make.
+// The constraints on each moving particle, and the connected bodies that they form.
 class Graph {
 public:
     Graph(const Scene& scene, std::span<const float> inverseMass)
@@ -36,7 +37,7 @@ public:
         return std::span(incident_).subspan(first_[particle], first_[particle + 1] - first_[particle]);
     }
 
-    /// Constraints of each body, ascending by their lower particle. Bodies meet in no particle that moves.
+    /// Constraints of each body, ascending by their lower particle. Two bodies share no moving particle.
     std::vector<std::vector<std::uint32_t>> bodies() const {
         std::vector<std::vector<std::uint32_t>> result;
         std::vector<bool> isTaken(scene_.distances.size());
@@ -68,9 +69,9 @@ private:
 };
 
 using Groups = std::vector<std::vector<std::uint32_t>>;
-constexpr std::size_t mostDirections = 32; // a regular body has 13 at most
+constexpr std::size_t mostDirections = 32; // a regular body has at most 13
 
-// Groups of constraints that `isSame` calls parallel; none where there are too many for a regular body.
+// Groups of constraints that `isSame` calls parallel; empty if there are too many groups for a regular body.
 template <typename IsSame> Groups groupBy(const std::vector<std::uint32_t>& body, const IsSame& isSame) {
     Groups groups;
     for (const std::uint32_t c : body) {
@@ -92,7 +93,7 @@ std::uint32_t stepOf(const DistanceConstraint& c) {
 }
 
 bool isParallel(const Graph& graph, const DistanceConstraint& c, const DistanceConstraint& d) {
-    constexpr double sine = 1e-3; // bodies lie where float32 rounds them
+    constexpr double sine = 1e-3; // tolerates float32 rounding of positions
     const auto direction = [&](const DistanceConstraint& of) {
         const Vec3 &p = graph.position(of.a), &q = graph.position(of.b);
         return std::array{double{q.x} - p.x, double{q.y} - p.y, double{q.z} - p.z};
@@ -103,13 +104,13 @@ bool isParallel(const Graph& graph, const DistanceConstraint& c, const DistanceC
     return uv * uv >= (1 - sine * sine) * uu * vv;
 }
 
-// Colors of one body's constraints, none = not colored yet; shared by the whole scene.
+// Colors of the scene's constraints (none = not colored yet), assigned body by body.
 class FirstFit {
 public:
     FirstFit(const Graph& graph, std::size_t constraints) : graph_(graph), color_(constraints, none) {}
 
-    /// Gives every group colors of its own, each constraint the lowest that its moving ends have not; returns
-    /// one past the last color of each.
+    /// Gives every group its own colors, and each constraint the lowest one that its moving ends do not have
+    /// yet; returns one past the last color of each group.
     std::vector<std::uint32_t> apply(const Groups& groups) {
         std::vector<std::uint32_t> ends;
         for (const std::vector<std::uint32_t>& group : groups) {
@@ -145,20 +146,20 @@ private:
 
     const Graph& graph_;
     std::vector<std::uint32_t> color_;
-    std::vector<std::uint64_t> stamps_; // of each color: the constraint that last found it taken
+    std::vector<std::uint64_t> stamps_; // by color: the constraint that last found it taken
     std::uint64_t stamp_ = 0;
 };
 
-// The turn in which each color is solved; `ends` holds one past the last color of each group. The turns of a
-// group enclose those of the groups that are taken after it: half of its colors come before them, half
-// behind. In a sweep a link pulls those that are solved later, which pull it only in the next substep. Nested
-// turns let this one-sided pull cancel between the two colors of a direction, as long as strain is smooth. It
-// adds up if the turns of two directions alternate, and drives slow modes: a rigid cloth never rests. An odd
-// number of groups, such as the 9 and 13 directions of lattices, is taken in steps of two backwards from the
-// first: direction after direction, a warm start makes a stiff beam swing up.
+// The position of each color in the order of solving; `ends` holds one past the last color of each group. The
+// order is nested: half of a group's colors are solved before, and half after, all groups that follow. In a
+// sweep a link pulls the links solved after it, which pull it only in the next substep. Nesting lets this
+// one-sided pull cancel between the two colors of a direction, as long as strain is smooth. If the colors of
+// two directions alternate, the pull adds up and drives slow modes: a rigid cloth never rests. An odd number
+// of groups, such as the 9 and 13 directions of lattices, is taken in steps of two backwards from the first:
+// with direction after direction, a warm start makes a stiff beam swing up.
 std::vector<std::uint32_t> nestedTurns(const std::vector<std::uint32_t>& ends) {
     const auto groups = static_cast<std::uint32_t>(ends.size());
-    const std::uint32_t stride = groups % 2 == 1 && groups > 2 ? groups - 2 : 1; // no common divisor
+    const std::uint32_t stride = groups % 2 == 1 && groups > 2 ? groups - 2 : 1; // without a common divisor
     std::vector<std::uint32_t> turns(ends.back());
     std::uint32_t front = 0, back = ends.back();
     for (std::uint32_t k = 0; k < groups; ++k) {
@@ -171,7 +172,7 @@ std::vector<std::uint32_t> nestedTurns(const std::vector<std::uint32_t>& ends) {
     return turns;
 }
 
-// Tries the orders on one body and keeps the colors of the best.
+// Tries all orders on one body and keeps the colors of the best.
 void colorBody(const Graph& graph, const std::vector<std::uint32_t>& body, FirstFit& firstFit) {
     const std::array<Groups, 3> orders{
         groupBy(body,

@@ -1,6 +1,6 @@
-// First-fit coloring of bends, direction after direction: in a row or column of cloth three colors take
-// turns, so that a sheet needs six, as many as an inner particle has bends. Where directions do not help, in
-// the order of the scene.
+// First-fit coloring of bends, direction after direction: a row or column of cloth needs three alternating
+// colors, so that a sheet needs six, as many as an inner particle has bends. If directions need more colors,
+// the order of the scene is used.
 #include "sim/coloring.hpp"
 
 #include <algorithm>
@@ -18,12 +18,12 @@ std::array<std::uint32_t, 3> particlesOf(const BendConstraint& bend) {
 }
 
 struct Colors {
-    std::vector<std::uint32_t> of; // each entry of the order
+    std::vector<std::uint32_t> of; // by entry of the order
     std::uint32_t count = 0;
 };
 
-// The lowest color from `base` on that no moving particle of a bend has; a base is where its direction
-// begins.
+// The lowest color, not below `base`, that no moving particle of a bend has; each direction starts with a new
+// base.
 Colors firstFit(const Scene& scene, std::span<const float> inverseMass, const Order& order,
                 std::span<const std::uint32_t> directions) {
     std::vector<std::vector<bool>> taken(scene.particles.size()); // by particle and color
@@ -85,7 +85,7 @@ Coloring colorBends(const Scene& scene, std::span<const float> inverseMass) {
         directions.resize(sorted.size(), bends.front());
     }
     const Colors plain = firstFit(scene, inverseMass, inScene, std::vector<std::uint32_t>(inScene.size(), 0));
-    constexpr std::size_t mostBendDirections = 16; // more are no grid
+    constexpr std::size_t mostBendDirections = 16; // more directions mean that there is no grid
     if (byDirection.size() > mostBendDirections) return toColoring(inScene, plain);
     const Colors directed = firstFit(scene, inverseMass, sorted, directions);
     return directed.count <= plain.count ? toColoring(sorted, directed) : toColoring(inScene, plain);

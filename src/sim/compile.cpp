@@ -1,4 +1,4 @@
-// The table of contents of a step. Reads top to bottom in the order the device works.
+// The list of features of a step, from top to bottom in the order in which the device runs them.
 #include "sim/compile.hpp"
 
 #include "kernels.hpp"
@@ -56,7 +56,7 @@ std::vector<layout::vec4> velocitiesOf(const Scene& scene, const std::vector<flo
     std::vector<layout::vec4> result;
     result.reserve(w.size());
     for (std::size_t i = 0; i < w.size(); ++i) {
-        const Vec3 v = w[i] > 0 ? scene.particles[i].velocity : Vec3{}; // what never moves has no velocity
+        const Vec3 v = w[i] > 0 ? scene.particles[i].velocity : Vec3{}; // static particles have no velocity
         result.push_back({v.x, v.y, v.z, w[i]});
     }
     return result;
@@ -69,8 +69,8 @@ std::vector<layout::vec4> spread(const std::vector<layout::vec4>& values, const 
     return result;
 }
 
-// The w of a state's positions that is not the scene's for good is put there again from what they began with:
-// where the state is, and where it is saved.
+// Settling resets the w of positions, which a solver may derive from the material, to the initial values: in
+// the state and in its saved copy.
 void addWeights(ProgramBuilder& program, const ParticleBuffers& particles) {
     const auto count = static_cast<std::uint32_t>(particles.layout.count);
     const BufferId initial = program.initialOf("state.initial", particles.positions);
@@ -129,7 +129,7 @@ std::vector<float> inverseMasses(const Scene& scene) {
 
 namespace {
 
-// Refers to `scene` and `settings`.
+// The plan refers to `scene` and `settings`.
 SolverPlan planOf(const Scene& scene, const Settings& settings, const std::vector<float>& inverseMass) {
     SolverPlan plan = entry(settings.solver).plan(scene, settings, inverseMass);
     plan.layout.hasRemainders = keepsRemainders(scene, settings.substeps);
@@ -147,7 +147,7 @@ StepProgram compile(const Scene& scene, const Settings& asked) {
     requireNone(validate(asked));
     Settings settings = withSubsteps(scene, asked);
     settings.forms = completed(settings.forms, DeviceKind::software);
-    if (asked.substeps == 0) requireNone(validate(settings)); // sweeps are bounded with the number chosen
+    if (asked.substeps == 0) requireNone(validate(settings)); // the chosen number has a limit too
     ProgramBuilder program(settings.isReversed);
     StepProgram& built = program.program();
     built.particleCount = static_cast<std::uint32_t>(scene.particles.size());

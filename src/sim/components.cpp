@@ -1,4 +1,4 @@
-// Union of sets, with paths halved.
+// Union-find with path halving.
 #include "sim/components.hpp"
 
 #include <algorithm>

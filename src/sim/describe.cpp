@@ -1,4 +1,4 @@
-// The printed form of a step program: what a person audits and what golden tests compare.
+// The printed form of a step program: for audits by people and for golden tests.
 #include "sim/program.hpp"
 
 #include "sim/hash.hpp"
@@ -19,7 +19,7 @@ std::string line(const StepProgram& program, const Pass& pass) {
     std::ostringstream text;
     text << "  " << std::left << std::setw(24) << pass.label << ' ';
     const bool isDispatch = pass.kind == PassKind::dispatch;
-    const std::string times = pass.isIndirect ? "0..x" : "x"; // as many as a kernel says, at most
+    const std::string times = pass.isIndirect ? "0..x" : "x"; // the device decides; this is the maximum
     text << std::setw(10) << (isDispatch ? times + std::to_string(pass.items) : std::string());
     for (const BufferUse& use : boundUses(pass)) {
         text << ' ' << program.buffers[use.buffer.index].label << accessName(use.access);
@@ -31,7 +31,7 @@ std::string line(const StepProgram& program, const Pass& pass) {
     return text.str();
 }
 
-// One block of lines: the passes of one substep, or those outside.
+// A block of lines: the passes of one substep, or those outside.
 struct Block {
     std::uint32_t substep = 0;
     std::string phase, text;
@@ -50,7 +50,7 @@ std::vector<Block> blocks(const StepProgram& program, const std::vector<Pass>& p
     return result;
 }
 
-// The length of the shortest run starting at `first` that repeats at once, and how often it stands there.
+// The length of the shortest run from `first` on that repeats immediately, and its number of repetitions.
 std::pair<std::size_t, std::size_t> repetition(const std::vector<Block>& all, std::size_t first) {
     for (std::size_t length = 1; length <= 2; ++length) {
         std::size_t times = 1;
@@ -85,7 +85,7 @@ std::string megabytes(std::uint64_t bytes) {
     return text.str();
 }
 
-// What a step costs while all, some or none are awake.
+// Dispatches of a step while all, some or no particles are awake.
 std::string sleepText(const StepProgram& program) {
     if (program.sleep.arguments == BufferId{}) return {};
     std::size_t all = 0, listed = 0, whole = 0, always = 0;

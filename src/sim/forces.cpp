@@ -1,4 +1,4 @@
-// The sections of the buffer of impulses, and which of its elements each sum consists of.
+// The sections of the buffer of impulses, and the elements that each sum consists of.
 #include "sim/forces.hpp"
 
 #include "kernels.hpp"
@@ -16,16 +16,17 @@ namespace k = kernels;
 constexpr std::uint32_t forceSlotsId = 20, firstForceId = 21,
                         keepsPullsId = 22; // constant_ids in forces.glsl, split.glsl
 
-// A vec4 each, in a buffer with sizes in 32 bits: VkPhysicalDeviceLimits::maxStorageBufferRange is one.
+// Limit of vec4 elements in a buffer with a 32-bit size, such as
+// VkPhysicalDeviceLimits::maxStorageBufferRange.
 constexpr std::uint64_t mostElements = ((std::uint64_t{1} << 32) - 1) / sizeof(layout::vec4);
 static_assert(mostElements < FORCE_SUBTRACTED);
 
-// Chunks of one thing behind those of another, and the sums that they become.
+// Chunks of elements, consecutive for each sum, and the ranges of chunks that form the sums.
 struct Sums {
     std::vector<layout::ForceChunk> chunks;
     std::vector<layout::ForceRange> ranges;
 
-    // Elements from `first` on; see layout::ForceChunk and layout::ForceRange.
+    // Appends a sum of the elements from `first` on; see layout::ForceChunk and layout::ForceRange.
     void add(std::uint32_t first, std::uint32_t count, std::uint32_t origin, std::uint32_t moment,
              float sign) {
         const auto firstPart = static_cast<std::uint32_t>(chunks.size());
@@ -37,18 +38,18 @@ struct Sums {
     }
 };
 
-// A kernel must not read an empty buffer.
+// A buffer with at least one element, since a kernel must not bind an empty buffer.
 template <typename T> BufferId uploadAny(ProgramBuilder& program, const char* label, std::vector<T> items) {
     if (items.empty()) items.push_back(T{});
     return program.upload(label, items);
 }
 
-// Whether what touches faces can push it.
+// Whether the particle can touch faces and be pushed by them.
 bool isMovingPoint(const Particle& particle, float inverseMass) {
     return particle.radius > 0 && inverseMass > 0;
 }
 
-// The rows of what faces of each body that never move give, behind all rows of the kinds before.
+// Sets the rows of static faces of each body; these follow all rows of the other kinds.
 void setStops(std::vector<layout::ForceRange>& bodies, const Forces& forces) {
     for (std::uint32_t r = 0; r < forces.stops.rows.size(); ++r) {
         const Stops::Row& row = forces.stops.rows[r];
@@ -59,8 +60,8 @@ void setStops(std::vector<layout::ForceRange>& bodies, const Forces& forces) {
     }
 }
 
-// The elements of what hold `h` gives: links at its particles, tethers to them, and the opposite of what
-// touches them and their faces.
+// The elements that sum to the impulse of hold `h`: links at its particles, tethers to them, and the opposite
+// of contacts with them and their faces.
 std::vector<std::uint32_t> elementsOf(std::uint32_t h, const Scene& scene, const Forces& forces,
                                       const std::vector<std::uint32_t>& slots,
                                       std::span<const Tether> tethers) {
@@ -79,7 +80,7 @@ std::vector<std::uint32_t> elementsOf(std::uint32_t h, const Scene& scene, const
         if (isHeld[tethers[t].anchor]) elements.push_back(forces.firstEntry() + t);
     for (std::uint32_t r = 0; r < forces.stops.rows.size(); ++r) {
         if (!std::ranges::binary_search(forces.stops.rows[r].holds, h)) continue;
-        for (std::size_t i = 0; i < scene.particles.size(); ++i) // it has those of the points
+        for (std::size_t i = 0; i < scene.particles.size(); ++i) // the row has the elements of the points
             if (isMovingPoint(scene.particles[i], inverseMass[i]))
                 elements.push_back(forces.elementOf(forces.firstStop() + r) + slots[i]);
     }
@@ -145,7 +146,7 @@ void addBodies(ProgramBuilder& program, const Scene& scene, const Forces& forces
                      pushed);
 }
 
-// Whether a link or a bend pulls at a particle that never moves.
+// Whether a link or a bend pulls at a static particle.
 bool areLinksHeld(const Scene& scene) {
     const std::vector<float> inverseMass = inverseMasses(scene);
     const auto isHeld = [&](std::uint32_t i) { return inverseMass[i] == 0; };
@@ -157,7 +158,7 @@ bool areLinksHeld(const Scene& scene) {
            });
 }
 
-// All but the buffer.
+// All members except the buffer.
 Forces placesOf(const Scene& scene, const Settings& settings, const StateLayout& layout) {
     return {.slots = static_cast<std::uint32_t>(layout.count),
             .grabs = settings.grabs,

@@ -1,4 +1,4 @@
-// Compiles twice where the first program asks for too much.
+// Compilation for a device: compiles again if the first program exceeds the device's limits.
 #include "sim/gpu_compile.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ std::uint64_t mostTexels(const StepProgram& program) {
     return most;
 }
 
-/// Phases named like the passes of the step, in the order of their first turns.
+/// Makes one phase for each pass label of the step, in the order of first appearance.
 void makePhasesOfPasses(StepProgram& program) {
     program.phases.clear();
     for (Pass& pass : program.step) {

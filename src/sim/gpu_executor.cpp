@@ -1,4 +1,5 @@
-// The walk from a pass list to Vulkan commands. Equal kernel and buffers share one descriptor set.
+// The loop from a pass list to Vulkan commands. Dispatches with equal kernel and buffers share one descriptor
+// set.
 #include "sim/gpu_executor.hpp"
 
 #include "vk/check.hpp"
@@ -9,7 +10,7 @@ namespace sinew::sim {
 
 namespace {
 
-// Which buffers hold the arguments of an indirect dispatch.
+// By buffer: whether it holds the arguments of an indirect dispatch.
 std::vector<bool> holdArguments(const StepProgram& program) {
     std::vector<bool> result(program.buffers.size());
     for (const std::vector<Pass>* list : {&program.step, &program.skin, &program.mixedSkin})
@@ -78,7 +79,7 @@ bool isSameDispatch(const Pass& a, const Pass& b) {
     return a.kernel == b.kernel && std::ranges::equal(boundUses(a), boundUses(b), isSameBuffer);
 }
 
-// Distinct (kernel, buffers) pairs of all lists, and which of them each dispatch uses.
+// Distinct (kernel, buffers) pairs of all lists, and the pair of each dispatch.
 struct SetPlan {
     std::vector<const Pass*> distinct;
     std::vector<std::size_t> setOfPass;
@@ -222,7 +223,7 @@ void GpuExecutor::restore(vk::Commands& commands, BufferId buffer) noexcept {
     if (const vk::Buffer* initial = stagingOf(buffer)) commands.copy(initial->view(), view(buffer));
 }
 
-// The device writes what resets copy from: one that is on its way finds what it was to find.
+// The device writes the source of later resets; a reset already in flight still copies the old contents.
 void GpuExecutor::replace(vk::Commands& commands, BufferId buffer, const vk::BufferView& contents,
                           bool isOfState) noexcept {
     if (const vk::Buffer* initial = stagingOf(buffer)) commands.copy(contents, initial->view());
@@ -232,7 +233,7 @@ void GpuExecutor::replace(vk::Commands& commands, BufferId buffer, const vk::Buf
 void GpuExecutor::surface(vk::Commands& commands) noexcept {
     for (const Recorded& pass : step_) {
         if (!pass.isOfSurface) continue;
-        commands.barrier(); // it is rare, and no plan is for these alone
+        commands.barrier(); // it is rare, and no barriers are planned for these passes alone
         recordPass(commands, pass, {});
     }
 }

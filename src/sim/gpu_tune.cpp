@@ -1,4 +1,4 @@
-// Coordinate search over the forms: few, because each costs its pipelines.
+// Coordinate search over the forms; a few trials only, because each creates pipelines.
 #include "sim/gpu_tune.hpp"
 
 #include "sim/compile.hpp"
@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint64_t trialSteps = 4;
 
-// Steps before those that count: the first may compile, and a GPU that was idle takes a while to run at its
+// Warm-up steps before the measured ones: the first step may compile, and an idle GPU needs time to reach its
 // full clock.
 constexpr std::uint64_t firstSteps = 1, wakingSteps = 32;
 
@@ -54,8 +54,8 @@ std::vector<const vk::ShaderCode*> codesOfStep(const Scene& scene, const Setting
     return codes;
 }
 
-/// Whether texels make other kernels of a step, which is what is timed: with bends, damping or resident
-/// bodies `split` has one code for both, `jacobi` has no choice at all.
+/// Whether usesTexels changes the kernels of a step, which are what is timed: with bends, damping or resident
+/// bodies `split` has one kernel for both, and `jacobi` never has a choice.
 bool hasTexelForms(const Scene& scene, Settings settings) {
     settings.substeps = 1;
     const auto given = codesOfStep(scene, settings);
@@ -65,11 +65,11 @@ bool hasTexelForms(const Scene& scene, Settings settings) {
 
 using Change = std::function<void(Forms&)>;
 
-/// Other marches, from the form that suits the device on.
+/// Changes to other marches, starting from the form that suits the device.
 std::vector<Change> marches(const Scene& scene, std::span<const std::uint32_t> grids, DeviceKind kind) {
     std::vector<Change> result;
     if (kind == DeviceKind::gpu) {
-        for (const auto& [columns, chunk] : {std::pair{1u, 1u}, {1u, 4u}}) // longer ones never won
+        for (const auto& [columns, chunk] : {std::pair{1u, 1u}, {1u, 4u}}) // longer marches never won
             result.push_back([columns, chunk](Forms& forms) {
                 forms.columns = columns;
                 forms.chunk = chunk;
@@ -84,7 +84,7 @@ std::vector<Change> marches(const Scene& scene, std::span<const std::uint32_t> g
     return result;
 }
 
-/// What may be changed about the forms of this scene on this device.
+/// The changes of forms to try for this scene on this device.
 std::vector<Change> changes(const vk::Device& device, const Scene& scene, const Settings& settings,
                             DeviceKind kind) {
     std::vector<Change> result;
@@ -96,7 +96,7 @@ std::vector<Change> changes(const vk::Device& device, const Scene& scene, const 
     if (isGrantable(device, scene, settings, grids))
         result.push_back([most = device.limits().maxSharedMemory, kind](Forms& forms) {
             forms.residentBytes = most;
-            if (kind == DeviceKind::gpu) forms.columns = forms.chunk = 1; // the form of a whole group
+            if (kind == DeviceKind::gpu) forms.columns = forms.chunk = 1; // the form for a whole group
         });
     return result;
 }
@@ -112,7 +112,7 @@ Tuning tune(const vk::Device& device, const Scene& scene, const Settings& settin
             DeviceKind kind) {
     constexpr std::uint32_t trialSubsteps = 8;
     constexpr double gain = 0.97;
-    const vk::KeptKernels kept(device); // forms share most of them
+    const vk::KeptKernels kept(device); // the trials share most kernels
     Settings trial = withSubsteps(scene, settings);
     trial.substeps = std::min(trial.substeps, trialSubsteps);
     trial.forms = completed(settings.forms, kind);

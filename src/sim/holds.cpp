@@ -1,4 +1,4 @@
-// A hold is a FixedConstraint for each particle: an inverse mass of 0, which costs no pass.
+// Holds are FixedConstraints of particles: an inverse mass of 0, which costs no pass.
 #include "sim/holds.hpp"
 
 #include "sim/colliders.hpp"

@@ -1,4 +1,4 @@
-// Factors by particle, so that links, bends and grids look up what they join.
+// Factors by particle, which links, bends and grids look up at their ends.
 #include "sim/material.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ std::vector<double> factorsOf(const Scene& scene, const Material& material) {
     return factors;
 }
 
-// A compliance above 0 stays so: 0 would be rigid, another step program.
+// A compliance above 0 stays above 0: 0 would be rigid, which needs another step program.
 float softened(float compliance, double factor) {
     constexpr double least = 1e-20, most = 1e30; // [m/N]
     if (compliance == 0) return 0;
@@ -39,7 +39,7 @@ void stiffen(Scene& scene, std::span<const double> factors) {
     }
 }
 
-// Static friction is at least as much as that of what slides.
+// Sets both coefficients: static friction below `friction` counts as `friction`.
 template <typename Touched> void setFriction(Touched& touched, float friction) {
     touched.friction = friction;
     touched.staticFriction = 0;

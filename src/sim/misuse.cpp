@@ -1,4 +1,4 @@
-// One row a kind: what, where, value, what to do.
+// Sentences of misuse, one for each kind: what, where, value, remedy.
 #include "sim/misuse.hpp"
 
 #include "sim/ranges.hpp"

@@ -1,4 +1,4 @@
-// Collecting passes, checking them against their SPIR-V, and planning the barriers between them.
+// Collects passes, checks them against their SPIR-V, and plans the barriers between them.
 #include "sim/program.hpp"
 
 #include "layout.h"
@@ -19,7 +19,7 @@ bool touches(vk::Access access, vk::Access part) {
     throw std::logic_error(std::string("kernel ") + code.name + ": " + why);
 }
 
-// A compiler may take bindings for different buffers, unless both say that they are not.
+// A compiler may assume that bindings are different buffers, unless both are decorated Aliased.
 void checkAliases(const vk::ShaderCode& code, const vk::KernelInterface& interface, const Pass& pass,
                   const std::vector<BufferSpec>& buffers) {
     const auto& uses = pass.uses;

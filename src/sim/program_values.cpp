@@ -1,4 +1,4 @@
-// Compares list by list.
+// Comparison of two programs, list by list.
 #include "sim/program_values.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ bool isSameBuffer(const BufferSpec& a, const BufferSpec& b) {
            a.initial.empty() == b.initial.empty();
 }
 
-// But for what is pushed.
+// Whether two passes are equal except for their push constants.
 bool isSamePass(const Pass& a, const Pass& b) {
     const auto isSameUse = [](const BufferUse& x, const BufferUse& y) {
         return x.buffer == y.buffer && x.access == y.access;
@@ -108,7 +108,7 @@ std::vector<BufferId> writtenByStep(const StepProgram& program) {
         for (const BufferUse& use : pass.uses)
             if (use.access != vk::Access::read) isWritten[use.buffer.index] = true;
     std::vector<BufferId> buffers;
-    const ForceBuffers& forces = program.forces; // of one step: no part of what the next one goes on from
+    const ForceBuffers& forces = program.forces; // of one step: not part of the state between steps
     for (const BufferId buffer : {forces.terms, forces.parts, forces.rowParts, forces.sums})
         if (buffer != BufferId{}) isWritten[buffer.index] = false;
     for (std::uint32_t b = 0; b < isWritten.size(); ++b)

@@ -1,4 +1,5 @@
-// Chooses the kernels by how a particle finds its slot: in order, by rule, or from a table of 4 bytes each.
+// Publishing kernels differ in how a particle finds its slot: in order, by rule, or from a table of 4 bytes
+// each.
 #include "sim/publish.hpp"
 
 #include "kernels.hpp"
@@ -12,9 +13,10 @@ namespace {
 
 namespace k = kernels;
 
-// Saves a buffer, or takes it back; returns where it is saved, at first as it begins.
+// Adds the pass that saves a buffer or restores it; returns the saved copy, which starts with the initial
+// contents.
 BufferId addMemory(ProgramBuilder& program, BufferId memory) {
-    const BufferSpec spec = program.program().buffers[memory.index]; // adding moves the list
+    const BufferSpec spec = program.program().buffers[memory.index]; // copied: adding a buffer moves the list
     const auto count = static_cast<std::uint32_t>(spec.count);
     std::vector<layout::vec4> initial(spec.initial.size() / sizeof(layout::vec4));
     if (!initial.empty()) std::memcpy(initial.data(), spec.initial.data(), spec.initial.size());
@@ -26,7 +28,7 @@ BufferId addMemory(ProgramBuilder& program, BufferId memory) {
     return saved;
 }
 
-// After the check, and before publishing makes its own of what this takes back.
+// Runs after the check, and before publishing, which uses the values that this restores.
 void addKept(ProgramBuilder& program) {
     for (const BufferId buffer : program.kept()) {
         const BufferId saved = addMemory(program, buffer);
@@ -35,12 +37,12 @@ void addKept(ProgramBuilder& program) {
     }
 }
 
-// The kernels for one way to find a slot.
+// The kernels for one way of finding a slot.
 struct Kernels {
     const vk::ShaderCode &measure, &publish, &publishPositions, &take;
 };
 
-// What is saved of a state that was taken is that state.
+// Initialises the saved copies from the adopted state.
 template <typename Push>
 void addAdopting(ProgramBuilder& program, const ParticleBuffers& particles, const vk::ShaderCode& take,
                  std::span<const BufferId> slots, const Push& push) {

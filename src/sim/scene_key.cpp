@@ -1,4 +1,4 @@
-// FNV-1a over 32-bit words, list by list; each begins with its length.
+// FNV-1a over 32-bit words, list by list; the length of a list precedes its elements.
 #include "sim/scene_key.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ class Key {
 public:
     template <std::unsigned_integral Word> void add(Word word) { value_ = (value_ ^ word) * 0x100000001b3u; }
     void add(bool is) { add(is ? 1u : 0u); }
-    void add(float number) { add(std::bit_cast<std::uint32_t>(number + 0.0f)); } // -0 is 0
+    void add(float number) { add(std::bit_cast<std::uint32_t>(number + 0.0f)); } // -0 counts as 0
     void add(const Vec3& v) { addAll(v.x, v.y, v.z); }
     void add(const Pose& pose) {
         addAll(pose.position, pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.rotation.w);
@@ -32,7 +32,7 @@ private:
     std::uint64_t value_ = 0xcbf29ce484222325u;
 };
 
-// Contacts and cuts, for which `split` alone has forms.
+// Contacts and cuts, which only `split` supports.
 void addOfSplit(Key& key, const Scene& scene) {
     key.each(scene.particles, [&](const Particle& p) { key.add(p.radius); });
     if (std::ranges::any_of(scene.particles, &Particle::keepsRest))

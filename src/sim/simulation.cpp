@@ -1,4 +1,4 @@
-// The façade: validates, compiles, owns the executor, and turns a Step into the parameters its kernels read.
+// The façade: validates, compiles, owns the executor, and turns a Step into the parameters that kernels read.
 #include "sim/simulation_state.hpp"
 
 #include "sim/validate.hpp"
@@ -12,7 +12,7 @@ namespace sinew::sim {
 
 namespace {
 
-// A step that is no number is the shortest one.
+// `dt` within its range; NaN becomes the shortest step.
 float withinRange(float dt) {
     const auto low = static_cast<float>(ranges::dt.low), high = static_cast<float>(ranges::dt.high);
     return dt >= low ? std::min(dt, high) : low;
@@ -43,21 +43,21 @@ Simulation::~Simulation() {
 #endif
 }
 
-// Hands that change in a step that is undone would take hold anew when it is repeated: no step is calm in
-// which one holds something, nor where there is nothing to leave out. A step that is undone must leave the
-// state as it was before, in bits: it does not with a substep of another length.
+// Conditions of a calm step. No grab may be active: grabs that change in an undone step would begin anew when
+// it is repeated. There must be passes to leave out. An undone step must leave the state as it was before, in
+// bits, which it does not with a substep of another length.
 bool Simulation::State::mayBeCalm(float h) const noexcept {
     return isKeptWhereUndone && h == previousH && calmSteps.areCalm() && hands.areFree() &&
            !program.grids.empty();
 }
 
 void Simulation::State::readSteps() noexcept {
-    for (std::uint64_t i = 0; i < ring.slots(); ++i) { // from the oldest on
+    for (std::uint64_t i = 0; i < ring.slots(); ++i) { // oldest first
         RecordedStep& step = ring.step(nextFrame + i);
         if (step.isRead || step.generation != generation || !ring.isFinished(step.frame)) continue;
         step.isRead = true;
         const layout::StatusWords words = ring.words(step.frame);
-        if (lackedLists) continue; // undone as well
+        if (lackedLists) continue; // undone too
         if (lackLists(words)) {
             lackedLists = step.frame;
             calmSteps.lacked();
@@ -87,7 +87,7 @@ void Simulation::State::goBack() noexcept {
     readSteps();
     if (!lackedLists || isBack) return;
     const Before& slot = befores[ring.slotOf(*lackedLists)];
-    if (slot.frame != lackedLists) return; // more steps were in flight than there may be
+    if (slot.frame != lackedLists) return; // too many steps were in flight
     isBack = true;
     undoneH = previousH;
     previousH = slot.h;
@@ -129,7 +129,7 @@ void Simulation::record(VkCommandBuffer buffer, const Step& step, vk::Timestamps
     }
     state_->isBack = false;
     if (step.repeats) state_->noteBefore(step.frame);
-    state_->settledEnd = state_->settled(step.frame, state_->settledEnd); // of the slot that is opened next
+    state_->settledEnd = state_->settled(step.frame, state_->settledEnd); // before its slot is reused
     state_->nextFrame = step.frame + 1;
     state_->anchors.advance(step.anchors, dt);
     state_->hands.advance(step.grabs, dt);
@@ -248,7 +248,7 @@ Status Simulation::status(std::uint64_t frame) const noexcept {
             .isFinished = true,
             .isUndone = ring.isUndone(frame),
             .stepsUndone = ring.undoneUntil(frame),
-            .nonFinite = lacksLists ? 0 : words.nonFinite, // of a state that lacks contacts
+            .nonFinite = lacksLists ? 0 : words.nonFinite, // that state lacks contacts
             .firstBadParticle = ~words.invertedFirstBad,
             .contactRoom = words.candidates,
             .lacksLists = lacksLists,
@@ -298,7 +298,7 @@ Impulses Simulation::forces(std::uint64_t frame) const {
     impulses.planes = take(buffers.planes);
     impulses.pokes = take(buffers.pokes);
     impulses.colliders = take(buffers.colliders);
-    next += buffers.stops; // in the bodies already
+    next += buffers.stops; // already part of the bodies
     impulses.attachments = take(buffers.attachments);
     impulses.holds = take(buffers.holds);
     return impulses;
@@ -310,7 +310,7 @@ vk::BufferView Simulation::forceSums() const noexcept {
 
 std::vector<std::string> Simulation::complaints() {
     state_->readSteps();
-    const std::uint64_t end = state_->lackedLists.value_or(~std::uint64_t{0}); // those behind it are undone
+    const std::uint64_t end = state_->lackedLists.value_or(~std::uint64_t{0}); // later steps are undone
     if (const auto lack = state_->ring.lackOfRoom(state_->generation, end))
         state_->misuse.note(Misuse::contactRoom, lack->frame, lack->needed, state_->chosen.contactRoom);
     std::vector<std::string> sentences = std::exchange(state_->untold, {});

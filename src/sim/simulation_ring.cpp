@@ -1,5 +1,6 @@
-// A step has finished when the device has put its frame over the mark that the host put there as it recorded
-// the step. That copy is the last one, behind a barrier: what the host reads of the step has arrived by then.
+// The device marks a step as finished by writing its frame number over the mark that the host set when it
+// recorded the step. This copy is the last one, after a barrier: all results of the step are then visible to
+// the host.
 #include "sim/simulation_ring.hpp"
 
 #include <algorithm>
@@ -92,7 +93,7 @@ bool StepRing::isFinished(std::uint64_t frame) const noexcept {
     const RecordedStep& recorded = step(frame);
     if (!recorded.isRecorded || recorded.frame != frame) return false;
     const bool hasEnded = read<std::uint32_t>(ends_, slotOf(frame)) == static_cast<std::uint32_t>(frame);
-    std::atomic_thread_fence(std::memory_order_acquire); // before whatever else of it is read
+    std::atomic_thread_fence(std::memory_order_acquire); // before any other result is read
     return hasEnded;
 }
 

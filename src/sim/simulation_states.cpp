@@ -1,4 +1,4 @@
-// States of a simulation that come from elsewhere: of another simulation, of what was saved, of another
+// States that do not come from the previous step: of another simulation, of a saved copy, of another
 // material, of earlier topology.
 #include "sim/compile.hpp"
 #include "sim/simulation_state.hpp"
@@ -9,7 +9,7 @@ namespace sinew::sim {
 
 namespace {
 
-// Bits of a float, 1e18: nobody is there [m].
+// The bits of 1e18f: a position that no particle has [m].
 constexpr std::uint32_t farAwayBits = 0x5d5e0b6b;
 
 } // namespace
@@ -64,18 +64,18 @@ void Simulation::recordTakeOver(VkCommandBuffer buffer, const Simulation& from, 
         commands.barrier();
         state_->executor.adopt(commands);
     }
-    state_->recordSettling(commands); // its material, or h, may be another one
+    state_->recordSettling(commands); // material, or h, may differ
     if (state_->hasMoreRoom(other)) state_->recordSurface(commands);
     commands.endStep();
     state_->isChanged = true;
     if (saved != nullptr) {
         state_->moveTo(*saved);
         if (!isAlike) state_->previousH = state_->settledEnd.h = 0;
-        state_->undoneH.reset(); // what it has kept of the last step that came to its end is handed over
+        state_->undoneH.reset(); // the copy contains the saved values of the last finite step
         return;
     }
     State::Settled end = other.settledEnd;
-    for (std::uint64_t frame = 0; frame < other.ring.slots(); ++frame) // from the oldest on
+    for (std::uint64_t frame = 0; frame < other.ring.slots(); ++frame) // oldest first
         end = other.settled(other.nextFrame + frame, end);
     state_->settledEnd = end;
     state_->previousH = isAlike ? end.h : 0;
@@ -164,7 +164,7 @@ SavedState Simulation::recordSaveState(VkCommandBuffer buffer, const vk::BufferV
     commands.beginStep();
     state_->copy(commands, state_->written, to, State::Way::out);
     commands.endStep();
-    const auto pokes = this->pokes(); // goes back where steps are to be repeated
+    const auto pokes = this->pokes(); // restores the host's part if steps must be repeated
     return {state_->previousH,        state_->colliders.time(),
             state_->anchors.places(), {pokes.begin(), pokes.end()},
             state_->hasNewTopology,   state_->changes,
@@ -203,12 +203,12 @@ void Simulation::recordLoadTopology(VkCommandBuffer buffer, const vk::BufferView
     commands.beginStep();
     state_->copy(commands, state_->program.cutting.topology, from, State::Way::back);
     for (const BufferId seen : state_->program.cutting.contactsSeen)
-        commands.fill(view(seen), farAwayBits); // contacts are listed anew
+        commands.fill(view(seen), farAwayBits); // contact lists are rebuilt
     if (state_->changes > 0) state_->recordSettling(commands);
     commands.endStep();
     state_->hasNewTopology = true;
     ++state_->topologies;
-    state_->isUncut = false; // for all that the host knows
+    state_->isUncut = false; // the host cannot know
 }
 
 } // namespace sinew::sim

@@ -1,4 +1,4 @@
-// Adds up what comes before each skin.
+// Ranges of skins as running sums of index counts.
 #include "sim/skin_ranges.hpp"
 
 namespace sinew::sim {

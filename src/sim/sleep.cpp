@@ -1,4 +1,4 @@
-// The buffers and the order of the passes of sleeping, and which dispatches of a step are indirect.
+// The buffers and passes of sleeping in order, and the choice of indirect dispatches.
 #include "sim/sleep.hpp"
 
 #include "kernels.hpp"
@@ -15,13 +15,13 @@ namespace {
 
 namespace k = kernels;
 
-constexpr std::uint32_t mostPasses = 64; // that differ in kind or number of groups
+constexpr std::uint32_t mostPasses = 64; // passes that differ in kind or number of groups
 
 std::uint32_t groupsOf(std::uint32_t items, std::uint32_t groupSize) {
     return (items - 1) / groupSize + 1;
 }
 
-// The first slot of each one's linked particles. What never moves links nothing.
+// By slot the first slot of its linked component. Static particles connect nothing.
 std::vector<std::uint32_t> componentsOf(const Scene& scene, const StateLayout& layout,
                                         std::span<const float> weights) {
     std::vector<float> inverseMass(scene.particles.size());
@@ -36,7 +36,8 @@ std::vector<std::uint32_t> componentsOf(const Scene& scene, const StateLayout& l
     return result;
 }
 
-// How far what rests may drift [m]: 0.02 radii, where there is none 0.01 of the mean length of its links.
+// Largest drift of a resting particle [m]: 0.02 radii, or without a radius 0.01 of the mean length of its
+// links.
 std::vector<float> limitsOf(const Scene& scene, const StateLayout& layout) {
     constexpr float ofRadius = 0.02f, ofLength = 0.01f, ofNothing = 0.001f;
     std::vector<float> lengths(scene.particles.size()), links(scene.particles.size());
@@ -80,7 +81,7 @@ const vk::ShaderCode* awakeForm(const vk::ShaderCode& code) {
     return nullptr;
 }
 
-// Passes over particles run for the groups that are listed; any other runs whole, or not.
+// Passes over particles run for listed groups; any other pass runs entirely or not at all.
 GatedDispatch gated(Sleep& sleep, const vk::ShaderCode& code, std::uint32_t items) {
     const std::uint32_t groupSize = vk::readInterface(code).groupSize[0];
     const vk::ShaderCode* awake = awakeForm(code);
@@ -92,7 +93,7 @@ IndirectItems wakingItems(const Sleep& sleep, std::uint32_t element, std::uint32
     return {sleep.waking, element, items};
 }
 
-// The particles of marked islands, and then the groups that run.
+// Passes that wake the particles of marked islands, and then list the groups that run.
 void addWaking(ProgramBuilder& program, const Sleep& sleep, BufferId velocities, std::uint32_t all,
                std::uint32_t one) {
     program.dispatchIndirect(k::wakeIslands, wakingItems(sleep, all, sleep.push.count),
@@ -103,7 +104,7 @@ void addWaking(ProgramBuilder& program, const Sleep& sleep, BufferId velocities,
                              sleep.push);
 }
 
-// After marks were made in a substep.
+// Passes that wake islands marked in a substep.
 void addWakingTouched(ProgramBuilder& program, Sleep& sleep, BufferId velocities) {
     program.dispatchIndirect(k::planWaking, itemsOf(sleep, SLEEP_MIXED_ALL, 1, GROUP_ITEMS),
                              {sleep.state, sleep.waking}, sleep.push);
@@ -115,7 +116,7 @@ void closeGate(ProgramBuilder& program, const std::shared_ptr<Sleep>& sleep) {
         [sleep](const vk::ShaderCode& code, std::uint32_t items) { return gated(*sleep, code, items); });
 }
 
-// After the check of a step: who rests, and who sleeps from now on.
+// Passes after the check of a step: detect rest, and put islands to sleep.
 void addJudgement(ProgramBuilder& program, const Sleep& sleep, const ParticleBuffers& particles) {
     const auto& status = program.program().status;
     const BufferId positions = particles.positions, velocities = particles.velocities;
@@ -146,7 +147,7 @@ void addJudgement(ProgramBuilder& program, const Sleep& sleep, const ParticleBuf
         sleep.push, remainderConstants(particles.layout));
 }
 
-// What the kernels read of attachments and colliders, or something in its place.
+// Sets the buffers of attachments and colliders, or placeholders for them.
 void setMoving(ProgramBuilder& program, Sleep& sleep, const constraints::attachment::Attachments& attachments,
                const collision::colliders::Colliders& colliders) {
     sleep.push.attachments = attachments.count;
@@ -185,7 +186,7 @@ std::shared_ptr<Sleep> add(ProgramBuilder& program, const Scene& scene, const Se
     auto sleep = std::make_shared<Sleep>();
     sleep->push.count = count;
     sleep->push.groups = groupsOf(count, GROUP_ITEMS);
-    sleep->push.passes = mostPasses; // those that there are none of have no groups
+    sleep->push.passes = mostPasses; // unused ones have no groups
     sleep->push.substeps = settings.substeps;
     const std::vector<float> weights = weightsOf(scene, layout);
     std::vector<std::uint32_t> groups(sleep->push.groups);
@@ -276,7 +277,7 @@ void finish(ProgramBuilder& program, const ParticleBuffers& particles) {
     program.dispatchIndirect(k::listAwake, wakingItems(sleep, SLEEP_CLOSING_ONE, GROUP_ITEMS),
                              {sleep.groups, sleep.listed, sleep.passes, sleep.arguments, sleep.state},
                              sleep.push);
-    std::vector<layout::DispatchArguments> arguments; // of the first step: everybody is awake
+    std::vector<layout::DispatchArguments> arguments; // of the first step: every particle is awake
     for (const layout::SleepPass& pass : sleep.passesSeen) {
         const bool runs = pass.kind == SLEEP_ALL || pass.kind == SLEEP_LISTED;
         arguments.push_back({runs ? pass.groups : 0, 1, 1, 0});

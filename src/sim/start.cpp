@@ -1,4 +1,4 @@
-// Sums in double, so that a body far from the origin spins about its own centre.
+// Sums in double, so that a body far from the origin spins about its true centre.
 #include "sim/start.hpp"
 
 #include "sim/colliders.hpp"

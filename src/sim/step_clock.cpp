@@ -1,4 +1,4 @@
-// The accumulator behind StepClock.
+// The time accumulator of StepClock.
 #include "sim/step_clock.hpp"
 
 #include <algorithm>
@@ -9,7 +9,8 @@ namespace sinew::sim {
 StepClock::Due StepClock::advance(double frameTime) noexcept {
     Due due;
     if (frameTime > 0) waiting_ += std::min(frameTime, 1e9);
-    // A frame as long as a step gives one step: sums of rounded times must not skip one now and then.
+    // The tolerance makes a frame as long as a step give one step: sums of rounded times must not skip a
+    // step.
     const double whole = std::floor(waiting_ / dt_ + 1e-6);
     due.steps = static_cast<std::uint32_t>(std::min(whole, static_cast<double>(mostSteps_)));
     due.lostTime = (whole - due.steps) * dt_;

@@ -1,5 +1,5 @@
-// Every rule works on one list of terms (stiffness/terms.hpp), so that a solver is a row of a table here and
-// a constraint a loop there.
+// Every rule works on one list of terms (stiffness/terms.hpp): a solver adds a row to the table here, a
+// constraint a loop there.
 #include "sim/substeps.hpp"
 
 #include "sim/collision/face_contacts.hpp"
@@ -32,9 +32,9 @@ using stiffness::Terms;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double rounding = 1e-6; // of float32 inverse masses and compliances
 
-// How a solver bounds stiffness: k_eff / k at h, and the longest h at which the part of its error that h
-// decides stays within a tolerance. A rigid term has the stiffness at which its load stretches it by the
-// tolerance: there k_max(h), the most a substep can be, counts.
+// How a solver bounds stiffness: k_eff / k at h, and the longest h at which the part of the error that
+// depends on h is within a tolerance. A rigid term has the stiffness at which its load stretches it by the
+// tolerance; for it k_max(h), the largest stiffness of a substep, is used.
 struct Model {
     Solver solver;
     double (*reached)(const Term&, double h);
@@ -48,17 +48,17 @@ double longestOfSplit(const Term& term, double tolerance) {
     const double wanted = (term.isRigid ? 1 : 1 - tolerance) * term.stiffness;
     return std::sqrt(term.clamp / wanted);
 }
-// Each sweep does the same share of what the ones before have left of the force, if others pull the link back
-// to where it was.
+// Each sweep adds the same share of the force that is still missing, if others pull the link back to its old
+// length.
 double reachedBySweeps(const Term& term, double h) {
     const double ofSweep = term.sweepShare / (1 + h * h * term.inverseMass * term.stiffness);
     return stiffness::shareAfter(ofSweep, term.sweeps);
 }
-// Whether any h brings an elastic term within the tolerance.
+// Whether some h brings an elastic term within the tolerance.
 bool isReachable(const Term& term, double tolerance) {
     return term.share() > 1 - tolerance + rounding;
 }
-// If no h does, the longest within the tolerance of what the shares leave.
+// The longest h within the tolerance; if there is none, within the tolerance of what the shares allow.
 double longestOfSweeps(const Term& term, double tolerance) {
     const double wanted = (1 - tolerance) * (isReachable(term, tolerance) ? 1 : term.share());
     const double ofSweep = stiffness::shareAfter(wanted, 1.0 / term.sweeps);
@@ -84,7 +84,7 @@ std::uint32_t countFor(double dt, double h) {
 
 constexpr std::uint32_t nobody = ~0u;
 
-// The longest substep that a rule allows [s], and an end of the constraint that asks for it.
+// The longest substep that a rule allows [s], and an end of the constraint that decides it.
 struct Limit {
     double longest = infinite;
     std::uint32_t particle = nobody;
@@ -93,12 +93,12 @@ struct Limit {
     }
 };
 
-// The longest h at which `split` bears the whole of dampingTime: the positive root of
-// (1 + 2 theta) links h^2 + 2 dampingTime links h = 4 x 0.95; `links` the largest k D of an elastic term.
+// The longest h at which `split` is stable with the whole dampingTime: the positive root of (1 + 2 theta)
+// links h^2 + 2 dampingTime links h = 4 x 0.95; `links` is the largest k D of an elastic term.
 Limit longestOfDamping(const Terms& terms) {
     const Settings& settings = terms.settings;
     if (!terms.isSplit() || terms.scene.dampingTime == 0) return {};
-    double links = 0; // rigid ones have no damping of their own
+    double links = 0; // rigid ones have no damping
     std::uint32_t particle = nobody;
     terms.forEach([&](const Term& term) {
         const double of = term.isRigid ? 0 : term.stiffness * double{settings.omega} / term.clamp;
@@ -112,10 +112,10 @@ Limit longestOfDamping(const Terms& terms) {
     return {(std::sqrt(damping * damping + 3.8 * a) - damping) / a, particle};
 }
 
-// The longest substeps that each rule allows; settings.substeps is the number that is tried.
+// The longest substeps that each rule allows, computed with settings.substeps substeps.
 struct Limits {
     Limit elastic, rigid, damped;
-    double share = 1;        // the smallest of an elastic term
+    double share = 1;        // smallest share of an elastic term
     bool isReachable = true; // the tolerance, by some number of substeps
 };
 
@@ -137,7 +137,7 @@ Limits limitsOf(const Terms& terms) {
     return limits;
 }
 
-// Whether particles may rest on each other, or on faces.
+// Whether particles can rest on each other, or on faces.
 bool canTouch(const Scene& scene) {
     return collision::particle_contacts::areIn(scene) || collision::face_contacts::areIn(scene);
 }
@@ -154,8 +154,8 @@ ContactLimits limitsOfContacts(const Scene& scene, const Load& load) {
             stiffness::longestSubstepOfFolds(scene, load.inverseMass, components)};
 }
 
-// With which elastic terms are within the tolerance; 0 = no number. The shares of `split` depend on h a
-// little: a fixed point.
+// The number of substeps at which elastic terms are within the tolerance; 0 = no number. The shares of
+// `split` depend slightly on h, hence a fixed-point iteration.
 std::uint32_t neededFor(const Scene& scene, const Settings& settings, const Load& load) {
     Settings tried = settings;
     for (int round = 0; round < mostRounds; ++round) {
@@ -173,7 +173,7 @@ bool hasOnlyFreeParticles(const Scene& scene) {
            scene.planes.empty() && scene.colliders.empty() && !canTouch(scene);
 }
 
-// At least, of those that are chosen.
+// Lower limit of the automatic choice.
 std::uint32_t fewestFor(const Scene& scene) {
     return canTouch(scene) ? ranges::fewestTouching : ranges::fewestChosen;
 }
@@ -196,7 +196,7 @@ SplitBudget budgetOf(const Terms& terms) {
     return budget;
 }
 
-// Adds up what each body has.
+// Sums stiffness by body.
 class StiffnessOfBodies {
 public:
     explicit StiffnessOfBodies(const Scene& scene) : bodyOf_(scene.particles.size(), nobody) {
@@ -212,7 +212,7 @@ public:
         ++body.elastic;
         body.soft += isSoft;
         body.softest = std::min(body.softest, reached);
-        body.mean += reached; // a sum until the end
+        body.mean += reached; // a sum until finish()
     }
     std::vector<BodyStiffness> finish() {
         std::erase_if(bodies_, [](const BodyStiffness& body) { return body.elastic == 0; });
@@ -222,10 +222,10 @@ public:
 
 private:
     std::vector<BodyStiffness> bodies_;
-    std::vector<std::uint32_t> bodyOf_; // of each particle
+    std::vector<std::uint32_t> bodyOf_; // by particle
 };
 
-// The number that the strictest rule wants, before the limits.
+// The number that the strictest rule needs, before the limits.
 SubstepChoice choiceOf(const Limits& limits, const ContactLimits& contacts, const Scene& scene) {
     const std::pair<SubstepReason, Limit> rules[] = {{SubstepReason::stiffness, limits.elastic},
                                                      {SubstepReason::weight, limits.rigid},
@@ -268,7 +268,7 @@ double jacobiRelaxation(const Scene& scene, const Settings& settings) {
 }
 
 std::uint32_t dragSubsteps(const Scene& scene) {
-    // off by d / 2 + d^2 / 12 at most, d = damping h
+    // the error is at most d / 2 + d^2 / 12, d = damping h
     constexpr double most = 2 * dragTolerance * (1 - dragTolerance / 3);
     return countFor(double{scene.dt}, scene.damping > 0 ? most / double{scene.damping} : infinite);
 }
@@ -283,7 +283,7 @@ SubstepChoice chooseSubsteps(const Scene& scene, const Settings& settings) {
                           : drag > 1                ? SubstepReason::drag
                                                     : SubstepReason::fewest,
                 .rule = SubstepReason::drag};
-    // The shares of `split` depend on h a little, so that this is the fixed point of a few rounds.
+    // The shares of `split` depend slightly on h, so that this is a fixed-point iteration of a few rounds.
     const Load load = loadOf(scene, double{settings.tolerance});
     const std::uint32_t fewest = fewestFor(scene);
     const ContactLimits contacts = limitsOfContacts(scene, load);
@@ -341,9 +341,9 @@ StiffnessReport inspectStiffness(const Scene& scene, const Settings& asked) {
         report.softest = std::min(report.softest, reached);
         bodies.add(term.particle, reached, isSoft);
         sum += reached;
-        // of a link's c = k dampingTime, h c D is at most the budget
+        // `split`: h c D is at most the budget, with a link's c = k dampingTime
         const double most = budget * term.clamp / double{settings.omega} / (term.stiffness * h);
-        // `gauss_seidel`: implicit, link by link
+        // `gauss_seidel`: implicit for each link
         const double implicit =
             settings.solver == Solver::gaussSeidel ? h * term.inverseMass * term.stiffness : 0;
         damping += terms.isSplit() ? std::min(double{scene.dampingTime}, most)

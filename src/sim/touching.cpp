@@ -1,4 +1,4 @@
-// Answers by the questions that compile() asks before it adds passes.
+// Uses the tests by which compile() decides to add contact passes.
 #include "sim/touching.hpp"
 
 #include "sim/collision/face_contacts.hpp"

@@ -1,4 +1,4 @@
-// Walks a Scene and its Settings once and collects sentences. The allowed numbers stand in ranges.hpp.
+// Checks a Scene and its Settings once and collects sentences. The allowed numbers are in ranges.hpp.
 #include "sim/validate.hpp"
 
 #include "sim/collision/check_colliders.hpp"
@@ -65,7 +65,7 @@ std::uint64_t sweepsOf(const Settings& settings, std::uint32_t substeps) {
     return std::uint64_t{substeps} * (settings.solver == Solver::split ? 1 : settings.iterations);
 }
 
-// Substeps that are yet to be chosen are 0 here: checkChosenSweeps has their number.
+// A number of substeps that is still to be chosen is 0 here: checkChosenSweeps checks the chosen one.
 void checkSweeps(const Settings& settings, Complaints& complaints) {
     const std::uint64_t sweeps = sweepsOf(settings, settings.substeps);
     if (sweeps > ranges::mostSweeps)
@@ -143,7 +143,7 @@ void checkConstraints(const Scene& scene, Complaints& complaints) {
 
 void checkBends(const Scene& scene, Complaints& complaints) {
     const std::size_t count = scene.particles.size();
-    std::vector<std::uint32_t> bends(count); // of each particle
+    std::vector<std::uint32_t> bends(count); // by particle
     for (std::size_t i = 0; i < scene.bends.size(); ++i) {
         const BendConstraint& bend = scene.bends[i];
         for (const std::uint32_t end : {bend.a, bend.b, bend.c}) {
@@ -184,7 +184,7 @@ void checkAttachments(const Scene& scene, Complaints& complaints) {
     }
 }
 
-// Which particles never move; `fixed` may name ones that do not exist.
+// By particle: whether it never moves; `fixed` may name particles that do not exist.
 std::vector<bool> heldParticles(const Scene& scene) {
     std::vector<bool> isHeld(scene.particles.size());
     for (std::size_t i = 0; i < isHeld.size(); ++i) isHeld[i] = scene.particles[i].inverseMass == 0;
@@ -323,7 +323,7 @@ void checkFaces(const Scene& scene, Complaints& complaints) {
     }
 }
 
-// Contacts are not ignored where a solver cannot have them.
+// Complains about contacts in a scene whose solver does not support them; they are not ignored.
 void checkContacts(const Scene& scene, const Settings& settings, Complaints& complaints) {
     if (settings.solver != Solver::split && collision::particle_contacts::areIn(scene))
         complaints.add(std::string("solver ") + solverName(settings.solver) +
@@ -339,13 +339,13 @@ void checkContacts(const Scene& scene, const Settings& settings, Complaints& com
                        "use split");
 }
 
-// Only of a scene that is right so far: the number follows from its links. Most settings need none.
+// Needs a scene that is otherwise valid: the number follows from its links. Most settings skip the check.
 void checkChosenSweeps(const Scene& scene, const Settings& settings, Complaints& complaints) {
     if (settings.substeps > 0 || sweepsOf(settings, ranges::mostChosen) <= ranges::mostSweeps) return;
     checkSweeps(withSubsteps(scene, settings), complaints);
 }
 
-// Only of a scene that is right so far: a coloring takes what the constraints say at their word.
+// Needs a scene that is otherwise valid: coloring trusts the indices of constraints.
 void checkColors(const Scene& scene, const Settings& settings, Complaints& complaints) {
     if (settings.solver != Solver::gaussSeidel) return;
     const std::vector<float> inverseMass = inverseMasses(scene);
@@ -360,7 +360,7 @@ void checkColors(const Scene& scene, const Settings& settings, Complaints& compl
                                        number(ranges::mostColorPasses));
 }
 
-// The warm start of `gauss_seidel` unrolls the links of what moves.
+// The limit is lower where the warm start of `gauss_seidel` unrolls links of moving particles.
 void checkLinks(const Scene& scene, const Settings& settings, Complaints& complaints) {
     const bool isUnrolled = settings.solver == Solver::gaussSeidel && settings.warmStart > 0;
     const std::vector<bool> isHeld = heldParticles(scene);
@@ -381,7 +381,7 @@ std::string nameOf(const Scene& scene, std::size_t grid) {
     return element("grid", grid) + " \"" + scene.grids[grid].name + "\"";
 }
 
-// What two grids claim would be placed and computed twice.
+// A range that a grid claims. Particles or links claimed by two grids would be placed and computed twice.
 struct Claim {
     std::size_t grid;
     std::uint64_t first, count;
@@ -425,7 +425,7 @@ void checkGrids(const Scene& scene, Complaints& complaints) {
         const auto name = [&](const char* member) {
             return [&, member] { return nameOf(scene, g) + member; };
         };
-        // first: lists do not agree with what is no number
+        // checked first: NaN agrees with no list
         for (const float compliance : grid.compliance)
             complaints.check(double{compliance}, ranges::compliance, name(".compliance"));
         for (const float length : grid.restLength)
@@ -446,8 +446,7 @@ void checkGrids(const Scene& scene, Complaints& complaints) {
     checkOverlap(scene, complaints);
 }
 
-// Why lattice::computedGrids() leaves a body out where the solver and the forms allow it: the cause, and the
-// cure.
+// The reason why lattice::computedGrids() omits a body although solver and forms allow it, and the remedy.
 std::string whyNotComputed(const Scene& scene, std::uint32_t g) {
     if (!scene.bends.empty()) {
         std::set<std::string> bodies;
@@ -474,7 +473,7 @@ std::string whyNotComputed(const Scene& scene, std::uint32_t g) {
     return "but split has no form for that";
 }
 
-// Only where `split` computes a body are there links to cut. The scene is right in all else.
+// Cuttable links exist only where `split` computes a body. The scene must be otherwise valid.
 void checkCutting(const Scene& scene, const Settings& settings, Complaints& complaints) {
     if (std::ranges::none_of(scene.grids, &Grid::isCuttable)) return;
     const std::vector<std::uint32_t> computed = lattice::computedGrids(scene, settings);
@@ -497,8 +496,8 @@ void checkCutting(const Scene& scene, const Settings& settings, Complaints& comp
     }
 }
 
-// Volumes stand in no list of constraints: where they cannot be computed they must not be lost. The scene is
-// right in all else.
+// No list of constraints holds volumes: a scene that cannot compute them is refused, so that they are not
+// lost silently. The scene must be otherwise valid.
 void checkCellVolumes(const Scene& scene, const Settings& settings, Complaints& complaints) {
     std::vector<std::uint32_t> computed;
     if (std::ranges::any_of(scene.grids, hasCellVolumes)) computed = lattice::computedGrids(scene, settings);
@@ -528,7 +527,7 @@ bool canRecover(const Scene& scene, const Settings& settings) {
 
 std::string toText(const Range& range) {
     const bool hasLow = range.low > -ranges::largest, hasHigh = range.high < ranges::largest;
-    // As float32: 0.1f is a little more than 0.1 and must still read "0.1".
+    // Prints as float32: 0.1f is slightly more than 0.1 and must still read "0.1".
     const auto bound = [](double value) { return number(static_cast<float>(value)); };
     const std::string low = (range.isLowOpen ? "above " : "at least ") + (hasLow ? bound(range.low) : "");
     const std::string high = (range.isHighOpen ? "below " : "at most ") + (hasHigh ? bound(range.high) : "");

@@ -1,4 +1,4 @@
-// Warnings about a scene for a host and for who reads scene files.
+// Warnings about a scene, for hosts and authors of scene files.
 #include "sim/complaints.hpp"
 #include "sim/rounding.hpp"
 #include "sim/validate.hpp"
@@ -13,8 +13,8 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// The shortest link or diameter [m] that matters to particles that move; infinite where there is neither.
-// The diameter of held ones does where a particle that moves can touch them.
+// The shortest link or diameter [m] that affects moving particles; infinite if there is neither. Diameters of
+// fixed particles count if a moving particle can touch them.
 double finestLength(const Scene& scene) {
     std::vector<bool> moves;
     for (const Particle& particle : scene.particles) moves.push_back(particle.inverseMass > 0);
@@ -33,13 +33,13 @@ double finestLength(const Scene& scene) {
     return finest;
 }
 
-// Positions are float32: far from the origin they are coarse against the spacing of particles.
+// Positions are float32: far from the origin their steps are large relative to the spacing of particles.
 void warnOfRounding(const Scene& scene, std::vector<std::string>& sentences) {
     constexpr double coarse = 1e-3; // of the finest length
     const Rounding rounding = roundingOf(scene);
     const double finest = finestLength(scene);
     if (!(rounding.step >= coarse * finest)) return;
-    const double reach = std::exp2(std::ceil(std::log2(coarse * finest)) + 23); // steps are finer below
+    const double reach = std::exp2(std::ceil(std::log2(coarse * finest)) + 23); // finer steps below
     const std::string body = bodyOf(scene, rounding.particle);
     sentences.push_back("positions are rounded to " + thousandths(rounding.step) + " mm at " +
                         (rounding.distance < 10 ? thousandths(rounding.distance) + " mm"
