@@ -1,4 +1,4 @@
-// The lists of the attachment pass, and where its points are.
+// The lists of the attachment pass, and the motion of its points.
 #include "sim/constraints/attachment.hpp"
 
 #include "kernels.hpp"
@@ -22,7 +22,7 @@ layout::AttachmentPush pushOf(const Attachments& attachments, std::uint32_t subs
     return {attachments.count, static_cast<float>(substep + 1) / static_cast<float>(substeps)};
 }
 
-// The kernel without forces, and with them. `velocities`: of the particles, or the corrections to them.
+// Appends the kernel without or with forces. `velocities`: of the particles, or the corrections to them.
 void dispatchForm(ProgramBuilder& program, const forces::Forms& forms, const ParticleBuffers& particles,
                   BufferId velocities, const Attachments& attachments, const layout::AttachmentPush& push) {
     if (attachments.count == 0) return;

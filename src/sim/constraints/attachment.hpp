@@ -1,5 +1,5 @@
 // Attachments on the device: one pass after the links of a substep, the same for every solver. A scene
-// without them has no such pass.
+// without attachments has no such pass.
 #pragma once
 
 #include "layout.h"
@@ -14,36 +14,36 @@ struct Attachments {
     BufferId particles, anchors;
 };
 
-/// Adds the passes that write the anchors of a step, too: call it once, before the substeps.
+/// Also appends the passes that write the anchors of a step: call it once, before the substeps.
 Attachments add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout);
 
-/// `substep` counts from 0.
+/// Appends the pass of a substep; `substep` counts from 0.
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Attachments& attachments,
              std::uint32_t substep, std::uint32_t substeps);
-/// The same in a substep of `gauss_seidel`, which is still open: what moves are the `corrections`.
+/// The same inside a substep of `gauss_seidel`: the pass changes `corrections`, not velocities.
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
                  const Attachments& attachments, std::uint32_t substep, std::uint32_t substeps);
 
-/// Where the points go, on the host: what the anchors buffer of a step holds.
+/// The moving points of attachments on the host: contents of the anchors buffer of a step.
 class Anchors {
 public:
     explicit Anchors(const std::vector<Attachment>& attachments);
 
-    /// Back to the places of the scene.
+    /// Resets the points to their positions in the scene.
     void reset() noexcept;
-    /// The points start where they ended and go towards `targets` (one an attachment; others stay) as fast as
-    /// they may within `dt` [s]. A target that is not finite is none. Never allocates.
+    /// Moves the points from their last positions towards `targets` (one an attachment; the others stay),
+    /// limited by their speed within `dt` [s]. A target that is not finite is ignored. Never allocates.
     void advance(std::span<const Vec3> targets, float dt) noexcept;
-    /// Where the points are.
+    /// Positions of the points.
     std::vector<Vec3> places() const;
-    /// One an attachment; at once.
+    /// Sets the points, one an attachment, without motion.
     void moveTo(std::span<const Vec3> places) noexcept;
-    /// Puts back values() of another time.
+    /// Restores earlier values().
     void restore(std::span<const layout::vec4> values) noexcept {
         std::copy(values.begin(), values.end(), values_.begin());
     }
     std::size_t count() const noexcept { return attachments_.size(); }
-    /// From and to of every attachment.
+    /// Start and end of the point of every attachment.
     std::span<const layout::vec4> values() const noexcept { return values_; }
 
 private:

@@ -20,7 +20,7 @@ std::vector<BendConstraint> movable(const Scene& scene, std::span<const float> i
     return result;
 }
 
-// As stiff as a float32 product with h^2 bears; the clamp takes over long before.
+// Limited so that its product with h^2 stays within float32; the solver's clamp is far lower.
 float stiffness(const BendConstraint& bend) {
     constexpr float stiffest = 1e20f; // [N/m]
     return bend.compliance > 0 ? std::min(1 / bend.compliance, stiffest) : stiffest;

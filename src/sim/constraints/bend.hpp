@@ -1,6 +1,5 @@
 // Bends, C = x_a - 2 x_b + x_c, on the device: terms of the gather of `split`, a constraint pass of `jacobi`,
-// one of each color of `gauss_seidel`.
-// Bends none of whose particles moves are left out.
+// one pass for each color of `gauss_seidel`. Bends without a moving particle are left out.
 #pragma once
 
 #include "layout.h"
@@ -12,12 +11,12 @@ namespace sinew::sim::constraints::bend {
 /// Whether a bend has a particle that moves.
 bool canMove(const BendConstraint& bend, std::span<const float> inverseMass);
 
-/// The bends of `split`, padded to `degree` slots a particle, in blocks as links are (layout.h).
+/// The bends of `split`, padded to `degree` slots a particle, in blocks like links (layout.h).
 struct GatherBends {
     std::uint32_t degree = 0;
     std::vector<layout::SplitBend> bends;
 };
-/// `omega`: what bends may use of the stability bound (SplitBudget::omegaBends).
+/// `omega`: share of bends in the stability bound (SplitBudget::omegaBends).
 GatherBends gatherBends(const Scene& scene, std::span<const float> inverseMass, double omega);
 
 /// The buffers of the constraint pass of `jacobi`.
@@ -31,18 +30,18 @@ void upload(ProgramBuilder& program, const Scene& scene, std::span<const float> 
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Rows& rows,
              BufferId corrections, bool isFirstIteration);
 
-/// The buffers of the passes of `gauss_seidel`: bends by color, each color padded to whole work groups. They
-/// start every substep cold.
+/// The buffers of the passes of `gauss_seidel`: bends by color, each color padded to whole work groups. Their
+/// multipliers start every substep at 0.
 struct ColoredBends {
     struct Color {
         std::uint32_t first = 0, count = 0;
     };
     std::vector<Color> colors;
-    BufferId bends, multipliers; ///< multipliers: invalid where one sweep a substep needs none
+    BufferId bends, multipliers; ///< multipliers: invalid if one sweep a substep needs none
 };
 ColoredBends uploadColors(ProgramBuilder& program, const Scene& scene, const Settings& settings,
                           const StateLayout& layout);
-/// One pass a color, in place in `corrections`; `isFirst` in the first sweep of a substep.
+/// Appends one pass a color, in place in `corrections`; `isFirst` in the first sweep of a substep.
 void addSweep(ProgramBuilder& program, const ParticleBuffers& particles, const ColoredBends& bends,
               BufferId corrections, bool isFirst);
 

@@ -1,6 +1,6 @@
-// Distance constraints on the device: what each solver form needs of them. `jacobi` has a constraint pass
-// over edges, `gauss_seidel` one over those of each color, `split` gathers them per particle. Constraints
-// whose ends both never move are left out.
+// Distance constraints on the device, for each solver form: `jacobi` has a constraint pass over edges,
+// `gauss_seidel` a pass over the edges of each color, `split` gathers edges per particle. Constraints without
+// a moving end are left out.
 #pragma once
 
 #include "layout.h"
@@ -12,17 +12,17 @@ namespace sinew::sim::constraints::distance {
 /// The buffers of the constraint pass of `jacobi`.
 struct Edges {
     std::uint32_t count = 0, firstSlot = 0;
-    BufferId edges, multipliers; ///< multipliers: invalid where every constraint is rigid
+    BufferId edges, multipliers; ///< multipliers: invalid if every constraint is rigid
     float dampingTime = 0;       ///< of the scene [s]
 };
 
 /// Reserves two slots a constraint: first for its end a, then for its end b.
 Edges reserve(const Scene& scene, solvers::CorrectionSlots& slots);
 
-/// Uploads the edges; `weights` are the factors the particle pass will apply, one a particle.
+/// Uploads the edges; `weights` are the factors that the particle pass will apply, one a particle.
 void upload(ProgramBuilder& program, const Scene& scene, std::span<const float> weights, Edges& edges);
 
-/// One pass that writes every correction of this type.
+/// Appends the pass that writes every correction of this type.
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Edges& edges,
              BufferId corrections, bool isFirstIteration);
 
@@ -32,8 +32,8 @@ struct ColoredEdges {
         std::uint32_t first = 0, count = 0;
     };
     std::vector<Color> colors;
-    BufferId edges, multipliers; ///< multipliers: invalid where nothing needs them
-    std::uint32_t degree = 0;    ///< slots a particle of the warm start; 0 = starts cold
+    BufferId edges, multipliers; ///< multipliers: invalid if nothing needs them
+    std::uint32_t degree = 0;    ///< slots a particle of the warm start; 0 = no warm start
     BufferId links;              ///< of the warm start
     bool usesTexels = true;
     ProgramBuilder::Constants constants() const; ///< specialises degree
@@ -41,22 +41,23 @@ struct ColoredEdges {
 ColoredEdges uploadColors(ProgramBuilder& program, const Scene& scene, const Settings& settings,
                           const StateLayout& layout);
 
-/// Which sweep of a step this is.
+/// Position of a sweep in a step.
 struct Sweep {
     bool isOpening = false; ///< the first of the step
     bool isClosing = false; ///< the last of its substep
 };
-/// One pass a color, in place in `corrections` of the predicted positions.
+/// Appends one pass a color, in place in `corrections` of the predicted positions.
 void addSweep(ProgramBuilder& program, const ParticleBuffers& particles, const ColoredEdges& edges,
               BufferId corrections, float warmStart, Sweep sweep);
-/// Internal damping of the velocities that a substep of `gauss_seidel` ends with: one pass a color.
+/// Appends the internal damping of the velocities at the end of a substep of `gauss_seidel`: one pass a
+/// color.
 void addDamping(ProgramBuilder& program, const ParticleBuffers& particles, const ColoredEdges& edges,
                 float dampingTime);
 
 /// Whether a constraint has an end that moves; others are left out of every pass.
 bool canMove(const DistanceConstraint& constraint, std::span<const float> inverseMass);
 
-/// A constraint as `split` lists it: between slots of the solver's state.
+/// A constraint in the list of `split`: between slots of the solver's state.
 struct GatherLink {
     std::uint32_t a = 0, b = 0;
     float restLength = 0; ///< [m]
@@ -68,11 +69,11 @@ struct GatherLink {
 struct LinkGroup {
     std::uint32_t endSlot = 0; ///< one past the last
     float restLength = 0;      ///< [m]
-    GatherLink stiffest;       ///< of its links
+    GatherLink stiffest;       ///< of the group
 };
 
-/// The adjacency of `split`, padded to `degree` slots with links of a particle to itself. Groups: at most
-/// PACKED_GROUPS, where slots can be sorted so without much more padding, else none.
+/// The adjacency of `split`, padded to `degree` slots with links of a particle to itself. There are at most
+/// PACKED_GROUPS groups, and only if sorting slots by group adds little padding; else none.
 struct GatherLinks {
     std::size_t particles = 0;
     std::uint32_t degree = 0;
@@ -83,21 +84,21 @@ struct GatherLinks {
     }
 };
 GatherLinks gatherLinks(std::span<const GatherLink> links, std::size_t particles);
-/// Whether slots for all would be mostly padding: a few particles have many more links than the others.
+/// Whether slots for all links would be mostly padding: a few particles have many more links than the others.
 bool isIrregular(std::span<const GatherLink> links, std::size_t particles);
-/// The adjacency of `split` without slots: the links of particle i are links[first[i]] to links[first[i +
-/// 1]].
+/// The adjacency of `split` without slots: the links of particle i are links[first[i]] to links[first[i + 1]
+/// - 1].
 struct RangedLinks {
     std::vector<layout::SplitLink> links;
-    std::vector<std::uint32_t> first; ///< of `particles` rounded up to whole work groups, and the end
+    std::vector<std::uint32_t> first; ///< for `particles` rounded up to whole work groups, and the end
 };
 RangedLinks rangedLinks(std::span<const GatherLink> links, std::size_t particles);
 
-/// Gives a list without links so many slots of padding, for kernels that gather something else as well.
+/// Pads an empty list to `degree` slots, for kernels that also gather other terms.
 void pad(GatherLinks& links, std::uint32_t degree);
 
-/// The links in the packed form (layout.h), with the stiffness unit of every group; no links where the scene
-/// does not fit: no groups, too many particles, or a stiffness that no code gives to within float rounding.
+/// The links in the packed form (layout.h), with the stiffness unit of every group. Empty if the scene does
+/// not fit: no groups, too many particles, or a stiffness that no code represents to within float rounding.
 struct PackedLinks {
     std::vector<std::uint32_t> links;
     std::vector<float> units, shares; ///< for each code of each group [N/m]

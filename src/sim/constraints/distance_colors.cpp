@@ -1,5 +1,4 @@
-// The edges of `gauss_seidel`, color by color, and the links through which its warm start gathers
-// multipliers.
+// The edges of `gauss_seidel`, color by color, and the links from which its warm start gathers multipliers.
 #include "sim/constraints/distance.hpp"
 
 #include "kernels.hpp"
@@ -13,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t degreeId = 1; // constant_id in advance_substep.comp
 
-// Edges by color and, of each constraint of the coloring's order, where its edge stands.
+// Edges by color, and the index of the edge of each constraint in the coloring's order.
 struct EdgeList {
     std::vector<layout::DistanceEdge> edges;
     std::vector<ColoredEdges::Color> colors;
@@ -21,7 +20,7 @@ struct EdgeList {
 };
 
 EdgeList listEdges(const Scene& scene, const Coloring& coloring, const StateLayout& layout) {
-    // What fills up a color: rests between a padding particle and itself, and writes nothing.
+    // Padding of a color: an edge from a padding particle to itself, at rest, which writes nothing.
     const auto immovable = static_cast<std::uint32_t>(layout.count - 1);
     const layout::DistanceEdge padding{immovable, immovable, 0, 1};
     EdgeList list;
@@ -39,7 +38,7 @@ EdgeList listEdges(const Scene& scene, const Coloring& coloring, const StateLayo
     return list;
 }
 
-// The links of every particle that moves, in the order in which the sweep meets them.
+// The links of every moving particle, in the order of the sweep.
 void uploadWarmLinks(ProgramBuilder& program, const Scene& scene, const Coloring& coloring,
                      const EdgeList& list, std::size_t slotCount, ColoredEdges& result) {
     const std::vector<float> inverseMass = inverseMasses(scene);

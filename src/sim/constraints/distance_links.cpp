@@ -1,5 +1,5 @@
-// The links of the gather of `split`, sorted so that a slot means the same kind of link for every particle:
-// regular cloth and lattices then carry one word a link instead of four.
+// The links of the gather of `split`, sorted so that a slot has the same kind of link for every particle:
+// regular cloth and lattices then need one word a link instead of four.
 #include "sim/constraints/distance.hpp"
 
 #include "sim/ranges.hpp"
@@ -12,11 +12,11 @@ namespace sinew::sim::constraints::distance {
 
 namespace {
 
-// A loop of unknown length costs 1.17 times as much a link as an unrolled slot; few slots cost little anyway.
+// A loop of unknown length costs 1.17 times as much a link as an unrolled slot; a few slots are always cheap.
 constexpr double mostPadding = 1.5; // slots for each end of a link
 constexpr std::uint32_t fewSlots = 8;
 
-// Distinct rest lengths in order of appearance; empty where there are more than a kernel has groups.
+// Distinct rest lengths in order of appearance; empty if there are more than a kernel has groups.
 std::vector<float> restLengths(std::span<const GatherLink> links) {
     std::vector<float> lengths;
     for (const GatherLink& link : links) {
@@ -27,7 +27,7 @@ std::vector<float> restLengths(std::span<const GatherLink> links) {
     return lengths;
 }
 
-// How many links of each group a particle has: counts[group * particles + particle].
+// Number of links of each particle in each group: counts[group * particles + particle].
 struct GroupCounts {
     std::vector<float> lengths; // empty = one group of mixed lengths
     std::vector<std::uint32_t> counts;
@@ -65,7 +65,7 @@ std::uint32_t slotsOf(const GroupCounts& counts) {
     return slots;
 }
 
-// By rest length where that costs at most a quarter more slots than the plain list.
+// Groups by rest length if that needs at most a quarter more slots than the plain list.
 GroupCounts chooseGroups(std::span<const GatherLink> links, std::size_t particles) {
     GroupCounts plain = countByGroup(links, particles, {});
     std::vector<float> lengths = restLengths(links);
@@ -91,7 +91,7 @@ void fillLinks(std::span<const GatherLink> links, const GroupCounts& counts, std
     }
 }
 
-// The code of a packed link: stiffness and share are both (code + 1) x a unit. Empty where no code fits.
+// The code of a packed link: stiffness and share are both (code + 1) x a unit. Empty if no code fits.
 std::optional<std::uint32_t> codeOf(const layout::SplitLink& link, float unit, float shareUnit) {
     const float steps = std::round(link.stiffness / unit);
     const auto isExact = [&](float wanted, float one) {

@@ -8,7 +8,7 @@ namespace sinew::sim::constraints::driven {
 
 namespace {
 
-// Calls `visit(body, pose before the first step, particle)` for all that move.
+// Calls `visit(body, pose before the first step, particle)` for all particles of bodies that move.
 template <typename Visit> void forDriven(const Scene& scene, const Visit& visit) {
     for (std::uint32_t b = 0; b < scene.driven.size(); ++b) {
         const DrivenBody& body = scene.driven[b];

@@ -1,5 +1,6 @@
-// Driven bodies: particles that go along a path, set after the links of a substep and before its contacts,
-// which they push and carry as something that never gives way. A scene in which none moves has no such pass.
+// Driven bodies: particles that follow a path. They are set after the links of a substep and before its
+// contacts, which they push and carry without giving way. A scene without moving driven bodies has no such
+// pass.
 #pragma once
 
 #include "sim/collision/colliders.hpp"
@@ -9,19 +10,19 @@ namespace sinew::sim::constraints::driven {
 
 struct Driven {
     std::uint32_t count = 0; ///< particles
-    std::uint32_t row = 0;   ///< poses of a substep
+    std::uint32_t row = 0;   ///< number of poses in a substep
     BufferId particles, poses;
 };
 
-/// `placed` has the poses of colliders and, after them, driven bodies.
+/// `placed` has the poses of colliders, followed by those of driven bodies.
 Driven add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout,
            const collision::colliders::Colliders& placed);
 
-/// Where a substep, counted from 0, ends for them.
+/// Appends the pass that moves them to their pose at the end of a substep, counted from 0.
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Driven& driven,
              std::uint32_t substep);
 
-/// All particles of bodies that move.
+/// By particle: whether it belongs to a driven body that moves.
 std::vector<bool> areDriven(const Scene& scene);
 
 } // namespace sinew::sim::constraints::driven

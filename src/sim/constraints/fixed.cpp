@@ -1,4 +1,5 @@
-// Why no pass: an infinite mass takes no correction and no gravity in any kernel, exactly and for free.
+// Inverse mass 0 replaces a pass: every kernel then applies no correction and no gravity, exactly and at no
+// cost.
 #include "sim/constraints/fixed.hpp"
 
 namespace sinew::sim::constraints::fixed {

@@ -1,5 +1,5 @@
-// Fixed constraints: a particle stays where the scene puts it. Compiles to inverse mass 0, so to no pass and
-// no buffer.
+// Fixed constraints: a particle stays at its position in the scene. They compile to inverse mass 0, hence to
+// no pass and no buffer.
 #pragma once
 
 #include "sim/scene.hpp"

@@ -1,4 +1,4 @@
-// The buffers of hands, and where the points go that they hold.
+// The buffers of grabs, and the motion of the held points.
 #include "sim/constraints/grab.hpp"
 
 #include "kernels.hpp"
@@ -16,9 +16,9 @@ namespace {
 
 static_assert(GRAB_HANDS == ranges::mostGrabs);
 
-constexpr float mostGain = 1e8f; // as hard as float32 makes sense of
+constexpr float mostGain = 1e8f; // the largest useful value in float32
 
-// Who is linked to whom, and what all of that weighs.
+// The linked component of each particle, and the mass of the component.
 std::vector<layout::GrabBody> bodiesOf(const Scene& scene, const StateLayout& layout) {
     const std::vector<float> inverseMass = inverseMasses(scene);
     const std::vector<std::uint32_t> components = linkedComponents(scene, inverseMass);
@@ -45,7 +45,7 @@ IndirectItems itemsOf(const Grabs& grabs) {
     return {grabs.pulling, 0, grabs.push.count};
 }
 
-// Within what squares of differences can be of.
+// Whether squares of differences of such positions fit into float32.
 bool isPlace(const Vec3& v) {
     constexpr float farthest = 1e9f; // [m]
     return std::abs(v.x) <= farthest && std::abs(v.y) <= farthest && std::abs(v.z) <= farthest;

@@ -1,7 +1,7 @@
-// Hands that hold and pull, on the device: temporary constraints that the host asks for step by step. A step
-// in which a hand takes hold or lets go finds out what is held (open_grabs, hold_particles, the second for no
-// groups otherwise); a pass after the links of a substep pulls it (pull_held, for as many as are held), the
-// same for every solver. A program without hands (Settings::grabs) has none of it.
+// Grabs on the device: temporary constraints that the host requests in each step. A step in which a grab
+// begins or ends determines the held particles (open_grabs, hold_particles, the second with no groups
+// otherwise). A pass after the links of a substep pulls the held particles (pull_held, with groups for these
+// alone), the same for every solver. A program without grabs (Settings::grabs) has none of these passes.
 #pragma once
 
 #include "layout.h"
@@ -17,30 +17,30 @@ struct Grabs {
     BufferId hands, states, bodies, grips, held, holding, pulling;
 };
 
-/// Adds what opens a step: call it before the substeps. None without Settings::grabs.
+/// Appends the passes at the start of a step: call it before the substeps. Null without Settings::grabs.
 std::shared_ptr<Grabs> add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
                            const StateLayout& layout);
 
-/// Pulls at the end of a substep, counted from 0. Nothing where particles.grabs is none.
+/// Appends the pull at the end of a substep, counted from 0. Nothing if particles.grabs is null.
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, std::uint32_t substep,
              std::uint32_t substeps, Kick kick);
-/// The same in a substep of `gauss_seidel`, which is still open: what moves are the `corrections`.
+/// The same inside a substep of `gauss_seidel`: the pass changes `corrections`, not velocities.
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
                  std::uint32_t substep, std::uint32_t substeps);
 
-/// What the hands buffer of a step holds, on the host.
+/// The grabs on the host: contents of the hands buffer of a step.
 class Hands {
 public:
-    /// `count` of them, for a scene of that many particles.
+    /// For at most `count` grabs in a scene of `particles` particles.
     Hands(std::uint32_t count, std::size_t particles) : count_(count), particles_(particles) {}
 
-    /// Those of another time. A grab that begins later differs from all that there ever were.
+    /// Restores earlier grabs. A grab that begins later still has a serial number of its own.
     void restore(const Hands& before) noexcept { hands_ = before.hands_; }
-    /// All let go.
+    /// Ends all grabs.
     void reset() noexcept { hands_ = {}; }
-    /// A step of `dt` [s].
+    /// Advances by a step of `dt` [s].
     void advance(std::span<const Grab> grabs, float dt) noexcept;
-    bool areFree() const noexcept; ///< none holds anything
+    bool areFree() const noexcept; ///< no grab holds anything
     std::span<const layout::GrabHand> values() const noexcept { return std::span(hands_).first(count_); }
 
 private:

@@ -1,4 +1,4 @@
-// A point that the host moves from step to step, as attachments and hands hold one.
+// Motion of a point that the host sets in each step, for attachments and grabs.
 #pragma once
 
 #include "layout.h"
@@ -8,7 +8,8 @@
 
 namespace sinew::sim::constraints {
 
-/// From `from` towards `target`, at most `reach` far [m]. In double: differences of float32 may overflow.
+/// The point moved from `from` towards `target`, by at most `reach` [m]. In double: differences of float32
+/// may overflow.
 inline layout::vec4 movedTowards(const layout::vec4& from, const Vec3& target, double reach) noexcept {
     const double x = double{target.x} - double{from.x}, y = double{target.y} - double{from.y},
                  z = double{target.z} - double{from.z};

@@ -22,7 +22,7 @@ Tethers add(ProgramBuilder& program, const Scene& scene, const StateLayout& layo
     const std::vector<Tether> sorted = inOrder(scene);
     if (sorted.empty()) return {};
     std::vector<layout::TetheredParticle> particles;
-    std::uint32_t last = 0; // particle, while there is one
+    std::uint32_t last = 0; // last particle, once there is one
     std::vector<layout::TetherReach> reaches;
     std::vector<cutting::ListedTether> listed;
     for (const Tether& tether : sorted) {

@@ -12,12 +12,12 @@ struct Tethers {
     BufferId particles, tethers;
 };
 
-/// Those of particles that move, sorted by particle: the order that the device has them in.
+/// Tethers of moving particles, sorted by particle: the order on the device.
 std::vector<Tether> inOrder(const Scene& scene);
 
 Tethers add(ProgramBuilder& program, const Scene& scene, const StateLayout& layout);
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Tethers& tethers);
-/// The same in a substep of `gauss_seidel`, which is still open: what moves are the `corrections`.
+/// The same inside a substep of `gauss_seidel`: the pass changes `corrections`, not velocities.
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
                  const Tethers& tethers);
 

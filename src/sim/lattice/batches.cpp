@@ -1,4 +1,4 @@
-// Grids of one shape and material march in one dispatch: a chunk says where it begins, all else is equal.
+// Grids of equal shape and material are marched in one dispatch: chunks differ only in where they begin.
 #include "sim/lattice/batches.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t sheetColumns = 4; // COLUMNS_X of gather_sheet
 
-constexpr std::uint32_t cuttableColumns = 2; // of the kernels for lattices that may be cut
+constexpr std::uint32_t cuttableColumns = 2; // of the kernels for cuttable lattices
 
 // Columns of a block in x and in y.
 std::array<std::uint32_t, 2> blockOf(const Grid& grid, std::uint32_t columns) {
@@ -24,7 +24,7 @@ bool isFull(const Grid& grid) {
     return grid.node.size() == std::size_t{grid.nodes[0]} * grid.nodes[1] * grid.nodes[2];
 }
 
-// The rule by which the slots follow from the particles, where all of the scene is equal full grids in a row.
+// The rule from particles to slots, if the scene consists of equal full grids in a row.
 std::optional<EqualBoxes> equalBoxes(const Scene& scene, std::span<const std::uint32_t> grids,
                                      std::span<const Box> boxes) {
     const Grid& first = scene.grids[grids[0]];
@@ -68,7 +68,7 @@ Batch& batchFor(std::vector<Batch>& batches, const Grid& grid, const layout::Lat
     const bool hasBodyDiagonals = grid.kinds == 3;
     for (Batch& batch : batches) {
         layout::LatticePush other = batch.push;
-        other.bodyChunks = push.bodyChunks; // grows with the bodies
+        other.bodyChunks = push.bodyChunks; // grows with the number of bodies
         if (batch.isSheet == isSheet(grid) && batch.hasBodyDiagonals == hasBodyDiagonals &&
             batch.isCuttable == grid.isCuttable && std::memcmp(&other, &push, sizeof push) == 0)
             return batch;
@@ -96,7 +96,7 @@ void finish(Batch& batch, bool isOneNode) {
     batch.chunks.resize(wholeGroups(batch.chunks.size()), {batch.chunks.front().origin, 0});
 }
 
-// Slices a lane marches so that a body's chunks just occupy the lanes of its work group.
+// Slices that a lane marches so that a body's chunks just fill the lanes of its work group.
 std::uint32_t residentChunk(const Grid& grid) {
     const auto [columnsX, columnsY] = blockOf(grid, 2);
     const std::uint32_t blocks =
@@ -112,7 +112,7 @@ std::vector<layout::LatticeChunk> chunksFor(const Grid& grid, const Box& box, co
     return chunksOf(grid, box, columnsX, columnsY, isResident ? residentChunk(grid) : forms.chunk);
 }
 
-// Bodies of one dispatch have equally many chunks: those of the others are padded where they stand.
+// Bodies of one dispatch have equal numbers of chunks: shorter lists are padded in place.
 void appendBody(Batch& batch, const Box& box, std::vector<layout::LatticeChunk> chunks, bool isOneNode) {
     const std::size_t before = batch.push.bodyChunks,
                       now = std::max(before, isOneNode ? chunks.size() : wholeGroups(chunks.size()));
@@ -133,9 +133,9 @@ void appendBody(Batch& batch, const Box& box, std::vector<layout::LatticeChunk> 
 
 std::vector<std::uint32_t> computedGrids(const Scene& scene, const Settings& settings) {
     std::vector<std::uint32_t> grids;
-    // the kernels of grids know nothing of bends and internal damping
+    // kernels of grids support neither bends nor internal damping
     if (!settings.forms.usesGrids || !scene.bends.empty() || scene.dampingTime > 0) return grids;
-    std::vector<std::uint32_t> links(scene.particles.size()); // of each particle
+    std::vector<std::uint32_t> links(scene.particles.size()); // by particle
     for (const DistanceConstraint& c : scene.distances) {
         ++links[c.a];
         ++links[c.b];
@@ -187,7 +187,7 @@ StateLayout layoutOf(const Scene& scene, std::span<const std::uint32_t> grids) {
 }
 
 bool isResident(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids) {
-    // attachments, hands, tethers, colliders, pokes and driven bodies are passes between substeps
+    // attachments, grabs, tethers, colliders, pokes and driven bodies need passes between substeps
     if (settings.keepsForces || !scene.attachments.empty() || settings.grabs > 0 || settings.pokes > 0 ||
         !scene.tethers.empty() || !scene.colliders.empty() || !scene.driven.empty())
         return false;

@@ -1,5 +1,5 @@
-// The grids of a scene as `split` dispatches them: which are computed, where their particles are kept, and
-// one dispatch for all grids of one shape and material.
+// The grids of a scene in dispatches of `split`: which of them are computed, the order of their particles,
+// and one dispatch for all grids of equal shape and material.
 #pragma once
 
 #include "sim/compile.hpp"
@@ -8,16 +8,16 @@
 
 namespace sinew::sim::lattice {
 
-/// Indices of the grids whose neighbours are computed: those whose particles no other constraint touches, if
-/// the settings want them so.
+/// Indices of the grids whose neighbours are computed, if the settings ask for it: those whose particles no
+/// other constraint touches.
 std::vector<std::uint32_t> computedGrids(const Scene& scene, const Settings& settings);
 
-/// Particles outside those grids; they stand at the head of the state, in the order of the scene.
+/// Number of particles outside those grids; these come first in the state, in the order of the scene.
 std::uint32_t listedParticles(const Scene& scene, std::span<const std::uint32_t> grids);
 
 StateLayout layoutOf(const Scene& scene, std::span<const std::uint32_t> grids);
 
-/// Where each of `grids` is in the state.
+/// The box in the state of each of `grids`.
 std::vector<Box> boxesOf(const Scene& scene, std::span<const std::uint32_t> grids);
 
 /// Whether an invocation computes one node: the form with one column and chunks of one slice.
@@ -25,29 +25,29 @@ constexpr bool isOneNode(const Forms& forms) {
     return forms.columns == 1 && forms.chunk == 1;
 }
 
-/// One dispatch of a substep, or of all substeps of a step where the bodies are resident.
+/// A dispatch of one substep, or of all substeps of a step if the bodies are resident.
 struct Batch {
     bool isSheet = false, hasBodyDiagonals = false, hasVolumes = false, hasRecovery = false,
          isCuttable = false;
-    layout::LatticePush push{}; ///< count = chunks, or nodes in whole runs; the kernel of a whole step
-                                ///< decides it for resident bodies
-    /// Chunks to march, padded with empty ones to whole work groups (for each body); where each
-    /// computes one node, runs of LATTICE_GROUP nodes.
+    layout::LatticePush push{}; ///< count = chunks, or nodes in whole runs; for resident bodies the kernel of
+                                ///< a whole step sets it
+    /// Chunks to march, padded with empty ones to whole work groups (for each body); runs of LATTICE_GROUP
+    /// nodes if each invocation computes one node.
     std::vector<layout::LatticeChunk> chunks;
     std::vector<std::uint32_t> bodies; ///< resident: first slot of each
 };
 
 struct Batches {
     std::vector<Batch> batches;
-    std::vector<std::uint32_t> cells; ///< fill around the node in each slot
+    std::vector<std::uint32_t> cells; ///< by slot: fill around the node
 };
 
-/// Whether all of the scene fits into the shared memory that the settings grant, body by body. Bodies that
-/// may be cut never do: their kernels have no resident form. The caller knows whether contacts follow in each
-/// substep, which leave no body there.
+/// Whether all bodies of the scene fit, one at a time, into the shared memory that the settings allow.
+/// Cuttable bodies never do: their kernels have no resident form. The caller checks for contacts in each
+/// substep, which exclude it too.
 bool isResident(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids);
 
-/// The memory that holds bodies between substeps.
+/// Where bodies are kept between substeps.
 enum class Residence { memory, sharedMemory };
 
 Batches batchesOf(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids,

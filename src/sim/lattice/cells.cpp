@@ -1,4 +1,4 @@
-// Finds collapsed cells by the areas between their mean edges, as the kernel does.
+// Detects collapsed cells by the areas spanned by their mean edges, like the kernel.
 #include "sim/lattice/cells.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ double component(const Vec3& v, std::size_t axis) {
     return double{axis == 0 ? v.x : axis == 1 ? v.y : v.z};
 }
 
-// Edge k of the mean edges, four times as long.
+// Edge k of the mean edges, times four.
 Edge sumOfEdges(const Cell& cell, const std::vector<Vec3>& positions, std::size_t k) {
     Edge edge{};
     for (std::size_t corner = 0; corner < 8; ++corner)
@@ -34,7 +34,7 @@ bool isCollapsed(const Cell& cell, const std::vector<Vec3>& positions, double sp
     return !(most > 1e-6 * spacing * spacing);
 }
 
-// In [-1, 1), the same on every machine [splitmix64].
+// A hash in [-1, 1), equal on every machine [splitmix64].
 float hashed(std::uint64_t index) {
     std::uint64_t z = (index + 1) * 0x9e3779b97f4a7c15u;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;

@@ -1,4 +1,4 @@
-// The filled cells of a grid with their corners as particles: what the volumes of cells act on.
+// The filled cells of a grid with their corner particles: the elements of volume energies.
 #pragma once
 
 #include "layout.h"
@@ -16,7 +16,7 @@ struct Cell {
 };
 
 /// Calls visit(cell) for every filled cell of a lattice (not of a sheet), x fastest. All corners of a filled
-/// cell must be particles, as check_grid holds a scene to.
+/// cell must be particles, which check_grid ensures.
 template <typename Visit> void forEachCell(const Grid& grid, const Visit& visit) {
     const auto [nx, ny, nz] = grid.nodes;
     std::vector<std::uint32_t> particle(std::size_t{nx} * ny * nz);
@@ -34,9 +34,10 @@ template <typename Visit> void forEachCell(const Grid& grid, const Visit& visit)
             }
 }
 
-/// Where particles start [m]: where the scene puts them, but for the corners of cells that were collapsed to
-/// a line or a point. There neither links nor volumes know a direction, so movable ones are moved by up to a
-/// thousandth of a cell along each axis, by a hash of their index. `inverseMass` after fixed constraints.
+/// Initial positions of particles [m]: those of the scene, except for corners of cells collapsed to a line or
+/// a point. In these, neither links nor volumes define a direction, so movable corners are displaced by up to
+/// a thousandth of a cell along each axis, by a hash of their index. `inverseMass` is taken after fixed
+/// constraints.
 std::vector<Vec3> startingPositions(const Scene& scene, std::span<const float> inverseMass);
 
 } // namespace sinew::sim::lattice

@@ -1,4 +1,5 @@
-// A grid repeats what the lists say, so that a solver may compute it: here the two must agree.
+// A grid repeats the lists of particles and constraints, so that a solver may compute it; this file checks
+// that both agree.
 #include "sim/lattice/check_grid.hpp"
 
 #include "sim/lattice/placement.hpp"
@@ -49,7 +50,7 @@ constexpr std::uint32_t axesOf(std::uint32_t step) {
     return axes;
 }
 
-/// Which of the cells of fillAround(a) hold the link from a to its neighbour a step away.
+/// The cells of fillAround(a) that contain the link from a to its neighbour one step away.
 constexpr std::array<std::uint32_t, stepCount> cellsOfSteps = [] {
     std::array<std::uint32_t, stepCount> cells{};
     for (std::uint32_t step = 0; step < stepCount; ++step)
@@ -65,14 +66,14 @@ constexpr std::array<std::uint32_t, stepCount> cellsOfSteps = [] {
 std::optional<std::uint32_t> stepBetween(const Node& a, const Node& b) {
     std::uint32_t step = 0;
     for (std::size_t axis = 3; axis-- > 0;) {
-        const std::uint32_t from = b[axis] - a[axis] + 1; // wraps to a large number where b is too far
+        const std::uint32_t from = b[axis] - a[axis] + 1; // wraps to a large number if b is too far
         if (from > 2) return std::nullopt;
         step = 3 * step + from;
     }
     return step;
 }
 
-/// Mean fill of the cells that may hold a link [0..1], for sheets the largest.
+/// Mean fill of the cells that can contain a link [0..1], for sheets the largest.
 double heldBy(const Grid& grid, std::uint32_t fillAround, std::uint32_t step) {
     std::uint32_t sum = 0, most = 0;
     for (std::uint32_t rest = fillAround & cellsOfSteps[step]; rest != 0; rest >>= 4) {
@@ -84,7 +85,7 @@ double heldBy(const Grid& grid, std::uint32_t fillAround, std::uint32_t step) {
     return sum / (double{LATTICE_FULL} * cells);
 }
 
-/// Where a particle of the grid is, and how full the cells around it are.
+/// The node of a particle of the grid, and the fill of the cells around it.
 struct Place {
     Node node;
     std::uint32_t fillAround;
@@ -100,8 +101,8 @@ std::vector<Place> placesOf(const Grid& grid) {
     return places;
 }
 
-/// Whether every corner of every filled cell is a particle: then the corners see each cell 8 times, 4 of a
-/// sheet.
+/// Whether every corner of every filled cell is a particle: the corners then count each cell 8 times, 4 times
+/// in a sheet.
 bool hasAllCorners(const Grid& grid, const std::vector<Place>& places) {
     std::size_t seen = 0;
     for (const Place& place : places)
@@ -110,7 +111,7 @@ bool hasAllCorners(const Grid& grid, const std::vector<Place>& places) {
     return seen == filled * (isSheet(grid) ? 4 : 8);
 }
 
-/// How `link` leads from a to b, where the grid has it so.
+/// The step of `link` from a to b, if the grid has an equal link there.
 std::optional<std::uint32_t> stepOf(const Grid& grid, const DistanceConstraint& link, const Place& a,
                                     const Place& b) {
     const std::optional<std::uint32_t> step = stepBetween(a.node, b.node);
@@ -124,7 +125,7 @@ std::optional<std::uint32_t> stepOf(const Grid& grid, const DistanceConstraint& 
     return agrees ? step : std::nullopt;
 }
 
-/// Links that the fill of the cells calls for; all corners of filled cells are particles.
+/// Number of links that the fill of the cells requires; all corners of filled cells are particles.
 std::size_t countLinks(const Grid& grid, const std::vector<Place>& places) {
     std::size_t links = 0;
     for (std::uint32_t step = 0; step < stepCount; ++step) {
@@ -145,7 +146,7 @@ std::optional<std::string> complaintAbout(const Scene& scene, const Grid& grid) 
     for (std::uint32_t c = grid.firstDistance; c < grid.firstDistance + grid.distanceCount; ++c) {
         const DistanceConstraint& link = scene.distances[c];
         if (std::max(link.a, link.b) >= scene.particles.size()) return std::nullopt;
-        // large where below the first
+        // a large number for a particle before the first
         const auto [first, last] =
             std::minmax({std::size_t{link.a} - grid.firstParticle, std::size_t{link.b} - grid.firstParticle});
         const auto step =

@@ -1,4 +1,4 @@
-// Holds a grid against the particles and constraints it names.
+// Comparison of a grid with the particles and constraints that it names.
 #pragma once
 
 #include "sim/scene.hpp"
@@ -7,8 +7,8 @@
 
 namespace sinew::sim::lattice {
 
-/// The first thing wrong with `grid`, as the rest of a sentence that begins with its name. Constraints with
-/// an end that does not exist are left to the check of constraints.
+/// The first error of `grid`, as the rest of a sentence that begins with its name. Constraints with an end
+/// that does not exist are left to the check of constraints.
 std::optional<std::string> complaintAbout(const Scene& scene, const Grid& grid);
 
 } // namespace sinew::sim::lattice

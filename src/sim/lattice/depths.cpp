@@ -1,5 +1,5 @@
-// Depths are shortest ways over the 26 neighbours of a node (Dijkstra), directions the way in which depth
-// falls.
+// Depths are shortest paths over the 26 neighbours of a node (Dijkstra); directions are those of falling
+// depth.
 #include "sim/lattice/depths.hpp"
 
 #include "sim/lattice/placement.hpp"
@@ -47,7 +47,7 @@ public:
 private:
     static constexpr double nowhere = -1, far = std::numeric_limits<double>::max();
 
-    // -1 outside the grid and where there is no particle
+    // -1 outside the grid and at nodes without a particle
     double depthAt(const Node& at) const {
         for (std::size_t axis = 0; axis < 3; ++axis)
             if (at[axis] < 0 || at[axis] >= std::int64_t{grid_.nodes[axis]}) return nowhere;
@@ -77,7 +77,7 @@ private:
         }
     }
 
-    // All neighbours of a node inside exist.
+    // Direction of falling depth. All neighbours of an inner node exist.
     std::array<double, 3> falling(std::uint32_t node) const {
         std::array<double, 3> way{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -89,7 +89,7 @@ private:
         return way;
     }
 
-    // Away from the cells that are filled.
+    // Direction away from the filled cells.
     std::array<double, 3> empty(std::uint32_t node) const {
         const std::uint32_t word = fillAround(grid_, coordinates(grid_, node));
         std::array<double, 3> way{};

@@ -1,4 +1,4 @@
-// From a link of the scene to its bits in the words of its ends.
+// Conversion of a link of the scene to its bits in the words of its ends.
 #include "sim/lattice/link_bits.hpp"
 
 #include "sim/lattice/link_masks.hpp"
@@ -9,7 +9,7 @@
 namespace sinew::sim::lattice {
 namespace {
 
-// The bit of a link that leads so many steps along x, y and z; none where that is no neighbour.
+// The bit of a link with the given steps along x, y and z; none if they lead to no neighbour.
 std::optional<std::uint32_t> bitOf(const std::array<int, 3>& step) {
     for (std::uint32_t bit = 0; bit < directionCount; ++bit)
         if (directionOf(bit) == step) return bit;
@@ -22,7 +22,7 @@ std::array<int, 3> nodeOf(const Grid& grid, std::uint32_t particle) {
             static_cast<int>(node / grid.nodes[0] / grid.nodes[1])};
 }
 
-// That may be cut and has both ends of a link, which need not be one of its own.
+// The cuttable grid with both ends of a link; the link need not belong to it.
 const Grid* gridOf(const Scene& scene, const DistanceConstraint& link) {
     const auto holds = [&](const Grid& grid) {
         const std::size_t count = grid.node.size();
@@ -32,7 +32,7 @@ const Grid* gridOf(const Scene& scene, const DistanceConstraint& link) {
     return grid == scene.grids.end() ? nullptr : &*grid;
 }
 
-// The particle in the middle of such a way; none if there is no particle.
+// The particle halfway between two nodes; none if no particle is there.
 std::optional<std::uint32_t> particleBetween(const Grid& grid, const std::array<int, 3>& a,
                                              const std::array<int, 3>& b) {
     std::array<std::uint32_t, 3> middle{};

@@ -1,4 +1,4 @@
-// A link is alive at first where any cell that may hold it is filled.
+// Initially a link is alive if any cell that can contain it is filled.
 #include "sim/lattice/link_masks.hpp"
 
 #include <cstdlib>
@@ -12,7 +12,7 @@ std::uint32_t axesOf(const std::array<int, 3>& direction) {
                                       std::abs(direction[2]));
 }
 
-// Which nibbles of fillAround hold the link in a direction.
+// Nibbles of fillAround of the cells that contain the link in a direction.
 constexpr std::uint32_t cellsBeside(const std::array<int, 3>& direction) {
     std::uint32_t cells = 0;
     for (std::uint32_t k = 0; k < 8; ++k) {

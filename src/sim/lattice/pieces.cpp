@@ -1,4 +1,4 @@
-// Union by the lower slot, with paths halved on the way.
+// Union-find towards the lower slot, with path halving.
 #include "sim/lattice/pieces.hpp"
 
 #include "layout.h"

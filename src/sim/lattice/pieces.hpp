@@ -1,4 +1,5 @@
-// Connected components of bodies by their links, on the host: of the uncut ones, and to check the device's.
+// Connected components of bodies by their links, on the host: for uncut bodies, and to check the device's
+// result.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +10,9 @@ namespace sinew::sim::lattice {
 
 struct Pieces {
     std::vector<std::uint32_t> labels;      ///< by slot: lowest slot of the piece
-    std::vector<std::uint32_t> ofParticles; ///< by particle: that in the piece's lowest slot, or NO_PARTICLE
-    std::vector<std::uint32_t> sizes;       ///< by particle: particles of the piece if it is that one, else 0
+    std::vector<std::uint32_t> ofParticles; ///< by particle: particle in the piece's lowest slot, or
+                                            ///< NO_PARTICLE
+    std::vector<std::uint32_t> sizes;       ///< by particle: size of the piece that it names, else 0
     std::uint32_t count = 0;                ///< of pieces
 };
 
@@ -18,10 +20,10 @@ class PieceFinder {
 public:
     explicit PieceFinder(std::size_t slots);
 
-    /// A link leads from slot `a` to slot `b`.
+    /// Adds a link from slot `a` to slot `b`.
     void join(std::uint32_t a, std::uint32_t b);
 
-    /// `particles` by slot, NO_PARTICLE where there is none.
+    /// `particles` is indexed by slot, NO_PARTICLE in empty slots.
     Pieces finish(std::span<const std::uint32_t> particles, std::size_t particleCount);
 
 private:

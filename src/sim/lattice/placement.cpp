@@ -19,7 +19,7 @@ std::uint32_t fillAt(const Grid& grid, std::int64_t x, std::int64_t y, std::int6
     return grid.fill[static_cast<std::size_t>(x + cellsX * (y + cellsY * z))];
 }
 
-/// Which slices of a block hold a particle.
+/// Whether each slice of a block holds a particle.
 std::vector<bool> slicesWithParticles(const Grid& grid, const std::vector<bool>& isLive, std::uint32_t blockX,
                                       std::uint32_t blockY, std::uint32_t columnsX, std::uint32_t columnsY) {
     std::vector<bool> result(grid.nodes[2]);
@@ -31,13 +31,13 @@ std::vector<bool> slicesWithParticles(const Grid& grid, const std::vector<bool>&
     return result;
 }
 
-/// Slices that the block of columns at `column` (x, y) marches.
+/// Slices that the block of columns at `column` (x, y) covers.
 struct Run {
     std::array<std::uint32_t, 2> column;
     std::uint32_t slice, layers;
 };
 
-/// Appends the runs of true, each in equal parts of at most `longest`.
+/// Appends the runs of true, each divided into equal parts of at most `longest`.
 void appendRuns(const std::vector<bool>& isLive, std::array<std::uint32_t, 2> column, std::uint32_t longest,
                 std::vector<Run>& runs) {
     const auto count = static_cast<std::uint32_t>(isLive.size());
@@ -98,7 +98,7 @@ std::vector<layout::LatticeChunk> chunksOf(const Grid& grid, const Box& box, std
     for (std::uint32_t y = 0; y < grid.nodes[1]; y += columnsY)
         for (std::uint32_t x = 0; x < grid.nodes[0]; x += columnsX)
             appendRuns(slicesWithParticles(grid, isLive, x, y, columnsX, columnsY), {x, y}, longest, runs);
-    // runs of equal height and length side by side: the lanes of a device then march in step
+    // neighbouring runs have equal height and length: the lanes of a device then march in step
     std::ranges::stable_sort(runs, {}, &Run::slice);
     std::vector<layout::LatticeChunk> chunks;
     for (const Run& run : runs)

@@ -1,5 +1,6 @@
-// The squares between four neighbouring particles of a voxel body as triangles. Each is split along the
-// diagonal from its lowest corner to its highest, as the tetrahedra of its cells are: all edges are links.
+// The squares between four neighbouring particles of a voxel body, as triangles. Each is split along the
+// diagonal from its lowest to its highest corner, like the tetrahedra of its cells, so that all edges are
+// links.
 #pragma once
 
 #include "sim/scene.hpp"
@@ -8,12 +9,12 @@
 
 namespace sinew::sim::lattice {
 
-/// Outer squares have a filled cell on one side alone and face away from it. Inner ones have one on both
-/// sides and face the higher cell.
+/// Outer squares have a filled cell on only one side and face away from it. Inner ones have filled cells on
+/// both sides and face the higher cell.
 enum class Squares : std::uint8_t { outer, inner };
 
-/// Appends both halves of every such square of `grid`, which must be no sheet, as solid faces of that
-/// thickness [m].
+/// Appends both triangles of every such square of `grid`, which must not be a sheet, as solid faces of the
+/// given thickness [m].
 void appendSquares(std::vector<Face>& faces, const Grid& grid, float thickness, Squares squares);
 
 } // namespace sinew::sim::lattice
