@@ -1,4 +1,4 @@
-// The host side: which particles are of one body, and the order of the passes.
+// The host side: the bodies of particles, and the order of the passes.
 #include "sim/collision/body_frames.hpp"
 
 #include "kernels.hpp"
@@ -19,7 +19,7 @@ namespace k = kernels;
 constexpr std::uint32_t loose = 0, still = 1, firstLinked = 2; // bodies
 constexpr std::size_t fewest = 8;                              // particles of a body of its own
 
-// The lowest particles of the largest components, by size.
+// Numbers of the largest components, by their lowest particle.
 std::map<std::uint32_t, std::uint32_t> largestOf(std::span<const std::uint32_t> components) {
     std::map<std::uint32_t, std::size_t> sizes;
     for (const std::uint32_t component : components) ++sizes[component];
@@ -34,7 +34,7 @@ std::map<std::uint32_t, std::uint32_t> largestOf(std::span<const std::uint32_t> 
     return bodies;
 }
 
-// By particle: one that moves and is linked to it, or itself.
+// By particle: a moving particle linked to it if it is static, else itself.
 std::vector<std::uint32_t> linkedMovers(const Scene& scene, std::span<const float> inverseMass) {
     std::vector<std::uint32_t> mover(scene.particles.size());
     std::iota(mover.begin(), mover.end(), 0u);
@@ -57,7 +57,7 @@ std::vector<AllFrames> standingFrames() {
     return {frames};
 }
 
-// Slots body by body, in shares for one invocation each.
+// Slots sorted by body, divided into shares for one invocation each.
 struct Shares {
     std::vector<std::uint32_t> members;
     std::vector<layout::FrameChunk> chunks;
@@ -65,7 +65,7 @@ struct Shares {
     std::vector<std::uint32_t> numbers; // of the bodies that have a member, by number in Bodies
 };
 
-// There are at most so many shares, or a step would wait until they are added up.
+// Limits of shares: with more of them a step would wait for their sum.
 constexpr std::size_t leastShare = 64, mostShares = 256;
 
 Shares sharesOf(const Bodies& bodies, std::span<const float> radii) {
@@ -106,7 +106,7 @@ Bodies bodiesOf(const Scene& scene, const StateLayout& layout) {
     for (std::size_t i = 0; i < components.size(); ++i) {
         const std::uint32_t slot = layout.slot[i];
         bodies.isMember[slot] = true;
-        const auto found = large.find(components[movers[i]]); // a pin goes with what hangs on it
+        const auto found = large.find(components[movers[i]]); // a pin belongs to what hangs on it
         if (found != large.end())
             bodies.ofSlots[slot] = found->second;
         else if (inverseMass[i] == 0 && !isDriven[i])

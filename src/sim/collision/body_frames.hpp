@@ -1,7 +1,7 @@
-// The motion that each body is expected to have, fitted once a step: an affine map of where its particles
-// were when lists of contacts were made, and its rate. Lists are watched against it (hash_grid): two
-// particles that follow one motion come no nearer each other, so what falls, turns or flies needs no new
-// lists. A frame never changes a result, only how often lists are made.
+// The expected motion of each body, fitted once a step: an affine map from the positions of its particles
+// when contact lists were made, and the rate of this map. The validity of lists is checked relative to it
+// (hash_grid): two particles that follow one motion come no nearer to each other, so a body that falls, turns
+// or flies needs no new lists. A frame never changes a result, only how often lists are made.
 #pragma once
 
 #include "layout.h"
@@ -14,51 +14,53 @@ namespace sinew::sim::collision::body_frames {
 
 /// Groups of particles that move together.
 struct Bodies {
-    std::vector<std::uint32_t> ofSlots; ///< by state slot; padding belongs to any
+    std::vector<std::uint32_t> ofSlots; ///< by state slot; padding belongs to any body
     std::vector<std::uint32_t> kinds;   ///< by body: FRAME_MOVES or FRAME_STANDS
     std::vector<bool> isMember;         ///< by state slot: whether a frame is fitted to it
 };
 
-/// The largest linked bodies, all else that moves, and all that never does.
+/// One body each for the largest linked components, one for all other moving particles, and one for all
+/// static ones.
 Bodies bodiesOf(const Scene& scene, const StateLayout& layout);
 
 struct Request {
     std::span<const float> radii; ///< by state slot; below 0 = touches nothing [m]
-    float reach = 0;              ///< the largest at which two touch [m]
-    float margin = 0;             ///< beyond it, up to which a pair is listed [m]
+    float reach = 0;              ///< the largest distance at which two touch [m]
+    float margin = 0;             ///< additional distance up to which pairs are listed [m]
     std::uint32_t substeps = 1;   ///< of a step
     const char* name = "grid";    ///< of its buffers
 };
 
 constexpr std::uint32_t hasOneBodyId = 4; // constant_id in strays.glsl
 
-/// `frames` are read by kernels that watch lists, `ofSlots`, the number of the body, by those that make them.
+/// Kernels that check lists read `frames`; kernels that make lists read `ofSlots`, the index of each slot's
+/// body.
 struct Frames {
     layout::FramePush push{};
     BufferId frames, ofSlots;
-    /// Specialises kernels that watch lists.
+    /// Constants of kernels that check lists.
     ProgramBuilder::Constants constants() const { return {{hasOneBodyId, push.bodies == 1}}; }
-    BufferId members;                       ///< slots that are watched
-    std::uint32_t memberCount = 0;          ///< how many
-    BufferId chunks, bodies, partial, sums; ///< invalid where nothing is fitted
+    BufferId members;                       ///< slots that are checked
+    std::uint32_t memberCount = 0;          ///< their number
+    BufferId chunks, bodies, partial, sums; ///< invalid if nothing is fitted
 };
 
-/// One frame for all, which stands still.
+/// A single frame for all particles, which stands still.
 Frames addStanding(ProgramBuilder& program, const Request& request);
 
 Frames add(ProgramBuilder& program, const Bodies& bodies, const Request& request);
 
-/// The buffers that frames are fitted to.
+/// Inputs of the fit.
 struct Seen {
     BufferId positions;  ///< at the end of the first substep [m]
-    BufferId velocities; ///< with which particles came there [m/s]
-    BufferId detected;   ///< where particles were when lists were made [m]
+    BufferId velocities; ///< during that substep [m/s]
+    BufferId detected;   ///< positions when lists were made [m]
     BufferId radii;      ///< by slot; below 0 = touches nothing any more [m]
     BufferId bounds;     ///< one layout::GridBounds
     BufferId step;       ///< layout::StepParams
 };
 
-/// Once a step, before lists are first watched in it; nothing where nothing is fitted.
+/// Appends the fit: once a step, before the first check of lists in it; nothing if nothing is fitted.
 void addFit(ProgramBuilder& program, const Frames& frames, const Seen& seen);
 
 } // namespace sinew::sim::collision::body_frames

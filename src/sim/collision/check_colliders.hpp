@@ -1,4 +1,4 @@
-// Part of validate(): complaints about colliders.
+// The part of validate() for colliders.
 #pragma once
 
 #include "sim/complaints.hpp"
@@ -7,11 +7,11 @@
 
 namespace sinew::sim::collision {
 
-/// Whether two keyframes put a thing in the same place: q and -q are one rotation.
+/// Whether two poses are equal; q and -q are one rotation.
 bool isSame(const Pose& a, const Pose& b);
 
 void checkColliders(std::span<const Collider> colliders, Complaints& complaints);
-/// `isHeld` by particle: never moves.
+/// `isHeld` by particle: whether it never moves.
 void checkDriven(const Scene& scene, const std::vector<bool>& isHeld, Complaints& complaints);
 
 } // namespace sinew::sim::collision

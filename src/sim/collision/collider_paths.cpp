@@ -1,4 +1,4 @@
-// What the device reads of the paths of a step.
+// The poses of colliders on their paths in a step, for the device.
 #include "sim/collision/collider_paths.hpp"
 
 #include <algorithm>
@@ -62,7 +62,7 @@ void ColliderPaths::advance(float dt, std::span<const Poke> pokes) noexcept {
     for (const Pose& pose : poses_) {
         layout::ColliderPose &from = way[0], &to = way[1];
         from = to;
-        // q and -q are one rotation: the device mixes numbers
+        // q and -q are one rotation, but the device interpolates components
         const layout::vec4& q = from.rotation;
         to = onDevice(pose, dot({q.x, q.y, q.z, q.w}, pose.rotation) < 0 ? -1.0f : 1.0f);
         way += 2;

@@ -1,5 +1,5 @@
-// Where pokes, colliders and driven bodies are in the steps of a simulation, on the host: what the device
-// reads for a step.
+// Poses of pokes, colliders and driven bodies in the steps of a simulation, on the host, in the form that the
+// device reads.
 #pragma once
 
 #include "layout.h"
@@ -13,23 +13,23 @@ namespace sinew::sim::collision {
 layout::ColliderPose onDevice(const Pose& pose, float sign) noexcept;
 layout::Collider shapeOf(const Collider& collider) noexcept;
 
-/// The time of a simulation, and at the ends of its newest step its pokes, colliders and driven bodies, in
-/// that order.
+/// The time of a simulation, and the poses of its pokes, colliders and driven bodies at the end of its newest
+/// step, in that order.
 class ColliderPaths {
 public:
     explicit ColliderPaths(std::vector<Collider> colliders, std::vector<DrivenBody> driven = {},
                            std::uint32_t pokes = 0);
 
     double time() const noexcept { return time_; } ///< [s]
-    /// Where the colliders are at that time.
+    /// Poses of the colliders at that time.
     std::span<const Pose> poses() const noexcept { return std::span(poses_).first(colliders_.size()); }
-    /// Likewise, and the driven bodies.
+    /// Poses of the colliders, then of the driven bodies.
     std::span<const Pose> allPoses() const noexcept { return poses_; }
     const Pokes& pokes() const noexcept { return pokes_; }
-    /// From and to of all, pokes first; empty where none moves.
+    /// Start and end poses of all, pokes first; empty if none moves.
     std::span<const layout::ColliderPose> ways() const noexcept { return ways_; }
 
-    /// At once, as when a simulation begins.
+    /// Sets the time and poses without motion, such as at the start of a simulation.
     void moveTo(double time, const PokeStates& pokes = {}) noexcept;
     void advance(float dt, std::span<const Poke> pokes = {}) noexcept; ///< by a step [s]
 

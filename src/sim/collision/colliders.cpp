@@ -20,8 +20,8 @@ std::uint32_t groupsOf(std::uint32_t items) {
     return (items - 1) / GROUP_ITEMS + 1;
 }
 
-// A pass that only pokes need, if nothing else `needsIt`: `element` of what the host says while none is
-// there.
+// Appends a pass that runs only with pokes, unless something else `needsIt`: `element` is the group count
+// that the host sets.
 template <typename Push>
 void dispatch(ProgramBuilder& program, const Colliders& colliders, bool needsIt, IndirectItems items,
               const vk::ShaderCode& code, std::span<const BufferId> buffers, const Push& push,
@@ -33,7 +33,7 @@ void dispatch(ProgramBuilder& program, const Colliders& colliders, bool needsIt,
         program.dispatchIndirect(code, items, buffers, push, constants);
 }
 
-// After every substep, and at the beginning; where nothing moves, once and for all.
+// Poses at the start of the step and after every substep; a single set if nothing moves.
 void addPoses(ProgramBuilder& program, const Scene& scene, std::uint32_t substeps, Colliders& colliders) {
     if (!colliders.areMoving) {
         std::vector<layout::ColliderPose> poses;
@@ -53,17 +53,17 @@ void addPoses(ProgramBuilder& program, const Scene& scene, std::uint32_t substep
     program.program().pokes.placed = groupsOf(items);
 }
 
-constexpr float mostStretch = 2; // of a link from what is driven to what rests on it
+constexpr float mostStretch = 2; // of a link from a driven particle to one that rests on it
 
-// A ball around all of a driven body that anybody may touch or is linked to, for who asks what is near it
-// (sleep).
+// A sphere around everything of a driven body that a particle may touch or be linked to, for tests of
+// proximity (sleep).
 layout::Collider ballAround(const DrivenBody& body, const Scene& scene) {
     float widest = 0, thickest = 0;
     double farthest = 0;
     for (const Particle& particle : scene.particles) widest = std::max(widest, particle.radius);
     for (const Face& face : scene.faces) thickest = std::max(thickest, face.thickness);
     const Pose pose = poseAt(body, 0);
-    std::vector<float> reach(scene.particles.size(), -1); // of what hangs on a driven particle
+    std::vector<float> reach(scene.particles.size(), -1); // of links from a driven particle
     for (const std::uint32_t particle : particlesOf(body)) reach[particle] = 0;
     for (const DistanceConstraint& link : scene.distances)
         for (const auto& [held, other] : {std::pair{link.a, link.b}, std::pair{link.b, link.a}})
@@ -97,7 +97,7 @@ void addShapes(ProgramBuilder& program, const Scene& scene, const StateLayout& l
     colliders.contactOffsets = program.upload("colliders.contact_offsets", offsets);
 }
 
-// Over all particles.
+// Appends a pass over all particles.
 template <typename Push>
 void dispatchTouching(ProgramBuilder& program, const Colliders& colliders, const vk::ShaderCode& code,
                       std::span<const BufferId> buffers, const Push& push,

@@ -1,7 +1,8 @@
-// Spheres, capsules and boxes on the device: one pass that ends a substep, after contacts, attachments and
-// tethers, the same for every solver. Where they move, a pass at the head of a step places them for all of
-// its substeps. Pokes are the first of them; the host says which are there, and what only they need runs for
-// no group while none is. A scene without colliders, and settings without pokes, have nothing of it.
+// Spheres, capsules and boxes on the device: one pass at the end of a substep, after contacts, attachments
+// and tethers, the same for every solver. If any of them moves, a pass at the start of a step computes their
+// poses for all its substeps. Pokes come first among them; the host says which are present, and passes that
+// only pokes need run for no group while none is. A scene without colliders, with settings without pokes, has
+// none of these passes.
 #pragma once
 
 #include "layout.h"
@@ -10,32 +11,33 @@
 namespace sinew::sim::collision::colliders {
 
 struct Colliders {
-    std::uint32_t count = 0;     ///< pokes among them
-    std::uint32_t pokes = 0;     ///< so many, the first
+    std::uint32_t count = 0;     ///< pokes included
+    std::uint32_t pokes = 0;     ///< the first of them
     std::uint32_t particles = 0; ///< slots of the state
-    std::uint32_t placed = 0;    ///< poses of a substep: of colliders, then of driven bodies
-    bool areMoving = false;      ///< any of those
+    std::uint32_t placed = 0;    ///< poses of a substep: colliders, then driven bodies
+    bool areMoving = false;      ///< any of these
     bool hasRebound = false;
-    BufferId shapes;        ///< of colliders; after them balls around driven bodies
-    BufferId pokeArguments; ///< of passes that only pokes need; invalid without
+    BufferId shapes;        ///< of colliders, then spheres around driven bodies
+    BufferId pokeArguments; ///< of passes that only pokes need; invalid without pokes
     BufferId poses, contactOffsets, before;
-    BufferId ways; ///< of this step, from and to; invalid unless areMoving
+    BufferId ways; ///< start and end poses in this step; invalid unless areMoving
 };
 
-/// Adds the pass that places them and driven bodies: call it once, before the substeps.
+/// Also appends the pass that computes the poses of colliders and driven bodies: call it once, before the
+/// substeps.
 Colliders add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
               const StateLayout& layout);
 
-/// `split` and `jacobi`: room for what addOpening() keeps; only where something rebounds there is anything.
+/// Adds the buffer that addOpening() fills, for `split` and `jacobi`; only if something has restitution.
 void addMemory(ProgramBuilder& program, Colliders& colliders);
-/// Before the links of a substep.
+/// Appends the pass before the links of a substep.
 void addOpening(ProgramBuilder& program, const ParticleBuffers& particles, const Colliders& colliders,
                 bool isFirst);
-/// The end of that substep, which counts from 0. `predicted`: particles before contacts with each other; none
-/// where they touch nothing else.
+/// Appends the end of that substep, which counts from 0. `predicted`: particles before contacts with each
+/// other; null if they touch nothing else.
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const Colliders& colliders,
              std::uint32_t substep, Kick kick, const ParticleBuffers* predicted = nullptr);
-/// The same in a substep of `gauss_seidel`, which is still open: what moves are the `corrections`.
+/// The same inside a substep of `gauss_seidel`: the pass changes `corrections`, not velocities.
 void addOpenPass(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
                  const Colliders& colliders, std::uint32_t substep);
 

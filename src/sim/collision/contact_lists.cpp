@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t hasOneRadiusId = 1; // constant_id in find_contacts.comp
 
-// Half of the margin is what two particles may come nearer by each; a little less for rounding.
+// Each of two particles may use half of the margin; slightly less, because of rounding.
 constexpr float slackShare = 0.49f;
 
 std::vector<std::uint32_t> slotsAbove(std::span<const float> radii, float most) {
@@ -24,7 +24,7 @@ std::vector<std::uint32_t> slotsAbove(std::span<const float> radii, float most) 
     return slots;
 }
 
-// Two that both move no farther than this in a substep cannot pass through each other (meetingOf in
+// Largest motion in a substep for which two particles cannot pass through each other (meetingOf in
 // contacts.glsl: reach / 4 together), and are in each other's lists after it.
 float quietWay(const Request& request) {
     float least = std::numeric_limits<float>::max();
@@ -49,7 +49,7 @@ bool hasOneRadius(std::span<const float> radii) {
 
 namespace k = kernels;
 
-// find_contacts from loads and from texels; [0] all pairs, [1] but for exclusions.
+// Kernels find_contacts from loads and from texels; [0] all pairs, [1] without exclusions.
 using Forms = std::array<std::array<const vk::ShaderCode*, 2>, 2>;
 constexpr Forms unswept{{{&k::findContactsLoads, &k::findContactsExclusionsLoads},
                          {&k::findContacts, &k::findContactsExclusions}}};
@@ -60,7 +60,7 @@ const vk::ShaderCode& form(const Lists& lists, const Forms& forms) {
     return *forms[lists.grid.usesTexels ? 1 : 0][lists.excluded != BufferId{} ? 1 : 0];
 }
 
-// Where a list of pairs is sorted, [0] without groups, [1] with; [0] nothing is remembered, [1] something.
+// Kernels that sort lists: [0] without memory, [1] with; [0] without groups, [1] with.
 constexpr std::array<std::array<const vk::ShaderCode*, 2>, 2> sorting{
     {{&k::sortContacts, &k::sortContactsGroups}, {&k::sortContactsMemory, &k::sortContactsMemoryGroups}}};
 

@@ -1,6 +1,6 @@
-// Which particles may touch before their lists are made again: for each particle the others nearer than
-// touching and a margin M, or were so on their way in the substep, sorted by index, made on the device
-// whenever one may have strayed from where its body is expected (body_frames.hpp) by half of M. No pair is
+// Candidates of contacts between particles: for each particle the others within contact distance plus a
+// margin M, or within it on their way in the substep, sorted by index. The device rebuilds the lists whenever
+// a particle may have strayed from the expected motion of its body (body_frames.hpp) by half of M. No pair is
 // ever missed, and no result depends on M.
 #pragma once
 
@@ -11,18 +11,18 @@
 
 namespace sinew::sim::collision::contact_lists {
 
-/// Pairs of particles that never touch: for each state slot the first of its partners, one more for the end,
-/// then the partners of all, sorted. Empty = no such pair.
+/// Pairs of particles that never touch: for each state slot the first of its partners, one more entry for the
+/// end, then the partners of all slots, sorted. Empty = no such pair.
 using Exclusions = std::vector<std::uint32_t>;
 
-/// Linked ones, and those of one linked body that are at rest nearer than 1.05 times touching. `radii` by
-/// particle [m]; below 0 = touches nothing.
+/// Linked pairs, and pairs of one linked body with a rest distance below 1.05 times contact distance. `radii`
+/// by particle [m]; below 0 = touches nothing.
 Exclusions excludedPairs(const Scene& scene, std::span<const float> radii, const StateLayout& layout);
 
-/// The smallest particle of each one's linked body.
+/// By particle the smallest index in its linked body.
 std::vector<std::uint32_t> linkedBodies(const Scene& scene);
 
-/// By state slot, as linked_marks.glsl has them: the linked body, whether a cut may part it, and
+/// By state slot, as in linked_marks.glsl: the linked body, whether a cut may divide it, and
 /// Particle::keepsRest.
 std::vector<std::uint32_t> linkedMarks(const Scene& scene, const StateLayout& layout);
 
@@ -30,38 +30,38 @@ struct Request {
     std::span<const float> radii; ///< by state slot [m]; below 0 = touches nothing
     float margin = 0;             ///< M [m]
     bool isKept = false;          ///< some pair keeps its rest distance: lists reach farther by its slack
-    std::uint32_t capacity = 0;   ///< candidates of a particle that there is room for, on average
+    std::uint32_t capacity = 0;   ///< mean capacity, in candidates of a particle
     Exclusions exclusions;
     bool usesTexels = true;
-    const body_frames::Bodies* bodies = nullptr; ///< as hash_grid::Request has them
+    const body_frames::Bodies* bodies = nullptr; ///< as in hash_grid::Request
     std::uint32_t substeps = 1;                  ///< of a step
-    bool hasMemory = false;                      ///< whether contacts remember something
+    bool hasMemory = false;                      ///< whether contacts have memory
     pooled_lists::Initial initial;
-    bool listsGroups = false; ///< whether groups in which a particle has a candidate are listed
+    bool listsGroups = false; ///< whether groups with a candidate are listed
 };
 
-/// Owners are particles. The margin is part of a list: a pair in it need not touch.
+/// Contact lists, owned by particles. A list includes pairs within the margin, which need not touch.
 struct Lists {
     hash_grid::Grid grid;
     layout::FindPush push{};
     pooled_lists::Lists pooled;
     BufferId large, excluded;
     bool hasOneRadius = false;
-    BufferId touching, marks; ///< work groups in which a particle has a candidate; only where asked for
+    BufferId touching, marks; ///< work groups with a candidate; only if requested
 };
 
 Lists add(ProgramBuilder& program, const Request& request);
 
-/// After particles were watched: builds the grid of them where lists are no longer complete, for those that
-/// are near, or were on their way. Until addLists() the old lists stand. `isLast`: no other
-/// addBuild() of this substep follows.
+/// Appends, after the check of particles: builds the grid if lists are no longer complete, for particles that
+/// are near, or were on their way. The old lists stay until addLists(). `isLast`: no other addBuild() of this
+/// substep follows.
 void addBuild(ProgramBuilder& program, const Lists& lists, const hash_grid::Moved& moved, bool isLast = true);
 
-/// Makes the lists where the grid was built. Where they do not fit their room the status says so
+/// Appends the rebuild of lists if the grid was built. If they exceed their capacity the status says so
 /// (StatusWords::candidates): pairs are lost, so the step must be undone.
 void addLists(ProgramBuilder& program, const Lists& lists, const hash_grid::Moved& moved);
 
-/// Watches particles, and both.
+/// Appends the check of particles, addBuild() and addLists().
 void addUpdate(ProgramBuilder& program, const Lists& lists, const hash_grid::Moved& moved);
 
 } // namespace sinew::sim::collision::contact_lists

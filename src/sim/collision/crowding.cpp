@@ -1,4 +1,5 @@
-// Particles are counted in cells so small that any two of one size in a cell touch. Sizes are powers of two.
+// Particles are counted in cells small enough that any two particles of one size in a cell touch. Sizes are
+// powers of two.
 #include "sim/collision/crowding.hpp"
 
 #include "sim/compile.hpp"
@@ -43,7 +44,7 @@ std::uint64_t hashOf(const Cell& cell) {
 
 using Crowd = std::vector<std::uint32_t>; // particles
 
-// Cells share counters: a crowd is never missed, and few others are looked at.
+// Cells share counters: no crowd is missed, and few other cells are examined.
 std::map<Cell, Crowd> crowdedCells(const Scene& scene, const std::vector<float>& inverseMass) {
     std::vector<std::uint32_t> counts(std::bit_ceil(2 * scene.particles.size() + 1));
     const auto countOf = [&](const Particle& particle) -> std::uint32_t& {
@@ -60,7 +61,7 @@ std::map<Cell, Crowd> crowdedCells(const Scene& scene, const std::vector<float>&
     return cells;
 }
 
-// Those of one linked body may lie as near as they do at rest.
+// Particles in a crowd that are not of its largest linked body, whose particles may be as near as at rest.
 std::size_t strangersIn(const Crowd& crowd, const std::vector<std::uint32_t>& components) {
     std::map<std::uint32_t, std::size_t> counts;
     std::size_t most = 0;

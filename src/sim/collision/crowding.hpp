@@ -1,4 +1,4 @@
-// More particles in one place than contacts can list: known before anything is made of the scene.
+// Detection of more particles in one place than contact lists can hold, before a scene is compiled.
 #pragma once
 
 #include "sim/complaints.hpp"
@@ -6,9 +6,9 @@
 
 namespace sinew::sim::collision {
 
-/// Complains of places in which more than ranges::mostInOneSpot particles of other bodies lie so near a
-/// particle that it touches each of them, with the names of the bodies. `scene` is right otherwise. Counts
-/// only what can touch and moves; linear in the number of particles.
+/// Complains about places where a particle touches more than ranges::mostInOneSpot particles of other bodies,
+/// with the names of the bodies. `scene` must be otherwise valid. Counts only moving particles that can
+/// touch; linear in the number of particles.
 void checkCrowding(const Scene& scene, Complaints& complaints);
 
 } // namespace sinew::sim::collision

@@ -1,4 +1,4 @@
-// The host side of contacts between edges: who takes part, and the order of the passes.
+// The host side of contacts between edges: the participants, and the order of the passes.
 #include "sim/collision/edge_contacts.hpp"
 
 #include "rest_slack.h"
@@ -13,7 +13,7 @@ namespace {
 
 using edge_lists::Edge;
 
-// Ends of edges by slot. Ends that never move count only in scenes that keep forces.
+// Ends of edges by slot. Static ends count only in scenes that keep forces.
 row_contacts::Corners cornersOf(std::span<const Edge> edges, const StateLayout& layout,
                                 const std::vector<float>& inverseMass, bool keepsForces) {
     std::vector<std::vector<std::uint32_t>> entries(layout.count);
@@ -24,7 +24,8 @@ row_contacts::Corners cornersOf(std::span<const Edge> edges, const StateLayout& 
     return row_contacts::cornersOf(entries);
 }
 
-// As of contacts with faces: a radius, of coarse ones an eighth of their length.
+// Length unit of the margin, as in contacts with faces: the radius, or an eighth of the length of coarse
+// edges.
 float marginLength(std::span<const Edge> edges) {
     std::vector<float> lengths;
     for (const Edge& edge : edges) lengths.push_back(std::max(edge.thickness, edge.radius / 4));
@@ -54,8 +55,8 @@ edge_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
     return lists;
 }
 
-// Where corners stand this near to each other, the points of one sheet keep the edges of another out, and
-// contacts between edges would only cost: of a fold they list hundreds.
+// Whether the corners of an edge are too far apart for points alone. In denser sheets the points of one sheet
+// keep the edges of another out, and contacts between edges would only add cost: a fold lists hundreds.
 bool isSparse(const Scene& scene, const Edge& edge) {
     constexpr float dense = 1.0f / 6; // half of the thickness of a sheet over length
     const Vec3 &a = scene.particles[edge.ends[0]].position, &b = scene.particles[edge.ends[1]].position;

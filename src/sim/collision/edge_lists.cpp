@@ -11,8 +11,8 @@ namespace {
 
 namespace k = kernels;
 
-// Edges whose ball, with their way in a substep, is at most so many times that of most others are searched
-// for in cells.
+// Edges are searched for in cells if their bounding sphere, including their motion in a substep, is at most
+// so many times as large as that of most others.
 constexpr float widestInCells = 2;
 
 // By edge, whole work groups.
@@ -35,7 +35,7 @@ Tables tablesOf(const Request& request) {
     return tables;
 }
 
-// By slot: below 0 = no end.
+// By slot: below 0 = not an end of an edge.
 std::vector<float> watchedOf(const Request& request) {
     std::vector<float> watched(request.particles, -1);
     for (const Edge& edge : request.edges)
@@ -43,7 +43,7 @@ std::vector<float> watchedOf(const Request& request) {
     return watched;
 }
 
-// Up to where lists must be complete.
+// Distance up to which lists must be complete.
 float reachOf(const Request& request) {
     return 2 * std::ranges::max(request.edges, {}, &Edge::thickness).thickness + request.beyond;
 }

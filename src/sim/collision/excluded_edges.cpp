@@ -1,5 +1,5 @@
-// Which edges a scene has, and which of a linked body may not touch each other, from the scene at rest: what
-// is so near there is kept apart by links.
+// The edges of a scene, and pairs of edges of a linked body that may not touch, from the scene at rest: links
+// keep apart what is so near there.
 #include "sim/collision/contact_lists.hpp"
 #include "sim/collision/edge_contacts.hpp"
 #include "sim/collision/vectors.hpp"
@@ -16,13 +16,13 @@ using edge_lists::Edge;
 
 constexpr double nearness = 1.05;
 
-// How long an edge may become, of what it is at first, and still touch others with all of itself.
+// Largest stretch of an edge at which all of it still touches others.
 constexpr double mostStretch = 1.5;
 
-// The sine of the angle of two faces below which their edge is part of a plane.
+// Sine of the angle between two faces below which their edge counts as part of a plane.
 constexpr double flatness = 1e-3;
 
-// An edge as one face has it.
+// An edge as the side of one face.
 struct Side {
     std::array<std::uint32_t, 2> ends;
     std::uint32_t face;
@@ -52,7 +52,7 @@ bool neverMoves(const Face& face, const std::vector<float>& inverseMass) {
     return std::ranges::none_of(face.particles, [&](std::uint32_t i) { return inverseMass[i] > 0; });
 }
 
-// Whether an edge lies in a plane that never moves: what meets it meets the faces.
+// Whether an edge lies in a static plane: contacts with it are contacts with the faces.
 bool isFlat(const Scene& scene, std::span<const Side> sides, const std::vector<float>& inverseMass) {
     if (sides.size() != 2) return false;
     const Face &one = scene.faces[sides[0].face], &other = scene.faces[sides[1].face];
@@ -62,10 +62,10 @@ bool isFlat(const Scene& scene, std::span<const Side> sides, const std::vector<f
     return lengths > 0 && dot(across, across) < flatness * flatness * lengths;
 }
 
-// The edges of one linked body, in cells so wide that partners stand in neighbouring ones.
+// The edges of one linked body, in cells so wide that partners are in neighbouring ones.
 struct Placed {
     std::uint32_t body;
-    std::array<std::int64_t, 3> cell; // z, y, x: rows of x lie side by side
+    std::array<std::int64_t, 3> cell; // z, y, x: rows of x are adjacent
     std::uint32_t edge;
     bool operator<(const Placed& other) const {
         return body != other.body ? body < other.body : cell < other.cell;

@@ -25,7 +25,7 @@ double distance(const Vector& p, const std::array<Vector, 3>& x) {
         {squaredToSegment(p, x[0], x[1]), squaredToSegment(p, x[1], x[2]), squaredToSegment(p, x[2], x[0])}));
 }
 
-// Whether a point is that near to the box around three others.
+// Whether a point is within `reach` of the bounding box of three others.
 bool isInBox(const Vector& p, const std::array<Vector, 3>& x, double reach) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto [low, high] = std::minmax({x[0][axis], x[1][axis], x[2][axis]});
@@ -36,7 +36,7 @@ bool isInBox(const Vector& p, const std::array<Vector, 3>& x, double reach) {
 
 using Cell = std::array<std::int64_t, 3>;
 
-// The points of one linked body, in cells as wide as a face reaches.
+// The points of one linked body, in cells as wide as the reach of a face.
 class Points {
 public:
     Points(const Scene& scene, std::span<const float> radii) : scene_(scene), radii_(radii) {}
@@ -46,7 +46,7 @@ public:
         widest_ = std::max(widest_, double{radii_[i]});
     }
 
-    // For faces whose boxes are at most `extent` wide and which are at most so thick.
+    // For faces with boxes at most `extent` wide, and at most `thickness` thick.
     void sort(double extent, double thickness) {
         edge_ = std::max(extent + 2 * nearness * (thickness + widest_), 1e-30);
         for (const std::uint32_t i : members_)
@@ -86,7 +86,7 @@ private:
     double widest_ = 0, edge_ = 1;
 };
 
-// The particles of one voxel body, and which of them its links join at first.
+// The particles of one voxel body, and the initial links between them.
 class Nodes {
 public:
     Nodes(const Grid& grid, std::span<const float> radii) : grid_(grid), first_(grid.firstParticle) {
@@ -114,14 +114,14 @@ public:
         }
     }
 
-    // Whether all that is nearer than this to a face is linked with a corner of it.
+    // Whether all points nearer to a face than `reach` are linked to one of its corners.
     bool isDeep(const layout::ContactFace& face, double reach) const {
         const auto deep = [&](std::uint32_t i) { return isInside_[i - first_]; };
         return reach < leastUnlinked(grid_.kinds) * double{grid_.restLength[0]} && deep(face.a) &&
                deep(face.b) && deep(face.c);
     }
 
-    // Whether points that only diagonals join to a face are farther from it than what touches.
+    // Whether points joined to a face only by diagonals are beyond contact distance.
     bool areDiagonalsApart(const layout::ContactFace& face) const {
         const double reach = nearness * (double{widest_} + double{face.thickness});
         return reach < leastUnlinked(1) * double{grid_.restLength[0]};
@@ -154,7 +154,7 @@ double extentOf(const Scene& scene, const layout::ContactFace& face) {
     return extent;
 }
 
-// A linked body with faces: its points in cells, and how large and thick its faces are.
+// A linked body with faces: its points in cells, and the size and thickness of its faces.
 struct Body {
     Points points;
     double extent = 0, thickness = 0;
@@ -182,7 +182,7 @@ const Nodes* nodesOf(std::span<const Nodes> voxels, const layout::ContactFace& f
     return found == voxels.end() ? nullptr : &*found;
 }
 
-// Particles that links join to a corner at first, ascending, some several times.
+// Particles with an initial link to a corner, ascending, possibly repeated.
 std::vector<std::uint32_t> linkedTo(const Nodes& nodes, const layout::ContactFace& face) {
     std::vector<std::uint32_t> linked;
     for (const std::uint32_t corner : {face.a, face.b, face.c}) nodes.addLinked(corner, linked);
@@ -205,7 +205,7 @@ std::vector<std::uint32_t> excludedPoints(const Scene& scene, std::span<const la
     const float widest = radii.empty() ? 0.0f : *std::ranges::max_element(radii);
     std::vector<std::uint32_t> result(faces.size() + 1), near;
     std::vector<bool> feels(runs.size(), true);
-    std::vector<std::size_t> marks; // words with a run, to be replaced by where its strides stand
+    std::vector<std::size_t> marks; // words with a run, to be replaced by the index of its strides
     for (std::size_t f = 0; f < faces.size(); ++f) {
         const layout::ContactFace& face = faces[f];
         result[f] = static_cast<std::uint32_t>(result.size());

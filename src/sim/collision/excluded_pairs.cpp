@@ -1,5 +1,5 @@
-// Which particles of linked bodies may not touch each other, from the scene at rest. Bodies start at rest:
-// where they do not, set-up positions are what there is to go by.
+// Pairs of particles of linked bodies that may not touch, from the scene at rest. Bodies are assumed to start
+// at rest; other initial positions are used as they are.
 #include "sim/collision/contact_lists.hpp"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ std::vector<Pair> linkedPairs(const Scene& scene) {
     return pairs;
 }
 
-// The smallest particle of each one's linked body.
+// By particle the smallest index in its linked body.
 std::vector<std::uint32_t> bodiesOf(std::size_t particles, std::span<const Pair> links) {
     std::vector<std::uint32_t> parent(particles);
     std::iota(parent.begin(), parent.end(), 0u);
@@ -47,8 +47,8 @@ double distance(const Vec3& a, const Vec3& b) {
     return std::hypot(double{a.x} - double{b.x}, double{a.y} - double{b.y}, double{a.z} - double{b.z});
 }
 
-// Pairs of one body that are nearer than 1.05 times touching; body by body, so that a large particle of one
-// does not make the cells of another large.
+// Pairs of one body with a distance below 1.05 times contact distance; body by body, so that a large particle
+// of one does not enlarge the cells of another.
 class NearPairs {
 public:
     NearPairs(const Scene& scene, std::span<const float> radii) : scene_(scene), radii_(radii) {}

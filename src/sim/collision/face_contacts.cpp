@@ -1,4 +1,4 @@
-// The host side of contacts with faces: who takes part, and the order of the passes.
+// The host side of contacts with faces: the participants, and the order of the passes.
 #include "sim/collision/face_contacts.hpp"
 
 #include "kernels.hpp"
@@ -34,14 +34,14 @@ float median(std::vector<float> values) {
     return *middle;
 }
 
-// Faces between particles: sheets with a corner that moves, what is solid and has one, those that a cut may
-// lay open, and those that never move.
+// Faces between particles: faces of sheets and then of solids with a moving corner, faces that a cut may
+// expose, and static or driven faces.
 struct Faces {
     std::vector<layout::ContactFace> faces;
-    std::vector<float> extents; ///< below 0 of those that a cut may lay open
+    std::vector<float> extents; ///< below 0 for faces that a cut may expose
     std::vector<bool> isOfCells;
     std::uint32_t sheets = 0, moving = 0;
-    std::uint32_t firstInner = 0; ///< of those that a cut may lay open; all up to `moving` are
+    std::uint32_t firstInner = 0; ///< of those that a cut may expose; all from here up to `moving` are
 };
 
 float extentOf(const Scene& scene, const Face& face) {
@@ -61,10 +61,10 @@ Corners fromLowest(Corners corners) {
     return corners;
 }
 
-// Faces of voxel bodies that may be cut, each between two of their cells or beside one.
+// Faces of cuttable voxel bodies, each between two of their cells or beside one.
 struct CellFaces {
-    std::set<Corners> outer; ///< of the scene, from the lowest corner on
-    std::vector<Face> inner; ///< of bodies that have outer ones
+    std::set<Corners> outer; ///< of the scene, starting at the lowest corner
+    std::vector<Face> inner; ///< of bodies with outer faces
 };
 
 CellFaces cellFacesOf(const Scene& scene) {
@@ -116,7 +116,8 @@ Faces facesOf(const Scene& scene, const std::vector<float>& inverseMass, bool ca
     return faces;
 }
 
-// A particle that never gives way can touch only faces that do: where there are none it is no point.
+// A static or driven particle can touch only moving faces: without such faces it is not a point of contact
+// lists.
 std::vector<float> pointRadii(const Scene& scene, const std::vector<float>& inverseMass, const Faces& faces) {
     std::vector<float> radii;
     for (std::size_t i = 0; i < scene.particles.size(); ++i) {
@@ -130,8 +131,8 @@ bool keepRest(const Scene& scene) {
     return std::ranges::any_of(scene.particles, &Particle::keepsRest);
 }
 
-// How much farther than touching pairs are listed where some keep their rest distance. Points that lie behind
-// what is solid and keep that are held up to twice the reach behind it.
+// Listing distance beyond contact for pairs that keep their rest distance. Points behind a solid face that
+// keep it are held at up to twice the reach behind the face.
 float heldBeyond(const Scene& scene, const Faces& faces, std::span<const float> radii) {
     if (!keepRest(scene)) return 0;
     const auto thickest = [&](std::uint32_t first, std::size_t end) {
@@ -145,7 +146,7 @@ float heldBeyond(const Scene& scene, const Faces& faces, std::span<const float> 
     return std::max(solid, 2 * REST_SLACK * (thickest(0, faces.faces.size()) + radius));
 }
 
-// If forces are kept, corners that never move of faces that do feel them too.
+// If forces are kept, static corners of moving faces count too.
 row_contacts::Corners cornersOf(const Faces& faces, const std::vector<float>& inverseMass,
                                 const StateLayout& layout, bool keepsForces) {
     const auto around = [&](std::uint32_t first, std::uint32_t end) {
@@ -179,8 +180,8 @@ face_lists::Lists addLists(ProgramBuilder& program, const Scene& scene, const Se
     for (layout::ContactFace& face : faces.faces)
         for (std::uint32_t* corner : {&face.a, &face.b, &face.c}) *corner = layout.slot[*corner];
     const body_frames::Bodies bodies = body_frames::bodiesOf(scene, layout);
-    // Thin cloth of coarse faces may wait longer than its radius says: an eighth of a face costs few
-    // candidates.
+    // Lists of thin cloth with coarse faces may last longer than its radius allows: an eighth of a face adds
+    // few candidates.
     const float length = std::max(median(wide), median(faces.extents) / 8);
     face_lists::Lists lists = face_lists::add(program, {.radii = radii,
                                                         .inverseMasses = masses,
@@ -209,7 +210,7 @@ void addListUpdate(ProgramBuilder& program, const Contacts& contacts, const Part
     face_lists::addLists(program, lists, predicted);
 }
 
-// Slots, ascending.
+// Slots of moving particles with a radius, ascending.
 std::vector<std::uint32_t> movingPoints(const Scene& scene, const std::vector<float>& inverseMass,
                                         const StateLayout& layout) {
     std::vector<std::uint32_t> points;
@@ -219,7 +220,7 @@ std::vector<std::uint32_t> movingPoints(const Scene& scene, const std::vector<fl
     return points;
 }
 
-// By face: its row, and the slot about which moments are.
+// By face: its row, and the slot that moments are about.
 std::vector<std::array<std::uint32_t, 2>> stopRowsOf(const Faces& faces, const forces::Stops& stops,
                                                      const StateLayout& layout) {
     std::vector<std::array<std::uint32_t, 2>> rows(faces.faces.size(), {0, 0});
@@ -317,7 +318,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     if (std::ranges::find(faces.isOfCells, true) != faces.isOfCells.end())
         contacts.opened = program.scratch<std::uint32_t>("faces.opened", faces.faces.size());
     if (contacts.hasStops()) addStopBuffers(program, scene, particles, faces, contacts);
-    // Without a face that can stop something no kernel reads the first two.
+    // Without static or driven faces no kernel reads the first two.
     const bool hasRows = contacts.stopRows != BufferId{};
     contacts.rows.forceRows = {hasRows ? contacts.stopRows : contacts.lists.pooled.ranges,
                                hasRows ? contacts.linkedPositions : contacts.rows.weights,

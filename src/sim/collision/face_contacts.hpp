@@ -1,5 +1,5 @@
-// Particles that touch triangles, in `split`: who takes part. How contacts are solved, and why that is
-// stable: row_contacts.hpp. A scene in which nothing touches a face has none of this.
+// Contacts of particles with triangles, in `split`: the participants. row_contacts.hpp says how contacts are
+// solved, and why that is stable. A scene in which nothing touches a face has none of these passes.
 #pragma once
 
 #include "sim/collision/face_lists.hpp"
@@ -7,55 +7,55 @@
 
 namespace sinew::sim::collision::face_contacts {
 
-/// Whether a particle of the scene may touch a face: one with a radius, and it or a face can move.
+/// Whether a particle of the scene may touch a face: it has a radius, and it or a face can move.
 bool areIn(const Scene& scene);
 
-/// The radius with which a particle touches others as a ball, by particle [m]: 0 where faces around it as
-/// thick as itself do so instead.
+/// By particle the radius with which it touches others as a sphere [m]: 0 if faces around it are at least as
+/// thick and touch in its place.
 std::vector<float> looseRadii(const Scene& scene);
 
 struct Contacts {
     face_lists::Lists lists;
     row_contacts::Rows rows;
     std::uint32_t faces = 0;      ///< of all kinds
-    std::uint32_t firstInner = 0; ///< from there to rows.push.moving: there only once a cut lays them open
-    /// By face: a half of a square between two cells of a voxel body that may be cut, or beside one.
+    std::uint32_t firstInner = 0; ///< from there to rows.push.moving: exist only once a cut exposes them
+    /// By face: whether it is half of a square between two cells of a cuttable voxel body, or beside one.
     std::vector<bool> isOfCells;
-    BufferId opened; ///< by face: whether this step has opened it; only where some are of cells
-    /// Positions and velocities that links have left; only where hasStops().
+    BufferId opened; ///< by face: whether this step has opened it; only if some are of cells
+    /// Positions and velocities after links; only if hasStops().
     BufferId linkedPositions, linkedVelocities;
-    BufferId movingPoints; ///< slots of points that move; only where hasStops()
-    BufferId stopRows; ///< of each face (forces::Stops); only where forces are kept and a point moves, too
+    BufferId movingPoints; ///< slots of moving points; only if hasStops()
+    BufferId stopRows;     ///< by face (forces::Stops); only if forces are kept and a point moves
     std::uint32_t movingPointCount = 0;
 
     bool hasInner() const { return firstInner < rows.push.moving; }
     bool hasSolid() const { return rows.push.sheets < rows.push.moving; }
-    /// Whether some face never gives way.
+    /// Whether some face is static or driven.
     bool hasStops() const { return lists.push.moving < faces; }
 };
 
-/// Only where areIn().
+/// Requires areIn().
 Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
              const ParticleBuffers& particles);
 
-/// Changes predicted positions and velocities where they stand. `isFirst`: of a step.
+/// Appends passes that change predicted positions and velocities in place. `isFirst`: first substep of a
+/// step.
 void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                bool isFirst);
 
-/// Keeps particles in front of faces that never give way, exactly: after all other passes of a substep but
-/// colliders, on `state`. Nothing where there is no such face.
+/// Appends the pass that keeps particles exactly in front of static and driven faces: after all other passes
+/// of a substep except colliders, on `state`. Nothing if there is no such face.
 void addStops(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& state);
 
-/// How far from a face between four nodes of a lattice all points are at least that no link joins to a
-/// corner, in spacings, where a node is linked along its edges (`kinds` 1), also along diagonals of faces
-/// (2), also along those of cells (3). With edges alone it is that of (1, 1, 1) from the longest edge of the
-/// face.
+/// Smallest distance, in spacings, from a face between four nodes of a lattice to a point that no link joins
+/// to one of its corners. Nodes are linked along edges (`kinds` 1), also along face diagonals (2), also along
+/// body diagonals (3). With edges alone it is the distance of (1, 1, 1) from the longest edge of the face.
 double leastUnlinked(std::uint32_t kinds);
 
-/// Points that a face never touches though they are not its corners, as face_lists::Request says: those of
-/// its own linked body that are nearer than 1.05 times touching at rest, and of a voxel body those that a
-/// link joins to a corner. Those are 1.73 spacings away from the corner at most, and all others from 1.22 to
-/// 2, by kind of links. `faces` between particles; `runs` = bodies whose links may be cut.
+/// Points that a face never touches although they are not its corners, as in face_lists::Request: points of
+/// its own linked body with a rest distance below 1.05 times contact distance, and in a voxel body points
+/// that a link joins to a corner. The latter are at most 1.73 spacings away from the corner, and all others
+/// at least 1.22 to 2, by kind of links. `faces` between particles; `runs` = bodies whose links may be cut.
 std::vector<std::uint32_t> excludedPoints(const Scene& scene, std::span<const layout::ContactFace> faces,
                                           std::span<const float> radii, const StateLayout& layout,
                                           std::span<const CutRun> runs = {});

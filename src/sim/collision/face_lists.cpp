@@ -12,18 +12,18 @@ namespace {
 
 namespace k = kernels;
 
-// find_faces from loads and from texels; [0] where no body may be cut, [1] where some may.
+// Kernels find_faces from loads and from texels; [0] without cuttable bodies, [1] with.
 constexpr std::array<std::array<const vk::ShaderCode*, 2>, 2> finding{
     {{&k::findFacesLoads, &k::findFacesLinksLoads}, {&k::findFaces, &k::findFacesLinks}}};
 
-// In the grid all points are alike: cells are as large as faces.
+// In the grid all points have radius 0: the size of cells follows from the faces.
 std::vector<float> pointsOf(std::span<const float> radii) {
     std::vector<float> points;
     for (const float radius : radii) points.push_back(radius < 0 ? -1.0f : 0.0f);
     return points;
 }
 
-// Whole work groups, with ~0 behind the last.
+// Whole work groups; padding is ~0.
 std::vector<std::uint32_t> facesWhere(std::span<const float> extents, float edge, bool isLarge) {
     std::vector<std::uint32_t> faces;
     for (std::uint32_t f = 0; f < extents.size(); ++f)
@@ -47,7 +47,7 @@ std::vector<float> watchedOf(const Request& request) {
     return watched;
 }
 
-// Up to where lists must be complete: where some pair keeps its rest distance, farther than touching.
+// Distance up to which lists must be complete: beyond contact if some pair keeps its rest distance.
 float reachOf(const Request& request) {
     float radius = 0, thickness = 0;
     for (const float one : request.radii) radius = std::max(radius, one);

@@ -1,4 +1,4 @@
-// Hash maps of cells across gravity, one for each octave of sizes.
+// Hash maps of cells in the plane perpendicular to gravity, one for each octave of sizes.
 #include "sim/collision/footprints.hpp"
 
 #include <limits>
@@ -8,9 +8,9 @@ namespace sinew::sim::collision {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double ofFace = 0.7; // its longest edge: of half a square less than a side
+constexpr double ofFace = 0.7; // share of its longest edge: of half a square less than a side
 
-// To the nearest neighbour by links, or as far as faces go; 0 of what has none of them.
+// Distance to the nearest neighbour by links, or the reach of faces; 0 without links and faces.
 std::vector<double> reachesOf(const Scene& scene) {
     std::vector<double> shortest(scene.particles.size(), infinite), reaches(scene.particles.size(), 0);
     for (const DistanceConstraint& c : scene.distances)
@@ -96,7 +96,7 @@ void Footprints::searchOctave(const Disc& lower, const Octave& octave) {
                 searchCell(lower, found->second);
 }
 
-// Overlaps (1 - d^2 / R^2)^2 of the particles of a grid a apart sum up to 1 within 5 % where R = a.
+// Overlaps (1 - d^2 / R^2)^2 of the particles of a grid with spacing a sum to 1 within 5 % if R = a.
 void Footprints::searchCell(const Disc& lower, const std::vector<std::uint32_t>& cell) {
     const double own = std::max(2 * lower.radius, lower.reach);
     for (const std::uint32_t d : cell) {

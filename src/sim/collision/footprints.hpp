@@ -1,4 +1,4 @@
-// Overlaps of discs across gravity at the start: they say which particle stands above which.
+// Initial overlaps of discs, projected along gravity: they determine which particle stands above which.
 #pragma once
 
 #include "sim/collision/vectors.hpp"
@@ -14,30 +14,30 @@
 
 namespace sinew::sim::collision {
 
-/// A particle that touches others, as a disc across gravity.
+/// A touching particle, projected along gravity to a disc.
 struct Disc {
     std::uint32_t particle = 0;
     double depth = 0;    ///< along gravity [m]
     double x = 0, y = 0; ///< [m]
     double radius = 0;   ///< of the particle [m]
     double reach =
-        0; ///< to its neighbours: every place of a grid, or of a face, is within reach of a corner [m]
+        0; ///< to its neighbours: every point of a grid, or of a face, is within reach of a corner [m]
     bool isStill = false; ///< never moves
 };
 
-/// The particles of a scene that touch others, to be asked for what stands above each. Overlaps are smooth in
-/// places, radii and spacings.
+/// The touching particles of a scene; finds the particles above each. Overlaps are smooth functions of
+/// positions, radii and spacings.
 class Footprints {
 public:
     Footprints(const Scene& scene, std::span<const float> inverseMass, const Vector& down);
 
-    /// From the top down.
+    /// Discs ordered from top to bottom.
     const std::vector<Disc>& discs() const { return discs_; }
 
-    /// Calls visit(upper, overlap, share) for discs above `lower`: the overlap is 1 where they are one above
-    /// the other, 0 from where they touch no more, and less where something that never moves is between them
-    /// or where one is beside the other; the share is that of the mass of `upper` that comes to `lower`, as
-    /// others that fill the layer of `lower` as densely take the rest.
+    /// Calls visit(upper, overlap, share) for discs above `lower`. The overlap is 1 if they are one above the
+    /// other, falls to 0 at the distance where they no longer touch, and is smaller if a static particle lies
+    /// between them or if one is beside the other. The share is the part of the mass of `upper` that rests on
+    /// `lower`; others that fill the layer of `lower` equally densely take the rest.
     template <typename Visit> void forEachAbove(const Disc& lower, const Visit& visit) {
         findAbove(lower);
         double still = 0;
@@ -63,7 +63,7 @@ private:
                                             static_cast<std::uint64_t>(key.second) * 19349663);
         }
     };
-    // Discs of sizes within a factor of 2, in cells, each from its top.
+    // Discs of sizes within a factor of 2, in cells, each from top to bottom.
     struct Octave {
         double width = 0, mostRadius = 0, mostReach = 0; // [m]
         std::unordered_map<Key, std::vector<std::uint32_t>, Hash> cells;
@@ -76,9 +76,9 @@ private:
     void searchCell(const Disc& lower, const std::vector<std::uint32_t>& cell);
 
     std::vector<Disc> discs_;
-    std::map<int, Octave> octaves_; // a ball may be a thousand times as wide as the particles of a cloth
+    std::map<int, Octave> octaves_; // a sphere may be a thousand times as wide as the particles of a cloth
     std::vector<Above>
-        above_; // of the disc that was asked for last; the lowest first if one of them is still
+        above_; // those above the disc of the last query; from bottom to top if one of them is static
 };
 
 } // namespace sinew::sim::collision

@@ -13,8 +13,8 @@ namespace sinew::sim::collision::hash_grid {
 
 namespace {
 
-// Slots of the table: twice as many as particles keep rows that share slots rare, where the grid is not
-// dense. scan_sums takes whole groups of chunks.
+// Slots of the table: with twice as many as particles, rows rarely share slots unless the grid is dense.
+// scan_sums needs whole groups of chunks.
 std::uint32_t cellsFor(std::size_t particles) {
     constexpr std::uint32_t fewest = GRID_CHUNK * GROUP_ITEMS;
     return std::max(fewest, std::bit_ceil(static_cast<std::uint32_t>(2 * particles)));
@@ -24,7 +24,7 @@ const vk::ShaderCode& form(const Grid& grid, const vk::ShaderCode& texels, const
     return grid.usesTexels ? texels : loads;
 }
 
-// For kernels that care which substep it is.
+// Push constants of kernels that depend on the substep.
 layout::GridPush pushOf(const ProgramBuilder& program, const Grid& grid) {
     layout::GridPush push = grid.push;
     push.isLater = program.isAfterFirstSubstep() ? 1 : 0;
@@ -33,7 +33,7 @@ layout::GridPush pushOf(const ProgramBuilder& program, const Grid& grid) {
 
 void addPlan(ProgramBuilder& program, const Grid& grid, BufferId step, bool isLast = true) {
     layout::GridPush push = pushOf(program, grid);
-    if (!isLast) push.bodies = 0; // frames go on once a substep
+    if (!isLast) push.bodies = 0; // frames advance once a substep
     program.dispatch(kernels::planGrid, GROUP_ITEMS,
                      {grid.bounds, grid.arguments, grid.frames.frames, step, grid.touching.arguments,
                       program.program().status},
@@ -57,7 +57,7 @@ Grid add(ProgramBuilder& program, const Request& request) {
     const std::size_t count = request.radii.size();
     const std::uint32_t cells = cellsFor(count);
     const float most = largestInGrid(request.radii);
-    // Nowhere: so far away that the first watch finds everybody gone.
+    // Initial positions so far away that the first check finds every particle strayed.
     const std::vector<layout::vec4> nowhere(request.particles > 0 ? request.particles : count,
                                             {1e18f, 1e18f, 1e18f, 0});
     const std::string name = request.name;

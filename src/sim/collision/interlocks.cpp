@@ -1,4 +1,4 @@
-// The host side: which bodies interlock, what their lattices are like, and the order of the passes.
+// The host side: pairs of interlocked bodies, data of their lattices, and the order of the passes.
 #include "sim/collision/interlocks.hpp"
 
 #include "kernels.hpp"
@@ -17,9 +17,9 @@ namespace {
 
 namespace k = kernels;
 
-using BodyPair = std::array<std::uint32_t, 2>; // the smallest particle of either, ascending
+using BodyPair = std::array<std::uint32_t, 2>; // the smallest particle of each, ascending
 
-// By slot: the smallest particle of the linked body, and whether a lattice lies all around.
+// By slot: the smallest particle of the linked body, and whether filled cells surround it.
 struct Places {
     std::vector<std::uint32_t> body;
     std::vector<bool> isInside;
@@ -52,7 +52,7 @@ std::set<BodyPair> pairsOf(const Places& places, const overlaps::Overlaps& overl
     return pairs;
 }
 
-// Bodies in pairs, numbered from 1 on.
+// Numbers of the bodies in pairs, from 1 on.
 std::map<std::uint32_t, std::uint32_t> numbersOf(const std::set<BodyPair>& pairs) {
     std::map<std::uint32_t, std::uint32_t> numbers;
     for (const BodyPair& pair : pairs)
@@ -79,7 +79,7 @@ std::vector<std::uint32_t> partnersOf(const std::set<BodyPair>& pairs,
     return partners;
 }
 
-// The neighbours of a node along an axis, or itself where nothing filled lies between.
+// The neighbours of a node along an axis; the node itself on a side without a filled cell.
 std::array<std::uint32_t, 2> alongAxis(const Grid& grid, const std::array<std::uint32_t, 3>& at,
                                        std::uint32_t axis, std::span<const std::uint32_t> slotOfNode) {
     const std::uint32_t word = lattice::fillAround(grid, at);
@@ -113,7 +113,7 @@ void addGrid(const Grid& grid, const StateLayout& layout, Plan& plan) {
     }
 }
 
-// The buffers that both passes over contacts begin with.
+// The first buffers of both passes over contacts.
 std::vector<BufferId> sharedBuffers(const Interlocks& interlocks, const Shared& shared, BufferId step) {
     return {shared.lists.pooled.contacts, shared.lists.pooled.ranges, interlocks.normals, interlocks.nodes,
             interlocks.partners,          interlocks.pairs,           shared.touching,    step};

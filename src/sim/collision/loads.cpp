@@ -1,4 +1,4 @@
-// One walk over what stands above what for masses, one for contacts.
+// One walk over pairs of discs for masses, one for contacts.
 #include "sim/collision/loads.hpp"
 
 #include "sim/collision/footprints.hpp"
@@ -10,18 +10,18 @@ namespace sinew::sim::collision::loads {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-// A share of the best overlap with what is below, or above: in the middle between four particles of a grid,
-// or of three of a face, something still stands on them with all that it bears.
+// A share of the best overlap with particles below, or above: halfway between four particles of a grid, or
+// three of a face, they still bear the whole load.
 constexpr double leastOverlap = 0.25;
 
 struct Masses {
-    std::vector<double> borne; // by each particle, itself and all that stands on it [kg]
-    std::vector<double> onto;  // of that, from other bodies [kg]
-    // The best overlap with one of another body.
+    std::vector<double> borne; // by each particle: itself and all that stands on it [kg]
+    std::vector<double> onto;  // the part from other bodies [kg]
+    // The best overlap with a particle of another body.
     std::vector<double> below, above;
 };
 
-// By component, whether it has faces that touch and is nothing solid: it folds, and bears none of its own
+// By component, whether it has touching faces and none of them is solid: it folds, and does not bear its own
 // weight.
 std::vector<bool> sheetsOf(const Scene& scene, std::span<const std::uint32_t> bodies) {
     std::vector<bool> isSheet(scene.particles.size());

@@ -1,5 +1,4 @@
-// The same search as on the device, once and on the host: cells for most particles, one by one for large
-// ones.
+// The search of the device, done once on the host: by cells for most particles, one by one for large ones.
 #include "sim/collision/overlaps.hpp"
 
 #include "rest_slack.h"
@@ -13,7 +12,7 @@ namespace sinew::sim::collision::overlaps {
 namespace {
 
 struct Place {
-    std::array<std::int64_t, 3> cell; // z, y, x: rows of x lie side by side
+    std::array<std::int64_t, 3> cell; // z, y, x: rows of x are adjacent
     std::uint32_t slot;
     bool operator<(const Place& other) const { return cell < other.cell; }
 };

@@ -1,4 +1,4 @@
-// The host side of contacts between particles: which form of each kernel, and the order of the passes.
+// The host side of contacts between particles: the form of each kernel, and the order of the passes.
 #include "sim/collision/particle_contacts.hpp"
 
 #include "kernels.hpp"
@@ -21,13 +21,13 @@ namespace {
 
 namespace k = kernels;
 
-// Whether pairs differ in a friction that some have.
+// Whether pairs with friction have different coefficients.
 bool hasFrictionTable(const Contacts& contacts) {
     return contacts.surfaces.count > 0 && contacts.surfaces.hasFriction;
 }
 
-// gather_contacts that remember nothing, with slips, with surfaces; [0] without planes, [1] with, [2] with
-// planes that rebound.
+// gather_contacts without memory, with slips, with surfaces; [0] without planes, [1] with planes, [2] with
+// planes that have restitution.
 using Forms = std::array<std::array<const vk::ShaderCode*, 3>, 3>;
 constexpr Forms texelForms{
     {{&k::gatherContacts, &k::gatherContactsPlanes, &k::gatherContactsRebound},
@@ -38,7 +38,7 @@ constexpr Forms loadForms{
      {&k::gatherContactsSlipsLoads, &k::gatherContactsSlipsPlanesLoads, &k::gatherContactsSlipsReboundLoads},
      {&k::gatherContactsSurfacesLoads, &k::gatherContactsSurfacesPlanesLoads,
       &k::gatherContactsSurfacesReboundLoads}}};
-// Those that also keep what they give, in a scene in which nothing sleeps and fewer kernels will do.
+// Forms that also keep impulses, in scenes without sleep, for which fewer kernels suffice.
 constexpr Forms forcesForms{
     {{&k::gatherContactsForces, &k::gatherContactsPlanesForces, &k::gatherContactsReboundForces},
      {&k::gatherContactsSlipsForces, &k::gatherContactsSlipsPlanesForces,
@@ -47,7 +47,7 @@ constexpr Forms forcesForms{
       &k::gatherContactsSurfacesReboundForces}}};
 constexpr std::uint32_t watchesId = 3;                        // constant_id in settle_free.comp
 constexpr std::uint32_t hasFrictionId = 3, hasRecoveryId = 4; // constant_ids in gather_contacts.comp
-constexpr std::uint32_t keepsRestId = 5; // likewise, in count_contacts.comp and in those of bounces
+constexpr std::uint32_t keepsRestId = 5; // also in count_contacts.comp and in those of bounces
 constexpr std::uint32_t canOpenId = 6;   // in count_contacts.comp
 
 const vk::ShaderCode& gatherForm(const Contacts& contacts, bool keepsForces) {
@@ -57,7 +57,7 @@ const vk::ShaderCode& gatherForm(const Contacts& contacts, bool keepsForces) {
     return *forms[hasFrictionTable(contacts) ? 2 : 1][planes];
 }
 
-// Kernels of a family, [0] from loads, [1] from texels.
+// A kernel of a family, [0] from loads, [1] from texels.
 const vk::ShaderCode& form(const Contacts& contacts, const std::array<const vk::ShaderCode*, 2>& forms) {
     return *forms[contacts.lists.grid.usesTexels ? 1 : 0];
 }
@@ -85,8 +85,8 @@ contact_lists::Exclusions exclusionsOf(const Scene& scene, const StateLayout& la
     return contact_lists::excludedPairs(scene, radii, layout);
 }
 
-// The overlaps of the scene as it is loaded, by more than `least`; none where some particle has more than a
-// list may have. The first step is then undone as too crowded, so no rest distance is lost silently.
+// Overlaps of the scene at load that exceed `least`; empty if a particle has more of them than a list can
+// hold. The first step is then undone as too crowded, so no rest distance is lost silently.
 overlaps::Overlaps overlapsOf(const Scene& scene, const StateLayout& layout, std::span<const float> radii,
                               const contact_lists::Exclusions& exclusions, float least) {
     std::vector<std::array<float, 3>> positions(layout.count);
@@ -110,26 +110,27 @@ overlaps::Overlaps overlapsOf(const Scene& scene, const StateLayout& layout, std
     return found;
 }
 
-// Entries a particle, on average, so that all overlaps fit: none must be forgotten for want of room. It does
-// not depend on the substeps, so that a simulation with others of them may take over.
+// Mean number of entries a particle with which all overlaps fit: none may be lost for lack of capacity. It is
+// independent of the substeps, so that a simulation with another number of substeps can take over.
 std::uint32_t roomFor(const overlaps::Overlaps& overlaps, std::size_t slots) {
     std::size_t entries = 0;
     for (const std::vector<overlaps::Overlap>& list : overlaps) entries += list.size();
     return static_cast<std::uint32_t>((entries + slots - 1) / slots);
 }
 
-// An overlap that parts within a substep at the speed of recovery needs no help.
+// Smallest overlap that recovery must handle: a smaller one vanishes within a substep at that speed.
 float leastOverlap(const Scene& scene, const Settings& settings) {
     return scene.contacts.recoverySpeed * scene.dt / static_cast<float>(settings.substeps);
 }
 
-// Memory of an overlap. All of the reach is what interlocks. Below 0 it stays.
+// Memory of an overlap: the whole reach means interlocked, so that other overlaps stay below it; a kept one
+// is negative.
 float rememberedOf(const overlaps::Overlap& overlap, float reach) {
     if (overlap.isKept) return -std::min(overlap.depth + REST_SLACK * reach, reach);
     return std::min(overlap.depth, 0.999999f * reach);
 }
 
-// Overlaps as the lists that stand before the first update, which keeps what they remember.
+// Overlaps as the initial lists, whose memory the first update keeps.
 pooled_lists::Initial firstLists(const overlaps::Overlaps& found, std::span<const float> radii) {
     pooled_lists::Initial first;
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -144,8 +145,8 @@ pooled_lists::Initial firstLists(const overlaps::Overlaps& found, std::span<cons
     return first;
 }
 
-// Ends the substep for all as if they touched nothing, and watches them; or, for those that were slowed down
-// since, the first alone.
+// Ends the substep for all particles as if they touched nothing, and checks them; or does only the first for
+// particles that were slowed down since.
 void addSettling(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                  const ParticleBuffers& next, bool watches) {
     const hash_grid::Grid& grid = contacts.lists.grid;
@@ -174,7 +175,7 @@ void addSettling(ProgramBuilder& program, const Contacts& contacts, const Partic
         program.dispatchIndirect(code, grid.slowed, buffers, push, constants);
 }
 
-// A pass of contacts: over all particles, or over the groups in which somebody has a candidate.
+// Appends a pass over all particles, or over the groups with a candidate.
 void addOverContacts(ProgramBuilder& program, const Contacts& contacts, const vk::ShaderCode& code,
                      std::vector<BufferId> buffers, const ProgramBuilder::Constants& constants = {}) {
     if (!contacts.settles) {
@@ -204,7 +205,7 @@ void addCount(ProgramBuilder& program, const Contacts& contacts, const ParticleB
     std::vector<BufferId> buffers{predicted.positions,  lists.pooled.contacts, lists.pooled.ranges,
                                   predicted.velocities, contacts.touching,     predicted.step,
                                   lists.grid.bounds,    contacts.firsts};
-    if (contacts.hasRecovery) // where no cut lets pairs touch, no kernel reads the last
+    if (contacts.hasRecovery) // if no cut lets pairs touch, no kernel reads the last
         buffers.insert(buffers.end(), {contacts.lists.pooled.memory->memory,
                                        contacts.isCuttable() ? contacts.marks : lists.grid.radii});
     addOverContacts(
@@ -244,7 +245,7 @@ void addGather(ProgramBuilder& program, const Contacts& contacts, const Particle
     addOverContacts(program, contacts, code, std::move(buffers), constants);
 }
 
-// Whether most of what touches is of linked bodies: then few of its particles have a candidate at a time.
+// Whether most touching particles belong to linked bodies: few of these have a candidate at a time.
 bool areMostlyLinked(const Scene& scene) {
     std::size_t linked = 0, all = 0;
     const std::vector<float> radii = face_contacts::looseRadii(scene);
@@ -281,7 +282,7 @@ Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settin
     const std::uint32_t room = std::max(settings.contactRoom, roomFor(overlaps, layout.count));
     overlaps::forget(overlaps, leastOverlap(scene, settings));
     surfaces::Surfaces surfaces = surfaces::add(program, scene, layout);
-    const bool settles = // forces are kept where a substep ends once
+    const bool settles = // keeping forces requires one end of the substep
         !settings.sleeps && !settings.keepsForces && areMostlyLinked(scene) && !surfaces.hasRestitution &&
         !overlaps::haveParting(overlaps);
     const bool isCuttable = !exclusions.empty() && cutting::canMeet(program.program(), scene);
@@ -369,7 +370,7 @@ void addBounces(ProgramBuilder& program, const Contacts& contacts, const Particl
                                  predicted.velocities, lists.pooled.ranges,   next.step,
                                  lists.grid.bounds,    contacts.firsts};
     if (isTable) shared.insert(shared.end(), {contacts.surfaces.ofParticles, contacts.surfaces.pairs});
-    // where no rest distance is kept, no kernel reads it
+    // no kernel reads it if no rest distance is kept
     shared.push_back(contacts.hasKept ? lists.pooled.memory->memory : contacts.before);
     shared.push_back(next.velocities);
     shared.push_back(contacts.bouncing);

@@ -1,8 +1,7 @@
-// Particles that touch particles, in `split`: temporary constraints, solved after the links of a substep and
-// before the boundary planes (contacts: 7). The gather of the links leaves predicted positions, without
-// planes; two passes follow: one counts what each particle touches, one moves it and ends the substep. Where
-// particles rebound two more follow, for velocities. A scene in which no two particles can touch has none of
-// this.
+// Contacts between particles, in `split`: temporary constraints, solved after the links of a substep and
+// before the boundary planes. The gather of the links leaves predicted positions, without planes; two passes
+// follow: one counts the contacts of each particle, one moves it and ends the substep. With restitution two
+// more passes follow, for velocities. A scene in which no two particles can touch has none of these passes.
 #pragma once
 
 #include "sim/collision/contact_lists.hpp"
@@ -12,7 +11,7 @@
 
 namespace sinew::sim::collision::particle_contacts {
 
-/// Whether particles of the scene may touch each other: two have a radius, and one of them can move.
+/// Whether particles of the scene may touch each other: two have a radius, and one of these can move.
 bool areIn(const Scene& scene);
 
 struct Contacts {
@@ -20,45 +19,46 @@ struct Contacts {
     planes::Colliders planes;
     surfaces::Surfaces surfaces;
     layout::ContactPush push{};
-    /// Whether the substep ends for all as if they touched nothing, and then anew for groups in which
-    /// somebody has a candidate; else for all in one pass.
+    /// Whether the substep ends for all particles as if they touched nothing, and then again for groups with
+    /// a candidate; otherwise one pass ends it for all.
     bool settles = false;
-    BufferId particles;              ///< slots that hold a particle; only where it settles
-    std::uint32_t particleCount = 0; ///< how many
+    BufferId particles;              ///< slots that hold a particle; only if it settles
+    std::uint32_t particleCount = 0; ///< their number
     bool hasRebound = false;         ///< of a plane
     bool hasRecovery = false;        ///< some pair overlaps when the scene is loaded, or may after a cut
-    bool hasKept = false;            ///< some pair keeps the distance that it has when the scene is loaded
+    bool hasKept = false;            ///< some pair keeps its distance at load
     BufferId touching, firsts, bouncing, rebounding;
-    BufferId before; ///< velocities when the substep began, set in each
+    BufferId before; ///< velocities at the start of the substep, set in each
 
-    /// Pairs of the uncut bodies that never touch; invalid where no body that may be cut touches.
+    /// Pairs of the uncut bodies that never touch; invalid if no cuttable body touches.
     BufferId allExcluded;
-    BufferId marks; ///< contact_lists::linkedMarks; likewise
+    BufferId marks; ///< contact_lists::linkedMarks; invalid in the same case
 
-    std::optional<interlocks::Interlocks> interlocks; ///< only where hasRecovery
+    std::optional<interlocks::Interlocks> interlocks; ///< only if hasRecovery
 
     bool isCuttable() const { return allExcluded != BufferId{}; }
     bool hasMemory() const { return lists.pooled.memory.has_value(); }
 };
 
-/// Only where areIn().
+/// Requires areIn().
 Contacts add(ProgramBuilder& program, const Scene& scene, const Settings& settings,
              const StateLayout& layout);
 
-/// Particles that touch sleep together.
+/// Joins particles that touch into one island of sleep.
 void joinIslands(const Contacts& contacts, sleep::Sleep& sleep);
 
-/// The end of a substep, the first of a step or not: from predicted positions and velocities to those of
-/// `next`.
+/// Appends the end of a substep, the first of a step or a later one: from predicted positions and velocities
+/// to those of `next`.
 void addPasses(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                const ParticleBuffers& next, bool isFirst);
 
-/// After them, where contacts.surfaces.hasRestitution: what rebounds. The velocities after the substep then
-/// are in contacts.rebounding, which must not be those of `next`; those that come in are free.
+/// Appends restitution after addPasses(), if contacts.surfaces.hasRestitution. The velocities after the
+/// substep are then in contacts.rebounding, which must not be those of `next`; the incoming ones are no
+/// longer needed.
 void addBounces(ProgramBuilder& program, const Contacts& contacts, const ParticleBuffers& predicted,
                 const ParticleBuffers& next);
 
-/// The end of a step: what friction remembers is saved, or taken back with an undone step.
+/// Appends the end of a step: saves the memory of friction, or restores it after an undone step.
 void addPublishing(ProgramBuilder& program, const Contacts& contacts);
 
 } // namespace sinew::sim::collision::particle_contacts

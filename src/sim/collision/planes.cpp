@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t planeCountId = 2; // constant_id in planes.glsl
 
-// A pass over all particles, in the form that keeps forces where the step does.
+// Appends a pass over all particles, in the form that keeps forces if the step does.
 void addPass(ProgramBuilder& program, const ParticleBuffers& particles, const forces::Forms& forms,
              std::vector<BufferId> buffers, ProgramBuilder::Constants constants) {
     const vk::ShaderCode& code =

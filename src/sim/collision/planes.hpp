@@ -1,6 +1,6 @@
-// Boundary planes: temporary constraints that need no search. Fused into the gather of `split` and the
-// pass between two substeps of `gauss_seidel`; passes of their own in `jacobi`. A scene without planes gets
-// neither.
+// Boundary planes: temporary constraints without a search. They are fused into the gather of `split` and into
+// the pass between two substeps of `gauss_seidel`; `jacobi` has passes for them. A scene without planes has
+// none of these.
 #pragma once
 
 #include "layout.h"
@@ -8,7 +8,7 @@
 
 namespace sinew::sim::collision::planes {
 
-/// The constant data of all planes, for any solver. `count` 0 = the scene has none and no buffer exists.
+/// Constant data of all planes, for any solver. `count` 0 = the scene has none and no buffer exists.
 struct Colliders {
     std::uint32_t count = 0;
     BufferId planes, contactOffsets;
@@ -20,7 +20,7 @@ Colliders addColliders(ProgramBuilder& program, const Scene& scene, const StateL
 void addTouch(ProgramBuilder& program, const ParticleBuffers& particles, BufferId corrections,
               const Colliders& colliders);
 
-/// What `jacobi` keeps of them within a substep.
+/// Buffers of planes that `jacobi` needs within a substep.
 struct Contacts {
     Colliders colliders;
     BufferId contacts;
@@ -28,7 +28,7 @@ struct Contacts {
 Contacts addContacts(ProgramBuilder& program, const Scene& scene);
 void addOpen(ProgramBuilder& program, const ParticleBuffers& particles, const Contacts& contacts);
 void addSolve(ProgramBuilder& program, const ParticleBuffers& particles, const Contacts& contacts);
-/// The velocity update of `jacobi`: damping, and restitution where there are planes.
+/// Appends the velocity update of `jacobi`: damping, and restitution if there are planes.
 void addVelocityUpdate(ProgramBuilder& program, const ParticleBuffers& particles, const Contacts& contacts);
 
 } // namespace sinew::sim::collision::planes

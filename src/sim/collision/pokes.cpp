@@ -1,4 +1,4 @@
-// A poke that is there follows its target; one that comes is there at once.
+// Motion of pokes: a present poke moves towards its target, a new one starts at it.
 #include "sim/collision/pokes.hpp"
 
 #include "sim/colliders.hpp"
@@ -11,9 +11,9 @@ namespace sinew::sim::collision {
 
 namespace {
 
-constexpr std::uint32_t mostChanges = 1u << 24; // that a float tells apart
+constexpr std::uint32_t mostChanges = 1u << 24; // that a float represents exactly
 
-// Within what squares of differences can be of.
+// Whether squares of differences of such positions fit into float32.
 bool isPlace(const Vec3& v) {
     constexpr float farthest = 1e9f; // [m]
     return std::abs(v.x) <= farthest && std::abs(v.y) <= farthest && std::abs(v.z) <= farthest;
@@ -50,14 +50,14 @@ bool hasShapeOf(const Poke& a, const Poke& b) {
            e.y == f.y && e.z == f.z;
 }
 
-// From its middle to its farthest point.
+// Distance from the middle to the farthest point.
 double reachOf(const Poke& poke) {
     const Vec3& e = poke.halfExtents;
     if (poke.shape == ColliderShape::box) return std::hypot(double{e.x}, double{e.y}, double{e.z});
     return double{poke.radius} + (poke.shape == ColliderShape::capsule ? double{poke.halfLength} : 0);
 }
 
-// On its way to `to`, on which no point of it goes farther than `most` [m].
+// The pose on the way to `to` at which no point has moved farther than `most` [m].
 Pose movedTowards(const Pose& from, const Pose& to, double reach, double most) {
     const Vec3 &a = from.position, &b = to.position;
     const double cosine =
@@ -68,14 +68,15 @@ Pose movedTowards(const Pose& from, const Pose& to, double reach, double most) {
         turn * reach;
     Pose pose = way <= most ? to : between(from, to, most / way);
     Quaternion& q = pose.rotation;
-    if (dot(from.rotation, q) < 0) q = {-q.x, -q.y, -q.z, -q.w}; // one rotation, but the device mixes numbers
+    if (dot(from.rotation, q) < 0) q = {-q.x, -q.y, -q.z, -q.w}; // same rotation; the device interpolates
     return pose;
 }
 
 } // namespace
 
-// Whoever compares poses from step to step sees by the w of the second that a poke came (above 0), left
-// (below) or took another shape, and by that of the first how far it reached before.
+// The w of the positions lets kernels compare steps: the second one counts changes (appearance,
+// disappearance, other shape), above 0 while the poke is present, below 0 while absent; the first one is its
+// reach before.
 void Pokes::place(std::size_t slot, const Pose& from, double reach) noexcept {
     const PokeState& state = states_[slot];
     ways_[2 * slot] = onDevice(from, 1);

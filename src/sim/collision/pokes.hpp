@@ -1,5 +1,5 @@
-// Where pokes are in the steps of a simulation, on the host: what the device reads of them. There they are
-// colliders, the first ones, that come and go.
+// Poses of pokes in the steps of a simulation, on the host, in the form that the device reads. On the device
+// pokes are the first colliders, and may appear and disappear.
 #pragma once
 
 #include "layout.h"
@@ -11,23 +11,23 @@
 
 namespace sinew::sim::collision {
 
-/// Of each slot; those beyond Settings::pokes are never there.
+/// By slot; slots beyond Settings::pokes are always absent.
 using PokeStates = std::array<PokeState, ranges::mostPokes>;
 
 class Pokes {
 public:
     explicit Pokes(std::uint32_t count) : count_(count) {}
 
-    /// At once, as when a simulation begins.
+    /// Sets the states without motion, such as at the start of a simulation.
     void moveTo(const PokeStates& states) noexcept;
-    /// A step of `dt` [s].
+    /// Advances by a step of `dt` [s].
     void advance(std::span<const Poke> pokes, float dt) noexcept;
 
     std::uint32_t count() const noexcept { return count_; }
     const PokeStates& states() const noexcept { return states_; }
-    bool areAny() const noexcept; ///< there
+    bool areAny() const noexcept; ///< whether one is present
     std::span<const layout::Collider> shapes() const noexcept { return std::span(shapes_).first(count_); }
-    /// From and to of each.
+    /// Start and end poses of each.
     std::span<const layout::ColliderPose> ways() const noexcept { return std::span(ways_).first(2 * count_); }
 
 private:

@@ -1,4 +1,4 @@
-// The buffers of lists and of what contacts remember.
+// The buffers of lists and of the memory of contacts.
 #include "sim/collision/pooled_lists.hpp"
 
 #include "kernels.hpp"
@@ -12,7 +12,7 @@ static_assert(ranges::mostContactRoom == CONTACT_MOST_ROOM);
 
 namespace {
 
-// With what there is at first, in a buffer of `count`.
+// A buffer of `count` elements with the given initial contents.
 template <typename T>
 BufferId bufferOf(ProgramBuilder& program, const std::string& name, std::size_t count,
                   std::vector<T> initial) {
@@ -89,7 +89,7 @@ void addPublishing(ProgramBuilder& program, const Lists& lists, const hash_grid:
     const std::uint32_t items = std::max(grid.push.count, grid.touchingParticles.most);
     program.dispatch(lists.memory ? kernels::publishKeptLists : kernels::publishLists, items, buffers,
                      layout::CountPush{grid.push.count});
-    // While all sleeps nothing plans how many groups run, and lists must not be made again.
+    // While everything sleeps no pass plans the number of groups, and lists must not be made again.
     if (program.program().sleep.arguments != BufferId{}) program.fill(grid.arguments, 0);
 }
 

@@ -21,7 +21,7 @@ void addOverRows(ProgramBuilder& program, const Rows& rows, const vk::ShaderCode
     program.dispatchIndirect(code, rows.elements, buffers, rows.push, constants);
 }
 
-// How particles are shared among rows that have something in the last word of `directions`.
+// Appends the pass that divides particles among the rows whose last word of `directions` is not 0.
 void addShares(ProgramBuilder& program, const Rows& rows, BufferId directions,
                const ParticleBuffers& particles) {
     addOver(program, rows, rows.particles, *rows.kind->share,
@@ -29,7 +29,7 @@ void addShares(ProgramBuilder& program, const Rows& rows, BufferId directions,
              rows.lists.links->ranges, rows.cornerEnds, particles.velocities, rows.shares});
 }
 
-// Impulses to particles, in the form that keeps them where the step does.
+// Appends the pass that applies impulses to particles, in the form that keeps forces if the step does.
 void addImpulses(ProgramBuilder& program, const Rows& rows, BufferId directions, const forces::Forms& forms,
                  const ParticleBuffers& particles, ProgramBuilder::Constants constants = {}) {
     std::vector<BufferId> buffers{rows.lists.ranges,
@@ -157,7 +157,7 @@ void addBounces(ProgramBuilder& program, const Rows& rows, const ParticleBuffers
 
 void addPublishing(ProgramBuilder& program, const Rows& rows, const hash_grid::Grid& grid) {
     pooled_lists::addPublishing(program, rows.lists, grid);
-    // Lists stay while all sleeps, and nothing plans how many groups run then.
+    // Lists stay while everything sleeps, when no pass plans the number of groups.
     if (rows.sleeps) program.fill(grid.touching.arguments, 0);
 }
 

@@ -1,4 +1,4 @@
-// Which surfaces a scene uses, and what each pair of them makes of a contact.
+// The surfaces that a scene uses, and the contact properties of each pair of them.
 #include "sim/collision/surfaces.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ float holding(const Surface& surface) {
     return std::max(surface.friction, surface.staticFriction);
 }
 
-// One surface keeps its number to the bit.
+// Equal values are returned unchanged, to the bit.
 float meanOf(float a, float b) {
     return a == b ? a : std::sqrt(a * b);
 }

@@ -1,4 +1,4 @@
-// Vectors in double, for what the host finds out about a scene at rest.
+// Vectors in double, for computations on the host about a scene at rest.
 #pragma once
 
 #include "sim/scene.hpp"
@@ -24,7 +24,7 @@ inline Vector toVector(const Vec3& v) {
     return {double{v.x}, double{v.y}, double{v.z}};
 }
 
-/// Gravity [m/s^2] and its unit direction; down is 0 where there is none.
+/// Gravity [m/s^2] and its unit direction; `down` is 0 without gravity.
 struct Pull {
     double gravity = 0;
     Vector down{};
@@ -36,13 +36,13 @@ inline Pull pullOf(const Scene& scene) {
     return {size, {g[0] / size, g[1] / size, g[2] / size}};
 }
 
-/// The length of the part of `v` at right angles to the unit vector `down`.
+/// The length of the component of `v` perpendicular to the unit vector `down`.
 inline double acrossLength(const Vector& v, const Vector& down) {
     const double depth = dot(v, down);
     return std::sqrt(std::max(0.0, dot(v, v) - depth * depth));
 }
 
-/// `down`, of length 1, and two unit vectors across.
+/// The unit vector `down` and two unit vectors perpendicular to it.
 inline std::array<Vector, 3> frameOf(const Vector& down) {
     const std::size_t least = static_cast<std::size_t>(
         std::ranges::min_element(down, {}, [](double v) { return std::abs(v); }) - down.begin());

@@ -10,8 +10,7 @@ namespace sinew::sim::lattice {
 
 struct Pieces {
     std::vector<std::uint32_t> labels;      ///< by slot: lowest slot of the piece
-    std::vector<std::uint32_t> ofParticles; ///< by particle: particle in the piece's lowest slot, or
-                                            ///< NO_PARTICLE
+    std::vector<std::uint32_t> ofParticles; ///< by particle: name of its piece, or NO_PARTICLE
     std::vector<std::uint32_t> sizes;       ///< by particle: size of the piece that it names, else 0
     std::uint32_t count = 0;                ///< of pieces
 };
