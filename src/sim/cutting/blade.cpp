@@ -1,4 +1,4 @@
-// Boxes around what cuts, and the points of a strip in the order of its quads.
+// Bounding boxes of the blade and ray, and the points of a strip in the order of its quads.
 #include "sim/cutting/blade.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What a step says of its blade and its ray, in the form that kernels read. Host only; never allocates.
+// The blade and ray of a step in the form that kernels read. Host only; never allocates.
 #pragma once
 
 #include "layout.h"
@@ -12,10 +12,10 @@ namespace sinew::sim::cutting {
 
 class BladeWords {
 public:
-    /// Reads `step`; whether there is anything that cuts. A blade with too many points, poly-lines of unequal
-    /// length or numbers that are not finite is none.
+    /// Reads `step`; returns whether it cuts anything. A blade with too many points, poly-lines of unequal
+    /// length or non-finite numbers is ignored.
     bool read(const Step& step) noexcept;
-    /// Whether the step that was read has a blade, beside its ray.
+    /// Whether the last step that was read has a blade, not only a ray.
     bool hasQuads() const noexcept { return head_.quads > 0; }
 
     std::span<const std::byte> head() const noexcept { return std::as_bytes(std::span(&head_, 1)); }

@@ -1,4 +1,4 @@
-// Skins of all bodies lie behind one another in the buffers of vertices and indices.
+// The skins of all bodies are consecutive in the buffers of vertices and indices.
 #include "sim/cutting/crumb_skins.hpp"
 
 #include "kernels.hpp"
@@ -15,7 +15,7 @@ namespace {
 
 namespace k = kernels;
 
-// By skin: whether it falls into pieces where it is cut.
+// By skin: whether it has separate pieces after a cut.
 std::vector<bool> areParted(const Scene& scene, const Cut& cut) {
     std::vector<bool> result(scene.skins.size());
     if (cut.surface)
@@ -25,7 +25,7 @@ std::vector<bool> areParted(const Scene& scene, const Cut& cut) {
     return result;
 }
 
-// Of each vertex of all skins the slot that it goes with, NO_PARTICLE where its skin stretches.
+// By vertex of all skins: the slot that it follows, NO_PARTICLE if its skin stretches.
 std::vector<std::uint32_t> vertexSlots(const Scene& scene, const std::vector<bool>& parted,
                                        const StateLayout& layout) {
     std::vector<std::uint32_t> slots;
@@ -62,7 +62,7 @@ void addHiding(ProgramBuilder& program, const Cut& cut, BufferId slots, std::uin
             with(bound(built.skinVertices), {sheet.state, sheet.vertices}), sheet.skinPush);
 }
 
-// What a vertex is moved by.
+// Appends the particles that move a vertex.
 void addHolders(const Skin& skin, std::uint32_t vertex, std::vector<std::uint32_t>& holders) {
     if (!skin.particles.empty()) return holders.push_back(skin.particles[vertex]);
     const CellEmbedding& cell = skin.cells[vertex];
@@ -70,7 +70,7 @@ void addHolders(const Skin& skin, std::uint32_t vertex, std::vector<std::uint32_
         if (cell.share(c) > 0) holders.push_back(cell.particles[c]);
 }
 
-// Triangles of skins that stretch, of those that hang on something that may be cut.
+// Triangles of stretching skins that depend on a cuttable particle.
 struct Stretched {
     std::vector<layout::CrumbTriangle> triangles;
     std::vector<std::uint32_t> holders;
@@ -105,7 +105,7 @@ std::vector<bool> particlesThatMayGo(const Scene& scene, const Cut& cut, const S
     return result;
 }
 
-// Their own: other cuts may leave them as they are.
+// Gives the skins an index buffer of their own, unless other cuts already need one.
 void makeIndices(ProgramBuilder& program, const Scene& scene) {
     StepProgram& built = program.program();
     if (built.skinIndices != BufferId{}) return;

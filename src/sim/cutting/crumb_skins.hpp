@@ -1,6 +1,6 @@
-// What is drawn of crumbs (crumbs.hpp): nothing. Skins that are clipped, and those of sheets, fall into
-// pieces, of which the vertices shrink to a point when somebody draws. Others stretch over cuts, so of those
-// the triangles shrink that hang on what was removed, in the indices that are drawn.
+// Hides fragments (crumbs.hpp) in the skins. Skins that are clipped, and those of sheets, have separate
+// pieces; the list of skins collapses the vertices of removed ones to a point. Other skins stretch over cuts;
+// for them the triangles that depend on removed particles are collapsed in the index buffers.
 #pragma once
 
 #include "sim/compile.hpp"
@@ -11,18 +11,18 @@ namespace sinew::sim::cutting {
 
 struct Cut;
 
-/// Triangles of skins that are not clipped, in an index buffer that they are drawn from.
+/// Triangles of skins that are not clipped, in the index buffer that draws them.
 struct CrumbTriangles {
     BufferId triangles, holders, indices;
     std::uint32_t count = 0;
 };
 using CrumbSkins = std::vector<CrumbTriangles>;
 
-/// After the surface of cuts and the pieces of sheets: adds what hides those to the list of skins.
+/// Appends hiding to the list of skins, after the surface of cuts and the pieces of sheets.
 CrumbSkins addCrumbSkins(ProgramBuilder& program, const Scene& scene, const Cut& cut,
                          const StateLayout& layout);
 
-/// After crumbs were found.
+/// Appends the hiding of triangles, after fragments were found.
 void addTriangleHiding(ProgramBuilder& program, const CrumbSkins& skins);
 
 } // namespace sinew::sim::cutting

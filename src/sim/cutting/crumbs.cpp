@@ -1,5 +1,5 @@
-// A piece that was removed stays a piece by its links, and is found again as one in every step with a cut:
-// what it is after each does not depend on what was before.
+// A removed piece stays a piece by its links, and every step with a cut finds it again: the state after a
+// step does not depend on the marks before it.
 #include "sim/cutting/crumbs.hpp"
 
 #include "kernels.hpp"
@@ -17,7 +17,7 @@ namespace {
 
 namespace k = kernels;
 
-// Of particles that may be cut [kg]; what has none is fixed for good.
+// Masses of cuttable particles [kg]; 0 for static ones.
 std::vector<double> massesOf(const Scene& scene) {
     std::vector<double> masses(scene.particles.size());
     for (const Grid& grid : scene.grids) {

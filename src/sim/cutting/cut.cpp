@@ -26,7 +26,7 @@ void addWholeCells(ProgramBuilder& program, const Cut& cut) {
                 run.push);
 }
 
-// What was cut wakes as the step begins.
+// Wakes bodies that were cut, at the start of the step.
 void addWaking(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& particles) {
     if (!particles.sleep) return;
     const sleep::Sleep& sleep = *particles.sleep;
@@ -53,7 +53,7 @@ void addNear(ProgramBuilder& program, const Cut& cut) {
         program.dispatch(cut.usesTexels ? texels : loads, run.push.count, buffers, run.push);
 }
 
-// What the blade meets: near nodes first, and what is costly for these alone.
+// Cuts the links that the blade meets: first finds near nodes, and tests only these exactly.
 void addBlade(ProgramBuilder& program, const Cut& cut) {
     const CuttingBuffers& buffers = cut.buffers;
     program.fill(buffers.dirty, 0);
@@ -68,7 +68,7 @@ void addBlade(ProgramBuilder& program, const Cut& cut) {
                                  run.push);
 }
 
-// Where links have died: the passes that follow go there alone.
+// Lists the nodes with links that died: the passes that follow run only there.
 void addListing(ProgramBuilder& program, const Cut& cut) {
     const CuttingBuffers& buffers = cut.buffers;
     program.fill(buffers.listedCounts, 0);
@@ -82,7 +82,7 @@ void addOpening(ProgramBuilder& program, Cut& cut, const ParticleBuffers& partic
     const CuttingBuffers& buffers = cut.buffers;
     program.updateBlade(cut.blade, cut.points);
     program.fill(cut.work, 0);
-    program.copy(buffers.links, buffers.savedLinks); // what an undone step goes back to
+    program.copy(buffers.links, buffers.savedLinks); // an undone step restores these
     for (const Run& run : cut.runs)
         program.dispatch(cut.usesTexels ? k::openCut : k::openCutLoads, run.push.count,
                          {particles.positions, particles.velocities, cut.placesBefore, particles.step,
@@ -101,7 +101,7 @@ void addOpening(ProgramBuilder& program, Cut& cut, const ParticleBuffers& partic
     addWaking(program, cut, particles);
 }
 
-// `items` of every run, as many as the arguments from `first` on say.
+// Appends a dispatch for every run, with the group counts in the arguments from `first` on.
 template <typename Items>
 void addIndirect(ProgramBuilder& program, const Cut& cut, const vk::ShaderCode& code, std::uint32_t first,
                  std::initializer_list<BufferId> buffers, const Items& items) {
@@ -110,7 +110,7 @@ void addIndirect(ProgramBuilder& program, const Cut& cut, const vk::ShaderCode& 
                                  cut.runs[r].push);
 }
 
-// What pieces are to sleep and to hands.
+// Updates sleep components and grab masses after a topology change.
 void addParting(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& particles) {
     const auto slots = [](const Run& run) { return run.push.count; };
     const auto first = 2 * static_cast<std::uint32_t>(cut.runs.size()); // arguments
@@ -126,7 +126,7 @@ void addParting(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& 
                 slots);
 }
 
-// Of finding pieces: of a run where the one before has changed some of its labels.
+// Appends a round of finding pieces: a run takes part if the last round changed one of its labels.
 void addRound(ProgramBuilder& program, const Cut& cut, std::uint32_t round) {
     const auto runs = static_cast<std::uint32_t>(cut.runs.size());
     const BufferId own = cut.roundArguments[round % 2], others = cut.roundArguments[(round + 1) % 2];
@@ -175,10 +175,10 @@ void addClosing(ProgramBuilder& program, const Cut& cut, const ParticleBuffers& 
                          {buffers.savedLinks, cut.bladePlaces, buffers.links, cut.placesBefore,
                           program.program().status, cut.work, cut.blade},
                          run.push);
-    addWholeCells(program, cut); // those that an undone step has given back
+    addWholeCells(program, cut); // cells that an undone step has restored
     addFindingPieces(program, cut, particles);
     program.beginSurface();
-    addTriangleHiding(program, cut.crumbSkins); // before what is drawn is packed
+    addTriangleHiding(program, cut.crumbSkins); // before the drawn triangles are packed
     program.endSurface();
     if (cut.surface) surface::addCutSurfacePasses(program, *cut.surface, cut.blade);
     if (cut.sheets) surface::addSheetPasses(program, *cut.sheets, !cut.surface);

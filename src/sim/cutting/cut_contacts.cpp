@@ -1,4 +1,4 @@
-// The table of pairs that never touch is kept twice: as of the uncut bodies, and as it is.
+// There are two tables of excluded pairs: that of the uncut bodies, and the current one.
 #include "sim/cutting/cut_contacts.hpp"
 
 #include "kernels.hpp"
@@ -50,12 +50,12 @@ void addContactFilter(ProgramBuilder& program, const Contacts& contacts) {
     if (!contacts.isCuttable()) return;
     CuttingBuffers& cutting = program.program().cutting;
     const BufferId seen = contacts.lists.grid.detected;
-    if (std::ranges::find(cutting.contactsSeen, seen) == cutting.contactsSeen.end()) // crumbs leave it too
+    if (std::ranges::find(cutting.contactsSeen, seen) == cutting.contactsSeen.end()) // fragments leave it too
         cutting.contactsSeen.push_back(seen);
     cutting.topology.push_back(contacts.lists.excluded);
     program.carry(contacts.lists.excluded, contacts.lists.excluded);
     addFilter(program, contacts);
-    program.atEnd([&program, contacts] { addFilter(program, contacts); }); // after links were given back
+    program.atEnd([&program, contacts] { addFilter(program, contacts); }); // after links were restored
 }
 
 void addContactOpening(ProgramBuilder& program, const Contacts& contacts) {

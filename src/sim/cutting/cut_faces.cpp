@@ -1,5 +1,5 @@
-// Faces and edges are told by the slots of their corners: halves of cells of a sheet and their sides, and
-// halves of squares of a lattice.
+// Faces and edges are recognised by the slots of their corners: halves of cells of a sheet and their sides,
+// and halves of squares of a lattice.
 #include "sim/cutting/cut_faces.hpp"
 
 #include "kernels.hpp"
@@ -21,7 +21,7 @@ bool isIn(const CutRun& run, std::uint32_t slot) {
     return slot >= run.first && slot - run.first < run.count;
 }
 
-// Half of the cell above a slot; none between others.
+// The face as half of the cell above a slot; none if it is not such a half.
 std::optional<layout::CutFace> halfOf(const CutRun& run, const layout::ContactFace& face) {
     std::array<std::uint32_t, 3> slots{face.a, face.b, face.c};
     std::ranges::sort(slots);
@@ -32,7 +32,7 @@ std::optional<layout::CutFace> halfOf(const CutRun& run, const layout::ContactFa
     return layout::CutFace{slots[0], middle == 1 ? 1u : 0u, 0, 0, 0};
 }
 
-// The step in a lattice that leads so many slots further.
+// The step in a lattice that leads `slots` slots further.
 std::optional<std::array<int, 3>> stepOf(const CutRun& run, std::uint32_t slots) {
     for (std::uint32_t bit = lattice::firstOwned; bit < lattice::directionCount; ++bit) {
         const auto [x, y, z] = lattice::directionOf(bit);
@@ -42,7 +42,7 @@ std::optional<std::array<int, 3>> stepOf(const CutRun& run, std::uint32_t slots)
     return std::nullopt;
 }
 
-// Half of a square between nodes of a lattice; none between others.
+// The face as half of a square between nodes of a lattice; none if it is not such a half.
 std::optional<layout::CutSolidFace> solidOf(const CutRun& run, const layout::ContactFace& face) {
     std::array<std::uint32_t, 3> slots{face.a, face.b, face.c};
     std::ranges::rotate(slots, std::ranges::min_element(slots));
@@ -59,7 +59,7 @@ std::optional<layout::CutSolidFace> solidOf(const CutRun& run, const layout::Con
     return std::nullopt;
 }
 
-// Faces of one run, as `partOf` has them, with where they stand in the lists that they are searched by.
+// Faces of one run, as converted by `partOf`, with their index in the lists of faces to search.
 template <typename Part, typename PartOf>
 std::vector<Part> facesOf(ProgramBuilder& program, const collision::face_lists::Lists& lists,
                           const PartOf& partOf) {
@@ -92,7 +92,7 @@ std::vector<layout::CutEdge> edgesOf(const CutRun& run, std::span<const layout::
     return result;
 }
 
-// A dispatch before the substeps and one after links were given back.
+// Appends a dispatch before the substeps, and one after links were restored.
 void addTwice(ProgramBuilder& program, const std::function<void()>& addPass) {
     const auto add = [&program, addPass] {
         program.beginCut();
@@ -109,14 +109,14 @@ void makeTopology(ProgramBuilder& program, BufferId seen, const std::vector<Buff
         return std::ranges::find(list, buffer) != list.end();
     };
     if (has(cutting.topology, buffers.front())) return;                         // by another run
-    if (!has(cutting.contactsSeen, seen)) cutting.contactsSeen.push_back(seen); // else crumbs leave it too
+    if (!has(cutting.contactsSeen, seen)) cutting.contactsSeen.push_back(seen); // else fragments leave it too
     for (const BufferId buffer : buffers) {
         cutting.topology.push_back(buffer);
         program.carry(buffer, buffer);
     }
 }
 
-// Those of the faces of one run that `code` takes out of the search and puts into it.
+// Appends the pass `code` that removes faces of one run from the search and adds others to it.
 template <typename Part, typename PartOf>
 void addFilter(ProgramBuilder& program, const collision::face_contacts::Contacts& contacts, const CutRun& run,
                const vk::ShaderCode& code, const PartOf& partOf) {
@@ -138,7 +138,7 @@ void addFilter(ProgramBuilder& program, const collision::face_contacts::Contacts
              [&program, &code, buffers, push] { program.dispatch(code, push.count, buffers, push); });
 }
 
-// Faces inside of uncut bodies look for nothing.
+// Removes faces inside uncut bodies from the search.
 void hideInner(ProgramBuilder& program, const collision::face_contacts::Contacts& contacts) {
     if (!contacts.hasInner()) return;
     const BufferId list = contacts.lists.searched;

@@ -1,8 +1,8 @@
-// Contacts of faces and of their edges on a body that a cut has parted. A face of a sheet between corners
-// that no longer hang together touches nothing, as its triangle is drawn no more, and neither does an edge of
-// which the link is dead, nor a face of a crumb. The surface of a voxel body with faces is that of its cells
-// without a dead edge: squares that were inside become faces where a cut lays them open. Particles still
-// touch the faces of others. Lists of contacts are made again in the same step.
+// Contacts of faces and edges of a body after a cut. A face of a sheet whose corners are separated touches
+// nothing, and its triangle is not drawn; nor does an edge with a dead link, or a face of a fragment, touch
+// anything. The surface of a voxel body with faces is that of its cells without a dead edge: inner squares
+// become faces when a cut exposes them. Particles still touch faces of other bodies. Contact lists are
+// rebuilt in the same step.
 #pragma once
 
 #include "sim/collision/edge_contacts.hpp"
@@ -10,11 +10,11 @@
 
 namespace sinew::sim::cutting {
 
-/// Before the substeps: which faces and edges are left. Nothing where none of them may be cut. After
-/// cutting::add.
+/// Appends, before the substeps, the update of faces and edges that remain. Nothing if none of them can be
+/// cut. Call it after cutting::add.
 void addFaceFilter(ProgramBuilder& program, const collision::face_contacts::Contacts& contacts);
-/// In the first substep, after lists were made: what a new face overlaps parts slowly. Nothing where no cut
-/// makes faces.
+/// Appends, in the first substep after lists were made, the recording of overlaps of new faces, which are
+/// removed slowly. Nothing if no cut makes faces.
 void addFaceOpening(ProgramBuilder& program, const collision::face_contacts::Contacts& contacts,
                     const ParticleBuffers& predicted);
 void addEdgeFilter(ProgramBuilder& program, const collision::edge_contacts::Contacts& contacts);

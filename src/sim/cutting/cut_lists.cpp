@@ -1,4 +1,4 @@
-// What leads two nodes far leads over the node between.
+// A link over two nodes dies with either unit link under it.
 #include "sim/cutting/cut_lists.hpp"
 
 #include "kernels.hpp"
@@ -52,7 +52,7 @@ const CutRun* runOf(const CuttingBuffers& cutting, const Listed& one) {
     return nullptr;
 }
 
-// None where it is no link along a sheet.
+// None if the element is no link along a sheet.
 std::optional<layout::CutTie> tieOf(const CuttingBuffers& cutting, Listed one) {
     const CutRun* run = runOf(cutting, one);
     if (run == nullptr) return std::nullopt;
@@ -83,7 +83,7 @@ bool isListed(const Scene& scene, const Settings& settings, std::uint32_t g) {
 
 std::string tiedPast(const Scene& scene, const Grid& sheet) {
     const auto has = [&](std::uint32_t i) { return i - sheet.firstParticle < sheet.node.size(); };
-    // Nodes apart in x and z: up to one is a link of the mask, two in a row lead over one.
+    // Distance of nodes in x and z: 1 is a link of the mask, 2 leads over one node.
     const auto isTie = [&](std::uint32_t a, std::uint32_t b, bool mayLeap) {
         if (!has(a) || !has(b)) return false;
         const auto from = lattice::coordinates(sheet, sheet.node[a - sheet.firstParticle]),
@@ -135,7 +135,7 @@ void addListFilter(ProgramBuilder& program, BufferId list, std::span<const Liste
     addDispatch();
     program.endSettling();
     addPass();
-    program.atEnd(addPass); // after links were given back
+    program.atEnd(addPass); // after links were restored
 }
 
 } // namespace sinew::sim::cutting

@@ -1,4 +1,4 @@
-// Reads the grids, and makes runs of bodies that are alike.
+// Reads the grids, and makes runs of similar bodies.
 #include "sim/cutting/cut_plan.hpp"
 
 #include "sim/constraints/grab.hpp"
@@ -20,19 +20,19 @@ namespace sinew::sim::cutting {
 
 namespace {
 
-// Words by slot.
+// Initial words by slot.
 struct Initial {
     std::vector<std::uint32_t> links, cells, particles;
     lattice::PieceFinder pieces;
 };
 
-// Grids among which some may be cut, with where they are.
+// Grids with cuttable ones among them, and their boxes.
 struct Placed {
     std::vector<std::uint32_t> grids;
     std::vector<lattice::Box> boxes;
 };
 
-// Of a sheet whose particles lie in a row.
+// The box of a sheet with consecutive particles.
 lattice::Box listedBox(const Grid& grid, const StateLayout& layout) {
     lattice::Box box;
     box.sliceStride = grid.nodes[0];
@@ -80,7 +80,7 @@ void addRun(std::vector<Run>& runs, Run run) {
     runs.push_back(run);
 }
 
-// Each link once, from the node that owns it.
+// Joins each link once, from the node that owns it.
 void joinLinks(const Run& run, Initial& initial) {
     for (std::uint32_t i = run.push.first; i < run.push.first + run.push.count; ++i)
         for (std::uint32_t bit = lattice::firstOwned; bit < lattice::directionCount; ++bit) {
@@ -98,11 +98,11 @@ Initial readGrids(const Scene& scene, const Placed& placed, const StateLayout& l
                     std::vector<std::uint32_t>(layout.count, NO_PARTICLE),
                     lattice::PieceFinder(layout.count)};
     const auto& [grids, boxes] = placed;
-    bool isRowOpen = false; // whether a run ends at the grid before
+    bool isRowOpen = false; // whether a run ends at the last grid
     for (std::size_t g = 0; g < grids.size(); ++g) {
         const Grid& grid = scene.grids[grids[g]];
         const Run run = runOf(grid, boxes[g]);
-        const bool isBoxed = boxes[g].end > 0; // else a listed sheet, which need not follow on others
+        const bool isBoxed = boxes[g].end > 0; // else a listed sheet, which need not be adjacent to others
         if (!grid.isCuttable) {
             isRowOpen = false;
             continue;
@@ -127,15 +127,14 @@ void addPieces(ProgramBuilder& program, Cut& cut, Initial& initial, std::size_t 
     std::vector<std::uint32_t> groups;
     for (const Run& run : cut.runs) groups.push_back(groupsOf(run.push.count));
     for (const Run& run : cut.runs) groups.push_back(groupsOf(chunksOf(run)));
-    // every round leaves at most half of the pieces that are not yet whole
-    // Two rounds at least halve the labels that are not final: a low one may take only its least neighbour in
-    // one.
+    // Two rounds at least halve the number of labels that are not final; in a single round a low label may
+    // take only its smallest neighbour.
     cut.rounds = 2 * static_cast<std::uint32_t>(std::bit_width(initial.links.size())) + 2;
     cut.labels = cut.buffers.labels = program.upload("pieces.labels", pieces.labels);
     cut.particles = cut.buffers.particles = program.upload("pieces.particles", initial.particles);
     cut.groups = program.upload("pieces.groups", groups);
     cut.arguments = program.scratch<layout::DispatchArguments>("pieces.arguments", 4 * std::uint64_t{runs});
-    for (BufferId& rounds : cut.roundArguments) // the last one asks for one more, which never comes
+    for (BufferId& rounds : cut.roundArguments) // the last round still writes arguments of another one
         rounds = program.scratch<layout::DispatchArguments>("pieces.rounds",
                                                             (cut.rounds / 2 + 1) * std::uint64_t{runs});
     cut.buffers.pieces = program.upload("pieces", pieces.ofParticles);
@@ -173,7 +172,7 @@ void addSurface(ProgramBuilder& program, const Scene& scene, const surface::CutB
 }
 
 void addHands(ProgramBuilder& program, Cut& cut, const constraints::grab::Grabs& grabs) {
-    const BufferSpec spec = program.program().buffers[grabs.bodies.index]; // adding moves the list
+    const BufferSpec spec = program.program().buffers[grabs.bodies.index]; // copied: adding moves the list
     std::vector<layout::GrabBody> bodies(spec.count);
     std::memcpy(bodies.data(), spec.initial.data(), spec.initial.size());
     cut.uncutBodies = program.upload("pieces.uncut_bodies", bodies);

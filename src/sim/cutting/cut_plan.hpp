@@ -1,4 +1,4 @@
-// The buffers of bodies that may be cut, and what they hold of an uncut one.
+// The buffers of cuttable bodies, and their contents for uncut bodies.
 #pragma once
 
 #include "layout.h"
@@ -14,7 +14,7 @@ struct SheetPieces;
 
 namespace sinew::sim::cutting {
 
-/// A CutRun, with what else its passes say.
+/// A CutRun, with further parameters of its passes.
 struct Run {
     layout::CutPush push{};
     bool hasVolumes = false;
@@ -28,36 +28,36 @@ struct Cut {
     std::vector<Run> runs;
     CuttingBuffers buffers;
     BufferId cells, placesBefore, blade, points, work;
-    BufferId nears, nearCounts, nearArguments; // nodes near the blade, as CuttingBuffers::listed
-    BufferId bladePlaces; // by slot: where particles are for the blade, buffers.places but for some
+    BufferId nears, nearCounts, nearArguments; // nodes near the blade, in the form of CuttingBuffers::listed
+    BufferId bladePlaces;                      // by slot: positions for the blade, mostly buffers.places
     BufferId labels, particles, arguments, groups; // of pieces
     std::array<BufferId, 2> roundArguments; // of even and of odd rounds, by run: no pass writes its own
-    BufferId uncutBodies, weights;          // likewise, where hands may hold some
-    BufferId crumbParticles;                // CrumbParticle; where crumbs are removed
+    BufferId uncutBodies, weights;          // of pieces, if grabs may hold some
+    BufferId crumbParticles;                // layout::CrumbParticle; if fragments are removed
     CrumbSkins crumbSkins;
-    std::shared_ptr<surface::CutSurface> surface; // none where no skin is clipped
-    std::shared_ptr<surface::SheetPieces> sheets; // likewise
-    std::shared_ptr<Tearing> tearing;             // likewise
+    std::shared_ptr<surface::CutSurface> surface; // null if no skin is clipped
+    std::shared_ptr<surface::SheetPieces> sheets; // null if there are none
+    std::shared_ptr<Tearing> tearing;             // null if nothing tears
     bool usesTexels = false;
     std::uint32_t rounds = 0;
 };
 
-/// Of an indirect dispatch over so many items, one at least.
+/// Work groups of an indirect dispatch over so many items, at least one.
 inline std::uint32_t groupsOf(std::uint32_t items) {
     return (items - 1) / GROUP_ITEMS + 1;
 }
 
-/// Items of a run's kernels that take a chunk of slots each.
+/// Items of a run's kernels that process a chunk of slots each.
 inline std::uint32_t chunksOf(const Run& run) {
     return (run.push.count - 1) / PIECE_CHUNK + 1;
 }
 
-/// Words with a bit for each of its slots.
+/// Words of a bit field with a bit for each of its slots.
 inline std::uint32_t wordsOf(const Run& run) {
     return (run.push.first + run.push.count - 1) / 32 - run.push.first / 32 + 1;
 }
 
-/// No runs where no body of `scene` may be cut.
+/// Returns no runs if no body of `scene` is cuttable.
 Cut addBuffers(ProgramBuilder& program, const Scene& scene, const Settings& settings,
                const ParticleBuffers& particles);
 

@@ -1,4 +1,4 @@
-// Labels of pieces name their lowest slots.
+// Labels of pieces are their lowest slots.
 #include "sim/cutting/cut_tethers.hpp"
 
 #include "kernels.hpp"
@@ -11,7 +11,7 @@ namespace sinew::sim::cutting {
 void addTetherFilter(ProgramBuilder& program, BufferId list, std::span<const ListedTether> tethers) {
     CuttingBuffers& cutting = program.program().cutting;
     if (cutting.runs.empty()) return;
-    const auto labels = firstContents<std::uint32_t>(program, cutting.labels); // uncut
+    const auto labels = firstContents<std::uint32_t>(program, cutting.labels); // of uncut bodies
     const auto mayBeCut = [&](std::uint32_t slot) {
         return std::ranges::any_of(cutting.runs, [&](const CutRun& run) {
             return slot >= run.first && slot - run.first < run.count;

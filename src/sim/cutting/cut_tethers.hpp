@@ -1,5 +1,5 @@
-// Tethers end where a cut has parted a particle from its anchor, as the step ends that has cut: with the
-// pieces that are found then. One around a slit, which still hangs together, holds as it did.
+// Removal of tethers whose particle a cut has separated from the anchor, at the end of the step that cut,
+// from the new pieces. A tether around a slit, through which both still hang together, stays.
 #pragma once
 
 #include "layout.h"
@@ -15,8 +15,8 @@ struct ListedTether {
     float reach = 0;                        ///< [m]
 };
 
-/// `list` has layout::TetherReach of each of `tethers`. Nothing where no body that may be cut has both ends
-/// of one.
+/// Appends the removal; `list` has a layout::TetherReach for each of `tethers`. Nothing if no cuttable body
+/// contains both ends of one.
 void addTetherFilter(ProgramBuilder& program, BufferId list, std::span<const ListedTether> tethers);
 
 } // namespace sinew::sim::cutting

@@ -1,4 +1,5 @@
-// What buffers of a program that is being made begin with, for who follows from what others have uploaded.
+// Initial contents of buffers of a program under construction, for features that depend on what others have
+// uploaded.
 #pragma once
 
 #include "sim/program.hpp"
@@ -7,7 +8,7 @@
 
 namespace sinew::sim::cutting {
 
-/// Empty for a buffer that begins with zeros.
+/// The initial contents; empty for a buffer that starts with zeros.
 template <typename T> std::vector<T> firstContents(ProgramBuilder& program, BufferId buffer) {
     const std::vector<std::byte>& bytes = program.program().buffers[buffer.index].initial;
     std::vector<T> values(bytes.size() / sizeof(T));

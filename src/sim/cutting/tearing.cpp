@@ -1,4 +1,4 @@
-// The buffers and the order of the passes of tearing.
+// The buffers of tearing, and the order of its passes.
 #include "sim/cutting/tearing.hpp"
 
 #include "kernels.hpp"

@@ -1,18 +1,18 @@
-// Bodies that tear (Grid::tearStrain). What counts is how far a cell is stretched in the direction in which
-// it is stretched most, and what tears it is a straight cut across that direction: neither depends on how the
-// grid lies in the material, as the strain of single links would. A cut that has reached the rim of a cell
-// goes on from there, so tears grow at their ends, where they are stretched most.
+// Tearing of bodies (Grid::tearStrain). The criterion is the largest stretch of a cell in any direction, and
+// a tear is a straight cut perpendicular to that direction: neither depends on the orientation of the grid in
+// the material, as the strain of single links would. A cut that has reached the rim of a cell continues from
+// there, so tears grow at their ends, where stretch is largest.
 //
-// In every step of such a scene, after the blade: strain_cells (strain_voxels), find_tears (cells beyond the
-// limit that are stretched more than all around them, or in bodies of voxels reached by a cut), tear_cells
-// (tear_voxels; the first so many of those in order of strain). From there on a tear is a cut.
+// Every step of such a scene runs, after the blade: strain_cells (strain_voxels), find_tears (cells beyond
+// the limit that are stretched more than all around them, or in voxel bodies reached by a cut), tear_cells
+// (tear_voxels; the first Grid::tearsPerStep of those in order of strain). From then on a tear is a cut.
 #pragma once
 
 #include "sim/cutting/cut_plan.hpp"
 
 namespace sinew::sim::cutting {
 
-/// Of one run of slots.
+/// Tearing of one run of slots.
 struct TearingBody {
     layout::TearPush push{};
     BufferId found, count;
@@ -23,11 +23,11 @@ struct Tearing {
     BufferId strains; ///< by slot
 };
 
-/// Only where a run tears; `slots` of the state. Steps without a blade are to be recorded with the passes of
-/// a cut.
+/// Null if no run tears; `slots` is the number of slots of the state. With tearing, steps without a blade
+/// must also be recorded with the passes of a cut.
 std::shared_ptr<Tearing> addTearing(ProgramBuilder& program, const Cut& cut, std::size_t slots);
 
-/// After the blade and before links are settled.
+/// Appends the passes, after the blade and before links are settled.
 void addTearingPasses(ProgramBuilder& program, const Tearing& tearing, const Cut& cut);
 
 } // namespace sinew::sim::cutting

@@ -1,5 +1,5 @@
-// The layout of the correction buffer of `jacobi`: every constraint end owns one slot, every particle knows
-// its slots.
+// The layout of the correction buffer of `jacobi`: every end of a constraint owns one slot, every particle
+// has the list of its slots.
 #pragma once
 
 #include "layout.h"
@@ -10,12 +10,12 @@
 
 namespace sinew::sim::solvers {
 
-/// Filled by the constraint types one after another, then turned into the lists of the particle pass.
+/// Filled by one constraint type after another, then converted to the lists of the particle pass.
 class CorrectionSlots {
 public:
     explicit CorrectionSlots(std::size_t particles) : counts_(particles, 0) {}
 
-    /// The next slot belongs to `particle`.
+    /// Assigns the next slot to `particle`.
     void add(std::uint32_t particle) {
         owners_.push_back(particle);
         ++counts_[particle];

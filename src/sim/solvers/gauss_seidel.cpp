@@ -1,4 +1,4 @@
-// Orders the phases of `gauss_seidel`: open, sweeps, close; the close of a substep and the open of the next
+// Order of the phases of `gauss_seidel`: open, sweeps, close. The close of a substep and the open of the next
 // are one pass unless internal damping comes between them. A substep of one sweep is one dispatch a color and
 // one more.
 #include "sim/solvers/gauss_seidel.hpp"
@@ -17,7 +17,7 @@ namespace sinew::sim::solvers::gaussSeidel {
 
 namespace {
 
-// A pass between sweeps, without and with boundary planes, and with those where forces are kept.
+// A pass between sweeps: without boundary planes, with them, and with planes if forces are kept.
 struct Form {
     const vk::ShaderCode *plain, *planes, *forces;
     bool isWarm;
@@ -34,7 +34,7 @@ constexpr Form advanceWarmLoads{&kernels::advanceSubstepWarmLoads, &kernels::adv
 constexpr Form close{&kernels::closeSubstep, &kernels::closeSubstepPlanes, &kernels::closeSubstepPlanesForces,
                      false};
 
-// What the passes of a step work on.
+// The buffers that the passes of a step use.
 struct Work {
     const ParticleBuffers& particles;
     constraints::distance::ColoredEdges edges;
@@ -68,7 +68,7 @@ void addBetween(ProgramBuilder& program, const Work& work, const Form& form, boo
                      constants);
 }
 
-// In a substep. Without constraints there is nothing to repeat.
+// Sweeps of a substep. Without constraints there is nothing to repeat.
 std::uint32_t sweepsOf(const Work& work, const Settings& settings) {
     return work.edges.colors.empty() && work.bends.colors.empty() ? 1 : settings.iterations;
 }

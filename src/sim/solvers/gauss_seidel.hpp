@@ -1,13 +1,14 @@
-// `gauss_seidel`: coloured XPBD in place, color by color, with a guarded warm start (methods: D). Few sweeps,
-// many barriers: for bodies so large that a device is bound by bandwidth, and for accuracy.
+// `gauss_seidel`: graph-coloured XPBD [Macklin 2016] in place, color by color, with a guarded warm start. It
+// has few sweeps but many barriers: for bodies so large that the device is limited by bandwidth, and for
+// accuracy.
 #pragma once
 
 #include "sim/compile.hpp"
 
 namespace sinew::sim::solvers::gaussSeidel {
 
-/// The state is in the order of the scene, with at least one slot that never moves behind it: what pads a
-/// color. The w of its positions is inverse mass [1/kg].
+/// The state is in the order of the scene, followed by at least one slot that never moves, for padding
+/// colors. The w of positions is inverse mass [1/kg].
 SolverPlan plan(const Scene& scene, const Settings& settings, const std::vector<float>& inverseMass);
 
 } // namespace sinew::sim::solvers::gaussSeidel

@@ -1,5 +1,5 @@
-// Orders the phases of `jacobi`: predict, iterations of constraint pass and particle pass and planes,
-// velocity update.
+// Order of the phases of `jacobi`: predict; iterations of constraint pass, particle pass and planes; velocity
+// update.
 #include "sim/solvers/jacobi.hpp"
 
 #include "kernels.hpp"
@@ -16,7 +16,7 @@ namespace sinew::sim::solvers::jacobi {
 
 namespace {
 
-// The permanent constraints: their corrections and how a particle collects them.
+// The permanent constraints: their corrections, and the lists by which a particle collects them.
 struct Corrections {
     constraints::distance::Edges distances;
     constraints::bend::Rows bends;

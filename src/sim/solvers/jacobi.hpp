@@ -1,13 +1,13 @@
-// `jacobi`: the slides' weighted Jacobi, the published baseline. A constraint pass writes each correction to
-// its own slot of a correction buffer; a particle pass applies the weighted sum. PBD order with the half-kick
-// (methods: D).
+// `jacobi`: weighted Jacobi, the published baseline. A constraint pass writes each correction to its own slot
+// of a correction buffer; a particle pass applies the weighted sum. The order of operations is that of PBD,
+// with a half kick.
 #pragma once
 
 #include "sim/compile.hpp"
 
 namespace sinew::sim::solvers::jacobi {
 
-/// The state is in the order of the scene; the w of its positions is inverse mass [1/kg].
+/// The state is in the order of the scene; the w of positions is inverse mass [1/kg].
 SolverPlan plan(const Scene& scene, const Settings& settings, const std::vector<float>& inverseMass);
 
 } // namespace sinew::sim::solvers::jacobi

@@ -22,12 +22,12 @@ double meanInverseMass(std::span<const float> inverseMass) {
     return moving > 0 ? sum / static_cast<double>(moving) : 0;
 }
 
-// By rest length: all links of a grid have one of its three.
+// The kind of a link by its rest length: all links of a grid have one of its three.
 std::size_t kindOf(const Grid& grid, const DistanceConstraint& link) {
     return link.restLength == grid.restLength[0] ? 0 : link.restLength == grid.restLength[1] ? 1 : 2;
 }
 
-// K_c: at which stiffness the share of a constraint levels off.
+// K_c: the stiffness at which the share of a constraint levels off.
 std::vector<float> levelStiffness(const Scene& scene) {
     std::vector<float> levels;
     levels.reserve(scene.distances.size());
@@ -45,7 +45,7 @@ std::vector<float> levelStiffness(const Scene& scene) {
     return levels;
 }
 
-// What levels off stiffness that a substep cannot follow [m/N].
+// The coefficient that levels off stiffness that a substep cannot follow [m/N].
 double softeningOf(const Scene& scene, const Settings& settings, std::span<const float> inverseMass) {
     const double h = double{scene.dt} / settings.substeps;
     return 2 * meanInverseMass(inverseMass) * h * h;
@@ -64,8 +64,8 @@ std::vector<float> shareStiffness(const Scene& scene, const Settings& settings,
     return shares;
 }
 
-// What a full cell's links take of each of its corners: a quarter of each of three edges, half of three face
-// diagonals, a whole body diagonal.
+// The share of each corner of a full cell that its links take: a quarter of each of three edges, half of
+// three face diagonals, a whole body diagonal.
 double linksOfACorner(const Scene& scene, const Grid& grid, std::span<const float> shares) {
     constexpr double parts[3] = {0.75, 1.5, 1};
     double sum = 0;
@@ -130,7 +130,7 @@ float wholeShare(const Scene& scene, const Grid& grid, std::uint32_t kind, std::
         if (link.restLength == grid.restLength[kind] && shares[c] > 0)
             return shares[c] / stiffnessOf(link.compliance) * stiffness;
     }
-    return stiffness; // no such link moves
+    return stiffness; // no such link can move
 }
 
 double recoveryBudget(const Settings& settings) {

@@ -1,5 +1,5 @@
-// Orders the gathers of `split`: one dispatch for particles with listed links, one for each kind of grid,
-// none of which waits for another. Positions alternate between two buffers; the state always ends in the
+// Order of the gathers of `split`: one dispatch for particles with listed links, one for each kind of grid,
+// without barriers between them. Positions alternate between two buffers; the final state is always in the
 // first.
 #include "sim/solvers/split.hpp"
 
@@ -31,22 +31,22 @@ namespace sinew::sim::solvers::split {
 
 namespace {
 
-// One dispatch of every substep, still without the buffers that alternate.
+// A dispatch of every substep, without the buffers that alternate.
 struct Gather {
-    std::vector<BufferId> buffers; // after positions, next, velocities and step
+    std::vector<BufferId> buffers; // those after positions, next, velocities and step
     ProgramBuilder::Constants constants;
     std::function<void(std::span<const BufferId> buffers, bool isFirst)> dispatch;
     bool alternatesVelocities = false;
 };
 
-// What a scene is to `split`, worked out once a program.
+// Data of a scene for `split`, computed once a program.
 struct Division {
     const std::vector<float>& inverseMass;
-    std::vector<std::uint32_t> grids; // that are computed
+    std::vector<std::uint32_t> grids; // computed ones
     Shares shares;
 };
 
-// What all dispatches of a program have in common.
+// Data that all dispatches of a program share.
 struct Common {
     ProgramBuilder& program;
     const Scene& scene;
@@ -67,7 +67,7 @@ struct Common {
     }
 };
 
-// The distance constraints that no grid computes, between slots.
+// The distance constraints outside computed grids, between slots.
 std::vector<constraints::distance::GatherLink> listedLinks(const Common& common) {
     const Scene& scene = common.scene;
     const Division& division = common.division;
@@ -108,7 +108,7 @@ layout::PackedSubstepPush packedPush(const constraints::distance::GatherLinks& l
     return push;
 }
 
-// Of links in slots, in ranges and of bends: what a blade may cut.
+// Links in slots, links in ranges, and bends that a blade can cut.
 std::vector<cutting::Listed> allOf(const constraints::distance::GatherLinks& links) {
     std::vector<cutting::Listed> all;
     for (std::uint32_t i = 0; i < links.particles; ++i)
@@ -140,7 +140,7 @@ std::vector<cutting::Listed> allOf(const constraints::bend::GatherBends& bends) 
     return all;
 }
 
-// Any links, with bends and internal damping where the scene has those.
+// Gather of any links, with bends and internal damping if the scene has them.
 Gather generalGather(const Common& common, std::span<const constraints::distance::GatherLink> listed,
                      bool isRanged, const constraints::bend::GatherBends& bends, std::uint32_t count) {
     Gather gather = common.gather();
@@ -171,7 +171,7 @@ Gather generalGather(const Common& common, std::span<const constraints::distance
     return gather;
 }
 
-// Links in slots of which each has one rest length: one word a link.
+// Gather of links in slots that have one rest length each: one word a link.
 Gather packedGather(const Common& common, const constraints::distance::GatherLinks& links,
                     const constraints::distance::PackedLinks& packedLinks, std::uint32_t count) {
     Gather gather = common.gather();
@@ -186,7 +186,7 @@ Gather packedGather(const Common& common, const constraints::distance::GatherLin
     return gather;
 }
 
-// `count` particles at the head of the state.
+// Gather of the first `count` particles of the state.
 Gather listedGather(const Common& common, std::uint32_t count) {
     const auto listed = listedLinks(common);
     const auto bends = constraints::bend::gatherBends(common.scene, common.division.inverseMass,
@@ -206,7 +206,7 @@ Gather listedGather(const Common& common, std::uint32_t count) {
                                      : packedGather(common, links, packedLinks, count);
 }
 
-// The bodies on computed grids, with the buffer that all their kernels read.
+// The bodies on computed grids, and the buffer that all their kernels read.
 struct Grids {
     lattice::Batches batches;
     BufferId cells;
@@ -219,7 +219,7 @@ Grids uploadGrids(const Common& common, lattice::Residence residence) {
     return grids;
 }
 
-// What the kernels for a batch have in common, those of a substep and those of a whole step.
+// Buffers and constants shared by the kernels for a batch, those of a substep and those of a whole step.
 Gather gridGather(const Common& common, const lattice::Batch& batch, BufferId cells) {
     Gather gather = common.gather();
     gather.constants[bodyDiagonalsId] = batch.hasBodyDiagonals;
@@ -248,7 +248,7 @@ std::vector<Gather> addGathers(const Common& common) {
     return gathers;
 }
 
-// One dispatch a kind of body, for the whole step: positions stay in shared memory (platform: residency).
+// Appends one dispatch a kind of body, for the whole step: positions stay in shared memory.
 void addResident(const Common& common, const ParticleBuffers& particles) {
     const auto [batches, cells] = uploadGrids(common, lattice::Residence::sharedMemory);
     sleep::addOpening(common.program, particles);
@@ -265,8 +265,8 @@ void addResident(const Common& common, const ParticleBuffers& particles) {
     }
 }
 
-// One dispatch a kind of grid and one for listed links: the links of a substep. `next` differs from `current`
-// in the buffers that alternate.
+// Appends the links of a substep: one dispatch a kind of grid and one for listed links. `next` differs from
+// `current` in the buffers that alternate.
 void addLinks(const std::vector<Gather>& gathers, const ParticleBuffers& current, const ParticleBuffers& next,
               bool isFirst) {
     for (const Gather& gather : gathers) {
@@ -277,7 +277,7 @@ void addLinks(const std::vector<Gather>& gathers, const ParticleBuffers& current
     }
 }
 
-// What is not a plane.
+// Adds the colliders other than planes.
 collision::colliders::Colliders addRigid(const Common& common) {
     auto rigid = collision::colliders::add(common.program, common.scene, common.settings, common.layout);
     collision::colliders::addMemory(common.program, rigid);
@@ -314,19 +314,18 @@ void addSubsteps(const Common& common, const ParticleBuffers& particles) {
     if (current.velocities != particles.velocities) program.copy(current.velocities, particles.velocities);
 }
 
-// The contacts that a scene has: of particles with faces, of edges of faces, then of particles with
-// particles.
+// The contacts of a scene in order: of particles with faces, of edges of faces, of particles with particles.
 struct Touching {
     std::optional<collision::face_contacts::Contacts> faces;
     std::optional<collision::edge_contacts::Contacts> edges;
     std::optional<collision::particle_contacts::Contacts> pairs;
-    BufferId before; // velocities when the substep began
-    // Planes and the slots that hold a particle; only where no particles touch each other.
+    BufferId before; // velocities at the start of the substep
+    // Planes and the slots that hold a particle; only if no particles touch each other.
     collision::planes::Colliders planes;
     BufferId particles;
     std::uint32_t particleCount = 0;
 
-    // A substep begins with these velocities, which stay until its contacts are solved.
+    // Starts a substep with these velocities, which stay until its contacts are solved.
     void begin(BufferId velocities) {
         before = velocities;
         if (faces) faces->rows.before = velocities;
@@ -342,7 +341,7 @@ struct Touching {
         else
             addFinish(program, predicted, next);
     }
-    // The end of a substep in which no particles touch each other.
+    // Appends the end of a substep in which no particles touch each other.
     void addFinish(ProgramBuilder& program, const ParticleBuffers& predicted,
                    const ParticleBuffers& next) const {
         std::vector<BufferId> buffers{predicted.positions, predicted.velocities, next.step, next.positions,
@@ -359,7 +358,7 @@ struct Touching {
         buffers.push_back(particles);
         program.dispatch(*code, particleCount, buffers, layout::CountPush{particleCount}, constants);
     }
-    // After all contacts of a substep; velocities alternate.
+    // Appends restitution after all contacts of a substep; velocities alternate.
     void addBounces(ProgramBuilder& program, const ParticleBuffers& met, ParticleBuffers& current) {
         if (faces) collision::row_contacts::addBounces(program, faces->rows, current);
         if (edges) collision::row_contacts::addBounces(program, edges->rows, current);
@@ -367,7 +366,7 @@ struct Touching {
         collision::particle_contacts::addBounces(program, *pairs, met, current);
         std::swap(current.velocities, pairs->rebounding);
     }
-    // Whether some may end a substep where their velocity has not brought them.
+    // Whether a particle may end a substep at another position than its velocity gives.
     bool moveUnseen() const { return pairs || (faces && faces->hasStops()); }
     void joinIslands(sleep::Sleep& sleep) const {
         if (faces) collision::row_contacts::joinIslands(faces->rows, sleep);
@@ -401,9 +400,9 @@ Touching addTouching(const Common& common, const ParticleBuffers& particles) {
     return touching;
 }
 
-// Substeps in which particles touch: gathers leave predicted positions, and the passes of the contacts make
-// of them the state after the substep. Positions end in the buffer that they began in; velocities in another,
-// so that contacts know what they were.
+// Appends the substeps of a scene with contacts: gathers leave predicted positions, and the passes of the
+// contacts turn these into the state after the substep. Positions end in the buffer that they started in;
+// velocities end in another one, so that contacts can read the old ones.
 void addTouchingSubsteps(const Common& common, const ParticleBuffers& particles) {
     ProgramBuilder& program = common.program;
     const StateLayout& layout = common.layout;

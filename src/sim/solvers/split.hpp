@@ -1,17 +1,17 @@
-// `split`: stiffness-clamped, mass-split Jacobi, one gather and one barrier a substep (methods: D). The
-// default.
+// `split`: stiffness-clamped, mass-split Jacobi with one gather and one barrier a substep; the default
+// solver. shares.hpp says why it is stable.
 #pragma once
 
 #include "sim/compile.hpp"
 
 namespace sinew::sim::solvers::split {
 
-/// Free particles and bodies whose links are listed come first, in the order of the scene; then a dense box
-/// for each body on a grid (lattice/placement.hpp). Positions hold x + theta h v and in w tau [s^2], which
-/// clamps a particle's links (solvers/shares.hpp).
+/// Free particles and bodies with listed links come first, in the order of the scene, then a dense box for
+/// each body on a grid (lattice/placement.hpp). Positions hold x + theta h v and in w tau [s^2], which clamps
+/// a particle's links (solvers/shares.hpp).
 SolverPlan plan(const Scene& scene, const Settings& settings, const std::vector<float>& inverseMass);
 
-/// Whether the links of a substep leave predicted positions, x: where something touches or forces are kept,
+/// Whether the links of a substep leave predicted positions, x: if something touches or forces are kept,
 /// further passes end the substep.
 bool contactsFollow(const Scene& scene, const Settings& settings);
 

@@ -1,5 +1,5 @@
-// The kernels of `split` in their forms, and the ids of what is specialised in them. Only split.cpp asks for
-// one.
+// The kernels of `split` in their forms, and the ids of their specialisation constants. Only split.cpp uses
+// them.
 #pragma once
 
 #include "kernels.hpp"
@@ -15,14 +15,14 @@ inline constexpr std::uint32_t bendDegreeId = 6; // constant_id in gather_terms.
 
 namespace k = kernels;
 
-// A kernel in its forms: positions fetched as texels or loaded, without and with boundary planes.
+// A kernel in its forms: positions as texels or loads, without and with boundary planes.
 struct Kernel {
     const vk::ShaderCode *texels, *texelsPlanes, *loads, *loadsPlanes;
     const vk::ShaderCode& form(bool usesTexels, bool hasPlanes) const {
         return usesTexels ? (hasPlanes ? *texelsPlanes : *texels) : (hasPlanes ? *loadsPlanes : *loads);
     }
 };
-// Loads alone, or no neighbours to fetch.
+// For a kernel with loads alone, or without neighbours to fetch.
 constexpr Kernel inOneForm(const vk::ShaderCode& code, const vk::ShaderCode& planes) {
     return {&code, &planes, &code, &planes};
 }
@@ -55,7 +55,7 @@ inline constexpr Kernel volumeSingle{&k::gatherLatticeVolumeSingle, &k::gatherLa
 inline constexpr Kernel residentVolume = inOneForm(k::residentLatticeVolume, k::residentLatticeVolumePlanes);
 inline constexpr Kernel sheet{&k::gatherSheet, &k::gatherSheetPlanes, &k::gatherSheetLoads,
                               &k::gatherSheetLoadsPlanes};
-// Of bodies that may be cut.
+// For cuttable bodies.
 inline constexpr Kernel cuttable{&k::gatherCuttable, &k::gatherCuttablePlanes, &k::gatherCuttableLoads,
                                  &k::gatherCuttableLoadsPlanes};
 inline constexpr Kernel cuttableVolume{&k::gatherCuttableVolume, &k::gatherCuttableVolumePlanes,
@@ -76,7 +76,7 @@ inline constexpr Kernel residentNode = inOneForm(k::residentNode, k::residentNod
 inline constexpr Kernel residentNodeVolume = inOneForm(k::residentNodeVolume, k::residentNodeVolumePlanes);
 inline constexpr Kernel residentNodeSheet = inOneForm(k::residentNodeSheet, k::residentNodeSheetPlanes);
 
-// Gathers links in the general form, with what else the scene has.
+// Gathers links in the general form, with the bends and damping of the scene.
 inline const Kernel& generalKernel(bool isRanged, bool bends, bool damps) {
     if (isRanged)
         return damps ? (bends ? rangedBendingDamped : rangedDamped) : bends ? rangedBending : ranged;
@@ -89,7 +89,7 @@ inline const Kernel& nodeKernelFor(const lattice::Batch& batch) {
     return batch.isSheet ? nodeSheet : batch.hasVolumes ? nodeVolume : node;
 }
 
-// Moves a batch once a substep.
+// Moves a batch by one substep.
 inline const Kernel& kernelFor(const lattice::Batch& batch, const Forms& forms) {
     if (lattice::isOneNode(forms)) return nodeKernelFor(batch);
     const std::uint32_t columns = forms.columns;
