@@ -1,4 +1,4 @@
-// Colliders are asked for each particle. Other bodies are drawn along gravity into columns of particles.
+// Colliders are tested for each particle. Other bodies are projected along gravity into columns of particles.
 #include "sim/stiffness/carried.hpp"
 
 #include "sim/colliders.hpp"
@@ -22,11 +22,11 @@ using collision::Vector;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double steepest = 0.5; // sine of the slope on which friction still holds
 constexpr double flattest =
-    0.26; // sine of the slope at a rim below which that is an edge; of a round top it is steepest
-constexpr std::size_t mostTimes = 32; // of keyframes that are looked at
+    0.26; // sine of the slope at a rim below which the rim is an edge; a round top has the steepest there
+constexpr std::size_t mostTimes = 32; // of keyframes that are examined
 
-// In the frame of a collider: how far along a ray from `from` it is, on a round one where it is not steep;
-// infinite where it is not.
+// Distance to a collider along a ray from `from`, in its frame; on a round one only where it is not steep;
+// infinite if the ray misses it.
 double wayTo(const Collider& collider, double kept, const Vector& from, const Vector& down) {
     if (collider.shape == ColliderShape::box) {
         const Vector half = toVector(collider.halfExtents);
@@ -42,7 +42,7 @@ double wayTo(const Collider& collider, double kept, const Vector& from, const Ve
         }
         return enters <= leaves && leaves >= 0 ? std::max(0.0, enters) : infinite;
     }
-    // the point of the capsule's axis that is nearest to the ray's line
+    // the point of the capsule's axis nearest to the line of the ray
     const double half = collider.shape == ColliderShape::capsule ? double{collider.halfLength} : 0;
     const double flat = 1 - down[1] * down[1];
     const double height = from[1] - dot(from, down) * down[1];
@@ -53,13 +53,13 @@ double wayTo(const Collider& collider, double kept, const Vector& from, const Ve
                                                                              : infinite;
 }
 
-// The sine of the slope of a triangle against gravity.
+// The sine of a triangle's slope relative to the horizontal.
 double slopeOf(const std::array<Vector, 3>& corners, const Vector& down) {
     const Vector normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
     return acrossLength(normal, down) / std::sqrt(std::max(1e-300, dot(normal, normal)));
 }
 
-// Positions at `time` of particles that go along paths, and of others at the start.
+// Positions at `time` of particles on paths, and initial positions of others.
 std::vector<Vector> placesAt(const Scene& scene, double time) {
     std::vector<Vector> places;
     for (const Particle& particle : scene.particles) places.push_back(toVector(particle.position));
@@ -76,7 +76,7 @@ void lower(Support& support, std::uint32_t i, double way, bool isSharp) {
     support.isSharp[i] = isSharp;
 }
 
-// How far each particle that touches others reaches: its radius, or half the thickness of its faces.
+// Contact distance of each touching particle: its radius, or half the thickness of its faces.
 std::vector<double> reachesOf(const Scene& scene) {
     std::vector<double> reaches;
     for (const Particle& particle : scene.particles) reaches.push_back(double{particle.radius});
@@ -151,7 +151,7 @@ void Supports::addBodies(double time, Support& support) const {
                 lower(support, i, std::max(0.0, way), isSharp);
         };
     };
-    std::vector<bool> isCorner(scene_.particles.size()); // whose faces are there for it
+    std::vector<bool> isCorner(scene_.particles.size()); // faces represent it
     for (const Face& face : scene_.faces)
         for (const std::uint32_t corner : face.particles) isCorner[corner] = true;
     for (std::uint32_t i = 0; i < reaches.size(); ++i)

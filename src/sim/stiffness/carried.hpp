@@ -1,4 +1,4 @@
-// Supports of particles: what is below them and may carry them.
+// Supports of particles: objects below them that may carry them.
 #pragma once
 
 #include "sim/collision/vectors.hpp"
@@ -12,23 +12,24 @@ namespace sinew::sim::stiffness {
 
 /// The nearest support below each particle.
 struct Support {
-    std::vector<double> ways;  ///< how far below along gravity [m]; infinite where nothing is
-    std::vector<bool> isSharp; ///< whether it may end in a corner: a box, a flat face, a body; no round thing
+    std::vector<double> ways;  ///< distance to it along gravity [m]; infinite without a support
+    std::vector<bool> isSharp; ///< whether it may end in a corner: a box, a flat face, a body; not round
 };
 
-/// Times at which something that goes along a path may begin to carry: those of keyframes, at most 32 [s].
+/// Times at which an object on a path may begin to carry: those of keyframes, at most 32 [s].
 std::vector<double> timesOf(const Scene& scene);
 
-/// Supports of the particles `asked` of a scene: looks along the unit vector `down` for colliders, and, for
-/// particles that touch others, for faces and particles of other components that touch; of round ones and
-/// faces the parts that are not steep. `components` says which particles hang together (componentsOf). Keeps
-/// its arguments by reference. Bodies are looked for once, unless one goes along a path.
+/// Supports of the particles `asked` of a scene. Searches along the unit vector `down` for colliders and, for
+/// touching particles, for faces and touching particles of other components; of round ones and faces only the
+/// parts that are not steep. `components` has the component of each particle (componentsOf). Keeps its
+/// arguments by reference. Bodies are searched once, unless one follows a path.
 class Supports {
 public:
     Supports(const Scene& scene, std::span<const std::uint32_t> components, const collision::Vector& down,
              std::span<const std::uint32_t> asked);
 
-    /// Colliders and driven bodies are where their paths lead at `time` [s], others where they begin.
+    /// Supports with colliders and driven bodies at their poses at `time` [s], and other bodies at their
+    /// initial positions.
     Support at(double time) const;
 
 private:
@@ -39,7 +40,7 @@ private:
     std::span<const std::uint32_t> components_, asked_;
     collision::Vector down_;
     bool hasMovingBodies_;
-    Support still_; ///< bodies at the start
+    Support still_; ///< supports by bodies at the start
 };
 
 } // namespace sinew::sim::stiffness

@@ -1,4 +1,4 @@
-// A hash map of columns that have particles, so that a scene may be as wide as it likes.
+// A hash map of the columns that contain particles, so that a scene may have any width.
 #include "sim/stiffness/columns.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Particles sorted into columns along gravity, to be asked for by what is below them.
+// Particles sorted into columns along gravity, to find those above an object.
 #pragma once
 
 #include "sim/collision/vectors.hpp"
@@ -21,8 +21,8 @@ public:
     Columns(const Scene& scene, const std::vector<collision::Vector>& places,
             std::span<const std::uint32_t> particles, const collision::Vector& down);
 
-    /// Calls visit(particle, way) for those in columns that a square of 2 `half` around `place` meets; `way`
-    /// is how far below them it is [m], negative above.
+    /// Calls visit(particle, way) for particles in columns that overlap a square of side 2 `half` around
+    /// `place`; `way` is how far below the particle the place is [m], negative if it is above.
     template <typename Visit>
     void visitBelow(const collision::Vector& place, double half, const Visit& visit) const {
         const collision::Vector at = onMap(place);
@@ -33,7 +33,8 @@ public:
                       });
     }
 
-    /// Calls visit for columns that a triangle meets, `way` being to where it passes the middle of a column.
+    /// Calls visit for particles in columns that overlap a triangle; `way` is to its depth at the middle of
+    /// the column.
     template <typename Visit>
     void visitBelow(const std::array<collision::Vector, 3>& corners, const Visit& visit) const {
         const std::array<collision::Vector, 3> on{onMap(corners[0]), onMap(corners[1]), onMap(corners[2])};
@@ -58,10 +59,10 @@ private:
         }
     };
 
-    // Depth [m], and where across [columns].
+    // Depth [m], and the position across in units of columns.
     collision::Vector onMap(const collision::Vector& place) const;
     double depthOf(std::uint32_t i) const { return collision::dot(places_[i], frame_[0]); }
-    // Whether a triangle meets the square of a column, and at which depth [m].
+    // Whether a triangle overlaps the square of a column, and its depth there [m].
     static bool meets(const std::array<collision::Vector, 3>& corners, double x, double y, double& depth);
 
     template <typename Visit>

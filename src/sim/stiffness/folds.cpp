@@ -1,4 +1,4 @@
-// One walk over the faces for thickness and middle of each sheet, one for its reach and its fall.
+// One loop over the faces for thickness and middle of each sheet, one for its extent and its fall.
 #include "sim/stiffness/folds.hpp"
 
 #include "sim/stiffness/carried.hpp"
@@ -19,17 +19,17 @@ using collision::Vector;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// Shares of its thickness that a sheet may fall in a substep: where it folds over a capsule it crosses itself
-// from about 0.45 on, where it crumples from about 0.15 on (docs/accuracy.md).
+// Largest fall in a substep as a share of a sheet's thickness. A sheet folding over a capsule intersects
+// itself from about 0.45 on, a crumpling one from about 0.15 on (docs/accuracy.md).
 constexpr double mostOfFold = 0.35, mostOfCrumple = 0.12;
 
 struct Sheet {
-    std::vector<std::uint32_t> corners; // each as often as faces have it
+    std::vector<std::uint32_t> corners; // each as often as faces contain it
     Vector sum{};
     double halfThickness = infinite;
     bool isHeld = false;
 
-    // How far it extends [m].
+    // Extent of the sheet [m].
     struct Extent {
         double reach = 0;       // from its middle
         double uprightness = 0; // its height over its longest extent
@@ -70,10 +70,10 @@ std::unordered_map<std::uint32_t, Sheet> sheetsOf(const Scene& scene, std::span<
     return sheets;
 }
 
-// A plane that is steeper than this is a wall, on which nothing comes to lie.
+// A plane with a smaller vertical component of its normal is a wall, on which nothing comes to rest.
 constexpr double steepest = 0.1;
 
-// From a place to the nearest plane below.
+// Distance along gravity from a position to the nearest plane below.
 double wayToPlanes(const Scene& scene, const Vector& place, const Vector& down) {
     double way = infinite;
     for (const Plane& plane : scene.planes) {

@@ -1,4 +1,4 @@
-// Weight flows down the distance to what holds a body: one walk over the particles, farthest first.
+// Weight flows towards what holds a body: one loop over the particles, farthest first.
 #include "sim/stiffness/tensions.hpp"
 
 #include "sim/collision/loads.hpp"
@@ -23,10 +23,10 @@ using collision::Vector;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t nobody = ~0u;
-constexpr double alongTheWay = 0.99; // of a link's length, what it leads nearer to what holds
-// Factors on the load of a link, which give its tension (docs/accuracy.md): at a corner, where folds of a
-// sheet meet; at the rim of what holds a sheet from below in its middle, since a round thing makes folds all
-// around it; and of all that lies on something, which slides and folds.
+constexpr double alongTheWay = 0.99; // share of a link's length by which it must lead nearer to what holds
+// Factors from the load of a link to its tension (docs/accuracy.md): at a corner, where folds of a sheet
+// meet; at the rim of a support below the middle of a sheet, since a round support makes folds all around it;
+// and for everything that lies on a support, where it slides and folds.
 constexpr double atCorners = 25, aroundIt = 5, whereCarried = 1.2;
 
 // The links of each particle.
@@ -50,10 +50,10 @@ std::uint32_t otherEnd(const DistanceConstraint& c, std::uint32_t end) {
     return c.a == end ? c.b : c.a;
 }
 
-// The ways along the links from each particle to the nearest that is held.
+// The shortest paths along links from each particle to the nearest held one.
 struct Ways {
     std::vector<double> length;       // [m]
-    std::vector<std::uint32_t> root;  // the particle that is held; nobody = hangs on nothing
+    std::vector<std::uint32_t> root;  // the held particle; nobody = it hangs on nothing
     std::vector<std::uint32_t> order; // nearest first
 };
 
@@ -82,15 +82,15 @@ Ways waysTo(const Scene& scene, const Neighbours& neighbours, const std::vector<
     return ways;
 }
 
-// Tension over load of a span across gravity that is `way` long between holds `apart` from each other. A load
-// in its middle makes the shallowest slope.
+// Tension over load of a horizontal span of length `way` between holds at the distance `apart`. A load in its
+// middle makes the shallowest slope.
 double steepness(double way, double apart, double tolerance) {
     if (apart <= 0) return 1;
     const double excess = std::max(way * (1 + tolerance) / apart - 1, tolerance);
     return std::sqrt(1 + 1 / (excess * (2 + excess)));
 }
 
-// Per particle, the spans that end in it.
+// By particle, the largest steepness of the spans that end in it.
 std::vector<double> spansOf(const Scene& scene, const Ways& ways, const Vector& down, double tolerance) {
     std::vector<double> spans(scene.particles.size(), 1);
     for (const DistanceConstraint& c : scene.distances) {
@@ -109,7 +109,7 @@ std::vector<double> spansOf(const Scene& scene, const Ways& ways, const Vector& 
 struct Holds {
     std::vector<bool> isHeld, isSharp;
     std::vector<bool> isCarried;  ///< held from below, not by a pin or an attachment
-    std::vector<bool> isInMiddle; ///< what carries a sheet there reaches no edge of it
+    std::vector<bool> isInMiddle; ///< its support in the middle of a sheet reaches no edge of the sheet
     explicit Holds(std::size_t count) : isHeld(count), isSharp(count), isCarried(count), isInMiddle(count) {}
     bool operator==(const Holds&) const = default;
 };
@@ -125,7 +125,7 @@ std::vector<std::uint32_t> withRigidLinks(const Scene& scene, std::span<const st
     return particles;
 }
 
-// A body's weight, handed from particle to particle.
+// A body's weight, passed from particle to particle.
 struct Flow {
     const Scene& scene;
     std::span<const float> inverseMass;
@@ -135,21 +135,21 @@ struct Flow {
     std::span<const double> onto; // mass of other bodies, by particle [kg]
     std::vector<double> tensions = std::vector<double>(scene.distances.size(), 0.0);
 
-    // Slanted links go slack as a sheet that hangs grows narrow: those along the way bear it, longer ones
-    // more.
+    // Slanted links go slack as a hanging sheet becomes narrow: only links along the path bear it, longer
+    // ones more.
     double partOf(const Ways& ways, std::uint32_t from, const DistanceConstraint& c) const {
         const double drop = ways.length[from] - ways.length[otherEnd(c, from)];
         return drop > alongTheWay * double{c.restLength} ? drop : 0;
     }
 
-    // Mass of other bodies on `i`, which pulls at all sides of it: this walk leads to one of them. A chain
-    // has one, a sheet whose particles have eight links four.
+    // Mass of other bodies on `i`, which pulls at all its sides: this walk follows one of them. A chain has
+    // one side, a sheet whose particles have eight links has four.
     double ontoLinks(std::uint32_t i) const {
         return onto[i] * 2 / static_cast<double>(std::max<std::size_t>(2, neighbours.of(i).size()));
     }
 
     // Whether `i` is at a corner of what holds it: fewer than half of its neighbours are held, and no two of
-    // them on opposite sides. Chains have no corners.
+    // those are on opposite sides. Chains have no corners.
     bool isAtCorner(const Holds& holds, std::uint32_t i) const {
         const std::span<const std::uint32_t> links = neighbours.of(i);
         if (!holds.isHeld[i] || !holds.isSharp[i] || links.size() <= 2) return false;
@@ -167,8 +167,8 @@ struct Flow {
         return 2 * held.size() < links.size();
     }
 
-    // Whether each particle is carried among others that hang together, none of which is at an edge of its
-    // sheet, that is, has fewer links than the most of its component. Chains have no middle.
+    // By particle whether it belongs to a connected group of carried particles, none of which is at an edge
+    // of its sheet, that is, has fewer links than the most in its component. Chains have no middle.
     std::vector<bool> inMiddle(const std::vector<bool>& isCarried,
                                std::span<const std::uint32_t> components) const {
         const std::size_t count = isCarried.size();
@@ -197,7 +197,7 @@ struct Flow {
         return result;
     }
 
-    // How far each particle may fall before its way to the nearest one that is held is straight.
+    // By particle how far it may fall before its path to the nearest held one is straight.
     std::vector<double> fallsOf(const Holds& holds) const {
         const Ways ways = waysTo(scene, neighbours, holds.isHeld);
         std::vector<double> falls(ways.length.size(), infinite);

@@ -1,4 +1,4 @@
-// How constraints are shared among what they hold, and what hangs on them.
+// Shares of constraints among their particles, and loads of particles.
 #include "sim/stiffness/terms.hpp"
 
 #include "sim/compile.hpp"

@@ -1,5 +1,5 @@
-// What a scene asks of a solver, as one list of terms: what the rules for substeps need of a constraint and
-// nothing else. Only src/sim/substeps.cpp walks it.
+// The constraints of a scene as one list of terms, reduced to what the rules for substeps need. Only
+// src/sim/substeps.cpp walks it.
 #pragma once
 
 #include "sim/lattice/cells.hpp"
@@ -14,28 +14,28 @@
 
 namespace sinew::sim::stiffness {
 
-// The part of 1 that is done after `sweeps` that each do a share of the rest.
+// The share of a correction that is done after `sweeps`, each of which does `share` of the rest.
 inline double shareAfter(double share, double sweeps) {
     return sweeps == 1 ? share : -std::expm1(sweeps * std::log1p(-share)); // every term of `split` asks
 }
 
-// What the rules need of a constraint.
+// A constraint, as the rules need it.
 struct Term {
-    double stiffness = 0;   // [N/m]; of a rigid one what its load asks for, 0 = nothing
-    double clamp = 0;       // `split`: k h^2 at most [kg]
+    double stiffness = 0;   // [N/m]; of a rigid one what its load requires, 0 = nothing
+    double clamp = 0;       // `split`: largest k h^2 [kg]
     double inverseMass = 0; // sum of w |grad|^2 [1/kg]
-    double sweepShare = 1;  // `jacobi`: of its correction, in one sweep
+    double sweepShare = 1;  // `jacobi`: share of its correction done in one sweep
     std::uint32_t sweeps = 1;
     double share() const { return shareAfter(sweepShare, sweeps); } // after all sweeps
     bool isRigid = false;
     std::uint32_t particle = 0; // one of its ends
 };
 
-// What a scene is, whatever the number of substeps; of each particle.
+// Properties of a scene that do not depend on the number of substeps; by particle.
 struct Load {
     std::vector<float> inverseMass;
-    std::vector<std::uint32_t> links, bends; // that can move
-    std::vector<double> tensions;            // of each link, from the weight of its body [N]
+    std::vector<std::uint32_t> links, bends; // those that can move
+    std::vector<double> tensions;            // by link, from the weight of its body [N]
     std::uint32_t mostConstraints(std::initializer_list<std::uint32_t> ends) const {
         std::uint32_t most = 0;
         for (const std::uint32_t end : ends) most = std::max(most, links[end] + bends[end]);
@@ -43,17 +43,17 @@ struct Load {
     }
 };
 
-// The tensions are 0 without a tolerance: they cost a walk over the scene.
+// Without a tolerance the tensions are 0, which saves a walk over the scene.
 Load loadOf(const Scene& scene, double tolerance = 0);
 
-// Of each particle, which ones hang together by links.
+// By particle the component that links connect it to.
 std::vector<std::uint32_t> componentsOf(const Scene& scene);
 
 inline bool canMove(const Load& load, std::initializer_list<std::uint32_t> ends) {
     return std::ranges::any_of(ends, [&](std::uint32_t end) { return load.inverseMass[end] > 0; });
 }
 
-// k h^2 at most [kg].
+// Largest k h^2 [kg].
 double clampOfLink(const solvers::Shares& shares, const Scene& scene, std::size_t link);
 
 double splitOfBend(const Load& load, const BendConstraint& c);
@@ -61,10 +61,10 @@ double splitOfBend(const Load& load, const BendConstraint& c);
 // The share of a correction that the slower end takes in one sweep.
 double shareOfSweep(const Settings& settings, std::uint32_t mostConstraints);
 
-// How `split` divides the particles; settings.substeps is a number. Other solvers divide nothing.
+// The mass shares of `split`; settings.substeps must be resolved. Empty for other solvers.
 solvers::Shares sharesFor(const Scene& scene, const Settings& settings, const Load& load);
 
-// The terms of a scene: millions, so that they are visited and not kept.
+// The terms of a scene: there are millions, so they are visited and not stored.
 struct Terms {
     const Scene& scene;
     const Settings& settings;
@@ -109,8 +109,7 @@ struct Terms {
         }
     }
 
-    // Cells about their rest volume: k is 0.75 lambda_v a (solvers/shares.hpp). Other solvers have no form
-    // for them.
+    // Cells about their rest volume: k is 0.75 lambda_v a (solvers/shares.hpp). Only `split` supports them.
     template <typename Visit> void forEachCell(const Visit& visit) const {
         for (std::size_t g = 0; isSplit() && g < scene.grids.size(); ++g) {
             const Grid& grid = scene.grids[g];

@@ -1,4 +1,4 @@
-// Reads grids and their skins; of each grid the first that can be clipped.
+// Reads grids and their skins; for each grid the first skin that can be clipped.
 #include "sim/surface/cut_bodies.hpp"
 
 #include "sim/bodies.hpp"
@@ -62,7 +62,7 @@ private:
         const auto prisms = static_cast<std::uint32_t>(complex->prisms.size());
         const Skin& skin = scene_.skins[place.index];
         const auto firstWhole = static_cast<std::uint32_t>(bodies_.wholes.size());
-        for (std::uint32_t t = 0; t < prisms; ++t) // prisms come behind all slots
+        for (std::uint32_t t = 0; t < prisms; ++t) // prisms follow all slots
             bodies_.faces.push_back(
                 {.item = 16 * (static_cast<std::uint32_t>(layout_.count) + firstPrism + t),
                  .triangle = place.firstTriangle + t,

@@ -1,4 +1,4 @@
-// The buffers and the order of the passes of the surface of cuts.
+// The buffers of the surface of cuts, and the order of its passes.
 #include "sim/surface/cut_surface.hpp"
 
 #include "kernels.hpp"
@@ -15,8 +15,8 @@ namespace {
 
 namespace k = kernels;
 
-// Triangles: all that some cuts through the whole body make, or every cell shattered, if that is less. A
-// triangle of a mesh's skin beside a cut has up to nine vertices; one in twenty may be.
+// Triangles of several cuts through the whole body, or of every cell shattered, if that is less. A triangle
+// of a mesh's skin beside a cut has up to nine vertices; one in twenty is assumed to be beside a cut.
 std::uint32_t roomFor(const CutBodies& bodies) {
     constexpr double ofCell = 200, ofLayer = 240, few = 65536, ofPrism = 0.5;
     const double inside = std::min(ofCell * bodies.cells, few + ofLayer * std::pow(bodies.cells, 2.0 / 3.0));
@@ -44,7 +44,7 @@ void addItems(ProgramBuilder& program, CutSurface& surface, const CutBodies& bod
     surface.gradients = program.scratch<layout::Gradient>("surface.gradients", slots);
 }
 
-// Dispatches over the slots of every run that have some of the surface.
+// Appends a dispatch over the slots of every run that have a part of the surface.
 void addListed(ProgramBuilder& program, const CutSurface& surface, const vk::ShaderCode& code,
                std::initializer_list<BufferId> buffers) {
     for (const layout::CutPush& run : surface.source.runs)
@@ -52,7 +52,7 @@ void addListed(ProgramBuilder& program, const CutSurface& surface, const vk::Sha
                                  buffers, run);
 }
 
-// Dispatches over the slots of every run near what was cut.
+// Appends a dispatch over the slots of every run near a cut.
 void addRuns(ProgramBuilder& program, const CutSurface& surface, const vk::ShaderCode& code,
              std::initializer_list<BufferId> buffers) {
     const CutSource& source = surface.source;

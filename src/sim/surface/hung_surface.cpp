@@ -1,4 +1,4 @@
-// The passes over prisms and over vertices that hang.
+// The passes over prisms and over attached vertices.
 #include "sim/surface/hung_surface.hpp"
 
 #include "kernels.hpp"
@@ -19,7 +19,7 @@ IndirectItems listOf(const HungSurface& hung, const layout::CutPush& range, std:
     return {hung.arguments, SKIN_LISTS * range.run + list, range.count};
 }
 
-// Items of the surface that have any of it.
+// Appends a dispatch over the items that have a part of the surface.
 void addListed(ProgramBuilder& program, const CutSurface& surface, const vk::ShaderCode& code,
                std::initializer_list<BufferId> buffers) {
     program.dispatchIndirect(code, {surface.arguments, surface.push.runs + SURFACE_LISTED, surface.items},
@@ -31,7 +31,7 @@ void addPlan(ProgramBuilder& program, const HungSurface& hung) {
     program.dispatch(k::planListed, lists.count, {hung.counts, hung.arguments}, lists);
 }
 
-// Who the blade may meet, and where links have died: the passes that follow go there alone.
+// Lists elements that the blade may meet, and those with dead links: later passes run only for these.
 void addLists(ProgramBuilder& program, const CutSurface& surface, BufferId bladePlaces, BufferId placesBefore,
               BufferId blade, BufferId points) {
     const CuttingBuffers& cutting = program.program().cutting;
@@ -51,7 +51,7 @@ void addLists(ProgramBuilder& program, const CutSurface& surface, BufferId blade
     addPlan(program, hung);
 }
 
-// By skin.
+// Strides and spacing of the grid of each skin.
 std::vector<layout::SkinGrid> gridsOf(const CutBodies& bodies) {
     std::vector<layout::SkinGrid> grids(1 + std::size_t{std::ranges::max(bodies.skins)});
     for (const HungRange& range : bodies.ranges) {

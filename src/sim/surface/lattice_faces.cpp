@@ -1,5 +1,5 @@
-// A face of a tetrahedron on the side of a cell leads from its lowest corner over a middle one to its
-// highest.
+// A face of a tetrahedron on the side of a cell has three corners in ascending order: the cell's lowest, a
+// middle one, and the highest.
 #include "sim/surface/lattice_faces.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 using Node = std::array<std::uint32_t, 3>;
 
-// As in kuhn.glsl.
+// The numbers of kuhn.glsl.
 constexpr std::array<std::uint32_t, 6> secondCorner{1, 1, 2, 2, 4, 4}, thirdCorner{3, 5, 3, 6, 5, 6};
 
 std::uint32_t tetrahedron(std::uint32_t second, std::uint32_t third) {
@@ -30,7 +30,7 @@ class Faces {
 public:
     Faces(const Grid& grid, const lattice::Box& box) : grid_(grid), box_(box) {}
 
-    // Of the triangle between three nodes, lowest first; none if that is no outer face.
+    // The face of the triangle between three nodes; none if that is no outer face.
     std::optional<layout::SkinFace> face(std::array<Node, 3> nodes, std::uint32_t triangle) const {
         std::ranges::sort(nodes, {}, [](const Node& n) { return n[0] + n[1] + n[2]; });
         const auto middle = step(nodes[0], nodes[1]), high = step(nodes[0], nodes[2]);
@@ -70,7 +70,7 @@ private:
         return corner;
     }
 
-    // Whether the cell above a node is.
+    // Whether the cell above a node is filled.
     bool isFilled(const Node& node) const { return lattice::fillAround(grid_, node) >> 28 != 0; }
 
     std::size_t outerFacesOf(const Node& cell) const {

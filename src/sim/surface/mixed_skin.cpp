@@ -1,4 +1,5 @@
-// One list for all mixed skins: of each, its whole triangles and then its parts, from a whole word on.
+// One list for all mixed skins: whole triangles and then parts of each skin, each skin starting at a whole
+// word.
 #include "sim/surface/mixed_skin.hpp"
 
 #include "kernels.hpp"
@@ -14,13 +15,13 @@ namespace k = kernels;
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-// Triangles of all skins behind one another, and where those of each begin.
+// Triangles of all skins, skin after skin, and the first of each.
 struct Layout {
     std::vector<std::uint32_t> indices;
-    std::vector<std::uint32_t> wholes, parts; // by skin: triangles before them in the buffer
+    std::vector<std::uint32_t> wholes, parts; // by skin: number of triangles before them in the buffer
     std::vector<StepProgram::IndexRange> ranges;
     std::vector<layout::MixedWords> words;
-    std::vector<layout::DrawArguments> draws; // before the first cut
+    std::vector<layout::DrawArguments> draws; // those before the first cut
 };
 
 class Joiner {
@@ -34,7 +35,7 @@ public:
             for (const Triangle& triangle : skin.wholeTriangles) append(triangle);
         layout_.parts.push_back(static_cast<std::uint32_t>(layout_.indices.size() / 3));
         for (const Triangle& triangle : skin.triangles)
-            append(isMixed ? Triangle{} : triangle); // parts are drawn when something is cut
+            append(isMixed ? Triangle{} : triangle); // parts are drawn once something is cut
         while (layout_.indices.size() % (3 * MIXED_WORD) != 0) append({});
         const auto count = static_cast<std::uint32_t>(layout_.indices.size()) - first;
         layout_.ranges.push_back({first, count});
@@ -51,7 +52,7 @@ private:
     std::uint32_t firstVertex_ = 0;
 };
 
-// Faces of bodies are anywhere, whole triangles in the order of bodies.mixed.
+// Sets the indices of faces, which are in any order, and of whole triangles, in the order of bodies.mixed.
 void place(const Scene& scene, const Layout& layout, CutBodies& bodies) {
     std::vector<std::uint32_t> skinOf; // by triangle of all skins
     std::vector<std::uint32_t> first;  // by skin
@@ -69,7 +70,7 @@ void place(const Scene& scene, const Layout& layout, CutBodies& bodies) {
             bodies.wholes[next++].mixed = layout.wholes[s] + t;
 }
 
-// While whole triangles alone are drawn of mixed skins.
+// Flags of vertices while mixed skins are drawn as whole triangles only.
 std::vector<std::uint32_t> shownAtFirst(const Scene& scene, const CutBodies& bodies) {
     std::vector<std::uint32_t> shown;
     for (std::uint32_t s = 0; s < scene.skins.size(); ++s) {
@@ -96,7 +97,7 @@ void uploadMixed(ProgramBuilder& program, CutSurface& surface, const Layout& lay
     surface.mixedWords = program.upload("surface.mixed_words", layout.words);
     surface.drawnWords = program.scratch<std::uint32_t>("surface.drawn_words", surface.words);
     surface.drawnStarts = program.scratch<std::uint32_t>("surface.drawn_starts", surface.words);
-    // Passes of the surface make the triangles anew from nothing but the topology, so they are no part of it.
+    // Passes of the surface rebuild the triangles from the topology, so they are not part of it.
 }
 
 void uploadWholes(ProgramBuilder& program, CutSurface& surface, const CutBodies& bodies) {
@@ -108,7 +109,7 @@ void uploadWholes(ProgramBuilder& program, CutSurface& surface, const CutBodies&
     surface.wholeFans = uploadFans(program, indices, surface.wholeVertices, "surface.whole");
 }
 
-// What is drawn, without what is not: to draw points takes a device almost as long.
+// Packs the drawn triangles: drawing collapsed ones takes a device almost as long.
 void addPacking(ProgramBuilder& program, const CutSurface& surface) {
     const StepProgram& built = program.program();
     const bool usesTexels = surface.usesTexels;
@@ -124,7 +125,7 @@ void addPacking(ProgramBuilder& program, const CutSurface& surface) {
                      layout::CountPush{triangles});
 }
 
-// What is drawn.
+// Adds the lists of drawn triangles.
 void addMixedTriangles(ProgramBuilder& program, CutSurface& surface, const Scene& scene, CutBodies& bodies) {
     Joiner joiner;
     for (std::uint32_t s = 0; s < scene.skins.size(); ++s)

@@ -1,4 +1,4 @@
-// Points in double: what is measured between a particle and a skin is little beside either's place.
+// Points in double: distances between a particle and a skin are small relative to their coordinates.
 #pragma once
 
 #include "layout.h"

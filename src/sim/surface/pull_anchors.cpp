@@ -1,4 +1,5 @@
-// The nearest point of the skin is in one of the eight cells around a particle: its own vertices are.
+// The nearest point of the skin is in one of the eight cells around a particle, because vertices that follow
+// the particle are there.
 #include "sim/surface/point.hpp"
 #include "sim/surface/skin_complex.hpp"
 
@@ -14,7 +15,7 @@ Point along(const Point& a, double t, const Point& way) {
     return {a.x + t * way.x, a.y + t * way.y, a.z + t * way.z};
 }
 
-// Ericson 2005, 5.1.5.
+// The point of triangle `t` nearest to `p` [Ericson 2005, 5.1.5].
 Point nearestOn(const Point& p, const std::array<Point, 3>& t) {
     const Point ab = t[1] - t[0], ac = t[2] - t[0], bc = t[2] - t[1];
     const Point ap = p - t[0], bp = p - t[1], cp = p - t[2];
@@ -42,7 +43,7 @@ public:
         triangles_.erase(std::unique(triangles_.begin(), triangles_.end()), triangles_.end());
     }
 
-    // Of the particle in a slot; none where it is inside, or on the skin.
+    // The pulled position of a particle; none if it is inside or on the skin.
     std::optional<Vec3> place(const lattice::Box& box, std::uint32_t particle) const {
         const Particle& self = scene_.particles[particle];
         if (!(self.contactOffset < 0)) return std::nullopt;

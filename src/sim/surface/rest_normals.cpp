@@ -1,4 +1,4 @@
-// Adds what each triangle says to its corners, in their order.
+// Sums the contributions of the triangles to their corners, in the order of triangles.
 #include "sim/surface/rest_normals.hpp"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ void normalise(Point& sum) {
     sum = {share * sum.x, share * sum.y, share * sum.z};
 }
 
-// Barycentric coordinates of the second and the third corner; of the middle where there is no area.
+// Barycentric coordinates of the second and the third corner; those of the centroid without an area.
 std::array<float, 2> sharesAt(const Point& x, const Triangle& whole, std::span<const Point> rest) {
     const Point &a = rest[whole[0]], ab = rest[whole[1]] - a, ac = rest[whole[2]] - a, ax = x - a;
     const Point across = cross(ab, ac);

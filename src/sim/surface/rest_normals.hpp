@@ -1,6 +1,7 @@
-// Normals of a skin at rest, in the words of skin_normals.comp: a vertex beside a cut has this one, turned
-// with the material, where others have theirs from the triangles around them, and the two must meet. Within
-// a whole triangle of a mixed skin they go over from corner to corner, as they do where it is drawn.
+// Normals of a skin at rest, in the words of skin_normals.comp. A vertex beside a cut has its rest normal,
+// rotated with the material, while other vertices have normals from the triangles around them; the two must
+// agree. Within a whole triangle of a mixed skin normals are interpolated between its corners, as they are
+// when it is drawn.
 #pragma once
 
 #include "sim/surface/point.hpp"
@@ -12,17 +13,17 @@
 
 namespace sinew::sim::surface {
 
-/// By vertex, of length one, or zero where no triangle says anything: those of its triangles by their angles
-/// there. `rest` is where the vertices are.
+/// By vertex, of length one, or zero without a triangle that has an area: normals of its triangles, weighted
+/// by their angles. `rest` has the positions of the vertices.
 std::vector<Point> restNormals(std::span<const std::array<std::uint32_t, 3>> triangles,
                                std::span<const Point> rest);
 
-/// Vertices that are no corners of whole triangles, by their index: in a triangle whose parts have them,
-/// whose index it is. Empty where the skin is not mixed.
+/// Vertices that are no corners of whole triangles, with the whole triangle that contains each; both are
+/// indices. Empty if the skin is not mixed.
 std::vector<layout::PartVertex> partVertices(const Skin& skin, std::span<const Point> rest);
 
-/// Of a mixed skin as it is lit: corners of whole triangles have the normals of these, and vertices of parts
-/// (`parts`, as above) what those are in between. Of another skin those of its triangles.
+/// Normals as drawn. In a mixed skin corners of whole triangles have the normals of these, and vertices of
+/// parts (`parts`, see partVertices) interpolate them. In another skin normals are those of its triangles.
 std::vector<Point> litNormals(const Skin& skin, std::span<const layout::PartVertex> parts,
                               std::span<const Point> rest);
 

@@ -1,4 +1,4 @@
-// The buffers and the order of the passes of the pieces of sheets.
+// The buffers of the pieces of sheets, and the order of their passes.
 #include "sim/surface/sheet_pieces.hpp"
 
 #include "kernels.hpp"
@@ -16,7 +16,8 @@ namespace k = kernels;
 
 using Nodes = std::array<std::array<std::uint32_t, 3>, 3>; // of the corners of a triangle
 
-// Corners in the order of the skin, from the cell's node: bit 0 x, bit 1 z.
+// The kind of a triangle, from its corners relative to the cell's node in the order of the skin: bit 0 x, bit
+// 1 z.
 std::optional<std::uint32_t> kindOf(const Nodes& nodes, std::uint32_t x, std::uint32_t z) {
     std::array<std::uint32_t, 3> corners{};
     for (std::size_t n = 0; n < 3; ++n) {
@@ -31,8 +32,8 @@ std::optional<std::uint32_t> kindOf(const Nodes& nodes, std::uint32_t x, std::ui
     return static_cast<std::uint32_t>(found - kinds.begin());
 }
 
-// Triangles: all that a few dozen cuts from end to end make, or `least`, but no more than every triangle of
-// the sheet shattered makes: what another sheet needs is no room of this one.
+// Triangles of a few dozen cuts from end to end, or `least`, but no more than with every triangle of the
+// sheet shattered: capacity that another sheet needs is not wasted on this one.
 std::uint32_t roomFor(std::size_t triangles, std::uint32_t least) {
     constexpr double ofTriangle = 6, few = 4096, ofRow = 200;
     const auto all = static_cast<double>(triangles);
@@ -40,7 +41,7 @@ std::uint32_t roomFor(std::size_t triangles, std::uint32_t least) {
     return static_cast<std::uint32_t>(std::min(ofTriangle * all, wanted));
 }
 
-// From a node of a sheet to the next along an axis, where the scene has them.
+// The vector between neighbouring nodes of a sheet along an axis, at initial positions.
 layout::vec4 stepAlong(const Scene& scene, const Grid& grid, std::uint32_t axis) {
     for (std::uint32_t i = 0; i < grid.node.size(); ++i) {
         auto next = lattice::coordinates(grid, grid.node[i]);
@@ -56,7 +57,7 @@ layout::vec4 stepAlong(const Scene& scene, const Grid& grid, std::uint32_t axis)
     return {axis == 0 ? grid.restLength[0] : 0, 0, axis == 0 ? 0 : grid.restLength[0], 0};
 }
 
-// Where a sheet's nodes are among the slots.
+// Slots of a sheet's nodes.
 struct Place {
     std::uint32_t origin = 0, sliceStride = 0;
 };
@@ -66,7 +67,7 @@ Place placeOf(const Grid& grid, const CutRun& run, const StateLayout& layout) {
     return {layout.slot[grid.firstParticle] - first[0] - run.sliceStride * first[2], run.sliceStride};
 }
 
-// The run that a sheet which may be cut is part of.
+// The run that a cuttable sheet belongs to.
 const CutRun* runOf(const StepProgram& program, const Grid& grid, const StateLayout& layout) {
     if (!grid.isCuttable || !lattice::isSheet(grid)) return nullptr;
     const std::uint32_t slot = layout.slot[grid.firstParticle];
@@ -75,7 +76,7 @@ const CutRun* runOf(const StepProgram& program, const Grid& grid, const StateLay
     return nullptr;
 }
 
-// Lies behind what all skins have, and behind the pieces of those before it.
+// First free element after all skins and the pieces of previous ones.
 struct Room {
     std::uint32_t index = 0, vertex = 0;
 };
@@ -87,7 +88,7 @@ void addSkin(ProgramBuilder& program, SheetPieces& pieces, const Skin& skin, She
     sheet.push.room = roomFor(triangles.size(), pieces.leastRoom);
     sheet.push.firstVertex = room.vertex;
     sheet.push.vertexRoom =
-        (7 * sheet.push.room + 2) / 3; // of a triangle in three pieces 7, the most for one
+        (7 * sheet.push.room + 2) / 3; // a triangle in three pieces has 7, the most for one
     sheet.skinPush.firstVertex = sheet.push.firstVertex;
     sheet.skinPush.vertexRoom = sheet.push.vertexRoom;
     sheet.skinPush.sliceStride = sheet.push.sliceStride;

@@ -19,7 +19,7 @@ constexpr NormalForm ofAll{&k::skinNormals, &k::skinNormalsLoads};
 
 struct Skins {
     const std::vector<Skin>& all;
-    std::vector<BufferId> holders; // what their vertices hang on
+    std::vector<BufferId> holders; // the particles or cells of their vertices
     bool usesTexels = true;
 };
 
@@ -28,7 +28,7 @@ struct Fans {
     std::vector<std::uint32_t> triangles;
 };
 
-// More triangles than this around one vertex change its normal no more; some devices end loops silently at
+// Limit of triangles around one vertex: more do not change its normal, and some devices silently end loops at
 // 65,535.
 constexpr std::uint32_t largestFan = 60'000;
 
@@ -49,7 +49,7 @@ Fans fansOf(const std::vector<std::uint32_t>& indices, std::size_t vertices) {
     return result;
 }
 
-// The buffer that says what the vertices hang on.
+// The buffer of particles or cells that the vertices depend on.
 BufferId uploadHolders(ProgramBuilder& program, const Skin& skin) {
     if (!skin.particles.empty()) return program.upload(skin.name + ".particles", skin.particles);
     std::vector<layout::CellVertex> items;
@@ -61,7 +61,7 @@ BufferId uploadHolders(ProgramBuilder& program, const Skin& skin) {
     return program.upload(skin.name + ".cells", items);
 }
 
-// The first `count` vertices of every skin; of those in cells the ones that `shown` says, where it is given.
+// Appends the first `count` vertices of every skin; of those in cells only the ones in `shown`, if given.
 template <typename Count>
 void addVertices(ProgramBuilder& program, const Skins& skins, const Count& count, BufferId shown = {}) {
     const StepProgram& built = program.program();
@@ -88,7 +88,7 @@ const std::vector<std::array<std::uint32_t, 3>>& wholeTriangles(const Skin& skin
     return skin.wholeTriangles.empty() ? skin.triangles : skin.wholeTriangles;
 }
 
-// Those that its whole triangles are between, and what is in front of them.
+// Number of vertices up to the last one of its whole triangles.
 std::uint32_t wholeVertices(const Skin& skin) {
     if (skin.wholeTriangles.empty()) return static_cast<std::uint32_t>(skin.vertexCount());
     std::uint32_t last = 0;
@@ -108,7 +108,7 @@ std::vector<std::uint32_t> join(const std::vector<Skin>& skins, const Triangles&
     return indices;
 }
 
-// The same skins while nothing is cut.
+// Appends the skins as drawn while nothing is cut.
 void addWholeSkins(ProgramBuilder& program, const Skins& skins) {
     const auto isSplit = [](const Skin& skin) { return !skin.wholeTriangles.empty(); };
     if (std::ranges::none_of(skins.all, isSplit)) return;
@@ -126,7 +126,7 @@ std::uint32_t allVertices(const Skin& skin) {
     return static_cast<std::uint32_t>(skin.vertexCount());
 }
 
-// The same skins once something is cut, of which not all is drawn.
+// Appends the skins as drawn once something is cut, without the vertices that are not drawn.
 void addMixedSkin(ProgramBuilder& program, const Skins& skins, const VertexFans& fans,
                   std::uint32_t vertexCount) {
     const StepProgram& built = program.program();

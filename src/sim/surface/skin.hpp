@@ -1,12 +1,12 @@
-// Skins on the device: vertices from particles or lattice cells, then smooth normals. Recorded when somebody
-// draws.
+// Skins on the device: vertices from particles or lattice cells, then smooth normals. Recorded only when the
+// scene is drawn.
 #pragma once
 
 #include "sim/compile.hpp"
 
 namespace sinew::sim::surface {
 
-/// Triangles of all skins, three vertices each, with those of a skin behind those before it.
+/// Triangles of all skins, three indices each, skin after skin.
 std::vector<std::uint32_t> joinIndices(const std::vector<Skin>& skins);
 
 /// The triangles around each of the first `vertexCount` vertices, for skin_normals.
@@ -16,13 +16,13 @@ struct VertexFans {
 VertexFans uploadFans(ProgramBuilder& program, const std::vector<std::uint32_t>& indices,
                       std::uint32_t vertexCount, const std::string& name);
 
-/// Appends the skin passes, those of whole skins where some were split, and those of mixed skins where some
-/// are mixed, and sets the program's skin buffers; nothing where `skins` is empty. Skins lie behind one
-/// another in one vertex and one index buffer, in the order of the scene. `usesTexels` as Forms has it.
+/// Appends the skin passes, those of whole skins if some were split, and those of mixed skins if some are
+/// mixed, and sets the program's skin buffers; nothing if `skins` is empty. Skins are consecutive in one
+/// vertex and one index buffer, in the order of the scene. `usesTexels` is Forms::usesTexels.
 void addSkins(ProgramBuilder& program, const std::vector<Skin>& skins, bool usesTexels);
 
-/// Smooth normals of the vertices that `form` is about: skin_normals.comp, fetching and loading. Behind the
-/// buffers of that come `more`, those of a variant.
+/// Appends smooth normals of the vertices of one variant of skin_normals.comp, with texels or loads. `more`
+/// are the additional buffers of the variant.
 struct NormalForm {
     const vk::ShaderCode *texels, *loads;
 };

@@ -1,5 +1,5 @@
-// The anchors of the skin's triangles are a closed surface of faces of tetrahedra. How often it winds around
-// a tetrahedron follows from that of the one before it and the triangles on the face between them.
+// The anchors of the skin's triangles form a closed surface of faces of tetrahedra. The winding number of a
+// tetrahedron follows from that of the previous one and the triangles on the face between them.
 #include "sim/surface/skin_complex.hpp"
 
 #include "sim/lattice/link_masks.hpp"
@@ -17,7 +17,8 @@ namespace {
 
 using Node = std::array<std::uint32_t, 3>;
 
-// Corners of a cell that lead from a node to one that is at least as high along all axes; none else.
+// The corner of a cell that leads from a node to one that is at least as high along all axes; none for
+// another node.
 std::optional<std::uint32_t> step(const Node& from, const Node& to) {
     std::uint32_t corner = 0;
     for (std::uint32_t axis = 0; axis < 3; ++axis) {
@@ -112,8 +113,8 @@ private:
 
     bool addPrism(const std::array<std::uint32_t, 3>& corners, std::uint32_t firstHung) {
         layout::SkinPrism prism{.face = NO_PARTICLE};
-        std::array<std::optional<std::uint32_t>, 3> up, down; // from a corner to the next, and back
-        std::uint32_t thin = 0;                               // edges with one particle
+        std::array<std::optional<std::uint32_t>, 3> up, down; // steps to the next corner, and back
+        std::uint32_t thin = 0;                               // edges whose ends have one particle
         for (std::size_t n = 0; n < 3; ++n) {
             const Node &from = nodes_[corners[n]], &to = nodes_[corners[(n + 1) % 3]];
             up[n] = step(from, to);
@@ -130,7 +131,7 @@ private:
         return thin == 1 ? addThin(corners) : thin == 0 && addFace(corners);
     }
 
-    // A prism on an edge.
+    // Marks an edge that a prism stands on.
     bool addThin(const std::array<std::uint32_t, 3>& corners) {
         for (std::size_t n = 0; n < 3; ++n) {
             const Node &from = nodes_[corners[n]], &to = nodes_[corners[(n + 1) % 3]];
@@ -163,7 +164,8 @@ private:
         return true;
     }
 
-    // Every edge has two sides; where more meet, any two that run against each other belong together.
+    // Links prisms at the edges of triangles. Every edge has two sides; if more meet, any two with opposite
+    // directions are paired.
     bool linkPrisms(std::uint32_t firstPrism) {
         struct Side {
             std::uint32_t low, high, prism, edge;
@@ -212,7 +214,8 @@ private:
                          p];
     }
 
-    // The cell above a node; beyond the last nodes there is none, and nothing may be inside.
+    // Computes the winding numbers of the cell above a node. There is no cell beyond the last nodes, where
+    // nothing may be inside.
     bool addCell(const Node& cell) {
         for (std::uint32_t p = 0; p < kuhn::tetrahedra; ++p) {
             const std::uint32_t axis = kuhn::lastAxis[p];
@@ -228,7 +231,7 @@ private:
             const int winding = windingOf(cell, p);
             if (winding < 0 || winding > (isCell ? 1 : 0)) return false;
             word |= static_cast<std::uint32_t>(winding) << p;
-            // seen from p the corners of a face opposite of 1 are right-handed where those of p are not
+            // seen from p the corners of the face opposite to 1 are right-handed where those of p are not
             const int second = (kuhn::isEven[p] ? -1 : 1) * countOf(cell, kuhn::secondPair[p]),
                       third = (kuhn::isEven[p] ? 1 : -1) * countOf(cell, kuhn::thirdPair[p]);
             if (winding - windingOf(cell, kuhn::beyondSecond[p]) != second ||

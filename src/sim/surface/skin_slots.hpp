@@ -1,5 +1,5 @@
-// What of a skin stands on each slot, so that kernels find what is near a blade by the few slots and not by
-// the many prisms and vertices.
+// Index from slots to the elements of a skin, so that kernels find those near a blade by testing few slots
+// instead of many prisms and vertices.
 #pragma once
 
 #include "sim/surface/cut_bodies.hpp"
@@ -7,8 +7,8 @@
 
 namespace sinew::sim::surface {
 
-/// Adds the slots of a body to `bodies` and says in `range` which they are. Of `complex` prisms count from
-/// range.prisms.first on, vertices from range.vertices.first on.
+/// Adds the slots of a body to `bodies` and stores their range in `range`. Prisms of `complex` are numbered
+/// from range.prisms.first on, vertices from range.vertices.first on.
 void addSkinSlots(CutBodies& bodies, const SkinComplex& complex, HungRange& range);
 
 } // namespace sinew::sim::surface

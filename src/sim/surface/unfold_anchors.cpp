@@ -1,6 +1,6 @@
 // Where particles are pulled to the nearest point of a skin, tetrahedra and prisms beside notches and around
-// thin parts turn over, and a cut through them is covered twice and back. Each such particle is tried below
-// the parts of the skin that go with it, and stays where least is turned over.
+// thin parts become inverted, and a cut through them is covered several times. Each such particle is tried
+// below the parts of the skin that follow it, and is placed where the inverted volume is smallest.
 #include "sim/surface/unfold_anchors.hpp"
 
 #include "sim/surface/kuhn.hpp"
@@ -15,18 +15,18 @@ namespace sinew::sim::surface {
 
 namespace {
 
-// Six times the volume of a tetrahedron.
+// Six times the signed volume of a tetrahedron.
 double volumeOf(const Point& origin, const Point& p, const Point& q, const Point& r) {
     const Point a = p - origin, b = q - origin, c = r - origin;
     return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
 }
 
 constexpr int rounds = 4;
-constexpr std::size_t mostTried = 24; // vertices of the skin, of those that go with a particle
+constexpr std::size_t mostTried = 24; // vertices of the skin, of those that follow a particle
 constexpr std::array<double, 3> depths{0.04, 0.12, 0.24}; // [cells]
-constexpr double farthest = 0.5;                          // from where it was pulled to [cells]
-constexpr double little = 0.06; // may be turned over at one: volumes, 6 times [cells^3]
-constexpr double gain = 0.98;   // of what was turned over, that may be left after a move
+constexpr double farthest = 0.5;                          // distance from its pulled position [cells]
+constexpr double little = 0.06; // tolerated inverted volume of a particle, times 6 [cells^3]
+constexpr double gain = 0.98;   // largest remaining share of the inverted volume after a move
 
 class Unfolder {
 public:
@@ -60,7 +60,7 @@ public:
 
 private:
     static constexpr std::uint32_t none = ~0u;
-    // Corners: slots, or `ofSkin` and a vertex of the complex; right-handed where it is not turned over.
+    // Corners: slots, or `ofSkin` and a vertex of the complex; right-handed if not inverted.
     using Tetrahedron = std::array<std::uint32_t, 4>;
     static constexpr std::uint32_t ofSkin = 1u << 31;
 
@@ -112,7 +112,7 @@ private:
                 if (const std::uint32_t p = of_[w[n] - box_.origin]; p != none)
                     vertices_[p].push_back(prism.vertices[n]);
             }
-            add({w[0], v[0], v[1], v[2]}); // the two others are flat where particles are the same
+            add({w[0], v[0], v[1], v[2]}); // the two others are flat if particles are equal
             if (w[0] != w[1]) add({w[0], v[1], w[1], v[2]});
             if (w[0] != w[1] && w[1] != w[2] && w[2] != w[0]) add({w[0], w[1], w[2], v[2]});
         }
@@ -122,8 +122,8 @@ private:
         }
     }
 
-    // What is turned over of all that has a particle as a corner: six times its volume. What prisms have
-    // of that sticks out of the skin.
+    // Six times the inverted volume of all tetrahedra with the particle as a corner, and the part of prisms
+    // that sticks out of the skin.
     struct Turned {
         double all = 0, ofPrisms = 0;
     };
@@ -133,7 +133,7 @@ private:
             const Tetrahedron& t = tetrahedra_[part];
             const double volume = std::max(0.0, -volumeOf(at(t[0]), at(t[1]), at(t[2]), at(t[3])));
             sum.all += volume;
-            if ((t[3] & ofSkin) != 0) sum.ofPrisms += volume; // they have a corner of it there
+            if ((t[3] & ofSkin) != 0) sum.ofPrisms += volume; // with a corner on the skin
         }
         return sum;
     }
@@ -176,7 +176,7 @@ private:
     std::vector<std::uint32_t> of_; // by slot: index into pulled_
     const double spacing_;
     std::vector<Tetrahedron> tetrahedra_;
-    std::vector<std::vector<std::uint32_t>> parts_, vertices_; // by pulled particle: tetrahedra; of the skin
+    std::vector<std::vector<std::uint32_t>> parts_, vertices_; // by pulled particle; of the skin
 };
 
 } // namespace

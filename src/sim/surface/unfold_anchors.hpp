@@ -1,14 +1,14 @@
-// Moves particles that were pulled below a skin (pullAnchors) so that less of the complex is turned over.
+// Moves particles that were pulled below a skin (pullAnchors) so that less volume of the complex is inverted.
 #pragma once
 
 #include "sim/surface/skin_complex.hpp"
 
 namespace sinew::sim::surface {
 
-/// By slot, where a particle is for a blade [m].
+/// By slot, the position of a particle for a blade [m].
 using Pulled = std::vector<std::pair<std::uint32_t, Vec3>>;
 
-/// Each stays below the parts of the skin that go with it.
+/// Each particle stays below the parts of the skin that follow it.
 void unfoldAnchors(const Scene& scene, const Grid& grid, const lattice::Box& box, const SkinComplex& complex,
                    Pulled& pulled);
 
