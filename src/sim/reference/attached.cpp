@@ -1,4 +1,4 @@
-// Written from the formulas, not from the kernels.
+// Written from the formulas, independently of the kernels.
 #include "sim/reference/attached.hpp"
 
 #include "sim/reference/reference.hpp"

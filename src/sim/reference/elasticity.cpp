@@ -61,8 +61,8 @@ void addElasticForces(const Problem& problem, const std::vector<Eigen::Vector3d>
     }
 }
 
-// A spring's Hessian block has norm k at most, so block row i of M^-1/2 K M^-1/2 sums to
-// sum_c k_c (w_i + sqrt(w_i w_j)). A cell of edge a has gradients of length sqrt(3) a^2 / 4.
+// A spring's Hessian block has norm at most k, so block row i of M^-1/2 K M^-1/2 sums to at most sum_c k_c
+// (w_i + sqrt(w_i w_j)). A cell of edge a has gradients of length sqrt(3) a^2 / 4.
 double largestFrequency(const Problem& problem) {
     std::vector<double> rows(problem.size(), 0);
     for (const Link& link : problem.links) {

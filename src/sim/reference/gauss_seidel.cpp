@@ -1,6 +1,6 @@
-// Every constraint in turn, in place, each seeing what the one before it did. XPBD [Macklin 2016], eq. 18.
-// Cold and in scene order it is the slides' sequential version; in the order of the colors and with a warm
-// start it is what `gauss_seidel` does on the device (methods: D).
+// Sequential constraint solving in place: each constraint sees the corrections of those before it. XPBD
+// [Macklin 2016], eq. 18. Cold and in scene order it is the classic sequential version; in the order of the
+// colors and with a warm start it is the method of `gauss_seidel` on the device.
 #include "sim/reference/attached.hpp"
 #include "sim/reference/reference.hpp"
 
@@ -10,7 +10,7 @@ namespace sinew::sim::reference {
 
 namespace {
 
-// The items in the order of their indices in the scene; all of them as they are where `order` is empty.
+// The items in the order of their indices in the scene; unchanged if `order` is empty.
 template <typename Item>
 std::vector<Item> sorted(std::vector<Item> items, std::span<const std::uint32_t> order, std::size_t count) {
     if (order.empty()) return items;
@@ -56,7 +56,7 @@ void GaussSeidel::step(double dt, State& state) {
         for (std::uint32_t iteration = 0; iteration < iterations_; ++iteration) {
             sweep(state);
             sweepBends(h, state);
-            if (iteration + 1 == iterations_) // walls have the last word
+            if (iteration + 1 == iterations_) // walls come last
                 pullAttached(problem_, h, dt, (substep + 1.0) / substeps_, state);
             phases.projectWalls();
         }
@@ -74,7 +74,7 @@ void GaussSeidel::step(double dt, State& state) {
 }
 
 void GaussSeidel::beginStep(double h, const State& state) {
-    // What pulled as hard in a longer substep is larger; it is never scaled up, or the guard would not hold.
+    // Multipliers scale with h^2; they are never scaled up, or the guard would not hold.
     const double ratio = state.previousH > 0 ? std::min(1.0, h / state.previousH) : 0;
     for (std::size_t r = 0; r < rows_.size(); ++r) {
         Row& row = rows_[r];
@@ -87,7 +87,7 @@ void GaussSeidel::beginStep(double h, const State& state) {
     }
 }
 
-// All multipliers at once, along the directions in which they were found.
+// Applies all multipliers at once, along the directions in which they were found.
 void GaussSeidel::startWarm(State& state) const {
     for (std::size_t r = 0; r < rows_.size(); ++r) {
         const Row& row = rows_[r];
@@ -112,11 +112,11 @@ void GaussSeidel::sweep(State& state) {
     }
 }
 
-// Internal damping, c = dampingTime / compliance along a link, implicit link by link on the velocities a
-// substep ends with. As a term of the constraint (XPBD, eq. 26) it would multiply the compliance that a sweep
-// adds by 1 + dampingTime / h.
+// Internal damping, c = dampingTime / compliance along a link, implicit for each link, on the velocities at
+// the end of a substep. As a term of the constraint (XPBD, eq. 26) it would multiply the compliance that a
+// sweep adds by 1 + dampingTime / h.
 void GaussSeidel::damp(double h, State& state) const {
-    const Eigen::Vector3d halfKick = h / 2 * problem_.gravity; // held at rest, by what moves
+    const Eigen::Vector3d halfKick = h / 2 * problem_.gravity; // of moving ends; static ones have none
     for (const Row& row : rows_) {
         if (row.alpha == 0) continue;
         Eigen::Vector3d &a = state.v[row.a], &b = state.v[row.b];
@@ -145,7 +145,7 @@ void GaussSeidel::sweepBends(double h, State& state) {
     }
 }
 
-// How much of a multiplier the next substep starts with: less where a substep does not resolve the
+// The part of a multiplier that the next substep starts with: less if a substep does not resolve the
 // constraint, whose pull would lag behind its motion; and never so much that the start moves the ends of a
 // link by more than a twentieth of its length against each other.
 void GaussSeidel::keepMultipliers() {

@@ -1,6 +1,5 @@
-// Newton's method with a sparse LDL^T and a line search. Where the Hessian is indefinite (compressed springs)
-// it steps with its convex part, and where that is singular (a chain before it hangs) with a multiple of the
-// unit matrix added.
+// Newton's method with a sparse LDL^T and a line search. If the Hessian is indefinite (compressed springs) it
+// uses the convex part, and if that is singular (a chain before it hangs) it adds a multiple of the identity.
 #include "sim/reference/implicit_step.hpp"
 
 #include "sim/reference/elasticity.hpp"
@@ -42,8 +41,8 @@ private:
                report.gradients.back() <= potential_.gradientNoise(x);
     }
 
-    // Downhill: minus the inverse of the Hessian, or of something positive definite near it, times the
-    // gradient.
+    // A descent direction: minus the inverse of the Hessian, or of a nearby positive definite matrix, times
+    // the gradient.
     Eigen::VectorXd direction(const Positions& x, const Eigen::VectorXd& gradient) {
         if (const auto step = solve(potential_.hessian(x, Potential::Hessian::exact), gradient)) return *step;
         Matrix hessian = potential_.hessian(x, Potential::Hessian::convex);
@@ -56,7 +55,7 @@ private:
         fail("finds no direction downhill");
     }
 
-    // Nothing where the matrix is not safely positive definite.
+    // Empty if the matrix is not safely positive definite.
     std::optional<Eigen::VectorXd> solve(const Matrix& hessian, const Eigen::VectorXd& gradient) {
         constexpr double singular = 1e-13; // of the largest pivot
         factors_.compute(hessian);
@@ -66,8 +65,8 @@ private:
         return -factors_.solve(gradient);
     }
 
-    // Halves the step until it goes down enough [Armijo 1966]. Near the minimum rounding hides how the value
-    // falls: there a gradient that halves is as good.
+    // Halves the step until the value falls enough [Armijo 1966]. Near the minimum rounding hides the fall of
+    // the value: there a gradient that halves is accepted instead.
     Positions searchAlong(const Eigen::VectorXd& step, const Positions& x,
                           const Eigen::VectorXd& gradient) const {
         const double value = potential_.value(x), slope = gradient.dot(step);

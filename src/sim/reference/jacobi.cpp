@@ -1,5 +1,5 @@
-// `jacobi` in double: all corrections of an iteration from the same positions, then every particle takes its
-// weighted sum (methods: D).
+// `jacobi` in double: all corrections of an iteration start from the same positions, then every particle
+// applies its weighted sum.
 #include "sim/reference/attached.hpp"
 #include "sim/reference/reference.hpp"
 
@@ -9,7 +9,7 @@ namespace sinew::sim::reference {
 
 namespace {
 
-// What a particle's summed corrections are multiplied with.
+// The factor of a particle's summed corrections.
 std::vector<double> weights(const Problem& problem, const Settings& settings) {
     std::vector<double> result(problem.size(), 0);
     for (std::size_t i = 0; i < problem.size(); ++i) {

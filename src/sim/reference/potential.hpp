@@ -1,5 +1,5 @@
-// What an implicit Euler step minimises, and what a body at rest minimises: a value, its gradient and its
-// Hessian over the coordinates of the movable particles.
+// The function that an implicit Euler step, or a body at rest, minimises: its value, gradient and Hessian in
+// the coordinates of the movable particles.
 //
 //   Phi(x) = |x - y|_M^2 / (2 h^2) + sum of spring and cell energies - sum m g . x,   y = x_n + h v_n;  at
 //   rest h is infinite
@@ -13,9 +13,9 @@ namespace sinew::sim::reference {
 
 class Potential {
 public:
-    /// At rest. `problem` must outlive the potential; its links must not be rigid.
+    /// The potential at rest. `problem` must outlive the potential; its links must not be rigid.
     explicit Potential(const Problem& problem);
-    /// Of the step of length h [s] that starts at `start`.
+    /// The potential of the step of length h [s] that starts at `start`.
     Potential(const Problem& problem, double h, const State& start);
 
     /// Entries of gradient() and rows of hessian(): three for each movable particle, in order of index.
@@ -23,12 +23,12 @@ public:
 
     double value(const std::vector<Eigen::Vector3d>& x) const;             ///< [J]
     Eigen::VectorXd gradient(const std::vector<Eigen::Vector3d>& x) const; ///< [N]
-    /// How far rounding of the positions alone keeps the norm of gradient() from 0 [N].
+    /// Bound of the norm of gradient() at the minimum, from rounding of the positions alone [N].
     double gradientNoise(const std::vector<Eigen::Vector3d>& x) const;
 
     enum class Hessian {
         exact,
-        convex ///< without what compressed springs take away across their direction and what pressure does as
+        convex ///< without negative terms, of compressed springs across their direction and of pressure as
                ///< cells turn: never indefinite
     };
     Eigen::SparseMatrix<double> hessian(const std::vector<Eigen::Vector3d>& x, Hessian kind) const; ///< [N/m]
@@ -41,7 +41,7 @@ private:
     const Problem& problem_;
     double inertia_ = 0;                  // 1 / h^2 [1/s^2]
     std::vector<Eigen::Vector3d> target_; // y [m]; empty at rest
-    std::vector<Eigen::Index> row_;       // the first of a particle's rows; -1 = never moves
+    std::vector<Eigen::Index> row_;       // the first row of a particle; -1 = never moves
     Eigen::Index movable_ = 0;
 };
 

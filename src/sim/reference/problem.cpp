@@ -1,4 +1,4 @@
-// The Scene in double precision and what the sequential solvers share.
+// The Scene in double precision, and the parts of a substep that the sequential solvers share.
 #include "sim/reference/problem.hpp"
 
 #include "sim/reference/reference.hpp"
@@ -73,7 +73,7 @@ Problem::Problem(const Scene& scene)
         LatticeLinks kinds{.grid = g, .compliances = {}, .levels = {}};
         for (std::uint32_t kind = 0; kind < grid.kinds; ++kind) {
             kinds.compliances.push_back(double{grid.compliance[kind]});
-            double level = kinds.compliances.back() > 0 ? 1 / kinds.compliances.back() : 0; // where none is
+            double level = kinds.compliances.back() > 0 ? 1 / kinds.compliances.back() : 0; // if none is
             for (std::uint32_t c = grid.firstDistance; c < grid.firstDistance + grid.distanceCount; ++c)
                 if (scene.distances[c].restLength == grid.restLength[kind]) level = levels[c];
             kinds.levels.push_back(level);

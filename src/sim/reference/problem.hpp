@@ -1,5 +1,5 @@
 // A Scene in double precision, and the parts of a substep that the sequential solvers share: half-kick
-// prediction, boundary planes, velocity update (methods: D; planes as temporary constraints: contacts, 0.4).
+// prediction, boundary planes as temporary constraints, velocity update.
 #pragma once
 
 #include "sim/reference/cells.hpp"
@@ -17,7 +17,7 @@ struct Link {
     std::uint32_t a = 0, b = 0;
     double restLength = 0, compliance = 0; ///< [m], [m/N]
     double level =
-        0; ///< in a grid: stiffness of its stiffest link of this length; else its own; <= 1e20 [N/m]
+        0; ///< in a grid: stiffness of its stiffest link of this length; otherwise its own; <= 1e20 [N/m]
     std::uint32_t constraint = 0; ///< index into Scene::distances
 };
 
@@ -42,14 +42,14 @@ struct Wall {
     double offset = 0, friction = 0, staticFriction = 0, restitution = 0;
 };
 
-/// What a lattice's links are made of: by kind, for a whole link. Only of grids whose cells have volumes.
+/// Properties of whole links of a lattice by kind. Only for grids whose cells have volumes.
 struct LatticeLinks {
-    std::size_t grid = 0;                    ///< of the scene
-    std::vector<double> compliances, levels; ///< [m/N]; the stiffness at which their shares level off [N/m]
+    std::size_t grid = 0;                    ///< index into Scene::grids
+    std::vector<double> compliances, levels; ///< [m/N]; stiffness at which their shares level off [N/m]
 };
 
-/// What the solvers need of a scene. Links whose ends both never move are left out; cells are there only
-/// where they have volumes.
+/// The parts of a scene that solvers use. Links without a moving end are left out; cells are present only if
+/// they have volumes.
 struct Problem {
     explicit Problem(const Scene& scene);
 
@@ -60,8 +60,8 @@ struct Problem {
     std::vector<std::uint32_t> linkCount; ///< links of each particle
     std::vector<std::uint32_t> bendCount; ///< bends of each particle
     std::vector<Link> links;
-    std::vector<Bend> bends;     ///< those with a particle that moves
-    std::vector<Spring> springs; ///< one an attachment
+    std::vector<Bend> bends;     ///< those with a moving particle
+    std::vector<Spring> springs; ///< one for each attachment
     std::vector<Rope> ropes;     ///< sorted by particle
     std::vector<Cell> cells;
     std::vector<LatticeLinks> lattices;
@@ -73,19 +73,19 @@ struct Problem {
 
 Eigen::Vector3d toEigen(const Vec3& v);
 
-/// Throws std::invalid_argument for a scene with cell volumes, which `solver` has no form for.
+/// Throws std::invalid_argument for a scene with cell volumes, which `solver` does not support.
 void requireNoCells(const Scene& scene, const char* solver);
 
-/// Which walls a particle touched: bit k = wall k.
+/// The walls that a particle touched: bit k = wall k.
 using Touched = std::uint32_t;
 
-/// Moves a particle that was at `before` when the substep began out of the walls, one after another, with
-/// Coulomb friction in position form: the substep's tangential displacement is taken back up to friction x
-/// depth.
+/// Moves a particle that was at `before` at the start of the substep out of the walls, one after another,
+/// with Coulomb friction in position form: the tangential displacement of the substep is reduced by up to
+/// friction x depth.
 Touched projectOntoWalls(const Problem& problem, std::size_t particle, const Eigen::Vector3d& before,
                          Eigen::Vector3d& x);
 
-/// Newton's restitution at the touched walls against the velocity `before` the substep; impacts slower than 2
+/// Newton's restitution at the touched walls, from the velocity `before` the substep; impacts slower than 2
 /// |g| h do not rebound.
 void rebound(const Problem& problem, Touched touched, double h, const Eigen::Vector3d& before,
              Eigen::Vector3d& v);

@@ -1,6 +1,5 @@
-// The solvers again, sequentially and in double precision on the CPU, written from the Scene alone. The
-// slides' sequential row, and what a step on the device is held against. Shares no code with kernels or
-// compile.
+// The solvers, sequentially and in double precision on the CPU, written from the Scene alone: the sequential
+// row of benchmarks, and the reference for a step on the device. Shares no code with kernels or compile.
 #pragma once
 
 #include "sim/reference/problem.hpp"
@@ -9,7 +8,7 @@
 
 namespace sinew::sim::reference {
 
-/// What a link starts the next substep with.
+/// The multiplier from which a link starts the next substep.
 struct KeptMultiplier {
     double lambda = 0;         ///< [N s^2]
     Eigen::Vector3d direction; ///< unit length, from end a to end b
@@ -19,26 +18,26 @@ struct KeptMultiplier {
 struct State {
     std::vector<Eigen::Vector3d> x, v;
     double previousH =
-        0; ///< substep of the step before [s]; 0 at the start (`split` starts with a half-kick)
-    std::vector<Eigen::Vector3d> anchors;    ///< where the points of attachments are [m]
-    std::vector<Eigen::Vector3d> targets;    ///< where they go in the next step; those missing stay
-    std::vector<KeptMultiplier> multipliers; ///< of each link, kept by a warm `gauss_seidel`; empty = 0
+        0; ///< substep of the last step [s]; 0 at the start (there `split` starts with a half kick)
+    std::vector<Eigen::Vector3d> anchors;    ///< points of attachments [m]
+    std::vector<Eigen::Vector3d> targets;    ///< their targets in the next step; missing ones stay
+    std::vector<KeptMultiplier> multipliers; ///< by link, kept by `gauss_seidel` with a warm start; empty = 0
 };
 
-/// The state a scene describes; particles that never move have no velocity.
+/// The initial state of a scene; static particles have no velocity.
 State initialState(const Scene& scene);
 
-/// One step of `dt` [s] under the scene's gravity; settings.substeps is a number (withSubsteps). `split`
+/// One step of `dt` [s] under the scene's gravity; settings.substeps must be resolved (withSubsteps). `split`
 /// keeps v half a substep behind x, as the device does.
 void stepGaussSeidel(const Scene& scene, const Settings& settings, double dt,
                      State& state); ///< in constraint order
 void stepJacobi(const Scene& scene, const Settings& settings, double dt, State& state);
 void stepSplit(const Scene& scene, const Settings& settings, double dt, State& state);
 
-/// stepGaussSeidel with everything that stays the same from step to step looked up once: the sequential rows
-/// of a benchmark. Copies what it needs of the scene. `order` holds indices into scene.distances, each that
-/// has an end which moves once; `bendOrder` likewise into scene.bends; empty = as the scene lists them.
-/// settings.warmStart 0 makes it the slides' version.
+/// stepGaussSeidel with everything constant over steps computed once: the sequential rows of a benchmark.
+/// Copies what it needs of the scene. `order` holds indices into scene.distances, each with a moving end
+/// exactly once, and `bendOrder` similarly indices into scene.bends; empty = the order of the scene. With
+/// settings.warmStart 0 and in scene order it is the classic sequential version.
 class GaussSeidel {
 public:
     GaussSeidel(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> order = {},
@@ -46,7 +45,7 @@ public:
     void step(double dt, State& state);
 
 private:
-    // One constraint as the inner loop reads it, in one cache line.
+    // A constraint in the layout of the inner loop, in one cache line.
     struct Row {
         std::uint32_t a = 0, b = 0;
         double inverseMassA = 0, inverseMassB = 0;
@@ -67,7 +66,7 @@ private:
     std::vector<Eigen::Vector3d> bendMultipliers_;
     std::vector<Row> rows_;
     std::vector<std::uint32_t> linkOfRow_;
-    std::vector<Eigen::Vector3d> directions_; ///< of each row when it was last solved; for a warm start
+    std::vector<Eigen::Vector3d> directions_; ///< of each row at its last solve; for a warm start
 };
 
 } // namespace sinew::sim::reference

@@ -1,10 +1,10 @@
 // `split` in double: springs evaluated at y = x + theta h v, stiffness clamped by mass splitting, then kick
-// and drift (methods: D, theta form). Constraint c has the share k~_c / sum k~ of each of its ends, k~_c =
-// k_c / (1 + 2 w h^2 K_c), with K_c = k_c (in a grid, the stiffest of its rest length) and w the mean inverse
-// mass; it is clamped to k~_c min(tau_i, tau_j), tau_i = omega / (2 w_i sum k~). The volume of a cell shares
-// likewise, k_c = 0.75 lambda_v a at full fill, and is clamped to 2 k~_c min tau_i / (sum |g_i|^2 + |C| a
-// (|A|^2 / (6 a^2) + 1/2)), C = V - V0, A its mean edges. Pressure that unfolds cells has a share beside
-// those (solvers: shares.hpp).
+// and drift. Constraint c has the share k~_c / sum k~ of each of its ends, k~_c = k_c / (1 + 2 w h^2 K_c),
+// with K_c = k_c (in a grid, the stiffest of its rest length) and w the mean inverse mass; it is clamped to
+// k~_c min(tau_i, tau_j), tau_i = omega / (2 w_i sum k~). The volume of a cell has a share by the same rule,
+// k_c = 0.75 lambda_v a at full fill, and is clamped to 2 k~_c min tau_i / (sum |g_i|^2 + |C| a (|A|^2 / (6
+// a^2) + 1/2)), C = V - V0, A its mean edges. Pressure that unfolds cells has a share in addition to those
+// (sim/solvers/shares.hpp).
 #include "sim/reference/attached.hpp"
 #include "sim/reference/reference.hpp"
 
@@ -19,13 +19,13 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// What shares and clamp of a scene come to: constant in time.
+// Shares and clamps of a scene, constant in time.
 struct Split {
     std::vector<double> stiffness, share;         // of each link: k and k~ [N/m]
     std::vector<double> clampTime;                // of each particle: tau [s^2]
     std::vector<double> cellShare, recoveryShare; // of each cell: k~ [N/m]
 
-    // `spare`: by how much recovery may overdraw a particle, in parts of what it has to share.
+    // `spare`: share of a particle by which recovery may exceed it.
     Split(const Problem& problem, double omega, double h, double spare) {
         double massSum = 0, moving = 0;
         for (const double w : problem.inverseMass) {
@@ -54,7 +54,7 @@ struct Split {
                                     : infinite);
     }
 
-    // The largest k_c D_c / omega of the links, D_c at most omega / (k~_c min(tau)) [1/s^2].
+    // The largest k_c D_c / omega of the links, with D_c at most omega / (k~_c min(tau)) [1/s^2].
     double most(const Problem& problem) const {
         double most = 0;
         for (std::size_t c = 0; c < problem.links.size(); ++c) {
@@ -66,8 +66,8 @@ struct Split {
     }
 
 private:
-    // A cell's own part of what its links and its volume take of a corner: for each kind of link, its share
-    // in a whole one and how many of them meet in a corner.
+    // A cell's own part of what its links and its volume take of a corner: for each kind of link, the cell's
+    // share in a whole one times the number of them that meet in a corner.
     void addRecovery(const Problem& problem, double spare, double softening) {
         std::map<std::size_t, double> cornerSums; // of a full cell, by grid
         for (const auto& [grid, compliances, levels] : problem.lattices) {
@@ -84,7 +84,7 @@ private:
     }
 };
 
-// Pressure on a cell's corners [Pa], clamped for kicks as long as h.
+// Pressure on a cell's corners [Pa], clamped for kicks of length h.
 double clampedPressure(const Cell& cell, const Corners& y, double clampTime, double share,
                        double recoveryShare, double h) {
     const double ratio = volumeRatio(cell, y), volume = cell.restVolume(), a = cell.spacing;
@@ -104,8 +104,8 @@ double clampedPressure(const Cell& cell, const Corners& y, double clampTime, dou
     return pressure;
 }
 
-// Force on every particle [N] from its links, with their ends at y and moving with v, stiffness and damping
-// clamped for kicks as long as h.
+// Forces on all particles [N] of links whose ends are at y and move with v; stiffness and damping are clamped
+// for kicks of length h.
 std::vector<Eigen::Vector3d> forces(const Problem& problem, const Split& split, double h, double dampingShare,
                                     const std::vector<Eigen::Vector3d>& y,
                                     const std::vector<Eigen::Vector3d>& v) {
@@ -145,10 +145,10 @@ void stepSplit(const Scene& scene, const Settings& settings, double dt, State& s
     const Problem problem(scene);
     const double h = dt / settings.substeps, theta = double{settings.theta}, omega = double{settings.omega};
     const double spare = 0.9 * 4 / (1 + 2 * theta) / omega - 1;
-    const Split split(problem, omega, double{scene.dt} / settings.substeps, spare); // shares do not follow dt
+    const Split split(problem, omega, double{scene.dt} / settings.substeps, spare); // shares ignore dt
     const double kept = std::exp(-problem.damping * h);
     for (std::uint32_t substep = 0; substep < settings.substeps; ++substep) {
-        // v comes from the middle of the substep before, which had this length.
+        // v belongs to the middle of the last substep, which had this length.
         const double hBefore = substep == 0 ? state.previousH : h;
         std::vector<Eigen::Vector3d> y(state.x);
         for (std::size_t i = 0; i < problem.size(); ++i) y[i] += theta * hBefore * state.v[i];

@@ -14,8 +14,8 @@ namespace {
 
 using Positions = std::vector<Eigen::Vector3d>;
 
-// Each doubles the time. A halving gains a factor 4, so whether they suffice is known after the first: a
-// chaotic motion is refused before it has cost minutes.
+// Each halving doubles the time and reduces the error by a factor of 4, so after the first one it is known
+// whether they suffice: chaotic motion is refused before it has cost minutes.
 constexpr int mostHalvings = 6;
 
 class Verlet {
@@ -49,7 +49,7 @@ private:
     std::vector<Eigen::Vector3d> force_; // [N]
 };
 
-// In [-1, 1], the same on every machine (splitmix64).
+// A hash in [-1, 1], equal on every machine (splitmix64).
 double hashed(std::uint64_t index) {
     std::uint64_t z = (index + 1) * 0x9e3779b97f4a7c15u;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -76,7 +76,7 @@ std::vector<Positions> record(const Problem& problem, State state, const Traject
     return frames;
 }
 
-// The largest distance [m]; infinite where either is not finite.
+// The largest distance [m]; infinite if either is not finite.
 double difference(const std::vector<Positions>& a, const std::vector<Positions>& b) {
     double largest = 0;
     for (std::size_t frame = 0; frame < a.size(); ++frame) {
