@@ -8,8 +8,6 @@
 //
 // with a row for each grab, plane, poke and collider, and rows for bodies with static faces. Static faces
 // have no list of the points near them: each point adds its impulse on them to its own element in a row.
-// faces do not know the points near them: each point adds what they give to it to an element of its own in a
-// row.
 #pragma once
 
 #include "layout.h"

@@ -132,8 +132,8 @@ struct GatedDispatch {
     BufferId last; ///< bound last; invalid = none
 };
 
-/// A buffer of the state between steps: `to` receives it on a take-over, `from` holds its value after an
-/// undone step.
+/// A buffer of the state between steps: a take-over copies `from` of the other program, which is valid also
+/// after an undone step, into `to`.
 struct Carried {
     BufferId to, from;
 };

@@ -60,7 +60,7 @@ struct Surface {
 /// both thicknesses. No contact is made between a face and a particle, or two edges, of one linked body with
 /// a rest distance below 1.05 times the contact distance; between elements that share a corner; and, in a
 /// cuttable body, between a solid face and a particle linked to one of its corners. A face has the surface of
-/// its first corner. Where a face is at least as thick as a corner's radius, others touch the face instead of
+/// its first corner. If a face is at least as thick as a corner's radius, others touch the face instead of
 /// the corner. A face thinner than a thousandth of its length touches nothing.
 struct Face {
     std::array<std::uint32_t, 3> particles{};

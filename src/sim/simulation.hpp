@@ -380,7 +380,7 @@ public:
     /// lacked lists, before that step until it is repeated. Valid until the next call of this or of pokes(),
     /// and until the next step is recorded.
     std::span<const Pose> colliderPoses() const noexcept;
-    /// States of the Settings::pokes pokes, at the same time and valid as long.
+    /// States of all pokes (Settings::pokes of them), at the same time and valid as long.
     std::span<const PokeState> pokes() const noexcept;
 
     /// The status of a finished step that is one of the last Settings::framesInFlight recorded; for any other

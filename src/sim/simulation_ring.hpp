@@ -51,7 +51,7 @@ public:
     std::vector<layout::ForceSum> forces(std::uint64_t frame) const;
     /// Whether `frame` was recorded, still has its slot and has finished on the device.
     bool isFinished(std::uint64_t frame) const noexcept;
-    /// That step, to be marked by the reader.
+    /// The step of `frame`, for its reader to mark.
     RecordedStep& step(std::uint64_t frame) noexcept { return steps_[slotOf(frame)]; }
     /// Whether that step has finished and was undone.
     bool isUndone(std::uint64_t frame) const noexcept;

@@ -112,7 +112,7 @@ Limit longestOfDamping(const Terms& terms) {
     return {(std::sqrt(damping * damping + 3.8 * a) - damping) / a, particle};
 }
 
-// The longest substeps that each rule allows, computed with settings.substeps substeps.
+// The longest substeps that each rule allows, computed for settings.substeps.
 struct Limits {
     Limit elastic, rigid, damped;
     double share = 1;        // smallest share of an elastic term

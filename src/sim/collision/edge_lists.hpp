@@ -1,7 +1,7 @@
 // Candidates of contacts between edges of faces: for each edge the others within contact distance, a margin M
-// and their motion in a substep, sorted by index. As in face_lists, no pair that meets is ever missed, and no
-// result depends on M. Candidates are found in a hash grid of the midpoints of edges; an edge is represented
-// by its bounding sphere.
+// and their motion in a substep, sorted by index. Like in face_lists, no pair that meets is ever missed, and
+// no result depends on M. Candidates are found in a hash grid of the midpoints of edges; an edge is
+// represented by its bounding sphere.
 #pragma once
 
 #include "sim/collision/pooled_lists.hpp"

@@ -21,8 +21,7 @@ struct Masses {
     std::vector<double> below, above;
 };
 
-// By component, whether it has touching faces and none of them is solid: it folds, and does not bear its own
-// weight.
+// By component, whether it has a touching face that is not solid: it folds, and does not bear its own weight.
 std::vector<bool> sheetsOf(const Scene& scene, std::span<const std::uint32_t> bodies) {
     std::vector<bool> isSheet(scene.particles.size());
     for (const Face& face : scene.faces)

@@ -47,7 +47,7 @@ struct Batches {
 /// substep, which exclude it too.
 bool isResident(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids);
 
-/// Where bodies are kept between substeps.
+/// The memory that holds bodies between substeps.
 enum class Residence { memory, sharedMemory };
 
 Batches batchesOf(const Scene& scene, const Settings& settings, std::span<const std::uint32_t> grids,

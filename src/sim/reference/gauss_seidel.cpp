@@ -113,8 +113,8 @@ void GaussSeidel::sweep(State& state) {
 }
 
 // Internal damping, c = dampingTime / compliance along a link, implicit for each link, on the velocities at
-// the end of a substep. As a term of the constraint (XPBD, eq. 26) it would multiply the compliance that a
-// sweep adds by 1 + dampingTime / h.
+// the end of a substep. If it were a term of the constraint (XPBD, eq. 26), it would multiply the compliance
+// that a sweep adds by 1 + dampingTime / h.
 void GaussSeidel::damp(double h, State& state) const {
     const Eigen::Vector3d halfKick = h / 2 * problem_.gravity; // of moving ends; static ones have none
     for (const Row& row : rows_) {

@@ -11,8 +11,8 @@ struct TrajectoryOptions {
     std::uint32_t frames = 1;
     double dt = 1.0 / 60;    ///< length of a frame [s], > 0
     double tolerance = 1e-6; ///< of body size; largest change of any particle in any frame when h is halved
-    /// Of body size: every coordinate of a movable particle starts up to this far from its position in the
-    /// scene, by a hash of its index. Reveals chaotic motion.
+    /// Perturbation by body size: every coordinate of a movable particle starts up to this far from its
+    /// position in the scene, by a hash of its index. Reveals chaotic motion.
     double perturbation = 0;
 };
 

@@ -16,7 +16,7 @@ namespace sinew::sim::stiffness {
 
 // The share of a correction that is done after `sweeps`, each of which does `share` of the rest.
 inline double shareAfter(double share, double sweeps) {
-    return sweeps == 1 ? share : -std::expm1(sweeps * std::log1p(-share)); // every term of `split` asks
+    return sweeps == 1 ? share : -std::expm1(sweeps * std::log1p(-share)); // `split` always has one sweep
 }
 
 // A constraint, as the rules need it.

@@ -4,11 +4,11 @@
 // (lattice_faces) or a mesh attached to them (skin_complex); hung_surface contains what differs for meshes.
 //
 // A step with a cut runs, near the blade only: part_tetrahedra (which corners of each tetrahedron are
-// connected), mark_points (which points on edges, faces and in centres both sides use), count_surface
-// (triangles of every cell). It then runs for the whole surface: sum, scan and start (first element of each
-// cell, from the counts in the order of slots; draw arguments), write_points (rest positions, the particles
-// they depend on), write_inside (indices, normals at rest), write_outside (pieces of outer faces, with their
-// own vertices), hide_faces (skin triangles that pieces replace).
+// connected), mark_points (points on edges, on faces and in centres, one for each side or one for both),
+// count_surface (triangles of every cell). It then runs for the whole surface: sum, scan and start (first
+// element of each cell, from the counts in the order of slots; draw arguments), write_points (rest positions,
+// the particles they depend on), write_inside (indices, normals at rest), write_outside (pieces of outer
+// faces, with their own vertices), hide_faces (skin triangles that pieces replace).
 //
 // Items of the surface are slots, followed by prisms. The list of skins runs: find_gradients (rotation and
 // strain of the material around particles near a cut), normals of attached skins and of mixed ones

@@ -1,6 +1,6 @@
 // Level of detail of skins once something is cut. A skin that was split for cutting has several times as many
 // triangles, and needs them only beside cuts. A mixed skin consists of its whole triangles away from cuts and
-// of their parts beside cuts. Where the two meet both are drawn, since a part has vertices on edges where a
+// of their parts beside cuts. Both are drawn where they meet, since a part has vertices on edges where a
 // whole triangle has none, which would open a gap between them.
 //
 // Parts replace a whole triangle if a blade removed some of them, or moved their particles. A step with a cut

@@ -1,6 +1,7 @@
-// Where particles are pulled to the nearest point of a skin, tetrahedra and prisms beside notches and around
-// thin parts become inverted, and a cut through them is covered several times. Each such particle is tried
-// below the parts of the skin that follow it, and is placed where the inverted volume is smallest.
+// Reduces inversions around pulled particles. Pulling to the nearest point of a skin inverts tetrahedra and
+// prisms beside notches and around thin parts, and a cut through these is covered several times. Each such
+// particle is tried below the parts of the skin that follow it, and is placed where the inverted volume is
+// smallest.
 #include "sim/surface/unfold_anchors.hpp"
 
 #include "sim/surface/kuhn.hpp"
