@@ -1,4 +1,4 @@
-// Every kind of failure has its exit code and one line on stderr.
+// Tests of app/guard: each kind of failure has its exit code and writes one line to stderr.
 #include "app/guard.hpp"
 
 #include "mesh/export.hpp"
@@ -64,18 +64,18 @@ TEST(Guard, KeepsAMessageOnOneLine) {
 }
 
 TEST(Signals, SetAFlagAndLetTheProcessGoOn) {
-    auto* const before = std::signal(SIGHUP, SIG_DFL); // ignored where nohup runs the tests
+    auto* const before = std::signal(SIGHUP, SIG_DFL); // nohup, which may run the tests, ignores it
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
         app::catchSignals();
         EXPECT_FALSE(app::isInterrupted());
         std::raise(signal);
         EXPECT_TRUE(app::isInterrupted());
     }
-    app::catchSignals(); // the process is not to be ended
+    app::catchSignals(); // or the next signal would end this process
     std::signal(SIGHUP, before);
 }
 
-// As under nohup.
+// nohup ignores SIGHUP in the same way.
 TEST(Signals, OfATerminalThatGoesAreIgnoredWhereTheyWere) {
     auto* const before = std::signal(SIGHUP, SIG_IGN);
     app::catchSignals();
@@ -96,7 +96,7 @@ TEST(Signals, EndTheProcessTheSecondTime) {
 
 namespace {
 
-// Goes on for so long without a look at signals [s].
+// Works for `seconds` without checking for signals.
 void workFor(double seconds) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
     while (std::chrono::steady_clock::now() < end) {
@@ -111,12 +111,12 @@ TEST(Signals, EndWhatDoesNotComeToAnEndWithinTwoSeconds) {
             app::catchSignals();
             std::raise(SIGTERM);
             workFor(2);
-            std::_Exit(7); // 2 s have gone by
+            std::_Exit(7); // the handler did not end the process within 2 s
         },
         testing::ExitedWithCode(130), "error: interrupted: .* did not end within 2 s");
 }
 
-// The exit code is that of a fault, as at the end of a program.
+// The exit code is that of a fault if the validation layer reported anything, as at the end of a program.
 TEST(Signals, SayThatTheValidationLayerHasComplained) {
     static std::atomic<std::size_t> messages = 0;
     app::watchMessages(&messages);

@@ -1,4 +1,4 @@
-// What is written while a run lasts: lines into files and pipes, a bar on a terminal.
+// Tests of app/progress: a run writes lines to files and pipes, and a bar to a terminal.
 #include "app/progress.hpp"
 
 #include <gtest/gtest.h>
@@ -64,7 +64,7 @@ TEST(Progress, DrawsABarOnATerminal) {
         progress.update(2);
         progress.finish();
     }
-    std::string text; // arrives in as many pieces as the terminal likes
+    std::string text; // the terminal may deliver the text in any number of parts
     char piece[4096];
     while (!text.ends_with('\n')) {
         const ssize_t size = ::read(master, piece, sizeof piece);

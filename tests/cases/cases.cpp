@@ -1,4 +1,4 @@
-// Predictions of stiffness per solver, and measurements.
+// Predicts the stiffness that each solver reaches, and measures runs.
 #include "cases/cases.hpp"
 
 #include "sim/reference/cells.hpp"
@@ -38,14 +38,15 @@ std::vector<reference::Cell> cellsWithVolume(const Scene& scene) {
     return cells;
 }
 
-// Of a full cell, about its rest volume: 0.75 lambda_v a [N/m].
+// Stiffness of a full cell for changes of volume near its rest volume: 0.75 lambda_v a [N/m].
 double stiffnessOf(const reference::Cell& cell) {
     return 0.75 * cell.stiffness * cell.spacing;
 }
 
-// How `split` divides particles, from what solvers/shares.hpp says in words: a constraint of stiffness k
-// takes k~ = k / (1 + 2 w h^2 K), K the stiffest of its rest length in its grid or k, and a particle has tau
-// = omega / (2 w sum k~).
+// Division of particles among constraints in `split`, computed independently from the formulas in
+// solvers/shares.hpp. A constraint of stiffness k gets the share k~ = k / (1 + 2 w h^2 K). K is the largest
+// stiffness of its rest length in its grid, or k outside of grids. A particle gets tau = omega / (2 w sum
+// k~).
 struct Division {
     double softening = 0; // 2 w h^2 [m/N]
     std::vector<double> share, tau;
@@ -71,18 +72,18 @@ struct Division {
             if (w[i] > 0) tau[i] = double{settings.omega} / (2 * w[i] * sum[i]);
     }
 
-    // Rigid constraints are the limit of stiff ones.
+    // The share of a rigid constraint is the limit for k -> infinity.
     double levelled(double k, double stiffest) const {
         return stiffest < infinite ? k / (1 + softening * stiffest) : 1 / softening;
     }
 
-    // k h^2 at most [kg].
+    // Upper bound of k h^2 [kg].
     double clamp(const Scene& scene, std::size_t c) const {
         const double least = std::min(tau[scene.distances[c].a], tau[scene.distances[c].b]);
         return least < infinite ? share[c] * least : infinite;
     }
 
-    // Of the links of one length in the grid of link c.
+    // Smallest compliance of the links that have the rest length of link c in its grid.
     static double leastCompliance(const Scene& scene, std::size_t c) {
         const DistanceConstraint& link = scene.distances[c];
         for (const Grid& grid : scene.grids) {
@@ -129,7 +130,7 @@ bool isUnclamped(const Scene& scene, const Settings& settings) {
     const double h = double{scene.dt} / settings.substeps;
     for (std::size_t c = 0; c < scene.distances.size(); ++c)
         if (h * h / double{scene.distances[c].compliance} > division.clamp(scene, c)) return false;
-    constexpr double spare = 1.1; // of cells, whose clamp falls as they are stretched
+    constexpr double spare = 1.1; // margin for cells, whose clamp falls as they stretch
     return std::ranges::all_of(cellsWithVolume(scene), [&](const reference::Cell& cell) {
         double least = infinite;
         for (const std::uint32_t corner : cell.corners) least = std::min(least, division.tau[corner]);

@@ -1,5 +1,5 @@
-// What the analytic cases share: which solvers run, how they are set where their stiffness is known, a runner
-// that also runs everything in reversed invocation order, and measurements.
+// Shared code of the analytic cases: the list of solvers, settings with known stiffness, measurements, and a
+// runner that repeats each run in reversed invocation order.
 #pragma once
 
 #include "sim/bodies.hpp"
@@ -16,8 +16,8 @@
 
 namespace sinew::test {
 
-/// SolverCases run with these, other cases with the solvers that they name; a new solver is added here, and
-/// to accurate() and reachedStiffness().
+/// Solvers for which the SolverCases run. Other cases name their solvers. A new solver must be added here, in
+/// accurate() and in reachedStiffness().
 inline constexpr std::array caseSolvers{sim::Solver::jacobi, sim::Solver::split, sim::Solver::gaussSeidel};
 
 class SolverCase : public testing::TestWithParam<sim::Solver> {};
@@ -26,24 +26,24 @@ inline std::string solverOf(const testing::TestParamInfo<sim::Solver>& info) {
     return sim::solverName(info.param);
 }
 
-/// The form of a solver whose stiffness is known and, for short substeps, the material's: `split` at theta 0;
-/// `jacobi` with one iteration and whole corrections, since averaging divides a soft spring's stiffness by
-/// its neighbours.
+/// Settings with which a solver has a known stiffness, equal to the material's for short substeps. `split`
+/// uses theta 0. `jacobi` uses one iteration and full corrections, because averaging divides the stiffness of
+/// a soft spring by its number of neighbours.
 sim::Settings accurate(sim::Solver solver, std::uint32_t substeps);
 
-/// The stiffness of constraint c that these settings reach in substeps of h [s] [N/m] (methods: D). Infinite
-/// between particles that never move. For `jacobi` with one iteration, and the same weight at both ends;
-/// `gauss_seidel` has at rest what was asked for, where substeps suffice to solve its constraints.
+/// Stiffness that constraint c reaches with these settings in substeps of h [s] [N/m]. Infinite between
+/// particles that never move. For `jacobi`, valid with one iteration and equal weights at both ends.
+/// `gauss_seidel` reaches the requested stiffness at rest if the substeps suffice to solve its constraints.
 double reachedStiffness(const sim::Scene& scene, const sim::Settings& settings, double h, std::size_t c);
 
-/// Of `split`: the same for every constraint, infinite between particles that never move [N/m].
+/// Stiffness of every constraint under `split` [N/m]; infinite between particles that never move.
 std::vector<double> splitStiffnesses(const sim::Scene& scene, const sim::Settings& settings, double h);
 
-/// Whether `split` has all the stiffness of the scene with these settings, of links and (with a tenth to
-/// spare) of cells; must hold where a case says unclamped. Lattices are full somewhere.
+/// Whether `split` reaches the full stiffness of all links and, with a tenth to spare, of all cells of the
+/// scene. Must be true where a case claims to be unclamped. Each lattice must have full cells.
 bool isUnclamped(const sim::Scene& scene, const sim::Settings& settings);
 
-/// A full voxel body in a scene without gravity. Ranges are of corners, both ends included.
+/// A full voxel body in a scene without gravity. Corner ranges include both ends.
 struct Solid {
     using Corner = std::array<std::uint32_t, 3>;
     static constexpr double cell = 0.05, density = 1000; ///< [m], [kg/m^3]
@@ -52,19 +52,19 @@ struct Solid {
     double speed = 0; ///< sqrt(E / rho) [m/s]
 
     double modulus() const { return density * speed * speed; } ///< E [Pa]
-    /// Of positions [m].
+    /// Mean position of the corners in a range [m].
     Eigen::Vector3d mean(const std::vector<Eigen::Vector3d>& x, Corner low, Corner high) const;
     void fix(Corner low, Corner high);
-    /// Positions [m].
+    /// Positions at the start [m].
     std::vector<Eigen::Vector3d> initial() const;
 };
 
-/// Centred on the origin, where float32 is finest.
+/// Makes a body centred on the origin, where float32 is most precise.
 Solid makeSolid(const char* name, std::array<std::uint32_t, 3> cells, double speed,
                 float poissonRatio = 0.25f);
 
-/// A scene on the device twice, once in reversed invocation order; on destruction, the bits of both states
-/// must agree.
+/// Runs a scene on the device twice, once in reversed invocation order. The destructor expects both states to
+/// have equal bits.
 class CaseRunner {
 public:
     CaseRunner(const sim::Scene& scene, sim::Settings settings);
@@ -81,15 +81,16 @@ private:
     Runner forward_, reversed_;
 };
 
-/// Expects `measured` within `tolerance` (relative) of `expected` and records the deviation under `what`.
+/// Expects `measured` within the relative `tolerance` of `expected` and records the deviation under the name
+/// `what`.
 void expectWithin(const std::string& what, double measured, double expected, double tolerance);
 
-/// The zero crossings of a sampled vibration, interpolated.
+/// Interpolated zero crossings of a sampled vibration.
 class Crossings {
 public:
     void add(double time, double value);
     std::size_t count() const { return times_.size(); }
-    /// Mean period between the first and the last crossing [s]; at least two must have been seen.
+    /// Mean period between the first and the last crossing [s]; needs at least two crossings.
     double period() const;
 
 private:
@@ -97,7 +98,7 @@ private:
     double lastTime_ = 0, lastValue_ = 0;
 };
 
-/// Length of a float32 step at this value.
+/// Spacing of float32 numbers at this value.
 double ulp(double value);
 
 } // namespace sinew::test

@@ -18,22 +18,22 @@ constexpr double gravity = double{9.81f};
 class Case07Catenary : public SolverCase {};
 class Case08SwingingChain : public SolverCase {};
 
-// `count` masses under one another and a fixed particle at the origin above them.
+// A chain: `count` masses below each other, hanging from a fixed particle at the origin.
 constexpr std::uint32_t count = 20;
 constexpr double mass = 0.1, stiffness = 1000, spacing = 0.05;
 
-// By how much 20 masses of 0.1 kg on springs of 1000 N/m have sunk when they rest.
+// Extension at rest of 20 masses of 0.1 kg on springs of 1000 N/m [m].
 double extensionOnDevice(const Settings& settings) {
     Scene scene = hangingChain(count, static_cast<float>(spacing), static_cast<float>(mass),
                                static_cast<float>(1 / stiffness));
-    scene.damping = 7; // the slowest vibration, 7.8 rad/s, loses all but 1e-6 in 4 s
+    scene.damping = 7; // damps the slowest vibration, 7.8 rad/s, to 1e-6 in 4 s
     CaseRunner runner(scene, settings);
     runner.run(240);
     return -runner.positions().back().y() - count * spacing;
 }
 
-// With the stiffness that each link reaches. A solver in the PBD order evaluates links after gravity's
-// displacement g h^2, which leaves the chain higher by as much.
+// Extension with the stiffness that each link reaches [m]. A solver in PBD order evaluates links after the
+// displacement g h^2 by gravity, so the chain ends higher by g h^2.
 double predictedExtension(const Settings& settings) {
     const Scene scene = hangingChain(count, static_cast<float>(spacing), static_cast<float>(mass),
                                      static_cast<float>(1 / stiffness));
@@ -46,7 +46,7 @@ double predictedExtension(const Settings& settings) {
 
 constexpr double exactExtension = mass * gravity * count * (count + 1) / 2 / stiffness;
 
-// The root of an increasing function between low and high.
+// Root of an increasing function between low and high.
 double rootOf(const std::function<double(double)>& function, double low, double high) {
     for (int halving = 0; halving < 100; ++halving)
         (function((low + high) / 2) < 0 ? low : high) = (low + high) / 2;
@@ -56,7 +56,7 @@ double rootOf(const std::function<double(double)>& function, double low, double 
 } // namespace
 
 TEST(Case06HangingChain, StretchesAsTheStiffnessOfSplitSays) {
-    for (const std::uint32_t substeps : {2u, 8u, 32u}) { // clamped at two
+    for (const std::uint32_t substeps : {2u, 8u, 32u}) { // two substeps are clamped
         const Settings settings = accurate(Solver::split, substeps);
         expectWithin("extension, " + std::to_string(substeps) + " substeps", extensionOnDevice(settings),
                      predictedExtension(settings), 1e-3);
@@ -76,9 +76,9 @@ TEST(Case06HangingChain, StretchesAsTheStiffnessOfJacobiSays) {
     expectWithin("extension, of exact", extension, exactExtension, 0.01);
 }
 
-// At rest a link keeps the length that its own color gave it until a later color moves its ends: by h^2 w
-// times what the neighbour of that color pulls. So a cold sweep leaves the chain longer by that, and only
-// where the first link is not last.
+// At rest, a link has the length that its own color gave it, until a later color moves its ends by h^2 w
+// times the tension of the neighbour of that color. A cold sweep therefore leaves the chain longer by this
+// amount for each neighbour in a later color.
 TEST(Case06HangingChain, StretchesAsTheOrderOfColorsSaysWhereGaussSeidelStartsCold) {
     const Scene scene = hangingChain(count, static_cast<float>(spacing), static_cast<float>(mass),
                                      static_cast<float>(1 / stiffness));
@@ -91,7 +91,7 @@ TEST(Case06HangingChain, StretchesAsTheOrderOfColorsSaysWhereGaussSeidelStartsCo
         const double h = double{frame} / substeps;
         double predicted = exactExtension;
         for (std::size_t c = 0; c < count; ++c)
-            for (const std::size_t next : {c - 1, c + 1}) // c - 1 is no link where c is 0
+            for (const std::size_t next : {c - 1, c + 1}) // for c = 0, c - 1 wraps around and is skipped
                 if (next < count && colorOf[next] > colorOf[c])
                     predicted += h * h / mass * static_cast<double>(count - next) * mass * gravity;
         const double extension = extensionOnDevice(settings);
@@ -100,14 +100,14 @@ TEST(Case06HangingChain, StretchesAsTheOrderOfColorsSaysWhereGaussSeidelStartsCo
     }
 }
 
-// The warm start, its default, takes that away again.
+// The default warm start removes the error of the cold sweep.
 TEST(Case06HangingChain, StretchesExactlyWhereGaussSeidelStartsWarm) {
     expectWithin("extension", extensionOnDevice({.solver = Solver::gaussSeidel, .substeps = 32}),
                  exactExtension, 0.01);
 }
 
-// Averaging divides what a particle's two links do by two, but not what the last one's single link does: link
-// c passes on m g h^2 (1 + 2 (N - c)).
+// Averaging halves the corrections of a particle with two links, but not those of the last particle, which
+// has one link. Link c therefore carries m g h^2 (1 + 2 (N - c)).
 TEST(Case06HangingChain, StretchesNearlyTwiceAsFarWhereJacobiAverages) {
     const Settings settings{.solver = Solver::jacobi, .substeps = 32};
     const double h = double{frame} / settings.substeps, alpha = 1 / (stiffness * h * h);
@@ -121,11 +121,11 @@ TEST(Case06HangingChain, StretchesNearlyTwiceAsFarWhereJacobiAverages) {
     RecordProperty("of exact", std::to_string(extension / exactExtension));
 }
 
-// 64 rigid links of together 6 m between two points 5 m apart, starting as a V.
+// 64 rigid links with a total length of 6 m between two points 5 m apart; the start is a V.
 TEST_P(Case07Catenary, SagsAsACoshDoes) {
     constexpr std::uint32_t links = 64;
     constexpr double length = 6, span = 5;
-    const double depth = std::sqrt(length * length - span * span) / 2; // of the V
+    const double depth = std::sqrt(length * length - span * span) / 2; // depth of the V
     Scene scene{.name = "catenary"};
     for (std::uint32_t i = 0; i <= links; ++i) {
         const double along = static_cast<double>(i) / links;
@@ -148,8 +148,9 @@ TEST_P(Case07Catenary, SagsAsACoshDoes) {
     EXPECT_LE(speed, 0.01) << "not at rest yet";
 }
 
-// 40 rigid links of together 4 m; the last particle stands for half as much chain as the others. Starts in
-// its first mode, J0(j01 sqrt(z / L)), z measured from the free end.
+// 40 rigid links with a total length of 4 m. The last particle has half the mass of the others because it
+// stands for half a link. The start is the first mode, J0(j01 sqrt(z / L)), with z measured from the free
+// end.
 TEST_P(Case08SwingingChain, SwingsWithTheZeroOfABesselFunction) {
     constexpr std::uint32_t links = 40;
     constexpr double length = 4, zero = 2.404825557695773;

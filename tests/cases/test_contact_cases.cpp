@@ -1,4 +1,4 @@
-// Cases 16 to 18, 20 and 21: particles that touch particles, and planes, in `split`.
+// Cases 16 to 18, 20 and 21: particles in contact with particles and planes, solved by `split`.
 #include "cases/cases.hpp"
 #include "layout.h"
 #include "sim/collision/contact_scenes.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double g = 9.81, radius = double{ballRadius};
 
-// A ball 1 m above what it falls on: a plane, or a ball that never moves.
+// A ball 1 m above a plane or above a fixed ball.
 Scene fallingBall(bool ontoBall, float restitution) {
     Scene scene;
     scene.particles = {ballAt({0, 1 + ballRadius, 0})};
@@ -31,11 +31,11 @@ Scene fallingBall(bool ontoBall, float restitution) {
     return scene;
 }
 
-// A ball on one that never moves and is far larger, `degrees` down from its top. (Not as large as one likes:
-// the depth that carries a ball in a substep is 3e-5 m, and float32 rounds distances of 10 m by 1e-6.)
+// A ball on a much larger fixed ball, `degrees` away from its top. The size is limited by float32: the
+// overlap that carries the ball in a substep is 3e-5 m, and float32 rounds distances of 10 m by 1e-6 m.
 struct Hill {
     double size = 2;                                            // radius [m]
-    double degrees = 0, speed = 0, friction = 0.5, holding = 0; // static friction, if more
+    double degrees = 0, speed = 0, friction = 0.5, holding = 0; // static friction, where larger than friction
 
     double reach() const { return size + radius; }
     double angle() const { return degrees * std::numbers::pi / 180; }
@@ -45,7 +45,7 @@ struct Hill {
         const auto vector = [](double x, double y) {
             return Vec3{static_cast<float>(x), static_cast<float>(y), 0};
         };
-        // around the place of contact, where float32 is finest
+        // The contact lies at the origin, where float32 is most precise.
         Particle hill = fixedBallAt(vector(-reach() * s, -reach() * c));
         hill.radius = static_cast<float>(size);
         Scene scene;
@@ -55,7 +55,7 @@ struct Hill {
         return scene;
     }
 
-    // What Coulomb says about the way until `time`, or to the stop [m].
+    // Distance that Coulomb friction predicts until `time` or until the stop [m].
     double wayDown(double time) const {
         double at = angle(), v = speed, way = 0;
         constexpr double dt = 1e-5;
@@ -68,7 +68,7 @@ struct Hill {
         return way;
     }
 
-    // The way on the device, in 10 substeps a step [m].
+    // Distance on the device with 10 substeps a step [m].
     double wayIn(int steps) const {
         CaseRunner runner(scene(), {.substeps = 10});
         const Vector3d start = runner.positions()[0], middle = runner.positions()[1];
@@ -78,7 +78,7 @@ struct Hill {
     }
 };
 
-// Balls on rigid strings of 1 m, the first of them pulled aside.
+// Newton's cradle: balls on rigid strings of 1 m, the first `raised` of them pulled aside.
 Scene cradle(std::uint32_t balls, std::uint32_t raised) {
     Scene scene;
     scene.contacts.restitution = 1;
@@ -94,13 +94,13 @@ Scene cradle(std::uint32_t balls, std::uint32_t raised) {
     return scene;
 }
 
-// A block of side^3 particles on a bed of particles that never move, each right above one; gravity leans.
+// A block of side^3 particles on a bed of fixed particles, each exactly above one; gravity is tilted.
 Scene blockOnBed(std::uint32_t cells, double degrees, float friction) {
     constexpr float spacing = 2 * ballRadius;
     Scene scene = block(cells, spacing, 1e6f, spacing);
     const double angle = degrees * std::numbers::pi / 180;
     scene.gravity = {static_cast<float>(g * std::sin(angle)), static_cast<float>(-g * std::cos(angle)), 0};
-    scene.damping = 30; // gravity is switched on at once: no overshoot
+    scene.damping = 30; // prevents an overshoot when gravity sets in
     for (std::uint32_t z = 0; z <= cells; ++z)
         for (std::uint32_t x = 0; x <= 2 * cells; ++x)
             scene.particles.push_back(
@@ -110,8 +110,7 @@ Scene blockOnBed(std::uint32_t cells, double degrees, float friction) {
     return scene;
 }
 
-// Sum over the contacts of particle `at` of lambda / h^2, as a force on it [N]: from where the last substep
-// found contacts.
+// Force on particle `at` [N]: the sum of lambda / h^2 over the contacts found by the last substep.
 Vector3d contactForce(Runner& runner, const Scene& scene, std::uint32_t at, double h) {
     std::vector<layout::vec4> touching;
     const auto& buffers = runner.simulation().program().buffers;
@@ -133,7 +132,7 @@ Vector3d contactForce(Runner& runner, const Scene& scene, std::uint32_t at, doub
 
 } // namespace
 
-// 600 substeps a second. The height of each rebound, and no bounce after they have ended.
+// 600 substeps a second. Checks the height of each rebound, and that the ball rests after the last bounce.
 TEST(Case16Restitution, OfABallOnAPlaneAndOnAFixedParticleIsTheSquareOfTheHeight) {
     for (const bool ontoBall : {false, true})
         for (const double restitution : {0.0, 0.5, 0.9, 1.0}) {
@@ -149,7 +148,7 @@ TEST(Case16Restitution, OfABallOnAPlaneAndOnAFixedParticleIsTheSquareOfTheHeight
             std::printf("%s, e = %.1f: rebound to %.4f m (%.4f)\n", ontoBall ? "ball" : "plane", restitution,
                         apex, expected);
             if (restitution > 0.5) continue;
-            runner.run(90); // the bounces of 0.5 are over after 1.35 s
+            runner.run(90); // the bounces with restitution 0.5 end after 1.35 s
             EXPECT_NEAR(runner.positions()[0].y(), radius, 1e-4);
             EXPECT_LE(runner.velocities()[0].norm(), 2 * g / 600);
         }
@@ -164,7 +163,7 @@ TEST(Case17Incline, OfAParticleOnAParticleHoldsToTheFrictionAngle) {
     EXPECT_NEAR(slid / expected, 1, 0.01);
 }
 
-// Static friction 0.6 holds up to 30.96 degrees what kinetic friction 0.5 lets slide.
+// At 30 degrees, static friction 0.6 (30.96 degrees) holds a ball that kinetic friction 0.5 lets slide.
 TEST(Case17Incline, OfAParticleThatRestsHoldsFasterThanOfOneThatSlides) {
     const Hill rests{.degrees = 30, .holding = 0.6}, slides{.degrees = 30, .speed = 0.3, .holding = 0.6},
         steep{.degrees = 32, .holding = 0.6};
@@ -182,7 +181,7 @@ TEST(Case17Incline, OfABodyOnABedOfParticlesHoldsToTheFrictionAngle) {
     const auto wayAt = [](double degrees) {
         const Scene scene = blockOnBed(3, degrees, 0.5f);
         CaseRunner runner(scene, {.substeps = 32});
-        runner.run(30); // what is switched on with gravity rings out
+        runner.run(30); // the oscillation caused by the onset of gravity decays
         const auto before = runner.positions();
         runner.run(60);
         double way = 0;
@@ -195,7 +194,8 @@ TEST(Case17Incline, OfABodyOnABedOfParticlesHoldsToTheFrictionAngle) {
     EXPECT_GE(wayAt(27.57), 5e-3);
 }
 
-// Nearly flat: where the way ends on a slope close to the friction angle, its length says little.
+// The hill is nearly flat: on a slope close to the friction angle, the distance is too sensitive to be
+// checked.
 TEST(Case18SlidingStop, OfAParticleOnAParticleIsWhereFrictionSays) {
     const Hill hill{.size = 10, .speed = 2};
     const double expected = hill.wayDown(10), way = hill.wayIn(90);
@@ -203,7 +203,7 @@ TEST(Case18SlidingStop, OfAParticleOnAParticleIsWhereFrictionSays) {
     EXPECT_NEAR(way / expected, 1, 0.01);
 }
 
-// A column of four on a ball that never moves: what each contact carries, and how far it gives.
+// A column of four balls on a fixed ball. Measures the force and the overlap of each contact.
 TEST(Case20RestingStack, CarriesItsWeightWithinHalfAPercent) {
     constexpr std::uint32_t count = 4, substeps = 32;
     Scene scene;
@@ -216,7 +216,7 @@ TEST(Case20RestingStack, CarriesItsWeightWithinHalfAPercent) {
     std::printf("column: %.4f N (%.4f), deepest %.5f r\n", force, count * g, deepestOf(runner.positions()));
     EXPECT_NEAR(force / (count * g), 1, 0.005);
     EXPECT_LE(deepestOf(runner.positions()), 0.01) << "[radii]";
-    CaseRunner(scene, {.substeps = substeps}).run(10); // reversed, too
+    CaseRunner(scene, {.substeps = substeps}).run(10); // runs in reversed order, too
 }
 
 TEST(Case20RestingStack, OfABallOnThreeCarriesItsWeightWithinHalfAPercent) {
@@ -257,8 +257,8 @@ TEST(Case21ElasticCollision, ExchangesVelocitiesAndKeepsMomentumAndEnergy) {
         }
 }
 
-// A row of balls in contact, struck at its end: one gather cannot know the order of the blows, but it keeps
-// momentum and gains no energy.
+// A row of balls in contact, struck at its end. One gather pass cannot resolve the order of the impacts, but
+// it keeps momentum and gains no energy.
 TEST(Case21ElasticCollision, OfARowKeepsMomentumAndGainsNoEnergy) {
     Scene scene = weightless();
     scene.contacts.restitution = 1;
@@ -279,9 +279,9 @@ TEST(Case21ElasticCollision, OfARowKeepsMomentumAndGainsNoEnergy) {
     EXPECT_GE(kineticEnergy(scene, v), 0.5);
 }
 
-// Newton's cradle: balls on strings of 1 m that just touch, of which the first `raised` are let go from half
-// a radian. As many leave at the other end, with nearly all of the energy; a substep takes the blow on by one
-// ball.
+// Newton's cradle: balls on strings of 1 m that just touch; the first `raised` are released from 0.5 rad. The
+// same number of balls leaves at the other end with nearly all of the energy. A substep passes the impact on
+// by one ball.
 TEST(Case21ElasticCollision, OfACradleLetsAsManyBallsGoAsStrikeIt) {
     constexpr std::uint32_t balls = 7;
     for (const std::uint32_t substeps : {16u, 32u})
@@ -321,7 +321,7 @@ TEST(Case21ElasticCollision, OfACradleLetsAsManyBallsGoAsStrikeIt) {
         }
 }
 
-// To and fro, five blows and more. Less of the energy is lost in shorter substeps, none is gained.
+// Five seconds hold at least five impacts. Shorter substeps lose less energy, and none gains any.
 TEST(Case21ElasticCollision, OfACradleGainsNothingInFiveSeconds) {
     constexpr std::uint32_t balls = 5;
     std::vector<double> lost;
@@ -349,8 +349,8 @@ TEST(Case21ElasticCollision, OfACradleGainsNothingInFiveSeconds) {
     EXPECT_LE(lost[1], lost[0]);
 }
 
-// In a box without gravity. A pair keeps its energy; of three that meet within one substep some is lost, and
-// less the shorter it is.
+// Balls in a box without gravity. A collision of two keeps its energy. A collision of three within one
+// substep loses energy, less in shorter substeps.
 TEST(Case21ElasticCollision, OfManyInABoxGainsNoEnergyAndLosesLessInShorterSubsteps) {
     Scene scene = weightless();
     addBalls(scene, 5, 0.13f, 0.01f);
@@ -378,9 +378,9 @@ TEST(Case21ElasticCollision, OfManyInABoxGainsNoEnergyAndLosesLessInShorterSubst
     EXPECT_LE(lost[1], 0.5 * lost[0]);
 }
 
-// Pairs have the geometric mean of friction and the larger restitution.
+// A pair has the geometric mean of both frictions and the larger restitution.
 TEST(Surfaces, OfTwoParticlesDecideTogether) {
-    const auto wayWith = [](float friction) { // of one; the other has 0.4
+    const auto wayWith = [](float friction) { // friction of one ball; the other has 0.4
         Scene scene = Hill{.degrees = 28}.scene();
         scene.contacts.surfaces = {{.friction = 0.4f}, {.friction = friction}};
         scene.particles[0].surface = 1;

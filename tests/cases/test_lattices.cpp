@@ -1,6 +1,6 @@
-// Cases 9 to 12 and 22: voxel bodies bend, vibrate, stretch, shear and carry waves as an isotropic solid of
-// Poisson ratio 1/4 does, whatever the substeps. Lengths are in cells of 5 cm, times in what a wave needs for
-// one.
+// Cases 9 to 12 and 22: voxel bodies bend, vibrate, stretch, shear and carry waves like an isotropic solid of
+// Poisson ratio 1/4, for all numbers of substeps. Lengths are given in cells of 5 cm, times in the time that
+// a wave needs to cross a cell.
 #include "cases/cases.hpp"
 #include "sim/bodies.hpp"
 #include "sim/reference/implicit_step.hpp"
@@ -25,27 +25,27 @@ class Case11Elasticity : public SolverCase {};
 class Case12Wave : public SolverCase {};
 class Case22Substeps : public SolverCase {};
 
-// How a body is solved accurately: cells that a wave crosses in a substep, c h / a. `split` has all the
-// stiffness up to 7.2^-1/2 = 0.373, where 18 links of 0.4 (c h / a)^2 take all of a particle; on faces and
-// rims at the same, because what links ask of a particle goes down with its mass. Measured: no link is
-// clamped up to 0.372, all from 0.374. The others come close only with short substeps.
+// Cells that a wave crosses in a substep, c h / a, chosen so that the solver is accurate. `split` has full
+// stiffness up to 7.2^-1/2 = 0.373, where 18 links of 0.4 (c h / a)^2 use all of a particle's mass. The limit
+// is the same on faces and edges, because link stiffness and particle mass fall together there. Measured: no
+// link is clamped up to 0.372, all are from 0.374. The other solvers come close only with short substeps.
 double cellsPerSubstep(Solver solver) {
     return solver == Solver::split ? 0.26 : 0.18;
 }
 
-// The wave speed sqrt(E / rho) that makes it so [m/s].
+// Wave speed sqrt(E / rho) that gives cellsPerSubstep() [m/s].
 double waveSpeed(Solver solver, std::uint32_t substeps) {
     return cellsPerSubstep(solver) * cell * substeps / frame;
 }
 
-// The share of Young's modulus that is reached. Every link of a full lattice has k w_a = k w_b = 0.4 c^2 /
-// a^2, also on faces and rims, where k and mass go down alike.
+// Share of Young's modulus that the solver reaches. Every link of a full lattice has k w_a = k w_b = 0.4 c^2
+// / a^2, also on faces and edges, where k and mass fall together.
 double reachedShare(Solver solver) {
     const double stepsPerCell = cellsPerSubstep(solver);
     return solver != Solver::jacobi ? 1 : 1 / (1 + 0.8 * stepsPerCell * stepsPerCell);
 }
 
-// A beam along x, clamped at its left end; 12 times as long as high.
+// A beam along x, clamped at its left end; its length is 12 heights.
 struct Beam {
     Solid body;
     std::uint32_t height; // cells
@@ -53,8 +53,8 @@ struct Beam {
     double h() const { return height * cell; }
     double length() const { return 12 * h(); }
     std::uint32_t links() const { return 12 * height; }                  // cells along x
-    double bendingShare() const { return 1 + 0.95 / (height * height); } // of EI (methods: G)
-    // First angular frequency of Euler and Bernoulli for all of E.
+    double bendingShare() const { return 1 + 0.95 / (height * height); } // of EI, from the lattice's layers
+    // First angular frequency of an Euler-Bernoulli beam with the full modulus.
     double slowest() const {
         return 1.8751 * 1.8751 * std::sqrt(bendingShare() / 12) * speed * h() / (length() * length());
     }
@@ -66,7 +66,7 @@ struct Beam {
 constexpr std::uint32_t beamSubsteps = 200;
 
 Beam makeBeam(Solver solver) {
-    const std::uint32_t height = solver == Solver::split ? 3 : 2; // the others are slower
+    const std::uint32_t height = solver == Solver::split ? 3 : 2; // the other solvers are slower
     const double speed = waveSpeed(solver, beamSubsteps);
     Beam beam{makeSolid("cantilever", {12 * height, height, height}, speed), height, speed};
     beam.body.fix({0, 0, 0}, {0, height, height});
@@ -75,7 +75,7 @@ Beam makeBeam(Solver solver) {
 
 } // namespace
 
-// On rims and faces as inside: what cellsPerSubstep speaks of.
+// Tests the limit given at cellsPerSubstep(), on faces and edges too.
 TEST(FullLattice, ClampsAllItsLinksAtTheSameSubstep) {
     constexpr std::uint32_t substeps = 100;
     for (const std::array<std::uint32_t, 3> cells :
@@ -92,14 +92,14 @@ TEST(FullLattice, ClampsAllItsLinksAtTheSameSubstep) {
 TEST_P(Case09Cantilever, SagsAsTimoshenkoSays) {
     Beam beam = makeBeam(GetParam());
     const double length = beam.length(), h = beam.h(), share = reachedShare(GetParam());
-    // Load that bends it by 3 % of its length.
+    // A load that bends the beam by 3 % of its length.
     const double gravity = 0.03 * beam.speed * beam.speed * h * h / (1.5 * length * length * length);
     beam.body.scene.gravity = {0, static_cast<float>(-gravity), 0};
-    beam.body.scene.damping = static_cast<float>(2 * beam.slowest()); // aperiodic
+    beam.body.scene.damping = static_cast<float>(2 * beam.slowest()); // critical damping
     const Settings settings = accurate(GetParam(), beamSubsteps);
     ASSERT_TRUE(isUnclamped(beam.body.scene, settings));
     CaseRunner runner(beam.body.scene, settings);
-    runner.run(static_cast<int>(9 / beam.slowest() / frame)); // 0.1 % is left
+    runner.run(static_cast<int>(9 / beam.slowest() / frame)); // the error has decayed to 0.1 %
     const double sag = -beam.tip(runner.positions());
 
     const double q = density * gravity * h * h, modulus = share * density * beam.speed * beam.speed;
@@ -120,7 +120,7 @@ TEST_P(Case10Cantilever, VibratesWithItsFirstFrequency) {
     constexpr double beta = 1.8751, sigma = 0.7341;
     const auto initialX = beam.body.initial();
     for (std::size_t i = 0; i < initialX.size(); ++i) {
-        // The first mode, 2 % of the length at the tip; sections stay plane.
+        // Start in the first mode with 2 % of the length at the tip; cross sections stay plane.
         const double s = beta * (initialX[i].x() / beam.length() + 0.5), amplitude = 0.01 * beam.length();
         const double shape = std::cosh(s) - std::cos(s) - sigma * (std::sinh(s) - std::sin(s));
         const double slope = std::sinh(s) + std::sin(s) - sigma * (std::cosh(s) - std::cos(s));
@@ -144,17 +144,18 @@ TEST_P(Case10Cantilever, VibratesWithItsFirstFrequency) {
 namespace {
 
 struct Moduli {
-    double young, poisson, shear; // E and C44 by the modulus asked for
+    double young, poisson, shear; // E and C44 over the requested modulus
 };
 
-// A bar that hangs from its upper end: stress by the weight below, strain of the layers in its middle third.
+// A bar that hangs from its upper end. Compares the stress by the weight below with the strain of the layers
+// in the middle third.
 Moduli stretchBar(Solver solver, Moduli moduli) {
     constexpr std::uint32_t width = 4, height = 16, substeps = 16;
     const double speed = waveSpeed(solver, substeps);
     Solid body = makeSolid("bar", {width, height, width}, speed);
     body.fix({0, height, 0}, {width, height, width});
     const double length = height * cell,
-                 gravity = 0.002 * speed * speed / (length / 2); // 0.2 % in the middle
+                 gravity = 0.002 * speed * speed / (length / 2); // 0.2 % strain in the middle
     body.scene.gravity = {0, static_cast<float>(-gravity), 0};
     const double slowest = std::numbers::pi / 2 * speed / length;
     body.scene.damping = static_cast<float>(2 * slowest);
@@ -173,14 +174,13 @@ Moduli stretchBar(Solver solver, Moduli moduli) {
                                  body.mean(x, {0, low, 0}, {0, high, width}).x()) /
                                     (width * cell);
     const double stress =
-        density * gravity * (low + high) / 2 * cell; // the mean of layers is that of their middle
+        density * gravity * (low + high) / 2 * cell; // the mean stress of the layers is that of their middle
     moduli.young = stress / strain / (density * speed * speed * reachedShare(solver));
     moduli.poisson = thinning / strain;
     return moduli;
 }
 
-// A slab fixed at its lower face and pulled along it: layers in the middle of its length shear, and nothing
-// else.
+// A slab fixed at its lower face and loaded along it. Layers in the middle of its length are in pure shear.
 Moduli shearSlab(Solver solver, Moduli moduli) {
     constexpr std::uint32_t width = 32, height = 4, depth = 2, substeps = 16, middle = width / 2;
     const double speed = waveSpeed(solver, substeps);
@@ -201,7 +201,7 @@ Moduli shearSlab(Solver solver, Moduli moduli) {
     };
     const double angle = (shift(3) - shift(1)) / (2 * cell);
     const double stress =
-        density * gravity * 2 * cell; // half of the slab is above the middle of those layers
+        density * gravity * 2 * cell; // half of the slab lies above the middle of those layers
     moduli.shear = stress / angle / (density * speed * speed * reachedShare(solver));
     return moduli;
 }
@@ -216,7 +216,8 @@ TEST_P(Case11Elasticity, HasTheModulusAskedForPoissonRatioAQuarterAndNoDirection
     expectWithin("isotropy", 2 * moduli.shear * (1 + moduli.poisson) / moduli.young, 1, 0.02);
 }
 
-// A pulse of 6 cells (standard deviation) runs along a bar; when its summit passes a section 80 cells on.
+// A pulse with a standard deviation of 6 cells runs along a bar. Measures when its peak passes a section 80
+// cells further.
 TEST_P(Case12Wave, ArrivesAtTheSpeedOfSound) {
     constexpr std::uint32_t width = 2, length = 160, substeps = 4, probe = 120;
     const double speed = waveSpeed(GetParam(), substeps), sigma = 6 * cell, amplitude = 0.03 * cell;
@@ -240,7 +241,7 @@ TEST_P(Case12Wave, ArrivesAtTheSpeedOfSound) {
     for (int step = 1; arrival == 0 && step < 1000; ++step) {
         runner.run(1);
         const double next = body.mean(runner.positions(), {probe, 0, 0}, {probe, width, width}).x() - start;
-        if (now > amplitude / 2 && next < now) { // summit of the parabola through three samples
+        if (now > amplitude / 2 && next < now) { // peak of the parabola through three samples
             arrival = (step - 1 - (next - before) / 2 / (before - 2 * now + next)) * frame;
         }
         before = std::exchange(now, next);
@@ -248,8 +249,8 @@ TEST_P(Case12Wave, ArrivesAtTheSpeedOfSound) {
     expectWithin("arrival", arrival, 80 * cell / wave, 0.02);
 }
 
-// A cube that is held at one side and sags by a few percent; soft enough that 16 substeps have all of its
-// stiffness.
+// A cube held at one side, which sags by a few percent. It is soft enough for full stiffness with 16
+// substeps.
 TEST_P(Case22Substeps, DoNotChangeTheShapeAtRest) {
     constexpr double speed = 0.05 * cell * 16 / frame; // c h / a = 0.05 at 16 substeps
     std::vector<Vector3d> shapes[2];

@@ -1,4 +1,4 @@
-// Cases 13 and 14: what spins keeps spinning, what falls gains the momentum of gravity.
+// Cases 13 and 14: angular momentum is conserved, and a falling body gains the momentum of gravity.
 #include "cases/cases.hpp"
 #include "sim/reference/trajectory.hpp"
 
@@ -21,11 +21,12 @@ class Case13SpinningBlock : public SolverCase {};
 class Case14Momentum : public SolverCase {};
 class Case14Gravity : public SolverCase {};
 
-constexpr double blockSpeed = 0.67, blockRadius = 0.26; // of the flight [m/s], of the block [m]
-constexpr float halfWarm = 0.5f; // what `gauss_seidel` loses at 0.9 is too close to rounding
+constexpr double blockSpeed = 0.67, blockRadius = 0.26; // speed of flight [m/s], radius of the block [m]
+constexpr float halfWarm = 0.5f; // at 0.9 the loss of `gauss_seidel` is too close to rounding
 
-// Of what a link takes from spin by acting along where its ends will be. A warm start acts along where its
-// ends are, as theta 0 does: `gauss_seidel` loses only what it does not keep.
+// Share of the theoretical loss of angular momentum, which a link causes by acting along the future positions
+// of its ends. A warm start acts along the present positions, as theta 0 does, so `gauss_seidel` loses only
+// the part that it does not warm start.
 double lossShare(const Settings& settings) {
     if (settings.solver == Solver::split) return double{settings.theta};
     return settings.solver == Solver::gaussSeidel ? 1 - double{settings.warmStart} : 1;
@@ -45,13 +46,12 @@ Vector3d angularMomentumOf(const Scene& scene, const std::vector<Vector3d>& x,
     return sum;
 }
 
-// Particles of 10 g on a circle about z, each linked to the next; unstretched it has a radius of 1 m.
+// A ring of 10 g particles about z, each linked to the next, with an unstretched radius of 1 m.
 constexpr int ringCount = 64;
 constexpr double ringMass = 0.01, ringCompliance = 0.01;
 const double chord = 2 * std::sin(std::numbers::pi / ringCount);
 
-// The radius at which links of stiffness k hold the ring together at `spin` [rad/s]: m spin^2 r = k chord^2
-// (r - 1).
+// Radius at which links of stiffness k balance the spin [rad/s]: m spin^2 r = k chord^2 (r - 1).
 double radiusAt(double spin, double k) {
     return 1 / (1 - ringMass * spin * spin / (chord * chord * k));
 }
@@ -73,14 +73,14 @@ Scene spinningRing(double radius, double spin) {
 
 } // namespace
 
-// What links take from the angular momentum of a motion in which they pull along where their ends will be h
-// later: the pair of forces f n on ends that move apart with u turns by h f u x n. Along the true motion.
+// Angular momentum that links take along the true motion if they act along the positions of their ends a time
+// h later. A pair of forces f n on ends with relative velocity u exerts the torque h f u x n.
 Vector3d spinTaken(const Scene& scene, double h, double time) {
     constexpr int samples = 1000;
     reference::State state = reference::initialState(scene);
     Vector3d sum = Vector3d::Zero();
     for (int sample = 0; sample < samples; ++sample) {
-        reference::stepVerlet(scene, time / samples / 2, 1, state); // to the middle
+        reference::stepVerlet(scene, time / samples / 2, 1, state); // advances to the middle of the interval
         for (const DistanceConstraint& c : scene.distances) {
             const Vector3d d = state.x[c.b] - state.x[c.a], u = state.v[c.b] - state.v[c.a];
             const double force = (d.norm() - double{c.restLength}) / double{c.compliance};
@@ -115,9 +115,9 @@ TEST_P(Case13SpinningBlock, KeepsItsMomentumAndLosesNoMoreSpinThanItsSolverTakes
 
 INSTANTIATE_TEST_SUITE_P(Of, Case13SpinningBlock, testing::ValuesIn(caseSolvers), solverOf);
 
-// A thin ring is stretched by rho spin^2 r^2 / E, with links by m spin^2 r / (chord^2 k). It starts at nine
-// tenths of that and breathes about it. A link that acts along where its ends will be takes angular momentum
-// at the rate h spin^2.
+// A thin ring stretches by rho spin^2 r^2 / E, with links by m spin^2 r / (chord^2 k). It starts at nine
+// tenths of that and oscillates about it. Links that act along future positions take angular momentum at the
+// rate h spin^2.
 TEST_P(Case13Spin, StretchesARing) {
     constexpr double spin = 1;
     const Settings settings{.solver = GetParam(), .substeps = 25, .theta = 0, .warmStart = halfWarm};
@@ -147,7 +147,7 @@ INSTANTIATE_TEST_SUITE_P(Of, Case13Spin, testing::ValuesIn(caseSolvers), solverO
 
 namespace {
 
-// What 1000 substeps change of the momentum of a block that vibrates as it flies, by M v.
+// Change of a vibrating, flying block's momentum over 1000 substeps, divided by M v.
 Vector3d momentumGained(const Settings& settings) {
     Scene scene = spinningBlock({0.5f, 0.2f, -0.4f});
     disturb(scene, 0.02f, 0.5f);
@@ -159,8 +159,8 @@ Vector3d momentumGained(const Settings& settings) {
 
 } // namespace
 
-// Settings that clamp and damp, or make links as soft as averaging does: with one weight for all particles
-// `jacobi` moves the ends of a link alike, and 18 links meet in a particle.
+// These settings clamp and damp, or soften links as much as averaging does. With one weight for all
+// particles, `jacobi` moves both ends of a link alike; a particle has 18 links.
 TEST_P(Case14Momentum, IsKeptWhereASolverClampsAndDamps) {
     const Vector3d gained = momentumGained({.solver = GetParam(), .substeps = 10, .weight = 1.0f / 18});
     std::printf("case 14 %s: momentum %.2g\n", solverName(GetParam()), gained.norm());
@@ -169,8 +169,8 @@ TEST_P(Case14Momentum, IsKeptWhereASolverClampsAndDamps) {
 
 INSTANTIATE_TEST_SUITE_P(Of, Case14Momentum, testing::ValuesIn(caseSolvers), solverOf);
 
-// A link between particles with different numbers of links moves its ends unequally: a limit of averaging,
-// and as much of it in double.
+// Averaging moves the ends of a link unequally where they have different numbers of links. This limit of
+// averaging has the same size in double.
 TEST(Case14MomentumOfJacobi, ChangesWithAveragingAsMuchAsInDouble) {
     const Settings settings{.solver = Solver::jacobi, .substeps = 10};
     const Vector3d gained = momentumGained(settings);
@@ -191,7 +191,7 @@ TEST_P(Case14Gravity, GivesMomentum) {
     scene.gravity = {0, -9.81f, 0};
     CaseRunner runner(scene, {.solver = GetParam(), .substeps = 10});
     runner.run(60);
-    const double lag = GetParam() == Solver::split ? double{frame} / 10 / 2 : 0; // of v, half a substep
+    const double lag = GetParam() == Solver::split ? double{frame} / 10 / 2 : 0; // lag of the velocities
     const double time = 1 - lag;
     const Vector3d expected = massOf(scene) * time * toVector(scene.gravity);
     const Vector3d change = momentumOf(scene, runner.velocities()) - expected;

@@ -1,4 +1,4 @@
-// Cases 1 and 2: free fall, one rigid link.
+// Cases 1 and 2: free fall and one rigid link.
 #include "cases/cases.hpp"
 
 using namespace sinew;
@@ -42,7 +42,7 @@ TEST_P(Case02RigidLink, HasItsLengthAfterOneProjectionAroundAFixedCentre) {
     scene.gravity = {0, 0, 0};
     scene.particles = {{.position = {-0.31f, 0.12f, 0.05f}}, {.position = {0.24f, -0.2f, 0.4f}}};
     scene.distances = {{0, 1, 0.5f, 0}};
-    // `split` takes half of omega in the half-kick that starts it: omega 2 is one whole projection.
+    // `split` applies half of omega in its starting half-kick, so omega 2 is one full projection.
     CaseRunner runner(scene, {.solver = GetParam(), .substeps = 1, .omega = 2, .theta = 0});
     const Vector3d before = (runner.positions()[0] + runner.positions()[1]) / 2;
     runner.step(frame);

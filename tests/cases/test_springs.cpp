@@ -21,7 +21,7 @@ constexpr float frame = 1.0f / 60;
 class Case03HangingSpring : public SolverCase {};
 class Case05Pendulum : public SolverCase {};
 
-// A particle of 10 g on a spring from a fixed particle at the origin, hanging along -y.
+// A particle of 10 g on a spring that hangs along -y from a fixed particle at the origin.
 Scene hangingSpring(float compliance, float restLength) {
     Scene scene{.name = "hanging spring"};
     scene.particles = {{.inverseMass = 1}, {.position = {0, -restLength, 0}, .inverseMass = 100}};
@@ -30,8 +30,8 @@ Scene hangingSpring(float compliance, float restLength) {
     return scene;
 }
 
-// Two free masses of 1 and 0.5 kg on a spring along x that is stretched by 0.02 m; omega = 16 rad/s. One
-// substep a step, so that every state can be seen.
+// Two free masses of 1 and 0.5 kg on a spring along x that is stretched by 0.02 m; omega = 16 rad/s. A step
+// has one substep, so that every state can be read.
 constexpr double omega = 16, amplitude = 0.02;
 Scene vibratingPair(double omegaH) {
     Scene scene{.name = "vibrating pair", .dt = static_cast<float>(omegaH / omega)};
@@ -43,12 +43,12 @@ Scene vibratingPair(double omegaH) {
     return scene;
 }
 
-// How a mode advances in one substep: by this phase [rad], its amplitude times this factor.
+// Progress of a mode in one substep: phase [rad] and factor of its amplitude.
 struct Advance {
     double phase, factor;
 };
 
-// methods: D. theta form: z^2 - (2 - s (1 + theta)) z + (1 - s theta) = 0; the others with one spring:
+// The theta form has z^2 - (2 - s (1 + theta)) z + (1 - s theta) = 0. The other solvers, with one spring, are
 // implicit Euler.
 Advance predictedAdvance(const Settings& settings, double omegaH) {
     const double s = omegaH * omegaH, theta = double{settings.theta};
@@ -57,7 +57,7 @@ Advance predictedAdvance(const Settings& settings, double omegaH) {
     return {std::acos((2 - s * (1 + theta)) / (2 * factor)), factor};
 }
 
-// The period seen by its zero crossings, and the factor by a fit of x_n+1 = 2 r cos(phi) x_n - r^2 x_n-1.
+// Measures the phase by zero crossings, and the factor by a fit of x_n+1 = 2 r cos(phi) x_n - r^2 x_n-1.
 Advance measuredAdvance(const Settings& settings, double omegaH, double periods) {
     const Scene scene = vibratingPair(omegaH);
     CaseRunner runner(scene, settings);
@@ -99,17 +99,17 @@ void expectToVibrateAsPredicted(const Settings& settings, double omegaH, double 
 } // namespace
 
 TEST_P(Case03HangingSpring, StretchesByItsLoadForAnySubstep) {
-    constexpr double k = 100, mass = 0.01, gravity = 98.1; // clamped by `split` at one and two substeps
+    constexpr double k = 100, mass = 0.01, gravity = 98.1; // `split` clamps k at one and two substeps
     Scene scene = hangingSpring(static_cast<float>(1 / k), 0.01f);
     scene.gravity = {0, -98.1f, 0};
     scene.damping = 20;
     for (const std::uint32_t substeps : {1u, 2u, 4u, 16u, 64u}) {
         const Settings settings{.solver = GetParam(), .substeps = substeps, .omega = 1, .theta = 0};
-        // XPBD is exact for one spring; `split` has the stiffness it is clamped to.
+        // XPBD is exact for one spring; `split` has the clamped stiffness.
         const double effective =
             GetParam() == Solver::split ? reachedStiffness(scene, settings, double{frame} / substeps, 0) : k;
         CaseRunner runner(scene, settings);
-        runner.run(75); // what is left of the start: exp(-12.5)
+        runner.run(75); // the initial oscillation has decayed to exp(-12.5)
         const double stretch = -runner.positions()[1].y() - double{0.01f};
         expectWithin("stretch, " + std::to_string(substeps) + " substeps", stretch,
                      mass * gravity / effective, 1e-4);
@@ -124,13 +124,13 @@ TEST(Case04HarmonicSpring, VibratesAsItsSolverPredicts) {
             ASSERT_TRUE(isUnclamped(vibratingPair(omegaH), settings));
             expectToVibrateAsPredicted(settings, omegaH, theta == 1 ? 4 : 10);
         }
-        // One spring is solved by one sweep, warm or cold.
+        // One sweep solves one spring exactly, warm or cold.
         for (const Solver solver : {Solver::jacobi, Solver::gaussSeidel})
             expectToVibrateAsPredicted({.solver = solver, .substeps = 1}, omegaH, 4);
     }
 }
 
-// x_n = A cos(2 n asin(omega h / 2)) for leapfrog, exactly, at constant amplitude.
+// Leapfrog gives exactly x_n = A cos(2 n asin(omega h / 2)) with constant amplitude.
 TEST(Case04HarmonicSpring, FollowsLeapfrogToTheStep) {
     constexpr double k = 100, mass = 0.01;
     Scene scene = hangingSpring(static_cast<float>(1 / k), 0.1f);
@@ -147,8 +147,8 @@ TEST(Case04HarmonicSpring, FollowsLeapfrogToTheStep) {
     }
 }
 
-// A rigid link is always clamped, so `split` runs at theta 0.05: at theta 0 the link's own vibration,
-// which float32 rounding feeds, is never damped and scatters the tension by 3 %.
+// `split` clamps every rigid link, so it runs at theta 0.05. At theta 0 the link's own vibration, excited by
+// float32 rounding, is never damped and scatters the tension by 3 %.
 TEST_P(Case05Pendulum, SwingsWithThePeriodAndTheTensionOfARigidOne) {
     constexpr double length = 1, mass = 1, gravity = double{9.81f}, angle = std::numbers::pi / 3;
     Scene scene{.name = "pendulum"};
@@ -158,7 +158,7 @@ TEST_P(Case05Pendulum, SwingsWithThePeriodAndTheTensionOfARigidOne) {
     const bool isSplit = GetParam() == Solver::split;
     const Settings settings{.solver = GetParam(), .substeps = isSplit ? 10u : 64u, .theta = 0.05f};
     const double h = double{frame} / settings.substeps, lag = isSplit ? h / 2 : 0; // of the velocity
-    // It starts under its load, or the link would vibrate first.
+    // The pendulum starts with its static stretch, or the link would vibrate first.
     const double stretch = mass * gravity * std::cos(angle) / reachedStiffness(scene, settings, h, 0);
     const double start = length + (isSplit ? stretch : 0);
     scene.particles[1].position = {static_cast<float>(start * std::sin(angle)),
@@ -175,7 +175,7 @@ TEST_P(Case05Pendulum, SwingsWithThePeriodAndTheTensionOfARigidOne) {
         worstLength = std::max(worstLength, std::abs(xAfter[1].norm() - length));
         const Vector3d middle = (x[1] + xAfter[1]) / 2 - lag * vAfter[1];
         const double cosine = -middle.normalized().y();
-        // `jacobi` loses energy as implicit Euler does: its tension is that of the swing it still has.
+        // `jacobi` loses energy like implicit Euler, so the expected tension is that of its remaining swing.
         const double speed = (v[1] + vAfter[1]).norm() / 2;
         const double highest = isSplit ? std::cos(angle) : cosine - speed * speed / (2 * gravity * length);
         const double tension = mass * gravity * (3 * cosine - 2 * highest);
@@ -196,7 +196,7 @@ TEST_P(Case05Pendulum, SwingsWithThePeriodAndTheTensionOfARigidOne) {
 
 namespace {
 
-// A free block, stretched by 3 % along x and thinner across.
+// A free block, stretched by 3 % along x and compressed across.
 Scene stretchedBlock() {
     Scene scene = block(3, 0.1f, 1e5f);
     scene.gravity = {0, 0, 0};
@@ -208,7 +208,7 @@ Scene stretchedBlock() {
     return scene;
 }
 
-// Frames until half of the energy of the first is left, interpolated; 0 = more than there are.
+// Frames until half of the initial energy is left, interpolated; 0 if the list ends earlier.
 double halfLifeIn(const std::vector<double>& energies) {
     for (std::size_t f = 1; f < energies.size(); ++f) {
         const double now = energies[f] / energies[0], before = energies[f - 1] / energies[0];
@@ -217,12 +217,13 @@ double halfLifeIn(const std::vector<double>& energies) {
     return 0;
 }
 
-// Energy after each frame where links resist the speed at which they stretch with dampingTime x stiffness:
-// what a force taken that much later does, to first order. In steps far below those of the device.
+// Energies after each frame if links resist stretching with the coefficient dampingTime x stiffness. To first
+// order, this equals a force evaluated dampingTime later. The reference uses far shorter steps than the
+// device.
 std::vector<double> energiesWithDamping(const Scene& scene, double dampingTime, int frames) {
     reference::State state = reference::initialState(scene);
     std::vector<double> energies{reference::energy(scene, state).total()};
-    constexpr int steps = 500; // a frame
+    constexpr int steps = 500; // per frame
     const double h = double{frame} / steps;
     for (int f = 0; f < frames; ++f) {
         for (int step = 0; step < steps; ++step) {
@@ -242,7 +243,7 @@ std::vector<double> energiesWithDamping(const Scene& scene, double dampingTime, 
 
 } // namespace
 
-// By how much the energy of a free block moves from what it was, by its largest kinetic energy.
+// Checks the drift of a free block's energy, relative to its largest kinetic energy.
 TEST(Case15Energy, OfAFreeVibrationStaysForTenSeconds) {
     const Scene scene = stretchedBlock();
     const Settings settings{.substeps = 16, .theta = 0};
@@ -265,8 +266,8 @@ TEST(Case15Energy, OfAFreeVibrationStaysForTenSeconds) {
     EXPECT_LE(worst, 0.01 * mostKinetic);
 }
 
-// Solvers in the PBD order take from every mode at the rate omega^2 h, as damping of links with dampingTime h
-// does. A warm start changes how well a sweep solves, not what it solves.
+// Solvers in PBD order damp every mode at the rate omega^2 h, like link damping with dampingTime h. A warm
+// start changes only how well a sweep solves the equations.
 TEST(Case15Energy, OfAFreeVibrationHalvesInThePredictedTimeWhereASolverDamps) {
     const Scene scene = stretchedBlock();
     std::vector<double> predicted;
@@ -289,8 +290,8 @@ TEST(Case15Energy, OfAFreeVibrationHalvesInThePredictedTimeWhereASolverDamps) {
     }
 }
 
-// Energy halves in ln 2 / (theta omega^2 h) with `split`, in ln 2 / (omega^2 h) with the implicit Euler of
-// one spring.
+// Energy halves in ln 2 / (theta omega^2 h) under `split`, and in ln 2 / (omega^2 h) under the implicit Euler
+// of one spring.
 TEST(Case15Energy, HalvesInThePredictedTimeWhereASolverDamps) {
     constexpr double omegaH = 0.08; // s = 0.0064
     const Scene scene = vibratingPair(omegaH);
@@ -303,7 +304,7 @@ TEST(Case15Energy, HalvesInThePredictedTimeWhereASolverDamps) {
         const double theta = settings.solver == Solver::split ? double{settings.theta} : 1;
         const double predicted = std::numbers::ln2 / (theta * omega * omega * h);
         CaseRunner runner(scene, settings);
-        // Twice the slope of the logarithm of the amplitude, taken where the spring is longest.
+        // Fits twice the slope of the logarithm of the amplitude, sampled where the spring is longest.
         std::optional<std::pair<double, double>> first;
         std::pair<double, double> last;
         double before = 0, now = 0;
@@ -312,7 +313,7 @@ TEST(Case15Energy, HalvesInThePredictedTimeWhereASolverDamps) {
             const auto x = runner.positions();
             const double next = (x[1] - x[0]).norm() - double{0.1f};
             if (step > 2 && now > before && now > next) {
-                // Summit of the parabola through three samples.
+                // Peak of the parabola through three samples.
                 const double bend = before - 2 * now + next, tilt = (next - before) / 2;
                 last = {(step - 1 - tilt / bend) * h, now - tilt * tilt / (2 * bend)};
                 if (!first) first = last;

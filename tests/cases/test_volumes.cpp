@@ -1,6 +1,6 @@
-// Cases 11 and 19 for bodies whose cells have volumes: the modulus and the Poisson ratio asked for, and a
-// volume that stays when a body is pressed. `split` alone has a form for them; the others press a lattice
-// of links alone.
+// Cases 11 and 19 for bodies with cell volumes: they have the requested modulus and Poisson ratio, and keep
+// their volume under pressure. Only `split` supports cell volumes; for the other solvers, the cases press a
+// lattice of links.
 #include "cases/cases.hpp"
 #include "sim/bodies.hpp"
 #include "sim/reference/cells.hpp"
@@ -19,15 +19,15 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double cell = Solid::cell, density = Solid::density, frame = double{1.0f / 60};
-class Case11Volumes : public testing::TestWithParam<float> {}; // Poisson ratio
+class Case11Volumes : public testing::TestWithParam<float> {}; // by Poisson ratio
 class Case19Compression : public testing::TestWithParam<float> {};
 class Case19Lattice : public SolverCase {};
 
-// Cells that a wave sqrt(E / rho) crosses in a substep that has all of the stiffness. Cells take of a
-// particle what they need beside its links, lambda_v / mu / 3 of those, and something for the change of
-// shape. Measured, of bars 3 to 8 cells wide, links and cells have all of it up to 0.373 at 0.25, 0.32 at
-// 0.35, 0.20 at 0.45 (links to 0.23) and 0.097 at 0.49 (links to 0.12); the cases stay at half of that, where
-// compression leaves it.
+// Cells that a wave of speed sqrt(E / rho) crosses in a substep with full stiffness. Beside the links, cells
+// use lambda_v / mu / 3 of the links' part of a particle's mass, and some more for the change of shape.
+// Measured on bars 3 to 8 cells wide, links and cells have full stiffness up to 0.373 at Poisson ratio 0.25,
+// 0.32 at 0.35, 0.20 at 0.45 (links alone to 0.23) and 0.097 at 0.49 (links alone to 0.12). The cases use
+// about half of that, because compression lowers the limits.
 double cellsPerSubstep(double poissonRatio) {
     const double ratio = 2 * poissonRatio / (1 - 2 * poissonRatio) - 1;
     return ratio > 0 ? 0.21 / std::sqrt(1 + ratio / 3) : 0.26;
@@ -47,7 +47,7 @@ std::string percent(const testing::TestParamInfo<float>& ratio) {
 
 double volumeOf(const Solid& body, const std::vector<Vector3d>& x) {
     Scene withVolumes = body.scene;
-    withVolumes.grids[0].recoveryPressure = 1; // or cells of a plain lattice would be left out
+    withVolumes.grids[0].recoveryPressure = 1; // cells of a plain lattice would be omitted without it
     double sum = 0, count = 0;
     for (const reference::Cell& each : reference::cellsOf(withVolumes)) {
         sum += reference::volumeRatio(each, reference::cornersOf(each, x));
@@ -58,7 +58,8 @@ double volumeOf(const Solid& body, const std::vector<Vector3d>& x) {
 
 } // namespace
 
-// A bar that hangs from its upper end: stress by the weight below, strain of the layers in its middle third.
+// A bar that hangs from its upper end. Compares the stress by the weight below with the strain of the layers
+// in the middle third.
 TEST_P(Case11Volumes, GiveTheModulusAndThePoissonRatioAskedFor) {
     constexpr std::uint32_t width = 4, height = 16, substeps = 32, low = 6, high = 10;
     Solid body = makeSolid("bar", {width, height, width}, waveSpeed(GetParam(), substeps), GetParam());
@@ -88,13 +89,13 @@ TEST_P(Case11Volumes, GiveTheModulusAndThePoissonRatioAskedFor) {
     measure("equilibrium in double", reference::staticEquilibrium(body.scene).x);
 }
 
-// A bar between two planes without friction, pressed by `strain` of its height.
+// Volume ratio of a bar pressed by `strain` of its height between two planes without friction.
 namespace {
 
 double volumeWhenPressed(float poissonRatio, double strain, Solver solver = Solver::split) {
     constexpr std::uint32_t width = 3, height = 6, substeps = 32;
     const Settings settings = accurate(solver, substeps);
-    // as in cases 9 to 12: the others have all of the stiffness with short substeps alone
+    // The other solvers have full stiffness only with short substeps, like in cases 9 to 12.
     const double speed =
         solver == Solver::split ? waveSpeed(poissonRatio, substeps) : 0.18 * cell * substeps / frame;
     Solid body = makeSolid("pressed bar", {width, height, width}, speed, poissonRatio);
@@ -121,7 +122,7 @@ TEST_P(Case19Compression, ChangesTheVolumeByOneMinusTwoNuTimesTheStrain) {
     EXPECT_NEAR(change, expected, 0.05 * expected);
 }
 
-// A lattice of links alone loses half of the strain whatever all its links have of their stiffness.
+// A lattice of links alone loses half of the strain as volume, even with links of full stiffness.
 TEST_P(Case19Lattice, LosesHalfOfTheStrainOfItsVolume) {
     constexpr double strain = 0.01;
     const double change = 1 - volumeWhenPressed(0.25f, strain, GetParam());
@@ -131,7 +132,7 @@ TEST_P(Case19Lattice, LosesHalfOfTheStrainOfItsVolume) {
 
 namespace {
 
-// The volume of the affine state of least energy: what the material, and no solver, makes of so much strain.
+// Volume of the affine state of least energy: the material's own answer to this strain, without a solver.
 double leastEnergyVolume(float poissonRatio, double strain) {
     const Solid body = makeSolid("pressed bar", {3, 6, 3}, waveSpeed(poissonRatio, 1), poissonRatio);
     const reference::Problem problem(body.scene);
@@ -141,7 +142,7 @@ double leastEnergyVolume(float poissonRatio, double strain) {
         for (Vector3d& position : x) position = position.cwiseProduct(Vector3d(across, 1 - strain, across));
         return reference::elasticEnergy(problem, x);
     };
-    double low = 1, high = 1.2; // golden section
+    double low = 1, high = 1.2; // golden section search
     while (high - low > 1e-7) {
         const double third = 0.381966 * (high - low);
         if (energy(low + third) < energy(high - third)) {
@@ -155,8 +156,8 @@ double leastEnergyVolume(float poissonRatio, double strain) {
 
 } // namespace
 
-// With the largest Poisson ratio 0.5 % are kept to up to 15 % of compression; 0.64 % are lost at 20 %, where
-// links give way less than Hooke's law has it.
+// At the largest Poisson ratio, the volume changes by at most 0.5 % up to a compression of 15 %. At 20 % it
+// loses 0.64 %, because links yield more than Hooke's law.
 TEST(Case19Volumes, KeepTheVolumeOfABarThatIsPressedHard) {
     for (const double strain : {0.15, 0.2}) {
         const double change = 1 - volumeWhenPressed(0.49f, strain),

@@ -1,4 +1,4 @@
-// Hard cases 15, 25 and 26: particles that touch, where it breaks others. 14 is in test_interlocked.
+// Hard cases 15, 25 and 26: contacts in extreme situations. Case 14 is in test_interlocked.cpp.
 #include "cases_hard/trial.hpp"
 #include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
@@ -22,8 +22,7 @@ namespace {
 
 constexpr double radius = double{ballRadius};
 
-// Two cubes of 6^3 particles that touch in a row, the second half a metre beyond the first and 0.3 cells
-// beside it.
+// Two cubes of 6^3 touching particles. The second lies further along x, and 0.3 cells aside along y and z.
 Scene twoCubes() {
     constexpr float spacing = 2 * ballRadius, off = 0.3f * spacing;
     Scene scene = weightless();
@@ -37,7 +36,7 @@ Scene twoCubes() {
     return scene;
 }
 
-// Balls in a plane, as near as they can be without touching; `isFixed` ones hold everything.
+// Balls in a plane, as close as possible without contact; the whole sheet is fixed if `isFixed`.
 Scene sheetOfBalls(int side, bool isFixed) {
     Scene scene = weightless();
     const float pitch = 2.001f * ballRadius, middle = 0.5f * static_cast<float>(side - 1);
@@ -62,7 +61,7 @@ std::uint64_t hashOf(const Scene& scene, const Settings& settings, int steps,
 
 } // namespace
 
-// 300 m/s are 100 radii a step, 6 to 25 a substep.
+// 300 m/s are 100 radii a step, and 6 to 25 radii a substep.
 TEST(HardContacts, Case15AProjectilePassesNoSheetThatHolds) {
     std::mt19937 random(2);
     std::uniform_real_distribution<float> at(-0.3f, 0.3f), aside(-40, 40);
@@ -126,7 +125,7 @@ TEST(HardContacts, Case15TwoFastBallsHeadOnKeepTheSquareOfRestitutionOfTheirEner
 
 namespace {
 
-// Kinetic energy at first, and the most after any of 60 steps [J].
+// Kinetic energy at the start, and its maximum after any of 60 steps [J].
 std::pair<double, double> energyOfASecond(const Scene& scene, std::uint32_t substeps) {
     Runner runner(scene, {.substeps = substeps, .contactRoom = 128});
     const double before = kineticEnergy(scene, runner.velocities());
@@ -141,9 +140,9 @@ std::pair<double, double> energyOfASecond(const Scene& scene, std::uint32_t subs
 
 } // namespace
 
-// Who touches already and presses on faster than half a radius a substep was once stopped where he was, while
-// links pulled on: that stored energy in the links, substep after substep (1e5 J and more in a collapsed
-// stack).
+// Regression test. Particles in contact that approached faster than half a radius a substep were once stopped
+// in place while links kept pulling. This stored energy in the links with every substep (1e5 J and more in a
+// collapsed stack).
 TEST(HardContacts, Case15BodiesThatPressIntoEachOtherFastGainNoEnergy) {
     for (const float friction : {0.0f, 0.5f})
         for (const std::uint32_t substeps : {4u, 8u, 16u}) {
@@ -175,7 +174,8 @@ TEST(HardContacts, Case15ABodyThatPressesFastIntoOneThatHoldsGainsNoEnergy) {
     }
 }
 
-// Many fast ones: all are searched for up to 256, beyond all are slowed down and counted, never lost.
+// The search along paths has room for 256 fast particles. With more, all of them are slowed down and counted,
+// and none is lost.
 TEST(HardContacts, Case15MoreFastParticlesThanThereIsRoomForAreSlowedDownAndCounted) {
     const auto swarm = [](std::uint32_t count, float speed) {
         Scene scene = weightless();
@@ -196,9 +196,8 @@ TEST(HardContacts, Case15MoreFastParticlesThanThereIsRoomForAreSlowedDownAndCoun
     EXPECT_EQ(slowedOf(swarm(257, 40)), 0u) << "a radius a substep is 48 m/s";
 }
 
-// A start that no room is enough for: said in the first step, and undone, every time; no run-away search on
-// the host.
-// Those that meet while it runs are counted by ContactLists and undo their step.
+// validate() rejects a start that no contact list could hold, with the number and place of the particles.
+// ContactLists tests particles that meet during the run, which undo their step.
 TEST(HardContacts, Case25TenThousandCoincidentParticlesAreSaidToBeTooMany) {
     Scene scene;
     scene.particles.assign(10'000, ballAt({0.1f, 0.2f, 0.3f}));
@@ -220,14 +219,14 @@ TEST(HardContacts, Case25TwoHundredCoincidentParticlesPartRepeatably) {
     EXPECT_LE(deepestOf(trial.x.back()), 1);
 }
 
-// On borders of cells, at -0.0, far outside of where the rest is: pairs part as they do in the middle. (That
-// lists equal brute force there is ContactLists.EqualBruteForceOnTwelveHundredConfigurations.)
+// Pairs on cell borders, at -0.0 and far outside of the other particles part as they do in the middle.
+// ContactLists.EqualBruteForceOnTwelveHundredConfigurations compares the lists there with brute force.
 TEST(HardContacts, Case26PairsOnBordersAndFarOutsidePartLikeAnyOther) {
     Scene scene = weightless();
     const std::vector<Vec3> places{
         {0, 0, 0},     {-0.0f, 4, -0.0f}, {0.2f * 7, 0, 0}, {-0.2f * 7, -0.4f, 0.6f},
         {50, -50, 50}, {-60, 30, -0.0f},  {0, 0, 64}};
-    for (const Vec3& at : places) { // meeting along x at 2 m/s
+    for (const Vec3& at : places) { // the pair meets along x at 2 m/s
         scene.particles.push_back(ballAt({at.x, at.y, at.z}, {1, 0, 0}));
         scene.particles.push_back(ballAt({at.x + 0.125f, at.y, at.z}, {-1, 0, 0}, 1));
     }

@@ -1,4 +1,4 @@
-// Hard cases 3, 11, 20, 33: what has no length, no mass, no stiffness, or nothing at all.
+// Hard cases 3, 11, 20 and 33: constraints without length, mass or stiffness, and empty scenes.
 #include "cases_hard/trial.hpp"
 #include "sim/compile.hpp"
 #include "sim/scenes.hpp"
@@ -50,7 +50,7 @@ TEST_P(DegenerateCase, Case03CoincidentEndsGetNoCorrection) {
         for (const float compliance : {0.0f, 1e-4f}) {
             Scene scene = pair({0.1f, 0, 0}, {0.1f, 0, 0}, restLength, compliance);
             EXPECT_EQ(length(runTrial(scene, settings()).x.back()), 0) << restLength;
-            scene.dampingTime = 0.01f; // divides by the length as well
+            scene.dampingTime = 0.01f; // damping divides by the length as well
             EXPECT_EQ(length(runTrial(scene, settings()).x.back()), 0) << restLength;
         }
     }
@@ -64,7 +64,7 @@ TEST_P(DegenerateCase, Case03AMeshOfCoincidentParticlesStaysWhereItIs) {
     for (const Vector3d& x : trial.x.back()) EXPECT_EQ(x, Vector3d(1, 2, 3));
 }
 
-// Compliance 0: as stiff as a substep allows, and stable.
+// Compliance 0 gives the largest stiffness that a substep allows, and stays stable.
 TEST_P(DegenerateCase, Case11NoComplianceIsStable) {
     Scene scene = test::sheet(8);
     test::disturb(scene, 0.01f, 0.5f);
@@ -84,7 +84,7 @@ TEST_P(DegenerateCase, Case20FixedParticlesStayToTheBit) {
     Scene scene = test::sheet(6, 1e-5f);
     test::addRoom(scene);
     test::disturb(scene, 0.02f, 2);
-    scene.planes[0].offset += 0.3f; // some fixed particles are behind it
+    scene.planes[0].offset += 0.3f; // some fixed particles lie behind the plane
     scene.damping = 1;
     scene.particles[17].inverseMass = 0;
     test::Runner runner(scene, settings());
@@ -135,8 +135,8 @@ INSTANTIATE_TEST_SUITE_P(Of, DegenerateCase,
                          testing::Values(Solver::jacobi, Solver::split, Solver::gaussSeidel),
                          [](const auto& parameter) { return solverName(parameter.param); });
 
-// Case 10 without a clock: `split` feeds no energy in even if h itself changes. (`jacobi` does feed some: the
-// PBD order stretches a loaded link anew whenever h changes.)
+// Case 10 without a clock: `split` gains no energy even if h changes. `jacobi` gains some, because the PBD
+// order stretches a loaded link again whenever h changes.
 TEST(Split, ChangingStepsFeedNoEnergyIntoABodyAtRest) {
     Scene scene = test::block(3, 0.1f, 1e5f);
     scene.planes = {{.friction = 0.5f}};

@@ -1,5 +1,5 @@
-// Hard cases 1, 2, 8 to 10, 19, 21, 22, 24, 28, 31, 34: masses, stiffness, lengths and steps far from each
-// other.
+// Hard cases 1, 2, 8 to 10, 19, 21, 22, 24, 28, 31 and 34: extreme ratios of masses, stiffnesses, lengths and
+// steps.
 #include "cases/cases.hpp"
 #include "cases_hard/trial.hpp"
 #include "scenes/load.hpp"
@@ -37,9 +37,9 @@ protected:
     }
 };
 
-class HeavyEnd : public HardCase {}; // `jacobi` with averaging does not get there: docs/accuracy.md
+class HeavyEnd : public HardCase {}; // not for `jacobi` with averaging, which fails it: docs/accuracy.md
 
-// Links of `length` from a fixed particle along a direction; equal masses [kg].
+// A line of links of `length` from a fixed particle along a direction, with equal masses [kg].
 Scene line(std::uint32_t links, float length, float mass, float compliance, const Vector3d& direction) {
     Scene scene{.name = "line"};
     for (std::uint32_t i = 0; i <= links; ++i) {
@@ -61,7 +61,7 @@ double strainRms(const Scene& scene, const std::vector<std::vector<Vector3d>>& s
     return std::sqrt(sum / static_cast<double>(states.size() * scene.distances.size()));
 }
 
-// Twice the mean time between zero crossings of a coordinate.
+// Twice the mean time between zero crossings of the particle's coordinate [s].
 double periodOf(const std::vector<std::vector<Vector3d>>& states, std::size_t particle, double dt) {
     std::vector<double> crossings;
     for (std::size_t s = 1; s < states.size(); ++s) {
@@ -78,14 +78,15 @@ double rms(const std::vector<Vector3d>& a, const std::vector<Vector3d>& b) {
     return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(a.size(), 1)));
 }
 
-// 20 links of 0.1 m and 10 g with 1e6 N/m; the last mass is ten thousand times heavier: 1 % stretch.
+// 20 links of 0.1 m and 10 g with 1e6 N/m. The last mass is ten thousand times larger and stretches the line
+// by 1 %.
 Scene heavyPendulum() {
     Scene scene = line(20, 0.1f, 0.01f, 1e-6f, {0.1, -1, 0});
     scene.particles.back().inverseMass = 0.01f;
     return scene;
 }
 
-// `links` links of 0.1 m and 10 g between two fixed ends, `gap` for each.
+// `links` links of 0.1 m and 10 g between two fixed ends, which are `gap` apart per link.
 Scene heldAtBothEnds(std::uint32_t links, float gap, float compliance) {
     Scene scene{.name = "between"};
     for (std::uint32_t i = 0; i <= links; ++i) {
@@ -98,7 +99,7 @@ Scene heldAtBothEnds(std::uint32_t links, float gap, float compliance) {
     return scene;
 }
 
-// The most of the work of gravity that is kinetic energy, of what starts at rest and unstretched.
+// Largest share of the work of gravity that appears as kinetic energy; the start is at rest and unstretched.
 double largestShareOfWork(const Scene& scene, const Trial& trial) {
     double share = 0;
     for (std::size_t s = 1; s < trial.x.size(); ++s) {
@@ -132,13 +133,12 @@ TEST_P(HardCase, Case01AHeavyEndLeavesAChainFiniteAtAnyNumberOfSubsteps) {
     }
 }
 
-// Without damping: what rounding or a correction that does not reach a position feeds in would show as
-// energy.
+// Runs without damping, so that energy added by rounding or by incomplete corrections would show.
 TEST_P(HeavyEnd, Case01SwingsAndStretchesAsItShould) {
     const Scene scene = heavyPendulum();
     const int steps = 200; // 3.3 s
     const Trial trial = runTrial(scene, settings(256), {.steps = steps});
-    // Truth: unclamped at theta 0 this is velocity Verlet; at 1024 substeps converged.
+    // Reference solution: unclamped at theta 0 the solver is velocity Verlet, converged at 1024 substeps.
     reference::State truth = reference::initialState(scene);
     std::vector<std::vector<Vector3d>> exact{truth.x};
     for (int s = 0; s < steps; ++s) {
@@ -165,8 +165,9 @@ TEST_P(HardCase, Case02ASoftPartUnderAMillionTimesStifferOneSagsRight) {
     scene.damping = 6;
     Settings chosen = settings(8);
     if (GetParam() == Solver::jacobi) {
-        // Averaging by count gives the last link, one end of which has no other, half of its load: 12.5 / 15
-        // of the sag however many iterations there are. A constant weight does not.
+        // The last link has an end without another link. Averaging by count gives it half of its load, so the
+        // sag is 12.5 / 15 of the exact one for any number of iterations. A constant weight avoids this
+        // error.
         chosen.iterations = 12;
         chosen.weight = 0.5f;
     }
@@ -177,7 +178,7 @@ TEST_P(HardCase, Case02ASoftPartUnderAMillionTimesStifferOneSagsRight) {
     std::printf("case 2 %s: sag %.5f m of %.5f m\n", solverName(GetParam()), sag, wanted);
 }
 
-// 1000 rigid links of 1 cm hang from one end, let go at 30 degrees.
+// 1000 rigid links of 1 cm hang from one end and are released at 30 degrees.
 TEST_P(HardCase, Case08AChainOfAThousandLinksKeepsItsLengthWithTethers) {
     Scene scene = line(1000, 0.01f, 0.01f, 0, {0.5, -std::sqrt(0.75), 0});
     scene.damping = 0.2f;
@@ -191,8 +192,8 @@ TEST_P(HardCase, Case08AChainOfAThousandLinksKeepsItsLengthWithTethers) {
     double longest = 0;
     for (const auto& x : trial.x) longest = std::max(longest, (x.back() - x.front()).norm() / 10 - 1);
     EXPECT_LE(longest, 0.02);
-    // What links do among themselves follows the load of the swing, 5 s long; a period later it must not be
-    // more.
+    // The strain between links follows the load of the swing, which has a period of 5 s. It must not grow
+    // from one period to the next.
     const auto strainIn = [&](int from, int to) {
         return strainRms(scene, {trial.x.begin() + from, trial.x.begin() + to});
     };
@@ -230,7 +231,7 @@ TEST_P(HardCase, Case09AMillionthOfASecondLeavesTheStaticShape) {
     EXPECT_LE(rms(runner.positions(), before), 1e-5);
 }
 
-// Frames of 4 to 50 ms in turn, as a host has them.
+// Frames alternate between 4 and 50 ms, as they may in a host.
 TEST_P(HardCase, Case10ChangingFramesFeedNoEnergyIntoABodyAtRest) {
     Scene scene = test::block(3, 0.1f, 1e5f);
     scene.planes = {{.friction = 0.5f}};
@@ -248,7 +249,7 @@ TEST_P(HardCase, Case10ChangingFramesFeedNoEnergyIntoABodyAtRest) {
             ASSERT_EQ(runner.step(scene.dt).nonFinite, 0u);
         }
         if (frame < 400) continue;
-        // by what moves: at rest `jacobi` shows half a kick of gravity as velocity
+        // Velocity from displacements: at rest, `jacobi` reports half a kick of gravity as velocity.
         std::vector<Vector3d> v = runner.positions();
         for (std::size_t i = 0; i < v.size(); ++i) v[i] = (v[i] - before[i]) / double{scene.dt};
         energy = std::max(energy, test::kineticEnergy(scene, v));
@@ -259,7 +260,8 @@ TEST_P(HardCase, Case10ChangingFramesFeedNoEnergyIntoABodyAtRest) {
 
 // A chain between two fixed ends that are too near or too far.
 TEST_P(HardCase, Case19BothEndsPinnedTooLongOrTooShortComesToASymmetricRest) {
-    // `gauss_seidel` with mirrored links of one color; what it leaves between colors is told below.
+    // An odd number of links gives mirrored links one color under `gauss_seidel`; the next test covers its
+    // error between colors.
     const std::uint32_t links = GetParam() == Solver::gaussSeidel ? 21 : 20;
     for (const float gap : {0.08f, 0.12f}) {
         for (const float compliance : {0.0f, 1e-4f}) {
@@ -275,9 +277,9 @@ TEST_P(HardCase, Case19BothEndsPinnedTooLongOrTooShortComesToASymmetricRest) {
     }
 }
 
-// One sweep a substep leaves the whole numerical compliance of a chain in the links of its first color and
-// none in those of the last: at rest, cold, they differ by h^2 w times the tension. Of 20 links mirrored ones
-// have different colors.
+// One cold sweep a substep leaves the whole numerical compliance of a chain in the links of the first color,
+// and none in those of the last. At rest, their lengths differ by h^2 w times the tension. With 20 links,
+// mirrored links have different colors.
 TEST(HardCaseOfGaussSeidel, Case19ColorsDifferAtRestByWhatASubstepGives) {
     for (const float gap : {0.08f, 0.12f}) {
         for (const float compliance : {0.0f, 1e-4f}) {
@@ -293,8 +295,8 @@ TEST(HardCaseOfGaussSeidel, Case19ColorsDifferAtRestByWhatASubstepGives) {
                 if (warmStart > 0) continue;
                 const double give = std::pow(double{scene.dt} / 8, 2) * 200; // h^2 w, inside the chain
                 const Vector3d link = x[2] - x[1];
-                // Taut: weight does not matter, links give by their compliance and half of that. Slack: the
-                // link next to the end one carries 8.5 masses, at the slope that it has.
+                // Taut: the weight is negligible, and links stretch by their compliance and half of the
+                // numerical one. Slack: the link beside the end link carries 8.5 masses at its own slope.
                 const double tension = gap > 0.1f ? (double{gap} - 0.1) / (double{compliance} + give / 2)
                                                   : 8.5 * 0.01 * 9.81 * link.norm() / std::abs(link.y());
                 EXPECT_NEAR(differences[0] / (give * tension), 1, 0.07);
@@ -307,7 +309,7 @@ TEST(HardCaseOfGaussSeidel, Case19ColorsDifferAtRestByWhatASubstepGives) {
     }
 }
 
-// What a cut leaves, as a graph: one particle without links among linked ones.
+// A graph like that after a cut: one particle without links among linked ones.
 TEST_P(HardCase, Case21AParticleWithoutLinksFallsFreelyAndLands) {
     Scene scene = test::block(2, 0.1f, 1e5f, 0.5f);
     scene.particles.push_back({.position = {1, 5, 0}, .velocity = {0.5f, 0, 0}});
@@ -337,9 +339,9 @@ TEST_P(HardCase, Case22WithEveryLinkCutAllParticlesAreFree) {
     }
 }
 
-// A cube dropped next to a wall, as a scene file places it at the origin, 10 km and 1000 km away.
+// A cube dropped beside a wall. Scene files place it at the origin, 10 km away and 1000 km away.
 TEST_P(HardCase, Case24AThousandKilometresAwayABodyMovesAsAtTheOrigin) {
-    // of this process alone: the solvers' cases run at once
+    // The name is unique to this process, because the cases of different solvers run at the same time.
     const auto path =
         std::filesystem::path(testing::TempDir()) / ("far-" + std::to_string(::getpid()) + ".toml");
     const auto motionAt = [&](double x, double z) {
@@ -365,7 +367,7 @@ TEST_P(HardCase, Case24AThousandKilometresAwayABodyMovesAsAtTheOrigin) {
     }
 }
 
-// Dragging a block of 27 kg when the pointer jumps 9 m aside within a frame.
+// Drags blocks of 27 g and of 27 kg while the pointer jumps 9 m aside within a frame.
 TEST_P(HardCase, Case28APointerThatJumpsPullsNoHarderAndNoFasterThanItMay) {
     for (const float mass : {0.027f, 27.0f}) {
         SCOPED_TRACE(mass);
@@ -386,7 +388,7 @@ TEST_P(HardCase, Case28APointerThatJumpsPullsNoHarderAndNoFasterThanItMay) {
                                       .work = cap});
         const double most = *std::max_element(trial.kineticEnergy.begin(), trial.kineticEnergy.end());
         EXPECT_LE(most, cap);
-        double pull = 0; // of the centre [m/s^2]
+        double pull = 0; // acceleration of the centre [m/s^2]
         const auto momentum = [&](std::size_t s) {
             Vector3d sum = Vector3d::Zero();
             for (std::size_t i = 0; i < trial.v[s].size(); ++i)
@@ -402,7 +404,7 @@ TEST_P(HardCase, Case28APointerThatJumpsPullsNoHarderAndNoFasterThanItMay) {
     }
 }
 
-// m, k and F scaled alike: the same motion.
+// Scaling m, k and F by the same factor gives the same motion.
 TEST_P(HardCase, Case31DensitiesFromAThousandthToAThousandMoveAlike) {
     const auto motionOf = [&](float density) {
         Scene scene{.name = "block"};
@@ -426,14 +428,14 @@ TEST_P(HardCase, Case31DensitiesFromAThousandthToAThousandMoveAlike) {
     }
 }
 
-// Watchdogs end long dispatches: a dispatch reads every constraint once at most, and a step has a bounded
-// number.
+// Watchdogs end long dispatches. A dispatch reads every constraint at most once, and a step has a bounded
+// number of dispatches.
 TEST_P(HardCase, Case34TheWorkOfADispatchAndOfAStepIsBounded) {
     for (const test::NamedScene& named : test::allScenes()) {
         const StepProgram program = compile(named.scene, settings(8));
         std::size_t constraints = program.constraintCount;
         if (GetParam() ==
-            Solver::gaussSeidel) // colors are whole work groups, and a pass remembers all of them
+            Solver::gaussSeidel) // colors are padded to whole work groups, and a pass saves them
             constraints +=
                 paddedCount(1) * colorByParticles(named.scene, inverseMasses(named.scene)).colorCount();
         const std::size_t most = std::max<std::size_t>(program.particleCount, constraints);

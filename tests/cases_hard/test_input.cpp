@@ -1,4 +1,4 @@
-// Hard case 12: what is negative, infinite or no number is rejected by name, before anything runs.
+// Hard case 12: validate() rejects negative, infinite and NaN values by name before anything runs.
 #include "sim/bodies.hpp"
 #include "sim/scenes.hpp"
 #include "sim/simulation.hpp"
@@ -17,7 +17,7 @@ using namespace sinew::sim;
 
 namespace {
 
-// Every number of a scene, and whether it may be negative.
+// A number of a scene or of its settings, and whether it may be negative.
 struct Number {
     const char* name;
     std::function<float&(Scene&, Settings&)> of;
@@ -69,7 +69,7 @@ const Number numbers[] = {
     {"settings.contactMargin", [](Scene&, Settings& s) -> float& { return s.contactMargin; }},
 };
 
-// Those that count something, and what is just too few and too many.
+// A setting that counts something, with the values just below and above its range.
 struct Count {
     const char* name;
     std::uint32_t& (*of)(Settings&);
@@ -77,12 +77,12 @@ struct Count {
 };
 
 const Count counts[] = {
-    {"settings.substeps", [](Settings& s) -> std::uint32_t& { return s.substeps; }, {1001}}, // 0: chosen
+    {"settings.substeps", [](Settings& s) -> std::uint32_t& { return s.substeps; }, {1001}}, // 0: automatic
     {"settings.iterations", [](Settings& s) -> std::uint32_t& { return s.iterations; }, {0, 1001}},
     {"settings.contactRoom", [](Settings& s) -> std::uint32_t& { return s.contactRoom; }, {0, 1025}},
     {"settings.forms.columns",
      [](Settings& s) -> std::uint32_t& { return s.forms.columns; },
-     {3}}, // 0: by the device
+     {3}}, // 0: by device
     {"settings.forms.chunk", [](Settings& s) -> std::uint32_t& { return s.forms.chunk; }, {65536}},
 };
 
@@ -137,7 +137,7 @@ TEST(HardInput, Case12TooFewAndTooManyAreNamed) {
     }
 }
 
-// The volume of a cell at rest divides all others.
+// Energies are divided by the rest volume of a cell.
 TEST(HardInput, Case12CellsOfNoVolumeCannotResistItsChange) {
     Scene scene;
     addLattice(scene, {.name = "cube", .poissonRatio = 0.4f});

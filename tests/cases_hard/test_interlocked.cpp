@@ -1,5 +1,5 @@
-// Hard case 14, lattices: bodies that lie in each other by a third and a half when the scene is loaded part,
-// at the speed of recovery, whatever the substeps, and however they lie, turn and deform.
+// Hard case 14 for lattices: bodies that overlap by a third or a half at the start part at the recovery
+// speed, for all numbers of substeps, positions, rotations and deformations.
 #include "sim/bodies.hpp"
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/runner.hpp"
@@ -21,17 +21,17 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double radius = double{ballRadius};
-constexpr std::uint32_t nodes = 6; // a cube's, along each axis
+constexpr std::uint32_t nodes = 6; // of a cube along each axis
 constexpr std::size_t count = nodes * nodes * nodes;
 constexpr double side = nodes * 2 * radius; // [m]
 
-// How two cubes of touching particles lie in each other.
+// Relative placement of two interlocked cubes of touching particles.
 struct Cubes {
-    double overlap = 0.5; // of a side
-    double off = 0;       // [cells] beside each other
-    double angle = 0;     // of the second about its middle [rad]
-    double spin = 0;      // likewise, at first [rad/s]
-    double squash = 1;    // of the second, along y at first
+    double overlap = 0.5; // in cube sides
+    double off = 0;       // sideways offset [cells]
+    double angle = 0;     // rotation of the second about its middle [rad]
+    double spin = 0;      // its initial angular velocity [rad/s]
+    double squash = 1;    // its initial scale along y
     float youngModulus = 1e5f;
 };
 
@@ -69,7 +69,7 @@ Vector3d meanOf(const std::vector<Vector3d>& values, std::size_t first) {
     return mean;
 }
 
-// [radii]
+// Deepest overlap between the two cubes [radii].
 double deepestBetween(const std::vector<Vector3d>& x) {
     double nearest = 2 * radius;
     for (std::size_t i = 0; i < count; ++i)
@@ -78,9 +78,9 @@ double deepestBetween(const std::vector<Vector3d>& x) {
 }
 
 struct Parting {
-    double energy = 0; // the most above that at first [J]
-    double speed = 0;  // of the middles, at the end [m/s]
-    double apart = 0;  // likewise [sides]
+    double energy = 0; // largest gain over the start [J]
+    double speed = 0;  // of the centres at the end [m/s]
+    double apart = 0;  // distance of the centres at the end [sides]
     double deepest = 0;
     double momentum = 0;
     std::uint64_t hash = 0;
@@ -115,8 +115,8 @@ void print(const Cubes& cubes, std::uint32_t substeps, const Parting& parting) {
 
 } // namespace
 
-// Speeds and energies are those of bodies whose contacts part at v_rec: what is bound by a multiple of it
-// needs no memory of how they lay (contacts: 3 has 2.3 v_rec at most, and 37 J for as much mass).
+// Speed and energy are bounded by multiples of those of contacts that part at v_rec, so the bounds do not
+// depend on the initial overlap.
 TEST(HardContacts, Case14InterlockedCubesPartSlowlyWhateverTheSubsteps) {
     for (const Cubes& cubes :
          {Cubes{}, Cubes{.off = 0.3}, Cubes{.overlap = 0.3}, Cubes{.overlap = 0.3, .off = 0.3}})
@@ -134,7 +134,7 @@ TEST(HardContacts, Case14InterlockedCubesPartSlowlyWhateverTheSubsteps) {
         }
 }
 
-// Normals turn with what lies askew, spins, or was squashed: a stretched lattice's normals are those of its
+// Normals must follow bodies that lie askew, spin or are squashed: a stretched lattice has the normals of its
 // faces.
 TEST(HardContacts, Case14InterlockedCubesPartHoweverTheyLieTurnAndDeform) {
     for (const Cubes& cubes :
@@ -149,7 +149,7 @@ TEST(HardContacts, Case14InterlockedCubesPartHoweverTheyLieTurnAndDeform) {
         EXPECT_LE(parting.energy, 70) << "[J]";
         EXPECT_LE(parting.momentum, 1e-4);
     }
-    const Cubes squashed{.squash = 0.6}; // springs back with 490 J and more
+    const Cubes squashed{.squash = 0.6}; // the spring-back releases 490 J and more
     const Parting parting = part(interlockedCubes(squashed), {.substeps = 16, .contactRoom = 64}, 75);
     print(squashed, 16, parting);
     EXPECT_EQ(parting.deepest, 0) << "[radii]";
@@ -172,7 +172,7 @@ TEST(HardContacts, Case14PartsAtTheSpeedOfRecovery) {
     }
 }
 
-// What rebounds does so along the lines between particles, meanwhile too: they part all the same.
+// Restitution acts along the lines between particles even while the bodies part; they part all the same.
 TEST(HardContacts, Case14PartsWhereParticlesRebound) {
     for (const float restitution : {0.5f, 1.0f}) {
         Scene scene = interlockedCubes({.off = 0.3});

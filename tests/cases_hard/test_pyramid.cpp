@@ -1,4 +1,5 @@
-// Hard case 27: a pyramid of forty rows of balls in a plane, each on two of the row below, stands.
+// Hard case 27: a pyramid of forty rows of balls in a plane, each ball on two of the row below, stays at
+// rest.
 #include "sim/collision/contact_scenes.hpp"
 #include "sim/runner.hpp"
 #include "sim/scenes.hpp"
@@ -17,8 +18,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Between two walls without friction, as in the plane that the case comes from: nothing else would hold a
-// ball on the ridge of two. In a row they are a hundredth of a radius apart.
+// The pyramid stands between two walls without friction, which keep the balls in the plane; a ball would
+// otherwise fall off the ridge between two others. Balls in a row are a hundredth of a radius apart.
 Scene pyramid(std::uint32_t rows, float friction) {
     Scene scene;
     scene.contacts.friction = friction;
@@ -36,8 +37,8 @@ Scene pyramid(std::uint32_t rows, float friction) {
 }
 
 struct Stood {
-    double moved = 0;             // of the ball that moved most [m]
-    double kinetic = 0, late = 0; // largest, and at the end [J]
+    double moved = 0;             // largest displacement of a ball [m]
+    double kinetic = 0, late = 0; // maximum, and value at the end [J]
     std::uint64_t hash = 0;
 };
 

@@ -1,5 +1,5 @@
-// Hard cases 13 and 30, and what bounds the time of all of them: faults of a running simulation, more colors
-// than a step has room for, and work that does not depend on the state.
+// Hard cases 13 and 30, and the bound on the time of all others: faults during a run, more colors than a step
+// allows, and work that does not depend on the state.
 #include "cases_hard/trial.hpp"
 #include "sim/bodies.hpp"
 #include "sim/coloring.hpp"
@@ -27,7 +27,7 @@ protected:
     }
 };
 
-// Two blocks that fall side by side and touch nothing: bodies of 64 particles.
+// Two blocks of 64 particles that fall side by side without contact.
 Scene twoBodies() {
     Scene scene{.name = "two bodies"};
     for (const float x : {0.0f, 1.0f})
@@ -36,7 +36,7 @@ Scene twoBodies() {
     return scene;
 }
 
-// One particle in the middle of spokes that hold it: as many colors as spokes.
+// One particle at the centre of `spokes` links, which needs as many colors as spokes.
 Scene hub(std::uint32_t spokes) {
     Scene scene{.name = "hub"};
     scene.particles = {{.position = {0, 0, 0}}};
@@ -56,8 +56,8 @@ std::uint64_t invocationsOf(const StepProgram& program) {
 
 } // namespace
 
-// The step in which it happens is undone for the whole scene; no body gets any of it, and both go on as if it
-// had not been.
+// A NaN undoes the step for the whole scene. It reaches no other body, and both bodies continue as if the
+// fault had not happened.
 TEST_P(RunTimeCase, Case13ANaNCostsOneStepAndReachesNoOtherBody) {
     const Scene scene = twoBodies();
     constexpr std::uint32_t hit = 21, ofFirst = 64;
@@ -82,7 +82,7 @@ TEST_P(RunTimeCase, Case13ANaNCostsOneStepAndReachesNoOtherBody) {
                 solverName(GetParam()), spoilt.nonFinite, difference);
 }
 
-// A body on a grid has slots that hold no particle, which nobody restores: none of it may get there.
+// The grid of a ragged body has slots without a particle, which no step restores; a NaN must not enter them.
 TEST_P(RunTimeCase, Case13ANaNInABodyWithEmptyCellsCostsOneStepToo) {
     Scene scene{.name = "ragged"};
     Lattice body{.origin = {0, 1, 0}, .cells = {5, 4, 6}, .spacing = 0.1f, .youngModulus = 1e5f};
@@ -97,8 +97,8 @@ TEST_P(RunTimeCase, Case13ANaNInABodyWithEmptyCellsCostsOneStepToo) {
     }
 }
 
-// No constraint is left over: there are as many colors as it takes, and a step that would have too many is
-// refused with their number. Solvers without colors take it.
+// Coloring never leaves a constraint out: it uses as many colors as needed, and compilation refuses a step
+// with too many and names their number. Solvers without colors accept the scene.
 TEST_P(RunTimeCase, Case30MoreColorsThanAStepHasRoomForAreRefusedByNumber) {
     const Scene scene = hub(128);
     const Coloring coloring = colorByParticles(scene, inverseMasses(scene));
@@ -117,8 +117,8 @@ TEST_P(RunTimeCase, Case30MoreColorsThanAStepHasRoomForAreRefusedByNumber) {
         EXPECT_NEAR((trial.x.back()[spoke.b] - trial.x.back()[spoke.a]).norm(), 1, 1e-5);
 }
 
-// Frame time below three times that of the calm case, as far as a test can say it without a clock: the passes
-// of a step, and how many invocations each has, follow from the scene's lists and not from its state.
+// The frame time of a broken state must stay below three times that of a calm one. Without a clock, the test
+// checks that the passes of a step and their invocations follow from the scene and not from the state.
 TEST_P(RunTimeCase, ABrokenStateIsNoMoreWorkThanACalmOne) {
     for (Scene calm : {test::block(4, 0.1f, 1e5f), test::sheet(8, 1e-4f), test::chain(20, {1e-4f})}) {
         SCOPED_TRACE(calm.name);

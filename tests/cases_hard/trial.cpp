@@ -1,4 +1,4 @@
-// The common criteria.
+// Runs a trial and checks the criteria of all hard cases.
 #include "cases_hard/trial.hpp"
 
 #include "cases/cases.hpp"
@@ -35,7 +35,7 @@ void expectEqualBits(const Scene& scene, Settings settings, const TrialPlan& pla
     EXPECT_EQ(hashOfRun(scene, settings, plan), hash) << "reversed";
 }
 
-// Work of gravity on the way from the start [J].
+// Work of gravity between two states [J].
 double workOfGravity(const Scene& scene, const std::vector<float>& inverseMass,
                      const std::vector<Vector3d>& from, const std::vector<Vector3d>& to) {
     double work = 0;
@@ -60,7 +60,7 @@ double elasticEnergy(const Scene& scene, const Settings& asked) {
         if (w == 0) continue;
         const Vector3d d = toVector(scene.particles[c.b].position) - toVector(scene.particles[c.a].position);
         const double stretch = d.norm() - double{c.restLength};
-        // XPBD: a correction C / (w + compliance / h^2) leaves no more than this as motion.
+        // XPBD: a correction C / (w + compliance / h^2) releases at most this energy as motion.
         const double stiffness = isSplit ? ofSplit[index] : 1 / (double{c.compliance} + h * h * w);
         energy += 0.5 * stiffness * stretch * stretch;
     }
@@ -84,12 +84,12 @@ Trial runTrial(const Scene& scene, const Settings& settings, const TrialPlan& pl
         look();
         const double allowed =
             start + std::max(0.0, workOfGravity(scene, inverseMass, trial.x[0], trial.x.back()));
-        // A step of `jacobi` at rest shows half a kick of gravity, and float32 its rounding.
+        // At rest, a `jacobi` step reports half a kick of gravity as velocity; float32 adds rounding.
         const double h = double{scene.dt} / withSubsteps(scene, settings).substeps;
         const double kick = 0.5 * massOf(scene) * std::pow(toVector(scene.gravity).norm() * h, 2);
         const double most = 1.01 * allowed + kick + 1e-9;
         EXPECT_LE(trial.kineticEnergy.back(), most) << "step " << s;
-        // The first is enough. Failures of an earlier run do not count: a run that stops is not at rest.
+        // Stops at the first failure of this run; failures of an earlier run do not count.
         if (nonFinite > 0 || !(trial.kineticEnergy.back() <= most)) return trial;
     }
     trial.hash = runner.stateHash();

@@ -1,5 +1,5 @@
-// A run that every hard case makes: finite after each step, no energy from nowhere, the same bits three times
-// over and in reversed invocation order.
+// The run of every hard case. It checks that each step is finite, that no energy appears, and that three runs
+// and one in reversed invocation order give equal bits.
 #pragma once
 
 #include "sim/runner.hpp"
@@ -9,7 +9,7 @@
 
 namespace sinew::test {
 
-/// What a run showed; entry 0 of the lists is the start.
+/// Results of a run; entry 0 of each list is the start.
 struct Trial {
     std::vector<std::vector<Eigen::Vector3d>> x, v; ///< after each step [m], [m/s]
     std::vector<double> kineticEnergy;              ///< [J]
@@ -18,20 +18,21 @@ struct Trial {
 
 struct TrialPlan {
     int steps = 60;
-    /// Length of a step [s]; the scene's where it is empty.
+    /// Length of a step [s]; empty means the scene's dt.
     std::function<float(int step)> dt;
-    /// Targets of attachments.
+    /// Targets of the attachments at a step.
     std::function<std::vector<sim::Vec3>(int step)> anchors;
-    /// What attachments may add to the energy [J].
+    /// Largest energy that attachments may add [J].
     double work = 0;
 };
 
-/// Runs the scene and checks the criteria of all hard cases; fails the calling test where one is broken.
+/// Runs the scene and checks the criteria of all hard cases; a broken criterion fails the calling test.
 /// Energy: kinetic energy <= 1.01 x (kinetic + elastic energy of the start + work of gravity + plan.work).
 Trial runTrial(const sim::Scene& scene, const sim::Settings& settings, const TrialPlan& plan = {});
 
-/// Of the links as stiff as the solver makes them at the scene's dt: for `split` by the division of particles
-/// that the analytic cases predict with, for others by what one correction of a link alone can set free.
+/// Elastic energy of the links with the stiffness that the solver gives them at the scene's dt [J]. For
+/// `split`, from the division of particles in the analytic cases; for others, from the energy that one
+/// correction of one link can release.
 double elasticEnergy(const sim::Scene& scene, const sim::Settings& settings);
 
 } // namespace sinew::test

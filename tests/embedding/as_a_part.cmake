@@ -1,9 +1,9 @@
-# Configures Sinew as a part of another build with strict flags, and looks for what that must not need. Where BUILDS is set, a
-# file of the host and of Sinew are compiled with them.
+# Configures Sinew as a part of another build with strict flags, and checks for things that it must not need.
+# With BUILDS, compiles one file of the host and one of Sinew.
 #   cmake -DHOST_CMAKE=<cmake of the host> -DFOLDER=<build folder> -DPART=<host's sources> -DFETCHES=<by FetchContent>
 #       -DSINEW_FOLDER=<sources> -DCOMPILER=<c++> -DVULKAN=<folder of vulkan/> [-DBUILDS=ON] -P as_a_part.cmake
 file(REMOVE_RECURSE ${FOLDER})
-# the headers of Vulkan are where no compiler looks by itself
+# The Vulkan headers lie in a folder that no compiler searches by default.
 set(headers ${FOLDER}/headers)
 file(MAKE_DIRECTORY ${headers})
 foreach(folder vulkan vk_video)

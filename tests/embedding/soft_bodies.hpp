@@ -1,5 +1,4 @@
-// The README's embedding example, compiled and run by the tests. README.md quotes all that follows the
-// pragma.
+// The README's embedding example, compiled and run by the tests. README.md quotes the text below the pragma.
 #pragma once
 
 #include "sim/bodies.hpp"

@@ -1,5 +1,5 @@
-// A host whose mapped memory is cached and not coherent. The host side of every buffer is a copy, which meets
-// the memory of the device only where Sinew flushes or invalidates.
+// Tests a host with mapped memory that is cached and not coherent. The host side of every buffer is a copy,
+// which is synchronised with the device memory only where Sinew flushes or invalidates.
 #include "embedding/soft_bodies.hpp"
 #include "support/host_device.hpp"
 #include "vk/check.hpp"
@@ -14,10 +14,10 @@ namespace {
 
 struct Memory {
     std::byte* real = nullptr;
-    std::vector<std::byte> seen; // by the host
+    std::vector<std::byte> seen; // copy visible to the host
 };
 
-// Vulkan's entry points carry no user pointer.
+// Global state of the replaced Vulkan functions, which have no user pointer.
 struct Incoherent {
     std::map<VkDeviceMemory, Memory> memories;
     VkDeviceSize atom = 1;
@@ -52,7 +52,7 @@ VkResult VKAPI_CALL invalidate(VkDevice, std::uint32_t count, const VkMappedMemo
                    [](std::byte* real, std::byte* seen, std::size_t size) { std::memcpy(seen, real, size); });
 }
 
-// One memory a buffer, which begins some atoms behind its start.
+// An allocator that gives every buffer its own memory, at an offset of some atoms.
 class IncoherentHost {
 public:
     IncoherentHost() {
@@ -110,7 +110,7 @@ private:
         return made;
     }
 
-    /// A type that the host can map and that is coherent: what is not is played by `incoherent`.
+    /// A host-visible, coherent memory type. The functions above make it behave as incoherent memory.
     std::uint32_t mappedType(std::uint32_t allowed) const {
         constexpr VkMemoryPropertyFlags wanted =
             VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
@@ -139,7 +139,7 @@ struct Fall {
     std::vector<sim::Status> statuses;
 };
 
-// Some steps, one submission each, of the README's body.
+// Runs the README's body for some steps, with one submission each.
 Fall fall(HostDevice& host, const vk::HostDevice& handles) {
     SoftBodies bodies(handles);
     Fall result;
@@ -182,7 +182,8 @@ TEST(Coherence, IsMadeWhereTheHostsMemoryHasNone) {
     EXPECT_EQ(made.host.finish(), std::vector<std::string>{});
 }
 
-// A hook that hides that its memory is not coherent: a status that never arrives is none of a finished step.
+// The allocator hook hides that its memory is not coherent. A status that never becomes visible must not be
+// taken for that of a finished step.
 TEST(Coherence, IsNeverReadIntoAStatusThatDidNotArrive) {
     IncoherentHost made;
     made.namesReadback = false;

@@ -1,4 +1,4 @@
-// The README's embedding example, on a device that a host made by hand with nothing optional enabled.
+// Tests the README's embedding example on a device that the host made, with no optional feature enabled.
 #include "embedding/soft_bodies.hpp"
 #include "support/host_device.hpp"
 
@@ -40,7 +40,7 @@ TEST(Embedding, StepsInAForeignDeviceWithoutAMessage) {
     }
     EXPECT_EQ(host.finish(), std::vector<std::string>{});
     ASSERT_EQ(positions.size(), 13u * 13 * 13);
-    // ten steps of 1/60 s of free fall from rest, the floor still out of reach: -g t^2 / 2 = -0.136 m
+    // Ten steps of 1/60 s of free fall from rest, above the floor: -g t^2 / 2 = -0.136 m.
     const float fallen = -0.5f * 9.81f * (10.0f / 60) * (10.0f / 60);
     EXPECT_NEAR(positions.back()[1], std::max(0.24f + fallen, -0.1f), 0.02f);
     EXPECT_GE(positions.front()[1], -0.1f - 1e-5f);

@@ -1,4 +1,4 @@
-// Macros of <windows.h> that C++ programs trip over.
+// Macros of <windows.h> that break C++ programs.
 #pragma once
 
 #define interface struct

@@ -1,4 +1,4 @@
-// The macros of <X11/Xlib.h>, as a host meets them that makes surfaces of X11.
+// The macros of <X11/Xlib.h>, included as in a host that makes X11 surfaces.
 #pragma once
 
 #define VK_USE_PLATFORM_XLIB_KHR

@@ -1,4 +1,4 @@
-// Meshes with faults, and their repair.
+// Meshes with faults, and helpers for their repair.
 #pragma once
 
 #include "mesh/repair.hpp"
@@ -33,7 +33,7 @@ inline void expectClosed(const Result& result, double volume, double share = 1e-
     EXPECT_EQ(result.report.openEdges, 0u);
 }
 
-/// Every triangle has vertices of its own, moved by up to `noise` along each axis.
+/// Gives every triangle its own vertices, moved by up to `noise` along each axis.
 inline TriangleMesh soup(const TriangleMesh& mesh, double noise, std::uint64_t seed = 1) {
     TriangleMesh result = unwelded(mesh);
     Random random(seed);
@@ -43,7 +43,8 @@ inline TriangleMesh soup(const TriangleMesh& mesh, double noise, std::uint64_t s
     return result;
 }
 
-/// Splits `triangle` at a new vertex on the edge from its corner `corner`, and no other triangle.
+/// Splits only `triangle`, at a new vertex on the edge that starts at its corner `corner`. Its neighbour
+/// keeps the edge.
 inline void addJunction(TriangleMesh& mesh, std::size_t triangle, std::size_t corner, double at) {
     const auto [a, b, c] =
         std::array{mesh.triangles[triangle][corner], mesh.triangles[triangle][(corner + 1) % 3],

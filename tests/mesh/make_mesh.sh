@@ -1,4 +1,4 @@
-# sinew-make-mesh writes what it says, the same bytes each time, and exits with the documented codes.
+# Tests sinew-make-mesh: the output is as promised and repeatable, and the exit codes are as documented.
 # Arguments: the program, a folder to write to.
 program=$1
 folder=$2

@@ -1,4 +1,4 @@
-// Written from the formats' specifications; shares nothing with the exporters.
+// Writes files by the specifications of the formats. Shares no code with the exporters.
 #include "mesh_files.hpp"
 
 #include <array>
@@ -58,7 +58,7 @@ std::string base64(std::string_view bytes) {
     return text;
 }
 
-/// Positions, then indices.
+/// A binary buffer with positions, then indices.
 std::string buffer(const TriangleMesh& mesh) {
     std::string bytes;
     for (const Vec3& position : mesh.positions) append(bytes, position);
@@ -128,7 +128,7 @@ std::string stlText(const TriangleMesh& mesh) {
 
 std::string stlBinary(const TriangleMesh& mesh) {
     std::string bytes(80, '\0');
-    bytes.replace(0, 5, "solid"); // as many exporters do, against the rule
+    bytes.replace(0, 5, "solid"); // many exporters write this against the specification
     append(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));
     for (const auto& triangle : mesh.triangles) {
         append(bytes, Vec3{});

@@ -1,4 +1,4 @@
-// Mesh files in every format that can be imported, as bytes, and a folder to put them in.
+// Mesh files as bytes, in every format that can be imported, and a temporary folder.
 #pragma once
 
 #include "mesh/triangle_mesh.hpp"
@@ -10,7 +10,7 @@
 
 namespace sinew::mesh::test {
 
-/// A new empty folder, removed with all it holds at the end.
+/// A new empty folder; the destructor removes it with its contents.
 class Folder {
 public:
     Folder();
@@ -37,11 +37,11 @@ std::string plyText(const TriangleMesh& mesh);
 enum class ByteOrder { little, big };
 std::string plyBinary(const TriangleMesh& mesh, ByteOrder order);
 
-/// `nodes` is the JSON of the node list; mesh 0 is the mesh, node 0 the root.
+/// `nodes` is the JSON of the node list. Mesh 0 is `mesh`, and node 0 is the root.
 std::string gltf(const TriangleMesh& mesh, std::string_view nodes = R"([{"mesh":0}])");
 std::string glb(const TriangleMesh& mesh, std::string_view nodes = R"([{"mesh":0}])");
 
-/// One file of each kind.
+/// A mesh file of one format.
 struct Sample {
     std::string name, bytes;
     bool isBinary = false;

@@ -1,4 +1,4 @@
-// The winding number here is written out from its formula and shares nothing with TriangleTree.
+// The winding number is computed from its formula and shares no code with TriangleTree.
 #include "meshes.hpp"
 
 #include "mesh/place_grid.hpp"

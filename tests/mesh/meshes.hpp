@@ -1,4 +1,4 @@
-// Meshes to test with: small closed ones, and the ways in which files break them.
+// Test meshes: small closed ones, and typical faults of mesh files.
 #pragma once
 
 #include "mesh/triangle_mesh.hpp"
@@ -16,22 +16,22 @@ TriangleMesh moved(TriangleMesh mesh, Vec3 offset);
 TriangleMesh scaled(TriangleMesh mesh, float factor);
 TriangleMesh joined(const TriangleMesh& a, const TriangleMesh& b);
 
-/// Every triangle gets vertices of its own, as STL stores them.
+/// Gives every triangle its own vertices, as STL stores them.
 TriangleMesh unwelded(const TriangleMesh& mesh);
 
-/// Without the triangles whose centre lies above `height`: a hole.
+/// Removes the triangles whose centre lies above `height`, which leaves a hole.
 TriangleMesh openedAbove(const TriangleMesh& mesh, float height);
 
-/// Every `step`th triangle turned over.
+/// Flips every `step`th triangle.
 TriangleMesh withFlipped(TriangleMesh mesh, std::size_t step);
 
-/// Every triangle turned over.
+/// Flips every triangle.
 TriangleMesh inverted(TriangleMesh mesh);
 
-/// Winding number by the plain sum over all triangles.
+/// Winding number as the plain sum over all triangles.
 double windingNumber(const TriangleMesh& mesh, const Vector3& point);
 
-/// A generator of equal numbers in [0, 1) on every machine.
+/// Generator of random numbers in [0, 1), equal on all machines.
 class Random {
 public:
     explicit Random(std::uint64_t seed) : state_(seed) {}

@@ -1,4 +1,4 @@
-// Components: what is counted as one, how they are named, chosen and described.
+// Tests of mesh components: how they are counted, named, selected and described.
 #include "mesh/components.hpp"
 
 #include "mesh/generate.hpp"
@@ -19,7 +19,7 @@ TriangleMesh cube(float low, float high) {
     return box({low, low, low}, {high, high, high});
 }
 
-/// Objects of `sizes` triangles each, in order.
+/// Assigns the triangles to objects of the given names and sizes, in order.
 TriangleMesh withObjects(TriangleMesh mesh, const std::vector<std::pair<std::string, std::size_t>>& objects) {
     for (const auto& [name, size] : objects) {
         mesh.objects.insert(mesh.objects.end(), size,
@@ -65,7 +65,7 @@ TEST(Components, HoldTheirCavities) {
     hollow = joined(hollow, inverted(cube(2.5f, 3.5f)));
     EXPECT_EQ(describeAll(hollow), std::vector<std::string>{"\"part 1\": 36 triangles, 62 m^3, 2 cavities"});
 
-    const TriangleMesh stone = joined(hollow, cube(1.25f, 1.75f)); // lies in the first cavity
+    const TriangleMesh stone = joined(hollow, cube(1.25f, 1.75f)); // the stone lies in the first cavity
     EXPECT_EQ(describeAll(stone), (std::vector<std::string>{"\"part 1\": 36 triangles, 62 m^3, 2 cavities",
                                                             "\"part 2\": 12 triangles, 0.125 m^3"}));
     const TriangleMesh nested = joined(stone, inverted(cube(1.4f, 1.5f)));
@@ -81,7 +81,7 @@ TEST(Components, HoldTheirCavities) {
         << "in the middle of a tube, outside of it";
 }
 
-// Two sides of one flat square: its volume is rounding, of another sign at another scale.
+// Both sides of a flat square. Its volume is rounding noise, with a sign that depends on the scale.
 TEST(Components, WithoutAVolumeAreNoCavitiesAtAnyScale) {
     TriangleMesh square;
     square.positions = {
@@ -146,7 +146,7 @@ TEST(Components, OfAChoiceKeepTheirNumbers) {
 }
 
 TEST(Components, OfAChoiceAreCountedAsPiecesWhereItPartsOne) {
-    MeshDefects defects; // two cubes that a third one connects
+    MeshDefects defects; // two cubes, connected by a third one
     const TriangleMesh row =
         weld(joined(joined(cube(0, 1), joined(cube(1, 2), cube(2, 4))), cube(10, 15)), defects);
     TriangleMesh mesh = withObjects(row, {{"ends", 12}, {"middle", 12}, {"", 24}});

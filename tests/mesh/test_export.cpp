@@ -1,4 +1,4 @@
-// Files are written whole or not at all.
+// Tests of mesh export: a file is written completely or not at all.
 #include "mesh/export_gltf.hpp"
 
 #include "mesh/generate.hpp"
@@ -26,7 +26,7 @@ std::size_t filesIn(const Folder& folder) {
     return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder.path()), {}));
 }
 
-/// The sentence of the ExportError that `write` throws.
+/// Message of the ExportError that `write` throws.
 template <typename Write> std::string complaint(const Write& write) {
     try {
         write();
@@ -160,7 +160,7 @@ TEST(Export, WritesParticlesThatReadBackToTheSameBytes) {
 
 namespace {
 
-// With normals that point away from its middle, of any length.
+// Adds normals that point away from the middle of the mesh and are not normalised.
 ShadedMesh shaded(const TriangleMesh& mesh, const Vec3& color) {
     ShadedMesh result{.name = mesh.name,
                       .color = color,
@@ -173,7 +173,7 @@ ShadedMesh shaded(const TriangleMesh& mesh, const Vec3& color) {
     return result;
 }
 
-// Words of a little endian file.
+// A 32-bit word of a little-endian file.
 std::uint32_t wordAt(const std::string& bytes, std::size_t at) {
     std::uint32_t word = 0;
     for (std::size_t byte = 4; byte-- > 0;)
@@ -186,7 +186,7 @@ std::uint32_t wordAt(const std::string& bytes, std::size_t at) {
 TEST(ExportGlb, WritesMeshesThatReadBackToTheSameFloats) {
     const Folder folder;
     TriangleMesh first = box({-0.1f, 1.0f / 3, 1e-20f}, {0.1f, 0.5f, 7}), second = box({5, 0, 0}, {6, 1, 1});
-    first.name = "first \xff\"\n"; // no UTF-8, and what JSON escapes
+    first.name = "first \xff\"\n"; // invalid UTF-8, and characters that JSON escapes
     second.name = "second";
     std::vector<ShadedMesh> meshes{shaded(first, {0.1f, 0.2f, 0.3f}), shaded(second, {0.1f, 0.2f, 0.3f})};
     meshes[1].parts.push_back(shaded(box({8, 0, 0}, {9, 1, 1}), {}).parts[0]);
@@ -207,12 +207,12 @@ TEST(ExportGlb, WritesMeshesThatReadBackToTheSameFloats) {
     EXPECT_NEAR(inspect(back).volume, 0.2 * (0.5 - 1.0 / 3) * 7 + 2, 1e-6);
 }
 
-// What assimp does not look at: glTF 2.0, sections 3.6.2 (alignment, bounds, targets), 3.7.2 (normals), 4.4
-// (chunks).
+// Rules that assimp does not check: glTF 2.0, sections 3.6.2 (alignment, bounds, targets), 3.7.2 (normals),
+// 4.4 (chunks).
 TEST(ExportGlb, KeepsTheRulesOfTheFormat) {
     const Folder folder;
     ShadedMesh mesh = shaded(box({-1, 0, 0}, {1, 2, 3}), {0.1f, 0.2f, 0.3f});
-    mesh.name = "abc"; // a length that is padded
+    mesh.name = "abc"; // this length needs padding
     mesh.parts.push_back(mesh.parts[0]);
     mesh.parts[1].isInside = true;
     mesh.parts[1].normals[0] = {};

@@ -1,4 +1,4 @@
-// Generated shapes: closed, deterministic, of the size they promise.
+// Tests of generated shapes: they are closed, deterministic and of the promised size.
 #include "mesh/generate.hpp"
 
 #include "meshes.hpp"
@@ -48,7 +48,8 @@ TEST(Generate, ConvergesToASphere) {
     EXPECT_LT(fine / exact, 2e-3);
 }
 
-// Pappus: the profile is two half circles and what is between them, its middle 0.046 m from the axis.
+// Pappus's theorem: the profile is two half circles and the rectangle between them, with its centre 0.046 m
+// from the axis.
 TEST(Generate, ConvergesToATube) {
     const double rim = 0.014, profile = std::numbers::pi * rim * rim + 2 * rim * (0.3 - 2 * rim);
     const double exact = 2 * std::numbers::pi * 0.046 * profile;

@@ -1,4 +1,4 @@
-// Every format comes in as it went out; what is wrong with a file is said in one sentence.
+// Tests of mesh import: every format is read back as written, and a faulty file gives a one-line error.
 #include "mesh/import.hpp"
 
 #include "mesh/export.hpp"
@@ -28,7 +28,7 @@ TriangleMesh import(const fs::path& file, const ImportLimits& limits = {}) {
     return importMesh(file, defects, limits);
 }
 
-/// The ImportError without "cannot read mesh: <folder>/".
+/// Text of the ImportError without "cannot read mesh: <folder>/".
 std::string complaint(const fs::path& file, const ImportLimits& limits = {}) {
     try {
         import(file, limits);
@@ -52,7 +52,7 @@ void expectSame(const TriangleMesh& read, const TriangleMesh& mesh, const std::s
         << what;
 }
 
-/// A pipe with a name and some bytes in it. Whoever opened and read it would leave fewer.
+/// A named pipe with some bytes in it. A reader of the pipe would leave fewer bytes.
 class Canary {
 public:
     explicit Canary(const fs::path& path) {
@@ -72,7 +72,7 @@ private:
     int descriptor_ = -1;
 };
 
-/// A path that is there only where Debian's assimp-testmodels is installed.
+/// Exists only where Debian's assimp-testmodels is installed.
 const fs::path models = "/usr/share/assimp/models";
 
 } // namespace
@@ -119,11 +119,12 @@ TEST(Import, ReadsATextStlThatEndsInTwoWords) {
     ASSERT_NE(end, text.npos);
     text.replace(end, 8, "end solid");
     expectSame(import(folder.write("a.stl", text)), organ, "end solid");
-    text.resize(text.rfind("end solid")); // and is still told from one that was cut short
+    text.resize(text.rfind("end solid")); // the file must still be told from a truncated one
     EXPECT_NE(complaint(folder.write("a.stl", text)).find("ends too early"), std::string::npos);
 }
 
-// A tetrahedron is one strip around all of it; here with a bridge without area, and as two strips of a list.
+// A tetrahedron as one strip around all of it, as a strip with a bridge of zero area, and as two strips of a
+// list.
 TEST(Import, ReadsTriangleStrips) {
     const Folder folder;
     const auto strips = [](const std::string& list) {
@@ -137,7 +138,7 @@ TEST(Import, ReadsTriangleStrips) {
         SCOPED_TRACE(list);
         const MeshReport report = inspect(import(folder.write("a.ply", strips(list))));
         EXPECT_EQ(report.defects.nonManifoldEdges, 0u);
-        if (list[0] == '7') continue; // leaves one face open
+        if (list[0] == '7') continue; // this list leaves one face open
         EXPECT_EQ(report.defects.boundaryEdges, 0u);
         EXPECT_NEAR(std::abs(report.volume), 1.0 / 6, 1e-6) << "all faces are turned the same way";
     }
@@ -180,7 +181,7 @@ TEST(Import, KeepsTinyAndHugeMeshesWhole) {
 TEST(Import, AppliesNodeTransforms) {
     const Folder folder;
     const TriangleMesh mesh = box({0, 0, 0}, {1, 2, 3});
-    // A parent that moves and turns x to y; a child that mirrors and doubles; a second child as it is.
+    // The parent moves and turns x to y. The first child mirrors and doubles; the second has no transform.
     const std::string_view nodes = R"([{"children":[1,2],"translation":[10,0,0],
         "rotation":[0,0,0.70710678118654757,0.70710678118654757]},
         {"mesh":0,"scale":[-2,2,2]},{"mesh":0,"translation":[5,0,0]}])";
@@ -437,7 +438,7 @@ TEST(Import, ReadsTheSpiderOfAssimpsTestModels) {
         MeshDefects defects;
         const TriangleMesh spider = importMesh(models / name, defects, {}, Repair::none);
         EXPECT_EQ(spider.positions.size(), 722u)
-            << name; // counted by a script of a few lines, from the OBJ text
+            << name; // counted by a separate script, in the text of the OBJ file
         EXPECT_EQ(spider.triangles.size(), 1312u) << name;
         EXPECT_EQ(defects.boundaryEdges, 72u) << name;
         EXPECT_EQ(defects.degenerateTriangles, 56u) << name;
@@ -460,7 +461,7 @@ TEST(Import, ReadsOrRefusesEachOfAssimpsTestModels) {
 
 namespace {
 
-/// The box of each named object, and of the triangles without one as "".
+/// Report of each named object; triangles without an object are under "".
 std::map<std::string, MeshReport> objectsOf(const TriangleMesh& mesh) {
     std::map<std::string, MeshReport> result;
     if (mesh.objects.size() != mesh.triangles.size()) return result;
@@ -473,7 +474,7 @@ std::map<std::string, MeshReport> objectsOf(const TriangleMesh& mesh) {
     return result;
 }
 
-/// The lines of an OBJ with the faces of a box whose first vertex has an index.
+/// Lines of an OBJ file: `head`, then a box whose first vertex has the index `first`.
 std::string objBox(const std::string& head, int first, float x) {
     TriangleMesh mesh = box({x, 0, 0}, {x + 1, 1, 1});
     std::string text = head;

@@ -1,5 +1,6 @@
-// A corpus of damaged files, made here: prefixes, flipped bytes, hostile headers, noise. Each is read or
-// refused in one sentence; the parent stays small and keeps neither children nor descriptors.
+// Tests mesh import with damaged files made here: prefixes, flipped bytes, hostile headers, noise. Each file
+// is read or refused with a one-line error. The parent process stays small and keeps no child and no file
+// descriptor.
 #include "mesh/import.hpp"
 
 #include "mesh/generate.hpp"
@@ -23,7 +24,7 @@ namespace {
 
 enum class Outcome { read, refused };
 
-/// "cannot read mesh: <where>: <why>: <what to do>" in one line.
+/// Whether the text is one line of the form "cannot read mesh: <where>: <why>: <what to do>".
 bool isSentence(std::string_view text) {
     const std::size_t where = text.find(": "), why = text.find(": ", where + 2),
                       advice = text.find(": ", why + 2);
@@ -48,7 +49,7 @@ std::vector<Sample> namedSamplesOf(const TriangleMesh& mesh) {
     return samples;
 }
 
-/// Imports and checks what any outcome must have in common.
+/// Imports the file and checks the properties that every outcome must have.
 Outcome outcome(const std::filesystem::path& file, const std::string& what) {
     try {
         MeshDefects defects;
@@ -76,7 +77,7 @@ long peakMiB(int who) {
     return usage.ru_maxrss / 1024;
 }
 
-/// Whatever a test imports: memory, children and descriptors of this process are as before.
+/// Checks that memory, children and descriptors of this process are the same after a test as before.
 class Malformed : public testing::Test {
 protected:
     static std::size_t descriptors() {
@@ -150,8 +151,8 @@ TEST_F(Malformed, HostilePlyHeadersAreRefused) {
              head + head + vertices + faces + body,                                // two formats
              head + "property float x\n" + vertices + faces + body,                // a property of nothing
              head + vertices + "property list uchar int x\n" + faces + body,       // a fourth coordinate
-             head + vertices + faces + "element edge 4000000000\n" + body,         // elements of no bytes
-             head + vertices + faces + "element edge 1\nproperty quad x\n" + body, // an unknown type
+             head + vertices + faces + "element edge 4000000000\n" + body,         // elements of zero bytes
+             head + vertices + faces + "element edge 1\nproperty quad x\n" + body, // a fractional list length
              head + vertices + faces + "property list float int x\n" + body, // a length that is no integer
              head + vertices + faces + "whatever\n" + body,                  //
              head + vertices + faces +
@@ -160,7 +161,7 @@ TEST_F(Malformed, HostilePlyHeadersAreRefused) {
              head + vertices + faces + "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n",   // an index too large
              head + vertices + faces + "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 1.5\n", //
              head + vertices + faces + "end_header\n0 0 0\n1 0 0\n0 1\n3 0 1 2\n",     // a line too short
-             head + vertices + faces + "end_header\n0 0 0\n1 0 0\n0 1 0\n",            // a line too few
+             head + vertices + faces + "end_header\n0 0 0\n1 0 0\n0 1 0\n",            // a line is missing
          })
         EXPECT_EQ(outcome(folder_.write("a.ply", bytes), bytes), Outcome::refused) << bytes;
     std::string many = head + vertices;

@@ -1,4 +1,4 @@
-// Repairing broken meshes: seams, T-junctions, leftovers, holes, sides.
+// Tests of mesh repair: seams, T-junctions, remnants, holes, orientation.
 #include "mesh/repair.hpp"
 
 #include "broken_meshes.hpp"
@@ -23,7 +23,7 @@ using sinew::test::ProcessorTime;
 
 namespace {
 
-/// All triangles at a vertex.
+/// Indices of all triangles at a vertex.
 std::set<std::size_t> around(const TriangleMesh& mesh, std::uint32_t vertex) {
     std::set<std::size_t> found;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
@@ -31,7 +31,7 @@ std::set<std::size_t> around(const TriangleMesh& mesh, std::uint32_t vertex) {
     return found;
 }
 
-/// A tube around the y axis of `count` sides with a floor at y = 0, open above.
+/// A tube with `count` sides around the y axis, with a floor at y = 0, open at the top.
 TriangleMesh cup(std::uint32_t count, float radius, float height) {
     TriangleMesh mesh{.name = "cup", .positions = {{0, 0, 0}}};
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -123,7 +123,7 @@ TEST(Repair, LeavesAClosedMeshAsItIs) {
     }
 }
 
-// Two closed boxes nearer to each other than the tolerance, and a needle much thinner than it.
+// Two closed boxes that are closer than the tolerance, and a needle much thinner than the tolerance.
 TEST(Repair, NeverJoinsWhatIsClosed) {
     const TriangleMesh near = joined(unitBox, box({1.000001f, 0, 0}, {2, 1, 1}));
     EXPECT_EQ(repaired(near).mesh.triangles, near.triangles);
@@ -132,7 +132,7 @@ TEST(Repair, NeverJoinsWhatIsClosed) {
     EXPECT_FALSE(repaired(thin).report.isAny());
 }
 
-// The smaller one is as large as the tolerance of the whole.
+// The small box is as large as the tolerance of the whole mesh.
 TEST(Repair, KeepsATinyPartOfASoupWhole) {
     const TriangleMesh tiny = scaled(unitBox, 2e-5f);
     const TriangleMesh mesh = joined(soup(moved(box({0, 0, 0}, {1, 1, 1}), {1, 1, 1}), 1e-6), unwelded(tiny));
@@ -152,7 +152,7 @@ TEST(Repair, SplitsTJunctions) {
     }
 }
 
-// The component of each triangle, too, where triangles are split and holes are closed.
+// Triangles keep their component when they are split and holes are closed.
 TEST(Repair, KeepsTheNumberOfThePart) {
     TriangleMesh mesh = unitBox;
     addJunction(mesh, 0, 0, 0.5);
@@ -172,7 +172,7 @@ TEST(Repair, SplitsSeveralJunctionsOnAnEdgeAndOnEachEdgeOfATriangle) {
     expectClosed(repaired(two, Repair::weld), 1, 1e-6);
     EXPECT_EQ(repaired(two).report.splitEdges, 1u) << "one edge at three vertices";
 
-    TriangleMesh three = unitBox; // all triangles but one are split at the edges that they share with it
+    TriangleMesh three = unitBox; // all triangles but one are split at the edges shared with it
     const auto inner = three.triangles[3];
     for (std::size_t i = 0; i < 12; ++i)
         for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -187,8 +187,8 @@ TEST(Repair, SplitsSeveralJunctionsOnAnEdgeAndOnEachEdgeOfATriangle) {
     expectClosed(repaired(three, Repair::weld), 1, 1e-6);
 }
 
-// Along one line triangles end on one side where those on the other do not: a chain of junctions on both
-// sides.
+// Chains of T-junctions on both sides: along a line, triangles on one side end where those on the other side
+// do not.
 TEST(Repair, SplitsChainsOfJunctions) {
     TriangleMesh mesh = box({0, 0, 0}, {4, 1, 1});
     for (std::size_t i = 0; i < 12; ++i)
@@ -196,7 +196,7 @@ TEST(Repair, SplitsChainsOfJunctions) {
             const Vec3 from = mesh.positions[mesh.triangles[i][corner]],
                        to = mesh.positions[mesh.triangles[i][(corner + 1) % 3]];
             if (from.y != 1 || to.y != 1 || from.z != to.z || from.z != 1) continue;
-            const double at = from.x < to.x ? 0.3 : 0.4; // of the two triangles at that edge
+            const double at = from.x < to.x ? 0.3 : 0.4; // for the two triangles at that edge
             addJunction(mesh, i, corner, at);
             addJunction(mesh, mesh.triangles.size() - 1, 0, at);
             break;
@@ -217,7 +217,7 @@ TEST(Repair, SplitsNothingWhereAVertexOnlyTouchesAnEdge) {
 TEST(Repair, ClosesHolesOfThreeFourAndManyEdges) {
     const TriangleMesh sphere = generate("sphere", 24);
     const double volume = inspect(sphere).volume;
-    std::map<std::size_t, std::size_t> edges; // of the hole around a vertex
+    std::map<std::size_t, std::size_t> edges; // edges of the hole around a vertex
     for (std::uint32_t vertex = 0; vertex < sphere.positions.size(); vertex += 31) {
         const std::set<std::size_t> fan = around(sphere, vertex);
         const Result result = repaired(without(sphere, fan));
@@ -238,7 +238,7 @@ TEST(Repair, ClosesHolesOfThreeFourAndManyEdges) {
 TEST(Repair, ClosesATriangleOfACubeAndHolesInItsFaces) {
     for (std::size_t triangle = 0; triangle < 12; ++triangle)
         expectClosed(repaired(without(unitBox, {triangle})), 1, 1e-6);
-    const TriangleMesh mesh = generate("slab_with_hole", 48); // a concave hole of many edges in a plane
+    const TriangleMesh mesh = generate("slab_with_hole", 48); // has a concave hole of many edges in a plane
     const double volume = inspect(mesh).volume;
     const std::set<std::size_t> fan = around(mesh, mesh.triangles[mesh.triangles.size() / 2][0]);
     std::set<std::size_t> larger = fan;
@@ -249,14 +249,14 @@ TEST(Repair, ClosesATriangleOfACubeAndHolesInItsFaces) {
 TEST(Repair, ClosesHolesBesideEachOtherAndHolesThatTouchInAVertex) {
     const TriangleMesh sphere = generate("sphere", 24);
     const double volume = inspect(sphere).volume;
-    // Every second triangle around a vertex: holes that touch there.
+    // Removes every second triangle around a vertex, so that holes touch there.
     std::size_t touching = 0;
     for (std::uint32_t vertex = 5; vertex < sphere.positions.size(); vertex += 111) {
         const std::uint32_t first = vertex;
         const std::set<std::size_t> fan = around(sphere, first);
         std::set<std::size_t> gone;
         std::vector<std::size_t> order{*fan.begin()};
-        while (order.size() < fan.size()) { // in turn around the vertex
+        while (order.size() < fan.size()) { // in order around the vertex
             const std::size_t last = order.back();
             for (const std::size_t next : fan) {
                 std::size_t common = 0;
@@ -300,7 +300,7 @@ TEST(Repair, LeavesCupsPlanesAndClothsOpen) {
     EXPECT_EQ(repaired(triangle).mesh.triangles.size(), 1u);
 }
 
-// Each triangle is a part of its own: its back would close it.
+// Each triangle is a component of its own, which its back face would close.
 TEST(Repair, NeverClosesLoneTrianglesAndQuads) {
     const TriangleMesh organ = generate("organ", 24);
     const MeshReport report = inspect(organ);
@@ -311,7 +311,7 @@ TEST(Repair, NeverClosesLoneTrianglesAndQuads) {
         EXPECT_EQ(result.mesh.triangles.size(), mesh.triangles.size());
         EXPECT_EQ(result.defects.boundaryEdges, 3 * organ.triangles.size());
     }
-    TriangleMesh quads; // of the faces of boxes, each by itself and far smaller than the whole
+    TriangleMesh quads; // faces of boxes, each separate and far smaller than the whole
     for (std::size_t face = 0; face < 6; ++face) {
         std::set<std::size_t> others;
         for (std::size_t i = 0; i < 12; ++i)
@@ -329,7 +329,7 @@ TEST(Repair, ClosesTheSurfaceAroundLooseTrianglesAndNotThese) {
     TriangleMesh mesh = sphere;
     std::size_t loose = 0;
     for (std::size_t i = 0; i < mesh.triangles.size(); i += 10) {
-        const float factor = 1.001f + 0.0001f * static_cast<float>(++loose); // no two share a corner
+        const float factor = 1.001f + 0.0001f * static_cast<float>(++loose); // no two quads share a corner
         for (std::uint32_t& vertex : mesh.triangles[i]) {
             const Vec3 corner = mesh.positions[vertex];
             mesh.positions.push_back({corner.x * factor, corner.y * factor, corner.z * factor});
@@ -362,7 +362,7 @@ TEST(Repair, RemovesATriangleThatSticksOutAndAWallWithin) {
     expectClosed(withoutFin, 1, 1e-9);
     EXPECT_EQ(repaired(fin, Repair::weld).defects.nonManifoldEdges, 1u);
 
-    MeshDefects defects; // a box of two halves with the side of one of them between
+    MeshDefects defects; // a box of two halves with one wall between them
     const TriangleMesh walled =
         weld(joined(box({0, 0, 0}, {1, 1, 1}), without(box({1, 0, 0}, {2, 1, 1}), {8, 9})), defects);
     EXPECT_EQ(defects.nonManifoldEdges, 4u);
@@ -380,7 +380,7 @@ TEST(Repair, TurnsFlippedTrianglesAndCountsThem) {
     expectClosed(result, volume, 1e-9);
     EXPECT_GT(repaired(flipped, Repair::weld).defects.flippedEdges, 0u);
     EXPECT_EQ(repaired(flipped, Repair::none).mesh.triangles, flipped.triangles);
-    TriangleMesh half = organ; // a flipped half with a hole in it
+    TriangleMesh half = organ; // a half that is flipped and has a hole
     for (auto& triangle : half.triangles)
         if (organ.positions[triangle[0]].x > 0) std::swap(triangle[1], triangle[2]);
     expectClosed(repaired(without(half, {3, 500})), volume, 1e-6);
@@ -401,11 +401,11 @@ TEST(Repair, TurnsPartsThatAreInsideOutAndKeepsCavities) {
     EXPECT_EQ(volumeAndTurns(joined(joined(outer, cavity), withFlipped(beside, 1))),
               (std::pair{27.0, std::size_t{1}}));
     EXPECT_EQ(volumeAndTurns(joined(outer, inner)), (std::pair{28.0, std::size_t{0}})) << "a body in a body";
-    EXPECT_EQ(volumeAndTurns(joined(beside, withFlipped(moved(beside, {1, 1, 0}), 1))), // touch in an edge
+    EXPECT_EQ(volumeAndTurns(joined(beside, withFlipped(moved(beside, {1, 1, 0}), 1))), // a common edge
               (std::pair{2.0, std::size_t{1}}));
 }
 
-// Seen from the middle of the file the volume of a speck is less than the rounding of its terms.
+// Relative to the middle of the mesh, the volume of a tiny box is smaller than the rounding of its terms.
 TEST(Repair, TurnsNoSoundSpeckFarFromTheMiddle) {
     Random random(4);
     const auto coordinate = [&] { return static_cast<float>(900 + 100 * random.unit()); };
@@ -502,7 +502,7 @@ TEST(Repair, ChangesNothingTheSecondTime) {
     EXPECT_EQ(repaired(mesh).mesh.triangles, once.mesh.triangles) << "the same bytes each run";
 }
 
-// Closed shapes broken in four ways at once.
+// Closed shapes with four kinds of faults at once.
 TEST(Repair, BringsBackTheVolumeOfBrokenMeshes) {
     for (const char* shape : {"organ", "torus_knot", "slab_with_hole", "sphere", "tube"})
         for (std::uint64_t seed = 1; seed <= 8; ++seed) {

@@ -1,4 +1,4 @@
-// Reports of repairs: of a part of a mesh, and of seams that are wider than what is joined.
+// Tests of repair reports: for a part of a mesh, and for seams wider than the joining tolerance.
 #include "mesh/components.hpp"
 #include "mesh/generate.hpp"
 #include "mesh/repair.hpp"
@@ -11,7 +11,7 @@ using namespace sinew::mesh::test;
 TEST(Repair, OfAPartIsWhatWasDoneInItsTriangles) {
     const TriangleMesh sphere = generate("sphere", 24), nearby = moved(sphere, {1, 0, 0});
     struct Case {
-        TriangleMesh mesh; // of a part
+        TriangleMesh mesh; // a part of it is repaired
         std::string sentence;
     };
     const std::vector<Case> cases{
@@ -34,7 +34,7 @@ TEST(Repair, OfAPartIsWhatWasDoneInItsTriangles) {
          }(),
          "1 triangle was removed"},
         {sphere, ""}};
-    TriangleMesh all = openedAbove(nearby, 0.05f); // stays open
+    TriangleMesh all = openedAbove(nearby, 0.05f); // the opening remains
     for (const Case& part : cases) all = joined(all, part.mesh);
     const Result whole = repaired(all);
     EXPECT_GT(whole.report.openEdges, 0u);
@@ -60,9 +60,9 @@ TEST(Repair, OfAPartIsWhatWasDoneInItsTriangles) {
     EXPECT_EQ(sentencesOf(repairsOf(whole.mesh, whole.report)), sentencesOf(whole.report));
 }
 
-// Vertices that one step names may be joined, or lose their triangles, in a later one.
+// A later step may join vertices that an earlier step reported, or remove their triangles.
 TEST(Repair, IsPlacedAtVerticesOfTheResult) {
-    TriangleMesh flap = generate("sphere", 24); // a sliver that hangs on nothing, with a fin
+    TriangleMesh flap = generate("sphere", 24); // a free sliver, with a fin
     const auto n = static_cast<std::uint32_t>(flap.positions.size());
     flap.positions.insert(flap.positions.end(), {{3, 0, 0}, {3.000001f, 0, 0}, {3, 1e-6f, 0}, {8, 8, 8}});
     flap.triangles.push_back({n, n + 1, n + 2});
@@ -100,7 +100,7 @@ TEST(Repair, OfManyPartsAddsUpToThatOfTheWhole) {
 
 namespace {
 
-/// The triangles of a sphere whose middle is above `height`, lifted by `gap`, and those below.
+/// Splits a sphere at `height`: triangles with their middle above it are lifted by `gap`.
 TriangleMesh halves(float height, float gap) {
     const TriangleMesh sphere = generate("sphere", 24);
     std::vector<bool> isBelow;
@@ -118,7 +118,7 @@ TEST(Repair, SaysWhichToleranceJoinsTwoHalves) {
     const double volume = inspect(generate("sphere", 24)).volume;
     EXPECT_EQ(repaired(halves(0, 1e-6f)).report.seam.weld, 0) << "that is joined anyway";
     for (const float gap : {3e-5f, 2e-4f, 1.5e-3f})
-        for (const float height : {0.0f, 0.14f}) { // of two caps one is closed by a lid
+        for (const float height : {0.0f, 0.14f}) { // at one height, a lid closes one of two caps
             const TriangleMesh mesh = halves(height, gap);
             const Repairs report = repaired(mesh).report;
             EXPECT_GE(report.seam.weld, double{gap}) << height;
@@ -133,7 +133,7 @@ TEST(Repair, SaysWhichToleranceJoinsTwoHalves) {
         }
 }
 
-// Each half gets a lid, so that neither is open any more.
+// Each half gets a lid, so that neither remains open.
 TEST(Repair, SaysTheSeamOfAChoiceThatLidsClosed) {
     const auto isOnTheRight = [](const std::array<std::uint32_t, 3>& triangle) {
         return std::ranges::all_of(triangle, [](std::uint32_t i) { return unitBox.positions[i].x == 1; });

@@ -1,5 +1,5 @@
-// The child that importers run in: whatever it does, the parent lives, waits no longer than told and keeps
-// nothing of it.
+// Tests of the child process for importers: the parent survives any child, waits no longer than the limit,
+// and keeps no resource of the child.
 #include "mesh/sandbox.hpp"
 
 #include <gtest/gtest.h>
@@ -69,7 +69,7 @@ TEST(Sandbox, KillsAChildThatHangs) {
     EXPECT_EQ(failureOf(hang, {.wallSeconds = 0.05}), "it took longer than 0.05 s");
     EXPECT_EQ(failureOf(
                   [] {
-                      close(3); // looks like an end, but goes on
+                      close(3); // looks like the end, but the child continues
                       return hang();
                   },
                   {.wallSeconds = 0.05}),
@@ -119,7 +119,7 @@ TEST(Sandbox, GivesTheChildNoFiles) {
 TEST(Sandbox, RefusesAnAnswerThatIsTooLong) {
     EXPECT_EQ(failureOf([] { return std::string(5'000'000, 'x'); }, {.answerBytes = 1'000'000}),
               "its answer of 5000000 bytes is too long");
-    const auto lie = []() -> std::string { // a long answer announced, a short one given
+    const auto lie = []() -> std::string { // announces a long answer, sends a short one
         const std::uint64_t size = 1'000'000;
         const bool isWritten = write(3, &size, sizeof size) == sizeof size && write(3, "short", 5) == 5;
         _exit(isWritten ? 0 : 1);
@@ -154,7 +154,7 @@ TEST(Sandbox, RunsWithoutTheParentsSignalHandlers) {
 TEST(Sandbox, AnswersWhereTheHostIgnoresItsChildren) {
     struct sigaction action {
     }, before{};
-    action.sa_handler = SIG_IGN; // children are reaped by the system
+    action.sa_handler = SIG_IGN; // the system reaps the children
     sigaction(SIGCHLD, &action, &before);
     EXPECT_EQ(runInChild([] { return std::string("x"); }, {}), "x");
     EXPECT_NE(failureOf(crash), "no failure");

@@ -1,4 +1,4 @@
-// A mesh as a lattice body with a skin: what the skin promises, what rests on a plane, what is weighed.
+// Tests of a mesh as a lattice body with a skin: positions of the skin, rest on a plane, masses.
 #include "mesh/to_scene.hpp"
 
 #include "broken_meshes.hpp"
@@ -25,7 +25,7 @@ MeshBody body(std::uint32_t resolution) {
     return {.name = "thing", .voxels = {.resolution = resolution}};
 }
 
-/// Where the skin puts a vertex, from given particle positions.
+/// Position of a skin vertex for given particle positions.
 Vector3 skinned(const sim::CellEmbedding& cell, const std::vector<Vector3>& particles) {
     Vector3 x = Vector3::Zero();
     for (unsigned corner = 0; corner < 8; ++corner) {
@@ -50,7 +50,7 @@ double massOf(const sim::Scene& scene) {
     return mass;
 }
 
-/// About the axes x and z.
+/// Rotates the mesh about the axes x and z.
 TriangleMesh turned(TriangleMesh mesh, double degrees) {
     const double angle = degrees * std::numbers::pi / 180;
     const Eigen::Matrix3d turn =
@@ -60,7 +60,7 @@ TriangleMesh turned(TriangleMesh mesh, double degrees) {
     return mesh;
 }
 
-/// A torus around the axis y.
+/// A torus around the y axis.
 TriangleMesh ring(double radius, double tube) {
     constexpr std::uint32_t around = 48, across = 12;
     TriangleMesh mesh{.name = "ring"};
@@ -116,7 +116,7 @@ TEST(AddMesh, CarriesTheSkinExactlyThroughAnAffineMap) {
 }
 
 TEST(AddMesh, FindsCellsForVerticesOnTheirBorders) {
-    // Vertices on cell faces, edges and corners, all over the box.
+    // Places vertices on cell faces, edges and corners all over the box.
     TriangleMesh mesh;
     for (int corner = 0; corner < 3; ++corner)
         for (int i = 0; i <= 8; ++i)
@@ -169,11 +169,11 @@ TEST(AddMesh, WeighsWhatPartsShareOnce) {
     const TriangleMesh ball = generate("sphere", 32);
     sim::Scene scene;
     addMesh(scene, joined(ball, moved(ball, {0.15f, 0, 0})), body(40));
-    const double r = 0.15, lens = 5 * std::numbers::pi * std::pow(r, 3) / 12; // of centres r apart
+    const double r = 0.15, lens = 5 * std::numbers::pi * std::pow(r, 3) / 12; // two balls, centres r apart
     EXPECT_NEAR(massOf(scene) / (1000 * (8 * std::numbers::pi * std::pow(r, 3) / 3 - lens)), 1, 0.01);
 }
 
-// Stability: a node without enough mass for the stiffness of its cells would need shorter substeps.
+// Stability test: a node with too little mass for the stiffness of its cells would need shorter substeps.
 TEST(AddMesh, WeighsAPartWithinAnotherOnce) {
     const TriangleMesh sphere = generate("sphere", 48);
     const double volume = inspect(sphere).volume;
@@ -227,7 +227,7 @@ TEST(AddMesh, LetsTheSkinRestOnAPlaneNotTheHull) {
         const double outside = toVector(particle.position).norm() - 0.15;
         EXPECT_NEAR(double{particle.contactOffset}, std::min(double{grid.spacing}, -outside), 2e-4);
         farthest = std::max(farthest, outside);
-        // A plane stops the body where the first particle is contactOffset away from it.
+        // A plane stops the body where the first particle is at its contactOffset from the plane.
         highest = std::max(highest, double{particle.contactOffset} - double{particle.position.y});
     }
     EXPECT_GT(farthest, 0.01) << "no particle lies outside: the test tests nothing";
@@ -275,7 +275,7 @@ TEST(AddMesh, RefusesAnEmptyMesh) {
     EXPECT_TRUE(scene.particles.empty());
 }
 
-// Only a closed surface that the voxels can carry has an inside to show along cuts.
+// Only a closed surface that the voxels resolve has an inside that cuts can show.
 namespace {
 
 struct Cuttable {
@@ -287,7 +287,7 @@ struct Cuttable {
         added = addMesh(scene, mesh, cuttable);
     }
     bool showsInside() const { return sim::showsInside(scene, 0, 0); }
-    /// The skin as it lies at rest.
+    /// The skin at rest.
     TriangleMesh skin() const {
         TriangleMesh mesh{.triangles = scene.skins[0].triangles};
         const std::vector<Vector3> particles = positionsOf(scene);
@@ -297,7 +297,7 @@ struct Cuttable {
     }
 };
 
-/// Without the triangles whose number is divisible by `step`.
+/// Removes the triangles whose number is divisible by `step`.
 TriangleMesh withHoles(TriangleMesh mesh, std::size_t step) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
@@ -338,7 +338,7 @@ TEST(AddMesh, WrapsAnOpenMeshThatMayBeCut) {
         const double filled = voxelise(broken[i], {.resolution = 20}).filledVolume;
         EXPECT_NEAR(skin.volume / filled, 1, 0.02) << i;
         EXPECT_NEAR(double{body.scene.bodies[0].restVolume} / filled, 1, 1e-6) << i;
-        if (i > 0) { // of the first, nobody knows what lies above the opening
+        if (i > 0) { // the volume above the opening is unknown for i = 0
             EXPECT_NEAR(skin.volume / volume, 1, 0.02) << i;
             EXPECT_LT(farthestFrom(organ, body.skin()), 0.5 * double{body.added.voxels.spacing}) << i;
         }
@@ -351,13 +351,13 @@ TEST(AddMesh, WrapsPartsThatPassThroughEachOtherIntoOne) {
     const Cuttable body(pair, 24);
     EXPECT_EQ(body.added.shown, Shown::wrapped);
     EXPECT_TRUE(body.showsInside());
-    const double r = 0.15, d = 0.1; // two balls less the lens that they share
+    const double r = 0.15, d = 0.1; // two balls less their common lens
     const double ball = 4.0 / 3 * std::numbers::pi * r * r * r,
                  lens = std::numbers::pi * (4 * r + d) * (2 * r - d) * (2 * r - d) / 12;
     EXPECT_NEAR(inspect(body.skin()).volume / (2 * ball - lens), 1, 0.02);
 }
 
-// Half a voxel beside a thick part a plate of a tenth of one fell between the samples of that part.
+// Regression test: half a voxel beside a thick part, a plate of a tenth of a voxel fell between fill samples.
 TEST(AddMesh, WrapsAThinPartBesideAThickOne) {
     for (const double degrees : {0.0, 20.0})
         for (const float gap : {0.005f, 0.03f, 0.06f, 0.2f})
@@ -372,7 +372,7 @@ TEST(AddMesh, WrapsAThinPartBesideAThickOne) {
                 std::vector<Vector3> positions;
                 for (const sim::Vec3& position : skin.positions) positions.push_back(toVector(position));
                 const TriangleTree tree(positions, skin.triangles);
-                double farthest = 0; // outside [voxels]
+                double farthest = 0; // largest distance outside [voxels]
                 Random random(1);
                 for (int i = 0; i < 400; ++i) {
                     const auto& corners = plate.triangles[random.next() % plate.triangles.size()];
@@ -391,7 +391,7 @@ TEST(AddMesh, WrapsAThinPartBesideAThickOne) {
             }
 }
 
-// No two triangles share corners: each is a component, most of them finer than a voxel.
+// No two triangles share corners, so each is a component; most are smaller than a voxel.
 TEST(AddMesh, WrapsTrianglesThatHangOnNothingAsTheMeshThatTheyWere) {
     for (const std::uint32_t detail : {12u, 24u, 40u, 80u}) {
         const TriangleMesh organ = generate("organ", detail);
@@ -410,7 +410,7 @@ TEST(AddMesh, WrapsASheetAsThickAsAVoxel) {
     EXPECT_EQ(body.added.shown, Shown::wrapped);
     EXPECT_TRUE(body.showsInside());
     const double thickness = inspect(body.skin()).volume / double{body.added.voxels.spacing};
-    EXPECT_NEAR(thickness, 1, 0.2); // with round rims
+    EXPECT_NEAR(thickness, 1, 0.2); // with rounded rims
     EXPECT_NEAR(massOf(body.scene) / (1000 * inspect(body.skin()).volume), 1, 1e-3);
 }
 
@@ -439,7 +439,7 @@ TEST(AddMesh, LeavesAnOpenMeshAsItCameWhereNothingIsCut) {
     EXPECT_EQ(body.scene.skins[0].triangles.size(), open.triangles.size());
 }
 
-// Whatever the triangles are, the body that may be cut shows an inside.
+// A body that may be cut shows an inside for any triangles.
 TEST(AddMesh, ShowsAnInsideOfAnyTriangles) {
     Random random(3);
     std::array<int, 3> shown{};

@@ -1,4 +1,4 @@
-// Welding, counting defects, measuring, orienting.
+// Tests of triangle meshes: welding, counting defects, measuring, orienting.
 #include "mesh/triangle_mesh.hpp"
 
 #include "mesh/generate.hpp"
@@ -36,7 +36,7 @@ TEST(Inspect, KeepsItsDigitsFarFromTheOrigin) {
 
 TEST(Inspect, CountsTheEdgesOfAHole) {
     TriangleMesh open = unitBox;
-    open.triangles.resize(10); // one side of the box gone
+    open.triangles.resize(10); // removes one side of the box
     const MeshDefects defects = inspect(open).defects;
     EXPECT_EQ(defects.boundaryEdges, 4u);
     EXPECT_FALSE(defects.isClosed());
@@ -47,7 +47,7 @@ TEST(Inspect, CountsFlippedAndNonManifoldEdges) {
     EXPECT_TRUE(inspect(withFlipped(unitBox, 12)).defects.isClosed());
     TriangleMesh fin = unitBox;
     fin.positions.push_back({0.5f, 0.5f, 3});
-    fin.triangles.push_back({4, 5, 8}); // on an edge that two triangles share already
+    fin.triangles.push_back({4, 5, 8}); // a third triangle at an edge
     EXPECT_EQ(inspect(fin).defects.nonManifoldEdges, 1u);
     EXPECT_EQ(inspect(fin).defects.boundaryEdges, 2u);
 }
@@ -60,7 +60,7 @@ TEST(Inspect, SaysNothingOfAnEmptyMesh) {
 
 TEST(Weld, JoinsVerticesOfEqualPosition) {
     TriangleMesh soup = unwelded(unitBox);
-    soup.positions[0].x = -0.0f; // is 0
+    soup.positions[0].x = -0.0f; // equals 0
     MeshDefects defects;
     const TriangleMesh welded = weld(soup, defects);
     EXPECT_EQ(welded.positions.size(), 8u);
@@ -80,11 +80,11 @@ TEST(Weld, DropsAndCountsDegenerateAndDuplicateTriangles) {
     TriangleMesh mesh = unitBox;
     mesh.triangles.push_back({0, 0, 1}); // a repeated vertex
     mesh.positions.insert(mesh.positions.end(),
-                          {{0, 0, 0}, {0.5f, 0, 0}}); // a twin of 0; the middle of an edge
+                          {{0, 0, 0}, {0.5f, 0, 0}}); // a copy of vertex 0; the middle of an edge
     mesh.triangles.push_back({8, 1, 0});              // a repeated position
-    mesh.triangles.push_back({0, 9, 1});              // corners on a line
+    mesh.triangles.push_back({0, 9, 1});              // collinear corners
     mesh.triangles.push_back({3, 0, 2});              // the first one again, rotated
-    mesh.triangles.push_back({0, 3, 2});              // the first one from behind: no duplicate
+    mesh.triangles.push_back({0, 3, 2});              // the first one seen from behind: not a duplicate
     MeshDefects defects;
     const TriangleMesh welded = weld(mesh, defects);
     EXPECT_EQ(defects.degenerateTriangles, 3u);
@@ -120,7 +120,7 @@ TEST(Orient, LeavesACavityACavity) {
 
 namespace {
 
-// Triangles by edge, lower vertex first: along it, against it.
+// Triangles at each edge, lower vertex first: number along the edge, number against it.
 std::map<std::array<std::uint32_t, 2>, std::array<int, 2>> edgesOf(const TriangleMesh& mesh) {
     std::map<std::array<std::uint32_t, 2>, std::array<int, 2>> edges;
     for (const auto& triangle : mesh.triangles)
@@ -131,7 +131,7 @@ std::map<std::array<std::uint32_t, 2>, std::array<int, 2>> edgesOf(const Triangl
     return edges;
 }
 
-// Boxes around the z axis, each with an edge on it, as one mesh with that edge in common.
+// One mesh of boxes around the z axis that have an edge on the axis in common.
 TriangleMesh boxesAroundAnEdge(std::initializer_list<std::array<float, 2>> corners) {
     TriangleMesh mesh;
     for (const auto& [x, y] : corners)
@@ -155,7 +155,7 @@ TEST(SplitCrowdedEdges, GivesEachPairOfTrianglesAMiddleOfItsOwn) {
         EXPECT_EQ(mesh.triangles.size(), triangles + 2 * (mesh.positions.size() - vertices));
         for (std::uint32_t middle = static_cast<std::uint32_t>(vertices); middle < mesh.positions.size();
              ++middle)
-            for (const auto& triangle : mesh.triangles) { // those around a middle are all of one box
+            for (const auto& triangle : mesh.triangles) { // triangles around a middle belong to one box
                 if (std::ranges::find(triangle, middle) == triangle.end()) continue;
                 EXPECT_EQ(mesh.positions[middle].z, 0.5f);
             }
@@ -163,13 +163,13 @@ TEST(SplitCrowdedEdges, GivesEachPairOfTrianglesAMiddleOfItsOwn) {
     }
 }
 
-// A pyramid with three corners and others at one, two and all three edges of its base.
+// A pyramid of three corners, with others at one, two and all three edges of its base.
 TEST(SplitCrowdedEdges, OfOneTriangleAreSplitOneAfterAnother) {
     for (std::uint32_t crowded = 1; crowded <= 3; ++crowded) {
         TriangleMesh mesh{.name = "",
                           .positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3f, 0.3f, 1}},
                           .triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
-        for (std::uint32_t a = 0; a < crowded; ++a) { // outside and below
+        for (std::uint32_t a = 0; a < crowded; ++a) { // outside and below the pyramid
             const std::uint32_t b = (a + 1) % 3, c = 4 + 2 * a, d = c + 1;
             const Vec3 &x = mesh.positions[a], &y = mesh.positions[b];
             const Vec3 away{x.x + y.x - 0.6f, x.y + y.y - 0.6f, -0.5f};
@@ -217,7 +217,7 @@ TEST(SplitCrowdedEdges, LeavesAloneWhatIsOpenOrClosedAlready) {
     EXPECT_EQ(splitCrowdedEdges(none), 0u);
 }
 
-// Two boxes that share a face's triangles as duplicates, with a triangle without area between them.
+// Two boxes that have the triangles of a face as duplicates, with a triangle of zero area between them.
 TEST(Weld, KeepsTheObjectOfEachTriangle) {
     TriangleMesh two = joined(box({0, 0, 0}, {1, 1, 1}), box({3, 0, 0}, {4, 1, 1}));
     two.objectNames = {"left", "right"};

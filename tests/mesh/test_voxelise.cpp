@@ -1,4 +1,4 @@
-// Hull, core and fill against what they approximate: volumes, inertia (cases 23, 24), broken meshes (case
+// Tests of hull, core and fill: volumes, inertia (cases 23 and 24 of docs/accuracy.md), broken meshes (case
 // 32), and the winding number summed triangle by triangle.
 #include "mesh/voxelise.hpp"
 
@@ -27,7 +27,7 @@ TriangleMesh fineSphere() {
     return generate("sphere", 128);
 }
 
-/// Share of the repaired mesh's filled volume by which that of a broken one is off.
+/// Error of a broken mesh's filled volume, as a share of the repaired mesh's volume.
 double fillError(const TriangleMesh& broken, double volume,
                  const VoxelRequest& request = {.spacing = 0.01f}) {
     return std::abs(voxelise(broken, request).filledVolume / volume - 1);
@@ -44,7 +44,7 @@ TEST(Voxelise, FillsASphereToOnePercentOfItsVolume) {
 TEST(Voxelise, FillsASphereToTwoPercentOfItsInertia) {
     const VoxelGrid grid = voxelise(fineSphere(), {.spacing = 0.015f});
     const double a = double{grid.spacing};
-    Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero(); // of unit density, each cell a cube of its own
+    Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero(); // of unit density, with the own inertia of each cell
     forEachCell(grid, [&](std::size_t index, const Vector3& low) {
         const double mass = double{grid.fill[index]} * a * a * a;
         const Vector3 x = toMetres(grid, low + Vector3::Constant(0.5));
@@ -126,12 +126,12 @@ TEST(Voxelise, MakesABoxOfAsManyCellsAsAsked) {
 }
 
 TEST(Voxelise, BreaksTiesTheSameWayAlongEveryAxis) {
-    // Cells of 1/4 in a box of 4 cells: the grid has 5, whose centres lie exactly on the box's faces.
+    // Cells of 1/4 in a box of 4 cells: the grid has 5 cells, with centres exactly on the box's faces.
     const VoxelGrid grid = voxelise(box({0, 0, 0}, {1, 1, 1}), {.spacing = 0.25f});
     EXPECT_EQ(grid.cells[0], 5u);
     EXPECT_EQ(grid.doubtful, 0u);
     EXPECT_NEAR(grid.filledVolume, 1, 1e-6);
-    // Faces on the planes of the fill samples: of two opposite ones, one counts.
+    // Faces lie on the planes of the fill samples: one of two opposite faces counts.
     const VoxelGrid shifted = voxelise(box({0, 0, 0}, {1.0625f, 1.0625f, 1.0625f}), {.spacing = 0.25f});
     EXPECT_EQ(shifted.doubtful, 0u);
     EXPECT_NEAR(shifted.filledVolume, std::pow(1.0625, 3), 1e-6);
@@ -185,7 +185,7 @@ TEST(Voxelise, LeavesACavityEmpty) {
 TEST(Voxelise, FillsOpenMeshes) {
     const TriangleMesh sphere = fineSphere();
     const double volume = inspect(sphere).volume;
-    const TriangleMesh open = openedAbove(sphere, 0.142f); // a hole of 0.1 m across
+    const TriangleMesh open = openedAbove(sphere, 0.142f); // the hole has a diameter of 0.1 m
     ASSERT_GT(inspect(open).defects.boundaryEdges, 20u);
     EXPECT_LT(fillError(open, volume), 0.02);
     EXPECT_GT(voxelise(open, {.spacing = 0.01f}).doubtful, 0u);
@@ -279,7 +279,7 @@ TEST(TriangleTree, FindsTheNearestTriangleAndTheWindingNumber) {
         const Vector3 point =
             0.4 * (Vector3(random.unit(), random.unit(), random.unit()) - Vector3::Constant(0.5));
         double nearest = 1e9;
-        for (const auto& [a, b, c] : mesh.triangles) // by dense samples: independent of nearestPoint()
+        for (const auto& [a, b, c] : mesh.triangles) // dense samples, independent of nearestPoint()
             for (int u = 0; u <= 8; ++u)
                 for (int v = 0; u + v <= 8; ++v)
                     nearest = std::min(nearest, (positions[a] + u / 8.0 * (positions[b] - positions[a]) +

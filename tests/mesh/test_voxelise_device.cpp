@@ -1,5 +1,5 @@
-// Voxels made on the device against the winding number summed in double, against those made on the host, and
-// in reversed order.
+// Tests of voxels made on the device: against the winding number summed in double, against voxels made on the
+// host, and in reversed order.
 #include "mesh/gpu/voxelise.hpp"
 
 #include "mesh/generate.hpp"
@@ -20,10 +20,10 @@ using namespace sinew::mesh::test;
 
 namespace {
 
-/// Both orders, with their pipelines made once for all tests.
+/// Voxelisers in both invocation orders; all tests share their pipelines.
 class DeviceVoxels : public testing::Test {
 protected:
-    static void SetUpTestSuite() { // GoogleTest's spelling
+    static void SetUpTestSuite() { // name given by GoogleTest
         forward_.emplace(sinew::test::device(), sinew::test::queue());
         reversed_.emplace(sinew::test::device(), sinew::test::queue(), true);
     }
@@ -72,7 +72,7 @@ TriangleMesh tetrahedron(const std::array<Vec3, 4>& corners) {
     return orient(mesh);
 }
 
-/// Overlapping tetrahedra with corners on multiples of `unit` in a cube of `size` units.
+/// Overlapping tetrahedra in a cube of `size` units, with corners on multiples of `unit`.
 TriangleMesh heap(int count, std::uint32_t size, float unit, std::uint64_t seed) {
     Random random(seed);
     const auto corner = [&] {
@@ -106,7 +106,7 @@ TriangleMesh torus(int around, int across, float radius, float thickness) {
     return mesh;
 }
 
-/// Whether a point lies inside a closed mesh, summed triangle by triangle; `isTie` on its surface.
+/// Whether a point lies inside a closed mesh, summed triangle by triangle. `isTie`: it lies on the surface.
 struct Truth {
     bool isInside = false, isTie = false;
 };
@@ -115,7 +115,7 @@ Truth truthAt(const TriangleMesh& cellMesh, const TriangleTree& tree, const Vect
     return {std::abs(windingNumber(cellMesh, point)) > 0.5, tree.distance(point) < 1e-6};
 }
 
-/// The fill of a hull cell may be any between that without and that with the samples on the surface.
+/// Bounds of the fill of a hull cell: without and with the samples that lie on the surface.
 std::array<int, 2> fillBounds(const TriangleMesh& cellMesh, const TriangleTree& tree, const Vector3& low) {
     int least = 0, most = 0;
     for (int sample = 0; sample < 64; ++sample) {
@@ -129,7 +129,7 @@ std::array<int, 2> fillBounds(const TriangleMesh& cellMesh, const TriangleTree& 
 
 } // namespace
 
-/// The same on the host, on the device, and there in reversed order. Returns it.
+/// Expects equal voxels on the host, on the device and there in reversed order. Returns them.
 VoxelGrid DeviceVoxels::expectSameEverywhere(const TriangleMesh& mesh, const VoxelRequest& request,
                                              std::string_view name) {
     const VoxelGrid grid = onDevice(mesh, request);
@@ -138,8 +138,8 @@ VoxelGrid DeviceVoxels::expectSameEverywhere(const TriangleMesh& mesh, const Vox
     return grid;
 }
 
-/// A closed mesh against the plain sum over its triangles: every centre outside the hull, every fill sample
-/// of every `step`th hull cell. No vote is in doubt.
+/// Compares the voxels of a closed mesh with the plain sum over its triangles: all centres outside the hull,
+/// and all fill samples of every `step`th hull cell. No vote may be doubtful.
 void DeviceVoxels::expectWindingNumbers(const TriangleMesh& mesh, const VoxelRequest& request,
                                         std::string_view name, std::size_t step) {
     const VoxelGrid grid = onDevice(mesh, request);
@@ -165,7 +165,7 @@ void DeviceVoxels::expectWindingNumbers(const TriangleMesh& mesh, const VoxelReq
     EXPECT_GT(hull, 0u) << name;
 }
 
-/// Share of the repaired mesh's volume by which that of a broken one is off.
+/// Error of a broken mesh's volume, as a share of the repaired mesh's volume.
 double DeviceVoxels::fillError(const TriangleMesh& broken, double volume) {
     return std::abs(onDevice(broken, {.spacing = 0.01f}).filledVolume / volume - 1);
 }
@@ -198,13 +198,13 @@ TEST_F(DeviceVoxels, AgreeWithTheWindingNumberOfManyParts) {
 }
 
 TEST_F(DeviceVoxels, BreakTiesTheSameWayAlongEveryAxis) {
-    // Corners on multiples of a quarter of a cell: edges and faces through sample points and corners of
-    // cells, and along faces of cells. Every vote rests on the sign of something that is often exactly 0.
+    // Corners lie on multiples of a quarter cell, so edges and faces pass through sample points and cell
+    // corners and along cell faces. Every vote depends on the sign of a value that is often exactly 0.
     for (std::uint64_t seed = 0; seed < 6; ++seed) {
         expectWindingNumbers(heap(6, 48, 0.25f, seed), {.spacing = 1}, "quarters");
         expectWindingNumbers(heap(5, 12, 1, 100 + seed), {.spacing = 1}, "whole cells");
     }
-    for (std::uint64_t seed = 0; seed < 3; ++seed) { // 30 bits in every coordinate; double has doubts here
+    for (std::uint64_t seed = 0; seed < 3; ++seed) { // 30 bits a coordinate; double has doubtful votes here
         const TriangleMesh mesh = heap(6, 508, 0.25f, seed);
         const VoxelGrid grid = onDevice(mesh, {.spacing = 1}), host = voxelise(mesh, {.spacing = 1});
         expectEqual(grid, onDeviceReversed(mesh, {.spacing = 1}), "quarters of 128 cells");
@@ -242,8 +242,8 @@ TEST_F(DeviceVoxels, TakeThinPlatesAndNeedles) {
     EXPECT_EQ(plate.hullCount, plate.voxels.size());
     EXPECT_EQ(plate.doubtful, 0u);
     expectSameEverywhere(box({0, 0, 0}, {1e-5f, 1, 1e-5f}), {.resolution = 40}, "needle");
-    // Edges of a box split by vertices that lie almost on them: triangles a thousandth of a unit high and
-    // closed all the same.
+    // Vertices almost on the edges of a box split them. The triangles are a thousandth of a unit high, and
+    // the mesh stays closed.
     TriangleMesh slivers = box({0, 0, 0}, {1, 1, 1});
     const std::array<std::uint32_t, 3> split = slivers.triangles.front();
     const Vector3 a = toVector(slivers.positions[split[0]]), b = toVector(slivers.positions[split[1]]),
@@ -320,7 +320,7 @@ TEST_F(DeviceVoxels, TakeMemoryLinearInCellsAndTriangles) {
         const VoxelGrid grid = onDevice(sphere, {.resolution = resolution});
         const double cells = static_cast<double>(grid.voxels.size());
         const double columns = 3 * std::pow(resolution, 2);
-        // A triangle touches its share of the hull, and at most 8 cells more.
+        // The number of hull cells that a triangle touches is its share of the hull and at most 8 more.
         const double most = 12.5 * cells + (88 + 4) * static_cast<double>(grid.hullCount) + 72 * columns +
                             (20 + 4 * 8) * static_cast<double>(sphere.triangles.size()) +
                             16 * static_cast<double>(sphere.positions.size());

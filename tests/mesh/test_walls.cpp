@@ -1,4 +1,4 @@
-// Wall thickness: plates, shells and tubes have one; wedges and solid bodies have none that is thin.
+// Tests of wall thickness: plates, shells and tubes have one; wedges and solid bodies have no thin one.
 #include "mesh/walls.hpp"
 
 #include "mesh/generate.hpp"
@@ -34,7 +34,7 @@ TEST(WallThickness, OfAShellIsThatBetweenItsTwoSurfaces) {
 }
 
 TEST(WallThickness, LooksAtTheThinnestShareOfTheSurface) {
-    // a cube of 1 m with a fin of 0.02 m beside it: two sides of 0.16 m^2 each, of 6.33 m^2 in all
+    // A cube of 1 m beside a fin of 0.02 m, with two sides of 0.16 m^2 each of 6.33 m^2 in all.
     const TriangleMesh mesh = joined(box({0, 0, 0}, {1, 1, 1}), box({2, 0, 0}, {2.02f, 0.4f, 0.4f}));
     EXPECT_NEAR(wallThickness(mesh, 0.03), 0.02, 1e-6);
     EXPECT_NEAR(wallThickness(mesh, 0.08), 1, 1e-6);
@@ -63,7 +63,7 @@ TEST(TriangleTree, FindsWhatARayMeetsFirst) {
         const Vector3 aim = positions[random.next() % positions.size()] +
                             0.02 * Vector3(unit(random), unit(random), unit(random));
         const Vector3 direction = (aim - origin).normalized();
-        double nearest = INFINITY; // by the definition: where the ray passes the plane within three sides
+        double nearest = INFINITY; // by definition: the ray passes the plane within three sides
         for (const auto& [a, b, c] : mesh.triangles) {
             const Vector3 normal = (positions[b] - positions[a]).cross(positions[c] - positions[a]);
             const double along = normal.dot(positions[a] - origin) / normal.dot(direction);

@@ -1,4 +1,4 @@
-// A host's own file: nothing of how Sinew is built reaches it.
+// A source file of the host. No build option of Sinew may reach it.
 #ifdef VK_NO_PROTOTYPES
 #error a definition came with the target of Sinew
 #endif
